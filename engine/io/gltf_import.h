@@ -1,0 +1,39 @@
+// glTF 2.0 (.gltf, .glb) to a Scene: the only file (gltf_*.cpp) that knows tinygltf. Any input may be hostile.
+#pragma once
+
+#include "core/result.h"
+#include "scene/scene.h"
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace blush {
+
+struct ImportReport {
+    std::vector<std::string> extensions_used, extensions_honoured, extensions_approximated, extensions_ignored;
+    // Everything the file says that the picture will not show, and everything suspicious.
+    std::vector<Diagnostic> diagnostics;
+    double seconds = 0;
+};
+
+struct ImportedScene {
+    Scene scene;
+    ImportReport report;
+};
+
+struct ImportOptions {
+    std::function<void(double fraction, const std::string& what)> on_progress; // called on the importing thread
+    const std::atomic<bool>* cancel = nullptr; // true ends the import with the error "cancelled"
+};
+
+// The file's default scene, its first camera as the view (or one framed around the geometry), lights of
+// KHR_lights_punctual, and what `extras.blush` adds: on the scene `environment` {kind, color, intensity, rotation_degrees, file,
+// visible_to_camera}, on a light `angle_degrees`, `radius`, `rectangle` {width, height, two_sided}.
+// Errors: unreadable, not glTF, a required extension that is not supported, an index out of range, a buffer that is missing or too
+// short, a file URI that leaves the scene's folder or is not a plain relative path.
+Result<ImportedScene> import_gltf(const std::filesystem::path& file, const ImportOptions& options = {});
+
+} // namespace blush

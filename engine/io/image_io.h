@@ -1,0 +1,48 @@
+// Reading and writing images: the only file that knows OpenImageIO. Any input may be hostile.
+#pragma once
+
+#include "core/result.h"
+#include "scene/scene.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace blush {
+
+struct ImageLimits {
+    int max_side = 65536;
+    int64_t max_pixels = int64_t(1) << 28; // checked against the header before anything is decoded
+};
+
+// 8-bit files stay bytes, everything else becomes float; at most 4 channels (more are cut). Values are not converted
+// between colour spaces. Errors: unreadable, unknown format, beyond the limits, truncated.
+Result<ImagePtr> read_image(const std::filesystem::path& file, const ImageLimits& limits = {});
+// The same from memory; `name` is for messages and its extension hints at the format.
+Result<ImagePtr> read_image(std::span<const uint8_t> bytes, const std::string& name, const ImageLimits& limits = {});
+
+// Named channels of one size, as in an EXR: "R", "albedo.R", "id.object", ... and string metadata ("blush:spp").
+struct LayeredImage {
+    struct Channel {
+        std::string name;
+        std::vector<float> values; // width * height, top row first
+        bool is_uint = false;      // stored as 32-bit unsigned (ids): values hold exact integers below 2^24
+    };
+    int width = 0, height = 0;
+    std::vector<Channel> channels;
+    std::map<std::string, std::string> metadata;
+
+    const Channel* find(std::string_view name) const;
+};
+
+Result<LayeredImage> read_layers(const std::filesystem::path& file, const ImageLimits& limits = {});
+// Written to a temporary name beside the target and renamed: the file is whole or not there. EXR: float32, ZIP.
+Result<void> write_exr(const std::filesystem::path& file, const LayeredImage& image);
+// Display-encoded RGB in [0, 1], width * height * 3; .png or .jpg by extension. Atomic too.
+Result<void> write_display_image(const std::filesystem::path& file, int width, int height, std::span<const float> rgb,
+                                 const std::map<std::string, std::string>& metadata = {});
+
+} // namespace blush

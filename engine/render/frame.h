@@ -1,0 +1,63 @@
+// A finished picture, never modified after publishing; shared between the session and whoever looks.
+#pragma once
+
+#include "core/vec.h"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace blush {
+
+// Which (pixel, sample, seed) gave a value that could not be added to the film.
+struct BadSample {
+    enum class Cause : uint8_t { nan, infinite, negative };
+    Cause cause = Cause::nan;
+    int x = 0, y = 0;
+    int64_t sample = 0;
+    uint32_t seed = 0;
+    bool operator==(const BadSample&) const = default;
+};
+struct Health {
+    int64_t nan = 0, infinite = 0, negative = 0; // samples dropped, by cause
+    std::vector<BadSample> first;                // the first hundred in (sample, y, x) order
+    int64_t dropped() const { return nan + infinite + negative; }
+};
+
+struct RayCounts {
+    int64_t camera = 0, bounce = 0, shadow = 0;
+    int64_t total() const { return camera + bounce + shadow; }
+};
+
+// Relative mean squared error (cli.md: relmse) estimated from the two half buffers, with a 95 % interval.
+struct ErrorEstimate {
+    bool known = false; // false until both halves hold samples
+    double relmse = 0, low = 0, high = 0;
+};
+
+struct Frame {
+    uint64_t revision = 0;     // of the submit that it answers
+    int width = 0, height = 0; // of the pixels below
+    int divider = 1;           // full resolution / this one
+    int64_t samples = 0;       // per pixel
+    bool complete = false;     // a stop rule is reached
+
+    std::vector<float> rgba;          // width * height * 4, scene-linear, top row first; alpha 1 where the camera ray hit something or the environment is visible
+    std::vector<Vec3> albedo, normal; // empty unless read; normal in world space
+    std::vector<float> depth;         // metres along the ray; 0 on a miss; empty unless read
+    std::vector<uint32_t> object_id;  // Id<Node>.value, 0 on a miss; empty unless read
+    std::vector<uint32_t> material_id; // Id<Material>.value; empty unless read
+
+    ErrorEstimate error;
+    Health health;
+    RayCounts rays;
+    double seconds = 0;        // of rendering at this revision
+    double first_image_seconds = 0; // from submit to the first published frame of this revision
+    double samples_per_second = 0; // whole-image samples per pixel per second, over the last batch
+    std::string kernel;        // e.g. "v4/plain"
+};
+
+using FramePtr = std::shared_ptr<const Frame>;
+
+} // namespace blush

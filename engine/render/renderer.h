@@ -1,0 +1,88 @@
+// Scene in, pictures out: everything the render thread does, without the thread. The session drives one of these;
+// so do the headless commands, the tests and the bench.
+#pragma once
+
+#include "core/result.h"
+#include "render/frame.h"
+#include "scene/render_settings.h"
+#include "scene/scene.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace blush {
+
+// Film planes beside the beauty. Only what somebody reads is allocated.
+struct PlaneSet {
+    bool albedo = false, normal = false, depth = false, ids = false;
+    bool operator==(const PlaneSet&) const = default;
+};
+
+struct RendererOptions {
+    unsigned threads = 0; // 0: one per core
+    bool low_priority = false;
+    PlaneSet planes;
+};
+
+// One line of "what was left out and why".
+struct FeatureUse {
+    std::string name;
+    bool used = false;
+    std::string why; // "3 materials have textures", "no light has a size"
+};
+
+struct CompiledInfo {
+    int64_t meshes = 0, instances = 0, materials = 0, textures = 0;
+    int64_t triangles = 0;          // as seen by rays: instances counted each time
+    int64_t emissive_triangles = 0, point_lights = 0, suns = 0;
+    bool environment = false;
+    std::string kernel;             // "v4/plain"
+    std::vector<FeatureUse> features;
+    double memory_mb = 0;           // tables, textures and Embree's structures
+    double seconds_setup = 0;       // the last update: from scene to first ray
+    std::vector<Diagnostic> warnings; // degenerate triangles dropped, non-finite transforms, ...
+};
+
+class Renderer {
+public:
+    explicit Renderer(const RendererOptions& options = {});
+    ~Renderer();
+    Renderer(const Renderer&) = delete;
+    Renderer& operator=(const Renderer&) = delete;
+
+    // Takes up a scene: diff against the last one, plan, update what changed. Clears the film if what is in it no longer
+    // answers; returns whether it did. The result renders bit-identically to a fresh Renderer given the same scene.
+    bool update(const Scene& scene, const RenderSettings& settings);
+
+    // Size of the film: full size / divider, at least 1x1. Changing the divider clears the film.
+    void set_divider(int divider);
+    int divider() const;
+
+    // Adds samples [first, first + count) of every pixel, tile by tile, while `wanted` (called often, from many threads)
+    // says true. False if it was stopped: the film then holds unequal sample counts per tile and must be cleared.
+    // Results do not depend on threads, tiles or on how a range of samples is split into calls.
+    bool render(int64_t first, int64_t count, const std::function<bool()>& wanted = {});
+    void clear();
+
+    // The film so far, divided by its sample counts.
+    Frame resolve() const;
+    // Standard error of the mean of each pixel from the two half buffers, RGB; empty before both hold samples.
+    std::vector<Vec3> resolve_error() const;
+
+    const CompiledInfo& info() const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+// Prints every vertex of one sample: throughput, pdfs, MIS weights, roulette, contribution (`blush render --pixel`).
+std::string trace_sample(const Scene& scene, const RenderSettings& settings, int x, int y, int64_t sample);
+
+// Names accepted in BLUSH_ISA and used for kernels: "scalar", "v2", "v3", "v4"; those this machine can run.
+std::vector<std::string> available_isas();
+
+} // namespace blush

@@ -1,0 +1,33 @@
+// What changed between two scenes, computed by comparing values, never remembered by setters.
+#pragma once
+
+#include "scene/render_settings.h"
+#include "scene/scene.h"
+
+#include <vector>
+
+namespace blush {
+
+struct Changes {
+    bool view = false;        // pose or lens
+    bool resolution = false;
+    bool integrator = false;  // bounces, roulette, strategy, filter, seed, energy compensation
+    bool stop_rules = false;
+    bool environment_parameters = false; // colour, intensity, rotation, visibility
+    bool environment_image = false;      // kind or pixels
+    std::vector<Id<Node>> transforms;    // local transform or parent changed
+    std::vector<Id<Node>> structure;     // node added, removed, shown, hidden, or given another mesh or light
+    std::vector<Id<Mesh>> meshes;        // geometry of a part changed, parts added or removed, material slot of a part changed
+    std::vector<Id<Material>> materials;
+    std::vector<Id<Texture>> textures;
+    std::vector<Id<Light>> lights;
+
+    bool any() const;
+    // Something that an image already accumulated does not show.
+    bool affects_image() const;
+};
+
+// Names of nodes, materials, lights, ... are not changes: they do not reach the image.
+Changes diff(const Scene& before, const RenderSettings& before_settings, const Scene& after, const RenderSettings& after_settings);
+
+} // namespace blush

@@ -1,0 +1,57 @@
+// The project with its labelled history. Lives on the UI thread.
+#pragma once
+
+#include "scene/edit.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <string>
+
+namespace blush {
+
+// Edits with the same non-zero gesture are one step of history: a whole drag of a slider.
+using Gesture = uint64_t;
+constexpr Gesture no_gesture = 0;
+
+class Document {
+public:
+    Document() = default;
+    explicit Document(Project project) : project_(std::move(project)) {}
+
+    const Project& project() const { return project_; }
+    // Grows with every change of the project, undo and navigation included.
+    uint64_t revision() const { return revision_; }
+
+    // Replaces everything and forgets the history: opening a file.
+    void reset(Project project);
+    Result<void> apply(const Edit& edit, Gesture gesture = no_gesture);
+    // Camera navigation: changes the view's pose, not the history; undo leaves it where it is.
+    void navigate(const View& view);
+
+    bool can_undo() const { return !past_.empty(); }
+    bool can_redo() const { return !future_.empty(); }
+    // The label of the step that undo (redo) would take back (repeat); empty if none.
+    std::string undo_label() const;
+    std::string redo_label() const;
+    bool undo();
+    bool redo();
+
+    // Differs from the project last marked as saved (or opened).
+    bool modified() const;
+    void mark_saved() { saved_ = project_; }
+
+private:
+    struct Step {
+        Project project;
+        std::string label;
+        Gesture gesture = no_gesture;
+    };
+
+    Project project_;
+    Project saved_;
+    std::deque<Step> past_, future_;
+    uint64_t revision_ = 1;
+};
+
+} // namespace blush

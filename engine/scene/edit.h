@@ -1,0 +1,46 @@
+// An Edit is a sentence about the project: a value, with a label, that apply() turns into the next project.
+#pragma once
+
+#include "core/result.h"
+#include "scene/render_settings.h"
+#include "scene/scene.h"
+#include "scene/view_settings.h"
+
+#include <string>
+#include <variant>
+
+namespace blush {
+
+struct Project {
+    Scene scene;
+    RenderSettings render;
+    ViewSettings view;
+    bool operator==(const Project&) const = default;
+};
+
+struct SetNode { Id<Node> id; Node node; };
+struct SetMaterial { Id<Material> id; Material material; };
+struct SetLight { Id<Light> id; Light light; };
+struct SetCamera { Id<Camera> id; Camera camera; };
+struct SetTexture { Id<Texture> id; Texture texture; };
+struct AssignMaterial { Id<Mesh> mesh; int part = 0; Id<Material> material; };
+struct SetEnvironment { Environment environment; };
+struct SetLens { Lens lens; };          // of the view
+struct SetRender { RenderSettings settings; };
+struct SetView { ViewSettings settings; };
+struct AddLight { Node node; Light light; }; // node.light is filled in by apply
+struct DuplicateNode { Id<Node> id; };       // with its subtree; lights are copied, meshes are shared
+struct RemoveNode { Id<Node> id; };          // with its subtree; records nobody uses any more stay, unreferenced
+struct Import { Scene scene; std::string name; }; // merges the nodes of another scene under fresh ids
+struct LookThrough { Id<Node> camera_node; };
+
+using Edit = std::variant<SetNode, SetMaterial, SetLight, SetCamera, SetTexture, AssignMaterial, SetEnvironment, SetLens, SetRender,
+                          SetView, AddLight, DuplicateNode, RemoveNode, Import, LookThrough>;
+
+// "Change light Key", for the history menu.
+std::string label(const Edit& edit, const Project& project);
+
+// The next project. Errors: an id that does not exist, a parent cycle, a non-finite number; the project is then unchanged.
+Result<Project> apply(const Project& project, const Edit& edit);
+
+} // namespace blush

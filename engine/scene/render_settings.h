@@ -1,0 +1,67 @@
+// What the command line and the Render panel set: one struct, one parser.
+#pragma once
+
+#include "core/result.h"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace blush {
+
+// Which survival probability q a path has after a bounce, given its throughput beta relative to the camera.
+// Russian roulette: Arvo and Kirk 1990. Survivors are divided by q, so every rule but biased_cut is unbiased.
+struct Roulette {
+    enum class Rule : uint8_t {
+        off,        // q = 1
+        max,        // q = largest component of beta
+        luminance,  // q = luminance of beta
+        sqrt,       // q = sqrt(largest component)
+        constant,   // q = probability
+        biased_cut, // ends paths with max(beta) < threshold and gives nothing back: wrong on purpose, for teaching
+    };
+    Rule rule = Rule::max;
+    int start = 3;           // first bounce at which it may end a path
+    float floor = 0;         // q >= floor
+    float cap = 1;           // q <= cap
+    float probability = 0.8f; // constant
+    float threshold = 0.1f;  // biased_cut
+    bool operator==(const Roulette&) const = default;
+};
+
+enum class Strategy : uint8_t { mis, light, bsdf };
+enum class PixelFilter : uint8_t { blackman_harris, box };
+
+constexpr int unlimited_bounces = -1;
+
+struct RenderSettings {
+    int width = 1280, height = 720; // pixels, 1 .. 65536
+    float resolution_scale = 1;     // the window renders width x height times this
+    // Stop rules, whichever comes first. 0 means no limit.
+    int64_t spp = 64;
+    double seconds = 0;
+    double error = 0;               // estimated relMSE
+    int64_t first_sample = 0;       // sample indices [first_sample, spp)
+    uint32_t seed = 0;
+    int max_bounces = unlimited_bounces;
+    Roulette roulette;
+    Strategy strategy = Strategy::mis;
+    PixelFilter filter = PixelFilter::blackman_harris;
+    bool energy_compensation = false;
+    bool operator==(const RenderSettings&) const = default;
+};
+
+// True if an image accumulated under `before` is still the one `after` asks for: they differ in stop rules alone.
+bool same_image(const RenderSettings& before, const RenderSettings& after);
+
+// "max,start=3", "constant=0.7,start=1", "biased-cut=0.05", ... as in `blush render --roulette`.
+Result<Roulette> parse_roulette(std::string_view text);
+std::string to_string(const Roulette& roulette);
+Result<int> parse_max_bounces(std::string_view text); // a number or "unlimited"
+std::string max_bounces_text(int max_bounces);
+Result<Strategy> parse_strategy(std::string_view text);
+std::string_view to_string(Strategy strategy);
+Result<PixelFilter> parse_filter(std::string_view text);
+std::string_view to_string(PixelFilter filter);
+
+} // namespace blush

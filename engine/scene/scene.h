@@ -1,0 +1,225 @@
+// The document: what the user edits and saves. Plain values; knows nothing of rays.
+//
+// Units: metres, radians where a name ends in _radians, degrees where it ends in _degrees. Working space:
+// scene-linear Rec.709 primaries. Photometric units as in glTF: candela, lux, nits.
+// Heavy payloads (Geometry, Image) are immutable behind shared_ptr<const T> and carry a serial number given at
+// creation; two payloads are the same data if and only if their serials are equal.
+#pragma once
+
+#include "core/vec.h"
+#include "scene/cow.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace blush {
+
+// A new serial number for a payload; never 0, never repeated in this process. Thread-safe.
+uint64_t next_payload_serial();
+
+// Triangles of one material. Immutable once shared. Optional arrays are empty or have positions.size() entries.
+struct Geometry {
+    uint64_t serial = next_payload_serial();
+    std::vector<Vec3> positions;
+    std::vector<Vec3> normals;
+    std::vector<Vec4> tangents; // xyz and the handedness w = +-1, as in glTF
+    std::vector<Vec2> uv0, uv1; // (0, 0) is the top left corner of the image, as in glTF
+    std::vector<Vec4> colors;   // linear RGBA, multiplies the base colour
+    std::vector<uint32_t> indices; // 3 per triangle, all < positions.size()
+
+    size_t triangle_count() const { return indices.size() / 3; }
+};
+
+// Decoded pixels, top row first. Immutable once shared.
+struct Image {
+    uint64_t serial = next_payload_serial();
+    int width = 0, height = 0, channels = 0; // channels 1..4
+    std::vector<uint8_t> bytes;  // width * height * channels, or empty
+    std::vector<float> floats;   // the same in float, exactly one of the two is filled
+};
+
+using GeometryPtr = std::shared_ptr<const Geometry>;
+using ImagePtr = std::shared_ptr<const Image>;
+
+struct Texture {
+    enum class Wrap : uint8_t { repeat, clamp_to_edge, mirrored_repeat };
+    enum class Filter : uint8_t { linear, nearest };
+    std::string name;
+    std::string source; // path relative to the scene file, or "embedded"
+    ImagePtr image;
+    Wrap wrap_u = Wrap::repeat, wrap_v = Wrap::repeat;
+    Filter filter = Filter::linear;
+    bool operator==(const Texture&) const = default;
+};
+
+// A texture as a material uses it: which UV set and KHR_texture_transform.
+struct TextureRef {
+    Id<Texture> texture;
+    uint8_t uv_set = 0; // 0 or 1
+    Vec2 offset{0, 0}, scale{1, 1};
+    float rotation_radians = 0; // counter-clockwise, as in KHR_texture_transform
+    bool operator==(const TextureRef&) const = default;
+};
+
+// glTF 2.0 metallic-roughness (Appendix B) with the extensions named beside the fields.
+struct Material {
+    enum class Alpha : uint8_t { opaque, mask, blend };
+    std::string name;
+    Vec3 base_color{1, 1, 1};        // linear reflectance
+    float opacity = 1;               // baseColorFactor.a
+    float metallic = 1, roughness = 1;
+    Vec3 emissive{0, 0, 0};          // emissiveFactor
+    float emissive_strength = 1;     // KHR_materials_emissive_strength; emissive * strength is in nits
+    float normal_scale = 1;
+    Alpha alpha = Alpha::opaque;
+    float alpha_cutoff = 0.5f;
+    bool double_sided = false;
+    bool unlit = false;              // KHR_materials_unlit
+    float ior = 1.5f;                // KHR_materials_ior
+    float specular = 1;              // KHR_materials_specular: factor and colour; 0 is a pure Lambertian
+    Vec3 specular_color{1, 1, 1};
+    float transmission = 0;          // KHR_materials_transmission
+    float thickness = 0;             // KHR_materials_volume: 0 is thin-walled, more is solid (the value itself is not used)
+    Vec3 attenuation_color{1, 1, 1};
+    float attenuation_distance = 0;  // metres; 0 means no absorption (glTF's default of infinity)
+    TextureRef base_color_texture;   // sRGB; alpha is opacity
+    TextureRef metallic_roughness_texture; // linear: G roughness, B metallic
+    TextureRef normal_texture;       // linear, tangent space
+    TextureRef emissive_texture;     // sRGB
+    TextureRef specular_texture;     // linear: A
+    TextureRef specular_color_texture; // sRGB
+    TextureRef transmission_texture; // linear: R
+    bool operator==(const Material&) const = default;
+};
+
+// A mesh is a list of parts (glTF primitives); nodes that share a mesh are instances of it.
+struct MeshPart {
+    GeometryPtr geometry;
+    Id<Material> material; // none: glTF's default material
+    bool operator==(const MeshPart&) const = default;
+};
+struct Mesh {
+    std::string name;
+    std::vector<MeshPart> parts;
+    bool operator==(const Mesh&) const = default;
+};
+
+// Emits along its node's -Z axis (glTF); a rectangle spans its node's X and Y.
+struct Light {
+    enum class Kind : uint8_t { point, spot, sun, rectangle };
+    std::string name;
+    Kind kind = Kind::point;
+    Vec3 color{1, 1, 1};          // linear RGB tint
+    bool use_temperature = false; // multiply by the colour of a black body at `kelvin`
+    float kelvin = 6500;
+    float intensity = 1;          // point, spot: candela; sun: lux on a surface that faces it; rectangle: nits
+    float radius = 0;             // point: metres; 0 is a point, more a sphere of the same intensity
+    float angle_radians = 0;      // sun: full angle it subtends; 0 is a perfectly parallel beam (the real sun: 0.00925)
+    float inner_cone_radians = 0; // spot: half angles, KHR_lights_punctual
+    float outer_cone_radians = 0.7853982f;
+    float width = 1, height = 1;  // rectangle: metres, before the node's scale
+    bool two_sided = false;       // rectangle
+    bool enabled = true;
+    bool operator==(const Light&) const = default;
+};
+
+// Perspective (pinhole or thin lens) or orthographic projection; looks along -Z of its frame, +Y up (glTF).
+struct Lens {
+    bool orthographic = false;
+    float yfov_radians = 0.6911112f; // vertical, of the whole image
+    float ymag = 1;                  // orthographic: half the height of the view in metres
+    float aperture_radius = 0;       // metres; 0 is a pinhole
+    float focus_distance = 1;        // metres along the view axis to the plane in focus
+    bool operator==(const Lens&) const = default;
+};
+struct Camera {
+    std::string name;
+    Lens lens;
+    bool operator==(const Camera&) const = default;
+};
+
+// Node-local transform. Applied scale, then rotation, then translation. A matrix that no such triple
+// reproduces (shear) is kept in `matrix`, which then wins until the user edits the node.
+struct Transform {
+    Vec3 translation{0, 0, 0};
+    Quat rotation;
+    Vec3 scale{1, 1, 1};
+    std::optional<Affine> matrix;
+    bool operator==(const Transform&) const = default;
+};
+
+struct Node {
+    std::string name;
+    Id<Node> parent; // none: a root
+    Transform local;
+    Id<Mesh> mesh;
+    Id<Light> light;
+    Id<Camera> camera;
+    bool visible = true; // false hides the node and all below it, light included
+    bool operator==(const Node&) const = default;
+};
+
+struct Environment {
+    enum class Kind : uint8_t { none, constant, image };
+    Kind kind = Kind::none;
+    Vec3 color{1, 1, 1};        // constant: radiance in nits; image: tint
+    float intensity = 1;        // multiplies both
+    float rotation_degrees = 0; // about +Y
+    std::string file;           // image: where it came from
+    ImagePtr image;             // lat-long, float, 3 or 4 channels; the centre column looks along -Z
+    bool visible_to_camera = true;
+    bool operator==(const Environment&) const = default;
+};
+
+// Where the picture is taken from. Starts as a copy of one of the scene's cameras, then is navigated freely.
+struct View {
+    Vec3 position{0, 0, 5};
+    Quat rotation;
+    float pivot_distance = 5; // metres in front of the eye: what orbiting turns about
+    Lens lens;
+    bool operator==(const View&) const = default;
+};
+
+struct Scene {
+    Table<Node> nodes;
+    Table<Mesh> meshes;
+    Table<Material> materials;
+    Table<Texture> textures;
+    Table<Light> lights;
+    Table<Camera> cameras;
+    Environment environment;
+    View view;
+    bool operator==(const Scene&) const = default;
+};
+
+// --- read-only questions about a scene --------------------------------------------------------------------
+
+// Local transform as a matrix.
+Affined to_affine(const Transform& transform);
+// Best TRS for a matrix; keeps the matrix when no TRS reproduces it to 1e-5 relative.
+Transform to_transform(const Affined& matrix);
+// Product of the node's and its ancestors' transforms, composed in double. A parent cycle, which no import or
+// edit lets in, ends at the table's size.
+Affined world_from_node(const Scene& scene, Id<Node> node);
+// The node and all its ancestors are visible.
+bool is_visible(const Scene& scene, Id<Node> node);
+// View that looks through a camera node.
+View view_through(const Scene& scene, Id<Node> camera_node);
+
+struct Bounds {
+    Vec3d low{0, 0, 0}, high{0, 0, 0};
+    bool empty = true;
+    void include(const Vec3d& p);
+    Vec3d center() const;
+    double radius() const; // of the sphere around centre
+};
+// World bounds of one node's own mesh (not its children), or of all visible geometry.
+Bounds world_bounds(const Scene& scene, Id<Node> node);
+Bounds world_bounds(const Scene& scene);
+// The view from `view`'s direction that shows the whole of `bounds` at the given aspect (width / height).
+View framed(const View& view, const Bounds& bounds, float aspect);
+
+} // namespace blush
