@@ -1,0 +1,24 @@
+// The interactive editor: owns window, document, session and panels.
+#pragma once
+
+#include "scene/render_settings.h"
+#include "scene/view_settings.h"
+
+#include <filesystem>
+
+namespace blush {
+
+struct EditorOptions {
+    std::filesystem::path assets;      // folder that holds scenes/, ocio/ and fonts/
+    std::filesystem::path scene;       // empty: the card-and-mug scene in `assets`
+    std::filesystem::path ocio_config; // empty: as ColorManagement::load decides
+    RenderSettings render;
+    ViewSettings view;
+    bool follow_viewport = true; // the image has the viewport's size; false: render.width x render.height, as `--size` asks
+    unsigned threads = 0;        // 0: one per core
+};
+
+// Runs until the window is closed. Returns the process's exit code: 0, or 1 after one line on stderr, as without a display.
+int run_editor(const EditorOptions& options);
+
+} // namespace blush
