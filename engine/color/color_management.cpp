@@ -1,0 +1,265 @@
+#include "color/color_management.h"
+
+#include <OpenColorIO/OpenColorIO.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <span>
+
+namespace OCIO = OCIO_NAMESPACE;
+
+namespace blush {
+
+struct ColorManagement::State {
+    OCIO::ConstConfigRcPtr config;
+    std::filesystem::path file;
+    std::string warning;
+};
+
+namespace {
+
+// Exact arithmetic where OCIO would trade precision for speed, so that processor and shader agree; no dynamic
+// properties, since nobody would set their uniforms.
+constexpr auto exact_arithmetic =
+    OCIO::OptimizationFlags(OCIO::OPTIMIZATION_LOSSLESS | OCIO::OPTIMIZATION_LUT_INV_FAST | OCIO::OPTIMIZATION_NO_DYNAMIC_PROPERTIES);
+
+// The largest half: OCIO's tables for scene-linear values end there.
+constexpr float largest_half = 65504;
+constexpr float smallest_gamma = 0.01f;
+
+// What widespread configs call our working space, ours first.
+constexpr const char* working_space_names[] = {"Linear Rec.709",          "lin_rec709",
+                                               "Linear Rec.709 (sRGB)",   "lin_srgb",
+                                               "Utility - Linear - sRGB", "Utility - Linear - Rec.709",
+                                               "Linear BT.709",           "scene-linear Rec.709-sRGB"};
+
+// OCIO's message on one line.
+Error failure(const std::exception& e, std::string file, std::string where) {
+    std::string what = e.what();
+    std::replace(what.begin(), what.end(), '\n', ' ');
+    what.erase(what.find_last_not_of(' ') + 1);
+    return {std::move(file), std::move(what), std::move(where)};
+}
+
+OCIO::TransformRcPtr builtin(const char* style, OCIO::TransformDirection direction) {
+    auto transform = OCIO::BuiltinTransform::Create();
+    transform->setStyle(style);
+    transform->setDirection(direction);
+    return transform;
+}
+
+const char* working_space_of(const OCIO::Config& config) {
+    for (const char* name : working_space_names)
+        if (config.getColorSpace(name)) return name;
+    return nullptr;
+}
+
+bool is_data_view(const OCIO::Config& config, const std::string& display, const std::string& view) {
+    const auto space = config.getColorSpace(config.getDisplayViewColorSpaceName(display.c_str(), view.c_str()));
+    return space && space->isData();
+}
+
+// From the working space to the display. Raw views pass the numbers as they are. A config without our working space
+// is entered through ACES2065-1, and one that does not name that either is taken to work in Rec.709.
+OCIO::ConstTransformRcPtr display_transform(const OCIO::Config& config, const std::string& display, const std::string& view) {
+    auto group = OCIO::GroupTransform::Create();
+    if (is_data_view(config, display, view)) return group;
+
+    auto to_display = OCIO::DisplayViewTransform::Create();
+    to_display->setDisplay(display.c_str());
+    to_display->setView(view.c_str());
+    if (const char* name = working_space_of(config)) {
+        to_display->setSrc(name);
+    } else if (config.hasRole(OCIO::ROLE_INTERCHANGE_SCENE)) {
+        group->appendTransform(builtin("UTILITY - ACES-AP1_to_LINEAR-REC709_BFD", OCIO::TRANSFORM_DIR_INVERSE));
+        group->appendTransform(builtin("ACEScg_to_ACES2065-1", OCIO::TRANSFORM_DIR_FORWARD));
+        to_display->setSrc(OCIO::ROLE_INTERCHANGE_SCENE);
+    } else {
+        to_display->setSrc(OCIO::ROLE_SCENE_LINEAR);
+    }
+    group->appendTransform(to_display);
+    return group;
+}
+
+std::vector<std::string> displays_of(const OCIO::Config& config) {
+    std::vector<std::string> names;
+    for (int i = 0; i < config.getNumDisplays(); ++i) names.emplace_back(config.getDisplay(i));
+    return names;
+}
+
+std::vector<std::string> views_of(const OCIO::Config& config, const std::string& display) {
+    std::vector<std::string> names;
+    for (int i = 0; i < config.getNumViews(display.c_str()); ++i) names.emplace_back(config.getView(display.c_str(), i));
+    return names;
+}
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+// The display and view with defaults filled in, as a processor.
+Result<OCIO::ConstProcessorRcPtr> make_processor(const OCIO::Config& config, std::string_view display_name, std::string_view view_name) {
+    const std::string display = display_name.empty() ? config.getDefaultDisplay() : std::string(display_name);
+    const auto displays = displays_of(config);
+    if (!contains(displays, display))
+        return Error{{}, fmt::format("no display \"{}\"; there are: {}", display, fmt::join(displays, ", ")), {}};
+    const std::string view = view_name.empty() ? config.getDefaultView(display.c_str()) : std::string(view_name);
+    const auto views = views_of(config, display);
+    if (!contains(views, view))
+        return Error{{}, fmt::format("no view \"{}\" for display \"{}\"; there are: {}", view, display, fmt::join(views, ", ")), {}};
+    try {
+        return config.getProcessor(display_transform(config, display, view));
+    } catch (const std::exception& e) { return failure(e, {}, fmt::format("view \"{}\" of display \"{}\"", view, display)); }
+}
+
+// A parsed and validated config. Other people's configs must also be able to show their default view, so that a
+// missing table is found here and not at the first image.
+Result<OCIO::ConstConfigRcPtr> open_config(const std::filesystem::path& file, bool prove_default_view) {
+    try {
+        auto config = OCIO::Config::CreateFromFile(file.c_str());
+        config->validate();
+        if (config->getNumDisplays() == 0) return Error{file.string(), "the OpenColorIO config has no display", {}};
+        if (prove_default_view) {
+            auto processor = make_processor(*config, {}, {});
+            if (!processor) return Error{file.string(), processor.error().what, processor.error().where};
+        }
+        return config;
+    } catch (const std::exception& e) { return failure(e, file.string(), {}); }
+}
+
+// Not a number becomes black, infinities the ends of the range.
+float sanitized(float x) { return std::isnan(x) ? 0.0f : std::clamp(x, -largest_half, largest_half); }
+
+// The same around OCIO's function `ocio_display`, in the same order, as apply_display() has it.
+constexpr const char* shader_frame = R"(
+uniform float exposure_ev;
+uniform float gamma;
+
+{ocio}
+
+float sanitized(float x) {{ return isnan(x) ? 0.0 : clamp(x, -{limit}, {limit}); }}
+vec3 sanitized(vec3 v) {{ return vec3(sanitized(v.r), sanitized(v.g), sanitized(v.b)); }}
+
+vec4 display_color(vec4 scene_linear) {{
+    vec3 exposed = sanitized(scene_linear.rgb * exp2(exposure_ev));
+    vec3 encoded = clamp(sanitized(ocio_display(vec4(exposed, 1.0)).rgb), 0.0, 1.0);
+    return vec4(pow(encoded, vec3(1.0 / max(gamma, {smallest_gamma}))), scene_linear.a);
+}}
+)";
+
+std::vector<DisplayShader::Lut> luts_of(const OCIO::GpuShaderDesc& description) {
+    std::vector<DisplayShader::Lut> luts;
+    const char *texture = nullptr, *sampler = nullptr;
+    const float* values = nullptr;
+    OCIO::Interpolation interpolation = OCIO::INTERP_LINEAR;
+    for (unsigned i = 0; i < description.getNumTextures(); ++i) {
+        unsigned width = 0, height = 0;
+        OCIO::GpuShaderDesc::TextureType type = OCIO::GpuShaderDesc::TEXTURE_RGB_CHANNEL;
+        description.getTexture(i, texture, sampler, width, height, type, interpolation);
+        description.getTextureValues(i, values);
+        const int channels = type == OCIO::GpuShaderDesc::TEXTURE_RED_CHANNEL ? 1 : 3;
+        luts.push_back({.sampler = sampler,
+                        .dimensions = height > 1 ? 2 : 1, // OCIO declares a sampler1D for a table of one row
+                        .width = int(width),
+                        .height = int(height),
+                        .depth = 1,
+                        .channels = channels,
+                        .linear = interpolation != OCIO::INTERP_NEAREST,
+                        .values = {values, values + size_t(width) * height * size_t(channels)}});
+    }
+    for (unsigned i = 0; i < description.getNum3DTextures(); ++i) {
+        unsigned edge = 0;
+        description.get3DTexture(i, texture, sampler, edge, interpolation);
+        description.get3DTextureValues(i, values);
+        luts.push_back({.sampler = sampler,
+                        .dimensions = 3,
+                        .width = int(edge),
+                        .height = int(edge),
+                        .depth = int(edge),
+                        .channels = 3,
+                        .linear = interpolation != OCIO::INTERP_NEAREST,
+                        .values = {values, values + size_t(edge) * edge * edge * 3}});
+    }
+    return luts;
+}
+
+} // namespace
+
+Result<ColorManagement> ColorManagement::load(const std::filesystem::path& assets, const std::filesystem::path& config_file) {
+    const std::filesystem::path ours = assets / "ocio" / "config.ocio";
+    std::filesystem::path wanted = config_file;
+    if (const char* environment = std::getenv("OCIO"); wanted.empty() && environment) wanted = environment;
+
+    auto state = std::make_unique<State>();
+    state->file = wanted.empty() ? ours : wanted;
+    auto config = open_config(state->file, state->file != ours);
+    if (!config && state->file != ours) {
+        state->warning = config.error().text() + "; using Blush's own OpenColorIO config instead";
+        state->file = ours;
+        config = open_config(ours, false);
+    }
+    if (!config) return config.error();
+    state->config = *config;
+    return ColorManagement(std::move(state));
+}
+
+ColorManagement::ColorManagement(std::unique_ptr<State> state) : state_(std::move(state)) {}
+ColorManagement::ColorManagement(ColorManagement&&) noexcept = default;
+ColorManagement& ColorManagement::operator=(ColorManagement&&) noexcept = default;
+ColorManagement::~ColorManagement() = default;
+
+const std::string& ColorManagement::warning() const { return state_->warning; }
+
+std::string ColorManagement::config_name() const {
+    const std::string name = state_->config->getName();
+    return name.empty() ? state_->file.string() : name;
+}
+
+std::vector<std::string> ColorManagement::displays() const { return displays_of(*state_->config); }
+std::vector<std::string> ColorManagement::views(std::string_view display) const { return views_of(*state_->config, std::string(display)); }
+std::string ColorManagement::default_display() const { return state_->config->getDefaultDisplay(); }
+std::string ColorManagement::default_view(std::string_view display) const {
+    return state_->config->getDefaultView(std::string(display).c_str());
+}
+
+Result<DisplayShader> ColorManagement::display_shader(std::string_view display, std::string_view view) const {
+    auto processor = make_processor(*state_->config, display, view);
+    if (!processor) return processor.error();
+    try {
+        auto description = OCIO::GpuShaderDesc::CreateShaderDesc();
+        description->setLanguage(OCIO::GPU_LANGUAGE_GLSL_1_3); // the newest that GLSL 3.30 contains
+        description->setFunctionName("ocio_display");
+        description->setResourcePrefix("ocio_");
+        (*processor)->getOptimizedGPUProcessor(exact_arithmetic)->extractGpuShaderInfo(description);
+        return DisplayShader{fmt::format(shader_frame, fmt::arg("ocio", description->getShaderText()),
+                                         fmt::arg("limit", fmt::format("{:.1f}", largest_half)),
+                                         fmt::arg("smallest_gamma", smallest_gamma)),
+                             luts_of(*description)};
+    } catch (const std::exception& e) { return failure(e, {}, "display shader"); }
+}
+
+Result<void> ColorManagement::apply_display(std::string_view display, std::string_view view, float exposure_ev, float gamma, float* rgb,
+                                            size_t count) const {
+    auto processor = make_processor(*state_->config, display, view);
+    if (!processor) return processor.error();
+
+    const float gain = std::exp2(exposure_ev);
+    const float power = 1 / std::max(smallest_gamma, gamma);
+    constexpr size_t chunk = 4096; // pixels: what fits into the first caches
+    try {
+        const auto cpu = (*processor)->getOptimizedCPUProcessor(exact_arithmetic);
+        for (size_t done = 0; done < count; done += chunk) {
+            const size_t pixels = std::min(chunk, count - done);
+            const std::span<float> values(rgb + done * 3, pixels * 3);
+            for (float& x : values) x = sanitized(x * gain);
+            OCIO::PackedImageDesc row(values.data(), long(pixels), 1, 3);
+            cpu->apply(row);
+            for (float& x : values) x = std::pow(std::clamp(sanitized(x), 0.0f, 1.0f), power);
+        }
+    } catch (const std::exception& e) { return failure(e, {}, "display transform"); }
+    return {};
+}
+
+} // namespace blush

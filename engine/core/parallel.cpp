@@ -1,0 +1,78 @@
+#include "core/parallel.h"
+
+#include <atomic>
+#include <pmmintrin.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+#include <tbb/task_scheduler_observer.h>
+#include <thread>
+
+#ifdef __linux__
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+#endif
+
+namespace blush {
+namespace {
+
+void lower_priority_of_this_thread() {
+#ifdef __linux__
+    // On Linux a nice value belongs to a thread. Failure only costs smoothness.
+    (void)setpriority(PRIO_PROCESS, id_t(syscall(SYS_gettid)), 10);
+#endif
+}
+
+class ThreadSetup : public tbb::task_scheduler_observer {
+public:
+    ThreadSetup(tbb::task_arena& arena, bool low_priority) : tbb::task_scheduler_observer(arena), low_priority_(low_priority) { observe(true); }
+    ~ThreadSetup() override { observe(false); }
+
+    void on_scheduler_entry(bool is_worker) override {
+        _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
+        _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
+        if (is_worker && low_priority_) lower_priority_of_this_thread();
+    }
+
+private:
+    bool low_priority_;
+};
+
+} // namespace
+
+struct Workers::State {
+    tbb::task_arena arena;
+    ThreadSetup setup;
+    State(unsigned threads, bool low_priority) : arena(int(threads)), setup(arena, low_priority) {}
+};
+
+Workers::Workers(unsigned threads, bool low_priority)
+    : threads_(threads ? threads : std::max(1u, std::thread::hardware_concurrency())), state_(std::make_unique<State>(threads_, low_priority)) {
+    if (low_priority) lower_priority_of_this_thread();
+}
+
+Workers::~Workers() = default;
+
+bool Workers::for_each(int64_t count, const std::function<bool()>& wanted, const std::function<void(int64_t, unsigned)>& task) const {
+    // One long-lived task per worker that takes the next item from a counter: the items are coarse, and a worker that owns
+    // scratch memory needs to know that nobody else has its number.
+    std::atomic<int64_t> next{0}, done{0};
+    state_->arena.execute([&] {
+        tbb::parallel_for(
+            0u, threads_,
+            [&](unsigned worker) {
+                for (int64_t i; (i = next.fetch_add(1, std::memory_order_relaxed)) < count;) {
+                    if (wanted && !wanted()) return;
+                    task(i, worker);
+                    done.fetch_add(1, std::memory_order_relaxed);
+                }
+            },
+            tbb::simple_partitioner());
+    });
+    return done == count;
+}
+
+void Workers::run(const std::function<void()>& task) const { state_->arena.execute(task); }
+
+} // namespace blush

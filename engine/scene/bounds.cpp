@@ -1,0 +1,66 @@
+#include "scene/affine.h"
+#include "scene/scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace blush {
+namespace {
+
+void include_mesh(const Scene& scene, const Node& node, const Affined& world_from_mesh, Bounds& bounds) {
+    const Mesh* mesh = scene.meshes.find(node.mesh);
+    if (!mesh) return;
+    for (const MeshPart& part : mesh->parts) {
+        if (!part.geometry) continue;
+        for (const Vec3& p : part.geometry->positions) bounds.include(transform_point(world_from_mesh, to_double(p)));
+    }
+}
+
+} // namespace
+
+void Bounds::include(const Vec3d& p) {
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) return;
+    if (empty) {
+        low = high = p;
+        empty = false;
+        return;
+    }
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+}
+
+Vec3d Bounds::center() const { return (low + high) * 0.5; }
+double Bounds::radius() const { return 0.5 * length(high - low); }
+
+Bounds world_bounds(const Scene& scene, Id<Node> node) {
+    Bounds bounds;
+    if (const Node* n = scene.nodes.find(node)) include_mesh(scene, *n, world_from_node(scene, node), bounds);
+    return bounds;
+}
+
+Bounds world_bounds(const Scene& scene) {
+    Bounds bounds;
+    for (const auto& [id, node] : scene.nodes)
+        if (node.mesh && is_visible(scene, id)) include_mesh(scene, node, world_from_node(scene, id), bounds);
+    return bounds;
+}
+
+View framed(const View& view, const Bounds& bounds, float aspect) {
+    if (bounds.empty) return view;
+    const double radius = std::max(bounds.radius(), 1e-3);
+    View result = view;
+    double distance = 2 * radius;
+    if (view.lens.orthographic) {
+        result.lens.ymag = float(radius * std::max(1.0, 1.0 / aspect));
+    } else {
+        const double half_height = 0.5 * view.lens.yfov_radians;
+        const double half_width = std::atan(std::tan(half_height) * aspect);
+        distance = radius / std::sin(std::min(half_height, half_width));
+    }
+    const Vec3d backward = to_affine(view.rotation).z;
+    result.position = to_float(bounds.center() + backward * distance);
+    result.pivot_distance = float(distance);
+    return result;
+}
+
+} // namespace blush

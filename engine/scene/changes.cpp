@@ -1,0 +1,101 @@
+#include "scene/changes.h"
+
+#include <algorithm>
+
+namespace blush {
+namespace {
+
+template <class T> bool same_payload(const std::shared_ptr<const T>& a, const std::shared_ptr<const T>& b) {
+    return a == b || (a && b && a->serial == b->serial);
+}
+
+// What follows answers "does the image see a difference", for two records under one id.
+
+template <class T> bool same_but_for_name(T before, const T& after) {
+    before.name = after.name;
+    return before == after;
+}
+
+bool same_to_image(const Material& a, const Material& b) { return same_but_for_name(a, b); }
+bool same_to_image(const Light& a, const Light& b) { return same_but_for_name(a, b); }
+
+bool same_to_image(Texture before, const Texture& after) {
+    if (!same_payload(before.image, after.image)) return false;
+    before.image = after.image;
+    before.source = after.source;
+    return same_but_for_name(std::move(before), after);
+}
+
+bool same_to_image(const Mesh& a, const Mesh& b) {
+    return std::ranges::equal(a.parts, b.parts, [](const MeshPart& p, const MeshPart& q) {
+        return p.material == q.material && same_payload(p.geometry, q.geometry);
+    });
+}
+
+template <class T> std::vector<Id<T>> seen_changes(const Table<T>& before, const Table<T>& after) {
+    std::vector<Id<T>> ids = Table<T>::changed(before, after);
+    std::erase_if(ids, [&](Id<T> id) {
+        const T* a = before.find(id);
+        const T* b = after.find(id);
+        return a && b && same_to_image(*a, *b);
+    });
+    return ids;
+}
+
+void diff_nodes(const Scene& before, const Scene& after, Changes& changes) {
+    for (const Id<Node> id : Table<Node>::changed(before.nodes, after.nodes)) {
+        const Node* a = before.nodes.find(id);
+        const Node* b = after.nodes.find(id);
+        if (!a || !b) {
+            changes.structure.push_back(id);
+            continue;
+        }
+        const bool moved_in_tree = a->parent != b->parent;
+        if (moved_in_tree || a->local != b->local) changes.transforms.push_back(id);
+        const bool shown_or_hidden = a->visible != b->visible || (moved_in_tree && is_visible(before, id) != is_visible(after, id));
+        if (shown_or_hidden || a->mesh != b->mesh || a->light != b->light) changes.structure.push_back(id);
+    }
+}
+
+void diff_environment(const Environment& a, const Environment& b, Changes& changes) {
+    changes.environment_image = a.kind != b.kind || !same_payload(a.image, b.image);
+    changes.environment_parameters = a.color != b.color || a.intensity != b.intensity || a.rotation_degrees != b.rotation_degrees ||
+                                     a.visible_to_camera != b.visible_to_camera;
+}
+
+void diff_settings(const RenderSettings& a, const RenderSettings& b, Changes& changes) {
+    changes.resolution = a.width != b.width || a.height != b.height || a.resolution_scale != b.resolution_scale;
+    changes.stop_rules = a.spp != b.spp || a.seconds != b.seconds || a.error != b.error;
+    RenderSettings sized_alike = a;
+    sized_alike.width = b.width;
+    sized_alike.height = b.height;
+    sized_alike.resolution_scale = b.resolution_scale;
+    changes.integrator = !same_image(sized_alike, b);
+}
+
+} // namespace
+
+bool Changes::any() const { return stop_rules || affects_image(); }
+
+bool Changes::affects_image() const {
+    return view || resolution || integrator || environment_parameters || environment_image || !transforms.empty() || !structure.empty() ||
+           !meshes.empty() || !materials.empty() || !textures.empty() || !lights.empty();
+}
+
+Changes diff(const Scene& before, const RenderSettings& before_settings, const Scene& after, const RenderSettings& after_settings) {
+    Changes changes;
+    // The pivot is what orbiting turns about: no ray knows it.
+    View view = before.view;
+    view.pivot_distance = after.view.pivot_distance;
+    changes.view = view != after.view;
+    diff_settings(before_settings, after_settings, changes);
+    diff_environment(before.environment, after.environment, changes);
+    diff_nodes(before, after, changes);
+    changes.meshes = seen_changes(before.meshes, after.meshes);
+    changes.materials = seen_changes(before.materials, after.materials);
+    changes.textures = seen_changes(before.textures, after.textures);
+    changes.lights = seen_changes(before.lights, after.lights);
+    return changes;
+}
+
+} // namespace blush

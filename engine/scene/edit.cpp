@@ -1,0 +1,162 @@
+#include "scene/edit.h"
+
+#include "scene/edit_tree.h"
+#include "scene/validate.h"
+
+#include <fmt/format.h>
+
+namespace blush {
+namespace {
+
+template <class T> Error missing(std::string_view kind, Id<T> id) { return Error{.what = fmt::format("there is no {} {}", kind, id.value)}; }
+
+// None is fine, a stale id is not.
+template <class T> Result<void> expect_known(const Table<T>& table, Id<T> id, std::string_view kind, const std::string& where) {
+    if (!id || table.contains(id)) return {};
+    Error error = missing(kind, id);
+    error.where = where;
+    return error;
+}
+
+template <class T> Result<void> set_record(Table<T>& table, Id<T> id, const T& value, std::string_view kind) {
+    if (!table.contains(id)) return missing(kind, id);
+    if (Result<void> valid = validate(value); !valid) return valid;
+    table.set(id, value);
+    return {};
+}
+
+Result<void> expect_references(const Scene& scene, const Node& node) {
+    const std::string where = fmt::format("node \"{}\"", node.name);
+    if (auto known = expect_known(scene.nodes, node.parent, "parent node", where); !known) return known;
+    if (auto known = expect_known(scene.meshes, node.mesh, "mesh", where); !known) return known;
+    if (auto known = expect_known(scene.lights, node.light, "light", where); !known) return known;
+    return expect_known(scene.cameras, node.camera, "camera", where);
+}
+
+bool is_below(const Scene& scene, Id<Node> node, Id<Node> ancestor) {
+    for (size_t steps = 0; node && steps <= scene.nodes.size(); ++steps) {
+        if (node == ancestor) return true;
+        const Node* n = scene.nodes.find(node);
+        node = n ? n->parent : Id<Node>{};
+    }
+    return false;
+}
+
+// One overload per edit; `p` is thrown away when an error comes back.
+
+Result<void> apply_to(Project& p, const SetNode& e) {
+    if (auto known = expect_references(p.scene, e.node); !known) return known;
+    if (is_below(p.scene, e.node.parent, e.id))
+        return Error{.what = "a node cannot hang below itself", .where = fmt::format("node \"{}\"", e.node.name)};
+    return set_record(p.scene.nodes, e.id, e.node, "node");
+}
+
+Result<void> apply_to(Project& p, const SetMaterial& e) {
+    const Material& m = e.material;
+    for (const TextureRef* ref : {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture, &m.emissive_texture,
+                                  &m.specular_texture, &m.specular_color_texture, &m.transmission_texture})
+        if (auto known = expect_known(p.scene.textures, ref->texture, "texture", fmt::format("material \"{}\"", m.name)); !known) return known;
+    return set_record(p.scene.materials, e.id, m, "material");
+}
+
+Result<void> apply_to(Project& p, const SetLight& e) { return set_record(p.scene.lights, e.id, e.light, "light"); }
+Result<void> apply_to(Project& p, const SetCamera& e) { return set_record(p.scene.cameras, e.id, e.camera, "camera"); }
+Result<void> apply_to(Project& p, const SetTexture& e) { return set_record(p.scene.textures, e.id, e.texture, "texture"); }
+
+Result<void> apply_to(Project& p, const AssignMaterial& e) {
+    const Mesh* mesh = p.scene.meshes.find(e.mesh);
+    if (!mesh) return missing("mesh", e.mesh);
+    const std::string where = fmt::format("mesh \"{}\"", mesh->name);
+    if (e.part < 0 || size_t(e.part) >= mesh->parts.size()) return Error{.what = fmt::format("there is no part {}", e.part), .where = where};
+    if (auto known = expect_known(p.scene.materials, e.material, "material", where); !known) return known;
+    Mesh changed = *mesh;
+    changed.parts[size_t(e.part)].material = e.material;
+    p.scene.meshes.set(e.mesh, std::move(changed));
+    return {};
+}
+
+template <class T> Result<void> replace(T& target, const T& value) {
+    if (Result<void> valid = validate(value); !valid) return valid;
+    target = value;
+    return {};
+}
+
+Result<void> apply_to(Project& p, const SetEnvironment& e) { return replace(p.scene.environment, e.environment); }
+Result<void> apply_to(Project& p, const SetLens& e) { return replace(p.scene.view.lens, e.lens); }
+Result<void> apply_to(Project& p, const SetRender& e) { return replace(p.render, e.settings); }
+Result<void> apply_to(Project& p, const SetView& e) { return replace(p.view, e.settings); }
+
+Result<void> apply_to(Project& p, const AddLight& e) {
+    if (auto valid = validate(e.light); !valid) return valid;
+    if (auto valid = validate(e.node); !valid) return valid;
+    Node node = e.node;
+    node.light = p.scene.lights.add(e.light);
+    if (auto known = expect_references(p.scene, node); !known) return known;
+    p.scene.nodes.add(std::move(node));
+    return {};
+}
+
+Result<void> apply_to(Project& p, const DuplicateNode& e) {
+    if (!p.scene.nodes.contains(e.id)) return missing("node", e.id);
+    duplicate_subtree(p.scene, e.id);
+    return {};
+}
+
+Result<void> apply_to(Project& p, const RemoveNode& e) {
+    if (!p.scene.nodes.contains(e.id)) return missing("node", e.id);
+    remove_subtree(p.scene, e.id);
+    return {};
+}
+
+Result<void> apply_to(Project& p, const Import& e) {
+    merge(p.scene, e.scene);
+    return {};
+}
+
+Result<void> apply_to(Project& p, const LookThrough& e) {
+    const Node* node = p.scene.nodes.find(e.camera_node);
+    if (!node) return missing("node", e.camera_node);
+    if (!p.scene.cameras.contains(node->camera)) return Error{.what = "there is no camera on this node", .where = fmt::format("node \"{}\"", node->name)};
+    p.scene.view = view_through(p.scene, e.camera_node);
+    return {};
+}
+
+template <class T> std::string name_of(const Table<T>& table, Id<T> id) {
+    const T* record = table.find(id);
+    return record ? record->name : std::string();
+}
+
+struct Labeller {
+    const Project& p;
+
+    std::string with_name(std::string text, const std::string& name) const { return name.empty() ? text : text + " " + name; }
+
+    std::string operator()(const SetNode& e) const { return with_name("Change object", e.node.name); }
+    std::string operator()(const SetMaterial& e) const { return with_name("Change material", e.material.name); }
+    std::string operator()(const SetLight& e) const { return with_name("Change light", e.light.name); }
+    std::string operator()(const SetCamera& e) const { return with_name("Change camera", e.camera.name); }
+    std::string operator()(const SetTexture& e) const { return with_name("Change texture", e.texture.name); }
+    std::string operator()(const AssignMaterial& e) const { return with_name("Assign material", name_of(p.scene.materials, e.material)); }
+    std::string operator()(const SetEnvironment&) const { return "Change environment"; }
+    std::string operator()(const SetLens&) const { return "Change lens"; }
+    std::string operator()(const SetRender&) const { return "Change render settings"; }
+    std::string operator()(const SetView&) const { return "Change display settings"; }
+    std::string operator()(const AddLight& e) const { return with_name("Add light", e.node.name.empty() ? e.light.name : e.node.name); }
+    std::string operator()(const DuplicateNode& e) const { return with_name("Duplicate", name_of(p.scene.nodes, e.id)); }
+    std::string operator()(const RemoveNode& e) const { return with_name("Delete", name_of(p.scene.nodes, e.id)); }
+    std::string operator()(const Import& e) const { return with_name("Import", e.name); }
+    std::string operator()(const LookThrough& e) const { return with_name("Look through", name_of(p.scene.nodes, e.camera_node)); }
+};
+
+} // namespace
+
+std::string label(const Edit& edit, const Project& project) { return std::visit(Labeller{project}, edit); }
+
+Result<Project> apply(const Project& project, const Edit& edit) {
+    Project next = project;
+    const Result<void> applied = std::visit([&](const auto& e) { return apply_to(next, e); }, edit);
+    if (!applied) return applied.error();
+    return next;
+}
+
+} // namespace blush

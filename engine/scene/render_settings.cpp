@@ -1,0 +1,13 @@
+#include "scene/render_settings.h"
+
+namespace blush {
+
+bool same_image(const RenderSettings& before, const RenderSettings& after) {
+    RenderSettings stops_alike = before;
+    stops_alike.spp = after.spp;
+    stops_alike.seconds = after.seconds;
+    stops_alike.error = after.error;
+    return stops_alike == after;
+}
+
+} // namespace blush

@@ -1,0 +1,148 @@
+// The command line's words for render settings, and back.
+#include "scene/render_settings.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+
+namespace blush {
+namespace {
+
+template <class E> struct Word {
+    E value;
+    std::string_view text;
+};
+
+constexpr std::array<Word<Roulette::Rule>, 6> roulette_words{{
+    {Roulette::Rule::off, "off"},
+    {Roulette::Rule::max, "max"},
+    {Roulette::Rule::luminance, "luminance"},
+    {Roulette::Rule::sqrt, "sqrt"},
+    {Roulette::Rule::constant, "constant"},
+    {Roulette::Rule::biased_cut, "biased-cut"},
+}};
+constexpr std::array<Word<Strategy>, 3> strategy_words{{
+    {Strategy::mis, "mis"},
+    {Strategy::light, "light"},
+    {Strategy::bsdf, "bsdf"},
+}};
+constexpr std::array<Word<PixelFilter>, 2> filter_words{{
+    {PixelFilter::blackman_harris, "blackman-harris"},
+    {PixelFilter::box, "box"},
+}};
+
+template <class E, size_t n> std::string_view word_of(const std::array<Word<E>, n>& words, E value) {
+    for (const Word<E>& w : words)
+        if (w.value == value) return w.text;
+    return {};
+}
+
+template <class E, size_t n> Result<E> value_of(const std::array<Word<E>, n>& words, std::string_view text, std::string_view kind) {
+    std::string known;
+    for (const Word<E>& w : words) {
+        if (w.text == text) return w.value;
+        if (!known.empty()) known += ", ";
+        known += w.text;
+    }
+    return Error{.what = fmt::format("unknown {} \"{}\" (known: {})", kind, text, known)};
+}
+
+template <class T> bool parse_whole(std::string_view text, T& number) {
+    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), number);
+    return code == std::errc() && end == text.data() + text.size();
+}
+
+Result<float> parse_probability(std::string_view text, std::string_view name, bool zero_allowed) {
+    float p = 0;
+    if (!parse_whole(text, p) || !(p >= 0 && p <= 1) || (p == 0 && !zero_allowed))
+        return Error{.what = fmt::format("roulette's {} must be a number {} 1, not \"{}\"", name, zero_allowed ? "from 0 to" : "above 0 and at most", text)};
+    return p;
+}
+
+struct Item {
+    std::string_view name, value;
+    bool has_value = false;
+};
+
+Item split_item(std::string_view text) {
+    const size_t equals = text.find('=');
+    if (equals == text.npos) return {text, {}, false};
+    return {text.substr(0, equals), text.substr(equals + 1), true};
+}
+
+// The part before the first comma: the rule, with its number if it has one.
+Result<void> parse_rule(const Item& item, Roulette& roulette) {
+    const Result<Roulette::Rule> rule = value_of(roulette_words, item.name, "roulette rule");
+    if (!rule) return rule.error();
+    roulette.rule = *rule;
+    const bool constant = *rule == Roulette::Rule::constant;
+    const bool takes_number = constant || *rule == Roulette::Rule::biased_cut;
+    if (takes_number != item.has_value)
+        return Error{.what = fmt::format(takes_number ? "roulette rule {0} needs a number, as in {0}=0.5" : "roulette rule {0} takes no number", item.name)};
+    if (!takes_number) return {};
+    const Result<float> number = parse_probability(item.value, item.name, !constant);
+    if (!number) return number.error();
+    (constant ? roulette.probability : roulette.threshold) = *number;
+    return {};
+}
+
+Result<void> parse_limit(const Item& item, Roulette& roulette) {
+    if (item.name == "start") {
+        if (!parse_whole(item.value, roulette.start) || roulette.start < 0)
+            return Error{.what = fmt::format("roulette's start must be a whole number from 0, not \"{}\"", item.value)};
+        return {};
+    }
+    if (item.name != "floor" && item.name != "cap")
+        return Error{.what = fmt::format("unknown roulette parameter \"{}\" (known: start, floor, cap)", item.name)};
+    const bool floor = item.name == "floor";
+    const Result<float> number = parse_probability(item.value, item.name, floor);
+    if (!number) return number.error();
+    (floor ? roulette.floor : roulette.cap) = *number;
+    return {};
+}
+
+} // namespace
+
+Result<Roulette> parse_roulette(std::string_view text) {
+    Roulette roulette;
+    bool first = true;
+    for (;;) {
+        const size_t comma = text.find(',');
+        const Item item = split_item(text.substr(0, comma));
+        const Result<void> parsed = first ? parse_rule(item, roulette) : parse_limit(item, roulette);
+        if (!parsed) return parsed.error();
+        if (comma == text.npos) break;
+        text.remove_prefix(comma + 1);
+        first = false;
+    }
+    if (roulette.floor > roulette.cap) return Error{.what = "roulette's floor is above its cap"};
+    return roulette;
+}
+
+std::string to_string(const Roulette& roulette) {
+    std::string text(word_of(roulette_words, roulette.rule));
+    if (roulette.rule == Roulette::Rule::constant) text += fmt::format("={}", roulette.probability);
+    if (roulette.rule == Roulette::Rule::biased_cut) text += fmt::format("={}", roulette.threshold);
+    if (roulette.rule != Roulette::Rule::off || roulette.start != Roulette{}.start) text += fmt::format(",start={}", roulette.start);
+    if (roulette.floor != Roulette{}.floor) text += fmt::format(",floor={}", roulette.floor);
+    if (roulette.cap != Roulette{}.cap) text += fmt::format(",cap={}", roulette.cap);
+    return text;
+}
+
+Result<int> parse_max_bounces(std::string_view text) {
+    if (text == "unlimited") return unlimited_bounces;
+    int n = 0;
+    if (!parse_whole(text, n) || n < 0)
+        return Error{.what = fmt::format("the number of bounces must be a whole number from 0 or \"unlimited\", not \"{}\"", text)};
+    return n;
+}
+
+std::string max_bounces_text(int max_bounces) { return max_bounces == unlimited_bounces ? "unlimited" : std::to_string(max_bounces); }
+
+Result<Strategy> parse_strategy(std::string_view text) { return value_of(strategy_words, text, "strategy"); }
+std::string_view to_string(Strategy strategy) { return word_of(strategy_words, strategy); }
+Result<PixelFilter> parse_filter(std::string_view text) { return value_of(filter_words, text, "filter"); }
+std::string_view to_string(PixelFilter filter) { return word_of(filter_words, filter); }
+
+} // namespace blush

@@ -1,0 +1,188 @@
+#include "scene/validate.h"
+
+#include "scene/affine.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <string_view>
+
+namespace blush {
+namespace {
+
+// Collects the first thing wrong with one record.
+class Check {
+public:
+    explicit Check(std::string where) : where_(std::move(where)) {}
+    Check(std::string_view kind, const std::string& name) : where_(fmt::format("{} \"{}\"", kind, name)) {}
+
+    void is(bool good, std::string what) {
+        if (!good && !error_) error_ = Error{.what = std::move(what), .where = where_};
+    }
+    void between(std::string_view field, double value, double low, double high) {
+        if (!(value >= low && value <= high)) is(false, fmt::format("{} must be from {} to {}, not {}", field, low, high, value));
+    }
+    void not_negative(std::string_view field, double value) {
+        if (!(value >= 0 && std::isfinite(value))) is(false, fmt::format("{} must be a number from 0, not {}", field, value));
+    }
+    void positive(std::string_view field, double value) {
+        if (!(value > 0 && std::isfinite(value))) is(false, fmt::format("{} must be above 0, not {}", field, value));
+    }
+    void finite(std::string_view field, double value) {
+        if (!std::isfinite(value)) is(false, fmt::format("{} must be a finite number, not {}", field, value));
+    }
+    void finite(std::string_view field, const Vec3& v) {
+        for (const float c : {v.x, v.y, v.z}) finite(field, c);
+    }
+    void color(std::string_view field, const Vec3& v) {
+        for (const float c : {v.x, v.y, v.z}) not_negative(field, c);
+    }
+    void texture(std::string_view field, const TextureRef& ref) {
+        is(ref.uv_set <= 1, fmt::format("{} must use UV set 0 or 1, not {}", field, ref.uv_set));
+        for (const float c : {ref.offset.x, ref.offset.y, ref.scale.x, ref.scale.y, ref.rotation_radians}) finite(field, c);
+    }
+    void lens(const Lens& lens) {
+        is(lens.yfov_radians > 0 && lens.yfov_radians < std::numbers::pi_v<float>,
+           fmt::format("field of view must be above 0 and below pi radians, not {}", lens.yfov_radians));
+        positive("orthographic height", lens.ymag);
+        not_negative("aperture radius", lens.aperture_radius);
+        positive("focus distance", lens.focus_distance);
+    }
+
+    Result<void> done() && {
+        if (error_) return std::move(*error_);
+        return {};
+    }
+
+private:
+    std::string where_;
+    std::optional<Error> error_;
+};
+
+} // namespace
+
+Result<void> validate(const Node& node) {
+    Check check("node", node.name);
+    const Transform& local = node.local;
+    check.finite("translation", local.translation);
+    check.finite("scale", local.scale);
+    const Quat& q = local.rotation;
+    const double norm = std::sqrt(double(q.x) * q.x + double(q.y) * q.y + double(q.z) * q.z + double(q.w) * q.w);
+    check.is(norm > 1e-6 && std::isfinite(norm), "rotation must be a quaternion of finite length above 0");
+    check.is(!local.matrix || is_finite(to_double(*local.matrix)), "matrix must hold finite numbers");
+    return std::move(check).done();
+}
+
+Result<void> validate(const Material& material) {
+    Check check("material", material.name);
+    check.color("base colour", material.base_color);
+    check.between("opacity", material.opacity, 0, 1);
+    check.between("metallic", material.metallic, 0, 1);
+    check.between("roughness", material.roughness, 0, 1);
+    check.color("emissive colour", material.emissive);
+    check.not_negative("emissive strength", material.emissive_strength);
+    check.finite("normal scale", material.normal_scale);
+    check.not_negative("alpha cutoff", material.alpha_cutoff);
+    // KHR_materials_ior: 0 stands for an infinite index, everything else is at least that of a vacuum.
+    if (material.ior != 0) check.between("index of refraction", material.ior, 1, 1000);
+    check.between("specular", material.specular, 0, 1);
+    check.color("specular colour", material.specular_color);
+    check.between("transmission", material.transmission, 0, 1);
+    check.not_negative("thickness", material.thickness);
+    check.color("attenuation colour", material.attenuation_color);
+    check.not_negative("attenuation distance", material.attenuation_distance);
+    check.texture("base colour texture", material.base_color_texture);
+    check.texture("metallic-roughness texture", material.metallic_roughness_texture);
+    check.texture("normal texture", material.normal_texture);
+    check.texture("emissive texture", material.emissive_texture);
+    check.texture("specular texture", material.specular_texture);
+    check.texture("specular colour texture", material.specular_color_texture);
+    check.texture("transmission texture", material.transmission_texture);
+    return std::move(check).done();
+}
+
+Result<void> validate(const Light& light) {
+    constexpr double pi = std::numbers::pi_v<float>;
+    Check check("light", light.name);
+    check.color("colour", light.color);
+    check.between("temperature", light.kelvin, 1000, 40000);
+    check.not_negative("intensity", light.intensity);
+    check.not_negative("radius", light.radius);
+    check.between("angle", light.angle_radians, 0, pi);
+    check.between("outer cone", light.outer_cone_radians, 0, pi / 2);
+    check.between("inner cone", light.inner_cone_radians, 0, light.outer_cone_radians);
+    check.positive("width", light.width);
+    check.positive("height", light.height);
+    return std::move(check).done();
+}
+
+Result<void> validate(const Texture& texture) {
+    Check check("texture", texture.name);
+    if (const Image* image = texture.image.get()) {
+        check.is(image->width > 0 && image->height > 0 && image->channels >= 1 && image->channels <= 4, "image must have pixels in 1 to 4 channels");
+        const size_t values = size_t(std::max(image->width, 0)) * size_t(std::max(image->height, 0)) * size_t(std::max(image->channels, 0));
+        check.is(std::max(image->bytes.size(), image->floats.size()) == values && std::min(image->bytes.size(), image->floats.size()) == 0,
+                 "image must hold width x height x channels values, of one kind");
+    }
+    return std::move(check).done();
+}
+
+Result<void> validate(const Camera& camera) {
+    Check check("camera", camera.name);
+    check.lens(camera.lens);
+    return std::move(check).done();
+}
+
+Result<void> validate(const Lens& lens) {
+    Check check("lens of the view");
+    check.lens(lens);
+    return std::move(check).done();
+}
+
+Result<void> validate(const Environment& environment) {
+    Check check("environment");
+    check.color("colour", environment.color);
+    check.not_negative("intensity", environment.intensity);
+    check.finite("rotation", environment.rotation_degrees);
+    if (environment.kind == Environment::Kind::image) {
+        const Image* image = environment.image.get();
+        check.is(image && image->width > 0 && image->height > 0 && image->channels >= 3 && !image->floats.empty(),
+                 "image must be there, in float, with 3 or 4 channels");
+    }
+    return std::move(check).done();
+}
+
+Result<void> validate(const RenderSettings& settings) {
+    Check check("render settings");
+    check.between("width", settings.width, 1, 65536);
+    check.between("height", settings.height, 1, 65536);
+    check.is(settings.resolution_scale > 0 && settings.resolution_scale <= 4,
+             fmt::format("resolution scale must be above 0 and at most 4, not {}", settings.resolution_scale));
+    check.not_negative("samples per pixel", double(settings.spp));
+    check.not_negative("seconds", settings.seconds);
+    check.not_negative("error", settings.error);
+    check.not_negative("first sample", double(settings.first_sample));
+    check.is(settings.spp == 0 || settings.first_sample < settings.spp,
+             fmt::format("first sample must be below the last, {}, not {}", settings.spp, settings.first_sample));
+    check.is(settings.max_bounces >= unlimited_bounces, fmt::format("bounces must be a number from 0, not {}", settings.max_bounces));
+    const Roulette& roulette = settings.roulette;
+    check.not_negative("roulette's start", roulette.start);
+    check.between("roulette's floor", roulette.floor, 0, 1);
+    check.is(roulette.cap > 0 && roulette.cap <= 1, fmt::format("roulette's cap must be above 0 and at most 1, not {}", roulette.cap));
+    check.is(roulette.floor <= roulette.cap, "roulette's floor must not be above its cap");
+    check.is(roulette.probability > 0 && roulette.probability <= 1,
+             fmt::format("roulette's probability must be above 0 and at most 1, not {}", roulette.probability));
+    check.between("roulette's threshold", roulette.threshold, 0, 1);
+    return std::move(check).done();
+}
+
+Result<void> validate(const ViewSettings& settings) {
+    Check check("view settings");
+    check.between("exposure", settings.exposure_ev, -100, 100);
+    check.is(settings.gamma > 0 && settings.gamma <= 100, fmt::format("gamma must be above 0 and at most 100, not {}", settings.gamma));
+    return std::move(check).done();
+}
+
+} // namespace blush

@@ -1,0 +1,41 @@
+// What a scene really uses. A kernel is instantiated for a set of features and leaves out the code of all others;
+// any superset of a scene's features gives the same image bit for bit.
+#pragma once
+
+#include <cstdint>
+
+namespace blush {
+
+enum class Feature : uint32_t {
+    specular = 1u << 0,            // some material has a GGX reflection lobe (all but KHR_materials_specular 0)
+    transmission = 1u << 1,        // some material transmits
+    absorption = 1u << 2,          // some solid has an attenuation colour
+    textures = 1u << 3,            // some material reads a texture
+    normal_maps = 1u << 4,
+    vertex_colors = 1u << 5,
+    unlit = 1u << 6,
+    emissive_triangles = 1u << 7,
+    point_lights = 1u << 8,        // points and spots without size
+    suns = 1u << 9,
+    environment = 1u << 10,
+    instances = 1u << 11,          // some mesh is traced through an instance's transform
+    energy_compensation = 1u << 12,
+    thin_lens = 1u << 13,
+    orthographic = 1u << 14,
+};
+
+// A set of features; usable as a template argument.
+struct Features {
+    uint32_t bits = 0;
+
+    constexpr bool has(Feature f) const { return bits & uint32_t(f); }
+    constexpr Features with(Feature f) const { return {bits | uint32_t(f)}; }
+    constexpr Features without(Feature f) const { return {bits & ~uint32_t(f)}; }
+    constexpr bool contains(Features other) const { return (bits & other.bits) == other.bits; }
+    constexpr bool operator==(const Features&) const = default;
+};
+
+inline constexpr Features no_features{};
+inline constexpr Features all_features{(1u << 15) - 1};
+
+} // namespace blush
