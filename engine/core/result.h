@@ -12,9 +12,9 @@ namespace blush {
 
 // What went wrong and where. `file` may be empty; `where` is a JSON path, a byte offset, an option name.
 struct Error {
-    std::string file;
-    std::string what;
-    std::string where;
+    std::string file = {};
+    std::string what = {};
+    std::string where = {};
 
     // "FILE: what, where" with absent parts left out: the line after "blush: error: ".
     std::string text() const {
@@ -30,8 +30,8 @@ struct Error {
 struct Diagnostic {
     enum class Severity { note, warning };
     Severity severity = Severity::warning;
-    std::string what;
-    std::string where;
+    std::string what = {};
+    std::string where = {};
     bool operator==(const Diagnostic&) const = default;
 };
 

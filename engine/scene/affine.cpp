@@ -4,35 +4,15 @@
 
 namespace blush {
 
-Vec3d operator+(const Vec3d& a, const Vec3d& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-Vec3d operator-(const Vec3d& a, const Vec3d& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-Vec3d operator*(const Vec3d& a, double s) { return {a.x * s, a.y * s, a.z * s}; }
-double dot(const Vec3d& a, const Vec3d& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-Vec3d cross(const Vec3d& a, const Vec3d& b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
-double length(const Vec3d& a) { return std::hypot(a.x, a.y, a.z); }
-
-Vec3d normalized(const Vec3d& a) {
-    const double l = length(a);
-    return l > 0 ? a * (1 / l) : a;
-}
-
 Vec3d any_perpendicular(const Vec3d& a) {
     const Vec3d least = std::abs(a.x) < 0.6 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0};
-    return normalized(cross(a, least));
+    return normalize(cross(a, least));
 }
 
 Vec3d to_double(const Vec3& a) { return {a.x, a.y, a.z}; }
 Vec3 to_float(const Vec3d& a) { return {float(a.x), float(a.y), float(a.z)}; }
 Affined to_double(const Affine& a) { return {to_double(a.x), to_double(a.y), to_double(a.z), to_double(a.t)}; }
 Affine to_float(const Affined& a) { return {to_float(a.x), to_float(a.y), to_float(a.z), to_float(a.t)}; }
-
-Affined operator*(const Affined& a, const Affined& b) {
-    return {transform_vector(a, b.x), transform_vector(a, b.y), transform_vector(a, b.z), transform_point(a, b.t)};
-}
-
-Vec3d transform_point(const Affined& m, const Vec3d& p) { return transform_vector(m, p) + m.t; }
-Vec3d transform_vector(const Affined& m, const Vec3d& v) { return m.x * v.x + m.y * v.y + m.z * v.z; }
-double determinant(const Affined& m) { return dot(m.x, cross(m.y, m.z)); }
 
 bool is_finite(const Affined& m) {
     for (const Vec3d& c : {m.x, m.y, m.z, m.t})

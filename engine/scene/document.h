@@ -17,7 +17,7 @@ constexpr Gesture no_gesture = 0;
 class Document {
 public:
     Document() = default;
-    explicit Document(Project project) : project_(std::move(project)) {}
+    explicit Document(Project project) : project_(project), saved_(std::move(project)) {}
 
     const Project& project() const { return project_; }
     // Grows with every change of the project, undo and navigation included.
@@ -25,8 +25,10 @@ public:
 
     // Replaces everything and forgets the history: opening a file.
     void reset(Project project);
+    // An edit that changes nothing leaves no step. The oldest steps are forgotten after 500, or half a gigabyte.
     Result<void> apply(const Edit& edit, Gesture gesture = no_gesture);
-    // Camera navigation: changes the view's pose, not the history; undo leaves it where it is.
+    // Camera navigation: changes the view's pose (position, rotation, pivot, orthographic height), not the history, and is no modification;
+    // undo leaves it where it is.
     void navigate(const View& view);
 
     bool can_undo() const { return !past_.empty(); }
@@ -46,7 +48,11 @@ private:
         Project project;
         std::string label;
         Gesture gesture = no_gesture;
+        size_t bytes = 0; // that the step alone keeps alive, estimated
     };
+
+    bool travel(std::deque<Step>& from, std::deque<Step>& to);
+    void forget_oldest();
 
     Project project_;
     Project saved_;

@@ -1,6 +1,7 @@
 #include "scene/edit.h"
 
 #include "scene/edit_tree.h"
+#include "scene/references.h"
 #include "scene/validate.h"
 
 #include <fmt/format.h>
@@ -8,14 +9,8 @@
 namespace blush {
 namespace {
 
-template <class T> Error missing(std::string_view kind, Id<T> id) { return Error{.what = fmt::format("there is no {} {}", kind, id.value)}; }
-
-// None is fine, a stale id is not.
-template <class T> Result<void> expect_known(const Table<T>& table, Id<T> id, std::string_view kind, const std::string& where) {
-    if (!id || table.contains(id)) return {};
-    Error error = missing(kind, id);
-    error.where = where;
-    return error;
+template <class T> Error missing(std::string_view kind, Id<T> id) {
+    return Error{.what = fmt::format("there is no {} {}", kind, id.value)};
 }
 
 template <class T> Result<void> set_record(Table<T>& table, Id<T> id, const T& value, std::string_view kind) {
@@ -25,38 +20,18 @@ template <class T> Result<void> set_record(Table<T>& table, Id<T> id, const T& v
     return {};
 }
 
-Result<void> expect_references(const Scene& scene, const Node& node) {
-    const std::string where = fmt::format("node \"{}\"", node.name);
-    if (auto known = expect_known(scene.nodes, node.parent, "parent node", where); !known) return known;
-    if (auto known = expect_known(scene.meshes, node.mesh, "mesh", where); !known) return known;
-    if (auto known = expect_known(scene.lights, node.light, "light", where); !known) return known;
-    return expect_known(scene.cameras, node.camera, "camera", where);
-}
-
-bool is_below(const Scene& scene, Id<Node> node, Id<Node> ancestor) {
-    for (size_t steps = 0; node && steps <= scene.nodes.size(); ++steps) {
-        if (node == ancestor) return true;
-        const Node* n = scene.nodes.find(node);
-        node = n ? n->parent : Id<Node>{};
-    }
-    return false;
-}
-
 // One overload per edit; `p` is thrown away when an error comes back.
 
 Result<void> apply_to(Project& p, const SetNode& e) {
-    if (auto known = expect_references(p.scene, e.node); !known) return known;
+    if (auto known = check_references(p.scene, e.node); !known) return known;
     if (is_below(p.scene, e.node.parent, e.id))
         return Error{.what = "a node cannot hang below itself", .where = fmt::format("node \"{}\"", e.node.name)};
     return set_record(p.scene.nodes, e.id, e.node, "node");
 }
 
 Result<void> apply_to(Project& p, const SetMaterial& e) {
-    const Material& m = e.material;
-    for (const TextureRef* ref : {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture, &m.emissive_texture,
-                                  &m.specular_texture, &m.specular_color_texture, &m.transmission_texture})
-        if (auto known = expect_known(p.scene.textures, ref->texture, "texture", fmt::format("material \"{}\"", m.name)); !known) return known;
-    return set_record(p.scene.materials, e.id, m, "material");
+    if (auto known = check_references(p.scene, e.material); !known) return known;
+    return set_record(p.scene.materials, e.id, e.material, "material");
 }
 
 Result<void> apply_to(Project& p, const SetLight& e) { return set_record(p.scene.lights, e.id, e.light, "light"); }
@@ -66,11 +41,11 @@ Result<void> apply_to(Project& p, const SetTexture& e) { return set_record(p.sce
 Result<void> apply_to(Project& p, const AssignMaterial& e) {
     const Mesh* mesh = p.scene.meshes.find(e.mesh);
     if (!mesh) return missing("mesh", e.mesh);
-    const std::string where = fmt::format("mesh \"{}\"", mesh->name);
-    if (e.part < 0 || size_t(e.part) >= mesh->parts.size()) return Error{.what = fmt::format("there is no part {}", e.part), .where = where};
-    if (auto known = expect_known(p.scene.materials, e.material, "material", where); !known) return known;
+    if (e.part < 0 || size_t(e.part) >= mesh->parts.size())
+        return Error{.what = fmt::format("there is no part {}", e.part), .where = fmt::format("mesh \"{}\"", mesh->name)};
     Mesh changed = *mesh;
     changed.parts[size_t(e.part)].material = e.material;
+    if (auto known = check_references(p.scene, changed); !known) return known;
     p.scene.meshes.set(e.mesh, std::move(changed));
     return {};
 }
@@ -91,7 +66,7 @@ Result<void> apply_to(Project& p, const AddLight& e) {
     if (auto valid = validate(e.node); !valid) return valid;
     Node node = e.node;
     node.light = p.scene.lights.add(e.light);
-    if (auto known = expect_references(p.scene, node); !known) return known;
+    if (auto known = check_references(p.scene, node); !known) return known;
     p.scene.nodes.add(std::move(node));
     return {};
 }
@@ -109,6 +84,7 @@ Result<void> apply_to(Project& p, const RemoveNode& e) {
 }
 
 Result<void> apply_to(Project& p, const Import& e) {
+    if (auto valid = validate(e.scene); !valid) return valid;
     merge(p.scene, e.scene);
     return {};
 }
@@ -116,7 +92,8 @@ Result<void> apply_to(Project& p, const Import& e) {
 Result<void> apply_to(Project& p, const LookThrough& e) {
     const Node* node = p.scene.nodes.find(e.camera_node);
     if (!node) return missing("node", e.camera_node);
-    if (!p.scene.cameras.contains(node->camera)) return Error{.what = "there is no camera on this node", .where = fmt::format("node \"{}\"", node->name)};
+    if (!p.scene.cameras.contains(node->camera))
+        return Error{.what = "there is no camera on this node", .where = fmt::format("node \"{}\"", node->name)};
     p.scene.view = view_through(p.scene, e.camera_node);
     return {};
 }

@@ -1,5 +1,7 @@
 #include "scene/edit_tree.h"
 
+#include "scene/texture_slots.h"
+
 #include <fmt/format.h>
 
 #include <unordered_map>
@@ -59,7 +61,8 @@ std::vector<Id<Node>> subtree(const Scene& scene, Id<Node> root) {
     for (const auto& [id, node] : scene.nodes) children[node.parent.value].push_back(id);
     found.push_back(root);
     for (size_t next = 0; next < found.size(); ++next)
-        if (const auto it = children.find(found[next].value); it != children.end()) found.insert(found.end(), it->second.begin(), it->second.end());
+        if (const auto it = children.find(found[next].value); it != children.end())
+            found.insert(found.end(), it->second.begin(), it->second.end());
     return found;
 }
 
@@ -82,9 +85,7 @@ void remove_subtree(Scene& scene, Id<Node> root) {
 void merge(Scene& scene, const Scene& other) {
     const IdMap<Texture> textures = merge_table(scene.textures, other.textures, unchanged);
     const IdMap<Material> materials = merge_table(scene.materials, other.materials, [&](Material& m) {
-        for (TextureRef* ref : {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture, &m.emissive_texture,
-                                &m.specular_texture, &m.specular_color_texture, &m.transmission_texture})
-            ref->texture = textures(ref->texture);
+        for (const TextureSlot& slot : texture_slots) (m.*slot.ref).texture = textures((m.*slot.ref).texture);
     });
     const IdMap<Mesh> meshes = merge_table(scene.meshes, other.meshes, [&](Mesh& mesh) {
         for (MeshPart& part : mesh.parts) part.material = materials(part.material);

@@ -55,9 +55,9 @@ template <class T> bool parse_whole(std::string_view text, T& number) {
 
 Result<float> parse_probability(std::string_view text, std::string_view name, bool zero_allowed) {
     float p = 0;
-    if (!parse_whole(text, p) || !(p >= 0 && p <= 1) || (p == 0 && !zero_allowed))
-        return Error{.what = fmt::format("roulette's {} must be a number {} 1, not \"{}\"", name, zero_allowed ? "from 0 to" : "above 0 and at most", text)};
-    return p;
+    if (parse_whole(text, p) && p >= 0 && p <= 1 && (p > 0 || zero_allowed)) return p;
+    const std::string_view range = zero_allowed ? "from 0 to 1" : "above 0 and at most 1";
+    return Error{.what = fmt::format("roulette's {} must be a number {}, not \"{}\"", name, range, text)};
 }
 
 struct Item {
@@ -78,8 +78,8 @@ Result<void> parse_rule(const Item& item, Roulette& roulette) {
     roulette.rule = *rule;
     const bool constant = *rule == Roulette::Rule::constant;
     const bool takes_number = constant || *rule == Roulette::Rule::biased_cut;
-    if (takes_number != item.has_value)
-        return Error{.what = fmt::format(takes_number ? "roulette rule {0} needs a number, as in {0}=0.5" : "roulette rule {0} takes no number", item.name)};
+    if (takes_number && !item.has_value) return Error{.what = fmt::format("roulette rule {0} needs a number, as in {0}=0.5", item.name)};
+    if (!takes_number && item.has_value) return Error{.what = fmt::format("roulette rule {} takes no number", item.name)};
     if (!takes_number) return {};
     const Result<float> number = parse_probability(item.value, item.name, !constant);
     if (!number) return number.error();

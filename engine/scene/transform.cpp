@@ -8,15 +8,17 @@
 namespace blush {
 namespace {
 
+Vec3d normalized_or_zero(const Vec3d& a) { return length(a) > 0 ? normalize(a) : Vec3d{0, 0, 0}; }
+
 // Axis directions of a matrix, made right-handed and orthonormal. A column that a zero scale wiped out is filled in from the others,
 // so that flattened objects keep their rotation.
 Affined rotation_of(const Affined& m) {
-    Vec3d z = normalized(m.z), y = normalized(m.y);
-    const Vec3d x = normalized(m.x);
-    if (length(z) == 0) z = normalized(cross(x, y));
+    Vec3d z = normalized_or_zero(m.z), y = normalized_or_zero(m.y);
+    const Vec3d x = normalized_or_zero(m.x);
+    if (length(z) == 0) z = normalized_or_zero(cross(x, y));
     if (length(z) == 0) z = length(y) > 0 ? any_perpendicular(y) : length(x) > 0 ? any_perpendicular(x) : Vec3d{0, 0, 1};
     if (length(y) == 0) y = cross(z, x);
-    Vec3d right = normalized(cross(y, z));
+    Vec3d right = normalized_or_zero(cross(y, z));
     if (length(right) == 0) right = any_perpendicular(z);
     return {right, cross(z, right), z, {0, 0, 0}};
 }
@@ -47,7 +49,7 @@ Transform to_transform(const Affined& matrix) {
     trs.translation = to_float(matrix.t);
     trs.rotation = to_quat(rotation);
     // Signed lengths: a mirrored axis comes out as a negative scale.
-    trs.scale = to_float({dot(matrix.x, rotation.x), dot(matrix.y, rotation.y), dot(matrix.z, rotation.z)});
+    trs.scale = to_float(Vec3d{dot(matrix.x, rotation.x), dot(matrix.y, rotation.y), dot(matrix.z, rotation.z)});
     Transform without_matrix = trs;
     without_matrix.matrix.reset();
     return relative_error(matrix, without_matrix) <= 1e-5 ? without_matrix : trs;

@@ -1,11 +1,12 @@
 #include "scene/validate.h"
 
 #include "scene/affine.h"
+#include "scene/texture_slots.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <string_view>
 
@@ -44,7 +45,7 @@ public:
         for (const float c : {ref.offset.x, ref.offset.y, ref.scale.x, ref.scale.y, ref.rotation_radians}) finite(field, c);
     }
     void lens(const Lens& lens) {
-        is(lens.yfov_radians > 0 && lens.yfov_radians < std::numbers::pi_v<float>,
+        is(lens.yfov_radians > 0 && lens.yfov_radians < pi,
            fmt::format("field of view must be above 0 and below pi radians, not {}", lens.yfov_radians));
         positive("orthographic height", lens.ymag);
         not_negative("aperture radius", lens.aperture_radius);
@@ -93,18 +94,11 @@ Result<void> validate(const Material& material) {
     check.not_negative("thickness", material.thickness);
     check.color("attenuation colour", material.attenuation_color);
     check.not_negative("attenuation distance", material.attenuation_distance);
-    check.texture("base colour texture", material.base_color_texture);
-    check.texture("metallic-roughness texture", material.metallic_roughness_texture);
-    check.texture("normal texture", material.normal_texture);
-    check.texture("emissive texture", material.emissive_texture);
-    check.texture("specular texture", material.specular_texture);
-    check.texture("specular colour texture", material.specular_color_texture);
-    check.texture("transmission texture", material.transmission_texture);
+    for (const TextureSlot& slot : texture_slots) check.texture(slot.name, material.*slot.ref);
     return std::move(check).done();
 }
 
 Result<void> validate(const Light& light) {
-    constexpr double pi = std::numbers::pi_v<float>;
     Check check("light", light.name);
     check.color("colour", light.color);
     check.between("temperature", light.kelvin, 1000, 40000);
@@ -121,7 +115,8 @@ Result<void> validate(const Light& light) {
 Result<void> validate(const Texture& texture) {
     Check check("texture", texture.name);
     if (const Image* image = texture.image.get()) {
-        check.is(image->width > 0 && image->height > 0 && image->channels >= 1 && image->channels <= 4, "image must have pixels in 1 to 4 channels");
+        check.is(image->width > 0 && image->height > 0 && image->channels >= 1 && image->channels <= 4,
+                 "image must have pixels in 1 to 4 channels");
         const size_t values = size_t(std::max(image->width, 0)) * size_t(std::max(image->height, 0)) * size_t(std::max(image->channels, 0));
         check.is(std::max(image->bytes.size(), image->floats.size()) == values && std::min(image->bytes.size(), image->floats.size()) == 0,
                  "image must hold width x height x channels values, of one kind");

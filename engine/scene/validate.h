@@ -1,5 +1,4 @@
 // What every value in a project must keep, whoever made it: finite numbers in ranges that mean something.
-// Whether ids exist is the business of whoever holds the scene (edit.cpp).
 #pragma once
 
 #include "core/result.h"
@@ -19,5 +18,9 @@ Result<void> validate(const Lens& lens);
 Result<void> validate(const Environment& environment);
 Result<void> validate(const RenderSettings& settings);
 Result<void> validate(const ViewSettings& settings);
+// Array sizes and indices; the numbers themselves are the renderer's business, which drops what it cannot use.
+Result<void> validate(const Mesh& mesh);
+// Every record, every id (references.h), and that nodes form a forest.
+Result<void> validate(const Scene& scene);
 
 } // namespace blush

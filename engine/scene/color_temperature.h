@@ -1,0 +1,15 @@
+// The colour of a glowing black body, for lights that are set in kelvin.
+#pragma once
+
+#include "core/vec.h"
+
+namespace blush {
+
+constexpr float min_kelvin = 1000, max_kelvin = 40000;
+
+// Linear Rec.709 RGB of a black body at `kelvin` (clamped to 1000 .. 40000), scaled to luminance 1, so that turning the temperature does
+// not dim the light: Planck's law, summed over the visible range against the CIE 1931 observer. Components outside Rec.709 are clamped to 0
+// before scaling; below about 1900 K blue is.
+Vec3 black_body_color(float kelvin);
+
+} // namespace blush

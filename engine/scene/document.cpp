@@ -1,0 +1,84 @@
+#include "scene/document.h"
+
+#include "scene/history_bytes.h"
+
+namespace blush {
+namespace {
+
+constexpr size_t max_steps = 500;
+constexpr size_t max_history_bytes = size_t(1) << 29;
+
+// What navigation moves; the rest of a view (its lens) is edited.
+void set_pose(View& view, const View& pose) {
+    view.position = pose.position;
+    view.rotation = pose.rotation;
+    view.pivot_distance = pose.pivot_distance;
+    view.lens.ymag = pose.lens.ymag; // an orthographic view comes closer by growing
+}
+
+} // namespace
+
+void Document::reset(Project project) {
+    project_ = saved_ = std::move(project);
+    past_.clear();
+    future_.clear();
+    ++revision_;
+}
+
+Result<void> Document::apply(const Edit& edit, Gesture gesture) {
+    Result<Project> next = blush::apply(project_, edit);
+    if (!next) return next.error();
+    if (*next == project_) return {};
+    const bool continues = gesture != no_gesture && future_.empty() && !past_.empty() && past_.back().gesture == gesture;
+    if (!continues) {
+        past_.push_back({project_, label(edit, project_), gesture, bytes_held(project_, *next)});
+        future_.clear();
+        forget_oldest();
+    }
+    project_ = *std::move(next);
+    ++revision_;
+    return {};
+}
+
+void Document::forget_oldest() {
+    size_t bytes = 0;
+    for (const Step& step : past_) bytes += step.bytes;
+    while (past_.size() > max_steps || (past_.size() > 1 && bytes > max_history_bytes)) {
+        bytes -= past_.front().bytes;
+        past_.pop_front();
+    }
+}
+
+void Document::navigate(const View& view) {
+    View moved = project_.scene.view;
+    set_pose(moved, view);
+    if (moved == project_.scene.view) return;
+    project_.scene.view = moved;
+    // As if every earlier and later step had been seen from here: undo and redo then leave the camera where it is, unless the step
+    // itself moved it.
+    for (Step& step : past_) set_pose(step.project.scene.view, view);
+    for (Step& step : future_) set_pose(step.project.scene.view, view);
+    set_pose(saved_.scene.view, view);
+    ++revision_;
+}
+
+std::string Document::undo_label() const { return past_.empty() ? std::string() : past_.back().label; }
+std::string Document::redo_label() const { return future_.empty() ? std::string() : future_.back().label; }
+
+// A step holds the project on its far side: going through it swaps that with the present one and puts the step on the other stack.
+bool Document::travel(std::deque<Step>& from, std::deque<Step>& to) {
+    if (from.empty()) return false;
+    Step step = std::move(from.back());
+    from.pop_back();
+    std::swap(step.project, project_);
+    to.push_back(std::move(step));
+    ++revision_;
+    return true;
+}
+
+bool Document::undo() { return travel(past_, future_); }
+bool Document::redo() { return travel(future_, past_); }
+
+bool Document::modified() const { return project_ != saved_; }
+
+} // namespace blush

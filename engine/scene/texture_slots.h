@@ -1,0 +1,26 @@
+// The places where a material can hold a texture, as a list to loop over.
+#pragma once
+
+#include "scene/scene.h"
+
+#include <array>
+#include <string_view>
+
+namespace blush {
+
+struct TextureSlot {
+    std::string_view name;
+    TextureRef Material::*ref;
+};
+
+inline constexpr std::array<TextureSlot, 7> texture_slots{{
+    {"base colour texture", &Material::base_color_texture},
+    {"metallic-roughness texture", &Material::metallic_roughness_texture},
+    {"normal texture", &Material::normal_texture},
+    {"emissive texture", &Material::emissive_texture},
+    {"specular texture", &Material::specular_texture},
+    {"specular colour texture", &Material::specular_color_texture},
+    {"transmission texture", &Material::transmission_texture},
+}};
+
+} // namespace blush

@@ -1,0 +1,59 @@
+#include "scene/references.h"
+#include "scene/validate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace blush {
+namespace {
+
+template <class T> Result<void> validate_records(const Table<T>& table) {
+    for (const auto& [id, record] : table)
+        if (auto valid = validate(record); !valid) return valid;
+    return {};
+}
+
+template <class T> Result<void> check_all_references(const Scene& scene, const Table<T>& table) {
+    for (const auto& [id, record] : table)
+        if (auto known = check_references(scene, record); !known) return known;
+    return {};
+}
+
+bool array_fits(size_t size, size_t positions) { return size == 0 || size == positions; }
+
+bool is_whole(const Geometry& g) {
+    const size_t n = g.positions.size();
+    return array_fits(g.normals.size(), n) && array_fits(g.tangents.size(), n) && array_fits(g.uv0.size(), n) &&
+           array_fits(g.uv1.size(), n) && array_fits(g.colors.size(), n) && g.indices.size() % 3 == 0 &&
+           std::ranges::all_of(g.indices, [n](uint32_t i) { return i < n; });
+}
+
+} // namespace
+
+Result<void> validate(const Mesh& mesh) {
+    for (const MeshPart& part : mesh.parts)
+        if (!part.geometry || !is_whole(*part.geometry))
+            return Error{.what = "geometry's arrays and indices do not fit together", .where = fmt::format("mesh \"{}\"", mesh.name)};
+    return {};
+}
+
+Result<void> validate(const Scene& scene) {
+    if (auto valid = validate_records(scene.nodes); !valid) return valid;
+    if (auto valid = validate_records(scene.meshes); !valid) return valid;
+    if (auto valid = validate_records(scene.materials); !valid) return valid;
+    if (auto valid = validate_records(scene.textures); !valid) return valid;
+    if (auto valid = validate_records(scene.lights); !valid) return valid;
+    if (auto valid = validate_records(scene.cameras); !valid) return valid;
+    if (auto valid = validate(scene.environment); !valid) return valid;
+    if (auto valid = validate(scene.view.lens); !valid) return valid;
+    if (auto known = check_all_references(scene, scene.nodes); !known) return known;
+    if (auto known = check_all_references(scene, scene.meshes); !known) return known;
+    if (auto known = check_all_references(scene, scene.materials); !known) return known;
+    for (const auto& [id, node] : scene.nodes)
+        if (is_below(scene, node.parent, id))
+            return Error{.what = "a node cannot hang below itself", .where = fmt::format("node \"{}\"", node.name)};
+    return {};
+}
+
+} // namespace blush
