@@ -1,0 +1,100 @@
+// Light from infinitely far away: a lat-long map with bilinear filtering, and directions drawn from it.
+//
+// The map's centre column looks along -Z, its top row along +Y; to the right of the centre is +X. Radiance is interpolated
+// between texel centres, so the pieces on which a density is constant are the cells between texel centres, not the texels:
+// a cell is drawn with an exact probability by what its corners shine, a direction in it uniformly in solid angle. That
+// density is p / solid angle: no division by the sine of the polar angle, and above 0 wherever the filtered map is.
+#pragma once
+
+#include "core/distribution.h"
+
+namespace blush {
+
+// A row of cells, from theta = `begin` to `end`. Heights above the nearer pole keep their digits next to it, where cosines
+// do not: a row of an 8k map at the pole spans less than the spacing of floats at 1.
+struct EnvironmentRow {
+    float begin, end; // sin^2(angle / 2), the angle measured from the nearer pole
+    float pole;       // +1: from +Y, -1: from -Y
+    float density;    // 1 / solid angle of a cell of this row, 1/sr
+};
+
+// Columns of cells wrap around: cell c lies between the centres of texels c - 1 and c. There are height + 1 rows, the first and
+// the last of half height between a pole and the centres of the texels next to it. A uniform environment is a map of 1 x 1
+// texel, the lack of one a black map.
+struct EnvironmentTables {
+    const float* texels = nullptr;               // RGB >= 0, finite, top row first
+    const uint32_t* row_thresholds = nullptr;    // height + 1
+    const uint32_t* column_thresholds = nullptr; // width for each row of cells
+    const EnvironmentRow* rows = nullptr;        // height + 1
+    int32_t width = 0, height = 0;
+    Vec3 scale{0, 0, 0}; // radiance in nits of a texel of 1
+    float rotation = 0;  // of the map about +Y, counter-clockwise seen from above, in turns, [-0.5, 0.5]
+};
+
+} // namespace blush
+
+namespace blush::inline BLUSH_ISA {
+
+template <class F> struct EnvironmentCell {
+    Int<F> column, row;
+    F x, y; // where in the cell, [0, 1): the weights of its right column and its lower row
+};
+
+// The cell seen in a direction of any length. Directions that are not finite give some cell.
+template <class F> EnvironmentCell<F> environment_cell(const EnvironmentTables& env, const Vec<F>& direction) {
+    const F width = to_float(Int<F>(env.width)), height = to_float(Int<F>(env.height));
+    F u = atan2_turns(direction.x, F(-direction.z)) + (0.5f + env.rotation);
+    u = u - floor(u);
+    const F v = 2.f * atan2_turns(F(sqrt(direction.x * direction.x + direction.z * direction.z)), direction.y);
+    const F x = min(max(u * width + 0.5f, F(0.f)), width + 0.5f);
+    const F y = min(max(v * height + 0.5f, F(0.f)), height + 0.5f);
+    const F column = floor(x), row = floor(y);
+    const Int<F> c = to_int(column);
+    return {select(as_mask(c >= env.width), Int<F>(0), c), min(to_int(row), Int<F>(env.height)), x - column, y - row};
+}
+
+// Radiance in nits from `direction`; zero in lanes that are not active.
+template <class F> Vec<F> environment_radiance(const EnvironmentTables& env, const Vec<F>& direction, const Mask<F>& active) {
+    if (!any(active)) return splat<F>(0.f);
+    const EnvironmentCell<F> cell = environment_cell<F>(env, direction);
+    const Int<F> left = select(as_mask(cell.column == 0), Int<F>(env.width - 1), Int<F>(cell.column - 1)), right = cell.column;
+    const Int<F> top = max(Int<F>(cell.row - 1), Int<F>(0)) * env.width;
+    const Int<F> bottom = min(cell.row, Int<F>(env.height - 1)) * env.width;
+    const Vec<F> above = lerp(gather3<F>(env.texels, top + left), gather3<F>(env.texels, top + right), cell.x);
+    const Vec<F> below = lerp(gather3<F>(env.texels, bottom + left), gather3<F>(env.texels, bottom + right), cell.x);
+    return select(active, lerp(above, below, cell.y) * splat<F>(env.scale), splat<F>(0.f));
+}
+
+template <class F> struct EnvironmentSample {
+    Vec<F> direction; // unit, away from the scene
+    Vec<F> radiance;  // nits
+    F pdf;            // 1/sr
+};
+
+// Draws a direction. `u` in [0, 1) picks the row and the height in it, `bits` (all 32 uniform) the column and the azimuth.
+template <class F> EnvironmentSample<F> sample_environment(const EnvironmentTables& env, const F& u, const UInt<F>& bits) {
+    // u has but 24 bits; a hash fills in the rest, so that rows rarer than 2^-24 are drawn as often as their density says.
+    const UInt<F> upper = to_unsigned(to_int(F(u * 0x1p24f))) << 8;
+    const DiscreteSample<F> row = sample_discrete<F>(env.row_thresholds, Int<F>(0), env.height + 1, upper | (pcg_hash(bits) & 255u));
+    const DiscreteSample<F> column = sample_discrete<F>(env.column_thresholds, row.index * env.width, env.width, bits);
+
+    const F begin = gather_field(env.rows, &EnvironmentRow::begin, row.index), end = gather_field(env.rows, &EnvironmentRow::end, row.index);
+    const F s = begin + (end - begin) * row.remainder;
+    const F sin_theta = 2.f * sqrt(max(F(0.f), s * (1.f - s)));
+    const F cos_theta = gather_field(env.rows, &EnvironmentRow::pole, row.index) * (1.f - 2.f * s);
+    const F azimuth = (to_float(column.index) - 0.5f + column.remainder) / to_float(Int<F>(env.width)) - (0.5f + env.rotation);
+    const SinCos<F> a = sincos_turns(azimuth);
+    const Vec<F> direction{sin_theta * a.sin, cos_theta, -(sin_theta * a.cos)};
+    return {direction, environment_radiance<F>(env, direction, Mask<F>(true)),
+            row.probability * column.probability * gather_field(env.rows, &EnvironmentRow::density, row.index)};
+}
+
+// Density, 1/sr, with which sample_environment draws a direction.
+template <class F> F environment_pdf(const EnvironmentTables& env, const Vec<F>& direction) {
+    const EnvironmentCell<F> cell = environment_cell<F>(env, direction);
+    const F p_row = discrete_probability<F>(env.row_thresholds, Int<F>(0), Int<F>(env.height + 1), cell.row);
+    const F p_column = discrete_probability<F>(env.column_thresholds, Int<F>(cell.row * env.width), Int<F>(env.width), cell.column);
+    return p_row * p_column * gather_field(env.rows, &EnvironmentRow::density, cell.row);
+}
+
+} // namespace blush::inline BLUSH_ISA

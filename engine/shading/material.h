@@ -1,0 +1,166 @@
+// What a surface is made of at one point: the factors of a material record times its textures, made legal.
+#pragma once
+
+#include "shading/bsdf.h"
+#include "shading/features.h"
+#include "shading/texture.h"
+
+namespace blush {
+
+enum MaterialFlag : int32_t {
+    material_double_sided = 1,
+    material_unlit = 2,    // base_color is what is seen; scatters nothing
+    material_thin = 4,     // transmits through a sheet without inside
+    material_emissive = 8, // emission is not black
+};
+enum MaterialAlpha : int32_t { alpha_opaque, alpha_mask, alpha_blend };
+
+// glTF's metallic-roughness material, compiled: factors are finite and in range, what no lobe reads has its default, so that
+// materials that look alike are alike. Each texture slot is the index of a TextureUse or -1.
+struct MaterialRecord {
+    Vec3 base_color{1, 1, 1};
+    float opacity = 1;
+    float metallic = 0, roughness = 1;
+    Vec3 emission{0, 0, 0}; // radiance in nits
+    float normal_scale = 1;
+    float ior = 1.5f;
+    float specular = 0;
+    Vec3 specular_color{1, 1, 1};
+    float transmission = 0;
+    Vec3 sigma_a{0, 0, 0}; // absorption inside a solid, 1/m
+    int32_t flags = 0;     // MaterialFlag
+    int32_t alpha = alpha_opaque; // MaterialAlpha
+    float alpha_cutoff = 0.5f;
+    int32_t base_color_texture = -1;
+    int32_t metallic_roughness_texture = -1;
+    int32_t normal_texture = -1;
+    int32_t emissive_texture = -1;
+    int32_t specular_texture = -1;
+    int32_t specular_color_texture = -1;
+    int32_t transmission_texture = -1;
+    bool operator==(const MaterialRecord&) const = default;
+};
+
+struct MaterialTables {
+    const MaterialRecord* materials = nullptr;
+    TextureTables textures;
+};
+
+} // namespace blush
+
+namespace blush::inline BLUSH_ISA {
+
+template <class F> struct MaterialPoint {
+    BsdfParams<F> bsdf;
+    Vec<F> emission;       // radiance in nits towards the emitting side
+    Vec<F> tangent_normal; // unit, in the frame of tangent, bitangent and shading normal; (0, 0, 1) without a normal map
+    Vec<F> sigma_a;        // 1/m, on the inner side of a solid
+    Mask<F> double_sided, unlit, emissive;
+};
+
+// Radiance in nits that the material emits at a point, front side. Zero in a kernel without emissive triangles.
+template <Features S, class F>
+Vec<F> emission_at(const MaterialTables& tables, const Int<F>& material, const Vec2T<F>& uv0, const Vec2T<F>& uv1, const Mask<F>& active) {
+    if constexpr (!S.has(Feature::emissive_triangles)) return splat<F>(0.f);
+    const Int<F> m = select(active, material, Int<F>(0));
+    const MaterialRecord* records = tables.materials;
+    const Vec<F> emission = gather_field3<F>(records, &MaterialRecord::emission, m);
+    if constexpr (!S.has(Feature::textures)) return emission;
+    return emission * rgb(lookup<F>(tables.textures, gather_field(records, &MaterialRecord::emissive_texture, m), uv0, uv1, active));
+}
+
+// Normal of a normal map, glTF 2.0 section 3.9.3: texels map [0, 1] to [-1, 1], scale stretches x and y. Texels that point
+// below the surface are lifted to it.
+template <class F>
+Vec<F> tangent_normal_at(const MaterialTables& tables, const Int<F>& m, const Vec2T<F>& uv0, const Vec2T<F>& uv1, const Mask<F>& active) {
+    const Vec<F> flat{F(0.f), F(0.f), F(1.f)};
+    const Int<F> use = gather_field(tables.materials, &MaterialRecord::normal_texture, m);
+    const Mask<F> mapped = active && as_mask(use >= 0);
+    if (!any(mapped)) return flat;
+    const Vec<F> texel = rgb(lookup<F>(tables.textures, use, uv0, uv1, active)) * 2.f - splat<F>(1.f);
+    const F scale = gather_field(tables.materials, &MaterialRecord::normal_scale, m);
+    const Vec<F> n{texel.x * scale, texel.y * scale, max(texel.z, F(0.f))};
+    const F squared = length_squared(n);
+    const Mask<F> usable = mapped && squared > F(1e-12f);
+    return select(usable, n / sqrt(select(usable, squared, F(1.f))), flat);
+}
+
+// Everything the estimator wants to know about the material at a hit. Lanes that are not active get some legal material.
+// Base colour is cut to [0, 1]: a surface that reflects more than it receives would make light out of nothing.
+template <Features S, class F>
+MaterialPoint<F> material_at(const MaterialTables& tables, const Int<F>& material, const Vec2T<F>& uv0, const Vec2T<F>& uv1,
+                             const Vec4T<F>& vertex_color, const Mask<F>& active) {
+    const Int<F> m = select(active, material, Int<F>(0));
+    const MaterialRecord* records = tables.materials;
+    const auto texture = [&](int32_t MaterialRecord::*slot) {
+        return lookup<F>(tables.textures, gather_field(records, slot, m), uv0, uv1, active);
+    };
+    const Int<F> flags = gather_field(records, &MaterialRecord::flags, m);
+    const auto flag = [&](MaterialFlag f) { return Mask<F>(as_mask((flags & int32_t(f)) != 0)); };
+
+    MaterialPoint<F> p;
+    p.double_sided = flag(material_double_sided);
+    p.emissive = Mask<F>(false);
+    if constexpr (S.has(Feature::emissive_triangles)) p.emissive = flag(material_emissive);
+    p.emission = emission_at<S, F>(tables, material, uv0, uv1, active);
+    p.unlit = Mask<F>(false);
+    if constexpr (S.has(Feature::unlit)) p.unlit = flag(material_unlit);
+
+    Vec<F> color = gather_field3<F>(records, &MaterialRecord::base_color, m);
+    if constexpr (S.has(Feature::textures)) color = color * rgb(texture(&MaterialRecord::base_color_texture));
+    if constexpr (S.has(Feature::vertex_colors)) color = color * rgb(vertex_color);
+    p.bsdf.base_color = {clamp01(color.x), clamp01(color.y), clamp01(color.z)};
+
+    p.bsdf.metallic = F(0.f);
+    p.bsdf.roughness = F(1.f);
+    p.bsdf.ior = F(1.5f);
+    p.bsdf.specular = F(0.f);
+    p.bsdf.specular_color = splat<F>(1.f);
+    if constexpr (S.has(Feature::specular)) {
+        p.bsdf.metallic = gather_field(records, &MaterialRecord::metallic, m);
+        p.bsdf.roughness = gather_field(records, &MaterialRecord::roughness, m);
+        p.bsdf.ior = gather_field(records, &MaterialRecord::ior, m);
+        p.bsdf.specular = gather_field(records, &MaterialRecord::specular, m);
+        p.bsdf.specular_color = gather_field3<F>(records, &MaterialRecord::specular_color, m);
+        if constexpr (S.has(Feature::textures)) {
+            const Vec4T<F> rough_metal = texture(&MaterialRecord::metallic_roughness_texture);
+            p.bsdf.roughness = clamp01(F(p.bsdf.roughness * rough_metal.y));
+            p.bsdf.metallic = clamp01(F(p.bsdf.metallic * rough_metal.z));
+            p.bsdf.specular = clamp01(F(p.bsdf.specular * texture(&MaterialRecord::specular_texture).w));
+            p.bsdf.specular_color = p.bsdf.specular_color * rgb(texture(&MaterialRecord::specular_color_texture));
+        }
+    }
+
+    p.bsdf.transmission = F(0.f);
+    p.bsdf.thin = Mask<F>(false);
+    if constexpr (S.has(Feature::transmission)) {
+        p.bsdf.transmission = gather_field(records, &MaterialRecord::transmission, m);
+        if constexpr (S.has(Feature::textures)) {
+            p.bsdf.transmission = clamp01(F(p.bsdf.transmission * texture(&MaterialRecord::transmission_texture).x));
+        }
+        p.bsdf.thin = flag(material_thin);
+    }
+    p.sigma_a = splat<F>(0.f);
+    if constexpr (S.has(Feature::absorption)) p.sigma_a = gather_field3<F>(records, &MaterialRecord::sigma_a, m);
+
+    p.tangent_normal = {F(0.f), F(0.f), F(1.f)};
+    if constexpr (S.has(Feature::normal_maps)) p.tangent_normal = tangent_normal_at<F>(tables, m, uv0, uv1, active);
+    return p;
+}
+
+// Part of the light that meets the surface at all, [0, 1], glTF 2.0 section 3.9.4: 1 if opaque, 0 or 1 if masked, else alpha
+// of factor, texture and vertex colour. For the filter of rays, one at a time.
+template <class F>
+F opacity_at(const MaterialTables& tables, const Int<F>& material, const Vec2T<F>& uv0, const Vec2T<F>& uv1, const F& vertex_alpha,
+             const Mask<F>& active) {
+    const Int<F> m = select(active, material, Int<F>(0));
+    const MaterialRecord* records = tables.materials;
+    const Int<F> texture = gather_field(records, &MaterialRecord::base_color_texture, m);
+    const F alpha = clamp01(F(gather_field(records, &MaterialRecord::opacity, m) * lookup<F>(tables.textures, texture, uv0, uv1, active).w *
+                              vertex_alpha));
+    const Int<F> mode = gather_field(records, &MaterialRecord::alpha, m);
+    const F masked = select(alpha >= gather_field(records, &MaterialRecord::alpha_cutoff, m), F(1.f), F(0.f));
+    return select(as_mask(mode == int32_t(alpha_opaque)), F(1.f), select(as_mask(mode == int32_t(alpha_mask)), masked, alpha));
+}
+
+} // namespace blush::inline BLUSH_ISA
