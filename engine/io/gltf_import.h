@@ -26,7 +26,7 @@ struct ImportedScene {
 
 struct ImportOptions {
     std::function<void(double fraction, const std::string& what)> on_progress; // called on the importing thread
-    const std::atomic<bool>* cancel = nullptr; // true ends the import with the error "cancelled"
+    const std::atomic<bool>* cancel = nullptr;                                 // true ends the import with the error "cancelled"
 };
 
 // The file's default scene, its first camera as the view (or one framed around the geometry), lights of

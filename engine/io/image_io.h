@@ -9,6 +9,7 @@
 #include <map>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace blush {
@@ -18,10 +19,11 @@ struct ImageLimits {
     int64_t max_pixels = int64_t(1) << 28; // checked against the header before anything is decoded
 };
 
-// 8-bit files stay bytes, everything else becomes float; at most 4 channels (more are cut). Values are not converted
-// between colour spaces. Errors: unreadable, unknown format, beyond the limits, truncated.
+// PNG, JPEG, EXR, HDR, TIFF, WebP and BMP, told apart by their first bytes. 8-bit files stay bytes, everything else becomes
+// float; at most 4 channels (more are cut). Values are not converted between colour spaces, alpha is not multiplied in.
+// Errors: unreadable, unknown format, beyond the limits, truncated.
 Result<ImagePtr> read_image(const std::filesystem::path& file, const ImageLimits& limits = {});
-// The same from memory; `name` is for messages and its extension hints at the format.
+// The same from memory; `name` is for messages.
 Result<ImagePtr> read_image(std::span<const uint8_t> bytes, const std::string& name, const ImageLimits& limits = {});
 
 // Named channels of one size, as in an EXR: "R", "albedo.R", "id.object", ... and string metadata ("blush:spp").
@@ -38,6 +40,7 @@ struct LayeredImage {
     const Channel* find(std::string_view name) const;
 };
 
+// Every channel of the file under its own name, as float, and its text metadata. Errors as in read_image.
 Result<LayeredImage> read_layers(const std::filesystem::path& file, const ImageLimits& limits = {});
 // Written to a temporary name beside the target and renamed: the file is whole or not there. EXR: float32, ZIP.
 Result<void> write_exr(const std::filesystem::path& file, const LayeredImage& image);

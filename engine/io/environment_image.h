@@ -1,0 +1,12 @@
+// Environment maps from any image file.
+#pragma once
+
+#include "io/image_io.h"
+
+namespace blush {
+
+// Lat-long image in float with 3 or 4 channels, as Environment::image wants it: 8-bit files are taken to be sRGB and made
+// linear, grey is spread over R, G and B; non-finite and negative values become 0. Errors as in read_image.
+Result<ImagePtr> read_environment_image(const std::filesystem::path& file, const ImageLimits& limits = {});
+
+} // namespace blush

@@ -1,0 +1,22 @@
+// Whole files in and out. Reading refuses what is not a plain file or is too large; writing is all or nothing.
+#pragma once
+
+#include "core/result.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace blush {
+
+// Errors: not there, not a regular file (devices and pipes may never end), larger than max_bytes, unreadable.
+Result<std::vector<uint8_t>> read_file(const std::filesystem::path& file, uint64_t max_bytes);
+
+// Writes to a temporary name beside the target, syncs, renames: whoever looks sees the old file or the new one, never a
+// part. The temporary is removed upon failure. Errors: unwritable folder, disk full, the target is not a regular file.
+Result<void> write_file(const std::filesystem::path& file, std::span<const uint8_t> bytes);
+Result<void> write_file(const std::filesystem::path& file, std::string_view text);
+
+} // namespace blush

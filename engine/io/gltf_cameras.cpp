@@ -1,0 +1,63 @@
+#include "io/gltf_cameras.h"
+
+#include "io/gltf_object.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <numbers>
+
+namespace blush {
+namespace {
+
+constexpr float smallest_length = 1e-6f; // metres
+
+Lens read_lens(const GltfContext& context, const tinygltf::Camera& source, const std::string& where) {
+    Lens lens;
+    lens.orthographic = source.type == "orthographic";
+    if (lens.orthographic) {
+        // The sign of a magnification mirrors the picture; the specification discourages it.
+        if (source.orthographic.ymag < 0) context.warn("negative magnification: its size is used", where + ".orthographic.ymag");
+        lens.ymag = checked(context, std::abs(source.orthographic.ymag), 1, smallest_length, any_float, where + ".orthographic.ymag");
+    } else {
+        constexpr float narrowest = 1e-4f, widest = std::numbers::pi_v<float> - 1e-4f;
+        lens.yfov_radians = checked(context, source.perspective.yfov, lens.yfov_radians, narrowest, widest, where + ".perspective.yfov");
+    }
+    const GltfObject blush = GltfObject(context, source.extras, where + ".extras").object("blush");
+    lens.aperture_radius = blush.number("aperture_radius", 0, 0, any_float);
+    lens.focus_distance = blush.number("focus_distance", 1, smallest_length, any_float);
+    return lens;
+}
+
+// From the right and a little above: three sides of a box show.
+Quat three_quarter_rotation() {
+    constexpr double yaw = 35 * std::numbers::pi / 180, pitch = -20 * std::numbers::pi / 180;
+    const double cy = std::cos(yaw / 2), sy = std::sin(yaw / 2), cp = std::cos(pitch / 2), sp = std::sin(pitch / 2);
+    return {float(cy * sp), float(sy * cp), float(-sy * sp), float(cy * cp)}; // about Y after about X
+}
+
+} // namespace
+
+std::vector<Id<Camera>> import_cameras(const GltfContext& context, Scene& scene) {
+    std::vector<Id<Camera>> ids;
+    for (size_t i = 0; i < context.model().cameras.size(); ++i) {
+        const tinygltf::Camera& source = context.model().cameras[i];
+        const std::string where = fmt::format("cameras[{}]", i);
+        ids.push_back(
+            scene.cameras.add({source.name.empty() ? fmt::format("Camera {}", i) : source.name, read_lens(context, source, where)}));
+    }
+    if (!ids.empty()) context.note("ignored: clipping planes and aspect ratio of cameras; the picture's size decides", "cameras");
+    return ids;
+}
+
+View initial_view(const Scene& scene) {
+    const auto camera_node =
+        std::find_if(scene.nodes.begin(), scene.nodes.end(), [](const auto& entry) { return bool(entry.value.camera); });
+    if (camera_node != scene.nodes.end()) return view_through(scene, camera_node->id);
+    constexpr float aspect = 16.0f / 9;
+    View view;
+    view.rotation = three_quarter_rotation();
+    return framed(view, world_bounds(scene), aspect);
+}
+
+} // namespace blush

@@ -1,0 +1,52 @@
+#include "io/gltf_extensions.h"
+
+#include <algorithm>
+#include <array>
+
+namespace blush {
+namespace {
+
+using Kind = ExtensionSupport::Kind;
+
+struct Row {
+    std::string_view name;
+    ExtensionSupport support;
+};
+
+constexpr std::array rows{
+    Row{"KHR_lights_punctual", {Kind::honoured, ""}},
+    Row{"KHR_materials_emissive_strength", {Kind::honoured, ""}},
+    Row{"KHR_materials_ior", {Kind::honoured, ""}},
+    Row{"KHR_materials_specular", {Kind::honoured, ""}},
+    Row{"KHR_materials_transmission", {Kind::honoured, ""}},
+    Row{"KHR_materials_unlit", {Kind::honoured, ""}},
+    Row{"KHR_mesh_quantization", {Kind::honoured, ""}},
+    Row{"KHR_texture_transform", {Kind::honoured, ""}},
+    Row{"KHR_materials_volume",
+        {Kind::approximated, "paths through the volume follow the mesh itself; the thickness only tells solid from thin-walled"}},
+    Row{"EXT_mesh_gpu_instancing", {Kind::ignored, "only one instance of each such mesh is shown"}},
+    Row{"EXT_meshopt_compression", {Kind::ignored, "uncompressed fallback buffers are read where the file has them"}},
+    Row{"EXT_texture_webp", {Kind::ignored, "the PNG or JPEG fallback is read where the file has one"}},
+    Row{"KHR_animation_pointer", {Kind::ignored, "the scene is shown at rest"}},
+    Row{"KHR_draco_mesh_compression", {Kind::ignored, "uncompressed fallback meshes are read where the file has them"}},
+    Row{"KHR_materials_anisotropy", {Kind::ignored, "highlights are round instead of stretched"}},
+    Row{"KHR_materials_clearcoat", {Kind::ignored, "surfaces lack their clear coat's second highlight"}},
+    Row{"KHR_materials_dispersion", {Kind::ignored, "glass does not split colours"}},
+    Row{"KHR_materials_iridescence", {Kind::ignored, "thin-film colours are missing"}},
+    Row{"KHR_materials_pbrSpecularGlossiness", {Kind::ignored, "the metallic-roughness values beside it are used"}},
+    Row{"KHR_materials_sheen", {Kind::ignored, "cloth lacks its bright rim"}},
+    Row{"KHR_materials_variants", {Kind::ignored, "the default material of each mesh is used"}},
+    Row{"KHR_texture_basisu", {Kind::ignored, "the PNG or JPEG fallback is read where the file has one"}},
+    Row{"KHR_xmp_json_ld", {Kind::ignored, "metadata does not change the picture"}},
+};
+
+} // namespace
+
+ExtensionSupport extension_support(std::string_view name) {
+    const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.name == name; });
+    if (row != rows.end()) return row->support;
+    if (name.starts_with("KHR_materials_")) return {Kind::ignored, "the surface is shown without it"};
+    return {Kind::ignored, "not known to this version"};
+}
+
+} // namespace blush

@@ -1,0 +1,223 @@
+#include "io/gltf_geometry.h"
+
+#include "core/math.h"
+#include "io/gltf_accessors.h"
+#include "io/gltf_tangents.h"
+#include "scene/affine.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <numeric>
+#include <type_traits>
+
+namespace blush {
+namespace {
+
+bool finite(const Vec2& v) { return std::isfinite(v.x) && std::isfinite(v.y); }
+bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool finite(const Vec4& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w); }
+
+Vec2 element(const FloatArray& a, size_t i, Vec2*) { return {a.values[2 * i], a.values[2 * i + 1]}; }
+Vec3 element(const FloatArray& a, size_t i, Vec3*) { return {a.values[3 * i], a.values[3 * i + 1], a.values[3 * i + 2]}; }
+// COLOR_0 may have three components; alpha is then 1.
+Vec4 element(const FloatArray& a, size_t i, Vec4*) {
+    const float* v = a.values.data() + size_t(a.components) * i;
+    return {v[0], v[1], v[2], a.components == 4 ? v[3] : 1.0f};
+}
+
+// One attribute as vectors, empty if the primitive has none.
+template <class V> Result<std::vector<V>> read_attribute(const GltfContext& context, const tinygltf::Primitive& primitive, const char* name,
+                                                         int min_components, int max_components, const std::string& where) {
+    const auto it = primitive.attributes.find(name);
+    if (it == primitive.attributes.end()) return std::vector<V>();
+    const Result<FloatArray> array = read_floats(context, it->second, min_components, max_components, where + "." + name);
+    if (!array) return array.error();
+    std::vector<V> vectors(array->count());
+    for (size_t i = 0; i < vectors.size(); ++i) vectors[i] = element(*array, i, static_cast<V*>(nullptr));
+    return vectors;
+}
+
+template <class V>
+void replace_non_finite(const GltfContext& context, std::vector<V>& values, V otherwise, const char* name, const std::string& where) {
+    size_t bad = 0;
+    for (V& v : values) {
+        if (finite(v)) continue;
+        v = otherwise;
+        ++bad;
+    }
+    if (bad) context.warn(fmt::format("{} non-finite values of {} replaced", bad, name), where);
+}
+
+Result<void> read_attributes(const GltfContext& context, const tinygltf::Primitive& primitive, Geometry& g, const std::string& where) {
+    const auto take = [&](auto& target, const char* name, int min_components, int max_components) -> Result<void> {
+        using V = typename std::remove_reference_t<decltype(target)>::value_type;
+        Result<std::vector<V>> values = read_attribute<V>(context, primitive, name, min_components, max_components, where);
+        if (!values) return values.error();
+        target = *std::move(values);
+        if (!target.empty() && target.size() != g.positions.size())
+            return context.error(fmt::format("{} has {} elements for {} positions", name, target.size(), g.positions.size()), where);
+        return {};
+    };
+    if (auto ok = take(g.positions, "POSITION", 3, 3); !ok) return ok;
+    if (auto ok = take(g.normals, "NORMAL", 3, 3); !ok) return ok;
+    if (auto ok = take(g.tangents, "TANGENT", 4, 4); !ok) return ok;
+    if (auto ok = take(g.uv0, "TEXCOORD_0", 2, 2); !ok) return ok;
+    if (auto ok = take(g.uv1, "TEXCOORD_1", 2, 2); !ok) return ok;
+    if (auto ok = take(g.colors, "COLOR_0", 3, 4); !ok) return ok;
+    replace_non_finite(context, g.uv0, Vec2{0, 0}, "TEXCOORD_0", where);
+    replace_non_finite(context, g.uv1, Vec2{0, 0}, "TEXCOORD_1", where);
+    replace_non_finite(context, g.colors, Vec4{1, 1, 1, 1}, "COLOR_0", where);
+    return {};
+}
+
+// Three indices per triangle from the vertex order of a list, strip or fan (glTF 2.0, 3.7.2.1), front faces counter-clockwise.
+std::vector<uint32_t> triangulate(const std::vector<uint32_t>& order, int mode) {
+    if (mode == TINYGLTF_MODE_TRIANGLES) return {order.begin(), order.end() - std::ptrdiff_t(order.size() % 3)};
+    std::vector<uint32_t> triangles;
+    for (size_t i = 0; i + 2 < order.size(); ++i) {
+        if (mode == TINYGLTF_MODE_TRIANGLE_FAN)
+            triangles.insert(triangles.end(), {order[i + 1], order[i + 2], order[0]});
+        else
+            triangles.insert(triangles.end(), {order[i], order[i + 1 + i % 2], order[i + 2 - i % 2]});
+    }
+    return triangles;
+}
+
+Result<std::vector<uint32_t>> vertex_order(const GltfContext& context, const tinygltf::Primitive& primitive, size_t vertices,
+                                           const std::string& where) {
+    if (primitive.indices < 0) {
+        std::vector<uint32_t> order(vertices);
+        std::iota(order.begin(), order.end(), 0u);
+        return order;
+    }
+    Result<std::vector<uint32_t>> order = read_indices(context, primitive.indices, where + ".indices");
+    if (!order) return order;
+    const auto beyond = std::find_if(order->begin(), order->end(), [&](uint32_t i) { return i >= vertices; });
+    if (beyond != order->end())
+        return context.error(fmt::format("index {} is not below the number of vertices, {}", *beyond, vertices), where + ".indices");
+    return order;
+}
+
+// Drops triangles with a non-finite corner, and makes the vertices that nobody uses any more harmless.
+Result<void> drop_non_finite_triangles(const GltfContext& context, Geometry& g, const std::string& where) {
+    std::vector<uint32_t> kept;
+    kept.reserve(g.indices.size());
+    for (size_t t = 0; t < g.triangle_count(); ++t) {
+        const uint32_t* corner = g.indices.data() + 3 * t;
+        if (finite(g.positions[corner[0]]) && finite(g.positions[corner[1]]) && finite(g.positions[corner[2]]))
+            kept.insert(kept.end(), corner, corner + 3);
+    }
+    const size_t dropped = (g.indices.size() - kept.size()) / 3;
+    if (dropped && kept.empty()) return context.error("every triangle has a NaN or infinite position", where);
+    if (dropped) context.warn(fmt::format("{} triangles with a NaN or infinite position left out", dropped), where);
+    g.indices = std::move(kept);
+    for (Vec3& p : g.positions)
+        if (!finite(p)) p = {0, 0, 0};
+    return {};
+}
+
+// Twice the triangle's area along its normal.
+Vec3d area_normal(const Geometry& g, size_t triangle) {
+    const Vec3d a = to_double(g.positions[g.indices[3 * triangle]]);
+    return cross(to_double(g.positions[g.indices[3 * triangle + 1]]) - a, to_double(g.positions[g.indices[3 * triangle + 2]]) - a);
+}
+
+Vec3 unit_or_up(const Vec3d& n) {
+    const double size = length(n);
+    return size > 0 && std::isfinite(size) ? to_float(n * (1 / size)) : Vec3{0, 0, 1};
+}
+
+// glTF 2.0, 3.7.2.1: without normals, flat ones; each triangle then has vertices of its own.
+void make_flat(Geometry& g) {
+    const auto unweld = [&](auto& values) {
+        if (values.empty()) return;
+        std::remove_reference_t<decltype(values)> own(g.indices.size());
+        for (size_t i = 0; i < own.size(); ++i) own[i] = values[g.indices[i]];
+        values = std::move(own);
+    };
+    unweld(g.positions);
+    unweld(g.uv0);
+    unweld(g.uv1);
+    unweld(g.colors);
+    g.tangents.clear(); // of normals that are not there: the specification says to ignore them
+    std::iota(g.indices.begin(), g.indices.end(), 0u);
+    g.normals.resize(g.indices.size());
+    for (size_t t = 0; t < g.triangle_count(); ++t)
+        std::fill_n(g.normals.begin() + std::ptrdiff_t(3 * t), 3, unit_or_up(area_normal(g, t)));
+}
+
+// Normals that are zero or non-finite are replaced by the mean of the triangles around, weighted by area.
+void repair_normals(const GltfContext& context, Geometry& g, const std::string& where) {
+    const auto usable = [](const Vec3& n) { return finite(n) && length(to_double(n)) > 1e-12; };
+    const auto bad = size_t(std::count_if(g.normals.begin(), g.normals.end(), [&](const Vec3& n) { return !usable(n); }));
+    if (!bad) return;
+    std::vector<Vec3d> sums(g.normals.size(), Vec3d{0, 0, 0});
+    for (size_t t = 0; t < g.triangle_count(); ++t)
+        for (size_t corner = 0; corner < 3; ++corner) {
+            Vec3d& sum = sums[g.indices[3 * t + corner]];
+            sum = sum + area_normal(g, t);
+        }
+    for (size_t i = 0; i < sums.size(); ++i)
+        if (!usable(g.normals[i])) g.normals[i] = unit_or_up(sums[i]);
+    context.warn(fmt::format("{} normals without a direction computed from the triangles around them", bad), where);
+}
+
+void provide_tangents(const GltfContext& context, Geometry& g, int uv_set, const std::string& where) {
+    const bool usable = !g.tangents.empty() && std::all_of(g.tangents.begin(), g.tangents.end(), [](const Vec4& t) {
+        return finite(t) && t.x * t.x + t.y * t.y + t.z * t.z > 0;
+    });
+    if (!usable && !g.tangents.empty()) context.warn("tangents without a direction", where);
+    if (!usable) g.tangents.clear();
+    const std::vector<Vec2>& uv = uv_set == 1 ? g.uv1 : g.uv0;
+    if (usable || uv_set < 0) return;
+    if (uv.empty()) {
+        context.warn("a normal map, but no texture coordinates to place it: it has no effect", where);
+        return;
+    }
+    g.tangents = tangents_from_uv(g, uv);
+    context.note("approximated: tangents computed from texture coordinates", where);
+}
+
+void report_ignored(const GltfContext& context, const tinygltf::Primitive& primitive, const std::string& where) {
+    constexpr std::array read = {"POSITION", "NORMAL", "TANGENT", "TEXCOORD_0", "TEXCOORD_1", "COLOR_0"};
+    for (const auto& [name, accessor] : primitive.attributes)
+        if (std::find(read.begin(), read.end(), name) == read.end()) context.note("ignored: attribute " + name.substr(0, 100), where);
+    if (!primitive.targets.empty())
+        context.note(fmt::format("ignored: {} morph targets; the mesh is shown at rest", primitive.targets.size()), where);
+}
+
+} // namespace
+
+Result<GeometryPtr> import_primitive(const GltfContext& context, const tinygltf::Primitive& primitive, int tangent_uv_set,
+                                     const std::string& where) {
+    report_ignored(context, primitive, where);
+    if (primitive.mode < TINYGLTF_MODE_TRIANGLES || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN) {
+        const bool known = primitive.mode >= TINYGLTF_MODE_POINTS && primitive.mode <= TINYGLTF_MODE_LINE_STRIP;
+        context.warn(
+            known ? "ignored: points and lines have no surface" : fmt::format("ignored: unknown primitive mode {}", primitive.mode), where);
+        return GeometryPtr();
+    }
+    auto geometry = std::make_shared<Geometry>();
+    Geometry& g = *geometry;
+    if (const auto ok = read_attributes(context, primitive, g, where); !ok) return ok.error();
+    const auto order = vertex_order(context, primitive, g.positions.size(), where);
+    if (!order) return order.error();
+    if (primitive.mode == TINYGLTF_MODE_TRIANGLES && order->size() % 3 != 0)
+        context.warn("the last triangle lacks a corner and is left out", where);
+    g.indices = triangulate(*order, primitive.mode);
+    if (g.indices.empty()) {
+        context.warn("ignored: a primitive without triangles", where);
+        return GeometryPtr();
+    }
+    if (const auto ok = drop_non_finite_triangles(context, g, where); !ok) return ok.error();
+    if (g.normals.empty())
+        make_flat(g);
+    else
+        repair_normals(context, g, where);
+    provide_tangents(context, g, tangent_uv_set, where);
+    return GeometryPtr(std::move(geometry));
+}
+
+} // namespace blush

@@ -1,0 +1,147 @@
+#include "io/gltf_materials.h"
+
+#include "io/gltf_object.h"
+
+#include <fmt/format.h>
+
+namespace blush {
+namespace {
+
+// Reads one material; the first error is kept, so that the many texture references need no test each.
+class MaterialReader {
+public:
+    MaterialReader(const GltfContext& context, const std::vector<Id<Texture>>& textures, size_t index)
+        : context_(context), textures_(textures), source_(context.model().materials[index]), where_(fmt::format("materials[{}]", index)) {
+        material_.name = source_.name.empty() ? fmt::format("Material {}", index) : source_.name;
+    }
+
+    Result<Material> read() {
+        read_core();
+        read_alpha();
+        const GltfObject extensions(context_, source_.extensions, where_ + ".extensions");
+        read_emission(extensions);
+        read_dielectric(extensions);
+        read_transmission(extensions);
+        material_.unlit = extensions.has("KHR_materials_unlit");
+        if (error_) return *error_;
+        return std::move(material_);
+    }
+
+private:
+    float unit(double value, float otherwise, const char* key) const {
+        return checked(context_, value, otherwise, 0, 1, where_ + "." + key);
+    }
+
+    // A reference by index, with KHR_texture_transform if it is there.
+    TextureRef texture(int index, int uv_set, const GltfObject& extensions, const std::string& where) {
+        TextureRef ref;
+        if (index < 0) return ref;
+        if (size_t(index) >= textures_.size()) {
+            if (!error_) error_ = context_.error(fmt::format("texture {} does not exist; there are {}", index, textures_.size()), where);
+            return ref;
+        }
+        const GltfObject transform = extensions.object("KHR_texture_transform");
+        uv_set = transform.integer("texCoord").value_or(uv_set);
+        if (uv_set < 0 || uv_set > 1) {
+            context_.warn(fmt::format("ignored: a texture on TEXCOORD_{}; only 0 and 1 are read", uv_set), where);
+            return ref;
+        }
+        ref.texture = textures_[size_t(index)];
+        if (!ref.texture) return {};
+        ref.uv_set = uint8_t(uv_set);
+        ref.offset = transform.vector2("offset", ref.offset);
+        ref.scale = transform.vector2("scale", ref.scale);
+        ref.rotation_radians = transform.number("rotation", 0, -any_float, any_float);
+        return ref;
+    }
+    // Of tinygltf's TextureInfo and its kin.
+    template <class Info> TextureRef texture(const Info& info, const char* key) {
+        const std::string where = where_ + "." + key;
+        return texture(info.index, info.texCoord, GltfObject(context_, info.extensions, where + ".extensions"), where);
+    }
+    // Of a textureInfo inside an extension.
+    TextureRef texture(const GltfObject& info) {
+        return info ? texture(info.integer("index").value_or(-1), info.integer("texCoord").value_or(0), info.object("extensions"),
+                              info.where())
+                    : TextureRef{};
+    }
+
+    void read_core() {
+        const tinygltf::PbrMetallicRoughness& pbr = source_.pbrMetallicRoughness;
+        if (pbr.baseColorFactor.size() == 4) {
+            const std::vector<double>& f = pbr.baseColorFactor;
+            material_.base_color = checked(context_, {f[0], f[1], f[2]}, {1, 1, 1}, 0, 1, where_ + ".baseColorFactor");
+            material_.opacity = unit(f[3], 1, "baseColorFactor");
+        } else {
+            context_.warn("baseColorFactor does not have four numbers; white is used", where_);
+        }
+        material_.metallic = unit(pbr.metallicFactor, 1, "metallicFactor");
+        material_.roughness = unit(pbr.roughnessFactor, 1, "roughnessFactor");
+        material_.base_color_texture = texture(pbr.baseColorTexture, "baseColorTexture");
+        material_.metallic_roughness_texture = texture(pbr.metallicRoughnessTexture, "metallicRoughnessTexture");
+        material_.normal_texture = texture(source_.normalTexture, "normalTexture");
+        material_.normal_scale = checked(context_, source_.normalTexture.scale, 1, -any_float, any_float, where_ + ".normalTexture.scale");
+        material_.double_sided = source_.doubleSided;
+        if (source_.occlusionTexture.index >= 0)
+            context_.note("ignored: occlusion texture; path tracing computes occlusion itself", where_);
+    }
+
+    void read_alpha() {
+        material_.alpha_cutoff = checked(context_, source_.alphaCutoff, 0.5f, 0, any_float, where_ + ".alphaCutoff");
+        if (source_.alphaMode == "MASK")
+            material_.alpha = Material::Alpha::mask;
+        else if (source_.alphaMode == "BLEND")
+            material_.alpha = Material::Alpha::blend;
+        else if (source_.alphaMode != "OPAQUE")
+            context_.warn("unknown alphaMode; OPAQUE is used", where_);
+    }
+
+    void read_emission(const GltfObject& extensions) {
+        material_.emissive = checked(context_, source_.emissiveFactor, {0, 0, 0}, 0, any_float, where_ + ".emissiveFactor");
+        material_.emissive_texture = texture(source_.emissiveTexture, "emissiveTexture");
+        material_.emissive_strength = extensions.object("KHR_materials_emissive_strength").number("emissiveStrength", 1, 0, any_float);
+    }
+
+    void read_dielectric(const GltfObject& extensions) {
+        // 0 stands for an infinite index (a mirror); everything else is at least that of a vacuum.
+        const float ior = extensions.object("KHR_materials_ior").number("ior", 1.5f, 0, 1000);
+        material_.ior = ior == 0 ? 0 : checked(context_, ior, 1.5f, 1, 1000, where_ + ".extensions.KHR_materials_ior.ior");
+        const GltfObject specular = extensions.object("KHR_materials_specular");
+        material_.specular = specular.number("specularFactor", 1, 0, 1);
+        material_.specular_color = specular.vector3("specularColorFactor", {1, 1, 1}, 0, any_float);
+        material_.specular_texture = texture(specular.object("specularTexture"));
+        material_.specular_color_texture = texture(specular.object("specularColorTexture"));
+    }
+
+    void read_transmission(const GltfObject& extensions) {
+        const GltfObject transmission = extensions.object("KHR_materials_transmission");
+        material_.transmission = transmission.number("transmissionFactor", 0, 0, 1);
+        material_.transmission_texture = texture(transmission.object("transmissionTexture"));
+        const GltfObject volume = extensions.object("KHR_materials_volume");
+        material_.thickness = volume.number("thicknessFactor", 0, 0, any_float);
+        material_.attenuation_color = volume.vector3("attenuationColor", {1, 1, 1}, 0, 1);
+        material_.attenuation_distance = volume.number("attenuationDistance", 0, 0, any_float);
+        if (volume.has("thicknessTexture")) context_.note("ignored: thickness texture; light travels through the mesh itself", where_);
+    }
+
+    const GltfContext& context_;
+    const std::vector<Id<Texture>>& textures_;
+    const tinygltf::Material& source_;
+    std::string where_;
+    Material material_;
+    std::optional<Error> error_;
+};
+
+} // namespace
+
+Result<std::vector<Id<Material>>> import_materials(const GltfContext& context, const std::vector<Id<Texture>>& textures, Scene& scene) {
+    std::vector<Id<Material>> ids;
+    for (size_t i = 0; i < context.model().materials.size(); ++i) {
+        Result<Material> material = MaterialReader(context, textures, i).read();
+        if (!material) return material.error();
+        ids.push_back(scene.materials.add(*std::move(material)));
+    }
+    return ids;
+}
+
+} // namespace blush

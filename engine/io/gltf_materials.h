@@ -1,0 +1,14 @@
+// Internal to gltf_*.cpp: materials and the extensions they carry.
+#pragma once
+
+#include "io/gltf_source.h"
+
+#include <vector>
+
+namespace blush {
+
+// Adds the file's materials to the scene; result[i] is the id of glTF material i. `textures` as import_textures returns it.
+// Values outside of their range are clamped with a warning. Errors: a texture index out of range.
+Result<std::vector<Id<Material>>> import_materials(const GltfContext& context, const std::vector<Id<Texture>>& textures, Scene& scene);
+
+} // namespace blush

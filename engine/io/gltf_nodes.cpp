@@ -1,0 +1,173 @@
+#include "io/gltf_nodes.h"
+
+#include "io/gltf_object.h"
+#include "scene/affine.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace blush {
+namespace {
+
+std::string node_where(int index) { return fmt::format("nodes[{}]", index); }
+
+std::string node_name(const GltfContext& context, int index) {
+    const std::string& name = context.model().nodes[size_t(index)].name;
+    return name.empty() ? fmt::format("Node {}", index) : name;
+}
+
+// parent[i], or -1. Each node having at most one parent is what makes the walk below terminate.
+Result<std::vector<int>> find_parents(const GltfContext& context) {
+    const auto& nodes = context.model().nodes;
+    std::vector<int> parents(nodes.size(), -1);
+    for (int i = 0; i < int(nodes.size()); ++i) {
+        for (const int child : nodes[size_t(i)].children) {
+            if (child < 0 || size_t(child) >= nodes.size())
+                return context.error(fmt::format("child {} does not exist; there are {} nodes", child, nodes.size()), node_where(i));
+            if (parents[size_t(child)] >= 0)
+                return context.error(fmt::format("node {} has two parents, {} and {}", child, parents[size_t(child)], i),
+                                     node_where(child));
+            parents[size_t(child)] = i;
+        }
+    }
+    return parents;
+}
+
+// Depth first, children in the file's order, with a stack of our own.
+void walk(const GltfContext& context, int root, std::vector<int>& order) {
+    std::vector<int> stack{root};
+    while (!stack.empty()) {
+        const int node = stack.back();
+        stack.pop_back();
+        order.push_back(node);
+        const std::vector<int>& children = context.model().nodes[size_t(node)].children;
+        stack.insert(stack.end(), children.rbegin(), children.rend());
+    }
+}
+
+bool sized(const std::vector<double>& values, size_t size) { return values.empty() || values.size() == size; }
+
+Result<Transform> read_transform(const GltfContext& context, int index) {
+    const tinygltf::Node& node = context.model().nodes[size_t(index)];
+    const auto broken = [&](const char* what) {
+        return context.error(fmt::format("node '{}': {}", node_name(context, index), what), node_where(index));
+    };
+    if (!sized(node.matrix, 16) || !sized(node.translation, 3) || !sized(node.rotation, 4) || !sized(node.scale, 3))
+        return broken("a transform with the wrong number of elements");
+    const auto finite_float = [](double v) { return std::isfinite(float(v)); };
+    for (const std::vector<double>* values : {&node.matrix, &node.translation, &node.rotation, &node.scale})
+        if (!std::all_of(values->begin(), values->end(), finite_float)) return broken("a transform that is not finite");
+
+    if (!node.matrix.empty()) { // column by column
+        const std::vector<double>& m = node.matrix;
+        if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1)
+            context.warn("the matrix is not affine; its last row is ignored", node_where(index));
+        return to_transform({{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}, {m[12], m[13], m[14]}});
+    }
+    Transform local;
+    if (const auto& t = node.translation; !t.empty()) local.translation = {float(t[0]), float(t[1]), float(t[2])};
+    if (const auto& s = node.scale; !s.empty()) local.scale = {float(s[0]), float(s[1]), float(s[2])};
+    if (const auto& r = node.rotation; !r.empty()) {
+        const double size = std::sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2] + r[3] * r[3]);
+        if (size > 1e-6)
+            local.rotation = {float(r[0] / size), float(r[1] / size), float(r[2] / size), float(r[3] / size)};
+        else
+            context.warn("a rotation of length zero is no rotation", node_where(index));
+    }
+    return local;
+}
+
+// ids[index], or an error; a negative index is no reference.
+template <class T> Result<Id<T>> target(const GltfContext& context, const std::vector<Id<T>>& ids, int index, const char* kind, int node) {
+    if (index < 0) return Id<T>();
+    if (size_t(index) >= ids.size())
+        return context.error(fmt::format("{} {} does not exist; there are {}", kind, index, ids.size()), node_where(node));
+    return ids[size_t(index)];
+}
+
+Result<Node> read_node(const GltfContext& context, int index, const NodeTargets& targets) {
+    const tinygltf::Node& source = context.model().nodes[size_t(index)];
+    Node node;
+    node.name = node_name(context, index);
+    const Result<Transform> local = read_transform(context, index);
+    if (!local) return local.error();
+    node.local = *local;
+    const GltfObject extensions(context, source.extensions, node_where(index) + ".extensions");
+    const int light_index = extensions.object("KHR_lights_punctual").integer("light").value_or(-1);
+    const auto mesh = target(context, targets.meshes, source.mesh, "mesh", index);
+    const auto light = target(context, targets.lights, light_index, "light", index);
+    const auto camera = target(context, targets.cameras, source.camera, "camera", index);
+    if (!mesh) return mesh.error();
+    if (!light) return light.error();
+    if (!camera) return camera.error();
+    node.mesh = *mesh;
+    node.light = *light;
+    node.camera = *camera;
+    return node;
+}
+
+} // namespace
+
+const tinygltf::Scene* default_scene(const GltfContext& context) {
+    const tinygltf::Model& model = context.model();
+    const size_t index = model.defaultScene >= 0 ? size_t(model.defaultScene) : 0;
+    return index < model.scenes.size() ? &model.scenes[index] : nullptr;
+}
+
+Result<std::vector<int>> reachable_nodes(const GltfContext& context) {
+    const tinygltf::Model& model = context.model();
+    if (model.defaultScene >= 0 && size_t(model.defaultScene) >= model.scenes.size())
+        return context.error(fmt::format("scene {} does not exist; there are {}", model.defaultScene, model.scenes.size()), "scene");
+    const Result<std::vector<int>> parents = find_parents(context);
+    if (!parents) return parents.error();
+
+    std::vector<int> roots, all;
+    for (int i = 0; i < int(model.nodes.size()); ++i)
+        if ((*parents)[size_t(i)] < 0) roots.push_back(i);
+    for (const int root : roots) walk(context, root, all);
+    if (all.size() < model.nodes.size()) {
+        std::vector<bool> seen(model.nodes.size());
+        for (const int node : all) seen[size_t(node)] = true;
+        const auto in_cycle = int(std::find(seen.begin(), seen.end(), false) - seen.begin());
+        return context.error(fmt::format("node {} is its own ancestor", in_cycle), node_where(in_cycle));
+    }
+
+    const tinygltf::Scene* scene = default_scene(context);
+    if (!scene) return all;
+    std::vector<int> shown;
+    std::vector<bool> used(model.nodes.size());
+    for (const int root : scene->nodes) {
+        if (root < 0 || size_t(root) >= model.nodes.size())
+            return context.error(fmt::format("node {} does not exist; there are {}", root, model.nodes.size()), "scenes.nodes");
+        if ((*parents)[size_t(root)] >= 0 || used[size_t(root)])
+            return context.error(fmt::format("node {} is listed as a root but is a child, or listed twice", root), "scenes.nodes");
+        used[size_t(root)] = true;
+        walk(context, root, shown);
+    }
+    if (shown.size() < all.size())
+        context.note(fmt::format("ignored: {} nodes that belong to other scenes or to none", all.size() - shown.size()), "nodes");
+    return shown;
+}
+
+Result<void> import_nodes(const GltfContext& context, const std::vector<int>& nodes, const NodeTargets& targets, Scene& scene) {
+    std::vector<Id<Node>> parent_of(context.model().nodes.size());
+    std::vector<Affined> world_from_parent(context.model().nodes.size());
+    for (const int index : nodes) {
+        Result<Node> node = read_node(context, index, targets);
+        if (!node) return node.error();
+        node->parent = parent_of[size_t(index)];
+        const Affined world_from_node = world_from_parent[size_t(index)] * to_affine(node->local);
+        if (!is_finite(world_from_node))
+            return context.error(fmt::format("node '{}': its transform and its ancestors' multiply to infinity", node->name),
+                                 node_where(index));
+        const Id<Node> id = scene.nodes.add(*std::move(node));
+        for (const int child : context.model().nodes[size_t(index)].children) {
+            parent_of[size_t(child)] = id;
+            world_from_parent[size_t(child)] = world_from_node;
+        }
+    }
+    return {};
+}
+
+} // namespace blush

@@ -1,0 +1,246 @@
+#include "io/image_io.h"
+
+#include "io/files.h"
+#include "io/jpeg_end.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <bit>
+#include <cctype>
+#include <fmt/format.h>
+#include <memory>
+#include <mutex>
+#include <new>
+
+namespace blush {
+namespace {
+
+constexpr uint64_t max_file_bytes = uint64_t(4) << 30;
+constexpr int max_channels = 256;
+
+// Only these decoders ever see a file: fewer of them is less to attack, and names such as "x.null" mean nothing.
+const char* format_of(std::span<const uint8_t> bytes) {
+    const std::string_view head(reinterpret_cast<const char*>(bytes.data()), std::min<size_t>(bytes.size(), 16));
+    if (head.starts_with("\x89PNG\r\n\x1a\n")) return "png";
+    if (head.starts_with("\xff\xd8\xff")) return "jpeg";
+    if (head.starts_with("\x76\x2f\x31\x01")) return "openexr";
+    if (head.starts_with("#?RADIANCE") || head.starts_with("#?RGBE")) return "hdr";
+    if (head.starts_with(std::string_view("II*\0", 4)) || head.starts_with(std::string_view("MM\0*", 4))) return "tiff";
+    if (head.starts_with("RIFF") && head.size() >= 12 && head.substr(8, 4) == "WEBP") return "webp";
+    if (head.starts_with("BM")) return "bmp";
+    return nullptr;
+}
+
+// A second net below our own header checks, for what a decoder allocates before it shows us the header.
+void lower_library_limits() {
+    static std::once_flag once;
+    std::call_once(once, [] {
+        OIIO::attribute("limits:channels", max_channels);
+        OIIO::attribute("limits:imagesize_MB", 16384);
+    });
+}
+
+// OpenImageIO's messages run over several lines.
+std::string one_line(std::string text) {
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    while (!text.empty() && text.back() == ' ') text.pop_back();
+    return text.empty() ? "unknown reason" : text;
+}
+
+// Whatever OpenImageIO or the allocator throws becomes an Error.
+template <class F> auto guarded(const std::string& name, F&& work) -> decltype(work()) {
+    try {
+        return work();
+    } catch (const std::bad_alloc&) { return Error{name, "not enough memory for the image", ""}; } catch (const std::exception& e) {
+        return Error{name, one_line(e.what()), ""};
+    }
+}
+
+struct Decoder {
+    std::unique_ptr<OIIO::Filesystem::IOMemReader> bytes; // must outlive the input
+    std::unique_ptr<OIIO::ImageInput> input;
+    std::string name;
+
+    const OIIO::ImageSpec& spec() const { return input->spec(); }
+    Error error() const { return {name, "cannot decode: " + one_line(input->geterror()), ""}; }
+
+    // Channels [begin, end) of every pixel in `type`, tightly packed.
+    template <class T> Result<std::vector<T>> read(int begin, int end, OIIO::TypeDesc type) {
+        std::vector<T> values(size_t(spec().width) * size_t(spec().height) * size_t(end - begin));
+        if (!input->read_image(0, 0, begin, end, type, values.data())) return error();
+        return values;
+    }
+};
+
+Result<Decoder> open_decoder(std::span<const uint8_t> bytes, const std::string& name, const ImageLimits& limits) {
+    lower_library_limits();
+    const char* format = format_of(bytes);
+    if (!format) return Error{name, "not an image in a known format (PNG, JPEG, EXR, HDR, TIFF, WebP, BMP)", ""};
+    if (std::string_view(format) == "jpeg" && !jpeg_reaches_its_end(bytes)) return Error{name, "truncated JPEG", ""};
+    Decoder decoder;
+    decoder.name = name;
+    decoder.input = OIIO::ImageInput::create(format);
+    if (!decoder.input || !decoder.input->supports("ioproxy")) return Error{name, fmt::format("no decoder for {} files", format), ""};
+    decoder.bytes = std::make_unique<OIIO::Filesystem::IOMemReader>(bytes.data(), bytes.size());
+    decoder.input->set_ioproxy(decoder.bytes.get());
+    OIIO::ImageSpec config, spec;
+    config.attribute("oiio:UnassociatedAlpha", 1);
+    if (!decoder.input->open(name, spec, config)) return decoder.error();
+    if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1 || spec.nchannels > max_channels || spec.deep)
+        return Error{name, "not a flat image with at least one pixel",
+                     fmt::format("{} x {}, {} channels", spec.width, spec.height, spec.nchannels)};
+    if (spec.width > limits.max_side || spec.height > limits.max_side || int64_t(spec.width) * spec.height > limits.max_pixels)
+        return Error{name, "larger than the limit", fmt::format("{} x {} pixels", spec.width, spec.height)};
+    return decoder;
+}
+
+Result<ImagePtr> decode(std::span<const uint8_t> bytes, const std::string& name, const ImageLimits& limits) {
+    Result<Decoder> decoder = open_decoder(bytes, name, limits);
+    if (!decoder) return decoder.error();
+    auto image = std::make_shared<Image>();
+    image->width = decoder->spec().width;
+    image->height = decoder->spec().height;
+    image->channels = std::min(decoder->spec().nchannels, 4);
+    if (decoder->spec().format == OIIO::TypeDesc::UINT8) {
+        Result<std::vector<uint8_t>> values = decoder->read<uint8_t>(0, image->channels, OIIO::TypeDesc::UINT8);
+        if (!values) return values.error();
+        image->bytes = *std::move(values);
+    } else {
+        Result<std::vector<float>> values = decoder->read<float>(0, image->channels, OIIO::TypeDesc::FLOAT);
+        if (!values) return values.error();
+        image->floats = *std::move(values);
+    }
+    return ImagePtr(std::move(image));
+}
+
+bool is_uint_channel(const OIIO::ImageSpec& spec, int channel) { return spec.channelformat(channel) == OIIO::TypeDesc::UINT32; }
+
+// Channels of one kind that stand side by side are decoded in one go. Read as float, 32-bit integers would be scaled to [0, 1].
+Result<LayeredImage> decode_layers(std::span<const uint8_t> bytes, const std::string& name, const ImageLimits& limits) {
+    Result<Decoder> decoder = open_decoder(bytes, name, limits);
+    if (!decoder) return decoder.error();
+    const OIIO::ImageSpec spec = decoder->spec();
+    const size_t pixels = size_t(spec.width) * size_t(spec.height);
+    LayeredImage image{spec.width, spec.height, {}, {}};
+    for (int begin = 0, end = 0; begin < spec.nchannels; begin = end) {
+        const bool is_uint = is_uint_channel(spec, begin);
+        while (end < spec.nchannels && is_uint_channel(spec, end) == is_uint) ++end;
+        // Both kinds are four bytes wide: one buffer serves, reinterpreted per value.
+        Result<std::vector<uint32_t>> values =
+            decoder->read<uint32_t>(begin, end, is_uint ? OIIO::TypeDesc::UINT32 : OIIO::TypeDesc::FLOAT);
+        if (!values) return values.error();
+        const size_t stride = size_t(end - begin);
+        for (int c = begin; c < end; ++c) {
+            LayeredImage::Channel channel{spec.channel_name(c), std::vector<float>(pixels), is_uint};
+            for (size_t i = 0; i < pixels; ++i) {
+                const uint32_t bits = (*values)[i * stride + size_t(c - begin)];
+                channel.values[i] = is_uint ? float(bits) : std::bit_cast<float>(bits);
+            }
+            image.channels.push_back(std::move(channel));
+        }
+    }
+    for (const OIIO::ParamValue& attribute : spec.extra_attribs)
+        if (attribute.type() == OIIO::TypeDesc::STRING) image.metadata[attribute.name().string()] = attribute.get_string();
+    return image;
+}
+
+Error encode_error(const std::filesystem::path& file, OIIO::ImageOutput& output) {
+    return {file.string(), "cannot encode: " + one_line(output.geterror()), ""};
+}
+
+// Encodes into memory, so that a full disk or an unwritable folder is met by write_file alone, the same for every format.
+Result<void> encode_to_file(const std::filesystem::path& file, const char* format, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
+                            const void* pixels) {
+    std::vector<unsigned char> bytes;
+    OIIO::Filesystem::IOVecOutput sink(bytes);
+    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format);
+    if (!output) return Error{file.string(), fmt::format("no encoder for {} files", format), ""};
+    if (!output->set_ioproxy(&sink) || !output->open(file.string(), spec) || !output->write_image(type, pixels) || !output->close())
+        return encode_error(file, *output);
+    return write_file(file, std::span<const uint8_t>(bytes));
+}
+
+void set_metadata(OIIO::ImageSpec& spec, const std::map<std::string, std::string>& metadata) {
+    for (const auto& [key, value] : metadata) spec.attribute(key, value);
+}
+
+const char* display_format(const std::filesystem::path& file) {
+    std::string extension = file.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    if (extension == ".png") return "png";
+    return extension == ".jpg" || extension == ".jpeg" ? "jpeg" : nullptr;
+}
+
+} // namespace
+
+const LayeredImage::Channel* LayeredImage::find(std::string_view name) const {
+    const auto it = std::find_if(channels.begin(), channels.end(), [&](const Channel& c) { return c.name == name; });
+    return it == channels.end() ? nullptr : &*it;
+}
+
+Result<ImagePtr> read_image(const std::filesystem::path& file, const ImageLimits& limits) {
+    const Result<std::vector<uint8_t>> bytes = read_file(file, max_file_bytes);
+    if (!bytes) return bytes.error();
+    return read_image(*bytes, file.string(), limits);
+}
+
+Result<ImagePtr> read_image(std::span<const uint8_t> bytes, const std::string& name, const ImageLimits& limits) {
+    return guarded(name, [&] { return decode(bytes, name, limits); });
+}
+
+Result<LayeredImage> read_layers(const std::filesystem::path& file, const ImageLimits& limits) {
+    const Result<std::vector<uint8_t>> bytes = read_file(file, max_file_bytes);
+    if (!bytes) return bytes.error();
+    return guarded(file.string(), [&] { return decode_layers(*bytes, file.string(), limits); });
+}
+
+Result<void> write_exr(const std::filesystem::path& file, const LayeredImage& image) {
+    return guarded(file.string(), [&]() -> Result<void> {
+        const size_t pixels = size_t(std::max(image.width, 0)) * size_t(std::max(image.height, 0));
+        if (pixels == 0 || image.channels.empty()) return Error{file.string(), "an image without pixels or channels cannot be written", ""};
+        OIIO::ImageSpec spec(image.width, image.height, int(image.channels.size()), OIIO::TypeDesc::FLOAT);
+        spec.channelnames.clear();
+        for (const LayeredImage::Channel& channel : image.channels) {
+            if (channel.values.size() != pixels) return Error{file.string(), "channel of the wrong size", channel.name};
+            spec.channelnames.push_back(channel.name);
+            spec.channelformats.push_back(channel.is_uint ? OIIO::TypeDesc::UINT32 : OIIO::TypeDesc::FLOAT);
+        }
+        spec.attribute("compression", "zip");
+        set_metadata(spec, image.metadata);
+        // Native layout: four bytes per channel, float or unsigned.
+        std::vector<uint32_t> packed(pixels * image.channels.size());
+        for (size_t c = 0; c < image.channels.size(); ++c) {
+            const LayeredImage::Channel& channel = image.channels[c];
+            for (size_t i = 0; i < pixels; ++i) {
+                const float value = channel.values[i];
+                const uint32_t bits =
+                    channel.is_uint ? (value > 0 && value < 4294967296.0f ? uint32_t(value) : 0) : std::bit_cast<uint32_t>(value);
+                packed[i * image.channels.size() + c] = bits;
+            }
+        }
+        return encode_to_file(file, "openexr", spec, OIIO::TypeDesc::UNKNOWN, packed.data());
+    });
+}
+
+Result<void> write_display_image(const std::filesystem::path& file, int width, int height, std::span<const float> rgb,
+                                 const std::map<std::string, std::string>& metadata) {
+    return guarded(file.string(), [&]() -> Result<void> {
+        const char* format = display_format(file);
+        if (!format) return Error{file.string(), "not a .png or .jpg name", ""};
+        if (width < 1 || height < 1 || rgb.size() != size_t(width) * size_t(height) * 3)
+            return Error{file.string(), "an image without pixels or of the wrong size cannot be written", ""};
+        std::vector<uint8_t> bytes(rgb.size());
+        // The comparison is false for NaN, which becomes black.
+        std::transform(rgb.begin(), rgb.end(), bytes.begin(),
+                       [](float v) { return v > 0 ? uint8_t(std::min(v, 1.0f) * 255 + 0.5f) : uint8_t(0); });
+        OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT8);
+        spec.attribute("oiio:ColorSpace", "sRGB");
+        spec.attribute("compression", std::string_view(format) == "jpeg" ? "jpeg:95" : "zip");
+        set_metadata(spec, metadata);
+        return encode_to_file(file, format, spec, OIIO::TypeDesc::UINT8, bytes.data());
+    });
+}
+
+} // namespace blush
