@@ -29,6 +29,7 @@ struct EnvironmentTables {
     int32_t width = 0, height = 0;
     Vec3 scale{0, 0, 0}; // radiance in nits of a texel of 1
     float rotation = 0;  // of the map about +Y, counter-clockwise seen from above, in turns, [-0.5, 0.5]
+    int32_t visible_to_camera = 1;
 };
 
 } // namespace blush

@@ -23,7 +23,7 @@ struct MaterialRecord {
     float metallic = 0, roughness = 1;
     Vec3 emission{0, 0, 0}; // radiance in nits
     float normal_scale = 1;
-    float ior = 1.5f;
+    float ior = 1.5f;      // >= 1, or 0
     float specular = 0;
     Vec3 specular_color{1, 1, 1};
     float transmission = 0;
@@ -116,7 +116,7 @@ MaterialPoint<F> material_at(const MaterialTables& tables, const Int<F>& materia
     p.bsdf.ior = F(1.5f);
     p.bsdf.specular = F(0.f);
     p.bsdf.specular_color = splat<F>(1.f);
-    if constexpr (S.has(Feature::specular)) {
+    if constexpr (has_facets(S)) {
         p.bsdf.metallic = gather_field(records, &MaterialRecord::metallic, m);
         p.bsdf.roughness = gather_field(records, &MaterialRecord::roughness, m);
         p.bsdf.ior = gather_field(records, &MaterialRecord::ior, m);
@@ -148,19 +148,13 @@ MaterialPoint<F> material_at(const MaterialTables& tables, const Int<F>& materia
     return p;
 }
 
-// Part of the light that meets the surface at all, [0, 1], glTF 2.0 section 3.9.4: 1 if opaque, 0 or 1 if masked, else alpha
-// of factor, texture and vertex colour. For the filter of rays, one at a time.
-template <class F>
-F opacity_at(const MaterialTables& tables, const Int<F>& material, const Vec2T<F>& uv0, const Vec2T<F>& uv1, const F& vertex_alpha,
-             const Mask<F>& active) {
-    const Int<F> m = select(active, material, Int<F>(0));
-    const MaterialRecord* records = tables.materials;
-    const Int<F> texture = gather_field(records, &MaterialRecord::base_color_texture, m);
-    const F alpha = clamp01(F(gather_field(records, &MaterialRecord::opacity, m) * lookup<F>(tables.textures, texture, uv0, uv1, active).w *
-                              vertex_alpha));
-    const Int<F> mode = gather_field(records, &MaterialRecord::alpha, m);
-    const F masked = select(alpha >= gather_field(records, &MaterialRecord::alpha_cutoff, m), F(1.f), F(0.f));
-    return select(as_mask(mode == int32_t(alpha_opaque)), F(1.f), select(as_mask(mode == int32_t(alpha_mask)), masked, alpha));
+// Part of the light that meets the surface at all, [0, 1], glTF 2.0 section 3.9.4: 1 if opaque, 0 or 1 if masked, else alpha of
+// factor, texture and vertex colour. One ray at a time, as ray filters ask.
+inline float opacity_at(const MaterialTables& tables, int32_t material, const Vec2& uv0, const Vec2& uv1, float vertex_alpha) {
+    const MaterialRecord& m = tables.materials[material];
+    if (m.alpha == alpha_opaque) return 1;
+    const float alpha = clamp01(m.opacity * lookup<float>(tables.textures, m.base_color_texture, uv0, uv1, true).w * vertex_alpha);
+    return m.alpha == alpha_mask ? float(alpha >= m.alpha_cutoff) : alpha;
 }
 
 } // namespace blush::inline BLUSH_ISA
