@@ -9,9 +9,9 @@
 namespace blush {
 
 struct Changes {
-    bool view = false;        // pose or lens
+    bool view = false;        // pose or lens; the pivot is not seen
     bool resolution = false;
-    bool integrator = false;  // bounces, roulette, strategy, filter, seed, energy compensation
+    bool integrator = false;  // bounces, roulette, strategy, filter, seed, first sample, energy compensation
     bool stop_rules = false;
     bool environment_parameters = false; // colour, intensity, rotation, visibility
     bool environment_image = false;      // kind or pixels
@@ -23,11 +23,12 @@ struct Changes {
     std::vector<Id<Light>> lights;
 
     bool any() const;
-    // Something that an image already accumulated does not show.
+    // There is something that an image already accumulated does not show.
     bool affects_image() const;
 };
 
-// Names of nodes, materials, lights, ... are not changes: they do not reach the image.
+// Names of nodes, materials, lights, ... are not changes: they do not reach the image. Payloads are compared by serial, never by content;
+// tables that share storage cost nothing.
 Changes diff(const Scene& before, const RenderSettings& before_settings, const Scene& after, const RenderSettings& after_settings);
 
 } // namespace blush

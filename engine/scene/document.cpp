@@ -5,9 +5,6 @@
 namespace blush {
 namespace {
 
-constexpr size_t max_steps = 500;
-constexpr size_t max_history_bytes = size_t(1) << 29;
-
 // What navigation moves; the rest of a view (its lens) is edited.
 void set_pose(View& view, const View& pose) {
     view.position = pose.position;
@@ -43,7 +40,7 @@ Result<void> Document::apply(const Edit& edit, Gesture gesture) {
 void Document::forget_oldest() {
     size_t bytes = 0;
     for (const Step& step : past_) bytes += step.bytes;
-    while (past_.size() > max_steps || (past_.size() > 1 && bytes > max_history_bytes)) {
+    while (past_.size() > 1 && (past_.size() > limits_.steps || bytes > limits_.bytes)) {
         bytes -= past_.front().bytes;
         past_.pop_front();
     }

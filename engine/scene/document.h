@@ -14,10 +14,16 @@ namespace blush {
 using Gesture = uint64_t;
 constexpr Gesture no_gesture = 0;
 
+// The oldest steps are forgotten when there are more; the last one stays, whatever it weighs.
+struct HistoryLimits {
+    size_t steps = 500;
+    size_t bytes = size_t(1) << 29;
+};
+
 class Document {
 public:
     Document() = default;
-    explicit Document(Project project) : project_(project), saved_(std::move(project)) {}
+    explicit Document(Project project, const HistoryLimits& limits = {}) : project_(project), saved_(std::move(project)), limits_(limits) {}
 
     const Project& project() const { return project_; }
     // Grows with every change of the project, undo and navigation included.
@@ -25,7 +31,7 @@ public:
 
     // Replaces everything and forgets the history: opening a file.
     void reset(Project project);
-    // An edit that changes nothing leaves no step. The oldest steps are forgotten after 500, or half a gigabyte.
+    // An edit that changes nothing leaves no step.
     Result<void> apply(const Edit& edit, Gesture gesture = no_gesture);
     // Camera navigation: changes the view's pose (position, rotation, pivot, orthographic height), not the history, and is no modification;
     // undo leaves it where it is.
@@ -56,6 +62,7 @@ private:
 
     Project project_;
     Project saved_;
+    HistoryLimits limits_;
     std::deque<Step> past_, future_;
     uint64_t revision_ = 1;
 };

@@ -40,7 +40,8 @@ using Edit = std::variant<SetNode, SetMaterial, SetLight, SetCamera, SetTexture,
 // "Change light Key", for the history menu.
 std::string label(const Edit& edit, const Project& project);
 
-// The next project. Errors: an id that does not exist, a parent cycle, a non-finite number; the project is then unchanged.
+// The next project. Errors: an id that does not exist, a parent cycle, a number that is not finite or out of its range (validate.h).
+// Called as blush::apply, since an Edit is a std::variant and brings std::apply along.
 Result<Project> apply(const Project& project, const Edit& edit);
 
 } // namespace blush

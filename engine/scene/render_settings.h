@@ -44,7 +44,7 @@ struct RenderSettings {
     int64_t first_sample = 0;       // sample indices [first_sample, spp)
     uint32_t seed = 0;
     int max_bounces = unlimited_bounces;
-    Roulette roulette;
+    Roulette roulette = {};
     Strategy strategy = Strategy::mis;
     PixelFilter filter = PixelFilter::blackman_harris;
     bool energy_compensation = false;

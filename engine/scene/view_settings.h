@@ -8,8 +8,8 @@ namespace blush {
 struct ViewSettings {
     float exposure_ev = 0;
     float gamma = 1;
-    std::string display; // empty: the config's default
-    std::string view;    // empty: the display's default
+    std::string display = {}; // empty: the config's default
+    std::string view = {};    // empty: the display's default
     bool operator==(const ViewSettings&) const = default;
 };
 

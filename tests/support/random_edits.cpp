@@ -1,0 +1,198 @@
+#include "support/random_edits.h"
+
+#include "support/sample_project.h"
+
+#include <type_traits>
+
+namespace blush::test {
+namespace {
+
+float uniform(Rng& rng, float low, float high) { return std::uniform_real_distribution<float>(low, high)(rng); }
+int whole(Rng& rng, int low, int high) { return std::uniform_int_distribution<int>(low, high)(rng); }
+bool coin(Rng& rng) { return whole(rng, 0, 1) == 1; }
+Vec3 color(Rng& rng) { return {uniform(rng, 0, 1), uniform(rng, 0, 1), uniform(rng, 0, 1)}; }
+Vec3 place(Rng& rng) { return {uniform(rng, -2, 2), uniform(rng, -2, 2), uniform(rng, -2, 2)}; }
+Quat turn(Rng& rng) { return {uniform(rng, -1, 1), uniform(rng, -1, 1), uniform(rng, -1, 1), uniform(rng, 0.1f, 1)}; }
+
+template <class T> const typename Table<T>::Entry* pick(Rng& rng, const Table<T>& table) {
+    return table.empty() ? nullptr : &table.entries()[size_t(whole(rng, 0, int(table.size()) - 1))];
+}
+template <class T> Id<T> pick_id(Rng& rng, const Table<T>& table) {
+    const auto* entry = pick(rng, table);
+    return entry ? entry->id : Id<T>{};
+}
+
+Light light(Rng& rng) {
+    Light l;
+    l.kind = Light::Kind(whole(rng, 0, 3));
+    l.color = color(rng);
+    l.use_temperature = coin(rng);
+    l.kelvin = uniform(rng, 1500, 10000);
+    l.intensity = uniform(rng, 0, 50);
+    l.radius = coin(rng) ? uniform(rng, 0.01f, 0.3f) : 0;
+    l.angle_radians = coin(rng) ? uniform(rng, 0.001f, 0.2f) : 0;
+    l.outer_cone_radians = uniform(rng, 0.2f, 1.5f);
+    l.inner_cone_radians = l.outer_cone_radians * uniform(rng, 0, 1);
+    l.width = uniform(rng, 0.1f, 2);
+    l.height = uniform(rng, 0.1f, 2);
+    l.two_sided = coin(rng);
+    l.enabled = whole(rng, 0, 4) > 0;
+    return l;
+}
+
+Material material(Rng& rng, const Scene& scene) {
+    Material m;
+    m.base_color = color(rng);
+    m.opacity = uniform(rng, 0.2f, 1);
+    m.metallic = uniform(rng, 0, 1);
+    m.roughness = uniform(rng, 0, 1);
+    if (whole(rng, 0, 3) == 0) m.emissive = color(rng);
+    m.emissive_strength = uniform(rng, 0, 5);
+    m.alpha = Material::Alpha(whole(rng, 0, 2));
+    m.double_sided = coin(rng);
+    m.unlit = whole(rng, 0, 9) == 0;
+    m.ior = uniform(rng, 1, 2);
+    m.specular = uniform(rng, 0, 1);
+    m.transmission = coin(rng) ? uniform(rng, 0, 1) : 0;
+    m.thickness = coin(rng) ? 1.f : 0.f;
+    if (coin(rng)) m.base_color_texture.texture = pick_id(rng, scene.textures);
+    return m;
+}
+
+// Never a parent that hangs below the node itself.
+Id<Node> new_parent(Rng& rng, const Scene& scene, Id<Node> id) {
+    const Id<Node> candidate = pick_id(rng, scene.nodes);
+    for (Id<Node> up = candidate; up; up = scene.nodes.find(up)->parent)
+        if (up == id) return {};
+    return candidate;
+}
+
+std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<SetNode>) {
+    const auto* entry = pick(rng, p.scene.nodes);
+    if (!entry) return {};
+    Node node = entry->value;
+    switch (whole(rng, 0, 4)) {
+    case 0: node.local.translation = place(rng); break;
+    case 1: node.local.rotation = turn(rng); break;
+    case 2: node.local.scale = {uniform(rng, 0.3f, 2), uniform(rng, 0.3f, 2), uniform(rng, -2, -0.3f)}; break;
+    case 3: node.visible = !node.visible; break;
+    case 4: node.parent = new_parent(rng, p.scene, entry->id); break;
+    }
+    return SetNode{entry->id, node};
+}
+std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<SetMaterial>) {
+    const Id<Material> id = pick_id(rng, p.scene.materials);
+    if (!id) return {};
+    return SetMaterial{id, material(rng, p.scene)};
+}
+std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<SetLight>) {
+    const Id<Light> id = pick_id(rng, p.scene.lights);
+    if (!id) return {};
+    return SetLight{id, light(rng)};
+}
+Lens lens(Rng& rng) {
+    Lens l;
+    l.orthographic = whole(rng, 0, 3) == 0;
+    l.yfov_radians = uniform(rng, 0.2f, 2);
+    l.ymag = uniform(rng, 0.5f, 3);
+    l.aperture_radius = coin(rng) ? uniform(rng, 0.01f, 0.2f) : 0;
+    l.focus_distance = uniform(rng, 1, 5);
+    return l;
+}
+std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<SetCamera>) {
+    const Id<Camera> id = pick_id(rng, p.scene.cameras);
+    if (!id) return {};
+    return SetCamera{id, {"Camera", lens(rng)}};
+}
+std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<SetTexture>) {
+    const auto* entry = pick(rng, p.scene.textures);
+    if (!entry) return {};
+    Texture texture = entry->value;
+    texture.wrap_u = Texture::Wrap(whole(rng, 0, 2));
+    texture.filter = Texture::Filter(whole(rng, 0, 1));
+    if (coin(rng)) texture.image = byte_image(whole(rng, 1, 4), whole(rng, 1, 4), whole(rng, 1, 4), uint8_t(whole(rng, 0, 255)));
+    return SetTexture{entry->id, texture};
+}
+std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<AssignMaterial>) {
+    const auto* entry = pick(rng, p.scene.meshes);
+    if (!entry || entry->value.parts.empty()) return {};
+    return AssignMaterial{entry->id, whole(rng, 0, int(entry->value.parts.size()) - 1), pick_id(rng, p.scene.materials)};
+}
+std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<SetEnvironment>) {
+    Environment e = p.scene.environment;
+    e.kind = Environment::Kind(whole(rng, 0, 2));
+    e.color = color(rng);
+    e.intensity = uniform(rng, 0, 3);
+    e.rotation_degrees = uniform(rng, -180, 180);
+    e.visible_to_camera = coin(rng);
+    if (e.kind == Environment::Kind::image && (!e.image || coin(rng))) e.image = float_image(8, 4, 3, uniform(rng, 0.1f, 2));
+    return SetEnvironment{e};
+}
+std::optional<Edit> make(Rng& rng, const Project&, std::type_identity<SetLens>) { return SetLens{lens(rng)}; }
+std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<SetRender>) {
+    RenderSettings r = p.render;
+    switch (whole(rng, 0, 5)) {
+    case 0: r.max_bounces = whole(rng, 0, 6); break;
+    case 1: r.roulette.rule = Roulette::Rule(whole(rng, 0, 5)); break;
+    case 2: r.strategy = Strategy(whole(rng, 0, 2)); break;
+    case 3: r.filter = PixelFilter(whole(rng, 0, 1)); break;
+    case 4: r.seed = uint32_t(whole(rng, 0, 1000)); break;
+    case 5: r.energy_compensation = !r.energy_compensation; break;
+    }
+    return SetRender{r};
+}
+std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<SetView>) {
+    ViewSettings v = p.view;
+    v.exposure_ev = uniform(rng, -3, 3);
+    v.gamma = uniform(rng, 0.5f, 2);
+    return SetView{v};
+}
+std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<AddLight>) {
+    AddLight add;
+    add.node.name = add.light.name = "New light";
+    add.light = light(rng);
+    add.node.local.translation = place(rng);
+    add.node.local.rotation = turn(rng);
+    add.node.parent = coin(rng) ? pick_id(rng, p.scene.nodes) : Id<Node>{};
+    return add;
+}
+std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<DuplicateNode>) {
+    const Id<Node> id = pick_id(rng, p.scene.nodes);
+    // Doubling again and again would outgrow any test.
+    if (!id || p.scene.nodes.size() > 60) return {};
+    return DuplicateNode{id};
+}
+std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<RemoveNode>) {
+    const Id<Node> id = pick_id(rng, p.scene.nodes);
+    // A test of edits needs something left to edit.
+    if (!id || p.scene.nodes.size() < 4) return {};
+    return RemoveNode{id};
+}
+std::optional<Edit> make(Rng&, const Project& p, std::type_identity<Import>) {
+    if (p.scene.nodes.size() > 60) return {};
+    return Import{sample_project().project.scene, "sample"};
+}
+std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<LookThrough>) {
+    const auto* entry = pick(rng, p.scene.nodes);
+    if (!entry || !entry->value.camera) return {};
+    return LookThrough{entry->id};
+}
+
+template <size_t... kinds> std::optional<Edit> make_kind(Rng& rng, const Project& project, size_t kind, std::index_sequence<kinds...>) {
+    std::optional<Edit> edit;
+    ((kind == kinds ? void(edit = make(rng, project, std::type_identity<std::variant_alternative_t<kinds, Edit>>{})) : void()), ...);
+    return edit;
+}
+
+} // namespace
+
+std::optional<Edit> random_edit(Rng& rng, const Project& project, size_t kind) {
+    return make_kind(rng, project, kind, std::make_index_sequence<std::variant_size_v<Edit>>{});
+}
+
+Edit random_edit(Rng& rng, const Project& project) {
+    for (;;)
+        if (std::optional<Edit> edit = random_edit(rng, project, size_t(whole(rng, 0, int(std::variant_size_v<Edit>) - 1)))) return *edit;
+}
+
+} // namespace blush::test

@@ -1,0 +1,12 @@
+blush_test(test_scene
+  SOURCES
+    scene_changes.cpp
+    scene_color_temperature.cpp
+    scene_document.cpp
+    scene_edit.cpp
+    scene_render_settings.cpp
+    scene_table.cpp
+    scene_transform.cpp
+    scene_validate.cpp
+  LIBS blush_scene blush_test_support fmt::fmt
+  LABELS unit)

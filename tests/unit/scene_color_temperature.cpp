@@ -1,0 +1,59 @@
+#include "scene/color_temperature.h"
+
+#include <gtest/gtest.h>
+
+namespace blush {
+namespace {
+
+struct Chromaticity {
+    double x, y;
+};
+
+Chromaticity chromaticity(const Vec3& rgb) {
+    const double x = 0.4123908 * rgb.x + 0.3575843 * rgb.y + 0.1804808 * rgb.z;
+    const double y = 0.2126390 * rgb.x + 0.7151687 * rgb.y + 0.0721923 * rgb.z;
+    const double z = 0.0193308 * rgb.x + 0.1191948 * rgb.y + 0.9505322 * rgb.z;
+    return {x / (x + y + z), y / (x + y + z)};
+}
+
+// CIE 1931 chromaticities of the Planckian locus (Wyszecki and Stiles, Color Science, table 1(3.11)); 2856 K is CIE illuminant A. The
+// colour matching fit used is good to a few thousandths.
+TEST(BlackBody, LiesOnThePlanckianLocus) {
+    const struct {
+        float kelvin;
+        double x, y;
+    } locus[] = {{2856, 0.4476, 0.4074}, {4000, 0.3805, 0.3768}, {5000, 0.3451, 0.3516}, {6500, 0.3135, 0.3237}, {10000, 0.2807, 0.2884}};
+    for (const auto& [kelvin, x, y] : locus) {
+        const Chromaticity c = chromaticity(black_body_color(kelvin));
+        EXPECT_NEAR(c.x, x, 0.004) << kelvin;
+        EXPECT_NEAR(c.y, y, 0.004) << kelvin;
+    }
+}
+
+TEST(BlackBody, HasLuminanceOneAndNoNegativeParts) {
+    for (float kelvin = min_kelvin; kelvin <= max_kelvin; kelvin *= 1.1f) {
+        const Vec3 c = black_body_color(kelvin);
+        EXPECT_NEAR(0.2126729 * c.x + 0.7151522 * c.y + 0.0721750 * c.z, 1, 1e-5) << kelvin;
+        EXPECT_GE(c.x, 0) << kelvin;
+        EXPECT_GE(c.y, 0) << kelvin;
+        EXPECT_GE(c.z, 0) << kelvin;
+    }
+}
+
+TEST(BlackBody, GoesFromRedToBlue) {
+    double last = 1e9;
+    for (float kelvin = min_kelvin; kelvin <= max_kelvin; kelvin *= 1.1f) {
+        const Vec3 c = black_body_color(kelvin);
+        const double redness = double(c.x) / (double(c.z) + 1e-3);
+        EXPECT_LT(redness, last) << kelvin;
+        last = redness;
+    }
+}
+
+TEST(BlackBody, ClampsWhatNoLampReaches) {
+    EXPECT_EQ(black_body_color(0), black_body_color(min_kelvin));
+    EXPECT_EQ(black_body_color(1e9f), black_body_color(max_kelvin));
+}
+
+} // namespace
+} // namespace blush

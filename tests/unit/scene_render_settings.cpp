@@ -1,0 +1,90 @@
+#include "scene/render_settings.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace blush {
+namespace {
+
+TEST(SameImage, OnlyStopRulesMayDiffer) {
+    const RenderSettings a;
+    RenderSettings b = a;
+    b.spp = 1000;
+    b.seconds = 3;
+    b.error = 0.01;
+    EXPECT_TRUE(same_image(a, b));
+    b.seed = 1;
+    EXPECT_FALSE(same_image(a, b));
+    b = a;
+    b.width = 640;
+    EXPECT_FALSE(same_image(a, b));
+    b = a;
+    b.first_sample = 3;
+    EXPECT_FALSE(same_image(a, b));
+}
+
+TEST(Roulette, ReadsWhatTheManualShows) {
+    EXPECT_EQ(*parse_roulette("max,start=3"), Roulette{});
+    EXPECT_EQ(parse_roulette("off")->rule, Roulette::Rule::off);
+    EXPECT_EQ(parse_roulette("luminance")->rule, Roulette::Rule::luminance);
+    EXPECT_EQ(parse_roulette("sqrt,start=0")->start, 0);
+    const Roulette constant = *parse_roulette("constant=0.7,start=1,floor=0.05,cap=0.95");
+    EXPECT_EQ(constant, (Roulette{Roulette::Rule::constant, 1, 0.05f, 0.95f, 0.7f, 0.1f}));
+    const Roulette cut = *parse_roulette("biased-cut=0.05");
+    EXPECT_EQ(cut.rule, Roulette::Rule::biased_cut);
+    EXPECT_EQ(cut.threshold, 0.05f);
+}
+
+TEST(Roulette, TextGoesThereAndBack) {
+    EXPECT_EQ(to_string(Roulette{}), "max,start=3");
+    std::mt19937 rng(5);
+    std::uniform_real_distribution<float> u(0.001f, 1);
+    for (int i = 0; i < 1000; ++i) {
+        Roulette r;
+        r.rule = Roulette::Rule(rng() % 6);
+        r.start = int(rng() % 10);
+        if (rng() % 2) r.cap = u(rng);
+        if (rng() % 2) r.floor = r.cap * u(rng);
+        if (r.rule == Roulette::Rule::constant) r.probability = u(rng);
+        if (r.rule == Roulette::Rule::biased_cut) r.threshold = u(rng);
+        const Result<Roulette> back = parse_roulette(to_string(r));
+        ASSERT_TRUE(back) << to_string(r) << ": " << back.error().text();
+        EXPECT_EQ(*back, r) << to_string(r);
+    }
+}
+
+TEST(Roulette, BadTextIsRefusedWithTheReason) {
+    const auto error = [](std::string_view text) {
+        const Result<Roulette> r = parse_roulette(text);
+        return r ? "accepted" : r.error().text();
+    };
+    EXPECT_EQ(error("often"), "unknown roulette rule \"often\" (known: off, max, luminance, sqrt, constant, biased-cut)");
+    EXPECT_EQ(error(""), "unknown roulette rule \"\" (known: off, max, luminance, sqrt, constant, biased-cut)");
+    EXPECT_EQ(error("constant"), "roulette rule constant needs a number, as in constant=0.5");
+    EXPECT_EQ(error("max=1"), "roulette rule max takes no number");
+    EXPECT_EQ(error("constant=0"), "roulette's constant must be a number above 0 and at most 1, not \"0\"");
+    EXPECT_EQ(error("constant=nan"), "roulette's constant must be a number above 0 and at most 1, not \"nan\"");
+    EXPECT_EQ(error("max,start=-1"), "roulette's start must be a whole number from 0, not \"-1\"");
+    EXPECT_EQ(error("max,start=1.5"), "roulette's start must be a whole number from 0, not \"1.5\"");
+    EXPECT_EQ(error("max,floor=2"), "roulette's floor must be a number from 0 to 1, not \"2\"");
+    EXPECT_EQ(error("max,end=4"), "unknown roulette parameter \"end\" (known: start, floor, cap)");
+    EXPECT_EQ(error("max,"), "unknown roulette parameter \"\" (known: start, floor, cap)");
+    EXPECT_EQ(error("max,floor=0.9,cap=0.5"), "roulette's floor is above its cap");
+    EXPECT_EQ(error("max,start=99999999999"), "roulette's start must be a whole number from 0, not \"99999999999\"");
+}
+
+TEST(MaxBounces, TextGoesThereAndBack) {
+    for (const int n : {0, 1, 17, unlimited_bounces}) EXPECT_EQ(*parse_max_bounces(max_bounces_text(n)), n);
+    for (const char* bad : {"", "-1", "many", "3x", "1.5", "99999999999"}) EXPECT_FALSE(parse_max_bounces(bad)) << bad;
+}
+
+TEST(Words, GoThereAndBack) {
+    for (const Strategy s : {Strategy::mis, Strategy::light, Strategy::bsdf}) EXPECT_EQ(*parse_strategy(to_string(s)), s);
+    for (const PixelFilter f : {PixelFilter::blackman_harris, PixelFilter::box}) EXPECT_EQ(*parse_filter(to_string(f)), f);
+    EXPECT_EQ(parse_strategy("MIS").error().text(), "unknown strategy \"MIS\" (known: mis, light, bsdf)");
+    EXPECT_EQ(parse_filter("gauss").error().text(), "unknown filter \"gauss\" (known: blackman-harris, box)");
+}
+
+} // namespace
+} // namespace blush
