@@ -1,0 +1,146 @@
+#include "render/environment_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+namespace blush {
+namespace {
+
+using std::numbers::pi;
+
+// Texel and cell numbers are 32-bit indices into three floats each; a row is one distribution of at most 2^24.
+constexpr int64_t max_texels = (int64_t(1) << 31) / 3 - 1;
+constexpr int64_t max_side = (1 << 24) - 1;
+
+std::string fault(const Image* image) {
+    if (!image || image->width < 1 || image->height < 1 || image->channels < 3 || image->channels > 4) return "image is not RGB";
+    const int64_t texels = int64_t(image->width) * image->height;
+    if (int64_t(image->floats.size()) != texels * image->channels) return "image does not hold width x height float pixels";
+    if (texels + image->width > max_texels || image->width > max_side || image->height >= max_side) return "image is too large to address";
+    return {};
+}
+
+void warn(EnvironmentTable& table, std::string what, const std::string& file) {
+    table.warnings.push_back({Diagnostic::Severity::warning, std::move(what), file.empty() ? "environment" : file});
+}
+
+void set_texels(EnvironmentTable& table, const Image& image, const std::string& file) {
+    table.width = image.width;
+    table.height = image.height;
+    const size_t count = size_t(image.width) * size_t(image.height);
+    table.texels.resize(3 * count);
+    int64_t replaced = 0;
+    for (size_t i = 0; i < count; ++i) {
+        for (size_t c = 0; c < 3; ++c) {
+            const float value = image.floats[i * size_t(image.channels) + c];
+            const bool is_usable = value >= 0 && std::isfinite(value);
+            replaced += !is_usable;
+            table.texels[3 * i + c] = is_usable ? value : 0;
+        }
+    }
+    if (replaced > 0) warn(table, fmt::format("{} values are negative or not finite: read as 0", replaced), file);
+}
+
+void set_uniform_texel(EnvironmentTable& table, float value) {
+    table.width = table.height = 1;
+    table.texels = {value, value, value};
+}
+
+// Row r of cells ends at the centre of texel row r, the last at the pole.
+double row_end(int row, int height) { return row == height ? pi : pi * (row + 0.5) / height; }
+
+struct RowBorders {
+    double begin, end; // polar angles
+    // Solid angle of one of `width` cells between them.
+    double cell_solid_angle(int width) const { return 4 * pi / width * std::sin((end - begin) / 2) * std::sin((end + begin) / 2); }
+};
+RowBorders row_borders(int row, int height) { return {row == 0 ? 0.0 : row_end(row - 1, height), row_end(row, height)}; }
+
+EnvironmentRow row_record(const RowBorders& borders, int width) {
+    const bool is_upper = borders.begin + borders.end <= pi;
+    const auto height_over_pole = [&](double theta) {
+        const double s = std::sin((is_upper ? theta : pi - theta) / 2);
+        return float(s * s);
+    };
+    return {height_over_pole(borders.begin), height_over_pole(borders.end), is_upper ? 1.f : -1.f, float(1 / borders.cell_solid_angle(width))};
+}
+
+// Rec.709 luminance, which is above 0 unless all of a colour is 0.
+double luminance(const float* c) { return 0.212671 * c[0] + 0.715160 * c[1] + 0.072169 * c[2]; }
+
+void build_importance(EnvironmentTable& table) {
+    const size_t width = size_t(table.width), row_count = size_t(table.height) + 1;
+    table.rows.reserve(row_count);
+    table.column_thresholds.reserve(row_count * width);
+    std::vector<double> row_weights, column_sums(width), cell_weights(width);
+    row_weights.reserve(row_count);
+    for (int row = 0; row < int(row_count); ++row) {
+        const RowBorders borders = row_borders(row, table.height);
+        const double solid_angle = borders.cell_solid_angle(table.width);
+        const float* upper = &table.texels[3 * width * size_t(std::max(row - 1, 0))];
+        const float* lower = &table.texels[3 * width * size_t(std::min(row, table.height - 1))];
+        Vec3d sum{0, 0, 0};
+        for (size_t i = 0; i < width; ++i) {
+            const float *a = upper + 3 * i, *b = lower + 3 * i;
+            column_sums[i] = luminance(a) + luminance(b);
+            sum.x += double(a[0]) + b[0];
+            sum.y += double(a[1]) + b[1];
+            sum.z += double(a[2]) + b[2];
+        }
+        double row_weight = 0;
+        for (size_t i = 0; i < width; ++i) {
+            cell_weights[i] = column_sums[i == 0 ? width - 1 : i - 1] + column_sums[i];
+            row_weight += cell_weights[i];
+        }
+        const std::vector<uint32_t> thresholds = make_thresholds(cell_weights);
+        table.column_thresholds.insert(table.column_thresholds.end(), thresholds.begin(), thresholds.end());
+        table.rows.push_back(row_record(borders, table.width));
+        row_weights.push_back(row_weight * solid_angle);
+        const double half = solid_angle / 2;
+        table.texel_integral = {table.texel_integral.x + half * sum.x, table.texel_integral.y + half * sum.y, table.texel_integral.z + half * sum.z};
+    }
+    table.row_thresholds = make_thresholds(row_weights);
+}
+
+} // namespace
+
+Vec3d EnvironmentTable::integral() const { return {scale.x * texel_integral.x, scale.y * texel_integral.y, scale.z * texel_integral.z}; }
+
+EnvironmentTables EnvironmentTable::tables() const {
+    return {texels.data(), row_thresholds.data(), column_thresholds.data(), rows.data(), width, height, scale, rotation, visible_to_camera};
+}
+
+EnvironmentTable build_environment_table(const Environment& environment) {
+    EnvironmentTable table;
+    switch (environment.kind) {
+    case Environment::Kind::none: set_uniform_texel(table, 0); break;
+    case Environment::Kind::constant: set_uniform_texel(table, 1); break;
+    case Environment::Kind::image:
+        if (const std::string what = fault(environment.image.get()); what.empty()) {
+            set_texels(table, *environment.image, environment.file);
+        } else {
+            warn(table, what + ": no environment", environment.file);
+            set_uniform_texel(table, 0);
+        }
+    }
+    build_importance(table);
+    update_environment_parameters(table, environment);
+    return table;
+}
+
+void update_environment_parameters(EnvironmentTable& table, const Environment& environment) {
+    const auto channel = [&](float c) {
+        const float s = c * environment.intensity;
+        return s >= 0 && std::isfinite(s) ? s : 0;
+    };
+    table.scale = {channel(environment.color.x), channel(environment.color.y), channel(environment.color.z)};
+    const double turns = double(environment.rotation_degrees) / 360;
+    table.rotation = std::isfinite(turns) ? float(turns - std::round(turns)) : 0;
+    table.visible_to_camera = environment.visible_to_camera;
+}
+
+} // namespace blush

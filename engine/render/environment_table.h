@@ -1,0 +1,37 @@
+// The scene's environment as rays see it, with the importance map that directions are drawn from.
+#pragma once
+
+#include "core/result.h"
+#include "scene/scene.h"
+#include "shading/environment.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace blush {
+
+struct EnvironmentTable {
+    // Of the image; a uniform environment is one white texel, none a black one.
+    int32_t width = 0, height = 0;
+    std::vector<float> texels;
+    std::vector<uint32_t> row_thresholds, column_thresholds;
+    std::vector<EnvironmentRow> rows;
+    Vec3d texel_integral{0, 0, 0}; // of the map over the sphere, sr
+    std::vector<Diagnostic> warnings;
+    // Of the parameters:
+    Vec3 scale{0, 0, 0};
+    float rotation = 0; // turns
+    bool visible_to_camera = true;
+
+    // RGB radiance integrated over the sphere, nits x sr, good to the map's resolution: what light selection weighs it by.
+    Vec3d integral() const;
+    // Valid until the table changes.
+    EnvironmentTables tables() const;
+};
+
+// With a warning: texels that are negative or not finite become 0, an image that cannot be used becomes no environment.
+EnvironmentTable build_environment_table(const Environment& environment);
+// Colour, intensity, rotation and visibility; the map stays. Same bits as a build.
+void update_environment_parameters(EnvironmentTable& table, const Environment& environment);
+
+} // namespace blush

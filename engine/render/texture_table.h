@@ -1,0 +1,44 @@
+// The images that a scene's materials read, as texels in two pools: bytes and floats.
+#pragma once
+
+#include "core/result.h"
+#include "scene/scene.h"
+#include "shading/texture.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace blush {
+
+// A texture as materials read it: one image may hold colour for one slot and data for another.
+struct TextureSource {
+    Id<Texture> id;
+    bool is_color = false; // sRGB-encoded
+    ImagePtr image;
+    Texture::Wrap wrap_u = Texture::Wrap::repeat, wrap_v = Texture::Wrap::repeat;
+    Texture::Filter filter = Texture::Filter::linear;
+    std::string name; // for warnings
+    bool operator==(const TextureSource&) const = default;
+};
+
+struct TextureTable {
+    std::vector<TextureSource> sources; // one per record
+    std::vector<TextureRecord> records;
+    std::vector<uint32_t> rgba8;
+    std::vector<float> rgba32f;
+    std::vector<Diagnostic> warnings;
+
+    // -1 if absent.
+    int32_t index_of(Id<Texture> id, bool is_color) const;
+    // Without uses. Valid until the table changes.
+    TextureTables tables() const;
+};
+
+// Sources are sorted by (id, is_color), without repetition. An image that several read is stored once. Grey images become
+// RGB, missing alpha is 1. Float images count as sRGB-encoded where they are read as colour and stay within [0, 1], as 16-bit
+// PNG does; a value above 1 marks linear data. With a warning: texels that are negative or not finite become 0, and images
+// that do not hold what they say, or are beyond the pool's limits, become a white texel.
+TextureTable build_texture_table(std::vector<TextureSource> sources);
+
+} // namespace blush
