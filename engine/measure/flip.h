@@ -1,0 +1,28 @@
+// FLIP: how strongly a viewer sees a difference when two images are flipped back and forth.
+//
+// Andersson, Nilsson, Akenine-Moller, Oskarsson, Astrom and Fairchild, "FLIP: A Difference Evaluator for Alternating Images" (HPG 2020),
+// and Andersson, Nilsson, Shirley and Akenine-Moller, "Visualizing Errors in Rendered High Dynamic Range Images" (Eurographics 2021). The
+// viewer is the papers' default: 0.7 m away from a screen 0.7 m and 3840 pixels wide, 67 pixels per degree.
+#pragma once
+
+#include "measure/rgb_image.h"
+
+#include <vector>
+
+namespace blush {
+
+// One value in [0, 1] per pixel. Images of the same size, finite; sRGB-encoded, clamped to [0, 1].
+std::vector<float> ldr_flip(const RgbImage& reference, const RgbImage& test);
+
+// The largest LDR-FLIP over exposures from where the reference's brightest pixel is just below white to where its median is, a stop or less
+// apart, tone mapped by the ACES curve. Images of the same size, finite, scene-linear; negative values count as 0.
+std::vector<float> hdr_flip(const RgbImage& reference, const RgbImage& test);
+
+// The exposures that hdr_flip uses, in stops.
+struct ExposureRange {
+    double start = 0, stop = 0;
+    int count = 1;
+};
+ExposureRange hdr_flip_exposures(const RgbImage& reference);
+
+} // namespace blush

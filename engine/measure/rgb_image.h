@@ -1,0 +1,15 @@
+// Three floats per pixel, top row first: what the metrics look at.
+#pragma once
+
+#include "core/vec.h"
+
+#include <vector>
+
+namespace blush {
+
+struct RgbImage {
+    int width = 0, height = 0;
+    std::vector<Vec3> pixels; // width * height
+};
+
+} // namespace blush

@@ -1,0 +1,6 @@
+blush_test(test_measure
+  SOURCES
+    measure_flip.cpp
+    measure_metrics.cpp
+  LIBS blush_measure
+  LABELS unit)
