@@ -62,6 +62,18 @@ void Document::navigate(const View& view) {
 std::string Document::undo_label() const { return past_.empty() ? std::string() : past_.back().label; }
 std::string Document::redo_label() const { return future_.empty() ? std::string() : future_.back().label; }
 
+std::vector<std::string> Document::undo_labels() const {
+    std::vector<std::string> labels;
+    for (const Step& step : past_) labels.push_back(step.label);
+    return labels;
+}
+
+std::vector<std::string> Document::redo_labels() const {
+    std::vector<std::string> labels;
+    for (auto step = future_.rbegin(); step != future_.rend(); ++step) labels.push_back(step->label);
+    return labels;
+}
+
 // A step holds the project on its far side: going through it swaps that with the present one and puts the step on the other stack.
 bool Document::travel(std::deque<Step>& from, std::deque<Step>& to) {
     if (from.empty()) return false;

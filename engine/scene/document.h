@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <deque>
 #include <string>
+#include <vector>
 
 namespace blush {
 
@@ -42,6 +43,9 @@ public:
     // The label of the step that undo (redo) would take back (repeat); empty if none.
     std::string undo_label() const;
     std::string redo_label() const;
+    // All of them for a history list: steps taken, oldest first; steps undone, the next to repeat first.
+    std::vector<std::string> undo_labels() const;
+    std::vector<std::string> redo_labels() const;
     bool undo();
     bool redo();
 
