@@ -1,10 +1,13 @@
 #include "render/environment_table.h"
 
+#include "scene/affine.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <string>
 
 namespace blush {
@@ -57,6 +60,11 @@ struct RowBorders {
     double begin, end; // polar angles
     // Solid angle of one of `width` cells between them.
     double cell_solid_angle(int width) const { return 4 * pi / width * std::sin((end - begin) / 2) * std::sin((end + begin) / 2); }
+    // Mean over the solid angle of the weight that filtering gives to the lower texels, which is linear in the angle.
+    double lower_share() const {
+        const double height = end - begin;
+        return (std::sin(end) - std::sin(begin) - height * std::cos(end)) / (height * (std::cos(begin) - std::cos(end)));
+    }
 };
 RowBorders row_borders(int row, int height) { return {row == 0 ? 0.0 : row_end(row - 1, height), row_end(row, height)}; }
 
@@ -69,39 +77,32 @@ EnvironmentRow row_record(const RowBorders& borders, int width) {
     return {height_over_pole(borders.begin), height_over_pole(borders.end), is_upper ? 1.f : -1.f, float(1 / borders.cell_solid_angle(width))};
 }
 
-// Rec.709 luminance, which is above 0 unless all of a colour is 0.
-double luminance(const float* c) { return 0.212671 * c[0] + 0.715160 * c[1] + 0.072169 * c[2]; }
-
+// A cell weighs what the filtered map shines over it.
 void build_importance(EnvironmentTable& table) {
     const size_t width = size_t(table.width), row_count = size_t(table.height) + 1;
     table.rows.reserve(row_count);
     table.column_thresholds.reserve(row_count * width);
-    std::vector<double> row_weights, column_sums(width), cell_weights(width);
+    std::vector<double> row_weights, border_weights(width), cell_weights(width);
     row_weights.reserve(row_count);
     for (int row = 0; row < int(row_count); ++row) {
         const RowBorders borders = row_borders(row, table.height);
-        const double solid_angle = borders.cell_solid_angle(table.width);
         const float* upper = &table.texels[3 * width * size_t(std::max(row - 1, 0))];
         const float* lower = &table.texels[3 * width * size_t(std::min(row, table.height - 1))];
+        const double lower_share = borders.lower_share(), upper_share = 1 - lower_share;
         Vec3d sum{0, 0, 0};
         for (size_t i = 0; i < width; ++i) {
             const float *a = upper + 3 * i, *b = lower + 3 * i;
-            column_sums[i] = luminance(a) + luminance(b);
-            sum.x += double(a[0]) + b[0];
-            sum.y += double(a[1]) + b[1];
-            sum.z += double(a[2]) + b[2];
+            const Vec3d c{upper_share * a[0] + lower_share * b[0], upper_share * a[1] + lower_share * b[1], upper_share * a[2] + lower_share * b[2]};
+            border_weights[i] = 0.212671 * c.x + 0.715160 * c.y + 0.072169 * c.z; // luminance: 0 only where all is
+            sum = sum + c;
         }
-        double row_weight = 0;
-        for (size_t i = 0; i < width; ++i) {
-            cell_weights[i] = column_sums[i == 0 ? width - 1 : i - 1] + column_sums[i];
-            row_weight += cell_weights[i];
-        }
+        for (size_t i = 0; i < width; ++i) cell_weights[i] = border_weights[i == 0 ? width - 1 : i - 1] + border_weights[i];
         const std::vector<uint32_t> thresholds = make_thresholds(cell_weights);
         table.column_thresholds.insert(table.column_thresholds.end(), thresholds.begin(), thresholds.end());
         table.rows.push_back(row_record(borders, table.width));
-        row_weights.push_back(row_weight * solid_angle);
-        const double half = solid_angle / 2;
-        table.texel_integral = {table.texel_integral.x + half * sum.x, table.texel_integral.y + half * sum.y, table.texel_integral.z + half * sum.z};
+        const double solid_angle = borders.cell_solid_angle(table.width);
+        row_weights.push_back(std::accumulate(cell_weights.begin(), cell_weights.end(), 0.0) * solid_angle);
+        table.texel_integral = table.texel_integral + sum * solid_angle;
     }
     table.row_thresholds = make_thresholds(row_weights);
 }

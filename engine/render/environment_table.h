@@ -23,7 +23,7 @@ struct EnvironmentTable {
     float rotation = 0; // turns
     bool visible_to_camera = true;
 
-    // RGB radiance integrated over the sphere, nits x sr, good to the map's resolution: what light selection weighs it by.
+    // RGB radiance of the filtered map integrated over the sphere, nits x sr: what light selection weighs it by.
     Vec3d integral() const;
     // Valid until the table changes.
     EnvironmentTables tables() const;
