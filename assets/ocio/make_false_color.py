@@ -4,8 +4,10 @@
 The axis of the table is stops from middle grey (log2 of luminance / 0.18). The band of a whole number of stops reaches
 half a stop to either side of it, so that middle grey lies in the midst of its own band. Colours are sRGB-encoded.
 The steps between bands are one table cell wide (1/64 stop): OpenColorIO interpolates linearly between entries.
+With --check nothing is written; it fails if the file is not what it would write.
 """
 import pathlib
+import sys
 
 CELLS_PER_STOP = 64
 LOWEST, HIGHEST = -8, 8  # stops; beyond these the end colours hold
@@ -42,7 +44,12 @@ def main():
     for i in range(count):
         lines.append(" ".join(f"{c / 255:.6f}" for c in color(LOWEST + i / CELLS_PER_STOP)))
     lines.append("}")
-    pathlib.Path(__file__).with_name("false_color.spi1d").write_text("\n".join(lines) + "\n")
+    file = pathlib.Path(__file__).with_name("false_color.spi1d")
+    text = "\n".join(lines) + "\n"
+    if "--check" not in sys.argv:
+        file.write_text(text)
+    elif file.read_text() != text:
+        sys.exit(f"{file.name} is not what make_false_color.py writes")
 
 
 if __name__ == "__main__":

@@ -2,9 +2,11 @@
 """Writes the demo scenes beside this file: NAME.gltf and NAME.bin for each. README.md describes what to see in them.
 
 Python's standard library is all it needs, and it writes the same bytes on every machine. Metres; +Y is up.
+With --check nothing is written; it fails if a file is not what it would write.
 """
 import math
 import pathlib
+import sys
 
 from scene_writer import SceneWriter
 from shapes import Mesh, add, box, cross, dot, faceted, grid, lathe, mul, prism, quad, rounded, sphere, sub, tube, unit
@@ -35,8 +37,8 @@ def mug_handle():
 
 
 def card():
-    """A card of 12 x 17 cm and 0.6 mm that stands because it is bent, by 5 mm over its width. It faces +Z, hollow side first."""
-    width, height, thickness, radius = 0.12, 0.17, 0.0006, 0.36
+    """A card of 12 x 17 cm and 0.6 mm that stands because it is bent, by 4 mm over its width. Its hollow side faces +Z."""
+    width, height, thickness, radius = 0.12, 0.17, 0.0006, 0.5
     columns = 32
 
     def side(offset, sign):
@@ -65,19 +67,19 @@ def card():
 def card_and_mug():
     scene = SceneWriter(
         "card-and-mug", "A matte white card beside a red mug under a low sun: the card blushes.",
-        environment={"kind": "constant", "color": [0.42, 0.56, 0.8], "intensity": 0.3})
-    table = scene.material("grey table", (0.32, 0.31, 0.30), roughness=0.7)
-    glaze = scene.material("red glaze", (0.72, 0.022, 0.018), roughness=0.35)
+        environment={"kind": "constant", "color": [0.74, 0.85, 1], "intensity": 0.6})
+    table = scene.material("grey table", (0.17, 0.17, 0.175), roughness=0.6)
+    glaze = scene.material("red glaze", (0.62, 0.018, 0.016), roughness=0.35)
     paper = scene.material("white card", (0.82, 0.81, 0.79), lambertian=True)
 
     scene.object("table", box((-1.5, -0.04, -1.5), (1.5, 0, 1.5)), table)
-    mug = scene.node("mug", translation=(0.060, 0, 0.030), rotation=about_y(20))
+    mug = scene.node("mug", translation=(0.050, 0, 0.026), rotation=about_y(14))
     scene.object("mug body", mug_body(), glaze, parent=mug)
     scene.object("mug handle", mug_handle(), glaze, parent=mug)
-    scene.object("card", card(), paper, translation=(-0.045, 0, -0.020), rotation=about_y(15))
+    scene.object("card", card(), paper, translation=(-0.036, 0, -0.006), rotation=about_y(180 + 17.5))
 
-    scene.sun("sun", direction(azimuth=-62, elevation=24), (1, 0.8, 0.58), lux=5.5, angle_degrees=0.53)
-    scene.camera("hero", (0.03, 0.21, 0.58), (0.012, 0.068, 0), yfov_degrees=24)
+    scene.sun("sun", direction(azimuth=-66, elevation=27), (1, 0.84, 0.64), lux=9, angle_degrees=0.53)
+    scene.camera("hero", (0.03, 0.28, 0.60), (0.020, 0.072, 0), yfov_degrees=21)
     scene.camera("blush close-up", (-0.02, 0.12, 0.30), (0.005, 0.06, -0.01), yfov_degrees=24)
     scene.camera("from above", (0.02, 0.62, 0.24), (0.01, 0.03, 0), yfov_degrees=24)
     return scene
@@ -150,7 +152,7 @@ def veach_mis():
     scene = SceneWriter("veach-mis", "Four plates of growing roughness mirror four lights of growing size and equal power.")
     eye = (0, 0.20, 1.50)
 
-    grey = scene.material("matte grey", (0.32, 0.32, 0.32), lambertian=True)
+    grey = scene.material("matte grey", (0.5, 0.5, 0.5), lambertian=True)
     scene.object("floor", quad((-2, -0.42, 2), (2, -0.42, 2), (2, -0.42, -0.35), (-2, -0.42, -0.35)), grey, "sheet")
     scene.object("back wall", quad((-2, -0.42, -0.35), (2, -0.42, -0.35), (2, 1.6, -0.35), (-2, 1.6, -0.35)), grey, "sheet")
 
@@ -175,7 +177,7 @@ def veach_mis():
             plate.add(quad(bottom[k], bottom[(k + 1) % 4], top[(k + 1) % 4], top[k]))
         scene.object(f"plate {i + 1}", plate, metal)
 
-    scene.camera("camera", eye, (0, -0.155, 0.1), yfov_degrees=27)
+    scene.camera("camera", eye, (0, -0.185, 0.1), yfov_degrees=28)
     return scene
 
 
@@ -184,16 +186,16 @@ def veach_mis():
 def corridor():
     """Three legs of 1.6 m width and 2.4 m height joined by two corners; the camera is in the first, the lamp in the last."""
     scene = SceneWriter("corridor", "All light comes around two corners.")
-    white = scene.material("white paint", (0.78, 0.77, 0.74), lambertian=True)
-    ochre = scene.material("ochre paint", (0.74, 0.46, 0.20), lambertian=True)
-    wood = scene.material("wooden floor", (0.42, 0.29, 0.19), roughness=0.6)
+    white = scene.material("white paint", (0.78, 0.78, 0.77), lambertian=True)
+    ochre = scene.material("ochre paint", (0.78, 0.55, 0.30), lambertian=True)
+    wood = scene.material("wooden floor", (0.50, 0.40, 0.30), roughness=0.6)
     ceramic = scene.material("white ceramic", (0.8, 0.8, 0.8), roughness=0.25)
-    lamp = scene.material("lamp", (0.8, 0.8, 0.8), lambertian=True, emission=(160, 140, 115))
+    lamp = scene.material("lamp", (0.8, 0.8, 0.8), lambertian=True, emission=(135, 146, 160))
     height = 2.4
 
     # Clockwise seen from above, so that the walls face inwards: (x, z) of each corner and the paint of the wall after it.
-    plan = [((0, 0), white), ((4.4, 0), white), ((4.4, -5), white), ((6, -5), ochre),
-            ((6, 1.6), white), ((1.6, 1.6), white), ((1.6, 6), white), ((0, 6), white)]
+    plan = [((0, 0), white), ((2.8, 0), white), ((2.8, -3), white), ((4.4, -3), ochre),
+            ((4.4, 1.6), white), ((1.6, 1.6), white), ((1.6, 4.4), white), ((0, 4.4), white)]
     painted = {white: Mesh(), ochre: Mesh()}
     for i, ((ax, az), paint) in enumerate(plan):
         (bx, bz), _ = plan[(i + 1) % len(plan)]
@@ -202,20 +204,20 @@ def corridor():
     scene.object("ochre wall", painted[ochre], ochre, "sheet")
 
     floor, ceiling = Mesh(), Mesh()
-    for x0, x1, z0, z1 in ((0, 1.6, 0, 6), (1.6, 6, 0, 1.6), (4.4, 6, -5, 0)):
+    for x0, x1, z0, z1 in ((0, 1.6, 0, 4.4), (1.6, 4.4, 0, 1.6), (2.8, 4.4, -3, 0)):
         floor.add(quad((x0, 0, z1), (x1, 0, z1), (x1, 0, z0), (x0, 0, z0)))
         ceiling.add(quad((x0, height, z0), (x1, height, z0), (x1, height, z1), (x0, height, z1)))
     scene.object("floor", floor, wood, "sheet")
     scene.object("ceiling", ceiling, white, "sheet")
-    scene.object("lamp", box((4.7, height - 0.06, -4.3), (5.7, height - 0.01, -3.3)), lamp)
+    scene.object("lamp", box((3.1, height - 0.06, -2.6), (4.1, height - 0.01, -1.6)), lamp)
 
     scene.object("pedestal", box((0.30, 0, 0.50), (0.70, 0.75, 0.90)), white)
     scene.object("ceramic ball", sphere((0, 0, 0), 0.17, 48, 96), ceramic, translation=(0.50, 0.9201, 0.70))
-    scene.object("bench", box((0.02, 0.40, 2.2), (0.40, 0.45, 3.8)), wood)
-    for z in (2.3, 3.6):
+    scene.object("bench", box((0.02, 0.40, 1.7), (0.40, 0.45, 3.0)), wood)
+    for z in (1.8, 2.8):
         scene.object(f"bench leg at {z} m", box((0.06, 0, z), (0.36, 0.40, z + 0.1)), wood)
 
-    scene.camera("camera", (0.95, 1.45, 5.7), (0.78, 1.08, 0), yfov_degrees=42)
+    scene.camera("camera", (0.80, 1.45, 4.2), (0.82, 1.12, 0), yfov_degrees=46)
     return scene
 
 
@@ -232,4 +234,8 @@ def direction(azimuth, elevation):
 
 if __name__ == "__main__":
     for make in (card_and_mug, cornell, furnace, veach_mis, corridor):
-        make().write(FOLDER)
+        for name, content in make().files().items():
+            if "--check" not in sys.argv:
+                (FOLDER / name).write_bytes(content)
+            elif (FOLDER / name).read_bytes() != content:
+                sys.exit(f"{name} is not what make_scenes.py writes")

@@ -175,13 +175,13 @@ class SceneWriter:
         rotation = looking_along(tuple(-x for x in toward_sun))
         return self.node(name, rotation=rotation, extensions={"KHR_lights_punctual": {"light": len(lights) - 1}})
 
-    def write(self, folder):
+    def files(self):
+        """Name to content of the two files."""
         self.json["buffers"] = [{"uri": f"{self.name}.bin", "byteLength": len(self.bytes)}]
-        (folder / f"{self.name}.bin").write_bytes(self.bytes)
         text = json.dumps({k: v for k, v in self.json.items() if v != []}, indent=2)
         # Arrays of numbers on one line each.
         text = re.sub(r"\[\s+([-\d.,\se+]+?)\s+\]", lambda m: "[" + re.sub(r"\s+", " ", m[1]) + "]", text)
-        (folder / f"{self.name}.gltf").write_text(text + "\n")
+        return {f"{self.name}.gltf": (text + "\n").encode(), f"{self.name}.bin": bytes(self.bytes)}
 
 
 def looking_along(direction, up=(0, 1, 0)):
