@@ -1,10 +1,10 @@
 // The command line's words for render settings, and back.
+#include "core/text.h"
 #include "scene/render_settings.h"
 
 #include <fmt/format.h>
 
 #include <array>
-#include <charconv>
 
 namespace blush {
 namespace {
@@ -48,14 +48,9 @@ template <class E, size_t n> Result<E> value_of(const std::array<Word<E>, n>& wo
     return Error{.what = fmt::format("unknown {} \"{}\" (known: {})", kind, text, known)};
 }
 
-template <class T> bool parse_whole(std::string_view text, T& number) {
-    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), number);
-    return code == std::errc() && end == text.data() + text.size();
-}
-
 Result<float> parse_probability(std::string_view text, std::string_view name, bool zero_allowed) {
     float p = 0;
-    if (parse_whole(text, p) && p >= 0 && p <= 1 && (p > 0 || zero_allowed)) return p;
+    if (parse_number(text, p) && p >= 0 && p <= 1 && (p > 0 || zero_allowed)) return p;
     const std::string_view range = zero_allowed ? "from 0 to 1" : "above 0 and at most 1";
     return Error{.what = fmt::format("roulette's {} must be a number {}, not \"{}\"", name, range, text)};
 }
@@ -89,7 +84,7 @@ Result<void> parse_rule(const Item& item, Roulette& roulette) {
 
 Result<void> parse_limit(const Item& item, Roulette& roulette) {
     if (item.name == "start") {
-        if (!parse_whole(item.value, roulette.start) || roulette.start < 0)
+        if (!parse_number(item.value, roulette.start) || roulette.start < 0)
             return Error{.what = fmt::format("roulette's start must be a whole number from 0, not \"{}\"", item.value)};
         return {};
     }
@@ -107,13 +102,10 @@ Result<void> parse_limit(const Item& item, Roulette& roulette) {
 Result<Roulette> parse_roulette(std::string_view text) {
     Roulette roulette;
     bool first = true;
-    for (;;) {
-        const size_t comma = text.find(',');
-        const Item item = split_item(text.substr(0, comma));
+    for (const std::string_view part : split(text, ',')) {
+        const Item item = split_item(part);
         const Result<void> parsed = first ? parse_rule(item, roulette) : parse_limit(item, roulette);
         if (!parsed) return parsed.error();
-        if (comma == text.npos) break;
-        text.remove_prefix(comma + 1);
         first = false;
     }
     if (roulette.floor > roulette.cap) return Error{.what = "roulette's floor is above its cap"};
@@ -133,7 +125,7 @@ std::string to_string(const Roulette& roulette) {
 Result<int> parse_max_bounces(std::string_view text) {
     if (text == "unlimited") return unlimited_bounces;
     int n = 0;
-    if (!parse_whole(text, n) || n < 0)
+    if (!parse_number(text, n) || n < 0)
         return Error{.what = fmt::format("the number of bounces must be a whole number from 0 or \"unlimited\", not \"{}\"", text)};
     return n;
 }

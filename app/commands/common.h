@@ -1,0 +1,34 @@
+// What all commands share: exit codes, common options, and how they speak to the terminal.
+#pragma once
+
+#include "core/result.h"
+
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace blush {
+
+constexpr int exit_done = 0, exit_failed = 1, exit_usage = 2;
+
+struct CommonOptions {
+    std::string json;     // file, "-" for stdout, empty for none
+    unsigned threads = 0; // 0: one per core
+    bool quiet = false;   // errors alone
+};
+void add_common_options(CLI::App& app, CommonOptions& options);
+
+// One line on stderr, "blush: error: FILE: what, where". Returns the exit code.
+int failed(const Error& error);
+int bad_usage(const std::string& what);
+
+// On stderr, one line each, the first ten; notes are for `blush info`.
+void print_warnings(const std::string& file, const std::vector<Diagnostic>& diagnostics);
+
+// `error` with `file` filled in if it names none.
+Error in_file(Error error, const std::string& file);
+
+} // namespace blush

@@ -1,0 +1,20 @@
+// Image files as the metrics want them.
+#pragma once
+
+#include "measure/metrics.h"
+
+#include <filesystem>
+
+namespace blush {
+
+struct ImageToCompare {
+    RgbImage image;
+    Encoding encoding = Encoding::scene_linear;
+};
+
+// R, G and B of an EXR, or any other image; a grey one counts as three equal channels. EXR, HDR and other float formats are scene-linear,
+// PNG, JPEG, WebP and BMP display-encoded.
+// Errors name the file.
+Result<ImageToCompare> read_image_to_compare(const std::filesystem::path& file);
+
+} // namespace blush

@@ -1,0 +1,134 @@
+#include "app/commands/info.h"
+
+#include "app/commands/common.h"
+#include "app/commands/interrupt.h"
+#include "app/commands/json_output.h"
+#include "app/commands/load_scene.h"
+#include "app/commands/progress.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <memory>
+
+namespace blush {
+namespace {
+
+struct InfoCommand {
+    std::string scene;
+    CommonOptions common;
+};
+
+struct LightCounts {
+    int64_t point = 0, spot = 0, sun = 0, rectangle = 0;
+};
+
+LightCounts count_lights(const Scene& scene) {
+    LightCounts counts;
+    for (const auto& [id, node] : scene.nodes) {
+        const Light* light = scene.lights.find(node.light);
+        if (!light || !is_visible(scene, id)) continue;
+        switch (light->kind) {
+        case Light::Kind::point: ++counts.point; break;
+        case Light::Kind::spot: ++counts.spot; break;
+        case Light::Kind::sun: ++counts.sun; break;
+        case Light::Kind::rectangle: ++counts.rectangle; break;
+        }
+    }
+    return counts;
+}
+
+int64_t count_cameras(const Scene& scene) {
+    return std::count_if(scene.nodes.begin(), scene.nodes.end(), [](const auto& entry) { return bool(entry.value.camera); });
+}
+
+// What the import and the compilation had to say, in one list.
+std::vector<Diagnostic> all_diagnostics(const ImportReport& report, const CompiledInfo& info) {
+    std::vector<Diagnostic> all = report.diagnostics;
+    all.insert(all.end(), info.warnings.begin(), info.warnings.end());
+    return all;
+}
+
+std::string line_of(const Diagnostic& d) { return Error{{}, d.what, d.where}.text(); }
+
+OrderedJson info_json(const LoadedScene& loaded, const CompiledInfo& info) {
+    const LightCounts lights = count_lights(loaded.scene);
+    const ImportReport& report = loaded.report;
+    OrderedJson warnings = OrderedJson::array();
+    for (const Diagnostic& d : all_diagnostics(report, info)) warnings.push_back(line_of(d));
+    OrderedJson json;
+    json["meshes"] = info.meshes;
+    json["triangles"] = info.triangles;
+    json["instances"] = info.instances;
+    json["materials"] = info.materials;
+    json["textures"] = info.textures;
+    json["lights"] = {{"point", lights.point},
+                      {"spot", lights.spot},
+                      {"sun", lights.sun},
+                      {"rectangle", lights.rectangle},
+                      {"emissive_triangles", info.emissive_triangles},
+                      {"environment", info.environment}};
+    json["cameras"] = count_cameras(loaded.scene);
+    json["extensions"] = {{"used", report.extensions_used},
+                          {"honoured", report.extensions_honoured},
+                          {"approximated", report.extensions_approximated},
+                          {"ignored", report.extensions_ignored}};
+    json["warnings"] = warnings;
+    json["kernel"] = kernel_json(info);
+    json["memory_mb"] = info.memory_mb;
+    json["seconds"] = report.seconds + info.seconds_setup;
+    return json;
+}
+
+void print_list(std::string_view name, const std::vector<std::string>& items) {
+    if (!items.empty()) fmt::print("{:<22} {}\n", name, fmt::join(items, ", "));
+}
+
+void print_info(const InfoCommand& c, const LoadedScene& loaded, const CompiledInfo& info) {
+    const LightCounts lights = count_lights(loaded.scene);
+    fmt::print("{}\n", c.scene);
+    fmt::print("{:<22} {} meshes, {} instances, {} triangles\n", "geometry", info.meshes, info.instances, info.triangles);
+    fmt::print("{:<22} {} materials, {} textures\n", "surfaces", info.materials, info.textures);
+    fmt::print("{:<22} {} point, {} spot, {} sun, {} rectangle, {} emissive triangles, {}\n", "lights", lights.point, lights.spot,
+               lights.sun, lights.rectangle, info.emissive_triangles, info.environment ? "an environment" : "no environment");
+    fmt::print("{:<22} {}\n", "cameras", count_cameras(loaded.scene));
+    print_list("extensions honoured", loaded.report.extensions_honoured);
+    print_list("  approximated", loaded.report.extensions_approximated);
+    print_list("  ignored", loaded.report.extensions_ignored);
+    for (const Diagnostic& d : all_diagnostics(loaded.report, info))
+        fmt::print("{:<22} {}\n", d.severity == Diagnostic::Severity::warning ? "warning" : "note", line_of(d));
+    fmt::print("{:<22} {}\n", "kernel", info.kernel);
+    for (const FeatureUse& feature : info.features)
+        fmt::print("{:<22} {}: {}\n", feature.used ? "  with" : "  without", feature.name, feature.why);
+    fmt::print("{:<22} {:.1f} MB, {:.2f} s to load, {:.2f} s to set up\n", "cost", info.memory_mb, loaded.report.seconds,
+               info.seconds_setup);
+}
+
+int run_info(const InfoCommand& c) {
+    const InterruptGuard guard;
+    const RenderSettings settings;
+    Result<LoadedScene> loaded = [&] {
+        Progress progress(c.common.quiet);
+        return load_scene(c.scene, {}, float(settings.width) / float(settings.height), progress, guard.interrupted());
+    }();
+    if (!loaded) return failed(loaded.error());
+    Renderer renderer({.threads = c.common.threads, .planes = {}});
+    renderer.update(loaded->scene, settings);
+    if (const Result<void> written = write_json(c.common.json, info_json(*loaded, renderer.info())); !written)
+        return failed(written.error());
+    if (!c.common.quiet && c.common.json != "-") print_info(c, *loaded, renderer.info());
+    return exit_done;
+}
+
+} // namespace
+
+void add_info_command(CLI::App& app, std::function<int()>& run) {
+    const auto command = std::make_shared<InfoCommand>();
+    CLI::App* sub = app.add_subcommand("info", "Print what a scene holds, what of it is ignored, and the kernel it needs");
+    sub->add_option("scene", command->scene, "glTF file (.gltf, .glb)")->required()->type_name("SCENE");
+    add_common_options(*sub, command->common);
+    sub->callback([command, &run] { run = [command] { return run_info(*command); }; });
+}
+
+} // namespace blush

@@ -1,0 +1,22 @@
+// Which planes beside the beauty a render writes: `--layers albedo,normal,...`.
+#pragma once
+
+#include "core/result.h"
+#include "render/renderer.h"
+
+#include <string_view>
+
+namespace blush {
+
+struct Layers {
+    bool albedo = false, normal = false, depth = false, error = false, samples = false, ids = false;
+    bool any() const { return albedo || normal || depth || error || samples || ids; }
+    bool operator==(const Layers&) const = default;
+};
+
+// Errors: an unknown layer, or one that is not in this version.
+Result<Layers> parse_layers(std::string_view text);
+// What the film must hold for them.
+PlaneSet planes_of(const Layers& layers);
+
+} // namespace blush

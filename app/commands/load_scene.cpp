@@ -1,0 +1,20 @@
+#include "app/commands/load_scene.h"
+
+#include "app/commands/common.h"
+#include "app/commands/progress.h"
+
+namespace blush {
+
+Result<LoadedScene> load_scene(const std::filesystem::path& file, const SceneOverrides& overrides, float aspect, Progress& progress,
+                               const std::atomic<bool>& interrupted) {
+    ImportOptions options;
+    options.cancel = &interrupted;
+    options.on_progress = [&](double fraction, const std::string& what) { progress.update(fraction, what); };
+    Result<ImportedScene> imported = import_gltf(file, options);
+    if (!imported) return in_file(imported.error(), file.string());
+    LoadedScene loaded{imported->scene, std::move(imported->scene), std::move(imported->report)};
+    if (Result<void> applied = apply_overrides(overrides, loaded.scene, aspect); !applied) return in_file(applied.error(), file.string());
+    return loaded;
+}
+
+} // namespace blush

@@ -1,0 +1,232 @@
+#include "app/commands/render.h"
+
+#include "app/commands/common.h"
+#include "app/commands/interrupt.h"
+#include "app/commands/json_output.h"
+#include "app/commands/load_scene.h"
+#include "app/commands/picture.h"
+#include "app/commands/progress.h"
+#include "app/commands/render_loop.h"
+#include "app/commands/render_options.h"
+#include "core/text.h"
+#include "io/scene_edits_json.h"
+#include "io/scene_hash.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <memory>
+
+namespace blush {
+namespace {
+
+struct RenderCommand {
+    std::string scene, output, layers, pixel;
+    RenderOptions options;
+    CommonOptions common;
+};
+
+struct PixelRequest {
+    int x = 0, y = 0;
+    int64_t sample = 0;
+};
+
+Result<PixelRequest> parse_pixel(std::string_view text, const RenderSettings& settings) {
+    PixelRequest pixel;
+    const std::vector<std::string_view> parts = split(text, ',');
+    const bool numbers = (parts.size() == 2 || parts.size() == 3) && parse_number(parts[0], pixel.x) && parse_number(parts[1], pixel.y) &&
+                         (parts.size() == 2 || (parse_number(parts[2], pixel.sample) && pixel.sample >= 0));
+    if (!numbers) return Error{.what = fmt::format("--pixel must be X,Y or X,Y,SAMPLE, not \"{}\"", text)};
+    if (pixel.x < 0 || pixel.x >= settings.width || pixel.y < 0 || pixel.y >= settings.height)
+        return Error{.what = fmt::format("--pixel {},{} is outside of {}x{}", pixel.x, pixel.y, settings.width, settings.height)};
+    return pixel;
+}
+
+// Everything about the command line that can be wrong before any work is done.
+struct Plan {
+    RenderSettings settings;
+    Layers layers;
+    std::optional<PixelRequest> pixel;
+    PictureFormat format = PictureFormat::exr;
+};
+
+Result<Plan> plan_of(const RenderCommand& c) {
+    Plan plan;
+    const Result<RenderSettings> settings = settings_of(c.options);
+    if (!settings) return settings.error();
+    plan.settings = *settings;
+    if (!c.layers.empty()) {
+        const Result<Layers> layers = parse_layers(c.layers);
+        if (!layers) return layers.error();
+        plan.layers = *layers;
+    }
+    if (!c.pixel.empty()) {
+        const Result<PixelRequest> pixel = parse_pixel(c.pixel, plan.settings);
+        if (!pixel) return pixel.error();
+        plan.pixel = *pixel;
+        return plan;
+    }
+    if (c.output.empty()) return Error{.what = "render needs -o OUT.exr, OUT.png or OUT.jpg"};
+    const Result<PictureFormat> format = picture_format(c.output);
+    if (!format) return format.error();
+    plan.format = *format;
+    if (plan.layers.any() && plan.format != PictureFormat::exr) return Error{.what = "--layers needs an .exr output"};
+    return plan;
+}
+
+Result<void> expect_folder(const std::filesystem::path& file) {
+    const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+    std::error_code code;
+    if (std::filesystem::is_directory(folder, code)) return {};
+    return Error{.file = file.string(), .what = "its folder does not exist"};
+}
+
+double peak_memory_mb() {
+    rusage usage = {};
+    getrusage(RUSAGE_SELF, &usage);
+    return double(usage.ru_maxrss) / 1024;
+}
+
+std::string loop_note(const LoopProgress& p) {
+    std::string note = fmt::format("{} spp", p.samples);
+    if (p.error.known) note += fmt::format(", error {:.2g}", p.error.relmse);
+    return note;
+}
+
+SnapshotMetadata metadata_of(const RenderCommand& c, const Plan& plan, const LoadedScene& loaded, const LoopResult& result) {
+    SnapshotMetadata m;
+    m.version = BLUSH_VERSION;
+    m.scene = std::filesystem::path(c.scene).filename().string();
+    m.scene_hash = scene_hash(loaded.scene);
+    m.camera = camera_name(loaded.scene);
+    m.spp = result.samples;
+    m.first_sample = plan.settings.first_sample;
+    m.last_sample = plan.settings.first_sample + result.samples;
+    m.seed = plan.settings.seed;
+    m.seconds = result.seconds;
+    const ErrorEstimate& error = result.frame.error;
+    if (error.known) m.error = fmt::format("{:.4g} ({:.4g} to {:.4g})", error.relmse, error.low, error.high);
+    m.settings = plan.settings;
+    m.edits = edits_json(loaded.imported, loaded.scene);
+    m.partial = !result.complete;
+    return m;
+}
+
+std::string_view cause_word(BadSample::Cause cause) {
+    switch (cause) {
+    case BadSample::Cause::nan: return "nan";
+    case BadSample::Cause::infinite: return "inf";
+    case BadSample::Cause::negative: return "negative";
+    }
+    return {};
+}
+
+OrderedJson health_json(const Health& health) {
+    OrderedJson first = OrderedJson::array();
+    for (const BadSample& bad : health.first)
+        first.push_back({{"cause", cause_word(bad.cause)}, {"x", bad.x}, {"y", bad.y}, {"sample", bad.sample}, {"seed", bad.seed}});
+    return {{"nan", health.nan}, {"inf", health.infinite}, {"negative", health.negative}, {"first", first}};
+}
+
+OrderedJson result_json(const RenderCommand& c, const LoopResult& r, const CompiledInfo& info) {
+    const RayCounts& rays = r.frame.rays;
+    const double paths = double(rays.camera), seconds = std::max(r.seconds, 1e-9);
+    const ErrorEstimate& error = r.frame.error;
+    const auto known = [&](double value) { return error.known ? OrderedJson(value) : OrderedJson(); };
+    OrderedJson json;
+    json["scene"] = c.scene;
+    json["width"] = r.frame.width;
+    json["height"] = r.frame.height;
+    json["spp"] = r.samples;
+    json["seconds"] = r.seconds;
+    json["seconds_setup"] = info.seconds_setup;
+    json["rays"] = {{"camera", rays.camera}, {"bounce", rays.bounce}, {"shadow", rays.shadow}};
+    json["mrays_per_s"] = double(rays.total()) / seconds * 1e-6;
+    json["mpaths_per_s"] = paths / seconds * 1e-6;
+    json["path_length_mean"] = paths > 0 ? double(rays.camera + rays.bounce) / paths : 0.0;
+    json["error"] = {{"relmse", known(error.relmse)}, {"low", known(error.low)}, {"high", known(error.high)}};
+    json["health"] = health_json(r.frame.health);
+    json["kernel"] = kernel_json(info);
+    json["peak_memory_mb"] = peak_memory_mb();
+    json["output"] = c.output;
+    json["partial"] = !r.complete;
+    return json;
+}
+
+void print_summary(const RenderCommand& c, const LoopResult& r) {
+    fmt::print("{}: {}x{}, {} spp in {:.2f} s, {:.2f} Mpaths/s", c.output, r.frame.width, r.frame.height, r.samples, r.seconds,
+               double(r.frame.rays.camera) / std::max(r.seconds, 1e-9) * 1e-6);
+    if (r.frame.error.known) fmt::print(", estimated error {:.2g}", r.frame.error.relmse);
+    fmt::print("{}\n", r.complete ? "" : ", partial");
+}
+
+Result<LoopResult> render_picture(const RenderCommand& c, const Plan& plan, const LoadedScene& loaded, const ColorManagement* color,
+                                  const std::atomic<bool>& interrupted, CompiledInfo& info) {
+    Renderer renderer({.threads = c.common.threads, .planes = planes_of(plan.layers)});
+    renderer.update(loaded.scene, plan.settings);
+    info = renderer.info();
+    if (!c.common.quiet) print_warnings(c.scene, info.warnings);
+    LoopResult result;
+    {
+        Progress progress(c.common.quiet);
+        result = run_render_loop(renderer, plan.settings, interrupted,
+                                 [&](const LoopProgress& p) { progress.update(p.fraction, loop_note(p)); });
+    }
+    if (result.samples == 0) return Error{.file = c.scene, .what = "interrupted before the first sample"};
+    const std::vector<Vec3> error = plan.layers.error ? renderer.resolve_error() : std::vector<Vec3>();
+    const SnapshotMetadata metadata = metadata_of(c, plan, loaded, result);
+    const Result<void> written = color ? write_display_picture(c.output, result.frame, *color, c.options.view, metadata)
+                                       : write_exr_picture(c.output, result.frame, error, plan.layers, metadata);
+    if (!written) return in_file(written.error(), c.output);
+    return result;
+}
+
+int run_render(const RenderCommand& c) {
+    const Result<Plan> plan = plan_of(c);
+    if (!plan) return bad_usage(plan.error().text());
+    if (!plan->pixel)
+        if (const Result<void> folder = expect_folder(c.output); !folder) return failed(folder.error());
+    const Result<std::optional<ColorManagement>> color = color_for(plan->pixel ? PictureFormat::exr : plan->format, c.options.view);
+    if (!color) return failed(color.error());
+    if (*color && !c.common.quiet && !(*color)->warning().empty()) fmt::print(stderr, "blush: warning: {}\n", (*color)->warning());
+
+    const InterruptGuard guard;
+    const float aspect = float(plan->settings.width) / float(plan->settings.height);
+    Result<LoadedScene> loaded = [&] {
+        Progress progress(c.common.quiet);
+        return load_scene(c.scene, c.options.overrides, aspect, progress, guard.interrupted());
+    }();
+    if (!loaded) return failed(loaded.error());
+    if (!c.common.quiet) print_warnings(c.scene, loaded->report.diagnostics);
+
+    if (plan->pixel) {
+        fmt::print("{}", trace_sample(loaded->scene, plan->settings, plan->pixel->x, plan->pixel->y, plan->pixel->sample));
+        return exit_done;
+    }
+    CompiledInfo info;
+    const Result<LoopResult> result = render_picture(c, *plan, *loaded, *color ? &**color : nullptr, guard.interrupted(), info);
+    if (!result) return failed(result.error());
+    if (const Result<void> written = write_json(c.common.json, result_json(c, *result, info)); !written) return failed(written.error());
+    if (!c.common.quiet && c.common.json != "-") print_summary(c, *result);
+    return exit_done;
+}
+
+} // namespace
+
+void add_render_command(CLI::App& app, std::function<int()>& run) {
+    const auto command = std::make_shared<RenderCommand>();
+    CLI::App* sub = app.add_subcommand("render", "Render a scene to an .exr, .png or .jpg file");
+    sub->add_option("scene", command->scene, "glTF file (.gltf, .glb)")->required()->type_name("SCENE");
+    sub->add_option("-o,--output", command->output, "EXR keeps scene-linear values; PNG and JPEG go through the view transform")
+        ->type_name("FILE");
+    add_render_options(*sub, command->options);
+    sub->add_option("--layers", command->layers, "Planes beside the beauty, EXR only: albedo,normal,depth,error,samples,id")
+        ->type_name("LIST");
+    sub->add_option("--pixel", command->pixel, "Trace that one sample and print every vertex, instead of a picture")
+        ->type_name("X,Y[,SAMPLE]");
+    add_common_options(*sub, command->common);
+    sub->callback([command, &run] { run = [command] { return run_render(*command); }; });
+}
+
+} // namespace blush

@@ -1,0 +1,157 @@
+#include "app/commands/render_options.h"
+
+#include "core/text.h"
+#include "scene/validate.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <functional>
+#include <string>
+
+namespace blush {
+namespace {
+
+// An option whose text `parse` turns into a value for `target`.
+template <class T> CLI::Option* add_parsed(CLI::App& app, const std::string& name, T& target, Result<T> (*parse)(std::string_view),
+                                           const std::string& description) {
+    return app.add_option_function<std::string>(
+        name,
+        [name, &target, parse](const std::string& text) {
+            Result<T> value = parse(text);
+            if (!value) throw CLI::ValidationError(name, value.error().text());
+            target = *std::move(value);
+        },
+        description);
+}
+
+struct Size {
+    int width = 0, height = 0;
+};
+
+Result<Size> parse_size(std::string_view text) {
+    Size size;
+    const std::vector<std::string_view> sides = split(text, 'x');
+    if (sides.size() == 2 && parse_number(sides[0], size.width) && parse_number(sides[1], size.height)) return size;
+    return Error{.what = fmt::format("a size must be WIDTHxHEIGHT, not \"{}\"", text)};
+}
+
+struct SampleRange {
+    int64_t first = 0, last = 0;
+};
+
+Result<SampleRange> parse_samples(std::string_view text) {
+    SampleRange range;
+    const std::vector<std::string_view> ends = split(text, ':');
+    if (ends.size() == 2 && parse_number(ends[0], range.first) && parse_number(ends[1], range.last) && range.first >= 0 &&
+        range.first < range.last)
+        return range;
+    return Error{.what = fmt::format("samples must be A:B with 0 <= A < B, not \"{}\"", text)};
+}
+
+Result<bool> parse_switch(std::string_view text) {
+    if (text == "on") return true;
+    if (text == "off") return false;
+    return Error{.what = fmt::format("must be on or off, not \"{}\"", text)};
+}
+
+// Named now, so that a script that asks for it learns why it gets none.
+void refuse_denoising(const std::string& text) {
+    if (text == "off") return;
+    if (text == "fast" || text == "high") throw CLI::ValidationError("--denoise", fmt::format("{} is not in this version; off is", text));
+    throw CLI::ValidationError("--denoise", fmt::format("must be off, fast or high, not \"{}\"", text));
+}
+
+void add_picture_options(CLI::App& app, RenderOptions& o) {
+    app.add_option_function<std::string>(
+           "--size",
+           [&o](const std::string& text) {
+               const Result<Size> size = parse_size(text);
+               if (!size) throw CLI::ValidationError("--size", size.error().text());
+               o.settings.width = size->width;
+               o.settings.height = size->height;
+               o.size_given = true;
+           },
+           "Pixels [1280x720]")
+        ->type_name("WxH");
+    app.add_option("--camera", o.overrides.camera, "Which camera [the first; without any, one is framed around the scene]")
+        ->type_name("NAME|INDEX");
+    app.add_option("--aperture", o.overrides.aperture, "Radius of the thin lens in metres; 0 is a pinhole [the camera's]")->type_name("M");
+    app.add_option("--focus", o.overrides.focus, "Distance in focus in metres [the camera's]")->type_name("M");
+    app.add_option_function<std::string>(
+           "--env",
+           [&o](const std::string& text) {
+               const Result<EnvironmentChoice> choice = parse_environment(text);
+               if (!choice) throw CLI::ValidationError("--env", choice.error().text());
+               o.overrides.environment = *choice;
+           },
+           "Environment: a lat-long HDR or EXR file, none, or constant=R,G,B [the scene's]")
+        ->type_name("FILE[,intensity=X][,rotate=DEG]");
+}
+
+void add_stop_options(CLI::App& app, RenderOptions& o) {
+    app.add_option_function<int64_t>(
+           "--spp",
+           [&o](const int64_t& spp) {
+               o.settings.spp = spp;
+               o.spp_given = true;
+           },
+           "Stop at N samples per pixel [64, or no limit if --time or --error is given]")
+        ->check(CLI::Range(int64_t(1), int64_t(1) << 40))
+        ->type_name("N");
+    app.add_option("--time", o.settings.seconds, "Stop after S seconds of rendering")->type_name("S");
+    app.add_option("--error", o.settings.error, "Stop at an estimated relative error (relMSE) of E")->type_name("E");
+    app.add_option_function<std::string>(
+           "--samples",
+           [&o](const std::string& text) {
+               const Result<SampleRange> range = parse_samples(text);
+               if (!range) throw CLI::ValidationError("--samples", range.error().text());
+               o.settings.first_sample = range->first;
+               o.settings.spp = range->last;
+               o.samples_given = true;
+           },
+           "Render the sample indices from A up to B alone [0:spp]")
+        ->type_name("A:B");
+}
+
+void add_integrator_options(CLI::App& app, RenderOptions& o) {
+    app.add_option("--seed", o.settings.seed, "Randomisation: same seed, same image [0]")->type_name("K");
+    add_parsed(app, "--max-bounces", o.settings.max_bounces, parse_max_bounces, "Scattering events a path may have [unlimited]")
+        ->type_name("N|unlimited");
+    add_parsed(app, "--roulette", o.settings.roulette, parse_roulette,
+               "How paths end at random: off, max, luminance, sqrt, constant=P, biased-cut=T [max,start=3]")
+        ->type_name("RULE[,start=N][,floor=P][,cap=P]");
+    add_parsed(app, "--strategy", o.settings.strategy, parse_strategy, "Direct light by both, light or BSDF sampling [mis]")
+        ->type_name("mis|light|bsdf");
+    add_parsed(app, "--energy-compensation", o.settings.energy_compensation, parse_switch, "Multiple scattering between microfacets [off]")
+        ->type_name("on|off");
+    add_parsed(app, "--filter", o.settings.filter, parse_filter, "Pixel filter [blackman-harris]")->type_name("blackman-harris|box");
+}
+
+void add_view_options(CLI::App& app, RenderOptions& o) {
+    app.add_option("--exposure", o.view.exposure_ev, "Stops, for display alone: never in an EXR [0]")->type_name("EV");
+    app.add_option("--view", o.view.view, "View transform, for display alone [the config's default]")->type_name("NAME");
+    app.add_option("--display", o.view.display, "Display, for display alone [the config's default]")->type_name("NAME");
+    app.add_option_function<std::string>("--denoise", refuse_denoising, "off; more comes in a later version")->type_name("off|fast|high");
+}
+
+} // namespace
+
+void add_render_options(CLI::App& app, RenderOptions& options) {
+    add_picture_options(app, options);
+    add_stop_options(app, options);
+    add_integrator_options(app, options);
+    add_view_options(app, options);
+}
+
+Result<RenderSettings> settings_of(const RenderOptions& options) {
+    RenderSettings settings = options.settings;
+    if (options.spp_given && options.samples_given) return Error{.what = "--spp and --samples both say which samples to render; give one"};
+    const bool other_limit = settings.seconds > 0 || settings.error > 0;
+    if (other_limit && !options.spp_given && !options.samples_given) settings.spp = 0;
+    if (Result<void> valid = validate(settings); !valid) return valid.error();
+    if (Result<void> valid = validate(options.view); !valid) return valid.error();
+    return settings;
+}
+
+} // namespace blush

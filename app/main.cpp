@@ -1,0 +1,71 @@
+// Arguments in, exit code out: 0 done, 1 could not (one line on stderr), 2 bad usage.
+#include "app/assets_dir.h"
+#include "app/commands/common.h"
+#include "app/commands/compare.h"
+#include "app/commands/info.h"
+#include "app/commands/render.h"
+#include "app/commands/render_options.h"
+#include "app/editor.h"
+
+#include <CLI/CLI.hpp>
+
+#include <exception>
+#include <memory>
+
+namespace blush {
+namespace {
+
+struct EditorCommand {
+    std::string scene;
+    RenderOptions options;
+    CommonOptions common;
+};
+
+int edit(const EditorCommand& c) {
+    const Result<RenderSettings> settings = settings_of(c.options);
+    if (!settings) return bad_usage(settings.error().text());
+    EditorOptions editor;
+    editor.assets = assets_dir();
+    editor.scene = c.scene;
+    editor.render = *settings;
+    editor.view = c.options.view;
+    editor.overrides = c.options.overrides;
+    editor.follow_viewport = !c.options.size_given;
+    editor.threads = c.common.threads;
+    return run_editor(editor);
+}
+
+// Without a command the program is the editor, which takes the options of `render` too.
+void add_editor(CLI::App& app, std::function<int()>& run) {
+    const auto command = std::make_shared<EditorCommand>();
+    app.add_option("scene", command->scene, "Scene to open in the editor (.gltf, .glb) [card-and-mug]")->type_name("SCENE");
+    add_render_options(app, command->options);
+    add_common_options(app, command->common);
+    run = [command] { return edit(*command); };
+}
+
+int run_command_line(int argc, char** argv) {
+    CLI::App app("Blush: an interactive lighting editor for glTF scenes.\nWithout a command it opens the editor.", "blush");
+    app.set_version_flag("--version", std::string("blush " BLUSH_VERSION));
+    app.set_help_flag("--help,-h", "Print this help");
+    std::function<int()> run;
+    add_editor(app, run);
+    add_render_command(app, run);
+    add_compare_command(app, run);
+    add_info_command(app, run);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& asked) { // --help, --version
+        return app.exit(asked);
+    } catch (const CLI::ParseError& error) { return bad_usage(error.what()); }
+    return run();
+}
+
+} // namespace
+} // namespace blush
+
+int main(int argc, char** argv) {
+    try {
+        return blush::run_command_line(argc, argv);
+    } catch (const std::exception& error) { return blush::failed({.what = error.what()}); }
+}

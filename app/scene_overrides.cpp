@@ -1,0 +1,139 @@
+#include "app/scene_overrides.h"
+
+#include "core/text.h"
+#include "io/environment_image.h"
+#include "scene/validate.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <vector>
+
+namespace blush {
+namespace {
+
+// Takes "NAME=number" off the end of `text`; true if it was there.
+Result<bool> take_suffix(std::string_view& text, std::string_view name, float& number) {
+    const size_t comma = text.rfind(',');
+    if (comma == text.npos) return false;
+    const std::string_view last = text.substr(comma + 1);
+    if (!last.starts_with(name) || last.size() == name.size() || last[name.size()] != '=') return false;
+    const std::string_view value = last.substr(name.size() + 1);
+    if (!parse_number(value, number) || !std::isfinite(number))
+        return Error{.what = fmt::format("{} must be a number, not \"{}\"", name, value)};
+    text = text.substr(0, comma);
+    return true;
+}
+
+Result<Vec3> parse_color(std::string_view text) {
+    const std::vector<std::string_view> parts = split(text, ',');
+    Vec3 c{0, 0, 0};
+    const bool good = parts.size() == 3 && parse_number(parts[0], c.x) && parse_number(parts[1], c.y) && parse_number(parts[2], c.z);
+    if (!good) return Error{.what = fmt::format("a constant environment needs three numbers R,G,B, not \"{}\"", text)};
+    return c;
+}
+
+std::vector<Id<Node>> camera_nodes(const Scene& scene) {
+    std::vector<Id<Node>> ids;
+    for (const auto& [id, node] : scene.nodes)
+        if (node.camera) ids.push_back(id);
+    return ids;
+}
+
+std::string name_of_camera(const Scene& scene, Id<Node> id) {
+    const Node& node = *scene.nodes.find(id);
+    const Camera* camera = scene.cameras.find(node.camera);
+    return node.name.empty() && camera ? camera->name : node.name;
+}
+
+bool is_called(const Scene& scene, Id<Node> id, const std::string& name) {
+    const Node& node = *scene.nodes.find(id);
+    const Camera* camera = scene.cameras.find(node.camera);
+    return node.name == name || (camera && camera->name == name);
+}
+
+// A name wins over a number, since a camera may well be called "2".
+Result<Id<Node>> find_camera(const Scene& scene, const std::string& wanted) {
+    const std::vector<Id<Node>> ids = camera_nodes(scene);
+    for (const Id<Node> id : ids)
+        if (is_called(scene, id, wanted)) return id;
+    size_t index = 0;
+    if (parse_number(wanted, index) && index < ids.size()) return ids[index];
+    if (ids.empty()) return Error{.what = fmt::format("there is no camera \"{}\": the scene has none", wanted)};
+    std::string names;
+    for (const Id<Node> id : ids) names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", name_of_camera(scene, id));
+    return Error{.what = fmt::format("there is no camera \"{}\" (there are {})", wanted, names)};
+}
+
+Result<Environment> make_environment(const EnvironmentChoice& choice) {
+    Environment environment;
+    environment.kind = choice.kind;
+    environment.color = choice.color;
+    environment.intensity = choice.intensity;
+    environment.rotation_degrees = choice.rotation_degrees;
+    if (choice.kind == Environment::Kind::image) {
+        Result<ImagePtr> image = read_environment_image(choice.file);
+        if (!image) return image.error();
+        environment.file = choice.file.string();
+        environment.image = *std::move(image);
+    }
+    if (Result<void> valid = validate(environment); !valid) return valid.error();
+    return environment;
+}
+
+} // namespace
+
+Result<EnvironmentChoice> parse_environment(std::string_view text) {
+    EnvironmentChoice choice;
+    for (bool more = true; more;) {
+        more = false;
+        const std::pair<std::string_view, float*> suffixes[] = {{"intensity", &choice.intensity}, {"rotate", &choice.rotation_degrees}};
+        for (const auto& [name, number] : suffixes) {
+            const Result<bool> taken = take_suffix(text, name, *number);
+            if (!taken) return taken.error();
+            more = more || *taken;
+        }
+    }
+    constexpr std::string_view constant = "constant=";
+    if (text.empty()) return Error{.what = "an environment must be FILE, none or constant=R,G,B"};
+    if (text == "none") return choice;
+    if (text.starts_with(constant)) {
+        const Result<Vec3> color = parse_color(text.substr(constant.size()));
+        if (!color) return color.error();
+        choice.kind = Environment::Kind::constant;
+        choice.color = *color;
+    } else {
+        choice.kind = Environment::Kind::image;
+        choice.file = std::filesystem::path(text);
+    }
+    return choice;
+}
+
+Result<void> apply_overrides(const SceneOverrides& overrides, Scene& scene, float aspect) {
+    if (!overrides.camera.empty()) {
+        const Result<Id<Node>> camera = find_camera(scene, overrides.camera);
+        if (!camera) return camera.error();
+        scene.view = view_through(scene, *camera);
+    } else if (camera_nodes(scene).empty()) {
+        scene.view = framed(scene.view, world_bounds(scene), aspect);
+    }
+    if (overrides.aperture) scene.view.lens.aperture_radius = *overrides.aperture;
+    if (overrides.focus) scene.view.lens.focus_distance = *overrides.focus;
+    if (overrides.environment) {
+        Result<Environment> environment = make_environment(*overrides.environment);
+        if (!environment) return environment.error();
+        scene.environment = *std::move(environment);
+    }
+    return validate(scene.view.lens);
+}
+
+std::string camera_name(const Scene& scene) {
+    for (const Id<Node> id : camera_nodes(scene)) {
+        View seen = view_through(scene, id);
+        seen.lens = scene.view.lens;
+        if (seen == scene.view) return name_of_camera(scene, id);
+    }
+    return {};
+}
+
+} // namespace blush

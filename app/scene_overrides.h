@@ -1,0 +1,39 @@
+// What the command line changes in a scene after it is loaded: camera, lens and environment. The same for every command and the window.
+#pragma once
+
+#include "core/result.h"
+#include "scene/scene.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace blush {
+
+// FILE[,intensity=X][,rotate=DEG], none, or constant=R,G,B[,intensity=X].
+struct EnvironmentChoice {
+    Environment::Kind kind = Environment::Kind::none;
+    Vec3 color{1, 1, 1};
+    std::filesystem::path file; // image
+    float intensity = 1;
+    float rotation_degrees = 0;
+    bool operator==(const EnvironmentChoice&) const = default;
+};
+// Errors name what was expected.
+Result<EnvironmentChoice> parse_environment(std::string_view text);
+
+struct SceneOverrides {
+    std::string camera; // name of a camera or of its node, or its number from 0; empty: the scene's first
+    std::optional<EnvironmentChoice> environment;
+    std::optional<float> aperture, focus; // metres
+};
+
+// Without any camera in the scene, one is framed around it for a picture of `aspect` (width / height).
+// Errors: no such camera, an environment map that cannot be read, a lens that makes no sense.
+Result<void> apply_overrides(const SceneOverrides& overrides, Scene& scene, float aspect);
+
+// Of the camera node that the view looks through; empty for a free view.
+std::string camera_name(const Scene& scene);
+
+} // namespace blush
