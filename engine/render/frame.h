@@ -21,6 +21,7 @@ struct BadSample {
 };
 struct Health {
     int64_t nan = 0, infinite = 0, negative = 0; // samples dropped, by cause
+    int64_t truncated = 0;                       // paths ended at the longest length there is, which darkens
     std::vector<BadSample> first;                // the first hundred in (sample, y, x) order
     int64_t dropped() const { return nan + infinite + negative; }
 };
@@ -43,7 +44,7 @@ struct Frame {
     int64_t samples = 0;       // per pixel
     bool complete = false;     // a stop rule is reached
 
-    std::vector<float> rgba;          // width * height * 4, scene-linear, top row first; alpha 1 where the camera ray hit something or the environment is visible
+    std::vector<float> rgba;          // width * height * 4, scene-linear, top row first; alpha is 1, or coverage where an environment is hidden from the camera
     std::vector<Vec3> albedo, normal; // empty unless read; normal in world space
     std::vector<float> depth;         // metres along the ray; 0 on a miss; empty unless read
     std::vector<uint32_t> object_id;  // Id<Node>.value, 0 on a miss; empty unless read

@@ -62,13 +62,14 @@ public:
     int divider() const;
 
     // Adds samples [first, first + count) of every pixel, tile by tile, while `wanted` (called often, from many threads)
-    // says true. False if it was stopped: the film then holds unequal sample counts per tile and must be cleared.
+    // says true. False if it was stopped: pixels then hold different numbers of samples, which is still a picture but not one to go on from.
     // Results do not depend on threads, tiles or on how a range of samples is split into calls.
     bool render(int64_t first, int64_t count, const std::function<bool()>& wanted = {});
     void clear();
 
-    // The film so far, divided by its sample counts.
+    // The film so far, divided by its sample counts. The second reuses the memory of an old frame.
     Frame resolve() const;
+    void resolve(Frame& frame) const;
     // Standard error of the mean of each pixel from the two half buffers, RGB; empty before both hold samples.
     std::vector<Vec3> resolve_error() const;
 

@@ -1,0 +1,267 @@
+// The estimator of the rendering equation (Kajiya 1986), one step at a time: unidirectional path tracing with next-event
+// estimation, both combined by multiple importance sampling (Veach 1997), and Russian roulette. Written once for any lane type.
+#pragma once
+
+#include "render/camera.h"
+#include "render/estimator_settings.h"
+#include "render/light_sampling.h"
+#include "render/surface.h"
+#include "shading/bsdf.h"
+
+namespace blush::inline BLUSH_ISA {
+
+template <class F> struct Path {
+    Ray<F> ray;
+    Vec<F> beta;        // throughput: what radiance along the ray is worth to the pixel
+    F pdf;              // solid-angle density of the ray's direction; infinite after the camera and smooth lobes
+    UInt<F> key, index; // of the sampler
+    Int<F> slot;        // which of the tile's samples it adds to
+};
+
+// What the first surface of a path shows: the denoiser's and the picker's planes.
+template <class F> struct FirstHit {
+    Vec<F> albedo, normal;
+    F depth;                // metres; 0: nothing was hit
+    Int<F> object, material;
+};
+
+template <class F> struct Step {
+    Mask<F> emits, connects, continues;
+    Vec<F> emitted; // add where `emits`
+    Vec<F> direct;  // add where `connects` and nothing lies on the shadow ray
+    Ray<F> shadow;
+    F shadow_distance;
+    Path<F> next;   // where `continues`
+    FirstHit<F> first; // at bounce 0 only
+};
+
+// Dimensions of the sampler in pairs: 0 pixel filter, 1 lens, then three for each scattering event.
+constexpr uint32_t first_scatter_dimension = 2;
+enum ScatterDimension : uint32_t { light_dimension, bsdf_dimension, choice_dimension, dimensions_per_scatter };
+
+// MIS weight of emission that a ray happened to find; light_pdf is what next-event estimation would have had.
+template <class F> F found_emission_weight(Strategy strategy, const F& bsdf_pdf, const F& light_pdf) {
+    const Mask<F> only_found = bsdf_pdf == F(infinity) || light_pdf == F(0.f);
+    if (strategy == Strategy::bsdf) return F(1.f);
+    if (strategy == Strategy::light) return select(only_found, F(1.f), F(0.f));
+    return select(only_found, F(1.f), power_heuristic(bsdf_pdf, light_pdf));
+}
+// MIS weight of a light sample; delta lights can be found in no other way, whatever the strategy.
+template <class F> F light_sample_weight(Strategy strategy, const F& light_pdf, const F& bsdf_pdf, const Mask<F>& delta) {
+    if (strategy == Strategy::bsdf) return select(delta, F(1.f), F(0.f));
+    if (strategy == Strategy::light) return F(1.f);
+    return select(delta, F(1.f), power_heuristic(light_pdf, bsdf_pdf));
+}
+
+// Probability of going on with throughput beta (render_settings.h has the rules); biased_cut gives 0 or 1.
+template <class F> F survival_probability(const Roulette& r, const Vec<F>& beta) {
+    F q = F(1.f);
+    switch (r.rule) {
+    case Roulette::Rule::off: return F(1.f);
+    case Roulette::Rule::max: q = max_component(beta); break;
+    case Roulette::Rule::luminance: q = luminance(beta); break;
+    case Roulette::Rule::sqrt: q = sqrt(max_component(beta)); break;
+    case Roulette::Rule::constant: q = F(r.probability); break;
+    case Roulette::Rule::biased_cut: return select(max_component(beta) < F(r.threshold), F(0.f), F(1.f));
+    }
+    return min(max(q, F(r.floor)), F(min(r.cap, 1.f)));
+}
+
+template <Features S, class F>
+Path<F> begin_path(const SceneTables& scene, const EstimatorSettings& settings, const F& x, const F& y, const UInt<F>& key, const UInt<F>& index, const Int<F>& slot) {
+    const Sampler<F> sampler{key, index};
+    const Pair<F> in_pixel = sampler.pair(0);
+    const F px = x + 0.5f + filter_offset(*settings.filter, in_pixel.x());
+    const F py = y + 0.5f + filter_offset(*settings.filter, in_pixel.y());
+    F lens_u = F(0.f), lens_v = F(0.f);
+    if constexpr (S.has(Feature::thin_lens)) {
+        const Pair<F> on_lens = sampler.pair(1);
+        lens_u = on_lens.x();
+        lens_v = on_lens.y();
+    }
+    Path<F> path;
+    path.ray = camera_ray<S, F>(scene.camera, px, py, settings.width, settings.height, lens_u, lens_v);
+    path.beta = splat<F>(1.f);
+    path.pdf = F(infinity);
+    path.key = key;
+    path.index = index;
+    path.slot = slot;
+    return path;
+}
+
+// Light from beyond all surfaces along the path's ray, with its MIS weight.
+template <Features S, class F>
+Vec<F> escaped_light(const SceneTables& scene, const EstimatorSettings& settings, const Path<F>& path, int bounce, const Mask<F>& active) {
+    Vec<F> sum = splat<F>(0.f);
+    const LightTables& lights = scene.lights;
+    if constexpr (S.has(Feature::environment)) {
+        if (lights.environment >= 0 && (bounce > 0 || scene.environment.visible_to_camera)) {
+            const Vec<F> radiance = environment_radiance<F>(scene.environment, path.ray.direction, active);
+            const F pdf = environment_pdf<F>(scene.environment, path.ray.direction) * light_probability<F>(lights, Int<F>(lights.environment));
+            sum = radiance * found_emission_weight(settings.strategy, path.pdf, pdf);
+        }
+    }
+    if constexpr (S.has(Feature::suns)) {
+        for (int i = 0; i < lights.sun_count; ++i) {
+            const LightRecord& sun = lights.lights[lights.suns[i]];
+            const Mask<F> inside = active && in_sun_disk<F>(path.ray.direction, splat<F>(sun.position), F(sun.cone_height));
+            if (!any(inside)) continue;
+            const F pdf = cone_pdf(F(sun.cone_height)) * light_probability<F>(lights, Int<F>(lights.suns[i]));
+            const F weight = found_emission_weight(settings.strategy, path.pdf, pdf);
+            sum = select<F>(inside, sum + splat<F>(sun.emission) * weight, sum);
+        }
+    }
+    return sum;
+}
+
+// MIS weight of the emission of triangle `triangle` of a part, met at distance t under cosine `facing`.
+template <class F>
+F surface_emission_weight(const SceneTables& scene, Strategy strategy, const Int<F>& part, const Int<F>& triangle, const F& bsdf_pdf, const F& t,
+                          const F& facing, const Mask<F>& active) {
+    const Int<F> first = gather_field(scene.parts, &PartRecord::first_light, part);
+    const Mask<F> sampled = active && as_mask(first >= 0);
+    const Int<F> light = select(sampled, Int<F>(first + triangle), Int<F>(0));
+    const F per_area = light_probability<F>(scene.lights, light) * gather_field(scene.lights.lights, &LightRecord::inverse_area, light);
+    const F pdf = select(sampled, area_to_solid_angle(per_area, F(t * t), facing), F(0.f));
+    return found_emission_weight(strategy, bsdf_pdf, pdf);
+}
+
+// The shading frame's normal: interpolated or mapped, turned to the plane's side, and the plane's own where the viewer would look at its back.
+template <Features S, class F>
+Vec<F> shading_normal(const Surface<F>& s, const Vec<F>& ng, const Vec<F>& tangent_normal, const Vec<F>& wo, const Mask<F>& may_look_from_behind) {
+    Vec<F> ns = select<F>(dot(s.ns, ng) < F(0.f), -s.ns, s.ns);
+    if constexpr (S.has(Feature::normal_maps)) {
+        if (any(s.has_tangents)) {
+            // glTF: bitangent = cross(normal, tangent) * w. Gram-Schmidt against the interpolated normal.
+            const Vec<F> n = s.ns;
+            const Vec<F> flat = s.tangent - n * dot(n, s.tangent);
+            const F l2 = dot(flat, flat);
+            const Vec<F> t = flat / sqrt(max(l2, F(1e-30f)));
+            const Vec<F> b = cross(n, t) * s.tangent_sign;
+            const Vec<F> mapped = normalize(t * tangent_normal.x + b * tangent_normal.y + n * tangent_normal.z);
+            const Vec<F> turned = select<F>(dot(s.ns, ng) < F(0.f), -mapped, mapped);
+            ns = select<F>(s.has_tangents && l2 > F(1e-20f) && dot(turned, ng) > F(0.f), turned, ns);
+        }
+    }
+    return select<F>(!may_look_from_behind && dot(ns, wo) < F(1e-4f), ng, ns);
+}
+
+// One vertex of the path: `hit` is what path.ray found. Lanes outside `active` are ignored.
+template <Features S, class F>
+Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, const Path<F>& path, const Hit<F>& hit, int bounce, const Mask<F>& active) {
+    Step<F> out;
+    out.emitted = splat<F>(0.f);
+    out.connects = out.continues = Mask<F>(false);
+    const Mask<F> found = active && as_mask(hit.geometry >= 0);
+    const Mask<F> escaped = active && !found;
+    Vec<F> beta = path.beta;
+
+    // Nothing there: the environment and the suns.
+    if constexpr (S.has(Feature::environment) || S.has(Feature::suns)) {
+        if (any(escaped)) out.emitted = select<F>(escaped, beta * escaped_light<S, F>(scene, settings, path, bounce, escaped), out.emitted);
+    }
+    out.emits = escaped;
+
+    // The surface and its material.
+    const Surface<F> surface = surface_at<S, F>(scene, hit, found);
+    const MaterialPoint<F> material = material_at<S, F>(scene.materials, surface.material, surface.uv0, surface.uv1, surface.color, found);
+    const Vec<F> wo_world = -path.ray.direction;
+    const F outside = dot(surface.ng, wo_world);
+    const Mask<F> front = outside > F(0.f);
+    Mask<F> solid = Mask<F>(false);
+    if constexpr (S.has(Feature::transmission)) solid = material.bsdf.transmission > F(0.f) && !material.bsdf.thin;
+
+    // Absorption along the segment that ends here from within (Beer-Lambert).
+    if constexpr (S.has(Feature::absorption)) {
+        const Mask<F> within = found && solid && !front;
+        if (any(within)) {
+            const Vec<F> optical_depth = material.sigma_a * hit.t;
+            beta = select<F>(within, beta * Vec<F>{exp(-optical_depth.x), exp(-optical_depth.y), exp(-optical_depth.z)}, beta);
+        }
+    }
+
+    // Emission that the ray found.
+    Mask<F> scatters = found;
+    if constexpr (S.has(Feature::emissive_triangles)) {
+        const Mask<F> emitting = found && max_component(material.emission) > F(0.f) && (front || material.double_sided);
+        if (any(emitting)) {
+            const F weight = surface_emission_weight<F>(scene, settings.strategy, surface.part, select(found, hit.triangle, Int<F>(0)), path.pdf, hit.t,
+                                                        abs(outside), emitting);
+            out.emitted = select<F>(emitting, beta * material.emission * weight, out.emitted);
+            out.emits = out.emits || emitting;
+        }
+    }
+    if constexpr (S.has(Feature::unlit)) {
+        // Unlit is a look, not a material: its colour is what any ray sees, and it neither scatters nor lights by sampling.
+        const Mask<F> unlit = found && material.unlit;
+        out.emitted = select<F>(unlit, beta * material.bsdf.base_color, out.emitted);
+        out.emits = out.emits || unlit;
+        scatters = scatters && !unlit;
+    }
+
+    // The shading frame: turned towards the viewer unless the surface bounds a solid.
+    const Vec<F> ng = select<F>(front || solid, surface.ng, -surface.ng);
+    const Vec<F> ns = shading_normal<S, F>(surface, ng, material.tangent_normal, wo_world, solid);
+    const Basis<F> frame = basis_around(ns);
+    const Vec<F> wo = frame.to_local(wo_world);
+    const auto bsdf = make_bsdf<S, F>(material.bsdf, wo, settings.energy);
+
+    if (bounce == 0) {
+        out.first.albedo = select<F>(found, albedo<S, F>(bsdf, wo), out.emitted);
+        out.first.normal = select<F>(found, ns, splat<F>(0.f));
+        out.first.depth = select(found, hit.t, F(0.f));
+        out.first.object = select(found, gather_field(scene.parts, &PartRecord::object, surface.part), Int<F>(0));
+        out.first.material = select(found, surface.material, Int<F>(-1));
+    }
+    if (bounce >= settings.max_bounces) return out;
+
+    const Sampler<F> sampler{path.key, path.index};
+    const uint32_t dimension = first_scatter_dimension + dimensions_per_scatter * uint32_t(bounce);
+
+    // Next event: a point on a light, unless every lobe is smooth.
+    const Mask<F> wants_light = scatters && !is_delta_only<F>(bsdf);
+    if (scene.lights.count > 0 && any(wants_light)) {
+        const LightPoint<F> light = sample_light_point<S, F>(scene, sampler.pair(dimension + light_dimension), wants_light);
+        const Vec<F> rough_to = select<F>(light.infinite, light.position, light.position - surface.position);
+        const Vec<F> from = offset_origin(surface.position, surface.error, ng, dot(rough_to, ng) > F(0.f));
+        // Ends on this side of the light's own plane, so that the light cannot shadow itself.
+        const Vec<F> end = offset_origin(light.position, light.error, light.normal, dot(rough_to, light.normal) < F(0.f));
+        const Vec<F> to = select<F>(light.infinite, light.position, end - from);
+        const F distance_squared = dot(to, to), distance = sqrt(distance_squared);
+        const Vec<F> wi_world = to / distance;
+        const Vec<F> wi = frame.to_local(wi_world);
+        const IncidentLight<F> in = incident_light<S, F>(scene, light, wi_world, distance_squared);
+        const BsdfValue<F> f = eval<S, F>(bsdf, wo, wi);
+        const F weight = light_sample_weight(settings.strategy, in.pdf, f.pdf, light.delta) / in.pdf;
+        out.direct = beta * f.f_cos * in.radiance * weight;
+        // A shading normal must not carry light through the surface.
+        const Mask<F> same_side = (wi.z > F(0.f)) == (dot(wi_world, ng) > F(0.f));
+        out.connects = light.valid && same_side && max_component(out.direct) > F(0.f);
+        out.shadow = {from, wi_world};
+        out.shadow_distance = select(light.infinite, F(infinity), distance * (1.f - 4e-7f));
+    }
+
+    // Onwards: sample the BSDF, then roulette.
+    const Pair<F> choice = sampler.pair(dimension + choice_dimension);
+    const Pair<F> direction = sampler.pair(dimension + bsdf_dimension);
+    const BsdfSample<F> b = sample<S, F>(bsdf, wo, direction.x(), direction.y(), choice.x());
+    const Vec<F> wi = frame.to_world(b.wi);
+    const Mask<F> leaves_outside = dot(wi, ng) > F(0.f);
+    const Mask<F> same_side = (b.wi.z > F(0.f)) == leaves_outside;
+    Vec<F> next_beta = beta * b.weight;
+    out.continues = scatters && b.valid && same_side && max_component(next_beta) > F(0.f);
+    if (bounce + 1 >= settings.roulette.start && settings.roulette.rule != Roulette::Rule::off) {
+        const F q = survival_probability(settings.roulette, next_beta);
+        out.continues = out.continues && choice.y() < q;
+        next_beta = next_beta / max(q, F(1e-30f));
+    }
+    out.next.ray = {offset_origin(surface.position, surface.error, ng, leaves_outside), normalize(wi)};
+    out.next.beta = next_beta;
+    out.next.pdf = select(b.delta, F(infinity), b.pdf);
+    out.next.key = path.key;
+    out.next.index = path.index;
+    out.next.slot = path.slot;
+    return out;
+}
+
+} // namespace blush::inline BLUSH_ISA

@@ -1,0 +1,26 @@
+// The render settings as kernels read them.
+#pragma once
+
+#include "scene/render_settings.h"
+
+#include <cstdint>
+
+namespace blush {
+
+struct FilterTable;
+struct EnergyTable;
+
+// No path is longer than this whatever the settings say. Reaching it is counted and reported, not hidden: it takes
+// a closed room of albedo 1 with roulette off.
+constexpr int longest_path = 100000;
+
+struct EstimatorSettings {
+    int32_t max_bounces = longest_path; // scattering events
+    Roulette roulette;
+    Strategy strategy = Strategy::mis;
+    const FilterTable* filter = nullptr;
+    const EnergyTable* energy = nullptr; // null: no multiple-scattering compensation
+    float width = 1, height = 1;         // of the film, pixels
+};
+
+} // namespace blush

@@ -1,0 +1,168 @@
+#include "render/film.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <tuple>
+
+namespace blush {
+namespace {
+
+constexpr size_t remembered_bad_samples = 100;
+
+std::optional<BadSample::Cause> fault_of(float r, float g, float b) {
+    if (std::isnan(r) || std::isnan(g) || std::isnan(b)) return BadSample::Cause::nan;
+    if (std::isinf(r) || std::isinf(g) || std::isinf(b)) return BadSample::Cause::infinite;
+    if (r < 0 || g < 0 || b < 0) return BadSample::Cause::negative;
+    return std::nullopt;
+}
+
+// Keeps the first hundred in an order that does not depend on threads.
+void remember(Health& health, const std::vector<BadSample>& bad) {
+    for (const BadSample& b : bad) {
+        switch (b.cause) {
+        case BadSample::Cause::nan: ++health.nan; break;
+        case BadSample::Cause::infinite: ++health.infinite; break;
+        case BadSample::Cause::negative: ++health.negative; break;
+        }
+    }
+    health.first.insert(health.first.end(), bad.begin(), bad.end());
+    std::sort(health.first.begin(), health.first.end(), [](const BadSample& a, const BadSample& b) {
+        return std::tie(a.sample, a.y, a.x) < std::tie(b.sample, b.y, b.x);
+    });
+    if (health.first.size() > remembered_bad_samples) health.first.resize(remembered_bad_samples);
+}
+
+} // namespace
+
+void Film::reset(int width, int height, const PlaneSet& planes, bool transparent_background) {
+    width_ = width;
+    height_ = height;
+    planes_ = planes;
+    transparent_ = transparent_background;
+    clear();
+}
+
+void Film::clear() {
+    const size_t n = size_t(width_) * size_t(height_);
+    halves_.assign(2 * n, {});
+    features_.assign(planes_.albedo || planes_.normal ? n : 0, {});
+    covered_.assign(transparent_ ? n : 0, 0);
+    depth_.assign(planes_.depth ? n : 0, 0.f);
+    object_id_.assign(planes_.ids ? n : 0, 0u);
+    material_.assign(planes_.ids ? n : 0, -1);
+    health_ = {};
+}
+
+void Film::add(const TileJob& job, const TileScratch& tile, uint32_t seed) {
+    std::vector<BadSample> bad;
+    int slot = 0;
+    for (int y = job.y; y < job.y + job.height; ++y) {
+        for (int x = job.x; x < job.x + job.width; ++x) {
+            const size_t pixel = size_t(y) * size_t(width_) + size_t(x);
+            const bool first_of_pixel = halves_[2 * pixel].count == 0 && halves_[2 * pixel + 1].count == 0;
+            for (int s = 0; s < job.samples; ++s, ++slot) {
+                const int64_t sample = job.first_sample + s;
+                const float r = tile.r[slot], g = tile.g[slot], b = tile.b[slot];
+                if (const auto fault = fault_of(r, g, b)) {
+                    bad.push_back({*fault, x, y, sample, seed});
+                    continue;
+                }
+                Half& half = halves_[2 * pixel + size_t(sample & 1)];
+                half.r += double(r);
+                half.g += double(g);
+                half.b += double(b);
+                ++half.count;
+                if (!needs_first_hits()) continue;
+                const FirstHitColumns& first = *tile.first;
+                if (!features_.empty()) {
+                    FeatureSums& f = features_[pixel];
+                    const float albedo[3] = {first.albedo_r[slot], first.albedo_g[slot], first.albedo_b[slot]};
+                    const float normal[3] = {first.normal_x[slot], first.normal_y[slot], first.normal_z[slot]};
+                    for (int c = 0; c < 3; ++c) {
+                        // What a miss shows may be the sun itself: guides are for denoising and stay in range.
+                        if (std::isfinite(albedo[c])) f.albedo[c] += double(std::clamp(albedo[c], 0.f, 1.f));
+                        if (std::isfinite(normal[c])) f.normal[c] += double(normal[c]);
+                    }
+                }
+                if (transparent_) covered_[pixel] += first.material[slot] >= 0;
+                if (first_of_pixel && s == 0) {
+                    if (planes_.depth) depth_[pixel] = first.depth[slot];
+                    if (planes_.ids) {
+                        object_id_[pixel] = uint32_t(first.object[slot]);
+                        material_[pixel] = first.material[slot];
+                    }
+                }
+            }
+        }
+    }
+    if (bad.empty()) return;
+    const std::lock_guard lock(health_mutex_);
+    remember(health_, bad);
+}
+
+void Film::resolve_rows(Frame& frame, int first, int last, ErrorAccumulator& error) const {
+    for (size_t i = size_t(first) * size_t(width_); i < size_t(last) * size_t(width_); ++i) {
+        const Half &a = halves_[2 * i], &b = halves_[2 * i + 1];
+        const int64_t count = a.count + b.count;
+        const double inverse = 1 / double(std::max<int64_t>(1, count));
+        float* rgba = &frame.rgba[4 * i];
+        rgba[0] = float((a.r + b.r) * inverse);
+        rgba[1] = float((a.g + b.g) * inverse);
+        rgba[2] = float((a.b + b.b) * inverse);
+        rgba[3] = transparent_ ? float(double(covered_[i]) * inverse) : 1.f;
+        const auto mean = [&](const double(&sum)[3]) { return Vec3{float(sum[0] * inverse), float(sum[1] * inverse), float(sum[2] * inverse)}; };
+        if (planes_.albedo) frame.albedo[i] = mean(features_[i].albedo);
+        if (planes_.normal) frame.normal[i] = mean(features_[i].normal);
+        if (planes_.depth) frame.depth[i] = depth_[i];
+        if (planes_.ids) {
+            frame.object_id[i] = object_id_[i];
+            frame.material_id[i] = uint32_t(material_[i] + 1);
+        }
+        if (a.count > 0 && b.count > 0) {
+            const double na = double(a.count), nb = double(b.count);
+            error.add({a.r / na, a.g / na, a.b / na}, {b.r / nb, b.g / nb, b.b / nb}, na * inverse);
+        }
+    }
+}
+
+void Film::resolve(Frame& frame, const Workers& workers) const {
+    const size_t n = size_t(width_) * size_t(height_);
+    frame.width = width_;
+    frame.height = height_;
+    frame.rgba.resize(4 * n);
+    frame.albedo.resize(planes_.albedo ? n : 0);
+    frame.normal.resize(planes_.normal ? n : 0);
+    frame.depth.resize(planes_.depth ? n : 0);
+    frame.object_id.resize(planes_.ids ? n : 0);
+    frame.material_id.resize(planes_.ids ? n : 0);
+    frame.health = health_;
+
+    // Bands of a fixed size, summed in order: the estimate does not depend on threads.
+    constexpr int band = 32;
+    std::vector<ErrorAccumulator> errors(size_t((height_ + band - 1) / band));
+    workers.for_each(int64_t(errors.size()), {}, [&](int64_t i, unsigned) {
+        resolve_rows(frame, int(i) * band, std::min(height_, int(i + 1) * band), errors[size_t(i)]);
+    });
+    ErrorAccumulator error;
+    for (const ErrorAccumulator& e : errors) error.merge(e);
+    frame.error = error.estimate();
+}
+
+std::vector<Vec3> Film::standard_error() const {
+    const size_t n = size_t(width_) * size_t(height_);
+    std::vector<Vec3> result;
+    result.reserve(n);
+    for (size_t i = 0; i < n; ++i) {
+        const Half &a = halves_[2 * i], &b = halves_[2 * i + 1];
+        if (a.count == 0 || b.count == 0) return {};
+        const double na = double(a.count), nb = double(b.count);
+        // |A - B| times the factor that makes its square an unbiased estimate of the variance of the weighted mean.
+        const double k = std::sqrt(na * nb) / (na + nb);
+        result.push_back({float(std::abs(a.r / na - b.r / nb) * k), float(std::abs(a.g / na - b.g / nb) * k),
+                          float(std::abs(a.b / na - b.b / nb) * k)});
+    }
+    return result;
+}
+
+} // namespace blush

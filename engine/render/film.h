@@ -1,0 +1,60 @@
+// Sums of samples. Resolving, denoising and looking are readers; only the planes that somebody reads are allocated.
+#pragma once
+
+#include "core/parallel.h"
+#include "render/error_estimate.h"
+#include "render/frame.h"
+#include "render/kernels/kernel.h"
+#include "render/renderer.h"
+
+#include <cstdint>
+#include <mutex>
+#include <vector>
+
+namespace blush {
+
+class Film {
+public:
+    // Clears, and allocates what is missing.
+    void reset(int width, int height, const PlaneSet& planes, bool transparent_background);
+    void clear();
+
+    int width() const { return width_; }
+    int height() const { return height_; }
+    // The kernels must hand over first hits: some plane is made of them.
+    bool needs_first_hits() const { return planes_ != PlaneSet{} || transparent_; }
+
+    // Adds a tile sample by sample in order, so that sums do not depend on how samples are split into tiles. A sample that is
+    // not finite or negative is dropped, counted and remembered. Tiles in flight must not share pixels. Thread-safe.
+    void add(const TileJob& job, const TileScratch& tile, uint32_t seed);
+
+    // Everything the film knows: pixels, planes, health, error. Reuses the frame's memory. Material ids are left as table indices + 1.
+    void resolve(Frame& frame, const Workers& workers) const;
+    // Standard error of each pixel's mean from the two halves, RGB; empty before both hold samples.
+    std::vector<Vec3> standard_error() const;
+
+private:
+    struct Half {
+        double r = 0, g = 0, b = 0;
+        int64_t count = 0;
+    };
+    struct FeatureSums {
+        double albedo[3] = {}, normal[3] = {};
+    };
+
+    void resolve_rows(Frame& frame, int first, int last, ErrorAccumulator& error) const;
+
+    int width_ = 0, height_ = 0;
+    PlaneSet planes_;
+    bool transparent_ = false;
+    std::vector<Half> halves_; // two per pixel: even and odd samples, two randomisations of the sampler
+    std::vector<FeatureSums> features_;
+    std::vector<int64_t> covered_;    // samples that hit something; only for transparent backgrounds
+    std::vector<float> depth_;        // of the first sample, as are the ids: means of them mean nothing
+    std::vector<uint32_t> object_id_;
+    std::vector<int32_t> material_; // index into the material table
+    std::mutex health_mutex_;
+    Health health_;
+};
+
+} // namespace blush

@@ -1,0 +1,216 @@
+#include "render/geometry_pool.h"
+
+#include "core/math.h"
+#include "scene/affine.h"
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+
+namespace blush {
+namespace {
+
+// Cofactors times the determinant's sign, scaled so that their size does not overflow in single precision.
+Affined normal_matrix(const Affined& m) {
+    Affined c = cofactor(m);
+    const double size = std::max({length(c.x), length(c.y), length(c.z), 1e-300});
+    const double s = (determinant(m) < 0 ? -1.0 : 1.0) / size;
+    return {c.x * s, c.y * s, c.z * s, {0, 0, 0}};
+}
+
+InstanceRecord make_instance(const Affined& m) {
+    const Affined n = normal_matrix(m);
+    return {to_float(m), to_float(n.x), to_float(n.y), to_float(n.z)};
+}
+
+template <class T> void append_or_fill(std::vector<T>& pool, bool wanted, const std::vector<T>& values, size_t count, const T& filler) {
+    if (!wanted) return;
+    if (values.size() == count) pool.insert(pool.end(), values.begin(), values.end());
+    else pool.resize(pool.size() + count, filler);
+}
+
+int32_t flags_of(const Geometry& g, const AttributeNeeds& needs, const Affined& world_from_object, bool instanced) {
+    int32_t flags = 0;
+    const size_t n = g.positions.size();
+    if (g.normals.size() == n) flags |= part_smooth;
+    if (needs.tangents && g.tangents.size() == n) flags |= part_tangents;
+    if (needs.uv0 && g.uv0.size() == n) flags |= part_uv0;
+    if (needs.uv1 && g.uv1.size() == n) flags |= part_uv1;
+    if (needs.colors && g.colors.size() == n) flags |= part_colors;
+    if (!instanced && determinant(world_from_object) < 0) flags |= part_mirrored;
+    return flags;
+}
+
+// Vertex normals that are the faces' own change nothing and need not be read.
+bool has_flat_normals(const Geometry& g) {
+    for (size_t i = 0; i < g.indices.size(); i += 3) {
+        const uint32_t* v = &g.indices[i];
+        const Vec3d a = to_double(g.positions[v[0]]), b = to_double(g.positions[v[1]]), c = to_double(g.positions[v[2]]);
+        const Vec3d face = cross(b - a, c - a);
+        const double l = length(face);
+        for (int k = 0; k < 3; ++k) {
+            const Vec3d n = to_double(g.normals[v[k]]);
+            if (!(dot(n, face) >= (1 - 1e-9) * l * length(n))) return false;
+        }
+    }
+    return true;
+}
+
+} // namespace
+
+GeometryPool::Span GeometryPool::append(const Geometry& g) {
+    const size_t n = g.positions.size();
+    if (positions_.size() + n > size_t(INT32_MAX) / 4 || indices_.size() + g.indices.size() > size_t(INT32_MAX))
+        throw std::runtime_error("the scene has more vertices than 32-bit indices reach");
+    const Span span{int32_t(positions_.size()), int32_t(indices_.size())};
+    indices_.insert(indices_.end(), g.indices.begin(), g.indices.end());
+    positions_.insert(positions_.end(), g.positions.begin(), g.positions.end());
+    append_or_fill(normals_, true, g.normals, n, Vec3{0, 0, 0});
+    append_or_fill(tangents_, needs_.tangents, g.tangents, n, Vec4{1, 0, 0, 1});
+    append_or_fill(colors_, needs_.colors, g.colors, n, Vec4{1, 1, 1, 1});
+    append_or_fill(uv0_, needs_.uv0, g.uv0, n, Vec2{0, 0});
+    append_or_fill(uv1_, needs_.uv1, g.uv1, n, Vec2{0, 0});
+    return span;
+}
+
+void GeometryPool::place(size_t part, const Geometry& g, const Affined& world_from_object) {
+    PartRecord& record = parts_[part];
+    const Affined normal = normal_matrix(world_from_object);
+    record.flags = (record.flags & ~part_mirrored) | (determinant(world_from_object) < 0 ? part_mirrored : 0);
+    const size_t first = size_t(record.first_vertex);
+    for (size_t i = 0; i < g.positions.size(); ++i) positions_[first + i] = to_float(transform_point(world_from_object, to_double(g.positions[i])));
+    if (record.flags & part_smooth)
+        for (size_t i = 0; i < g.normals.size(); ++i) normals_[first + i] = to_float(transform_vector(normal, to_double(g.normals[i])));
+    if (record.flags & part_tangents)
+        for (size_t i = 0; i < g.tangents.size(); ++i) {
+            const Vec4& t = g.tangents[i];
+            const Vec3 world = to_float(transform_vector(world_from_object, to_double(Vec3{t.x, t.y, t.z})));
+            tangents_[first + i] = {world.x, world.y, world.z, t.w};
+        }
+}
+
+void GeometryPool::build(const std::vector<SceneObject>& objects, const AttributeNeeds& needs) {
+    *this = {};
+    needs_ = needs;
+    std::map<uint64_t, Span> shared;      // instanced geometry by serial
+    std::map<uint64_t, bool> flat_normals; // by serial
+    for (const SceneObject& object : objects) {
+        if (object.instanced) {
+            instance_first_part_.push_back(int32_t(parts_.size()));
+            instances_.push_back(make_instance(object.world_from_object));
+        }
+        for (const MeshPart& part : object.parts) {
+            const Geometry& g = *part.geometry;
+            Span span;
+            if (!object.instanced) span = append(g);
+            else if (const auto it = shared.find(g.serial); it != shared.end()) span = it->second;
+            else span = shared[g.serial] = append(g);
+            int32_t flags = flags_of(g, needs, object.world_from_object, object.instanced);
+            if (flags & part_smooth) {
+                const auto [it, is_new] = flat_normals.try_emplace(g.serial, false);
+                if (is_new) it->second = has_flat_normals(g);
+                if (it->second) flags &= ~part_smooth;
+            }
+            parts_.push_back({0, int32_t(object.node.value), span.first_index, span.first_vertex,
+                              object.instanced ? int32_t(instances_.size()) - 1 : -1, flags, -1});
+            part_materials_.push_back(part.material);
+            part_triangles_.push_back(int64_t(g.triangle_count()));
+            part_vertices_.push_back(int64_t(g.positions.size()));
+            if (!object.instanced) place(parts_.size() - 1, g, object.world_from_object);
+        }
+    }
+}
+
+void GeometryPool::move(const std::vector<SceneObject>& before, const std::vector<SceneObject>& objects) {
+    size_t part = 0, instance = 0;
+    for (size_t i = 0; i < objects.size(); ++i) {
+        const bool moved = !(before[i].world_from_object == objects[i].world_from_object);
+        if (objects[i].instanced) {
+            if (moved) instances_[instance] = make_instance(objects[i].world_from_object);
+            ++instance;
+        }
+        for (const MeshPart& p : objects[i].parts) {
+            if (moved && !objects[i].instanced) place(part, *p.geometry, objects[i].world_from_object);
+            ++part;
+        }
+    }
+}
+
+void GeometryPool::corners(size_t part, int64_t triangle, Vec3 (&p)[3]) const {
+    const PartRecord& record = parts_[part];
+    for (int k = 0; k < 3; ++k) {
+        const size_t vertex = size_t(record.first_vertex) + indices_[size_t(record.first_index) + 3 * size_t(triangle) + size_t(k)];
+        p[k] = positions_[vertex];
+        if (record.transform >= 0) p[k] = transform_point(instances_[size_t(record.transform)].world_from_object, p[k]);
+    }
+}
+
+int64_t GeometryPool::degenerate_count(size_t part) const {
+    int64_t n = 0;
+    for (int64_t t = 0; t < part_triangles_[part]; ++t) {
+        Vec3 p[3];
+        corners(part, t, p);
+        const Vec3d a = to_double(p[0]), normal = cross(to_double(p[1]) - a, to_double(p[2]) - a);
+        n += !(dot(normal, normal) > 0);
+    }
+    return n;
+}
+
+void GeometryPool::fill(SceneTables& t) const {
+    const auto pointer = [](const auto& v) { return v.empty() ? nullptr : &v[0].x; };
+    t.parts = parts_.data();
+    t.instances = instances_.data();
+    t.instance_first_part = instance_first_part_.data();
+    t.indices = indices_.data();
+    t.positions = pointer(positions_);
+    t.normals = pointer(normals_);
+    t.tangents = pointer(tangents_);
+    t.uv0 = pointer(uv0_);
+    t.uv1 = pointer(uv1_);
+    t.colors = pointer(colors_);
+}
+
+AccelScene GeometryPool::accel_scene(const std::vector<SceneObject>& objects, const std::vector<bool>& alpha) const {
+    AccelScene scene;
+    size_t part = 0;
+    for (const SceneObject& object : objects) {
+        std::vector<AccelTriangles> triangles;
+        for (const MeshPart& p : object.parts) {
+            const PartRecord& record = parts_[part];
+            triangles.push_back({p.geometry->serial, positions_.data() + record.first_vertex, size_t(part_vertices_[part]),
+                                 indices_.data() + record.first_index, size_t(part_triangles_[part]), int32_t(part), alpha[part]});
+            ++part;
+        }
+        if (object.instanced) scene.instances.push_back({std::move(triangles), instances_[scene.instances.size()].world_from_object});
+        else scene.flat.insert(scene.flat.end(), triangles.begin(), triangles.end());
+    }
+    return scene;
+}
+
+Bounds GeometryPool::bounds() const {
+    Bounds bounds;
+    std::map<int32_t, Bounds> object_bounds; // instanced vertices once for all instances, by first vertex
+    for (size_t part = 0; part < parts_.size(); ++part) {
+        const size_t first = size_t(parts_[part].first_vertex), count = size_t(part_vertices_[part]);
+        if (parts_[part].transform < 0) {
+            for (size_t i = 0; i < count; ++i) bounds.include(to_double(positions_[first + i]));
+            continue;
+        }
+        const auto [it, is_new] = object_bounds.try_emplace(parts_[part].first_vertex);
+        if (is_new)
+            for (size_t i = 0; i < count; ++i) it->second.include(to_double(positions_[first + i]));
+        const Affine& m = instances_[size_t(parts_[part].transform)].world_from_object;
+        const Vec3d corner[2] = {it->second.low, it->second.high};
+        for (int k = 0; k < 8; ++k)
+            bounds.include(to_double(transform_point(m, to_float(Vec3d{corner[k & 1].x, corner[k >> 1 & 1].y, corner[k >> 2 & 1].z}))));
+    }
+    return bounds;
+}
+
+size_t GeometryPool::memory_bytes() const {
+    const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
+    return bytes(parts_) + bytes(instances_) + bytes(indices_) + bytes(positions_) + bytes(normals_) + bytes(tangents_) + bytes(colors_) +
+           bytes(uv0_) + bytes(uv1_);
+}
+
+} // namespace blush

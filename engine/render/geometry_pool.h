@@ -1,0 +1,66 @@
+// All vertices and triangles that rays can hit, in arrays that run in parallel; attributes that no part has are not allocated.
+#pragma once
+
+#include "render/accel.h"
+#include "render/object_list.h"
+#include "render/scene_tables.h"
+#include "scene/scene.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace blush {
+
+// Which vertex attributes the materials in use read.
+struct AttributeNeeds {
+    bool uv0 = false, uv1 = false, tangents = false, colors = false;
+    bool operator==(const AttributeNeeds&) const = default;
+};
+
+class GeometryPool {
+public:
+    // Lays out the parts of `objects`: flat ones in world space, instanced ones in object space and once for all instances.
+    // Fills every field of the part records but `material` and `first_light`.
+    void build(const std::vector<SceneObject>& objects, const AttributeNeeds& needs);
+    // Objects of the same shape at other places: rewrites what moved. `before` as given last time.
+    void move(const std::vector<SceneObject>& before, const std::vector<SceneObject>& objects);
+
+    // One record per part, in the order of objects and their parts.
+    std::vector<PartRecord>& parts() { return parts_; }
+    const std::vector<PartRecord>& parts() const { return parts_; }
+    // The material of each part in the scene.
+    const std::vector<Id<Material>>& part_materials() const { return part_materials_; }
+    int64_t triangle_count(size_t part) const { return part_triangles_[part]; }
+    // Triangles of a part that have no area where they lie.
+    int64_t degenerate_count(size_t part) const;
+    // World-space corners of a triangle of a part, as the kernels compute them.
+    void corners(size_t part, int64_t triangle, Vec3 (&p)[3]) const;
+
+    void fill(SceneTables& tables) const;
+    // For the builder; alpha[part] asks for opacity tests.
+    AccelScene accel_scene(const std::vector<SceneObject>& objects, const std::vector<bool>& alpha) const;
+    Bounds bounds() const;
+    int64_t instance_count() const { return int64_t(instances_.size()); }
+    size_t memory_bytes() const;
+
+private:
+    struct Span {
+        int32_t first_vertex = 0, first_index = 0;
+    };
+    Span append(const Geometry& geometry);
+    void place(size_t part, const Geometry& geometry, const Affined& world_from_object);
+
+    std::vector<PartRecord> parts_;
+    std::vector<Id<Material>> part_materials_;
+    std::vector<int64_t> part_triangles_;
+    std::vector<int64_t> part_vertices_;
+    std::vector<InstanceRecord> instances_;
+    std::vector<int32_t> instance_first_part_;
+    std::vector<uint32_t> indices_;
+    std::vector<Vec3> positions_, normals_;
+    std::vector<Vec4> tangents_, colors_;
+    std::vector<Vec2> uv0_, uv1_;
+    AttributeNeeds needs_;
+};
+
+} // namespace blush

@@ -1,0 +1,42 @@
+#include "render/kernels/kernel.h"
+
+#include <array>
+#include <cstdlib>
+
+namespace blush {
+
+std::span<const std::string_view> runnable_isas() {
+    static const auto isas = [] {
+        __builtin_cpu_init();
+        std::pair<std::array<std::string_view, 4>, size_t> found{{"scalar"}, 1};
+        const auto add = [&](std::string_view name) { found.first[found.second++] = name; };
+        if (__builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("popcnt")) add("v2");
+        if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2")) add("v3");
+        if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
+            __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512cd"))
+            add("v4");
+        return found;
+    }();
+    return {isas.first.data(), isas.second};
+}
+
+std::span<const Kernel> kernels_of(std::string_view isa) {
+    if (isa == "scalar") return kernels_scalar();
+    if (isa == "v2") return kernels_v2();
+    if (isa == "v3") return kernels_v3();
+    if (isa == "v4") return kernels_v4();
+    return {};
+}
+
+const Kernel& choose_kernel(Features needed) {
+    std::string_view isa = runnable_isas().back();
+    if (const char* wanted = std::getenv("BLUSH_ISA"))
+        for (const std::string_view runnable : runnable_isas())
+            if (runnable == wanted) isa = runnable;
+    const std::span<const Kernel> kernels = kernels_of(isa);
+    for (const Kernel& kernel : kernels)
+        if (kernel.features.contains(needed)) return kernel;
+    return kernels.back();
+}
+
+} // namespace blush

@@ -1,0 +1,97 @@
+// A kernel renders one tile of paths; there is one for each instruction set and set of features.
+#pragma once
+
+#include "core/vec.h"
+#include "render/accel.h"
+#include "render/estimator_settings.h"
+#include "render/scene_tables.h"
+#include "shading/features.h"
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace blush {
+
+// Paths a tile holds at most. Enough to fill packets after most paths have ended, small enough for the second-level cache.
+constexpr int tile_capacity = 4096;
+
+// A rectangle of pixels with `samples` consecutive sample indices each; width * height * samples <= tile_capacity.
+struct TileJob {
+    int x = 0, y = 0, width = 0, height = 0;
+    int64_t first_sample = 0;
+    int samples = 1;
+    int paths() const { return width * height * samples; }
+};
+
+// One number per path, padded so that whole registers can be read and written past the end.
+template <class T> struct Column {
+    alignas(64) T data[tile_capacity + 64];
+    operator T*() { return data; }
+    operator const T*() const { return data; }
+};
+
+struct PathQueue {
+    int size = 0;
+    Column<float> ox, oy, oz, dx, dy, dz, beta_r, beta_g, beta_b, pdf;
+    Column<uint32_t> key, index;
+    Column<int32_t> slot;
+};
+struct HitColumns {
+    Column<float> t, u, v;
+    Column<int32_t> geometry, instance, triangle;
+};
+struct ShadowQueue {
+    int size = 0;
+    Column<float> ox, oy, oz, dx, dy, dz, distance, r, g, b;
+    Column<int32_t> slot;
+};
+struct FirstHitColumns {
+    Column<float> albedo_r, albedo_g, albedo_b, normal_x, normal_y, normal_z, depth;
+    Column<int32_t> object, material; // material: index into the material table, -1 on a miss
+};
+
+// A worker's memory for tiles, and what a tile leaves in it. Results are by slot: slot = pixel * samples + sample, pixels by rows.
+struct TileScratch {
+    PathQueue paths[2];
+    HitColumns hits;
+    ShadowQueue shadows;
+    Column<uint32_t> random;
+    Column<uint8_t> blocked;
+
+    Column<float> r, g, b;                  // radiance
+    std::unique_ptr<FirstHitColumns> first; // null: nobody reads it
+    int64_t camera_rays = 0, bounce_rays = 0, shadow_rays = 0, truncated_paths = 0; // counted up
+};
+
+struct KernelContext {
+    const SceneTables* scene = nullptr;
+    const Accel* accel = nullptr;
+    EstimatorSettings settings;
+    uint32_t seed = 0;
+};
+
+using TileFunction = void (*)(const KernelContext&, const TileJob&, TileScratch&);
+
+struct Kernel {
+    std::string_view isa;  // "scalar", "v2", "v3", "v4": x86-64 micro-architecture levels
+    std::string_view name; // of the set of features: "lambert", ...
+    Features features;
+    TileFunction render = nullptr;
+};
+
+std::span<const Kernel> kernels_scalar();
+std::span<const Kernel> kernels_v2();
+std::span<const Kernel> kernels_v3();
+std::span<const Kernel> kernels_v4();
+
+// Instruction sets this processor can run, widest last; "scalar" first.
+std::span<const std::string_view> runnable_isas();
+// All kernels of one instruction set, smallest feature set first; empty for an unknown name.
+std::span<const Kernel> kernels_of(std::string_view isa);
+// The smallest kernel that has all `needed` features, for $BLUSH_ISA if that is set and runnable, else the widest instruction set.
+const Kernel& choose_kernel(Features needed);
+
+} // namespace blush

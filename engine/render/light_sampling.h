@@ -1,0 +1,150 @@
+// Next-event estimation's half of the work: a point on a light, and what arrives from there.
+#pragma once
+
+#include "core/sampler.h"
+#include "render/surface.h"
+#include "shading/light.h"
+
+namespace blush::inline BLUSH_ISA {
+
+// A light and a place on it, drawn without regard to the receiver.
+template <class F> struct LightPoint {
+    Mask<F> valid, infinite, delta;
+    Vec<F> position;    // where a shadow ray ends; infinite: unit direction towards the light
+    Vec<F> error;       // bound on the position's rounding error
+    Vec<F> normal;      // triangle: unit; spot: the axis
+    Vec<F> emission;    // nits; delta: candela or lux
+    F probability;      // of having picked this light
+    F density;          // infinite: per solid angle; triangle: per area; delta: 1
+    Int<F> kind, light;
+    Mask<F> two_sided;
+};
+
+// What arrives at a receiver along the unit direction wi: radiance (delta: irradiance on a surface facing wi) and its density.
+template <class F> struct IncidentLight {
+    Vec<F> radiance;
+    F pdf;
+};
+
+// Emission of a textured triangle light at the point edge1 * along.x + edge2 * along.y.
+template <Features S, class F>
+Vec<F> textured_emission(const SceneTables& scene, const Int<F>& light, const Vec2T<F>& along, const Mask<F>& active) {
+    const LightRecord* lights = scene.lights.lights;
+    const Mask<F> swapped = as_mask((gather_field(lights, &LightRecord::flags, light) & int32_t(light_mirrored)) != 0);
+    const Vec2T<F> b{select(swapped, along.y, along.x), select(swapped, along.x, along.y)};
+    const Int<F> triangle = gather_field(lights, &LightRecord::triangle, light);
+    const Int<F> part = select(active, gather_field(lights, &LightRecord::part, light), Int<F>(0));
+    const Int<F> flags = gather_field(scene.parts, &PartRecord::flags, part);
+    const Int<F> first_vertex = gather_field(scene.parts, &PartRecord::first_vertex, part);
+    const Int<F> at = gather_field(scene.parts, &PartRecord::first_index, part) + select(active, triangle, Int<F>(0)) * 3;
+    const auto uv_at = [&](const float* uv, int32_t flag) -> Vec2T<F> {
+        const Mask<F> present = active && as_mask((flags & flag) != 0);
+        if (!any(present)) return {F(0.f), F(0.f)};
+        Vec2T<F> sum{F(0.f), F(0.f)};
+        const F weight[3] = {1.f - b.x - b.y, b.x, b.y};
+        for (int k = 0; k < 3; ++k) {
+            const Int<F> vertex = (first_vertex + to_signed(gather(scene.indices + k, at))) * 2;
+            sum = sum + Vec2T<F>{gather(uv, vertex), gather(uv + 1, vertex)} * weight[k];
+        }
+        return {select(present, sum.x, F(0.f)), select(present, sum.y, F(0.f))};
+    };
+    const Int<F> material = gather_field(scene.parts, &PartRecord::material, part);
+    return emission_at<S, F>(scene.materials, material, uv_at(scene.uv0, part_uv0), uv_at(scene.uv1, part_uv1), active);
+}
+
+template <Features S, class F> LightPoint<F> sample_light_point(const SceneTables& scene, const Pair<F>& random, const Mask<F>& active) {
+    const LightTables& table = scene.lights;
+    const LightRecord* lights = table.lights;
+    const DiscreteSample<F> pick = sample_discrete<F>(table.thresholds, Int<F>(0), table.count, random.bits_x);
+    const F u = pick.remainder, v = random.y();
+
+    LightPoint<F> p;
+    p.light = pick.index;
+    p.probability = pick.probability;
+    p.valid = active && pick.probability > F(0.f);
+    p.kind = gather_field(lights, &LightRecord::kind, pick.index);
+    const Int<F> flags = gather_field(lights, &LightRecord::flags, pick.index);
+    p.two_sided = as_mask((flags & int32_t(light_two_sided)) != 0);
+    p.position = gather_field3<F>(lights, &LightRecord::position, pick.index);
+    p.emission = gather_field3<F>(lights, &LightRecord::emission, pick.index);
+    p.error = splat<F>(0.f);
+    p.normal = splat<F>(0.f);
+    p.density = F(1.f);
+    p.infinite = Mask<F>(false);
+    p.delta = Mask<F>(false);
+    const auto is = [&](LightKind kind) { return p.valid && as_mask(p.kind == int32_t(kind)); };
+
+    if constexpr (S.has(Feature::emissive_triangles)) {
+        const Mask<F> triangle = is(LightKind::triangle);
+        if (any(triangle)) {
+            const Vec<F> e1 = gather_field3<F>(lights, &LightRecord::edge1, pick.index);
+            const Vec<F> e2 = gather_field3<F>(lights, &LightRecord::edge2, pick.index);
+            const Vec2T<F> b = sample_triangle(u, v);
+            const Vec<F> on = p.position + e1 * b.x + e2 * b.y;
+            const Vec<F> error = (abs(p.position) + abs(e1) + abs(e2)) * gamma_bound(12);
+            p.error = select<F>(triangle, error, p.error);
+            p.normal = select<F>(triangle, normalize(cross(e1, e2)), p.normal);
+            p.density = select(triangle, gather_field(lights, &LightRecord::inverse_area, pick.index), p.density);
+            if constexpr (S.has(Feature::textures)) {
+                const Mask<F> textured = triangle && as_mask((flags & int32_t(light_textured)) != 0);
+                if (any(textured)) p.emission = select<F>(textured, textured_emission<S, F>(scene, pick.index, b, textured), p.emission);
+            }
+            p.position = select<F>(triangle, on, p.position);
+        }
+    }
+    if constexpr (S.has(Feature::point_lights)) {
+        p.delta = p.delta || is(LightKind::point) || is(LightKind::spot);
+        p.normal = select<F>(is(LightKind::spot), gather_field3<F>(lights, &LightRecord::edge1, pick.index), p.normal);
+    }
+    if constexpr (S.has(Feature::suns)) {
+        const Mask<F> sun = is(LightKind::sun);
+        if (any(sun)) {
+            const F height = gather_field(lights, &LightRecord::cone_height, pick.index);
+            const Mask<F> disk = sun && height > F(0.f);
+            const Basis<F> around = basis_around(p.position);
+            const Vec<F> towards = around.to_world(sample_cone(height, u, v));
+            p.position = select<F>(disk, normalize(towards), p.position);
+            p.density = select(disk, cone_pdf(height), p.density);
+            p.infinite = p.infinite || sun;
+            p.delta = p.delta || (sun && !disk);
+        }
+    }
+    if constexpr (S.has(Feature::environment)) {
+        const Mask<F> environment = is(LightKind::environment);
+        if (any(environment)) {
+            const EnvironmentSample<F> e = sample_environment<F>(scene.environment, u, random.bits_y);
+            p.position = select<F>(environment, e.direction, p.position);
+            p.emission = select<F>(environment, e.radiance, p.emission);
+            p.density = select(environment, e.pdf, p.density);
+            p.infinite = p.infinite || environment;
+        }
+    }
+    return p;
+}
+
+// Radiance and density at a receiver `distance_squared` away in direction wi from it; infinite lights ignore the distance.
+template <Features S, class F> IncidentLight<F> incident_light(const SceneTables& scene, const LightPoint<F>& p, const Vec<F>& wi, const F& distance_squared) {
+    IncidentLight<F> in{p.emission, p.probability * p.density};
+    const Mask<F> finite = !p.infinite;
+    if constexpr (S.has(Feature::emissive_triangles)) {
+        const Mask<F> triangle = finite && !p.delta;
+        const F cos_light = -dot(p.normal, wi);
+        const F facing = select(p.two_sided, abs(cos_light), cos_light);
+        const Mask<F> seen = facing > F(0.f);
+        in.radiance = select<F>(triangle && !seen, splat<F>(0.f), in.radiance);
+        in.pdf = select(triangle, area_to_solid_angle(in.pdf, distance_squared, select(seen, facing, F(1.f))), in.pdf);
+    }
+    if constexpr (S.has(Feature::point_lights)) {
+        const Mask<F> point = finite && p.delta;
+        if (any(point)) {
+            const F scale = gather_field(scene.lights.lights, &LightRecord::spot_scale, p.light);
+            const F offset = gather_field(scene.lights.lights, &LightRecord::spot_offset, p.light);
+            const Mask<F> spot = as_mask(p.kind == int32_t(LightKind::spot));
+            const F intensity = select(spot, spot_falloff(scale, offset, F(-dot(p.normal, wi))), F(1.f)) / distance_squared;
+            in.radiance = select<F>(point, in.radiance * intensity, in.radiance);
+        }
+    }
+    return in;
+}
+
+} // namespace blush::inline BLUSH_ISA

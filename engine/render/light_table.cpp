@@ -1,0 +1,158 @@
+#include "render/light_table.h"
+
+#include "core/distribution.h"
+#include "core/math.h"
+#include "render/light_sampling.h"
+#include "render/lowering.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace blush {
+namespace {
+
+constexpr double pi_d = 3.14159265358979323846;
+
+double luminance_of(const Vec3& c) { return double(luminance(c)); }
+
+struct Builder {
+    LightTable table;
+    std::vector<double> powers;
+
+    void add(const LightRecord& record, double power) {
+        table.records.push_back(record);
+        powers.push_back(std::isfinite(power) && power > 0 ? power : 0);
+    }
+};
+
+// Mean emission of a textured triangle over a 4 x 4 grid, and never quite nothing where the material may emit: what the
+// grid misses must keep a chance.
+double mean_textured_luminance(const SceneTables& tables, size_t light, const Vec3& factor) {
+    double sum = 0;
+    for (int i = 0; i < 4; ++i)
+        for (int j = 0; j < 4; ++j) {
+            const Vec2 b = sample_triangle((float(i) + 0.5f) / 4, (float(j) + 0.5f) / 4);
+            sum += luminance_of(textured_emission<all_features, float>(tables, int32_t(light), b, true));
+        }
+    return std::max(sum / 16, 0.01 * luminance_of(factor));
+}
+
+void add_triangles(Builder& b, const MaterialTable& materials, GeometryPool& geometry, const SceneTables& scene_tables) {
+    SceneTables tables = scene_tables;
+    for (size_t part = 0; part < geometry.parts().size(); ++part) {
+        PartRecord& record = geometry.parts()[part];
+        const MaterialRecord& material = materials.records[size_t(record.material)];
+        record.first_light = -1;
+        if (!(material.flags & material_emissive) || material.flags & material_unlit) continue;
+        record.first_light = int32_t(b.table.records.size());
+        const bool two_sided = material.flags & material_double_sided, textured = material.emissive_texture >= 0;
+        // The stored corners wind as in the mesh; under a mirroring transform the other side of their plane is the outside.
+        const bool mirrored = record.transform >= 0 ? determinant(scene_tables.instances[record.transform].world_from_object) < 0
+                                                    : (record.flags & part_mirrored) != 0;
+        for (int64_t t = 0; t < geometry.triangle_count(part); ++t) {
+            Vec3 p[3];
+            geometry.corners(part, t, p);
+            LightRecord light{};
+            light.kind = int32_t(LightKind::triangle);
+            light.flags = (two_sided ? light_two_sided : 0) | (textured ? light_textured : 0) | (mirrored ? light_mirrored : 0);
+            light.part = int32_t(part);
+            light.triangle = int32_t(t);
+            light.position = p[0];
+            light.edge1 = p[1] - p[0];
+            light.edge2 = p[2] - p[0];
+            if (mirrored) std::swap(light.edge1, light.edge2);
+            light.emission = material.emission;
+            const double area = 0.5 * double(length(cross(light.edge1, light.edge2)));
+            light.inverse_area = area > 0 && std::isfinite(1 / area) ? float(1 / area) : 0.f;
+            b.table.records.push_back(light);
+            double nits = luminance_of(material.emission);
+            if (textured) {
+                tables.lights.lights = b.table.records.data();
+                nits = mean_textured_luminance(tables, b.table.records.size() - 1, material.emission);
+            }
+            const double power = pi_d * area * nits * (two_sided ? 2 : 1);
+            b.powers.push_back(std::isfinite(power) && light.inverse_area > 0 ? power : 0);
+            ++b.table.emissive_triangles;
+        }
+    }
+}
+
+void add_punctual(Builder& b, const Scene& scene, double scene_radius) {
+    for (const auto& [id, node] : scene.nodes) {
+        const Light* light = node.light ? scene.lights.find(node.light) : nullptr;
+        if (!light || !light->enabled || is_area_light(*light) || !is_visible(scene, id)) continue;
+        const Affined world = world_from_node(scene, id);
+        const Vec3d axis = normalize(-world.z);
+        LightRecord record{};
+        record.position = {float(world.t.x), float(world.t.y), float(world.t.z)};
+        record.edge1 = {float(axis.x), float(axis.y), float(axis.z)};
+        record.emission = light_emission(*light);
+        const double strength = luminance_of(record.emission);
+        switch (light->kind) {
+        case Light::Kind::point:
+            record.kind = int32_t(LightKind::point);
+            ++b.table.point_lights;
+            b.add(record, 4 * pi_d * strength);
+            break;
+        case Light::Kind::spot: {
+            record.kind = int32_t(LightKind::spot);
+            const double inner = std::cos(double(light->inner_cone_radians)), outer = std::cos(double(light->outer_cone_radians));
+            record.spot_scale = float(1 / std::max(0.001, inner - outer)); // as KHR_lights_punctual suggests
+            record.spot_offset = float(-outer) * record.spot_scale;
+            ++b.table.point_lights;
+            b.add(record, 2 * pi_d * (1 - 0.5 * (inner + outer)) * strength);
+            break;
+        }
+        case Light::Kind::sun: {
+            record.kind = int32_t(LightKind::sun);
+            record.position = -record.edge1;
+            const double half = 0.5 * double(light->angle_radians);
+            const double s = std::sin(0.5 * half);
+            record.cone_height = float(2 * s * s);
+            // The disk's radiance gives the stated illuminance on a surface that faces it: E = L pi sin^2(half angle).
+            if (record.cone_height > 0) {
+                record.emission = record.emission / float(pi_d * std::sin(half) * std::sin(half));
+                b.table.suns.push_back(int32_t(b.table.records.size()));
+            }
+            ++b.table.sun_lights;
+            b.add(record, pi_d * scene_radius * scene_radius * strength);
+            break;
+        }
+        case Light::Kind::rectangle: break; // lowered to a mesh
+        }
+    }
+}
+
+} // namespace
+
+LightTable build_light_table(const Scene& scene, const MaterialTable& materials, GeometryPool& geometry, const SceneTables& tables,
+                             const Vec3& environment_mean) {
+    Builder b;
+    add_triangles(b, materials, geometry, tables);
+    const Bounds bounds = geometry.bounds();
+    const double radius = bounds.empty ? 1 : std::max(bounds.radius(), 1e-30);
+    add_punctual(b, scene, radius);
+    const double sky = luminance_of(environment_mean);
+    if (sky > 0) {
+        LightRecord record{};
+        record.kind = int32_t(LightKind::environment);
+        b.table.environment = int32_t(b.table.records.size());
+        b.add(record, 4 * pi_d * pi_d * radius * radius * sky);
+    }
+    b.table.count = int32_t(b.table.records.size());
+    if (b.table.records.empty()) b.add({}, 1);
+    b.table.thresholds = make_thresholds(b.powers);
+    return std::move(b.table);
+}
+
+void LightTable::fill(LightTables& t) const {
+    t.lights = records.data();
+    t.thresholds = thresholds.data();
+    t.count = count;
+    t.environment = environment;
+    t.suns = suns.data();
+    t.sun_count = int32_t(suns.size());
+}
+
+} // namespace blush

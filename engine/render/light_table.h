@@ -1,0 +1,32 @@
+// Everything that emits, as records with selection probabilities.
+#pragma once
+
+#include "render/geometry_pool.h"
+#include "render/material_table.h"
+#include "scene/scene.h"
+#include "shading/light.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace blush {
+
+struct LightTable {
+    std::vector<LightRecord> records; // at least one, so that kernels can always read
+    std::vector<uint32_t> thresholds;
+    std::vector<int32_t> suns;        // indices of those with a disk
+    int32_t count = 0;
+    int32_t environment = -1;
+    int64_t emissive_triangles = 0, point_lights = 0, sun_lights = 0;
+
+    void fill(LightTables& tables) const;
+};
+
+// Emissive triangles part by part (part records get their first_light), then punctual lights in node order, then the
+// environment. `environment_mean` is its radiance averaged over the sphere (nits), 0 if there is none. Powers are luminous fluxes: pi A L for a
+// triangle, 4 pi I for a point, the cone's share of it for a spot; for suns and sky what crosses the scene's bounding
+// sphere of radius R: pi R^2 E and 4 pi^2 R^2 L (Pharr, Jakob, Humphreys, section 12.6).
+LightTable build_light_table(const Scene& scene, const MaterialTable& materials, GeometryPool& geometry, const SceneTables& tables,
+                             const Vec3& environment_mean);
+
+} // namespace blush

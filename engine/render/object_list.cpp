@@ -1,0 +1,51 @@
+#include "render/object_list.h"
+
+#include "scene/affine.h"
+
+#include <algorithm>
+#include <map>
+
+namespace blush {
+namespace {
+
+// Embree's medium-quality builder needs about 0.15 ms per thousand triangles on one thread: these keep a move below 20 ms.
+constexpr size_t largest_flat_mesh = 32768;
+constexpr size_t largest_flat_scene = 131072;
+
+size_t triangles_of(const SceneObject& object) {
+    size_t n = 0;
+    for (const MeshPart& part : object.parts) n += part.geometry->triangle_count();
+    return n;
+}
+
+} // namespace
+
+bool SceneObject::same_shape(const SceneObject& other) const {
+    const auto same_part = [](const MeshPart& a, const MeshPart& b) { return a.geometry->serial == b.geometry->serial && a.material == b.material; };
+    return node == other.node && instanced == other.instanced && std::equal(parts.begin(), parts.end(), other.parts.begin(), other.parts.end(), same_part);
+}
+
+std::vector<SceneObject> list_objects(const Scene& scene) {
+    std::vector<SceneObject> objects;
+    std::map<Id<Mesh>, int> uses;
+    for (const auto& [id, node] : scene.nodes) {
+        const Mesh* mesh = node.mesh ? scene.meshes.find(node.mesh) : nullptr;
+        if (!mesh || !is_visible(scene, id)) continue;
+        SceneObject object{id, {}, world_from_node(scene, id), false};
+        for (const MeshPart& part : mesh->parts)
+            if (part.geometry && part.geometry->triangle_count() > 0) object.parts.push_back(part);
+        if (object.parts.empty() || !is_finite(object.world_from_object)) continue;
+        ++uses[node.mesh];
+        objects.push_back(std::move(object));
+    }
+    size_t flat = 0;
+    for (SceneObject& object : objects) {
+        const size_t n = triangles_of(object);
+        object.instanced = uses[scene.nodes.find(object.node)->mesh] > 1 || n > largest_flat_mesh || flat + n > largest_flat_scene;
+        if (!object.instanced) flat += n;
+    }
+    std::stable_partition(objects.begin(), objects.end(), [](const SceneObject& o) { return !o.instanced; });
+    return objects;
+}
+
+} // namespace blush

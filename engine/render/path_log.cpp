@@ -1,0 +1,104 @@
+// One sample, vertex by vertex, in words: the kernels' own stages, one lane wide.
+#include "core/parallel.h"
+#include "render/estimator_settings.h"
+#include "render/lowering.h"
+#include "render/render_scene.h"
+#include "render/renderer.h"
+#include "render/settings_for_kernels.h"
+#include "render/wavefront.h"
+
+#include <fmt/format.h>
+#include <memory>
+
+namespace blush {
+namespace {
+
+std::string rgb(const Vec3& c) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", c.x, c.y, c.z); }
+
+std::string object_name(const Scene& scene, int32_t object) {
+    const Id<Node> id{uint32_t(object) & ~lowered_bit};
+    const Node* node = scene.nodes.find(id);
+    return node && !node->name.empty() ? node->name : fmt::format("node {}", id.value);
+}
+std::string material_name(const Scene& scene, Id<Material> id) {
+    const Material* material = scene.materials.find(id);
+    return material && !material->name.empty() ? material->name : id ? fmt::format("material {}", id.value) : "default material";
+}
+
+struct Logger {
+    const Scene& scene;
+    const RenderScene& compiled;
+    const EstimatorSettings& settings;
+    std::string text;
+
+    template <class... T> void line(fmt::format_string<T...> format, T&&... values) {
+        text += fmt::format(format, std::forward<T>(values)...) + "\n";
+    }
+
+    void vertex(int bounce, const Path<float>& path, const Hit<float>& hit) {
+        line("vertex {}", bounce);
+        line("  ray        from {} towards {}", rgb(path.ray.origin), rgb(path.ray.direction));
+        line("  throughput {}  pdf {:.6g}", rgb(path.beta), path.pdf);
+        if (hit.geometry < 0) {
+            line("  leaves the scene");
+            return;
+        }
+        const Surface<float> s = surface_at<all_features, float>(compiled.tables(), hit, true);
+        const int32_t object = compiled.tables().parts[s.part].object;
+        line("  hits       {}, {}, triangle {}, at {:.6g} m", object_name(scene, object), material_name(scene, compiled.material_id(s.material)),
+             hit.triangle, hit.t);
+        line("  position   {}  off the surface by at most {:.3g} m", rgb(s.position), max_component(s.error));
+        line("  normal     {} geometric, {} shading", rgb(s.ng), rgb(s.ns));
+    }
+
+    void outcome(int bounce, const Step<float>& step, const Vec3& reached) {
+        if (step.emits) line("  emission   {} with its MIS weight", rgb(step.emitted));
+        if (step.connects)
+            line("  light      {} {} over {:.6g} m, MIS weight and pdf included", rgb(step.direct),
+                 max_component(reached) > 0 ? "arrives" : "is blocked", step.shadow_distance);
+        if (!step.continues) {
+            line("  ends here");
+            return;
+        }
+        line("  scatters   towards {}  pdf {:.6g}  throughput {}", rgb(step.next.ray.direction), step.next.pdf, rgb(step.next.beta));
+        if (bounce + 1 >= settings.roulette.start && settings.roulette.rule != Roulette::Rule::off)
+            line("  roulette   survived ({})", to_string(settings.roulette));
+    }
+};
+
+} // namespace
+
+std::string trace_sample(const Scene& scene, const RenderSettings& settings, int x, int y, int64_t sample) {
+    constexpr Features s = all_features;
+    const Workers workers(1);
+    const Scene lowered = lower_area_lights(scene);
+    RenderScene compiled;
+    compiled.update(lowered, settings, full_plan(), workers);
+    const KernelContext context{&compiled.tables(), &compiled.accel(), settings_for_kernels(settings, settings.width, settings.height), settings.seed};
+    Logger log{lowered, compiled, context.settings, {}};
+    log.line("pixel {},{} sample {} seed {}", x, y, sample, settings.seed);
+
+    // A path of many vertices says nothing new: the log stops where a reader would.
+    constexpr int longest_log = 1000;
+    const auto scratch = std::make_unique<TileScratch>();
+    PathQueue *now = &scratch->paths[0], *next = &scratch->paths[1];
+    workers.run([&] {
+        generate_paths<s, float>(context, {x, y, 1, 1, sample, 1}, *scratch);
+        for (int bounce = 0; now->size > 0 && bounce < longest_log; ++bounce) {
+            trace_paths<float>(context, *scratch, *now, bounce);
+            const Path<float> path = load_path<float>(*now, 0);
+            const Hit<float> hit = load_hit<float>(scratch->hits, 0);
+            const Step<float> step = scatter<s, float>(*context.scene, context.settings, path, hit, bounce, true);
+            shade_paths<s, float>(context, *scratch, *now, *next, bounce);
+            const Vec3 before{scratch->r[0], scratch->g[0], scratch->b[0]};
+            connect_paths<float>(context, *scratch, bounce);
+            log.vertex(bounce, path, hit);
+            log.outcome(bounce, step, Vec3{scratch->r[0], scratch->g[0], scratch->b[0]} - before);
+            std::swap(now, next);
+        }
+    });
+    log.line("radiance {}", rgb({scratch->r[0], scratch->g[0], scratch->b[0]}));
+    return log.text;
+}
+
+} // namespace blush

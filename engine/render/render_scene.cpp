@@ -1,0 +1,148 @@
+#include "render/render_scene.h"
+
+#include "core/math.h"
+#include "scene/affine.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace blush {
+namespace {
+
+// What a kernel may read before it looks at masks: one triangle that nothing can hit, so that an empty scene needs no special case.
+std::vector<SceneObject> placeholder_objects() {
+    static const GeometryPtr point = [] {
+        auto g = std::make_shared<Geometry>();
+        g->positions = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+        g->indices = {0, 1, 2};
+        return g;
+    }();
+    return {{Id<Node>{}, {{point, Id<Material>{}}}, Affined{}, false}};
+}
+
+AttributeNeeds needs_of(const Scene& scene, const std::vector<SceneObject>& objects) {
+    AttributeNeeds needs;
+    for (const SceneObject& object : objects)
+        for (const MeshPart& part : object.parts) {
+            if (!part.geometry->colors.empty()) needs.colors = true;
+            const Material* m = scene.materials.find(part.material);
+            if (!m) continue;
+            for (const TextureRef* ref : {&m->base_color_texture, &m->metallic_roughness_texture, &m->normal_texture, &m->emissive_texture,
+                                          &m->specular_texture, &m->specular_color_texture, &m->transmission_texture})
+                if (ref->texture) (ref->uv_set == 0 ? needs.uv0 : needs.uv1) = true;
+            if (m->normal_texture.texture) needs.tangents = true;
+        }
+    return needs;
+}
+
+} // namespace
+
+CameraRecord camera_record(const View& view, float aspect) {
+    const Affine frame = to_float(to_affine(view.rotation));
+    const Lens& lens = view.lens;
+    const float half_height = lens.orthographic ? lens.ymag : std::tan(0.5f * lens.yfov_radians);
+    CameraRecord camera{};
+    camera.position = view.position;
+    camera.forward = -frame.z;
+    camera.right = frame.x * (half_height * aspect);
+    camera.up = frame.y * half_height;
+    camera.aperture_radius = lens.aperture_radius;
+    camera.focus_distance = lens.focus_distance;
+    camera.orthographic = lens.orthographic;
+    return camera;
+}
+
+void RenderScene::update_materials(const Scene& scene, const UpdatePlan& plan) {
+    bool rebuild = plan.all_materials;
+    for (const Id<Material> id : plan.materials)
+        if (!rebuild && !update_material(materials_, scene, id)) rebuild = true;
+    if (rebuild) build_material_table(materials_, scene);
+    tables_.materials = materials_.tables();
+}
+
+void RenderScene::update_geometry(const Scene& scene, const UpdatePlan& plan, const Workers& workers) {
+    const bool materials_changed = plan.all_materials || !plan.materials.empty();
+    if (!plan.objects && !plan.transforms && !materials_changed) return;
+
+    bool rebuild = plan.objects, commit = plan.objects;
+    if (plan.objects || plan.transforms) {
+        std::vector<SceneObject> objects = list_objects(scene);
+        has_geometry_ = !objects.empty();
+        if (objects.empty()) objects = placeholder_objects();
+        const auto same = [](const SceneObject& a, const SceneObject& b) { return a.same_shape(b); };
+        rebuild |= !std::equal(objects.begin(), objects.end(), objects_.begin(), objects_.end(), same);
+        std::swap(objects, objects_);
+        const AttributeNeeds needs = needs_of(scene, objects_);
+        rebuild |= needs != needs_;
+        if (!rebuild) geometry_.move(objects, objects_);
+        needs_ = needs;
+        commit = true;
+    } else if (const AttributeNeeds needs = needs_of(scene, objects_); needs != needs_) {
+        needs_ = needs;
+        rebuild = true;
+    }
+    if (rebuild) {
+        geometry_.build(objects_, needs_);
+        commit = true;
+    }
+
+    std::vector<bool> alpha;
+    for (size_t part = 0; part < geometry_.parts().size(); ++part) {
+        const Id<Material> id = geometry_.part_materials()[part];
+        geometry_.parts()[part].material = materials_.index_of(id);
+        const Material* material = scene.materials.find(id);
+        alpha.push_back(material && material->alpha != Material::Alpha::opaque);
+    }
+    commit |= alpha != alpha_;
+    alpha_ = std::move(alpha);
+    geometry_.fill(tables_);
+    if (commit) accel_.commit(has_geometry_ ? geometry_.accel_scene(objects_, alpha_) : AccelScene{}, &tables_, workers);
+}
+
+void RenderScene::update_lights(const Scene& scene, const UpdatePlan& plan) {
+    if (plan.environment_map) environment_ = build_environment_table(scene.environment);
+    else if (plan.environment_parameters) update_environment_parameters(environment_, scene.environment);
+    tables_.environment = environment_.tables();
+    if (!plan.lights) return;
+    const Vec3d sky = environment_.integral() * (1 / (4 * 3.14159265358979323846));
+    lights_ = build_light_table(scene, materials_, geometry_, tables_, to_float(sky));
+    lights_.fill(tables_.lights);
+}
+
+Features RenderScene::compute_features(const Scene& scene, const RenderSettings& settings) const {
+    Features f;
+    const auto add = [&](Feature feature, bool needed) {
+        if (needed) f = f.with(feature);
+    };
+    for (const Id<Material> id : geometry_.part_materials()) {
+        const Material* material = scene.materials.find(id);
+        f.bits |= features_of(material ? *material : Material{}).bits;
+    }
+    add(Feature::vertex_colors, needs_.colors);
+    add(Feature::instances, geometry_.instance_count() > 0);
+    f = f.without(Feature::emissive_triangles);
+    add(Feature::emissive_triangles, lights_.emissive_triangles > 0);
+    add(Feature::point_lights, lights_.point_lights > 0);
+    add(Feature::suns, lights_.sun_lights > 0);
+    add(Feature::environment, lights_.environment >= 0);
+    add(Feature::energy_compensation, settings.energy_compensation);
+    add(Feature::thin_lens, !scene.view.lens.orthographic && scene.view.lens.aperture_radius > 0);
+    add(Feature::orthographic, scene.view.lens.orthographic);
+    return f;
+}
+
+void RenderScene::update(const Scene& scene, const RenderSettings& settings, const UpdatePlan& plan, const Workers& workers) {
+    update_materials(scene, plan);
+    update_geometry(scene, plan, workers);
+    update_lights(scene, plan);
+    geometry_.fill(tables_);
+    if (plan.camera) tables_.camera = camera_record(scene.view, float(settings.width) / float(settings.height));
+    if (plan.features) features_ = compute_features(scene, settings);
+}
+
+Id<Material> RenderScene::material_id(int32_t index) const {
+    return index > 0 && size_t(index) <= materials_.ids.size() ? materials_.ids[size_t(index) - 1] : Id<Material>{};
+}
+
+} // namespace blush

@@ -1,0 +1,54 @@
+// The scene as rays see it, kept up to date with the one the user edits: the only room that knows both.
+#pragma once
+
+#include "core/parallel.h"
+#include "render/accel.h"
+#include "render/environment_table.h"
+#include "render/geometry_pool.h"
+#include "render/kernels/kernel.h"
+#include "render/light_table.h"
+#include "render/material_table.h"
+#include "render/object_list.h"
+#include "render/renderer.h"
+#include "render/update_plan.h"
+
+#include <vector>
+
+namespace blush {
+
+class RenderScene {
+public:
+    // Carries out `plan` for a scene with area lights lowered. After it all tables are those that full_plan() would give.
+    void update(const Scene& lowered, const RenderSettings& settings, const UpdatePlan& plan, const Workers& workers);
+
+    const SceneTables& tables() const { return tables_; }
+    const Accel& accel() const { return accel_; }
+    // What the scene under these settings needs of a kernel.
+    Features features() const { return features_; }
+    // The id of a record of the material table; 0 for glTF's default material and for -1.
+    Id<Material> material_id(int32_t index) const;
+    CompiledInfo info() const;
+
+private:
+    void update_materials(const Scene& scene, const UpdatePlan& plan);
+    void update_geometry(const Scene& scene, const UpdatePlan& plan, const Workers& workers);
+    void update_lights(const Scene& scene, const UpdatePlan& plan);
+    Features compute_features(const Scene& scene, const RenderSettings& settings) const;
+
+    MaterialTable materials_;
+    std::vector<SceneObject> objects_;
+    AttributeNeeds needs_;
+    GeometryPool geometry_;
+    std::vector<bool> alpha_; // by part
+    LightTable lights_;
+    EnvironmentTable environment_;
+    Accel accel_;
+    SceneTables tables_;
+    Features features_;
+    bool has_geometry_ = false;
+};
+
+// The view as kernels read it, at the given aspect = width / height.
+CameraRecord camera_record(const View& view, float aspect);
+
+} // namespace blush

@@ -1,0 +1,162 @@
+#include "render/renderer.h"
+
+#include "core/parallel.h"
+#include "render/film.h"
+#include "render/lowering.h"
+#include "render/render_scene.h"
+#include "render/settings_for_kernels.h"
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+#include <utility>
+
+namespace blush {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+
+bool hides_environment(const Environment& e) { return e.kind != Environment::Kind::none && !e.visible_to_camera; }
+
+// About two thousand paths in a tile: enough to fill packets, few enough for the cache.
+struct TileShape {
+    int width, height, samples;
+};
+TileShape tile_shape(int64_t count) {
+    if (count >= 8) return {16, 16, 8};
+    if (count >= 4) return {32, 16, 4};
+    if (count >= 2) return {32, 32, 2};
+    return {64, 32, 1};
+}
+
+} // namespace
+
+struct Renderer::State {
+    RendererOptions options;
+    Workers workers;
+    std::vector<std::unique_ptr<TileScratch>> scratch;
+    RenderScene scene;
+    std::optional<Scene> lowered;
+    RenderSettings settings;
+    Film film;
+    int divider = 1;
+    const Kernel* kernel = nullptr;
+    CompiledInfo info;
+    int64_t samples = 0;
+    RayCounts rays;
+    int64_t truncated = 0;
+
+    explicit State(const RendererOptions& o) : options(o), workers(o.threads, o.low_priority), scratch(workers.threads()) {}
+
+    int film_width() const { return std::max(1, settings.width / divider); }
+    int film_height() const { return std::max(1, settings.height / divider); }
+
+    void clear() {
+        const bool transparent = lowered && hides_environment(lowered->environment);
+        film.reset(film_width(), film_height(), options.planes, transparent);
+        samples = 0;
+        rays = {};
+        truncated = 0;
+    }
+    TileScratch& scratch_of(unsigned worker) {
+        if (!scratch[worker]) scratch[worker] = std::make_unique<TileScratch>();
+        TileScratch& s = *scratch[worker];
+        if (film.needs_first_hits() && !s.first) s.first = std::make_unique<FirstHitColumns>();
+        if (!film.needs_first_hits()) s.first.reset();
+        return s;
+    }
+};
+
+Renderer::Renderer(const RendererOptions& options) : state_(std::make_unique<State>(options)) {}
+Renderer::~Renderer() = default;
+
+bool Renderer::update(const Scene& scene, const RenderSettings& settings) {
+    State& s = *state_;
+    const auto begin = Clock::now();
+    Scene lowered = lower_area_lights(scene);
+    const UpdatePlan todo = s.lowered ? plan(diff(*s.lowered, s.settings, lowered, settings)) : full_plan();
+    s.scene.update(lowered, settings, todo, s.workers);
+    s.lowered = std::move(lowered);
+    s.settings = settings;
+    if (todo.features) s.kernel = &choose_kernel(s.scene.features());
+    if (todo.clear_film) {
+        clear();
+        s.info = s.scene.info();
+        s.info.kernel = std::string(s.kernel->isa) + "/" + std::string(s.kernel->name);
+        s.info.seconds_setup = seconds_since(begin);
+    }
+    return todo.clear_film;
+}
+
+void Renderer::set_divider(int divider) {
+    if (divider == state_->divider) return;
+    state_->divider = divider;
+    clear();
+}
+
+int Renderer::divider() const { return state_->divider; }
+void Renderer::clear() { state_->clear(); }
+const CompiledInfo& Renderer::info() const { return state_->info; }
+std::vector<Vec3> Renderer::resolve_error() const { return state_->film.standard_error(); }
+
+bool Renderer::render(int64_t first, int64_t count, const std::function<bool()>& wanted) {
+    State& s = *state_;
+    const int width = s.film.width(), height = s.film.height();
+    const TileShape shape = tile_shape(count);
+    const int across = (width + shape.width - 1) / shape.width, down = (height + shape.height - 1) / shape.height;
+    const KernelContext context{&s.scene.tables(), &s.scene.accel(), settings_for_kernels(s.settings, width, height), s.settings.seed};
+
+    const bool done = s.workers.for_each(int64_t(across) * down, wanted, [&](int64_t tile, unsigned worker) {
+        TileScratch& scratch = s.scratch_of(worker);
+        TileJob job;
+        job.x = int(tile % across) * shape.width;
+        job.y = int(tile / across) * shape.height;
+        job.width = std::min(shape.width, width - job.x);
+        job.height = std::min(shape.height, height - job.y);
+        for (int64_t sample = first; sample < first + count; sample += shape.samples) {
+            job.first_sample = sample;
+            job.samples = int(std::min<int64_t>(shape.samples, first + count - sample));
+            s.kernel->render(context, job, scratch);
+            s.film.add(job, scratch, s.settings.seed);
+        }
+    });
+    for (const auto& scratch : s.scratch) {
+        if (!scratch) continue;
+        s.rays.bounce += std::exchange(scratch->bounce_rays, 0);
+        s.rays.shadow += std::exchange(scratch->shadow_rays, 0);
+        s.rays.camera += std::exchange(scratch->camera_rays, 0);
+        s.truncated += std::exchange(scratch->truncated_paths, 0);
+    }
+    if (done) s.samples += count;
+    return done;
+}
+
+void Renderer::resolve(Frame& frame) const {
+    const State& s = *state_;
+    s.film.resolve(frame, s.workers);
+    for (uint32_t& id : frame.object_id) id &= ~lowered_bit;
+    for (uint32_t& id : frame.material_id) {
+        const uint32_t material = s.scene.material_id(int32_t(id) - 1).value;
+        id = material & lowered_bit ? 0 : material;
+    }
+    frame.divider = s.divider;
+    frame.samples = s.samples;
+    frame.rays = s.rays;
+    frame.health.truncated = s.truncated;
+    frame.kernel = s.info.kernel;
+}
+
+Frame Renderer::resolve() const {
+    Frame frame;
+    resolve(frame);
+    return frame;
+}
+
+std::vector<std::string> available_isas() {
+    const auto isas = runnable_isas();
+    return {isas.begin(), isas.end()};
+}
+
+} // namespace blush

@@ -1,0 +1,64 @@
+// The scene as rays see it: plain tables of 4-byte fields, built by render_scene and read by every kernel.
+#pragma once
+
+#include "core/vec.h"
+#include "shading/environment.h"
+#include "shading/light.h"
+#include "shading/material.h"
+
+#include <cstdint>
+
+namespace blush {
+
+// One mesh part at one place. Its vertices are in world space, or in object space with `transform` saying which
+// InstanceRecord brings them into the world.
+struct PartRecord {
+    int32_t material;     // index into the material table
+    int32_t object;       // Id<Node>.value
+    int32_t first_index;  // into indices: 3 per triangle, relative to first_vertex
+    int32_t first_vertex; // into positions, normals, ...: the arrays run in parallel, those that no part needs are null
+    int32_t transform;    // index into instances, -1: already in world space
+    int32_t flags;        // PartFlag
+    int32_t first_light;  // light of this part's first triangle, -1: does not emit
+};
+enum PartFlag : int32_t {
+    part_smooth = 1,      // vertex normals that differ from the face's
+    part_tangents = 2,
+    part_uv0 = 4,
+    part_uv1 = 8,
+    part_colors = 16,
+    part_mirrored = 32,   // in world space by a transform that turned the winding around
+};
+
+// world_from_object and the columns of the matrix for normals: cofactors times the determinant's sign, which gives the
+// outward normal up to a positive length for both windings.
+struct InstanceRecord {
+    Affine world_from_object;
+    Vec3 normal_x, normal_y, normal_z;
+};
+
+struct CameraRecord {
+    Vec3 position, right, up, forward; // right and up scaled so that the image spans [-1, 1] in both
+    float aperture_radius, focus_distance;
+    int32_t orthographic;
+};
+
+// Everything a kernel reads about the scene. Pointers stay valid until the next update of the RenderScene.
+struct SceneTables {
+    const PartRecord* parts = nullptr;          // those in world space first: part = Embree's geometry id
+    const InstanceRecord* instances = nullptr;
+    const int32_t* instance_first_part = nullptr; // by Embree's instance id; part = this + geometry id
+    const uint32_t* indices = nullptr;
+    const float* positions = nullptr; // 3 per vertex
+    const float* normals = nullptr;   // 3 per vertex
+    const float* tangents = nullptr;  // 4 per vertex
+    const float* uv0 = nullptr;       // 2 per vertex
+    const float* uv1 = nullptr;
+    const float* colors = nullptr;    // 4 per vertex
+    MaterialTables materials;
+    LightTables lights;
+    EnvironmentTables environment;
+    CameraRecord camera{};
+};
+
+} // namespace blush

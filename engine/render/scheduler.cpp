@@ -1,0 +1,105 @@
+#include "render/scheduler.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace blush {
+
+void Scheduler::restart(const RenderSettings& settings, bool interactive) {
+    settings_ = settings;
+    interactive_ = interactive;
+    film_divider_ = 0;
+    next_sample_ = settings.first_sample;
+    seconds_ = last_publish_ = 0;
+    error_ = -1;
+}
+
+int Scheduler::first_divider() const {
+    if (!interactive_) return 1;
+    // Nothing measured yet: guess a machine that traces two million full paths a second.
+    const double full = timings_.sample_seconds > 0 ? timings_.sample_seconds : double(settings_.width) * double(settings_.height) / 2e6;
+    const int long_side = std::max(settings_.width, settings_.height);
+    int divider = 1;
+    while (divider < coarsest_divider && full / (divider * divider) > first_image_seconds && long_side / (2 * divider) >= smallest_long_side)
+        divider *= 2;
+    return divider;
+}
+
+double Scheduler::publish_interval() const {
+    if (seconds_ < 1) return 0.1;
+    if (seconds_ < 4) return 0.25;
+    if (seconds_ < 15) return 0.5;
+    return 1;
+}
+
+Work Scheduler::next() const {
+    Work work;
+    work.first_sample = settings_.first_sample;
+    work.count = 1;
+    work.publish = true;
+    if (film_divider_ == 0) {
+        work.divider = first_divider();
+        work.clear = true;
+        work.always_finish = true;
+        return work;
+    }
+    if (film_divider_ > 1) {
+        // Full resolution next, in one step up if that is soon enough, else through a middle one.
+        const int middle = std::max(1, film_divider_ / 4);
+        const bool direct = timings_.sample_seconds < 0.25;
+        work.divider = direct ? 1 : middle;
+        work.clear = true;
+        return work;
+    }
+    work.first_sample = next_sample_;
+    const double sample = std::max(timings_.sample_seconds, 1e-6);
+    // Doubling keeps the number of resolves logarithmic at first; the interval bounds the wait for the next picture.
+    int64_t count = std::max<int64_t>(1, std::min<int64_t>(samples(), int64_t(publish_interval() / sample)));
+    if (settings_.spp > 0) count = std::min(count, settings_.spp - next_sample_);
+    if (settings_.seconds > 0) count = std::min(count, std::max<int64_t>(1, int64_t((settings_.seconds - seconds_) / sample)));
+    // The error needs both halves: an even number of samples keeps them equal.
+    if (count > 1 && settings_.spp <= 0) count &= ~int64_t(1);
+    work.count = std::min<int64_t>(count, 1024);
+    const double after = seconds_ + double(work.count) * sample;
+    const bool last = settings_.spp > 0 && next_sample_ + work.count >= settings_.spp;
+    work.publish = last || samples() < 8 || after - last_publish_ >= 0.9 * publish_interval() || settings_.error > 0 ||
+                   (settings_.seconds > 0 && after >= settings_.seconds);
+    return work;
+}
+
+void Scheduler::record_render(const Work& work, double seconds) {
+    seconds_ += seconds;
+    const double pixels_share = 1.0 / (double(work.divider) * double(work.divider));
+    const double per_sample = seconds / (double(work.count) * pixels_share);
+    // Small films have idle lanes and cold caches: they tell less about the full one.
+    const double trust = work.divider == 1 ? 0.5 : 0.25;
+    timings_.sample_seconds = timings_.sample_seconds > 0 ? (1 - trust) * timings_.sample_seconds + trust * per_sample : per_sample;
+    film_divider_ = work.divider;
+    if (work.divider == 1) next_sample_ = work.first_sample + work.count;
+}
+
+void Scheduler::record_publish(const Work& work, double seconds, double error) {
+    last_publish_ = seconds_;
+    if (work.divider > 1) return;
+    timings_.resolve_seconds = seconds;
+    error_ = error;
+}
+
+bool Scheduler::finished() const {
+    if (film_divider_ != 1) return false;
+    if (settings_.spp > 0 && next_sample_ >= settings_.spp) return true;
+    if (settings_.seconds > 0 && seconds_ >= settings_.seconds) return true;
+    return settings_.error > 0 && error_ >= 0 && error_ <= settings_.error;
+}
+
+double Scheduler::progress() const {
+    if (finished()) return 1;
+    double p = 0;
+    if (settings_.spp > settings_.first_sample) p = std::max(p, double(samples()) / double(settings_.spp - settings_.first_sample));
+    if (settings_.seconds > 0) p = std::max(p, seconds_ / settings_.seconds);
+    // The error falls as 1 / samples, so the samples done are this share of those needed.
+    if (settings_.error > 0 && error_ > 0) p = std::max(p, settings_.error / error_);
+    return std::min(p, 0.999);
+}
+
+} // namespace blush

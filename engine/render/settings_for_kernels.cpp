@@ -1,0 +1,28 @@
+#include "render/settings_for_kernels.h"
+
+#include "render/camera.h"
+#include "shading/energy.h"
+
+namespace blush {
+namespace {
+
+const EnergyTable& energy_table() {
+    static const EnergyTable table = make_energy_table();
+    return table;
+}
+
+} // namespace
+
+EstimatorSettings settings_for_kernels(const RenderSettings& settings, int width, int height) {
+    EstimatorSettings e;
+    if (settings.max_bounces != unlimited_bounces) e.max_bounces = settings.max_bounces;
+    e.roulette = settings.roulette;
+    e.strategy = settings.strategy;
+    e.filter = settings.filter == PixelFilter::box ? &box_filter() : &blackman_harris_filter();
+    e.energy = settings.energy_compensation ? &energy_table() : nullptr;
+    e.width = float(width);
+    e.height = float(height);
+    return e;
+}
+
+} // namespace blush

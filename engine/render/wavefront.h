@@ -1,0 +1,183 @@
+// A tile of paths, stage by stage: generate, trace, shade, trace shadows, and again with the survivors, compacted in order.
+#pragma once
+
+#include "render/estimator.h"
+#include "render/kernels/kernel.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace blush::inline BLUSH_ISA {
+
+template <class F> Path<F> load_path(const PathQueue& q, int k) {
+    Path<F> p;
+    p.ray.origin = {load<F>(q.ox + k), load<F>(q.oy + k), load<F>(q.oz + k)};
+    p.ray.direction = {load<F>(q.dx + k), load<F>(q.dy + k), load<F>(q.dz + k)};
+    p.beta = {load<F>(q.beta_r + k), load<F>(q.beta_g + k), load<F>(q.beta_b + k)};
+    p.pdf = load<F>(q.pdf + k);
+    p.key = load<UInt<F>>(q.key + k);
+    p.index = load<UInt<F>>(q.index + k);
+    p.slot = load<Int<F>>(q.slot + k);
+    return p;
+}
+
+template <class F> void append(PathQueue& q, const Path<F>& p, const Mask<F>& lanes) {
+    const unsigned b = bits(lanes);
+    const int k = q.size;
+    compress(q.ox + k, p.ray.origin.x, b);
+    compress(q.oy + k, p.ray.origin.y, b);
+    compress(q.oz + k, p.ray.origin.z, b);
+    compress(q.dx + k, p.ray.direction.x, b);
+    compress(q.dy + k, p.ray.direction.y, b);
+    compress(q.dz + k, p.ray.direction.z, b);
+    compress(q.beta_r + k, p.beta.x, b);
+    compress(q.beta_g + k, p.beta.y, b);
+    compress(q.beta_b + k, p.beta.z, b);
+    compress(q.pdf + k, p.pdf, b);
+    compress(q.key + k, p.key, b);
+    compress(q.index + k, p.index, b);
+    compress(q.slot + k, p.slot, b);
+    q.size += count(lanes);
+}
+
+template <class F> void append(ShadowQueue& q, const Step<F>& s, const Int<F>& slot, const Mask<F>& lanes) {
+    const unsigned b = bits(lanes);
+    const int k = q.size;
+    compress(q.ox + k, s.shadow.origin.x, b);
+    compress(q.oy + k, s.shadow.origin.y, b);
+    compress(q.oz + k, s.shadow.origin.z, b);
+    compress(q.dx + k, s.shadow.direction.x, b);
+    compress(q.dy + k, s.shadow.direction.y, b);
+    compress(q.dz + k, s.shadow.direction.z, b);
+    compress(q.distance + k, s.shadow_distance, b);
+    compress(q.r + k, s.direct.x, b);
+    compress(q.g + k, s.direct.y, b);
+    compress(q.b + k, s.direct.z, b);
+    compress(q.slot + k, slot, b);
+    q.size += count(lanes);
+}
+
+template <class F> Hit<F> load_hit(const HitColumns& h, int k) {
+    return {load<F>(h.t + k),           load<F>(h.u + k),          load<F>(h.v + k), load<Int<F>>(h.geometry + k), load<Int<F>>(h.instance + k),
+            load<Int<F>>(h.triangle + k)};
+}
+
+template <class F> void store_first_hit(FirstHitColumns& c, int k, const FirstHit<F>& first) {
+    // At bounce 0 nothing has been compacted: the k-th path is slot k.
+    store(c.albedo_r + k, first.albedo.x);
+    store(c.albedo_g + k, first.albedo.y);
+    store(c.albedo_b + k, first.albedo.z);
+    store(c.normal_x + k, first.normal.x);
+    store(c.normal_y + k, first.normal.y);
+    store(c.normal_z + k, first.normal.z);
+    store(c.depth + k, first.depth);
+    store(c.object + k, first.object);
+    store(c.material + k, first.material);
+}
+
+template <Features S, class F> [[gnu::flatten]] void generate_paths(const KernelContext& context, const TileJob& job, TileScratch& scratch) {
+    PathQueue& q = scratch.paths[0];
+    // Pixel and sample of each slot, by plain counting; the columns that will hold the rays serve as scratch.
+    float* xs = scratch.hits.t;
+    float* ys = scratch.hits.u;
+    uint32_t* samples = scratch.random;
+    int n = 0;
+    for (int y = 0; y < job.height; ++y)
+        for (int x = 0; x < job.width; ++x)
+            for (int s = 0; s < job.samples; ++s, ++n) {
+                xs[n] = float(job.x + x);
+                ys[n] = float(job.y + y);
+                samples[n] = uint32_t(job.first_sample + s);
+            }
+    const uint32_t half[2] = {randomisation(context.seed, 0), randomisation(context.seed, 1)};
+    q.size = 0;
+    for (int k = 0; k < n; k += width<F>) {
+        const F x = load<F>(xs + k), y = load<F>(ys + k);
+        const UInt<F> sample = load<UInt<F>>(samples + k);
+        const UInt<F> odd = sample & 1u;
+        const UInt<F> random = select(as_mask(odd != 0u), UInt<F>(half[1]), UInt<F>(half[0]));
+        const UInt<F> key = pixel_key<F>(to_unsigned(to_int(x)), to_unsigned(to_int(y)), random);
+        const Int<F> slot = iota<F>() + k;
+        append(q, begin_path<S, F>(*context.scene, context.settings, x, y, key, UInt<F>(sample >> 1), slot), as_mask(slot < n));
+    }
+    std::fill_n(scratch.r.data, n, 0.f);
+    std::fill_n(scratch.g.data, n, 0.f);
+    std::fill_n(scratch.b.data, n, 0.f);
+}
+
+// A random number per ray for stochastic opacity.
+template <class F> void fill_random(uint32_t* random, const uint32_t* key, const uint32_t* index, int n, uint32_t salt) {
+    for (int k = 0; k < n; k += width<F>) {
+        const UInt<F> mixed = pcg_hash(UInt<F>(load<UInt<F>>(index + k) + salt * 0x9e3779b9u));
+        store(random + k, UInt<F>(load<UInt<F>>(key + k) ^ mixed));
+    }
+}
+
+template <class F> void trace_paths(const KernelContext& context, TileScratch& scratch, const PathQueue& q, int bounce) {
+    const bool alpha = context.accel->has_alpha();
+    if (alpha) fill_random<F>(scratch.random, q.key, q.index, q.size, uint32_t(2 * bounce));
+    const RayArrays rays{q.ox, q.oy, q.oz, q.dx, q.dy, q.dz, nullptr, alpha ? scratch.random.data : nullptr};
+    HitColumns& h = scratch.hits;
+    context.accel->intersect(rays, q.size, bounce == 0, {h.t, h.u, h.v, h.geometry, h.instance, h.triangle});
+}
+
+template <Features S, class F>
+[[gnu::flatten]] void shade_paths(const KernelContext& context, TileScratch& scratch, const PathQueue& now, PathQueue& next, int bounce) {
+    next.size = 0;
+    scratch.shadows.size = 0;
+    for (int k = 0; k < now.size; k += width<F>) {
+        const Path<F> path = load_path<F>(now, k);
+        const Mask<F> active = as_mask(iota<F>() + k < now.size);
+        const Step<F> step = scatter<S, F>(*context.scene, context.settings, path, load_hit<F>(scratch.hits, k), bounce, active);
+        if (bounce == 0 && scratch.first) store_first_hit<F>(*scratch.first, k, step.first);
+        if (any(step.emits))
+            for_each_lane(bits(step.emits), [&](int i) {
+                const int slot = now.slot[k + i];
+                scratch.r[slot] += lane(step.emitted.x, i);
+                scratch.g[slot] += lane(step.emitted.y, i);
+                scratch.b[slot] += lane(step.emitted.z, i);
+            });
+        if (any(step.connects)) append<F>(scratch.shadows, step, path.slot, step.connects);
+        if (any(step.continues)) append<F>(next, step.next, step.continues);
+    }
+}
+
+// Adds the light of all shadow rays that reach their light.
+template <class F> void connect_paths(const KernelContext& context, TileScratch& scratch, int bounce) {
+    const ShadowQueue& q = scratch.shadows;
+    const bool alpha = context.accel->has_alpha();
+    if (alpha) {
+        // Slots, together with the ray's own direction bits, tell shadow rays of one bounce apart.
+        for (int k = 0; k < q.size; ++k)
+            scratch.random[k] = pcg_hash(uint32_t(float_bits(q.dx[k])) ^ pcg_hash(uint32_t(float_bits(q.dy[k])) + uint32_t(2 * bounce + 1)));
+    }
+    const RayArrays rays{q.ox, q.oy, q.oz, q.dx, q.dy, q.dz, q.distance, alpha ? scratch.random.data : nullptr};
+    context.accel->occluded(rays, q.size, bounce == 0, scratch.blocked);
+    for (int k = 0; k < q.size; ++k) {
+        if (scratch.blocked[k]) continue;
+        const int slot = q.slot[k];
+        scratch.r[slot] += q.r[k];
+        scratch.g[slot] += q.g[k];
+        scratch.b[slot] += q.b[k];
+    }
+}
+
+template <Features S, class F> void render_tile(const KernelContext& context, const TileJob& job, TileScratch& scratch) {
+    generate_paths<S, F>(context, job, scratch);
+    PathQueue* now = &scratch.paths[0];
+    PathQueue* next = &scratch.paths[1];
+    for (int bounce = 0; now->size > 0; ++bounce) {
+        if (bounce > longest_path) {
+            scratch.truncated_paths += now->size;
+            return;
+        }
+        (bounce > 0 ? scratch.bounce_rays : scratch.camera_rays) += now->size;
+        trace_paths<F>(context, scratch, *now, bounce);
+        shade_paths<S, F>(context, scratch, *now, *next, bounce);
+        scratch.shadow_rays += scratch.shadows.size;
+        if (scratch.shadows.size > 0) connect_paths<F>(context, scratch, bounce);
+        std::swap(now, next);
+    }
+}
+
+} // namespace blush::inline BLUSH_ISA
