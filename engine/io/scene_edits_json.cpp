@@ -1,0 +1,206 @@
+#include "io/scene_edits_json.h"
+
+#include "io/environment_image.h"
+#include "io/scene_json.h"
+#include "scene/texture_slots.h"
+#include "scene/validate.h"
+
+#include <algorithm>
+
+namespace blush {
+namespace {
+
+constexpr int format_version = 1;
+
+// --- differences -------------------------------------------------------------------------------------------------
+
+// The fields of `now` that differ from `before`.
+template <Fielded T> Json changed_fields(const T& before, const T& now) {
+    const Json old_fields = to_json(before), new_fields = to_json(now);
+    Json changed = Json::object();
+    for (const auto& [name, value] : new_fields.items())
+        if (old_fields.at(name) != value) changed[name] = value;
+    return changed;
+}
+
+// A mesh's materials are the only part of it that an edit changes and text can keep.
+Json mesh_materials(const Mesh& mesh) {
+    Json materials = Json::array();
+    for (const MeshPart& part : mesh.parts) materials.push_back(to_json(part.material));
+    return materials;
+}
+Json changed_fields(const Mesh& before, const Mesh& now) {
+    Json changed = Json::object();
+    if (before.name != now.name) changed["name"] = now.name;
+    if (mesh_materials(before) != mesh_materials(now)) changed["materials"] = mesh_materials(now);
+    return changed;
+}
+
+// `now` without what text cannot hold, so that what is written can be read back: meshes and textures that the file does not
+// have, references to them, an environment map that is no file's.
+Scene without_payloads(const Scene& imported, Scene now, Json& left_out) {
+    const Table<Mesh> meshes = now.meshes;
+    for (const auto& [id, mesh] : meshes) {
+        if (imported.meshes.contains(id)) continue;
+        left_out.push_back(fmt::format("mesh \"{}\" was added: triangles are not kept as text", mesh.name));
+        now.meshes.remove(id);
+    }
+    const Table<Texture> textures = now.textures;
+    for (const auto& [id, texture] : textures) {
+        const Texture* old_texture = imported.textures.find(id);
+        if (old_texture && old_texture->image == texture.image) continue;
+        left_out.push_back(fmt::format("texture \"{}\" has other pixels: pixels are not kept as text", texture.name));
+        if (!old_texture) now.textures.remove(id);
+    }
+    const Table<Node> nodes = now.nodes;
+    for (auto [id, node] : nodes) {
+        if (!node.mesh || now.meshes.contains(node.mesh)) continue;
+        node.mesh = {};
+        now.nodes.set(id, node);
+    }
+    const Table<Material> materials = now.materials;
+    for (auto [id, material] : materials) {
+        for (const TextureSlot& slot : texture_slots)
+            if (TextureRef& ref = material.*slot.ref; !now.textures.contains(ref.texture)) ref = {};
+        now.materials.set(id, material);
+    }
+    const Environment& e = now.environment;
+    if (e.kind == Environment::Kind::image && e.file.empty() && e.image != imported.environment.image) {
+        left_out.push_back("the environment map is not a file's: pixels are not kept as text");
+        now.environment = imported.environment;
+    }
+    return now;
+}
+
+template <class T> Json table_edits(const Table<T>& before, const Table<T>& now) {
+    Json edits = Json::object();
+    for (const Id<T> id : Table<T>::changed(before, now)) {
+        const T* old_record = before.find(id);
+        const T* record = now.find(id);
+        if (!record) {
+            edits["removed"].push_back(id.value);
+        } else if (old_record) {
+            const Json set = changed_fields(*old_record, *record);
+            if (!set.empty()) edits["changed"].push_back({{"id", id.value}, {"name", record->name}, {"set", set}});
+        } else if constexpr (Fielded<T>) {
+            edits["added"].push_back({{"id", id.value}, {"set", to_json(*record)}});
+        }
+    }
+    return edits;
+}
+
+// --- and back ------------------------------------------------------------------------------------------------------
+
+bool set_fields(const Json& json, Mesh& mesh) {
+    size_t understood = 0;
+    if (const auto it = json.find("name"); it != json.end() && read_json(*it, mesh.name)) ++understood;
+    if (const auto it = json.find("materials"); it != json.end() && it->is_array() && it->size() == mesh.parts.size()) {
+        bool read = true;
+        for (size_t i = 0; i < mesh.parts.size(); ++i) read = read_json((*it)[i], mesh.parts[i].material) && read;
+        if (read) ++understood;
+    }
+    return json.is_object() && understood == json.size();
+}
+template <Fielded T> bool set_fields(const Json& json, T& record) { return read_json(json, record); }
+
+const Json& member(const Json& object, std::string_view key) {
+    static const Json null;
+    const auto it = object.find(key);
+    return it == object.end() ? null : *it;
+}
+
+template <class T> Result<void> apply_changed(const Json& list, Table<T>& table, const std::string& where) {
+    for (size_t i = 0; i < list.size(); ++i) {
+        const std::string item_where = fmt::format("{}.changed[{}]", where, i);
+        Id<T> id;
+        const T* record = read_json(member(list[i], "id"), id) ? table.find(id) : nullptr;
+        if (!record) return Error{"", "names a record that the scene does not have", item_where};
+        T edited = *record;
+        if (!set_fields(member(list[i], "set"), edited)) return Error{"", "an unknown field, or a value of the wrong type", item_where};
+        table.set(id, std::move(edited));
+    }
+    return {};
+}
+
+template <class T> Result<void> apply_added(const Json& list, Table<T>& table, const std::string& where) {
+    for (size_t i = 0; i < list.size(); ++i) {
+        const std::string item_where = fmt::format("{}.added[{}]", where, i);
+        Id<T> id;
+        T record;
+        if (!Fielded<T> || std::same_as<T, Texture> || !read_json(member(list[i], "id"), id) || !set_fields(member(list[i], "set"), record))
+            return Error{"", "not a record that can be added", item_where};
+        if (!table.insert(id, std::move(record))) return Error{"", "the id is taken", item_where};
+    }
+    return {};
+}
+
+template <class T> Result<void> apply_removed(const Json& list, Table<T>& table, const std::string& where) {
+    for (size_t i = 0; i < list.size(); ++i) {
+        Id<T> id;
+        if (!read_json(list[i], id) || !table.remove(id))
+            return Error{"", "names a record that the scene does not have", fmt::format("{}.removed[{}]", where, i)};
+    }
+    return {};
+}
+
+template <class T> Result<void> apply_table(const Json& edits, Table<T>& table, const std::string& where) {
+    if (!edits.is_null() && !edits.is_object()) return Error{"", "not an object", where};
+    for (const char* key : {"removed", "added", "changed"})
+        if (const Json& list = member(edits, key); !list.is_null() && !list.is_array()) return Error{"", "not a list", where + "." + key};
+    if (auto ok = apply_removed(member(edits, "removed"), table, where); !ok) return ok;
+    if (auto ok = apply_added(member(edits, "added"), table, where); !ok) return ok;
+    return apply_changed(member(edits, "changed"), table, where);
+}
+
+Result<void> apply_environment(const Json& edits, Environment& environment, const std::filesystem::path& folder) {
+    if (edits.is_null()) return {};
+    const Environment before = environment;
+    if (!read_json(edits, environment)) return Error{"", "an unknown field, or a value of the wrong type", "environment"};
+    if (environment.kind != Environment::Kind::image || (environment.image && environment.file == before.file)) return {};
+    const std::filesystem::path file(environment.file);
+    Result<ImagePtr> image = read_environment_image(file.is_absolute() ? file : folder / file);
+    if (!image) return image.error();
+    environment.image = *std::move(image);
+    return {};
+}
+
+} // namespace
+
+std::string edits_json(const Scene& imported, const Scene& edited) {
+    Json json{{"format", format_version}}, left_out = Json::array();
+    const Scene now = without_payloads(imported, edited, left_out);
+    const auto add = [&](const char* key, Json&& edits) {
+        if (!edits.empty()) json[key] = std::move(edits);
+    };
+    add("nodes", table_edits(imported.nodes, now.nodes));
+    add("meshes", table_edits(imported.meshes, now.meshes));
+    add("materials", table_edits(imported.materials, now.materials));
+    add("textures", table_edits(imported.textures, now.textures));
+    add("lights", table_edits(imported.lights, now.lights));
+    add("cameras", table_edits(imported.cameras, now.cameras));
+    add("environment", changed_fields(imported.environment, now.environment));
+    add("view", changed_fields(imported.view, now.view));
+    add("left_out", std::move(left_out));
+    return json_text(json);
+}
+
+Result<Scene> apply_edits_json(Scene scene, std::string_view text, const std::filesystem::path& folder) {
+    const Result<Json> json = parse_json_object(text);
+    if (!json) return json.error();
+    int format = 0;
+    if (!read_json(member(*json, "format"), format) || format != format_version)
+        return Error{"", fmt::format("edits of a format other than {}", format_version), "format"};
+    if (const auto ok = apply_table(member(*json, "nodes"), scene.nodes, "nodes"); !ok) return ok.error();
+    if (const auto ok = apply_table(member(*json, "meshes"), scene.meshes, "meshes"); !ok) return ok.error();
+    if (const auto ok = apply_table(member(*json, "materials"), scene.materials, "materials"); !ok) return ok.error();
+    if (const auto ok = apply_table(member(*json, "textures"), scene.textures, "textures"); !ok) return ok.error();
+    if (const auto ok = apply_table(member(*json, "lights"), scene.lights, "lights"); !ok) return ok.error();
+    if (const auto ok = apply_table(member(*json, "cameras"), scene.cameras, "cameras"); !ok) return ok.error();
+    if (const auto ok = apply_environment(member(*json, "environment"), scene.environment, folder); !ok) return ok.error();
+    if (const Json& view = member(*json, "view"); !view.is_null() && !read_json(view, scene.view))
+        return Error{"", "an unknown field, or a value of the wrong type", "view"};
+    if (const auto ok = validate(scene); !ok) return ok.error();
+    return scene;
+}
+
+} // namespace blush

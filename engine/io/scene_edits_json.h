@@ -1,0 +1,32 @@
+// What an editing session changed, as text: the values of a scene that differ from the file it was imported from.
+//
+//   {"format": 1,
+//    "lights": {"changed": [{"id": 1, "name": "Key", "set": {"intensity": 80.0}}],
+//               "added":   [{"id": 3, "set": {...every field...}}],
+//               "removed": [2]},
+//    "nodes": ..., "materials": ..., "cameras": ..., "textures": ...,
+//    "meshes": {"changed": [{"id": 4, "name": "Vase", "set": {"materials": [2, 0]}}]},
+//    "environment": {"rotation_degrees": 90.0}, "view": {"lens": {...}},
+//    "left_out": ["mesh \"Chair\" was added: triangles are not kept as text"]}
+//
+// Ids are those of the import, which numbers a file's records the same each time; names are for people. Absent parts are
+// unchanged. An environment map is named by its file and read again. What is left out is left out of everything that refers to it.
+#pragma once
+
+#include "core/result.h"
+#include "scene/scene.h"
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace blush {
+
+std::string edits_json(const Scene& imported, const Scene& now);
+
+// The scene that edits_json was given as `now`, apart from what it lists as left out. `folder` is where a relative path of an
+// environment map begins. Errors: not such text, an id that the import does not have, a value of the wrong type or out of
+// range, an environment map that cannot be read.
+Result<Scene> apply_edits_json(Scene imported, std::string_view json, const std::filesystem::path& folder = {});
+
+} // namespace blush

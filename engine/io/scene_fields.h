@@ -1,0 +1,141 @@
+// Internal to io: the members of each record, listed once for everything that must not forget one: hashing, writing, reading.
+//
+// visit_fields(record, visit) calls visit("name", member) in a fixed order, for const and mutable records alike. Payloads
+// (triangles, pixels) are not among them.
+#pragma once
+
+#include "scene/scene.h"
+
+#include <array>
+#include <concepts>
+#include <string_view>
+#include <type_traits>
+
+namespace blush {
+
+template <class T, class Record>
+concept Is = std::same_as<std::remove_const_t<T>, Record>;
+
+template <Is<TextureRef> T, class V> void visit_fields(T& r, V&& visit) {
+    visit("texture", r.texture);
+    visit("uv_set", r.uv_set);
+    visit("offset", r.offset);
+    visit("scale", r.scale);
+    visit("rotation_radians", r.rotation_radians);
+}
+
+template <Is<Texture> T, class V> void visit_fields(T& r, V&& visit) {
+    visit("name", r.name);
+    visit("source", r.source);
+    visit("wrap_u", r.wrap_u);
+    visit("wrap_v", r.wrap_v);
+    visit("filter", r.filter);
+}
+
+template <Is<Material> T, class V> void visit_fields(T& r, V&& visit) {
+    visit("name", r.name);
+    visit("base_color", r.base_color);
+    visit("opacity", r.opacity);
+    visit("metallic", r.metallic);
+    visit("roughness", r.roughness);
+    visit("emissive", r.emissive);
+    visit("emissive_strength", r.emissive_strength);
+    visit("normal_scale", r.normal_scale);
+    visit("alpha", r.alpha);
+    visit("alpha_cutoff", r.alpha_cutoff);
+    visit("double_sided", r.double_sided);
+    visit("unlit", r.unlit);
+    visit("ior", r.ior);
+    visit("specular", r.specular);
+    visit("specular_color", r.specular_color);
+    visit("transmission", r.transmission);
+    visit("thickness", r.thickness);
+    visit("attenuation_color", r.attenuation_color);
+    visit("attenuation_distance", r.attenuation_distance);
+    visit("base_color_texture", r.base_color_texture);
+    visit("metallic_roughness_texture", r.metallic_roughness_texture);
+    visit("normal_texture", r.normal_texture);
+    visit("emissive_texture", r.emissive_texture);
+    visit("specular_texture", r.specular_texture);
+    visit("specular_color_texture", r.specular_color_texture);
+    visit("transmission_texture", r.transmission_texture);
+}
+
+template <Is<Light> T, class V> void visit_fields(T& r, V&& visit) {
+    visit("name", r.name);
+    visit("kind", r.kind);
+    visit("color", r.color);
+    visit("use_temperature", r.use_temperature);
+    visit("kelvin", r.kelvin);
+    visit("intensity", r.intensity);
+    visit("radius", r.radius);
+    visit("angle_radians", r.angle_radians);
+    visit("inner_cone_radians", r.inner_cone_radians);
+    visit("outer_cone_radians", r.outer_cone_radians);
+    visit("width", r.width);
+    visit("height", r.height);
+    visit("two_sided", r.two_sided);
+    visit("enabled", r.enabled);
+}
+
+template <Is<Lens> T, class V> void visit_fields(T& r, V&& visit) {
+    visit("orthographic", r.orthographic);
+    visit("yfov_radians", r.yfov_radians);
+    visit("ymag", r.ymag);
+    visit("aperture_radius", r.aperture_radius);
+    visit("focus_distance", r.focus_distance);
+}
+
+template <Is<Camera> T, class V> void visit_fields(T& r, V&& visit) {
+    visit("name", r.name);
+    visit("lens", r.lens);
+}
+
+template <Is<Transform> T, class V> void visit_fields(T& r, V&& visit) {
+    visit("translation", r.translation);
+    visit("rotation", r.rotation);
+    visit("scale", r.scale);
+    visit("matrix", r.matrix);
+}
+
+template <Is<Node> T, class V> void visit_fields(T& r, V&& visit) {
+    visit("name", r.name);
+    visit("parent", r.parent);
+    visit("local", r.local);
+    visit("mesh", r.mesh);
+    visit("light", r.light);
+    visit("camera", r.camera);
+    visit("visible", r.visible);
+}
+
+template <Is<Environment> T, class V> void visit_fields(T& r, V&& visit) {
+    visit("kind", r.kind);
+    visit("color", r.color);
+    visit("intensity", r.intensity);
+    visit("rotation_degrees", r.rotation_degrees);
+    visit("file", r.file);
+    visit("visible_to_camera", r.visible_to_camera);
+}
+
+template <Is<View> T, class V> void visit_fields(T& r, V&& visit) {
+    visit("position", r.position);
+    visit("rotation", r.rotation);
+    visit("pivot_distance", r.pivot_distance);
+    visit("lens", r.lens);
+}
+
+// A record that lists its fields.
+template <class T>
+concept Fielded = requires(T& record) {
+    visit_fields(record, [](std::string_view, auto&) {});
+};
+
+// The words of an enumeration, in the order of its values.
+template <class E> constexpr std::array<std::string_view, 0> enum_words = {};
+template <> inline constexpr std::array<std::string_view, 4> enum_words<Light::Kind> = {"point", "spot", "sun", "rectangle"};
+template <> inline constexpr std::array<std::string_view, 3> enum_words<Material::Alpha> = {"opaque", "mask", "blend"};
+template <> inline constexpr std::array<std::string_view, 3> enum_words<Texture::Wrap> = {"repeat", "clamp_to_edge", "mirrored_repeat"};
+template <> inline constexpr std::array<std::string_view, 2> enum_words<Texture::Filter> = {"linear", "nearest"};
+template <> inline constexpr std::array<std::string_view, 3> enum_words<Environment::Kind> = {"none", "constant", "image"};
+
+} // namespace blush

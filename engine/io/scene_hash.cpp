@@ -1,0 +1,113 @@
+#include "io/scene_hash.h"
+
+#include "io/scene_fields.h"
+
+#include <bit>
+#include <cstring>
+#include <fmt/format.h>
+#include <span>
+
+namespace blush {
+namespace {
+
+class Hasher {
+public:
+    void word(uint64_t w) {
+        // Multiply and fold, then the finaliser of SplitMix64 (Steele, Lea, Flood 2014), so that each word reaches every bit.
+        uint64_t x = (state_ ^ w) + 0x9e3779b97f4a7c15u;
+        x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+        x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+        state_ = x ^ (x >> 31);
+    }
+    void bytes(std::span<const std::byte> data) {
+        word(data.size());
+        for (; data.size() >= sizeof(uint64_t); data = data.subspan(sizeof(uint64_t))) {
+            uint64_t w;
+            std::memcpy(&w, data.data(), sizeof w);
+            word(w);
+        }
+        uint64_t rest = 0;
+        if (!data.empty()) std::memcpy(&rest, data.data(), data.size());
+        word(rest);
+    }
+    template <class T> void array(const std::vector<T>& values) { bytes(std::as_bytes(std::span(values))); }
+
+    // Fields, by type. Texts are names and origins; which camera node there is shows only in the view.
+    void operator()(std::string_view, const std::string&) {}
+    void operator()(std::string_view, const Id<Camera>&) {}
+    void operator()(std::string_view, const float& v) { word(std::bit_cast<uint32_t>(v)); }
+    template <class T>
+    requires std::integral<T> || std::is_enum_v<T>
+    void operator()(std::string_view, const T& v) { word(uint64_t(v)); }
+    template <class T> void operator()(std::string_view, const Id<T>& id) { word(id.value); }
+    template <class T>
+    requires std::same_as<T, Vec2> || std::same_as<T, Vec3> || std::same_as<T, Quat>
+    void operator()(std::string_view, const T& v) { bytes(std::as_bytes(std::span(&v, 1))); }
+    void operator()(std::string_view, const std::optional<Affine>& m) {
+        word(m.has_value());
+        if (m) bytes(std::as_bytes(std::span(&*m, 1)));
+    }
+    template <Fielded T> void operator()(std::string_view, const T& record) { visit_fields(record, *this); }
+
+    uint64_t value() const { return state_; }
+
+private:
+    uint64_t state_ = 0;
+};
+
+void hash_image(Hasher& hash, const ImagePtr& image) {
+    hash.word(image != nullptr);
+    if (!image) return;
+    for (const int v : {image->width, image->height, image->channels}) hash.word(uint64_t(v));
+    hash.array(image->bytes);
+    hash.array(image->floats);
+}
+
+void hash_mesh(Hasher& hash, const Mesh& mesh) {
+    hash.word(mesh.parts.size());
+    for (const MeshPart& part : mesh.parts) {
+        hash.word(part.material.value);
+        hash.word(part.geometry != nullptr);
+        if (!part.geometry) continue;
+        const Geometry& g = *part.geometry;
+        hash.array(g.positions);
+        hash.array(g.normals);
+        hash.array(g.tangents);
+        hash.array(g.uv0);
+        hash.array(g.uv1);
+        hash.array(g.colors);
+        hash.array(g.indices);
+    }
+}
+
+template <class T> void hash_fields(Hasher& hash, const Table<T>& table) {
+    hash.word(table.size());
+    for (const auto& [id, record] : table) {
+        hash.word(id.value);
+        visit_fields(record, hash);
+    }
+}
+
+} // namespace
+
+std::string scene_hash(const Scene& scene) {
+    Hasher hash;
+    hash_fields(hash, scene.nodes);
+    hash_fields(hash, scene.materials);
+    hash_fields(hash, scene.lights);
+    hash_fields(hash, scene.textures);
+    for (const auto& [id, texture] : scene.textures) hash_image(hash, texture.image);
+    for (const auto& [id, mesh] : scene.meshes) {
+        hash.word(id.value);
+        hash_mesh(hash, mesh);
+    }
+    visit_fields(scene.environment, hash);
+    if (scene.environment.kind == Environment::Kind::image) hash_image(hash, scene.environment.image);
+    // Where the eye turns about is not seen; where it is and what it looks through are.
+    hash("position", scene.view.position);
+    hash("rotation", scene.view.rotation);
+    hash("lens", scene.view.lens);
+    return fmt::format("{:016x}", hash.value());
+}
+
+} // namespace blush

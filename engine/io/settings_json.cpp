@@ -1,0 +1,141 @@
+#include "io/settings_json.h"
+
+#include "io/json_fields.h"
+#include "scene/validate.h"
+
+#include <charconv>
+#include <functional>
+#include <map>
+#include <tuple>
+
+namespace blush {
+namespace {
+
+// One reader per key: what to do with its value, or an error.
+using Readers = std::map<std::string, std::function<Result<void>(const Json&)>, std::less<>>;
+
+// Assigns a value of a plain type.
+template <class T> auto plain(T& target) {
+    return [&target](const Json& json) {
+        return read_json(json, target) ? Result<void>() : Result<void>(Error{"", "wrong type or out of range", ""});
+    };
+}
+
+// Assigns what a parser of the command line makes of a text.
+template <class T, class Parse> auto word(T& target, Parse parse) {
+    return [&target, parse](const Json& json) -> Result<void> {
+        std::string text;
+        if (!read_json(json, text)) return Error{"", "not a string", ""};
+        Result<T> parsed = parse(text);
+        if (!parsed) return parsed.error();
+        target = *std::move(parsed);
+        return {};
+    };
+}
+
+// "1280x720".
+Result<std::pair<int, int>> parse_size(std::string_view text) {
+    int width = 0, height = 0;
+    const char* end = text.data() + text.size();
+    const auto [x, first] = std::from_chars(text.data(), end, width);
+    if (first != std::errc() || x == end || *x != 'x') return Error{"", "a size is written WxH", ""};
+    const auto [rest, second] = std::from_chars(x + 1, end, height);
+    if (second != std::errc() || rest != end) return Error{"", "a size is written WxH", ""};
+    return std::pair(width, height);
+}
+
+Result<int> parse_bounces(const Json& json) {
+    if (json.is_string()) return parse_max_bounces(json.get_ref<const std::string&>());
+    int bounces = 0;
+    if (read_json(json, bounces) && bounces >= 0) return bounces;
+    return Error{"", "neither a number from 0 nor \"unlimited\"", ""};
+}
+
+template <class T> Result<ParsedSettings<T>> parse(std::string_view text, ParsedSettings<T>&& parsed, const Readers& readers) {
+    const Result<Json> json = parse_json_object(text);
+    if (!json) return json.error();
+    for (const auto& [key, value] : json->items()) {
+        const auto reader = readers.find(key);
+        if (reader == readers.end()) {
+            parsed.diagnostics.push_back({Diagnostic::Severity::warning, "unknown setting", key.substr(0, 100)});
+        } else if (const auto ok = reader->second(value); !ok) {
+            return Error{"", ok.error().what, key};
+        }
+    }
+    if (const auto ok = validate(parsed.settings); !ok) return ok.error();
+    return std::move(parsed);
+}
+
+} // namespace
+
+std::string render_settings_json(const RenderSettings& s) {
+    Json json;
+    json["size"] = fmt::format("{}x{}", s.width, s.height);
+    json["resolution_scale"] = s.resolution_scale;
+    json["spp"] = s.spp;
+    json["time"] = s.seconds;
+    json["error"] = s.error;
+    json["first_sample"] = s.first_sample;
+    json["seed"] = s.seed;
+    json["max_bounces"] = max_bounces_text(s.max_bounces);
+    json["roulette"] = to_string(s.roulette);
+    json["strategy"] = to_string(s.strategy);
+    json["filter"] = to_string(s.filter);
+    json["energy_compensation"] = s.energy_compensation;
+    return json_text(json);
+}
+
+std::string view_settings_json(const ViewSettings& s) {
+    Json json;
+    json["exposure"] = s.exposure_ev;
+    json["gamma"] = s.gamma;
+    json["display"] = s.display;
+    json["view"] = s.view;
+    return json_text(json);
+}
+
+Result<ParsedSettings<RenderSettings>> parse_render_settings(std::string_view text, const RenderSettings& defaults) {
+    ParsedSettings<RenderSettings> parsed{defaults, {}};
+    RenderSettings& s = parsed.settings;
+    std::pair<int, int> size(s.width, s.height);
+    const Readers readers{
+        {"size",
+         [&](const Json& json) {
+             const auto ok = word(size, parse_size)(json);
+             std::tie(s.width, s.height) = size;
+             return ok;
+         }},
+        {"resolution_scale", plain(s.resolution_scale)},
+        {"spp", plain(s.spp)},
+        {"time", plain(s.seconds)},
+        {"error", plain(s.error)},
+        {"first_sample", plain(s.first_sample)},
+        {"seed", plain(s.seed)},
+        {"max_bounces",
+         [&](const Json& json) -> Result<void> {
+             const Result<int> bounces = parse_bounces(json);
+             if (!bounces) return bounces.error();
+             s.max_bounces = *bounces;
+             return {};
+         }},
+        {"roulette", word(s.roulette, parse_roulette)},
+        {"strategy", word(s.strategy, parse_strategy)},
+        {"filter", word(s.filter, parse_filter)},
+        {"energy_compensation", plain(s.energy_compensation)},
+    };
+    return parse(text, std::move(parsed), readers);
+}
+
+Result<ParsedSettings<ViewSettings>> parse_view_settings(std::string_view text, const ViewSettings& defaults) {
+    ParsedSettings<ViewSettings> parsed{defaults, {}};
+    ViewSettings& s = parsed.settings;
+    const Readers readers{
+        {"exposure", plain(s.exposure_ev)},
+        {"gamma", plain(s.gamma)},
+        {"display", plain(s.display)},
+        {"view", plain(s.view)},
+    };
+    return parse(text, std::move(parsed), readers);
+}
+
+} // namespace blush

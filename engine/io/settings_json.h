@@ -1,0 +1,31 @@
+// Render and view settings as JSON, with the command line's names and words: what EXR metadata and the converge command hold.
+#pragma once
+
+#include "core/result.h"
+#include "scene/render_settings.h"
+#include "scene/view_settings.h"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace blush {
+
+// {"size": "1280x720", "resolution_scale": 1.0, "spp": 64, "time": 0.0, "error": 0.0, "first_sample": 0, "seed": 0,
+//  "max_bounces": "unlimited", "roulette": "max,start=3", "strategy": "mis", "filter": "blackman-harris",
+//  "energy_compensation": false}
+std::string render_settings_json(const RenderSettings& settings);
+// {"exposure": 0.0, "gamma": 1.0, "display": "", "view": ""}
+std::string view_settings_json(const ViewSettings& settings);
+
+template <class T> struct ParsedSettings {
+    T settings;
+    std::vector<Diagnostic> diagnostics; // keys that mean nothing here
+};
+
+// Keys that are absent keep their value in `defaults`. max_bounces may be a number too.
+// Errors: not a JSON object, a value of the wrong type or out of range (validate.h).
+Result<ParsedSettings<RenderSettings>> parse_render_settings(std::string_view json, const RenderSettings& defaults = {});
+Result<ParsedSettings<ViewSettings>> parse_view_settings(std::string_view json, const ViewSettings& defaults = {});
+
+} // namespace blush

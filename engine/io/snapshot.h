@@ -1,0 +1,52 @@
+// A picture with everything needed to make it again: channels and metadata as every EXR of ours has them.
+#pragma once
+
+#include "core/vec.h"
+#include "io/image_io.h"
+#include "scene/render_settings.h"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace blush {
+
+// The text beside the pixels, as "blush:KEY" attributes.
+struct SnapshotMetadata {
+    std::string version;                       // of the program
+    std::string scene;                         // the scene file's name
+    std::string scene_hash;                    // scene_hash.h
+    std::string camera;                        // name of the camera node, or a free view
+    int64_t spp = 0;                           // samples per pixel that the picture holds
+    int64_t first_sample = 0, last_sample = 0; // sample indices [first, last)
+    uint32_t seed = 0;
+    double seconds = 0; // of rendering
+    std::string error;  // estimated relative error as text, empty if unknown
+    RenderSettings settings;
+    std::string edits;    // scene_edits_json.h, empty if nothing differs from the file
+    bool partial = false; // ended before any stop rule was reached
+    bool operator==(const SnapshotMetadata&) const = default;
+};
+
+// Planes of width * height, top row first; an empty one is left out.
+struct SnapshotInput {
+    int width = 0, height = 0;
+    std::span<const float> rgba; // width * height * 4, scene-linear
+    std::span<const Vec3> albedo;
+    std::span<const Vec3> normal;   // world space
+    std::span<const float> depth;   // metres
+    std::span<const Vec3> error;    // standard error of the mean
+    std::span<const float> samples; // per pixel
+    std::span<const uint32_t> object_id, material_id;
+    SnapshotMetadata metadata;
+};
+
+// Channels R G B A, then albedo.{R,G,B}, normal.{X,Y,Z}, depth.Z, error.{R,G,B}, samples.Y, id.object, id.material.
+// Errors: a plane of the wrong size, an id of 2^24 or more, which a float channel cannot carry.
+Result<LayeredImage> make_snapshot(const SnapshotInput& input);
+
+// What make_snapshot wrote. Errors: not one of our pictures, or metadata that do not make sense.
+Result<SnapshotMetadata> read_snapshot_metadata(const LayeredImage& image);
+
+} // namespace blush

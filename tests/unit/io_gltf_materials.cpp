@@ -1,0 +1,126 @@
+#include "io_gltf_builder.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace blush::test {
+namespace {
+
+// The material of a file that has only that one.
+Material import_material(Json material, ImportReport* report = nullptr) {
+    GltfBuilder b;
+    b.add("materials", std::move(material));
+    const auto imported = import_built(b);
+    EXPECT_TRUE(imported) << error_text(imported);
+    if (!imported) return {};
+    if (report) *report = imported->report;
+    return imported->scene.materials.begin()->value;
+}
+
+TEST(GltfMaterials, AbsentValuesAreGltfDefaults) {
+    Material expected;
+    expected.name = "Material 0";
+    EXPECT_EQ(import_material(Json::object()), expected);
+}
+
+TEST(GltfMaterials, CoreFactorsAreRead) {
+    const Material m = import_material(
+        {{"name", "Paint"},
+         {"pbrMetallicRoughness", {{"baseColorFactor", {0.1, 0.2, 0.3, 0.4}}, {"metallicFactor", 0.5}, {"roughnessFactor", 0.6}}},
+         {"emissiveFactor", {1, 0.5, 0.25}},
+         {"alphaMode", "BLEND"},
+         {"doubleSided", true}});
+    EXPECT_EQ(m.name, "Paint");
+    EXPECT_EQ(m.base_color, (Vec3{0.1f, 0.2f, 0.3f}));
+    EXPECT_EQ(m.opacity, 0.4f);
+    EXPECT_EQ(m.metallic, 0.5f);
+    EXPECT_EQ(m.roughness, 0.6f);
+    EXPECT_EQ(m.emissive, (Vec3{1, 0.5f, 0.25f}));
+    EXPECT_EQ(m.alpha, Material::Alpha::blend);
+    EXPECT_TRUE(m.double_sided);
+    const Material mask = import_material({{"alphaMode", "MASK"}, {"alphaCutoff", 0.25}});
+    EXPECT_EQ(mask.alpha, Material::Alpha::mask);
+    EXPECT_EQ(mask.alpha_cutoff, 0.25f);
+}
+
+TEST(GltfMaterials, ExtensionsAreRead) {
+    const Material m = import_material(
+        {{"extensions",
+          {{"KHR_materials_emissive_strength", {{"emissiveStrength", 17.0}}},
+           {"KHR_materials_ior", {{"ior", 1.33}}},
+           {"KHR_materials_specular", {{"specularFactor", 0.0}, {"specularColorFactor", {1.0, 0.5, 0.25}}}},
+           {"KHR_materials_transmission", {{"transmissionFactor", 0.9}}},
+           {"KHR_materials_volume", {{"thicknessFactor", 0.1}, {"attenuationDistance", 2.0}, {"attenuationColor", {0.5, 1.0, 1.0}}}},
+           {"KHR_materials_unlit", Json::object()}}}});
+    EXPECT_EQ(m.emissive_strength, 17);
+    EXPECT_EQ(m.ior, 1.33f);
+    EXPECT_EQ(m.specular, 0);
+    EXPECT_EQ(m.specular_color, (Vec3{1, 0.5f, 0.25f}));
+    EXPECT_EQ(m.transmission, 0.9f);
+    EXPECT_EQ(m.thickness, 0.1f);
+    EXPECT_EQ(m.attenuation_distance, 2);
+    EXPECT_EQ(m.attenuation_color, (Vec3{0.5f, 1, 1}));
+    EXPECT_TRUE(m.unlit);
+}
+
+TEST(GltfMaterials, ValuesOutOfRangeAreClampedWithAWarning) {
+    ImportReport report;
+    const Material m = import_material({{"pbrMetallicRoughness", {{"baseColorFactor", {2, -1, 0.5, 1}}, {"roughnessFactor", 1e300}}},
+                                        {"extensions", {{"KHR_materials_ior", {{"ior", 0.5}}}}}},
+                                       &report);
+    EXPECT_EQ(m.base_color, (Vec3{1, 0, 0.5f}));
+    EXPECT_EQ(m.roughness, 1);
+    EXPECT_EQ(m.ior, 1);
+    EXPECT_EQ(report.diagnostics.size(), 4u);
+}
+
+TEST(GltfMaterials, ValuesOfTheWrongTypeAreReported) {
+    ImportReport report;
+    const Material m = import_material(
+        {{"extensions",
+          {{"KHR_materials_ior", {{"ior", "glass"}}}, {"KHR_materials_transmission", {{"transmissionFactor", Json::array({1})}}}}}},
+        &report);
+    EXPECT_EQ(m.ior, 1.5f);
+    EXPECT_EQ(m.transmission, 0);
+    EXPECT_TRUE(reports(report, "'ior' is not a number"));
+    EXPECT_TRUE(reports(report, "'transmissionFactor' is not a number"));
+}
+
+TEST(GltfMaterials, ExtensionsAreSortedByWhatBecomesOfThem) {
+    GltfBuilder b;
+    b.json["extensionsUsed"] = {"KHR_materials_ior", "KHR_materials_volume", "KHR_materials_sheen", "VENDOR_unheard_of"};
+    const auto imported = import_built(b);
+    ASSERT_TRUE(imported) << error_text(imported);
+    const ImportReport& report = imported->report;
+    EXPECT_EQ(report.extensions_used.size(), 4u);
+    EXPECT_EQ(report.extensions_honoured, std::vector<std::string>{"KHR_materials_ior"});
+    EXPECT_EQ(report.extensions_approximated, std::vector<std::string>{"KHR_materials_volume"});
+    EXPECT_EQ(report.extensions_ignored, (std::vector<std::string>{"KHR_materials_sheen", "VENDOR_unheard_of"}));
+    EXPECT_TRUE(reports(report, "cloth lacks its bright rim"));
+}
+
+TEST(GltfMaterials, RequiredExtensionsThatAreNotSupportedAreNamed) {
+    GltfBuilder b;
+    b.json["extensionsUsed"] = b.json["extensionsRequired"] = {"KHR_draco_mesh_compression"};
+    EXPECT_NE(error_text(import_built(b)).find("needs KHR_draco_mesh_compression, which this version cannot read"), std::string::npos);
+}
+
+TEST(GltfMaterials, PrimitivesReferToThem) {
+    GltfBuilder b;
+    b.add("materials", {{"name", "first"}});
+    b.add("materials", {{"name", "second"}});
+    const int positions = b.triangle_positions();
+    b.show({{"attributes", {{"POSITION", positions}}}, {"material", 1}});
+    b.show({{"attributes", {{"POSITION", positions}}}});
+    const auto imported = import_built(b);
+    ASSERT_TRUE(imported) << error_text(imported);
+    const Scene& scene = imported->scene;
+    EXPECT_EQ(scene.materials.find(scene.meshes.entries()[0].value.parts[0].material)->name, "second");
+    EXPECT_FALSE(scene.meshes.entries()[1].value.parts[0].material);
+    b.show({{"attributes", {{"POSITION", positions}}}, {"material", 2}});
+    EXPECT_NE(error_text(import_built(b)).find("material 2 does not exist"), std::string::npos);
+}
+
+} // namespace
+} // namespace blush::test

@@ -1,0 +1,178 @@
+#include "io/image_io.h"
+#include "io_gltf_builder.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace blush::test {
+namespace {
+
+std::string file_bytes(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+// A PNG of 2 x 1 pixels: red, green.
+std::string png_bytes() {
+    const TempFolder folder;
+    const float rgb[] = {1, 0, 0, 0, 1, 0};
+    EXPECT_TRUE(write_display_image(folder / "image.png", 2, 1, rgb));
+    return file_bytes(folder / "image.png");
+}
+const std::vector<uint8_t> red_green = {255, 0, 0, 0, 255, 0};
+
+// A material whose base colour is texture 0.
+void use_texture(GltfBuilder& b, Json info = Json::object()) {
+    info["index"] = 0;
+    b.add("materials", {{"pbrMetallicRoughness", {{"baseColorTexture", info}}}});
+}
+GltfBuilder embedded_texture(const Json& info = Json::object()) {
+    GltfBuilder b;
+    b.add("images", {{"bufferView", b.buffer_view(png_bytes())}, {"mimeType", "image/png"}});
+    b.add("textures", {{"source", 0}});
+    use_texture(b, info);
+    return b;
+}
+
+TEST(GltfTextures, EmbeddedInABufferView) {
+    const auto imported = import_built(embedded_texture());
+    ASSERT_TRUE(imported) << error_text(imported);
+    const Texture& texture = imported->scene.textures.begin()->value;
+    EXPECT_EQ(texture.source, "embedded");
+    EXPECT_EQ(texture.image->width, 2);
+    EXPECT_EQ(texture.image->bytes, red_green);
+    EXPECT_EQ(imported->scene.materials.begin()->value.base_color_texture.texture, imported->scene.textures.begin()->id);
+}
+
+TEST(GltfTextures, InADataUri) {
+    GltfBuilder b;
+    b.add("images", {{"uri", "data:image/png;base64," + base64(png_bytes())}});
+    b.add("textures", {{"source", 0}});
+    use_texture(b);
+    const auto imported = import_built(b);
+    ASSERT_TRUE(imported) << error_text(imported);
+    ASSERT_EQ(imported->scene.textures.size(), 1u);
+    EXPECT_EQ(imported->scene.textures.begin()->value.image->bytes, red_green);
+}
+
+TEST(GltfTextures, BesideTheSceneWithAnEscapedName) {
+    const TempFolder folder;
+    std::filesystem::create_directory(folder / "maps");
+    write_bytes(folder / "maps/red green.png", png_bytes());
+    GltfBuilder b;
+    b.add("images", {{"uri", "maps/red%20green.png"}});
+    b.add("textures", {{"source", 0}, {"sampler", 0}});
+    b.add("samplers", {{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}});
+    use_texture(b);
+    const auto imported = import_text(folder, b.gltf());
+    ASSERT_TRUE(imported) << error_text(imported);
+    ASSERT_EQ(imported->scene.textures.size(), 1u);
+    const Texture& texture = imported->scene.textures.begin()->value;
+    EXPECT_EQ(texture.source, "maps/red green.png");
+    EXPECT_EQ(texture.image->bytes, red_green);
+    EXPECT_EQ(texture.wrap_u, Texture::Wrap::clamp_to_edge);
+    EXPECT_EQ(texture.wrap_v, Texture::Wrap::mirrored_repeat);
+    EXPECT_EQ(texture.filter, Texture::Filter::nearest);
+}
+
+TEST(GltfTextures, TransformAndTexCoordOverride) {
+    const Json transform = {{"offset", {0.5, 0.25}}, {"scale", {2.0, 3.0}}, {"rotation", 1.5}, {"texCoord", 1}};
+    const auto imported = import_built(embedded_texture({{"texCoord", 0}, {"extensions", {{"KHR_texture_transform", transform}}}}));
+    ASSERT_TRUE(imported) << error_text(imported);
+    const TextureRef ref = imported->scene.materials.begin()->value.base_color_texture;
+    EXPECT_EQ(ref.offset, (Vec2{0.5f, 0.25f}));
+    EXPECT_EQ(ref.scale, (Vec2{2, 3}));
+    EXPECT_EQ(ref.rotation_radians, 1.5f);
+    EXPECT_EQ(ref.uv_set, 1);
+}
+
+TEST(GltfTextures, EveryUseOfATextureIsRead) {
+    GltfBuilder b = embedded_texture();
+    const Json info = {{"index", 0}, {"texCoord", 1}};
+    b.json["materials"][0] = {{"pbrMetallicRoughness", {{"baseColorTexture", info}, {"metallicRoughnessTexture", info}}},
+                              {"normalTexture", {{"index", 0}, {"scale", 0.5}}},
+                              {"occlusionTexture", info},
+                              {"emissiveTexture", info},
+                              {"extensions",
+                               {{"KHR_materials_specular", {{"specularTexture", info}, {"specularColorTexture", info}}},
+                                {"KHR_materials_transmission", {{"transmissionTexture", info}}}}}};
+    const auto imported = import_built(b);
+    ASSERT_TRUE(imported) << error_text(imported);
+    const Material& m = imported->scene.materials.begin()->value;
+    for (const TextureRef& ref : {m.base_color_texture, m.metallic_roughness_texture, m.emissive_texture, m.specular_texture,
+                                  m.specular_color_texture, m.transmission_texture}) {
+        EXPECT_TRUE(ref.texture);
+        EXPECT_EQ(ref.uv_set, 1);
+    }
+    EXPECT_TRUE(m.normal_texture.texture);
+    EXPECT_EQ(m.normal_scale, 0.5f);
+    EXPECT_TRUE(reports(imported->report, "occlusion texture"));
+}
+
+TEST(GltfTextures, MissingAndBrokenImagesAreWarningsAndTheFactorRemains) {
+    for (const std::string& bytes : {std::string(), std::string("not an image"), png_bytes().substr(0, 50)}) {
+        const TempFolder folder;
+        if (!bytes.empty()) write_bytes(folder / "image.png", bytes);
+        GltfBuilder b;
+        b.add("images", {{"uri", "image.png"}});
+        b.add("textures", {{"source", 0}});
+        use_texture(b);
+        const auto imported = import_text(folder, b.gltf());
+        ASSERT_TRUE(imported) << error_text(imported);
+        EXPECT_TRUE(imported->scene.textures.empty());
+        EXPECT_FALSE(imported->scene.materials.begin()->value.base_color_texture.texture);
+        EXPECT_TRUE(reports(imported->report, "image.png"));
+    }
+}
+
+TEST(GltfTextures, IndicesOutOfRangeAreErrors) {
+    GltfBuilder texture = embedded_texture();
+    texture.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 5;
+    EXPECT_NE(error_text(import_built(texture)).find("texture 5 does not exist"), std::string::npos);
+    GltfBuilder image = embedded_texture();
+    image.json["textures"][0]["source"] = 5;
+    EXPECT_NE(error_text(import_built(image)).find("image 5 does not exist"), std::string::npos);
+    GltfBuilder sampler = embedded_texture();
+    sampler.json["textures"][0]["sampler"] = 5;
+    EXPECT_NE(error_text(import_built(sampler)).find("sampler 5 does not exist"), std::string::npos);
+    GltfBuilder view = embedded_texture();
+    view.json["bufferViews"][0]["byteOffset"] = 1u << 30;
+    EXPECT_NE(error_text(import_built(view)).find("reach beyond the buffer"), std::string::npos);
+}
+
+// A triangle with a normal map; `uv` is its TEXCOORD_0, none if empty.
+Result<ImportedScene> import_normal_mapped(const std::vector<float>& uv) {
+    GltfBuilder b = embedded_texture();
+    b.json["materials"][0] = {{"normalTexture", {{"index", 0}}}};
+    Json attributes = {{"POSITION", b.triangle_positions()}, {"NORMAL", b.accessor<float>({0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3")}};
+    if (!uv.empty()) attributes["TEXCOORD_0"] = b.accessor<float>(uv, "VEC2");
+    b.show({{"attributes", attributes}, {"material", 0}});
+    return import_built(b);
+}
+
+TEST(GltfTangents, AreComputedForNormalMaps) {
+    // u along +X, and v, which grows down the image, along -Y: not mirrored. Then u and v exchanged: mirrored.
+    const auto straight = import_normal_mapped({0, 1, 1, 1, 0, 0}), mirrored = import_normal_mapped({1, 0, 1, 1, 0, 0});
+    ASSERT_TRUE(straight) << error_text(straight);
+    ASSERT_TRUE(mirrored) << error_text(mirrored);
+    EXPECT_EQ(straight->scene.meshes.begin()->value.parts[0].geometry->tangents, std::vector<Vec4>(3, Vec4{1, 0, 0, 1}));
+    EXPECT_EQ(mirrored->scene.meshes.begin()->value.parts[0].geometry->tangents, std::vector<Vec4>(3, Vec4{0, -1, 0, -1}));
+    EXPECT_TRUE(reports(straight->report, "approximated: tangents"));
+}
+
+TEST(GltfTangents, OfDegenerateTextureCoordinatesAreSomePerpendicular) {
+    const auto imported = import_normal_mapped({0.5, 0.5, 0.5, 0.5, 0.5, 0.5});
+    ASSERT_TRUE(imported) << error_text(imported);
+    for (const Vec4& t : imported->scene.meshes.begin()->value.parts[0].geometry->tangents) {
+        EXPECT_NEAR(t.x * t.x + t.y * t.y + t.z * t.z, 1, 1e-6);
+        EXPECT_EQ(t.z, 0);
+        EXPECT_EQ(std::abs(t.w), 1);
+    }
+    const auto without = import_normal_mapped({});
+    ASSERT_TRUE(without) << error_text(without);
+    EXPECT_TRUE(reports(without->report, "no texture coordinates"));
+}
+
+} // namespace
+} // namespace blush::test

@@ -1,0 +1,82 @@
+#include "io/settings_json.h"
+#include "io_gltf_builder.h"
+
+#include <gtest/gtest.h>
+
+namespace blush::test {
+namespace {
+
+RenderSettings unusual_settings() {
+    RenderSettings s;
+    s.width = 640;
+    s.height = 360;
+    s.resolution_scale = 0.5f;
+    s.spp = 0;
+    s.seconds = 12.5;
+    s.error = 0.001;
+    s.first_sample = 32;
+    s.seed = 4294967295u;
+    s.max_bounces = 2;
+    s.roulette = {Roulette::Rule::constant, 1, 0.05f, 0.95f, 0.7f, 0.1f};
+    s.strategy = Strategy::bsdf;
+    s.filter = PixelFilter::box;
+    s.energy_compensation = true;
+    return s;
+}
+
+TEST(SettingsJson, RenderSettingsComeBack) {
+    for (const RenderSettings& s : {RenderSettings{}, unusual_settings()}) {
+        const auto parsed = parse_render_settings(render_settings_json(s));
+        ASSERT_TRUE(parsed) << error_text(parsed);
+        EXPECT_EQ(parsed->settings, s);
+        EXPECT_TRUE(parsed->diagnostics.empty());
+    }
+}
+
+TEST(SettingsJson, ViewSettingsComeBack) {
+    const ViewSettings s{-1.5f, 2.2f, "sRGB", "ACES SDR"};
+    const auto parsed = parse_view_settings(view_settings_json(s));
+    ASSERT_TRUE(parsed) << error_text(parsed);
+    EXPECT_EQ(parsed->settings, s);
+}
+
+TEST(SettingsJson, PartialInputKeepsTheRestAndUnknownKeysAreReported) {
+    RenderSettings expected = unusual_settings();
+    expected.max_bounces = 5;
+    const auto parsed = parse_render_settings(R"({"max_bounces": 5, "colour": "red"})", unusual_settings());
+    ASSERT_TRUE(parsed) << error_text(parsed);
+    EXPECT_EQ(parsed->settings, expected);
+    ASSERT_EQ(parsed->diagnostics.size(), 1u);
+    EXPECT_EQ(parsed->diagnostics[0].where, "colour");
+}
+
+TEST(SettingsJson, WrongInputIsAnErrorThatNamesTheKey) {
+    for (const auto& [text, where] :
+         std::vector<std::pair<std::string, std::string>>{{R"({"size": "0x10"})", ""},
+                                                          {R"({"size": "10"})", "size"},
+                                                          {R"({"size": "10x10x"})", "size"},
+                                                          {R"({"spp": "many"})", "spp"},
+                                                          {R"({"spp": -1})", ""},
+                                                          {R"({"spp": 18446744073709551615})", "spp"},
+                                                          {R"({"seed": -1})", "seed"},
+                                                          {R"({"seed": 4294967296})", "seed"},
+                                                          {R"({"time": 1e999})", ""},
+                                                          {R"({"resolution_scale": 1e300})", "resolution_scale"},
+                                                          {R"({"max_bounces": -5})", "max_bounces"},
+                                                          {R"({"max_bounces": "few"})", "max_bounces"},
+                                                          {R"({"roulette": "russian"})", "roulette"},
+                                                          {R"({"strategy": 3})", "strategy"},
+                                                          {R"({"energy_compensation": "yes"})", "energy_compensation"},
+                                                          {"[]", ""},
+                                                          {"", ""},
+                                                          {"{", ""}}) {
+        const auto parsed = parse_render_settings(text);
+        ASSERT_FALSE(parsed) << text;
+        if (!where.empty()) { EXPECT_EQ(parsed.error().where, where) << text; }
+    }
+    EXPECT_FALSE(parse_view_settings(R"({"gamma": 0})"));
+    EXPECT_FALSE(parse_render_settings(std::string(1000000, '[')));
+}
+
+} // namespace
+} // namespace blush::test
