@@ -52,12 +52,12 @@ template <class F> struct Bsdf {
     Vec<F> f0, dielectric_gain;     // ... + dielectric_gain * specular * Fresnel(f0)
     Vec<F> transmitted;             // what is not reflected by the dielectric goes through, times this
     F specular, alpha;
+    F cos;                  // |wo.z|
     F visible;              // masking(wo) / |wo.z|
     Interface<F> interface; // of a solid
     F normal;               // its reflectance at normal incidence
     F radiance_scale;       // of light that goes through
     F p_diffuse;            // probability of sampling the Lambertian part
-    F p_reflect;            // of a facet that reflects, where straight is set
     Mask<F> solid, flipped; // flipped: the viewer is below z = 0
     Mask<F> mirror;         // ior 0: a solid lets nothing in
     Mask<F> smooth;         // facets all face z: reflection and thin transmission are deltas
@@ -85,9 +85,11 @@ template <Features S, class F> FacetAlbedo<F> facet_albedo(const Bsdf<F>& b, con
     F dielectric_rise = rise;
     Mask<F> total = Mask<F>(false);
     if constexpr (S.has(Feature::transmission)) {
-        const F exact = clamp01(F((dielectric_reflectance(b.interface, c) - b.normal) / max(F(1.f - b.normal), F(1e-6f))));
+        // Light that passes straight has seen no facets: it must be missing from what a surface without any reflects.
+        const F at = select(b.straight, b.cos, c);
+        const F exact = clamp01(F((dielectric_reflectance(b.interface, at) - b.normal) / max(F(1.f - b.normal), F(1e-6f))));
         dielectric_rise = select(b.solid, exact, rise);
-        total = b.solid && (b.mirror || totally_reflects(b.interface, c));
+        total = b.solid && (b.mirror || totally_reflects(b.interface, at));
     }
     const Vec<F> one = splat<F>(1.f);
     const Vec<F> fresnel = select(total, one, (b.f0 + (one - b.f0) * dielectric_rise) * b.specular);
@@ -99,10 +101,10 @@ template <Features S, class F> FacetAlbedo<F> facet_albedo(const Bsdf<F>& b, con
 }
 
 // Probability with which a sampled facet reflects instead of transmitting.
-template <Features S, class F> F reflect_probability(const Bsdf<F>& b, const FacetAlbedo<F>& a) {
+template <Features S, class F> F reflect_probability(const FacetAlbedo<F>& a) {
     if constexpr (S.has(Feature::transmission)) {
         const F r = max_component(a.reflected), t = max_component(a.transmitted);
-        return select(b.straight, b.p_reflect, select(t > F(0.f), r / (r + t), F(1.f)));
+        return select(t > F(0.f), r / (r + t), F(1.f));
     } else {
         return F(1.f);
     }
@@ -112,12 +114,12 @@ template <Features S, class F> F reflect_probability(const Bsdf<F>& b, const Fac
 
 template <Features S, class F> void make_facets(Bsdf<F>& b, const BsdfParams<F>& m, const Vec<F>& wo, const EnergyTable* energy) {
     const Vec<F> one = splat<F>(1.f);
-    const F cos = max(abs(wo.z), F(grazing));
+    b.cos = max(abs(wo.z), F(grazing));
     b.solid = S.has(Feature::transmission) ? m.transmission > F(0.f) && !m.thin : Mask<F>(false);
     b.flipped = b.solid && wo.z < F(0.f);
     b.smooth = m.roughness < F(smooth_roughness);
     b.alpha = max(F(m.roughness * m.roughness), F(smooth_roughness * smooth_roughness));
-    b.visible = masking_over_cos(b.alpha, Vec<F>{wo.x, wo.y, cos});
+    b.visible = masking_over_cos(b.alpha, Vec<F>{wo.x, wo.y, b.cos});
 
     b.metal_color = m.base_color;
     b.specular = m.specular;
@@ -127,7 +129,7 @@ template <Features S, class F> void make_facets(Bsdf<F>& b, const BsdfParams<F>&
     b.dielectric_gain = one * (1.f - m.metallic);
     if constexpr (S.has(Feature::energy_compensation)) {
         if (energy) {
-            const F lost = select(b.smooth, F(0.f), 1.f / directional_albedo(*energy, m.roughness, cos) - 1.f);
+            const F lost = select(b.smooth, F(0.f), 1.f / directional_albedo(*energy, m.roughness, b.cos) - 1.f);
             b.metal_gain = b.metal_gain * (one + b.metal_color * lost);
             b.dielectric_gain = b.dielectric_gain * (one + b.f0 * (b.specular * lost));
         }
@@ -150,21 +152,16 @@ template <Features S, class F> void make_facets(Bsdf<F>& b, const BsdfParams<F>&
 
 // The facets' share of samples follows what the parts reflect towards wo. On a rough surface the facets in view are less
 // grazing than the surface, hence the cosine; the bounds keep the weights bounded where the estimate is off.
-template <Features S, class F> void choose_probabilities(Bsdf<F>& b, const Vec<F>& wo) {
-    const F cos = max(abs(wo.z), F(grazing));
-    const FacetAlbedo<F> a = facet_albedo<S>(b, F(cos + (1.f - cos) * (0.5f * b.alpha)));
+template <Features S, class F> void choose_probabilities(Bsdf<F>& b, const BsdfParams<F>& m) {
+    const FacetAlbedo<F> a = facet_albedo<S>(b, F(b.cos + (1.f - b.cos) * (0.5f * b.alpha)));
     const F diffuse = max_component(b.diffuse) * (1.f - a.layer);
     const F facets = max(max_component(a.reflected), max_component(a.transmitted));
     const F p = min(max(diffuse / max(diffuse + facets, F(1e-20f)), F(0.1f)), F(0.9f));
-    const Mask<F> no_diffuse = !(max_component(b.diffuse) > F(0.f)), no_facets = !(facets > F(0.f));
+    // From the parameters: a facet that reflects nothing at one angle may at another.
+    const Mask<F> no_diffuse = !(max_component(b.diffuse) > F(0.f));
+    const Mask<F> no_facets = !(m.metallic > F(0.f) || m.specular > F(0.f) || m.transmission > F(0.f));
     b.p_diffuse = select(no_facets, F(1.f), select(no_diffuse, F(0.f), p));
     b.delta_only = no_diffuse && (no_facets || b.smooth);
-    if constexpr (S.has(Feature::transmission)) {
-        const FacetAlbedo<F> straight = facet_albedo<S>(b, cos);
-        const F r = max_component(straight.reflected), t = max_component(straight.transmitted);
-        const F share = select(r + t > F(0.f), r / max(r + t, F(1e-20f)), F(1.f));
-        b.p_reflect = select(b.smooth || !(r > F(0.f)) || !(t > F(0.f)), share, min(max(share, F(0.05f)), F(0.95f)));
-    }
 }
 
 // `energy`: scale facet reflection by what the microfacet model loses; null (or S without energy_compensation): do not.
@@ -173,7 +170,7 @@ template <Features S, class F> Bsdf<F> make_bsdf(const BsdfParams<F>& m, const V
     if constexpr (has_facets(S)) {
         b.diffuse = m.base_color * ((1.f - m.metallic) * (1.f - m.transmission));
         make_facets<S>(b, m, wo, energy);
-        choose_probabilities<S>(b, wo);
+        choose_probabilities<S>(b, m);
     } else {
         b.diffuse = m.base_color;
         b.delta_only = !(max_component(b.diffuse) > F(0.f));
@@ -240,7 +237,7 @@ template <Features S, class F> BsdfValue<F> eval(const Bsdf<F>& b, const Vec<F>&
 
         const Mask<F> dense = facet.faces_both && select(above, !b.smooth, !(b.smooth || b.straight)) && abs(wi.z) > F(0.f);
         const F density = select(dense, ggx(b.alpha, facet.h) * b.visible * facet.jacobian, F(0.f));
-        const F p_reflect = reflect_probability<S>(b, albedo);
+        const F p_reflect = reflect_probability<S>(albedo);
         const Vec<F> scattered = select(above, albedo.reflected, albedo.transmitted * b.radiance_scale);
         const F p = select(above, p_reflect, 1.f - p_reflect);
         return {diffuse + scattered * (density * masking(b.alpha, wi)), b.p_diffuse * cosine + (1.f - b.p_diffuse) * p * density};
@@ -254,8 +251,8 @@ template <Features S, class F> BsdfSample<F> sample_facets(const Bsdf<F>& b, con
     const Vec<F> z{F(0.f), F(0.f), F(1.f)};
     Vec<F> h = select(b.smooth, z, sample_visible_normal(b.alpha, wo, u, v));
     F cos = max(dot(wo, h), F(grazing));
-    FacetAlbedo<F> a = facet_albedo<S>(b, cos);
-    const F p_reflect = reflect_probability<S>(b, a);
+    const FacetAlbedo<F> a = facet_albedo<S>(b, cos);
+    const F p_reflect = reflect_probability<S>(a);
     BsdfSample<F> s;
     s.wi = h * (2.f * cos) - wo;
     s.weight = a.reflected / p_reflect;
@@ -265,8 +262,7 @@ template <Features S, class F> BsdfSample<F> sample_facets(const Bsdf<F>& b, con
     if constexpr (S.has(Feature::transmission)) {
         const Mask<F> reflects = choice < p_reflect;
         h = select(b.straight, z, h);
-        cos = select(b.straight, wo.z, cos);
-        a = facet_albedo<S>(b, cos);
+        cos = select(b.straight, b.cos, cos);
         const Vec<F> through = select(b.solid, refract(b.interface, wo, h, cos), flip_z(Mask<F>(true), s.wi));
         s.wi = select(reflects, s.wi, through);
         s.weight = select(reflects, s.weight, a.transmitted * (b.radiance_scale / max(F(1.f - p_reflect), F(1e-20f))));
@@ -311,9 +307,9 @@ template <Features S, class F> BsdfSample<F> sample(const Bsdf<F>& b, const Vec<
 }
 
 // Roughly how much of a uniform light comes back or through, in [0, 1]: the denoiser's guide.
-template <Features S, class F> Vec<F> albedo(const Bsdf<F>& b, const Vec<F>& wo) {
+template <Features S, class F> Vec<F> albedo(const Bsdf<F>& b, const Vec<F>&) {
     if constexpr (has_facets(S)) {
-        const FacetAlbedo<F> a = facet_albedo<S>(b, max(abs(wo.z), F(grazing)));
+        const FacetAlbedo<F> a = facet_albedo<S>(b, b.cos);
         const Vec<F> sum = b.diffuse * (1.f - a.layer) + a.reflected + a.transmitted;
         return {clamp01(sum.x), clamp01(sum.y), clamp01(sum.z)};
     } else {

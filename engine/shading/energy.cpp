@@ -6,10 +6,10 @@ namespace blush {
 
 namespace {
 
-// E = mean of masking(wi) over visible normals: the sampling density cancels all else. The mean over a grid of midpoints; by
-// symmetry half the azimuths will do.
+// E = mean of masking(wi) over visible normals: the sampling density cancels all else. The mean over a grid of midpoints, finer
+// where v near 1 makes the distribution's long tail; by symmetry half the azimuths will do.
 float integrate_albedo(float alpha, float cos) {
-    constexpr int azimuths = 16, heights = 32;
+    constexpr int azimuths = 16, heights = 64;
     static_assert(heights % width<Wide> == 0);
     const float sin = sqrt(max(0.f, (1.f - cos) * (1.f + cos)));
     const Vec<Wide> wo = splat<Wide>(Vec3{sin, 0, cos});
@@ -17,10 +17,10 @@ float integrate_albedo(float alpha, float cos) {
     for (int i = 0; i < azimuths; ++i)
         for (int j = 0; j < heights; j += width<Wide>) {
             const Wide u = (float(i) + 0.5f) / (2 * azimuths);
-            const Wide v = (to_float(iota<Wide>() + j) + 0.5f) / float(heights);
-            const Vec<Wide> h = sample_visible_normal(Wide(alpha), wo, u, v);
+            const Wide w = (to_float(iota<Wide>() + j) + 0.5f) / float(heights); // v = 1 - w^2, dv = 2 w dw
+            const Vec<Wide> h = sample_visible_normal(Wide(alpha), wo, u, 1.f - w * w);
             const Vec<Wide> wi = h * (2.f * dot(wo, h)) - wo;
-            sum += select(wi.z > 0.f, masking(Wide(alpha), wi), Wide(0.f));
+            sum += select(wi.z > 0.f, 2.f * w * masking(Wide(alpha), wi), Wide(0.f));
         }
     return stdx::reduce(sum) / (azimuths * heights);
 }

@@ -8,10 +8,10 @@
 
 namespace blush {
 
-// E over perceptual roughness (rows, 0 to 1) and a stretched cosine (columns): see directional_albedo. Interpolated, it is
-// within 2e-3 of the integral, relatively, for roughness from 0.01 to 1.
+// E over perceptual roughness (rows, 0 to 1) and a stretched cosine (columns): see directional_albedo.
 struct EnergyTable {
     static constexpr int size = 32;
+    static constexpr float relative_error = 1e-3f; // of an interpolated value at most, for roughness >= 0.01
     float albedo[size * size];
 };
 
