@@ -1,6 +1,7 @@
 // The interactive editor: owns window, document, session and panels.
 #pragma once
 
+#include "app/scene_overrides.h"
 #include "scene/render_settings.h"
 #include "scene/view_settings.h"
 
@@ -12,6 +13,7 @@ struct EditorOptions {
     std::filesystem::path assets;      // folder that holds scenes/, ocio/ and fonts/
     std::filesystem::path scene;       // empty: the card-and-mug scene in `assets`
     std::filesystem::path ocio_config; // empty: as ColorManagement::load decides
+    SceneOverrides overrides;          // of the scene given here, not of those opened later
     RenderSettings render;
     ViewSettings view;
     bool follow_viewport = true; // the image has the viewport's size; false: render.width x render.height, as `--size` asks

@@ -1,0 +1,335 @@
+#include "app/editor.h"
+
+#include "app/editor_commands.h"
+#include "app/editor_files.h"
+#include "scene/changes.h"
+#include "ui/automation.h"
+#include "ui/file_listing.h"
+#include "ui/frame_stats.h"
+#include "ui/regions.h"
+#include "ui/viewport.h"
+#include "ui/window.h"
+
+#include <cstdio>
+#include <fmt/format.h>
+#include <imgui.h>
+
+namespace blush {
+namespace {
+
+using Clock = FrameStats::Clock;
+
+constexpr double longest_sleep = 1; // seconds: how often the scene file is looked at
+
+class Editor {
+public:
+    Editor(const EditorOptions& options, std::unique_ptr<Window> window, ColorManagement color, const Automation& automation,
+           WindowSettings settings);
+    void run();
+
+private:
+    void poll();
+    void panels();
+    void submit();
+    void latest();
+    void draw();
+
+    PanelContext context();
+    void draw_regions(PanelContext& c);
+    void draw_above(PanelContext& c);
+    void obey(PanelContext& c);
+    void run_own_command(Command command);
+    void open_browser(FileRequest::Use use);
+    void take_file(const FileRequest& request);
+    void take_dropped(const std::filesystem::path& file);
+    void save_due_snapshot();
+    void update_display_shader();
+    void remember();
+    RenderSettings render_settings() const;
+
+    Automation automation_;
+    std::unique_ptr<Window> window_; // first to come, last to go: the session wakes it
+    ColorManagement color_;
+    EditorOptions options_;
+    Document document_;
+    UiState ui_;
+    Viewport viewport_;
+    EditorFiles files_{&Window::wake};
+    FrameStats stats_;
+    FramePtr frame_;
+    RenderSession session_;
+
+    // What the session was last given.
+    uint64_t revision_ = 0;  // the last one given out
+    uint64_t submitted_ = 0; // the one the window waits for; 0: nothing yet
+    Scene submitted_scene_;
+    RenderSettings submitted_settings_;
+    bool session_paused_ = false;
+
+    int viewport_width_ = 0, viewport_height_ = 0; // pixels, as last laid out
+    ImageRect image_;
+    std::string display_, view_; // that the display shader is for
+    bool shader_ready_ = false;
+    std::optional<EditorFiles::Format> snapshot_due_; // waits for a picture in full resolution
+    Clock::time_point frame_begin_{};
+};
+
+Editor::Editor(const EditorOptions& options, std::unique_ptr<Window> window, ColorManagement color, const Automation& automation,
+               WindowSettings settings)
+    : automation_(automation), window_(std::move(window)), color_(std::move(color)), options_(options),
+      session_({.threads = options.threads, .low_priority = true, .first_hit_planes = true}, &Window::wake) {
+    ui_.settings = std::move(settings);
+    if (!options.follow_viewport) ui_.settings.follow_viewport = false;
+    ui_.probe = Probe(automation.probe_file);
+    if (!color_.warning().empty()) ui_.toasts.warn("The colour configuration is replaced by our own", color_.warning());
+    document_.reset(Project{{}, options.render, options.view});
+    if (const auto loaded = viewport_.load(); !loaded) ui_.toasts.fail(loaded.error().text());
+    files_.open(options.scene.empty() ? options.assets / "scenes" / "card-and-mug.gltf" : options.scene);
+}
+
+void Editor::run() {
+    while (!window_->close_requested()) {
+        ui_.next_frame_in = std::min(ui_.next_frame_in, longest_sleep);
+        const bool asked = window_->wait(ui_.next_frame_in);
+        const bool moves_by_itself = ui_.next_frame_in < longest_sleep;
+        frame_begin_ = Clock::now();
+        poll();
+        if (!asked && !moves_by_itself && !window_->wait(0)) continue;
+        latest();
+        panels();
+        submit();
+        draw();
+    }
+    remember();
+}
+
+// Input, and what was finished in the background.
+void Editor::poll() {
+    if (files_.poll(document_, ui_)) {
+        window_->set_title(files_.scene_file().filename().string() + " - Blush");
+        submitted_ = 0; // a new scene is submitted whatever it looks like
+        window_->request_frames(2);
+    }
+    for (const auto& file : window_->take_dropped_files()) take_dropped(file);
+    const bool typing = ImGui::GetIO().WantTextInput, busy = ui_.browser.has_value();
+    for (const KeyPress& press : window_->take_key_presses()) {
+        const Shortcut* s = find_shortcut(press);
+        if (s && !typing && !busy) ui_.commands.push_back(s->command);
+    }
+    save_due_snapshot();
+}
+
+PanelContext Editor::context() {
+    const RenderSettings r = render_settings();
+    return {document_,
+            ui_,
+            color_,
+            frame_,
+            session_.status(),
+            std::max(1, int(float(r.width) * r.resolution_scale)),
+            std::max(1, int(float(r.height) * r.resolution_scale))};
+}
+
+void Editor::panels() {
+    update_display_shader();
+    window_->begin_frame();
+    ui_.next_frame_in = longest_sleep;
+    ui_.probe.begin_frame();
+    PanelContext c = context();
+    draw_regions(c);
+    draw_above(c);
+    obey(c);
+}
+
+void Editor::draw_regions(PanelContext& c) {
+    if (ImGui::BeginMainMenuBar()) {
+        draw_menu_bar(c);
+        ImGui::EndMainMenuBar();
+    }
+    const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    const Layout l = lay_out(screen.x, screen.y, ImGui::GetFrameHeight(), std::round(ImGui::GetFrameHeight() * 1.25f), ImGui::GetFontSize(),
+                             ui_.settings.splitters);
+    begin_region("Outliner", l.outliner, true);
+    draw_outliner(c);
+    end_region();
+    begin_region("Viewport", l.viewport, false);
+    viewport_width_ = int(l.viewport.width);
+    viewport_height_ = int(l.viewport.height);
+    image_ = viewport_.draw(c);
+    end_region();
+    begin_region("Inspector", l.inspector, false);
+    draw_inspector(c);
+    end_region();
+    begin_region("Status", l.status, false);
+    draw_status_bar(c);
+    end_region();
+    drag_splitters(ui_, l, screen.x);
+}
+
+void Editor::draw_above(PanelContext& c) {
+    draw_pixel_panel(c);
+    draw_history(c);
+    draw_shortcut_sheet(c);
+    draw_file_browser(c);
+    if (const auto job = files_.running()) {
+        ui_.next_frame_in = std::min(ui_.next_frame_in, 0.1);
+        if (draw_progress(*job)) files_.cancel();
+    }
+    draw_toasts(c);
+}
+
+// What panels, menus and keys asked for.
+void Editor::obey(PanelContext& c) {
+    for (const Command command : std::exchange(ui_.commands, {})) {
+        if (!run_command(command, c)) run_own_command(command);
+    }
+    for (const FileRequest& request : std::exchange(ui_.files, {})) take_file(request);
+    if (session_paused_ != ui_.paused) session_.pause(session_paused_ = ui_.paused);
+}
+
+void Editor::run_own_command(Command command) {
+    switch (command) {
+    case Command::open: return open_browser(FileRequest::Use::open);
+    case Command::import_scene: return open_browser(FileRequest::Use::import_scene);
+    case Command::environment: return open_browser(FileRequest::Use::environment);
+    case Command::snapshot_folder: return open_browser(FileRequest::Use::snapshot_folder);
+    case Command::reload: return files_.reload();
+    case Command::snapshot_exr: snapshot_due_ = EditorFiles::Format::exr; return save_due_snapshot();
+    case Command::snapshot_png: snapshot_due_ = EditorFiles::Format::png; return save_due_snapshot();
+    case Command::quit: return window_->request_close();
+    default: return;
+    }
+}
+
+void Editor::open_browser(FileRequest::Use use) {
+    std::error_code error;
+    std::filesystem::path folder = use == FileRequest::Use::snapshot_folder ? ui_.settings.snapshot_folder : ui_.settings.browser_folder;
+    if (!std::filesystem::is_directory(folder, error)) folder = files_.scene_file().parent_path();
+    if (!std::filesystem::is_directory(folder, error)) folder = std::filesystem::current_path(error);
+    ui_.browser = FileBrowser{use, std::filesystem::absolute(folder, error), {}, {}, true};
+}
+
+void Editor::take_file(const FileRequest& request) {
+    switch (request.use) {
+    case FileRequest::Use::open: return files_.open(request.path);
+    case FileRequest::Use::import_scene: return files_.import_scene(request.path);
+    case FileRequest::Use::environment: return files_.load_environment(request.path);
+    case FileRequest::Use::snapshot_folder:
+        ui_.settings.snapshot_folder = request.path.string();
+        return ui_.toasts.note("Snapshots go to " + request.path.string());
+    }
+}
+
+void Editor::take_dropped(const std::filesystem::path& file) {
+    if (matches(scene_files, file))
+        files_.open(file);
+    else if (matches(environment_files, file))
+        files_.load_environment(file);
+    else
+        ui_.toasts.fail(file.filename().string() + ": neither a glTF scene (.gltf, .glb) nor an environment image (.hdr, .exr)");
+}
+
+void Editor::save_due_snapshot() {
+    if (!snapshot_due_ || !frame_ || frame_->revision != submitted_ || frame_->divider != 1) return;
+    files_.save_snapshot(frame_, document_.project(), submitted_settings_, color_, ui_.settings.snapshot_folder, *snapshot_due_);
+    snapshot_due_.reset();
+}
+
+void Editor::update_display_shader() {
+    const ViewSettings& v = document_.project().view;
+    if (shader_ready_ && v.display == display_ && v.view == view_) return;
+    shader_ready_ = true;
+    display_ = v.display;
+    view_ = v.view;
+    const auto shader = color_.display_shader(v.display, v.view);
+    if (!shader) return ui_.toasts.fail(shader.error().text());
+    if (const auto set = viewport_.set_display_shader(*shader); !set) ui_.toasts.fail(set.error().text());
+}
+
+RenderSettings Editor::render_settings() const {
+    RenderSettings r = document_.project().render;
+    if (ui_.settings.follow_viewport && viewport_width_ > 0) {
+        r.width = viewport_width_;
+        r.height = viewport_height_;
+    }
+    return r;
+}
+
+// Hands the project over when something in it reaches the image.
+void Editor::submit() {
+    if (files_.scene_file().empty()) return; // nothing is open yet
+    const RenderSettings r = render_settings();
+    const Scene& scene = document_.project().scene;
+    if (submitted_ != 0 && !diff(submitted_scene_, submitted_settings_, scene, r).any()) return;
+    submitted_ = ++revision_;
+    submitted_scene_ = scene;
+    submitted_settings_ = r;
+    session_.submit(submitted_, scene, r);
+    stats_.submitted(submitted_, frame_begin_);
+}
+
+void Editor::latest() { frame_ = session_.latest(); }
+
+void Editor::draw() {
+    const Toasts& toasts = ui_.toasts;
+    ProbeState state{{image_.x, image_.y, image_.width, image_.height},   0, 0, 0, false, false,
+                     toasts.all().empty() ? "" : toasts.all().back().text};
+    if (frame_) {
+        state.width = frame_->width;
+        state.height = frame_->height;
+        state.samples = frame_->samples;
+        state.complete = frame_->complete;
+        state.up_to_date = frame_->revision == submitted_;
+    }
+    window_->end_frame();
+    const auto now = Clock::now();
+    stats_.add_frame(std::chrono::duration<double, std::milli>(now - frame_begin_).count());
+    if (frame_) stats_.shown(frame_->revision, now);
+    ui_.probe.end_frame(state);
+}
+
+void Editor::remember() {
+    WindowSettings& s = ui_.settings;
+    s.maximized = window_->maximized();
+    if (!s.maximized) {
+        s.width = window_->size().width;
+        s.height = window_->size().height;
+    }
+    if (const auto file = window_settings_file(); !file.empty()) {
+        if (const auto written = write_window_settings(file, s); !written)
+            fmt::print(stderr, "blush: warning: {}\n", written.error().text());
+    }
+    if (automation_.stats_file.empty()) return;
+    if (const auto written = stats_.write(automation_.stats_file); !written)
+        fmt::print(stderr, "blush: warning: {}\n", written.error().text());
+}
+
+int fail(const Error& error) {
+    fmt::print(stderr, "blush: error: {}\n", error.text());
+    return 1;
+}
+
+} // namespace
+
+int run_editor(const EditorOptions& options) {
+    const Automation automation = automation_from_environment();
+    WindowSettings settings = read_window_settings(window_settings_file());
+    if (automation.width > 0) {
+        settings.width = automation.width;
+        settings.height = automation.height;
+        settings.maximized = false;
+    }
+    auto window = Window::open({.title = "Blush",
+                                .width = settings.width,
+                                .height = settings.height,
+                                .maximized = settings.maximized,
+                                .scale = automation.scale,
+                                .assets = options.assets});
+    if (!window) return fail({"", window.error().what + "; without one, use `blush render SCENE -o OUT.exr`", ""});
+    auto color = ColorManagement::load(options.assets, options.ocio_config);
+    if (!color) return fail(color.error());
+    Editor(options, *std::move(window), *std::move(color), automation, std::move(settings)).run();
+    return 0;
+}
+
+} // namespace blush

@@ -1,0 +1,130 @@
+#include "app/editor_commands.h"
+
+#include "ui/light_tools.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace blush {
+namespace {
+
+Id<Node> last_node(const Scene& scene) { return scene.nodes.empty() ? Id<Node>{} : scene.nodes.entries().back().id; }
+
+// Selects the first node that an edit has added.
+void select_first_after(PanelContext& c, Id<Node> last) {
+    for (const auto& entry : c.scene().nodes) {
+        if (entry.id > last) return c.ui.select(entry.id);
+    }
+}
+
+void add_light(PanelContext& c, Light::Kind kind) {
+    const Id<Node> last = last_node(c.scene());
+    if (c.apply(new_light(kind, c.scene().view, c.project().view.exposure_ev))) select_first_after(c, last);
+}
+
+void duplicate(PanelContext& c) {
+    const Id<Node> last = last_node(c.scene());
+    if (c.scene().nodes.contains(c.ui.selected) && c.apply(DuplicateNode{c.ui.selected})) select_first_after(c, last);
+}
+
+void remove(PanelContext& c) {
+    if (!c.scene().nodes.contains(c.ui.selected)) return;
+    if (c.apply(RemoveNode{c.ui.selected})) c.ui.select({});
+}
+
+void begin_rename(PanelContext& c) {
+    const Node* node = c.scene().nodes.find(c.ui.selected);
+    if (!node) return;
+    c.ui.renaming = c.ui.selected;
+    c.ui.rename_text = node->name;
+    c.ui.scroll_to_selected = true;
+}
+
+bool is_below(const Scene& scene, Id<Node> id, Id<Node> ancestor) {
+    for (size_t steps = 0; id && steps <= scene.nodes.size(); ++steps) {
+        if (id == ancestor) return true;
+        const Node* node = scene.nodes.find(id);
+        id = node ? node->parent : Id<Node>{};
+    }
+    return false;
+}
+
+// The meshes of a node and all below it; where there are none (a light, a camera), a little room around its origin.
+Bounds bounds_of(const Scene& scene, Id<Node> root) {
+    Bounds all;
+    for (const auto& [id, node] : scene.nodes) {
+        if (!node.mesh || !is_below(scene, id, root)) continue;
+        const Bounds b = world_bounds(scene, id);
+        if (b.empty) continue;
+        all.include(b.low);
+        all.include(b.high);
+    }
+    if (!all.empty) return all;
+    const Vec3d origin = world_from_node(scene, root).t;
+    const Bounds everything = world_bounds(scene);
+    const double room = everything.empty ? 0.5 : std::max(everything.radius() * 0.1, 1e-3);
+    all.include({origin.x - room, origin.y - room, origin.z - room});
+    all.include({origin.x + room, origin.y + room, origin.z + room});
+    return all;
+}
+
+void frame(PanelContext& c, const Bounds& bounds) {
+    if (bounds.empty) return;
+    c.document.navigate(framed(c.scene().view, bounds, float(c.render_width) / float(std::max(c.render_height, 1))));
+}
+
+// Keeps what is at the pivot at its size.
+void toggle_projection(PanelContext& c) {
+    const View& view = c.scene().view;
+    Lens lens = view.lens;
+    lens.orthographic = !lens.orthographic;
+    if (lens.orthographic) lens.ymag = float(view.pivot_distance * std::tan(lens.yfov_radians / 2));
+    c.apply(SetLens{lens});
+}
+
+void change_exposure(PanelContext& c, float exposure_ev) {
+    ViewSettings v = c.project().view;
+    v.exposure_ev = std::clamp(exposure_ev, -20.f, 20.f);
+    c.apply(SetView{v});
+}
+
+} // namespace
+
+bool run_command(Command command, PanelContext& c) {
+    switch (command) {
+    case Command::undo: c.document.undo(); return true;
+    case Command::redo:
+    case Command::redo_again: c.document.redo(); return true;
+    case Command::duplicate: duplicate(c); return true;
+    case Command::remove: remove(c); return true;
+    case Command::rename: begin_rename(c); return true;
+    case Command::clear_selection: c.ui.select({}); return true;
+    case Command::add_point: add_light(c, Light::Kind::point); return true;
+    case Command::add_spot: add_light(c, Light::Kind::spot); return true;
+    case Command::add_sun: add_light(c, Light::Kind::sun); return true;
+    case Command::add_rectangle: add_light(c, Light::Kind::rectangle); return true;
+    case Command::frame_selection:
+        if (c.scene().nodes.contains(c.ui.selected)) frame(c, bounds_of(c.scene(), c.ui.selected));
+        return true;
+    case Command::frame_all: frame(c, world_bounds(c.scene())); return true;
+    case Command::toggle_projection: toggle_projection(c); return true;
+    case Command::toggle_overlays: c.ui.settings.overlays = !c.ui.settings.overlays; return true;
+    case Command::exposure_up: change_exposure(c, c.project().view.exposure_ev + 0.5f); return true;
+    case Command::exposure_down: change_exposure(c, c.project().view.exposure_ev - 0.5f); return true;
+    case Command::exposure_reset: change_exposure(c, 0); return true;
+    case Command::pause: c.ui.paused = !c.ui.paused; return true;
+    case Command::shortcuts: c.ui.show_shortcuts = !c.ui.show_shortcuts; return true;
+    case Command::history: c.ui.show_history = !c.ui.show_history; return true;
+    case Command::open:
+    case Command::import_scene:
+    case Command::environment:
+    case Command::reload:
+    case Command::snapshot_exr:
+    case Command::snapshot_png:
+    case Command::snapshot_folder:
+    case Command::quit: return false;
+    }
+    return false;
+}
+
+} // namespace blush

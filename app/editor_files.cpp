@@ -1,0 +1,179 @@
+#include "app/editor_files.h"
+
+#include "app/editor_snapshot.h"
+#include "io/environment_image.h"
+
+#include <fmt/format.h>
+
+namespace blush {
+namespace {
+
+std::filesystem::file_time_type time_of(const std::filesystem::path& file) {
+    std::error_code missing; // being rewritten, perhaps: the next look will tell
+    const auto time = std::filesystem::last_write_time(file, missing);
+    return missing ? std::filesystem::file_time_type{} : time;
+}
+
+// What the import has to say, in a few lines.
+void report(Toasts& toasts, const std::filesystem::path& file, const ImportReport& r) {
+    std::string details;
+    int warnings = 0;
+    for (const Diagnostic& d : r.diagnostics) {
+        if (d.severity != Diagnostic::Severity::warning) continue;
+        if (++warnings <= 4) details += (details.empty() ? "" : "\n") + d.what + (d.where.empty() ? "" : ", " + d.where);
+    }
+    if (warnings > 4) details += fmt::format("\nand {} more; `blush info` lists them all", warnings - 4);
+    const std::string text = fmt::format("{}  ({:.2g} s)", file.filename().string(), r.seconds);
+    if (warnings > 0)
+        toasts.warn(text, details);
+    else
+        toasts.note(text);
+}
+
+// The node of another scene that is called the same: ids do not outlive a reload, names mostly do.
+Id<Node> same_node(const Scene& before, Id<Node> id, const Scene& after) {
+    const Node* old = before.nodes.find(id);
+    if (!old) return {};
+    for (const auto& entry : after.nodes) {
+        if (entry.value.name == old->name) return entry.id;
+    }
+    return {};
+}
+
+} // namespace
+
+void FileWatch::watch(const std::filesystem::path& file) {
+    file_ = file;
+    known_ = seen_ = time_of(file);
+}
+
+bool FileWatch::changed() {
+    if (file_.empty()) return false;
+    const auto now = time_of(file_);
+    const bool settled = now == seen_ && now != known_ && now != std::filesystem::file_time_type{};
+    seen_ = now;
+    if (settled) known_ = now;
+    return settled;
+}
+
+void EditorFiles::start_import(const std::filesystem::path& file, Purpose purpose) {
+    if (file.empty()) return;
+    purpose_ = purpose;
+    importing_ = file;
+    import_job_ = std::make_unique<BackgroundJob<Result<ImportedScene>>>(
+        "Loading " + file.filename().string(),
+        [file](JobProgress& progress) {
+            ImportOptions options;
+            options.cancel = &progress.cancel;
+            options.on_progress = [&progress](double fraction, const std::string& what) { progress.report(fraction, what); };
+            return import_gltf(file, options);
+        },
+        wake_);
+}
+
+void EditorFiles::load_environment(const std::filesystem::path& file) {
+    environment_ = file;
+    environment_job_ = std::make_unique<BackgroundJob<Result<ImagePtr>>>(
+        "Loading " + file.filename().string(), [file](JobProgress&) { return read_environment_image(file); }, wake_);
+}
+
+void EditorFiles::save_snapshot(const FramePtr& frame, const Project& project, const RenderSettings& settings, const ColorManagement& color,
+                                const std::filesystem::path& folder, Format format) {
+    const SnapshotJob job{frame, project, settings, imported_, scene_file_, folder};
+    snapshot_job_ = std::make_unique<BackgroundJob<Result<std::filesystem::path>>>(
+        "Saving the snapshot",
+        [job, format, &color](JobProgress&) { return format == Format::exr ? write_snapshot_exr(job) : write_snapshot_png(job, color); },
+        wake_);
+}
+
+bool EditorFiles::finish_import(Document& document, UiState& ui, Result<ImportedScene> imported) {
+    const bool cancelled = import_job_->cancelled();
+    import_job_.reset();
+    if (cancelled) return false;
+    if (!imported) {
+        ui.toasts.fail(imported.error().text());
+        return false;
+    }
+    report(ui.toasts, importing_, imported->report);
+    if (purpose_ == Purpose::merge) {
+        const auto done = document.apply(Import{imported->scene, importing_.stem().string()});
+        if (!done) ui.toasts.fail(done.error().text());
+        return false;
+    }
+    Project project{imported->scene, document.project().render, document.project().view};
+    imported_ = imported->scene;
+    if (purpose_ == Purpose::reload) {
+        project.scene.view = document.project().scene.view;
+        ui.selected = same_node(document.project().scene, ui.selected, project.scene);
+    } else {
+        scene_file_ = importing_;
+        remember_recent(ui.settings.recent, importing_.string());
+        ui.selected = {};
+    }
+    ui.selected_material = {};
+    watch_.watch(scene_file_);
+    document.reset(std::move(project));
+    return true;
+}
+
+void EditorFiles::finish_environment(Document& document, UiState& ui, Result<ImagePtr> image) {
+    environment_job_.reset();
+    if (!image) return ui.toasts.fail(image.error().text());
+    Environment e = document.project().scene.environment;
+    if (e.kind != Environment::Kind::image) e.intensity = 1; // what a constant surround had says nothing about an image
+    e.kind = Environment::Kind::image;
+    e.color = {1, 1, 1};
+    e.file = environment_.string();
+    e.image = *image;
+    const auto done = document.apply(SetEnvironment{e});
+    if (!done) return ui.toasts.fail(done.error().text());
+    ui.show_tab(InspectorTab::environment);
+}
+
+void EditorFiles::look_at_scene_file(const Document& document, UiState& ui) {
+    const auto now = std::chrono::steady_clock::now();
+    if (now < next_look_) return;
+    next_look_ = now + std::chrono::seconds(1);
+    if (import_job_ || !watch_.changed()) return;
+    if (!document.modified()) return reload();
+    ui.toasts.add({Toast::Kind::warning, scene_file_.filename().string() + " has changed on disk",
+                   "Reloading it discards the edits made here.", Command::reload});
+}
+
+bool EditorFiles::poll(Document& document, UiState& ui) {
+    bool opened = false;
+    if (import_job_) {
+        if (auto result = import_job_->take()) opened = finish_import(document, ui, *std::move(result));
+    }
+    if (environment_job_) {
+        if (auto result = environment_job_->take()) finish_environment(document, ui, *std::move(result));
+    }
+    if (snapshot_job_) {
+        if (const auto result = snapshot_job_->take()) {
+            snapshot_job_.reset();
+            if (*result)
+                ui.toasts.note("Saved " + (*result)->filename().string(), (*result)->parent_path().string());
+            else
+                ui.toasts.fail(result->error().text());
+        }
+    }
+    look_at_scene_file(document, ui);
+    return opened;
+}
+
+std::optional<RunningJob> EditorFiles::running() const {
+    const auto show = [](const auto& job) {
+        const auto [fraction, what] = job->progress().read();
+        return RunningJob{job->title(), what, fraction};
+    };
+    if (import_job_) return show(import_job_);
+    if (environment_job_) return show(environment_job_);
+    if (snapshot_job_) return show(snapshot_job_);
+    return {};
+}
+
+void EditorFiles::cancel() {
+    if (import_job_) import_job_->cancel();
+}
+
+} // namespace blush

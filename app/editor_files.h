@@ -1,0 +1,76 @@
+// What the editor does with files, in the background: opening, importing, environment images, snapshots, reloading.
+#pragma once
+
+#include "color/color_management.h"
+#include "core/result.h"
+#include "io/gltf_import.h"
+#include "render/frame.h"
+#include "scene/document.h"
+#include "ui/background_job.h"
+#include "ui/panels/panels.h"
+#include "ui/ui_state.h"
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace blush {
+
+// Tells when a file has been rewritten: its time differs from before and has been the same for one look.
+class FileWatch {
+public:
+    void watch(const std::filesystem::path& file);
+    bool changed();
+
+private:
+    std::filesystem::path file_;
+    std::filesystem::file_time_type known_{}, seen_{};
+};
+
+class EditorFiles {
+public:
+    explicit EditorFiles(std::function<void()> wake) : wake_(std::move(wake)) {}
+
+    const std::filesystem::path& scene_file() const { return scene_file_; }
+
+    // Each starts a job and returns; a newer one of the same sort cancels the older.
+    void open(const std::filesystem::path& file) { start_import(file, Purpose::open); }
+    void import_scene(const std::filesystem::path& file) { start_import(file, Purpose::merge); }
+    void reload() { start_import(scene_file_, Purpose::reload); }
+    void load_environment(const std::filesystem::path& file);
+    enum class Format { exr, png };
+    // Of a frame that `settings` made.
+    void save_snapshot(const FramePtr& frame, const Project& project, const RenderSettings& settings, const ColorManagement& color,
+                       const std::filesystem::path& folder, Format format);
+
+    // Brings finished work into the document, and looks once a second whether the scene file was rewritten: it is then
+    // loaded again, or, when there are edits to lose, a toast offers it. True if a scene was opened.
+    bool poll(Document& document, UiState& ui);
+
+    // The job to show progress of.
+    std::optional<RunningJob> running() const;
+    void cancel();
+
+private:
+    enum class Purpose { open, merge, reload };
+    void start_import(const std::filesystem::path& file, Purpose purpose);
+    bool finish_import(Document& document, UiState& ui, Result<ImportedScene> imported);
+    void finish_environment(Document& document, UiState& ui, Result<ImagePtr> image);
+    void look_at_scene_file(const Document& document, UiState& ui);
+
+    std::function<void()> wake_;
+    std::filesystem::path scene_file_;
+    Scene imported_; // as it came from the file: what snapshots list the edits against
+    FileWatch watch_;
+    std::chrono::steady_clock::time_point next_look_{};
+
+    Purpose purpose_ = Purpose::open;
+    std::filesystem::path importing_, environment_;
+    std::unique_ptr<BackgroundJob<Result<ImportedScene>>> import_job_;
+    std::unique_ptr<BackgroundJob<Result<ImagePtr>>> environment_job_;
+    std::unique_ptr<BackgroundJob<Result<std::filesystem::path>>> snapshot_job_;
+};
+
+} // namespace blush

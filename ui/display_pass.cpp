@@ -1,0 +1,81 @@
+#include "ui/display_pass.h"
+
+namespace blush {
+namespace {
+
+const char* const main_source = R"(
+uniform sampler2D image;
+void main() {
+    result = vec4(display_color(vec4(texelFetch(image, ivec2(gl_FragCoord.xy), 0).rgb, 1.0)).rgb, 1.0);
+})";
+
+std::pair<GLenum, GlTexture> upload_table(const DisplayShader::Lut& lut) {
+    const GLenum target = lut.dimensions == 1 ? GL_TEXTURE_1D : lut.dimensions == 2 ? GL_TEXTURE_2D : GL_TEXTURE_3D;
+    const GLenum format = lut.channels == 1 ? GL_RED : GL_RGB;
+    const GLint internal = lut.channels == 1 ? GL_R32F : GL_RGB32F;
+    GlTexture texture = GlTexture::create();
+    glBindTexture(target, texture.name());
+    for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R}) glTexParameteri(target, wrap, GL_CLAMP_TO_EDGE);
+    for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+        glTexParameteri(target, filter, lut.linear ? GL_LINEAR : GL_NEAREST);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    const float* values = lut.values.data();
+    if (target == GL_TEXTURE_1D) glTexImage1D(target, 0, internal, lut.width, 0, format, GL_FLOAT, values);
+    else if (target == GL_TEXTURE_2D) glTexImage2D(target, 0, internal, lut.width, lut.height, 0, format, GL_FLOAT, values);
+    else glTexImage3D(target, 0, internal, lut.width, lut.height, lut.depth, 0, format, GL_FLOAT, values);
+    return {target, std::move(texture)};
+}
+
+} // namespace
+
+Result<void> DisplayPass::set_shader(const DisplayShader& shader) {
+    auto program = make_fill_program(shader.text + main_source);
+    if (!program) return program.error();
+    program_ = std::move(*program);
+    if (!no_vertices_) no_vertices_ = GlVertexArray::create();
+    tables_.clear();
+    glUseProgram(program_.name());
+    glUniform1i(glGetUniformLocation(program_.name(), "image"), 0);
+    for (const DisplayShader::Lut& lut : shader.luts) {
+        tables_.push_back(upload_table(lut));
+        glUniform1i(glGetUniformLocation(program_.name(), lut.sampler.c_str()), GLint(tables_.size()));
+    }
+    return {};
+}
+
+void DisplayPass::upload(const Frame& frame) {
+    if (!image_) image_ = GlTexture::create();
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, image_.name());
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    if (frame.width != width_ || frame.height != height_) {
+        width_ = frame.width;
+        height_ = frame.height;
+        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, width_, height_, 0, GL_RGBA, GL_FLOAT, frame.rgba.data());
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    } else {
+        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, GL_RGBA, GL_FLOAT, frame.rgba.data());
+    }
+}
+
+void DisplayPass::draw(float exposure_ev, float gamma) {
+    if (!program_ || width_ == 0) return;
+    target_.begin(width_, height_);
+    glUseProgram(program_.name());
+    glUniform1f(glGetUniformLocation(program_.name(), "exposure_ev"), exposure_ev);
+    glUniform1f(glGetUniformLocation(program_.name(), "gamma"), gamma);
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, image_.name());
+    for (size_t i = 0; i < tables_.size(); ++i) {
+        glActiveTexture(GLenum(GL_TEXTURE1 + i));
+        glBindTexture(tables_[i].first, tables_[i].second.name());
+    }
+    glBindVertexArray(no_vertices_.name());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glBindVertexArray(0);
+    glActiveTexture(GL_TEXTURE0);
+    target_.end();
+}
+
+} // namespace blush

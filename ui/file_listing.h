@@ -1,0 +1,32 @@
+// What the file browser shows of a folder: pure but for reading the folder.
+#pragma once
+
+#include "core/result.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace blush {
+
+struct FileEntry {
+    std::string name;
+    bool folder = false;
+    uintmax_t bytes = 0;
+    bool operator==(const FileEntry&) const = default;
+};
+
+// Lower-case extensions with the dot; empty: folders alone.
+using ExtensionFilter = std::vector<std::string>;
+
+// Case does not count.
+bool matches(const ExtensionFilter& filter, const std::filesystem::path& file);
+// Folders first, then the files that match, each in the order of their names without regard to case; hidden ones are left out.
+Result<std::vector<FileEntry>> list_folder(const std::filesystem::path& folder, const ExtensionFilter& filter);
+// "812 B", "3.4 MB".
+std::string bytes_text(uintmax_t bytes);
+
+extern const ExtensionFilter scene_files, environment_files;
+
+} // namespace blush

@@ -1,0 +1,44 @@
+#include "ui/frame_stats.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+namespace blush {
+
+double percentile(std::vector<double> values, double fraction) {
+    if (values.empty()) return 0;
+    const double rank = std::ceil(fraction * double(values.size())) - 1;
+    const auto nth = values.begin() + std::clamp<ptrdiff_t>(ptrdiff_t(rank), 0, ptrdiff_t(values.size()) - 1);
+    std::nth_element(values.begin(), nth, values.end());
+    return *nth;
+}
+
+void FrameStats::submitted(uint64_t revision, Clock::time_point when) { unanswered_.push_back({revision, when}); }
+
+void FrameStats::shown(uint64_t revision, Clock::time_point when) {
+    while (!unanswered_.empty() && unanswered_.front().revision <= revision) {
+        const Submit submit = unanswered_.front();
+        unanswered_.pop_front();
+        if (submit.revision == revision) keep(latencies_, std::chrono::duration<double, std::milli>(when - submit.when).count());
+    }
+}
+
+Result<void> FrameStats::write(const std::filesystem::path& file) const {
+    const nlohmann::json json{{"frames", frames_.size()},
+                              {"p50_ms", percentile(frames_, 0.5)},
+                              {"p95_ms", percentile(frames_, 0.95)},
+                              {"max_ms", percentile(frames_, 1)},
+                              {"edits", latencies_.size()},
+                              {"latency_p50_ms", percentile(latencies_, 0.5)},
+                              {"latency_p95_ms", percentile(latencies_, 0.95)},
+                              {"latency_max_ms", percentile(latencies_, 1)}};
+    std::ofstream out(file);
+    out << json.dump(2) << '\n';
+    out.close();
+    if (!out) return Error{file.string(), "cannot write the window's statistics", ""};
+    return {};
+}
+
+} // namespace blush

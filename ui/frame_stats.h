@@ -1,0 +1,45 @@
+// How smooth the window is: times of its frames, and from an edit to the picture that answers it.
+#pragma once
+
+#include "core/result.h"
+
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <vector>
+
+namespace blush {
+
+// The value below which `fraction` of the values lie (nearest rank); 0 for none.
+double percentile(std::vector<double> values, double fraction);
+
+class FrameStats {
+public:
+    using Clock = std::chrono::steady_clock;
+
+    void add_frame(double milliseconds) { keep(frames_, milliseconds); }
+    // A revision was submitted, and later a picture of some revision was on the screen. One picture answers all revisions up to its own;
+    // the wait is counted from the submit that it was made for.
+    void submitted(uint64_t revision, Clock::time_point when);
+    void shown(uint64_t revision, Clock::time_point when);
+
+    const std::vector<double>& frames() const { return frames_; }
+    const std::vector<double>& latencies() const { return latencies_; }
+    // {"frames": n, "p50_ms", "p95_ms", "max_ms", "edits": n, "latency_p50_ms", "latency_p95_ms", "latency_max_ms"}
+    Result<void> write(const std::filesystem::path& file) const;
+
+private:
+    struct Submit {
+        uint64_t revision;
+        Clock::time_point when;
+    };
+    // A week of work must not fill the memory.
+    static void keep(std::vector<double>& values, double value) {
+        if (values.size() < (1u << 20)) values.push_back(value);
+    }
+    std::vector<double> frames_, latencies_;
+    std::deque<Submit> unanswered_;
+};
+
+} // namespace blush

@@ -1,0 +1,124 @@
+#include "ui/handles.h"
+
+#include "ui/light_tools.h"
+#include "ui/orbit_camera.h"
+#include "ui/picking.h"
+#include "ui/rotation.h"
+#include "ui/theme.h"
+
+namespace blush {
+namespace {
+
+ImU32 color_of(Handle handle) {
+    switch (handle) {
+    case Handle::move_x: return tone::axis_x;
+    case Handle::move_y: return tone::axis_y;
+    case Handle::move_z: return tone::axis_z;
+    case Handle::aim: return tone::light;
+    default: return tone::accent;
+    }
+}
+
+void draw_shape(ImDrawList& draw, const HandleShape& s, bool lit) {
+    const float em = ImGui::GetFontSize(), width = std::max(1.5f, em / 8);
+    const ImVec2 from{s.from.x, s.from.y}, grip{s.grip.x, s.grip.y};
+    const ImU32 color = lit ? IM_COL32_WHITE : color_of(s.handle), shade = IM_COL32(0, 0, 0, 120);
+    if (s.handle == Handle::aim) {
+        draw.AddLine(from, grip, shade, width * 1.6f);
+        draw.AddLine(from, grip, color, width * 0.6f);
+        draw.AddCircle(grip, em * 0.45f, shade, 0, width * 1.8f);
+        draw.AddCircle(grip, em * 0.45f, color, 0, width);
+        draw.AddCircleFilled(grip, em * 0.14f, color);
+    } else if (s.handle == Handle::move) {
+        draw.AddCircle(grip, em * 0.8f, shade, 0, width * 1.6f);
+        draw.AddCircle(grip, em * 0.8f, color, 0, width * 0.8f);
+    } else {
+        draw.AddLine(from, grip, shade, width * 1.8f);
+        draw.AddLine(from, grip, color, width);
+        draw.AddCircleFilled(grip, em * 0.32f, shade);
+        draw.AddCircleFilled(grip, em * 0.26f, color);
+    }
+}
+
+// A node with a light that has a direction can be aimed.
+bool can_aim(const Scene& scene, const Node& node) {
+    const Light* light = scene.lights.find(node.light);
+    return light && has_direction(light->kind);
+}
+
+} // namespace
+
+Vec3d Handles::anchor(const Scene& scene, Id<Node> id, const Node& node) {
+    const Affined world_from = world_from_node(scene, id);
+    if (id != node_) {
+        node_ = id;
+        local_anchor_ = {0, 0, 0};
+        const Bounds bounds = node.mesh ? world_bounds(scene, id) : Bounds{};
+        if (!bounds.empty && std::abs(determinant(world_from)) > 1e-300) local_anchor_ = transform_point(inverse(world_from), bounds.center());
+        aim_distance_ = std::max(length(pivot(scene.view) - world_from.t), 1e-3);
+    }
+    return transform_point(world_from, local_anchor_);
+}
+
+void Handles::grab(PanelContext& c, Handle handle, const Vec3d& position, const ViewRay& ray) {
+    dragged_ = handle;
+    start_anchor_ = position;
+    start_origin_ = world_from_node(c.scene(), c.ui.selected).t;
+    start_ray_ = ray;
+    c.ui.gestures.begin();
+}
+
+void Handles::drag_aim(PanelContext& c, const Projection& projection, double u, double v) {
+    const Id<Node> id = c.ui.selected;
+    const Quat rotation = world_rotation(c.scene(), id);
+    const Vec3d origin = world_from_node(c.scene(), id).t, old_target = origin + rotate(rotation, {0, 0, -1}) * aim_distance_;
+    // At what is seen under the mouse; beside everything, at the depth of the last target.
+    std::optional<Vec3d> target;
+    if (c.frame && pick(*c.frame, u, v).node != id) target = seen_point(*c.frame, projection, u, v);
+    if (!target) target = meet_plane(projection.ray(u, v), old_target, projection.forward());
+    if (!target || length(*target - origin) < 1e-6) return;
+    aim_distance_ = length(*target - origin);
+    Node node = *c.scene().nodes.find(id);
+    node.local = rotated_to(c.scene(), id, turned_to(rotation, *target - origin));
+    c.apply(SetNode{id, node}, c.ui.gestures.current());
+}
+
+void Handles::drag(PanelContext& c, const Projection& projection, const ImageRect& image) {
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    const double u = image.u(mouse.x), v = image.v(mouse.y);
+    if (dragged_ == Handle::aim) return drag_aim(c, projection, u, v);
+    const Vec3d moved = dragged_position(dragged_, projection, start_ray_, projection.ray(u, v), start_anchor_);
+    Node node = *c.scene().nodes.find(c.ui.selected);
+    node.local = moved_to(c.scene(), c.ui.selected, start_origin_ + (moved - start_anchor_));
+    c.apply(SetNode{c.ui.selected, node}, c.ui.gestures.current());
+}
+
+bool Handles::update(PanelContext& c, ImDrawList& draw, const Projection& projection, const ImageRect& image, bool hovered) {
+    const Node* node = c.scene().nodes.find(c.ui.selected);
+    if (!node || !is_visible(c.scene(), c.ui.selected)) {
+        dragged_ = Handle::none;
+        return false;
+    }
+    if (dragged_ != Handle::none) {
+        drag(c, projection, image);
+        node = c.scene().nodes.find(c.ui.selected);
+    }
+    const Vec3d position = anchor(c.scene(), c.ui.selected, *node);
+    std::optional<Vec3d> aim_at;
+    if (can_aim(c.scene(), *node)) aim_at = position + rotate(world_rotation(c.scene(), c.ui.selected), {0, 0, -1}) * aim_distance_;
+    const float em = ImGui::GetFontSize();
+    const std::vector<HandleShape> shapes = handle_shapes(projection, image, position, aim_at, em * 5);
+
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    const bool free = hovered && dragged_ == Handle::none && !ImGui::GetIO().KeyAlt && !ImGui::GetIO().KeyCtrl && !ImGui::GetIO().KeyShift;
+    const Handle under = free ? handle_under(shapes, {mouse.x, mouse.y}, em * 0.8f) : dragged_;
+    for (const HandleShape& shape : shapes) draw_shape(draw, shape, shape.handle == under);
+    if (free && under != Handle::none && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) grab(c, under, position, projection.ray(image.u(mouse.x), image.v(mouse.y)));
+    if (dragged_ != Handle::none && !ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
+        dragged_ = Handle::none;
+        c.ui.gestures.end();
+    }
+    return under != Handle::none || dragged_ != Handle::none;
+}
+
+} // namespace blush

@@ -1,0 +1,33 @@
+// The handles of the selected node: drawn over the picture, dragged with the mouse, one drag one step of the history.
+#pragma once
+
+#include "ui/gizmo.h"
+#include "ui/panels/context.h"
+
+#include <imgui.h>
+
+namespace blush {
+
+class Handles {
+public:
+    // Draws the selected node's handles and lets the mouse drag them. True while the mouse is on one or drags one: the
+    // click is then not the viewport's. `hovered`: the mouse is free to grab.
+    bool update(PanelContext& c, ImDrawList& draw, const Projection& projection, const ImageRect& image, bool hovered);
+
+private:
+    // Where the handles of a node sit: the middle of its mesh, else its origin.
+    Vec3d anchor(const Scene& scene, Id<Node> id, const Node& node);
+    void grab(PanelContext& c, Handle handle, const Vec3d& position, const ViewRay& ray);
+    void drag(PanelContext& c, const Projection& projection, const ImageRect& image);
+    void drag_aim(PanelContext& c, const Projection& projection, double u, double v);
+
+    Id<Node> node_;           // that the cached values below belong to
+    Vec3d local_anchor_{0, 0, 0};
+    double aim_distance_ = 1; // metres from the node to its aim handle
+
+    Handle dragged_ = Handle::none;
+    Vec3d start_anchor_{0, 0, 0}, start_origin_{0, 0, 0};
+    ViewRay start_ray_{};
+};
+
+} // namespace blush

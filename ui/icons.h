@@ -1,0 +1,19 @@
+// Small line drawings, made of strokes so that they are sharp at every scale.
+#pragma once
+
+#include <imgui.h>
+
+namespace blush {
+
+enum class Icon { point, spot, sun, rectangle, mesh, group, camera, environment, material, folder, file, eye, eye_closed, arrow_up };
+
+// `size` is the side of the square around `centre` that the icon fills.
+void draw_icon(ImDrawList& draw, Icon icon, ImVec2 centre, float size, ImU32 color);
+
+// The icon as an item on the current line, as high as a line of text.
+void icon_item(Icon icon, ImU32 color);
+
+// A square, frameless button as high as a field.
+bool icon_button(const char* id, Icon icon, ImU32 color);
+
+} // namespace blush

@@ -1,0 +1,33 @@
+// What the window knows about lights beyond their record: units, new lights, angles. Pure.
+#pragma once
+
+#include "scene/edit.h"
+
+namespace blush {
+
+const char* kind_name(Light::Kind kind);
+// "cd", "lx" or "nits".
+const char* intensity_unit(Light::Kind kind);
+bool has_direction(Light::Kind kind);
+bool has_position(Light::Kind kind);
+
+// Luminous flux in lumens; 0 for a sun, which has none. A spot counts its outer cone as if evenly lit, an upper bound.
+double luminous_flux(const Light& light);
+
+// `light` as another kind that lights a surface `distance` metres away, facing it, as brightly as before.
+Light converted(const Light& light, Light::Kind kind, double distance);
+
+// A new light beside the view's pivot and aimed at it, bright enough to show a white surface there as white at this exposure.
+AddLight new_light(Light::Kind kind, const View& view, float exposure_ev);
+
+// Where a direction points: degrees clockwise from -Z seen from above, and degrees above the horizon.
+struct Heading {
+    float heading = 0, tilt = 0;
+};
+Heading heading_of(const Vec3d& direction);
+Vec3d direction_of(const Heading& heading);
+
+// The rotation turned the shortest way so that its -Z looks along `forward`.
+Quat turned_to(const Quat& rotation, const Vec3d& forward);
+
+} // namespace blush

@@ -1,0 +1,37 @@
+// The mouse and keys that move the view, and what a click means when nothing was moved.
+#pragma once
+
+#include "scene/scene.h"
+#include "ui/gizmo.h"
+
+#include <optional>
+
+namespace blush {
+
+// What the user asked of the viewport in this frame.
+struct NavigationResult {
+    std::optional<View> view;       // moved there
+    std::optional<ScreenPoint> select, focus, inspect; // clicked there: plain, with Ctrl, with the right button
+    bool flying = false;            // moves by itself while a key is held
+};
+
+class Navigation {
+public:
+    // To be called right after the picture's ImGui item. `image` is where the picture lies.
+    NavigationResult update(const View& view, const ImageRect& image);
+    bool dragging() const { return mode_ != Mode::none && moved_; }
+
+private:
+    enum class Mode { none, orbit, pan, dolly, look };
+    void press();
+    void drag(NavigationResult& result, const View& view, const ImageRect& image);
+    void release(NavigationResult& result);
+
+    Mode mode_ = Mode::none;
+    int button_ = 0;
+    bool moved_ = false;    // further than a click's tremble
+    bool may_click_ = false; // released without a move, it is a click
+    ScreenPoint last_;
+};
+
+} // namespace blush

@@ -1,0 +1,32 @@
+// What a panel sees and may do.
+#pragma once
+
+#include "color/color_management.h"
+#include "render/render_session.h"
+#include "scene/document.h"
+#include "ui/ui_state.h"
+
+namespace blush {
+
+struct PanelContext {
+    Document& document;
+    UiState& ui;
+    const ColorManagement& color;
+    FramePtr frame; // the newest; null before the first
+    SessionStatus status;
+    // The size that the image has at full resolution.
+    int render_width = 0, render_height = 0;
+
+    const Project& project() const { return document.project(); }
+    const Scene& scene() const { return document.project().scene; }
+    // An edit that the document refuses becomes a toast.
+    bool apply(const Edit& edit, Gesture gesture = no_gesture) {
+        if (const auto done = document.apply(edit, gesture); !done) {
+            ui.toasts.fail(done.error().text());
+            return false;
+        }
+        return true;
+    }
+};
+
+} // namespace blush

@@ -1,0 +1,140 @@
+// The file browser: folders and the files that fit the purpose, by click, by keyboard or by typing a path.
+#include "ui/file_listing.h"
+#include "ui/icons.h"
+#include "ui/panels/panels.h"
+#include "ui/theme.h"
+
+#include <imgui_stdlib.h>
+
+namespace blush {
+namespace {
+
+using Use = FileRequest::Use;
+
+const char* title(Use use) {
+    switch (use) {
+    case Use::open: return "Open a scene###browser";
+    case Use::import_scene: return "Import into the scene###browser";
+    case Use::environment: return "Choose an environment image###browser";
+    case Use::snapshot_folder: return "Choose the folder for snapshots###browser";
+    }
+    return "";
+}
+
+const ExtensionFilter& filter(Use use) {
+    static const ExtensionFilter none;
+    return use == Use::environment ? environment_files : use == Use::snapshot_folder ? none : scene_files;
+}
+
+void enter(FileBrowser& b, const std::filesystem::path& folder) {
+    b.folder = folder;
+    b.typed = folder.string();
+    b.chosen.clear();
+}
+
+void finish(PanelContext& c, const std::filesystem::path& path) {
+    c.ui.files.push_back({c.ui.browser->use, path});
+    c.ui.settings.browser_folder = c.ui.browser->folder.string();
+    c.ui.browser.reset();
+    ImGui::CloseCurrentPopup();
+}
+
+// A typed folder is entered, a typed file is taken.
+void take_typed(PanelContext& c) {
+    FileBrowser& b = *c.ui.browser;
+    std::error_code unreadable;
+    const std::filesystem::path path = std::filesystem::absolute(b.typed, unreadable);
+    if (std::filesystem::is_directory(path, unreadable)) enter(b, path);
+    else if (std::filesystem::is_regular_file(path, unreadable) && b.use != Use::snapshot_folder) finish(c, path);
+    else c.ui.toasts.fail("There is no file " + b.typed);
+}
+
+void draw_path_row(PanelContext& c) {
+    FileBrowser& b = *c.ui.browser;
+    if (icon_button("up", Icon::arrow_up, tone::dim_text) && b.folder.has_parent_path()) enter(b, b.folder.parent_path());
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(-FLT_MIN);
+    if (b.just_opened) ImGui::SetKeyboardFocusHere();
+    b.just_opened = false;
+    if (ImGui::InputText("##path", &b.typed, ImGuiInputTextFlags_EnterReturnsTrue)) take_typed(c);
+}
+
+void draw_entry(PanelContext& c, const FileEntry& entry) {
+    FileBrowser& b = *c.ui.browser;
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    icon_item(entry.folder ? Icon::folder : Icon::file, tone::dim_text);
+    ImGui::SameLine();
+    const bool clicked = ImGui::Selectable(entry.name.c_str(), b.chosen == entry.name,
+                                           ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_DontClosePopups);
+    c.ui.probe.record_last_item("Browser/" + entry.name);
+    const bool twice = clicked && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
+    if (clicked && !entry.folder) {
+        b.chosen = entry.name;
+        b.typed = (b.folder / entry.name).string();
+    }
+    ImGui::TableNextColumn();
+    if (!entry.folder) ImGui::TextDisabled("%s", bytes_text(entry.bytes).c_str());
+    if (clicked && entry.folder) enter(b, b.folder / entry.name);
+    else if (twice) finish(c, b.folder / entry.name);
+}
+
+void draw_list(PanelContext& c, float height) {
+    const auto list = list_folder(c.ui.browser->folder, filter(c.ui.browser->use));
+    ImGui::BeginChild("list", {0, height}, true);
+    if (!list) ImGui::TextWrapped("%s", list.error().text().c_str());
+    else if (list->empty()) ImGui::TextDisabled("Nothing here that fits.");
+    else if (ImGui::BeginTable("entries", 2, ImGuiTableFlags_RowBg)) {
+        ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
+        ImGui::TableSetupColumn("size", ImGuiTableColumnFlags_WidthFixed, ImGui::GetFontSize() * 5);
+        for (const FileEntry& entry : *list) {
+            draw_entry(c, entry);
+            if (!c.ui.browser || c.ui.browser->chosen.empty()) continue;
+        }
+        ImGui::EndTable();
+    }
+    ImGui::EndChild();
+}
+
+void draw_buttons(PanelContext& c) {
+    const FileBrowser& b = *c.ui.browser;
+    const float width = ImGui::GetFontSize() * 7;
+    ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - 2 * width - ImGui::GetStyle().ItemSpacing.x);
+    if (ImGui::Button("Cancel", {width, 0})) {
+        c.ui.browser.reset();
+        ImGui::CloseCurrentPopup();
+        return;
+    }
+    ImGui::SameLine();
+    const bool folder = b.use == Use::snapshot_folder;
+    ImGui::BeginDisabled(!folder && b.chosen.empty());
+    if (ImGui::Button(folder ? "Use this folder" : "Open", {width, 0})) finish(c, folder ? b.folder : b.folder / b.chosen);
+    ImGui::EndDisabled();
+    if (c.ui.browser) c.ui.probe.record_last_item("Browser/OK");
+}
+
+} // namespace
+
+void draw_file_browser(PanelContext& c) {
+    if (!c.ui.browser) return;
+    const char* const name = title(c.ui.browser->use);
+    if (c.ui.browser->just_opened) {
+        if (c.ui.browser->typed.empty()) enter(*c.ui.browser, c.ui.browser->folder);
+        ImGui::OpenPopup(name);
+    }
+    const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    const float em = ImGui::GetFontSize();
+    ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Appearing, {0.5f, 0.5f});
+    ImGui::SetNextWindowSize({std::min(em * 44, screen.x * 0.9f), std::min(em * 32, screen.y * 0.85f)}, ImGuiCond_Appearing);
+    bool open = true;
+    if (ImGui::BeginPopupModal(name, &open, ImGuiWindowFlags_NoCollapse)) {
+        draw_path_row(c);
+        const float below = ImGui::GetFrameHeightWithSpacing() + ImGui::GetStyle().ItemSpacing.y;
+        if (c.ui.browser) draw_list(c, ImGui::GetContentRegionAvail().y - below);
+        if (c.ui.browser) draw_buttons(c);
+        ImGui::EndPopup();
+    }
+    if (!open) c.ui.browser.reset();
+}
+
+} // namespace blush

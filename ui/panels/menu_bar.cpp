@@ -1,0 +1,90 @@
+// The menu bar: every command that has a place in a menu, with its key.
+#include "ui/panels/panels.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+namespace blush {
+namespace {
+
+void item(PanelContext& c, Command command, bool enabled = true, const char* name = nullptr, bool checked = false) {
+    const Shortcut& s = shortcut(command);
+    if (ImGui::MenuItem(name ? name : s.name, to_string(s.press).c_str(), checked, enabled)) c.ui.commands.push_back(command);
+    c.ui.probe.record_last_item(fmt::format("Menu/{}", s.name));
+}
+
+void draw_recent(PanelContext& c) {
+    if (!ImGui::BeginMenu("Open recent", !c.ui.settings.recent.empty())) return;
+    for (const std::string& file : c.ui.settings.recent) {
+        if (ImGui::MenuItem(file.c_str())) c.ui.files.push_back({FileRequest::Use::open, file});
+    }
+    ImGui::EndMenu();
+}
+
+void draw_file_menu(PanelContext& c) {
+    item(c, Command::open);
+    draw_recent(c);
+    item(c, Command::import_scene);
+    item(c, Command::environment);
+    item(c, Command::reload);
+    ImGui::Separator();
+    item(c, Command::snapshot_exr);
+    item(c, Command::snapshot_png);
+    item(c, Command::snapshot_folder);
+    ImGui::Separator();
+    item(c, Command::quit);
+}
+
+void draw_edit_menu(PanelContext& c) {
+    const Document& d = c.document;
+    item(c, Command::undo, d.can_undo(), d.can_undo() ? fmt::format("Undo: {}", d.undo_label()).c_str() : nullptr);
+    item(c, Command::redo, d.can_redo(), d.can_redo() ? fmt::format("Redo: {}", d.redo_label()).c_str() : nullptr);
+    item(c, Command::history, true, nullptr, c.ui.show_history);
+    ImGui::Separator();
+    const bool selected = c.scene().nodes.contains(c.ui.selected);
+    item(c, Command::duplicate, selected);
+    item(c, Command::rename, selected);
+    item(c, Command::remove, selected);
+    item(c, Command::clear_selection, selected);
+    ImGui::Separator();
+    if (ImGui::BeginMenu("Add light")) {
+        for (const Command command : {Command::add_point, Command::add_spot, Command::add_sun, Command::add_rectangle}) item(c, command);
+        ImGui::EndMenu();
+    }
+}
+
+void draw_view_menu(PanelContext& c) {
+    item(c, Command::frame_selection, c.scene().nodes.contains(c.ui.selected));
+    item(c, Command::frame_all);
+    item(c, Command::toggle_projection, true, nullptr, c.scene().view.lens.orthographic);
+    item(c, Command::toggle_overlays, true, nullptr, c.ui.settings.overlays);
+    ImGui::Separator();
+    item(c, Command::exposure_up);
+    item(c, Command::exposure_down);
+    item(c, Command::exposure_reset);
+    ImGui::Separator();
+    item(c, Command::pause, true, nullptr, c.ui.paused);
+}
+
+} // namespace
+
+void draw_menu_bar(PanelContext& c) {
+    if (ImGui::BeginMenu("File")) {
+        draw_file_menu(c);
+        ImGui::EndMenu();
+    }
+    if (ImGui::BeginMenu("Edit")) {
+        draw_edit_menu(c);
+        ImGui::EndMenu();
+    }
+    if (ImGui::BeginMenu("View")) {
+        draw_view_menu(c);
+        ImGui::EndMenu();
+    }
+    if (ImGui::BeginMenu("Help")) {
+        item(c, Command::shortcuts);
+        ImGui::EndMenu();
+    }
+}
+
+} // namespace blush

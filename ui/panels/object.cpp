@@ -1,0 +1,74 @@
+// The selected node: name, visibility, place in the world, and what it is made of.
+#include "ui/panels/panels.h"
+#include "ui/rotation.h"
+#include "ui/theme.h"
+#include "ui/widgets.h"
+
+#include <fmt/format.h>
+
+namespace blush {
+namespace {
+
+int64_t triangle_count(const Mesh& mesh) {
+    int64_t count = 0;
+    for (const MeshPart& part : mesh.parts) count += part.geometry ? int64_t(part.geometry->triangle_count()) : 0;
+    return count;
+}
+
+std::string grouped(int64_t number) {
+    std::string digits = std::to_string(number);
+    for (ptrdiff_t i = ptrdiff_t(digits.size()) - 3; i > 0; i -= 3) digits.insert(size_t(i), " ");
+    return digits;
+}
+
+// Euler angles of the rotation; those the user sees while dragging stay as long as nothing else turns the node.
+Vec3d& angles_of(EulerFields& fields, Id<Node> id, const Quat& rotation) {
+    if (fields.node != id || fields.rotation != rotation) fields = {id, rotation, euler_degrees(rotation)};
+    return fields.degrees;
+}
+
+} // namespace
+
+void draw_object_panel(PanelContext& c, Id<Node> id) {
+    const Node* record = c.scene().nodes.find(id);
+    if (!record) return;
+    Node node = *record;
+    Fields f(c.ui, "Object");
+    f.text("Name", node.name, "Used in the outliner, in the history and in saved files.");
+    f.checkbox("Visible", node.visible, "Hidden, the node and all below it neither show nor cast shadows nor give light.");
+    if (const Mesh* mesh = c.scene().meshes.find(node.mesh)) {
+        f.info("Mesh", fmt::format("{} triangles{}", grouped(triangle_count(*mesh)), mesh->parts.size() > 1 ? fmt::format(", {} parts", mesh->parts.size()) : ""));
+    }
+    if (f.changed()) c.apply(SetNode{id, node}, f.gesture());
+
+    const float half = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
+    if (ImGui::Button("Duplicate", {half, 0})) c.ui.commands.push_back(Command::duplicate);
+    c.ui.probe.record_last_item("Object/Duplicate");
+    ImGui::SameLine();
+    if (ImGui::Button("Delete", {half, 0})) c.ui.commands.push_back(Command::remove);
+    c.ui.probe.record_last_item("Object/Delete");
+}
+
+void draw_transform_panel(PanelContext& c, Id<Node> id) {
+    const Node* record = c.scene().nodes.find(id);
+    if (!record || !section(c.ui, "Transform")) return;
+    Node node = *record;
+    Fields f(c.ui, "Transform");
+    if (node.local.matrix) {
+        quiet_text("This transform is a sheared matrix, which position, rotation and scale cannot express. Turning or scaling it here replaces the shear.");
+    }
+    if (f.vector("Position", node.local.translation, {0, 0, 0}, {.unit = "", .step = 0.005f, .tip = "Metres, relative to the parent node."}) && node.local.matrix) {
+        node.local.matrix->t = node.local.translation;
+    }
+    Vec3d& degrees = angles_of(c.ui.euler, id, node.local.rotation);
+    Vec3 angles = to_float(degrees);
+    if (f.vector("Rotation", angles, {0, 0, 0}, {.unit = "°", .step = 0.25f, .tip = "Degrees about the parent's X, then Y, then Z axis.", .format = "%.1f"})) {
+        degrees = to_double(angles);
+        node.local.rotation = c.ui.euler.rotation = from_euler_degrees(degrees);
+        node.local.matrix.reset();
+    }
+    if (f.vector("Scale", node.local.scale, {1, 1, 1}, {.step = 0.005f, .tip = "Factors along the node's own axes."})) node.local.matrix.reset();
+    if (f.changed()) c.apply(SetNode{id, node}, f.gesture());
+}
+
+} // namespace blush

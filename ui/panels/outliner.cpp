@@ -1,0 +1,138 @@
+// Outliner: the scene's nodes as a tree, with what each carries and whether it shows.
+#include "ui/icons.h"
+#include "ui/light_tools.h"
+#include "ui/panels/panels.h"
+#include "ui/theme.h"
+#include "ui/widgets.h"
+
+#include <imgui_stdlib.h>
+#include <map>
+
+namespace blush {
+namespace {
+
+using Children = std::map<Id<Node>, std::vector<Id<Node>>>;
+
+Children children_of(const Scene& scene) {
+    Children children;
+    for (const auto& [id, node] : scene.nodes) children[node.parent].push_back(id);
+    return children;
+}
+
+Icon icon_of(const Scene& scene, const Node& node) {
+    if (const Light* light = scene.lights.find(node.light)) {
+        switch (light->kind) {
+        case Light::Kind::point: return Icon::point;
+        case Light::Kind::spot: return Icon::spot;
+        case Light::Kind::sun: return Icon::sun;
+        case Light::Kind::rectangle: return Icon::rectangle;
+        }
+    }
+    return node.mesh ? Icon::mesh : node.camera ? Icon::camera : Icon::group;
+}
+
+std::string name_of(const Scene& scene, Id<Node> id, const Node& node) {
+    if (!node.name.empty()) return node.name;
+    if (const Light* light = scene.lights.find(node.light)) return light->name.empty() ? kind_name(light->kind) : light->name;
+    if (const Mesh* mesh = scene.meshes.find(node.mesh); mesh && !mesh->name.empty()) return mesh->name;
+    return "Node " + std::to_string(id.value);
+}
+
+void draw_rename(PanelContext& c, Id<Node> id, const Node& node) {
+    ImGui::SetNextItemWidth(-ImGui::GetFrameHeight());
+    ImGui::SetKeyboardFocusHere();
+    const bool entered = ImGui::InputText("##rename", &c.ui.rename_text, ImGuiInputTextFlags_AutoSelectAll | ImGuiInputTextFlags_EnterReturnsTrue);
+    const bool left = ImGui::IsItemDeactivated();
+    if (!entered && !left) return;
+    c.ui.renaming = {};
+    if (!ImGui::IsItemDeactivatedAfterEdit() && !entered) return;
+    Node renamed = node;
+    renamed.name = c.ui.rename_text;
+    c.apply(SetNode{id, renamed});
+}
+
+void draw_eye(PanelContext& c, Id<Node> id, const Node& node) {
+    const float size = ImGui::GetFrameHeight();
+    ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - size);
+    if (icon_button("eye", node.visible ? Icon::eye : Icon::eye_closed, node.visible ? tone::dim_text : IM_COL32(95, 95, 95, 255))) {
+        Node changed = node;
+        changed.visible = !node.visible;
+        c.apply(SetNode{id, changed});
+    }
+    tip_for_last_item(c.ui, node.visible ? "Hide" : "Show");
+}
+
+void draw_node(PanelContext& c, const Children& children, Id<Node> id, int depth) {
+    const Node* found = c.scene().nodes.find(id);
+    if (!found || depth > 200) return;
+    const Node node = *found;
+    const auto below = children.find(id);
+    const bool leaf = below == children.end(), selected = c.ui.selected == id;
+    ImGui::PushID(int(id.value));
+    ImGuiTreeNodeFlags flags = ImGuiTreeNodeFlags_OpenOnArrow | ImGuiTreeNodeFlags_SpanAvailWidth | ImGuiTreeNodeFlags_FramePadding | ImGuiTreeNodeFlags_AllowItemOverlap;
+    if (depth < 2) flags |= ImGuiTreeNodeFlags_DefaultOpen;
+    if (leaf) flags |= ImGuiTreeNodeFlags_Leaf;
+    if (selected) flags |= ImGuiTreeNodeFlags_Selected;
+    const bool open = ImGui::TreeNodeEx("##node", flags);
+    const std::string name = name_of(c.scene(), id, node);
+    c.ui.probe.record_last_item("Outliner/" + name);
+    if (ImGui::IsItemClicked() && !ImGui::IsItemToggledOpen()) {
+        const Mesh* mesh = c.scene().meshes.find(node.mesh);
+        c.ui.select(id, mesh && !mesh->parts.empty() ? mesh->parts[0].material : Id<Material>{});
+    }
+    if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) c.ui.commands.push_back(Command::frame_selection);
+    if (selected && c.ui.scroll_to_selected) {
+        if (!ImGui::IsItemVisible()) ImGui::SetScrollHereY();
+        c.ui.scroll_to_selected = false;
+    }
+    ImGui::SameLine(0, 0);
+    const Light* light = c.scene().lights.find(node.light);
+    const bool quiet = !node.visible || (light && !light->enabled);
+    ImGui::AlignTextToFramePadding();
+    icon_item(icon_of(c.scene(), node), quiet ? IM_COL32(95, 95, 95, 255) : light ? tone::light : tone::dim_text);
+    ImGui::SameLine();
+    if (c.ui.renaming == id) draw_rename(c, id, node);
+    else {
+        ImGui::PushStyleColor(ImGuiCol_Text, quiet ? tone::dim_text : tone::text);
+        ImGui::TextUnformatted(name.c_str());
+        ImGui::PopStyleColor();
+    }
+    draw_eye(c, id, node);
+    if (open) {
+        if (!leaf) {
+            for (const Id<Node> child : below->second) draw_node(c, children, child, depth + 1);
+        }
+        ImGui::TreePop();
+    }
+    ImGui::PopID();
+}
+
+void draw_add_light(PanelContext& c) {
+    if (ImGui::Button("Add light", {-FLT_MIN, 0})) ImGui::OpenPopup("add light");
+    c.ui.probe.record_last_item("Outliner/Add light");
+    if (!ImGui::BeginPopup("add light")) return;
+    for (const Command command : {Command::add_point, Command::add_spot, Command::add_sun, Command::add_rectangle}) {
+        if (ImGui::MenuItem(shortcut(command).name, to_string(shortcut(command).press).c_str())) c.ui.commands.push_back(command);
+        c.ui.probe.record_last_item(std::string("Outliner/Add light/") + shortcut(command).name);
+    }
+    ImGui::EndPopup();
+}
+
+} // namespace
+
+void draw_outliner(PanelContext& c) {
+    draw_add_light(c);
+    ImGui::Spacing();
+    ImGui::BeginChild("nodes");
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, 0});
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ImGui::GetStyle().FramePadding.x * 0.5f, ImGui::GetStyle().FramePadding.y});
+    const Children children = children_of(c.scene());
+    if (const auto roots = children.find({}); roots != children.end()) {
+        for (const Id<Node> id : roots->second) draw_node(c, children, id, 0);
+    }
+    ImGui::PopStyleVar(2);
+    if (ImGui::IsWindowHovered() && ImGui::IsMouseClicked(ImGuiMouseButton_Left) && !ImGui::IsAnyItemHovered()) c.ui.select({});
+    ImGui::EndChild();
+}
+
+} // namespace blush

@@ -1,0 +1,42 @@
+// Every panel is one function that draws from the project and applies edits; one file each.
+#pragma once
+
+#include "ui/panels/context.h"
+
+#include <string>
+#include <vector>
+
+namespace blush {
+
+// Regions of the layout, drawn into the current ImGui window.
+void draw_menu_bar(PanelContext& c);
+void draw_outliner(PanelContext& c);
+void draw_inspector(PanelContext& c); // tabs, each made of the sections below
+void draw_status_bar(PanelContext& c);
+
+// Sections of the inspector.
+void draw_object_panel(PanelContext& c, Id<Node> node);
+void draw_transform_panel(PanelContext& c, Id<Node> node);
+void draw_light_panel(PanelContext& c, Id<Node> node);
+void draw_material_panel(PanelContext& c, Id<Node> node); // of the selected material, or of the node's mesh
+void draw_camera_panel(PanelContext& c);
+void draw_environment_panel(PanelContext& c);
+void draw_render_panel(PanelContext& c);
+void draw_display_panel(PanelContext& c);
+
+// Above everything else, each in a window of its own while it is open.
+void draw_file_browser(PanelContext& c);
+void draw_shortcut_sheet(PanelContext& c);
+void draw_history(PanelContext& c);
+void draw_pixel_panel(PanelContext& c);
+void draw_toasts(PanelContext& c);
+
+// A job that goes on in the background.
+struct RunningJob {
+    std::string title, what;
+    double fraction = 0;
+};
+// True if the user presses Cancel.
+bool draw_progress(const RunningJob& job);
+
+} // namespace blush

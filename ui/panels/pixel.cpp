@@ -1,0 +1,71 @@
+// What one pixel holds: scene-linear and displayed colour, luminance, and what the camera hit there.
+#include "ui/panels/panels.h"
+#include "ui/theme.h"
+#include "ui/widgets.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace blush {
+namespace {
+
+void row(const char* name, const std::string& value) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::PushStyleColor(ImGuiCol_Text, tone::dim_text);
+    ImGui::TextUnformatted(name);
+    ImGui::PopStyleColor();
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(value.c_str());
+}
+
+std::string triple(const Vec3& v, const char* format = "{:.4g}  {:.4g}  {:.4g}") { return fmt::format(fmt::runtime(format), v.x, v.y, v.z); }
+
+std::string displayed(const PanelContext& c, const float* rgb) {
+    float shown[3] = {rgb[0], rgb[1], rgb[2]};
+    const ViewSettings& v = c.project().view;
+    if (const auto done = c.color.apply_display(v.display, v.view, v.exposure_ev, v.gamma, shown, 1); !done) return done.error().text();
+    const auto byte = [](float x) { return int(std::clamp(x, 0.f, 1.f) * 255 + 0.5f); };
+    return fmt::format("{:.3f}  {:.3f}  {:.3f}   #{:02x}{:02x}{:02x}", shown[0], shown[1], shown[2], byte(shown[0]), byte(shown[1]), byte(shown[2]));
+}
+
+void draw_values(const PanelContext& c, const Frame& f, int x, int y) {
+    const size_t i = size_t(y) * size_t(f.width) + size_t(x);
+    const float* rgba = &f.rgba[4 * i];
+    row("Pixel", f.divider > 1 ? fmt::format("{}, {}  at 1/{} size", x, y, f.divider) : fmt::format("{}, {}", x, y));
+    row("Linear RGB", triple({rgba[0], rgba[1], rgba[2]}));
+    row("Luminance", fmt::format("{:.4g} nits", 0.2126 * rgba[0] + 0.7152 * rgba[1] + 0.0722 * rgba[2]));
+    row("Displayed", displayed(c, rgba));
+    if (!f.albedo.empty()) row("Albedo", triple(f.albedo[i]));
+    if (!f.normal.empty()) row("Normal", triple(f.normal[i], "{:+.3f}  {:+.3f}  {:+.3f}"));
+    if (!f.depth.empty()) row("Distance", f.depth[i] > 0 ? fmt::format("{:.4g} m", f.depth[i]) : "nothing hit");
+    if (!f.object_id.empty()) {
+        const Node* node = c.scene().nodes.find({f.object_id[i]});
+        row("Object", node ? node->name.empty() ? fmt::format("Node {}", f.object_id[i]) : node->name : "none");
+    }
+    if (!f.material_id.empty()) {
+        const Material* material = c.scene().materials.find({f.material_id[i]});
+        row("Material", material ? material->name.empty() ? fmt::format("Material {}", f.material_id[i]) : material->name : "none");
+    }
+}
+
+} // namespace
+
+void draw_pixel_panel(PanelContext& c) {
+    if (!c.ui.pixel) return;
+    if (c.ui.pixel->just_opened) ImGui::OpenPopup("pixel");
+    c.ui.pixel->just_opened = false;
+    if (!ImGui::BeginPopup("pixel")) {
+        c.ui.pixel.reset();
+        return;
+    }
+    if (c.frame && c.frame->width > 0 && ImGui::BeginTable("values", 2, ImGuiTableFlags_SizingFixedFit)) {
+        const Frame& f = *c.frame;
+        draw_values(c, f, std::clamp(int(c.ui.pixel->u * f.width), 0, f.width - 1), std::clamp(int(c.ui.pixel->v * f.height), 0, f.height - 1));
+        ImGui::EndTable();
+        c.ui.probe.record_last_item("Pixel");
+    }
+    ImGui::EndPopup();
+}
+
+} // namespace blush

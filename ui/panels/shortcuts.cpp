@@ -1,0 +1,61 @@
+// The shortcut sheet (F1): the table of commands, and what the mouse does.
+#include "ui/panels/panels.h"
+#include "ui/theme.h"
+
+#include <cstring>
+
+namespace blush {
+namespace {
+
+void heading(const char* text) {
+    ImGui::Spacing();
+    ImGui::PushFont(heading_font());
+    ImGui::TextUnformatted(text);
+    ImGui::PopFont();
+}
+
+void line(const char* what, const char* how, float column) {
+    ImGui::PushStyleColor(ImGuiCol_Text, tone::dim_text);
+    ImGui::TextUnformatted(what);
+    ImGui::PopStyleColor();
+    ImGui::SameLine(ImGui::GetCursorPosX() + column);
+    ImGui::TextUnformatted(how);
+}
+
+// The commands of one group that have a key; a second key for the same command stands beside the first.
+void draw_group(const char* group, float column) {
+    heading(group);
+    for (const Shortcut& s : shortcuts()) {
+        if (std::strcmp(s.group, group) != 0 || s.press.key == key::none || s.command == Command::redo_again) continue;
+        std::string keys = to_string(s.press);
+        if (s.command == Command::redo) keys += " or " + to_string(shortcut(Command::redo_again).press);
+        line(s.name, keys.c_str(), column);
+    }
+}
+
+} // namespace
+
+void draw_shortcut_sheet(PanelContext& c) {
+    if (!c.ui.show_shortcuts) return;
+    const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    const float em = ImGui::GetFontSize();
+    ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Appearing, {0.5f, 0.5f});
+    ImGui::SetNextWindowSize({std::min(em * 54, screen.x * 0.95f), 0});
+    if (ImGui::Begin("Shortcuts", &c.ui.show_shortcuts, ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoSavedSettings)) {
+        if (ImGui::BeginTable("columns", 2)) {
+            ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthStretch, 0.45f);
+            ImGui::TableSetupColumn("mouse", ImGuiTableColumnFlags_WidthStretch, 0.55f);
+            ImGui::TableNextColumn();
+            for (const char* group : {"File", "Edit", "Add light"}) draw_group(group, em * 13);
+            ImGui::TableNextColumn();
+            for (const char* group : {"View", "Help"}) draw_group(group, em * 13);
+            heading("Mouse");
+            for (const MouseHint& hint : mouse_hints()) line(hint.action, hint.gesture, em * 13);
+            ImGui::EndTable();
+        }
+        ImGui::Spacing();
+    }
+    ImGui::End();
+}
+
+} // namespace blush

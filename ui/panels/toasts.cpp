@@ -1,0 +1,84 @@
+// Toasts and background jobs: small cards above the status bar, out of the way of the work.
+#include "ui/panels/panels.h"
+#include "ui/theme.h"
+#include "ui/widgets.h"
+
+#include <algorithm>
+
+namespace blush {
+namespace {
+
+constexpr ImGuiWindowFlags card_flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                                        ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_AlwaysAutoResize;
+
+void begin_card(const char* id, float right, float bottom, ImU32 edge) {
+    ImGui::SetNextWindowPos({right, bottom}, ImGuiCond_Always, {1, 1});
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, ImVec4(0.13f, 0.13f, 0.13f, 0.97f));
+    ImGui::PushStyleColor(ImGuiCol_Border, edge);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, ImGui::GetFontSize() / 4);
+    ImGui::Begin(id, nullptr, card_flags);
+}
+
+// Returns the card's upper edge.
+float end_card() {
+    const float top = ImGui::GetWindowPos().y;
+    ImGui::End();
+    ImGui::PopStyleVar(2);
+    ImGui::PopStyleColor(2);
+    return top;
+}
+
+ImU32 edge_of(Toast::Kind kind) { return kind == Toast::Kind::failure ? tone::failure : kind == Toast::Kind::warning ? tone::warning : IM_COL32(90, 90, 90, 255); }
+
+void draw_texts(const Toast& toast) {
+    ImGui::PushTextWrapPos(ImGui::GetFontSize() * 28);
+    ImGui::TextUnformatted(toast.text.c_str());
+    if (!toast.details.empty()) {
+        ImGui::PushStyleColor(ImGuiCol_Text, tone::dim_text);
+        ImGui::TextUnformatted(toast.details.c_str());
+        ImGui::PopStyleColor();
+    }
+    ImGui::PopTextWrapPos();
+}
+
+} // namespace
+
+void draw_toasts(PanelContext& c) {
+    const auto now = std::chrono::steady_clock::now();
+    c.ui.toasts.expire(now);
+    const float em = ImGui::GetFontSize();
+    const float right = ImGui::GetIO().DisplaySize.x - c.ui.settings.splitters.inspector * em - em;
+    float bottom = ImGui::GetIO().DisplaySize.y - em * 3;
+    std::optional<size_t> dismissed;
+    const std::vector<Toast>& toasts = c.ui.toasts.all();
+    for (size_t i = toasts.size(); i-- > 0;) {
+        const Toast& toast = toasts[i];
+        const std::chrono::duration<double> left = toast.since + lifetime(toast) - now;
+        c.ui.next_frame_in = std::min(c.ui.next_frame_in, std::max(left.count(), 0.0));
+        begin_card(("##toast" + std::to_string(i)).c_str(), right, bottom, edge_of(toast.kind));
+        draw_texts(toast);
+        if (toast.action && ImGui::Button(shortcut(*toast.action).name)) {
+            c.ui.commands.push_back(*toast.action);
+            dismissed = i;
+        }
+        if (ImGui::IsWindowHovered() && ImGui::IsMouseClicked(ImGuiMouseButton_Left) && !ImGui::IsAnyItemHovered()) dismissed = i;
+        bottom = end_card() - em / 2;
+    }
+    if (dismissed) c.ui.toasts.dismiss(*dismissed);
+}
+
+bool draw_progress(const RunningJob& job) {
+    const float em = ImGui::GetFontSize();
+    const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    begin_card("##job", screen.x / 2 + em * 12, screen.y - em * 3, IM_COL32(90, 90, 90, 255));
+    ImGui::TextUnformatted(job.title.c_str());
+    ImGui::ProgressBar(float(job.fraction), {em * 18, em / 2}, "");
+    ImGui::SameLine();
+    const bool cancelled = ImGui::SmallButton("Cancel");
+    ImGui::TextDisabled("%s", job.what.c_str());
+    end_card();
+    return cancelled;
+}
+
+} // namespace blush

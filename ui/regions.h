@@ -1,0 +1,15 @@
+// The fixed regions of the window as ImGui windows, and the bars between them.
+#pragma once
+
+#include "ui/ui_state.h"
+
+namespace blush {
+
+// Begins a window that fills a region exactly; end it with end_region(). Without padding for what draws to its edges.
+void begin_region(const char* name, const Region& region, bool padded);
+void end_region();
+
+// Lets the mouse drag the bars beside outliner and inspector; double-click puts them back.
+void drag_splitters(UiState& ui, const Layout& layout, float window_width);
+
+} // namespace blush

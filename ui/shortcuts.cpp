@@ -1,0 +1,96 @@
+#include "ui/shortcuts.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace blush {
+namespace {
+
+constexpr KeyPress plain(int key) { return {key, false, false, false}; }
+constexpr KeyPress ctrl(int key) { return {key, true, false, false}; }
+constexpr KeyPress ctrl_shift(int key) { return {key, true, true, false}; }
+constexpr KeyPress shift(int key) { return {key, false, true, false}; }
+constexpr KeyPress in_menu_only{};
+
+constexpr Shortcut table[] = {
+    {Command::open, "File", "Open...", ctrl('O')},
+    {Command::import_scene, "File", "Import into the scene...", ctrl('I')},
+    {Command::environment, "File", "Environment image...", ctrl('E')},
+    {Command::reload, "File", "Reload from disk", ctrl('R')},
+    {Command::snapshot_exr, "File", "Save snapshot (EXR)", ctrl('S')},
+    {Command::snapshot_png, "File", "Save snapshot (PNG)", ctrl_shift('S')},
+    {Command::snapshot_folder, "File", "Snapshot folder...", in_menu_only},
+    {Command::quit, "File", "Quit", ctrl('Q')},
+    {Command::undo, "Edit", "Undo", ctrl('Z')},
+    {Command::redo, "Edit", "Redo", ctrl_shift('Z')},
+    {Command::redo_again, "Edit", "Redo", ctrl('Y')},
+    {Command::duplicate, "Edit", "Duplicate", ctrl('D')},
+    {Command::remove, "Edit", "Delete", plain(key::remove)},
+    {Command::rename, "Edit", "Rename", plain(key::f1 + 1)},
+    {Command::clear_selection, "Edit", "Select nothing", plain(key::escape)},
+    {Command::history, "Edit", "History", ctrl('H')},
+    {Command::add_point, "Add light", "Point", in_menu_only},
+    {Command::add_spot, "Add light", "Spot", in_menu_only},
+    {Command::add_sun, "Add light", "Sun", in_menu_only},
+    {Command::add_rectangle, "Add light", "Rectangle", shift('A')},
+    {Command::frame_selection, "View", "Frame selection", plain('F')},
+    {Command::frame_all, "View", "Frame all", plain(key::home)},
+    {Command::toggle_projection, "View", "Perspective / orthographic", plain('P')},
+    {Command::toggle_overlays, "View", "Overlays", plain('H')},
+    {Command::exposure_up, "View", "Brighter by 1/2 EV", plain(']')},
+    {Command::exposure_down, "View", "Darker by 1/2 EV", plain('[')},
+    {Command::exposure_reset, "View", "Exposure 0", plain(key::zero)},
+    {Command::pause, "View", "Pause rendering", plain(key::space)},
+    {Command::shortcuts, "Help", "Shortcuts", plain(key::f1)},
+};
+
+constexpr MouseHint hints[] = {
+    {"Select", "Click"},
+    {"Orbit", "Drag, middle-drag or Alt+drag"},
+    {"Pan", "Shift+drag or Shift+middle-drag"},
+    {"Dolly", "Wheel or Alt+right-drag"},
+    {"Look around and fly", "Right-drag, with W A S D Q E; Shift is faster"},
+    {"Focus there", "Ctrl+click"},
+    {"Read a pixel's values", "Right-click"},
+    {"Move or aim a light or object", "Drag its handles"},
+    {"Reset a value", "Double-click"},
+    {"Type a value", "Ctrl+click"},
+    {"Change a value finely", "Alt+drag"},
+};
+
+} // namespace
+
+std::span<const Shortcut> shortcuts() { return table; }
+
+const Shortcut& shortcut(Command command) {
+    const auto it = std::ranges::find(table, command, &Shortcut::command);
+    assert(it != std::end(table));
+    return *it;
+}
+
+const Shortcut* find_shortcut(const KeyPress& press) {
+    if (press.key == key::none) return nullptr;
+    const auto it = std::ranges::find(table, press, &Shortcut::press);
+    return it == std::end(table) ? nullptr : &*it;
+}
+
+std::string to_string(const KeyPress& press) {
+    if (press.key == key::none) return {};
+    std::string text;
+    if (press.ctrl) text += "Ctrl+";
+    if (press.shift) text += "Shift+";
+    if (press.alt) text += "Alt+";
+    switch (press.key) {
+    case key::space: return text + "Space";
+    case key::escape: return text + "Esc";
+    case key::remove: return text + "Del";
+    case key::home: return text + "Home";
+    default: break;
+    }
+    if (press.key >= key::f1) return text + "F" + std::to_string(press.key - key::f1 + 1);
+    return text + char(press.key);
+}
+
+std::span<const MouseHint> mouse_hints() { return hints; }
+
+} // namespace blush

@@ -1,0 +1,49 @@
+// Every command of the window with its key, once: dispatch, menus and the shortcut sheet read the same table.
+#pragma once
+
+#include <span>
+#include <string>
+
+namespace blush {
+
+// Key codes as GLFW gives them; letters are their ASCII capitals.
+namespace key {
+constexpr int none = 0, space = 32, zero = 48, escape = 256, remove = 261, home = 268, f1 = 290;
+}
+
+struct KeyPress {
+    int key = key::none;
+    bool ctrl = false, shift = false, alt = false;
+    bool operator==(const KeyPress&) const = default;
+};
+
+enum class Command {
+    open, import_scene, environment, reload, snapshot_exr, snapshot_png, snapshot_folder, quit,
+    undo, redo, redo_again, duplicate, remove, rename,
+    add_point, add_spot, add_sun, add_rectangle,
+    frame_selection, frame_all, toggle_projection, toggle_overlays, exposure_up, exposure_down, exposure_reset, pause,
+    clear_selection, shortcuts, history,
+};
+
+struct Shortcut {
+    Command command;
+    const char* group;
+    const char* name; // as in the menu; commands with a second key are listed once
+    KeyPress press;   // key::none: in the menu only
+};
+
+std::span<const Shortcut> shortcuts();
+const Shortcut& shortcut(Command command);
+// The command a key press stands for, or nullptr.
+const Shortcut* find_shortcut(const KeyPress& press);
+// "Ctrl+Shift+Z"; empty without a key.
+std::string to_string(const KeyPress& press);
+
+// What the mouse does in the viewport, for the sheet.
+struct MouseHint {
+    const char* action;
+    const char* gesture;
+};
+std::span<const MouseHint> mouse_hints();
+
+} // namespace blush

@@ -1,0 +1,87 @@
+// All state of the window that is not the document: selection, open panels, tool, and what panels ask the editor to do.
+#pragma once
+
+#include "scene/scene.h"
+#include "ui/gestures.h"
+#include "ui/probe.h"
+#include "ui/shortcuts.h"
+#include "ui/toasts.h"
+#include "ui/window_settings.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace blush {
+
+enum class InspectorTab { selection, camera, environment, render, display };
+
+// What a file the user chose is for.
+struct FileRequest {
+    enum class Use { open, import_scene, environment, snapshot_folder };
+    Use use = Use::open;
+    std::filesystem::path path;
+};
+
+// The file browser, while it is open.
+struct FileBrowser {
+    FileRequest::Use use = FileRequest::Use::open;
+    std::filesystem::path folder;
+    std::string typed; // the path field
+    std::string chosen;
+    bool just_opened = true;
+};
+
+// A pixel whose values are shown.
+struct PixelProbe {
+    double u = 0, v = 0; // of the image, (0, 0) top left
+    bool just_opened = true;
+};
+
+// Angles as the user typed them, kept while the rotation they belong to stays: a quaternion alone would make them jump.
+struct EulerFields {
+    Id<Node> node;
+    Quat rotation;
+    Vec3d degrees{0, 0, 0};
+};
+
+struct UiState {
+    Id<Node> selected;
+    Id<Material> selected_material;
+    bool scroll_to_selected = false; // the outliner brings it into view
+    InspectorTab tab = InspectorTab::selection;
+    bool tab_requested = false; // the inspector switches to `tab`
+    Id<Node> renaming;
+    std::string rename_text;
+
+    bool paused = false;
+    double next_frame_in = 1e9; // seconds until something moves by itself: a toast that goes, a tooltip that comes
+    bool show_shortcuts = false;
+    bool show_history = false;
+    std::optional<FileBrowser> browser;
+    std::optional<PixelProbe> pixel;
+    EulerFields euler;
+
+    WindowSettings settings; // remembered between starts
+    GestureTracker gestures;
+    Probe probe;
+    Toasts toasts;
+
+    // Done by the editor after the panels are drawn.
+    std::vector<Command> commands;
+    std::vector<FileRequest> files;
+
+    void select(Id<Node> node, Id<Material> material = {}) {
+        selected = node;
+        selected_material = material;
+        scroll_to_selected = true;
+        show_tab(InspectorTab::selection);
+    }
+    void show_tab(InspectorTab wanted) {
+        tab = wanted;
+        tab_requested = true;
+    }
+};
+
+} // namespace blush

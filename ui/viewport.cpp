@@ -1,0 +1,116 @@
+#include "ui/viewport.h"
+
+#include "ui/light_glyphs.h"
+#include "ui/orbit_camera.h"
+#include "ui/picking.h"
+#include "ui/theme.h"
+
+namespace blush {
+namespace {
+
+ImTextureID texture_id(GLuint name) { return reinterpret_cast<ImTextureID>(uintptr_t(name)); }
+
+// Where the picture lies in the current window.
+ImageRect place_picture(const PanelContext& c) {
+    const ImVec2 at = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+    const Region region{at.x, at.y, size.x, size.y};
+    const Region fit = fit_aspect(region, float(std::max(c.render_width, 1)) / float(std::max(c.render_height, 1)));
+    return {fit.x, fit.y, fit.width, fit.height};
+}
+
+void draw_centred(const char* text) {
+    const ImVec2 at = ImGui::GetWindowPos(), window = ImGui::GetWindowSize(), size = ImGui::CalcTextSize(text);
+    ImGui::GetWindowDrawList()->AddText({at.x + (window.x - size.x) / 2, at.y + (window.y - size.y) / 2}, tone::dim_text, text);
+}
+
+void focus_at(PanelContext& c, const Projection& projection, double u, double v) {
+    const Picked picked = c.frame ? pick(*c.frame, u, v) : Picked{};
+    if (!picked.depth) return c.ui.toasts.note("Nothing there to focus on");
+    Lens lens = c.scene().view.lens;
+    lens.focus_distance = float(projection.axial_distance(u, v, *picked.depth));
+    c.apply(SetLens{lens});
+}
+
+} // namespace
+
+Result<void> Viewport::set_display_shader(const DisplayShader& shader) {
+    shader_changed_ = true;
+    return display_.set_shader(shader);
+}
+
+void Viewport::take_frame(const PanelContext& c) {
+    if (!c.frame || c.frame->width <= 0) return;
+    const bool new_frame = c.frame != shown_frame_;
+    if (new_frame) {
+        display_.upload(*c.frame);
+        shown_frame_ = c.frame;
+    }
+    const ViewSettings& v = c.project().view;
+    if (!new_frame && !shader_changed_ && shown_exposure_ == v.exposure_ev && shown_gamma_ == v.gamma) return;
+    display_.draw(v.exposure_ev, v.gamma);
+    shown_exposure_ = v.exposure_ev;
+    shown_gamma_ = v.gamma;
+    shader_changed_ = false;
+}
+
+void Viewport::draw_picture(PanelContext& c, const ImageRect& image) {
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const ImVec2 low{image.x, image.y}, high{image.x + image.width, image.y + image.height};
+    draw.AddImage(texture_id(display_.texture()), low, high);
+    const uint32_t object = c.ui.selected.value;
+    if (!c.ui.settings.overlays || object == 0) return;
+    const int width = int(image.width), height = int(image.height);
+    if (outlined_frame_ != shown_frame_ || outlined_ != object || outlined_width_ != width || outlined_height_ != height) {
+        if (outlined_frame_ != shown_frame_) outline_.upload(*shown_frame_);
+        if (!outline_.empty()) outline_.draw(object, width, height, std::max(1.5f, ImGui::GetFontSize() / 8));
+        outlined_frame_ = shown_frame_;
+        outlined_ = object;
+        outlined_width_ = width;
+        outlined_height_ = height;
+    }
+    if (!outline_.empty()) draw.AddImage(texture_id(outline_.texture()), low, high);
+}
+
+void Viewport::obey(PanelContext& c, const NavigationResult& wish, const Projection& projection, const ImageRect& image) {
+    if (wish.view) c.document.navigate(*wish.view);
+    if (wish.flying) c.ui.next_frame_in = 0;
+    if (wish.focus) focus_at(c, projection, image.u(wish.focus->x), image.v(wish.focus->y));
+    if (wish.inspect && image.contains(wish.inspect->x, wish.inspect->y)) c.ui.pixel = PixelProbe{image.u(wish.inspect->x), image.v(wish.inspect->y)};
+    if (wish.select) {
+        Id<Node> node = c.ui.settings.overlays ? light_under(c.scene(), projection, image, *wish.select) : Id<Node>{};
+        Picked picked;
+        if (!node && c.frame) {
+            picked = pick(*c.frame, image.u(wish.select->x), image.v(wish.select->y));
+            node = picked.node;
+        }
+        c.ui.select(node, picked.material);
+    }
+}
+
+ImageRect Viewport::draw(PanelContext& c) {
+    take_frame(c);
+    const ImageRect image = place_picture(c);
+    ImGui::GetWindowDrawList()->AddRectFilled(ImGui::GetWindowPos(), {ImGui::GetWindowPos().x + ImGui::GetWindowWidth(), ImGui::GetWindowPos().y + ImGui::GetWindowHeight()}, tone::surround);
+    ImGui::SetCursorPos({0, 0});
+    ImGui::InvisibleButton("picture", ImGui::GetWindowSize(), ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
+    const bool hovered = ImGui::IsItemHovered();
+    if (!shown_frame_) {
+        draw_centred("Preparing the first image");
+        return image;
+    }
+    draw_picture(c, image);
+    const View view = c.scene().view;
+    const Projection projection(view, double(image.width) / image.height);
+    bool on_handle = false;
+    if (c.ui.settings.overlays) {
+        ImDrawList& draw = *ImGui::GetWindowDrawList();
+        draw.PushClipRect({image.x, image.y}, {image.x + image.width, image.y + image.height}, true);
+        draw_light_glyphs(draw, c.scene(), projection, image, c.ui.selected);
+        on_handle = handles_.update(c, draw, projection, image, hovered && !navigation_.dragging());
+        draw.PopClipRect();
+    }
+    if (!on_handle || navigation_.dragging()) obey(c, navigation_.update(c.scene().view, image), projection, image);
+    return image;
+}
+
+} // namespace blush

@@ -1,0 +1,40 @@
+// The picture and what the mouse does in it: navigation, picking, handles.
+#pragma once
+
+#include "ui/display_pass.h"
+#include "ui/handles.h"
+#include "ui/navigation.h"
+#include "ui/outline_pass.h"
+#include "ui/panels/context.h"
+
+namespace blush {
+
+class Viewport {
+public:
+    // Compiles the shaders that do not depend on the colour configuration.
+    Result<void> load() { return outline_.load(); }
+    Result<void> set_display_shader(const DisplayShader& shader);
+
+    // Fills the current ImGui window. Returns where the picture lies.
+    ImageRect draw(PanelContext& c);
+
+private:
+    void take_frame(const PanelContext& c);
+    void draw_picture(PanelContext& c, const ImageRect& image);
+    void obey(PanelContext& c, const NavigationResult& wish, const Projection& projection, const ImageRect& image);
+
+    DisplayPass display_;
+    OutlinePass outline_;
+    Navigation navigation_;
+    Handles handles_;
+
+    // What the textures hold, to draw into them only when something differs.
+    FramePtr shown_frame_;
+    float shown_exposure_ = 0, shown_gamma_ = 0;
+    bool shader_changed_ = false;
+    uint32_t outlined_ = 0;
+    FramePtr outlined_frame_;
+    int outlined_width_ = 0, outlined_height_ = 0;
+};
+
+} // namespace blush

@@ -1,0 +1,301 @@
+#include "ui/widgets.h"
+
+#include "ui/theme.h"
+
+#include <algorithm>
+#include <cmath>
+#include <imgui_internal.h> // for how long the mouse has rested on an item
+#include <imgui_stdlib.h>
+
+namespace blush {
+namespace {
+
+constexpr float label_share = 0.36f; // of a row's width
+constexpr double tip_delay = 0.5;    // seconds
+
+float label_width() { return std::floor(ImGui::GetWindowContentRegionMax().x * label_share); }
+
+// "%.4g" and "m" -> "%.4g m"; a per cent sign is doubled.
+std::string format_with_unit(const NumberStyle& style) {
+    std::string format = style.format;
+    if (*style.unit) format += ' ';
+    for (const char* c = style.unit; *c; ++c) format += *c == '%' ? "%%" : std::string(1, *c);
+    return format;
+}
+
+bool double_clicked_here(float width) {
+    const ImVec2 low = ImGui::GetCursorScreenPos(), high{low.x + width, low.y + ImGui::GetFrameHeight()};
+    return ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left) && ImGui::IsWindowHovered() && ImGui::IsMouseHoveringRect(low, high);
+}
+
+void draw_bar(float fraction, float width) {
+    const ImVec2 low = ImGui::GetCursorScreenPos(), high{low.x + width, low.y + ImGui::GetFrameHeight()};
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const bool hovered = ImGui::IsWindowHovered() && ImGui::IsMouseHoveringRect(low, high);
+    const float rounding = ImGui::GetStyle().FrameRounding;
+    draw.AddRectFilled(low, high, hovered ? tone::field_hovered : tone::field, rounding);
+    const float filled = std::round(width * std::clamp(fraction, 0.f, 1.f));
+    if (filled >= 1) draw.AddRectFilled(low, {low.x + filled, high.y}, tone::field_filled, rounding);
+}
+
+// The sRGB transfer functions: swatches and pickers show display-encoded colours, fields hold linear ones.
+float encode(float x) { return x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1 / 2.4f) - 0.055f; }
+float decode(float x) { return x <= 0.04045f ? x / 12.92f : std::pow((x + 0.055f) / 1.055f, 2.4f); }
+
+} // namespace
+
+Fields::Fields(UiState& ui, const char* scope) : ui_(ui), scope_(scope) { ImGui::PushID(scope); }
+Fields::~Fields() { ImGui::PopID(); }
+
+void Fields::begin_row(const char* label, const char* tip) {
+    ImGui::AlignTextToFramePadding();
+    ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.68f, 0.68f, 0.68f, 1));
+    ImGui::TextUnformatted(label);
+    ImGui::PopStyleColor();
+    tip_for_last_item(ui_, tip);
+    ImGui::SameLine(label_width());
+    ImGui::SetNextItemWidth(-FLT_MIN);
+}
+
+bool Fields::finish(const char* label, const char* tip, bool changed) {
+    if (ImGui::IsItemActivated()) ui_.gestures.begin();
+    if (changed) {
+        changed_ = true;
+        gesture_ = ui_.gestures.current();
+    }
+    if (ImGui::IsItemDeactivated()) ui_.gestures.end();
+    if (!ImGui::IsItemActive()) tip_for_last_item(ui_, tip);
+    ui_.probe.record_last_item(std::string(scope_) + "/" + label);
+    return changed;
+}
+
+bool Fields::number_field(const char* id, float& value, const NumberStyle& style, float reset) {
+    const float width = ImGui::CalcItemWidth();
+    const bool resetting = double_clicked_here(width);
+    const ImGuiSliderFlags flags = ImGuiSliderFlags_AlwaysClamp | (resetting ? ImGuiSliderFlags_NoInput : 0);
+    const std::string format = format_with_unit(style);
+    float edited = value;
+    bool changed = false;
+    if (style.bar) {
+        draw_bar((value - style.min) / (style.max - style.min), width);
+        for (const ImGuiCol c : {ImGuiCol_FrameBg, ImGuiCol_FrameBgHovered, ImGuiCol_FrameBgActive, ImGuiCol_SliderGrab, ImGuiCol_SliderGrabActive})
+            ImGui::PushStyleColor(c, ImVec4(0, 0, 0, 0));
+        changed = ImGui::SliderFloat(id, &edited, style.min, style.max, format.c_str(), flags);
+        ImGui::PopStyleColor(5);
+    } else {
+        const float speed = style.step > 0 ? style.step : std::max(std::abs(value) * 0.005f, 1e-4f);
+        changed = ImGui::DragFloat(id, &edited, speed, style.min, style.max, format.c_str(), flags);
+    }
+    if (resetting) {
+        changed = value != reset;
+        edited = reset;
+    }
+    if (changed && std::isfinite(edited)) value = std::clamp(edited, style.min, style.max);
+    return changed && std::isfinite(edited);
+}
+
+bool Fields::number(const char* label, float& value, const NumberStyle& style) {
+    ImGui::PushID(label);
+    begin_row(label, style.tip);
+    const bool changed = number_field("##value", value, style, style.reset);
+    ImGui::PopID();
+    return finish(label, style.tip, changed);
+}
+
+bool Fields::angle(const char* label, float& radians, const NumberStyle& style) {
+    constexpr float to_degrees = 57.29577951f;
+    NumberStyle degrees_style = style;
+    degrees_style.unit = "°";
+    degrees_style.format = "%.4g";
+    float degrees = radians * to_degrees;
+    if (!number(label, degrees, degrees_style)) return false;
+    radians = degrees / to_degrees;
+    return true;
+}
+
+bool Fields::integer(const char* label, int64_t& value, int64_t min, int64_t max, int64_t reset, const char* tip) {
+    ImGui::PushID(label);
+    begin_row(label, tip);
+    const bool resetting = double_clicked_here(ImGui::CalcItemWidth());
+    const float speed = std::max(0.1f, float(std::abs(value)) * 0.01f);
+    const ImGuiSliderFlags flags = ImGuiSliderFlags_AlwaysClamp | (resetting ? ImGuiSliderFlags_NoInput : 0);
+    int64_t edited = value;
+    bool changed = ImGui::DragScalar("##value", ImGuiDataType_S64, &edited, speed, &min, &max, "%lld", flags);
+    if (resetting) {
+        changed = value != reset;
+        edited = reset;
+    }
+    if (changed) value = std::clamp(edited, min, max);
+    ImGui::PopID();
+    return finish(label, tip, changed);
+}
+
+bool Fields::vector(const char* label, Vec3& value, const Vec3& reset, const NumberStyle& style) {
+    static constexpr const char* names[] = {"X", "Y", "Z"};
+    static constexpr ImU32 axis_tones[] = {tone::axis_x, tone::axis_y, tone::axis_z};
+    float* const components[] = {&value.x, &value.y, &value.z};
+    const float resets[] = {reset.x, reset.y, reset.z};
+    ImGui::PushID(label);
+    begin_row(label, style.tip);
+    const float gap = ImGui::GetStyle().ItemInnerSpacing.x * 0.6f, total = ImGui::GetContentRegionAvail().x;
+    bool changed = false;
+    for (int i = 0; i < 3; ++i) {
+        if (i) ImGui::SameLine(0, gap);
+        ImGui::SetNextItemWidth(std::floor((total - 2 * gap) / 3));
+        const ImVec2 low = ImGui::GetCursorScreenPos();
+        const bool edited = number_field(names[i], *components[i], style, resets[i]);
+        const ImVec2 high{low.x + std::max(2.f, ImGui::GetFontSize() / 7), low.y + ImGui::GetFrameHeight()};
+        ImGui::GetWindowDrawList()->AddRectFilled(low, high, axis_tones[i], ImGui::GetStyle().FrameRounding, ImDrawFlags_RoundCornersLeft);
+        changed |= finish((std::string(label) + " " + names[i]).c_str(), style.tip, edited);
+    }
+    ImGui::PopID();
+    return changed;
+}
+
+bool Fields::color(const char* label, Vec3& value, const Vec3& reset, const char* tip) {
+    ImGui::PushID(label);
+    begin_row(label, tip);
+    const float gap = ImGui::GetStyle().ItemInnerSpacing.x * 0.6f, total = ImGui::GetContentRegionAvail().x;
+    const float swatch = ImGui::GetFrameHeight() * 1.3f, field = std::floor((total - swatch - 3 * gap) / 3);
+    float encoded[3] = {encode(value.x), encode(value.y), encode(value.z)};
+    const ImVec4 shown{encoded[0], encoded[1], encoded[2], 1};
+    const bool resetting = double_clicked_here(swatch);
+    if (ImGui::ColorButton("##swatch", shown, ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoDragDrop, {swatch, 0}) && !resetting) ImGui::OpenPopup("picker");
+    ui_.probe.record_last_item(std::string(scope_) + "/" + label);
+    tip_for_last_item(ui_, tip);
+    bool changed = false;
+    if (resetting) {
+        changed = value != reset;
+        value = reset;
+        changed_ |= changed;
+    }
+    if (ImGui::BeginPopup("picker")) {
+        ImGui::SetNextItemWidth(ImGui::GetFontSize() * 14);
+        if (ImGui::ColorPicker3("##picker", encoded, ImGuiColorEditFlags_NoSidePreview | ImGuiColorEditFlags_DisplayHSV | ImGuiColorEditFlags_Float)) {
+            value = {decode(encoded[0]), decode(encoded[1]), decode(encoded[2])};
+            changed = true;
+        }
+        finish(label, "", changed);
+        ImGui::EndPopup();
+    }
+    static constexpr const char* names[] = {"R", "G", "B"};
+    float* const components[] = {&value.x, &value.y, &value.z};
+    const float resets[] = {reset.x, reset.y, reset.z};
+    for (int i = 0; i < 3; ++i) {
+        ImGui::SameLine(0, gap);
+        ImGui::SetNextItemWidth(field);
+        const bool edited = number_field(names[i], *components[i], {.min = 0, .max = 1e6f, .step = 0.002f, .format = "%.3f"}, resets[i]);
+        changed |= finish((std::string(label) + " " + names[i]).c_str(), tip, edited);
+    }
+    ImGui::PopID();
+    return changed;
+}
+
+bool Fields::checkbox(const char* label, bool& value, const char* tip) {
+    ImGui::PushID(label);
+    begin_row(label, tip);
+    const bool changed = ImGui::Checkbox("##value", &value);
+    ImGui::PopID();
+    return finish(label, tip, changed);
+}
+
+bool Fields::choice(const char* label, int& index, std::span<const char* const> names, const char* tip) {
+    ImGui::PushID(label);
+    begin_row(label, tip);
+    bool changed = false;
+    const bool open = ImGui::BeginCombo("##value", index >= 0 && size_t(index) < names.size() ? names[size_t(index)] : "");
+    ui_.probe.record_last_item(std::string(scope_) + "/" + label);
+    if (!open) tip_for_last_item(ui_, tip);
+    if (open) {
+        for (int i = 0; i < int(names.size()); ++i) {
+            const bool picked = ImGui::Selectable(names[size_t(i)], i == index);
+            ui_.probe.record_last_item(std::string(scope_) + "/" + label + "/" + names[size_t(i)]);
+            if (i == index) ImGui::SetItemDefaultFocus();
+            if (!picked || i == index) continue;
+            index = i;
+            changed = true;
+        }
+        ImGui::EndCombo();
+    }
+    ImGui::PopID();
+    if (changed) {
+        changed_ = true;
+        gesture_ = no_gesture;
+    }
+    return changed;
+}
+
+bool Fields::choice(const char* label, std::string& name, std::span<const std::string> names, const char* tip) {
+    std::vector<const char*> texts;
+    for (const std::string& n : names) texts.push_back(n.c_str());
+    int index = int(std::ranges::find(names, name) - names.begin());
+    if (!choice(label, index, std::span<const char* const>(texts), tip)) return false;
+    name = names[size_t(index)];
+    return true;
+}
+
+bool Fields::text(const char* label, std::string& value, const char* tip) {
+    ImGui::PushID(label);
+    begin_row(label, tip);
+    std::string edited = value;
+    ImGui::InputText("##value", &edited, ImGuiInputTextFlags_AutoSelectAll);
+    const bool changed = ImGui::IsItemDeactivatedAfterEdit() && edited != value;
+    if (changed) value = edited;
+    ImGui::PopID();
+    return finish(label, tip, changed);
+}
+
+void Fields::info(const char* label, const std::string& text, const char* tip) {
+    begin_row(label, tip);
+    ImGui::AlignTextToFramePadding();
+    ImGui::PushStyleColor(ImGuiCol_Text, tone::dim_text);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopStyleColor();
+    tip_for_last_item(ui_, tip);
+}
+
+bool Fields::button(const char* label, const char* tip) {
+    ImGui::SetCursorPosX(label_width());
+    const bool pressed = ImGui::Button(label, {-FLT_MIN, 0});
+    tip_for_last_item(ui_, tip);
+    ui_.probe.record_last_item(std::string(scope_) + "/" + label);
+    return pressed;
+}
+
+bool section(UiState& ui, const char* name, bool open_at_first) {
+    ImGui::Spacing();
+    ImGui::PushFont(heading_font());
+    ImGui::PushStyleColor(ImGuiCol_Header, ImVec4(0, 0, 0, 0));
+    const bool open = ImGui::CollapsingHeader(name, open_at_first ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+    ImGui::PopStyleColor();
+    ImGui::PopFont();
+    ui.probe.record_last_item(std::string("Section/") + name);
+    return open;
+}
+
+void tip_for_last_item(UiState& ui, const char* tip) {
+    if (!*tip || !ImGui::IsItemHovered() || ImGui::IsMouseDown(ImGuiMouseButton_Left)) return;
+    // Labels have no id and so no timer: they tell at once.
+    const ImGuiContext& g = *ImGui::GetCurrentContext();
+    const ImGuiID item = ImGui::GetItemID();
+    const double rested = item && g.HoveredId == item ? g.HoveredIdTimer : tip_delay;
+    if (rested < tip_delay) {
+        ui.next_frame_in = std::min(ui.next_frame_in, tip_delay - rested);
+        return;
+    }
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24);
+    ImGui::TextUnformatted(tip);
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+}
+
+void quiet_text(const std::string& text) {
+    ImGui::PushStyleColor(ImGuiCol_Text, tone::dim_text);
+    ImGui::PushTextWrapPos(0);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::PopStyleColor();
+}
+
+} // namespace blush

@@ -1,0 +1,142 @@
+#include "ui/window.h"
+
+#include "ui/theme.h"
+
+#include <algorithm>
+#include <atomic>
+#include <epoxy/gl.h>
+// After epoxy, which replaces the system's OpenGL header.
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+
+namespace blush {
+namespace {
+
+static_assert(key::space == GLFW_KEY_SPACE && key::zero == GLFW_KEY_0 && key::escape == GLFW_KEY_ESCAPE && key::remove == GLFW_KEY_DELETE &&
+              key::home == GLFW_KEY_HOME && key::f1 == GLFW_KEY_F1);
+
+constexpr int frames_after_input = 3;
+
+std::atomic<bool> woken = false;
+std::string glfw_error; // GLFW reports on the thread that calls it: ours
+
+Window& owner(GLFWwindow* window) { return *static_cast<Window*>(glfwGetWindowUserPointer(window)); }
+
+} // namespace
+
+Result<std::unique_ptr<Window>> Window::open(const WindowOptions& options) {
+    glfwSetErrorCallback([](int, const char* text) { glfw_error = text; });
+    if (!glfwInit()) return Error{"", "no display: " + glfw_error, ""};
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+    glfwWindowHint(GLFW_MAXIMIZED, options.maximized);
+    glfwWindowHintString(GLFW_X11_CLASS_NAME, "blush");
+    std::unique_ptr<Window> window(new Window);
+    window->window_ = glfwCreateWindow(options.width, options.height, options.title.c_str(), nullptr, nullptr);
+    if (!window->window_) return Error{"", "no window with OpenGL 3.3: " + glfw_error, ""};
+    glfwMakeContextCurrent(window->window_);
+    glfwSwapInterval(1);
+    glfwSetWindowSizeLimits(window->window_, 480, 320, GLFW_DONT_CARE, GLFW_DONT_CARE);
+    float scale_x = 1, scale_y = 1;
+    glfwGetWindowContentScale(window->window_, &scale_x, &scale_y);
+    window->scale_ = std::clamp(options.scale > 0 ? options.scale : std::max(scale_x, scale_y), 0.5f, 4.f);
+    window->install_callbacks();
+    window->begin_imgui(options);
+    return window;
+}
+
+Window::~Window() {
+    if (imgui_) {
+        ImGui_ImplOpenGL3_Shutdown();
+        ImGui_ImplGlfw_Shutdown();
+        ImGui::DestroyContext();
+    }
+    if (window_) glfwDestroyWindow(window_);
+    glfwTerminate();
+}
+
+// Ours first: ImGui's backend chains to whatever is installed before it.
+void Window::install_callbacks() {
+    glfwSetWindowUserPointer(window_, this);
+    glfwSetKeyCallback(window_, [](GLFWwindow* w, int code, int, int action, int mods) {
+        owner(w).request_frames(frames_after_input);
+        if (action == GLFW_RELEASE) return;
+        const bool letter_repeats = action == GLFW_REPEAT && !(mods & GLFW_MOD_CONTROL);
+        if (!letter_repeats)
+            owner(w).key_presses_.push_back({code, (mods & GLFW_MOD_CONTROL) != 0, (mods & GLFW_MOD_SHIFT) != 0, (mods & GLFW_MOD_ALT) != 0});
+    });
+    glfwSetDropCallback(window_, [](GLFWwindow* w, int count, const char** files) {
+        owner(w).request_frames(frames_after_input);
+        owner(w).dropped_files_.insert(owner(w).dropped_files_.end(), files, files + count);
+    });
+    glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int, int, int) { owner(w).request_frames(frames_after_input); });
+    glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double, double) { owner(w).request_frames(1); });
+    glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double) { owner(w).request_frames(frames_after_input); });
+    glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned) { owner(w).request_frames(frames_after_input); });
+    glfwSetCursorEnterCallback(window_, [](GLFWwindow* w, int) { owner(w).request_frames(frames_after_input); });
+    glfwSetWindowFocusCallback(window_, [](GLFWwindow* w, int) { owner(w).request_frames(frames_after_input); });
+    glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* w, int, int) { owner(w).request_frames(frames_after_input); });
+    glfwSetWindowRefreshCallback(window_, [](GLFWwindow* w) { owner(w).request_frames(1); });
+    glfwSetWindowCloseCallback(window_, [](GLFWwindow* w) { owner(w).request_frames(1); });
+}
+
+void Window::begin_imgui(const WindowOptions& options) {
+    IMGUI_CHECKVERSION();
+    ImGui::CreateContext();
+    ImGui::GetIO().IniFilename = nullptr; // the layout is ours to remember
+    ImGui::GetIO().ConfigInputTextCursorBlink = false; // a blinking cursor would keep the window from sleeping
+    load_fonts(options.assets, scale_);
+    apply_theme(scale_);
+    ImGui_ImplGlfw_InitForOpenGL(window_, true);
+    ImGui_ImplOpenGL3_Init("#version 330 core");
+    imgui_ = true;
+}
+
+bool Window::wait(double timeout_seconds) {
+    if (frames_due_ > 0) glfwPollEvents();
+    else glfwWaitEventsTimeout(timeout_seconds);
+    if (woken.exchange(false)) request_frames(1);
+    return frames_due_ > 0;
+}
+
+void Window::request_frames(int count) { frames_due_ = std::max(frames_due_, count); }
+
+void Window::wake() {
+    woken = true;
+    glfwPostEmptyEvent();
+}
+
+void Window::begin_frame() {
+    frames_due_ = std::max(frames_due_ - 1, 0);
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui_ImplGlfw_NewFrame();
+    ImGui::NewFrame();
+}
+
+void Window::end_frame() {
+    ImGui::Render();
+    int width = 0, height = 0;
+    glfwGetFramebufferSize(window_, &width, &height);
+    glViewport(0, 0, width, height);
+    glDisable(GL_SCISSOR_TEST);
+    glClearColor(0.11f, 0.11f, 0.11f, 1);
+    glClear(GL_COLOR_BUFFER_BIT);
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    glfwSwapBuffers(window_);
+}
+
+bool Window::close_requested() const { return glfwWindowShouldClose(window_); }
+void Window::request_close() { glfwSetWindowShouldClose(window_, GLFW_TRUE); }
+void Window::set_title(const std::string& title) { glfwSetWindowTitle(window_, title.c_str()); }
+bool Window::maximized() const { return glfwGetWindowAttrib(window_, GLFW_MAXIMIZED); }
+
+Window::Size Window::size() const {
+    Size s{};
+    glfwGetWindowSize(window_, &s.width, &s.height);
+    return s;
+}
+
+} // namespace blush
