@@ -24,9 +24,9 @@ struct EnvironmentChoice {
 Result<EnvironmentChoice> parse_environment(std::string_view text);
 
 struct SceneOverrides {
-    std::string camera; // name of a camera or of its node, or its number from 0; empty: the scene's first
-    std::optional<EnvironmentChoice> environment;
-    std::optional<float> aperture, focus; // metres
+    std::string camera = {}; // name of a camera or of its node, or its number from 0; empty: the scene's first
+    std::optional<EnvironmentChoice> environment = {};
+    std::optional<float> aperture = {}, focus = {}; // metres
 };
 
 // Without any camera in the scene, one is framed around it for a picture of `aspect` (width / height).

@@ -1,0 +1,40 @@
+// Runs a program the way a shell does and collects what it says.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace blush::test {
+
+struct Finished {
+    int exit_code = -1; // 128 + signal if one ended it
+    std::string out, err;
+};
+
+struct RunOptions {
+    bool stderr_is_terminal = false;
+    // Called with what stderr has said so far, each time it says more, and the process id: to answer with a signal.
+    std::function<void(const std::string& err, int pid)> on_stderr;
+};
+
+// `command[0]` is a path. Stdin is empty. Ends with the program.
+Finished run(const std::vector<std::string>& command, const RunOptions& options = {});
+
+// A folder of its own that is gone with the object.
+class TemporaryFolder {
+public:
+    TemporaryFolder();
+    ~TemporaryFolder();
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+    std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+    const std::filesystem::path& path() const { return path_; }
+
+private:
+    std::filesystem::path path_;
+};
+
+} // namespace blush::test

@@ -1,0 +1,13 @@
+blush_test(test_app
+  SOURCES
+    app_compare.cpp
+    app_info.cpp
+    app_progress.cpp
+    app_render.cpp
+    app_render_loop.cpp
+    app_render_options.cpp
+    app_scene_overrides.cpp
+    app_usage.cpp
+  LIBS blush_commands blush_test_support CLI11::CLI11 nlohmann_json::nlohmann_json fmt::fmt
+  LABELS unit)
+add_dependencies(test_app blush)

@@ -1,0 +1,36 @@
+#include "app_program.h"
+
+#include <gtest/gtest.h>
+
+namespace blush {
+namespace {
+
+using test::blush_json;
+using test::Finished;
+using test::scene_file;
+using Json = nlohmann::json;
+
+TEST(InfoCommand, JsonHasTheKeysOfTheContract) {
+    const Json json = blush_json({"info", scene_file("cornell")});
+    ASSERT_TRUE(json.is_object());
+    EXPECT_EQ(test::keys_of(json), (std::vector<std::string>{"cameras", "extensions", "instances", "kernel", "lights", "materials",
+                                                             "memory_mb", "meshes", "seconds", "textures", "triangles", "warnings"}));
+    EXPECT_EQ(test::keys_of(json["extensions"]), (std::vector<std::string>{"approximated", "honoured", "ignored", "used"}));
+    EXPECT_EQ(json["cameras"], 1);
+    // Five walls, two boxes of five visible sides, the light.
+    EXPECT_GE(json["triangles"], 2 * (5 + 2 * 5 + 1));
+    EXPECT_GE(json["lights"]["emissive_triangles"], 2);
+    EXPECT_FALSE(json["kernel"]["name"].get<std::string>().empty());
+    EXPECT_FALSE(json["kernel"]["left_out"].empty());
+    for (const Json& left_out : json["kernel"]["left_out"]) EXPECT_FALSE(left_out["why"].get<std::string>().empty()) << left_out;
+}
+
+TEST(InfoCommand, SaysWhatASceneNeeds) {
+    const Finished finished = test::blush({"info", scene_file("furnace")});
+    EXPECT_EQ(finished.exit_code, 0) << finished.err;
+    for (const char* word : {"geometry", "an environment", "kernel", "without"})
+        EXPECT_NE(finished.out.find(word), std::string::npos) << word;
+}
+
+} // namespace
+} // namespace blush

@@ -1,0 +1,221 @@
+// `blush render`, driven as a script would.
+#include "app_program.h"
+#include "io/image_io.h"
+#include "io/snapshot.h"
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <fstream>
+
+namespace blush {
+namespace {
+
+using test::blush_json;
+using test::Finished;
+using test::scene_file;
+using test::TemporaryFolder;
+using Json = nlohmann::json;
+
+std::vector<std::string> tiny(const std::string& scene, const std::string& output) {
+    return {"render", scene_file(scene), "-o", output, "--size", "24x16", "--spp", "4"};
+}
+
+std::vector<std::string> with(std::vector<std::string> arguments, const std::vector<std::string>& more) {
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+}
+
+std::vector<float> beauty(const LayeredImage& image) {
+    std::vector<float> values;
+    for (const char* name : {"R", "G", "B"})
+        if (const auto* channel = image.find(name)) values.insert(values.end(), channel->values.begin(), channel->values.end());
+    return values;
+}
+
+TEST(Render, WritesAnExrWithItsMetadata) {
+    const TemporaryFolder folder;
+    const Finished finished = test::blush(with(tiny("cornell", folder / "out.exr"), {"--seed", "5"}));
+    ASSERT_EQ(finished.exit_code, 0) << finished.err;
+    EXPECT_NE(finished.out.find("24x16, 4 spp"), std::string::npos) << finished.out;
+    const Result<LayeredImage> image = read_layers(folder / "out.exr");
+    ASSERT_TRUE(image) << image.error().text();
+    EXPECT_EQ(image->width, 24);
+    EXPECT_EQ(image->height, 16);
+    std::vector<std::string> names;
+    for (const auto& channel : image->channels) names.push_back(channel.name);
+    std::ranges::sort(names);
+    EXPECT_EQ(names, (std::vector<std::string>{"A", "B", "G", "R"}));
+    const Result<SnapshotMetadata> metadata = read_snapshot_metadata(*image);
+    ASSERT_TRUE(metadata) << metadata.error().text();
+    EXPECT_EQ(metadata->scene, "cornell.gltf");
+    EXPECT_EQ(metadata->spp, 4);
+    EXPECT_EQ(metadata->seed, 5u);
+    EXPECT_EQ(metadata->settings.seed, 5u);
+    EXPECT_FALSE(metadata->partial);
+    EXPECT_FALSE(metadata->scene_hash.empty());
+    // Nothing but the picture is left behind.
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+}
+
+TEST(Render, WritesTheLayersAskedFor) {
+    const TemporaryFolder folder;
+    const Finished finished = test::blush(with(tiny("cornell", folder / "out.exr"), {"--layers", "albedo,normal,depth,error,samples,id"}));
+    ASSERT_EQ(finished.exit_code, 0) << finished.err;
+    const LayeredImage image = *read_layers(folder / "out.exr");
+    for (const char* name : {"albedo.R", "normal.X", "normal.Z", "depth.Z", "error.G", "samples.Y", "id.object", "id.material"})
+        EXPECT_NE(image.find(name), nullptr) << name;
+    EXPECT_EQ(image.find("samples.Y")->values[0], 4);
+    // The camera of the Cornell box looks into it: every ray hits something.
+    for (const float depth : image.find("depth.Z")->values) EXPECT_GT(depth, 0);
+    for (const float id : image.find("id.object")->values) EXPECT_GE(id, 1);
+}
+
+TEST(Render, WritesPicturesForDisplay) {
+    const TemporaryFolder folder;
+    for (const char* name : {"out.png", "out.jpg"}) {
+        const Finished finished = test::blush(tiny("cornell", folder / name));
+        ASSERT_EQ(finished.exit_code, 0) << finished.err;
+        const Result<ImagePtr> image = read_image(folder / name);
+        ASSERT_TRUE(image) << image.error().text();
+        EXPECT_EQ((*image)->width, 24);
+        EXPECT_EQ((*image)->channels, 3);
+        EXPECT_FALSE((*image)->bytes.empty());
+    }
+}
+
+TEST(Render, ExposureBrightensPicturesAndLeavesExrsAlone) {
+    const TemporaryFolder folder;
+    const auto sum = [&](const std::string& file) {
+        int64_t total = 0;
+        for (const uint8_t byte : (*read_image(folder / file))->bytes) total += byte;
+        return total;
+    };
+    ASSERT_EQ(test::blush(tiny("cornell", folder / "plain.png")).exit_code, 0);
+    ASSERT_EQ(test::blush(with(tiny("cornell", folder / "bright.png"), {"--exposure", "2"})).exit_code, 0);
+    EXPECT_GT(sum("bright.png"), sum("plain.png"));
+    ASSERT_EQ(test::blush(tiny("cornell", folder / "plain.exr")).exit_code, 0);
+    ASSERT_EQ(test::blush(with(tiny("cornell", folder / "bright.exr"), {"--exposure", "2"})).exit_code, 0);
+    EXPECT_EQ(beauty(*read_layers(folder / "plain.exr")), beauty(*read_layers(folder / "bright.exr")));
+}
+
+TEST(Render, TheSameSeedGivesTheSameImageWhateverTheThreads) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(test::blush(with(tiny("cornell", folder / "one.exr"), {"--threads", "1"})).exit_code, 0);
+    ASSERT_EQ(test::blush(with(tiny("cornell", folder / "three.exr"), {"--threads", "3"})).exit_code, 0);
+    ASSERT_EQ(test::blush(with(tiny("cornell", folder / "seed.exr"), {"--seed", "1"})).exit_code, 0);
+    const std::vector<float> one = beauty(*read_layers(folder / "one.exr"));
+    EXPECT_EQ(one, beauty(*read_layers(folder / "three.exr")));
+    EXPECT_NE(one, beauty(*read_layers(folder / "seed.exr")));
+}
+
+TEST(Render, SampleRangesAverageToTheWhole) {
+    const TemporaryFolder folder;
+    const auto render = [&](const std::string& name, const std::string& samples) {
+        const Finished finished =
+            test::blush({"render", scene_file("cornell"), "-o", folder / name, "--size", "24x16", "--samples", samples});
+        EXPECT_EQ(finished.exit_code, 0) << finished.err;
+        return *read_layers(folder / name);
+    };
+    const LayeredImage first = render("a.exr", "0:4"), second = render("b.exr", "4:8"), whole = render("c.exr", "0:8");
+    const std::vector<float> a = beauty(first), b = beauty(second), both = beauty(whole);
+    for (size_t i = 0; i < both.size(); ++i) EXPECT_NEAR(0.5 * (a[i] + b[i]), both[i], 1e-5 * (1 + both[i]));
+    const SnapshotMetadata metadata = *read_snapshot_metadata(second);
+    EXPECT_EQ(metadata.spp, 4);
+    EXPECT_EQ(metadata.first_sample, 4);
+    EXPECT_EQ(metadata.last_sample, 8);
+}
+
+TEST(Render, TheEnvironmentCanBeReplaced) {
+    const TemporaryFolder folder;
+    // Nothing emits in the furnace but its world: without it the picture is black, with another it has another colour.
+    ASSERT_EQ(test::blush(with(tiny("furnace", folder / "black.exr"), {"--env", "none"})).exit_code, 0);
+    for (const float v : beauty(*read_layers(folder / "black.exr"))) EXPECT_EQ(v, 0);
+    ASSERT_EQ(test::blush(with(tiny("furnace", folder / "blue.exr"), {"--env", "constant=0,0,3"})).exit_code, 0);
+    const LayeredImage blue = *read_layers(folder / "blue.exr");
+    EXPECT_EQ(blue.find("R")->values[0], 0);
+    EXPECT_NEAR(blue.find("B")->values[0], 3, 1e-4);
+    EXPECT_NE(read_snapshot_metadata(blue)->edits.find("environment"), std::string::npos);
+}
+
+TEST(Render, JsonHasTheKeysOfTheContract) {
+    const TemporaryFolder folder;
+    const Json json = blush_json(with(tiny("cornell", folder / "out.exr"), {"--quiet"}));
+    ASSERT_TRUE(json.is_object());
+    for (const char* key : {"scene", "width", "height", "spp", "seconds", "seconds_setup", "rays", "mrays_per_s", "mpaths_per_s",
+                            "path_length_mean", "error", "health", "kernel", "peak_memory_mb", "output", "partial"})
+        EXPECT_TRUE(json.contains(key)) << key;
+    EXPECT_EQ(test::keys_of(json["rays"]), (std::vector<std::string>{"bounce", "camera", "shadow"}));
+    EXPECT_EQ(test::keys_of(json["error"]), (std::vector<std::string>{"high", "low", "relmse"}));
+    EXPECT_EQ(test::keys_of(json["health"]), (std::vector<std::string>{"first", "inf", "nan", "negative"}));
+    EXPECT_EQ(test::keys_of(json["kernel"]), (std::vector<std::string>{"features", "left_out", "name"}));
+    EXPECT_EQ(json["width"], 24);
+    EXPECT_EQ(json["spp"], 4);
+    EXPECT_EQ(json["rays"]["camera"], 24 * 16 * 4);
+    EXPECT_EQ(json["partial"], false);
+    EXPECT_EQ(json["output"], folder / "out.exr");
+    EXPECT_GE(json["path_length_mean"], 1.0);
+    EXPECT_GT(json["peak_memory_mb"], 0);
+    EXPECT_LE(json["error"]["low"], json["error"]["relmse"]);
+    EXPECT_GE(json["error"]["high"], json["error"]["relmse"]);
+    EXPECT_EQ(json["health"]["nan"], 0);
+}
+
+TEST(Render, JsonCanGoToAFile) {
+    const TemporaryFolder folder;
+    const Finished finished = test::blush(with(tiny("cornell", folder / "out.exr"), {"--json", folder / "out.json", "--quiet"}));
+    ASSERT_EQ(finished.exit_code, 0) << finished.err;
+    EXPECT_EQ(finished.out, "");
+    EXPECT_EQ(finished.err, "");
+    std::ifstream file(folder / "out.json");
+    EXPECT_EQ(Json::parse(file, nullptr, false)["spp"], 4);
+}
+
+TEST(Render, PixelPrintsEveryVertex) {
+    const Finished finished = test::blush({"render", scene_file("cornell"), "--size", "24x16", "--pixel", "12,8,3"});
+    ASSERT_EQ(finished.exit_code, 0) << finished.err;
+    EXPECT_GT(std::ranges::count(finished.out, '\n'), 2) << finished.out;
+    EXPECT_EQ(finished.out, test::blush({"render", scene_file("cornell"), "--size", "24x16", "--pixel", "12,8,3"}).out);
+}
+
+// Ctrl-C once the bar shows that samples are coming in: the picture is written, and says that it is partial.
+TEST(Render, CtrlCKeepsWhatThereIs) {
+    const TemporaryFolder folder;
+    bool sent = false;
+    test::RunOptions options;
+    options.stderr_is_terminal = true;
+    options.on_stderr = [&](const std::string& err, int pid) {
+        if (sent || err.find(" spp") == std::string::npos) return;
+        sent = kill(pid, SIGINT) == 0;
+    };
+    const Finished finished = test::blush(
+        {"render", scene_file("cornell"), "-o", folder / "out.exr", "--size", "64x64", "--spp", "100000000", "--json", folder / "out.json"},
+        options);
+    ASSERT_TRUE(sent) << finished.err;
+    ASSERT_EQ(finished.exit_code, 0) << finished.err;
+    EXPECT_NE(finished.err.find("[-"), std::string::npos) << "the bar";
+    EXPECT_NE(finished.out.find("partial"), std::string::npos) << finished.out;
+    const Result<LayeredImage> image = read_layers(folder / "out.exr");
+    ASSERT_TRUE(image) << image.error().text();
+    const SnapshotMetadata metadata = *read_snapshot_metadata(*image);
+    EXPECT_TRUE(metadata.partial);
+    EXPECT_GE(metadata.spp, 1);
+    std::ifstream file(folder / "out.json");
+    const Json json = Json::parse(file, nullptr, false);
+    EXPECT_EQ(json["partial"], true);
+    EXPECT_EQ(json["spp"], metadata.spp);
+}
+
+TEST(Render, EveryShippedSceneRenders) {
+    const TemporaryFolder folder;
+    for (const char* scene : {"card-and-mug", "cornell", "furnace", "veach-mis", "corridor"}) {
+        const Json json = blush_json(with(tiny(scene, folder / "out.exr"), {"--quiet"}));
+        ASSERT_TRUE(json.is_object()) << scene;
+        EXPECT_EQ(json["health"]["nan"], 0) << scene;
+        EXPECT_EQ(json["health"]["inf"], 0) << scene;
+        EXPECT_EQ(json["health"]["negative"], 0) << scene;
+    }
+}
+
+} // namespace
+} // namespace blush

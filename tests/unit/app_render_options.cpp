@@ -1,0 +1,143 @@
+#include "app/commands/layers.h"
+#include "app/commands/render_options.h"
+
+#include <CLI/CLI.hpp>
+#include <gtest/gtest.h>
+
+namespace blush {
+namespace {
+
+RenderOptions parsed(std::vector<std::string> arguments) {
+    CLI::App app;
+    RenderOptions options;
+    add_render_options(app, options);
+    std::ranges::reverse(arguments); // as CLI11 wants a vector
+    app.parse(arguments);
+    return options;
+}
+
+bool refused(const std::vector<std::string>& arguments) {
+    try {
+        parsed(arguments);
+    } catch (const CLI::ParseError&) { return true; }
+    return false;
+}
+
+TEST(RenderOptions, NothingGivenIsTheDefault) {
+    const RenderOptions options = parsed({});
+    EXPECT_EQ(*settings_of(options), RenderSettings{});
+    EXPECT_EQ(options.view, ViewSettings{});
+    EXPECT_FALSE(options.size_given);
+    EXPECT_FALSE(options.overrides.environment);
+}
+
+TEST(RenderOptions, EachOptionSetsItsField) {
+    RenderSettings expected;
+    expected.width = 320;
+    expected.height = 200;
+    expected.spp = 12;
+    expected.seconds = 2.5;
+    expected.error = 0.01;
+    expected.seed = 7;
+    expected.max_bounces = 2;
+    expected.roulette = {Roulette::Rule::constant, 1, 0, 1, 0.5f, 0.1f};
+    expected.strategy = Strategy::light;
+    expected.energy_compensation = true;
+    expected.filter = PixelFilter::box;
+    const RenderOptions options = parsed({"--size",
+                                          "320x200",
+                                          "--spp",
+                                          "12",
+                                          "--time",
+                                          "2.5",
+                                          "--error",
+                                          "0.01",
+                                          "--seed",
+                                          "7",
+                                          "--max-bounces",
+                                          "2",
+                                          "--roulette",
+                                          "constant=0.5,start=1",
+                                          "--strategy",
+                                          "light",
+                                          "--energy-compensation",
+                                          "on",
+                                          "--filter",
+                                          "box",
+                                          "--exposure",
+                                          "-1.5",
+                                          "--view",
+                                          "Raw",
+                                          "--display",
+                                          "sRGB",
+                                          "--aperture",
+                                          "0.02",
+                                          "--focus",
+                                          "3",
+                                          "--camera",
+                                          "Top"});
+    EXPECT_EQ(*settings_of(options), expected);
+    EXPECT_TRUE(options.size_given);
+    EXPECT_EQ(options.view.exposure_ev, -1.5f);
+    EXPECT_EQ(options.view.view, "Raw");
+    EXPECT_EQ(options.view.display, "sRGB");
+    EXPECT_EQ(options.overrides.aperture, 0.02f);
+    EXPECT_EQ(options.overrides.focus, 3.f);
+    EXPECT_EQ(options.overrides.camera, "Top");
+}
+
+TEST(RenderOptions, SamplesAreARange) {
+    const RenderSettings settings = *settings_of(parsed({"--samples", "16:48"}));
+    EXPECT_EQ(settings.first_sample, 16);
+    EXPECT_EQ(settings.spp, 48);
+    EXPECT_FALSE(settings_of(parsed({"--samples", "16:48", "--spp", "64"})));
+}
+
+TEST(RenderOptions, AnotherLimitLiftsTheDefaultOne) {
+    EXPECT_EQ(settings_of(parsed({"--time", "5"}))->spp, 0);
+    EXPECT_EQ(settings_of(parsed({"--error", "0.01"}))->spp, 0);
+    EXPECT_EQ(settings_of(parsed({"--time", "5", "--spp", "64"}))->spp, 64);
+    EXPECT_EQ(settings_of(parsed({"--time", "5", "--samples", "0:8"}))->spp, 8);
+}
+
+TEST(RenderOptions, NumbersOutOfRangeAreRefused) {
+    EXPECT_FALSE(settings_of(parsed({"--time", "-1"})));
+    EXPECT_FALSE(settings_of(parsed({"--time", "nan"})));
+    EXPECT_FALSE(settings_of(parsed({"--size", "70000x1"})));
+    EXPECT_FALSE(settings_of(parsed({"--exposure", "1000"})));
+}
+
+TEST(RenderOptions, BadTextIsRefused) {
+    for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--size", "320"},
+                                                      {"--size", "320x200x3"},
+                                                      {"--size", "axb"},
+                                                      {"--spp", "0"},
+                                                      {"--spp", "1.5"},
+                                                      {"--seed", "-1"},
+                                                      {"--max-bounces", "few"},
+                                                      {"--strategy", "both"},
+                                                      {"--energy-compensation", "maybe"},
+                                                      {"--filter", "gauss"},
+                                                      {"--samples", "8:4"},
+                                                      {"--samples", "-1:4"},
+                                                      {"--samples", "4"},
+                                                      {"--env", "constant=1,2"},
+                                                      {"--env", ""},
+                                                      {"--denoise", "high"}})
+        EXPECT_TRUE(refused(arguments)) << arguments[0] << " " << arguments[1];
+    EXPECT_FALSE(refused({"--denoise", "off"}));
+}
+
+TEST(Layers, AreParsedByName) {
+    EXPECT_EQ(*parse_layers("albedo"), (Layers{.albedo = true}));
+    EXPECT_EQ(*parse_layers("albedo,normal,depth,error,samples,id"), (Layers{true, true, true, true, true, true}));
+    for (const char* bad : {"", "albedo,", "Albedo", "groups", "bounces", "albedo normal"}) EXPECT_FALSE(parse_layers(bad)) << bad;
+}
+
+TEST(Layers, TheFilmHoldsOnlyWhatTheyNeed) {
+    EXPECT_EQ(planes_of(*parse_layers("error,samples")), PlaneSet{});
+    EXPECT_EQ(planes_of(*parse_layers("normal,id")), (PlaneSet{.normal = true, .ids = true}));
+}
+
+} // namespace
+} // namespace blush
