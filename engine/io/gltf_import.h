@@ -31,7 +31,8 @@ struct ImportOptions {
 
 // The file's default scene, its first camera as the view (or one framed around the geometry), lights of
 // KHR_lights_punctual, and what `extras.blush` adds: on the scene `environment` {kind, color, intensity, rotation_degrees, file,
-// visible_to_camera}, on a light `angle_degrees`, `radius`, `rectangle` {width, height, two_sided}.
+// visible_to_camera} (its file relative to the scene's folder), on a light `angle_degrees`, `radius`, `rectangle` {width, height,
+// two_sided}, on a camera `aperture_radius`, `focus_distance`.
 // Errors: unreadable, not glTF, a required extension that is not supported, an index out of range, a buffer that is missing or too
 // short, a file URI that leaves the scene's folder or is not a plain relative path.
 Result<ImportedScene> import_gltf(const std::filesystem::path& file, const ImportOptions& options = {});

@@ -20,14 +20,14 @@ namespace {
 constexpr uint64_t max_file_bytes = uint64_t(4) << 30;
 constexpr int max_channels = 256;
 
-// Only these decoders ever see a file: fewer of them is less to attack, and names such as "x.null" mean nothing.
+// Only these decoders ever see a file: fewer of them is less to attack, and names such as "x.null" mean nothing. TIFF is not
+// among them because its decoder fills in what a truncated file lacks with black and reports success.
 const char* format_of(std::span<const uint8_t> bytes) {
     const std::string_view head(reinterpret_cast<const char*>(bytes.data()), std::min<size_t>(bytes.size(), 16));
     if (head.starts_with("\x89PNG\r\n\x1a\n")) return "png";
     if (head.starts_with("\xff\xd8\xff")) return "jpeg";
     if (head.starts_with("\x76\x2f\x31\x01")) return "openexr";
     if (head.starts_with("#?RADIANCE") || head.starts_with("#?RGBE")) return "hdr";
-    if (head.starts_with(std::string_view("II*\0", 4)) || head.starts_with(std::string_view("MM\0*", 4))) return "tiff";
     if (head.starts_with("RIFF") && head.size() >= 12 && head.substr(8, 4) == "WEBP") return "webp";
     if (head.starts_with("BM")) return "bmp";
     return nullptr;
@@ -77,7 +77,7 @@ struct Decoder {
 Result<Decoder> open_decoder(std::span<const uint8_t> bytes, const std::string& name, const ImageLimits& limits) {
     lower_library_limits();
     const char* format = format_of(bytes);
-    if (!format) return Error{name, "not an image in a known format (PNG, JPEG, EXR, HDR, TIFF, WebP, BMP)", ""};
+    if (!format) return Error{name, "not an image in a known format (PNG, JPEG, EXR, HDR, WebP, BMP)", ""};
     if (std::string_view(format) == "jpeg" && !jpeg_reaches_its_end(bytes)) return Error{name, "truncated JPEG", ""};
     Decoder decoder;
     decoder.name = name;
@@ -238,6 +238,7 @@ Result<void> write_display_image(const std::filesystem::path& file, int width, i
         OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT8);
         spec.attribute("oiio:ColorSpace", "sRGB");
         spec.attribute("compression", std::string_view(format) == "jpeg" ? "jpeg:95" : "zip");
+        spec.attribute("jpeg:subsampling", "4:4:4"); // saturated edges keep their colour
         set_metadata(spec, metadata);
         return encode_to_file(file, format, spec, OIIO::TypeDesc::UINT8, bytes.data());
     });

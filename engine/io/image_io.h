@@ -19,7 +19,7 @@ struct ImageLimits {
     int64_t max_pixels = int64_t(1) << 28; // checked against the header before anything is decoded
 };
 
-// PNG, JPEG, EXR, HDR, TIFF, WebP and BMP, told apart by their first bytes. 8-bit files stay bytes, everything else becomes
+// PNG, JPEG, EXR, HDR, WebP and BMP, told apart by their first bytes. 8-bit files stay bytes, everything else becomes
 // float; at most 4 channels (more are cut). Values are not converted between colour spaces, alpha is not multiplied in.
 // Errors: unreadable, unknown format, beyond the limits, truncated.
 Result<ImagePtr> read_image(const std::filesystem::path& file, const ImageLimits& limits = {});
@@ -44,7 +44,7 @@ struct LayeredImage {
 Result<LayeredImage> read_layers(const std::filesystem::path& file, const ImageLimits& limits = {});
 // Written to a temporary name beside the target and renamed: the file is whole or not there. EXR: float32, ZIP.
 Result<void> write_exr(const std::filesystem::path& file, const LayeredImage& image);
-// Display-encoded RGB in [0, 1], width * height * 3; .png or .jpg by extension. Atomic too.
+// Display-encoded RGB in [0, 1], width * height * 3; .png or .jpg by extension; text metadata survive in .png only. Atomic too.
 Result<void> write_display_image(const std::filesystem::path& file, int width, int height, std::span<const float> rgb,
                                  const std::map<std::string, std::string>& metadata = {});
 

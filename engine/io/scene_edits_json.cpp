@@ -61,7 +61,7 @@ Scene without_payloads(const Scene& imported, Scene now, Json& left_out) {
     const Table<Material> materials = now.materials;
     for (auto [id, material] : materials) {
         for (const TextureSlot& slot : texture_slots)
-            if (TextureRef& ref = material.*slot.ref; !now.textures.contains(ref.texture)) ref = {};
+            if (TextureRef& ref = material.*slot.ref; ref.texture && !now.textures.contains(ref.texture)) ref = {};
         now.materials.set(id, material);
     }
     const Environment& e = now.environment;

@@ -80,6 +80,7 @@ TEST(ImageIo, PngRoundsToTheNearestStepAndNanIsBlack) {
     ASSERT_TRUE(image) << error_text(image);
     EXPECT_EQ((*image)->channels, 3);
     EXPECT_EQ((*image)->bytes, (std::vector<uint8_t>{0, 255, 128, 0, 255, 0}));
+    EXPECT_EQ(read_layers(folder / "a.png")->metadata.at("blush:spp"), "64");
 }
 
 TEST(ImageIo, JpegIsCloseForASmoothImage) {
