@@ -43,7 +43,7 @@ template <class F> struct BsdfSample {
     Mask<F> valid; // false: no direction, weight 0
 };
 
-// Prepared for a point and a viewer by make_bsdf. "This side" is the viewer's.
+// Prepared by make_bsdf for a point and a viewer.
 template <class F> struct Bsdf {
     Vec<F> diffuse;     // albedo of the Lambertian part below the Fresnel reflection
     Mask<F> delta_only; // no part has a density
@@ -55,7 +55,7 @@ template <class F> struct Bsdf {
     F cos;                  // |wo.z|
     F visible;              // masking(wo) / |wo.z|
     Interface<F> interface; // of a solid
-    F normal;               // its reflectance at normal incidence
+    F interface_f0;         // its reflectance at normal incidence
     F radiance_scale;       // of light that goes through
     F p_diffuse;            // probability of sampling the Lambertian part
     Mask<F> solid, flipped; // flipped: the viewer is below z = 0
@@ -87,7 +87,7 @@ template <Features S, class F> FacetAlbedo<F> facet_albedo(const Bsdf<F>& b, con
     if constexpr (S.has(Feature::transmission)) {
         // Light that passes straight has seen no facets: it must be missing from what a surface without any reflects.
         const F at = select(b.straight, b.cos, c);
-        const F exact = clamp01(F((dielectric_reflectance(b.interface, at) - b.normal) / max(F(1.f - b.normal), F(1e-6f))));
+        const F exact = clamp01(F((dielectric_reflectance(b.interface, at) - b.interface_f0) / max(F(1.f - b.interface_f0), F(1e-6f))));
         dielectric_rise = select(b.solid, exact, rise);
         total = b.solid && (b.mirror || totally_reflects(b.interface, at));
     }
@@ -100,14 +100,12 @@ template <Features S, class F> FacetAlbedo<F> facet_albedo(const Bsdf<F>& b, con
     return a;
 }
 
-// Probability with which a sampled facet reflects instead of transmitting.
-template <Features S, class F> F reflect_probability(const FacetAlbedo<F>& a) {
-    if constexpr (S.has(Feature::transmission)) {
-        const F r = max_component(a.reflected), t = max_component(a.transmitted);
-        return select(t > F(0.f), r / (r + t), F(1.f));
-    } else {
-        return F(1.f);
-    }
+// Probability with which a sampled facet reflects, or else transmits.
+template <Features S, class F> F facet_probability(const FacetAlbedo<F>& a, const Mask<F>& reflects) {
+    const F certain = select(reflects, F(1.f), F(0.f));
+    if constexpr (!S.has(Feature::transmission)) return certain;
+    const F r = max_component(a.reflected), t = max_component(a.transmitted);
+    return select(t > F(0.f), select(reflects, r, t) / (r + t), certain);
 }
 
 // ---- make
@@ -141,7 +139,7 @@ template <Features S, class F> void make_facets(Bsdf<F>& b, const BsdfParams<F>&
         const F ior = max(m.ior, F(1.f));
         b.transmitted = m.base_color * ((1.f - m.metallic) * m.transmission);
         b.interface = interface_seen(b.flipped, ior);
-        b.normal = normal_reflectance(ior);
+        b.interface_f0 = normal_reflectance(ior);
         // Radiance is squeezed into the smaller solid angle of the denser side: L / eta^2 is what refraction keeps (Veach 1997,
         // section 5.2). A path that comes out again has both factors, and a glass ball in a furnace is as bright as the furnace.
         b.radiance_scale = select(b.solid, 1.f / (b.interface.eta * b.interface.eta), F(1.f));
@@ -178,7 +176,7 @@ template <Features S, class F> Bsdf<F> make_bsdf(const BsdfParams<F>& m, const V
     return b;
 }
 
-// True where eval is 0 for every direction: light sampling would be wasted.
+// True where nothing has a density: eval is 0 for every direction, and light sampling would be wasted.
 template <class F> Mask<F> is_delta_only(const Bsdf<F>& b) { return b.delta_only; }
 
 template <class F> Vec<F> flip_z(const Mask<F>& m, const Vec<F>& w) { return {w.x, w.y, select(m, -w.z, w.z)}; }
@@ -237,10 +235,9 @@ template <Features S, class F> BsdfValue<F> eval(const Bsdf<F>& b, const Vec<F>&
 
         const Mask<F> dense = facet.faces_both && select(above, !b.smooth, !(b.smooth || b.straight)) && abs(wi.z) > F(0.f);
         const F density = select(dense, ggx(b.alpha, facet.h) * b.visible * facet.jacobian, F(0.f));
-        const F p_reflect = reflect_probability<S>(albedo);
         const Vec<F> scattered = select(above, albedo.reflected, albedo.transmitted * b.radiance_scale);
-        const F p = select(above, p_reflect, 1.f - p_reflect);
-        return {diffuse + scattered * (density * masking(b.alpha, wi)), b.p_diffuse * cosine + (1.f - b.p_diffuse) * p * density};
+        const F pdf = facet_probability<S>(albedo, above) * density;
+        return {diffuse + scattered * (density * masking(b.alpha, wi)), b.p_diffuse * cosine + (1.f - b.p_diffuse) * pdf};
     }
 }
 
@@ -252,23 +249,23 @@ template <Features S, class F> BsdfSample<F> sample_facets(const Bsdf<F>& b, con
     Vec<F> h = select(b.smooth, z, sample_visible_normal(b.alpha, wo, u, v));
     F cos = max(dot(wo, h), F(grazing));
     const FacetAlbedo<F> a = facet_albedo<S>(b, cos);
-    const F p_reflect = reflect_probability<S>(a);
+    const Mask<F> reflects = choice < facet_probability<S>(a, Mask<F>(true));
     BsdfSample<F> s;
     s.wi = h * (2.f * cos) - wo;
-    s.weight = a.reflected / p_reflect;
+    s.weight = a.reflected;
     s.pdf = F(1.f);
     s.delta = b.smooth;
     s.valid = s.wi.z > F(0.f);
     if constexpr (S.has(Feature::transmission)) {
-        const Mask<F> reflects = choice < p_reflect;
         h = select(b.straight, z, h);
         cos = select(b.straight, b.cos, cos);
         const Vec<F> through = select(b.solid, refract(b.interface, wo, h, cos), flip_z(Mask<F>(true), s.wi));
         s.wi = select(reflects, s.wi, through);
-        s.weight = select(reflects, s.weight, a.transmitted * (b.radiance_scale / max(F(1.f - p_reflect), F(1e-20f))));
+        s.weight = select(reflects, s.weight, a.transmitted * b.radiance_scale);
         s.delta = s.delta || (b.straight && !reflects);
         s.valid = select(reflects, s.valid, s.wi.z < F(0.f));
     }
+    s.weight = s.weight / facet_probability<S>(a, reflects);
     return s;
 }
 
@@ -287,7 +284,7 @@ template <Features S, class F> BsdfSample<F> sample(const Bsdf<F>& b, const Vec<
         s.weight = splat<F>(0.f);
         const F p_facets = 1.f - b.p_diffuse;
         if (!all(is_diffuse)) {
-            const F rest = (choice - b.p_diffuse) / max(p_facets, F(1e-20f));
+            const F rest = min(F((choice - b.p_diffuse) / max(p_facets, F(1e-20f))), F(one_minus_epsilon));
             const BsdfSample<F> facet = sample_facets<S>(b, upper_wo(b, wo_surface), u, v, rest);
             s.wi = select(is_diffuse, s.wi, facet.wi);
             s.delta = !is_diffuse && facet.delta;

@@ -1,0 +1,127 @@
+// sample, pdf and eval of every material agree, from every angle.
+#include "shading_reference.h"
+#include "statistics.h"
+
+using namespace blush;
+using namespace blush::statistics;
+
+namespace {
+
+// From some viewers a lobe is narrower than the spacing of single-precision directions: alpha one way, alpha cos the other.
+bool is_resolved(const Params& p, const Vec3& wo) {
+    return p.roughness < smooth_roughness || p.roughness * p.roughness * std::abs(wo.z) > 16 * 0x1p-24f;
+}
+
+} // namespace
+
+TEST(Sampling, DirectionsFollowThePdf) {
+    const std::vector<Material> all = materials();
+    int64_t tests = 0;
+    for (const Material& m : all) tests += int64_t(viewers(m.params).size());
+    Random random(1);
+    for (const Material& m : all)
+        for (const Viewer& v : viewers(m.params)) {
+            const Vec3 wo = v.wo();
+            if (!is_resolved(m.params, wo)) continue;
+            const Bsdf<float> b = make_bsdf<all_features>(m.params, wo, nullptr);
+            const auto draw = [&]() -> std::optional<Vec3> {
+                const BsdfSample<float> s = sample_next<all_features>(b, wo, random);
+                return s.valid && !s.delta ? std::optional(s.wi) : std::nullopt;
+            };
+            const auto pdf = [&](const Vec3& wi) { return eval<all_features>(b, wo, wi).pdf; };
+            const DirectionTest test{.charts = reference::facet_charts(m.params, wo),
+                                     .rows = 16,
+                                     .columns = 12,
+                                     .points = 8,
+                                     .samples = 30'000,
+                                     .alpha = sidak(significance, tests)};
+            EXPECT_TRUE(directions_follow(test, draw, pdf)) << describe(m, v);
+        }
+}
+
+TEST(Sampling, WeightIsEvalOverPdfAndBounded) {
+    Random random(2);
+    for (const Material& m : materials())
+        for (const Viewer& v : viewers(m.params)) {
+            SCOPED_TRACE(describe(m, v));
+            const Vec3 wo = v.wo();
+            const Bsdf<float> b = make_bsdf<all_features>(m.params, wo, nullptr);
+            // No part has less than a tenth of the samples it deserves; refraction may concentrate radiance.
+            const float limit = 10 * max(1.f, lane(b.radiance_scale, 0)) * (1 + 1e-5f);
+            for (int i = 0; i < 2000; ++i) {
+                const BsdfSample<float> s = sample_next<all_features>(b, wo, random);
+                ASSERT_TRUE(is_finite(s.weight) && is_finite(s.pdf) && s.pdf >= 0);
+                ASSERT_TRUE(s.weight.x >= 0 && s.weight.y >= 0 && s.weight.z >= 0);
+                ASSERT_LE(max_component(s.weight), limit);
+                if (!s.valid) {
+                    ASSERT_EQ(max_component(s.weight), 0.f);
+                    continue;
+                }
+                ASSERT_NEAR(length(s.wi), 1, 4e-6);
+                ASSERT_GT(s.pdf, 0.f);
+                if (s.delta) continue;
+                const BsdfValue<float> value = eval<all_features>(b, wo, s.wi);
+                ASSERT_EQ(value.pdf, s.pdf);
+                for (const auto component : {&Vec3::x, &Vec3::y, &Vec3::z})
+                    ASSERT_NEAR(s.weight.*component * s.pdf, value.f_cos.*component, 1e-6 * value.f_cos.*component);
+            }
+        }
+}
+
+// Wherever light comes from, exactly grazing and exactly backward included.
+TEST(Sampling, EvalIsFiniteAndNotNegative) {
+    Random random(3);
+    for (const Material& m : materials())
+        for (const Viewer& v : viewers(m.params)) {
+            SCOPED_TRACE(describe(m, v));
+            const Vec3 wo = v.wo();
+            const Bsdf<float> b = make_bsdf<all_features>(m.params, wo, nullptr);
+            std::vector<Vec3> directions = {wo,         -wo,       {-wo.x, -wo.y, wo.z}, {wo.x, wo.y, -wo.z}, {0, 0, 1},
+                                            {0, 0, -1}, {1, 0, 0}, {-1, 0, 0.f},         {0, 1, -0.f}};
+            for (int i = 0; i < 1000; ++i) directions.push_back(random.direction());
+            for (int i = 0; i < 200; ++i)
+                directions.push_back(normalize(Vec3{random() - 0.5f, random() - 0.5f, (random() - 0.5f) * 1e-6f}));
+            for (const Vec3& wi : directions) {
+                const BsdfValue<float> value = eval<all_features>(b, wo, wi);
+                ASSERT_TRUE(is_finite(value.f_cos) && is_finite(value.pdf)) << wi.x << ", " << wi.y << ", " << wi.z;
+                ASSERT_TRUE(value.f_cos.x >= 0 && value.f_cos.y >= 0 && value.f_cos.z >= 0 && value.pdf >= 0);
+                ASSERT_TRUE(value.pdf > 0 || value.f_cos.x == 0)
+                    << "light from " << wi.x << ", " << wi.y << ", " << wi.z << " is never sampled";
+                ASSERT_TRUE(!is_delta_only(b) || (value.f_cos.x == 0 && value.pdf == 0));
+            }
+        }
+}
+
+// Parameters and viewers nobody would choose, but that textures and interpolated normals produce.
+TEST(Sampling, ExtremeParametersNeverMakeNaN) {
+    Random random(4);
+    const EnergyTable energy = make_energy_table();
+    const auto pick = [&](std::initializer_list<float> values) {
+        const size_t i = random.bits() % (values.size() + 1);
+        return i < values.size() ? values.begin()[i] : random();
+    };
+    for (int i = 0; i < 300'000; ++i) {
+        Params p;
+        p.base_color = {pick({0, 1}), pick({0, 1}), pick({0, 1})};
+        p.metallic = pick({0, 1, 1e-7f});
+        p.roughness = pick({0, 1, 0.00999f, 0.01f, 0.0101f});
+        p.ior = pick({0, 1, 1.0000001f, 1.00001f, 1.5f, 100, 1e6f});
+        if (p.ior < 1 && p.ior > 0) p.ior += 1;
+        p.specular = pick({0, 1, 1e-7f});
+        p.specular_color = {pick({0, 1, 1e6f}), pick({0, 1}), pick({0, 1})};
+        p.transmission = pick({0, 1, 1e-7f});
+        p.thin = random() < 0.5f;
+        Vec3 wo = random.direction();
+        wo.z = pick({std::abs(wo.z), 1e-3f, 1e-6f, 1e-20f, 0});
+        wo = normalize(wo);
+        if (is_solid(p) && random() < 0.5f) wo.z = -wo.z;
+        const Bsdf<float> b = make_bsdf<all_features>(p, wo, random() < 0.5f ? &energy : nullptr);
+        const BsdfSample<float> s =
+            sample<all_features>(b, wo, pick({0, one_minus_epsilon}), pick({0, one_minus_epsilon}), pick({0, one_minus_epsilon}));
+        ASSERT_TRUE(is_finite(s.weight) && is_finite(s.pdf) && is_finite(albedo<all_features>(b, wo)));
+        ASSERT_TRUE(s.weight.x >= 0 && s.weight.y >= 0 && s.weight.z >= 0);
+        ASSERT_TRUE(!s.valid || (is_finite(s.wi) && std::abs(length(s.wi) - 1) < 1e-5f));
+        const BsdfValue<float> value = eval<all_features>(b, wo, random.direction());
+        ASSERT_TRUE(is_finite(value.f_cos) && is_finite(value.pdf));
+    }
+}
