@@ -89,15 +89,16 @@ public:
     }
     double row_border(int row) const { return row == 0 ? 0 : row == height + 1 ? exact_pi : exact_pi * (row - 0.5) / height; }
     // Point (s, t) of the unit square is row s * (height + 1), column t * width of the cells, uniform in solid angle in each.
+    statistics::Chart::Point point(double s, double t) const {
+        const double at = s * (height + 1);
+        const int row = std::min(int(at), height);
+        const double begin = std::cos(row_border(row)), end = std::cos(row_border(row + 1));
+        const double y = begin + (end - begin) * (at - row), r = std::sqrt(std::max(0.0, 1 - y * y));
+        const double phi = 2 * exact_pi * (t - 0.5 / width - 0.5 - table_.rotation);
+        return {{r * std::sin(phi), y, -r * std::cos(phi)}, (height + 1) * (begin - end) * 2 * exact_pi};
+    }
     statistics::Chart chart() const {
-        return {[*this](double s, double t) {
-                    const double at = s * (height + 1);
-                    const int row = std::min(int(at), height);
-                    const double begin = std::cos(row_border(row)), end = std::cos(row_border(row + 1));
-                    const double y = begin + (end - begin) * (at - row), r = std::sqrt(std::max(0.0, 1 - y * y));
-                    const double phi = 2 * exact_pi * (t - 0.5 / width - 0.5 - table_.rotation);
-                    return statistics::Chart::Point{{r * std::sin(phi), y, -r * std::cos(phi)}, (height + 1) * (begin - end) * 2 * exact_pi};
-                },
+        return {[*this](double s, double t) { return std::optional(point(s, t)); },
                 [*this](const Vec3d& d) {
                     const MapPoint p = locate(d);
                     const int row = std::min(int(p.y), height);
@@ -108,12 +109,11 @@ public:
     }
     // Integral over the sphere of fn(direction), by the midpoint rule on a grid in every cell.
     template <class Fn> double integrate(Fn fn, int points) const {
-        const statistics::Chart c = chart();
         const int rows = (height + 1) * points, columns = width * points;
         double sum = 0;
         for (int i = 0; i < rows; ++i) {
             for (int j = 0; j < columns; ++j) {
-                const statistics::Chart::Point p = c.at((i + 0.5) / rows, (j + 0.5) / columns);
+                const statistics::Chart::Point p = point((i + 0.5) / rows, (j + 0.5) / columns);
                 sum += p.solid_angle * fn(p.direction);
             }
         }
@@ -161,7 +161,8 @@ TEST(EnvironmentLookup, RotatesCounterClockwiseSeenFromAbove) {
     // +90 degrees about +Y takes -Z to -X and -X to +Z.
     for (int k = 0; k < 100; ++k) {
         const Vec3 d = random.direction(), rotated{d.z, d.y, -d.x};
-        EXPECT_NEAR(environment_radiance<float>(turned.tables(), rotated, true).x, environment_radiance<float>(straight.tables(), d, true).x, 2e-5);
+        EXPECT_NEAR(environment_radiance<float>(turned.tables(), rotated, true).x,
+                    environment_radiance<float>(straight.tables(), d, true).x, 2e-5);
     }
 }
 
@@ -197,7 +198,9 @@ TEST(EnvironmentLookup, ConstantIsConstant) {
 TEST(EnvironmentLookup, NoDirectionLeavesTheMap) {
     Random random(5);
     const EnvironmentTable table = build_environment_table(map_of(5, 3, 77, [&] { return random.unit(); }));
-    const auto any_float = [&] { return random.below(4) == 0 ? nan : random.below(4) == 0 ? infinite : std::bit_cast<float>(random.bits()); };
+    const auto any_float = [&] {
+        return random.below(4) == 0 ? nan : random.below(4) == 0 ? infinite : std::bit_cast<float>(random.bits());
+    };
     for (int k = 0; k < 100000; ++k) {
         const Vec3 d{any_float(), any_float(), any_float()};
         const EnvironmentCell<float> cell = environment_cell<float>(table.tables(), d);
@@ -267,7 +270,8 @@ TEST(EnvironmentSampling, SamplesKnowTheirDensityAndRadiance) {
             // Rounding may carry a direction over the border of its cell, and no further.
             ++apart;
             const MapPoint p = model.locate(widened(s.direction));
-            ASSERT_TRUE(std::abs(p.x - std::round(p.x)) < model.column_error() || std::abs(p.y - std::round(p.y)) < model.row_error()) << map.name;
+            ASSERT_TRUE(std::abs(p.x - std::round(p.x)) < model.column_error() || std::abs(p.y - std::round(p.y)) < model.row_error())
+                << map.name;
         }
         EXPECT_LE(double(apart), 50000 * 4 * (model.column_error() + model.row_error())) << map.name;
     }
@@ -282,7 +286,8 @@ TEST(EnvironmentSampling, EstimatesTheIrradianceOfEveryMap) {
         for (int trial = 0; trial < 3; ++trial) {
             const Vec3 n = random.direction();
             const auto cosine = [&](const Vec3d& d) { return std::max(0.0, n.x * d.x + n.y * d.y + n.z * d.z); };
-            const double expected = model.integrate([&](const Vec3d& d) { return cosine(d) * model.radiance(d, 0); }, 96 / std::min(table.height, 12));
+            const double expected =
+                model.integrate([&](const Vec3d& d) { return cosine(d) * model.radiance(d, 0); }, 96 / std::min(table.height, 12));
             const statistics::Moments m = statistics::estimate(20000, [&] {
                 const EnvironmentSample<float> s = draw(table.tables(), random);
                 return cosine(widened(s.direction)) * double(s.radiance.x) / double(s.pdf);
