@@ -239,6 +239,37 @@ TEST(EnvironmentSampling, DensityIntegratesToOne) {
     }
 }
 
+// What makes it worth the search: a cell's share of the samples is its share of the light.
+TEST(EnvironmentSampling, CellsAreDrawnByTheLightOfTheFilteredMap) {
+    for (const NamedMap& map : maps()) {
+        const EnvironmentTable table = build_environment_table(map.environment);
+        const Model model(table);
+        const Vec3d integral = table.integral();
+        const double total = luminance(integral);
+        if (total == 0) continue;
+        const auto mean = [&](int row, int column, int points) {
+            double sum = 0;
+            for (int i = 0; i < points * points; ++i) {
+                const Vec3d d = model.point((row + (i / points + 0.5) / points) / (table.height + 1), (column + (i % points + 0.5) / points) / table.width).direction;
+                sum += luminance(Vec3d{model.radiance(d, 0), model.radiance(d, 1), model.radiance(d, 2)});
+            }
+            return sum / (points * points);
+        };
+        for (int row = 0; row <= table.height; ++row) {
+            for (int column = 0; column < table.width; ++column) {
+                const statistics::Chart::Point center = model.point((row + 0.5) / (table.height + 1), (column + 0.5) / table.width);
+                const double coarse = mean(row, column, 8), fine = mean(row, column, 16);
+                // Thresholds are whole 2^-32ths, one of them given to every cell that shines at all.
+                const double quantum = (table.width + table.height + 3) * 0x1p-32 / (center.solid_angle / ((table.height + 1) * table.width));
+                const double expected = fine / total;
+                ASSERT_NEAR(environment_pdf<float>(table.tables(), narrowed(center.direction)), expected,
+                            std::abs(fine - coarse) / total + quantum + 8 * 0x1p-24 * expected)
+                    << map.name << ", cell " << column << ", " << row;
+            }
+        }
+    }
+}
+
 TEST(EnvironmentSampling, WhatShinesCanBeDrawn) {
     Random random(7);
     for (const NamedMap& map : maps()) {
