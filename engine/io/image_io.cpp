@@ -1,7 +1,7 @@
 #include "io/image_io.h"
 
 #include "io/files.h"
-#include "io/jpeg_end.h"
+#include "io/image_end.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -79,6 +79,7 @@ Result<Decoder> open_decoder(std::span<const uint8_t> bytes, const std::string& 
     const char* format = format_of(bytes);
     if (!format) return Error{name, "not an image in a known format (PNG, JPEG, EXR, HDR, WebP, BMP)", ""};
     if (std::string_view(format) == "jpeg" && !jpeg_reaches_its_end(bytes)) return Error{name, "truncated JPEG", ""};
+    if (std::string_view(format) == "png" && !png_reaches_its_end(bytes)) return Error{name, "truncated PNG", ""};
     Decoder decoder;
     decoder.name = name;
     decoder.input = OIIO::ImageInput::create(format);

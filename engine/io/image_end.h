@@ -1,7 +1,8 @@
-// Does a JPEG file reach its end-of-image marker?
+// Does a JPEG or PNG file reach its end marker?
 //
-// libjpeg fills in the missing part of a truncated file with grey and only warns, so the question is answered before it
-// sees the bytes. Markers: ITU-T T.81, annex B.
+// The question is answered before a decoder sees the bytes: libjpeg fills in the missing part of a truncated file with grey
+// and only warns; at the end of a truncated PNG, OpenImageIO's reader leaks. JPEG markers: ITU-T T.81, annex B; PNG chunks:
+// ISO/IEC 15948, clause 5.
 #pragma once
 
 #include <cstddef>
@@ -28,6 +29,20 @@ inline bool jpeg_reaches_its_end(std::span<const uint8_t> bytes) {
         }
         if (i + 3 >= bytes.size()) return false;
         i += 2 + size_t(bytes[i + 2] << 8 | bytes[i + 3]);
+    }
+    return false;
+}
+
+// Walks from chunk to chunk: big-endian length, type, that many bytes, checksum.
+inline bool png_reaches_its_end(std::span<const uint8_t> bytes) {
+    constexpr size_t signature = 8, around_data = 12;
+    size_t i = signature;
+    while (i + around_data <= bytes.size()) {
+        const uint8_t* c = bytes.data() + i;
+        const size_t length = size_t(c[0]) << 24 | size_t(c[1]) << 16 | size_t(c[2]) << 8 | size_t(c[3]);
+        if (length > bytes.size() - i - around_data) return false;
+        if (c[4] == 'I' && c[5] == 'E' && c[6] == 'N' && c[7] == 'D') return true;
+        i += around_data + length;
     }
     return false;
 }
