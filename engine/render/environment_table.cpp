@@ -74,7 +74,8 @@ EnvironmentRow row_record(const RowBorders& borders, int width) {
         const double s = std::sin((is_upper ? theta : pi - theta) / 2);
         return float(s * s);
     };
-    return {height_over_pole(borders.begin), height_over_pole(borders.end), is_upper ? 1.f : -1.f, float(1 / borders.cell_solid_angle(width))};
+    return {height_over_pole(borders.begin), height_over_pole(borders.end), is_upper ? 1.f : -1.f,
+            float(1 / borders.cell_solid_angle(width))};
 }
 
 // A cell weighs what the filtered map shines over it.
@@ -92,7 +93,8 @@ void build_importance(EnvironmentTable& table) {
         Vec3d sum{0, 0, 0};
         for (size_t i = 0; i < width; ++i) {
             const float *a = upper + 3 * i, *b = lower + 3 * i;
-            const Vec3d c{upper_share * a[0] + lower_share * b[0], upper_share * a[1] + lower_share * b[1], upper_share * a[2] + lower_share * b[2]};
+            const Vec3d c{upper_share * a[0] + lower_share * b[0], upper_share * a[1] + lower_share * b[1],
+                          upper_share * a[2] + lower_share * b[2]};
             border_weights[i] = 0.212671 * c.x + 0.715160 * c.y + 0.072169 * c.z; // luminance: 0 only where all is
             sum = sum + c;
         }

@@ -12,7 +12,7 @@
 namespace blush {
 
 struct MaterialTable {
-    std::vector<Id<Material>> ids; // of records[1], records[2], ...; ascending
+    std::vector<Id<Material>> ids;       // of records[1], records[2], ...; ascending
     std::vector<MaterialRecord> records; // the first is glTF's default material
     std::vector<TextureUse> uses;        // a fixed number per record, so that one can change alone
     TextureTable textures;

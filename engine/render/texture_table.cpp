@@ -95,8 +95,13 @@ private:
             image = white_.get();
         }
         const Place place = place_of(*image, source);
-        return {place.offset,         image->width,           image->height,        int32_t(wrap(source.wrap_u)),
-                int32_t(wrap(source.wrap_v)), int32_t(filter(source.filter)), int32_t(place.encoding)};
+        return {.offset = place.offset,
+                .width = image->width,
+                .height = image->height,
+                .wrap_u = wrap(source.wrap_u),
+                .wrap_v = wrap(source.wrap_v),
+                .filter = source.filter == Texture::Filter::nearest ? filter_nearest : filter_linear,
+                .encoding = place.encoding};
     }
 
     Place place_of(const Image& image, const TextureSource& source) {
@@ -128,7 +133,6 @@ private:
     static TextureWrap wrap(Texture::Wrap w) {
         return w == Texture::Wrap::repeat ? wrap_repeat : w == Texture::Wrap::clamp_to_edge ? wrap_clamp : wrap_mirror;
     }
-    static TextureFilter filter(Texture::Filter f) { return f == Texture::Filter::nearest ? filter_nearest : filter_linear; }
 
     TextureTable table_;
     std::map<std::pair<uint64_t, bool>, int32_t> offsets_; // by (serial, decoded)
@@ -143,9 +147,7 @@ int32_t TextureTable::index_of(Id<Texture> id, bool is_color) const {
     return it != sources.end() && key(*it) == std::tuple(id, is_color) ? int32_t(it - sources.begin()) : -1;
 }
 
-TextureTables TextureTable::tables() const {
-    return {records.data(), nullptr, rgba8.data(), rgba32f.data(), srgb_table().data()};
-}
+TextureTables TextureTable::tables() const { return {records.data(), nullptr, rgba8.data(), rgba32f.data(), srgb_table().data()}; }
 
 TextureTable build_texture_table(std::vector<TextureSource> sources) { return Builder(std::move(sources)).build(); }
 

@@ -79,7 +79,8 @@ template <class F> EnvironmentSample<F> sample_environment(const EnvironmentTabl
     const DiscreteSample<F> row = sample_discrete<F>(env.row_thresholds, Int<F>(0), env.height + 1, upper | (pcg_hash(bits) & 255u));
     const DiscreteSample<F> column = sample_discrete<F>(env.column_thresholds, row.index * env.width, env.width, bits);
 
-    const F begin = gather_field(env.rows, &EnvironmentRow::begin, row.index), end = gather_field(env.rows, &EnvironmentRow::end, row.index);
+    const F begin = gather_field(env.rows, &EnvironmentRow::begin, row.index);
+    const F end = gather_field(env.rows, &EnvironmentRow::end, row.index);
     const F s = begin + (end - begin) * row.remainder;
     const F sin_theta = 2.f * sqrt(max(F(0.f), s * (1.f - s)));
     const F cos_theta = gather_field(env.rows, &EnvironmentRow::pole, row.index) * (1.f - 2.f * s);

@@ -23,12 +23,12 @@ struct MaterialRecord {
     float metallic = 0, roughness = 1;
     Vec3 emission{0, 0, 0}; // radiance in nits
     float normal_scale = 1;
-    float ior = 1.5f;      // >= 1, or 0
+    float ior = 1.5f; // >= 1, or 0
     float specular = 0;
     Vec3 specular_color{1, 1, 1};
     float transmission = 0;
-    Vec3 sigma_a{0, 0, 0}; // absorption inside a solid, 1/m
-    int32_t flags = 0;     // MaterialFlag
+    Vec3 sigma_a{0, 0, 0};        // absorption inside a solid, 1/m
+    int32_t flags = 0;            // MaterialFlag
     int32_t alpha = alpha_opaque; // MaterialAlpha
     float alpha_cutoff = 0.5f;
     int32_t base_color_texture = -1;
@@ -87,9 +87,8 @@ Vec<F> tangent_normal_at(const MaterialTables& tables, const Int<F>& m, const Ve
 
 // Everything the estimator wants to know about the material at a hit. Lanes that are not active get some legal material.
 // Base colour is cut to [0, 1]: a surface that reflects more than it receives would make light out of nothing.
-template <Features S, class F>
-MaterialPoint<F> material_at(const MaterialTables& tables, const Int<F>& material, const Vec2T<F>& uv0, const Vec2T<F>& uv1,
-                             const Vec4T<F>& vertex_color, const Mask<F>& active) {
+template <Features S, class F> MaterialPoint<F> material_at(const MaterialTables& tables, const Int<F>& material, const Vec2T<F>& uv0,
+                                                            const Vec2T<F>& uv1, const Vec4T<F>& vertex_color, const Mask<F>& active) {
     const Int<F> m = select(active, material, Int<F>(0));
     const MaterialRecord* records = tables.materials;
     const auto texture = [&](int32_t MaterialRecord::*slot) {

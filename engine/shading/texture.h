@@ -36,9 +36,9 @@ struct TextureUse {
 struct TextureTables {
     const TextureRecord* textures = nullptr;
     const TextureUse* uses = nullptr;
-    const uint32_t* rgba8 = nullptr;          // red in the lowest byte; below 2^31 texels
-    const float* rgba32f = nullptr;           // below 2^29 texels
-    const float* srgb_to_linear = nullptr;    // of the 256 byte values
+    const uint32_t* rgba8 = nullptr;       // red in the lowest byte; below 2^31 texels
+    const float* rgba32f = nullptr;        // below 2^29 texels
+    const float* srgb_to_linear = nullptr; // of the 256 byte values
 };
 
 } // namespace blush
@@ -92,9 +92,8 @@ template <class F> Vec4T<F> decode_texel(const TextureTables& tables, const UInt
 // Linear RGBA of a texture use at a point with these texture coordinates. `use` -1 and lanes that are not active read white,
 // the neutral element of glTF's "factor times texture". Coordinates may be anything: those that are not finite read as 0.
 // Out of line: a material reads up to seven textures, and kernels are flattened.
-template <class F>
-[[gnu::noinline]] Vec4T<F> lookup(const TextureTables& tables, const Int<F>& use, const Vec2T<F>& uv0, const Vec2T<F>& uv1,
-                                  const Mask<F>& active) {
+template <class F> [[gnu::noinline]] Vec4T<F> lookup(const TextureTables& tables, const Int<F>& use, const Vec2T<F>& uv0,
+                                                     const Vec2T<F>& uv1, const Mask<F>& active) {
     const Vec4T<F> white{F(1.f), F(1.f), F(1.f), F(1.f)};
     const Mask<F> reads = active && as_mask(use >= 0);
     if (!any(reads)) return white;

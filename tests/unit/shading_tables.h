@@ -3,6 +3,7 @@
 
 #include "scene/scene.h"
 
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <memory>

@@ -35,15 +35,19 @@ template <class F> void evaluate_tables(const TablePoints& points, const std::ar
                                                                 Vec4T<F>{number(4), number(5), number(6), number(7)}, active);
         const Vec<F> radiance = environment_radiance<F>(*points.environment, direction, active);
         const EnvironmentSample<F> s = sample_environment<F>(*points.environment, number(11), load<UInt<F>>(points.bits + k));
-        const auto flag = [](const Mask<F>& b) { return select(b, F(1.f), F(0.f)); };
         const BsdfParams<F>& b = m.bsdf;
-        const std::array<F, table_answers> all{
-            b.base_color.x, b.base_color.y, b.base_color.z, b.metallic, b.roughness, b.ior, b.specular, b.specular_color.x, b.specular_color.y,
-            b.specular_color.z, b.transmission, flag(b.thin), m.emission.x, m.emission.y, m.emission.z, m.tangent_normal.x, m.tangent_normal.y,
-            m.tangent_normal.z, m.sigma_a.x, m.sigma_a.y, m.sigma_a.z, flag(m.double_sided), flag(m.unlit), flag(m.emissive), radiance.x,
-            radiance.y, radiance.z, environment_pdf<F>(*points.environment, direction), s.direction.x, s.direction.y, s.direction.z, s.radiance.x,
-            s.radiance.y, s.radiance.z, s.pdf};
-        for (size_t i = 0; i < all.size(); ++i) store(answers[i] + k, all[i]);
+
+        size_t next = 0;
+        const auto put = [&](const F& x) { store(answers[next++] + k, x); };
+        const auto put_flag = [&](const Mask<F>& x) { put(select(x, F(1.f), F(0.f))); };
+        const auto put_vec = [&](const Vec<F>& v) {
+            for (const F& x : {v.x, v.y, v.z}) put(x);
+        };
+        for (const Vec<F>& v : {b.base_color, b.specular_color, m.emission, m.tangent_normal, m.sigma_a}) put_vec(v);
+        for (const F& x : {b.metallic, b.roughness, b.ior, b.specular, b.transmission}) put(x);
+        for (const Mask<F>& x : {b.thin, m.double_sided, m.unlit, m.emissive}) put_flag(x);
+        for (const Vec<F>& v : {radiance, s.direction, s.radiance}) put_vec(v);
+        for (const F& x : {s.pdf, environment_pdf<F>(*points.environment, direction)}) put(x);
     }
 }
 

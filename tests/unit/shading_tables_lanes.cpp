@@ -6,15 +6,22 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <bit>
-#include <cstring>
 #include <limits>
+#include <vector>
 
 namespace blush {
 
-namespace isa_v2 { void evaluate_tables_wide(const TablePoints& points, const std::array<float*, table_answers>& answers); }
-namespace isa_v3 { void evaluate_tables_wide(const TablePoints& points, const std::array<float*, table_answers>& answers); }
-namespace isa_v4 { void evaluate_tables_wide(const TablePoints& points, const std::array<float*, table_answers>& answers); }
+namespace isa_v2 {
+void evaluate_tables_wide(const TablePoints& points, const std::array<float*, table_answers>& answers);
+}
+namespace isa_v3 {
+void evaluate_tables_wide(const TablePoints& points, const std::array<float*, table_answers>& answers);
+}
+namespace isa_v4 {
+void evaluate_tables_wide(const TablePoints& points, const std::array<float*, table_answers>& answers);
+}
 
 namespace {
 
@@ -35,9 +42,9 @@ Scene varied_scene(Random& random) {
     }
     for (int i = 0; i < 40; ++i) {
         Material m;
-        for (TextureRef Material::*slot : {&Material::base_color_texture, &Material::metallic_roughness_texture, &Material::normal_texture,
-                                          &Material::emissive_texture, &Material::specular_texture, &Material::specular_color_texture,
-                                          &Material::transmission_texture}) {
+        for (TextureRef Material::*slot :
+             {&Material::base_color_texture, &Material::metallic_roughness_texture, &Material::normal_texture, &Material::emissive_texture,
+              &Material::specular_texture, &Material::specular_color_texture, &Material::transmission_texture}) {
             if (random.coin()) m.*slot = {textures[size_t(random.below(8))], uint8_t(random.below(2)), {0, 0}, {2, 3}, random.unit()};
         }
         m.base_color = {random.unit(), random.unit(), random.unit()};

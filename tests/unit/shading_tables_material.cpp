@@ -5,8 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
+#include <vector>
 
 namespace blush {
 namespace {
@@ -36,14 +39,15 @@ float opacity_of(const Material& material, float vertex_alpha = 1, Vec2 uv = {0,
     return opacity_at(table.tables(), 1, uv, uv, vertex_alpha);
 }
 
-// Every field of a point as numbers, for comparisons of bits.
-std::array<uint32_t, 24> bits_of(const MaterialPoint<float>& p) {
+// Every field of a point, for comparisons of bits.
+std::vector<uint32_t> bits_of(const MaterialPoint<float>& p) {
     const BsdfParams<float>& b = p.bsdf;
-    const std::array<float, 24> values{b.base_color.x, b.base_color.y, b.base_color.z, b.metallic, b.roughness, b.ior, b.specular,
-                                       b.specular_color.x, b.specular_color.y, b.specular_color.z, b.transmission, float(b.thin),
-                                       p.emission.x, p.emission.y, p.emission.z, p.tangent_normal.x, p.tangent_normal.y, p.tangent_normal.z,
-                                       p.sigma_a.x, p.sigma_a.y, p.sigma_a.z, float(p.double_sided), float(p.unlit), float(p.emissive)};
-    return std::bit_cast<std::array<uint32_t, 24>>(values);
+    std::vector<uint32_t> bits;
+    for (const Vec3& v : {b.base_color, b.specular_color, p.emission, p.tangent_normal, p.sigma_a})
+        for (const float x : {v.x, v.y, v.z}) bits.push_back(std::bit_cast<uint32_t>(x));
+    for (const float x : {b.metallic, b.roughness, b.ior, b.specular, b.transmission}) bits.push_back(std::bit_cast<uint32_t>(x));
+    for (const bool x : {b.thin, p.double_sided, p.unlit, p.emissive}) bits.push_back(x);
+    return bits;
 }
 
 // A material that uses each thing or not.
@@ -159,7 +163,8 @@ TEST(MaterialTable, ParametersAreMadeLegal) {
         for (const float c : {p.emission.x, p.emission.y, p.emission.z, p.sigma_a.x, p.sigma_a.y, p.sigma_a.z}) {
             ASSERT_TRUE(within(c, 0, 1.1e30f)) << c;
         }
-        for (const float c : {p.bsdf.specular_color.x, p.bsdf.specular_color.y, p.bsdf.specular_color.z}) ASSERT_TRUE(within(c, 0, 1.1e30f)) << c;
+        for (const float c : {p.bsdf.specular_color.x, p.bsdf.specular_color.y, p.bsdf.specular_color.z})
+            ASSERT_TRUE(within(c, 0, 1.1e30f)) << c;
         ASSERT_TRUE(p.bsdf.ior == 0 || within(p.bsdf.ior, 1, 1000)) << p.bsdf.ior;
         ASSERT_TRUE(within(opacity_at(table.tables(), 1, {0, 0}, {0, 0}, number()), 0, 1));
     }
@@ -222,7 +227,7 @@ TEST(MaterialTable, FactorsMultiplyTheChannelsGltfNames) {
     m.emissive = {1, 2, 3};
     m.emissive_strength = 10;
     for (TextureRef Material::*slot : {&Material::base_color_texture, &Material::metallic_roughness_texture, &Material::emissive_texture,
-                                      &Material::specular_texture, &Material::specular_color_texture, &Material::transmission_texture}) {
+                                       &Material::specular_texture, &Material::specular_color_texture, &Material::transmission_texture}) {
         (m.*slot).texture = texture;
     }
     add_worn_material(scene, m);
@@ -258,7 +263,8 @@ TEST(MaterialTable, NormalMapsAreScaledAndOfUnitLength) {
 }
 
 TEST(MaterialTable, NormalsBelowTheSurfaceAreLiftedAndNoneIsUnusable) {
-    for (const auto& [r, g, b] : {std::array<uint8_t, 3>{200, 30, 0}, std::array<uint8_t, 3>{0, 0, 0}, std::array<uint8_t, 3>{255, 255, 255}}) {
+    for (const auto& [r, g, b] :
+         {std::array<uint8_t, 3>{200, 30, 0}, std::array<uint8_t, 3>{0, 0, 0}, std::array<uint8_t, 3>{255, 255, 255}}) {
         Scene scene;
         Material m;
         m.normal_texture.texture = scene.textures.add(texel(r, g, b, 255));

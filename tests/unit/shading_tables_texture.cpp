@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -41,7 +44,9 @@ struct Rgba {
 
 Rgba model_texel(const Image& image, bool as_color, int x, int y) {
     const size_t at = (size_t(y) * size_t(image.width) + size_t(x)) * size_t(image.channels);
-    const auto channel = [&](int c) { return image.bytes.empty() ? double(image.floats[at + size_t(c)]) : image.bytes[at + size_t(c)] / 255.0; };
+    const auto channel = [&](int c) {
+        return image.bytes.empty() ? double(image.floats[at + size_t(c)]) : image.bytes[at + size_t(c)] / 255.0;
+    };
     const bool grey = image.channels < 3;
     Rgba t{{channel(0), channel(grey ? 0 : 1), channel(grey ? 0 : 2), image.channels % 2 == 0 ? channel(image.channels - 1) : 1.0}};
     if (as_color) {
@@ -59,8 +64,8 @@ int model_wrap(int64_t i, int size, Texture::Wrap wrap) {
 }
 
 struct ModelPoint {
-    double s, t;        // transformed coordinates
-    double error;       // bound on what float arithmetic may have made of each
+    double s, t;  // transformed coordinates
+    double error; // bound on what float arithmetic may have made of each
 };
 
 ModelPoint model_transform(const TextureRef& ref, Vec2 uv) {
@@ -128,7 +133,8 @@ TEST(TextureLookup, AgreesWithADoublePrecisionModel) {
             const Vec4 got = ref.uv_set == 0 ? textured.read(as_color, uv, other) : textured.read(as_color, other, uv);
             const float channels[4] = {got.x, got.y, got.z, got.w};
             // Values lie in [0, 1]: one texel to the side changes them by at most 1.
-            for (int c = 0; c < 4; ++c) ASSERT_NEAR(channels[c], expected.c[c], dx + dy + 8 * 0x1p-24) << "trial " << trial << " channel " << c;
+            for (int c = 0; c < 4; ++c)
+                ASSERT_NEAR(channels[c], expected.c[c], dx + dy + 8 * 0x1p-24) << "trial " << trial << " channel " << c;
         }
     }
 }
@@ -240,7 +246,8 @@ TEST(TextureTable, StoresAnImageOnceHoweverItIsRead) {
 
 TEST(TextureTable, LeavesOutWhatNoMeshReads) {
     Scene scene;
-    const Id<Texture> texture = scene.textures.add({.name = "", .source = "", .image = make_byte_image(2, 2, 3, [] { return uint8_t(7); })});
+    const Id<Texture> texture =
+        scene.textures.add({.name = "", .source = "", .image = make_byte_image(2, 2, 3, [] { return uint8_t(7); })});
     Material unused, dielectric;
     unused.base_color_texture.texture = texture;
     scene.materials.add(unused);
@@ -262,7 +269,7 @@ TEST(TextureTable, ReplacesBadTexelsAndSaysHowMany) {
     const Textured textured(texture, {});
     EXPECT_EQ(textured.read(true, {0.25f, 0.5f}), (Vec4{0, 0, 0, 1}));
     EXPECT_EQ(textured.read(true, {0.75f, 0.5f}), (Vec4{0.25f, 8, 1, 1})); // above 1: linear data
-    ASSERT_EQ(textured.table.textures.warnings.size(), 2u); // as colour, as data
+    ASSERT_EQ(textured.table.textures.warnings.size(), 2u);                // as colour, as data
     EXPECT_EQ(textured.table.textures.warnings[0].what, "3 values are negative or not finite: read as 0");
     EXPECT_EQ(textured.table.textures.warnings[0].where, "texture \"burnt\"");
 }
