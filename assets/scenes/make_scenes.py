@@ -73,10 +73,10 @@ def card_and_mug():
     paper = scene.material("white card", (0.82, 0.81, 0.79), lambertian=True)
 
     scene.object("table", box((-1.5, -0.04, -1.5), (1.5, 0, 1.5)), table)
-    mug = scene.node("mug", translation=(0.050, 0, 0.026), rotation=about_y(14))
+    mug = scene.node("mug", translation=(0.046, 0, 0.026), rotation=about_y(14))
     scene.object("mug body", mug_body(), glaze, parent=mug)
     scene.object("mug handle", mug_handle(), glaze, parent=mug)
-    scene.object("card", card(), paper, translation=(-0.036, 0, -0.006), rotation=about_y(180 + 17.5))
+    scene.object("card", card(), paper, translation=(-0.036, 0, -0.006), rotation=about_y(180 + 19))
 
     scene.sun("sun", direction(azimuth=-66, elevation=27), (1, 0.84, 0.64), lux=9, angle_degrees=0.53)
     scene.camera("hero", (0.03, 0.28, 0.60), (0.020, 0.072, 0), yfov_degrees=21)
