@@ -9,8 +9,8 @@ namespace {
 
 constexpr int64_t samples = 20'000;
 
-// A viewer surrounded by radiance 1: what is seen at the surface. Radiance within a solid is held back to 1 / eta^2 of itself or
-// the reverse, so that furnace of equal brightness is one of radiance n^2 in a medium of index n.
+// What a viewer in a furnace sees of the surface, over what the furnace shines with on the viewer's side: in equilibrium radiance is n^2 in
+// a medium of index n, which undoes the scale of refraction.
 Moments furnace(const Params& p, const Viewer& v, uint32_t seed, const EnergyTable* energy = nullptr) {
     Random random(seed);
     const Vec3 wo = v.wo();
@@ -48,12 +48,13 @@ TEST(Furnace, RoughMetalLosesWhatItsFacetsMask) {
 
 TEST(Furnace, RoughGlassNeverGains) {
     for (const float roughness : roughnesses)
-        for (const float ior : {1.0001f, 1.5f, 2.5f})
-            for (const Material& m :
-                 {Material{"thin", thin_glass(roughness)}, Material{"solid of ior " + std::to_string(ior), glass(roughness, ior)}})
-                for (const Viewer& v : viewers(m.params))
-                    EXPECT_TRUE(z_test_at_most(furnace(m.params, v, 3), 1, sidak(significance, 270)))
-                        << "roughness " << roughness << ", " << describe(m, v);
+        for (const Material& m : {Material{"thin", thin_glass(roughness)},
+                                  {"almost air", glass(roughness, 1.0001f)},
+                                  {"glass", glass(roughness, 1.5f)},
+                                  {"diamond", glass(roughness, 2.5f)}})
+            for (const Viewer& v : viewers(m.params))
+                EXPECT_TRUE(z_test_at_most(furnace(m.params, v, 3), 1, sidak(significance, 210)))
+                    << "roughness " << roughness << ", " << describe(m, v);
 }
 
 double integrate_reference(const Params& p, const Vec3& wo) {
