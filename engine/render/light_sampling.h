@@ -81,7 +81,7 @@ template <Features S, class F> LightPoint<F> sample_light_point(const SceneTable
             const Vec<F> e2 = gather_field3<F>(lights, &LightRecord::edge2, pick.index);
             const Vec2T<F> b = sample_triangle(u, v);
             const Vec<F> on = p.position + e1 * b.x + e2 * b.y;
-            const Vec<F> error = (abs(p.position) + abs(e1) + abs(e2)) * gamma_bound(12);
+            const Vec<F> error = splat<F>(1.f) * (max_component(abs(p.position) + abs(e1) + abs(e2)) * gamma_bound(8));
             p.error = select<F>(triangle, error, p.error);
             p.normal = select<F>(triangle, normalize(cross(e1, e2)), p.normal);
             p.density = select(triangle, gather_field(lights, &LightRecord::inverse_area, pick.index), p.density);

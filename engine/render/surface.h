@@ -81,12 +81,13 @@ template <Features S, class F> Surface<F> surface_at(const SceneTables& scene, c
     const Int<F> i2 = first_vertex + to_signed(gather(scene.indices + 2, at));
 
     // Position by barycentrics, whose error does not grow with the ray's length (PBR book 6.8.4). The bound covers, beyond the
-    // interpolation, the test Embree will make against the same triangle.
+    // interpolation, the test Embree will make of the next ray against the same triangle: its distance from the plane is rounded in
+    // proportion to the triangle's largest coordinate, whatever the axis, so the bound is the same for all three.
     const F b1 = hit.u, b2 = hit.v, b0 = 1.f - b1 - b2;
     const TriangleVertices<F> v = gather_vertices<F>(scene.positions, i0, i1, i2);
     s.position = v.p0 * b0 + v.p1 * b1 + v.p2 * b2;
-    const auto widest = [](const F& a, const F& b, const F& c) { return max(abs(a), max(abs(b), abs(c))); };
-    s.error = Vec<F>{widest(v.p0.x, v.p1.x, v.p2.x), widest(v.p0.y, v.p1.y, v.p2.y), widest(v.p0.z, v.p1.z, v.p2.z)} * gamma_bound(12);
+    const F extent = max(max_component(abs(v.p0)), max(max_component(abs(v.p1)), max_component(abs(v.p2))));
+    s.error = splat<F>(1.f) * (extent * gamma_bound(8));
     Vec<F> ng = cross(v.p1 - v.p0, v.p2 - v.p0);
     ng = select<F>(as_mask((flags & int32_t(part_mirrored)) != 0), -ng, ng);
 
@@ -120,7 +121,8 @@ template <Features S, class F> Surface<F> surface_at(const SceneTables& scene, c
             const auto through = [&](const Vec<F>& p) { return x * p.x + y * p.y + z * p.z; };
             const auto bound = [&](const Vec<F>& p) { return abs(x) * p.x + abs(y) * p.y + abs(z) * p.z; };
             const Vec<F> world = through(s.position) + t;
-            const Vec<F> error = bound(s.error) * (1.f + gamma_bound(3)) + (bound(abs(s.position)) + abs(t)) * gamma_bound(12);
+            const F rounding = max_component(bound(abs(s.position)) + abs(t)) * gamma_bound(8);
+            const Vec<F> error = bound(s.error) * (1.f + gamma_bound(3)) + splat<F>(1.f) * rounding;
             const Vec<F> nx = column(12), ny = column(15), nz = column(18);
             const auto normal = [&](const Vec<F>& n) { return nx * n.x + ny * n.y + nz * n.z; };
             s.position = select<F>(instanced, world, s.position);
