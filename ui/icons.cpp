@@ -83,11 +83,11 @@ void draw_icon(ImDrawList& draw, Icon icon, ImVec2 centre, float size, ImU32 col
     }
 }
 
-void icon_item(Icon icon, ImU32 color) {
+void icon_item(Icon icon, ImU32 color, float height) {
     const float size = ImGui::GetFontSize();
     const ImVec2 at = ImGui::GetCursorScreenPos();
-    ImGui::Dummy({size, size});
-    draw_icon(*ImGui::GetWindowDrawList(), icon, {at.x + size / 2, at.y + size / 2}, size * 0.86f, color);
+    ImGui::Dummy({size, height});
+    draw_icon(*ImGui::GetWindowDrawList(), icon, {at.x + size / 2, at.y + height / 2}, size * 0.86f, color);
 }
 
 bool icon_button(const char* id, Icon icon, ImU32 color) {

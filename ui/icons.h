@@ -10,8 +10,8 @@ enum class Icon { point, spot, sun, rectangle, mesh, group, camera, environment,
 // `size` is the side of the square around `centre` that the icon fills.
 void draw_icon(ImDrawList& draw, Icon icon, ImVec2 centre, float size, ImU32 color);
 
-// The icon as an item on the current line, as high as a line of text.
-void icon_item(Icon icon, ImU32 color);
+// The icon as an item on the current line, in the middle of its height.
+void icon_item(Icon icon, ImU32 color, float height);
 
 // A square, frameless button as high as a field.
 bool icon_button(const char* id, Icon icon, ImU32 color);

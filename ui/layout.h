@@ -10,8 +10,8 @@ struct Region {
 
 // Widths of the side panels in units of the font size, so that they mean the same on every display.
 struct Splitters {
-    float outliner = 15;
-    float inspector = 24;
+    float outliner = 13;
+    float inspector = 21;
     bool operator==(const Splitters&) const = default;
 };
 

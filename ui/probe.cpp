@@ -9,6 +9,8 @@ namespace {
 
 nlohmann::json to_json(const Region& r) { return {{"x", r.x}, {"y", r.y}, {"width", r.width}, {"height", r.height}}; }
 
+std::string to_text(const nlohmann::json& json) { return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace); }
+
 } // namespace
 
 void Probe::record_last_item(const std::string& name) {
@@ -21,13 +23,14 @@ void Probe::end_frame(const ProbeState& state) {
     if (!enabled() || (items_ == written_items_ && state == written_state_)) return;
     written_items_ = items_;
     written_state_ = state;
-    nlohmann::json items = nlohmann::json::object();
-    for (const Item& item : items_) items[item.name] = to_json(item.region);
-    const nlohmann::json json{{"image", to_json(state.image)}, {"width", state.width},           {"height", state.height},
-                              {"samples", state.samples},      {"complete", state.complete},     {"up_to_date", state.up_to_date},
-                              {"toast", state.toast},          {"items", std::move(items)}};
+    // One line for each widget, so that grep finds it.
+    std::string items;
+    for (const Item& item : items_) items += (items.empty() ? "  " : ",\n  ") + to_text(item.name) + ": " + to_text(to_json(item.region));
+    const nlohmann::json shown{{"image", to_json(state.image)}, {"width", state.width},       {"height", state.height},
+                               {"samples", state.samples},      {"complete", state.complete}, {"up_to_date", state.up_to_date},
+                               {"toast", state.toast}};
     const std::filesystem::path temporary = file_.string() + ".new";
-    std::ofstream(temporary) << json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+    std::ofstream(temporary) << "{\"state\": " << to_text(shown) << ",\n \"items\": {\n" << items << "\n}}\n";
     std::error_code ignored; // the next change writes it again
     std::filesystem::rename(temporary, file_, ignored);
 }

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <imgui_internal.h> // for how long the mouse has rested on an item
+#include <imgui_internal.h> // for how long the mouse has rested on an item, and arrows
 #include <imgui_stdlib.h>
 
 namespace blush {
@@ -131,7 +131,7 @@ bool Fields::integer(const char* label, int64_t& value, int64_t min, int64_t max
 }
 
 bool Fields::vector(const char* label, Vec3& value, const Vec3& reset, const NumberStyle& style) {
-    static constexpr const char* names[] = {"X", "Y", "Z"};
+    static constexpr const char* ids[] = {"##X", "##Y", "##Z"};
     static constexpr ImU32 axis_tones[] = {tone::axis_x, tone::axis_y, tone::axis_z};
     float* const components[] = {&value.x, &value.y, &value.z};
     const float resets[] = {reset.x, reset.y, reset.z};
@@ -143,10 +143,10 @@ bool Fields::vector(const char* label, Vec3& value, const Vec3& reset, const Num
         if (i) ImGui::SameLine(0, gap);
         ImGui::SetNextItemWidth(std::floor((total - 2 * gap) / 3));
         const ImVec2 low = ImGui::GetCursorScreenPos();
-        const bool edited = number_field(names[i], *components[i], style, resets[i]);
+        const bool edited = number_field(ids[i], *components[i], style, resets[i]);
         const ImVec2 high{low.x + std::max(2.f, ImGui::GetFontSize() / 7), low.y + ImGui::GetFrameHeight()};
         ImGui::GetWindowDrawList()->AddRectFilled(low, high, axis_tones[i], ImGui::GetStyle().FrameRounding, ImDrawFlags_RoundCornersLeft);
-        changed |= finish((std::string(label) + " " + names[i]).c_str(), style.tip, edited);
+        changed |= finish((std::string(label) + " " + (ids[i] + 2)).c_str(), style.tip, edited);
     }
     ImGui::PopID();
     return changed;
@@ -178,14 +178,14 @@ bool Fields::color(const char* label, Vec3& value, const Vec3& reset, const char
         finish(label, "", changed);
         ImGui::EndPopup();
     }
-    static constexpr const char* names[] = {"R", "G", "B"};
+    static constexpr const char* ids[] = {"##R", "##G", "##B"};
     float* const components[] = {&value.x, &value.y, &value.z};
     const float resets[] = {reset.x, reset.y, reset.z};
     for (int i = 0; i < 3; ++i) {
         ImGui::SameLine(0, gap);
         ImGui::SetNextItemWidth(field);
-        const bool edited = number_field(names[i], *components[i], {.min = 0, .max = 1e6f, .step = 0.002f, .format = "%.3f"}, resets[i]);
-        changed |= finish((std::string(label) + " " + names[i]).c_str(), tip, edited);
+        const bool edited = number_field(ids[i], *components[i], {.min = 0, .max = 1e6f, .step = 0.002f, .format = "%.3f"}, resets[i]);
+        changed |= finish((std::string(label) + " " + (ids[i] + 2)).c_str(), tip, edited);
     }
     ImGui::PopID();
     return changed;
@@ -263,11 +263,18 @@ bool Fields::button(const char* label, const char* tip) {
 }
 
 bool section(UiState& ui, const char* name, bool open_at_first) {
-    ImGui::Spacing();
+    const float em = ImGui::GetFontSize(), width = ImGui::GetContentRegionAvail().x, height = ImGui::GetFrameHeight();
+    ImGui::Dummy({0, em * 0.2f});
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const ImGuiID id = ImGui::GetID(name);
+    bool open = ImGui::GetStateStorage()->GetBool(id, open_at_first);
     ImGui::PushFont(heading_font());
-    ImGui::PushStyleColor(ImGuiCol_Header, ImVec4(0, 0, 0, 0));
-    const bool open = ImGui::CollapsingHeader(name, open_at_first ? ImGuiTreeNodeFlags_DefaultOpen : 0);
-    ImGui::PopStyleColor();
+    if (ImGui::InvisibleButton(name, {width, height})) ImGui::GetStateStorage()->SetBool(id, open = !open);
+    const ImU32 color = ImGui::IsItemHovered() ? IM_COL32_WHITE : tone::text;
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    draw.AddLine(at, {at.x + width, at.y}, tone::line);
+    ImGui::RenderArrow(&draw, {at.x, at.y + height * 0.5f - em * 0.38f}, color, open ? ImGuiDir_Down : ImGuiDir_Right, 0.75f);
+    draw.AddText({at.x + em * 1.15f, at.y + (height - em) / 2}, color, name);
     ImGui::PopFont();
     ui.probe.record_last_item(std::string("Section/") + name);
     return open;

@@ -63,7 +63,7 @@ void draw_entry(PanelContext& c, const FileEntry& entry) {
     FileBrowser& b = *c.ui.browser;
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    icon_item(entry.folder ? Icon::folder : Icon::file, tone::dim_text);
+    icon_item(entry.folder ? Icon::folder : Icon::file, tone::dim_text, ImGui::GetTextLineHeight());
     ImGui::SameLine();
     const bool clicked = ImGui::Selectable(entry.name.c_str(), b.chosen == entry.name,
                                            ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_DontClosePopups);
@@ -88,8 +88,7 @@ void draw_list(PanelContext& c, float height) {
         ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
         ImGui::TableSetupColumn("size", ImGuiTableColumnFlags_WidthFixed, ImGui::GetFontSize() * 5);
         for (const FileEntry& entry : *list) {
-            draw_entry(c, entry);
-            if (!c.ui.browser || c.ui.browser->chosen.empty()) continue;
+            if (c.ui.browser) draw_entry(c, entry); // until one was taken
         }
         ImGui::EndTable();
     }
@@ -132,6 +131,10 @@ void draw_file_browser(PanelContext& c) {
         const float below = ImGui::GetFrameHeightWithSpacing() + ImGui::GetStyle().ItemSpacing.y;
         if (c.ui.browser) draw_list(c, ImGui::GetContentRegionAvail().y - below);
         if (c.ui.browser) draw_buttons(c);
+        if (c.ui.browser && ImGui::IsKeyPressed(key::escape)) {
+            c.ui.browser.reset();
+            ImGui::CloseCurrentPopup();
+        }
         ImGui::EndPopup();
     }
     if (!open) c.ui.browser.reset();

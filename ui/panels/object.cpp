@@ -4,6 +4,7 @@
 #include "ui/theme.h"
 #include "ui/widgets.h"
 
+#include <cmath>
 #include <fmt/format.h>
 
 namespace blush {
@@ -16,14 +17,22 @@ int64_t triangle_count(const Mesh& mesh) {
 }
 
 std::string grouped(int64_t number) {
-    std::string digits = std::to_string(number);
-    for (ptrdiff_t i = ptrdiff_t(digits.size()) - 3; i > 0; i -= 3) digits.insert(size_t(i), " ");
-    return digits;
+    const std::string digits = std::to_string(number);
+    std::string text;
+    for (size_t i = 0; i < digits.size(); ++i) {
+        if (i > 0 && (digits.size() - i) % 3 == 0) text += ' ';
+        text += digits[i];
+    }
+    return text;
 }
 
 // Euler angles of the rotation; those the user sees while dragging stay as long as nothing else turns the node.
 Vec3d& angles_of(EulerFields& fields, Id<Node> id, const Quat& rotation) {
-    if (fields.node != id || fields.rotation != rotation) fields = {id, rotation, euler_degrees(rotation)};
+    if (fields.node != id || fields.rotation != rotation) {
+        const Vec3d e = euler_degrees(rotation);
+        const auto tidy = [](double degrees) { return std::round(degrees * 1e4) / 1e4 + 0.0; }; // no -0
+        fields = {id, rotation, {tidy(e.x), tidy(e.y), tidy(e.z)}};
+    }
     return fields.degrees;
 }
 

@@ -69,7 +69,7 @@ void draw_node(PanelContext& c, const Children& children, Id<Node> id, int depth
     const auto below = children.find(id);
     const bool leaf = below == children.end(), selected = c.ui.selected == id;
     ImGui::PushID(int(id.value));
-    ImGuiTreeNodeFlags flags = ImGuiTreeNodeFlags_OpenOnArrow | ImGuiTreeNodeFlags_SpanAvailWidth | ImGuiTreeNodeFlags_FramePadding | ImGuiTreeNodeFlags_AllowItemOverlap;
+    ImGuiTreeNodeFlags flags = ImGuiTreeNodeFlags_OpenOnArrow | ImGuiTreeNodeFlags_SpanFullWidth | ImGuiTreeNodeFlags_FramePadding | ImGuiTreeNodeFlags_AllowItemOverlap;
     if (depth < 2) flags |= ImGuiTreeNodeFlags_DefaultOpen;
     if (leaf) flags |= ImGuiTreeNodeFlags_Leaf;
     if (selected) flags |= ImGuiTreeNodeFlags_Selected;
@@ -88,9 +88,9 @@ void draw_node(PanelContext& c, const Children& children, Id<Node> id, int depth
     ImGui::SameLine(0, 0);
     const Light* light = c.scene().lights.find(node.light);
     const bool quiet = !node.visible || (light && !light->enabled);
-    ImGui::AlignTextToFramePadding();
-    icon_item(icon_of(c.scene(), node), quiet ? IM_COL32(95, 95, 95, 255) : light ? tone::light : tone::dim_text);
+    icon_item(icon_of(c.scene(), node), quiet ? IM_COL32(95, 95, 95, 255) : light ? tone::light : tone::dim_text, ImGui::GetFrameHeight());
     ImGui::SameLine();
+    ImGui::AlignTextToFramePadding();
     if (c.ui.renaming == id) draw_rename(c, id, node);
     else {
         ImGui::PushStyleColor(ImGuiCol_Text, quiet ? tone::dim_text : tone::text);

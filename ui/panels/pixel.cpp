@@ -65,6 +65,7 @@ void draw_pixel_panel(PanelContext& c) {
         ImGui::EndTable();
         c.ui.probe.record_last_item("Pixel");
     }
+    if (ImGui::IsKeyPressed(key::escape)) ImGui::CloseCurrentPopup();
     ImGui::EndPopup();
 }
 

@@ -1,0 +1,114 @@
+// What the window remembers and lists: damaged settings, recent files, folders.
+#include "ui/file_listing.h"
+#include "ui/window_settings.h"
+
+#include <cstdlib>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+namespace blush {
+namespace {
+
+class Files : public testing::Test {
+protected:
+    void SetUp() override {
+        folder = std::filesystem::temp_directory_path() / ("blush-ui-test-" + std::to_string(getpid()));
+        std::filesystem::create_directories(folder);
+    }
+    void TearDown() override { std::filesystem::remove_all(folder); }
+    std::filesystem::path write(const std::string& name, const std::string& text) const {
+        const auto file = folder / name;
+        std::filesystem::create_directories(file.parent_path());
+        std::ofstream(file) << text;
+        return file;
+    }
+    std::filesystem::path folder;
+};
+
+TEST_F(Files, SettingsComeBack) {
+    WindowSettings s;
+    s.width = 1600;
+    s.maximized = true;
+    s.splitters = {11.5f, 33};
+    s.follow_viewport = false;
+    s.recent = {"/a/b.gltf", "/c \"d\".glb"};
+    s.snapshot_folder = "/somewhere";
+    const auto file = folder / "deep" / "window.json";
+    ASSERT_TRUE(write_window_settings(file, s));
+    EXPECT_EQ(read_window_settings(file), s);
+}
+
+TEST_F(Files, DamagedSettingsGiveTheDefaults) {
+    EXPECT_EQ(read_window_settings(folder / "none.json"), WindowSettings{});
+    for (const char* text : {"", "{", "[1, 2]", "null", "{\"width\": }", "\xff\xfe\x00garbage"})
+        EXPECT_EQ(read_window_settings(write("broken.json", text)), WindowSettings{}) << text;
+}
+
+TEST_F(Files, ADamagedEntryGivesItsDefaultAndLeavesTheOthers) {
+    const auto file = write("odd.json", R"({"width": "wide", "height": 1e300, "outliner": -5, "maximized": 1, "recent": [1, "ok.glb", null], "inspector": 30})");
+    const WindowSettings s = read_window_settings(file), defaults;
+    EXPECT_EQ(s.width, defaults.width);
+    EXPECT_EQ(s.maximized, defaults.maximized);
+    EXPECT_LE(s.height, 16384);
+    EXPECT_GE(s.splitters.outliner, 1);
+    EXPECT_EQ(s.splitters.inspector, 30);
+    EXPECT_EQ(s.recent, std::vector<std::string>{"ok.glb"});
+}
+
+TEST_F(Files, WritingFailsWithAMessageWhereNothingCanBeWritten) {
+    write("file", "");
+    const auto written = write_window_settings(folder / "file" / "window.json", {});
+    ASSERT_FALSE(written);
+    EXPECT_FALSE(written.error().text().empty());
+}
+
+TEST_F(Files, SettingsLieInTheConfigFolder) {
+    setenv("XDG_CONFIG_HOME", folder.c_str(), 1);
+    EXPECT_EQ(window_settings_file(), folder / "blush" / "window.json");
+    unsetenv("XDG_CONFIG_HOME");
+    setenv("HOME", "/home/somebody", 1);
+    EXPECT_EQ(window_settings_file(), "/home/somebody/.config/blush/window.json");
+    unsetenv("HOME");
+    EXPECT_TRUE(window_settings_file().empty());
+}
+
+TEST_F(Files, RecentFilesAreUniqueNewestFirstAndLimited) {
+    std::vector<std::string> recent;
+    for (int i = 0; i < 15; ++i) remember_recent(recent, std::to_string(i));
+    remember_recent(recent, "10");
+    EXPECT_EQ(recent.front(), "10");
+    EXPECT_EQ(recent[1], "14");
+    EXPECT_EQ(recent.size(), 10u);
+    EXPECT_EQ(std::ranges::count(recent, "10"), 1);
+}
+
+TEST_F(Files, ListsFoldersFirstThenWhatFits) {
+    write("b.GLB", "12345");
+    write("a.gltf", "");
+    write("picture.png", "");
+    write(".hidden.glb", "");
+    write("Zoo/x.glb", "");
+    const auto list = list_folder(folder, scene_files);
+    ASSERT_TRUE(list);
+    ASSERT_EQ(list->size(), 3u);
+    EXPECT_EQ((*list)[0], (FileEntry{"Zoo", true, 0}));
+    EXPECT_EQ((*list)[1], (FileEntry{"a.gltf", false, 0}));
+    EXPECT_EQ((*list)[2], (FileEntry{"b.GLB", false, 5}));
+    const auto folders = list_folder(folder, {});
+    ASSERT_TRUE(folders);
+    EXPECT_EQ(folders->size(), 1u);
+}
+
+TEST_F(Files, AFolderThatIsNotThereIsAnError) { EXPECT_FALSE(list_folder(folder / "none", scene_files)); }
+
+TEST(BytesText, ThreeDigitsAtMost) {
+    EXPECT_EQ(bytes_text(0), "0 B");
+    EXPECT_EQ(bytes_text(999), "999 B");
+    EXPECT_EQ(bytes_text(1500), "1.5 kB");
+    EXPECT_EQ(bytes_text(12'345'678), "12 MB");
+    EXPECT_EQ(bytes_text(999'900), "1.0 MB");
+}
+
+} // namespace
+} // namespace blush

@@ -1,0 +1,94 @@
+// Units and new lights: equal illuminance where a light changes its kind, angles there and back.
+#include "ui/light_tools.h"
+#include "ui/orbit_camera.h"
+#include "ui/rotation.h"
+
+#include <gtest/gtest.h>
+
+namespace blush {
+namespace {
+
+constexpr double pi_d = 3.14159265358979323846;
+constexpr Light::Kind kinds[] = {Light::Kind::point, Light::Kind::spot, Light::Kind::sun, Light::Kind::rectangle};
+
+// Illuminance in lux on a surface far enough away to see the light as a point, facing it.
+double illuminance(const Light& light, double distance) {
+    switch (light.kind) {
+    case Light::Kind::sun: return light.intensity;
+    case Light::Kind::rectangle: return light.intensity * light.width * light.height / (distance * distance);
+    default: return light.intensity / (distance * distance);
+    }
+}
+
+TEST(LightKind, ChangingItKeepsTheIlluminance) {
+    for (const Light::Kind from : kinds) {
+        for (const Light::Kind to : kinds) {
+            Light light;
+            light.kind = from;
+            light.intensity = 7;
+            light.width = 0.2f;
+            light.height = 0.5f;
+            const Light next = converted(light, to, 3);
+            EXPECT_EQ(next.kind, to);
+            EXPECT_NEAR(illuminance(next, 3) / illuminance(light, 3), 1, 1e-5) << int(from) << " to " << int(to);
+        }
+    }
+}
+
+TEST(LuminousFlux, OfTheKindsThatHaveOne) {
+    Light light;
+    light.intensity = 2;
+    EXPECT_NEAR(luminous_flux(light), 8 * pi_d, 1e-5);
+    light.kind = Light::Kind::spot;
+    light.outer_cone_radians = float(pi_d / 2); // half the sphere
+    EXPECT_NEAR(luminous_flux(light), 4 * pi_d, 1e-4);
+    light.kind = Light::Kind::rectangle;
+    light.width = 2, light.height = 3;
+    EXPECT_NEAR(luminous_flux(light), 12 * pi_d, 1e-4);
+    light.two_sided = true;
+    EXPECT_NEAR(luminous_flux(light), 24 * pi_d, 1e-4);
+}
+
+TEST(NewLight, ShowsAWhiteSurfaceAtThePivotAsWhite) {
+    View view;
+    view.position = {3, 1, 8};
+    view.pivot_distance = 6;
+    for (const Light::Kind kind : kinds) {
+        for (const float exposure : {0.f, -3.f, 5.f}) {
+            const AddLight add = new_light(kind, view, exposure);
+            const Vec3d towards = pivot(view) - to_double(add.node.local.translation);
+            const double luminance = illuminance(add.light, length(towards)) / pi_d;
+            EXPECT_NEAR(luminance * std::exp2(exposure), 1, 1e-4);
+            const Vec3d forward = rotate(add.node.local.rotation, {0, 0, -1});
+            EXPECT_NEAR(dot(forward, normalize(towards)), 1, 1e-6) << "aimed at the pivot";
+        }
+    }
+}
+
+TEST(Heading, KnownDirections) {
+    EXPECT_NEAR(heading_of({0, 0, -1}).heading, 0, 1e-4);
+    EXPECT_NEAR(heading_of({1, 0, 0}).heading, 90, 1e-4);
+    EXPECT_NEAR(heading_of({0, -1, 0}).tilt, -90, 1e-4);
+}
+
+TEST(Heading, ThereAndBack) {
+    for (const Vec3d& d : {Vec3d{1, 2, 3}, Vec3d{-1, -0.2, 0.4}, Vec3d{0.1, 0.9, -3}, Vec3d{0, 1, 0}}) {
+        const Vec3d back = direction_of(heading_of(d));
+        EXPECT_NEAR(dot(back, normalize(d)), 1, 1e-6);
+    }
+}
+
+TEST(TurnedTo, LooksThereAndKeepsTheRoll) {
+    const Quat start = from_euler_degrees({10, 40, 25});
+    for (const Vec3d& d : {Vec3d{1, 2, 3}, Vec3d{0, -1, 0}, rotate(start, {0, 0, -1}), rotate(start, {0, 0, 1})}) {
+        const Vec3d forward = rotate(turned_to(start, d), {0, 0, -1});
+        EXPECT_NEAR(dot(forward, normalize(d)), 1, 1e-6);
+    }
+    // The shortest turn leaves the axis it turns about where it was.
+    const Vec3d target{1, 2, 3}, axis = normalize(cross(rotate(start, {0, 0, -1}), target));
+    const Vec3d local = rotate(conjugate(start), axis);
+    EXPECT_NEAR(dot(rotate(turned_to(start, target), local), axis), 1, 1e-6);
+}
+
+} // namespace
+} // namespace blush

@@ -1,0 +1,154 @@
+// Shortcuts, gestures, toasts, statistics: the window's bookkeeping.
+#include "ui/automation.h"
+#include "ui/background_job.h"
+#include "ui/frame_stats.h"
+#include "ui/gestures.h"
+#include "ui/shortcuts.h"
+#include "ui/toasts.h"
+
+#include <algorithm>
+#include <gtest/gtest.h>
+
+namespace blush {
+namespace {
+
+using namespace std::chrono_literals;
+
+TEST(Shortcuts, NoKeyMeansTwoThings) {
+    for (const Shortcut& a : shortcuts())
+        for (const Shortcut& b : shortcuts())
+            if (&a != &b && a.press.key != key::none) EXPECT_FALSE(a.press == b.press) << a.name << " and " << b.name;
+}
+
+TEST(Shortcuts, EveryCommandIsListedOnce) {
+    for (int c = 0; c <= int(Command::history); ++c) EXPECT_EQ(std::ranges::count(shortcuts(), Command(c), &Shortcut::command), 1) << c;
+}
+
+TEST(Shortcuts, AreFoundByTheirKeysAndNoOthers) {
+    const Shortcut* undo = find_shortcut({'Z', true, false, false});
+    ASSERT_TRUE(undo);
+    EXPECT_EQ(undo->command, Command::undo);
+    EXPECT_EQ(find_shortcut({'Z', true, true, false})->command, Command::redo);
+    EXPECT_EQ(find_shortcut({'Z', false, false, false}), nullptr);
+    EXPECT_EQ(find_shortcut({}), nullptr);
+}
+
+TEST(Shortcuts, ReadAsPeopleWriteThem) {
+    EXPECT_EQ(to_string({'Z', true, true, false}), "Ctrl+Shift+Z");
+    EXPECT_EQ(to_string({key::f1, false, false, false}), "F1");
+    EXPECT_EQ(to_string({key::remove, false, false, false}), "Del");
+    EXPECT_EQ(to_string(KeyPress{}), "");
+}
+
+// What Fields does for a widget that is grabbed, dragged and let go.
+TEST(Gestures, OneDragIsOneStepOfTheHistory) {
+    Document document;
+    GestureTracker gestures;
+    const auto drag = [&](float from, float to) {
+        gestures.begin();
+        for (int i = 0; i <= 4; ++i) {
+            ViewSettings v;
+            v.exposure_ev = from + (to - from) * float(i) / 4;
+            ASSERT_TRUE(document.apply(SetView{v}, gestures.current()));
+        }
+        gestures.end();
+    };
+    drag(0, 1);
+    drag(1, 3);
+    EXPECT_EQ(gestures.current(), no_gesture);
+    EXPECT_EQ(document.undo_labels().size(), 2u);
+    ASSERT_TRUE(document.undo());
+    EXPECT_EQ(document.project().view.exposure_ev, 1);
+    ASSERT_TRUE(document.undo());
+    EXPECT_EQ(document.project().view.exposure_ev, 0);
+    EXPECT_EQ(document.redo_labels().size(), 2u);
+}
+
+TEST(Toasts, GoAwayByThemselvesFailuresLast) {
+    Toasts toasts;
+    toasts.note("saved");
+    toasts.fail("broken");
+    const auto start = toasts.all().front().since;
+    toasts.expire(start + 6s);
+    ASSERT_EQ(toasts.all().size(), 1u);
+    EXPECT_EQ(toasts.all()[0].text, "broken");
+    toasts.expire(start + 60s);
+    EXPECT_TRUE(toasts.all().empty());
+}
+
+TEST(Toasts, TheSameAgainReplacesTheOlderAndTheyDoNotPileUp) {
+    Toasts toasts;
+    toasts.note("a");
+    toasts.note("b");
+    toasts.note("a");
+    ASSERT_EQ(toasts.all().size(), 2u);
+    EXPECT_EQ(toasts.all()[1].text, "a");
+    for (int i = 0; i < 50; ++i) toasts.note(std::to_string(i));
+    EXPECT_LE(toasts.all().size(), 5u);
+}
+
+TEST(FrameStats, PercentilesByNearestRank) {
+    std::vector<double> values;
+    for (int i = 1; i <= 100; ++i) values.push_back(101 - i);
+    EXPECT_EQ(percentile(values, 0.5), 50);
+    EXPECT_EQ(percentile(values, 0.95), 95);
+    EXPECT_EQ(percentile(values, 1), 100);
+    EXPECT_EQ(percentile({3}, 0.5), 3);
+    EXPECT_EQ(percentile({}, 0.5), 0);
+}
+
+TEST(FrameStats, APictureAnswersItsOwnSubmitAndClearsTheOlder) {
+    FrameStats stats;
+    const FrameStats::Clock::time_point start{};
+    stats.submitted(1, start);
+    stats.submitted(2, start + 10ms);
+    stats.submitted(3, start + 20ms);
+    stats.shown(2, start + 40ms);
+    stats.shown(2, start + 90ms); // more samples of the same revision are no answer
+    stats.shown(3, start + 100ms);
+    ASSERT_EQ(stats.latencies().size(), 2u);
+    EXPECT_NEAR(stats.latencies()[0], 30, 1e-9);
+    EXPECT_NEAR(stats.latencies()[1], 80, 1e-9);
+}
+
+TEST(BackgroundJob, GivesItsResultOnceAndWakes) {
+    std::atomic<bool> woken = false;
+    BackgroundJob<int> job(
+        "work",
+        [](JobProgress& p) {
+            p.report(0.5, "half");
+            return 42;
+        },
+        [&] { woken = true; });
+    while (!woken) std::this_thread::yield();
+    EXPECT_EQ(job.take(), 42);
+    EXPECT_FALSE(job.take());
+    EXPECT_EQ(job.progress().read(), (std::pair<double, std::string>(0.5, "half")));
+}
+
+TEST(BackgroundJob, DestructionCancelsAndWaits) {
+    std::atomic<bool> ended = false;
+    {
+        const BackgroundJob<int> job(
+            "endless",
+            [&](JobProgress& p) {
+                while (!p.cancel) std::this_thread::yield();
+                ended = true;
+                return 0;
+            },
+            [] {});
+    }
+    EXPECT_TRUE(ended);
+}
+
+TEST(Automation, SizesAreParsedWhollyOrNotAtAll) {
+    int w = 1, h = 2;
+    EXPECT_TRUE(parse_size("800x600", w, h));
+    EXPECT_EQ(w, 800);
+    EXPECT_EQ(h, 600);
+    for (const char* text : {"", "800", "800x", "x600", "800x600x", "-5x5", "0x10", "99999999999x1", "axb"}) EXPECT_FALSE(parse_size(text, w, h)) << text;
+    EXPECT_EQ(w, 800);
+}
+
+} // namespace
+} // namespace blush
