@@ -72,14 +72,15 @@ def card_and_mug():
     glaze = scene.material("red glaze", (0.62, 0.018, 0.016), roughness=0.35)
     paper = scene.material("white card", (0.82, 0.81, 0.79), lambertian=True)
 
-    scene.object("table", box((-1.5, -0.04, -1.5), (1.5, 0, 1.5)), table)
+    scene.object("table", box((-2.4, -0.04, -2.4), (2.4, 0, 2.4)), table)
     mug = scene.node("mug", translation=(0.046, 0, 0.026), rotation=about_y(14))
     scene.object("mug body", mug_body(), glaze, parent=mug)
     scene.object("mug handle", mug_handle(), glaze, parent=mug)
     scene.object("card", card(), paper, translation=(-0.036, 0, -0.006), rotation=about_y(180 + 19))
 
-    scene.sun("sun", direction(azimuth=-66, elevation=27), (1, 0.84, 0.64), lux=9, angle_degrees=0.53)
-    scene.camera("hero", (0.03, 0.28, 0.60), (0.020, 0.072, 0), yfov_degrees=21)
+    toward_sun = direction(azimuth=-66, elevation=27)
+    scene.sun("sun", toward_sun, (1, 0.84, 0.64), lux=9, angle_degrees=0.53, translation=mul(toward_sun, 0.18))
+    scene.camera("hero", (0.03, 0.28, 0.60), (0.010, 0.072, 0), yfov_degrees=25.5)
     scene.camera("blush close-up", (-0.02, 0.12, 0.30), (0.005, 0.06, -0.01), yfov_degrees=24)
     scene.camera("from above", (0.02, 0.62, 0.24), (0.01, 0.03, 0), yfov_degrees=24)
     return scene

@@ -164,8 +164,8 @@ class SceneWriter:
         }
         return self.node(name, camera=self.append("cameras", camera), translation=eye, rotation=looking_along(sub(target, eye)))
 
-    def sun(self, name, toward_sun, color, lux, angle_degrees):
-        """A directional light; it shines from toward_sun."""
+    def sun(self, name, toward_sun, color, lux, angle_degrees, translation=None):
+        """A directional light; it shines from toward_sun. Where its node is matters to editors only."""
         self.uses("KHR_lights_punctual")
         lights = self.json.setdefault("extensions", {}).setdefault("KHR_lights_punctual", {"lights": []})["lights"]
         lights.append({
@@ -173,7 +173,7 @@ class SceneWriter:
             "extras": {"blush": {"angle_degrees": angle_degrees}},
         })
         rotation = looking_along(tuple(-x for x in toward_sun))
-        return self.node(name, rotation=rotation, extensions={"KHR_lights_punctual": {"light": len(lights) - 1}})
+        return self.node(name, translation=translation, rotation=rotation, extensions={"KHR_lights_punctual": {"light": len(lights) - 1}})
 
     def files(self):
         """Name to content of the two files."""
