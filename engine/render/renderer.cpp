@@ -7,6 +7,7 @@
 #include "render/settings_for_kernels.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <optional>
 #include <utility>
@@ -108,7 +109,8 @@ bool Renderer::render(int64_t first, int64_t count, const std::function<bool()>&
     const int across = (width + shape.width - 1) / shape.width, down = (height + shape.height - 1) / shape.height;
     const KernelContext context{&s.scene.tables(), &s.scene.accel(), settings_for_kernels(s.settings, width, height), s.settings.seed};
 
-    const bool done = s.workers.for_each(int64_t(across) * down, wanted, [&](int64_t tile, unsigned worker) {
+    std::atomic<bool> cut_short{false};
+    const bool all_begun = s.workers.for_each(int64_t(across) * down, wanted, [&](int64_t tile, unsigned worker) {
         TileScratch& scratch = s.scratch_of(worker);
         TileJob job;
         job.x = int(tile % across) * shape.width;
@@ -116,6 +118,10 @@ bool Renderer::render(int64_t first, int64_t count, const std::function<bool()>&
         job.width = std::min(shape.width, width - job.x);
         job.height = std::min(shape.height, height - job.y);
         for (int64_t sample = first; sample < first + count; sample += shape.samples) {
+            if (sample > first && wanted && !wanted()) {
+                cut_short = true;
+                return;
+            }
             job.first_sample = sample;
             job.samples = int(std::min<int64_t>(shape.samples, first + count - sample));
             s.kernel->render(context, job, scratch);
@@ -129,6 +135,7 @@ bool Renderer::render(int64_t first, int64_t count, const std::function<bool()>&
         s.rays.camera += std::exchange(scratch->camera_rays, 0);
         s.truncated += std::exchange(scratch->truncated_paths, 0);
     }
+    const bool done = all_begun && !cut_short;
     if (done) s.samples += count;
     return done;
 }
