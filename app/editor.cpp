@@ -84,7 +84,8 @@ Editor::Editor(const EditorOptions& options, std::unique_ptr<Window> window, Col
     if (!color_.warning().empty()) ui_.toasts.warn("The colour configuration is replaced by our own", color_.warning());
     document_.reset(Project{{}, options.render, options.view});
     if (const auto loaded = viewport_.load(); !loaded) ui_.toasts.fail(loaded.error().text());
-    files_.open(options.scene.empty() ? options.assets / "scenes" / "card-and-mug.gltf" : options.scene);
+    files_.open(options.scene.empty() ? options.assets / "scenes" / "card-and-mug.gltf" : options.scene, options.overrides,
+                float(options.render.width) / float(options.render.height));
 }
 
 void Editor::run() {
@@ -274,17 +275,18 @@ void Editor::draw() {
     const Toasts& toasts = ui_.toasts;
     ProbeState state{{image_.x, image_.y, image_.width, image_.height},   0, 0, 0, false, false,
                      toasts.all().empty() ? "" : toasts.all().back().text};
-    if (frame_) {
-        state.width = frame_->width;
-        state.height = frame_->height;
-        state.samples = frame_->samples;
-        state.complete = frame_->complete;
-        state.up_to_date = frame_->revision == submitted_;
+    const FramePtr& shown = viewport_.shown();
+    if (shown) {
+        state.width = shown->width;
+        state.height = shown->height;
+        state.samples = shown->samples;
+        state.complete = shown->complete;
+        state.up_to_date = shown->revision == submitted_;
     }
     window_->end_frame();
     const auto now = Clock::now();
     stats_.add_frame(std::chrono::duration<double, std::milli>(now - frame_begin_).count());
-    if (frame_) stats_.shown(frame_->revision, now);
+    if (shown) stats_.shown(shown->revision, now);
     ui_.probe.end_frame(state);
 }
 

@@ -1,5 +1,6 @@
 #include "app/editor_files.h"
 
+#include "app/commands/common.h"
 #include "app/editor_snapshot.h"
 #include "io/environment_image.h"
 
@@ -56,17 +57,21 @@ bool FileWatch::changed() {
     return settled;
 }
 
-void EditorFiles::start_import(const std::filesystem::path& file, Purpose purpose) {
+void EditorFiles::start_import(const std::filesystem::path& file, Purpose purpose, const SceneOverrides& overrides, float aspect) {
     if (file.empty()) return;
     purpose_ = purpose;
     importing_ = file;
-    import_job_ = std::make_unique<BackgroundJob<Result<ImportedScene>>>(
+    import_job_ = std::make_unique<BackgroundJob<Result<LoadedScene>>>(
         "Loading " + file.filename().string(),
-        [file](JobProgress& progress) {
+        [file, overrides, aspect](JobProgress& progress) -> Result<LoadedScene> {
             ImportOptions options;
             options.cancel = &progress.cancel;
             options.on_progress = [&progress](double fraction, const std::string& what) { progress.report(fraction, what); };
-            return import_gltf(file, options);
+            Result<ImportedScene> imported = import_gltf(file, options);
+            if (!imported) return in_file(imported.error(), file.string());
+            LoadedScene loaded{imported->scene, std::move(imported->scene), std::move(imported->report)};
+            if (const auto applied = apply_overrides(overrides, loaded.scene, aspect); !applied) return in_file(applied.error(), file.string());
+            return loaded;
         },
         wake_);
 }
@@ -86,22 +91,22 @@ void EditorFiles::save_snapshot(const FramePtr& frame, const Project& project, c
         wake_);
 }
 
-bool EditorFiles::finish_import(Document& document, UiState& ui, Result<ImportedScene> imported) {
+bool EditorFiles::finish_import(Document& document, UiState& ui, Result<LoadedScene> loaded) {
     const bool cancelled = import_job_->cancelled();
     import_job_.reset();
     if (cancelled) return false;
-    if (!imported) {
-        ui.toasts.fail(imported.error().text());
+    if (!loaded) {
+        ui.toasts.fail(loaded.error().text());
         return false;
     }
-    report(ui.toasts, importing_, imported->report);
+    report(ui.toasts, importing_, loaded->report);
     if (purpose_ == Purpose::merge) {
-        const auto done = document.apply(Import{imported->scene, importing_.stem().string()});
+        const auto done = document.apply(Import{loaded->scene, importing_.stem().string()});
         if (!done) ui.toasts.fail(done.error().text());
         return false;
     }
-    Project project{imported->scene, document.project().render, document.project().view};
-    imported_ = imported->scene;
+    Project project{loaded->scene, document.project().render, document.project().view};
+    imported_ = loaded->imported;
     if (purpose_ == Purpose::reload) {
         project.scene.view = document.project().scene.view;
         ui.selected = same_node(document.project().scene, ui.selected, project.scene);

@@ -1,9 +1,9 @@
 // What the editor does with files, in the background: opening, importing, environment images, snapshots, reloading.
 #pragma once
 
+#include "app/commands/load_scene.h"
 #include "color/color_management.h"
 #include "core/result.h"
-#include "io/gltf_import.h"
 #include "render/frame.h"
 #include "scene/document.h"
 #include "ui/background_job.h"
@@ -36,9 +36,12 @@ public:
     const std::filesystem::path& scene_file() const { return scene_file_; }
 
     // Each starts a job and returns; a newer one of the same sort cancels the older.
-    void open(const std::filesystem::path& file) { start_import(file, Purpose::open); }
-    void import_scene(const std::filesystem::path& file) { start_import(file, Purpose::merge); }
-    void reload() { start_import(scene_file_, Purpose::reload); }
+    // `overrides` of the command line hold for the file they were given with; `aspect` frames a scene without a camera.
+    void open(const std::filesystem::path& file, const SceneOverrides& overrides = {}, float aspect = 1.6f) {
+        start_import(file, Purpose::open, overrides, aspect);
+    }
+    void import_scene(const std::filesystem::path& file) { start_import(file, Purpose::merge, {}, 1); }
+    void reload() { start_import(scene_file_, Purpose::reload, {}, 1); }
     void load_environment(const std::filesystem::path& file);
     enum class Format { exr, png };
     // Of a frame that `settings` made.
@@ -55,8 +58,8 @@ public:
 
 private:
     enum class Purpose { open, merge, reload };
-    void start_import(const std::filesystem::path& file, Purpose purpose);
-    bool finish_import(Document& document, UiState& ui, Result<ImportedScene> imported);
+    void start_import(const std::filesystem::path& file, Purpose purpose, const SceneOverrides& overrides, float aspect);
+    bool finish_import(Document& document, UiState& ui, Result<LoadedScene> loaded);
     void finish_environment(Document& document, UiState& ui, Result<ImagePtr> image);
     void look_at_scene_file(const Document& document, UiState& ui);
 
@@ -68,7 +71,7 @@ private:
 
     Purpose purpose_ = Purpose::open;
     std::filesystem::path importing_, environment_;
-    std::unique_ptr<BackgroundJob<Result<ImportedScene>>> import_job_;
+    std::unique_ptr<BackgroundJob<Result<LoadedScene>>> import_job_;
     std::unique_ptr<BackgroundJob<Result<ImagePtr>>> environment_job_;
     std::unique_ptr<BackgroundJob<Result<std::filesystem::path>>> snapshot_job_;
 };

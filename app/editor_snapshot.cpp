@@ -1,11 +1,10 @@
 #include "app/editor_snapshot.h"
 
+#include "app/commands/picture.h"
 #include "app/scene_overrides.h"
 #include "io/scene_edits_json.h"
 #include "io/scene_hash.h"
-#include "io/snapshot.h"
 
-#include <cmath>
 #include <fmt/format.h>
 
 namespace blush {
@@ -46,39 +45,17 @@ SnapshotMetadata metadata_of(const SnapshotJob& job) {
 } // namespace
 
 Result<std::filesystem::path> write_snapshot_exr(const SnapshotJob& job) {
-    const Frame& f = *job.frame;
-    const std::vector<float> samples(size_t(f.width) * size_t(f.height), float(f.samples));
-    SnapshotInput input;
-    input.width = f.width;
-    input.height = f.height;
-    input.rgba = f.rgba;
-    input.albedo = f.albedo;
-    input.normal = f.normal;
-    input.depth = f.depth;
-    input.samples = samples;
-    input.object_id = f.object_id;
-    input.material_id = f.material_id;
-    input.metadata = metadata_of(job);
-    const auto image = make_snapshot(input);
-    if (!image) return image.error();
     const auto file = free_name(job, ".exr");
     if (!file) return file;
-    if (const auto written = write_exr(*file, *image); !written) return written.error();
+    const Layers layers{.albedo = true, .normal = true, .depth = true, .samples = true, .ids = true};
+    if (const auto written = write_exr_picture(*file, *job.frame, {}, layers, metadata_of(job)); !written) return written.error();
     return file;
 }
 
 Result<std::filesystem::path> write_snapshot_png(const SnapshotJob& job, const ColorManagement& color) {
-    const Frame& f = *job.frame;
-    const size_t pixels = size_t(f.width) * size_t(f.height);
-    std::vector<float> rgb(pixels * 3);
-    for (size_t i = 0; i < pixels; ++i) {
-        for (size_t k = 0; k < 3; ++k) rgb[3 * i + k] = f.rgba[4 * i + k];
-    }
-    const ViewSettings& v = job.project.view;
-    if (const auto done = color.apply_display(v.display, v.view, v.exposure_ev, v.gamma, rgb.data(), pixels); !done) return done.error();
     const auto file = free_name(job, ".png");
     if (!file) return file;
-    if (const auto written = write_display_image(*file, f.width, f.height, rgb); !written) return written.error();
+    if (const auto written = write_display_picture(*file, *job.frame, color, job.project.view, metadata_of(job)); !written) return written.error();
     return file;
 }
 

@@ -1,5 +1,8 @@
 #include "ui/display_pass.h"
 
+#include <algorithm>
+#include <chrono>
+
 namespace blush {
 namespace {
 
@@ -49,8 +52,9 @@ void DisplayPass::upload(const Frame& frame) {
     glBindTexture(GL_TEXTURE_2D, image_.name());
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
     if (frame.width != width_ || frame.height != height_) {
+        rows_per_millisecond_ *= double(std::max(width_, 1)) / frame.width; // rows of another length
         width_ = frame.width;
-        height_ = frame.height;
+        height_ = next_row_ = frame.height;
         glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, width_, height_, 0, GL_RGBA, GL_FLOAT, frame.rgba.data());
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
@@ -59,12 +63,20 @@ void DisplayPass::upload(const Frame& frame) {
     }
 }
 
-void DisplayPass::draw(float exposure_ev, float gamma) {
-    if (!program_ || width_ == 0) return;
-    target_.begin(width_, height_);
+void DisplayPass::begin(float exposure_ev, float gamma) {
+    exposure_ev_ = exposure_ev;
+    gamma_ = gamma;
+    if (program_) next_row_ = 0;
+}
+
+void DisplayPass::draw_rows(int first, int count) {
+    RenderTarget& target = targets_[1 - front_];
+    target.begin(width_, height_);
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(0, first, width_, count);
     glUseProgram(program_.name());
-    glUniform1f(glGetUniformLocation(program_.name(), "exposure_ev"), exposure_ev);
-    glUniform1f(glGetUniformLocation(program_.name(), "gamma"), gamma);
+    glUniform1f(glGetUniformLocation(program_.name(), "exposure_ev"), exposure_ev_);
+    glUniform1f(glGetUniformLocation(program_.name(), "gamma"), gamma_);
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, image_.name());
     for (size_t i = 0; i < tables_.size(); ++i) {
@@ -75,7 +87,20 @@ void DisplayPass::draw(float exposure_ev, float gamma) {
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glBindVertexArray(0);
     glActiveTexture(GL_TEXTURE0);
-    target_.end();
+    glDisable(GL_SCISSOR_TEST);
+    target.end();
+}
+
+void DisplayPass::advance(double milliseconds) {
+    if (!busy()) return;
+    const int count = std::clamp(int(rows_per_millisecond_ * milliseconds), 1, height_ - next_row_);
+    const auto before = std::chrono::steady_clock::now();
+    draw_rows(next_row_, count);
+    glFinish(); // else the time would be that of queueing
+    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - before;
+    rows_per_millisecond_ = count / std::max(took.count(), 1e-3);
+    next_row_ += count;
+    if (!busy()) front_ = 1 - front_;
 }
 
 } // namespace blush

@@ -63,9 +63,10 @@ Light converted(const Light& light, Light::Kind kind, double distance) {
 }
 
 AddLight new_light(Light::Kind kind, const View& view, float exposure_ev) {
-    const double reach = view.pivot_distance;
+    // Within the picture: measured by what the view shows at the pivot.
+    const double reach = view.lens.orthographic ? 2.0 * view.lens.ymag : 2 * view.pivot_distance * std::tan(view.lens.yfov_radians / 2.0);
     const Vec3d target = pivot(view), right = rotate(view.rotation, {1, 0, 0}), back = rotate(view.rotation, {0, 0, 1});
-    const Vec3d position = target + Vec3d{0, 1, 0} * (0.45 * reach) + right * (0.3 * reach) + back * (0.2 * reach);
+    const Vec3d position = target + Vec3d{0, 1, 0} * (0.35 * reach) + right * (0.2 * reach) + back * (0.3 * reach);
     AddLight add;
     add.light.name = add.node.name = kind_name(kind);
     add.light.kind = kind;

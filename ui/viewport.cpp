@@ -8,6 +8,8 @@
 namespace blush {
 namespace {
 
+constexpr double display_budget = 8; // milliseconds of one frame of the window
+
 ImTextureID texture_id(GLuint name) { return reinterpret_cast<ImTextureID>(uintptr_t(name)); }
 
 // Where the picture lies in the current window.
@@ -38,19 +40,25 @@ Result<void> Viewport::set_display_shader(const DisplayShader& shader) {
     return display_.set_shader(shader);
 }
 
-void Viewport::take_frame(const PanelContext& c) {
-    if (!c.frame || c.frame->width <= 0) return;
-    const bool new_frame = c.frame != shown_frame_;
-    if (new_frame) {
-        display_.upload(*c.frame);
-        shown_frame_ = c.frame;
-    }
+void Viewport::take_frame(PanelContext& c) {
     const ViewSettings& v = c.project().view;
-    if (!new_frame && !shader_changed_ && shown_exposure_ == v.exposure_ev && shown_gamma_ == v.gamma) return;
-    display_.draw(v.exposure_ev, v.gamma);
-    shown_exposure_ = v.exposure_ev;
-    shown_gamma_ = v.gamma;
-    shader_changed_ = false;
+    const bool new_frame = c.frame && c.frame->width > 0 && c.frame != uploaded_frame_;
+    if (!display_.busy() && (new_frame || (uploaded_frame_ && (shader_changed_ || shown_exposure_ != v.exposure_ev || shown_gamma_ != v.gamma)))) {
+        if (new_frame) {
+            display_.upload(*c.frame);
+            uploaded_frame_ = c.frame;
+        }
+        display_.begin(v.exposure_ev, v.gamma);
+        shown_exposure_ = v.exposure_ev;
+        shown_gamma_ = v.gamma;
+        shader_changed_ = false;
+    }
+    display_.advance(display_budget);
+    if (display_.busy()) c.ui.next_frame_in = 0;
+    else if (shown_frame_ != uploaded_frame_) {
+        shown_frame_ = uploaded_frame_;
+        c.ui.next_frame_in = 0; // perhaps the next one waits already
+    }
 }
 
 void Viewport::draw_picture(PanelContext& c, const ImageRect& image) {

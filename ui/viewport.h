@@ -17,9 +17,11 @@ public:
 
     // Fills the current ImGui window. Returns where the picture lies.
     ImageRect draw(PanelContext& c);
+    // The frame whose picture is on the screen; null before the first.
+    const FramePtr& shown() const { return shown_frame_; }
 
 private:
-    void take_frame(const PanelContext& c);
+    void take_frame(PanelContext& c);
     void draw_picture(PanelContext& c, const ImageRect& image);
     void obey(PanelContext& c, const NavigationResult& wish, const Projection& projection, const ImageRect& image);
 
@@ -29,7 +31,7 @@ private:
     Handles handles_;
 
     // What the textures hold, to draw into them only when something differs.
-    FramePtr shown_frame_;
+    FramePtr uploaded_frame_, shown_frame_;
     float shown_exposure_ = 0, shown_gamma_ = 0;
     bool shader_changed_ = false;
     uint32_t outlined_ = 0;

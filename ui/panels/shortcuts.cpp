@@ -18,7 +18,7 @@ void line(const char* what, const char* how, float column) {
     ImGui::PushStyleColor(ImGuiCol_Text, tone::dim_text);
     ImGui::TextUnformatted(what);
     ImGui::PopStyleColor();
-    ImGui::SameLine(ImGui::GetCursorPosX() + column);
+    ImGui::SameLine(column);
     ImGui::TextUnformatted(how);
 }
 
