@@ -2,6 +2,7 @@
 #include "ui/file_listing.h"
 #include "ui/window_settings.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <gtest/gtest.h>

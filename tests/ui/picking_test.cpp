@@ -1,6 +1,8 @@
 // What a frame's planes say under the mouse.
 #include "ui/picking.h"
 
+#include "core/math.h"
+
 #include <gtest/gtest.h>
 
 namespace blush {

@@ -15,9 +15,10 @@ namespace {
 using namespace std::chrono_literals;
 
 TEST(Shortcuts, NoKeyMeansTwoThings) {
-    for (const Shortcut& a : shortcuts())
-        for (const Shortcut& b : shortcuts())
-            if (&a != &b && a.press.key != key::none) EXPECT_FALSE(a.press == b.press) << a.name << " and " << b.name;
+    for (const Shortcut& a : shortcuts()) {
+        if (a.press.key == key::none) continue;
+        EXPECT_EQ(std::ranges::count(shortcuts(), a.press, &Shortcut::press), 1) << a.name;
+    }
 }
 
 TEST(Shortcuts, EveryCommandIsListedOnce) {
