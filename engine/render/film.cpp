@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
+#include <limits>
 #include <optional>
+#include <stdexcept>
 #include <tuple>
+#include <unistd.h>
 
 namespace blush {
 namespace {
@@ -36,6 +40,13 @@ void remember(Health& health, const std::vector<BadSample>& bad) {
 } // namespace
 
 void Film::reset(int width, int height, const PlaneSet& planes, bool transparent_background) {
+    // Said before the system's killer says it in its own way.
+    const double per_pixel = 2 * sizeof(Half) + (planes.albedo || planes.normal ? sizeof(FeatureSums) : 0) + 64;
+    const double needed = per_pixel * double(width) * double(height);
+    const double present = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGE_SIZE));
+    if (needed > 0.8 * present)
+        throw std::runtime_error(fmt::format("an image of {} x {} pixels needs {:.0f} GB of memory, this machine has {:.0f}", width, height,
+                                             needed / 1e9, present / 1e9));
     width_ = width;
     height_ = height;
     planes_ = planes;
@@ -54,45 +65,51 @@ void Film::clear() {
     health_ = {};
 }
 
+void Film::add_first_hit(size_t pixel, const FirstHitColumns& first, int slot, bool first_of_pixel) {
+    if (!features_.empty()) {
+        FeatureSums& f = features_[pixel];
+        const float albedo[3] = {first.albedo_r[slot], first.albedo_g[slot], first.albedo_b[slot]};
+        const float normal[3] = {first.normal_x[slot], first.normal_y[slot], first.normal_z[slot]};
+        for (int c = 0; c < 3; ++c) {
+            // What a miss shows may be the sun itself: guides are for denoising and stay in range.
+            if (std::isfinite(albedo[c])) f.albedo[c] += double(std::clamp(albedo[c], 0.f, 1.f));
+            if (std::isfinite(normal[c])) f.normal[c] += double(normal[c]);
+        }
+    }
+    if (transparent_) covered_[pixel] += first.material[slot] >= 0;
+    if (!first_of_pixel) return;
+    if (planes_.depth) depth_[pixel] = first.depth[slot];
+    if (planes_.ids) {
+        object_id_[pixel] = uint32_t(first.object[slot]);
+        material_[pixel] = first.material[slot];
+    }
+}
+
 void Film::add(const TileJob& job, const TileScratch& tile, uint32_t seed) {
     std::vector<BadSample> bad;
     int slot = 0;
     for (int y = job.y; y < job.y + job.height; ++y) {
         for (int x = job.x; x < job.x + job.width; ++x) {
             const size_t pixel = size_t(y) * size_t(width_) + size_t(x);
-            const bool first_of_pixel = halves_[2 * pixel].count == 0 && halves_[2 * pixel + 1].count == 0;
+            Half* halves = &halves_[2 * pixel];
             for (int s = 0; s < job.samples; ++s, ++slot) {
                 const int64_t sample = job.first_sample + s;
                 const float r = tile.r[slot], g = tile.g[slot], b = tile.b[slot];
-                if (const auto fault = fault_of(r, g, b)) {
-                    bad.push_back({*fault, x, y, sample, seed});
-                    continue;
+                // One comparison for the many that are sound; the slow question only for the rest.
+                const bool sound = r >= 0 && g >= 0 && b >= 0 && r + g + b <= std::numeric_limits<float>::max();
+                if (!sound) {
+                    if (const auto fault = fault_of(r, g, b)) {
+                        bad.push_back({*fault, x, y, sample, seed});
+                        continue;
+                    }
                 }
-                Half& half = halves_[2 * pixel + size_t(sample & 1)];
+                const bool first_of_pixel = halves[0].count + halves[1].count == 0;
+                Half& half = halves[sample & 1];
                 half.r += double(r);
                 half.g += double(g);
                 half.b += double(b);
                 ++half.count;
-                if (!needs_first_hits()) continue;
-                const FirstHitColumns& first = *tile.first;
-                if (!features_.empty()) {
-                    FeatureSums& f = features_[pixel];
-                    const float albedo[3] = {first.albedo_r[slot], first.albedo_g[slot], first.albedo_b[slot]};
-                    const float normal[3] = {first.normal_x[slot], first.normal_y[slot], first.normal_z[slot]};
-                    for (int c = 0; c < 3; ++c) {
-                        // What a miss shows may be the sun itself: guides are for denoising and stay in range.
-                        if (std::isfinite(albedo[c])) f.albedo[c] += double(std::clamp(albedo[c], 0.f, 1.f));
-                        if (std::isfinite(normal[c])) f.normal[c] += double(normal[c]);
-                    }
-                }
-                if (transparent_) covered_[pixel] += first.material[slot] >= 0;
-                if (first_of_pixel && s == 0) {
-                    if (planes_.depth) depth_[pixel] = first.depth[slot];
-                    if (planes_.ids) {
-                        object_id_[pixel] = uint32_t(first.object[slot]);
-                        material_[pixel] = first.material[slot];
-                    }
-                }
+                if (needs_first_hits()) add_first_hit(pixel, *tile.first, slot, first_of_pixel);
             }
         }
     }

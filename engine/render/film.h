@@ -42,6 +42,7 @@ private:
         double albedo[3] = {}, normal[3] = {};
     };
 
+    void add_first_hit(size_t pixel, const FirstHitColumns& first, int slot, bool first_of_pixel);
     void resolve_rows(Frame& frame, int first, int last, ErrorAccumulator& error) const;
 
     int width_ = 0, height_ = 0;
