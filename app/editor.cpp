@@ -150,18 +150,18 @@ void Editor::draw_regions(PanelContext& c) {
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
     const Layout l = lay_out(screen.x, screen.y, ImGui::GetFrameHeight(), std::round(ImGui::GetFrameHeight() * 1.25f), ImGui::GetFontSize(),
                              ui_.settings.splitters);
-    begin_region("Outliner", l.outliner, true);
+    begin_region("Outliner", l.outliner);
     draw_outliner(c);
     end_region();
-    begin_region("Viewport", l.viewport, false);
+    begin_region("Viewport", l.viewport, {.padded = false, .background = false});
     viewport_width_ = int(l.viewport.width);
     viewport_height_ = int(l.viewport.height);
     image_ = viewport_.draw(c);
     end_region();
-    begin_region("Inspector", l.inspector, false);
+    begin_region("Inspector", l.inspector, {.padded = false});
     draw_inspector(c);
     end_region();
-    begin_region("Status", l.status, false);
+    begin_region("Status", l.status, {.padded = false});
     draw_status_bar(c);
     end_region();
     drag_splitters(ui_, l, screen.x);

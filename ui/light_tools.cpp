@@ -66,11 +66,11 @@ AddLight new_light(Light::Kind kind, const View& view, float exposure_ev) {
     // Within the picture: measured by what the view shows at the pivot.
     const double reach = view.lens.orthographic ? 2.0 * view.lens.ymag : 2 * view.pivot_distance * std::tan(view.lens.yfov_radians / 2.0);
     const Vec3d target = pivot(view), right = rotate(view.rotation, {1, 0, 0}), back = rotate(view.rotation, {0, 0, 1});
-    const Vec3d position = target + Vec3d{0, 1, 0} * (0.35 * reach) + right * (0.2 * reach) + back * (0.3 * reach);
+    const Vec3d position = target + Vec3d{0, 1, 0} * (0.35 * reach) + right * (0.2 * reach) + back * (0.1 * reach);
     AddLight add;
     add.light.name = add.node.name = kind_name(kind);
     add.light.kind = kind;
-    add.light.width = add.light.height = float(0.25 * reach);
+    add.light.width = add.light.height = float(0.2 * reach);
     add.light.outer_cone_radians = 0.5f;
     add.light.inner_cone_radians = 0.4f;
     add.light.angle_radians = kind == Light::Kind::sun ? 0.00925f : 0;

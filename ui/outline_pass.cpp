@@ -5,6 +5,7 @@ namespace {
 
 // Outside the object, as opaque as a ring of eight neighbours finds the object within `thickness` screen pixels.
 const char* const source = R"(
+uniform sampler2D picture;
 uniform usampler2D ids;
 uniform uint object;
 uniform vec2 ring; // thickness in uv
@@ -14,7 +15,7 @@ void main() {
     float near = max(max(max(inside(uv + vec2(ring.x, 0.0)), inside(uv - vec2(ring.x, 0.0))),
                          max(inside(uv + vec2(0.0, ring.y)), inside(uv - vec2(0.0, ring.y)))),
                      max(max(inside(uv + d), inside(uv - d)), max(inside(uv + vec2(d.x, -d.y)), inside(uv + vec2(-d.x, d.y)))));
-    result = vec4(1.0, 0.62, 0.2, 0.9 * near * (1.0 - inside(uv)));
+    result = vec4(mix(texture(picture, uv).rgb, vec3(1.0, 0.62, 0.2), 0.9 * near * (1.0 - inside(uv))), 1.0);
 })";
 
 } // namespace
@@ -25,6 +26,9 @@ Result<void> OutlinePass::load() {
     program_ = std::move(*program);
     no_vertices_ = GlVertexArray::create();
     ids_ = GlTexture::create();
+    glUseProgram(program_.name());
+    glUniform1i(glGetUniformLocation(program_.name(), "ids"), 0);
+    glUniform1i(glGetUniformLocation(program_.name(), "picture"), 1);
     return {};
 }
 
@@ -47,11 +51,13 @@ void OutlinePass::upload(const Frame& frame) {
     }
 }
 
-void OutlinePass::draw(uint32_t object, int width, int height, float thickness) {
+void OutlinePass::draw(GLuint picture, uint32_t object, int width, int height, float thickness) {
     target_.begin(width, height);
     glUseProgram(program_.name());
     glUniform1ui(glGetUniformLocation(program_.name(), "object"), object);
     glUniform2f(glGetUniformLocation(program_.name(), "ring"), thickness / float(width), thickness / float(height));
+    glActiveTexture(GL_TEXTURE1);
+    glBindTexture(GL_TEXTURE_2D, picture);
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, ids_.name());
     glBindVertexArray(no_vertices_.name());

@@ -1,4 +1,4 @@
-// A thin line around the selected object, found in the frame's id plane: no ray is traced for it.
+// The picture with a thin line around the selected object, found in the frame's id plane: no ray is traced for it.
 #pragma once
 
 #include "render/frame.h"
@@ -11,8 +11,9 @@ public:
     Result<void> load();
     // Takes over the id plane; a frame without one gives no outline.
     void upload(const Frame& frame);
-    // The outline of an object (Id<Node>.value) over a transparent ground, for a picture width x height pixels on the screen.
-    void draw(uint32_t object, int width, int height, float thickness);
+    // `picture` with the outline of an object (Id<Node>.value), as large as it is on the screen. Drawn once for many frames of the
+    // window: a transparent layer over the picture would be blended anew in each.
+    void draw(GLuint picture, uint32_t object, int width, int height, float thickness);
 
     GLuint texture() const { return target_.texture(); }
     bool empty() const { return width_ == 0; }

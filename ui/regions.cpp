@@ -32,15 +32,14 @@ bool draw_splitter(UiState& ui, const char* id, float x, const Region& beside, b
 
 } // namespace
 
-void begin_region(const char* name, const Region& region, bool padded) {
+void begin_region(const char* name, const Region& region, const RegionStyle& style) {
     ImGui::SetNextWindowPos({region.x, region.y});
     ImGui::SetNextWindowSize({region.width, region.height});
-    const bool pushed = !padded;
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, pushed ? ImVec2(0, 0) : ImGui::GetStyle().WindowPadding);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, style.padded ? ImGui::GetStyle().WindowPadding : ImVec2(0, 0));
     ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
     ImGui::Begin(name, nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
-                     ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNav);
+                     ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNav | (style.background ? 0 : ImGuiWindowFlags_NoBackground));
     ImGui::PopStyleVar(2);
 }
 

@@ -5,8 +5,12 @@
 
 namespace blush {
 
-// Begins a window that fills a region exactly; end it with end_region(). Without padding for what draws to its edges.
-void begin_region(const char* name, const Region& region, bool padded);
+struct RegionStyle {
+    bool padded = true;     // false for what draws to its edges
+    bool background = true; // false for what covers all of it
+};
+// Begins a window that fills a region exactly; end it with end_region().
+void begin_region(const char* name, const Region& region, const RegionStyle& style = {});
 void end_region();
 
 // Lets the mouse drag the bars beside outliner and inspector; double-click puts them back.

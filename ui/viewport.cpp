@@ -12,11 +12,12 @@ constexpr double display_budget = 8; // milliseconds of one frame of the window
 
 ImTextureID texture_id(GLuint name) { return reinterpret_cast<ImTextureID>(uintptr_t(name)); }
 
-// Where the picture lies in the current window.
+// Where the picture lies in the current window; fills what it leaves of it.
 ImageRect place_picture(const PanelContext& c) {
     const ImVec2 at = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
     const Region region{at.x, at.y, size.x, size.y};
     const Region fit = fit_aspect(region, float(std::max(c.render_width, 1)) / float(std::max(c.render_height, 1)));
+    if (fit != region) ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + size.x, at.y + size.y}, tone::surround);
     return {fit.x, fit.y, fit.width, fit.height};
 }
 
@@ -49,34 +50,41 @@ void Viewport::take_frame(PanelContext& c) {
             uploaded_frame_ = c.frame;
         }
         display_.begin(v.exposure_ev, v.gamma);
+        begun_ = true;
         shown_exposure_ = v.exposure_ev;
         shown_gamma_ = v.gamma;
         shader_changed_ = false;
     }
     display_.advance(display_budget);
-    if (display_.busy()) c.ui.next_frame_in = 0;
-    else if (shown_frame_ != uploaded_frame_) {
+    if (display_.busy()) {
+        c.ui.next_frame_in = 0;
+    } else if (begun_) {
+        begun_ = false;
+        ++pictures_;
         shown_frame_ = uploaded_frame_;
         c.ui.next_frame_in = 0; // perhaps the next one waits already
     }
 }
 
+// Draws into the outlined picture only when something in it differs.
+GLuint Viewport::outlined_picture(uint32_t object, const ImageRect& image) {
+    const Outlined wanted{shown_frame_, pictures_, object, int(image.width), int(image.height)};
+    if (outlined_ != wanted) {
+        if (outlined_.frame != wanted.frame) outline_.upload(*shown_frame_);
+        if (!outline_.empty()) outline_.draw(display_.texture(), object, wanted.width, wanted.height, std::max(1.5f, ImGui::GetFontSize() / 8));
+        outlined_ = wanted;
+    }
+    return outline_.empty() ? display_.texture() : outline_.texture();
+}
+
 void Viewport::draw_picture(PanelContext& c, const ImageRect& image) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
-    const ImVec2 low{image.x, image.y}, high{image.x + image.width, image.y + image.height};
-    draw.AddImage(texture_id(display_.texture()), low, high);
-    const uint32_t object = c.ui.selected.value;
-    if (!c.ui.settings.overlays || object == 0) return;
-    const int width = int(image.width), height = int(image.height);
-    if (outlined_frame_ != shown_frame_ || outlined_ != object || outlined_width_ != width || outlined_height_ != height) {
-        if (outlined_frame_ != shown_frame_) outline_.upload(*shown_frame_);
-        if (!outline_.empty()) outline_.draw(object, width, height, std::max(1.5f, ImGui::GetFontSize() / 8));
-        outlined_frame_ = shown_frame_;
-        outlined_ = object;
-        outlined_width_ = width;
-        outlined_height_ = height;
-    }
-    if (!outline_.empty()) draw.AddImage(texture_id(outline_.texture()), low, high);
+    const bool outlined = c.ui.settings.overlays && c.scene().nodes.contains(c.ui.selected);
+    const GLuint picture = outlined ? outlined_picture(c.ui.selected.value, image) : display_.texture();
+    // It is opaque: blending it would only cost time.
+    draw.AddCallback([](const ImDrawList*, const ImDrawCmd*) { glDisable(GL_BLEND); }, nullptr);
+    draw.AddImage(texture_id(picture), {image.x, image.y}, {image.x + image.width, image.y + image.height});
+    draw.AddCallback(ImDrawCallback_ResetRenderState, nullptr);
 }
 
 void Viewport::obey(PanelContext& c, const NavigationResult& wish, const Projection& projection, const ImageRect& image) {
@@ -98,7 +106,6 @@ void Viewport::obey(PanelContext& c, const NavigationResult& wish, const Project
 ImageRect Viewport::draw(PanelContext& c) {
     take_frame(c);
     const ImageRect image = place_picture(c);
-    ImGui::GetWindowDrawList()->AddRectFilled(ImGui::GetWindowPos(), {ImGui::GetWindowPos().x + ImGui::GetWindowWidth(), ImGui::GetWindowPos().y + ImGui::GetWindowHeight()}, tone::surround);
     ImGui::SetCursorPos({0, 0});
     ImGui::InvisibleButton("picture", ImGui::GetWindowSize(), ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
     const bool hovered = ImGui::IsItemHovered();

@@ -23,6 +23,7 @@ public:
 private:
     void take_frame(PanelContext& c);
     void draw_picture(PanelContext& c, const ImageRect& image);
+    GLuint outlined_picture(uint32_t object, const ImageRect& image);
     void obey(PanelContext& c, const NavigationResult& wish, const Projection& projection, const ImageRect& image);
 
     DisplayPass display_;
@@ -33,10 +34,15 @@ private:
     // What the textures hold, to draw into them only when something differs.
     FramePtr uploaded_frame_, shown_frame_;
     float shown_exposure_ = 0, shown_gamma_ = 0;
-    bool shader_changed_ = false;
-    uint32_t outlined_ = 0;
-    FramePtr outlined_frame_;
-    int outlined_width_ = 0, outlined_height_ = 0;
+    bool shader_changed_ = false, begun_ = false;
+    uint64_t pictures_ = 0; // finished by the display pass
+    struct Outlined {
+        FramePtr frame;
+        uint64_t picture = 0;
+        uint32_t object = 0;
+        int width = 0, height = 0;
+        bool operator==(const Outlined&) const = default;
+    } outlined_;
 };
 
 } // namespace blush
