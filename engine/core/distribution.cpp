@@ -28,4 +28,18 @@ std::vector<uint32_t> make_thresholds(std::span<const double> weights) {
     return thresholds;
 }
 
+std::vector<int32_t> make_guide(std::span<const uint32_t> thresholds, int bits) {
+    assert(!thresholds.empty() && bits >= 1 && bits <= 24);
+    const size_t count = size_t(1) << bits;
+    std::vector<int32_t> guide(count + 1);
+    size_t index = 0;
+    for (size_t i = 0; i < count; ++i) {
+        const uint32_t begin = uint32_t(i) << (32 - bits);
+        while (index + 1 < thresholds.size() && thresholds[index + 1] <= begin) ++index;
+        guide[i] = int32_t(index);
+    }
+    guide[count] = int32_t(thresholds.size() - 1);
+    return guide;
+}
+
 } // namespace blush

@@ -16,6 +16,10 @@ namespace blush {
 // so do zero weights at the very end. All weights 0: the uniform distribution. At most 2^24 weights.
 std::vector<uint32_t> make_thresholds(std::span<const double> weights);
 
+// For each of the 2^bits values of the leading `bits` (1 .. 24) of a random number the first index it may draw, and after them
+// the last index of all: where to search (cutpoint method, Chen and Asau 1974).
+std::vector<int32_t> make_guide(std::span<const uint32_t> thresholds, int bits);
+
 } // namespace blush
 
 namespace blush::inline BLUSH_ISA {
@@ -37,6 +41,15 @@ template <class F> F discrete_probability(const uint32_t* thresholds, const Int<
     return select(last && as_mask(span == UInt<F>(0u)), F(1.f), p);
 }
 
+// What random bits draw, once it is known on which index they fall.
+template <class F>
+DiscreteSample<F> discrete_sample(const uint32_t* thresholds, const Int<F>& first, int n, const UInt<F>& bits, const Int<F>& index) {
+    const F p = discrete_probability<F>(thresholds, first, Int<F>(n), index);
+    const UInt<F> offset = bits - gather(thresholds, Int<F>(first + index));
+    const F within = to_float(to_signed(UInt<F>(offset >> 8))) * 0x1p-24f + to_float(to_signed(UInt<F>(offset & 255u))) * 0x1p-32f;
+    return {index, p, min(within / p, F(one_minus_epsilon))};
+}
+
 // Draws from the n thresholds at `first` (per lane) by bisection.
 template <class F> DiscreteSample<F> sample_discrete(const uint32_t* thresholds, const Int<F>& first, int n, const UInt<F>& bits) {
     Int<F> low = 0;
@@ -46,10 +59,21 @@ template <class F> DiscreteSample<F> sample_discrete(const uint32_t* thresholds,
         const Mask<F> below = as_mask(gather(thresholds, Int<F>(first + probe)) <= bits);
         low = select(below, probe, low);
     }
-    const F p = discrete_probability<F>(thresholds, first, Int<F>(n), low);
-    const UInt<F> offset = bits - gather(thresholds, Int<F>(first + low));
-    const F within = to_float(to_signed(UInt<F>(offset >> 8))) * 0x1p-24f + to_float(to_signed(UInt<F>(offset & 255u))) * 0x1p-32f;
-    return {low, p, min(within / p, F(one_minus_epsilon))};
+    return discrete_sample<F>(thresholds, first, n, bits, low);
+}
+
+// The same draw where thresholds are too many for the cache: bisects only what the guide at `first_guide` (per lane) leaves.
+template <class F> DiscreteSample<F> sample_guided(const uint32_t* thresholds, const Int<F>& first, int n, const int32_t* guide,
+                                                   const Int<F>& first_guide, int guide_bits, const UInt<F>& bits) {
+    const Int<F> at = first_guide + to_signed(UInt<F>(bits >> (32 - guide_bits)));
+    Int<F> low = gather(guide, at), high = gather(guide, Int<F>(at + 1));
+    while (any(as_mask(low < high))) {
+        const Int<F> probe = (low + high + 1) >> 1;
+        const Mask<F> below = as_mask(gather(thresholds, Int<F>(first + probe)) <= bits);
+        low = select(below, probe, low);
+        high = select(below, high, Int<F>(probe - 1));
+    }
+    return discrete_sample<F>(thresholds, first, n, bits, low);
 }
 
 } // namespace blush::inline BLUSH_ISA

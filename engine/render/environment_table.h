@@ -12,9 +12,10 @@ namespace blush {
 
 struct EnvironmentTable {
     // Of the image; a uniform environment is one white texel, none a black one.
-    int32_t width = 0, height = 0;
+    int32_t width = 0, height = 0, guide_bits = 1;
     std::vector<float> texels;
     std::vector<uint32_t> row_thresholds, column_thresholds;
+    std::vector<int32_t> column_guides;
     std::vector<EnvironmentRow> rows;
     Vec3d texel_integral{0, 0, 0}; // of the map over the sphere, sr
     std::vector<Diagnostic> warnings;

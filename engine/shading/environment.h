@@ -25,8 +25,9 @@ struct EnvironmentTables {
     const float* texels = nullptr;               // RGB >= 0, finite, top row first
     const uint32_t* row_thresholds = nullptr;    // height + 1
     const uint32_t* column_thresholds = nullptr; // width for each row of cells
+    const int32_t* column_guides = nullptr;      // 2^guide_bits + 1 for each row of cells
     const EnvironmentRow* rows = nullptr;        // height + 1
-    int32_t width = 0, height = 0;
+    int32_t width = 0, height = 0, guide_bits = 1;
     Vec3 scale{0, 0, 0}; // radiance in nits of a texel of 1
     float rotation = 0;  // of the map about +Y, counter-clockwise seen from above, in turns, [-0.5, 0.5]
     int32_t visible_to_camera = 1;
@@ -77,7 +78,8 @@ template <class F> EnvironmentSample<F> sample_environment(const EnvironmentTabl
     // u has but 24 bits; a hash fills in the rest, so that rows rarer than 2^-24 are drawn as often as their density says.
     const UInt<F> upper = to_unsigned(to_int(F(u * 0x1p24f))) << 8;
     const DiscreteSample<F> row = sample_discrete<F>(env.row_thresholds, Int<F>(0), env.height + 1, upper | (pcg_hash(bits) & 255u));
-    const DiscreteSample<F> column = sample_discrete<F>(env.column_thresholds, row.index * env.width, env.width, bits);
+    const DiscreteSample<F> column = sample_guided<F>(env.column_thresholds, row.index * env.width, env.width, env.column_guides,
+                                                      row.index * ((1 << env.guide_bits) + 1), env.guide_bits, bits);
 
     const F begin = gather_field(env.rows, &EnvironmentRow::begin, row.index);
     const F end = gather_field(env.rows, &EnvironmentRow::end, row.index);

@@ -360,6 +360,30 @@ TEST(EnvironmentSampling, RareRowsAreDrawn) {
     EXPECT_TRUE(statistics::z_test(m, p_rare * 0x1p24));
 }
 
+TEST(EnvironmentSampling, AGuideDrawsWhatPlainBisectionDraws) {
+    Random random(11);
+    for (const int n : {1, 2, 3, 7, 64, 1000}) {
+        for (int guide_bits = 1; guide_bits <= 11; guide_bits += 2) {
+            std::vector<double> weights(static_cast<size_t>(n));
+            for (double& w : weights) w = random.below(3) == 0 ? 0 : std::exp(random.between(-20, 5));
+            const std::vector<uint32_t> thresholds = make_thresholds(weights);
+            const std::vector<int32_t> guide = make_guide(thresholds, guide_bits);
+            const auto expect_same = [&](uint32_t bits) {
+                const auto plain = sample_discrete<float>(thresholds.data(), 0, n, bits);
+                const auto guided = sample_guided<float>(thresholds.data(), 0, n, guide.data(), 0, guide_bits, bits);
+                ASSERT_EQ(guided.index, plain.index);
+                ASSERT_EQ(guided.probability, plain.probability);
+                ASSERT_EQ(guided.remainder, plain.remainder);
+            };
+            for (int k = 0; k < 500; ++k) expect_same(random.bits());
+            for (const uint32_t t : thresholds) {
+                expect_same(t);
+                expect_same(t - 1); // of 0: the largest number there is
+            }
+        }
+    }
+}
+
 TEST(EnvironmentTable, ReplacesBadTexelsAndSaysHowMany) {
     const float values[] = {nan, infinite, -1.f, 1.f, 2.f, 3.f};
     size_t next = 0;
@@ -424,6 +448,7 @@ TEST(EnvironmentTable, ParametersChangeWithoutTheMap) {
     EXPECT_FALSE(table.visible_to_camera);
     EXPECT_EQ(table.row_thresholds, fresh.row_thresholds);
     EXPECT_EQ(table.column_thresholds, fresh.column_thresholds);
+    EXPECT_EQ(table.column_guides, fresh.column_guides);
 }
 
 } // namespace blush
