@@ -85,7 +85,7 @@ template <Features S, class F> FacetAlbedo<F> facet_albedo(const Bsdf<F>& b, con
     F dielectric_rise = rise;
     Mask<F> total = Mask<F>(false);
     if constexpr (S.has(Feature::transmission)) {
-        // Light that passes straight has seen no facets: it must be missing from what a surface without any reflects.
+        // Light that passes straight has seen no facets: the surface decides whether and how much is left to reflect.
         const F at = select(b.straight, b.cos, c);
         const F exact = clamp01(F((dielectric_reflectance(b.interface, at) - b.interface_f0) / max(F(1.f - b.interface_f0), F(1e-6f))));
         dielectric_rise = select(b.solid, exact, rise);

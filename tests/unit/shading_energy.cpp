@@ -57,6 +57,18 @@ TEST(Furnace, RoughGlassNeverGains) {
                     << "roughness " << roughness << ", " << describe(m, v);
 }
 
+// Too little refraction to resolve: what passes goes straight on and sees no facets, so that the surface decides how much it is.
+TEST(Furnace, AlmostAirReflectsLikeItsSurfaceAndPassesTheRest) {
+    const float ior = 1.0001f; // from inside, 89.9 degrees are beyond the critical angle, but not so for every facet
+    for (const float roughness : {0.05f, 0.2f})
+        for (const Viewer& v : viewers(glass(roughness, ior))) {
+            const double cos = std::abs(v.wo().z), reflected = v.inside ? reference::fresnel(ior, 1, cos) : reference::fresnel(1, ior, cos);
+            const double masked = 1 - reference::mirror_albedo(reference::sqr(roughness), cos);
+            EXPECT_TRUE(z_test_in_range(furnace(glass(roughness, ior), v, 8), 0, 1, 1 - reflected * masked, sidak(significance, 24)))
+                << "roughness " << roughness << ", " << v.degrees << (v.inside ? " degrees inside" : " degrees");
+        }
+}
+
 double integrate_reference(const Params& p, const Vec3& wo) {
     double sum = 0;
     for (const Chart& chart : reference::facet_charts(p, wo))
