@@ -28,6 +28,8 @@ int edit(const EditorCommand& c) {
     editor.assets = assets_dir();
     editor.scene = c.scene;
     editor.render = *settings;
+    // Nobody waits for the window to end, so it goes on for longer than a render does.
+    if (!c.options.spp_given && !c.options.samples_given && settings->spp > 0) editor.render.spp = 1024;
     editor.view = c.options.view;
     editor.overrides = c.options.overrides;
     editor.follow_viewport = !c.options.size_given;
