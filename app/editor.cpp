@@ -112,10 +112,11 @@ void Editor::poll() {
         window_->request_frames(2);
     }
     for (const auto& file : window_->take_dropped_files()) take_dropped(file);
-    const bool typing = ImGui::GetIO().WantTextInput, busy = ui_.browser.has_value();
+    // While text is typed or something is open on top, keys are meant for that.
+    const bool taken = ImGui::GetIO().WantTextInput || ui_.browser || ui_.pixel;
     for (const KeyPress& press : window_->take_key_presses()) {
         const Shortcut* s = find_shortcut(press);
-        if (s && !typing && !busy) ui_.commands.push_back(s->command);
+        if (s && !taken) ui_.commands.push_back(s->command);
     }
     save_due_snapshot();
 }

@@ -1,19 +1,23 @@
-// The picture with a thin line around the selected object, found in the frame's id plane: no ray is traced for it.
+// The picture with a thin line around the selected objects, found in the frame's id plane: no ray is traced for it.
 #pragma once
 
 #include "render/frame.h"
 #include "ui/gl_objects.h"
+
+#include <cstdint>
+#include <vector>
 
 namespace blush {
 
 class OutlinePass {
 public:
     Result<void> load();
-    // Takes over the id plane; a frame without one gives no outline.
-    void upload(const Frame& frame);
-    // `picture` with the outline of an object (Id<Node>.value), as large as it is on the screen. Drawn once for many frames of the
-    // window: a transparent layer over the picture would be blended anew in each.
-    void draw(GLuint picture, uint32_t object, int width, int height, float thickness);
+    // Takes from the id plane where the selected objects are: those whose selected[Id<Node>.value] is not 0. A frame without
+    // that plane gives no outline.
+    void upload(const Frame& frame, const std::vector<uint8_t>& selected);
+    // `picture` with the outline, as large as it is on the screen. Drawn once for many frames of the window: a transparent layer
+    // over the picture would be blended anew in each.
+    void draw(GLuint picture, int width, int height, float thickness);
 
     GLuint texture() const { return target_.texture(); }
     bool empty() const { return width_ == 0; }
@@ -21,7 +25,8 @@ public:
 private:
     GlProgram program_;
     GlVertexArray no_vertices_;
-    GlTexture ids_;
+    GlTexture mask_;
+    std::vector<uint8_t> inside_;
     RenderTarget target_;
     int width_ = 0, height_ = 0;
 };

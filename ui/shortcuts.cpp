@@ -49,7 +49,7 @@ constexpr MouseHint hints[] = {
     {"Orbit", "Drag, middle-drag or Alt+drag"},
     {"Pan", "Shift+drag or Shift+middle-drag"},
     {"Dolly", "Wheel or Alt+right-drag"},
-    {"Look around and fly", "Right-drag, with W A S D Q E; Shift is faster"},
+    {"Look around and fly", "Right-drag and W A S D Q E, Shift is faster"},
     {"Focus there", "Ctrl+click"},
     {"Read a pixel's values", "Right-click"},
     {"Move or aim a light or object", "Drag its handles"},

@@ -26,6 +26,21 @@ void draw_centred(const char* text) {
     ImGui::GetWindowDrawList()->AddText({at.x + (window.x - size.x) / 2, at.y + (window.y - size.y) / 2}, tone::dim_text, text);
 }
 
+// A mask over node ids: the node and all below it.
+std::vector<uint8_t> with_descendants(const Scene& scene, Id<Node> root) {
+    std::vector<uint8_t> selected(scene.nodes.empty() ? 1 : scene.nodes.entries().back().id.value + 1);
+    const auto is_below = [&](Id<Node> id) {
+        for (size_t steps = 0; id && steps <= scene.nodes.size(); ++steps) {
+            if (id == root) return true;
+            const Node* node = scene.nodes.find(id);
+            id = node ? node->parent : Id<Node>{};
+        }
+        return false;
+    };
+    for (const auto& entry : scene.nodes) selected[entry.id.value] = is_below(entry.id);
+    return selected;
+}
+
 void focus_at(PanelContext& c, const Projection& projection, double u, double v) {
     const Picked picked = c.frame ? pick(*c.frame, u, v) : Picked{};
     if (!picked.depth) return c.ui.toasts.note("Nothing there to focus on");
@@ -67,11 +82,11 @@ void Viewport::take_frame(PanelContext& c) {
 }
 
 // Draws into the outlined picture only when something in it differs.
-GLuint Viewport::outlined_picture(uint32_t object, const ImageRect& image) {
-    const Outlined wanted{shown_frame_, pictures_, object, int(image.width), int(image.height)};
+GLuint Viewport::outlined_picture(const PanelContext& c, const ImageRect& image) {
+    const Outlined wanted{shown_frame_, pictures_, c.ui.selected, int(image.width), int(image.height)};
     if (outlined_ != wanted) {
-        if (outlined_.frame != wanted.frame) outline_.upload(*shown_frame_);
-        if (!outline_.empty()) outline_.draw(display_.texture(), object, wanted.width, wanted.height, std::max(1.5f, ImGui::GetFontSize() / 8));
+        if (outlined_.frame != wanted.frame || outlined_.selected != wanted.selected) outline_.upload(*shown_frame_, with_descendants(c.scene(), c.ui.selected));
+        if (!outline_.empty()) outline_.draw(display_.texture(), wanted.width, wanted.height, std::max(1.5f, ImGui::GetFontSize() / 8));
         outlined_ = wanted;
     }
     return outline_.empty() ? display_.texture() : outline_.texture();
@@ -80,7 +95,7 @@ GLuint Viewport::outlined_picture(uint32_t object, const ImageRect& image) {
 void Viewport::draw_picture(PanelContext& c, const ImageRect& image) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const bool outlined = c.ui.settings.overlays && c.scene().nodes.contains(c.ui.selected);
-    const GLuint picture = outlined ? outlined_picture(c.ui.selected.value, image) : display_.texture();
+    const GLuint picture = outlined ? outlined_picture(c, image) : display_.texture();
     // It is opaque: blending it would only cost time.
     draw.AddCallback([](const ImDrawList*, const ImDrawCmd*) { glDisable(GL_BLEND); }, nullptr);
     draw.AddImage(texture_id(picture), {image.x, image.y}, {image.x + image.width, image.y + image.height});
@@ -110,7 +125,8 @@ ImageRect Viewport::draw(PanelContext& c) {
     ImGui::InvisibleButton("picture", ImGui::GetWindowSize(), ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
     const bool hovered = ImGui::IsItemHovered();
     if (!shown_frame_) {
-        draw_centred("Preparing the first image");
+        const bool nothing_open = c.status.state == SessionStatus::State::idle && c.scene().nodes.empty();
+        draw_centred(nothing_open ? "Drop a glTF scene here, or press Ctrl+O" : "Preparing the first image");
         return image;
     }
     draw_picture(c, image);

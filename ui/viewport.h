@@ -23,7 +23,7 @@ public:
 private:
     void take_frame(PanelContext& c);
     void draw_picture(PanelContext& c, const ImageRect& image);
-    GLuint outlined_picture(uint32_t object, const ImageRect& image);
+    GLuint outlined_picture(const PanelContext& c, const ImageRect& image);
     void obey(PanelContext& c, const NavigationResult& wish, const Projection& projection, const ImageRect& image);
 
     DisplayPass display_;
@@ -39,7 +39,7 @@ private:
     struct Outlined {
         FramePtr frame;
         uint64_t picture = 0;
-        uint32_t object = 0;
+        Id<Node> selected;
         int width = 0, height = 0;
         bool operator==(const Outlined&) const = default;
     } outlined_;

@@ -40,11 +40,11 @@ void draw_shortcut_sheet(PanelContext& c) {
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
     const float em = ImGui::GetFontSize();
     ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Appearing, {0.5f, 0.5f});
-    ImGui::SetNextWindowSize({std::min(em * 54, screen.x * 0.95f), 0});
+    ImGui::SetNextWindowSize({std::min(em * 60, screen.x * 0.95f), 0});
     if (ImGui::Begin("Shortcuts", &c.ui.show_shortcuts, ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoSavedSettings)) {
         if (ImGui::BeginTable("columns", 2)) {
-            ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthStretch, 0.45f);
-            ImGui::TableSetupColumn("mouse", ImGuiTableColumnFlags_WidthStretch, 0.55f);
+            ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthStretch, 0.41f);
+            ImGui::TableSetupColumn("mouse", ImGuiTableColumnFlags_WidthStretch, 0.59f);
             ImGui::TableNextColumn();
             for (const char* group : {"File", "Edit", "Add light"}) draw_group(group, em * 13);
             ImGui::TableNextColumn();
