@@ -251,7 +251,13 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
     Vec<F> next_beta = beta * b.weight;
     out.continues = scatters && b.valid && same_side && max_component(next_beta) > F(0.f);
     if (bounce + 1 >= settings.roulette.start && settings.roulette.rule != Roulette::Rule::off) {
-        const F q = survival_probability(settings.roulette, next_beta);
+        Vec<F> judged = next_beta;
+        if constexpr (S.has(Feature::transmission)) {
+            // Refraction into a solid scaled beta by 1 / ior^2, which the way out undoes: not a reason to end the path within.
+            const F squeezed = material.bsdf.ior * material.bsdf.ior;
+            judged = select<F>(solid && !leaves_outside && material.bsdf.ior > F(0.f), judged * squeezed, judged);
+        }
+        const F q = survival_probability(settings.roulette, judged);
         out.continues = out.continues && choice.y() < q;
         next_beta = next_beta / max(q, F(1e-30f));
     }
