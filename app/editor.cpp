@@ -66,6 +66,8 @@ private:
     RenderSettings submitted_settings_;
     bool session_paused_ = false;
 
+    bool remembered_follow_viewport_ = true; // what the settings said before the command line
+
     int viewport_width_ = 0, viewport_height_ = 0; // pixels, as last laid out
     ImageRect image_;
     std::string display_, view_; // that the display shader is for
@@ -79,6 +81,7 @@ Editor::Editor(const EditorOptions& options, std::unique_ptr<Window> window, Col
     : automation_(automation), window_(std::move(window)), color_(std::move(color)), options_(options),
       session_({.threads = options.threads, .low_priority = true, .first_hit_planes = true}, &Window::wake) {
     ui_.settings = std::move(settings);
+    remembered_follow_viewport_ = ui_.settings.follow_viewport;
     if (!options.follow_viewport) ui_.settings.follow_viewport = false;
     ui_.probe = Probe(automation.probe_file);
     if (!color_.warning().empty()) ui_.toasts.warn("The colour configuration is replaced by our own", color_.warning());
@@ -286,13 +289,16 @@ void Editor::draw() {
     }
     window_->end_frame();
     const auto now = Clock::now();
-    stats_.add_frame(std::chrono::duration<double, std::milli>(now - frame_begin_).count());
+    // Loading and compiling shaders, before there is a picture, is not what smoothness is judged by.
+    if (shown) stats_.add_frame(std::chrono::duration<double, std::milli>(now - frame_begin_).count());
     if (shown) stats_.shown(shown->revision, now);
     ui_.probe.end_frame(state);
 }
 
 void Editor::remember() {
     WindowSettings& s = ui_.settings;
+    // `--size` holds for this time only.
+    if (!options_.follow_viewport && !s.follow_viewport) s.follow_viewport = remembered_follow_viewport_;
     s.maximized = window_->maximized();
     if (!s.maximized) {
         s.width = window_->size().width;

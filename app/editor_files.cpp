@@ -60,7 +60,8 @@ bool FileWatch::changed() {
 void EditorFiles::start_import(const std::filesystem::path& file, Purpose purpose, const SceneOverrides& overrides, float aspect) {
     if (file.empty()) return;
     purpose_ = purpose;
-    importing_ = file;
+    std::error_code error;
+    importing_ = std::filesystem::absolute(file, error); // the recent list outlives the working directory
     import_job_ = std::make_unique<BackgroundJob<Result<LoadedScene>>>(
         "Loading " + file.filename().string(),
         [file, overrides, aspect](JobProgress& progress) -> Result<LoadedScene> {
@@ -70,7 +71,8 @@ void EditorFiles::start_import(const std::filesystem::path& file, Purpose purpos
             Result<ImportedScene> imported = import_gltf(file, options);
             if (!imported) return in_file(imported.error(), file.string());
             LoadedScene loaded{imported->scene, std::move(imported->scene), std::move(imported->report)};
-            if (const auto applied = apply_overrides(overrides, loaded.scene, aspect); !applied) return in_file(applied.error(), file.string());
+            if (const auto applied = apply_overrides(overrides, loaded.scene, aspect); !applied)
+                return in_file(applied.error(), file.string());
             return loaded;
         },
         wake_);
@@ -132,7 +134,7 @@ void EditorFiles::finish_environment(Document& document, UiState& ui, Result<Ima
     e.image = *image;
     const auto done = document.apply(SetEnvironment{e});
     if (!done) return ui.toasts.fail(done.error().text());
-    ui.show_tab(InspectorTab::environment);
+    ui.tab = InspectorTab::environment;
 }
 
 void EditorFiles::look_at_scene_file(const Document& document, UiState& ui) {

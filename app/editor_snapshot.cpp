@@ -55,7 +55,8 @@ Result<std::filesystem::path> write_snapshot_exr(const SnapshotJob& job) {
 Result<std::filesystem::path> write_snapshot_png(const SnapshotJob& job, const ColorManagement& color) {
     const auto file = free_name(job, ".png");
     if (!file) return file;
-    if (const auto written = write_display_picture(*file, *job.frame, color, job.project.view, metadata_of(job)); !written) return written.error();
+    if (const auto written = write_display_picture(*file, *job.frame, color, job.project.view, metadata_of(job)); !written)
+        return written.error();
     return file;
 }
 

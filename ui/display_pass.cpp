@@ -23,9 +23,12 @@ std::pair<GLenum, GlTexture> upload_table(const DisplayShader::Lut& lut) {
         glTexParameteri(target, filter, lut.linear ? GL_LINEAR : GL_NEAREST);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     const float* values = lut.values.data();
-    if (target == GL_TEXTURE_1D) glTexImage1D(target, 0, internal, lut.width, 0, format, GL_FLOAT, values);
-    else if (target == GL_TEXTURE_2D) glTexImage2D(target, 0, internal, lut.width, lut.height, 0, format, GL_FLOAT, values);
-    else glTexImage3D(target, 0, internal, lut.width, lut.height, lut.depth, 0, format, GL_FLOAT, values);
+    if (target == GL_TEXTURE_1D)
+        glTexImage1D(target, 0, internal, lut.width, 0, format, GL_FLOAT, values);
+    else if (target == GL_TEXTURE_2D)
+        glTexImage2D(target, 0, internal, lut.width, lut.height, 0, format, GL_FLOAT, values);
+    else
+        glTexImage3D(target, 0, internal, lut.width, lut.height, lut.depth, 0, format, GL_FLOAT, values);
     return {target, std::move(texture)};
 }
 

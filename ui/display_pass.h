@@ -32,7 +32,7 @@ private:
     GlVertexArray no_vertices_;
     GlTexture image_;
     std::vector<std::pair<GLenum, GlTexture>> tables_; // in texture units 1, 2, ...
-    RenderTarget targets_[2]; // one is shown while the other is drawn
+    RenderTarget targets_[2];                          // one is shown while the other is drawn
     int front_ = 0;
     int width_ = 0, height_ = 0;
     int next_row_ = 0;

@@ -54,7 +54,8 @@ Vec3d Handles::anchor(const Scene& scene, Id<Node> id, const Node& node) {
         node_ = id;
         local_anchor_ = {0, 0, 0};
         const Bounds bounds = node.mesh ? world_bounds(scene, id) : Bounds{};
-        if (!bounds.empty && std::abs(determinant(world_from)) > 1e-300) local_anchor_ = transform_point(inverse(world_from), bounds.center());
+        if (!bounds.empty && std::abs(determinant(world_from)) > 1e-300)
+            local_anchor_ = transform_point(inverse(world_from), bounds.center());
         aim_distance_ = std::max(length(pivot(scene.view) - world_from.t), 1e-3);
     }
     return transform_point(world_from, local_anchor_);
@@ -113,7 +114,8 @@ bool Handles::update(PanelContext& c, ImDrawList& draw, const Projection& projec
     const bool free = hovered && dragged_ == Handle::none && !ImGui::GetIO().KeyAlt && !ImGui::GetIO().KeyCtrl && !ImGui::GetIO().KeyShift;
     const Handle under = free ? handle_under(shapes, {mouse.x, mouse.y}, em * 0.8f) : dragged_;
     for (const HandleShape& shape : shapes) draw_shape(draw, shape, shape.handle == under);
-    if (free && under != Handle::none && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) grab(c, under, position, projection.ray(image.u(mouse.x), image.v(mouse.y)));
+    if (free && under != Handle::none && ImGui::IsMouseClicked(ImGuiMouseButton_Left))
+        grab(c, under, position, projection.ray(image.u(mouse.x), image.v(mouse.y)));
     if (dragged_ != Handle::none && !ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
         dragged_ = Handle::none;
         c.ui.gestures.end();

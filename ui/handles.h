@@ -21,7 +21,7 @@ private:
     void drag(PanelContext& c, const Projection& projection, const ImageRect& image);
     void drag_aim(PanelContext& c, const Projection& projection, double u, double v);
 
-    Id<Node> node_;           // that the cached values below belong to
+    Id<Node> node_; // that the cached values below belong to
     Vec3d local_anchor_{0, 0, 0};
     double aim_distance_ = 1; // metres from the node to its aim handle
 

@@ -46,7 +46,8 @@ void draw_eye(const Pen& p) {
 }
 
 void draw_spot(const Pen& p) {
-    p.line(-0.3f, -0.85f, 0.3f, -0.85f), p.line(-0.3f, -0.85f, -0.45f, -0.2f), p.line(0.3f, -0.85f, 0.45f, -0.2f), p.line(-0.45f, -0.2f, 0.45f, -0.2f);
+    p.line(-0.3f, -0.85f, 0.3f, -0.85f), p.line(-0.3f, -0.85f, -0.45f, -0.2f), p.line(0.3f, -0.85f, 0.45f, -0.2f),
+        p.line(-0.45f, -0.2f, 0.45f, -0.2f);
     p.line(-0.5f, 0.15f, -0.85f, 0.85f), p.line(0, 0.15f, 0, 0.85f), p.line(0.5f, 0.15f, 0.85f, 0.85f);
 }
 
@@ -68,13 +69,12 @@ void draw_icon(ImDrawList& draw, Icon icon, ImVec2 centre, float size, ImU32 col
     case Icon::point: p.circle(0, 0, 0.38f), p.rays(0.62f, 0.9f); break;
     case Icon::spot: draw_spot(p); break;
     case Icon::sun: p.dot(0, 0, 0.4f), p.rays(0.6f, 0.95f); break;
-    case Icon::rectangle: p.box(-0.85f, -0.6f, 0.85f, 0.1f), p.line(-0.5f, 0.35f, -0.6f, 0.8f), p.line(0, 0.35f, 0, 0.8f), p.line(0.5f, 0.35f, 0.6f, 0.8f); break;
+    case Icon::rectangle:
+        p.box(-0.85f, -0.6f, 0.85f, 0.1f), p.line(-0.5f, 0.35f, -0.6f, 0.8f), p.line(0, 0.35f, 0, 0.8f), p.line(0.5f, 0.35f, 0.6f, 0.8f);
+        break;
     case Icon::mesh: draw_mesh(p); break;
     case Icon::group: p.line(-0.8f, 0, 0.8f, 0), p.line(0, -0.8f, 0, 0.8f), p.circle(0, 0, 0.3f); break;
     case Icon::camera: draw_camera(p); break;
-    case Icon::environment: p.circle(0, 0, 0.85f), p.line(-0.85f, 0, 0.85f, 0), p.draw.AddBezierQuadratic(p.at(0, -0.85f), p.at(0.8f, 0), p.at(0, 0.85f), color, p.width),
-        p.draw.AddBezierQuadratic(p.at(0, -0.85f), p.at(-0.8f, 0), p.at(0, 0.85f), color, p.width); break;
-    case Icon::material: p.circle(0, 0, 0.8f), p.dot(-0.25f, -0.28f, 0.2f); break;
     case Icon::folder: draw_folder(p); break;
     case Icon::file: draw_file(p); break;
     case Icon::eye: draw_eye(p); break;

@@ -19,7 +19,8 @@ struct Layout {
     Region outliner, viewport, inspector, status;
 };
 
-// Regions of a window of width x height pixels below a menu bar. Side panels give way before the viewport gets narrower than it can be used.
+// Regions of a window of width x height pixels below a menu bar. Side panels give way before the viewport gets narrower than it can be
+// used.
 Layout lay_out(float width, float height, float menu_height, float status_height, float font_size, const Splitters& splitters);
 
 // The splitters after dragging the bar on the outliner's right (inspector's left) edge to `x` pixels, kept within sensible limits.

@@ -26,7 +26,8 @@ struct WorldPen {
     const ImageRect& image;
 
     void line(Vec3d a, Vec3d b) const {
-        const double near = 1e-3, da = dot(a - projection.eye(), projection.forward()), db = dot(b - projection.eye(), projection.forward());
+        const double near = 1e-3, da = dot(a - projection.eye(), projection.forward()),
+                     db = dot(b - projection.eye(), projection.forward());
         if (da < near && db < near) return;
         if (da < near) a = a + (b - a) * ((near - da) / (db - da));
         if (db < near) b = b + (a - b) * ((near - db) / (da - db));
@@ -78,7 +79,9 @@ void draw_extent(const WorldPen& pen, const Scene& scene, Id<Node> id, const Lig
     }
 }
 
-bool is_shown(const Scene& scene, Id<Node> id, const Node& node) { return node.light && is_visible(scene, id) && scene.lights.contains(node.light); }
+bool is_shown(const Scene& scene, Id<Node> id, const Node& node) {
+    return node.light && is_visible(scene, id) && scene.lights.contains(node.light);
+}
 
 } // namespace
 

@@ -38,12 +38,9 @@ const char* kind_name(Light::Kind kind) {
     return "";
 }
 
-const char* intensity_unit(Light::Kind kind) {
-    return kind == Light::Kind::sun ? "lx" : kind == Light::Kind::rectangle ? "nits" : "cd";
-}
+const char* intensity_unit(Light::Kind kind) { return kind == Light::Kind::sun ? "lx" : kind == Light::Kind::rectangle ? "nits" : "cd"; }
 
 bool has_direction(Light::Kind kind) { return kind != Light::Kind::point; }
-bool has_position(Light::Kind kind) { return kind != Light::Kind::sun; }
 
 double luminous_flux(const Light& light) {
     switch (light.kind) {

@@ -30,9 +30,12 @@ void Navigation::press() {
         moved_ = false;
         last_ = {io.MousePos.x, io.MousePos.y};
     };
-    if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) start(0, io.KeyShift ? Mode::pan : Mode::orbit, !io.KeyAlt && !io.KeyShift);
-    else if (ImGui::IsMouseClicked(ImGuiMouseButton_Right)) start(1, io.KeyAlt ? Mode::dolly : Mode::look, !io.KeyAlt);
-    else if (ImGui::IsMouseClicked(ImGuiMouseButton_Middle)) start(2, io.KeyShift || io.KeyAlt ? Mode::pan : Mode::orbit, false);
+    if (ImGui::IsMouseClicked(ImGuiMouseButton_Left))
+        start(0, io.KeyShift ? Mode::pan : Mode::orbit, !io.KeyAlt && !io.KeyShift);
+    else if (ImGui::IsMouseClicked(ImGuiMouseButton_Right))
+        start(1, io.KeyAlt ? Mode::dolly : Mode::look, !io.KeyAlt);
+    else if (ImGui::IsMouseClicked(ImGuiMouseButton_Middle))
+        start(2, io.KeyShift || io.KeyAlt ? Mode::pan : Mode::orbit, false);
 }
 
 void Navigation::drag(NavigationResult& result, const View& view, const ImageRect& image) {
@@ -62,9 +65,12 @@ void Navigation::drag(NavigationResult& result, const View& view, const ImageRec
 
 void Navigation::release(NavigationResult& result) {
     if (!moved_ && may_click_) {
-        if (button_ == ImGuiMouseButton_Right) result.inspect = last_;
-        else if (ImGui::GetIO().KeyCtrl) result.focus = last_;
-        else result.select = last_;
+        if (button_ == ImGuiMouseButton_Right)
+            result.inspect = last_;
+        else if (ImGui::GetIO().KeyCtrl)
+            result.focus = last_;
+        else
+            result.select = last_;
     }
     mode_ = Mode::none;
 }

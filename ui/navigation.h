@@ -10,9 +10,9 @@ namespace blush {
 
 // What the user asked of the viewport in this frame.
 struct NavigationResult {
-    std::optional<View> view;       // moved there
+    std::optional<View> view;                          // moved there
     std::optional<ScreenPoint> select, focus, inspect; // clicked there: plain, with Ctrl, with the right button
-    bool flying = false;            // moves by itself while a key is held
+    bool flying = false;                               // moves by itself while a key is held
 };
 
 class Navigation {
@@ -29,7 +29,7 @@ private:
 
     Mode mode_ = Mode::none;
     int button_ = 0;
-    bool moved_ = false;    // further than a click's tremble
+    bool moved_ = false;     // further than a click's tremble
     bool may_click_ = false; // released without a move, it is a click
     ScreenPoint last_;
 };

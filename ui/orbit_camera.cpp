@@ -60,10 +60,4 @@ View fly(const View& view, const Vec3d& move) {
     return next;
 }
 
-View with_pivot_at(const View& view, double distance) {
-    View next = view;
-    next.pivot_distance = float(std::clamp(distance, 1e-4, 1e6));
-    return next;
-}
-
 } // namespace blush

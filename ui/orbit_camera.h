@@ -18,7 +18,5 @@ View pan(const View& view, double dx, double dy);
 View dolly(const View& view, double factor);
 // Moves eye and pivot by metres along the view's right, up and forward.
 View fly(const View& view, const Vec3d& right_up_forward);
-// The view turned and moved onto a new pivot distance without changing the picture: where the user looks is what orbiting turns about.
-View with_pivot_at(const View& view, double distance);
 
 } // namespace blush

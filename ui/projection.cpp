@@ -5,9 +5,8 @@
 namespace blush {
 
 Projection::Projection(const View& view, double aspect)
-    : eye_(to_double(view.position)), right_(normalize(rotate(view.rotation, {1, 0, 0}))),
-      up_(normalize(rotate(view.rotation, {0, 1, 0}))), forward_(normalize(rotate(view.rotation, {0, 0, -1}))), aspect_(aspect),
-      orthographic_(view.lens.orthographic),
+    : eye_(to_double(view.position)), right_(normalize(rotate(view.rotation, {1, 0, 0}))), up_(normalize(rotate(view.rotation, {0, 1, 0}))),
+      forward_(normalize(rotate(view.rotation, {0, 0, -1}))), aspect_(aspect), orthographic_(view.lens.orthographic),
       half_height_(view.lens.orthographic ? view.lens.ymag : std::tan(view.lens.yfov_radians / 2.0)) {}
 
 std::optional<ImagePoint> Projection::project(const Vec3d& world) const {

@@ -14,13 +14,16 @@ bool draw_splitter(UiState& ui, const char* id, float x, const Region& beside, b
     ImGui::SetNextWindowSize({grab, beside.height});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
-    ImGui::Begin(id, nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav);
+    ImGui::Begin(id, nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoBackground |
+                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav);
     ImGui::InvisibleButton("bar", {grab, beside.height});
     ui.probe.record_last_item(std::string("Splitter/") + id);
     const bool active = ImGui::IsItemActive();
     if (active || ImGui::IsItemHovered()) {
         ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
-        ImGui::GetWindowDrawList()->AddRectFilled({x - 1, beside.y}, {x + 1, beside.y + beside.height}, active ? tone::text : tone::dim_text);
+        ImGui::GetWindowDrawList()->AddRectFilled({x - 1, beside.y}, {x + 1, beside.y + beside.height},
+                                                  active ? tone::text : tone::dim_text);
     } else {
         ImGui::GetWindowDrawList()->AddLine({x, beside.y}, {x, beside.y + beside.height}, tone::line);
     }
@@ -38,8 +41,9 @@ void begin_region(const char* name, const Region& region, const RegionStyle& sty
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, style.padded ? ImGui::GetStyle().WindowPadding : ImVec2(0, 0));
     ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
     ImGui::Begin(name, nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
-                     ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNav | (style.background ? 0 : ImGuiWindowFlags_NoBackground));
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                     ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNav |
+                     (style.background ? 0 : ImGuiWindowFlags_NoBackground));
     ImGui::PopStyleVar(2);
 }
 

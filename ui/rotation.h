@@ -13,8 +13,6 @@ inline Quat multiply(const Quat& a, const Quat& b) {
             a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
 }
 
-inline Quat conjugate(const Quat& q) { return {-q.x, -q.y, -q.z, q.w}; }
-
 inline Quat normalized(const Quat& q) {
     const float n = std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
     return n > 0 ? Quat{q.x / n, q.y / n, q.z / n, q.w / n} : Quat{};

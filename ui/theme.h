@@ -21,7 +21,6 @@ constexpr ImU32 field = IM_COL32(58, 58, 58, 255);
 constexpr ImU32 field_hovered = IM_COL32(68, 68, 68, 255);
 constexpr ImU32 field_filled = IM_COL32(92, 92, 92, 255); // the part of a slider below its value
 constexpr ImU32 line = IM_COL32(24, 24, 24, 255);
-constexpr ImU32 selected = IM_COL32(84, 84, 84, 255);
 constexpr ImU32 accent = IM_COL32(255, 158, 51, 255); // the selection in the viewport, and nothing else
 constexpr ImU32 warning = IM_COL32(235, 185, 90, 255);
 constexpr ImU32 failure = IM_COL32(240, 110, 95, 255);

@@ -14,8 +14,8 @@ struct Toast {
     enum class Kind { note, warning, failure };
     Kind kind = Kind::note;
     std::string text;
-    std::string details;            // smaller, below; may be empty
-    std::optional<Command> action;  // offered as a button
+    std::string details;           // smaller, below; may be empty
+    std::optional<Command> action; // offered as a button
     std::chrono::steady_clock::time_point since = std::chrono::steady_clock::now();
 };
 

@@ -51,7 +51,6 @@ struct UiState {
     Id<Material> selected_material;
     bool scroll_to_selected = false; // the outliner brings it into view
     InspectorTab tab = InspectorTab::selection;
-    bool tab_requested = false; // the inspector switches to `tab`
     Id<Node> renaming;
     std::string rename_text;
 
@@ -76,11 +75,7 @@ struct UiState {
         selected = node;
         selected_material = material;
         scroll_to_selected = true;
-        show_tab(InspectorTab::selection);
-    }
-    void show_tab(InspectorTab wanted) {
-        tab = wanted;
-        tab_requested = true;
+        tab = InspectorTab::selection;
     }
 };
 

@@ -59,7 +59,8 @@ Result<void> Viewport::set_display_shader(const DisplayShader& shader) {
 void Viewport::take_frame(PanelContext& c) {
     const ViewSettings& v = c.project().view;
     const bool new_frame = c.frame && c.frame->width > 0 && c.frame != uploaded_frame_;
-    if (!display_.busy() && (new_frame || (uploaded_frame_ && (shader_changed_ || shown_exposure_ != v.exposure_ev || shown_gamma_ != v.gamma)))) {
+    if (!display_.busy() &&
+        (new_frame || (uploaded_frame_ && (shader_changed_ || shown_exposure_ != v.exposure_ev || shown_gamma_ != v.gamma)))) {
         if (new_frame) {
             display_.upload(*c.frame);
             uploaded_frame_ = c.frame;
@@ -85,7 +86,8 @@ void Viewport::take_frame(PanelContext& c) {
 GLuint Viewport::outlined_picture(const PanelContext& c, const ImageRect& image) {
     const Outlined wanted{shown_frame_, pictures_, c.ui.selected, int(image.width), int(image.height)};
     if (outlined_ != wanted) {
-        if (outlined_.frame != wanted.frame || outlined_.selected != wanted.selected) outline_.upload(*shown_frame_, with_descendants(c.scene(), c.ui.selected));
+        if (outlined_.frame != wanted.frame || outlined_.selected != wanted.selected)
+            outline_.upload(*shown_frame_, with_descendants(c.scene(), c.ui.selected));
         if (!outline_.empty()) outline_.draw(display_.texture(), wanted.width, wanted.height, std::max(1.5f, ImGui::GetFontSize() / 8));
         outlined_ = wanted;
     }
@@ -106,7 +108,8 @@ void Viewport::obey(PanelContext& c, const NavigationResult& wish, const Project
     if (wish.view) c.document.navigate(*wish.view);
     if (wish.flying) c.ui.next_frame_in = 0;
     if (wish.focus) focus_at(c, projection, image.u(wish.focus->x), image.v(wish.focus->y));
-    if (wish.inspect && image.contains(wish.inspect->x, wish.inspect->y)) c.ui.pixel = PixelProbe{image.u(wish.inspect->x), image.v(wish.inspect->y)};
+    if (wish.inspect && image.contains(wish.inspect->x, wish.inspect->y))
+        c.ui.pixel = PixelProbe{image.u(wish.inspect->x), image.v(wish.inspect->y)};
     if (wish.select) {
         Id<Node> node = c.ui.settings.overlays ? light_under(c.scene(), projection, image, *wish.select) : Id<Node>{};
         Picked picked;
@@ -122,7 +125,8 @@ ImageRect Viewport::draw(PanelContext& c) {
     take_frame(c);
     const ImageRect image = place_picture(c);
     ImGui::SetCursorPos({0, 0});
-    ImGui::InvisibleButton("picture", ImGui::GetWindowSize(), ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
+    ImGui::InvisibleButton("picture", ImGui::GetWindowSize(),
+                           ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
     const bool hovered = ImGui::IsItemHovered();
     if (!shown_frame_) {
         const bool nothing_open = c.status.state == SessionStatus::State::idle && c.scene().nodes.empty();

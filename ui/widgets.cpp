@@ -11,7 +11,7 @@ namespace blush {
 namespace {
 
 constexpr float label_share = 0.4f; // of a row's width
-constexpr double tip_delay = 0.5;    // seconds
+constexpr double tip_delay = 0.5;   // seconds
 
 float label_width() { return std::floor(ImGui::GetWindowContentRegionMax().x * label_share); }
 
@@ -78,10 +78,11 @@ bool Fields::number_field(const char* id, float& value, const NumberStyle& style
     bool changed = false;
     if (style.bar) {
         draw_bar((value - style.min) / (style.max - style.min), width);
-        for (const ImGuiCol c : {ImGuiCol_FrameBg, ImGuiCol_FrameBgHovered, ImGuiCol_FrameBgActive, ImGuiCol_SliderGrab, ImGuiCol_SliderGrabActive})
+        // Dragged like a field, its end following the mouse: a click alone then changes nothing.
+        for (const ImGuiCol c : {ImGuiCol_FrameBg, ImGuiCol_FrameBgHovered, ImGuiCol_FrameBgActive})
             ImGui::PushStyleColor(c, ImVec4(0, 0, 0, 0));
-        changed = ImGui::SliderFloat(id, &edited, style.min, style.max, format.c_str(), flags);
-        ImGui::PopStyleColor(5);
+        changed = ImGui::DragFloat(id, &edited, (style.max - style.min) / width, style.min, style.max, format.c_str(), flags);
+        ImGui::PopStyleColor(3);
     } else {
         const float speed = style.step > 0 ? style.step : std::max(std::abs(value) * 0.005f, 1e-4f);
         changed = ImGui::DragFloat(id, &edited, speed, style.min, style.max, format.c_str(), flags);
@@ -160,7 +161,8 @@ bool Fields::color(const char* label, Vec3& value, const Vec3& reset, const char
     float encoded[3] = {encode(value.x), encode(value.y), encode(value.z)};
     const ImVec4 shown{encoded[0], encoded[1], encoded[2], 1};
     const bool resetting = double_clicked_here(swatch);
-    if (ImGui::ColorButton("##swatch", shown, ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoDragDrop, {swatch, 0}) && !resetting) ImGui::OpenPopup("picker");
+    if (ImGui::ColorButton("##swatch", shown, ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoDragDrop, {swatch, 0}) && !resetting)
+        ImGui::OpenPopup("picker");
     ui_.probe.record_last_item(std::string(scope_) + "/" + label);
     tip_for_last_item(ui_, tip);
     bool changed = false;
@@ -171,7 +173,8 @@ bool Fields::color(const char* label, Vec3& value, const Vec3& reset, const char
     }
     if (ImGui::BeginPopup("picker")) {
         ImGui::SetNextItemWidth(ImGui::GetFontSize() * 14);
-        if (ImGui::ColorPicker3("##picker", encoded, ImGuiColorEditFlags_NoSidePreview | ImGuiColorEditFlags_DisplayHSV | ImGuiColorEditFlags_Float)) {
+        if (ImGui::ColorPicker3("##picker", encoded,
+                                ImGuiColorEditFlags_NoSidePreview | ImGuiColorEditFlags_DisplayHSV | ImGuiColorEditFlags_Float)) {
             value = {decode(encoded[0]), decode(encoded[1]), decode(encoded[2])};
             changed = true;
         }

@@ -15,12 +15,12 @@ namespace blush {
 // How a number is shown and dragged. Limits hold for typed values too.
 struct NumberStyle {
     float min = -FLT_MAX, max = FLT_MAX;
-    float reset = 0;              // what a double-click gives
+    float reset = 0; // what a double-click gives
     const char* unit = "";
-    float step = 0;               // per pixel of a drag; 0: half a per cent of the value, for what spans magnitudes
-    bool bar = false;             // a filled bar from min to max in place of a field that is dragged
-    const char* tip = "";         // what it does, physically
-    const char* format = "%.4g";  // of the number alone
+    float step = 0;              // per pixel of a drag; 0: half a per cent of the value, for what spans magnitudes
+    bool bar = false;            // a filled bar from min to max in place of a field that is dragged
+    const char* tip = "";        // what it does, physically
+    const char* format = "%.4g"; // of the number alone
 };
 
 class Fields {

@@ -66,7 +66,8 @@ void Window::install_callbacks() {
         if (action == GLFW_RELEASE) return;
         const bool letter_repeats = action == GLFW_REPEAT && !(mods & GLFW_MOD_CONTROL);
         if (!letter_repeats)
-            owner(w).key_presses_.push_back({code, (mods & GLFW_MOD_CONTROL) != 0, (mods & GLFW_MOD_SHIFT) != 0, (mods & GLFW_MOD_ALT) != 0});
+            owner(w).key_presses_.push_back(
+                {code, (mods & GLFW_MOD_CONTROL) != 0, (mods & GLFW_MOD_SHIFT) != 0, (mods & GLFW_MOD_ALT) != 0});
     });
     glfwSetDropCallback(window_, [](GLFWwindow* w, int count, const char** files) {
         owner(w).request_frames(frames_after_input);
@@ -86,7 +87,7 @@ void Window::install_callbacks() {
 void Window::begin_imgui(const WindowOptions& options) {
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
-    ImGui::GetIO().IniFilename = nullptr; // the layout is ours to remember
+    ImGui::GetIO().IniFilename = nullptr;              // the layout is ours to remember
     ImGui::GetIO().ConfigInputTextCursorBlink = false; // a blinking cursor would keep the window from sleeping
     load_fonts(options.assets, scale_);
     apply_theme(scale_);
@@ -96,8 +97,10 @@ void Window::begin_imgui(const WindowOptions& options) {
 }
 
 bool Window::wait(double timeout_seconds) {
-    if (frames_due_ > 0) glfwPollEvents();
-    else glfwWaitEventsTimeout(timeout_seconds);
+    if (frames_due_ > 0)
+        glfwPollEvents();
+    else
+        glfwWaitEventsTimeout(timeout_seconds);
     if (woken.exchange(false)) request_frames(1);
     return frames_due_ > 0;
 }

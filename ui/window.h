@@ -18,8 +18,8 @@ struct WindowOptions {
     std::string title = "Blush";
     int width = 1280, height = 800; // screen coordinates
     bool maximized = false;
-    float scale = 0;                // of fonts and spacing; 0: the display's content scale
-    std::filesystem::path assets;   // for fonts
+    float scale = 0;              // of fonts and spacing; 0: the display's content scale
+    std::filesystem::path assets; // for fonts
 };
 
 class Window {
@@ -45,8 +45,6 @@ public:
     bool close_requested() const;
     void request_close();
     void set_title(const std::string& title);
-    // Fonts and spacing are this many times their size at 96 dpi.
-    float scale() const { return scale_; }
     struct Size {
         int width, height;
     };
@@ -64,7 +62,7 @@ private:
 
     GLFWwindow* window_ = nullptr;
     bool imgui_ = false;
-    float scale_ = 1;
+    float scale_ = 1; // fonts and spacing are this many times their size at 96 dpi
     int frames_due_ = 3;
     std::vector<KeyPress> key_presses_;
     std::vector<std::filesystem::path> dropped_files_;

@@ -14,11 +14,11 @@ struct WindowSettings {
     int width = 1280, height = 800; // of the window, in screen coordinates
     bool maximized = false;
     Splitters splitters;
-    bool follow_viewport = true;       // render at the viewport's size
-    bool overlays = true;              // light glyphs, handles, outlines
-    std::vector<std::string> recent;   // scene files, newest first
-    std::string snapshot_folder;       // empty: the working directory
-    std::string browser_folder;        // where the file browser was last
+    bool follow_viewport = true;     // render at the viewport's size
+    bool overlays = true;            // light glyphs, handles, outlines
+    std::vector<std::string> recent; // scene files, newest first
+    std::string snapshot_folder;     // empty: the working directory
+    std::string browser_folder;      // where the file browser was last
     bool operator==(const WindowSettings&) const = default;
 };
 

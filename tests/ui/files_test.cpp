@@ -47,7 +47,9 @@ TEST_F(Files, DamagedSettingsGiveTheDefaults) {
 }
 
 TEST_F(Files, ADamagedEntryGivesItsDefaultAndLeavesTheOthers) {
-    const auto file = write("odd.json", R"({"width": "wide", "height": 1e300, "outliner": -5, "maximized": 1, "recent": [1, "ok.glb", null], "inspector": 30})");
+    const auto file =
+        write("odd.json",
+              R"({"width": "wide", "height": 1e300, "outliner": -5, "maximized": 1, "recent": [1, "ok.glb", null], "inspector": 30})");
     const WindowSettings s = read_window_settings(file), defaults;
     EXPECT_EQ(s.width, defaults.width);
     EXPECT_EQ(s.maximized, defaults.maximized);

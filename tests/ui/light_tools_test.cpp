@@ -86,7 +86,7 @@ TEST(TurnedTo, LooksThereAndKeepsTheRoll) {
     }
     // The shortest turn leaves the axis it turns about where it was.
     const Vec3d target{1, 2, 3}, axis = normalize(cross(rotate(start, {0, 0, -1}), target));
-    const Vec3d local = rotate(conjugate(start), axis);
+    const Vec3d local = rotate(Quat{-start.x, -start.y, -start.z, start.w}, axis);
     EXPECT_NEAR(dot(rotate(turned_to(start, target), local), axis), 1, 1e-6);
 }
 

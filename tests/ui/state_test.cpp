@@ -147,7 +147,8 @@ TEST(Automation, SizesAreParsedWhollyOrNotAtAll) {
     EXPECT_TRUE(parse_size("800x600", w, h));
     EXPECT_EQ(w, 800);
     EXPECT_EQ(h, 600);
-    for (const char* text : {"", "800", "800x", "x600", "800x600x", "-5x5", "0x10", "99999999999x1", "axb"}) EXPECT_FALSE(parse_size(text, w, h)) << text;
+    for (const char* text : {"", "800", "800x", "x600", "800x600x", "-5x5", "0x10", "99999999999x1", "axb"})
+        EXPECT_FALSE(parse_size(text, w, h)) << text;
     EXPECT_EQ(w, 800);
 }
 

@@ -33,33 +33,54 @@ void draw_scene_cameras(Fields& f, PanelContext& c) {
 void draw_projection(Fields& f, Lens& lens) {
     static constexpr const char* projections[] = {"Perspective", "Orthographic"};
     int projection = lens.orthographic;
-    if (f.choice("Projection", projection, projections, "Orthographic views keep parallel lines parallel and show every distance at the same size.")) lens.orthographic = projection == 1;
+    if (f.choice("Projection", projection, projections,
+                 "Orthographic views keep parallel lines parallel and show every distance at the same size."))
+        lens.orthographic = projection == 1;
     if (lens.orthographic) {
         float height = 2 * lens.ymag;
-        if (f.number("Height", height, {.min = 1e-4f, .max = 1e6f, .reset = 2, .unit = "m", .tip = "How many metres the picture is high."})) lens.ymag = height / 2;
+        if (f.number("Height", height, {.min = 1e-4f, .max = 1e6f, .reset = 2, .unit = "m", .tip = "How many metres the picture is high."}))
+            lens.ymag = height / 2;
         return;
     }
-    f.angle("Field of view", lens.yfov_radians, {.min = 1, .max = 170, .reset = 39.6f, .bar = true, .tip = "Vertical angle of the picture."});
+    f.angle("Field of view", lens.yfov_radians,
+            {.min = 1, .max = 170, .reset = 39.6f, .bar = true, .tip = "Vertical angle of the picture."});
     const float focal = full_frame_height / 2 / std::tan(lens.yfov_radians / 2);
     f.info("", fmt::format("{:.0f} mm on full frame", focal * 1000), "The lens that gives this angle on film of 36 x 24 mm.");
 }
 
 void draw_focus(Fields& f, Lens& lens) {
     float millimetres = lens.aperture_radius * 1000;
-    if (f.number("Aperture", millimetres, {.min = 0, .max = 1e6f, .reset = 0, .unit = "mm", .step = 0.05f,
-                 .tip = "Radius of the lens opening. 0 is a pinhole, sharp everywhere; wider blurs what is not in focus."})) lens.aperture_radius = millimetres / 1000;
+    if (f.number("Aperture", millimetres,
+                 {.min = 0,
+                  .max = 1e6f,
+                  .reset = 0,
+                  .unit = "mm",
+                  .step = 0.05f,
+                  .tip = "Radius of the lens opening. 0 is a pinhole, sharp everywhere; wider blurs what is not in focus."}))
+        lens.aperture_radius = millimetres / 1000;
     if (lens.aperture_radius > 0 && !lens.orthographic) {
         const float focal = full_frame_height / 2 / std::tan(lens.yfov_radians / 2);
         f.info("", fmt::format("f/{:.2g} on full frame", focal / (2 * lens.aperture_radius)));
     }
-    f.number("Focus", lens.focus_distance, {.min = 1e-3f, .max = 1e6f, .reset = 1, .unit = "m", .tip = "Distance along the view axis to what is sharp. Ctrl+click in the picture sets it."});
+    f.number("Focus", lens.focus_distance,
+             {.min = 1e-3f,
+              .max = 1e6f,
+              .reset = 1,
+              .unit = "m",
+              .tip = "Distance along the view axis to what is sharp. Ctrl+click in the picture sets it."});
 }
 
 void draw_pose(PanelContext& c) {
     View view = c.scene().view;
     Fields f(c.ui, "View");
-    f.vector("Position", view.position, view.position, {.step = 0.01f, .tip = "Of the eye, in metres. Moving the view is not a step of the history."});
-    f.number("Pivot", view.pivot_distance, {.min = 1e-3f, .max = 1e6f, .reset = view.pivot_distance, .unit = "m", .tip = "How far before the eye the point lies that orbiting turns about. F puts it on the selection."});
+    f.vector("Position", view.position, view.position,
+             {.step = 0.01f, .tip = "Of the eye, in metres. Moving the view is not a step of the history."});
+    f.number("Pivot", view.pivot_distance,
+             {.min = 1e-3f,
+              .max = 1e6f,
+              .reset = view.pivot_distance,
+              .unit = "m",
+              .tip = "How far before the eye the point lies that orbiting turns about. F puts it on the selection."});
     if (f.changed()) c.document.navigate(view);
 }
 
@@ -78,7 +99,14 @@ void draw_camera_panel(PanelContext& c) {
     if (section(c.ui, "Exposure")) {
         ViewSettings settings = c.project().view;
         Fields f(c.ui, "Exposure");
-        f.number("Exposure", settings.exposure_ev, {.min = -20, .max = 20, .reset = 0, .unit = "EV", .step = 0.02f, .tip = "Each EV doubles the brightness of the picture as shown. The render is not touched.", .format = "%+.2f"});
+        f.number("Exposure", settings.exposure_ev,
+                 {.min = -20,
+                  .max = 20,
+                  .reset = 0,
+                  .unit = "EV",
+                  .step = 0.02f,
+                  .tip = "Each EV doubles the brightness of the picture as shown. The render is not touched.",
+                  .format = "%+.2f"});
         if (f.changed()) c.apply(SetView{settings}, f.gesture());
     }
 }

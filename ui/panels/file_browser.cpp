@@ -44,9 +44,12 @@ void take_typed(PanelContext& c) {
     FileBrowser& b = *c.ui.browser;
     std::error_code unreadable;
     const std::filesystem::path path = std::filesystem::absolute(b.typed, unreadable);
-    if (std::filesystem::is_directory(path, unreadable)) enter(b, path);
-    else if (std::filesystem::is_regular_file(path, unreadable) && b.use != Use::snapshot_folder) finish(c, path);
-    else c.ui.toasts.fail("There is no file " + b.typed);
+    if (std::filesystem::is_directory(path, unreadable))
+        enter(b, path);
+    else if (std::filesystem::is_regular_file(path, unreadable) && b.use != Use::snapshot_folder)
+        finish(c, path);
+    else
+        c.ui.toasts.fail("There is no file " + b.typed);
 }
 
 void draw_path_row(PanelContext& c) {
@@ -66,7 +69,8 @@ void draw_entry(PanelContext& c, const FileEntry& entry) {
     icon_item(entry.folder ? Icon::folder : Icon::file, tone::dim_text, ImGui::GetTextLineHeight());
     ImGui::SameLine();
     const bool clicked = ImGui::Selectable(entry.name.c_str(), b.chosen == entry.name,
-                                           ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_DontClosePopups);
+                                           ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowDoubleClick |
+                                               ImGuiSelectableFlags_DontClosePopups);
     c.ui.probe.record_last_item("Browser/" + entry.name);
     const bool twice = clicked && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
     if (clicked && !entry.folder) {
@@ -75,15 +79,19 @@ void draw_entry(PanelContext& c, const FileEntry& entry) {
     }
     ImGui::TableNextColumn();
     if (!entry.folder) ImGui::TextDisabled("%s", bytes_text(entry.bytes).c_str());
-    if (clicked && entry.folder) enter(b, b.folder / entry.name);
-    else if (twice) finish(c, b.folder / entry.name);
+    if (clicked && entry.folder)
+        enter(b, b.folder / entry.name);
+    else if (twice)
+        finish(c, b.folder / entry.name);
 }
 
 void draw_list(PanelContext& c, float height) {
     const auto list = list_folder(c.ui.browser->folder, filter(c.ui.browser->use));
     ImGui::BeginChild("list", {0, height}, true);
-    if (!list) ImGui::TextWrapped("%s", list.error().text().c_str());
-    else if (list->empty()) ImGui::TextDisabled("Nothing here that fits.");
+    if (!list)
+        ImGui::TextWrapped("%s", list.error().text().c_str());
+    else if (list->empty())
+        ImGui::TextDisabled("Nothing here that fits.");
     else if (ImGui::BeginTable("entries", 2, ImGuiTableFlags_RowBg)) {
         ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
         ImGui::TableSetupColumn("size", ImGuiTableColumnFlags_WidthFixed, ImGui::GetFontSize() * 5);

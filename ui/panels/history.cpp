@@ -17,7 +17,8 @@ void draw_history(PanelContext& c) {
         if (ImGui::Selectable("As opened", past.empty())) steps = -ptrdiff_t(past.size());
         for (size_t i = 0; i < past.size(); ++i) {
             const bool current = i + 1 == past.size();
-            if (ImGui::Selectable(fmt::format("{}##past{}", past[i], i).c_str(), current)) steps = ptrdiff_t(i + 1) - ptrdiff_t(past.size());
+            if (ImGui::Selectable(fmt::format("{}##past{}", past[i], i).c_str(), current))
+                steps = ptrdiff_t(i + 1) - ptrdiff_t(past.size());
             if (current && ImGui::IsWindowAppearing()) ImGui::SetScrollHereY();
         }
         ImGui::PushStyleColor(ImGuiCol_Text, tone::dim_text);

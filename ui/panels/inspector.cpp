@@ -22,8 +22,10 @@ void draw_tabs(PanelContext& c) {
         const ImVec2 size = ImGui::CalcTextSize(tab_names[i]);
         draw.AddText({low.x + (width - size.x) / 2, low.y + (height - size.y) / 2}, color, tab_names[i]);
         const float line = std::max(1.f, ImGui::GetFontSize() / 8);
-        if (current) draw.AddRectFilled({low.x, high.y - line}, high, tone::text);
-        else draw.AddRectFilled({low.x, high.y - 1}, high, tone::field);
+        if (current)
+            draw.AddRectFilled({low.x, high.y - line}, high, tone::text);
+        else
+            draw.AddRectFilled({low.x, high.y - 1}, high, tone::field);
     }
 }
 

@@ -10,42 +10,67 @@ namespace {
 
 constexpr const char* alpha_modes[] = {"Opaque", "Mask", "Blend"};
 
-NumberStyle unit_interval(float reset, const char* tip) { return {.min = 0, .max = 1, .reset = reset, .bar = true, .tip = tip, .format = "%.3f"}; }
+NumberStyle unit_interval(float reset, const char* tip) {
+    return {.min = 0, .max = 1, .reset = reset, .bar = true, .tip = tip, .format = "%.3f"};
+}
 
 void draw_surface(Fields& f, Material& m) {
     f.color("Base colour", m.base_color, {1, 1, 1},
-            "The share of light that the surface reflects diffusely or, where it is metal, the colour of its reflection. Real surfaces lie between 0.02 and 0.9.");
-    f.number("Metallic", m.metallic, unit_interval(1, "0 is a dielectric such as plastic, wood or stone; 1 is bare metal, which reflects in its base colour and has no diffuse part."));
-    f.number("Roughness", m.roughness, unit_interval(1, "How rough the surface is below what the eye resolves. 0 is a mirror, 1 a matt sheen. The width of the highlight is its square."));
-    f.number("Reflectivity", m.specular, unit_interval(1, "Strength of the reflection of a dielectric. 0 leaves a purely diffuse surface, as chalk nearly is."));
-    f.color("Reflection tint", m.specular_color, {1, 1, 1}, "Colour of a dielectric's reflection as seen head on. White for everything but a few fabrics.");
-    f.number("Index of refraction", m.ior, {.min = 1, .max = 4, .reset = 1.5f, .step = 0.002f,
-             .tip = "How much light slows down inside: water 1.33, glass 1.5, diamond 2.42. It sets how strongly a dielectric reflects and how much it bends light."});
+            "The share of light that the surface reflects diffusely or, where it is metal, the colour of its reflection. Real surfaces lie "
+            "between 0.02 and 0.9.");
+    f.number("Metallic", m.metallic,
+             unit_interval(1, "0 is a dielectric such as plastic, wood or stone; 1 is bare metal, which reflects in its base colour and "
+                              "has no diffuse part."));
+    f.number("Roughness", m.roughness,
+             unit_interval(1, "How rough the surface is below what the eye resolves. 0 is a mirror, 1 a matt sheen. The width of the "
+                              "highlight is its square."));
+    f.number("Reflectivity", m.specular,
+             unit_interval(1, "Strength of the reflection of a dielectric. 0 leaves a purely diffuse surface, as chalk nearly is."));
+    f.color("Reflection tint", m.specular_color, {1, 1, 1},
+            "Colour of a dielectric's reflection as seen head on. White for everything but a few fabrics.");
+    f.number("Index of refraction", m.ior,
+             {.min = 1,
+              .max = 4,
+              .reset = 1.5f,
+              .step = 0.002f,
+              .tip = "How much light slows down inside: water 1.33, glass 1.5, diamond 2.42. It sets how strongly a dielectric reflects "
+                     "and how much it bends light."});
     f.checkbox("Double-sided", m.double_sided, "Shade the back of the surface like its front.");
     f.checkbox("Unlit", m.unlit, "Show the base colour as it is, without any light on it.");
 }
 
 void draw_emission(Fields& f, Material& m) {
     f.color("Emission", m.emissive, {0, 0, 0}, "Colour of the light that the surface gives off. Every such triangle is a light.");
-    f.number("Strength", m.emissive_strength, {.min = 0, .max = 1e12f, .reset = 1, .unit = "nits", .tip = "Luminance of the glow for an emission of 1."});
+    f.number("Strength", m.emissive_strength,
+             {.min = 0, .max = 1e12f, .reset = 1, .unit = "nits", .tip = "Luminance of the glow for an emission of 1."});
 }
 
 void draw_transmission(Fields& f, Material& m) {
-    f.number("Transmission", m.transmission, unit_interval(0, "Share of the light that is not reflected that passes through, as in glass or water."));
+    f.number("Transmission", m.transmission,
+             unit_interval(0, "Share of the light that is not reflected that passes through, as in glass or water."));
     bool solid = m.thickness > 0;
-    if (f.checkbox("Solid", solid, "Solid bodies bend light and tint it by depth. Otherwise the surface is a thin sheet such as a window pane.")) m.thickness = solid ? 1.f : 0.f;
+    if (f.checkbox("Solid", solid,
+                   "Solid bodies bend light and tint it by depth. Otherwise the surface is a thin sheet such as a window pane."))
+        m.thickness = solid ? 1.f : 0.f;
     if (!solid) return;
     f.color("Absorption colour", m.attenuation_color, {1, 1, 1}, "What is left of white light after the absorption distance.");
-    f.number("Absorption distance", m.attenuation_distance, {.min = 0, .max = 1e9f, .reset = 0, .unit = "m", .step = 0.001f,
-             .tip = "Depth at which white light has become the absorption colour. 0 absorbs nothing."});
+    f.number("Absorption distance", m.attenuation_distance,
+             {.min = 0,
+              .max = 1e9f,
+              .reset = 0,
+              .unit = "m",
+              .step = 0.001f,
+              .tip = "Depth at which white light has become the absorption colour. 0 absorbs nothing."});
 }
 
 void draw_opacity(Fields& f, Material& m) {
     int alpha = int(m.alpha);
-    if (f.choice("Alpha", alpha, alpha_modes, "What opacity does: nothing, a hard cut, or that share of the light is stopped.")) m.alpha = Material::Alpha(alpha);
+    if (f.choice("Alpha", alpha, alpha_modes, "What opacity does: nothing, a hard cut, or that share of the light is stopped."))
+        m.alpha = Material::Alpha(alpha);
     if (m.alpha == Material::Alpha::opaque) return;
     f.number("Opacity", m.opacity, unit_interval(1, "Multiplies the alpha of the base colour's texture."));
-    if (m.alpha == Material::Alpha::mask) f.number("Cut-off", m.alpha_cutoff, unit_interval(0.5f, "Below this alpha the surface is not there."));
+    if (m.alpha == Material::Alpha::mask)
+        f.number("Cut-off", m.alpha_cutoff, unit_interval(0.5f, "Below this alpha the surface is not there."));
 }
 
 std::string texture_name(const Scene& scene, Id<Texture> id) {
@@ -72,7 +97,8 @@ void draw_texture(Fields& f, PanelContext& c, const char* label, TextureRef& ref
         f.number("Offset V", ref.offset.y, {.reset = 0, .step = 0.002f, .tip = "Moves the image along V, in heights of the image."});
         f.number("Scale U", ref.scale.x, {.reset = 1, .step = 0.005f, .tip = "How many times the image repeats over one unit of U."});
         f.number("Scale V", ref.scale.y, {.reset = 1, .step = 0.005f, .tip = "How many times the image repeats over one unit of V."});
-        f.angle("Turn", ref.rotation_radians, {.min = -360, .max = 360, .reset = 0, .step = 0.25f, .tip = "Turns the image counter-clockwise about its corner."});
+        f.angle("Turn", ref.rotation_radians,
+                {.min = -360, .max = 360, .reset = 0, .step = 0.25f, .tip = "Turns the image counter-clockwise about its corner."});
         if (f.integer("UV set", uv_set, 0, 1, 0, "Which texture coordinates of the mesh are used.")) ref.uv_set = uint8_t(uv_set);
     }
     ImGui::PopID();
@@ -82,7 +108,9 @@ void draw_textures(Fields& f, PanelContext& c, Material& m) {
     draw_texture(f, c, "Base colour map", m.base_color_texture, "Multiplies the base colour; its alpha multiplies the opacity.");
     draw_texture(f, c, "Metal-rough map", m.metallic_roughness_texture, "Green multiplies roughness, blue multiplies metallic.");
     draw_texture(f, c, "Normal map", m.normal_texture, "Tilts the surface's normal: fine relief without geometry.");
-    if (m.normal_texture.texture) f.number("Normal strength", m.normal_scale, {.min = -10, .max = 10, .reset = 1, .step = 0.005f, .tip = "Scales the tilt of the normal map."});
+    if (m.normal_texture.texture)
+        f.number("Normal strength", m.normal_scale,
+                 {.min = -10, .max = 10, .reset = 1, .step = 0.005f, .tip = "Scales the tilt of the normal map."});
     draw_texture(f, c, "Emission map", m.emissive_texture, "Multiplies the emission.");
     draw_texture(f, c, "Reflectivity map", m.specular_texture, "Its alpha multiplies the reflectivity.");
     draw_texture(f, c, "Tint map", m.specular_color_texture, "Multiplies the reflection tint.");
@@ -127,7 +155,8 @@ void draw_material_panel(PanelContext& c, Id<Node> node_id) {
     const Id<Material> id = node ? draw_assignment(c, Node(*node)) : c.ui.selected_material;
     const Material* record = c.scene().materials.find(id);
     if (!record) {
-        quiet_text("glTF's default material: white and fully metallic as the format defines it. Choose one of the scene's materials to edit it.");
+        quiet_text(
+            "glTF's default material: white and fully metallic as the format defines it. Choose one of the scene's materials to edit it.");
         return;
     }
     Material m = *record;

@@ -46,7 +46,8 @@ void draw_object_panel(PanelContext& c, Id<Node> id) {
     f.text("Name", node.name, "Used in the outliner, in the history and in saved files.");
     f.checkbox("Visible", node.visible, "Hidden, the node and all below it neither show nor cast shadows nor give light.");
     if (const Mesh* mesh = c.scene().meshes.find(node.mesh)) {
-        f.info("Mesh", fmt::format("{} triangles{}", grouped(triangle_count(*mesh)), mesh->parts.size() > 1 ? fmt::format(", {} parts", mesh->parts.size()) : ""));
+        f.info("Mesh", fmt::format("{} triangles{}", grouped(triangle_count(*mesh)),
+                                   mesh->parts.size() > 1 ? fmt::format(", {} parts", mesh->parts.size()) : ""));
     }
     if (f.changed()) c.apply(SetNode{id, node}, f.gesture());
 
@@ -64,19 +65,24 @@ void draw_transform_panel(PanelContext& c, Id<Node> id) {
     Node node = *record;
     Fields f(c.ui, "Transform");
     if (node.local.matrix) {
-        quiet_text("This transform is a sheared matrix, which position, rotation and scale cannot express. Turning or scaling it here replaces the shear.");
+        quiet_text("This transform is a sheared matrix, which position, rotation and scale cannot express. Turning or scaling it here "
+                   "replaces the shear.");
     }
-    if (f.vector("Position", node.local.translation, {0, 0, 0}, {.unit = "", .step = 0.005f, .tip = "Metres, relative to the parent node."}) && node.local.matrix) {
+    if (f.vector("Position", node.local.translation, {0, 0, 0},
+                 {.unit = "", .step = 0.005f, .tip = "Metres, relative to the parent node."}) &&
+        node.local.matrix) {
         node.local.matrix->t = node.local.translation;
     }
     Vec3d& degrees = angles_of(c.ui.euler, id, node.local.rotation);
     Vec3 angles = to_float(degrees);
-    if (f.vector("Rotation", angles, {0, 0, 0}, {.unit = "°", .step = 0.25f, .tip = "Degrees about the parent's X, then Y, then Z axis.", .format = "%.1f"})) {
+    if (f.vector("Rotation", angles, {0, 0, 0},
+                 {.unit = "°", .step = 0.25f, .tip = "Degrees about the parent's X, then Y, then Z axis.", .format = "%.1f"})) {
         degrees = to_double(angles);
         node.local.rotation = c.ui.euler.rotation = from_euler_degrees(degrees);
         node.local.matrix.reset();
     }
-    if (f.vector("Scale", node.local.scale, {1, 1, 1}, {.step = 0.005f, .tip = "Factors along the node's own axes."})) node.local.matrix.reset();
+    if (f.vector("Scale", node.local.scale, {1, 1, 1}, {.step = 0.005f, .tip = "Factors along the node's own axes."}))
+        node.local.matrix.reset();
     if (f.changed()) c.apply(SetNode{id, node}, f.gesture());
 }
 

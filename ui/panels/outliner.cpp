@@ -41,7 +41,8 @@ std::string name_of(const Scene& scene, Id<Node> id, const Node& node) {
 void draw_rename(PanelContext& c, Id<Node> id, const Node& node) {
     ImGui::SetNextItemWidth(-ImGui::GetFrameHeight());
     ImGui::SetKeyboardFocusHere();
-    const bool entered = ImGui::InputText("##rename", &c.ui.rename_text, ImGuiInputTextFlags_AutoSelectAll | ImGuiInputTextFlags_EnterReturnsTrue);
+    const bool entered =
+        ImGui::InputText("##rename", &c.ui.rename_text, ImGuiInputTextFlags_AutoSelectAll | ImGuiInputTextFlags_EnterReturnsTrue);
     const bool left = ImGui::IsItemDeactivated();
     if (!entered && !left) return;
     c.ui.renaming = {};
@@ -69,7 +70,8 @@ void draw_node(PanelContext& c, const Children& children, Id<Node> id, int depth
     const auto below = children.find(id);
     const bool leaf = below == children.end(), selected = c.ui.selected == id;
     ImGui::PushID(int(id.value));
-    ImGuiTreeNodeFlags flags = ImGuiTreeNodeFlags_OpenOnArrow | ImGuiTreeNodeFlags_SpanFullWidth | ImGuiTreeNodeFlags_FramePadding | ImGuiTreeNodeFlags_AllowItemOverlap;
+    ImGuiTreeNodeFlags flags = ImGuiTreeNodeFlags_OpenOnArrow | ImGuiTreeNodeFlags_SpanFullWidth | ImGuiTreeNodeFlags_FramePadding |
+                               ImGuiTreeNodeFlags_AllowItemOverlap;
     if (depth < 2) flags |= ImGuiTreeNodeFlags_DefaultOpen;
     if (leaf) flags |= ImGuiTreeNodeFlags_Leaf;
     if (selected) flags |= ImGuiTreeNodeFlags_Selected;
@@ -91,7 +93,8 @@ void draw_node(PanelContext& c, const Children& children, Id<Node> id, int depth
     icon_item(icon_of(c.scene(), node), quiet ? IM_COL32(95, 95, 95, 255) : light ? tone::light : tone::dim_text, ImGui::GetFrameHeight());
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
-    if (c.ui.renaming == id) draw_rename(c, id, node);
+    if (c.ui.renaming == id)
+        draw_rename(c, id, node);
     else {
         ImGui::PushStyleColor(ImGuiCol_Text, quiet ? tone::dim_text : tone::text);
         ImGui::TextUnformatted(name.c_str());

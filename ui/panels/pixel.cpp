@@ -19,14 +19,17 @@ void row(const char* name, const std::string& value) {
     ImGui::TextUnformatted(value.c_str());
 }
 
-std::string triple(const Vec3& v, const char* format = "{:.4g}  {:.4g}  {:.4g}") { return fmt::format(fmt::runtime(format), v.x, v.y, v.z); }
+std::string triple(const Vec3& v, const char* format = "{:.4g}  {:.4g}  {:.4g}") {
+    return fmt::format(fmt::runtime(format), v.x, v.y, v.z);
+}
 
 std::string displayed(const PanelContext& c, const float* rgb) {
     float shown[3] = {rgb[0], rgb[1], rgb[2]};
     const ViewSettings& v = c.project().view;
     if (const auto done = c.color.apply_display(v.display, v.view, v.exposure_ev, v.gamma, shown, 1); !done) return done.error().text();
     const auto byte = [](float x) { return int(std::clamp(x, 0.f, 1.f) * 255 + 0.5f); };
-    return fmt::format("{:.3f}  {:.3f}  {:.3f}   #{:02x}{:02x}{:02x}", shown[0], shown[1], shown[2], byte(shown[0]), byte(shown[1]), byte(shown[2]));
+    return fmt::format("{:.3f}  {:.3f}  {:.3f}   #{:02x}{:02x}{:02x}", shown[0], shown[1], shown[2], byte(shown[0]), byte(shown[1]),
+                       byte(shown[2]));
 }
 
 void draw_values(const PanelContext& c, const Frame& f, int x, int y) {
@@ -61,7 +64,8 @@ void draw_pixel_panel(PanelContext& c) {
     }
     if (c.frame && c.frame->width > 0 && ImGui::BeginTable("values", 2, ImGuiTableFlags_SizingFixedFit)) {
         const Frame& f = *c.frame;
-        draw_values(c, f, std::clamp(int(c.ui.pixel->u * f.width), 0, f.width - 1), std::clamp(int(c.ui.pixel->v * f.height), 0, f.height - 1));
+        draw_values(c, f, std::clamp(int(c.ui.pixel->u * f.width), 0, f.width - 1),
+                    std::clamp(int(c.ui.pixel->v * f.height), 0, f.height - 1));
         ImGui::EndTable();
         c.ui.probe.record_last_item("Pixel");
     }

@@ -15,28 +15,53 @@ void draw_size(Fields& f, PanelContext& c, RenderSettings& r) {
         if (f.integer("Width", width, 1, 65536, 1280, "Pixels.")) r.width = int(width);
         if (f.integer("Height", height, 1, 65536, 720, "Pixels.")) r.height = int(height);
     }
-    f.number("Resolution", r.resolution_scale, {.min = 0.1f, .max = 2, .reset = 1, .unit = "×", .bar = true, .tip = "Share of the full size that is rendered. Half the resolution converges four times as fast.", .format = "%.2f"});
+    f.number("Resolution", r.resolution_scale,
+             {.min = 0.1f,
+              .max = 2,
+              .reset = 1,
+              .unit = "×",
+              .bar = true,
+              .tip = "Share of the full size that is rendered. Half the resolution converges four times as fast.",
+              .format = "%.2f"});
     f.info("", fmt::format("{} × {} pixels", c.render_width, c.render_height));
 }
 
 void draw_stop_rules(Fields& f, RenderSettings& r) {
-    f.integer("Samples", r.spp, 0, int64_t(1) << 40, 1024, "Stop at this many paths per pixel. 0 never stops. The noise halves with four times as many.");
+    f.integer("Samples", r.spp, 0, int64_t(1) << 40, 1024,
+              "Stop at this many paths per pixel. 0 never stops. The noise halves with four times as many.");
     float seconds = float(r.seconds), per_cent = float(r.error * 100);
-    if (f.number("Time", seconds, {.min = 0, .max = 1e7f, .reset = 0, .unit = "s", .step = 0.5f, .tip = "Stop after this many seconds of rendering. 0 sets no limit."})) r.seconds = seconds;
-    if (f.number("Error", per_cent, {.min = 0, .max = 100, .reset = 0, .unit = "%", .step = 0.001f,
-                 .tip = "Stop when the estimated relative mean squared error is below this. 0 sets no limit. It is estimated from two independent halves of the samples."})) r.error = per_cent / 100;
+    if (f.number("Time", seconds,
+                 {.min = 0,
+                  .max = 1e7f,
+                  .reset = 0,
+                  .unit = "s",
+                  .step = 0.5f,
+                  .tip = "Stop after this many seconds of rendering. 0 sets no limit."}))
+        r.seconds = seconds;
+    if (f.number("Error", per_cent,
+                 {.min = 0,
+                  .max = 100,
+                  .reset = 0,
+                  .unit = "%",
+                  .step = 0.001f,
+                  .tip = "Stop when the estimated relative mean squared error is below this. 0 sets no limit. It is estimated from two "
+                         "independent halves of the samples."}))
+        r.error = per_cent / 100;
 }
 
 void draw_roulette(Fields& f, Roulette& r) {
     static constexpr const char* rules[] = {"Off", "Largest component", "Luminance", "Square root", "Constant", "Biased cut (wrong)"};
     int rule = int(r.rule);
     if (f.choice("Roulette", rule, rules,
-                 "Which chance a path has to go on after a bounce, given how much light it still can carry. Survivors are weighted up, so the mean stays right; the biased cut does not and darkens the image, to show what goes wrong."))
+                 "Which chance a path has to go on after a bounce, given how much light it still can carry. Survivors are weighted up, so "
+                 "the mean stays right; the biased cut does not and darkens the image, to show what goes wrong."))
         r.rule = Roulette::Rule(rule);
     if (r.rule == Roulette::Rule::off) return;
     int64_t start = r.start;
     if (f.integer("From bounce", start, 0, 10000, 3, "The first bounce at which roulette may end a path.")) r.start = int(start);
-    const auto share = [&](const char* label, float& value, float reset, const char* tip) { f.number(label, value, {.min = 0, .max = 1, .reset = reset, .bar = true, .tip = tip, .format = "%.3f"}); };
+    const auto share = [&](const char* label, float& value, float reset, const char* tip) {
+        f.number(label, value, {.min = 0, .max = 1, .reset = reset, .bar = true, .tip = tip, .format = "%.3f"});
+    };
     if (r.rule == Roulette::Rule::biased_cut) {
         share("Cut below", r.threshold, 0.1f, "Paths that carry less than this are ended and nothing makes up for them.");
         return;
@@ -50,19 +75,29 @@ void draw_paths(Fields& f, RenderSettings& r) {
     static constexpr const char* strategies[] = {"Both (MIS)", "Light sampling", "BSDF sampling"};
     static constexpr const char* filters[] = {"Blackman-Harris", "Box"};
     bool unlimited = r.max_bounces == unlimited_bounces;
-    if (f.checkbox("All bounces", unlimited, "Follow light however often it is scattered. A limit darkens the image.")) r.max_bounces = unlimited ? unlimited_bounces : 8;
+    if (f.checkbox("All bounces", unlimited, "Follow light however often it is scattered. A limit darkens the image."))
+        r.max_bounces = unlimited ? unlimited_bounces : 8;
     if (!unlimited) {
         int64_t bounces = r.max_bounces;
-        if (f.integer("Bounces", bounces, 0, 100000, 8, "0 shows what glows, 1 adds direct light, 2 the first colour bleeding.")) r.max_bounces = int(bounces);
+        if (f.integer("Bounces", bounces, 0, 100000, 8, "0 shows what glows, 1 adds direct light, 2 the first colour bleeding."))
+            r.max_bounces = int(bounces);
     }
     draw_roulette(f, r.roulette);
     int strategy = int(r.strategy), filter = int(r.filter);
-    if (f.choice("Direct light", strategy, strategies, "How light is found: by aiming at lights, by following the surface's reflection, or both combined by multiple importance sampling. The mean is the same, the noise is not."))
+    if (f.choice("Direct light", strategy, strategies,
+                 "How light is found: by aiming at lights, by following the surface's reflection, or both combined by multiple importance "
+                 "sampling. The mean is the same, the noise is not."))
         r.strategy = Strategy(strategy);
-    if (f.choice("Pixel filter", filter, filters, "How light is gathered around a pixel: a smooth bell 1.5 pixels wide, or the bare pixel.")) r.filter = PixelFilter(filter);
-    f.checkbox("Multiscatter", r.energy_compensation, "Give back the light that rough metal and glass lose by scattering more than once between their microscopic facets. Off is what glTF specifies.");
+    if (f.choice("Pixel filter", filter, filters,
+                 "How light is gathered around a pixel: a smooth bell 1.5 pixels wide, or the bare pixel."))
+        r.filter = PixelFilter(filter);
+    f.checkbox("Multiscatter", r.energy_compensation,
+               "Give back the light that rough metal and glass lose by scattering more than once between their microscopic facets. Off is "
+               "what glTF specifies.");
     int64_t seed = r.seed;
-    if (f.integer("Seed", seed, 0, UINT32_MAX, 0, "Another seed gives another, equally good noise. The same seed gives the same image, bit for bit.")) r.seed = uint32_t(seed);
+    if (f.integer("Seed", seed, 0, UINT32_MAX, 0,
+                  "Another seed gives another, equally good noise. The same seed gives the same image, bit for bit."))
+        r.seed = uint32_t(seed);
 }
 
 } // namespace

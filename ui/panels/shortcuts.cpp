@@ -41,7 +41,8 @@ void draw_shortcut_sheet(PanelContext& c) {
     const float em = ImGui::GetFontSize();
     ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Appearing, {0.5f, 0.5f});
     ImGui::SetNextWindowSize({std::min(em * 60, screen.x * 0.95f), 0});
-    if (ImGui::Begin("Shortcuts", &c.ui.show_shortcuts, ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoSavedSettings)) {
+    if (ImGui::Begin("Shortcuts", &c.ui.show_shortcuts,
+                     ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoSavedSettings)) {
         if (ImGui::BeginTable("columns", 2)) {
             ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthStretch, 0.41f);
             ImGui::TableSetupColumn("mouse", ImGuiTableColumnFlags_WidthStretch, 0.59f);

@@ -28,7 +28,11 @@ std::string duration_text(double seconds) {
     return fmt::format("{}:{:02}:{:02} h", whole / 3600, whole / 60 % 60, whole % 60);
 }
 
-std::string rate_text(double rate) { return rate >= 100 ? fmt::format("{:.0f} spp/s", rate) : rate >= 10 ? fmt::format("{:.1f} spp/s", rate) : fmt::format("{:.2f} spp/s", rate); }
+std::string rate_text(double rate) {
+    return rate >= 100  ? fmt::format("{:.0f} spp/s", rate)
+           : rate >= 10 ? fmt::format("{:.1f} spp/s", rate)
+                        : fmt::format("{:.2f} spp/s", rate);
+}
 
 // Each cell keeps its place while its number changes.
 void cell(PanelContext& c, float& x, float width, const std::string& text, const char* tip, ImU32 color = tone::text) {
@@ -49,18 +53,24 @@ void draw_progress_line(double progress) {
 
 void draw_frame_cells(PanelContext& c, float& x, const Frame& frame) {
     const int64_t target = c.project().render.spp;
-    cell(c, x, 9, target > 0 ? fmt::format("{} / {} spp", frame.samples, target) : fmt::format("{} spp", frame.samples), "Samples, that is paths, per pixel so far and in the end.");
+    cell(c, x, 9, target > 0 ? fmt::format("{} / {} spp", frame.samples, target) : fmt::format("{} spp", frame.samples),
+         "Samples, that is paths, per pixel so far and in the end.");
     cell(c, x, 6.5f, rate_text(frame.samples_per_second), "Samples per pixel and second, over the last batch.");
     cell(c, x, 9, frame.error.known ? fmt::format("error {:.3g} %", 100 * std::sqrt(frame.error.relmse)) : "error not known yet",
-         frame.error.known ? fmt::format("Estimated relative error (root of relMSE) of the picture, from two independent halves of the samples. relMSE {:.3g}, 95 % interval {:.3g} to {:.3g}.",
-                                         frame.error.relmse, frame.error.low, frame.error.high).c_str()
+         frame.error.known ? fmt::format("Estimated relative error (root of relMSE) of the picture, from two independent halves of the "
+                                         "samples. relMSE {:.3g}, 95 % interval {:.3g} to {:.3g}.",
+                                         frame.error.relmse, frame.error.low, frame.error.high)
+                                 .c_str()
                            : "The error is estimated from two independent halves of the samples, once both hold some.");
     cell(c, x, 6, duration_text(frame.seconds), "Time spent rendering since the last edit.");
-    cell(c, x, 8.5f, frame.divider > 1 ? fmt::format("{} × {}  1/{}", frame.width, frame.height, frame.divider) : fmt::format("{} × {}", frame.width, frame.height),
+    cell(c, x, 8.5f,
+         frame.divider > 1 ? fmt::format("{} × {}  1/{}", frame.width, frame.height, frame.divider)
+                           : fmt::format("{} × {}", frame.width, frame.height),
          "Pixels rendered. Right after an edit they are fewer, so that the picture comes at once.");
     cell(c, x, 9, frame.kernel, "Which of the compiled kernels renders: instruction set / what the scene needs.", tone::dim_text);
     if (frame.health.dropped() > 0)
-        cell(c, x, 12, fmt::format("{} bad samples dropped", frame.health.dropped()), "Samples that were not a number, infinite or negative. They are left out of the picture and counted.", tone::warning);
+        cell(c, x, 12, fmt::format("{} bad samples dropped", frame.health.dropped()),
+             "Samples that were not a number, infinite or negative. They are left out of the picture and counted.", tone::warning);
 }
 
 } // namespace
@@ -72,8 +82,10 @@ void draw_status_bar(PanelContext& c) {
     ImGui::SetCursorPos({x, (ImGui::GetWindowHeight() - ImGui::GetTextLineHeight()) / 2});
     ImGui::Dummy({0, 0});
     cell(c, x, 6, state_name(c.status.state), "What the render thread does. Complete, it sleeps.", failed ? tone::failure : tone::text);
-    if (failed) cell(c, x, 30, c.status.message, "", tone::failure);
-    else if (c.frame) draw_frame_cells(c, x, *c.frame);
+    if (failed)
+        cell(c, x, 30, c.status.message, "", tone::failure);
+    else if (c.frame)
+        draw_frame_cells(c, x, *c.frame);
     const float exposure = c.project().view.exposure_ev;
     if (exposure != 0) {
         const std::string text = fmt::format("{:+.2f} EV", exposure);

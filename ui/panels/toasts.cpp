@@ -29,7 +29,9 @@ float end_card() {
     return top;
 }
 
-ImU32 edge_of(Toast::Kind kind) { return kind == Toast::Kind::failure ? tone::failure : kind == Toast::Kind::warning ? tone::warning : IM_COL32(90, 90, 90, 255); }
+ImU32 edge_of(Toast::Kind kind) {
+    return kind == Toast::Kind::failure ? tone::failure : kind == Toast::Kind::warning ? tone::warning : IM_COL32(90, 90, 90, 255);
+}
 
 void draw_texts(const Toast& toast) {
     ImGui::PushTextWrapPos(ImGui::GetFontSize() * 28);
