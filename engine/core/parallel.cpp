@@ -57,20 +57,23 @@ Workers::~Workers() = default;
 bool Workers::for_each(int64_t count, const std::function<bool()>& wanted, const std::function<void(int64_t, unsigned)>& task) const {
     // One long-lived task per worker that takes the next item from a counter: the items are coarse, and a worker that owns
     // scratch memory needs to know that nobody else has its number.
-    std::atomic<int64_t> next{0}, done{0};
+    // The counters also carry what the caller wrote to the workers, and back what they wrote: TBB does so too, but a race
+    // detector cannot see into it.
+    std::atomic<int64_t> next, done{0};
+    next.store(0, std::memory_order_release);
     state_->arena.execute([&] {
         tbb::parallel_for(
             0u, threads_,
             [&](unsigned worker) {
-                for (int64_t i; (i = next.fetch_add(1, std::memory_order_relaxed)) < count;) {
+                for (int64_t i; (i = next.fetch_add(1, std::memory_order_acquire)) < count;) {
                     if (wanted && !wanted()) return;
                     task(i, worker);
-                    done.fetch_add(1, std::memory_order_relaxed);
+                    done.fetch_add(1, std::memory_order_release);
                 }
             },
             tbb::simple_partitioner());
     });
-    return done == count;
+    return done.load(std::memory_order_acquire) == count;
 }
 
 void Workers::run(const std::function<void()>& task) const { state_->arena.execute(task); }
