@@ -1,7 +1,9 @@
 #include "render/render_session.h"
 
+#include "render/frame_pool.h"
 #include "render/renderer.h"
 #include "render/scheduler.h"
+#include "scene/changes.h"
 
 #include <algorithm>
 #include <atomic>
@@ -10,9 +12,10 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
+#include <new>
 #include <optional>
 #include <thread>
-#include <vector>
+#include <utility>
 
 namespace blush {
 namespace {
@@ -28,6 +31,12 @@ struct Submission {
     RenderSettings settings;
     Clock::time_point when;
 };
+
+// The number of the image that `settings` ask for: that of `last` if it would look the same.
+uint64_t image_number(const std::optional<Submission>& last, const Scene& scene, const RenderSettings& settings) {
+    if (!last) return 1;
+    return last->image + diff(last->scene, last->settings, scene, settings).affects_image();
+}
 
 // The resolution scale folded into the size.
 RenderSettings at_film_size(RenderSettings settings) {
@@ -49,11 +58,13 @@ struct RenderSession::State {
     SessionOptions options;
     std::function<void()> on_frame;
 
-    // Guarded by the mutex: the letter box and what the outside may look at.
+    std::mutex submitting; // one submission after the other; guards the last one
+    std::optional<Submission> last_submitted;
+
+    // Guards the letter box and what the outside may look at.
     mutable std::mutex mutex;
     std::condition_variable wake;
     std::optional<Submission> pending;
-    std::optional<Submission> last_submitted;
     bool paused = false;
     FramePtr latest;
     SessionStatus status;
@@ -63,113 +74,133 @@ struct RenderSession::State {
     std::atomic<bool> quit{false};
 
     // The render thread's own.
-    std::vector<std::shared_ptr<Frame>> frames; // recycled when nobody looks at them any more
+    std::optional<Renderer> renderer;
+    FramePool frames;
     Submission current;
     Scheduler scheduler;
-    bool has_scene = false, has_first_image = false, failed = false;
-    double first_image_seconds = 0;
+    std::string failure; // empty: none
+    bool has_scene = false, has_first_image = false;
+    double first_image_seconds = 0, samples_per_second = 0;
     std::thread thread;
 
-    void set_status(SessionStatus::State state, std::string message = {}) {
-        {
-            const std::lock_guard lock(mutex);
-            status.state = state;
-            status.revision = current.revision;
-            status.progress = scheduler.progress();
-            status.message = std::move(message);
-        }
-        on_frame();
-    }
-    bool has_work() const { return has_scene && !failed && !scheduler.finished() && !(paused && has_first_image); }
+    // With the mutex held.
+    SessionStatus::State due_state() const;
+    bool must_show() const { return has_scene && !has_first_image; }
+    bool has_work() const { return due_state() == SessionStatus::State::rendering; }
 
     void run();
-    void take_up(Renderer& renderer, Submission next);
-    void work_once(Renderer& renderer);
-    std::shared_ptr<Frame> unused_frame();
+    void announce(std::optional<SessionStatus::State> passing = {});
+    void take_up(Submission next);
+    void work_once();
+    void fail(std::string why);
+    void publish(const Work* work = nullptr);
 };
 
-std::shared_ptr<Frame> RenderSession::State::unused_frame() {
-    for (const auto& frame : frames)
-        if (frame.use_count() == 1) return frame;
-    frames.push_back(std::make_shared<Frame>());
-    return frames.back();
+SessionStatus::State RenderSession::State::due_state() const {
+    if (!failure.empty()) return SessionStatus::State::failed;
+    if (!has_scene) return SessionStatus::State::idle;
+    if (scheduler.finished()) return SessionStatus::State::complete;
+    return paused && has_first_image ? SessionStatus::State::paused : SessionStatus::State::rendering;
 }
 
-void RenderSession::State::take_up(Renderer& renderer, Submission next) {
+// Tells the outside what state this is, or that it is passing through another one.
+void RenderSession::State::announce(std::optional<SessionStatus::State> passing) {
+    {
+        const std::lock_guard lock(mutex);
+        status.state = passing.value_or(due_state());
+        status.revision = current.revision;
+        status.progress = scheduler.progress();
+        status.message = failure;
+    }
+    on_frame();
+}
+
+// Hands out the film as it is; `work` is what was just added to it, if anything.
+void RenderSession::State::publish(const Work* work) {
+    const auto begin = Clock::now();
+    const std::shared_ptr<Frame> frame = frames.take();
+    renderer->resolve(*frame);
+    const auto resolved = Clock::now();
+    if (work) scheduler.record_publish(*work, seconds_between(begin, resolved), frame->error.known ? frame->error.relmse : -1);
+    if (!has_first_image) first_image_seconds = seconds_between(current.when, resolved);
+    has_first_image = true;
+    frame->revision = current.revision;
+    frame->complete = scheduler.finished();
+    frame->seconds = scheduler.seconds();
+    frame->first_image_seconds = first_image_seconds;
+    frame->samples_per_second = samples_per_second;
+    FramePtr previous = frame;
+    const std::lock_guard lock(mutex);
+    latest.swap(previous);
+}
+
+void RenderSession::State::take_up(Submission next) {
     const bool new_image = next.image != current.image || !has_scene;
     current = std::move(next);
-    failed = false;
+    failure.clear();
     const RenderSettings settings = at_film_size(current.settings);
     if (new_image) {
-        set_status(SessionStatus::State::updating);
-        renderer.update(current.scene, settings);
+        has_scene = has_first_image = false;
+        announce(SessionStatus::State::updating);
+        if (!renderer) renderer.emplace(renderer_options(options));
+        renderer->update(current.scene, settings);
         scheduler.restart(settings, true);
-        has_first_image = false;
+        has_scene = true;
     } else {
         scheduler.change_stop_rules(settings);
+        if (has_first_image) publish(); // the same picture answers the new revision
     }
-    has_scene = true;
-    if (scheduler.finished()) set_status(SessionStatus::State::complete);
+    announce();
 }
 
-void RenderSession::State::work_once(Renderer& renderer) {
+void RenderSession::State::work_once() {
     const Work work = scheduler.next();
     const uint64_t mine = current.image;
     const auto begin = Clock::now();
-    renderer.set_divider(work.divider);
-    if (work.clear) renderer.clear();
-    const bool done = renderer.render(work.first_sample, work.count, [&] {
+    renderer->set_divider(work.divider);
+    if (work.clear) renderer->clear();
+    const bool done = renderer->render(work.first_sample, work.count, [&] {
         return !quit.load(std::memory_order_relaxed) && (work.always_finish || wanted_image.load(std::memory_order_relaxed) == mine);
     });
     if (!done) return;
-    const auto rendered = Clock::now();
-    const double seconds = seconds_between(begin, rendered);
+    const double seconds = seconds_between(begin, Clock::now());
+    samples_per_second = double(work.count) / (std::max(seconds, 1e-9) * work.divider * work.divider);
     scheduler.record_render(work, seconds);
-    std::shared_ptr<Frame> frame;
-    if (work.publish || scheduler.finished()) {
-        frame = unused_frame();
-        renderer.resolve(*frame);
-    }
-    const auto resolved = Clock::now();
-    if (frame) scheduler.record_publish(work, seconds_between(rendered, resolved), frame->error.known ? frame->error.relmse : -1);
-    if (!has_first_image) first_image_seconds = seconds_between(current.when, resolved);
-    has_first_image = true;
-    if (frame) {
-        frame->revision = current.revision;
-        frame->complete = scheduler.finished();
-        frame->seconds = scheduler.seconds();
-        frame->first_image_seconds = first_image_seconds;
-        frame->samples_per_second = double(work.count) / (std::max(seconds, 1e-9) * work.divider * work.divider);
-        const std::lock_guard lock(mutex);
-        latest = frame;
-    }
-    set_status(scheduler.finished() ? SessionStatus::State::complete : SessionStatus::State::rendering);
+    if (work.publish || scheduler.finished()) publish(&work);
+    announce();
+}
+
+void RenderSession::State::fail(std::string why) {
+    failure = std::move(why);
+    has_scene = has_first_image = false;
+    renderer.reset(); // what it holds is no longer known to match any scene
+    announce();
 }
 
 void RenderSession::State::run() {
-    std::optional<Renderer> renderer;
     for (;;) {
         std::optional<Submission> taken;
+        bool work = false;
         {
             std::unique_lock lock(mutex);
-            if (!quit && !pending && paused && has_first_image && status.state == SessionStatus::State::rendering)
-                status.state = SessionStatus::State::paused;
-            wake.wait(lock, [&] { return quit || pending || has_work(); });
+            wake.wait(lock, [&] { return quit || pending || has_work() || due_state() != status.state; });
             if (quit) return;
-            taken.swap(pending);
+            // What was taken up is shown once before the next is looked at: else a drag faster than the updates would show nothing.
+            if (!must_show()) taken.swap(pending);
+            work = has_work();
         }
         try {
-            if (!renderer) renderer.emplace(renderer_options(options));
-            if (taken) take_up(*renderer, std::move(*taken));
-            else work_once(*renderer);
+            if (taken) take_up(std::move(*taken));
+            else if (work) work_once();
+            else announce();
+        } catch (const std::bad_alloc&) {
+            fail("not enough memory");
         } catch (const std::exception& e) {
-            failed = true;
-            set_status(SessionStatus::State::failed, e.what());
-            renderer.reset(); // what it holds is no longer known to match any scene
-            has_scene = false;
+            fail(e.what());
         }
     }
 }
+
 
 RenderSession::RenderSession(const SessionOptions& options, std::function<void()> on_frame) : state_(std::make_unique<State>()) {
     state_->options = options;
@@ -188,17 +219,13 @@ RenderSession::~RenderSession() {
 
 void RenderSession::submit(uint64_t revision, const Scene& scene, const RenderSettings& settings) {
     State& s = *state_;
+    const std::lock_guard submitting(s.submitting);
+    s.last_submitted = Submission{revision, image_number(s.last_submitted, scene, settings), scene, settings, Clock::now()};
+    std::optional<Submission> next = s.last_submitted;
     {
         const std::lock_guard lock(s.mutex);
-        Submission next{revision, 1, scene, settings, Clock::now()};
-        if (s.last_submitted) {
-            const Submission& last = *s.last_submitted;
-            const bool same = last.scene == scene && same_image(last.settings, settings);
-            next.image = last.image + !same;
-        }
-        s.last_submitted = next;
-        s.wanted_image = next.image;
-        s.pending = std::move(next);
+        s.wanted_image = next->image;
+        s.pending.swap(next);
     }
     s.wake.notify_one();
 }

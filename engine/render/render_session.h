@@ -35,7 +35,8 @@ public:
     RenderSession(const RenderSession&) = delete;
     RenderSession& operator=(const RenderSession&) = delete;
 
-    // Replaces whatever was pending; never blocks. Latest wins. A submit that changes stop rules alone continues the image.
+    // Replaces whatever was pending; never blocks. Latest wins, but what has been taken up is shown once before the next is. A submit that
+    // changes nothing an image shows (stop rules, names) continues it.
     void submit(uint64_t revision, const Scene& scene, const RenderSettings& settings);
     // A paused session still shows the first image of what is submitted, then waits.
     void pause(bool paused);

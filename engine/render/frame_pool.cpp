@@ -1,0 +1,32 @@
+#include "render/frame_pool.h"
+
+#include <utility>
+
+namespace blush {
+namespace {
+
+// One is on show and one is being written; a third waits while somebody looks at the one before.
+constexpr size_t most_kept = 3;
+
+} // namespace
+
+std::shared_ptr<Frame> FramePool::take() {
+    std::unique_ptr<Frame> frame;
+    {
+        const std::lock_guard lock(shelf_->mutex);
+        if (!shelf_->frames.empty()) {
+            frame = std::move(shelf_->frames.back());
+            shelf_->frames.pop_back();
+        }
+    }
+    if (!frame) frame = std::make_unique<Frame>();
+    // The mutex orders every look at the old picture before the first stroke of the new one.
+    const auto give_back = [shelf = shelf_](Frame* done) {
+        std::unique_ptr<Frame> returned(done);
+        const std::lock_guard lock(shelf->mutex);
+        if (shelf->frames.size() < most_kept) shelf->frames.push_back(std::move(returned));
+    };
+    return {frame.release(), give_back};
+}
+
+} // namespace blush
