@@ -53,8 +53,9 @@ Work Scheduler::next() const {
     }
     work.first_sample = next_sample_;
     const double sample = std::max(timings_.sample_seconds, 1e-6);
-    // Doubling keeps the number of resolves logarithmic at first; the interval bounds the wait for the next picture.
-    int64_t count = std::max<int64_t>(1, std::min<int64_t>(samples(), int64_t(publish_interval() / sample)));
+    // Doubling keeps the number of resolves logarithmic at first; what is left of the interval bounds the wait for the next picture.
+    const double left = publish_interval() - (seconds_ - last_publish_);
+    int64_t count = std::max<int64_t>(1, std::min<int64_t>(samples(), int64_t(left / sample)));
     if (settings_.spp > 0) count = std::min(count, settings_.spp - next_sample_);
     if (settings_.seconds > 0) count = std::min(count, std::max<int64_t>(1, int64_t((settings_.seconds - seconds_) / sample)));
     // The error needs both halves: an even number of samples keeps them equal.
