@@ -1,0 +1,129 @@
+// A scene reached by edits renders bit for bit like the same scene just opened.
+#include "scene/document.h"
+#include "session/pictures.h"
+#include "session/rich_project.h"
+#include "support/random_edits.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <set>
+
+namespace blush {
+namespace {
+
+using test::all_planes;
+using test::fresh_picture;
+using test::same_picture;
+
+constexpr int64_t samples = 2;
+
+// A renderer that is only ever updated, and its picture of where it is.
+class Updated {
+public:
+    explicit Updated(const Project& project) { follow(project); }
+
+    void follow(const Project& project) {
+        // If the renderer says that what is in the film still answers, it must.
+        if (!renderer_.update(project.scene, project.render)) return;
+        renderer_.render(project.render.first_sample, samples);
+        picture_ = renderer_.resolve();
+    }
+    const Frame& picture() const { return picture_; }
+    const CompiledInfo& info() const { return renderer_.info(); }
+
+private:
+    Renderer renderer_{all_planes()};
+    Frame picture_;
+};
+
+constexpr size_t edit_kinds = std::variant_size_v<Edit>;
+using Tried = std::array<int, edit_kinds>;
+
+// The next edit: the kinds in turn, so that each is tried many times; another kind where this one has nothing to act upon.
+Edit next_edit(test::Rng& rng, const Project& project, int step, Tried& tried) {
+    if (const std::optional<Edit> edit = test::random_edit(rng, project, size_t(step) % edit_kinds)) {
+        ++tried[size_t(step) % edit_kinds];
+        return *edit;
+    }
+    return test::random_edit(rng, project);
+}
+
+TEST(RichProject, IsInView) {
+    const Project project = test::rich_project();
+    const Frame picture = fresh_picture(project.scene, project.render, samples);
+    EXPECT_GE(std::set<uint32_t>(picture.object_id.begin(), picture.object_id.end()).size(), 8u) << "edits of what nobody sees prove nothing";
+    EXPECT_GE(std::set<uint32_t>(picture.material_id.begin(), picture.material_id.end()).size(), 6u);
+    EXPECT_EQ(picture.health.dropped(), 0);
+}
+
+class RandomEdits : public ::testing::TestWithParam<unsigned> {};
+
+TEST_P(RandomEdits, RenderAsIfTheSceneWereJustOpenedAndUndoToTheFirstImage) {
+    test::Rng rng(GetParam());
+    Document document(test::rich_project());
+    Updated updated(document.project());
+    const Frame first = updated.picture();
+    ASSERT_TRUE(same_picture(first, fresh_picture(document.project().scene, document.project().render, samples)));
+
+    Tried tried{};
+    for (int step = 0; step < 210; ++step) {
+        const Edit edit = next_edit(rng, document.project(), step, tried);
+        const std::string what = label(edit, document.project());
+        ASSERT_TRUE(document.apply(edit)) << what;
+        const Project& project = document.project();
+        updated.follow(project);
+        Renderer fresh(all_planes());
+        fresh.update(project.scene, project.render);
+        fresh.render(project.render.first_sample, samples);
+        ASSERT_TRUE(same_picture(updated.picture(), fresh.resolve())) << "step " << step << ": " << what;
+        EXPECT_EQ(updated.info().kernel, fresh.info().kernel) << what;
+        EXPECT_EQ(updated.info().triangles, fresh.info().triangles) << what;
+        EXPECT_EQ(updated.info().emissive_triangles, fresh.info().emissive_triangles) << what;
+    }
+    for (size_t kind = 0; kind < edit_kinds; ++kind) EXPECT_GT(tried[kind], 0) << "kind " << kind << " of edit was never tried";
+
+    while (document.undo()) updated.follow(document.project());
+    EXPECT_TRUE(same_picture(updated.picture(), first));
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomEdits, ::testing::Values(1u, 2u));
+
+TEST(Renderer, ThreadsAndBatchesDoNotChangeABit) {
+    const Project project = test::rich_project();
+    const Frame one = fresh_picture(project.scene, project.render, 5, 1);
+    EXPECT_TRUE(same_picture(one, fresh_picture(project.scene, project.render, 5, 2)));
+    EXPECT_TRUE(same_picture(one, fresh_picture(project.scene, project.render, 5, 7)));
+    Renderer split(all_planes());
+    split.update(project.scene, project.render);
+    for (const auto& [first, count] : {std::pair{0, 1}, {1, 1}, {2, 3}}) split.render(first, count);
+    EXPECT_TRUE(same_picture(one, split.resolve()));
+}
+
+TEST(Renderer, DividersLeaveNoTrace) {
+    const Project project = test::rich_project();
+    Renderer renderer(all_planes());
+    renderer.update(project.scene, project.render);
+    renderer.set_divider(4);
+    renderer.render(0, 1);
+    EXPECT_EQ(renderer.resolve().width, 12);
+    renderer.set_divider(1);
+    renderer.render(0, 3);
+    EXPECT_TRUE(same_picture(renderer.resolve(), fresh_picture(project.scene, project.render, 3)));
+}
+
+TEST(Renderer, AStoppedPassStopsAndLeavesNoTraceAfterClearing) {
+    const Project project = test::rich_project();
+    Renderer renderer(all_planes(1));
+    renderer.update(project.scene, project.render);
+    EXPECT_FALSE(renderer.render(0, 2, [] { return false; }));
+    EXPECT_EQ(renderer.resolve().samples, 0);
+    int asked = 0;
+    EXPECT_FALSE(renderer.render(0, 2, [&] { return ++asked < 2; })) << "stopped after the first tile";
+    renderer.clear();
+    EXPECT_TRUE(renderer.render(0, 2));
+    EXPECT_TRUE(same_picture(renderer.resolve(), fresh_picture(project.scene, project.render, 2)));
+}
+
+} // namespace
+} // namespace blush

@@ -1,0 +1,166 @@
+#include "session/rich_project.h"
+
+#include "support/sample_project.h"
+
+#include <cmath>
+
+namespace blush::test {
+namespace {
+
+// A ball with shading normals, both UV sets, tangents and vertex colours whose alpha varies.
+GeometryPtr octahedron() {
+    Geometry g;
+    g.positions = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+    g.indices = {0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5};
+    g.normals = g.positions;
+    for (const Vec3& p : g.positions) {
+        g.uv0.push_back({0.5f + 0.5f * p.x, 0.5f + 0.5f * p.y});
+        g.uv1.push_back({0.5f + 0.5f * p.z, 0.5f - 0.5f * p.x});
+        g.tangents.push_back({p.y, p.z, p.x, 1}); // perpendicular, as the corners lie on the axes
+        g.colors.push_back({0.5f + 0.5f * p.x, 0.7f, 0.5f - 0.5f * p.z, 0.75f + 0.25f * p.y});
+    }
+    return std::make_shared<const Geometry>(std::move(g));
+}
+
+// 33800 triangles: more than are flattened.
+GeometryPtr hill() {
+    constexpr uint32_t n = 130;
+    Geometry g;
+    for (uint32_t j = 0; j <= n; ++j)
+        for (uint32_t i = 0; i <= n; ++i) {
+            const float u = float(i) / n, v = float(j) / n;
+            g.positions.push_back({u - 0.5f, v - 0.5f, 0.1f * std::sin(9 * u) * std::cos(7 * v)});
+            g.uv0.push_back({u, v});
+        }
+    for (uint32_t j = 0; j < n; ++j)
+        for (uint32_t i = 0; i < n; ++i) {
+            const uint32_t a = j * (n + 1) + i, b = a + 1, c = a + n + 1, d = c + 1;
+            g.indices.insert(g.indices.end(), {a, b, d, a, d, c});
+        }
+    return std::make_shared<const Geometry>(std::move(g));
+}
+
+ImagePtr gradient(int width, int height, int channels) {
+    Image image;
+    image.width = width;
+    image.height = height;
+    image.channels = channels;
+    for (int i = 0; i < width * height * channels; ++i) image.bytes.push_back(uint8_t(37 * i + 11 * (i / width)));
+    return std::make_shared<const Image>(std::move(image));
+}
+
+ImagePtr sky() {
+    Image image;
+    image.width = 16;
+    image.height = 8;
+    image.channels = 3;
+    for (int i = 0; i < 16 * 8 * 3; ++i) image.floats.push_back(0.1f + 0.4f * float(i % 7));
+    image.floats[3 * 20] = 60; // a small sun
+    return std::make_shared<const Image>(std::move(image));
+}
+
+class Builder {
+public:
+    Builder() : project_(sample_project().project) {}
+
+    Id<Texture> texture(const char* name, const ImagePtr& image) {
+        Texture t;
+        t.name = name;
+        t.image = image;
+        return project_.scene.textures.add(t);
+    }
+    Id<Material> material(const char* name, auto&& with) {
+        Material m;
+        m.name = name;
+        m.metallic = 0;
+        with(m);
+        return project_.scene.materials.add(m);
+    }
+    Id<Mesh> mesh(const char* name, const GeometryPtr& geometry, Id<Material> material) {
+        return project_.scene.meshes.add({name, {{geometry, material}}});
+    }
+    Id<Node> place(const char* name, Id<Mesh> mesh, Vec3 at, float scale = 1) {
+        Node node;
+        node.name = name;
+        node.mesh = mesh;
+        node.local.translation = at;
+        node.local.scale = {scale, scale, scale};
+        return project_.scene.nodes.add(node);
+    }
+    void light(const char* name, Vec3 at, Quat rotation, auto&& with) {
+        Light l;
+        l.name = name;
+        with(l);
+        Node node;
+        node.name = name;
+        node.light = project_.scene.lights.add(l);
+        node.local.translation = at;
+        node.local.rotation = rotation;
+        project_.scene.nodes.add(node);
+    }
+    Project& project() { return project_; }
+
+private:
+    Project project_;
+};
+
+void add_things(Builder& b) {
+    const Id<Texture> leaf = b.texture("Leaf", gradient(8, 8, 4)), bumps = b.texture("Bumps", gradient(4, 4, 3));
+    const GeometryPtr ball = octahedron(), quad = quad_geometry();
+    const Id<Material> leaves = b.material("Leaves", [&](Material& m) {
+        m.alpha = Material::Alpha::blend;
+        m.base_color_texture.texture = leaf;
+        m.double_sided = true;
+    });
+    const Id<Material> glass = b.material("Glass", [](Material& m) {
+        m.transmission = 1;
+        m.thickness = 1;
+        m.roughness = 0.1f;
+        m.attenuation_color = {0.9f, 0.5f, 0.5f};
+        m.attenuation_distance = 0.3f;
+    });
+    const Id<Material> bumpy = b.material("Bumpy", [&](Material& m) {
+        m.normal_texture.texture = bumps;
+        m.base_color_texture = {leaf, 1};
+        m.metallic = 0.5f;
+        m.roughness = 0.4f;
+    });
+    const Id<Material> screen = b.material("Screen", [&](Material& m) {
+        m.emissive = {2, 2, 2};
+        m.emissive_texture.texture = leaf;
+    });
+    const Id<Material> ground = b.material("Ground", [](Material& m) { m.base_color = {0.3f, 0.4f, 0.2f}; });
+
+    b.place("Hill", b.mesh("Hill", hill(), ground), {0, -0.8f, 0.5f}, 2);
+    b.place("Glass ball", b.mesh("Glass ball", ball, glass), {-1, 0.3f, 1}, 0.4f);
+    b.place("Bumpy ball", b.mesh("Bumpy ball", ball, bumpy), {1, 0.4f, 1}, 0.5f);
+    b.place("Screen", b.mesh("Screen", quad, screen), {-0.5f, 0.8f, 0.5f}, 0.6f);
+    b.place("Single leaf", b.mesh("Single leaf", quad, leaves), {0.6f, -0.2f, 2}, 0.5f);
+    const Id<Mesh> twig = b.mesh("Twig", quad, leaves);
+    b.place("Twig 1", twig, {-0.6f, -0.2f, 1.5f}, 0.7f);
+    b.place("Twig 2", twig, {-0.4f, -0.1f, 1.8f}, 0.7f);
+}
+
+void add_lights(Builder& b) {
+    const Quat down{-0.5f, 0, 0, 0.8660254f};
+    b.light("Bulb", {1.5f, 1, 2}, {}, [](Light& l) { l.radius = 0.2f, l.intensity = 5; });
+    b.light("Spot", {0, 1, 3}, {}, [](Light& l) { l.kind = Light::Kind::spot, l.intensity = 20, l.inner_cone_radians = 0.2f; });
+    b.light("Sun", {0, 0, 0}, down, [](Light& l) { l.kind = Light::Kind::sun, l.intensity = 3, l.angle_radians = 0.05f; });
+    b.light("Parallel sun", {0, 0, 0}, {}, [](Light& l) { l.kind = Light::Kind::sun, l.intensity = 0.5f; });
+    b.light("Panel", {-1, 1.5f, 2}, down, [](Light& l) { l.kind = Light::Kind::rectangle, l.intensity = 4, l.use_temperature = true; });
+}
+
+} // namespace
+
+Project rich_project() {
+    Builder b;
+    add_things(b);
+    add_lights(b);
+    b.project().scene.environment.kind = Environment::Kind::image;
+    b.project().scene.environment.image = sky();
+    b.project().render.width = 48;
+    b.project().render.height = 32;
+    return b.project();
+}
+
+} // namespace blush::test

@@ -1,0 +1,55 @@
+#include "session/watched_session.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+
+namespace blush::test {
+
+WatchedSession::WatchedSession(unsigned threads, std::function<void(RenderSession&, const Event&)> on_event) : on_event_(std::move(on_event)) {
+    SessionOptions options;
+    options.threads = threads;
+    session_ = std::make_unique<RenderSession>(options, [this] { record(); });
+    watched_ = session_.get();
+}
+
+void WatchedSession::record() {
+    // Nothing is announced before the first submission, so the session is known by now.
+    const Event event{watched_->status(), watched_->latest()};
+    {
+        const std::lock_guard lock(mutex_);
+        events_.push_back(event);
+    }
+    changed_.notify_all();
+    if (on_event_) on_event_(*watched_, event);
+}
+
+Event WatchedSession::wait_for(const EventTest& test) {
+    std::unique_lock lock(mutex_);
+    auto found = events_.end();
+    const bool came = changed_.wait_for(lock, std::chrono::minutes(4), [&] {
+        found = std::find_if(events_.begin(), events_.end(), test);
+        return found != events_.end();
+    });
+    EXPECT_TRUE(came) << "the session never came to what the test waits for";
+    return came ? *found : Event{};
+}
+
+Event WatchedSession::wait_for(uint64_t revision, SessionStatus::State state) {
+    return wait_for([=](const Event& e) { return e.status.revision == revision && e.status.state == state; });
+}
+
+std::vector<Event> WatchedSession::events() const {
+    const std::lock_guard lock(mutex_);
+    return events_;
+}
+
+std::vector<FramePtr> WatchedSession::frames() const {
+    std::vector<FramePtr> frames;
+    for (const Event& e : events())
+        if (e.frame && (frames.empty() || frames.back() != e.frame)) frames.push_back(e.frame);
+    return frames;
+}
+
+} // namespace blush::test
