@@ -124,7 +124,9 @@ bool EditorFiles::finish_import(Document& document, UiState& ui, Result<LoadedSc
 }
 
 void EditorFiles::finish_environment(Document& document, UiState& ui, Result<ImagePtr> image) {
+    const bool cancelled = environment_job_->cancelled();
     environment_job_.reset();
+    if (cancelled) return;
     if (!image) return ui.toasts.fail(image.error().text());
     Environment e = document.project().scene.environment;
     if (e.kind != Environment::Kind::image) e.intensity = 1; // what a constant surround had says nothing about an image
@@ -169,18 +171,19 @@ bool EditorFiles::poll(Document& document, UiState& ui) {
 }
 
 std::optional<RunningJob> EditorFiles::running() const {
-    const auto show = [](const auto& job) {
+    const auto show = [](const auto& job, bool can_cancel) {
         const auto [fraction, what] = job->progress().read();
-        return RunningJob{job->title(), what, fraction};
+        return RunningJob{job->title(), what, fraction, can_cancel};
     };
-    if (import_job_) return show(import_job_);
-    if (environment_job_) return show(environment_job_);
-    if (snapshot_job_) return show(snapshot_job_);
+    if (import_job_) return show(import_job_, true);
+    if (environment_job_) return show(environment_job_, true);
+    if (snapshot_job_) return show(snapshot_job_, false);
     return {};
 }
 
 void EditorFiles::cancel() {
     if (import_job_) import_job_->cancel();
+    if (environment_job_) environment_job_->cancel();
 }
 
 } // namespace blush

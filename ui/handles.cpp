@@ -50,8 +50,11 @@ bool can_aim(const Scene& scene, const Node& node) {
 
 Vec3d Handles::anchor(const Scene& scene, Id<Node> id, const Node& node) {
     const Affined world_from = world_from_node(scene, id);
-    if (id != node_) {
+    const Mesh* mesh = scene.meshes.find(node.mesh);
+    const uint64_t geometry = mesh && !mesh->parts.empty() && mesh->parts[0].geometry ? mesh->parts[0].geometry->serial : 0;
+    if (id != node_ || geometry != geometry_) {
         node_ = id;
+        geometry_ = geometry;
         local_anchor_ = {0, 0, 0};
         const Bounds bounds = node.mesh ? world_bounds(scene, id) : Bounds{};
         if (!bounds.empty && std::abs(determinant(world_from)) > 1e-300)

@@ -21,7 +21,10 @@ private:
     void drag(PanelContext& c, const Projection& projection, const ImageRect& image);
     void drag_aim(PanelContext& c, const Projection& projection, double u, double v);
 
-    Id<Node> node_; // that the cached values below belong to
+    // What the cached values below belong to: a node, and the first part of its mesh, since a reloaded scene may have another mesh
+    // under the same id.
+    Id<Node> node_;
+    uint64_t geometry_ = 0;
     Vec3d local_anchor_{0, 0, 0};
     double aim_distance_ = 1; // metres from the node to its aim handle
 

@@ -75,15 +75,15 @@ void Navigation::release(NavigationResult& result) {
     mode_ = Mode::none;
 }
 
-NavigationResult Navigation::update(const View& view, const ImageRect& image) {
+NavigationResult Navigation::update(const View& view, const ImageRect& image, bool hovered, bool free) {
     NavigationResult result;
-    if (mode_ == Mode::none && ImGui::IsItemHovered()) press();
+    if (mode_ == Mode::none && hovered && free) press();
     if (mode_ != Mode::none) {
         drag(result, view, image);
         if (!ImGui::IsMouseDown(button_)) release(result);
     }
     const float wheel = ImGui::GetIO().MouseWheel;
-    if (wheel != 0 && ImGui::IsItemHovered()) result.view = dolly(result.view.value_or(view), std::pow(closer_per_notch, wheel));
+    if (wheel != 0 && hovered) result.view = dolly(result.view.value_or(view), std::pow(closer_per_notch, wheel));
     return result;
 }
 

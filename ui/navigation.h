@@ -17,9 +17,10 @@ struct NavigationResult {
 
 class Navigation {
 public:
-    // To be called right after the picture's ImGui item. `image` is where the picture lies.
-    NavigationResult update(const View& view, const ImageRect& image);
-    bool dragging() const { return mode_ != Mode::none && moved_; }
+    // `image` is where the picture lies, `hovered` whether the mouse is over it and `free` whether a press would be ours.
+    NavigationResult update(const View& view, const ImageRect& image, bool hovered, bool free);
+    // Between press and release.
+    bool busy() const { return mode_ != Mode::none; }
 
 private:
     enum class Mode { none, orbit, pan, dolly, look };

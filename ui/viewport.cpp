@@ -141,10 +141,10 @@ ImageRect Viewport::draw(PanelContext& c) {
         ImDrawList& draw = *ImGui::GetWindowDrawList();
         draw.PushClipRect({image.x, image.y}, {image.x + image.width, image.y + image.height}, true);
         draw_light_glyphs(draw, c.scene(), projection, image, c.ui.selected);
-        on_handle = handles_.update(c, draw, projection, image, hovered && !navigation_.dragging());
+        on_handle = handles_.update(c, draw, projection, image, hovered && !navigation_.busy());
         draw.PopClipRect();
     }
-    if (!on_handle || navigation_.dragging()) obey(c, navigation_.update(c.scene().view, image), projection, image);
+    obey(c, navigation_.update(c.scene().view, image, hovered, !on_handle), projection, image);
     return image;
 }
 

@@ -86,6 +86,19 @@ void draw_pose(PanelContext& c) {
 
 } // namespace
 
+void draw_camera_node_panel(PanelContext& c, Id<Node> id) {
+    const Node* node = c.scene().nodes.find(id);
+    const Camera* record = node ? c.scene().cameras.find(node->camera) : nullptr;
+    if (!record || !section(c.ui, "Camera")) return;
+    const Id<Camera> camera_id = node->camera;
+    Camera camera = *record;
+    Fields f(c.ui, "Scene camera");
+    draw_projection(f, camera.lens);
+    draw_focus(f, camera.lens);
+    if (f.changed()) c.apply(SetCamera{camera_id, camera}, f.gesture());
+    if (f.button("Look through", "Put the view where this camera is, with its lens.")) c.apply(LookThrough{id});
+}
+
 void draw_camera_panel(PanelContext& c) {
     Lens lens = c.scene().view.lens;
     {

@@ -18,8 +18,9 @@ void draw_status_bar(PanelContext& c);
 void draw_object_panel(PanelContext& c, Id<Node> node);
 void draw_transform_panel(PanelContext& c, Id<Node> node);
 void draw_light_panel(PanelContext& c, Id<Node> node);
-void draw_material_panel(PanelContext& c, Id<Node> node); // of the selected material, or of the node's mesh
-void draw_camera_panel(PanelContext& c);
+void draw_material_panel(PanelContext& c, Id<Node> node);    // of the selected material, or of the node's mesh
+void draw_camera_panel(PanelContext& c);                     // of the view
+void draw_camera_node_panel(PanelContext& c, Id<Node> node); // of one of the scene's cameras
 void draw_environment_panel(PanelContext& c);
 void draw_render_panel(PanelContext& c);
 void draw_display_panel(PanelContext& c);
@@ -35,6 +36,7 @@ void draw_toasts(PanelContext& c);
 struct RunningJob {
     std::string title, what;
     double fraction = 0;
+    bool can_cancel = false;
 };
 // True if the user presses Cancel.
 bool draw_progress(const RunningJob& job);

@@ -76,9 +76,12 @@ bool draw_progress(const RunningJob& job) {
     begin_card("##job", screen.x / 2 + em * 12, screen.y - em * 3, IM_COL32(90, 90, 90, 255));
     ImGui::TextUnformatted(job.title.c_str());
     ImGui::ProgressBar(float(job.fraction), {em * 18, em / 2}, "");
-    ImGui::SameLine();
-    const bool cancelled = ImGui::SmallButton("Cancel");
-    ImGui::TextDisabled("%s", job.what.c_str());
+    bool cancelled = false;
+    if (job.can_cancel) {
+        ImGui::SameLine();
+        cancelled = ImGui::SmallButton("Cancel");
+    }
+    if (!job.what.empty()) ImGui::TextDisabled("%s", job.what.c_str());
     end_card();
     return cancelled;
 }
