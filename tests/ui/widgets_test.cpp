@@ -1,45 +1,28 @@
 // Value editors driven by a simulated mouse and keyboard, without a window: ImGui needs neither.
+#include "imgui_test.h"
 #include "ui/widgets.h"
-
-#include <gtest/gtest.h>
-#include <imgui.h>
 
 namespace blush {
 namespace {
 
-class Widgets : public testing::Test {
+class Widgets : public test::ImGuiTest {
 protected:
     void SetUp() override {
-        ImGui::CreateContext();
-        ImGuiIO& io = ImGui::GetIO();
-        io.IniFilename = nullptr;
-        io.DisplaySize = {640, 480};
-        io.DeltaTime = 1.f / 60;
-        unsigned char* pixels = nullptr;
-        int width = 0, height = 0;
-        io.Fonts->GetTexDataAsRGBA32(&pixels, &width, &height);
-        ui.probe = Probe("unused.json");
+        ImGuiTest::SetUp();
         frame(); // ImGui lays a window out in its first frame
         frame();
     }
-    void TearDown() override { ImGui::DestroyContext(); }
 
     // One frame of a panel that edits the exposure, as panels do.
     void frame() {
-        ImGui::NewFrame();
-        ImGui::SetNextWindowPos({0, 0});
-        ImGui::SetNextWindowSize({400, 200});
-        ImGui::Begin("panel", nullptr, ImGuiWindowFlags_NoDecoration);
-        ViewSettings v = document.project().view;
-        {
+        in_window([&] {
+            ViewSettings v = document.project().view;
             Fields f(ui, "Panel");
             f.number("Exposure", v.exposure_ev, style);
             low = ImGui::GetItemRectMin();
             high = ImGui::GetItemRectMax();
             if (f.changed()) { EXPECT_TRUE(document.apply(SetView{v}, f.gesture())); }
-        }
-        ImGui::End();
-        ImGui::EndFrame();
+        });
     }
     void move(float x) {
         ImGui::GetIO().MousePos = {x, (low.y + high.y) / 2};

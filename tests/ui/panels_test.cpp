@@ -1,0 +1,133 @@
+// Every panel, for everything there is to select: drawing alone edits nothing, whatever the values are.
+#include "imgui_test.h"
+#include "support/sample_project.h"
+#include "ui/panels/panels.h"
+
+#include <cmath>
+#include <limits>
+
+namespace blush {
+namespace {
+
+class Panels : public test::ImGuiTest {
+protected:
+    void SetUp() override {
+        ImGuiTest::SetUp();
+        auto loaded = ColorManagement::load(BLUSH_ASSETS);
+        ASSERT_TRUE(loaded) << loaded.error().text();
+        color.emplace(*std::move(loaded));
+    }
+
+    // A few frames of everything, with this selected.
+    void draw_all(Document& document, Id<Node> selected) {
+        ui.selected = selected;
+        ui.show_shortcuts = ui.show_history = true;
+        for (int tab = 0; tab <= int(InspectorTab::display); ++tab) {
+            ui.tab = InspectorTab(tab);
+            for (int i = 0; i < 3; ++i) {
+                in_window([&] {
+                    PanelContext c{document, ui, *color, frame, {}, 640, 480};
+                    draw_outliner(c);
+                    draw_status_bar(c);
+                    draw_inspector(c);
+                    draw_history(c);
+                    draw_shortcut_sheet(c);
+                    draw_toasts(c);
+                });
+            }
+        }
+    }
+
+    std::optional<ColorManagement> color;
+    UiState ui;
+    FramePtr frame;
+};
+
+// One of everything, twice: as it comes, and with values at the ends of what the panels' sliders reach and beyond.
+Project with_odd_values(Project project) {
+    Scene& scene = project.scene;
+    for (const auto& [id, record] : Table<Light>(scene.lights)) {
+        Light light = record;
+        light.use_temperature = true;
+        light.kelvin = 40000;
+        light.intensity = 1e-20f;
+        light.outer_cone_radians = 1.5707963f;
+        scene.lights.set(id, light);
+    }
+    for (const auto& [id, record] : Table<Material>(scene.materials)) {
+        Material material = record;
+        material.ior = 7;
+        material.emissive_strength = 1e13f;
+        material.thickness = 3;
+        material.alpha = Material::Alpha::mask;
+        scene.materials.set(id, material);
+    }
+    for (const auto& [id, record] : Table<Node>(scene.nodes)) {
+        Node node = record;
+        node.local.translation = {1.00000012f, -3e-9f, 123456.789f};
+        node.local.scale = {-1, 1, 0};
+        scene.nodes.set(id, node);
+    }
+    scene.environment.rotation_degrees = 725;
+    scene.view.lens.yfov_radians = 3.1f;
+    project.render.max_bounces = 0;
+    project.render.roulette.rule = Roulette::Rule::biased_cut;
+    project.view.exposure_ev = 25;
+    return project;
+}
+
+TEST_F(Panels, DrawingEditsNothing) {
+    const test::Sample sample = test::sample_project();
+    for (const Project& project : {sample.project, with_odd_values(sample.project)}) {
+        Document document(project);
+        for (const auto& entry : project.scene.nodes) draw_all(document, entry.id);
+        draw_all(document, {});
+        draw_all(document, {999}); // deleted since
+        EXPECT_TRUE(document.project() == project);
+        EXPECT_FALSE(document.can_undo());
+        EXPECT_TRUE(ui.commands.empty());
+        EXPECT_TRUE(ui.files.empty());
+    }
+}
+
+TEST_F(Panels, EveryEnvironmentKindAndLightKind) {
+    const test::Sample sample = test::sample_project();
+    for (const auto kind : {Light::Kind::point, Light::Kind::spot, Light::Kind::sun, Light::Kind::rectangle}) {
+        Project project = sample.project;
+        Light light = *project.scene.lights.find(sample.lamp);
+        light.kind = kind;
+        project.scene.lights.set(sample.lamp, light);
+        Document document(project);
+        draw_all(document, sample.lamp_node);
+        EXPECT_FALSE(document.can_undo());
+    }
+    for (const auto kind : {Environment::Kind::none, Environment::Kind::constant, Environment::Kind::image}) {
+        Project project = sample.project;
+        project.scene.environment.kind = kind;
+        Document document(project);
+        draw_all(document, {});
+        EXPECT_FALSE(document.can_undo());
+    }
+}
+
+TEST_F(Panels, AnEmptySceneAndAFrameWithoutPlanes) {
+    Document document;
+    auto bare = std::make_shared<Frame>();
+    bare->width = bare->height = 1;
+    bare->rgba = {1, std::numeric_limits<float>::infinity(), std::nanf(""), 1};
+    bare->health.nan = 3;
+    frame = bare;
+    draw_all(document, {});
+    ui.pixel = PixelProbe{0.5, 0.5};
+    for (int i = 0; i < 3; ++i) {
+        in_window([&] {
+            PanelContext c{document, ui, *color, frame, {}, 1, 1};
+            draw_pixel_panel(c);
+        });
+    }
+    EXPECT_TRUE(ui.pixel) << "stays open";
+    EXPECT_FALSE(document.can_undo());
+}
+
+} // namespace
+} // namespace blush
