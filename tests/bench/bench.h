@@ -1,0 +1,43 @@
+// What the cases have in common. A case measures one thing on several scenes and returns its figures as JSON.
+#pragma once
+
+#include "tests/bench/bench_scene.h"
+
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+#include <functional>
+#include <vector>
+
+namespace blush::bench {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+    std::vector<BenchScene> scenes;
+    unsigned threads = 2; // the largest number of them measured
+    int rounds = 9;       // of each interleaved comparison; medians are reported
+    int edits = 40;       // of each kind
+};
+
+Json run_rate(const Options& options);
+Json run_kernels(const Options& options);
+Json run_latency(const Options& options);
+Json run_setup(const Options& options);
+
+using Clock = std::chrono::steady_clock;
+inline double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+
+// What work took. Seconds of all cores together tell what it costs whatever else the machine is doing.
+struct Cost {
+    double wall_seconds = 0, core_seconds = 0;
+};
+Cost cost_of(const std::function<void()>& work);
+
+// The smallest value that at least the share `p` of all values does not exceed (nearest rank); `values` must not be empty.
+double quantile(std::vector<double> values, double p);
+double median(std::vector<double> values);
+// Three significant digits: what a shared machine can promise.
+double rounded(double value);
+
+} // namespace blush::bench

@@ -1,0 +1,93 @@
+#include "tests/bench/edits.h"
+
+#include <algorithm>
+
+namespace blush::bench {
+namespace {
+
+// 1 plus a little more with every step.
+float grown(int step) { return 1 + 0.01f * float(step); }
+
+bool emits(const Material& m) { return std::max({m.emissive.x, m.emissive.y, m.emissive.z}) * m.emissive_strength > 0; }
+
+template <class T, class Predicate> Id<T> find_if(const Table<T>& table, const Predicate& predicate) {
+    for (const auto& [id, value] : table)
+        if (predicate(value)) return id;
+    return {};
+}
+
+Id<Light> a_light(const Scene& scene) {
+    for (const auto& [id, node] : scene.nodes)
+        if (const Light* light = scene.lights.find(node.light); light && light->enabled && is_visible(scene, id)) return node.light;
+    return {};
+}
+
+// A visible mesh that does not emit.
+Id<Node> an_object(const Scene& scene) {
+    for (const auto& [id, node] : scene.nodes) {
+        const Mesh* mesh = scene.meshes.find(node.mesh);
+        if (!mesh || !is_visible(scene, id)) continue;
+        const bool emitting = std::any_of(mesh->parts.begin(), mesh->parts.end(), [&](const MeshPart& part) {
+            const Material* material = scene.materials.find(part.material);
+            return material && emits(*material);
+        });
+        if (!emitting) return id;
+    }
+    return {};
+}
+
+std::function<void(Scene&, int)> light_edit(const Scene& scene) {
+    if (const Id<Light> id = a_light(scene))
+        return [id, light = *scene.lights.find(id)](Scene& s, int step) {
+            Light changed = light;
+            changed.intensity *= grown(step);
+            s.lights.set(id, changed);
+        };
+    if (const Id<Material> id = find_if(scene.materials, emits))
+        return [id, material = *scene.materials.find(id)](Scene& s, int step) {
+            Material changed = material;
+            changed.emissive_strength *= grown(step);
+            s.materials.set(id, changed);
+        };
+    if (scene.environment.kind != Environment::Kind::none)
+        return [intensity = scene.environment.intensity](Scene& s, int step) { s.environment.intensity = intensity * grown(step); };
+    return {};
+}
+
+std::function<void(Scene&, int)> material_edit(const Scene& scene) {
+    const Id<Material> id = find_if(scene.materials, [](const Material& m) { return !emits(m); });
+    if (!id) return {};
+    return [id, material = *scene.materials.find(id)](Scene& s, int step) {
+        Material changed = material;
+        for (float* component : {&changed.base_color.x, &changed.base_color.y, &changed.base_color.z}) *component /= grown(step);
+        s.materials.set(id, changed);
+    };
+}
+
+std::function<void(Scene&, int)> camera_edit(const Scene& scene) {
+    return [view = scene.view](Scene& s, int step) { s.view.position.x = view.position.x + 0.001f * view.pivot_distance * float(step); };
+}
+
+std::function<void(Scene&, int)> object_edit(const Scene& scene) {
+    const Id<Node> id = an_object(scene);
+    if (!id) return {};
+    return [id, node = *scene.nodes.find(id)](Scene& s, int step) {
+        Node moved = node;
+        const Affined was = to_affine(node.local);
+        Affined now = was;
+        now.t.x += 0.001 * double(step) * std::max(1e-3, world_bounds(s, id).radius());
+        moved.local = to_transform(now);
+        s.nodes.set(id, moved);
+    };
+}
+
+} // namespace
+
+std::vector<EditKind> edits_of(const Scene& scene) {
+    std::vector<EditKind> kinds{
+        {"light", light_edit(scene)}, {"material", material_edit(scene)}, {"camera", camera_edit(scene)}, {"object", object_edit(scene)}};
+    std::erase_if(kinds, [](const EditKind& kind) { return !kind.apply; });
+    return kinds;
+}
+
+} // namespace blush::bench

@@ -1,0 +1,62 @@
+// From an edit to the first image that shows it, through the same session as the window's, while it is busy refining the scene before.
+#include "tests/bench/bench.h"
+#include "tests/bench/edits.h"
+#include "tests/bench/latency_probe.h"
+
+#include <algorithm>
+#include <random>
+#include <thread>
+
+namespace blush::bench {
+namespace {
+
+// Lets the session refine for a while, never in step with it.
+void let_it_work(std::mt19937& random) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(std::uniform_int_distribution(20, 120)(random)));
+}
+
+Json figures_of(const std::vector<Response>& responses) {
+    std::vector<double> first, full;
+    int coarsest = 1;
+    for (const Response& r : responses) {
+        first.push_back(r.first_ms);
+        full.push_back(r.full_ms);
+        coarsest = std::max(coarsest, r.first_divider);
+    }
+    return {{"first_image_p50_ms", rounded(quantile(first, 0.5))}, {"first_image_p95_ms", rounded(quantile(first, 0.95))},
+            {"first_image_max_ms", rounded(quantile(first, 1))},   {"coarsest_divider", coarsest},
+            {"full_size_p50_ms", rounded(quantile(full, 0.5))},    {"full_size_p95_ms", rounded(quantile(full, 0.95))}};
+}
+
+Json measure(const BenchScene& scene, const Options& options) {
+    const RenderSettings settings = window_settings();
+    LatencyProbe probe(options.threads);
+    std::mt19937 random(1);
+    const std::optional<Response> opened = probe.measure(scene.scene, settings);
+    if (!opened) return {{"scene", scene.name()}, {"failed", "the session gave no image"}};
+
+    Json result{{"scene", scene.name()}, {"threads", options.threads}, {"opened", figures_of({*opened})}};
+    for (const EditKind& kind : edits_of(scene.scene)) {
+        Scene edited = scene.scene;
+        std::vector<Response> responses;
+        for (int step = 1; step <= options.edits; ++step) {
+            let_it_work(random);
+            kind.apply(edited, step);
+            const std::optional<Response> response = probe.measure(edited, settings);
+            if (!response) return {{"scene", scene.name()}, {"failed", kind.name}};
+            responses.push_back(*response);
+        }
+        result[kind.name] = figures_of(responses);
+    }
+    return result;
+}
+
+} // namespace
+
+Json run_latency(const Options& options) {
+    Json result = Json::array();
+    for (const BenchScene& scene : options.scenes) result.push_back(measure(scene, options));
+    return result;
+}
+
+} // namespace blush::bench

@@ -1,0 +1,37 @@
+#include "tests/bench/latency_probe.h"
+
+namespace blush::bench {
+
+LatencyProbe::LatencyProbe(unsigned threads) : session_({.threads = threads, .low_priority = true}, [this] { on_frame(); }) {}
+
+void LatencyProbe::on_frame() {
+    const auto now = Clock::now();
+    const FramePtr frame = session_.latest();
+    const bool failed = session_.status().state == SessionStatus::State::failed;
+    const std::lock_guard lock(mutex_);
+    failed_ = failed;
+    if (frame && frame->revision == revision_) {
+        const double ms = 1e3 * std::chrono::duration<double>(now - submitted_).count();
+        if (response_.first_divider == 0) {
+            response_.first_ms = ms;
+            response_.first_divider = frame->divider;
+        }
+        if (frame->divider == 1 && response_.full_ms == 0) response_.full_ms = ms;
+    }
+    if (failed_ || response_.full_ms > 0) seen_full_.notify_one();
+}
+
+std::optional<Response> LatencyProbe::measure(const Scene& scene, const RenderSettings& settings) {
+    std::unique_lock lock(mutex_);
+    const uint64_t revision = ++revision_;
+    response_ = {};
+    submitted_ = Clock::now();
+    lock.unlock();
+    session_.submit(revision, scene, settings);
+    lock.lock();
+    seen_full_.wait(lock, [&] { return failed_ || response_.full_ms > 0; });
+    if (failed_) return std::nullopt;
+    return response_;
+}
+
+} // namespace blush::bench

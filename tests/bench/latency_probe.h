@@ -1,0 +1,38 @@
+// A render session and a clock: how long until an edit is seen.
+#pragma once
+
+#include "render/render_session.h"
+#include "tests/bench/bench.h"
+
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+
+namespace blush::bench {
+
+struct Response {
+    double first_ms = 0;   // from submit to the first image
+    int first_divider = 0; // full size / the size of that image
+    double full_ms = 0;    // to the first one of full size
+};
+
+class LatencyProbe {
+public:
+    explicit LatencyProbe(unsigned threads);
+
+    // Submits another scene and waits for its first image of full size; nothing if the session failed.
+    std::optional<Response> measure(const Scene& scene, const RenderSettings& settings);
+
+private:
+    void on_frame(); // on the render thread
+
+    std::mutex mutex_;
+    std::condition_variable seen_full_;
+    uint64_t revision_ = 0;
+    Clock::time_point submitted_;
+    Response response_;
+    bool failed_ = false;
+    RenderSession session_; // last: its thread uses all the others
+};
+
+} // namespace blush::bench

@@ -1,0 +1,72 @@
+// blush_bench: speed in figures, as JSON. Ratios hold on any machine; absolute figures only on this one, when it is quiet.
+#include "tests/bench/bench.h"
+#include "tests/bench/machine.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <thread>
+
+namespace blush::bench {
+
+namespace {
+
+struct Case {
+    const char* name;
+    Json (*run)(const Options&);
+};
+constexpr Case cases[]{{"setup", run_setup}, {"rate", run_rate}, {"kernels", run_kernels}, {"latency", run_latency}};
+
+int fail(const Error& error) {
+    fmt::print(stderr, "blush_bench: error: {}\n", error.text());
+    return 1;
+}
+
+int run(int argc, char** argv) {
+    Options options;
+    options.threads = std::max(1u, std::thread::hardware_concurrency());
+    std::vector<std::string> names;
+    std::string peers, only;
+    bool quick = false;
+    CLI::App app{
+        "Measures speed and prints JSON: setup (import, compile, memory), rate (paths and rays per second beside raw Embree), kernels "
+        "(every feature set and instruction set), latency (from an edit to the first image)"};
+    app.add_option("cases", names, "What to measure; default: everything")->check(CLI::IsMember({"setup", "rate", "kernels", "latency"}));
+    app.add_option("--scenes", peers,
+                   "Folder with the scenes that peers are measured on: cornell.glb, cornell_spheres.glb, dense_cornell.glb");
+    app.add_option("--only", only, "Scenes whose file name contains this");
+    app.add_option("--threads", options.threads, "Largest number of threads")->check(CLI::Range(1, 1024))->capture_default_str();
+    app.add_flag("--quick", quick, "Few rounds: shows that it works, proves no figure");
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& e) { return app.exit(e) == 0 ? 0 : 2; }
+    if (quick) {
+        options.rounds = 2;
+        options.edits = 5;
+    }
+
+    for (const auto& found : {shipped_scenes(), peers.empty() ? std::vector<BenchScene>{} : peer_scenes(peers)}) {
+        if (!found) return fail(found.error());
+        for (const BenchScene& scene : *found)
+            if (scene.name().find(only) != std::string::npos) options.scenes.push_back(scene);
+    }
+
+    Json report{{"machine", describe_machine()}, {"quick", quick}};
+    for (const Case& c : cases) {
+        if (!names.empty() && std::find(names.begin(), names.end(), c.name) == names.end()) continue;
+        fmt::print(stderr, "{} ...\n", c.name);
+        report[c.name] = c.run(options);
+    }
+    fmt::print("{}\n", report.dump(2));
+    return 0;
+}
+
+} // namespace
+} // namespace blush::bench
+
+int main(int argc, char** argv) {
+    try {
+        return blush::bench::run(argc, argv);
+    } catch (const std::exception& e) { return blush::bench::fail({.what = e.what()}); }
+}

@@ -1,0 +1,115 @@
+// Rays per second of the whole renderer, beside those of Embree alone on the same rays. Rounds of the two alternate, so that whatever else
+// the machine does falls on both.
+#include "tests/bench/bench.h"
+#include "tests/bench/recorded_rays.h"
+#include "tests/bench/tiles.h"
+
+#include "render/lowering.h"
+#include "render/render_scene.h"
+#include "render/renderer.h"
+#include "render/settings_for_kernels.h"
+
+#include <set>
+
+namespace blush::bench {
+namespace {
+
+constexpr int samples_per_round = 8;
+
+// One scene compiled twice: for the renderer, and for tracing its rays alone.
+struct Contest {
+    RenderSettings settings = rate_settings();
+    Renderer renderer;
+    Workers workers;
+    RenderScene compiled;
+    RecordedRays rays;
+
+    Contest(const Scene& scene, unsigned threads) : renderer({.threads = threads, .planes = {}}), workers(threads) {
+        renderer.update(scene, settings);
+        compiled.update(lower_area_lights(scene), settings, full_plan(), workers);
+        const KernelContext context{&compiled.tables(), &compiled.accel(), settings_for_kernels(settings, settings.width, settings.height),
+                                    settings.seed};
+        rays = record_rays(context, tiles_of(settings, 7), workers);
+    }
+};
+
+struct Round {
+    double paths = 0, rays = 0;
+    Cost render;
+    std::array<double, ray_kinds.size()> replay_core_seconds{};
+    double embree_core_seconds() const { return replay_core_seconds[0] + replay_core_seconds[1] + replay_core_seconds[2]; }
+};
+
+void replay_all(const Contest& contest, Round& round) {
+    for (const RayKind kind : ray_kinds)
+        round.replay_core_seconds[size_t(kind)] +=
+            cost_of([&] { replay(contest.compiled.accel(), contest.rays, kind, contest.workers); }).core_seconds;
+}
+
+// Replays before and after the render: a machine that slows down steadily is fair to both.
+Round play_round(Contest& contest) {
+    Round round;
+    replay_all(contest, round);
+    contest.renderer.clear();
+    round.render = cost_of([&] { contest.renderer.render(0, samples_per_round); });
+    replay_all(contest, round);
+    for (double& seconds : round.replay_core_seconds) seconds /= 2;
+    round.rays = double(contest.renderer.resolve().rays.total());
+    round.paths = double(contest.settings.width) * contest.settings.height * samples_per_round;
+    return round;
+}
+
+template <class Value> Json median_of(const std::vector<Round>& rounds, const Value& value) {
+    std::vector<double> values;
+    for (const Round& round : rounds) values.push_back(value(round));
+    return rounded(median(values));
+}
+
+// Million rays per second of one core.
+Json embree_rates(const Contest& contest, const std::vector<Round>& rounds) {
+    const auto rate = [&](RayKind kind) {
+        const double count = double(count_rays(contest.rays[size_t(kind)]));
+        return median_of(rounds, [&](const Round& r) { return count / r.replay_core_seconds[size_t(kind)] / 1e6; });
+    };
+    return {{"camera", rate(RayKind::camera)}, {"bounce", rate(RayKind::bounce)}, {"shadow", rate(RayKind::shadow)}};
+}
+
+Json figures_of(const Contest& contest, const std::vector<Round>& rounds) {
+    double recorded = 0;
+    for (const auto& batches : contest.rays) recorded += double(count_rays(batches));
+    const auto rendered = [](const Round& r) { return r.rays / r.render.core_seconds; };
+    const auto embree = [&](const Round& r) { return recorded / r.embree_core_seconds(); };
+    std::vector<double> ratios;
+    for (const Round& r : rounds) ratios.push_back(rendered(r) / embree(r));
+    return {{"million_paths_per_second", median_of(rounds, [](const Round& r) { return r.paths / r.render.wall_seconds / 1e6; })},
+            {"million_rays_per_second", median_of(rounds, [](const Round& r) { return r.rays / r.render.wall_seconds / 1e6; })},
+            {"rays_per_path", median_of(rounds, [](const Round& r) { return r.rays / r.paths; })},
+            {"million_rays_per_core_second", median_of(rounds, [&](const Round& r) { return rendered(r) / 1e6; })},
+            {"embree_million_rays_per_core_second", median_of(rounds, [&](const Round& r) { return embree(r) / 1e6; })},
+            {"embree_by_kind", embree_rates(contest, rounds)},
+            {"ratio_to_embree", rounded(median(ratios))},
+            {"ratio_quartiles", {rounded(quantile(ratios, 0.25)), rounded(quantile(ratios, 0.75))}}};
+}
+
+bool is_measured(const BenchScene& scene) { return !scene.ours || scene.name() == "cornell.gltf"; }
+
+} // namespace
+
+Json run_rate(const Options& options) {
+    Json result = Json::array();
+    for (const BenchScene& scene : options.scenes) {
+        if (!is_measured(scene)) continue;
+        for (const unsigned threads : std::set{1u, options.threads}) {
+            Contest contest(scene.scene, threads);
+            play_round(contest); // pages, caches and clocks warm up
+            std::vector<Round> rounds;
+            for (int i = 0; i < options.rounds; ++i) rounds.push_back(play_round(contest));
+            Json figures{{"scene", scene.name()}, {"threads", threads}, {"kernel", contest.renderer.info().kernel}};
+            figures.update(figures_of(contest, rounds));
+            result.push_back(figures);
+        }
+    }
+    return result;
+}
+
+} // namespace blush::bench
