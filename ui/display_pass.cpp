@@ -54,16 +54,18 @@ void DisplayPass::upload(const Frame& frame) {
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, image_.name());
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-    if (frame.width != width_ || frame.height != height_) {
-        rows_per_millisecond_ *= double(std::max(width_, 1)) / frame.width; // rows of another length
-        width_ = frame.width;
-        height_ = next_row_ = frame.height;
-        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, width_, height_, 0, GL_RGBA, GL_FLOAT, frame.rgba.data());
+    // Every edit brings small frames and then full ones again: the texture keeps the largest size, so that none is allocated anew.
+    if (frame.width > image_width_ || frame.height > image_height_) {
+        image_width_ = std::max(image_width_, frame.width);
+        image_height_ = std::max(image_height_, frame.height);
+        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, image_width_, image_height_, 0, GL_RGBA, GL_FLOAT, nullptr);
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    } else {
-        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, GL_RGBA, GL_FLOAT, frame.rgba.data());
     }
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, frame.width, frame.height, GL_RGBA, GL_FLOAT, frame.rgba.data());
+    rows_per_millisecond_ *= double(std::max(width_, 1)) / frame.width; // rows of another length
+    width_ = frame.width;
+    height_ = next_row_ = frame.height;
 }
 
 void DisplayPass::begin(float exposure_ev, float gamma) {

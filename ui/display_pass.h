@@ -34,6 +34,7 @@ private:
     std::vector<std::pair<GLenum, GlTexture>> tables_; // in texture units 1, 2, ...
     RenderTarget targets_[2];                          // one is shown while the other is drawn
     int front_ = 0;
+    int image_width_ = 0, image_height_ = 0; // of the texture; the frame fills its lower left corner
     int width_ = 0, height_ = 0;
     int next_row_ = 0;
     double rows_per_millisecond_ = 16; // measured; a careful guess at first

@@ -8,7 +8,7 @@
 namespace blush {
 namespace {
 
-constexpr double display_budget = 8; // milliseconds of one frame of the window
+constexpr double display_budget = 6; // milliseconds of one frame of the window
 
 ImTextureID texture_id(GLuint name) { return reinterpret_cast<ImTextureID>(uintptr_t(name)); }
 
@@ -71,6 +71,7 @@ void Viewport::take_frame(PanelContext& c) {
         shown_gamma_ = v.gamma;
         shader_changed_ = false;
     }
+    drew_display_ = display_.busy();
     display_.advance(display_budget);
     if (display_.busy()) {
         c.ui.next_frame_in = 0;
@@ -85,7 +86,9 @@ void Viewport::take_frame(PanelContext& c) {
 // Draws into the outlined picture only when something in it differs.
 GLuint Viewport::outlined_picture(const PanelContext& c, const ImageRect& image) {
     const Outlined wanted{shown_frame_, pictures_, c.ui.selected, int(image.width), int(image.height)};
-    if (outlined_ != wanted) {
+    // Not in the same frame of the window as the display pass: that has used up its time.
+    const bool later = drew_display_ && outlined_.frame && outlined_.selected == wanted.selected && !outline_.empty();
+    if (outlined_ != wanted && !later) {
         if (outlined_.frame != wanted.frame || outlined_.selected != wanted.selected)
             outline_.upload(*shown_frame_, with_descendants(c.scene(), c.ui.selected));
         if (!outline_.empty()) outline_.draw(display_.texture(), wanted.width, wanted.height, std::max(1.5f, ImGui::GetFontSize() / 8));

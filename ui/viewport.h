@@ -35,7 +35,8 @@ private:
     FramePtr uploaded_frame_, shown_frame_;
     float shown_exposure_ = 0, shown_gamma_ = 0;
     bool shader_changed_ = false, begun_ = false;
-    uint64_t pictures_ = 0; // finished by the display pass
+    bool drew_display_ = false; // in this frame of the window
+    uint64_t pictures_ = 0;     // finished by the display pass
     struct Outlined {
         FramePtr frame;
         uint64_t picture = 0;
