@@ -57,6 +57,11 @@ template <class F> void append(ShadowQueue& q, const Step<F>& s, const Int<F>& s
     q.size += count(lanes);
 }
 
+// The random number of a ray for stochastic opacity; salt tells the rays of one path apart: 2 * bounce, and 2 * bounce + 1 of its shadow ray.
+template <class F> UInt<F> opacity_random(const UInt<F>& key, const UInt<F>& index, uint32_t salt) {
+    return key ^ pcg_hash(UInt<F>(index + salt * 0x9e3779b9u));
+}
+
 template <class F> Hit<F> load_hit(const HitColumns& h, int k) {
     return {load<F>(h.t + k),           load<F>(h.u + k),          load<F>(h.v + k), load<Int<F>>(h.geometry + k), load<Int<F>>(h.instance + k),
             load<Int<F>>(h.triangle + k)};
@@ -105,17 +110,11 @@ template <Features S, class F> [[gnu::flatten]] void generate_paths(const Kernel
     std::fill_n(scratch.b.data, n, 0.f);
 }
 
-// A random number per ray for stochastic opacity.
-template <class F> void fill_random(uint32_t* random, const uint32_t* key, const uint32_t* index, int n, uint32_t salt) {
-    for (int k = 0; k < n; k += width<F>) {
-        const UInt<F> mixed = pcg_hash(UInt<F>(load<UInt<F>>(index + k) + salt * 0x9e3779b9u));
-        store(random + k, UInt<F>(load<UInt<F>>(key + k) ^ mixed));
-    }
-}
-
 template <class F> void trace_paths(const KernelContext& context, TileScratch& scratch, const PathQueue& q, int bounce) {
     const bool alpha = context.accel->has_alpha();
-    if (alpha) fill_random<F>(scratch.random, q.key, q.index, q.size, uint32_t(2 * bounce));
+    if (alpha)
+        for (int k = 0; k < q.size; k += width<F>)
+            store(scratch.random + k, opacity_random<F>(load<UInt<F>>(q.key + k), load<UInt<F>>(q.index + k), uint32_t(2 * bounce)));
     const RayArrays rays{q.ox, q.oy, q.oz, q.dx, q.dy, q.dz, nullptr, alpha ? scratch.random.data : nullptr};
     HitColumns& h = scratch.hits;
     context.accel->intersect(rays, q.size, bounce == 0, {h.t, h.u, h.v, h.geometry, h.instance, h.triangle});
@@ -125,6 +124,7 @@ template <Features S, class F>
 [[gnu::flatten]] void shade_paths(const KernelContext& context, TileScratch& scratch, const PathQueue& now, PathQueue& next, int bounce) {
     next.size = 0;
     scratch.shadows.size = 0;
+    const bool alpha = context.accel->has_alpha();
     for (int k = 0; k < now.size; k += width<F>) {
         const Path<F> path = load_path<F>(now, k);
         const Mask<F> active = as_mask(iota<F>() + k < now.size);
@@ -137,7 +137,12 @@ template <Features S, class F>
                 scratch.g[slot] += lane(step.emitted.y, i);
                 scratch.b[slot] += lane(step.emitted.z, i);
             });
-        if (any(step.connects)) append<F>(scratch.shadows, step, path.slot, step.connects);
+        if (any(step.connects)) {
+            if (alpha)
+                compress(scratch.shadows.random + scratch.shadows.size, opacity_random<F>(path.key, path.index, uint32_t(2 * bounce + 1)),
+                         bits(step.connects));
+            append<F>(scratch.shadows, step, path.slot, step.connects);
+        }
         if (any(step.continues)) append<F>(next, step.next, step.continues);
     }
 }
@@ -146,12 +151,7 @@ template <Features S, class F>
 template <class F> void connect_paths(const KernelContext& context, TileScratch& scratch, int bounce) {
     const ShadowQueue& q = scratch.shadows;
     const bool alpha = context.accel->has_alpha();
-    if (alpha) {
-        // Slots, together with the ray's own direction bits, tell shadow rays of one bounce apart.
-        for (int k = 0; k < q.size; ++k)
-            scratch.random[k] = pcg_hash(uint32_t(float_bits(q.dx[k])) ^ pcg_hash(uint32_t(float_bits(q.dy[k])) + uint32_t(2 * bounce + 1)));
-    }
-    const RayArrays rays{q.ox, q.oy, q.oz, q.dx, q.dy, q.dz, q.distance, alpha ? scratch.random.data : nullptr};
+    const RayArrays rays{q.ox, q.oy, q.oz, q.dx, q.dy, q.dz, q.distance, alpha ? q.random.data : nullptr};
     context.accel->occluded(rays, q.size, bounce == 0, scratch.blocked);
     for (int k = 0; k < q.size; ++k) {
         if (scratch.blocked[k]) continue;

@@ -47,6 +47,7 @@ struct ShadowQueue {
     int size = 0;
     Column<float> ox, oy, oz, dx, dy, dz, distance, r, g, b;
     Column<int32_t> slot;
+    Column<uint32_t> random; // for stochastic opacity; written only if something is not opaque
 };
 struct FirstHitColumns {
     Column<float> albedo_r, albedo_g, albedo_b, normal_x, normal_y, normal_z, depth;
