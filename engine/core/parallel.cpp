@@ -8,6 +8,9 @@
 #include <tbb/task_scheduler_observer.h>
 #include <thread>
 
+#ifdef BLUSH_TSAN
+#include <sanitizer/tsan_interface.h>
+#endif
 #ifdef __linux__
 #include <sys/resource.h>
 #include <sys/syscall.h>
@@ -39,6 +42,18 @@ private:
     bool low_priority_;
 };
 
+// What was written before give() may be read after receive(). TBB sees to it; this tells ThreadSanitizer, which cannot look into TBB.
+class HandOver {
+public:
+#ifdef BLUSH_TSAN
+    void give() const { __tsan_release(const_cast<HandOver*>(this)); }
+    void receive() const { __tsan_acquire(const_cast<HandOver*>(this)); }
+#else
+    void give() const {}
+    void receive() const {}
+#endif
+};
+
 } // namespace
 
 struct Workers::State {
@@ -57,23 +72,25 @@ Workers::~Workers() = default;
 bool Workers::for_each(int64_t count, const std::function<bool()>& wanted, const std::function<void(int64_t, unsigned)>& task) const {
     // One long-lived task per worker that takes the next item from a counter: the items are coarse, and a worker that owns
     // scratch memory needs to know that nobody else has its number.
-    // The counters also carry what the caller wrote to the workers, and back what they wrote: TBB does so too, but a race
-    // detector cannot see into it.
-    std::atomic<int64_t> next, done{0};
-    next.store(0, std::memory_order_release);
+    std::atomic<int64_t> next{0}, done{0};
+    const HandOver to_workers, from_workers;
+    to_workers.give();
     state_->arena.execute([&] {
         tbb::parallel_for(
             0u, threads_,
             [&](unsigned worker) {
-                for (int64_t i; (i = next.fetch_add(1, std::memory_order_acquire)) < count;) {
-                    if (wanted && !wanted()) return;
+                to_workers.receive();
+                for (int64_t i; (i = next.fetch_add(1, std::memory_order_relaxed)) < count;) {
+                    if (wanted && !wanted()) break;
                     task(i, worker);
-                    done.fetch_add(1, std::memory_order_release);
+                    done.fetch_add(1, std::memory_order_relaxed);
                 }
+                from_workers.give();
             },
             tbb::simple_partitioner());
     });
-    return done.load(std::memory_order_acquire) == count;
+    from_workers.receive();
+    return done == count;
 }
 
 void Workers::run(const std::function<void()>& task) const { state_->arena.execute(task); }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <mutex>
 #include <set>
 #include <thread>
 #include <vector>
@@ -58,11 +59,16 @@ TEST(FramePool, ManyHeldAndReleasedAreNotAllKept) {
 // For the race detector: one writes frames, another reads them and lets go last.
 TEST(FramePool, WhoLooksLastIsDoneBeforeItIsWrittenAgain) {
     FramePool pool;
-    std::atomic<std::shared_ptr<const Frame>> shown;
+    std::mutex mutex; // of `shown`, as in the session
+    FramePtr shown;
     std::atomic<bool> done{false};
     std::thread reader([&] {
         while (!done) {
-            const FramePtr frame = shown.load();
+            FramePtr frame;
+            {
+                const std::lock_guard lock(mutex);
+                frame = shown;
+            }
             if (!frame) continue;
             ASSERT_EQ(frame->rgba.size(), 64u);
             for (const float v : frame->rgba) ASSERT_EQ(v, frame->rgba[0]);
@@ -71,7 +77,8 @@ TEST(FramePool, WhoLooksLastIsDoneBeforeItIsWrittenAgain) {
     for (int i = 0; i < 2000; ++i) {
         std::shared_ptr<Frame> frame = pool.take();
         frame->rgba.assign(64, float(i));
-        shown.store(std::move(frame));
+        const std::lock_guard lock(mutex);
+        shown = std::move(frame);
     }
     done = true;
     reader.join();
