@@ -22,8 +22,8 @@ void draw_surface(Fields& f, Material& m) {
              unit_interval(1, "0 is a dielectric such as plastic, wood or stone; 1 is bare metal, which reflects in its base colour and "
                               "has no diffuse part."));
     f.number("Roughness", m.roughness,
-             unit_interval(1, "How rough the surface is below what the eye resolves. 0 is a mirror, 1 a matt sheen. The width of the "
-                              "highlight is its square."));
+             unit_interval(1, "How rough the surface is below what the eye resolves. 0 is a mirror, 1 is matt. The highlight widens "
+                              "with its square."));
     f.number("Reflectivity", m.specular,
              unit_interval(1, "Strength of the reflection of a dielectric. 0 leaves a purely diffuse surface, as chalk nearly is."));
     f.color("Reflection tint", m.specular_color, {1, 1, 1},
