@@ -112,6 +112,7 @@ template <class F> SinCos<F> sincos_turns(const F& u) {
 }
 
 // e^x: 2^k e^r with |r| <= ln2 / 2, Taylor to r^7; relative error below 2e-7. 0 below -87, e^88 above 88.
+// Call it blush::exp: an unqualified call of a register finds simd's own, the C library's per lane, which has other bits.
 template <class F> F exp(const F& x) {
     const F c = min(max(x, F(-88.f)), F(88.f));
     const F k = floor(c * 1.44269504f + 0.5f);

@@ -176,7 +176,8 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
         const Mask<F> within = found && solid && !front;
         if (any(within)) {
             const Vec<F> optical_depth = material.sigma_a * hit.t;
-            beta = select<F>(within, beta * Vec<F>{exp(-optical_depth.x), exp(-optical_depth.y), exp(-optical_depth.z)}, beta);
+            const Vec<F> passed{blush::exp(-optical_depth.x), blush::exp(-optical_depth.y), blush::exp(-optical_depth.z)};
+            beta = select<F>(within, beta * passed, beta);
         }
     }
 
