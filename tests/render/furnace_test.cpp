@@ -1,0 +1,101 @@
+// White furnaces: in a world that shines evenly, what loses nothing cannot be seen.
+#include "picture.h"
+#include "scenes.h"
+#include "shading/energy.h"
+
+#include <numbers>
+
+namespace blush::test {
+namespace {
+
+using namespace statistics;
+constexpr double pi = std::numbers::pi;
+
+// The material on a convex body that fills the picture, in a world of radiance 1.
+Scene furnace(const GeometryPtr& body, const Material& material) {
+    Scene scene;
+    place(scene, body, material);
+    constant_world(scene, 1);
+    scene.view = looking({0.4f, 1.1f, 3}, {0, 0, 0}, 0.4f);
+    return scene;
+}
+Measured ball(const Material& material, int64_t spp = 64, bool compensate = false) {
+    RenderSettings settings = settings_for(16, 16, spp);
+    settings.energy_compensation = compensate;
+    return render(furnace(sphere(false), material), settings).whole();
+}
+
+// A plane seen under one angle shows its directional albedo everywhere.
+Measured plane(const Material& material, double degrees) {
+    Scene scene;
+    place(scene, floor_quad(100), material);
+    constant_world(scene, 1);
+    const double a = degrees * pi / 180;
+    scene.view = looking({float(5 * std::sin(a)), float(5 * std::cos(a)), 0}, {0, 0, 0}, 0.5f);
+    scene.view.lens.orthographic = true;
+    scene.view.lens.ymag = 0.5f;
+    return render(scene, settings_for(16, 16, 64)).whole();
+}
+
+TEST(Furnace, WhiteBodiesThatLoseNothingAreInvisible) {
+    struct Case {
+        const char* name;
+        Material material;
+    };
+    Material thin = glass(0, 1.5f);
+    thin.thickness = 0;
+    const std::vector<Case> cases = {{"lambert", lambert(1)},         {"smooth metal", metal(0)},         {"smooth glass", glass(0, 1.5f)},
+                                     {"diamond", glass(0, 2.42f)},    {"glass of ior 1", glass(0.5f, 1)}, {"thin smooth glass", thin},
+                                     {"gel of white", gel({1, 1, 1})}};
+    for (const Case& c : cases) EXPECT_TRUE(is_mean(ball(c.material), 1, sidak(significance, int64_t(cases.size())))) << c.name;
+}
+
+// The share of the light that a facet throws onto other facets is what single scattering loses.
+TEST(Furnace, RoughBodiesLoseAndNeverGain) {
+    Material thin = glass(0.6f, 1.5f);
+    thin.thickness = 0;
+    for (const Material& m : {metal(0.2f), metal(0.6f), metal(1), glass(0.3f, 1.5f), glass(0.8f, 1.5f), thin}) {
+        const Measured seen = ball(m);
+        EXPECT_LT(seen.mean.x, 1 + 3 * seen.error.x) << "roughness " << m.roughness << ", transmission " << m.transmission;
+    }
+    const Measured roughest = ball(metal(1));
+    EXPECT_LT(roughest.mean.x + 10 * roughest.error.x, 1) << "nothing to compensate";
+}
+
+TEST(Furnace, CompensatedMetalLosesNothing) {
+    constexpr int count = 5;
+    for (const float roughness : {0.f, 0.2f, 0.5f, 0.8f, 1.f})
+        EXPECT_TRUE(is_mean(ball(metal(roughness), 64, true), 1, sidak(significance, count), 2 * EnergyTable::relative_error))
+            << "roughness " << roughness;
+}
+
+// glTF 2.0 Appendix B for a white dielectric of ior 1.5, in double precision, over all directions of light.
+double plastic_albedo(double alpha, double cos_view) {
+    constexpr int rows = 400, columns = 400;
+    const Vec3d wo{std::sqrt(1 - cos_view * cos_view), 0, cos_view};
+    const auto visibility = [&](double cos) { return 1 / (cos + std::sqrt(alpha * alpha + (1 - alpha * alpha) * cos * cos)); };
+    double sum = 0;
+    for (int i = 0; i < rows; ++i)
+        for (int j = 0; j < columns; ++j) {
+            const double z = (i + 0.5) / rows, phi = pi * (j + 0.5) / columns, s = std::sqrt(1 - z * z);
+            const Vec3d wi{s * std::cos(phi), s * std::sin(phi), z}, h = normalize(wo + wi);
+            const double fresnel = 0.04 + 0.96 * std::pow(1 - dot(wo, h), 5);
+            const double k = h.z * h.z * (alpha * alpha - 1) + 1;
+            const double facets = alpha * alpha / (pi * k * k) * visibility(cos_view) * visibility(z);
+            sum += ((1 - fresnel) / pi + fresnel * facets) * z;
+        }
+    return sum * 2 * pi / (rows * columns);
+}
+
+TEST(Furnace, PlasticReflectsTheIntegralOfItsFormula) {
+    constexpr int count = 9;
+    for (const float roughness : {0.4f, 0.7f, 1.f})
+        for (const double degrees : {0.0, 40.0, 70.0}) {
+            const double expected = plastic_albedo(double(roughness) * roughness, std::cos(degrees * pi / 180));
+            EXPECT_TRUE(is_mean(plane(plastic(roughness), degrees), expected, sidak(significance, count)))
+                << "roughness " << roughness << " at " << degrees << " degrees";
+        }
+}
+
+} // namespace
+} // namespace blush::test

@@ -1,0 +1,77 @@
+// All ways to compute one picture agree in the mean, block by block, on the shipped scenes; a way that is wrong does not.
+#include "picture.h"
+#include "scenes.h"
+
+namespace blush::test {
+namespace {
+
+using namespace statistics;
+
+std::vector<Measured> blocks_of(const Scene& scene, RenderSettings settings, uint32_t seed) {
+    settings.seed = seed;
+    return render(scene, settings).blocks(settings.width / 2, settings.height / 2);
+}
+
+std::vector<Measured> with_strategy(const Scene& scene, Strategy strategy, int width, int height, int64_t spp) {
+    RenderSettings settings = settings_for(width, height, spp);
+    settings.strategy = strategy;
+    return blocks_of(scene, settings, 1 + uint32_t(strategy));
+}
+
+TEST(Strategies, AgreeOnCornell) {
+    const Scene scene = shipped_scene("cornell");
+    const auto mis = with_strategy(scene, Strategy::mis, 32, 32, 64);
+    EXPECT_TRUE(same_means(mis, with_strategy(scene, Strategy::light, 32, 32, 64), sidak(significance, 2))) << "light";
+    EXPECT_TRUE(same_means(mis, with_strategy(scene, Strategy::bsdf, 32, 32, 512), sidak(significance, 2))) << "bsdf";
+}
+
+// Where a strategy finds light by rare chance alone, no affordable number of samples knows its variance. So the sharpest reflections
+// are dulled, and the upper left quarter is left out, where the two smallest lights are smaller than a pixel.
+TEST(Strategies, AgreeOnVeachMis) {
+    Scene scene = shipped_scene("veach-mis");
+    for (const auto& [id, material] : Table<Material>(scene.materials)) {
+        Material rougher = material;
+        rougher.roughness = std::max(material.roughness, 0.2f);
+        scene.materials.set(id, rougher);
+    }
+    const auto three_quarters = [&](Strategy strategy, int64_t spp) {
+        std::vector<Measured> blocks = with_strategy(scene, strategy, 32, 16, spp);
+        blocks.erase(blocks.begin());
+        return blocks;
+    };
+    const auto mis = three_quarters(Strategy::mis, 64);
+    EXPECT_TRUE(same_means(mis, three_quarters(Strategy::light, 256), sidak(significance, 2))) << "light";
+    EXPECT_TRUE(same_means(mis, three_quarters(Strategy::bsdf, 1024), sidak(significance, 2))) << "bsdf";
+}
+
+// A sun of twenty degrees, which a scattered ray can find.
+TEST(Strategies, AgreeOnCardAndMug) {
+    Scene scene = shipped_scene("card-and-mug");
+    for (const auto& [id, light] : Table<Light>(scene.lights)) {
+        Light wide = light;
+        wide.angle_radians = 0.35f;
+        scene.lights.set(id, wide);
+    }
+    const auto mis = with_strategy(scene, Strategy::mis, 32, 16, 64);
+    EXPECT_TRUE(same_means(mis, with_strategy(scene, Strategy::light, 32, 16, 256), sidak(significance, 2))) << "light";
+    EXPECT_TRUE(same_means(mis, with_strategy(scene, Strategy::bsdf, 32, 16, 512), sidak(significance, 2))) << "bsdf";
+}
+
+std::vector<Measured> with_roulette(const Scene& scene, const char* rule, uint32_t seed) {
+    RenderSettings settings = settings_for(32, 32, 64);
+    settings.roulette = *parse_roulette(rule);
+    return blocks_of(scene, settings, seed);
+}
+
+TEST(Roulette, RulesAgreeOnCornellAndTheBiasedOneIsCaught) {
+    const Scene scene = shipped_scene("cornell");
+    const auto truth = with_roulette(scene, "off", 1);
+    const std::vector<const char*> rules = {"max", "max,start=1", "luminance", "sqrt", "constant=0.7,start=1", "max,floor=0.2,cap=0.9"};
+    uint32_t seed = 2;
+    for (const char* rule : rules)
+        EXPECT_TRUE(same_means(truth, with_roulette(scene, rule, seed++), sidak(significance, int64_t(rules.size())))) << rule;
+    EXPECT_FALSE(same_means(truth, with_roulette(scene, "biased-cut=0.2,start=1", seed), sidak(significance, int64_t(rules.size()))));
+}
+
+} // namespace
+} // namespace blush::test
