@@ -1,0 +1,91 @@
+// A picture is a function of scene, settings and sample range: not of threads, of chance, or of how the range was split.
+#include "picture.h"
+#include "scenes.h"
+
+namespace blush::test {
+namespace {
+
+constexpr PlaneSet everything{true, true, true, true};
+
+// Renders samples [0, ends[0]), [ends[0], ends[1]), ...
+Frame render_in_steps(const Scene& scene, const RenderSettings& settings, unsigned threads, std::initializer_list<int64_t> ends) {
+    RendererOptions options;
+    options.threads = threads;
+    options.planes = everything;
+    Renderer renderer(options);
+    renderer.update(scene, settings);
+    int64_t first = 0;
+    for (const int64_t end : ends) {
+        EXPECT_TRUE(renderer.render(first, end - first));
+        first = end;
+    }
+    return renderer.resolve();
+}
+
+void expect_same(const Frame& a, const Frame& b, const char* what) {
+    EXPECT_EQ(a.rgba, b.rgba) << what;
+    EXPECT_EQ(a.albedo, b.albedo) << what;
+    EXPECT_EQ(a.normal, b.normal) << what;
+    EXPECT_EQ(a.depth, b.depth) << what;
+    EXPECT_EQ(a.object_id, b.object_id) << what;
+    EXPECT_EQ(a.material_id, b.material_id) << what;
+    EXPECT_EQ(a.samples, b.samples) << what;
+    EXPECT_EQ(a.rays.total(), b.rays.total()) << what;
+    EXPECT_EQ(a.error.relmse, b.error.relmse) << what;
+    EXPECT_EQ(a.error.high, b.error.high) << what;
+}
+
+TEST(Determinism, ThreadsRunsAndSplitsDoNotShow) {
+    for (const char* name : {"card-and-mug", "veach-mis"}) {
+        const Scene scene = shipped_scene(name);
+        const RenderSettings settings = settings_for(80, 45, 8);
+        const Frame once = render_in_steps(scene, settings, 1, {8});
+        expect_same(once, render_in_steps(scene, settings, 1, {8}), "a second run");
+        expect_same(once, render_in_steps(scene, settings, 2, {8}), "two threads");
+        expect_same(once, render_in_steps(scene, settings, 2, {3, 8}), "0:3 + 3:8");
+        expect_same(once, render_in_steps(scene, settings, 1, {1, 2, 4, 8}), "doubling");
+    }
+}
+
+TEST(Determinism, AlphaAndShadowsOfAlphaDoNotDependOnSplits) {
+    Scene scene;
+    Material veil = lambert(0.5f);
+    veil.alpha = Material::Alpha::blend;
+    veil.opacity = 0.4f;
+    place(scene, floor_quad(0.5f, 0.5f), veil);
+    place(scene, floor_quad(2), lambert(0.7f));
+    Light sun;
+    sun.kind = Light::Kind::sun;
+    shine(scene, sun, aimed({0, 0, 0}, {0.2f, -1, 0.1f}));
+    constant_world(scene, 0.2f);
+    scene.view = looking_down(1, 1);
+    const RenderSettings settings = settings_for(40, 40, 8);
+    const Frame once = render_in_steps(scene, settings, 1, {8});
+    expect_same(once, render_in_steps(scene, settings, 2, {3, 8}), "0:3 + 3:8");
+}
+
+TEST(Determinism, SeedsAreIndependent) {
+    const Scene scene = shipped_scene("cornell");
+    RenderSettings settings = settings_for(32, 32, 16);
+    const Picture a = render(scene, settings);
+    settings.seed = 1;
+    const Picture b = render(scene, settings);
+    // Were they not, their mean would be no better than one of them: the variance of a difference is the sum of both.
+    double difference = 0, sum = 0;
+    for (size_t i = 0; i < a.pixels.size(); ++i) {
+        difference += std::pow(a.pixels[i].y - b.pixels[i].y, 2);
+        sum += std::pow(a.errors[i].y, 2) + std::pow(b.errors[i].y, 2);
+    }
+    EXPECT_GT(difference, 0.5 * sum);
+    EXPECT_LT(difference, 2 * sum);
+}
+
+TEST(Determinism, AStoppedRenderSaysSo) {
+    Renderer renderer;
+    renderer.update(shipped_scene("cornell"), settings_for(64, 64, 4));
+    EXPECT_FALSE(renderer.render(0, 4, [] { return false; }));
+    for (const float value : renderer.resolve().rgba) EXPECT_TRUE(std::isfinite(value));
+}
+
+} // namespace
+} // namespace blush::test

@@ -1,0 +1,157 @@
+// One kernel is the oracle of all others: every instruction set and every superset of features gives the same bits.
+#include "picture.h"
+#include "render/kernels/kernel.h"
+#include "render/lowering.h"
+#include "render/render_scene.h"
+#include "render/settings_for_kernels.h"
+#include "scenes.h"
+
+#include <cstring>
+#include <memory>
+
+namespace blush::test {
+namespace {
+
+constexpr int size = 24, samples = 4;
+
+struct Tile {
+    std::vector<float> values; // radiance and what the first surface shows
+    int64_t rays = 0;
+};
+
+// A scene compiled once for many kernels.
+struct Compiled {
+    RenderSettings settings = settings_for(size, size, samples);
+    Workers workers{1};
+    RenderScene scene;
+
+    explicit Compiled(const Scene& s, bool compensate = false) {
+        settings.energy_compensation = compensate;
+        scene.update(lower_area_lights(s), settings, full_plan(), workers);
+    }
+
+    Tile render(const Kernel& kernel) const {
+        const KernelContext context{&scene.tables(), &scene.accel(), settings_for_kernels(settings, size, size), settings.seed};
+        const TileJob job{0, 0, size, size, 0, samples};
+        const auto scratch = std::make_unique<TileScratch>();
+        scratch->first = std::make_unique<FirstHitColumns>();
+        workers.run([&] { kernel.render(context, job, *scratch); });
+        Tile tile;
+        FirstHitColumns& f = *scratch->first;
+        for (const Column<float>* column : {&scratch->r, &scratch->g, &scratch->b, &f.albedo_r, &f.albedo_g, &f.albedo_b, &f.normal_x,
+                                            &f.normal_y, &f.normal_z, &f.depth})
+            tile.values.insert(tile.values.end(), column->data, column->data + job.paths());
+        tile.rays = scratch->camera_rays + scratch->bounce_rays + scratch->shadow_rays;
+        return tile;
+    }
+};
+
+// Values of `b` whose bits differ from `a`.
+int64_t differing_bits(const Tile& a, const Tile& b) {
+    int64_t n = 0;
+    for (size_t i = 0; i < a.values.size(); ++i) n += std::memcmp(&a.values[i], &b.values[i], sizeof(float)) != 0;
+    return n;
+}
+
+void expect_same_bits_from_all_kernels(const Compiled& compiled) {
+    const Tile oracle = compiled.render(kernels_of("scalar").back());
+    ASSERT_GT(*std::max_element(oracle.values.begin(), oracle.values.end()), 0);
+    int compared = 0;
+    for (const std::string_view isa : runnable_isas())
+        for (const Kernel& kernel : kernels_of(isa)) {
+            if (!kernel.features.contains(compiled.scene.features())) continue;
+            const Tile tile = compiled.render(kernel);
+            EXPECT_EQ(differing_bits(oracle, tile), 0) << kernel.isa << "/" << kernel.name;
+            EXPECT_EQ(oracle.rays, tile.rays) << kernel.isa << "/" << kernel.name;
+            ++compared;
+        }
+    EXPECT_GE(compared, int(runnable_isas().size()));
+}
+
+TEST(Kernels, GiveTheSameBitsOnShippedScenes) {
+    for (const std::string& name : shipped_scene_names()) {
+        SCOPED_TRACE(name);
+        expect_same_bits_from_all_kernels(Compiled(shipped_scene(name)));
+    }
+}
+
+// A little of each feature in front of a lens.
+Scene everything() {
+    Scene scene;
+    std::vector<Vec3> texels;
+    for (int i = 0; i < 64; ++i) texels.push_back({0.1f + float(i % 7) / 8, 0.5f, 0.2f + float(i % 5) / 7});
+    const Id<Texture> noise = add_texture(scene, float_picture(8, 8, texels), Texture::Filter::linear);
+
+    Geometry g = *floor_quad(3);
+    g.serial = next_payload_serial();
+    g.normals.assign(4, {0, 1, 0});
+    g.tangents.assign(4, {1, 0, 0, 1});
+    g.colors = {{1, 0.5f, 0.5f, 1}, {0.5f, 1, 0.5f, 0.8f}, {0.5f, 0.5f, 1, 0.6f}, {1, 1, 1, 1}};
+    Material ground = plastic(0.4f);
+    ground.base_color_texture.texture = ground.metallic_roughness_texture.texture = ground.normal_texture.texture = noise;
+    place(scene, std::make_shared<const Geometry>(g), ground);
+
+    Material clear = glass(0.1f, 1.5f);
+    clear.attenuation_color = {0.5f, 0.9f, 0.7f};
+    clear.attenuation_distance = 0.5f;
+    place(scene, sphere(false), clear, at({-1, 0.7f, 0}, 0.6f));
+    Material veil = lambert(0.8f);
+    veil.alpha = Material::Alpha::blend;
+    veil.opacity = 0.5f;
+    place(scene, cube(false), veil, at({0.9f, 0.5f, 0.4f}, 0.4f));
+    Material lamp = emitter(3, 0.5f);
+    lamp.emissive_texture.texture = noise;
+    place(scene, cube(false), lamp, at({0.2f, 0.2f, -1.2f}, 0.2f));
+    place(scene, cube(false), unlit({0.2f, 0.4f, 0.6f}), at({-0.4f, 0.1f, 1.2f}, 0.1f));
+    const Id<Mesh> twice = scene.meshes.add({"", {{sphere(false), scene.materials.add(metal(0.3f))}}});
+    for (const float x : {0.2f, 1.8f}) {
+        Node node;
+        node.mesh = twice;
+        node.local = at({x, 0.3f, -0.4f}, 0.3f);
+        node.local.scale.x = -0.3f;
+        scene.nodes.add(node);
+    }
+
+    Light light;
+    light.intensity = 3;
+    shine(scene, light, at({0, 2, 1}));
+    light.kind = Light::Kind::spot;
+    shine(scene, light, aimed({-2, 2, 1}, {1, -1, 0}));
+    light.kind = Light::Kind::sun;
+    light.angle_radians = 0.02f;
+    shine(scene, light, aimed({0, 0, 0}, {-1, -2, -1}));
+    light.kind = Light::Kind::rectangle;
+    shine(scene, light, aimed({2, 2, 2}, {-1, -1, -1}));
+    scene.environment.kind = Environment::Kind::image;
+    scene.environment.image = float_picture(8, 8, texels);
+    scene.view = looking({1, 2.5f, 4}, {0.2f, 0.3f, 0}, 0.8f);
+    scene.view.lens.aperture_radius = 0.05f;
+    scene.view.lens.focus_distance = 4;
+    return scene;
+}
+
+TEST(Kernels, GiveTheSameBitsOnASceneWithEverything) {
+    Scene scene = everything();
+    expect_same_bits_from_all_kernels(Compiled(scene, true));
+    scene.view.lens.orthographic = true;
+    scene.view.lens.ymag = 2;
+    expect_same_bits_from_all_kernels(Compiled(scene));
+}
+
+TEST(Kernels, TheSmallestThatKnowsEnoughIsChosen) {
+    for (const std::string_view isa : runnable_isas()) {
+        for (const Kernel& kernel : kernels_of(isa)) {
+            EXPECT_EQ(kernel.isa, isa);
+            ASSERT_EQ(setenv("BLUSH_ISA", std::string(isa).c_str(), 1), 0);
+            EXPECT_EQ(&choose_kernel(kernel.features), &kernel);
+        }
+        EXPECT_EQ(choose_kernel(all_features).name, "full");
+    }
+    setenv("BLUSH_ISA", "none such", 1);
+    EXPECT_EQ(choose_kernel(no_features).isa, runnable_isas().back());
+    unsetenv("BLUSH_ISA");
+    EXPECT_EQ(choose_kernel(no_features).isa, runnable_isas().back());
+}
+
+} // namespace
+} // namespace blush::test
