@@ -1,0 +1,19 @@
+// What the stored references are of, shared by the tool that makes them and the test that compares with them.
+#pragma once
+
+#include "picture.h"
+#include "scenes.h"
+
+namespace blush::test {
+
+// A reference is the mean of many renders, each as large as the test's own. Beside it stands their scatter, so that the test
+// knows its variance far better than from its own samples.
+constexpr int64_t reference_spp = 16; // of one render
+
+inline RenderSettings reference_settings(const std::string& scene) {
+    const bool square = scene == "cornell" || scene == "furnace";
+    return square ? settings_for(64, 64, reference_spp) : settings_for(96, 56, reference_spp);
+}
+inline std::string reference_file(const std::string& scene) { return std::string(BLUSH_REFERENCES) + "/" + scene + ".exr"; }
+
+} // namespace blush::test
