@@ -20,8 +20,8 @@ struct AlphaPart {
     int32_t part;
 };
 
-// Stochastic opacity: a hit counts with the probability `opacity`, decided by a hash of the ray's random number and the triangle, so the
-// answer does not depend on how often or in which order Embree asks.
+// Stochastic opacity: a hit counts with the probability `opacity`, decided by a hash of the ray's random number, the triangle and the instance
+// it is met in, so the answer does not depend on how often or in which order Embree asks.
 void opacity_filter(const RTCFilterFunctionNArguments* args) {
     const AlphaPart& alpha = *static_cast<const AlphaPart*>(args->geometryUserPtr);
     for (unsigned i = 0; i < args->N; ++i) {
@@ -31,7 +31,8 @@ void opacity_filter(const RTCFilterFunctionNArguments* args) {
             opacity_at_hit(*alpha.tables, alpha.part, triangle, RTCHitN_u(args->hit, args->N, i), RTCHitN_v(args->hit, args->N, i));
         if (opacity >= 1) continue;
         const uint32_t random = RTCRayN_id(args->ray, args->N, i);
-        const uint32_t key = pcg_hash(random ^ pcg_hash(uint32_t(triangle) ^ pcg_hash(uint32_t(alpha.part))));
+        const uint32_t place = pcg_hash(uint32_t(alpha.part) ^ pcg_hash(RTCHitN_instID(args->hit, args->N, i, 0)));
+        const uint32_t key = pcg_hash(random ^ pcg_hash(uint32_t(triangle) ^ place));
         if (unit_float<float>(key) >= opacity) args->valid[i] = 0;
     }
 }

@@ -1,9 +1,11 @@
-// What happens to samples that cannot be added, and that sums do not depend on how samples come in.
+// What the film holds does not depend on how samples come in, not even where some cannot be added.
 #include "render/film.h"
 
 #include <gtest/gtest.h>
 
+#include <initializer_list>
 #include <limits>
+#include <memory>
 
 namespace blush {
 namespace {
@@ -49,24 +51,7 @@ Frame resolved(const Film& film) {
     return frame;
 }
 
-TEST(Film, DropsCountsAndRemembersWhatCannotBeAdded) {
-    Film film;
-    trace(film, {samples});
-    const Frame frame = resolved(film);
-    EXPECT_EQ(frame.health.nan, 1);
-    EXPECT_EQ(frame.health.infinite, 1);
-    EXPECT_EQ(frame.health.negative, 2);
-    const std::vector<BadSample> expected{{BadSample::Cause::nan, 0, 0, 0, 42},
-                                          {BadSample::Cause::infinite, 1, 2, 3, 42},
-                                          {BadSample::Cause::negative, 3, 1, 4, 42},
-                                          {BadSample::Cause::negative, 3, 1, 5, 42}};
-    EXPECT_EQ(frame.health.first, expected) << "in (sample, y, x) order";
-    const float mean = 1 * (2 + 3 + 4 + 5 + 6) / 7.f / 5;
-    EXPECT_FLOAT_EQ(frame.rgba[0], mean) << "the mean of those that are left";
-    EXPECT_EQ(frame.rgba[1], 1);
-}
-
-TEST(Film, FirstHitsAreOfTheFirstSampleThatCounts) {
+TEST(FilmBatches, FirstHitsAreOfTheFirstSampleThatCounts) {
     Film film;
     trace(film, {samples});
     const Frame frame = resolved(film);
@@ -76,7 +61,7 @@ TEST(Film, FirstHitsAreOfTheFirstSampleThatCounts) {
     EXPECT_EQ(frame.depth[1], 0);
 }
 
-TEST(Film, BatchesDoNotChangeWhatItHolds) {
+TEST(FilmBatches, DoNotChangeWhatItHolds) {
     Film whole, split;
     trace(whole, {samples});
     trace(split, {1, 2, 3});
@@ -85,20 +70,6 @@ TEST(Film, BatchesDoNotChangeWhatItHolds) {
     EXPECT_EQ(a.object_id, b.object_id);
     EXPECT_EQ(a.depth, b.depth);
     EXPECT_EQ(a.health.first, b.health.first);
-    EXPECT_EQ(whole.standard_error().size(), split.standard_error().size());
-}
-
-TEST(Film, ClearingForgetsEverything) {
-    Film film;
-    trace(film, {samples});
-    film.clear();
-    const Frame frame = resolved(film);
-    EXPECT_EQ(frame.health.dropped(), 0);
-    EXPECT_TRUE(frame.health.first.empty());
-    EXPECT_EQ(frame.rgba[0], 0);
-    EXPECT_EQ(frame.albedo[0], (Vec3{0, 0, 0}));
-    EXPECT_EQ(frame.object_id[1], 0u);
-    EXPECT_EQ(frame.depth[0], 0);
 }
 
 } // namespace

@@ -22,24 +22,6 @@ GeometryPtr octahedron() {
     return std::make_shared<const Geometry>(std::move(g));
 }
 
-// 33800 triangles: more than are flattened.
-GeometryPtr hill() {
-    constexpr uint32_t n = 130;
-    Geometry g;
-    for (uint32_t j = 0; j <= n; ++j)
-        for (uint32_t i = 0; i <= n; ++i) {
-            const float u = float(i) / n, v = float(j) / n;
-            g.positions.push_back({u - 0.5f, v - 0.5f, 0.1f * std::sin(9 * u) * std::cos(7 * v)});
-            g.uv0.push_back({u, v});
-        }
-    for (uint32_t j = 0; j < n; ++j)
-        for (uint32_t i = 0; i < n; ++i) {
-            const uint32_t a = j * (n + 1) + i, b = a + 1, c = a + n + 1, d = c + 1;
-            g.indices.insert(g.indices.end(), {a, b, d, a, d, c});
-        }
-    return std::make_shared<const Geometry>(std::move(g));
-}
-
 ImagePtr gradient(int width, int height, int channels) {
     Image image;
     image.width = width;
@@ -131,7 +113,7 @@ void add_things(Builder& b) {
     });
     const Id<Material> ground = b.material("Ground", [](Material& m) { m.base_color = {0.3f, 0.4f, 0.2f}; });
 
-    b.place("Hill", b.mesh("Hill", hill(), ground), {0, -0.8f, 0.5f}, 2);
+    b.place("Hill", b.mesh("Hill", hill_geometry(), ground), {0, -0.8f, 0.5f}, 2);
     b.place("Glass ball", b.mesh("Glass ball", ball, glass), {-1, 0.3f, 1}, 0.4f);
     b.place("Bumpy ball", b.mesh("Bumpy ball", ball, bumpy), {1, 0.4f, 1}, 0.5f);
     b.place("Screen", b.mesh("Screen", quad, screen), {-0.5f, 0.8f, 0.5f}, 0.6f);
@@ -151,6 +133,23 @@ void add_lights(Builder& b) {
 }
 
 } // namespace
+
+GeometryPtr hill_geometry() {
+    constexpr uint32_t n = 130;
+    Geometry g;
+    for (uint32_t j = 0; j <= n; ++j)
+        for (uint32_t i = 0; i <= n; ++i) {
+            const float u = float(i) / n, v = float(j) / n;
+            g.positions.push_back({u - 0.5f, v - 0.5f, 0.1f * std::sin(9 * u) * std::cos(7 * v)});
+            g.uv0.push_back({u, v});
+        }
+    for (uint32_t j = 0; j < n; ++j)
+        for (uint32_t i = 0; i < n; ++i) {
+            const uint32_t a = j * (n + 1) + i, b = a + 1, c = a + n + 1, d = c + 1;
+            g.indices.insert(g.indices.end(), {a, b, d, a, d, c});
+        }
+    return std::make_shared<const Geometry>(std::move(g));
+}
 
 Project rich_project() {
     Builder b;
