@@ -173,9 +173,11 @@ std::optional<Edit> make(Rng&, const Project& p, std::type_identity<Import>) {
     return Import{sample_project().project.scene, "sample"};
 }
 std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<LookThrough>) {
-    const auto* entry = pick(rng, p.scene.nodes);
-    if (!entry || !entry->value.camera) return {};
-    return LookThrough{entry->id};
+    std::vector<Id<Node>> cameras;
+    for (const auto& [id, node] : p.scene.nodes)
+        if (node.camera) cameras.push_back(id);
+    if (cameras.empty()) return {};
+    return LookThrough{cameras[size_t(whole(rng, 0, int(cameras.size()) - 1))]};
 }
 
 template <size_t... kinds> std::optional<Edit> make_kind(Rng& rng, const Project& project, size_t kind, std::index_sequence<kinds...>) {
