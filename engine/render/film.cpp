@@ -39,7 +39,7 @@ void remember(Health& health, const std::vector<BadSample>& bad) {
 
 } // namespace
 
-void Film::reset(int width, int height, const PlaneSet& planes, bool transparent_background) {
+void Film::require_memory(int width, int height, const PlaneSet& planes) {
     // Said before the system's killer says it in its own way.
     const double per_pixel = 2 * sizeof(Half) + (planes.albedo || planes.normal ? sizeof(FeatureSums) : 0) + 64;
     const double needed = per_pixel * double(width) * double(height);
@@ -47,6 +47,10 @@ void Film::reset(int width, int height, const PlaneSet& planes, bool transparent
     if (needed > 0.8 * present)
         throw std::runtime_error(fmt::format("an image of {} x {} pixels needs {:.0f} GB of memory, this machine has {:.0f}", width, height,
                                              needed / 1e9, present / 1e9));
+}
+
+void Film::reset(int width, int height, const PlaneSet& planes, bool transparent_background) {
+    require_memory(width, height, planes);
     width_ = width;
     height_ = height;
     planes_ = planes;

@@ -15,7 +15,9 @@ namespace blush {
 
 class Film {
 public:
-    // Clears, and allocates what is missing.
+    // Throws std::runtime_error, with a sentence for the user, if such a film does not fit into this machine.
+    static void require_memory(int width, int height, const PlaneSet& planes);
+    // Clears, and allocates what is missing. Throws as above.
     void reset(int width, int height, const PlaneSet& planes, bool transparent_background);
     void clear();
 

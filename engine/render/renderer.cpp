@@ -42,6 +42,7 @@ struct Renderer::State {
     std::optional<Scene> lowered;
     RenderSettings settings;
     Film film;
+    bool film_is_stale = true;
     int divider = 1;
     const Kernel* kernel = nullptr;
     CompiledInfo info;
@@ -55,11 +56,18 @@ struct Renderer::State {
     int film_height() const { return std::max(1, settings.height / divider); }
 
     void clear() {
-        const bool transparent = lowered && hides_environment(lowered->environment);
-        film.reset(film_width(), film_height(), options.planes, transparent);
+        film_is_stale = true;
         samples = 0;
         rays = {};
         truncated = 0;
+    }
+    // Wiping a film of full size takes as long as a coarse picture, so it waits until somebody draws or looks: an edit is followed by
+    // another divider.
+    void wipe_stale_film() {
+        if (!film_is_stale) return;
+        const bool transparent = lowered && hides_environment(lowered->environment);
+        film.reset(film_width(), film_height(), options.planes, transparent);
+        film_is_stale = false;
     }
     TileScratch& scratch_of(unsigned worker) {
         if (!scratch[worker]) scratch[worker] = std::make_unique<TileScratch>();
@@ -76,6 +84,7 @@ Renderer::~Renderer() = default;
 bool Renderer::update(const Scene& scene, const RenderSettings& settings) {
     State& s = *state_;
     const auto begin = Clock::now();
+    Film::require_memory(settings.width, settings.height, s.options.planes);
     Scene lowered = lower_area_lights(scene);
     const UpdatePlan todo = s.lowered ? plan(diff(*s.lowered, s.settings, lowered, settings)) : full_plan();
     s.scene.update(lowered, settings, todo, s.workers);
@@ -100,10 +109,14 @@ void Renderer::set_divider(int divider) {
 int Renderer::divider() const { return state_->divider; }
 void Renderer::clear() { state_->clear(); }
 const CompiledInfo& Renderer::info() const { return state_->info; }
-std::vector<Vec3> Renderer::resolve_error() const { return state_->film.standard_error(); }
+std::vector<Vec3> Renderer::resolve_error() const {
+    state_->wipe_stale_film();
+    return state_->film.standard_error();
+}
 
 bool Renderer::render(int64_t first, int64_t count, const std::function<bool()>& wanted) {
     State& s = *state_;
+    s.wipe_stale_film();
     const int width = s.film.width(), height = s.film.height();
     const TileShape shape = tile_shape(count);
     const int across = (width + shape.width - 1) / shape.width, down = (height + shape.height - 1) / shape.height;
@@ -141,7 +154,8 @@ bool Renderer::render(int64_t first, int64_t count, const std::function<bool()>&
 }
 
 void Renderer::resolve(Frame& frame) const {
-    const State& s = *state_;
+    State& s = *state_;
+    s.wipe_stale_film();
     s.film.resolve(frame, s.workers);
     for (uint32_t& id : frame.object_id) id &= ~lowered_bit;
     for (uint32_t& id : frame.material_id) {
