@@ -141,10 +141,10 @@ void RenderSession::State::take_up(Submission next) {
     const RenderSettings settings = at_film_size(current.settings);
     if (new_image) {
         has_scene = has_first_image = false;
+        scheduler.restart(settings, true);
         announce(SessionStatus::State::updating);
         if (!renderer) renderer.emplace(renderer_options(options));
         renderer->update(current.scene, settings);
-        scheduler.restart(settings, true);
         has_scene = true;
     } else {
         scheduler.change_stop_rules(settings);
@@ -200,7 +200,6 @@ void RenderSession::State::run() {
         }
     }
 }
-
 
 RenderSession::RenderSession(const SessionOptions& options, std::function<void()> on_frame) : state_(std::make_unique<State>()) {
     state_->options = options;

@@ -138,6 +138,7 @@ TEST(RenderSession, LatestOfTenThousandWins) {
     session.shut_down();
     const std::vector<uint64_t> shown = revisions_shown(session);
     EXPECT_TRUE(std::is_sorted(shown.begin(), shown.end())) << "never back to an older revision";
+    for (const Event& e : session.events()) EXPECT_EQ(e.status.progress == 1, e.status.state == State::complete) << "of any revision";
 }
 
 TEST(RenderSession, ManyThreadsMaySubmitAndLook) {
@@ -197,6 +198,7 @@ TEST(RenderSession, PausedItShowsTheFirstPictureAndWaits) {
 
     const Project edited = lit_by(project, 5);
     submit(session, 2, edited);
+    EXPECT_EQ(session.wait_for(2, State::updating).status.progress, 0);
     const Event second = session.wait_for(2, State::paused);
     ASSERT_TRUE(second.frame);
     EXPECT_EQ(second.frame->revision, 2u);
@@ -333,6 +335,7 @@ TEST(RenderSession, FailsWithAReasonAndRecovers) {
     EXPECT_TRUE(same_picture(*done.frame, fresh(project)));
 
     submit(session, 3, impossible);
+    EXPECT_EQ(session.wait_for(3, State::updating).status.progress, 0) << "what was complete is no longer asked for";
     EXPECT_EQ(session.wait_for(3, State::failed).frame, done.frame) << "the last picture stays";
     submit(session, 4, impossible);
     session.wait_for(4, State::failed);
