@@ -21,11 +21,13 @@ double seconds_since(Clock::time_point begin) { return std::chrono::duration<dou
 
 bool hides_environment(const Environment& e) { return e.kind != Environment::Kind::none && !e.visible_to_camera; }
 
-// About two thousand paths in a tile: enough to fill packets, few enough for the cache.
+// About two thousand paths in a tile: enough to fill packets, few enough for the cache. Of a small film, as a drag shows it first,
+// fewer: the last tile of a worker is what all others wait for.
 struct TileShape {
     int width, height, samples;
 };
-TileShape tile_shape(int64_t count) {
+TileShape tile_shape(int64_t count, int64_t pixels_per_worker) {
+    if (count == 1 && pixels_per_worker < 16 * 2048) return {32, 16, 1};
     if (count >= 8) return {16, 16, 8};
     if (count >= 4) return {32, 16, 4};
     if (count >= 2) return {32, 32, 2};
@@ -118,7 +120,7 @@ bool Renderer::render(int64_t first, int64_t count, const std::function<bool()>&
     State& s = *state_;
     s.wipe_stale_film();
     const int width = s.film.width(), height = s.film.height();
-    const TileShape shape = tile_shape(count);
+    const TileShape shape = tile_shape(count, int64_t(width) * height / s.workers.threads());
     const int across = (width + shape.width - 1) / shape.width, down = (height + shape.height - 1) / shape.height;
     const KernelContext context{&s.scene.tables(), &s.scene.accel(), settings_for_kernels(s.settings, width, height), s.settings.seed};
 
