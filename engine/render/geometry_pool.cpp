@@ -117,8 +117,10 @@ void GeometryPool::build(const std::vector<SceneObject>& objects, const Attribut
             part_triangles_.push_back(int64_t(g.triangle_count()));
             part_vertices_.push_back(int64_t(g.positions.size()));
             if (!object.instanced) place(parts_.size() - 1, g, object.world_from_object);
+            else if (!object_bounds_.contains(span.first_vertex)) object_bounds_[span.first_vertex] = bounds_of(parts_.size() - 1);
         }
     }
+    refresh_bounds();
 }
 
 void GeometryPool::move(const std::vector<SceneObject>& before, const std::vector<SceneObject>& objects) {
@@ -134,6 +136,7 @@ void GeometryPool::move(const std::vector<SceneObject>& before, const std::vecto
             ++part;
         }
     }
+    refresh_bounds();
 }
 
 void GeometryPool::corners(size_t part, int64_t triangle, Vec3 (&p)[3]) const {
@@ -191,24 +194,23 @@ AccelScene GeometryPool::accel_scene(const std::vector<SceneObject>& objects, co
     return scene;
 }
 
-Bounds GeometryPool::bounds() const {
+Bounds GeometryPool::bounds_of(size_t part) const {
     Bounds bounds;
-    std::map<int32_t, Bounds> object_bounds; // instanced vertices once for all instances, by first vertex
-    for (size_t part = 0; part < parts_.size(); ++part) {
-        const size_t first = size_t(parts_[part].first_vertex), count = size_t(part_vertices_[part]);
-        if (parts_[part].transform < 0) {
-            for (size_t i = 0; i < count; ++i) bounds.include(to_double(positions_[first + i]));
-            continue;
-        }
-        const auto [it, is_new] = object_bounds.try_emplace(parts_[part].first_vertex);
-        if (is_new)
-            for (size_t i = 0; i < count; ++i) it->second.include(to_double(positions_[first + i]));
-        const Affine& m = instances_[size_t(parts_[part].transform)].world_from_object;
-        const Vec3d corner[2] = {it->second.low, it->second.high};
-        for (int k = 0; k < 8; ++k)
-            bounds.include(to_double(transform_point(m, to_float(Vec3d{corner[k & 1].x, corner[k >> 1 & 1].y, corner[k >> 2 & 1].z}))));
-    }
+    const size_t first = size_t(parts_[part].first_vertex), count = size_t(part_vertices_[part]);
+    for (size_t i = 0; i < count; ++i) bounds.include(to_double(positions_[first + i]));
     return bounds;
+}
+
+void GeometryPool::refresh_bounds() {
+    bounds_ = {};
+    for (size_t part = 0; part < parts_.size(); ++part) {
+        const bool instanced = parts_[part].transform >= 0;
+        const Bounds own = instanced ? object_bounds_.at(parts_[part].first_vertex) : bounds_of(part);
+        const Affine m = instanced ? instances_[size_t(parts_[part].transform)].world_from_object : Affine{};
+        const Vec3d corner[2] = {own.low, own.high};
+        for (int k = 0; k < 8; ++k)
+            bounds_.include(to_double(transform_point(m, to_float(Vec3d{corner[k & 1].x, corner[k >> 1 & 1].y, corner[k >> 2 & 1].z}))));
+    }
 }
 
 size_t GeometryPool::memory_bytes() const {

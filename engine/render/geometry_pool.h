@@ -7,6 +7,7 @@
 #include "scene/scene.h"
 
 #include <cstdint>
+#include <map>
 #include <vector>
 
 namespace blush {
@@ -39,7 +40,7 @@ public:
     void fill(SceneTables& tables) const;
     // For the builder; alpha[part] asks for opacity tests.
     AccelScene accel_scene(const std::vector<SceneObject>& objects, const std::vector<bool>& alpha) const;
-    Bounds bounds() const;
+    const Bounds& bounds() const { return bounds_; }
     int64_t instance_count() const { return int64_t(instances_.size()); }
     size_t memory_bytes() const;
 
@@ -48,6 +49,8 @@ private:
         int32_t first_vertex = 0, first_index = 0;
     };
     Span append(const Geometry& geometry);
+    Bounds bounds_of(size_t part) const;
+    void refresh_bounds();
     void place(size_t part, const Geometry& geometry, const Affined& world_from_object);
 
     std::vector<PartRecord> parts_;
@@ -61,6 +64,8 @@ private:
     std::vector<Vec4> tangents_, colors_;
     std::vector<Vec2> uv0_, uv1_;
     AttributeNeeds needs_;
+    std::map<int32_t, Bounds> object_bounds_; // of instanced parts in object space, by first vertex: once for all instances
+    Bounds bounds_;
 };
 
 } // namespace blush

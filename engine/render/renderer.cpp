@@ -47,7 +47,10 @@ struct Renderer::State {
     bool film_is_stale = true;
     int divider = 1;
     const Kernel* kernel = nullptr;
-    CompiledInfo info;
+    std::string kernel_name;
+    double seconds_setup = 0;
+    // Made when somebody asks: it looks at every triangle, and a drag has no time for that.
+    std::optional<CompiledInfo> info;
     int64_t samples = 0;
     RayCounts rays;
     int64_t truncated = 0;
@@ -95,9 +98,9 @@ bool Renderer::update(const Scene& scene, const RenderSettings& settings) {
     if (todo.features) s.kernel = &choose_kernel(s.scene.features());
     if (todo.clear_film) {
         clear();
-        s.info = s.scene.info();
-        s.info.kernel = std::string(s.kernel->isa) + "/" + std::string(s.kernel->name);
-        s.info.seconds_setup = seconds_since(begin);
+        s.info.reset();
+        s.kernel_name = std::string(s.kernel->isa) + "/" + std::string(s.kernel->name);
+        s.seconds_setup = seconds_since(begin);
     }
     return todo.clear_film;
 }
@@ -110,7 +113,17 @@ void Renderer::set_divider(int divider) {
 
 int Renderer::divider() const { return state_->divider; }
 void Renderer::clear() { state_->clear(); }
-const CompiledInfo& Renderer::info() const { return state_->info; }
+
+const CompiledInfo& Renderer::info() const {
+    State& s = *state_;
+    if (!s.info) {
+        s.info = s.scene.info();
+        s.info->kernel = s.kernel_name;
+        s.info->seconds_setup = s.seconds_setup;
+    }
+    return *s.info;
+}
+
 std::vector<Vec3> Renderer::resolve_error() const {
     state_->wipe_stale_film();
     return state_->film.standard_error();
@@ -168,7 +181,7 @@ void Renderer::resolve(Frame& frame) const {
     frame.samples = s.samples;
     frame.rays = s.rays;
     frame.health.truncated = s.truncated;
-    frame.kernel = s.info.kernel;
+    frame.kernel = s.kernel_name;
 }
 
 Frame Renderer::resolve() const {

@@ -73,6 +73,7 @@ public:
     // Standard error of the mean of each pixel from the two half buffers, RGB; empty before both hold samples.
     std::vector<Vec3> resolve_error() const;
 
+    // Of the scene last taken up. Not for the path of an edit: looks at every triangle the first time it is asked.
     const CompiledInfo& info() const;
 
 private:
