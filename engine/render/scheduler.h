@@ -28,7 +28,7 @@ public:
         double resolve_seconds = 0;
     };
 
-    static constexpr double first_image_seconds = 1.0 / 40; // to trace the coarse picture: resolving and drawing it take their share
+    static constexpr double first_image_seconds = 1.0 / 60; // to trace the coarse picture: stopping, resolving and drawing take their share
     static constexpr int coarsest_divider = 16;
     static constexpr int smallest_long_side = 96; // pixels of the coarse picture, unless the full one is smaller
 
