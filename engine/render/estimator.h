@@ -25,6 +25,14 @@ template <class F> struct FirstHit {
     Int<F> object, material;
 };
 
+// How a step was weighted, for those who want to know (path_log); kernels do not look and pay nothing. Valid where the step says that it
+// emits, connects or continues.
+template <class F> struct StepWeights {
+    F emission;             // MIS weight of emission that was found
+    F light, light_pdf, light_bsdf_pdf; // MIS weight of the light sample; density it was drawn with; density the BSDF would have had
+    F survival;             // roulette's probability; 1 where it was not asked
+};
+
 template <class F> struct Step {
     Mask<F> emits, connects, continues;
     Vec<F> emitted; // add where `emits`
@@ -33,6 +41,7 @@ template <class F> struct Step {
     F shadow_distance;
     Path<F> next;   // where `continues`
     FirstHit<F> first; // at bounce 0 only
+    StepWeights<F> weights;
 };
 
 // Dimensions of the sampler in pairs: 0 pixel filter, 1 lens, then three for each scattering event.
@@ -89,16 +98,22 @@ Path<F> begin_path(const SceneTables& scene, const EstimatorSettings& settings, 
     return path;
 }
 
-// Light from beyond all surfaces along the path's ray, with its MIS weight.
+// Light from beyond all surfaces along the path's ray, times its MIS weight, and the environment's share of that weight.
+template <class F> struct EscapedLight {
+    Vec<F> radiance;
+    F weight;
+};
 template <Features S, class F>
-Vec<F> escaped_light(const SceneTables& scene, const EstimatorSettings& settings, const Path<F>& path, int bounce, const Mask<F>& active) {
+EscapedLight<F> escaped_light(const SceneTables& scene, const EstimatorSettings& settings, const Path<F>& path, int bounce, const Mask<F>& active) {
     Vec<F> sum = splat<F>(0.f);
+    F environment_weight = F(1.f);
     const LightTables& lights = scene.lights;
     if constexpr (S.has(Feature::environment)) {
         if (lights.environment >= 0 && (bounce > 0 || scene.environment.visible_to_camera)) {
             const Vec<F> radiance = environment_radiance<F>(scene.environment, path.ray.direction, active);
             const F pdf = environment_pdf<F>(scene.environment, path.ray.direction) * light_probability<F>(lights, Int<F>(lights.environment));
-            sum = radiance * found_emission_weight(settings.strategy, path.pdf, pdf);
+            environment_weight = found_emission_weight(settings.strategy, path.pdf, pdf);
+            sum = radiance * environment_weight;
         }
     }
     if constexpr (S.has(Feature::suns)) {
@@ -111,7 +126,7 @@ Vec<F> escaped_light(const SceneTables& scene, const EstimatorSettings& settings
             sum = select<F>(inside, sum + splat<F>(sun.emission) * weight, sum);
         }
     }
-    return sum;
+    return {sum, environment_weight};
 }
 
 // MIS weight of the emission of triangle `triangle` of a part, met at distance t under cosine `facing`.
@@ -152,13 +167,18 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
     Step<F> out;
     out.emitted = splat<F>(0.f);
     out.connects = out.continues = Mask<F>(false);
+    out.weights = {F(1.f), F(1.f), F(0.f), F(0.f), F(1.f)};
     const Mask<F> found = active && as_mask(hit.geometry >= 0);
     const Mask<F> escaped = active && !found;
     Vec<F> beta = path.beta;
 
     // Nothing there: the environment and the suns.
     if constexpr (S.has(Feature::environment) || S.has(Feature::suns)) {
-        if (any(escaped)) out.emitted = select<F>(escaped, beta * escaped_light<S, F>(scene, settings, path, bounce, escaped), out.emitted);
+        if (any(escaped)) {
+            const EscapedLight<F> light = escaped_light<S, F>(scene, settings, path, bounce, escaped);
+            out.emitted = select<F>(escaped, beta * light.radiance, out.emitted);
+            out.weights.emission = light.weight;
+        }
     }
     out.emits = escaped;
 
@@ -189,6 +209,7 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
             const F weight = surface_emission_weight<F>(scene, settings.strategy, surface.part, select(found, hit.triangle, Int<F>(0)), path.pdf, hit.t,
                                                         abs(outside), emitting);
             out.emitted = select<F>(emitting, beta * material.emission * weight, out.emitted);
+            out.weights.emission = select(emitting, weight, out.weights.emission);
             out.emits = out.emits || emitting;
         }
     }
@@ -233,8 +254,11 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
         const Vec<F> wi = frame.to_local(wi_world);
         const IncidentLight<F> in = incident_light<S, F>(scene, light, wi_world, distance_squared);
         const BsdfValue<F> f = eval<S, F>(bsdf, wo, wi);
-        const F weight = light_sample_weight(settings.strategy, in.pdf, f.pdf, light.delta) / in.pdf;
-        out.direct = beta * f.f_cos * in.radiance * weight;
+        const F weight = light_sample_weight(settings.strategy, in.pdf, f.pdf, light.delta);
+        out.direct = beta * f.f_cos * in.radiance * (weight / in.pdf);
+        out.weights.light = weight;
+        out.weights.light_pdf = in.pdf;
+        out.weights.light_bsdf_pdf = f.pdf;
         // A shading normal must not carry light through the surface.
         const Mask<F> same_side = (wi.z > F(0.f)) == (dot(wi_world, ng) > F(0.f));
         out.connects = light.valid && same_side && max_component(out.direct) > F(0.f);
@@ -261,6 +285,7 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
         const F q = survival_probability(settings.roulette, judged);
         out.continues = out.continues && choice.y() < q;
         next_beta = next_beta / max(q, F(1e-30f));
+        out.weights.survival = q;
     }
     out.next.ray = {offset_origin(surface.position, surface.error, ng, leaves_outside), normalize(wi)};
     out.next.beta = next_beta;

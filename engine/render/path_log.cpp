@@ -52,17 +52,19 @@ struct Logger {
     }
 
     void outcome(int bounce, const Step<float>& step, const Vec3& reached) {
-        if (step.emits) line("  emission   {} with its MIS weight", rgb(step.emitted));
+        const StepWeights<float>& w = step.weights;
+        if (step.emits) line("  emission   contributes {}  MIS weight {:.6g}", rgb(step.emitted), w.emission);
         if (step.connects)
-            line("  light      {} {} over {:.6g} m, MIS weight and pdf included", rgb(step.direct),
-                 max_component(reached) > 0 ? "arrives" : "is blocked", step.shadow_distance);
+            line("  light      contributes {}, {} over {:.6g} m  pdf {:.6g}, the BSDF's {:.6g}  MIS weight {:.6g}", rgb(step.direct),
+                 max_component(reached) > 0 ? "arrives" : "is blocked", step.shadow_distance, w.light_pdf, w.light_bsdf_pdf, w.light);
+        const bool roulette = bounce + 1 >= settings.roulette.start && settings.roulette.rule != Roulette::Rule::off;
+        if (roulette && w.survival < 1)
+            line("  roulette   {} goes on with probability {:.6g}", to_string(settings.roulette), w.survival);
         if (!step.continues) {
             line("  ends here");
             return;
         }
         line("  scatters   towards {}  pdf {:.6g}  throughput {}", rgb(step.next.ray.direction), step.next.pdf, rgb(step.next.beta));
-        if (bounce + 1 >= settings.roulette.start && settings.roulette.rule != Roulette::Rule::off)
-            line("  roulette   survived ({})", to_string(settings.roulette));
     }
 };
 
