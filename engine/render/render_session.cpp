@@ -117,12 +117,10 @@ void RenderSession::State::announce(std::optional<SessionStatus::State> passing)
 
 // Hands out the film as it is; `work` is what was just added to it, if anything.
 void RenderSession::State::publish(const Work* work) {
-    const auto begin = Clock::now();
     const std::shared_ptr<Frame> frame = frames.take();
     renderer->resolve(*frame);
-    const auto resolved = Clock::now();
-    if (work) scheduler.record_publish(*work, seconds_between(begin, resolved), frame->error.known ? frame->error.relmse : -1);
-    if (!has_first_image) first_image_seconds = seconds_between(current.when, resolved);
+    if (work) scheduler.record_publish(*work, frame->error.known ? frame->error.relmse : -1);
+    if (!has_first_image) first_image_seconds = seconds_between(current.when, Clock::now());
     has_first_image = true;
     frame->revision = current.revision;
     frame->complete = scheduler.finished();

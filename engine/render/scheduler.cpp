@@ -79,11 +79,9 @@ void Scheduler::record_render(const Work& work, double seconds) {
     if (work.divider == 1) next_sample_ = work.first_sample + work.count;
 }
 
-void Scheduler::record_publish(const Work& work, double seconds, double error) {
+void Scheduler::record_publish(const Work& work, double error) {
     last_publish_ = seconds_;
-    if (work.divider > 1) return;
-    timings_.resolve_seconds = seconds;
-    error_ = error;
+    if (work.divider == 1) error_ = error;
 }
 
 bool Scheduler::finished() const {

@@ -24,8 +24,6 @@ public:
     struct Timings {
         // Seconds to trace one sample of every pixel at full resolution; 0: not known yet.
         double sample_seconds = 0;
-        // Seconds to resolve and publish a full-resolution frame.
-        double resolve_seconds = 0;
     };
 
     static constexpr double first_image_seconds = 1.0 / 60; // to trace the coarse picture: stopping, resolving and drawing take their share
@@ -38,8 +36,8 @@ public:
     void change_stop_rules(const RenderSettings& settings) { settings_ = settings; }
     // `work` was rendered in `seconds`.
     void record_render(const Work& work, double seconds);
-    // Its frame was resolved in `seconds`; `error` is the estimated relMSE, negative if not known.
-    void record_publish(const Work& work, double seconds, double error);
+    // Its frame was published; `error` is the estimated relMSE, negative if not known.
+    void record_publish(const Work& work, double error);
 
     bool finished() const;
     // Towards the nearest stop rule, [0, 1]; 1 only when finished.

@@ -20,7 +20,7 @@ struct Machine {
     void do_work(Scheduler& scheduler, const Work& work) const {
         scheduler.record_render(work, seconds(work));
         if (work.publish || scheduler.finished())
-            scheduler.record_publish(work, 0.001, error_of_one_sample / double(work.divider == 1 ? scheduler.samples() : 1));
+            scheduler.record_publish(work, error_of_one_sample / double(work.divider == 1 ? scheduler.samples() : 1));
     }
     // Works until finished, or until that many pieces are done.
     std::vector<Work> run(Scheduler& scheduler, size_t pieces = 100000) const {
@@ -202,7 +202,7 @@ TEST(Scheduler, StopsAtTheErrorOfTheFullImageOnly) {
     const Work coarse = scheduler.next();
     ASSERT_GT(coarse.divider, 1);
     scheduler.record_render(coarse, machine.seconds(coarse));
-    scheduler.record_publish(coarse, 0.001, 1e-9);
+    scheduler.record_publish(coarse, 1e-9);
     EXPECT_FALSE(scheduler.finished()) << "a coarse picture's error says nothing about the fine one's";
     machine.run(scheduler);
     EXPECT_GE(scheduler.samples(), 100);
@@ -216,7 +216,7 @@ TEST(Scheduler, AnUnknownErrorStopsNothing) {
     for (const double error : {-1.0, std::numeric_limits<double>::quiet_NaN(), 0.6}) {
         const Work work = scheduler.next();
         scheduler.record_render(work, 0.001);
-        scheduler.record_publish(work, 0.001, error);
+        scheduler.record_publish(work, error);
         EXPECT_FALSE(scheduler.finished()) << error;
     }
 }
