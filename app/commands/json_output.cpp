@@ -1,6 +1,6 @@
 #include "app/commands/json_output.h"
 
-#include "io/files.h"
+#include "core/files.h"
 
 #include <cstdio>
 

@@ -1,6 +1,6 @@
 #include "io/gltf_source.h"
 
-#include "io/files.h"
+#include "core/files.h"
 #include "io/gltf_json.h"
 #include "io/gltf_uri.h"
 

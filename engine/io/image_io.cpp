@@ -1,6 +1,6 @@
 #include "io/image_io.h"
 
-#include "io/files.h"
+#include "core/files.h"
 #include "io/image_end.h"
 
 #include <OpenImageIO/filesystem.h>
