@@ -15,7 +15,15 @@ constexpr LayerName known[] = {{"albedo", &Layers::albedo}, {"normal", &Layers::
                                {"error", &Layers::error},   {"samples", &Layers::samples}, {"id", &Layers::ids}};
 
 Result<void> switch_on(Layers& layers, std::string_view name) {
-    if (name == "groups" || name == "bounces") return Error{.what = fmt::format("the layer {} is not in this version", name)};
+    if (name == "groups") return Error{.what = fmt::format("the layer {} is not in this version", name)};
+    if (name == "bounces") {
+        layers.bounces = usual_bounce_planes;
+        return {};
+    }
+    if (name.starts_with("bounces=")) {
+        if (parse_number(name.substr(8), layers.bounces) && layers.bounces >= 2 && layers.bounces <= most_bounce_planes) return {};
+        return Error{.what = fmt::format("bounces=N takes a number from 2 to {}, not \"{}\"", most_bounce_planes, name.substr(8))};
+    }
     std::string names;
     for (const LayerName& layer : known) {
         if (layer.name == name) {
@@ -24,7 +32,7 @@ Result<void> switch_on(Layers& layers, std::string_view name) {
         }
         names += fmt::format("{}{}", names.empty() ? "" : ", ", layer.name);
     }
-    return Error{.what = fmt::format("unknown layer \"{}\" (known: {})", name, names)};
+    return Error{.what = fmt::format("unknown layer \"{}\" (known: {}, bounces)", name, names)};
 }
 
 } // namespace
@@ -36,6 +44,6 @@ Result<Layers> parse_layers(std::string_view text) {
     return layers;
 }
 
-PlaneSet planes_of(const Layers& layers) { return {layers.albedo, layers.normal, layers.depth, layers.ids}; }
+PlaneSet planes_of(const Layers& layers) { return {layers.albedo, layers.normal, layers.depth, layers.ids, layers.bounces}; }
 
 } // namespace blush

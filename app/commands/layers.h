@@ -1,4 +1,5 @@
-// Which planes beside the beauty a render writes: `--layers albedo,normal,...`.
+// Which planes beside the beauty a render writes: `--layers albedo,normal,...`. `bounces=N` says how many bounce
+// planes, the last of which holds all further ones.
 #pragma once
 
 #include "core/result.h"
@@ -10,7 +11,8 @@ namespace blush {
 
 struct Layers {
     bool albedo = false, normal = false, depth = false, error = false, samples = false, ids = false;
-    bool any() const { return albedo || normal || depth || error || samples || ids; }
+    int bounces = 0; // planes of light by the number of scatterings
+    bool any() const { return *this != Layers{}; }
     bool operator==(const Layers&) const = default;
 };
 

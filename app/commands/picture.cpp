@@ -46,6 +46,7 @@ Result<void> write_exr_picture(const std::filesystem::path& file, const Frame& f
         input.object_id = frame.object_id;
         input.material_id = frame.material_id;
     }
+    input.bounces = frame.bounces;
     const Result<LayeredImage> image = make_snapshot(input);
     if (!image) return image.error();
     return write_exr(file, *image);

@@ -11,6 +11,7 @@
 #include "core/text.h"
 #include "io/scene_edits_json.h"
 #include "io/scene_hash.h"
+#include "measure/bounce_energy.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -129,6 +130,13 @@ OrderedJson health_json(const Health& health) {
     return {{"nan", health.nan}, {"inf", health.infinite}, {"negative", health.negative}, {"first", first}};
 }
 
+OrderedJson bounces_json(const Frame& frame) {
+    OrderedJson bounces = OrderedJson::array();
+    for (const BounceEnergy& e : bounce_energy(frame))
+        bounces.push_back({{"bounce", e.name}, {"share", e.share}, {"mean", {e.mean.x, e.mean.y, e.mean.z}}});
+    return bounces;
+}
+
 OrderedJson result_json(const RenderCommand& c, const LoopResult& r, const CompiledInfo& info) {
     const RayCounts& rays = r.frame.rays;
     const double paths = double(rays.camera), seconds = std::max(r.seconds, 1e-9);
@@ -147,6 +155,7 @@ OrderedJson result_json(const RenderCommand& c, const LoopResult& r, const Compi
     json["path_length_mean"] = paths > 0 ? double(rays.camera + rays.bounce) / paths : 0.0;
     json["error"] = {{"relmse", known(error.relmse)}, {"low", known(error.low)}, {"high", known(error.high)}};
     json["health"] = health_json(r.frame.health);
+    if (!r.frame.bounces.empty()) json["bounces"] = bounces_json(r.frame);
     json["kernel"] = kernel_json(info);
     json["peak_memory_mb"] = peak_memory_mb();
     json["output"] = c.output;
@@ -221,7 +230,7 @@ void add_render_command(CLI::App& app, std::function<int()>& run) {
     sub->add_option("-o,--output", command->output, "EXR keeps scene-linear values; PNG and JPEG go through the view transform")
         ->type_name("FILE");
     add_render_options(*sub, command->options);
-    sub->add_option("--layers", command->layers, "Planes beside the beauty, EXR only: albedo,normal,depth,error,samples,id")
+    sub->add_option("--layers", command->layers, "Planes beside the beauty, EXR only: albedo,normal,depth,error,samples,id,bounces[=N]")
         ->type_name("LIST");
     sub->add_option("--pixel", command->pixel, "Trace that one sample and print every vertex, instead of a picture")
         ->type_name("X,Y[,SAMPLE]");

@@ -108,6 +108,7 @@ Result<LayeredImage> make_snapshot(const SnapshotInput& input) {
     builder.scalars("depth.Z", input.depth);
     builder.vectors("error.", "RGB", input.error);
     builder.scalars("samples.Y", input.samples);
+    for (size_t k = 0; k < input.bounces.size(); ++k) builder.vectors(fmt::format("bounce.{}.", k), "RGB", input.bounces[k]);
     builder.ids("id.object", input.object_id);
     builder.ids("id.material", input.material_id);
     return std::move(builder).done(metadata_texts(input.metadata));

@@ -39,10 +39,12 @@ struct SnapshotInput {
     std::span<const Vec3> error;    // standard error of the mean
     std::span<const float> samples; // per pixel
     std::span<const uint32_t> object_id, material_id;
+    std::span<const std::vector<Vec3>> bounces; // light by the number of scatterings
     SnapshotMetadata metadata;
 };
 
-// Channels R G B A, then albedo.{R,G,B}, normal.{X,Y,Z}, depth.Z, error.{R,G,B}, samples.Y, id.object, id.material.
+// Channels R G B A, then albedo.{R,G,B}, normal.{X,Y,Z}, depth.Z, error.{R,G,B}, samples.Y, bounce.N.{R,G,B},
+// id.object, id.material.
 // Errors: a plane of the wrong size, an id of 2^24 or more, which a float channel cannot carry.
 Result<LayeredImage> make_snapshot(const SnapshotInput& input);
 

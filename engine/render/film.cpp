@@ -41,7 +41,8 @@ void remember(Health& health, const std::vector<BadSample>& bad) {
 
 void Film::require_memory(int width, int height, const PlaneSet& planes) {
     // Said before the system's killer says it in its own way.
-    const double per_pixel = 2 * sizeof(Half) + (planes.albedo || planes.normal ? sizeof(FeatureSums) : 0) + 64;
+    const double per_pixel = 2 * sizeof(Half) + (planes.albedo || planes.normal ? sizeof(FeatureSums) : 0) +
+                             double(BouncePlanes::bytes_per_pixel(planes.bounces)) + 64;
     const double needed = per_pixel * double(width) * double(height);
     const double present = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGE_SIZE));
     if (needed > 0.8 * present)
@@ -66,6 +67,7 @@ void Film::clear() {
     depth_.assign(planes_.depth ? n : 0, 0.f);
     object_id_.assign(planes_.ids ? n : 0, 0u);
     material_.assign(planes_.ids ? n : 0, -1);
+    bounces_.reset(n, planes_.bounces);
     health_ = {};
 }
 
@@ -114,6 +116,7 @@ void Film::add(const TileJob& job, const TileScratch& tile, uint32_t seed) {
                 half.b += double(b);
                 ++half.count;
                 if (needs_first_hits()) add_first_hit(pixel, *tile.first, slot, first_of_pixel);
+                if (bounces_.columns() > 0) bounces_.add(pixel, tile, slot);
             }
         }
     }
@@ -140,6 +143,7 @@ void Film::resolve_rows(Frame& frame, int first, int last, ErrorAccumulator& err
             frame.object_id[i] = object_id_[i];
             frame.material_id[i] = uint32_t(material_[i] + 1);
         }
+        bounces_.resolve(i, inverse, frame.bounces);
         if (a.count > 0 && b.count > 0) {
             const double na = double(a.count), nb = double(b.count);
             error.add({a.r / na, a.g / na, a.b / na}, {b.r / nb, b.g / nb, b.b / nb}, na * inverse);
@@ -157,6 +161,8 @@ void Film::resolve(Frame& frame, const Workers& workers) const {
     frame.depth.resize(planes_.depth ? n : 0);
     frame.object_id.resize(planes_.ids ? n : 0);
     frame.material_id.resize(planes_.ids ? n : 0);
+    frame.bounces.resize(size_t(planes_.bounces));
+    for (std::vector<Vec3>& plane : frame.bounces) plane.resize(n);
     frame.health = health_;
 
     // Bands of a fixed size, summed in order: the estimate does not depend on threads.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/parallel.h"
+#include "render/bounce_planes.h"
 #include "render/error_estimate.h"
 #include "render/frame.h"
 #include "render/kernels/kernel.h"
@@ -24,7 +25,9 @@ public:
     int width() const { return width_; }
     int height() const { return height_; }
     // The kernels must hand over first hits: some plane is made of them.
-    bool needs_first_hits() const { return planes_ != PlaneSet{} || transparent_; }
+    bool needs_first_hits() const { return planes_.albedo || planes_.normal || planes_.depth || planes_.ids || transparent_; }
+    // How often the kernels must note what a path has gathered: after 0, 1, ... scatterings.
+    int needs_bounces() const { return bounces_.columns(); }
 
     // Adds a tile sample by sample in order, so that sums do not depend on how samples are split into tiles. A sample that is
     // not finite or negative is dropped, counted and remembered. Tiles in flight must not share pixels. Thread-safe.
@@ -56,6 +59,7 @@ private:
     std::vector<float> depth_;        // of the first sample, as are the ids: means of them mean nothing
     std::vector<uint32_t> object_id_;
     std::vector<int32_t> material_; // index into the material table
+    BouncePlanes bounces_;
     std::mutex health_mutex_;
     Health health_;
 };

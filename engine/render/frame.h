@@ -50,6 +50,10 @@ struct Frame {
     std::vector<uint32_t> object_id;  // Id<Node>.value, 0 on a miss; empty unless read
     std::vector<uint32_t> material_id; // Id<Material>.value; empty unless read
 
+    // Light by the number of scatterings it took: 0 seen directly, 1 scattered once, ...; the last holds all further ones. They sum to the
+    // beauty. Empty unless read.
+    std::vector<std::vector<Vec3>> bounces;
+
     ErrorEstimate error;
     Health health;
     RayCounts rays;

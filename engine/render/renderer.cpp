@@ -79,6 +79,11 @@ struct Renderer::State {
         TileScratch& s = *scratch[worker];
         if (film.needs_first_hits() && !s.first) s.first = std::make_unique<FirstHitColumns>();
         if (!film.needs_first_hits()) s.first.reset();
+        const int bounces = film.needs_bounces();
+        if (bounces == 0)
+            s.bounces.reset();
+        else if (!s.bounces || int(s.bounces->after.size()) != bounces)
+            s.bounces = std::make_unique<BounceColumns>(bounces);
         return s;
     }
 };

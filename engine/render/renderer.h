@@ -15,9 +15,13 @@
 
 namespace blush {
 
+// Bounce planes: 24 bytes per pixel each.
+constexpr int most_bounce_planes = 32, usual_bounce_planes = 8;
+
 // Film planes beside the beauty. Only what somebody reads is allocated.
 struct PlaneSet {
     bool albedo = false, normal = false, depth = false, ids = false;
+    int bounces = 0; // radiance by the number of scatterings: 0, 1, ..., bounces - 1 and all further ones; 0: none, else 2 .. most_bounce_planes
     bool operator==(const PlaneSet&) const = default;
 };
 

@@ -162,8 +162,21 @@ template <class F> void connect_paths(const KernelContext& context, TileScratch&
     }
 }
 
+// What the paths have gathered so far, when everything that took at most `bounce` scatterings is in it: light that was aimed at after one
+// scattering less, and light that was found.
+inline void record_bounce(TileScratch& scratch, int paths, int bounce) {
+    BounceColumns& columns = *scratch.bounces;
+    if (bounce >= int(columns.after.size())) return;
+    BounceColumns::Radiance& after = columns.after[size_t(bounce)];
+    std::copy_n(scratch.r.data, paths, after.r.data);
+    std::copy_n(scratch.g.data, paths, after.g.data);
+    std::copy_n(scratch.b.data, paths, after.b.data);
+    columns.recorded = bounce + 1;
+}
+
 template <Features S, class F> void render_tile(const KernelContext& context, const TileJob& job, TileScratch& scratch) {
     generate_paths<S, F>(context, job, scratch);
+    if (scratch.bounces) scratch.bounces->recorded = 0;
     PathQueue* now = &scratch.paths[0];
     PathQueue* next = &scratch.paths[1];
     for (int bounce = 0; now->size > 0; ++bounce) {
@@ -174,6 +187,7 @@ template <Features S, class F> void render_tile(const KernelContext& context, co
         (bounce > 0 ? scratch.bounce_rays : scratch.camera_rays) += now->size;
         trace_paths<F>(context, scratch, *now, bounce);
         shade_paths<S, F>(context, scratch, *now, *next, bounce);
+        if (scratch.bounces) record_bounce(scratch, job.paths(), bounce);
         scratch.shadow_rays += scratch.shadows.size;
         if (scratch.shadows.size > 0) connect_paths<F>(context, scratch, bounce);
         std::swap(now, next);

@@ -73,6 +73,30 @@ TEST(Render, WritesTheLayersAskedFor) {
     EXPECT_GE(image.find("id.material")->values[middle], 1);
 }
 
+TEST(Render, BouncesSumToTheBeautyInFileAndJson) {
+    const TemporaryFolder folder;
+    const Json json = blush_json(with(tiny("cornell", folder / "out.exr"), {"--layers", "bounces=3", "--quiet"}));
+    ASSERT_EQ(json["bounces"].size(), 3u);
+    EXPECT_EQ(json["bounces"][0]["bounce"], "0");
+    EXPECT_EQ(json["bounces"][2]["bounce"], "2+");
+    double share = 0;
+    for (const Json& bounce : json["bounces"]) {
+        EXPECT_GT(bounce["share"], 0);
+        share += double(bounce["share"]);
+    }
+    EXPECT_NEAR(share, 1, 1e-12);
+    const LayeredImage image = *read_layers(folder / "out.exr");
+    EXPECT_EQ(image.find("bounce.3.R"), nullptr);
+    for (const std::string channel : {"R", "G", "B"}) {
+        for (size_t i = 0; i < 24 * 16; ++i) {
+            double sum = 0;
+            for (const char* bounce : {"bounce.0.", "bounce.1.", "bounce.2."}) sum += double(image.find(bounce + channel)->values[i]);
+            const double whole = double(image.find(channel)->values[i]);
+            EXPECT_NEAR(sum, whole, whole * 0x1.01p-23) << channel << i;
+        }
+    }
+}
+
 TEST(Render, WritesPicturesForDisplay) {
     const TemporaryFolder folder;
     for (const char* name : {"out.png", "out.jpg"}) {

@@ -131,11 +131,14 @@ TEST(RenderOptions, BadTextIsRefused) {
 TEST(Layers, AreParsedByName) {
     EXPECT_EQ(*parse_layers("albedo"), (Layers{.albedo = true}));
     EXPECT_EQ(*parse_layers("albedo,normal,depth,error,samples,id"), (Layers{true, true, true, true, true, true}));
-    for (const char* bad : {"", "albedo,", "Albedo", "groups", "bounces", "albedo normal"}) EXPECT_FALSE(parse_layers(bad)) << bad;
+    for (const char* bad : {"", "albedo,", "Albedo", "groups", "bounces=1", "bounces=33", "bounces=", "albedo normal"})
+        EXPECT_FALSE(parse_layers(bad)) << bad;
 }
 
 TEST(Layers, TheFilmHoldsOnlyWhatTheyNeed) {
     EXPECT_EQ(planes_of(*parse_layers("error,samples")), PlaneSet{});
+    EXPECT_EQ(planes_of(*parse_layers("bounces")).bounces, 8);
+    EXPECT_EQ(planes_of(*parse_layers("bounces=2,id")), (PlaneSet{.ids = true, .bounces = 2}));
     EXPECT_EQ(planes_of(*parse_layers("normal,id")), (PlaneSet{.normal = true, .ids = true}));
 }
 

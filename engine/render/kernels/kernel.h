@@ -12,6 +12,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace blush {
 
@@ -54,6 +55,16 @@ struct FirstHitColumns {
     Column<int32_t> object, material; // material: index into the material table, -1 on a miss
 };
 
+// The radiance of each path as it grows: after[k] holds what arrived by at most k scatterings. Never longer than the film asked for.
+struct BounceColumns {
+    struct Radiance {
+        Column<float> r, g, b;
+    };
+    explicit BounceColumns(int count) : after(size_t(count)) {}
+    std::vector<Radiance> after;
+    int recorded = 0; // of them; where all paths ended earlier, the others would hold their final radiance
+};
+
 // A worker's memory for tiles, and what a tile leaves in it. Results are by slot: slot = pixel * samples + sample, pixels by rows.
 struct TileScratch {
     PathQueue paths[2];
@@ -64,6 +75,7 @@ struct TileScratch {
 
     Column<float> r, g, b;                  // radiance
     std::unique_ptr<FirstHitColumns> first; // null: nobody reads it
+    std::unique_ptr<BounceColumns> bounces; // null: nobody reads it
     int64_t camera_rays = 0, bounce_rays = 0, shadow_rays = 0, truncated_paths = 0; // counted up
 };
 

@@ -1,0 +1,30 @@
+#include "render/bounce_planes.h"
+
+namespace blush {
+
+void BouncePlanes::reset(size_t pixels, int planes) {
+    planes_ = planes;
+    sums_.assign(pixels * size_t(planes), Vec3d{0, 0, 0});
+}
+
+void BouncePlanes::add(size_t pixel, const TileScratch& tile, int slot) {
+    const BounceColumns& columns = *tile.bounces;
+    Vec3d* sums = &sums_[pixel * size_t(planes_)];
+    Vec3d before{0, 0, 0};
+    const auto add_difference = [&](Vec3d& sum, const auto& column) {
+        const Vec3d now{double(column.r[slot]), double(column.g[slot]), double(column.b[slot])};
+        sum = {sum.x + (now.x - before.x), sum.y + (now.y - before.y), sum.z + (now.z - before.z)};
+        before = now;
+    };
+    for (int k = 0; k < columns.recorded; ++k) add_difference(sums[k], columns.after[size_t(k)]);
+    add_difference(sums[columns.recorded], tile);
+}
+
+void BouncePlanes::resolve(size_t pixel, double scale, std::vector<std::vector<Vec3>>& planes) const {
+    for (size_t k = 0; k < planes.size(); ++k) {
+        const Vec3d& sum = sums_[pixel * planes.size() + k];
+        planes[k][pixel] = {float(sum.x * scale), float(sum.y * scale), float(sum.z * scale)};
+    }
+}
+
+} // namespace blush
