@@ -34,8 +34,8 @@ struct PixelView {
 struct DenoiseInput {
     int width = 0, height = 0; // from 1x1; any size
     PixelView color;           // scene-linear, any value: what is not finite, negative or beyond 65504 / exposure scale is sanitised
-    PixelView albedo;          // optional, [0, 1]
-    PixelView normal;          // optional, world space, [-1, 1]; only read if there is an albedo too
+    PixelView albedo = {};     // optional, [0, 1]
+    PixelView normal = {};     // optional, world space, [-1, 1]; there is no network for one of the two alone: then neither is read
 };
 
 struct DenoiseOptions {
@@ -43,7 +43,7 @@ struct DenoiseOptions {
     DenoisePrecision precision = DenoisePrecision::automatic;
     // What colour is multiplied with before the network sees it. Empty: measured from the image. A picture that refines must
     // keep the scale of its first denoised image, or its brightness pumps.
-    std::optional<float> exposure_scale;
+    std::optional<float> exposure_scale = {};
     // Of the memory that a call works in, weights and images aside. Images that need more are done in overlapping tiles.
     uint64_t memory_bytes = uint64_t(3) << 29;
 };
@@ -53,7 +53,7 @@ struct Denoised {
 
     float exposure_scale = 1;
     int64_t sanitised = 0; // pixels whose colour was NaN, infinite, negative or too large for the network
-    double mean_before = 0; // mean luminance of the (sanitised) input and of `rgb`: the denoiser's change of mean energy
+    double mean_before = 0; // mean luminance of the input, where it is finite, and of `rgb`: the denoiser's change of mean energy
     double mean_after = 0;
     std::string network;    // "rt_hdr_alb_nrm_small"
     std::string precision;  // "float32" or "bfloat16"

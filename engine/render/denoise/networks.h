@@ -1,0 +1,67 @@
+// The networks in use: their weights, the sizes they were last made for, the memory they work in.
+#pragma once
+
+#include "core/parallel.h"
+#include "core/result.h"
+#include "render/denoise/tiles.h"
+#include "render/denoise/unet.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <list>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace blush::denoise {
+
+// Fills `count` pixels of network input (all its channels) from (x, y) on, all within the image.
+using ImageSource = std::function<void(int x, int y, int count, float* row)>;
+// Takes `count` pixels of network output, three channels, from (x, y) on.
+using ImageSink = std::function<void(int x, int y, int count, const float* row)>;
+
+struct NetworkJob {
+    std::string network; // "rt_hdr": FOLDER/rt_hdr.tza
+    int inputs = 3;      // channels
+    int width = 0, height = 0;
+    Element element = Element::float32;
+    uint64_t memory_bytes = 0;
+    ImageSource source = {};
+    ImageSink sink = {};
+};
+
+class Networks {
+public:
+    explicit Networks(std::filesystem::path folder);
+
+    // Each pixel of the image is taken exactly once. How many tiles it took; 0 if it stopped because it was no longer wanted.
+    // Errors: weights, convolutions, memory too small for the smallest tile.
+    Result<int> run(const NetworkJob& job, const Workers& workers, const std::function<bool()>& wanted);
+    // Frees everything but the weights.
+    void release();
+
+private:
+    struct Made {
+        std::string network;
+        int width, height;
+        Element element;
+        Unet unet;
+    };
+    struct Free {
+        void operator()(std::byte* p) const;
+    };
+
+    Result<const UnetWeights*> weights(const std::string& network, int inputs);
+    Result<const Unet*> made(const NetworkJob& job, const UnetWeights& weights, int width, int height);
+    std::byte* memory(size_t bytes);
+
+    std::filesystem::path folder_;
+    std::map<std::string, UnetWeights> weights_;
+    std::list<Made> made_; // the last used first
+    std::unique_ptr<std::byte[], Free> memory_;
+    size_t memory_bytes_ = 0;
+};
+
+} // namespace blush::denoise

@@ -1,0 +1,137 @@
+#include "render/denoise/unet.h"
+
+#include "render/denoise/band_ops.h"
+
+#include <algorithm>
+
+namespace blush::denoise {
+namespace {
+
+int bands_of(int rows) { return (rows + band_rows - 1) / band_rows; }
+
+// One run of the network.
+template <class T> class Pass {
+public:
+    Pass(const Unet& unet, const Workers& workers, const std::function<bool()>& wanted, std::byte* memory)
+        : unet_(unet), workers_(workers), wanted_(wanted), memory_(memory) {}
+
+    bool read(const UnetSource& source) const {
+        const UnetPlane& input = unet_.plan.planes[0];
+        clear_borders(0);
+        return workers_.for_each(bands_of(input.height), wanted_, [&](int64_t band, unsigned worker) {
+            float* row = reinterpret_cast<float*>(own(worker).source);
+            for (int y = int(band) * band_rows; y < std::min(input.height, int(band + 1) * band_rows); y++) {
+                source(y, row);
+                convert_row(row, row_of(0, y), input.row_elements());
+            }
+        });
+    }
+
+    bool compute(int layer, const UnetSink& sink) const {
+        const UnetPlane& made = unet_.plan.planes[layer + 1];
+        const int height = unet_layers[layer].pool ? made.height * 2 : made.height;
+        const bool last = layer + 1 == unet_layer_count;
+        if (!last) clear_borders(layer + 1);
+        return workers_.for_each(bands_of(height), wanted_, [&](int64_t band, unsigned worker) {
+            const int y = int(band) * band_rows, rows = std::min(band_rows, height - y);
+            const OneThread one_thread;
+            const Own own = this->own(worker);
+            const void* source = unet_layers[layer].skip < 0 ? row_of(layer, y - 1) : join(layer, y, rows, own.source);
+            std::byte* target = unet_layers[layer].pool || last ? own.target : reinterpret_cast<std::byte*>(row_of(layer + 1, y));
+            const Unet::Layer& code = unet_.layers[layer];
+            (rows == std::min(band_rows, height) ? code.band : *code.last_band).run(source, target, own.scratch);
+            if (unet_layers[layer].pool) pool(layer, y, rows, target);
+            if (last)
+                for (int i = 0; i < rows; i++) sink(y + i, reinterpret_cast<const float*>(target) + made.row_elements() * i);
+        });
+    }
+
+private:
+    struct Own {
+        std::byte *source, *target, *scratch; // a worker's alone: rows that a band is made of, rows it makes, the convolution's
+    };
+    Own own(unsigned worker) const {
+        const UnetPlan& plan = unet_.plan;
+        std::byte* begin = memory_ + plan.plane_bytes + worker * (2 * plan.band_bytes + unet_.scratch_bytes);
+        return {begin, begin + plan.band_bytes, begin + 2 * plan.band_bytes};
+    }
+    // Rows -1 and height are the zeros around.
+    T* row_of(int plane, int y) const {
+        const UnetPlane& p = unet_.plan.planes[plane];
+        return reinterpret_cast<T*>(memory_ + p.offset) + p.row_elements() * (y + 1);
+    }
+    void clear_borders(int plane) const {
+        const UnetPlane& p = unet_.plan.planes[plane];
+        for (const int y : {-1, p.height}) std::fill_n(row_of(plane, y), p.row_elements(), T(0));
+    }
+
+    // What layer `layer` reads for its rows [y, y + rows) where it reads two planes.
+    const void* join(int layer, int y, int rows, std::byte* memory) const {
+        const UnetPlane& half = unet_.plan.planes[layer];
+        const int skip = unet_layers[layer].skip;
+        const UnetPlane& skipped = unet_.plan.planes[skip];
+        const size_t elements = size_t(skipped.width) * (half.channels + skipped.channels);
+        T* to = reinterpret_cast<T*>(memory);
+        for (int v = y - 1; v <= y + rows; v++, to += elements) {
+            if (v < 0 || v >= skipped.height)
+                std::fill_n(to, elements, T(0));
+            else
+                double_and_join_row(row_of(layer, v / 2), half.channels, row_of(skip, v), skipped.channels, to, skipped.width);
+        }
+        return memory;
+    }
+
+    void pool(int layer, int y, int rows, const std::byte* memory) const {
+        const UnetPlane& made = unet_.plan.planes[layer + 1];
+        const size_t elements = made.row_elements() * 2;
+        const T* from = reinterpret_cast<const T*>(memory);
+        for (int i = 0; i < rows; i += 2, from += 2 * elements)
+            pool_rows(from, from + elements, row_of(layer + 1, (y + i) / 2), made.width, made.channels);
+    }
+
+    const Unet& unet_;
+    const Workers& workers_;
+    const std::function<bool()>& wanted_;
+    std::byte* memory_;
+};
+
+template <class T> bool run(const Unet& unet, const Workers& workers, const std::function<bool()>& wanted, std::byte* memory,
+                            const UnetSource& source, const UnetSink& sink) {
+    const Pass<T> pass(unet, workers, wanted, memory);
+    if (!pass.read(source)) return false;
+    for (int layer = 0; layer < unet_layer_count; layer++)
+        if (!pass.compute(layer, sink)) return false;
+    return true;
+}
+
+} // namespace
+
+Result<Unet> make_unet(const UnetWeights& weights, int width, int height, Element element) {
+    Unet unet{.plan = plan_unet(weights.channels(), width, height, element)};
+    for (int i = 0; i < unet_layer_count; i++) {
+        const UnetPlane& made = unet.plan.planes[i + 1];
+        const int scale = unet_layers[i].pool ? 2 : 1, rows = made.height * scale;
+        BandShape shape{made.width * scale, std::min(band_rows, rows), element, i + 1 == unet_layer_count ? Element::float32 : element};
+        auto band = Convolution::make(weights.layers[i], shape);
+        if (!band) return band.error();
+        unet.layers.push_back({std::move(*band), {}});
+        unet.scratch_bytes = std::max(unet.scratch_bytes, unet.layers.back().band.scratch_bytes());
+
+        shape.rows = rows % shape.rows;
+        if (shape.rows == 0) continue;
+        auto last = Convolution::make(weights.layers[i], shape);
+        if (!last) return last.error();
+        unet.layers.back().last_band = std::move(*last);
+        unet.scratch_bytes = std::max(unet.scratch_bytes, unet.layers.back().last_band->scratch_bytes());
+    }
+    unet.scratch_bytes = (unet.scratch_bytes + 63) / 64 * 64;
+    return unet;
+}
+
+bool run_unet(const Unet& unet, const Workers& workers, const std::function<bool()>& wanted, std::byte* memory, const UnetSource& source,
+              const UnetSink& sink) {
+    const auto typed = unet.plan.element == Element::float32 ? run<float> : run<Bfloat16>;
+    return typed(unet, workers, wanted, memory, source, sink);
+}
+
+} // namespace blush::denoise

@@ -1,0 +1,44 @@
+// The network for one size of image, ready to run.
+#pragma once
+
+#include "core/parallel.h"
+#include "core/result.h"
+#include "render/denoise/convolution.h"
+#include "render/denoise/unet_plan.h"
+#include "render/denoise/unet_weights.h"
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace blush::denoise {
+
+struct Unet {
+    // The last band of a plane may be lower than the others.
+    struct Layer {
+        Convolution band;
+        std::optional<Convolution> last_band;
+    };
+
+    UnetPlan plan;
+    std::vector<Layer> layers = {};
+    size_t scratch_bytes = 0; // of the convolutions, for each worker
+
+    // Of the memory that run_unet() works in.
+    size_t bytes(const Workers& workers) const { return plan.bytes(workers.threads()) + workers.threads() * scratch_bytes; }
+};
+
+// Sides must be multiples of unet_side_multiple. Errors: as of Convolution::make.
+Result<Unet> make_unet(const UnetWeights& weights, int width, int height, Element element);
+
+// Fills row y of the input: width * input channels.
+using UnetSource = std::function<void(int y, float* row)>;
+// Takes row y of the output: width * 3.
+using UnetSink = std::function<void(int y, const float* row)>;
+
+// memory: unet.bytes(workers), aligned to 64; holds nothing between calls. Source and sink are called once for each row, from many
+// threads. False if it stopped because it was no longer wanted.
+bool run_unet(const Unet& unet, const Workers& workers, const std::function<bool()>& wanted, std::byte* memory, const UnetSource& source,
+              const UnetSink& sink);
+
+} // namespace blush::denoise

@@ -1,0 +1,60 @@
+// Against pictures that another program made with the same networks (tests/golden/denoise).
+#include "denoise/agreement.h"
+
+#include "measure/metrics.h"
+
+namespace blush::test {
+namespace {
+
+struct Golden {
+    const char* network;
+    DenoiseQuality quality;
+    bool features;
+    double relmse; // of the expected picture against the reference, to five digits
+};
+
+class GoldenTest : public testing::TestWithParam<Golden> {
+protected:
+    Planes noisy() const { return GetParam().features ? golden("noisy") : golden("noisy").without_features(); }
+    Planes expected() const { return golden(std::string("expected_") + GetParam().network); }
+    DenoiseOptions options(DenoisePrecision precision) const { return {.quality = GetParam().quality, .precision = precision}; }
+};
+
+RgbImage image(int width, int height, std::span<const float> rgb) {
+    RgbImage made{width, height, {}};
+    for (size_t i = 0; i < rgb.size(); i += 3) made.pixels.push_back({rgb[i], rgb[i + 1], rgb[i + 2]});
+    return made;
+}
+
+TEST_P(GoldenTest, Float32Agrees) {
+    const Denoised made = denoised(noisy(), options(DenoisePrecision::float32));
+    EXPECT_EQ(made.network, GetParam().network);
+    EXPECT_EQ(made.precision, "float32");
+    EXPECT_NEAR(made.exposure_scale, 3.50315, 1e-5);
+    EXPECT_LT(relative_difference(made.rgb, expected().color).largest, 1e-3);
+}
+
+TEST_P(GoldenTest, Bfloat16Agrees) {
+    if (!has_bfloat16()) GTEST_SKIP() << "this processor has none";
+    const Denoised made = denoised(noisy(), options(DenoisePrecision::bfloat16));
+    EXPECT_EQ(made.precision, "bfloat16");
+    EXPECT_LT(relative_difference(made.rgb, expected().color).mean, 1e-2);
+}
+
+TEST_P(GoldenTest, IsAsFarFromTheReferenceAsExpected) {
+    const Planes reference = golden("reference");
+    const Denoised made = denoised(noisy(), options(DenoisePrecision::float32));
+    const auto metrics = compare(image(reference.width, reference.height, made.rgb),
+                                 image(reference.width, reference.height, reference.color), Encoding::scene_linear);
+    ASSERT_TRUE(metrics);
+    EXPECT_NEAR(metrics->relmse, GetParam().relmse, 5e-6);
+}
+
+INSTANTIATE_TEST_SUITE_P(Networks, GoldenTest,
+                         testing::Values(Golden{"rt_hdr_alb_nrm", DenoiseQuality::base, true, 0.00490},
+                                         Golden{"rt_hdr_alb_nrm_small", DenoiseQuality::fast, true, 0.00525},
+                                         Golden{"rt_hdr", DenoiseQuality::base, false, 0.00516}),
+                         [](const auto& golden_case) { return std::string(golden_case.param.network); });
+
+} // namespace
+} // namespace blush::test
