@@ -55,8 +55,10 @@ Result<std::filesystem::path> write_snapshot_exr(const SnapshotJob& job) {
 Result<std::filesystem::path> write_snapshot_png(const SnapshotJob& job, const ColorManagement& color) {
     const auto file = free_name(job, ".png");
     if (!file) return file;
-    if (const auto written = write_display_picture(*file, *job.frame, color, job.project.view, metadata_of(job)); !written)
-        return written.error();
+    const Frame& frame = *job.frame;
+    const auto written = write_display_picture(*file, frame.width, frame.height, beauty_rgb(frame), color, job.project.view,
+                                               display_metadata(metadata_of(job)));
+    if (!written) return written.error();
     return file;
 }
 

@@ -2,6 +2,7 @@
 #include "app/assets_dir.h"
 #include "app/commands/common.h"
 #include "app/commands/compare.h"
+#include "app/commands/denoise.h"
 #include "app/commands/info.h"
 #include "app/commands/render.h"
 #include "app/commands/render_options.h"
@@ -55,6 +56,7 @@ int run_command_line(int argc, char** argv) {
     add_render_command(app, run);
     add_compare_command(app, run);
     add_info_command(app, run);
+    add_denoise_command(app, run);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& asked) { // --help, --version

@@ -15,12 +15,12 @@ namespace blush {
 namespace {
 
 struct CompareCommand {
-    std::string a, b;
+    std::string a, b, layer;
     CommonOptions common;
 };
 
 Result<Metrics> compare_files(const CompareCommand& c) {
-    const Result<ImageToCompare> a = read_image_to_compare(c.a);
+    const Result<ImageToCompare> a = read_image_to_compare(c.a, c.layer);
     if (!a) return a.error();
     const Result<ImageToCompare> b = read_image_to_compare(c.b);
     if (!b) return b.error();
@@ -82,6 +82,7 @@ void add_compare_command(CLI::App& app, std::function<int()>& run) {
     CLI::App* sub = app.add_subcommand("compare", "Print how two images differ; B is the reference");
     sub->add_option("a", command->a, "Image")->required()->type_name("A");
     sub->add_option("b", command->b, "Reference image of the same size")->required()->type_name("B");
+    sub->add_option("--layer", command->layer, "A layer of A in place of its beauty, as \"denoised\"")->type_name("NAME");
     add_common_options(*sub, command->common);
     sub->callback([command, &run] { run = [command] { return run_compare(*command); }; });
 }

@@ -1,27 +1,21 @@
 #include "app/commands/compare_images.h"
 
 #include "app/commands/common.h"
+#include "app/commands/picture.h"
 #include "io/image_io.h"
 
-#include <algorithm>
+#include <fmt/format.h>
+
 #include <string>
 
 namespace blush {
 namespace {
 
-std::string lower_extension(const std::filesystem::path& file) {
-    std::string extension = file.extension().string();
-    std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-    return extension;
-}
-
-Result<RgbImage> read_exr_rgb(const std::filesystem::path& file) {
+Result<RgbImage> read_exr_rgb(const std::filesystem::path& file, const std::string& layer) {
     const Result<LayeredImage> image = read_layers(file);
     if (!image) return image.error();
-    const LayeredImage::Channel* grey = image->find("Y");
-    const LayeredImage::Channel *r = image->find("R"), *g = image->find("G"), *b = image->find("B");
-    if (!(r && g && b)) r = g = b = grey;
-    if (!r) return Error{.what = "the file has no channels R, G and B"};
+    const auto [r, g, b] = image->find_color(layer);
+    if (!r) return Error{.what = layer.empty() ? "the file has no channels R, G and B" : fmt::format("the file has no layer {}.{{R,G,B}}", layer)};
     RgbImage rgb{image->width, image->height, {}};
     rgb.pixels.reserve(r->values.size());
     for (size_t i = 0; i < r->values.size(); ++i) rgb.pixels.push_back({r->values[i], g->values[i], b->values[i]});
@@ -44,13 +38,12 @@ Result<RgbImage> read_plain_rgb(const std::filesystem::path& file) {
 
 } // namespace
 
-Result<ImageToCompare> read_image_to_compare(const std::filesystem::path& file) {
-    const std::string extension = lower_extension(file);
-    Result<RgbImage> rgb = extension == ".exr" ? read_exr_rgb(file) : read_plain_rgb(file);
+Result<ImageToCompare> read_image_to_compare(const std::filesystem::path& file, const std::string& layer) {
+    const bool is_exr = lower_extension(file) == ".exr";
+    if (!layer.empty() && !is_exr) return Error{file.string(), "only an EXR has layers", ""};
+    Result<RgbImage> rgb = is_exr ? read_exr_rgb(file, layer) : read_plain_rgb(file);
     if (!rgb) return in_file(rgb.error(), file.string());
-    constexpr std::string_view display_formats[] = {".png", ".jpg", ".jpeg", ".webp", ".bmp"};
-    const bool display = std::ranges::find(display_formats, extension) != std::end(display_formats);
-    return ImageToCompare{*std::move(rgb), display ? Encoding::display : Encoding::scene_linear};
+    return ImageToCompare{*std::move(rgb), is_display_encoded(file) ? Encoding::display : Encoding::scene_linear};
 }
 
 } // namespace blush

@@ -4,6 +4,7 @@
 #include "measure/metrics.h"
 
 #include <filesystem>
+#include <string>
 
 namespace blush {
 
@@ -12,9 +13,9 @@ struct ImageToCompare {
     Encoding encoding = Encoding::scene_linear;
 };
 
-// R, G and B of an EXR, or any other image; a grey one counts as three equal channels. EXR, HDR and other float formats are scene-linear,
-// PNG, JPEG, WebP and BMP display-encoded.
+// R, G and B of an EXR or of one of its layers ("denoised"), or any other image; a grey one counts as three equal channels. EXR, HDR and
+// other float formats are scene-linear, PNG, JPEG, WebP and BMP display-encoded.
 // Errors name the file.
-Result<ImageToCompare> read_image_to_compare(const std::filesystem::path& file);
+Result<ImageToCompare> read_image_to_compare(const std::filesystem::path& file, const std::string& layer = {});
 
 } // namespace blush

@@ -8,9 +8,19 @@
 
 namespace blush {
 
-Result<PictureFormat> picture_format(const std::filesystem::path& file) {
+std::string lower_extension(const std::filesystem::path& file) {
     std::string extension = file.extension().string();
     std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    return extension;
+}
+
+bool is_display_encoded(const std::filesystem::path& file) {
+    constexpr std::string_view formats[] = {".png", ".jpg", ".jpeg", ".webp", ".bmp"};
+    return std::ranges::find(formats, lower_extension(file)) != std::end(formats);
+}
+
+Result<PictureFormat> picture_format(const std::filesystem::path& file) {
+    const std::string extension = lower_extension(file);
     if (extension == ".exr") return PictureFormat::exr;
     if (extension == ".png" || extension == ".jpg" || extension == ".jpeg") return PictureFormat::display;
     return Error{.what = fmt::format("\"{}\" must end in .exr, .png or .jpg", file.string())};
@@ -26,17 +36,25 @@ Result<std::optional<ColorManagement>> color_for(PictureFormat format, const Vie
     return std::optional<ColorManagement>(*std::move(color));
 }
 
-Result<void> write_exr_picture(const std::filesystem::path& file, const Frame& frame, const std::vector<Vec3>& error, const Layers& layers,
+Result<void> expect_folder(const std::filesystem::path& file) {
+    const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+    std::error_code code;
+    if (std::filesystem::is_directory(folder, code)) return {};
+    return Error{.file = file.string(), .what = "its folder does not exist"};
+}
+
+Result<void> write_exr_picture(const std::filesystem::path& file, const Frame& frame, const ExtraLayers& extra, const Layers& layers,
                                const SnapshotMetadata& metadata) {
     SnapshotInput input;
     input.width = frame.width;
     input.height = frame.height;
     input.rgba = frame.rgba;
+    input.denoised = extra.denoised;
+    input.error = extra.error;
     input.metadata = metadata;
     if (layers.albedo) input.albedo = frame.albedo;
     if (layers.normal) input.normal = frame.normal;
     if (layers.depth) input.depth = frame.depth;
-    if (layers.error) input.error = error;
     std::vector<float> samples;
     if (layers.samples) {
         samples.assign(frame.rgba.size() / 4, float(frame.samples));
@@ -52,18 +70,28 @@ Result<void> write_exr_picture(const std::filesystem::path& file, const Frame& f
     return write_exr(file, *image);
 }
 
-Result<void> write_display_picture(const std::filesystem::path& file, const Frame& frame, const ColorManagement& color,
-                                   const ViewSettings& view, const SnapshotMetadata& metadata) {
+std::vector<float> beauty_rgb(const Frame& frame) {
     const size_t pixels = frame.rgba.size() / 4;
     std::vector<float> rgb(pixels * 3);
     for (size_t i = 0; i < pixels; ++i) std::copy_n(&frame.rgba[4 * i], 3, &rgb[3 * i]);
-    if (Result<void> shown = color.apply_display(view.display, view.view, view.exposure_ev, view.gamma, rgb.data(), pixels); !shown)
+    return rgb;
+}
+
+Result<void> write_display_picture(const std::filesystem::path& file, int width, int height, std::vector<float> rgb,
+                                   const ColorManagement& color, const ViewSettings& view,
+                                   const std::map<std::string, std::string>& metadata) {
+    if (Result<void> shown = color.apply_display(view.display, view.view, view.exposure_ev, view.gamma, rgb.data(), rgb.size() / 3); !shown)
         return shown;
-    return write_display_image(file, frame.width, frame.height, rgb,
-                               {{"blush:version", metadata.version},
-                                {"blush:scene", metadata.scene},
-                                {"blush:spp", std::to_string(metadata.spp)},
-                                {"blush:partial", metadata.partial ? "1" : "0"}});
+    return write_display_image(file, width, height, rgb, metadata);
+}
+
+std::map<std::string, std::string> display_metadata(const SnapshotMetadata& metadata) {
+    std::map<std::string, std::string> texts{{"blush:version", metadata.version},
+                                             {"blush:scene", metadata.scene},
+                                             {"blush:spp", std::to_string(metadata.spp)},
+                                             {"blush:partial", metadata.partial ? "1" : "0"}};
+    if (!metadata.denoised.empty()) texts.emplace("blush:denoised", metadata.denoised);
+    return texts;
 }
 
 } // namespace blush

@@ -7,10 +7,18 @@
 #include "scene/view_settings.h"
 
 #include <filesystem>
+#include <map>
 #include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
 namespace blush {
+
+// ".exr" for "A.EXR".
+std::string lower_extension(const std::filesystem::path& file);
+// By extension: do such files hold what a display shows (PNG, JPEG, WebP, BMP)? Others hold scene-linear values.
+bool is_display_encoded(const std::filesystem::path& file);
 
 enum class PictureFormat { exr, display };
 // By extension. Errors: one that is neither .exr nor .png, .jpg, .jpeg.
@@ -20,10 +28,24 @@ Result<PictureFormat> picture_format(const std::filesystem::path& file);
 // Errors: a broken config, an unknown display or view.
 Result<std::optional<ColorManagement>> color_for(PictureFormat format, const ViewSettings& view);
 
-// `error` is Renderer::resolve_error's answer, empty unless that layer is wanted.
-Result<void> write_exr_picture(const std::filesystem::path& file, const Frame& frame, const std::vector<Vec3>& error, const Layers& layers,
+// Is there a folder to write it into? Errors: no.
+Result<void> expect_folder(const std::filesystem::path& file);
+
+// What goes into an EXR beside what the frame holds; empty: not there.
+struct ExtraLayers {
+    std::span<const float> denoised; // width * height * 3
+    std::span<const Vec3> error;     // Renderer::resolve_error's answer
+};
+Result<void> write_exr_picture(const std::filesystem::path& file, const Frame& frame, const ExtraLayers& extra, const Layers& layers,
                                const SnapshotMetadata& metadata);
-Result<void> write_display_picture(const std::filesystem::path& file, const Frame& frame, const ColorManagement& color,
-                                   const ViewSettings& view, const SnapshotMetadata& metadata);
+
+// width * height * 3, scene-linear: red, green and blue without alpha.
+std::vector<float> beauty_rgb(const Frame& frame);
+// Scene-linear `rgb` as the display shows it.
+Result<void> write_display_picture(const std::filesystem::path& file, int width, int height, std::vector<float> rgb,
+                                   const ColorManagement& color, const ViewSettings& view,
+                                   const std::map<std::string, std::string>& metadata);
+// What of a render's metadata a display picture carries.
+std::map<std::string, std::string> display_metadata(const SnapshotMetadata& metadata);
 
 } // namespace blush

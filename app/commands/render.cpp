@@ -1,6 +1,8 @@
 #include "app/commands/render.h"
 
+#include "app/assets_dir.h"
 #include "app/commands/common.h"
+#include "app/commands/denoising.h"
 #include "app/commands/interrupt.h"
 #include "app/commands/json_output.h"
 #include "app/commands/load_scene.h"
@@ -12,6 +14,7 @@
 #include "io/scene_edits_json.h"
 #include "io/scene_hash.h"
 #include "measure/bounce_energy.h"
+#include "render/denoised_picture.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -52,6 +55,13 @@ struct Plan {
     PictureFormat format = PictureFormat::exr;
 };
 
+// What a render came to.
+struct Rendered {
+    LoopResult loop;
+    CompiledInfo info;
+    std::optional<Denoised> denoised;
+};
+
 Result<Plan> plan_of(const RenderCommand& c) {
     Plan plan;
     const Result<RenderSettings> settings = settings_of(c.options);
@@ -76,13 +86,6 @@ Result<Plan> plan_of(const RenderCommand& c) {
     return plan;
 }
 
-Result<void> expect_folder(const std::filesystem::path& file) {
-    const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
-    std::error_code code;
-    if (std::filesystem::is_directory(folder, code)) return {};
-    return Error{.file = file.string(), .what = "its folder does not exist"};
-}
-
 double peak_memory_mb() {
     rusage usage = {};
     getrusage(RUSAGE_SELF, &usage);
@@ -95,7 +98,8 @@ std::string loop_note(const LoopProgress& p) {
     return note;
 }
 
-SnapshotMetadata metadata_of(const RenderCommand& c, const Plan& plan, const LoadedScene& loaded, const LoopResult& result) {
+SnapshotMetadata metadata_of(const RenderCommand& c, const Plan& plan, const LoadedScene& loaded, const Rendered& rendered) {
+    const LoopResult& result = rendered.loop;
     SnapshotMetadata m;
     m.version = BLUSH_VERSION;
     m.scene = std::filesystem::path(c.scene).filename().string();
@@ -108,6 +112,7 @@ SnapshotMetadata metadata_of(const RenderCommand& c, const Plan& plan, const Loa
     m.seconds = result.seconds;
     const ErrorEstimate& error = result.frame.error;
     if (error.known) m.error = fmt::format("{:.4g} ({:.4g} to {:.4g})", error.relmse, error.low, error.high);
+    if (rendered.denoised) m.denoised = denoised_by(*rendered.denoised);
     m.settings = plan.settings;
     m.edits = edits_json(loaded.imported, loaded.scene);
     m.partial = !result.complete;
@@ -137,7 +142,8 @@ OrderedJson bounces_json(const Frame& frame) {
     return bounces;
 }
 
-OrderedJson result_json(const RenderCommand& c, const LoopResult& r, const CompiledInfo& info) {
+OrderedJson result_json(const RenderCommand& c, const Rendered& rendered) {
+    const LoopResult& r = rendered.loop;
     const RayCounts& rays = r.frame.rays;
     const double paths = double(rays.camera), seconds = std::max(r.seconds, 1e-9);
     const ErrorEstimate& error = r.frame.error;
@@ -148,7 +154,7 @@ OrderedJson result_json(const RenderCommand& c, const LoopResult& r, const Compi
     json["height"] = r.frame.height;
     json["spp"] = r.samples;
     json["seconds"] = r.seconds;
-    json["seconds_setup"] = info.seconds_setup;
+    json["seconds_setup"] = rendered.info.seconds_setup;
     json["rays"] = {{"camera", rays.camera}, {"bounce", rays.bounce}, {"shadow", rays.shadow}};
     json["mrays_per_s"] = double(rays.total()) / seconds * 1e-6;
     json["mpaths_per_s"] = paths / seconds * 1e-6;
@@ -156,39 +162,67 @@ OrderedJson result_json(const RenderCommand& c, const LoopResult& r, const Compi
     json["error"] = {{"relmse", known(error.relmse)}, {"low", known(error.low)}, {"high", known(error.high)}};
     json["health"] = health_json(r.frame.health);
     if (!r.frame.bounces.empty()) json["bounces"] = bounces_json(r.frame);
-    json["kernel"] = kernel_json(info);
+    json["kernel"] = kernel_json(rendered.info);
+    if (rendered.denoised) json["denoise"] = denoised_json(*rendered.denoised);
     json["peak_memory_mb"] = peak_memory_mb();
     json["output"] = c.output;
     json["partial"] = !r.complete;
     return json;
 }
 
-void print_summary(const RenderCommand& c, const LoopResult& r) {
+void print_summary(const RenderCommand& c, const Rendered& rendered) {
+    const LoopResult& r = rendered.loop;
     fmt::print("{}: {}x{}, {} spp in {:.2f} s, {:.2f} Mpaths/s", c.output, r.frame.width, r.frame.height, r.samples, r.seconds,
                double(r.frame.rays.camera) / std::max(r.seconds, 1e-9) * 1e-6);
     if (r.frame.error.known) fmt::print(", estimated error {:.2g}", r.frame.error.relmse);
+    if (rendered.denoised) fmt::print(", {}", denoised_summary(*rendered.denoised));
     fmt::print("{}\n", r.complete ? "" : ", partial");
 }
 
-Result<LoopResult> render_picture(const RenderCommand& c, const Plan& plan, const LoadedScene& loaded, const ColorManagement* color,
-                                  const std::atomic<bool>& interrupted, CompiledInfo& info) {
-    Renderer renderer({.threads = c.common.threads, .planes = planes_of(plan.layers)});
+PlaneSet planes_for(const RenderCommand& c, const Plan& plan) {
+    PlaneSet planes = planes_of(plan.layers);
+    if (c.options.denoise) planes.albedo = planes.normal = true;
+    return planes;
+}
+
+Result<void> write_picture(const RenderCommand& c, const Plan& plan, const Rendered& rendered, const std::vector<Vec3>& error,
+                           const SnapshotMetadata& metadata, const ColorManagement* color) {
+    const Frame& frame = rendered.loop.frame;
+    std::span<const float> denoised;
+    if (rendered.denoised) denoised = rendered.denoised->rgb;
+    if (!color) return write_exr_picture(c.output, frame, {denoised, error}, plan.layers, metadata);
+    std::vector<float> rgb = rendered.denoised ? rendered.denoised->rgb : beauty_rgb(frame);
+    return write_display_picture(c.output, frame.width, frame.height, std::move(rgb), *color, c.options.view, display_metadata(metadata));
+}
+
+// Renders, denoises if that is asked for, and writes. What was rendered is written even if it then cannot be denoised.
+Result<Rendered> render_picture(const RenderCommand& c, const Plan& plan, const LoadedScene& loaded, const ColorManagement* color,
+                                Denoiser& denoiser, const std::atomic<bool>& interrupted) {
+    Renderer renderer({.threads = c.common.threads, .planes = planes_for(c, plan)});
     renderer.update(loaded.scene, plan.settings);
-    info = renderer.info();
-    if (!c.common.quiet) print_warnings(c.scene, info.warnings);
-    LoopResult result;
+    Rendered rendered;
+    rendered.info = renderer.info();
+    if (!c.common.quiet) print_warnings(c.scene, rendered.info.warnings);
     {
         Progress progress(c.common.quiet);
-        result = run_render_loop(renderer, plan.settings, interrupted,
-                                 [&](const LoopProgress& p) { progress.update(p.fraction, loop_note(p)); });
+        rendered.loop = run_render_loop(renderer, plan.settings, interrupted,
+                                        [&](const LoopProgress& p) { progress.update(p.fraction, loop_note(p)); });
     }
-    if (result.samples == 0) return Error{.file = c.scene, .what = "interrupted before the first sample"};
+    if (rendered.loop.samples == 0) return Error{.file = c.scene, .what = "interrupted before the first sample"};
+    Result<void> denoised;
+    if (c.options.denoise) {
+        // The Ctrl-C that ended the samples does not end this as well; a first one that comes now does.
+        const std::atomic<bool> never{false};
+        Result<Denoised> result = denoise_with_progress(denoiser, denoise_input(rendered.loop.frame), *c.options.denoise, c.common.quiet,
+                                                        interrupted ? never : interrupted);
+        if (result) rendered.denoised = *std::move(result);
+        else denoised = result.error();
+    }
     const std::vector<Vec3> error = plan.layers.error ? renderer.resolve_error() : std::vector<Vec3>();
-    const SnapshotMetadata metadata = metadata_of(c, plan, loaded, result);
-    const Result<void> written = color ? write_display_picture(c.output, result.frame, *color, c.options.view, metadata)
-                                       : write_exr_picture(c.output, result.frame, error, plan.layers, metadata);
+    const Result<void> written = write_picture(c, plan, rendered, error, metadata_of(c, plan, loaded, rendered), color);
     if (!written) return in_file(written.error(), c.output);
-    return result;
+    if (!denoised) return Error{c.output, "written without denoising: " + denoised.error().text(), ""};
+    return rendered;
 }
 
 int run_render(const RenderCommand& c) {
@@ -198,6 +232,9 @@ int run_render(const RenderCommand& c) {
         if (const Result<void> folder = expect_folder(c.output); !folder) return failed(folder.error());
     const Result<std::optional<ColorManagement>> color = color_for(plan->pixel ? PictureFormat::exr : plan->format, c.options.view);
     if (!color) return failed(color.error());
+    Denoiser denoiser(weights_dir(), c.common.threads);
+    if (c.options.denoise && !plan->pixel)
+        if (const Result<void> able = try_denoiser(denoiser, *c.options.denoise); !able) return failed(able.error());
     if (*color && !c.common.quiet && !(*color)->warning().empty()) fmt::print(stderr, "blush: warning: {}\n", (*color)->warning());
 
     const InterruptGuard guard;
@@ -213,11 +250,10 @@ int run_render(const RenderCommand& c) {
         fmt::print("{}", trace_sample(loaded->scene, plan->settings, plan->pixel->x, plan->pixel->y, plan->pixel->sample));
         return exit_done;
     }
-    CompiledInfo info;
-    const Result<LoopResult> result = render_picture(c, *plan, *loaded, *color ? &**color : nullptr, guard.interrupted(), info);
-    if (!result) return failed(result.error());
-    if (const Result<void> written = write_json(c.common.json, result_json(c, *result, info)); !written) return failed(written.error());
-    if (!c.common.quiet && c.common.json != "-") print_summary(c, *result);
+    const Result<Rendered> rendered = render_picture(c, *plan, *loaded, *color ? &**color : nullptr, denoiser, guard.interrupted());
+    if (!rendered) return failed(rendered.error());
+    if (const Result<void> written = write_json(c.common.json, result_json(c, *rendered)); !written) return failed(written.error());
+    if (!c.common.quiet && c.common.json != "-") print_summary(c, *rendered);
     return exit_done;
 }
 

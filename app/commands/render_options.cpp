@@ -1,5 +1,6 @@
 #include "app/commands/render_options.h"
 
+#include "app/commands/denoising.h"
 #include "core/text.h"
 #include "scene/validate.h"
 
@@ -55,11 +56,11 @@ Result<bool> parse_switch(std::string_view text) {
     return Error{.what = fmt::format("must be on or off, not \"{}\"", text)};
 }
 
-// Named now, so that a script that asks for it learns why it gets none.
-void refuse_denoising(const std::string& text) {
-    if (text == "off") return;
-    if (text == "fast" || text == "high") throw CLI::ValidationError("--denoise", fmt::format("{} is not in this version; off is", text));
-    throw CLI::ValidationError("--denoise", fmt::format("must be off, fast or high, not \"{}\"", text));
+Result<std::optional<DenoiseQuality>> parse_denoise(std::string_view text) {
+    if (text == "off") return std::optional<DenoiseQuality>();
+    const Result<DenoiseQuality> quality = parse_denoise_quality(text);
+    if (!quality) return Error{.what = fmt::format("must be off, fast or high, not \"{}\"", text)};
+    return std::optional(*quality);
 }
 
 void add_picture_options(CLI::App& app, RenderOptions& o) {
@@ -128,20 +129,22 @@ void add_integrator_options(CLI::App& app, RenderOptions& o) {
     add_parsed(app, "--filter", o.settings.filter, parse_filter, "Pixel filter [blackman-harris]")->type_name("blackman-harris|box");
 }
 
-void add_view_options(CLI::App& app, RenderOptions& o) {
-    app.add_option("--exposure", o.view.exposure_ev, "Stops, for display alone: never in an EXR [0]")->type_name("EV");
-    app.add_option("--view", o.view.view, "View transform, for display alone [the config's default]")->type_name("NAME");
-    app.add_option("--display", o.view.display, "Display, for display alone [the config's default]")->type_name("NAME");
-    app.add_option_function<std::string>("--denoise", refuse_denoising, "off; more comes in a later version")->type_name("off|fast|high");
-}
-
 } // namespace
+
+void add_view_options(CLI::App& app, ViewSettings& view) {
+    app.add_option("--exposure", view.exposure_ev, "Stops, for display alone: never in an EXR [0]")->type_name("EV");
+    app.add_option("--view", view.view, "View transform, for display alone [the config's default]")->type_name("NAME");
+    app.add_option("--display", view.display, "Display, for display alone [the config's default]")->type_name("NAME");
+}
 
 void add_render_options(CLI::App& app, RenderOptions& options) {
     add_picture_options(app, options);
     add_stop_options(app, options);
     add_integrator_options(app, options);
-    add_view_options(app, options);
+    add_view_options(app, options.view);
+    add_parsed(app, "--denoise", options.denoise, parse_denoise,
+               "Denoise in the end: a layer \"denoised\" beside the beauty of an EXR, the picture shown in a PNG or JPEG [off]")
+        ->type_name("off|fast|high");
 }
 
 Result<RenderSettings> settings_of(const RenderOptions& options) {

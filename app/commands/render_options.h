@@ -3,8 +3,11 @@
 
 #include "app/scene_overrides.h"
 #include "core/result.h"
+#include "render/denoiser.h"
 #include "scene/render_settings.h"
 #include "scene/view_settings.h"
+
+#include <optional>
 
 namespace CLI {
 class App;
@@ -16,11 +19,14 @@ struct RenderOptions {
     RenderSettings settings;
     ViewSettings view;
     SceneOverrides overrides;
+    std::optional<DenoiseQuality> denoise; // empty: off
     bool size_given = false, spp_given = false, samples_given = false;
 };
 
 // Text that makes no sense ends parsing with CLI::ValidationError.
 void add_render_options(CLI::App& app, RenderOptions& options);
+// Of those, how a picture is shown: --exposure, --view, --display.
+void add_view_options(CLI::App& app, ViewSettings& view);
 
 // The settings that the options together ask for: a time or error limit alone lifts the default limit on samples.
 // Errors: options that contradict each other, numbers out of range (validate.h).

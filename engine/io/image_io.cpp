@@ -15,6 +15,11 @@
 #include <new>
 
 namespace blush {
+
+struct ImageHeader {
+    OIIO::ImageSpec spec;
+};
+
 namespace {
 
 constexpr uint64_t max_file_bytes = uint64_t(4) << 30;
@@ -125,6 +130,7 @@ Result<LayeredImage> decode_layers(std::span<const uint8_t> bytes, const std::st
     const OIIO::ImageSpec spec = decoder->spec();
     const size_t pixels = size_t(spec.width) * size_t(spec.height);
     LayeredImage image{spec.width, spec.height, {}, {}};
+    if (std::string_view(decoder->input->format_name()) == "openexr") image.header = std::make_shared<ImageHeader>(spec);
     for (int begin = 0, end = 0; begin < spec.nchannels; begin = end) {
         const bool is_uint = is_uint_channel(spec, begin);
         while (end < spec.nchannels && is_uint_channel(spec, end) == is_uint) ++end;
@@ -144,6 +150,7 @@ Result<LayeredImage> decode_layers(std::span<const uint8_t> bytes, const std::st
     }
     for (const OIIO::ParamValue& attribute : spec.extra_attribs)
         if (attribute.type() == OIIO::TypeDesc::STRING) image.metadata[attribute.name().string()] = attribute.get_string();
+    image.more_parts = decoder->input->seek_subimage(1, 0);
     return image;
 }
 
@@ -163,6 +170,20 @@ Result<void> encode_to_file(const std::filesystem::path& file, const char* forma
     return write_file(file, std::span<const uint8_t>(bytes));
 }
 
+// What a file that was read said of itself, except for how its pixels were stored.
+void keep_header(OIIO::ImageSpec& spec, const OIIO::ImageSpec& read) {
+    spec.x = read.x;
+    spec.y = read.y;
+    spec.full_x = read.full_x;
+    spec.full_y = read.full_y;
+    spec.full_width = read.full_width;
+    spec.full_height = read.full_height;
+    for (const OIIO::ParamValue& attribute : read.extra_attribs) {
+        const std::string_view name = attribute.name().string();
+        if (!name.starts_with("oiio:") && !name.starts_with("openexr:") && name != "compression") spec.extra_attribs.push_back(attribute);
+    }
+}
+
 void set_metadata(OIIO::ImageSpec& spec, const std::map<std::string, std::string>& metadata) {
     for (const auto& [key, value] : metadata) spec.attribute(key, value);
 }
@@ -179,6 +200,26 @@ const char* display_format(const std::filesystem::path& file) {
 const LayeredImage::Channel* LayeredImage::find(std::string_view name) const {
     const auto it = std::find_if(channels.begin(), channels.end(), [&](const Channel& c) { return c.name == name; });
     return it == channels.end() ? nullptr : &*it;
+}
+
+std::array<const LayeredImage::Channel*, 3> LayeredImage::find_color(std::string_view layer) const {
+    const auto named = [&](const char* letter) { return find(layer.empty() ? letter : fmt::format("{}.{}", layer, letter)); };
+    const std::array<const Channel*, 3> rgb{named("R"), named("G"), named("B")};
+    if (rgb[0] && rgb[1] && rgb[2]) return rgb;
+    const Channel* grey = named("Y");
+    return {grey, grey, grey};
+}
+
+void LayeredImage::set(Channel channel, std::string_view behind) {
+    const auto named = [&](std::string_view name) {
+        return std::find_if(channels.begin(), channels.end(), [&](const Channel& c) { return c.name == name; });
+    };
+    if (const auto there = named(channel.name); there != channels.end()) {
+        *there = std::move(channel);
+        return;
+    }
+    const auto before = named(behind);
+    channels.insert(before == channels.end() ? before : before + 1, std::move(channel));
 }
 
 Result<ImagePtr> read_image(const std::filesystem::path& file, const ImageLimits& limits) {
@@ -208,8 +249,9 @@ Result<void> write_exr(const std::filesystem::path& file, const LayeredImage& im
             spec.channelnames.push_back(channel.name);
             spec.channelformats.push_back(channel.is_uint ? OIIO::TypeDesc::UINT32 : OIIO::TypeDesc::FLOAT);
         }
-        spec.attribute("compression", "zip");
+        if (image.header) keep_header(spec, image.header->spec);
         set_metadata(spec, image.metadata);
+        spec.attribute("compression", "zip");
         // Native layout: four bytes per channel, float or unsigned.
         std::vector<uint32_t> packed(pixels * image.channels.size());
         for (size_t c = 0; c < image.channels.size(); ++c) {

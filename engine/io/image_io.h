@@ -4,9 +4,11 @@
 #include "core/result.h"
 #include "scene/scene.h"
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -26,6 +28,9 @@ Result<ImagePtr> read_image(const std::filesystem::path& file, const ImageLimits
 // The same from memory; `name` is for messages.
 Result<ImagePtr> read_image(std::span<const uint8_t> bytes, const std::string& name, const ImageLimits& limits = {});
 
+// What a file says of itself besides pixels and text: its windows, numbers, matrices.
+struct ImageHeader;
+
 // Named channels of one size, as in an EXR: "R", "albedo.R", "id.object", ... and string metadata ("blush:spp").
 struct LayeredImage {
     struct Channel {
@@ -36,8 +41,14 @@ struct LayeredImage {
     int width = 0, height = 0;
     std::vector<Channel> channels;
     std::map<std::string, std::string> metadata;
+    std::shared_ptr<const ImageHeader> header = {}; // of an EXR that was read; write_exr keeps it
+    bool more_parts = false;                        // the file holds other images, which were not read
 
     const Channel* find(std::string_view name) const;
+    // The three channels of a layer ("denoised"; "" is the beauty), or its Y three times; nullptr thrice if there are none.
+    std::array<const Channel*, 3> find_color(std::string_view layer = {}) const;
+    // Replaces the channel of that name, or adds it behind `behind` (behind all, if there is none of that name).
+    void set(Channel channel, std::string_view behind = {});
 };
 
 // Every channel of the file under its own name, as float, and its text metadata. Errors as in read_image.

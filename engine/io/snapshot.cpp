@@ -81,6 +81,7 @@ std::map<std::string, std::string> metadata_texts(const SnapshotMetadata& m) {
         {"blush:settings", render_settings_json(m.settings)},
         {"blush:edits", m.edits},
     };
+    if (!m.denoised.empty()) texts.emplace("blush:denoised", m.denoised);
     if (m.partial) texts.emplace("blush:partial", "1");
     return texts;
 }
@@ -103,6 +104,7 @@ Result<LayeredImage> make_snapshot(const SnapshotInput& input) {
     if (input.width < 1 || input.height < 1 || input.rgba.empty()) return Error{"", "a snapshot without pixels", ""};
     Builder builder(input.width, input.height);
     builder.interleaved("", "RGBA", input.rgba);
+    builder.interleaved("denoised.", "RGB", input.denoised);
     builder.vectors("albedo.", "RGB", input.albedo);
     builder.vectors("normal.", "XYZ", input.normal);
     builder.scalars("depth.Z", input.depth);
@@ -126,6 +128,7 @@ Result<SnapshotMetadata> read_snapshot_metadata(const LayeredImage& image) {
     m.scene_hash = text("blush:scene_hash");
     m.camera = text("blush:camera");
     m.error = text("blush:error");
+    m.denoised = text("blush:denoised");
     m.edits = text("blush:edits");
     m.partial = text("blush:partial") == "1";
     if (!read_number(text("blush:spp"), m.spp)) return Error{"", "not a number", "blush:spp"};

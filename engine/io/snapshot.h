@@ -22,7 +22,8 @@ struct SnapshotMetadata {
     int64_t first_sample = 0, last_sample = 0; // sample indices [first, last)
     uint32_t seed = 0;
     double seconds = 0; // of rendering
-    std::string error;  // estimated relative error as text, empty if unknown
+    std::string error;    // estimated relative error as text, empty if unknown
+    std::string denoised; // what made the layer of that name: network, precision, samples; empty without one
     RenderSettings settings;
     std::string edits;    // scene_edits_json.h, empty if nothing differs from the file
     bool partial = false; // ended before any stop rule was reached
@@ -33,6 +34,7 @@ struct SnapshotMetadata {
 struct SnapshotInput {
     int width = 0, height = 0;
     std::span<const float> rgba; // width * height * 4, scene-linear
+    std::span<const float> denoised; // width * height * 3
     std::span<const Vec3> albedo;
     std::span<const Vec3> normal;   // world space
     std::span<const float> depth;   // metres
@@ -43,7 +45,7 @@ struct SnapshotInput {
     SnapshotMetadata metadata;
 };
 
-// Channels R G B A, then albedo.{R,G,B}, normal.{X,Y,Z}, depth.Z, error.{R,G,B}, samples.Y, bounce.N.{R,G,B},
+// Channels R G B A, then denoised.{R,G,B}, albedo.{R,G,B}, normal.{X,Y,Z}, depth.Z, error.{R,G,B}, samples.Y, bounce.N.{R,G,B},
 // id.object, id.material.
 // Errors: a plane of the wrong size, an id of 2^24 or more, which a float channel cannot carry.
 Result<LayeredImage> make_snapshot(const SnapshotInput& input);

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <fmt/format.h>
 #include <new>
 #include <system_error>
@@ -62,8 +63,7 @@ public:
 
     // False: no longer wanted.
     Result<bool> run(Denoised& made) {
-        made.exposure_scale =
-            options_.exposure_scale ? *options_.exposure_scale : exposure_scale_of(input_.color, input_.width, input_.height, workers_);
+        made.exposure_scale = exposure_scale();
         const Inspection before = inspect(input_.color, input_.width, input_.height, largest_radiance / made.exposure_scale, workers_);
         made.sanitised = before.unusual;
         made.mean_before = before.mean_luminance;
@@ -89,6 +89,13 @@ public:
     }
 
 private:
+    float exposure_scale() const {
+        const std::optional<float>& held = options_.exposure_scale;
+        if (held && std::isinf(options_.exposure_tolerance)) return *held;
+        const float measured = exposure_scale_of(input_.color, input_.width, input_.height, workers_);
+        return held && std::max(measured / *held, *held / measured) <= options_.exposure_tolerance ? *held : measured;
+    }
+
     std::string network() const {
         if (prefilter_) return "rt_hdr_calb_cnrm";
         return std::string(features_ ? "rt_hdr_alb_nrm" : "rt_hdr") + (options_.quality == DenoiseQuality::fast ? "_small" : "");

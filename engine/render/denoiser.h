@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -44,6 +45,9 @@ struct DenoiseOptions {
     // What colour is multiplied with before the network sees it. Empty: measured from the image. A picture that refines must
     // keep the scale of its first denoised image, or its brightness pumps.
     std::optional<float> exposure_scale = {};
+    // The factor within which the measured scale may differ from that one before it is taken in its place: a picture after an edit
+    // then keeps the scale of the one before, unless the light has really changed. Infinite: the scale above holds whatever is measured.
+    float exposure_tolerance = std::numeric_limits<float>::infinity();
     // Of the memory that a call works in, weights and images aside. Images that need more are done in overlapping tiles.
     uint64_t memory_bytes = uint64_t(3) << 29;
 };

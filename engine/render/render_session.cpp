@@ -66,7 +66,7 @@ struct RenderSession::State {
     std::condition_variable wake;
     std::optional<Submission> pending;
     bool paused = false;
-    FramePtr latest;
+    Showcase showcase;
     SessionStatus status;
 
     // What tiles compare with before they begin: one load, no lock.
@@ -83,6 +83,8 @@ struct RenderSession::State {
     double first_image_seconds = 0, samples_per_second = 0;
     std::thread thread;
 
+    std::unique_ptr<BackgroundDenoiser> denoiser; // always there; last, so that it goes before what it answers to
+
     // With the mutex held.
     SessionStatus::State due_state() const;
     bool must_show() const { return has_scene && !has_first_image; }
@@ -94,6 +96,8 @@ struct RenderSession::State {
     void work_once();
     void fail(std::string why);
     void publish(const Work* work = nullptr);
+    void take_denoised(uint64_t image, const FramePtr& source, DenoisedPtr denoised);
+    Pictures look() const;
 };
 
 SessionStatus::State RenderSession::State::due_state() const {
@@ -127,9 +131,27 @@ void RenderSession::State::publish(const Work* work) {
     frame->seconds = scheduler.seconds();
     frame->first_image_seconds = first_image_seconds;
     frame->samples_per_second = samples_per_second;
-    FramePtr previous = frame;
+    const Pictures previous = look(); // freed without the lock
     const std::lock_guard lock(mutex);
-    latest.swap(previous);
+    if (denoiser->offer(current.image, frame)) showcase.withhold(current.image, frame);
+    else showcase.show(current.image, frame);
+}
+
+// On the denoiser's thread.
+void RenderSession::State::take_denoised(uint64_t image, const FramePtr& source, DenoisedPtr denoised) {
+    const Pictures previous = look();
+    {
+        const std::lock_guard lock(mutex);
+        showcase.answer(image, source, std::move(denoised));
+        status.denoiser_failure = denoiser->failure();
+        if (!status.denoiser_failure.empty()) showcase.release();
+    }
+    on_frame();
+}
+
+Pictures RenderSession::State::look() const {
+    const std::lock_guard lock(mutex);
+    return showcase.pictures();
 }
 
 void RenderSession::State::take_up(Submission next) {
@@ -202,6 +224,10 @@ void RenderSession::State::run() {
 RenderSession::RenderSession(const SessionOptions& options, std::function<void()> on_frame) : state_(std::make_unique<State>()) {
     state_->options = options;
     state_->on_frame = on_frame ? std::move(on_frame) : [] {};
+    state_->denoiser = std::make_unique<BackgroundDenoiser>(
+        options.denoise, [s = state_.get()](uint64_t image, const FramePtr& source, DenoisedPtr denoised) {
+            s->take_denoised(image, source, std::move(denoised));
+        });
     state_->thread = std::thread([s = state_.get()] { s->run(); });
 }
 
@@ -235,10 +261,14 @@ void RenderSession::pause(bool paused) {
     state_->wake.notify_one();
 }
 
-FramePtr RenderSession::latest() const {
+void RenderSession::want_denoised(bool wanted) {
+    state_->denoiser->want(wanted);
+    if (wanted) return;
     const std::lock_guard lock(state_->mutex);
-    return state_->latest;
+    state_->showcase.release();
 }
+
+Pictures RenderSession::pictures() const { return state_->look(); }
 
 SessionStatus RenderSession::status() const {
     const std::lock_guard lock(state_->mutex);

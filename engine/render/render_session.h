@@ -1,7 +1,9 @@
-// The one thread that owns everything that renders. Its whole public face.
+// The one thread that owns everything that renders, and the one that denoises beside it. Their whole public face.
 #pragma once
 
+#include "render/background_denoiser.h"
 #include "render/frame.h"
+#include "render/showcase.h"
 #include "scene/render_settings.h"
 #include "scene/scene.h"
 
@@ -15,7 +17,8 @@ namespace blush {
 struct SessionOptions {
     unsigned threads = 0;     // 0: one per core
     bool low_priority = true; // below the UI: render threads may not starve it
-    bool first_hit_planes = true; // albedo, normal, depth, ids in every frame: picking and the pixel probe read them
+    bool first_hit_planes = true; // albedo, normal, depth, ids in every frame: picking, the pixel probe and the denoiser read them
+    DenoiseFunction denoise = {}; // not called before denoised pictures are wanted; empty: there are none
 };
 
 struct SessionStatus {
@@ -24,11 +27,12 @@ struct SessionStatus {
     uint64_t revision = 0; // the last one taken up
     double progress = 0;   // towards the nearest stop rule, 0 .. 1; 1 only when reached
     std::string message;   // failed: what went wrong
+    std::string denoiser_failure; // why there are no denoised pictures any more; empty: all is well
 };
 
 class RenderSession {
 public:
-    // `on_frame` is called on the render thread after each publication and each change of state; it must not block.
+    // `on_frame` is called after each publication and each change of state, on the threads here, perhaps on both at once; it must not block.
     RenderSession(const SessionOptions& options, std::function<void()> on_frame);
     // Stops in mid-pass if need be, and joins.
     ~RenderSession();
@@ -40,8 +44,12 @@ public:
     void submit(uint64_t revision, const Scene& scene, const RenderSettings& settings);
     // A paused session still shows the first image of what is submitted, then waits.
     void pause(bool paused);
-    // The newest published frame, or null. Never blocks for longer than a pointer copy.
-    FramePtr latest() const;
+    // Whether denoised pictures are made, beside the frames and at a tenth of their cost (denoise_cadence.h). Never blocks, and resets
+    // nothing: those that there are stay when no more are wanted.
+    void want_denoised(bool wanted);
+    // The newest published frame, or null, and what is denoised of its image. Never blocks for longer than a pointer copy.
+    Pictures pictures() const;
+    FramePtr latest() const { return pictures().frame; }
     SessionStatus status() const;
 
 private:

@@ -7,22 +7,29 @@
 
 namespace blush::test {
 
-WatchedSession::WatchedSession(unsigned threads, std::function<void(RenderSession&, const Event&)> on_event) : on_event_(std::move(on_event)) {
+WatchedSession::WatchedSession(unsigned threads, std::function<void(RenderSession&, const Event&)> on_event, DenoiseFunction denoise)
+    : on_event_(std::move(on_event)) {
     SessionOptions options;
     options.threads = threads;
+    options.denoise = std::move(denoise);
     session_ = std::make_unique<RenderSession>(options, [this] { record(); });
     watched_ = session_.get();
 }
 
 void WatchedSession::record() {
     // Nothing is announced before the first submission, so the session is known by now.
-    const Event event{watched_->status(), watched_->latest()};
+    Event event;
     {
+        // The render thread and the denoiser's announce: they are written down in the order of what they saw.
         const std::lock_guard lock(mutex_);
+        const Pictures pictures = watched_->pictures();
+        event = {watched_->status(), pictures.frame, pictures.denoised};
         events_.push_back(event);
     }
     changed_.notify_all();
-    if (on_event_) on_event_(*watched_, event);
+    if (!on_event_) return;
+    const std::lock_guard one_at_a_time(calling_);
+    on_event_(*watched_, event);
 }
 
 Event WatchedSession::wait_for(const EventTest& test) {

@@ -14,15 +14,16 @@ namespace blush::test {
 // What could be seen at one call of on_frame.
 struct Event {
     SessionStatus status;
-    FramePtr frame; // the newest; null before the first
+    FramePtr frame;       // the newest; null before the first
+    DenoisedPtr denoised; // of its image, if any
 };
 
 using EventTest = std::function<bool(const Event&)>;
 
 class WatchedSession {
 public:
-    // `on_event` runs on the render thread at each announcement, after it was recorded.
-    explicit WatchedSession(unsigned threads = 2, std::function<void(RenderSession&, const Event&)> on_event = {});
+    // `on_event` runs at each announcement, after it was recorded, one at a time.
+    explicit WatchedSession(unsigned threads = 2, std::function<void(RenderSession&, const Event&)> on_event = {}, DenoiseFunction denoise = {});
 
     RenderSession* operator->() { return session_.get(); }
     // Stops and joins; what was announced stays readable.
@@ -39,6 +40,7 @@ private:
     void record();
 
     std::function<void(RenderSession&, const Event&)> on_event_;
+    std::mutex calling_;
     mutable std::mutex mutex_;
     std::condition_variable changed_;
     std::vector<Event> events_;

@@ -1,6 +1,7 @@
 blush_test(test_app
   SOURCES
     app_compare.cpp
+    app_denoise.cpp
     app_info.cpp
     app_progress.cpp
     app_render.cpp

@@ -123,9 +123,15 @@ TEST(RenderOptions, BadTextIsRefused) {
                                                       {"--samples", "4"},
                                                       {"--env", "constant=1,2"},
                                                       {"--env", ""},
-                                                      {"--denoise", "high"}})
+                                                      {"--denoise", "base"}})
         EXPECT_TRUE(refused(arguments)) << arguments[0] << " " << arguments[1];
-    EXPECT_FALSE(refused({"--denoise", "off"}));
+}
+
+TEST(RenderOptions, DenoisingIsOffUntilAskedFor) {
+    EXPECT_FALSE(parsed({}).denoise);
+    EXPECT_FALSE(parsed({"--denoise", "off"}).denoise);
+    EXPECT_EQ(parsed({"--denoise", "fast"}).denoise, DenoiseQuality::fast);
+    EXPECT_EQ(parsed({"--denoise", "high"}).denoise, DenoiseQuality::high);
 }
 
 TEST(Layers, AreParsedByName) {

@@ -50,11 +50,13 @@ TEST(Usage, BadUsageIsTwo) {
     EXPECT_TRUE(refused(2, {"render", scene, "-o", "x.exr", "--layers", "albedo,depths"}, "unknown layer \"depths\""));
     EXPECT_TRUE(refused(2, {"render", scene, "-o", "x.exr", "--layers", "groups"}, "not in this version"));
     EXPECT_TRUE(refused(2, {"render", scene, "-o", "x.png", "--layers", "albedo"}, "--layers needs an .exr"));
-    EXPECT_TRUE(refused(2, {"render", scene, "-o", "x.exr", "--denoise", "fast"}, "not in this version"));
     EXPECT_TRUE(refused(2, {"render", scene, "-o", "x.exr", "--denoise", "yes"}, "must be off, fast or high"));
     EXPECT_TRUE(refused(2, {"render", scene, "--pixel", "5"}, "--pixel must be X,Y"));
     EXPECT_TRUE(refused(2, {"render", scene, "--pixel", "1280,0"}, "outside of 1280x720"));
     EXPECT_TRUE(refused(2, {"compare", "a.exr"}, "b is required"));
+    EXPECT_TRUE(refused(2, {"denoise", "a.exr"}, "--output is required"));
+    EXPECT_TRUE(refused(2, {"denoise", "a.exr", "-o", "b.tga"}, "must end in .exr, .png or .jpg"));
+    EXPECT_TRUE(refused(2, {"denoise", "a.exr", "-o", "b.exr", "--quality", "best"}, "must be fast or high"));
     EXPECT_TRUE(refused(2, {"info"}, "scene is required"));
     EXPECT_TRUE(refused(2, {"a.gltf", "b.gltf"}, "b.gltf"));
 }

@@ -62,6 +62,20 @@ TEST(ImageIo, ExrKeepsEveryLayerAndTextBitForBit) {
     EXPECT_EQ(folder.entries(), 1u);
 }
 
+TEST(ImageIo, ColorsAndLayersAreFoundAndSetByName) {
+    LayeredImage image{1, 1, {{"R", {1}}, {"G", {2}}, {"B", {3}}, {"depth.Z", {4}}, {"denoised.Y", {5}}}, {}};
+    EXPECT_EQ(image.find_color()[1]->name, "G");
+    for (const LayeredImage::Channel* channel : image.find_color("denoised")) EXPECT_EQ(channel->name, "denoised.Y") << "grey stands for all three";
+    EXPECT_EQ(image.find_color("albedo")[0], nullptr);
+    image.set({"depth.Z", {6}}, "R");
+    image.set({"A", {7}}, "B");
+    image.set({"last", {8}}, "none");
+    std::vector<std::string> names;
+    for (const LayeredImage::Channel& channel : image.channels) names.push_back(channel.name);
+    EXPECT_EQ(names, (std::vector<std::string>{"R", "G", "B", "A", "depth.Z", "denoised.Y", "last"}));
+    EXPECT_EQ(image.find("depth.Z")->values[0], 6) << "replaced where it stood";
+}
+
 TEST(ImageIo, ExrAsImageIsFloat) {
     const TempFolder folder;
     ASSERT_TRUE(write_exr(folder / "a.exr", layered(2, 2)));

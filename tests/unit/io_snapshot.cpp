@@ -12,12 +12,12 @@ struct Planes {
     std::vector<float> rgba = {1, 2, 3, 1, 4, 5, 6, 0};
     std::vector<Vec3> albedo = {{0.1f, 0.2f, 0.3f}, {0.4f, 0.5f, 0.6f}}, normal = {{0, 1, 0}, {0, 0, 0}},
                       error = {{0.01f, 0.02f, 0.03f}, {0, 0, 0}};
-    std::vector<float> depth = {2.5f, 0}, samples = {64, 64};
+    std::vector<float> depth = {2.5f, 0}, samples = {64, 64}, denoised = {9, 8, 7, 6, 5, 4};
     std::vector<uint32_t> object = {7, 0}, material = {3, 0};
 };
 
 SnapshotInput full_input(const Planes& p) {
-    SnapshotInput input{2, 1, p.rgba, p.albedo, p.normal, p.depth, p.error, p.samples, p.object, p.material, {}};
+    SnapshotInput input{2, 1, p.rgba, p.denoised, p.albedo, p.normal, p.depth, p.error, p.samples, p.object, p.material, {}, {}};
     SnapshotMetadata& m = input.metadata;
     m.version = "0.1.0";
     m.scene = "cornell.gltf";
@@ -29,6 +29,7 @@ SnapshotInput full_input(const Planes& p) {
     m.seed = 9;
     m.seconds = 1.0 / 3;
     m.error = "relmse 0.001";
+    m.denoised = "rt_hdr, float32";
     m.settings.max_bounces = 3;
     m.edits = R"({"format":1})";
     m.partial = true;
@@ -42,14 +43,15 @@ TEST(Snapshot, ChannelsAndMetadataAreThoseOfTheContractAndComeBackFromAFile) {
     ASSERT_TRUE(image) << error_text(image);
     std::vector<std::string> names;
     for (const LayeredImage::Channel& channel : image->channels) names.push_back(channel.name);
-    EXPECT_EQ(names, (std::vector<std::string>{"R", "G", "B", "A", "albedo.R", "albedo.G", "albedo.B", "normal.X", "normal.Y", "normal.Z",
-                                               "depth.Z", "error.R", "error.G", "error.B", "samples.Y", "id.object", "id.material"}));
+    EXPECT_EQ(names, (std::vector<std::string>{"R", "G", "B", "A", "denoised.R", "denoised.G", "denoised.B", "albedo.R", "albedo.G",
+                                               "albedo.B", "normal.X", "normal.Y", "normal.Z", "depth.Z", "error.R", "error.G", "error.B", "samples.Y", "id.object", "id.material"}));
     const TempFolder folder;
     ASSERT_TRUE(write_exr(folder / "a.exr", *image));
     const auto read = read_layers(folder / "a.exr");
     ASSERT_TRUE(read) << error_text(read);
     EXPECT_EQ(read->channels.size(), names.size());
     EXPECT_EQ(read->find("G")->values, (std::vector<float>{2, 5}));
+    EXPECT_EQ(read->find("denoised.G")->values, (std::vector<float>{8, 5}));
     EXPECT_EQ(read->find("albedo.B")->values, (std::vector<float>{0.3f, 0.6f}));
     EXPECT_EQ(read->find("normal.Y")->values, (std::vector<float>{1, 0}));
     EXPECT_EQ(read->find("id.object")->values, (std::vector<float>{7, 0}));

@@ -1,0 +1,57 @@
+#include "app/commands/denoising.h"
+
+#include "app/commands/progress.h"
+#include "render/denoised_picture.h"
+
+#include <fmt/format.h>
+
+namespace blush {
+
+Result<DenoiseQuality> parse_denoise_quality(std::string_view text) {
+    if (text == "fast") return DenoiseQuality::fast;
+    if (text == "high") return DenoiseQuality::high;
+    return Error{.what = fmt::format("must be fast or high, not \"{}\"", text)};
+}
+
+Result<void> try_denoiser(Denoiser& denoiser, DenoiseQuality quality) {
+    const float grey[3] = {0.5f, 0.5f, 0.5f};
+    DenoiseOptions options;
+    options.quality = quality;
+    const Result<std::optional<Denoised>> denoised = denoiser.denoise({1, 1, {grey}, {grey}, {grey}}, options);
+    if (!denoised) return denoised.error();
+    return {};
+}
+
+Result<Denoised> denoise_with_progress(Denoiser& denoiser, const DenoiseInput& input, DenoiseQuality quality, bool quiet,
+                                       const std::atomic<bool>& interrupted) {
+    Progress progress(quiet);
+    progress.update(0, fmt::format("denoising {}x{}", input.width, input.height));
+    DenoiseOptions options;
+    options.quality = quality;
+    Result<std::optional<Denoised>> denoised = denoiser.denoise(input, options, [&] { return !interrupted.load(); });
+    if (!denoised) return denoised.error();
+    if (!*denoised) return Error{.what = "interrupted before it was denoised"};
+    return **std::move(denoised);
+}
+
+OrderedJson denoised_json(const Denoised& denoised) {
+    OrderedJson json;
+    json["network"] = denoised.network;
+    json["precision"] = denoised.precision;
+    json["tiles"] = denoised.tiles;
+    json["seconds"] = denoised.seconds;
+    json["energy_change_percent"] = energy_change_percent(denoised);
+    json["sanitised"] = denoised.sanitised;
+    return json;
+}
+
+std::string denoised_by(const Denoised& denoised) { return denoised.network + ", " + denoised.precision; }
+
+std::string denoised_summary(const Denoised& denoised) {
+    std::string text = fmt::format("denoised by {} in {:.2f} s, mean energy {:+.2f} %", denoised_by(denoised), denoised.seconds,
+                                   energy_change_percent(denoised));
+    if (denoised.sanitised > 0) text += fmt::format(", {} pixels sanitised", denoised.sanitised);
+    return text;
+}
+
+} // namespace blush

@@ -1,0 +1,121 @@
+#include "render/background_denoiser.h"
+
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <new>
+#include <utility>
+
+namespace blush {
+namespace {
+
+// A third of a stop: an edit that changes less keeps the exposure scale, so that a drag does not pump.
+constexpr float scale_tolerance = 1.26f;
+
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+DenoiseCadence::Source source_of(uint64_t image, const Frame& frame) {
+    return {image, frame.samples, frame.divider, frame.complete, double(frame.width) * double(frame.height) * 1e-6};
+}
+
+} // namespace
+
+DenoiseFunction denoiser_made_when_needed(std::filesystem::path weights, unsigned threads, bool low_priority) {
+    return [=, denoiser = std::shared_ptr<Denoiser>()](const DenoiseInput& input, const DenoiseOptions& options,
+                                                       const std::function<bool()>& wanted) mutable {
+        if (!denoiser) denoiser = std::make_shared<Denoiser>(weights, threads, low_priority);
+        return denoiser->denoise(input, options, wanted);
+    };
+}
+
+BackgroundDenoiser::BackgroundDenoiser(DenoiseFunction denoise, OnAnswer on_answer)
+    : denoise_(std::move(denoise)), on_answer_(std::move(on_answer)) {
+    if (denoise_) thread_ = std::thread([this] { run(); });
+}
+
+BackgroundDenoiser::~BackgroundDenoiser() {
+    {
+        const std::lock_guard lock(mutex_);
+        quit_ = true;
+    }
+    wake_.notify_one();
+    if (thread_.joinable()) thread_.join();
+}
+
+void BackgroundDenoiser::want(bool wanted) {
+    {
+        const std::lock_guard lock(mutex_);
+        wanted_ = wanted;
+    }
+    wake_.notify_one();
+}
+
+bool BackgroundDenoiser::offer(uint64_t image, FramePtr frame) {
+    bool promised = false;
+    {
+        const std::lock_guard lock(mutex_);
+        cadence_.offer(source_of(image, *frame), now());
+        promised = wanted_ && denoise_ && failure_.empty() && cadence_.answers_within_a_frame();
+        newest_ = {image, std::move(frame), promised};
+        newest_image_ = image;
+    }
+    wake_.notify_one();
+    return promised;
+}
+
+std::string BackgroundDenoiser::failure() const {
+    const std::lock_guard lock(mutex_);
+    return failure_;
+}
+
+bool BackgroundDenoiser::is_wanted(const Task& task) const {
+    return !quit_ && wanted_ && (task.promised || newest_image_ == task.image);
+}
+
+DenoiseOptions BackgroundDenoiser::options_for(const Task& task, DenoiseQuality quality) const {
+    DenoiseOptions options;
+    options.quality = quality;
+    options.exposure_scale = scale_;
+    if (scale_image_ != task.image) options.exposure_tolerance = scale_tolerance;
+    return options;
+}
+
+BackgroundDenoiser::Outcome BackgroundDenoiser::denoise(const Task& task, const DenoiseOptions& options) const {
+    try {
+        Result<std::optional<Denoised>> result = denoise_(denoise_input(*task.frame), options, [&] { return is_wanted(task); });
+        if (!result) return {nullptr, result.error().text()};
+        if (!*result) return {};
+        return {denoised_picture(*task.frame, options.quality, **std::move(result)), {}};
+    } catch (const std::bad_alloc&) { return {nullptr, "not enough memory to denoise"}; } catch (const std::exception& e) {
+        return {nullptr, e.what()};
+    }
+}
+
+void BackgroundDenoiser::run() {
+    std::unique_lock lock(mutex_);
+    while (!quit_) {
+        const DenoiseCadence::Decision decision = wanted_ && failure_.empty() ? cadence_.next(now()) : DenoiseCadence::Decision{};
+        if (!decision.quality) {
+            if (std::isinf(decision.wait)) wake_.wait(lock);
+            else wake_.wait_for(lock, std::chrono::duration<double>(decision.wait));
+            continue;
+        }
+        const Task task = newest_;
+        lock.unlock();
+        const double begun = now();
+        Outcome outcome = denoise(task, options_for(task, *decision.quality));
+        const double seconds = now() - begun;
+        if (outcome.picture) {
+            scale_ = outcome.picture->denoised.exposure_scale;
+            scale_image_ = task.image;
+        }
+        lock.lock();
+        cadence_.record(source_of(task.image, *task.frame), *decision.quality, begun, seconds, outcome.picture != nullptr);
+        failure_ = std::move(outcome.failure);
+        lock.unlock();
+        on_answer_(task.image, task.frame, std::move(outcome.picture));
+        lock.lock();
+    }
+}
+
+} // namespace blush

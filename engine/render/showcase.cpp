@@ -1,0 +1,35 @@
+#include "render/showcase.h"
+
+#include <utility>
+
+namespace blush {
+
+void Showcase::show(uint64_t image, FramePtr frame) {
+    if (image != image_) shown_.denoised.reset();
+    image_ = image;
+    shown_.frame = std::move(frame);
+    withheld_.reset();
+}
+
+void Showcase::withhold(uint64_t image, FramePtr frame) {
+    withheld_image_ = image;
+    withheld_ = std::move(frame);
+}
+
+void Showcase::release() {
+    if (withheld_) show(withheld_image_, std::move(withheld_));
+}
+
+void Showcase::answer(uint64_t image, const FramePtr& source, DenoisedPtr denoised) {
+    if (withheld_ == source) {
+        show(image, source);
+    } else if (denoised && image > image_) {
+        // A drag faster than the denoiser: a newer frame is withheld already, but something must be seen.
+        FramePtr newer = std::move(withheld_);
+        show(image, source);
+        withheld_ = std::move(newer);
+    }
+    if (denoised && image == image_) shown_.denoised = std::move(denoised);
+}
+
+} // namespace blush

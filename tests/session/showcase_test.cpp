@@ -1,0 +1,85 @@
+#include "render/showcase.h"
+
+#include <gtest/gtest.h>
+
+namespace blush {
+namespace {
+
+FramePtr frame() { return std::make_shared<const Frame>(); }
+DenoisedPtr denoised() { return std::make_shared<const DenoisedPicture>(); }
+
+TEST(Showcase, ADenoisedPictureStaysWithItsImageAndGoesWithIt) {
+    Showcase showcase;
+    const FramePtr first = frame(), second = frame(), other = frame();
+    const DenoisedPtr picture = denoised();
+    showcase.show(1, first);
+    EXPECT_EQ(showcase.pictures().denoised, nullptr);
+    showcase.answer(1, first, picture);
+    EXPECT_EQ(showcase.pictures().denoised, picture);
+    showcase.show(1, second);
+    EXPECT_EQ(showcase.pictures().frame, second);
+    EXPECT_EQ(showcase.pictures().denoised, picture);
+    showcase.answer(1, second, nullptr);
+    EXPECT_EQ(showcase.pictures().denoised, picture) << "no answer takes nothing away";
+    showcase.show(2, other);
+    EXPECT_EQ(showcase.pictures().denoised, nullptr);
+    showcase.answer(1, second, denoised());
+    EXPECT_EQ(showcase.pictures().frame, other);
+    EXPECT_EQ(showcase.pictures().denoised, nullptr) << "of an image that is no longer shown";
+}
+
+TEST(Showcase, AWithheldFrameComesWithItsAnswer) {
+    Showcase showcase;
+    const FramePtr old = frame(), next = frame();
+    showcase.show(1, old);
+    showcase.withhold(2, next);
+    EXPECT_EQ(showcase.pictures().frame, old);
+    const DenoisedPtr picture = denoised();
+    showcase.answer(2, next, picture);
+    EXPECT_EQ(showcase.pictures().frame, next);
+    EXPECT_EQ(showcase.pictures().denoised, picture);
+}
+
+TEST(Showcase, AWithheldFrameComesEvenWithoutOne) {
+    for (const bool answered : {true, false}) {
+        Showcase showcase;
+        const FramePtr next = frame();
+        showcase.withhold(1, next);
+        if (answered) showcase.answer(1, next, nullptr);
+        else showcase.release();
+        EXPECT_EQ(showcase.pictures().frame, next);
+        EXPECT_EQ(showcase.pictures().denoised, nullptr);
+        showcase.release();
+        EXPECT_EQ(showcase.pictures().frame, next) << "nothing is withheld any more";
+    }
+}
+
+TEST(Showcase, ALaterFrameDoesNotWait) {
+    Showcase showcase;
+    const FramePtr coarse = frame(), fine = frame();
+    const DenoisedPtr picture = denoised();
+    showcase.withhold(1, coarse);
+    showcase.show(1, fine);
+    EXPECT_EQ(showcase.pictures().frame, fine);
+    showcase.answer(1, coarse, picture);
+    EXPECT_EQ(showcase.pictures().frame, fine);
+    EXPECT_EQ(showcase.pictures().denoised, picture) << "coarser, but of this image";
+}
+
+TEST(Showcase, ADragFasterThanTheDenoiserStillShowsSomething) {
+    Showcase showcase;
+    const FramePtr second = frame(), third = frame();
+    showcase.show(1, frame());
+    showcase.withhold(2, second);
+    showcase.withhold(3, third);
+    const DenoisedPtr of_second = denoised(), of_third = denoised();
+    showcase.answer(2, second, of_second);
+    EXPECT_EQ(showcase.pictures().frame, second);
+    EXPECT_EQ(showcase.pictures().denoised, of_second);
+    showcase.answer(3, third, of_third);
+    EXPECT_EQ(showcase.pictures().frame, third);
+    EXPECT_EQ(showcase.pictures().denoised, of_third);
+}
+
+} // namespace
+} // namespace blush
