@@ -1,5 +1,6 @@
 #include "app/editor_commands.h"
 
+#include "scene/edit_tree.h"
 #include "ui/light_tools.h"
 
 #include <algorithm>
@@ -40,20 +41,11 @@ void begin_rename(PanelContext& c) {
     c.ui.scroll_to_selected = true;
 }
 
-bool is_below(const Scene& scene, Id<Node> id, Id<Node> ancestor) {
-    for (size_t steps = 0; id && steps <= scene.nodes.size(); ++steps) {
-        if (id == ancestor) return true;
-        const Node* node = scene.nodes.find(id);
-        id = node ? node->parent : Id<Node>{};
-    }
-    return false;
-}
-
 // The meshes of a node and all below it; where there are none (a light, a camera), a little room around its origin.
 Bounds bounds_of(const Scene& scene, Id<Node> root) {
     Bounds all;
-    for (const auto& [id, node] : scene.nodes) {
-        if (!node.mesh || !is_below(scene, id, root)) continue;
+    for (const Id<Node> id : subtree(scene, root)) {
+        if (!scene.nodes.find(id)->mesh) continue;
         const Bounds b = world_bounds(scene, id);
         if (b.empty) continue;
         all.include(b.low);

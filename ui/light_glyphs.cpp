@@ -1,5 +1,6 @@
 #include "ui/light_glyphs.h"
 
+#include "scene/placements.h"
 #include "ui/icons.h"
 #include "ui/rotation.h"
 #include "ui/theme.h"
@@ -79,16 +80,17 @@ void draw_extent(const WorldPen& pen, const Scene& scene, Id<Node> id, const Lig
     }
 }
 
-bool is_shown(const Scene& scene, Id<Node> id, const Node& node) {
-    return node.light && is_visible(scene, id) && scene.lights.contains(node.light);
+bool is_shown(const Scene& scene, Placements& placements, Id<Node> id, const Node& node) {
+    return scene.lights.contains(node.light) && placements(id).visible;
 }
 
 } // namespace
 
 void draw_light_glyphs(ImDrawList& draw, const Scene& scene, const Projection& projection, const ImageRect& image, Id<Node> selected) {
+    Placements placements(scene);
     for (const auto& [id, node] : scene.nodes) {
-        if (!is_shown(scene, id, node)) continue;
-        const auto point = projection.project(world_from_node(scene, id).t);
+        if (!is_shown(scene, placements, id, node)) continue;
+        const auto point = projection.project(placements(id).world_from_node.t);
         if (!point) continue;
         const Light& light = *scene.lights.find(node.light);
         if (id == selected) draw_extent({draw, projection, image}, scene, id, light, point->distance);
@@ -103,9 +105,10 @@ void draw_light_glyphs(ImDrawList& draw, const Scene& scene, const Projection& p
 Id<Node> light_under(const Scene& scene, const Projection& projection, const ImageRect& image, ScreenPoint mouse) {
     Id<Node> found;
     double nearest = 1e300;
+    Placements placements(scene);
     for (const auto& [id, node] : scene.nodes) {
-        if (!is_shown(scene, id, node)) continue;
-        const auto point = projection.project(world_from_node(scene, id).t);
+        if (!is_shown(scene, placements, id, node)) continue;
+        const auto point = projection.project(placements(id).world_from_node.t);
         if (!point || point->distance >= nearest) continue;
         const ScreenPoint at = image.at(*point);
         if (std::hypot(at.x - mouse.x, at.y - mouse.y) > glyph_size() * 0.62f) continue;

@@ -1,5 +1,6 @@
 #include "ui/viewport.h"
 
+#include "scene/edit_tree.h"
 #include "ui/light_glyphs.h"
 #include "ui/orbit_camera.h"
 #include "ui/picking.h"
@@ -29,15 +30,7 @@ void draw_centred(const char* text) {
 // A mask over node ids: the node and all below it.
 std::vector<uint8_t> with_descendants(const Scene& scene, Id<Node> root) {
     std::vector<uint8_t> selected(scene.nodes.empty() ? 1 : scene.nodes.entries().back().id.value + 1);
-    const auto is_below = [&](Id<Node> id) {
-        for (size_t steps = 0; id && steps <= scene.nodes.size(); ++steps) {
-            if (id == root) return true;
-            const Node* node = scene.nodes.find(id);
-            id = node ? node->parent : Id<Node>{};
-        }
-        return false;
-    };
-    for (const auto& entry : scene.nodes) selected[entry.id.value] = is_below(entry.id);
+    for (const Id<Node> id : subtree(scene, root)) selected[id.value] = true;
     return selected;
 }
 

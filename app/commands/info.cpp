@@ -5,6 +5,7 @@
 #include "app/commands/json_output.h"
 #include "app/commands/load_scene.h"
 #include "app/commands/progress.h"
+#include "scene/placements.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -26,9 +27,10 @@ struct LightCounts {
 
 LightCounts count_lights(const Scene& scene) {
     LightCounts counts;
+    Placements placements(scene);
     for (const auto& [id, node] : scene.nodes) {
         const Light* light = scene.lights.find(node.light);
-        if (!light || !is_visible(scene, id)) continue;
+        if (!light || !placements(id).visible) continue;
         switch (light->kind) {
         case Light::Kind::point: ++counts.point; break;
         case Light::Kind::spot: ++counts.spot; break;

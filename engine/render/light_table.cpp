@@ -4,6 +4,7 @@
 #include "core/math.h"
 #include "render/light_sampling.h"
 #include "render/lowering.h"
+#include "scene/placements.h"
 
 #include <algorithm>
 #include <cmath>
@@ -79,10 +80,11 @@ void add_triangles(Builder& b, const MaterialTable& materials, GeometryPool& geo
 }
 
 void add_punctual(Builder& b, const Scene& scene, double scene_radius) {
+    Placements placements(scene);
     for (const auto& [id, node] : scene.nodes) {
         const Light* light = node.light ? scene.lights.find(node.light) : nullptr;
-        if (!light || !light->enabled || is_area_light(*light) || !is_visible(scene, id)) continue;
-        const Affined world = world_from_node(scene, id);
+        if (!light || !light->enabled || is_area_light(*light) || !placements(id).visible) continue;
+        const Affined& world = placements(id).world_from_node;
         const Vec3d axis = normalize(-world.z);
         LightRecord record{};
         record.position = {float(world.t.x), float(world.t.y), float(world.t.z)};

@@ -1,6 +1,7 @@
 #include "render/object_list.h"
 
 #include "scene/affine.h"
+#include "scene/placements.h"
 
 #include <algorithm>
 #include <map>
@@ -28,10 +29,11 @@ bool SceneObject::same_shape(const SceneObject& other) const {
 std::vector<SceneObject> list_objects(const Scene& scene) {
     std::vector<SceneObject> objects;
     std::map<Id<Mesh>, int> uses;
+    Placements placements(scene);
     for (const auto& [id, node] : scene.nodes) {
         const Mesh* mesh = node.mesh ? scene.meshes.find(node.mesh) : nullptr;
-        if (!mesh || !is_visible(scene, id)) continue;
-        SceneObject object{id, {}, world_from_node(scene, id), false};
+        if (!mesh || !placements(id).visible) continue;
+        SceneObject object{id, {}, placements(id).world_from_node, false};
         for (const MeshPart& part : mesh->parts)
             if (part.geometry && part.geometry->triangle_count() > 0) object.parts.push_back(part);
         if (object.parts.empty() || !is_finite(object.world_from_object)) continue;

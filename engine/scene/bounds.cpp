@@ -1,5 +1,5 @@
 #include "scene/affine.h"
-#include "scene/scene.h"
+#include "scene/placements.h"
 
 #include <algorithm>
 #include <cmath>
@@ -40,8 +40,9 @@ Bounds world_bounds(const Scene& scene, Id<Node> node) {
 
 Bounds world_bounds(const Scene& scene) {
     Bounds bounds;
+    Placements placements(scene);
     for (const auto& [id, node] : scene.nodes)
-        if (node.mesh && is_visible(scene, id)) include_mesh(scene, node, world_from_node(scene, id), bounds);
+        if (node.mesh && placements(id).visible) include_mesh(scene, node, placements(id).world_from_node, bounds);
     return bounds;
 }
 

@@ -1,4 +1,4 @@
-// Where things are: local transforms, and their products along the tree.
+// Local transforms as matrices and back, and the view through a camera.
 #include "scene/affine.h"
 #include "scene/scene.h"
 
@@ -53,27 +53,6 @@ Transform to_transform(const Affined& matrix) {
     Transform without_matrix = trs;
     without_matrix.matrix.reset();
     return relative_error(matrix, without_matrix) <= 1e-5 ? without_matrix : trs;
-}
-
-Affined world_from_node(const Scene& scene, Id<Node> node) {
-    Affined world_from_here;
-    for (size_t steps = 0; steps <= scene.nodes.size(); ++steps) {
-        const Node* n = scene.nodes.find(node);
-        if (!n) break;
-        world_from_here = to_affine(n->local) * world_from_here;
-        node = n->parent;
-    }
-    return world_from_here;
-}
-
-bool is_visible(const Scene& scene, Id<Node> node) {
-    for (size_t steps = 0; steps <= scene.nodes.size(); ++steps) {
-        const Node* n = scene.nodes.find(node);
-        if (!n) return steps > 0;
-        if (!n->visible) return false;
-        node = n->parent;
-    }
-    return true;
 }
 
 View view_through(const Scene& scene, Id<Node> camera_node) {

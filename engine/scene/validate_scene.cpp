@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <unordered_map>
 
 namespace blush {
 namespace {
@@ -29,6 +30,18 @@ bool is_whole(const Geometry& g) {
            std::ranges::all_of(g.indices, [n](uint32_t i) { return i < n; });
 }
 
+// A node that is its own ancestor, or none; all parents exist. No node is looked at twice.
+Id<Node> find_cycle(const Scene& scene) {
+    std::unordered_map<uint32_t, Id<Node>> seen_from; // the node whose walk towards the root came by first
+    for (const auto& [start, unused] : scene.nodes)
+        for (Id<Node> id = start; id; id = scene.nodes.find(id)->parent) {
+            const auto [seen, is_new] = seen_from.try_emplace(id.value, start);
+            if (!is_new && seen->second == start) return id;
+            if (!is_new) break;
+        }
+    return {};
+}
+
 } // namespace
 
 Result<void> validate(const Mesh& mesh) {
@@ -50,9 +63,8 @@ Result<void> validate(const Scene& scene) {
     if (auto known = check_all_references(scene, scene.nodes); !known) return known;
     if (auto known = check_all_references(scene, scene.meshes); !known) return known;
     if (auto known = check_all_references(scene, scene.materials); !known) return known;
-    for (const auto& [id, node] : scene.nodes)
-        if (is_below(scene, node.parent, id))
-            return Error{.what = "a node cannot hang below itself", .where = fmt::format("node \"{}\"", node.name)};
+    if (const Node* node = scene.nodes.find(find_cycle(scene)))
+        return Error{.what = "a node cannot hang below itself", .where = fmt::format("node \"{}\"", node->name)};
     return {};
 }
 

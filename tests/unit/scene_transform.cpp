@@ -1,4 +1,6 @@
 #include "scene/affine.h"
+#include "scene/placements.h"
+#include "scene/validate.h"
 #include "support/sample_project.h"
 
 #include <gtest/gtest.h>
@@ -110,6 +112,26 @@ TEST(WorldFromNode, EndsOnACycle) {
     scene.nodes.set(id, node);
     EXPECT_TRUE(std::isfinite(world_from_node(scene, id).t.x));
     EXPECT_TRUE(is_visible(scene, id));
+}
+
+// A chain so deep that whoever walks it once for each of its nodes does not come to an end.
+TEST(Placements, OfADeepChainTakeOneWalk) {
+    constexpr int depth = 100'000;
+    Scene scene;
+    Node node;
+    node.local.translation = {0.25f, 0, 0};
+    node.mesh = scene.meshes.add({"", {{test::quad_geometry(), {}}}});
+    for (int i = 0; i < depth; ++i) {
+        node.visible = i != depth - 10;
+        node.parent = scene.nodes.add(node);
+    }
+    EXPECT_TRUE(validate(scene));
+    EXPECT_EQ(world_bounds(scene).high.x, 0.5 + 0.25 * (depth - 10));
+
+    Placements placements(scene);
+    for (const auto& [id, unused] : scene.nodes) EXPECT_EQ(placements(id).visible, id.value <= depth - 10);
+    for (const uint32_t id : {1u, 2u, 777u, uint32_t(depth)})
+        EXPECT_EQ(placements({id}).world_from_node, world_from_node(scene, {id})) << id;
 }
 
 TEST(IsVisible, NeedsAllAncestors) {

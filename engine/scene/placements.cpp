@@ -1,0 +1,38 @@
+#include "scene/placements.h"
+
+#include "core/math.h"
+
+namespace blush {
+
+const Placement& Placements::operator()(Id<Node> id) {
+    struct Link {
+        uint32_t id;
+        const Node* node;
+    };
+    std::vector<Link> unknown; // from the node up to what is known, or to its root
+    const Placement* above = nullptr;
+    while (const Node* node = scene_.nodes.find(id)) {
+        if (const auto found = known_.find(id.value); found != known_.end()) {
+            above = &found->second;
+            break;
+        }
+        if (unknown.size() == scene_.nodes.size()) break; // a cycle
+        unknown.push_back({id.value, node});
+        id = node->parent;
+    }
+    // Multiplied from the root down, whatever is known already: the product is the same to the last bit.
+    for (auto link = unknown.rbegin(); link != unknown.rend(); ++link) {
+        const Affined local = to_affine(link->node->local);
+        const Placement here = above ? Placement{above->world_from_node * local, above->visible && link->node->visible}
+                                     : Placement{local, link->node->visible};
+        above = &known_.insert_or_assign(link->id, here).first->second;
+    }
+    static const Placement nowhere;
+    return above ? *above : nowhere;
+}
+
+Affined world_from_node(const Scene& scene, Id<Node> node) { return Placements(scene)(node).world_from_node; }
+
+bool is_visible(const Scene& scene, Id<Node> node) { return Placements(scene)(node).visible; }
+
+} // namespace blush
