@@ -277,8 +277,10 @@ void Editor::latest() { frame_ = session_.latest(); }
 
 void Editor::draw() {
     const Toasts& toasts = ui_.toasts;
-    ProbeState state{{image_.x, image_.y, image_.width, image_.height},   0, 0, 0, false, false,
-                     toasts.all().empty() ? "" : toasts.all().back().text};
+    ProbeState state;
+    state.image = {image_.x, image_.y, image_.width, image_.height};
+    state.revision = submitted_;
+    if (!toasts.all().empty()) state.toast = toasts.all().back().text;
     const FramePtr& shown = viewport_.shown();
     if (shown) {
         state.width = shown->width;

@@ -40,6 +40,18 @@ void draw_shape(ImDrawList& draw, const HandleShape& s, bool lit) {
     }
 }
 
+const char* name_of(Handle handle) {
+    switch (handle) {
+    case Handle::none: break;
+    case Handle::move: return "Move";
+    case Handle::move_x: return "Move X";
+    case Handle::move_y: return "Move Y";
+    case Handle::move_z: return "Move Z";
+    case Handle::aim: return "Aim";
+    }
+    return "";
+}
+
 // A node with a light that has a direction can be aimed.
 bool can_aim(const Scene& scene, const Node& node) {
     const Light* light = scene.lights.find(node.light);
@@ -116,7 +128,10 @@ bool Handles::update(PanelContext& c, ImDrawList& draw, const Projection& projec
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     const bool free = hovered && dragged_ == Handle::none && !ImGui::GetIO().KeyAlt && !ImGui::GetIO().KeyCtrl && !ImGui::GetIO().KeyShift;
     const Handle under = free ? handle_under(shapes, {mouse.x, mouse.y}, em * 0.8f) : dragged_;
-    for (const HandleShape& shape : shapes) draw_shape(draw, shape, shape.handle == under);
+    for (const HandleShape& shape : shapes) {
+        draw_shape(draw, shape, shape.handle == under);
+        c.ui.probe.record(std::string("Handle/") + name_of(shape.handle), {shape.grip.x - 1, shape.grip.y - 1, 2, 2});
+    }
     if (free && under != Handle::none && ImGui::IsMouseClicked(ImGuiMouseButton_Left))
         grab(c, under, position, projection.ray(image.u(mouse.x), image.v(mouse.y)));
     if (dragged_ != Handle::none && !ImGui::IsMouseDown(ImGuiMouseButton_Left)) {

@@ -16,7 +16,11 @@ std::string to_text(const nlohmann::json& json) { return json.dump(-1, ' ', fals
 void Probe::record_last_item(const std::string& name) {
     if (!enabled() || !ImGui::IsItemVisible()) return;
     const ImVec2 low = ImGui::GetItemRectMin(), size = ImGui::GetItemRectSize();
-    items_.push_back({name, {low.x, low.y, size.x, size.y}});
+    record(name, {low.x, low.y, size.x, size.y});
+}
+
+void Probe::record(const std::string& name, const Region& region) {
+    if (enabled()) items_.push_back({name, region});
 }
 
 void Probe::end_frame(const ProbeState& state) {
@@ -27,8 +31,8 @@ void Probe::end_frame(const ProbeState& state) {
     std::string items;
     for (const Item& item : items_) items += (items.empty() ? "  " : ",\n  ") + to_text(item.name) + ": " + to_text(to_json(item.region));
     const nlohmann::json shown{{"image", to_json(state.image)}, {"width", state.width},       {"height", state.height},
-                               {"samples", state.samples},      {"complete", state.complete}, {"up_to_date", state.up_to_date},
-                               {"toast", state.toast}};
+                               {"samples", state.samples},      {"complete", state.complete}, {"revision", state.revision},
+                               {"up_to_date", state.up_to_date}, {"toast", state.toast}};
     const std::filesystem::path temporary = file_.string() + ".new";
     std::ofstream(temporary) << "{\"state\": " << to_text(shown) << ",\n \"items\": {\n" << items << "\n}}\n";
     std::error_code ignored; // the next change writes it again

@@ -16,6 +16,7 @@ struct ProbeState {
     int width = 0, height = 0;
     int64_t samples = 0;
     bool complete = false;
+    uint64_t revision = 0;   // counts the edits that reach the picture
     bool up_to_date = false; // the picture answers the latest edit
     std::string toast;       // the newest
     bool operator==(const ProbeState&) const = default;
@@ -30,6 +31,8 @@ public:
     void begin_frame() { items_.clear(); }
     // The widget that ImGui drew last.
     void record_last_item(const std::string& name);
+    // What can be dragged without being a widget.
+    void record(const std::string& name, const Region& region);
     // Writes a JSON file if anything differs from what it holds.
     void end_frame(const ProbeState& state);
 

@@ -1,0 +1,132 @@
+# Sourced by the tests of the window: a virtual display, the editor on it, and a user's hands.
+# Expects BLUSH ASSETS as the first two arguments of the test.
+set -u
+blush=$1
+assets=$2
+test_name=$(basename "$0")
+work=$(mktemp -d)
+probe=$work/probe.json
+export LIBGL_ALWAYS_SOFTWARE=1 XDG_CONFIG_HOME=$work/config BLUSH_ASSETS=$assets
+export BLUSH_UI_PROBE=$probe BLUSH_UI_STATS=$work/stats.json BLUSH_UI_SIZE=900x560 BLUSH_UI_SCALE=1
+unset OCIO WAYLAND_DISPLAY
+size=320x240
+spp=16
+xvfb= editor=
+
+finish() {
+    [ -n "$editor" ] && kill "$editor" 2>/dev/null
+    [ -n "$xvfb" ] && kill "$xvfb" 2>/dev/null
+    wait 2>/dev/null
+    rm -rf "$work"
+}
+trap finish EXIT
+
+fail() {
+    echo "$test_name: $1" >&2
+    [ -f "$work/log" ] && sed 's/^/  blush: /' "$work/log" >&2
+    [ -f "$probe" ] && head -n 1 "$probe" >&2
+    exit 1
+}
+
+# until_true SECONDS COMMAND...: waits until the command succeeds.
+until_true() {
+    local end=$((SECONDS + $1))
+    shift
+    until "$@" 2>/dev/null; do
+        [ $SECONDS -lt $end ] || return 1
+        [ -z "$editor" ] || kill -0 "$editor" 2>/dev/null || return 1
+        sleep 0.1
+    done
+}
+
+start_display() {
+    local tool
+    for tool in Xvfb xdotool import compare; do command -v $tool >/dev/null || fail "$tool is not installed"; done
+    exec 3<>"$work/display"
+    Xvfb -displayfd 3 -screen 0 1280x800x24 -nolisten tcp >/dev/null 2>&1 &
+    xvfb=$!
+    until_true 30 test -s "$work/display" || fail "Xvfb does not start"
+    export DISPLAY=:$(head -n 1 "$work/display")
+    cd "$work" || exit 1
+}
+
+# open_editor SCENE: one of the shipped scenes, until it has converged; overlays are off.
+open_editor() {
+    "$blush" "$assets/scenes/$1.gltf" --size $size --spp $spp >"$work/log" 2>&1 &
+    editor=$!
+    until_true 120 test -f "$probe" || fail "the window does not open"
+    until_true 120 converged || fail "the picture does not converge"
+    xdotool key h
+}
+
+close_editor() {
+    xdotool key ctrl+q
+    local end=$((SECONDS + 30))
+    while kill -0 "$editor" 2>/dev/null; do
+        [ $SECONDS -lt $end ] || fail "Ctrl+Q does not close the window"
+        sleep 0.1
+    done
+    wait "$editor" || fail "the window ends with an error"
+    editor=
+}
+
+# The probe's first line holds the state, each further one a widget.
+state() { head -n 1 "$probe" | grep -q "\"$1\":$2[,}]"; }
+number() { sed -n "$1s/.*\"$2\":\\(-\\{0,1\\}[0-9.]*\\).*/\\1/p" "$probe"; }
+widget() { grep -F "  \"$1\": {" "$probe"; }
+field() { widget "$1" | sed "s/.*\"$2\":\\([0-9.]*\\).*/\\1/"; }
+has_widget() { widget "$1" >/dev/null; }
+says() { head -n 1 "$probe" | grep -qF "\"toast\":\"$1"; }
+converged() { state complete true && state up_to_date true; }
+edited_since() { [ "$(number 1 revision)" != "$1" ] && converged; }
+
+# after_edit COMMAND...: does something that changes the picture, and waits until that has converged.
+after_edit() {
+    local revision
+    revision=$(number 1 revision)
+    "$@"
+    until_true 120 edited_since "$revision" || fail "no new picture converges after: $*"
+}
+
+# middle WIDGET [PER_CENT]: a point at that share of the widget's width, half-way down.
+middle() {
+    echo "$(field "$1" x) $(field "$1" width) $(field "$1" y) $(field "$1" height) ${2:-50}" |
+        awk '{ printf "%d %d", $1 + $2 * $5 / 100, $3 + $4 / 2 }'
+}
+click() {
+    until_true 30 has_widget "$1" || fail "there is no $1 to click"
+    xdotool mousemove $(middle "$1") && sleep 0.3 && xdotool click 1 && sleep 0.3
+}
+# drag_from X Y X Y
+drag_from() {
+    xdotool mousemove "$1" "$2" && sleep 0.3 && xdotool mousedown 1 && sleep 0.3
+    xdotool mousemove $((($1 + $3) / 2)) $((($2 + $4) / 2)) && sleep 0.3 && xdotool mousemove "$3" "$4" && sleep 0.3
+    xdotool mouseup 1
+}
+# drag WIDGET FROM TO, in per cent of its width.
+drag() {
+    until_true 30 has_widget "$1" || fail "there is no $1 to drag"
+    drag_from $(middle "$1" "$2") $(middle "$1" "$3")
+}
+# drag_by WIDGET DX DY, in pixels.
+drag_by() {
+    until_true 30 has_widget "$1" || fail "there is no $1 to drag"
+    local x y
+    read -r x y <<<"$(middle "$1")"
+    drag_from "$x" "$y" $((x + $2)) $((y + $3))
+}
+
+image_size() { sed -n "1s/.*\"image\":{[^}]*\"$1\":\([0-9.]*\).*/\1/p" "$probe"; }
+image_middle() { echo "$(number 1 x) $(image_size width) $(number 1 y) $(image_size height)" | awk '{ printf "%d %d", $1 + $2 / 2, $3 + $4 / 2 }'; }
+# The picture on the screen, the mouse out of its way.
+take_picture() {
+    xdotool mousemove 890 550
+    sleep 0.7
+    local x y w h
+    x=$(number 1 x) y=$(number 1 y) w=$(image_size width) h=$(image_size height)
+    import -window root -crop "${w%.*}x${h%.*}+${x%.*}+${y%.*}" +repage "$1" || fail "no screenshot"
+}
+# Pixels in which two pictures differ.
+differing() { compare -metric AE "$1" "$2" null: 2>&1 | awk '{ printf "%d", $1 }'; }
+expect_changed() { [ "$(differing "$1" "$2")" -gt 1000 ] || fail "$3 changes nothing"; }
+expect_same() { [ "$(differing "$1" "$2")" = 0 ] || fail "$3 does not restore the picture: $(differing "$1" "$2") pixels differ"; }
