@@ -93,6 +93,15 @@ inline std::array<double, 2> facet_coordinates(double alpha, const Vec3d& h) {
     return {std::asinh(theta / alpha) / std::asinh(pi / 2 / alpha), std::atan2(h.y, h.x) / (2 * pi) + 0.5};
 }
 
+// The facet normals themselves.
+inline statistics::Chart facet_normals_chart(double alpha) {
+    return {[=](double s, double t) -> std::optional<statistics::Chart::Point> {
+                const FacetPoint f = facet_at(alpha, s, t);
+                return statistics::Chart::Point{f.h, f.solid_angle};
+            },
+            [=](const Vec3d& h) { return std::optional(facet_coordinates(alpha, h)); }};
+}
+
 // wi as a function of the facet between it and wo: by reflection, or `through` the surface: by refraction into the index ratio
 // eta, or through a thin wall (eta 0). On these charts every lobe is as wide as its distribution of facets: easy to integrate.
 inline statistics::Chart facet_chart(double alpha, const Vec3& wo_surface, bool through, double eta) {
