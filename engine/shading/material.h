@@ -55,7 +55,7 @@ template <class F> struct MaterialPoint {
     Vec<F> emission;       // radiance in nits towards the emitting side
     Vec<F> tangent_normal; // unit, in the frame of tangent, bitangent and shading normal; (0, 0, 1) without a normal map
     Vec<F> sigma_a;        // 1/m, on the inner side of a solid
-    Mask<F> double_sided, unlit, emissive;
+    Mask<F> double_sided, unlit;
 };
 
 // Radiance in nits that the material emits at a point, front side. Zero in a kernel without emissive triangles.
@@ -99,8 +99,6 @@ template <Features S, class F> MaterialPoint<F> material_at(const MaterialTables
 
     MaterialPoint<F> p;
     p.double_sided = flag(material_double_sided);
-    p.emissive = Mask<F>(false);
-    if constexpr (S.has(Feature::emissive_triangles)) p.emissive = flag(material_emissive);
     p.emission = emission_at<S, F>(tables, material, uv0, uv1, active);
     p.unlit = Mask<F>(false);
     if constexpr (S.has(Feature::unlit)) p.unlit = flag(material_unlit);

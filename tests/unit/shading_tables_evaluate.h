@@ -45,7 +45,7 @@ template <class F> void evaluate_tables(const TablePoints& points, const std::ar
         };
         for (const Vec<F>& v : {b.base_color, b.specular_color, m.emission, m.tangent_normal, m.sigma_a}) put_vec(v);
         for (const F& x : {b.metallic, b.roughness, b.ior, b.specular, b.transmission}) put(x);
-        for (const Mask<F>& x : {b.thin, m.double_sided, m.unlit, m.emissive}) put_flag(x);
+        for (const Mask<F>& x : {b.thin, m.double_sided, m.unlit}) put_flag(x);
         for (const Vec<F>& v : {radiance, s.direction, s.radiance}) put_vec(v);
         for (const F& x : {s.pdf, environment_pdf<F>(*points.environment, direction)}) put(x);
     }

@@ -46,7 +46,7 @@ std::vector<uint32_t> bits_of(const MaterialPoint<float>& p) {
     for (const Vec3& v : {b.base_color, b.specular_color, p.emission, p.tangent_normal, p.sigma_a})
         for (const float x : {v.x, v.y, v.z}) bits.push_back(std::bit_cast<uint32_t>(x));
     for (const float x : {b.metallic, b.roughness, b.ior, b.specular, b.transmission}) bits.push_back(std::bit_cast<uint32_t>(x));
-    for (const bool x : {b.thin, p.double_sided, p.unlit, p.emissive}) bits.push_back(x);
+    for (const bool x : {b.thin, p.double_sided, p.unlit}) bits.push_back(x);
     return bits;
 }
 
@@ -243,7 +243,6 @@ TEST(MaterialTable, FactorsMultiplyTheChannelsGltfNames) {
     EXPECT_FLOAT_EQ(p.bsdf.specular_color.z, decoded(0.6));
     EXPECT_FLOAT_EQ(p.bsdf.transmission, 0.1f);
     EXPECT_FLOAT_EQ(p.emission.y, 20 * decoded(0.4));
-    EXPECT_TRUE(p.emissive);
 }
 
 TEST(MaterialTable, NormalMapsAreScaledAndOfUnitLength) {
@@ -285,7 +284,7 @@ TEST(MaterialTable, UnlitKeepsItsColourAlone) {
     m.transmission = 1;
     const MaterialPoint<float> p = point_of<all_features>(table_of(m));
     EXPECT_TRUE(p.unlit);
-    EXPECT_FALSE(p.emissive);
+    EXPECT_EQ(p.emission, (Vec3{0, 0, 0}));
     EXPECT_EQ(p.bsdf.base_color, m.base_color);
     EXPECT_EQ(p.bsdf.transmission, 0);
     EXPECT_EQ(features_of(m), no_features.with(Feature::unlit));
