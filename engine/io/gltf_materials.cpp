@@ -2,6 +2,7 @@
 
 #include "io/gltf_object.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace blush {
@@ -132,6 +133,17 @@ private:
     std::optional<Error> error_;
 };
 
+// A path tracer needs the far sides of walls: culled, they would let the light of the outdoors in.
+void report_back_faces(const GltfContext& context) {
+    const auto& materials = context.model().materials;
+    const auto count = std::count_if(materials.begin(), materials.end(), [](const tinygltf::Material& m) { return !m.doubleSided; });
+    if (count > 0)
+        context.note(fmt::format("approximated: back faces of {} single-sided materials are not culled; they reflect like front faces but "
+                                 "do not emit",
+                                 count),
+                     "materials");
+}
+
 } // namespace
 
 Result<std::vector<Id<Material>>> import_materials(const GltfContext& context, const std::vector<Id<Texture>>& textures, Scene& scene) {
@@ -141,6 +153,7 @@ Result<std::vector<Id<Material>>> import_materials(const GltfContext& context, c
         if (!material) return material.error();
         ids.push_back(scene.materials.add(*std::move(material)));
     }
+    report_back_faces(context);
     return ids;
 }
 

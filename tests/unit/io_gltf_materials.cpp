@@ -67,12 +67,21 @@ TEST(GltfMaterials, ExtensionsAreRead) {
 TEST(GltfMaterials, ValuesOutOfRangeAreClampedWithAWarning) {
     ImportReport report;
     const Material m = import_material({{"pbrMetallicRoughness", {{"baseColorFactor", {2, -1, 0.5, 1}}, {"roughnessFactor", 1e300}}},
+                                        {"doubleSided", true},
                                         {"extensions", {{"KHR_materials_ior", {{"ior", 0.5}}}}}},
                                        &report);
     EXPECT_EQ(m.base_color, (Vec3{1, 0, 0.5f}));
     EXPECT_EQ(m.roughness, 1);
     EXPECT_EQ(m.ior, 1);
     EXPECT_EQ(report.diagnostics.size(), 4u);
+}
+
+TEST(GltfMaterials, ThatBackFacesAreNotCulledIsReported) {
+    for (const bool double_sided : {false, true}) {
+        ImportReport report;
+        import_material({{"doubleSided", double_sided}}, &report);
+        EXPECT_EQ(reports(report, "back faces of 1 single-sided materials"), !double_sided);
+    }
 }
 
 TEST(GltfMaterials, ValuesOfTheWrongTypeAreReported) {

@@ -35,7 +35,7 @@ void draw_surface(Fields& f, Material& m) {
               .step = 0.002f,
               .tip = "How much light slows down inside: water 1.33, glass 1.5, diamond 2.42. It sets how strongly a dielectric reflects "
                      "and how much it bends light."});
-    f.checkbox("Double-sided", m.double_sided, "Shade the back of the surface like its front.");
+    f.checkbox("Double-sided", m.double_sided, "Emit from the back as well. What light falls on it, a surface reflects from both sides in any case.");
     f.checkbox("Unlit", m.unlit, "Show the base colour as it is, without any light on it.");
 }
 
