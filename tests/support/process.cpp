@@ -53,6 +53,14 @@ bool read_some(int fd, std::string& text) {
 
 } // namespace
 
+bool terminals_exist() {
+    int leader = -1, follower = -1;
+    if (openpty(&leader, &follower, nullptr, nullptr, nullptr) != 0) return false;
+    close(leader);
+    close(follower);
+    return true;
+}
+
 Finished run(const std::vector<std::string>& command, const RunOptions& options) {
     const Channel out = open_pipe(), err = options.stderr_is_terminal ? open_terminal() : open_pipe();
     const pid_t pid = fork();

@@ -19,6 +19,9 @@ struct RunOptions {
     std::function<void(const std::string& err, int pid)> on_stderr;
 };
 
+// Whether this machine has pseudo-terminals; bare containers may not.
+bool terminals_exist();
+
 // `command[0]` is a path. Stdin is empty. Ends with the program.
 Finished run(const std::vector<std::string>& command, const RunOptions& options = {});
 
