@@ -47,7 +47,7 @@ void encode_normal(const float* from, int stride, int count, float* to, int chan
 }
 
 void decode_color(const float* from, int count, float scale, float* to) {
-    map(from, to, 3 * count, [&](const auto& x) { return max(radiance_of(clamped(x, 0.f, 1.f) * perceived_largest), 0.f * x) / scale; });
+    map(from, to, 3 * count, [&](const auto& x) { return radiance_of(clamped(x, 0.f, 1.f) * perceived_largest) / scale; });
 }
 
 } // namespace blush::denoise

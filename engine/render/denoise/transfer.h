@@ -10,7 +10,7 @@ namespace blush::denoise {
 inline constexpr float largest_radiance = 65504.f;
 
 // Natural logarithm of a normal number > 0: ln m + e ln 2 with m in [sqrt 1/2, sqrt 2], ln m = 2 artanh((m - 1) / (m + 1)) as a
-// series; error below 1e-7 of max(1, |ln x|).
+// series; error below 2e-7 of max(1, |ln x|).
 template <class F> F log(const F& x) {
     const Int<F> e = (float_bits(x) - 0x3f3504f3) >> 23;
     const F m = float_from_bits(float_bits(x) - (e << 23));
