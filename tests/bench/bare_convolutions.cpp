@@ -60,15 +60,17 @@ struct BareConvolutions::State {
     double operations = 0;
 };
 
-BareConvolutions::BareConvolutions(const denoise::UnetPlan& plan, unsigned threads) : state_(new State{.threads = threads}) {
+BareConvolutions::BareConvolutions(const denoise::UnetChannels& channels, int width, int height, denoise::Element element, unsigned threads)
+    : state_(new State{.threads = threads}) {
     omp_set_num_threads(int(threads));
+    const denoise::UnetPlan plan = plan_unet(channels, width, height, denoise::Element::float32);
     for (int i = 0; i < denoise::unet_layer_count; i++) {
         const auto& layer = denoise::unet_layers[i];
         const auto &source = plan.planes[i], &target = plan.planes[i + 1];
         const int inputs = source.channels + (layer.skip >= 0 ? plan.planes[layer.skip].channels : 0), pooled = layer.pool ? 2 : 1;
-        const int width = target.width * pooled, height = target.height * pooled;
-        state_->work.push_back(convolution(inputs, target.channels, width, height, type_of(plan.element)));
-        state_->operations += 2.0 * 9 * inputs * target.channels * width * height;
+        const int made_width = target.width * pooled, made_height = target.height * pooled;
+        state_->work.push_back(convolution(inputs, target.channels, made_width, made_height, type_of(element)));
+        state_->operations += 2.0 * 9 * inputs * target.channels * made_width * made_height;
     }
 }
 

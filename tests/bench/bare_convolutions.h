@@ -10,7 +10,7 @@ namespace blush::bench {
 // All convolutions of a network, each of the whole image at once in the layouts of oneDNN's choice, on zeros.
 class BareConvolutions {
 public:
-    BareConvolutions(const denoise::UnetPlan& plan, unsigned threads);
+    BareConvolutions(const denoise::UnetChannels& channels, int width, int height, denoise::Element element, unsigned threads);
     ~BareConvolutions();
 
     void run() const;

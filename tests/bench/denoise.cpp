@@ -53,8 +53,8 @@ Frame rendered(const BenchScene& scene, const RenderSettings& settings, unsigned
 Result<Json> measure_speed(const Case& c, const Frame& frame, const Options& options) {
     const auto weights = denoise::read_unet_weights(weights_folder() / (std::string(c.network) + ".tza"), 9);
     if (!weights) return weights.error();
-    const denoise::UnetPlan plan = plan_unet(weights->channels(), frame.width, frame.height, c.element);
-    const BareConvolutions bare(plan, options.threads), bare_one(plan, 1);
+    const BareConvolutions bare(weights->channels(), frame.width, frame.height, c.element, options.threads),
+        bare_one(weights->channels(), frame.width, frame.height, c.element, 1);
     Denoiser denoiser(weights_folder(), options.threads);
     const DenoiseOptions how{.quality = c.quality,
                              .precision = c.element == Element::float32 ? DenoisePrecision::float32 : DenoisePrecision::bfloat16};

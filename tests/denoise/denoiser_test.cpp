@@ -40,7 +40,7 @@ TEST(Denoiser, AConstantImageKeepsItsMean) {
         for (const float value : {1e-4f, 0.3f, 1e5f}) {
             Planes planes = constant_planes(96, 80, value);
             for (int times = 0; times < 2; times++) {
-                const Denoised made = denoised(denoiser, planes, {.quality = quality, .precision = DenoisePrecision::float32});
+                const Denoised made = denoised(denoiser, planes, {.quality = quality});
                 EXPECT_NEAR(mean_of(made.rgb), value, 0.01 * value) << "quality " << int(quality);
                 EXPECT_NEAR(made.mean_after / made.mean_before, 1, 0.01);
                 planes.color = made.rgb;

@@ -83,10 +83,24 @@ TEST(Pixels, WhatTheNetworkSeesIsWithinItsRange) {
 }
 
 TEST(Bfloat16, RoundsToNearestEven) {
-    const std::vector<float> from{1, 1 + 0x1p-8f, 1 + 3 * 0x1p-8f, 1 + 0x1.01p-8f, 0, 3.0e38f};
-    std::vector<Bfloat16> to(from.size());
-    convert_row(from.data(), to.data(), from.size());
-    EXPECT_EQ(to, (std::vector<Bfloat16>{0x3f80, 0x3f80, 0x3f82, 0x3f81, 0, 0x7f62}));
+    EXPECT_EQ(to_bfloat16(1), 0x3f80);
+    EXPECT_EQ(to_bfloat16(1 + 0x1p-8f), 0x3f80);
+    EXPECT_EQ(to_bfloat16(1 + 3 * 0x1p-8f), 0x3f82);
+    EXPECT_EQ(to_bfloat16(1 + 0x1.01p-8f), 0x3f81);
+    EXPECT_EQ(to_bfloat16(0), 0);
+    EXPECT_EQ(to_bfloat16(3.0e38f), 0x7f62);
+}
+
+TEST(Bfloat16, TwoPartsHoldSixteenBits) {
+    const std::vector<float> from{0.3f, 0.7001f, 0.25f, 1, 0.1f, 0};
+    std::vector<Bfloat16> to(10);
+    split_row(from.data(), 3, 2, to.data(), 2);
+    for (int x = 0; x < 2; x++) {
+        for (int c = 0; c < 2; c++)
+            EXPECT_NEAR(denoise::to_float(to[5 * x + c]) + denoise::to_float(to[5 * x + 3 + c]), from[3 * x + c],
+                        0x1p-17 * from[3 * x + c]);
+        EXPECT_EQ(to[5 * x + 2], to_bfloat16(from[3 * x + 2]));
+    }
 }
 
 } // namespace

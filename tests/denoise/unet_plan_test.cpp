@@ -11,7 +11,7 @@ constexpr UnetChannels base{9, 32, 32, 48, 64, 80, 96, 96, 112, 112, 96, 96, 64,
 
 size_t end_of(const UnetPlan& plan, int plane) {
     const UnetPlane& p = plan.planes[plane];
-    return p.offset + p.row_elements() * (p.height + 2) * bytes_of(plan.element);
+    return p.offset + p.row_bytes() * (p.height + 2);
 }
 
 bool reads(int layer, int plane) { return plane == layer || unet_layers[layer].skip == plane; }
@@ -24,6 +24,13 @@ TEST(UnetPlan, PlanesHaveTheSizesOfTheirLevels) {
         EXPECT_EQ(plan.planes[i].height, 32 / divisors[i]) << i;
         EXPECT_EQ(plan.planes[i].channels, base[i]) << i;
     }
+}
+
+TEST(UnetPlan, Bfloat16ComesInTwoPartsAndEndsInFloat32) {
+    const UnetPlan plan = plan_unet(base, 64, 32, Element::bfloat16);
+    EXPECT_EQ(plan.planes[0].channels, base[0] + split_channels);
+    for (int i = 0; i < unet_plane_count; i++)
+        EXPECT_EQ(plan.planes[i].element, i + 2 < unet_plane_count ? Element::bfloat16 : Element::float32) << i;
 }
 
 // While layer i runs, what it writes and everything that it or a later layer still reads must lie apart.

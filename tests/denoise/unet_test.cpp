@@ -85,12 +85,7 @@ Image network(const Image& input, const UnetWeights& weights) {
 }
 
 // As the network will see it.
-float rounded_to(Element element, float x) {
-    if (element == Element::float32) return x;
-    Bfloat16 bits;
-    convert_row(&x, &bits, 1);
-    return std::bit_cast<float>(uint32_t(bits) << 16);
-}
+float rounded_to(Element element, float x) { return element == Element::float32 ? x : denoise::to_float(to_bfloat16(x)); }
 
 class Random {
 public:
@@ -123,7 +118,11 @@ template <class T> std::vector<T> rows_of(const Image& image) {
     std::vector<float> values(size_t(image.width) * image.channels * (image.height + 2));
     std::ranges::copy(image.values, values.begin() + long(image.width) * image.channels);
     std::vector<T> made(values.size());
-    convert_row(values.data(), made.data(), values.size());
+    for (size_t i = 0; i < values.size(); i++)
+        if constexpr (std::is_same_v<T, float>)
+            made[i] = values[i];
+        else
+            made[i] = to_bfloat16(values[i]);
     return made;
 }
 

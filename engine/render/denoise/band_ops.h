@@ -13,13 +13,19 @@ namespace blush::denoise {
 using Bfloat16 = uint16_t;
 
 // Rounds to nearest, ties to even. For finite values.
-inline void convert_row(const float* from, Bfloat16* to, size_t count) {
-    for (size_t i = 0; i < count; i++) {
-        const uint32_t bits = std::bit_cast<uint32_t>(from[i]);
-        to[i] = Bfloat16((bits + 0x7fff + (bits >> 16 & 1)) >> 16);
+inline Bfloat16 to_bfloat16(float x) {
+    const uint32_t bits = std::bit_cast<uint32_t>(x);
+    return Bfloat16((bits + 0x7fff + (bits >> 16 & 1)) >> 16);
+}
+inline float to_float(Bfloat16 x) { return std::bit_cast<float>(uint32_t(x) << 16); }
+
+// A row of pixels; behind the channels of each, what rounding took from the first `split` of them.
+inline void split_row(const float* from, int channels, int split, Bfloat16* to, int width) {
+    for (int x = 0; x < width; x++, from += channels, to += channels + split) {
+        for (int c = 0; c < channels; c++) to[c] = to_bfloat16(from[c]);
+        for (int c = 0; c < split; c++) to[channels + c] = to_bfloat16(from[c] - to_float(to[c]));
     }
 }
-inline void convert_row(const float* from, float* to, size_t count) { std::memcpy(to, from, count * sizeof(float)); }
 
 // The largest of each 2x2 pixels. What comes out of a ReLU is not negative, and such numbers are ordered like their bits.
 template <class T> void pool_rows(const T* upper, const T* lower, T* to, int width, int channels) {

@@ -20,18 +20,22 @@ template <class F> F log(const F& x) {
 
 // T(y) of radiance y >= 0: linear, a power, a logarithm.
 template <class F> F perceived(const F& y) {
+    const F logarithm = 0.192653254f * denoise::log(y + 0.00626026094f) + 0.998620152f;
+    const Mask<F> dark = y <= F(0.0322087631f);
+    if (!any(dark)) return logarithm;
     const F linear = 1412.83765f * y;
     const F power = 1.64593172f * blush::exp(0.431384981f * denoise::log(max(y, F(1e-7f)))) - 0.00294139609f;
-    const F logarithm = 0.192653254f * denoise::log(y + 0.00626026094f) + 0.998620152f;
-    return select(y <= F(1.5794576e-6f), linear, select(y <= F(0.0322087631f), power, logarithm));
+    return select(y <= F(1.5794576e-6f), linear, select(dark, power, logarithm));
 }
 
 // The inverse of the above, x >= 0.
 template <class F> F radiance_of(const F& x) {
+    const F exponential = blush::exp((x - 0.998620152f) * (1.f / 0.192653254f)) - 0.00626026094f;
+    const Mask<F> dark = x <= F(0.370974749f);
+    if (!any(dark)) return exponential;
     const F linear = x * (1.f / 1412.83765f);
     const F power = blush::exp(denoise::log((x + 0.00294139609f) * (1.f / 1.64593172f)) * (1.f / 0.431384981f));
-    const F exponential = blush::exp((x - 0.998620152f) * (1.f / 0.192653254f)) - 0.00626026094f;
-    return select(x <= F(0.00223151711f), linear, select(x <= F(0.370974749f), power, exponential));
+    return select(x <= F(0.00223151711f), linear, select(dark, power, exponential));
 }
 
 } // namespace blush::denoise

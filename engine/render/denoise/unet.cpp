@@ -7,6 +7,24 @@
 namespace blush::denoise {
 namespace {
 
+// For a layer that reads the input split in two parts: its first channels' weights, from `first` on among those of the layer, twice.
+ConvolutionWeights with_second_parts(const ConvolutionWeights& weights, int first) {
+    ConvolutionWeights made{weights.inputs + split_channels, weights.outputs, {}, weights.bias};
+    for (int o = 0; o < weights.outputs; o++) {
+        const float* kernels = &weights.kernel[size_t(o) * weights.inputs * 9];
+        made.kernel.insert(made.kernel.end(), kernels, kernels + weights.inputs * 9);
+        made.kernel.insert(made.kernel.end(), kernels + first * 9, kernels + (first + split_channels) * 9);
+    }
+    return made;
+}
+
+// The weights of layer `layer` for the planes as they are laid out for `element`.
+ConvolutionWeights layer_weights(const UnetWeights& weights, int layer, Element element) {
+    const bool reads_input = layer == 0 || unet_layers[layer].skip == 0;
+    if (!reads_input || extra_inputs(element) == 0) return weights.layers[layer];
+    return with_second_parts(weights.layers[layer], layer == 0 ? 0 : weights.layers[layer - 1].outputs);
+}
+
 int bands_of(int rows) { return (rows + band_rows - 1) / band_rows; }
 
 // One run of the network.
@@ -22,7 +40,7 @@ public:
             float* row = reinterpret_cast<float*>(own(worker).source);
             for (int y = int(band) * band_rows; y < std::min(input.height, int(band + 1) * band_rows); y++) {
                 source(y, row);
-                convert_row(row, row_of(0, y), input.row_elements());
+                read_row(row, row_of(0, y), input);
             }
         });
     }
@@ -36,8 +54,8 @@ public:
             const int y = int(band) * band_rows, rows = std::min(band_rows, height - y);
             const OneThread one_thread;
             const Own own = this->own(worker);
-            const void* source = unet_layers[layer].skip < 0 ? row_of(layer, y - 1) : join(layer, y, rows, own.source);
-            std::byte* target = unet_layers[layer].pool || last ? own.target : reinterpret_cast<std::byte*>(row_of(layer + 1, y));
+            const void* source = unet_layers[layer].skip < 0 ? bytes_at(layer, y - 1) : join(layer, y, rows, own.source);
+            std::byte* target = unet_layers[layer].pool || last ? own.target : bytes_at(layer + 1, y);
             const Unet::Layer& code = unet_.layers[layer];
             (rows == std::min(band_rows, height) ? code.band : *code.last_band).run(source, target, own.scratch);
             if (unet_layers[layer].pool) pool(layer, y, rows, target);
@@ -47,6 +65,11 @@ public:
     }
 
 private:
+    void read_row(const float* row, float* to, const UnetPlane& input) const { std::copy_n(row, input.row_elements(), to); }
+    void read_row(const float* row, Bfloat16* to, const UnetPlane& input) const {
+        split_row(row, input.channels - split_channels, split_channels, to, input.width);
+    }
+
     struct Own {
         std::byte *source, *target, *scratch; // a worker's alone: rows that a band is made of, rows it makes, the convolution's
     };
@@ -56,13 +79,14 @@ private:
         return {begin, begin + plan.band_bytes, begin + 2 * plan.band_bytes};
     }
     // Rows -1 and height are the zeros around.
-    T* row_of(int plane, int y) const {
+    std::byte* bytes_at(int plane, int y) const {
         const UnetPlane& p = unet_.plan.planes[plane];
-        return reinterpret_cast<T*>(memory_ + p.offset) + p.row_elements() * (y + 1);
+        return memory_ + p.offset + p.row_bytes() * (y + 1);
     }
+    T* row_of(int plane, int y) const { return reinterpret_cast<T*>(bytes_at(plane, y)); }
     void clear_borders(int plane) const {
         const UnetPlane& p = unet_.plan.planes[plane];
-        for (const int y : {-1, p.height}) std::fill_n(row_of(plane, y), p.row_elements(), T(0));
+        for (const int y : {-1, p.height}) std::fill_n(bytes_at(plane, y), p.row_bytes(), std::byte(0));
     }
 
     // What layer `layer` reads for its rows [y, y + rows) where it reads two planes.
@@ -109,17 +133,18 @@ template <class T> bool run(const Unet& unet, const Workers& workers, const std:
 Result<Unet> make_unet(const UnetWeights& weights, int width, int height, Element element) {
     Unet unet{.plan = plan_unet(weights.channels(), width, height, element)};
     for (int i = 0; i < unet_layer_count; i++) {
+        const ConvolutionWeights packed = layer_weights(weights, i, element);
         const UnetPlane& made = unet.plan.planes[i + 1];
         const int scale = unet_layers[i].pool ? 2 : 1, rows = made.height * scale;
-        BandShape shape{made.width * scale, std::min(band_rows, rows), element, i + 1 == unet_layer_count ? Element::float32 : element};
-        auto band = Convolution::make(weights.layers[i], shape);
+        BandShape shape{made.width * scale, std::min(band_rows, rows), unet.plan.planes[i].element, made.element};
+        auto band = Convolution::make(packed, shape);
         if (!band) return band.error();
         unet.layers.push_back({std::move(*band), {}});
         unet.scratch_bytes = std::max(unet.scratch_bytes, unet.layers.back().band.scratch_bytes());
 
         shape.rows = rows % shape.rows;
         if (shape.rows == 0) continue;
-        auto last = Convolution::make(weights.layers[i], shape);
+        auto last = Convolution::make(packed, shape);
         if (!last) return last.error();
         unet.layers.back().last_band = std::move(*last);
         unet.scratch_bytes = std::max(unet.scratch_bytes, unet.layers.back().last_band->scratch_bytes());
@@ -130,7 +155,7 @@ Result<Unet> make_unet(const UnetWeights& weights, int width, int height, Elemen
 
 bool run_unet(const Unet& unet, const Workers& workers, const std::function<bool()>& wanted, std::byte* memory, const UnetSource& source,
               const UnetSink& sink) {
-    const auto typed = unet.plan.element == Element::float32 ? run<float> : run<Bfloat16>;
+    const auto typed = unet.plan.planes[0].element == Element::float32 ? run<float> : run<Bfloat16>;
     return typed(unet, workers, wanted, memory, source, sink);
 }
 

@@ -37,16 +37,17 @@ size_t lowest_gap(const std::vector<Block>& living, size_t bytes) {
 } // namespace
 
 UnetPlan plan_unet(const UnetChannels& channels, int width, int height, Element element) {
-    UnetPlan plan{.element = element};
-    plan.planes[0] = {width, height, channels[0]};
+    UnetPlan plan;
+    plan.planes[0] = {width, height, channels[0] + extra_inputs(element), element};
     for (int i = 0; i < unet_layer_count; i++) {
         const UnetLayer& layer = unet_layers[i];
         const UnetPlane& source = plan.planes[i];
         const bool up = layer.skip >= 0;
         const int made_width = up ? source.width * 2 : source.width, made_height = up ? source.height * 2 : source.height;
-        plan.planes[i + 1] = {layer.pool ? made_width / 2 : made_width, layer.pool ? made_height / 2 : made_height, channels[i + 1]};
+        plan.planes[i + 1] = {layer.pool ? made_width / 2 : made_width, layer.pool ? made_height / 2 : made_height, channels[i + 1],
+                              i + 2 < unet_layer_count ? element : Element::float32};
 
-        const int inputs = source.channels + (up ? channels[layer.skip] : 0);
+        const int inputs = source.channels + (up ? plan.planes[layer.skip].channels : 0);
         const size_t in = size_t(band_rows + 2) * made_width * inputs * bytes_of(element);
         const size_t out = size_t(band_rows) * made_width * channels[i + 1] * sizeof(float);
         plan.band_bytes = std::max(plan.band_bytes, aligned(std::max(in, out) + slack));
@@ -57,7 +58,7 @@ UnetPlan plan_unet(const UnetChannels& channels, int width, int height, Element 
         UnetPlane& plane = plan.planes[i];
         // Layer i - 1 writes this plane while it reads its own sources.
         std::erase_if(living, [&](const Block& block) { return block.last_reader < i - 1; });
-        const size_t bytes = aligned(plane.row_elements() * (plane.height + 2) * bytes_of(element) + slack);
+        const size_t bytes = aligned(plane.row_bytes() * (plane.height + 2) + slack);
         plane.offset = lowest_gap(living, bytes);
         const Block block{plane.offset, plane.offset + bytes, last_reader(i)};
         living.insert(std::ranges::upper_bound(living, block.begin, {}, &Block::begin), block);

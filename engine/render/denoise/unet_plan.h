@@ -12,6 +12,11 @@ namespace blush::denoise {
 enum class Element : unsigned char { float32, bfloat16 };
 constexpr size_t bytes_of(Element element) { return element == Element::float32 ? 4 : 2; }
 
+// In bfloat16 the picture comes in two parts that together hold 16 bits: the curve that it is coded with turns the last of 8 bits into up
+// to 1 % of radiance. The input has so many channels more then, the second parts of its first ones.
+inline constexpr int split_channels = 3;
+constexpr int extra_inputs(Element element) { return element == Element::float32 ? 0 : split_channels; }
+
 // Rows of one layer's output that a worker computes at a time: few enough to stay in its caches with what they are made of, and
 // the same whatever the number of workers.
 inline constexpr int band_rows = 8;
@@ -20,13 +25,14 @@ inline constexpr int band_rows = 8;
 // the convolution's padding.
 struct UnetPlane {
     int width = 0, height = 0, channels = 0;
+    Element element = Element::float32;
     size_t offset = 0; // of the row of zeros, in bytes
 
     size_t row_elements() const { return size_t(width) * channels; }
+    size_t row_bytes() const { return row_elements() * bytes_of(element); }
 };
 
 struct UnetPlan {
-    Element element = Element::float32;
     std::array<UnetPlane, unet_plane_count> planes = {}; // the last one is handed out row by row and has no place
     size_t plane_bytes = 0;                              // of all planes
     size_t band_bytes = 0;                               // what a worker needs for its own: input and output of a band
@@ -34,7 +40,8 @@ struct UnetPlan {
     size_t bytes(unsigned workers) const { return plane_bytes + workers * 2 * band_bytes; }
 };
 
-// Sides must be multiples of unet_side_multiple.
+// Sides must be multiples of unet_side_multiple. The last layer reads and makes float32 whatever the `element` of the others: few
+// operations, and nothing after it averages its errors away.
 UnetPlan plan_unet(const UnetChannels& channels, int width, int height, Element element);
 
 } // namespace blush::denoise
