@@ -294,6 +294,8 @@ void tip_for_last_item(UiState& ui, const char* tip) {
         return;
     }
     ImGui::BeginTooltip();
+    // ImGui hides a new window for the one frame in which it measures it; over a mouse at rest nothing else asks for the next.
+    if (ImGui::IsWindowAppearing()) ui.next_frame_in = 0;
     ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24);
     ImGui::TextUnformatted(tip);
     ImGui::PopTextWrapPos();

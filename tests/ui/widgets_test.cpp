@@ -2,6 +2,8 @@
 #include "imgui_test.h"
 #include "ui/widgets.h"
 
+#include <imgui_internal.h>
+
 namespace blush {
 namespace {
 
@@ -52,6 +54,23 @@ protected:
     NumberStyle style{.min = -10, .max = 10, .reset = 2.5f, .step = 0.01f};
     ImVec2 low, high;
 };
+
+// The window draws only the frames that somebody asks for.
+TEST_F(Widgets, ATipAppearsOverAMouseAtRest) {
+    constexpr double idle = 1;
+    style.tip = "Stops of exposure.";
+    ui.next_frame_in = idle;
+    move(middle());
+    for (int i = 0; i < 10 && ui.next_frame_in < idle; ++i) {
+        ImGui::GetIO().DeltaTime = std::max(float(ui.next_frame_in), 1.f / 60);
+        ui.next_frame_in = idle;
+        frame();
+    }
+    EXPECT_EQ(ui.next_frame_in, idle) << "frames without end";
+    const ImGuiWindow* tip = ImGui::FindWindowByName("##Tooltip_00");
+    ASSERT_TRUE(tip);
+    EXPECT_TRUE(tip->WasActive && !tip->Hidden);
+}
 
 TEST_F(Widgets, ADragIsOneStepAndTheNextDragAnother) {
     drag(60);
