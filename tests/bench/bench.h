@@ -15,9 +15,10 @@ using Json = nlohmann::ordered_json;
 
 struct Options {
     std::vector<BenchScene> scenes;
-    unsigned threads = 2; // the largest number of them measured
-    int rounds = 9;       // of each interleaved comparison; medians are reported
-    int edits = 40;       // of each kind
+    unsigned threads = 2;         // the largest number of them measured
+    int rounds = 9;               // of each interleaved comparison; medians are reported
+    int edits = 40;               // of each kind
+    int reference_samples = 4096; // of the pictures that errors are measured against
 };
 
 Json run_rate(const Options& options);

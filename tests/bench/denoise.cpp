@@ -95,10 +95,10 @@ RgbImage image(int width, int height, std::span<const float> values, int stride)
 }
 
 // relMSE of raw and denoised against many samples of another seed.
-Result<Json> measure_error(const BenchScene& scene, const Options& options, bool quick) {
+Result<Json> measure_error(const BenchScene& scene, const Options& options) {
     RenderSettings settings = rate_settings();
     settings.width = settings.height = 256;
-    settings.spp = quick ? 512 : 4096;
+    settings.spp = options.reference_samples;
     settings.seed = 1000;
     const Frame truth = rendered(scene, settings, options.threads);
     const RgbImage reference = image(truth.width, truth.height, truth.rgba, 4);
@@ -133,7 +133,7 @@ Json run_denoise(const Options& options) {
     };
     for (const BenchScene& scene : options.scenes) {
         if (!scene.ours || (scene.name() != "cornell.gltf" && scene.name() != "card-and-mug.gltf")) continue;
-        add(result["error"], measure_error(scene, options, options.rounds < 3));
+        add(result["error"], measure_error(scene, options));
         if (!result["speed"].empty()) continue;
         RenderSettings settings = window_settings();
         settings.spp = 1;

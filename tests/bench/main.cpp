@@ -44,6 +44,7 @@ int run(int argc, char** argv) {
     if (quick) {
         options.rounds = 2;
         options.edits = 5;
+        options.reference_samples = 512;
     }
 
     for (const auto& found : {shipped_scenes(), peers.empty() ? std::vector<BenchScene>{} : peer_scenes(peers)}) {

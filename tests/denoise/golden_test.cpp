@@ -3,6 +3,8 @@
 
 #include "measure/metrics.h"
 
+#include <ostream>
+
 namespace blush::test {
 namespace {
 
@@ -12,6 +14,9 @@ struct Golden {
     bool features;
     double relmse; // of the expected picture against the reference, to five digits
 };
+
+// How GoogleTest names the case.
+void PrintTo(const Golden& golden_case, std::ostream* out) { *out << golden_case.network; }
 
 class GoldenTest : public testing::TestWithParam<Golden> {
 protected:
