@@ -56,6 +56,13 @@ bool has_flat_normals(const Geometry& g) {
     return true;
 }
 
+// The object's transform into the world about `origin`: the difference is taken before anything is rounded.
+Affined placed(const SceneObject& object, const Vec3d& origin) {
+    Affined m = object.world_from_object;
+    m.t = m.t - origin;
+    return m;
+}
+
 } // namespace
 
 GeometryPool::Span GeometryPool::append(const Geometry& g) {
@@ -89,15 +96,17 @@ void GeometryPool::place(size_t part, const Geometry& g, const Affined& world_fr
         }
 }
 
-void GeometryPool::build(const std::vector<SceneObject>& objects, const AttributeNeeds& needs) {
+void GeometryPool::build(const std::vector<SceneObject>& objects, const AttributeNeeds& needs, const Vec3d& origin) {
     *this = {};
     needs_ = needs;
+    origin_ = origin;
     std::map<uint64_t, Span> shared;      // instanced geometry by serial
     std::map<uint64_t, bool> flat_normals; // by serial
     for (const SceneObject& object : objects) {
+        const Affined world_from_object = placed(object, origin);
         if (object.instanced) {
             instance_first_part_.push_back(int32_t(parts_.size()));
-            instances_.push_back(make_instance(object.world_from_object));
+            instances_.push_back(make_instance(world_from_object));
         }
         for (const MeshPart& part : object.parts) {
             const Geometry& g = *part.geometry;
@@ -105,7 +114,7 @@ void GeometryPool::build(const std::vector<SceneObject>& objects, const Attribut
             if (!object.instanced) span = append(g);
             else if (const auto it = shared.find(g.serial); it != shared.end()) span = it->second;
             else span = shared[g.serial] = append(g);
-            int32_t flags = flags_of(g, needs, object.world_from_object, object.instanced);
+            int32_t flags = flags_of(g, needs, world_from_object, object.instanced);
             if (flags & part_smooth) {
                 const auto [it, is_new] = flat_normals.try_emplace(g.serial, false);
                 if (is_new) it->second = has_flat_normals(g);
@@ -116,27 +125,27 @@ void GeometryPool::build(const std::vector<SceneObject>& objects, const Attribut
             part_materials_.push_back(part.material);
             part_triangles_.push_back(int64_t(g.triangle_count()));
             part_vertices_.push_back(int64_t(g.positions.size()));
-            if (!object.instanced) place(parts_.size() - 1, g, object.world_from_object);
-            else if (!object_bounds_.contains(span.first_vertex)) object_bounds_[span.first_vertex] = bounds_of(parts_.size() - 1);
+            if (!object.instanced) place(parts_.size() - 1, g, world_from_object);
         }
     }
-    refresh_bounds();
 }
 
-void GeometryPool::move(const std::vector<SceneObject>& before, const std::vector<SceneObject>& objects) {
+void GeometryPool::move(const std::vector<SceneObject>& before, const std::vector<SceneObject>& objects, const Vec3d& origin) {
+    const bool all_moved = origin != origin_;
+    origin_ = origin;
     size_t part = 0, instance = 0;
     for (size_t i = 0; i < objects.size(); ++i) {
-        const bool moved = !(before[i].world_from_object == objects[i].world_from_object);
+        const bool moved = all_moved || before[i].world_from_object != objects[i].world_from_object;
+        const Affined world_from_object = placed(objects[i], origin);
         if (objects[i].instanced) {
-            if (moved) instances_[instance] = make_instance(objects[i].world_from_object);
+            if (moved) instances_[instance] = make_instance(world_from_object);
             ++instance;
         }
         for (const MeshPart& p : objects[i].parts) {
-            if (moved && !objects[i].instanced) place(part, *p.geometry, objects[i].world_from_object);
+            if (moved && !objects[i].instanced) place(part, *p.geometry, world_from_object);
             ++part;
         }
     }
-    refresh_bounds();
 }
 
 void GeometryPool::corners(size_t part, int64_t triangle, Vec3 (&p)[3]) const {
@@ -192,25 +201,6 @@ AccelScene GeometryPool::accel_scene(const std::vector<SceneObject>& objects, co
         else scene.flat.insert(scene.flat.end(), triangles.begin(), triangles.end());
     }
     return scene;
-}
-
-Bounds GeometryPool::bounds_of(size_t part) const {
-    Bounds bounds;
-    const size_t first = size_t(parts_[part].first_vertex), count = size_t(part_vertices_[part]);
-    for (size_t i = 0; i < count; ++i) bounds.include(to_double(positions_[first + i]));
-    return bounds;
-}
-
-void GeometryPool::refresh_bounds() {
-    bounds_ = {};
-    for (size_t part = 0; part < parts_.size(); ++part) {
-        const bool instanced = parts_[part].transform >= 0;
-        const Bounds own = instanced ? object_bounds_.at(parts_[part].first_vertex) : bounds_of(part);
-        const Affine m = instanced ? instances_[size_t(parts_[part].transform)].world_from_object : Affine{};
-        const Vec3d corner[2] = {own.low, own.high};
-        for (int k = 0; k < 8; ++k)
-            bounds_.include(to_double(transform_point(m, to_float(Vec3d{corner[k & 1].x, corner[k >> 1 & 1].y, corner[k >> 2 & 1].z}))));
-    }
 }
 
 size_t GeometryPool::memory_bytes() const {

@@ -7,7 +7,6 @@
 #include "scene/scene.h"
 
 #include <cstdint>
-#include <map>
 #include <vector>
 
 namespace blush {
@@ -20,11 +19,11 @@ struct AttributeNeeds {
 
 class GeometryPool {
 public:
-    // Lays out the parts of `objects`: flat ones in world space, instanced ones in object space and once for all instances.
-    // Fills every field of the part records but `material` and `first_light`.
-    void build(const std::vector<SceneObject>& objects, const AttributeNeeds& needs);
-    // Objects of the same shape at other places: rewrites what moved. `before` as given last time.
-    void move(const std::vector<SceneObject>& before, const std::vector<SceneObject>& objects);
+    // Lays out the parts of `objects`: flat ones in world space, instanced ones in object space and once for all instances. World
+    // space is about `origin` (render/extent.h). Fills every field of the part records but `material` and `first_light`.
+    void build(const std::vector<SceneObject>& objects, const AttributeNeeds& needs, const Vec3d& origin);
+    // Objects of the same shape at other places, or seen from another origin: rewrites what moved. `before` as given last time.
+    void move(const std::vector<SceneObject>& before, const std::vector<SceneObject>& objects, const Vec3d& origin);
 
     // One record per part, in the order of objects and their parts.
     std::vector<PartRecord>& parts() { return parts_; }
@@ -40,7 +39,6 @@ public:
     void fill(SceneTables& tables) const;
     // For the builder; alpha[part] asks for opacity tests.
     AccelScene accel_scene(const std::vector<SceneObject>& objects, const std::vector<bool>& alpha) const;
-    const Bounds& bounds() const { return bounds_; }
     int64_t instance_count() const { return int64_t(instances_.size()); }
     size_t memory_bytes() const;
 
@@ -49,8 +47,6 @@ private:
         int32_t first_vertex = 0, first_index = 0;
     };
     Span append(const Geometry& geometry);
-    Bounds bounds_of(size_t part) const;
-    void refresh_bounds();
     void place(size_t part, const Geometry& geometry, const Affined& world_from_object);
 
     std::vector<PartRecord> parts_;
@@ -64,8 +60,7 @@ private:
     std::vector<Vec4> tangents_, colors_;
     std::vector<Vec2> uv0_, uv1_;
     AttributeNeeds needs_;
-    std::map<int32_t, Bounds> object_bounds_; // of instanced parts in object space, by first vertex: once for all instances
-    Bounds bounds_;
+    Vec3d origin_{0, 0, 0};
 };
 
 } // namespace blush

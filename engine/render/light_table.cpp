@@ -4,6 +4,7 @@
 #include "core/math.h"
 #include "render/light_sampling.h"
 #include "render/lowering.h"
+#include "scene/affine.h"
 #include "scene/placements.h"
 
 #include <algorithm>
@@ -79,7 +80,7 @@ void add_triangles(Builder& b, const MaterialTable& materials, GeometryPool& geo
     }
 }
 
-void add_punctual(Builder& b, const Scene& scene, double scene_radius) {
+void add_punctual(Builder& b, const Scene& scene, double scene_radius, const Vec3d& origin) {
     Placements placements(scene);
     for (const auto& [id, node] : scene.nodes) {
         const Light* light = node.light ? scene.lights.find(node.light) : nullptr;
@@ -87,8 +88,8 @@ void add_punctual(Builder& b, const Scene& scene, double scene_radius) {
         const Affined& world = placements(id).world_from_node;
         const Vec3d axis = normalize(-world.z);
         LightRecord record{};
-        record.position = {float(world.t.x), float(world.t.y), float(world.t.z)};
-        record.edge1 = {float(axis.x), float(axis.y), float(axis.z)};
+        record.position = to_float(world.t - origin);
+        record.edge1 = to_float(axis);
         record.emission = light_emission(*light);
         const double strength = luminance_of(record.emission);
         switch (light->kind) {
@@ -129,12 +130,11 @@ void add_punctual(Builder& b, const Scene& scene, double scene_radius) {
 } // namespace
 
 LightTable build_light_table(const Scene& scene, const MaterialTable& materials, GeometryPool& geometry, const SceneTables& tables,
-                             const Vec3& environment_mean) {
+                             const Vec3& environment_mean, const Extent& extent) {
     Builder b;
     add_triangles(b, materials, geometry, tables);
-    const Bounds bounds = geometry.bounds();
-    const double radius = bounds.empty ? 1 : std::max(bounds.radius(), 1e-30);
-    add_punctual(b, scene, radius);
+    const double radius = extent.bounds.empty ? 1 : std::max(extent.bounds.radius(), 1e-30);
+    add_punctual(b, scene, radius, extent.origin);
     const double sky = luminance_of(environment_mean);
     if (sky > 0) {
         LightRecord record{};

@@ -1,6 +1,7 @@
 // Everything that emits, as records with selection probabilities.
 #pragma once
 
+#include "render/extent.h"
 #include "render/geometry_pool.h"
 #include "render/material_table.h"
 #include "scene/scene.h"
@@ -24,9 +25,9 @@ struct LightTable {
 
 // Emissive triangles part by part (part records get their first_light), then punctual lights in node order, then the
 // environment. `environment_mean` is its radiance averaged over the sphere (nits), 0 if there is none. Powers are luminous fluxes: pi A L for a
-// triangle, 4 pi I for a point, the cone's share of it for a spot; for suns and sky what crosses the scene's bounding
-// sphere of radius R: pi R^2 E and 4 pi^2 R^2 L (Pharr, Jakob, Humphreys, section 12.6).
+// triangle, 4 pi I for a point, the cone's share of it for a spot; for suns and sky what crosses the sphere of radius R around the
+// scene's bounds: pi R^2 E and 4 pi^2 R^2 L (Pharr, Jakob, Humphreys, section 12.6). Positions are about the extent's origin.
 LightTable build_light_table(const Scene& scene, const MaterialTable& materials, GeometryPool& geometry, const SceneTables& tables,
-                             const Vec3& environment_mean);
+                             const Vec3& environment_mean, const Extent& extent);
 
 } // namespace blush

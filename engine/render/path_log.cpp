@@ -6,6 +6,7 @@
 #include "render/renderer.h"
 #include "render/settings_for_kernels.h"
 #include "render/wavefront.h"
+#include "scene/affine.h"
 
 #include <fmt/format.h>
 #include <memory>
@@ -14,6 +15,12 @@ namespace blush {
 namespace {
 
 std::string rgb(const Vec3& c) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", c.x, c.y, c.z); }
+
+// Nine digits tell single-precision numbers apart, wherever in the world.
+std::string point(const Vec3& p, const Vec3d& origin) {
+    const Vec3d world = to_double(p) + origin;
+    return fmt::format("({:.9g}, {:.9g}, {:.9g})", world.x, world.y, world.z);
+}
 
 std::string object_name(const Scene& scene, int32_t object) {
     const Id<Node> id{uint32_t(object) & ~lowered_bit};
@@ -37,7 +44,7 @@ struct Logger {
 
     void vertex(int bounce, const Path<float>& path, const Hit<float>& hit) {
         line("vertex {}", bounce);
-        line("  ray        from {} towards {}", rgb(path.ray.origin), rgb(path.ray.direction));
+        line("  ray        from {} towards {}", point(path.ray.origin, compiled.origin()), rgb(path.ray.direction));
         line("  throughput {}  pdf {:.6g}", rgb(path.beta), path.pdf);
         if (hit.geometry < 0) {
             line("  leaves the scene");
@@ -47,7 +54,7 @@ struct Logger {
         const int32_t object = compiled.tables().parts[s.part].object;
         line("  hits       {}, {}, triangle {}, at {:.6g} m", object_name(scene, object), material_name(scene, compiled.material_id(s.material)),
              hit.triangle, hit.t);
-        line("  position   {}  off the surface by at most {:.3g} m", rgb(s.position), max_component(s.error));
+        line("  position   {}  off the surface by at most {:.3g} m", point(s.position, compiled.origin()), max_component(s.error));
         line("  normal     {} geometric, {} shading", rgb(s.ng), rgb(s.ns));
     }
 

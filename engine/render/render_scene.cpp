@@ -38,12 +38,12 @@ AttributeNeeds needs_of(const Scene& scene, const std::vector<SceneObject>& obje
 
 } // namespace
 
-CameraRecord camera_record(const View& view, float aspect) {
+CameraRecord camera_record(const View& view, float aspect, const Vec3d& origin) {
     const Affine frame = to_float(to_affine(view.rotation));
     const Lens& lens = view.lens;
     const float half_height = lens.orthographic ? lens.ymag : std::tan(0.5f * lens.yfov_radians);
     CameraRecord camera{};
-    camera.position = view.position;
+    camera.position = to_float(to_double(view.position) - origin);
     camera.forward = -frame.z;
     camera.right = frame.x * (half_height * aspect);
     camera.up = frame.y * half_height;
@@ -73,9 +73,10 @@ void RenderScene::update_geometry(const Scene& scene, const UpdatePlan& plan, co
         const auto same = [](const SceneObject& a, const SceneObject& b) { return a.same_shape(b); };
         rebuild |= !std::equal(objects.begin(), objects.end(), objects_.begin(), objects_.end(), same);
         std::swap(objects, objects_);
+        extent_ = extents_.extent_of(objects_);
         const AttributeNeeds needs = needs_of(scene, objects_);
         rebuild |= needs != needs_;
-        if (!rebuild) geometry_.move(objects, objects_);
+        if (!rebuild) geometry_.move(objects, objects_, extent_.origin);
         needs_ = needs;
         commit = true;
     } else if (const AttributeNeeds needs = needs_of(scene, objects_); needs != needs_) {
@@ -83,7 +84,7 @@ void RenderScene::update_geometry(const Scene& scene, const UpdatePlan& plan, co
         rebuild = true;
     }
     if (rebuild) {
-        geometry_.build(objects_, needs_);
+        geometry_.build(objects_, needs_, extent_.origin);
         commit = true;
     }
 
@@ -106,7 +107,7 @@ void RenderScene::update_lights(const Scene& scene, const UpdatePlan& plan) {
     tables_.environment = environment_.tables();
     if (!plan.lights) return;
     const Vec3d sky = environment_.integral() * (1 / (4 * 3.14159265358979323846));
-    lights_ = build_light_table(scene, materials_, geometry_, tables_, to_float(sky));
+    lights_ = build_light_table(scene, materials_, geometry_, tables_, to_float(sky), extent_);
     lights_.fill(tables_.lights);
 }
 
@@ -133,11 +134,13 @@ Features RenderScene::compute_features(const Scene& scene, const RenderSettings&
 }
 
 void RenderScene::update(const Scene& scene, const RenderSettings& settings, const UpdatePlan& plan, const Workers& workers) {
+    const Vec3d origin_before = extent_.origin;
     update_materials(scene, plan);
     update_geometry(scene, plan, workers);
     update_lights(scene, plan);
     geometry_.fill(tables_);
-    if (plan.camera) tables_.camera = camera_record(scene.view, float(settings.width) / float(settings.height));
+    if (plan.camera || extent_.origin != origin_before)
+        tables_.camera = camera_record(scene.view, float(settings.width) / float(settings.height), extent_.origin);
     if (plan.features) features_ = compute_features(scene, settings);
 }
 

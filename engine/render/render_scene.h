@@ -4,6 +4,7 @@
 #include "core/parallel.h"
 #include "render/accel.h"
 #include "render/environment_table.h"
+#include "render/extent.h"
 #include "render/geometry_pool.h"
 #include "render/kernels/kernel.h"
 #include "render/light_table.h"
@@ -21,7 +22,9 @@ public:
     // Carries out `plan` for a scene with area lights lowered. After it all tables are those that full_plan() would give.
     void update(const Scene& lowered, const RenderSettings& settings, const UpdatePlan& plan, const Workers& workers);
 
+    // Positions in them are about origin().
     const SceneTables& tables() const { return tables_; }
+    const Vec3d& origin() const { return extent_.origin; }
     const Accel& accel() const { return accel_; }
     // What the scene under these settings needs of a kernel.
     Features features() const { return features_; }
@@ -38,6 +41,8 @@ private:
     MaterialTable materials_;
     std::vector<SceneObject> objects_;
     AttributeNeeds needs_;
+    ExtentCache extents_;
+    Extent extent_;
     GeometryPool geometry_;
     std::vector<bool> alpha_; // by part
     LightTable lights_;
@@ -48,7 +53,7 @@ private:
     bool has_geometry_ = false;
 };
 
-// The view as kernels read it, at the given aspect = width / height.
-CameraRecord camera_record(const View& view, float aspect);
+// The view as kernels read it, at the given aspect = width / height, its position about `origin`.
+CameraRecord camera_record(const View& view, float aspect, const Vec3d& origin);
 
 } // namespace blush

@@ -1,4 +1,5 @@
 // A scene reached by edits renders bit for bit like the same scene just opened.
+#include "core/math.h"
 #include "scene/document.h"
 #include "session/pictures.h"
 #include "session/rich_project.h"
@@ -90,6 +91,36 @@ TEST_P(RandomEdits, RenderAsIfTheSceneWereJustOpenedAndUndoToTheFirstImage) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomEdits, ::testing::Values(1u, 2u));
+
+// Far from the origin a scene is rendered about another one: moving there and back leaves no trace, in tables that the edit itself did
+// not ask to be rewritten either.
+TEST(Renderer, FollowsASceneThatMovesFarAway) {
+    Project project = test::rich_project();
+    Updated updated(project);
+    const Frame first = updated.picture();
+    const Scene near = project.scene;
+    const auto move = [&](const Vec3& by, bool objects_alone) {
+        project.scene = near;
+        for (const auto& [id, root] : near.nodes) {
+            if (root.parent || (objects_alone && !root.mesh)) continue;
+            Node moved = root;
+            moved.local.translation = root.local.translation + by;
+            if (moved.local.matrix) moved.local.matrix->t = moved.local.matrix->t + by;
+            project.scene.nodes.set(id, moved);
+        }
+    };
+    for (const float away : {1e3f, 1e6f, 1e6f + 8, 0.f}) {
+        move({away, 0, 0}, false);
+        project.scene.view.position.x += away;
+        updated.follow(project);
+        EXPECT_TRUE(same_picture(updated.picture(), fresh_picture(project.scene, project.render, samples))) << away;
+    }
+    EXPECT_TRUE(same_picture(updated.picture(), first));
+    // Only the objects: the camera stays and is looked from at another origin.
+    move({0, 500, 0}, true);
+    updated.follow(project);
+    EXPECT_TRUE(same_picture(updated.picture(), fresh_picture(project.scene, project.render, samples)));
+}
 
 TEST(Renderer, ThreadsAndBatchesDoNotChangeABit) {
     const Project project = test::rich_project();

@@ -1,0 +1,55 @@
+#include "render/extent.h"
+
+#include "core/math.h"
+#include "scene/affine.h"
+
+#include <cmath>
+
+namespace blush {
+namespace {
+
+Bounds bounds_of(const Geometry& geometry) {
+    Bounds bounds;
+    for (const Vec3& p : geometry.positions) bounds.include(to_double(p));
+    return bounds;
+}
+
+void include_box(Bounds& bounds, const Bounds& box, const Affined& world_from_box) {
+    if (box.empty) return;
+    const Vec3d corner[2] = {box.low, box.high};
+    for (int k = 0; k < 8; ++k)
+        bounds.include(transform_point(world_from_box, Vec3d{corner[k & 1].x, corner[k >> 1 & 1].y, corner[k >> 2 & 1].z}));
+}
+
+} // namespace
+
+Vec3d render_origin(const Bounds& bounds) {
+    const double radius = bounds.empty ? 0 : bounds.radius();
+    if (!(radius > 0) || !std::isfinite(radius)) return {0, 0, 0};
+    int exponent = 0;
+    std::frexp(radius, &exponent); // 2^exponent is above the radius, by a factor of two at most
+    const double step = std::ldexp(1.0, exponent + 2);
+    const auto rounded = [&](double x) { return std::round(x / step) * step; };
+    const Vec3d c = bounds.center();
+    return {rounded(c.x), rounded(c.y), rounded(c.z)};
+}
+
+Extent ExtentCache::extent_of(const std::vector<SceneObject>& objects) {
+    std::map<uint64_t, Bounds> used;
+    Extent extent;
+    for (const SceneObject& object : objects)
+        for (const MeshPart& part : object.parts) {
+            const uint64_t serial = part.geometry->serial;
+            auto it = used.find(serial);
+            if (it == used.end()) {
+                const auto known = by_serial_.find(serial);
+                it = used.emplace(serial, known != by_serial_.end() ? known->second : bounds_of(*part.geometry)).first;
+            }
+            include_box(extent.bounds, it->second, object.world_from_object);
+        }
+    by_serial_ = std::move(used);
+    extent.origin = render_origin(extent.bounds);
+    return extent;
+}
+
+} // namespace blush
