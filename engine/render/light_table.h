@@ -27,6 +27,7 @@ struct LightTable {
 // environment. `environment_mean` is its radiance averaged over the sphere (nits), 0 if there is none. Powers are luminous fluxes: pi A L for a
 // triangle, 4 pi I for a point, the cone's share of it for a spot; for suns and sky what crosses the sphere of radius R around the
 // scene's bounds: pi R^2 E and 4 pi^2 R^2 L (Pharr, Jakob, Humphreys, section 12.6). Positions are about the extent's origin.
+// One sample in 64 is shared out among all lights alike, so that a faint one is found where it is all there is.
 LightTable build_light_table(const Scene& scene, const MaterialTable& materials, GeometryPool& geometry, const SceneTables& tables,
                              const Vec3& environment_mean, const Extent& extent);
 
