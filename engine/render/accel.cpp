@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cstring>
 #include <embree3/rtcore.h>
+#include <limits>
 #include <map>
 #include <stdexcept>
 
@@ -121,7 +122,8 @@ template <int N, class Ray> void load_rays(Ray& ray, const RayArrays& rays, int 
     if (rays.far_distance) copy(ray.tfar, rays.far_distance);
     else std::fill_n(ray.tfar, N, infinity);
     if (rays.random) std::memcpy(ray.id, rays.random + first, N * sizeof(uint32_t));
-    std::fill_n(ray.tnear, N, 0.f);
+    // A ray does not meet the surface that it starts on, as one from an eye that lies in it would: above 0, which the watertight test includes.
+    std::fill_n(ray.tnear, N, std::numeric_limits<float>::min());
     std::fill_n(ray.time, N, 0.f);
     std::fill_n(ray.mask, N, ~0u);
     std::fill_n(ray.flags, N, 0u);
