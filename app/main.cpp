@@ -1,5 +1,6 @@
 // Arguments in, exit code out: 0 done, 1 could not (one line on stderr), 2 bad usage.
 #include "app/assets_dir.h"
+#include "app/commands/check.h"
 #include "app/commands/common.h"
 #include "app/commands/compare.h"
 #include "app/commands/denoise.h"
@@ -55,6 +56,7 @@ int run_command_line(int argc, char** argv) {
     add_editor(app, run);
     add_render_command(app, run);
     add_compare_command(app, run);
+    add_check_command(app, run);
     add_info_command(app, run);
     add_denoise_command(app, run);
     try {

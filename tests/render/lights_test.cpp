@@ -75,20 +75,12 @@ TEST(Sun, LightsWithTheCosine) {
         }
 }
 
-std::vector<Vec3d> rectangle_corners(const Light& light, const Transform& transform) {
-    const Affined world = to_affine(transform);
-    std::vector<Vec3d> corners;
-    for (const auto& [x, y] : {std::pair{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}})
-        corners.push_back(transform_point(world, Vec3d{x * light.width, y * light.height, 0}));
-    return corners;
-}
-
 TEST(RectangleLight, IsLambertsPolygon) {
     Light light = light_of(Light::Kind::rectangle, 3);
     light.width = 0.8f;
     light.height = 0.3f;
     for (const Pose& pose : poses) {
-        const std::vector<Vec3d> corners = rectangle_corners(light, aimed(pose.position, pose.direction));
+        const auto corners = rectangle_corners(light, aimed(pose.position, pose.direction));
         EXPECT_TRUE(shows_on_floor(
             lit_by(light, pose), [&](const Vec3d& x) { return 3 * polygon_irradiance(x, up, corners); }, sidak(significance, 4)));
     }
@@ -99,7 +91,7 @@ TEST(RectangleLight, ShinesForwardsOnlyUnlessTwoSided) {
     const Pose away{{0.2f, 1, 0.3f}, {0.3f, 1, 0}};
     EXPECT_TRUE(shows_on_floor(lit_by(light, away), [](const Vec3d&) { return 0; }));
     light.two_sided = true;
-    const std::vector<Vec3d> corners = rectangle_corners(light, aimed(away.position, away.direction));
+    const auto corners = rectangle_corners(light, aimed(away.position, away.direction));
     EXPECT_TRUE(shows_on_floor(lit_by(light, away), [&](const Vec3d& x) { return 3 * polygon_irradiance(x, up, corners); }));
 }
 
@@ -143,7 +135,7 @@ TEST(SphereLight, LightsAsThePointWouldWithinItsFacets) {
 // Direct light is the first bounce: without any there is nothing but what emits, and more change nothing where nothing faces the floor.
 TEST(Lights, TakeOneBounce) {
     const Scene scene = lit_by(light_of(Light::Kind::rectangle, 3), poses[0]);
-    const std::vector<Vec3d> corners = rectangle_corners(light_of(Light::Kind::rectangle, 3), aimed(poses[0].position, poses[0].direction));
+    const auto corners = rectangle_corners(light_of(Light::Kind::rectangle, 3), aimed(poses[0].position, poses[0].direction));
     for (const int bounces : {0, 1, 2, 7}) {
         RenderSettings settings = settings_for(16, 16, 64);
         settings.max_bounces = bounces;
@@ -175,7 +167,7 @@ TEST(Lights, AddUp) {
     const Transform pose = aimed({-1, 1, 0.5f}, {1, -2, 0});
     Scene with_area = scene;
     shine(with_area, area, pose);
-    const std::vector<Vec3d> corners = rectangle_corners(area, pose);
+    const auto corners = rectangle_corners(area, pose);
     const auto expected = [&](const Vec3d& x) { return of_point(x) + 0.25 * pi + (3 - 0.25) * polygon_irradiance(x, up, corners); };
     EXPECT_TRUE(shows_on_floor(with_area, expected, sidak(significance, 2)));
 }

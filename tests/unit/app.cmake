@@ -1,5 +1,6 @@
 blush_test(test_app
   SOURCES
+    app_check.cpp
     app_compare.cpp
     app_denoise.cpp
     app_info.cpp

@@ -1,0 +1,134 @@
+// Glass: from an index of refraction of 1 to 2.5, at the critical angle, through fifty interfaces.
+#include "core/math.h"
+#include "measure/stability/findings.h"
+#include "measure/stability/groups.h"
+#include "scene/affine.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <numbers>
+
+namespace blush::stability {
+namespace {
+
+constexpr int towards_vacuum = 7, nested = 20, critical_angle = 21;
+
+// Fresnel's reflectance for unpolarised light that meets an interface of index ratio eta under a cosine.
+double fresnel(double eta, double cos) {
+    const double sin2 = (1 - cos * cos) / (eta * eta);
+    if (sin2 >= 1) return 1;
+    const double t = std::sqrt(1 - sin2), s = (cos - eta * t) / (cos + eta * t), p = (eta * cos - t) / (eta * cos + t);
+    return 0.5 * (s * s + p * p);
+}
+
+Transform box(const Vec3& middle, const Vec3& half) {
+    Transform t = at(middle);
+    t.scale = half;
+    return t;
+}
+
+Vec3 tilted(double degrees, double side) {
+    const double a = degrees * std::numbers::pi / 180;
+    return {float(std::sin(a)), float(side * std::cos(a)), 0};
+}
+
+// ---- white furnaces
+
+Findings ball_in_furnace(const Material& material) {
+    Scene scene;
+    place(scene, sphere(false), material);
+    constant_world(scene, 1);
+    scene.view = looking({0.4f, 1.1f, 3}, {0, 0, 0}, 0.4f);
+    return whole(render(scene, settings_for(16, 16, 64)), 1);
+}
+
+// Shells of glass around each other, their facets parallel.
+Findings shells_in_furnace(int shells) {
+    Scene scene;
+    const Material material = glass(0, 1.5f);
+    for (int i = 0; i < shells; ++i) {
+        const float outer = 1 - 0.03f * float(i);
+        place(scene, sphere(false), material, at({0, 0, 0}, outer));
+        place(scene, sphere(true), material, at({0, 0, 0}, outer - 0.01f));
+    }
+    constant_world(scene, 1);
+    scene.view = looking({0.4f, 1.1f, 3}, {0, 0, 0}, 0.4f);
+    return whole(render(scene, settings_for(16, 16, 32)), 1);
+}
+
+// A camera within glass sees the world n^2 times as bright.
+Findings within_glass(float ior) {
+    Scene scene;
+    place(scene, cube(false), glass(0, ior), box({0, 0, 0}, {100, 1, 100}));
+    constant_world(scene, 1);
+    scene.view = looking({0, 0, 0}, tilted(10, 1), 0.2f);
+    return whole(render(scene, settings_for(16, 16, 64)), double(ior) * double(ior));
+}
+
+// ---- panes before a bright floor
+
+// Seen through n interfaces of reflectance r, which add up without interfering: (1 - r) / (1 + (n - 1) r).
+double through(int interfaces, double r) { return (1 - r) / (1 + (interfaces - 1) * r); }
+
+Scene panes(int count, float ior, const View& view) {
+    Scene scene;
+    for (int i = 0; i < count; ++i) place(scene, cube(false), glass(0, ior), box({0, -0.05f - 0.2f * float(i), 0}, {50, 0.05f, 50}));
+    place(scene, floor_quad(1e5f, -0.2f * float(count) - 1), emitter(1));
+    scene.view = view;
+    return scene;
+}
+
+Findings pane_at(float ior, double degrees) {
+    View view = looking({0, 0, 0}, -tilted(degrees, 1), 1);
+    view.position = tilted(degrees, 1) * 5.f;
+    view.lens.orthographic = true;
+    view.lens.ymag = 0.5f * view.position.y;
+    const double cos = to_affine(view.rotation).z.y;
+    return whole(render(panes(1, ior, view), settings_for(16, 16, 128)), through(2, fresnel(double(ior), cos)));
+}
+
+Findings stack_of_panes(int count) {
+    return whole(render(panes(count, 1.5f, looking_down(1, 1)), settings_for(16, 16, 64)), through(2 * count, 0.04));
+}
+
+// ---- from within, above a black floor, at an angle to the critical one
+
+Findings beside_the_critical_angle(float ior, double off_degrees) {
+    const double degrees = std::asin(1 / double(ior)) * 180 / std::numbers::pi + off_degrees;
+    Scene scene;
+    place(scene, cube(false), glass(0, ior), box({0, 0, 0}, {100, 1, 100}));
+    place(scene, floor_quad(99, -0.5f), lambert(0.f));
+    constant_world(scene, 1);
+    scene.view = looking({0, 0, 0}, tilted(degrees, 1), 1);
+    scene.view.lens.orthographic = true;
+    scene.view.lens.ymag = 0.1f;
+    const double n = double(ior), cos = -to_affine(scene.view.rotation).z.y;
+    const auto seen = [&](double c) { return n * n * (1 - fresnel(1 / n, c)); };
+    // The square root at the critical angle magnifies what single precision rounds of the cosine.
+    const double rounding = std::abs(seen(cos + 0x1p-22) - seen(cos - 0x1p-22));
+    return whole(render(scene, settings_for(16, 16, 128)), seen(cos), rounding);
+}
+
+} // namespace
+
+std::vector<StabilityCase> dielectric_cases() {
+    std::vector<StabilityCase> cases;
+    for (const float ior : {1.f, 1 + 1e-6f, 1.001f, 1.5f, 2.5f})
+        cases.push_back({fmt::format("ball of ior {:.7g} in a furnace", ior), towards_vacuum, [ior] { return ball_in_furnace(glass(0, ior)); }});
+    for (const float ior : {1.f, 1 + 1e-6f})
+        cases.push_back({fmt::format("rough ball of ior {:.7g} in a furnace", ior), towards_vacuum,
+                         [ior] { return ball_in_furnace(glass(0.5f, ior)); }});
+    for (const float ior : {1.001f, 1.5f, 2.5f})
+        for (const double degrees : {0.0, 45.0, 80.0, 89.0, 89.9})
+            cases.push_back({fmt::format("pane of ior {} at {} degrees", ior, degrees), critical_angle,
+                             [ior, degrees] { return pane_at(ior, degrees); }});
+    for (const double off : {-1.0, -1e-2, -1e-4, 0.0, 1e-4, 1e-2})
+        cases.push_back({fmt::format("{:g} degrees off the critical angle", off), critical_angle, [off] { return beside_the_critical_angle(1.5f, off); }});
+    for (const float ior : {1.001f, 1.5f, 2.5f})
+        cases.push_back({fmt::format("camera within glass of ior {}", ior), nested, [ior] { return within_glass(ior); }});
+    cases.push_back({"50 interfaces, one behind another", nested, [] { return stack_of_panes(25); }});
+    cases.push_back({"50 interfaces around each other in a furnace", nested, [] { return shells_in_furnace(25); }});
+    return cases;
+}
+
+} // namespace blush::stability

@@ -1,0 +1,77 @@
+// Worlds and closed rooms that shine evenly: what loses nothing cannot be seen, and what reflects rho of everything shows the sum of a
+// geometric series, of thousands of terms where rho is close to 1.
+#include "measure/stability/findings.h"
+#include "measure/stability/groups.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace blush::stability {
+namespace {
+
+constexpr int closed_rooms = 15;
+constexpr float emission = 2;
+// Vertices a path has at most (render/estimator_settings.h says 100000 scattering events).
+constexpr double longest = 100001;
+
+Scene room(const GeometryPtr& walls, float albedo) {
+    Scene scene;
+    place(scene, walls, emitter(emission, albedo));
+    scene.view = looking({0.1f, -0.2f, 0.3f}, {0.9f, 0.35f, -0.8f}, 1.2f);
+    return scene;
+}
+
+// Le (1 + rho + rho^2 + ...) over a path's first `vertices`.
+double series(float albedo, double vertices) { return double(emission) * -std::expm1(vertices * std::log(double(albedo))) / (1 - double(albedo)); }
+
+// Light found by BSDF sampling alone: every path carries the same sum, so a handful of them will do, and what is off is arithmetic. Of n
+// roundings one expects sqrt(n) times one of them (Higham and Mary 2019); n is the number of terms that matter.
+Findings without_roulette(const GeometryPtr& walls, float albedo) {
+    RenderSettings settings = settings_for(4, 4, 1);
+    settings.roulette.rule = Roulette::Rule::off;
+    settings.strategy = Strategy::bsdf;
+    const double expected = series(albedo, longest), terms = std::min(longest, 1 / (1 - double(albedo)));
+    return every_pixel(render_anything(room(walls, albedo), settings), expected, 4 * std::sqrt(terms) * 0x1p-24 * expected);
+}
+
+Findings with_roulette(const GeometryPtr& walls, float albedo, const char* rule, int64_t spp) {
+    RenderSettings settings = settings_for(16, 16, spp);
+    settings.roulette = *parse_roulette(rule);
+    return whole(render(room(walls, albedo), settings), series(albedo, INFINITY));
+}
+
+Findings white_furnace(const Material& material) {
+    Scene scene;
+    place(scene, sphere(false), material);
+    constant_world(scene, 1);
+    scene.view = looking({0.4f, 1.1f, 3}, {0, 0, 0}, 0.4f);
+    return whole(render(scene, settings_for(16, 16, 64)), double(material.base_color.x));
+}
+
+// Roulette's budget: the longer the paths, the fewer of them.
+struct Closed {
+    float albedo;
+    int64_t spp;
+};
+constexpr Closed closed[] = {{1 - 1e-4f, 4}, {0.999f, 16}, {0.99f, 64}, {0.9f, 64}, {0.5f, 64}};
+
+} // namespace
+
+std::vector<StabilityCase> furnace_cases() {
+    std::vector<StabilityCase> cases;
+    for (const Closed& c : closed)
+        for (const auto& [shape, walls] : {std::pair{"sphere", sphere(true)}, {"cube", cube(true)}}) {
+            const std::string what = fmt::format("closed {}, rho {:.4g}, roulette", shape, c.albedo);
+            cases.push_back({what + " max", closed_rooms, [c, walls] { return with_roulette(walls, c.albedo, "max", c.spp); }});
+            cases.push_back({what + " off", closed_rooms, [c, walls] { return without_roulette(walls, c.albedo); }});
+        }
+    for (const char* rule : {"luminance", "sqrt", "constant=0.995"})
+        cases.push_back({fmt::format("closed sphere, rho 0.99, roulette {}", rule), closed_rooms,
+                         [rule] { return with_roulette(sphere(true), 0.99f, rule, 32); }});
+    for (const float albedo : {0.5f, 0.9f, 0.99f, 0.999f, 1 - 1e-4f, 1.f})
+        cases.push_back({fmt::format("white furnace, rho {:.4g}", albedo), closed_rooms, [albedo] { return white_furnace(lambert(albedo)); }});
+    return cases;
+}
+
+} // namespace blush::stability

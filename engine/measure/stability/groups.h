@@ -1,0 +1,25 @@
+// The cases, group by group: each in the file of its name.
+#pragma once
+
+#include "measure/stability/battery.h"
+
+#include <vector>
+
+namespace blush::stability {
+
+std::vector<StabilityCase> absorption_cases();
+std::vector<StabilityCase> camera_cases();
+std::vector<StabilityCase> dielectric_cases();
+std::vector<StabilityCase> film_cases();
+std::vector<StabilityCase> furnace_cases();
+std::vector<StabilityCase> geometry_cases();
+std::vector<StabilityCase> grazing_cases();
+std::vector<StabilityCase> health_cases();
+std::vector<StabilityCase> light_cases();
+std::vector<StabilityCase> limit_cases();
+std::vector<StabilityCase> microfacet_cases();
+std::vector<StabilityCase> mirror_cases();
+std::vector<StabilityCase> scale_cases();
+std::vector<StabilityCase> world_cases();
+
+} // namespace blush::stability

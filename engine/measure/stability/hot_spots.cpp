@@ -1,0 +1,44 @@
+#include "measure/stability/hot_spots.h"
+
+namespace blush::stability {
+namespace {
+
+constexpr HotSpot spots[] = {
+    {1, "self-intersection", "ray origins moved by a bound on their rounding error, then rounded away (Pharr, Jakob, Humphreys 6.8)"},
+    {2, "far from the origin", "positions about an origin near the geometry, subtracted in double; Embree's robust mode"},
+    {3, "tiny and huge scales", "no absolute epsilon anywhere: every bound is relative to the coordinates at hand"},
+    {4, "shadow rays' far end", "ends on the near side of the light's plane by the light's own error bound"},
+    {5, "grazing angles", "formulas in x, y, z instead of 1 - cos^2; cosines bounded below at 1e-6"},
+    {6, "roughness towards 0", "a delta below roughness 0.01; visible normals, whose weights stay bounded (Heitz 2018)"},
+    {7, "index of refraction towards 1", "Fresnel around eta^2 - 1 as a number of its own (Cook and Torrance 1982)"},
+    {8, "samples that are no numbers", "dropped, counted, remembered by pixel, sample and seed; inputs cleaned when compiled"},
+    {9, "clamping", "there is none"},
+    {10, "long accumulation", "sums and counts of a pixel in double and 64 bits"},
+    {11, "correlated random numbers", "Owen-scrambled Sobol points keyed on pixel and seed (Burley 2020)"},
+    {12, "densities that vanish", "MIS weights that ask for a density above 0 before they divide (Veach 1997)"},
+    {13, "emitters without area", "an emitter of no area has no power and is never picked"},
+    {14, "degenerate frames", "bases without a singular direction (Duff et al. 2017); normals by cofactors"},
+    {15, "closed rooms", "roulette by throughput without a cap (Arvo and Kirk 1990); a length limit that is counted"},
+    {16, "dynamic range of lights", "probabilities from powers in double, and a share for every light (Hesterberg 1995)"},
+    {17, "solid-angle sampling of small triangles", "areas are sampled, never spherical triangles"},
+    {18, "importance maps", "cells between texel centres with exact probabilities; densities above 0 wherever the filtered map is"},
+    {19, "stacks of transparency", "opacity decided inside the traversal, by a hash of ray, triangle and instance"},
+    {20, "nested and thin solids", "inside and outside by the geometric normal; absorption on the segment within"},
+    {21, "total internal reflection", "g^2 = eta^2 - 1 + c^2 clamped at 0"},
+    {22, "range of the output", "single precision all the way to the file"},
+    {23, "denormals", "flushed to zero in every worker"},
+    {24, "determinism", "tile-owned sums, seeds from pixel and sample alone"},
+};
+constexpr HotSpot nothing{0, "", ""};
+
+} // namespace
+
+std::span<const HotSpot> hot_spots() { return spots; }
+
+const HotSpot& hot_spot(int number) {
+    for (const HotSpot& s : spots)
+        if (s.number == number) return s;
+    return nothing;
+}
+
+} // namespace blush::stability

@@ -1,0 +1,128 @@
+// One still life at all scales and places: the picture must not know where the world's origin is nor what a metre is.
+#include "core/math.h"
+#include "measure/stability/findings.h"
+#include "measure/stability/groups.h"
+#include "scene/affine.h"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace blush::stability {
+namespace {
+
+constexpr int leaving_surfaces = 1, far_away = 2, scales = 3;
+
+// Everything hangs from one node, so that what stands on fractions of a metre does so far away as well: only the root and the camera are
+// placed by numbers that single precision holds exactly there.
+Scene still_life(float scale, const Vec3& away) {
+    Scene scene;
+    Node root;
+    root.local = at(away, scale);
+    const Id<Node> parent = scene.nodes.add(root);
+    const auto hang = [&](Id<Node> id) {
+        Node node = *scene.nodes.find(id);
+        node.parent = parent;
+        scene.nodes.set(id, node);
+    };
+    hang(place(scene, floor_quad(2), lambert({0.7f, 0.7f, 0.7f})));
+    hang(place(scene, sphere(false), metal(0.4f), at({-0.55f, 0.5f, 0.1f}, 0.5f)));
+    hang(place(scene, cube(false), lambert(0.5f), at({0.7f, 0.3f, 0.4f}, 0.3f)));
+    hang(place(scene, sphere(false), plastic(0.2f), at({0.3f, 0.2f, -0.6f}, 0.2f)));
+    Light lamp;
+    lamp.kind = Light::Kind::rectangle;
+    lamp.intensity = 4;
+    hang(shine(scene, lamp, aimed({0.4f, 2.2f, 0.3f}, {-0.2f, -1, 0})));
+    constant_world(scene, 0.2f);
+    scene.view = looking({0, 2, 4}, {0, 0.25f, 0}, 0.6f);
+    scene.view.position = scene.view.position * scale + away;
+    return scene;
+}
+
+constexpr int side = 48, block = 12;
+
+Picture still_life_picture(float scale, const Vec3& away, uint32_t seed) {
+    RenderSettings settings = settings_for(side, side, 64);
+    settings.seed = seed;
+    return render(still_life(scale, away), settings);
+}
+const Picture& original() {
+    static const Picture picture = still_life_picture(1, {0, 0, 0}, 0);
+    return picture;
+}
+
+// Where no number is rounded otherwise, no bit may differ.
+Findings same_bits(float scale, const Vec3& away) {
+    const Picture other = still_life_picture(scale, away, 0);
+    int differ = 0;
+    for (size_t i = 0; i < other.pixels.size(); ++i) differ += other.pixels[i] != original().pixels[i];
+    return {count_of(differ, "pixels that differ")};
+}
+Findings same_picture(float scale, const Vec3& away) { return same_blocks(original(), still_life_picture(scale, away, 1), block); }
+
+// A ball under a parallel sun: of the pixels that see it each is lit by exactly its cosine, or is in its own shadow.
+Findings sunlit_ball(float scale, const Vec3& centre) {
+    constexpr float albedo = 0.8f, lux = 3;
+    Scene scene;
+    place(scene, sphere(false), lambert(albedo), at(centre, scale));
+    Light sun;
+    sun.kind = Light::Kind::sun;
+    sun.intensity = lux;
+    const Vec3 direction{1, -1, 0.5f};
+    shine(scene, sun, aimed({0, 0, 0}, direction));
+    scene.view = looking({0, 0, 0}, {0, 0, -1}, 1);
+    scene.view.position = centre + Vec3{0, 0, 4 * scale};
+    scene.view.lens.orthographic = true;
+    scene.view.lens.ymag = scale;
+    const Picture picture = render(scene, settings_for(48, 48, 1), {.normal = true, .depth = true});
+    const Vec3d to_sun = normalize(to_double(direction)) * -1.0;
+    int wrong = 0, lit = 0;
+    for (size_t i = 0; i < picture.pixels.size(); ++i) {
+        if (picture.frame.depth[i] == 0) continue;
+        const double cos = dot(to_double(picture.frame.normal[i]), to_sun);
+        if (std::abs(cos) < 1e-4) continue; // rounding decides which side it is
+        const double expected = cos > 0 ? double(albedo) / 3.14159265358979 * double(lux) * cos : 0;
+        wrong += !(std::abs(picture.pixels[i].x - expected) <= 1e-5);
+        lit += cos > 0;
+    }
+    return {count_of(wrong, "pixels that are lit wrongly"), count_of(lit < 200, "too few pixels are lit")};
+}
+
+// Two balls that share a mesh are traced through instances.
+Findings instanced_balls(float scale) {
+    Scene scene;
+    const Id<Mesh> mesh = scene.meshes.add({"", {{sphere(true), scene.materials.add(emitter(1, 0.5f))}}});
+    for (const float x : {0.f, 1e4f}) {
+        Node node;
+        node.mesh = mesh;
+        node.local = at({x * scale, 0, 0}, scale);
+        scene.nodes.add(node);
+    }
+    scene.view = looking({0, 0, 0}, {0.9f, 0.35f, -0.8f}, 1.2f);
+    return whole(render(scene, settings_for(16, 16, 64)), 2);
+}
+
+} // namespace
+
+std::vector<StabilityCase> scale_cases() {
+    std::vector<StabilityCase> cases;
+    for (const int exponent : {20, -20})
+        cases.push_back({fmt::format("still life scaled by 2^{}, bit for bit", exponent), scales,
+                         [exponent] { return same_bits(std::ldexp(1.f, exponent), {0, 0, 0}); }});
+    for (const float scale : {1e-6f, 1e-3f, 1e3f, 1e6f})
+        cases.push_back({fmt::format("still life scaled by {:g}", scale), scales, [scale] { return same_picture(scale, {0, 0, 0}); }});
+    for (const Vec3& away : {Vec3{1e7f, 0, 0}, Vec3{0, -1e7f, 0}, Vec3{-1e7f, 1e7f, 1e7f}})
+        cases.push_back({fmt::format("still life at ({:g}, {:g}, {:g}), bit for bit", away.x, away.y, away.z), far_away,
+                         [away] { return same_bits(1, away); }});
+    for (const Vec3& away : {Vec3{1234567, -7654321, 9999991}, Vec3{100, 20, -30}})
+        cases.push_back({fmt::format("still life at ({:.7g}, {:.7g}, {:.7g})", away.x, away.y, away.z), far_away,
+                         [away] { return same_picture(1, away); }});
+    cases.push_back({"still life scaled by 1024, at 2^33 m, bit for bit", far_away, [] { return same_bits(1024, {0x1p33f, 0, -0x1p33f}); }});
+    for (const float scale : {1e-6f, 1.f, 1e6f})
+        cases.push_back({fmt::format("sunlit ball of radius {:g} m", scale), leaving_surfaces, [scale] { return sunlit_ball(scale, {0, 0, 0}); }});
+    cases.push_back({"sunlit ball at 1e7 m", far_away, [] { return sunlit_ball(1, {1e7f, -2e6f, 1e7f}); }});
+    for (const float scale : {1e-6f, 1e6f})
+        cases.push_back({fmt::format("instanced closed balls of radius {:g} m", scale), scales, [scale] { return instanced_balls(scale); }});
+    return cases;
+}
+
+} // namespace blush::stability

@@ -1,0 +1,140 @@
+// The stability battery, group by group; that it would notice a wrong answer; and that its list of limits is honest.
+#include "measure/stability/battery.h"
+#include "measure/stability/hot_spots.h"
+#include "statistics.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+#include <set>
+#include <stdexcept>
+
+namespace blush::stability {
+namespace {
+
+// ---- the verdict
+
+TEST(Verdict, QuantilesAreThoseOfTheNormalDistribution) {
+    EXPECT_NEAR(two_sided_quantile(0.05), 1.959963985, 1e-8);
+    EXPECT_NEAR(two_sided_quantile(0.01), 2.575829304, 1e-8);
+    EXPECT_NEAR(two_sided_quantile(1e-6), 4.891638475, 1e-7);
+    EXPECT_NEAR(sidak(0.01, 1), 0.01, 1e-15);
+    EXPECT_NEAR(1 - std::pow(1 - sidak(0.01, 200), 200), 0.01, 1e-12);
+}
+
+TEST(Verdict, HoldsWithinRoundingAndSigmas) {
+    EXPECT_TRUE(holds({1, 1, 0, 0, {}}, 4));
+    EXPECT_TRUE(holds({1, 1 + 1e-6, 0, 0, {}}, 4)) << "single precision";
+    EXPECT_FALSE(holds({1, 1.001, 0, 0, {}}, 4));
+    EXPECT_TRUE(holds({1, 1.001, 0, 0.001, {}}, 4));
+    EXPECT_TRUE(holds({1, 1.39, 0.1, 0, {}}, 4));
+    EXPECT_FALSE(holds({1, 1.41, 0.1, 0, {}}, 4));
+    EXPECT_FALSE(holds({1, 0.59, 0.1, 0, {}}, 4));
+    EXPECT_FALSE(holds({0, 1e-30, 0, 0, {}}, 4)) << "nothing is near enough to an exact 0";
+    for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+        EXPECT_FALSE(holds({1, bad, 0.1, 0, {}}, 4));
+        EXPECT_FALSE(holds({1, 1.1, bad, 0, {}}, 4));
+    }
+}
+
+TEST(Verdict, OfSeveralFindingsTheWorstDecides) {
+    const Findings findings{{1, 1, 0.1, 0, "a"}, {1, 1.2, 0.1, 0, "b"}, {1, 0.5, 0.1, 0, "c"}, {1, 1.1, 0.1, 0, "d"}};
+    EXPECT_EQ(worst_of(findings, 4).where, "c");
+    EXPECT_FALSE(holds(worst_of({}, 4), 4)) << "who measures nothing has not passed";
+}
+
+// A battery of sound cases fails as often as it says: one in a hundred.
+TEST(Verdict, FamiliesOfSoundCasesFailAsOftenAsStated) {
+    constexpr int families = 20000, cases = 50;
+    const double k = two_sided_quantile(sidak(family_wise_level, cases));
+    std::mt19937 random(1);
+    std::normal_distribution<double> normal;
+    statistics::Moments failures;
+    for (int i = 0; i < families; ++i) {
+        bool all_hold = true;
+        for (int j = 0; j < cases; ++j) all_hold &= holds({0, 0.3 * normal(random), 0.3, 0, {}}, k);
+        failures.add(all_hold ? 0 : 1);
+    }
+    EXPECT_TRUE(statistics::z_test(failures, family_wise_level));
+}
+
+// ---- the runner
+
+TEST(RunCase, TellsRightFromWrong) {
+    const auto answer = [](double expected) {
+        return StabilityCase{"", 1, [expected] { return Findings{{expected, 2, 0.01, 0, {}}}; }, {}};
+    };
+    EXPECT_TRUE(run_case("", answer(2), 100).pass);
+    EXPECT_TRUE(run_case("", answer(2.03), 100).pass);
+    EXPECT_FALSE(run_case("", answer(2.1), 100).pass);
+    EXPECT_GT(run_case("", answer(2), 1000).tolerance, run_case("", answer(2), 10).tolerance) << "more cases, more chances to fail";
+}
+
+TEST(RunCase, AnExceptionIsAFailureWithItsWords) {
+    const StabilityCase c{"", 1, []() -> Findings { throw std::runtime_error("out of glass"); }, {}};
+    const CaseResult r = run_case("", c, 100);
+    EXPECT_FALSE(r.pass);
+    EXPECT_EQ(r.error, "out of glass");
+}
+
+// ---- the cases
+
+TEST(Battery, IsListedWell) {
+    std::set<std::string> groups;
+    int cases = 0;
+    for (const StabilityGroup& group : battery()) {
+        EXPECT_TRUE(groups.insert(group.name).second) << group.name;
+        std::set<std::string> names;
+        for (const StabilityCase& c : group.cases) {
+            EXPECT_TRUE(names.insert(c.name).second) << group.name << ": " << c.name;
+            EXPECT_FALSE(hot_spot(c.hot_spot).name.empty()) << group.name << ": " << c.name;
+            EXPECT_EQ(c.limit.empty(), group.name != "limits") << group.name << ": " << c.name;
+            cases += c.limit.empty();
+        }
+    }
+    EXPECT_GE(cases, 80);
+}
+
+class Battery : public testing::TestWithParam<std::string> {};
+
+// One ctest entry for each group, and none for the limits.
+TEST_P(Battery, Holds) {
+    const BatteryReport report = run_battery(GetParam(), 0);
+    EXPECT_FALSE(report.cases.empty());
+    EXPECT_TRUE(report.complete);
+    for (const CaseResult& r : report.cases) {
+        EXPECT_TRUE(r.pass) << r.name << " " << r.finding.where << ": " << r.finding.measured << " instead of " << r.finding.expected
+                            << ", tolerance " << r.tolerance << " " << r.error;
+        // Who tolerates everything proves nothing: an answer wrong by a fifth must be noticed.
+        EXPECT_LE(r.tolerance, 0.2 * std::abs(r.finding.expected)) << r.name << " " << r.finding.where;
+    }
+}
+
+std::vector<std::string> group_names() {
+    std::vector<std::string> names;
+    for (const StabilityGroup& group : battery())
+        if (group.name != "limits") names.push_back(group.name);
+    return names;
+}
+INSTANTIATE_TEST_SUITE_P(Stability, Battery, testing::ValuesIn(group_names()), [](const auto& info) { return info.param; });
+
+// What is said not to hold does not: else it is no limit any more.
+TEST(KnownLimits, AreLimits) {
+    const BatteryReport report = run_battery("limits", 0);
+    EXPECT_EQ(report.passed + report.failed, 0) << "limits are not counted";
+    EXPECT_FALSE(report.limits.empty());
+    for (const CaseResult& r : report.limits) {
+        EXPECT_FALSE(r.pass) << r.name << " holds: give it a place in the battery";
+        EXPECT_TRUE(r.error.empty()) << r.name << ": " << r.error;
+    }
+}
+
+TEST(RunBattery, StopsWhenAsked) {
+    const BatteryReport report = run_battery("mirrors", 1, [](int finished, int, const std::string&) { return finished < 2; });
+    EXPECT_EQ(report.passed, 2);
+    EXPECT_FALSE(report.complete);
+}
+
+} // namespace
+} // namespace blush::stability
