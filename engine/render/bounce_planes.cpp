@@ -12,7 +12,7 @@ void BouncePlanes::add(size_t pixel, const TileScratch& tile, int slot) {
     Vec3d* sums = &sums_[pixel * size_t(planes_)];
     Vec3d before{0, 0, 0};
     const auto add_difference = [&](Vec3d& sum, const auto& column) {
-        const Vec3d now{double(column.r[slot]), double(column.g[slot]), double(column.b[slot])};
+        const Vec3d now{column.r[slot], column.g[slot], column.b[slot]};
         sum = {sum.x + (now.x - before.x), sum.y + (now.y - before.y), sum.z + (now.z - before.z)};
         before = now;
     };

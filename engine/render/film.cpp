@@ -14,9 +14,12 @@ namespace {
 
 constexpr size_t remembered_bad_samples = 100;
 
-std::optional<BadSample::Cause> fault_of(float r, float g, float b) {
+// Radiance that single precision, which pictures are made of, cannot hold.
+constexpr double beyond_radiance = double(std::numeric_limits<float>::max());
+
+std::optional<BadSample::Cause> fault_of(double r, double g, double b) {
     if (std::isnan(r) || std::isnan(g) || std::isnan(b)) return BadSample::Cause::nan;
-    if (std::isinf(r) || std::isinf(g) || std::isinf(b)) return BadSample::Cause::infinite;
+    if (std::max({r, g, b}) > beyond_radiance) return BadSample::Cause::infinite;
     if (r < 0 || g < 0 || b < 0) return BadSample::Cause::negative;
     return std::nullopt;
 }
@@ -100,9 +103,9 @@ void Film::add(const TileJob& job, const TileScratch& tile, uint32_t seed) {
             Half* halves = &halves_[2 * pixel];
             for (int s = 0; s < job.samples; ++s, ++slot) {
                 const int64_t sample = job.first_sample + s;
-                const float r = tile.r[slot], g = tile.g[slot], b = tile.b[slot];
+                const double r = tile.r[slot], g = tile.g[slot], b = tile.b[slot];
                 // One comparison for the many that are sound; the slow question only for the rest.
-                const bool sound = r >= 0 && g >= 0 && b >= 0 && r + g + b <= std::numeric_limits<float>::max();
+                const bool sound = r >= 0 && g >= 0 && b >= 0 && r + g + b <= beyond_radiance;
                 if (!sound) {
                     if (const auto fault = fault_of(r, g, b)) {
                         bad.push_back({*fault, x, y, sample, seed});
@@ -111,9 +114,9 @@ void Film::add(const TileJob& job, const TileScratch& tile, uint32_t seed) {
                 }
                 const bool first_of_pixel = halves[0].count + halves[1].count == 0;
                 Half& half = halves[sample & 1];
-                half.r += double(r);
-                half.g += double(g);
-                half.b += double(b);
+                half.r += r;
+                half.g += g;
+                half.b += b;
                 ++half.count;
                 if (needs_first_hits()) add_first_hit(pixel, *tile.first, slot, first_of_pixel);
                 if (bounces_.columns() > 0) bounces_.add(pixel, tile, slot);

@@ -16,6 +16,8 @@ namespace {
 
 std::string rgb(const Vec3& c) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", c.x, c.y, c.z); }
 
+Vec3d gathered(const TileScratch& scratch) { return {scratch.r[0], scratch.g[0], scratch.b[0]}; }
+
 // Nine digits tell single-precision numbers apart, wherever in the world.
 std::string point(const Vec3& p, const Vec3d& origin) {
     const Vec3d world = to_double(p) + origin;
@@ -99,14 +101,14 @@ std::string trace_sample(const Scene& scene, const RenderSettings& settings, int
             const Hit<float> hit = load_hit<float>(scratch->hits, 0);
             const Step<float> step = scatter<s, float>(*context.scene, context.settings, path, hit, bounce, true);
             shade_paths<s, float>(context, *scratch, *now, *next, bounce);
-            const Vec3 before{scratch->r[0], scratch->g[0], scratch->b[0]};
+            const Vec3d before = gathered(*scratch);
             connect_paths<float>(context, *scratch, bounce);
             log.vertex(bounce, path, hit);
-            log.outcome(bounce, step, Vec3{scratch->r[0], scratch->g[0], scratch->b[0]} - before);
+            log.outcome(bounce, step, to_float(gathered(*scratch) - before));
             std::swap(now, next);
         }
     });
-    log.line("radiance {}", rgb({scratch->r[0], scratch->g[0], scratch->b[0]}));
+    log.line("radiance {}", rgb(to_float(gathered(*scratch))));
     return log.text;
 }
 

@@ -105,9 +105,9 @@ template <Features S, class F> [[gnu::flatten]] void generate_paths(const Kernel
         const Int<F> slot = iota<F>() + k;
         append(q, begin_path<S, F>(*context.scene, context.settings, x, y, key, UInt<F>(sample >> 1), slot), as_mask(slot < n));
     }
-    std::fill_n(scratch.r.data, n, 0.f);
-    std::fill_n(scratch.g.data, n, 0.f);
-    std::fill_n(scratch.b.data, n, 0.f);
+    std::fill_n(scratch.r.data, n, 0.0);
+    std::fill_n(scratch.g.data, n, 0.0);
+    std::fill_n(scratch.b.data, n, 0.0);
 }
 
 template <class F> void trace_paths(const KernelContext& context, TileScratch& scratch, const PathQueue& q, int bounce) {
@@ -133,9 +133,9 @@ template <Features S, class F>
         if (any(step.emits))
             for_each_lane(bits(step.emits), [&](int i) {
                 const int slot = now.slot[k + i];
-                scratch.r[slot] += lane(step.emitted.x, i);
-                scratch.g[slot] += lane(step.emitted.y, i);
-                scratch.b[slot] += lane(step.emitted.z, i);
+                scratch.r[slot] += double(lane(step.emitted.x, i));
+                scratch.g[slot] += double(lane(step.emitted.y, i));
+                scratch.b[slot] += double(lane(step.emitted.z, i));
             });
         if (any(step.connects)) {
             if (alpha)
@@ -156,9 +156,9 @@ template <class F> void connect_paths(const KernelContext& context, TileScratch&
     for (int k = 0; k < q.size; ++k) {
         if (scratch.blocked[k]) continue;
         const int slot = q.slot[k];
-        scratch.r[slot] += q.r[k];
-        scratch.g[slot] += q.g[k];
-        scratch.b[slot] += q.b[k];
+        scratch.r[slot] += double(q.r[k]);
+        scratch.g[slot] += double(q.g[k]);
+        scratch.b[slot] += double(q.b[k]);
     }
 }
 

@@ -15,7 +15,7 @@ namespace {
 constexpr int size = 24, samples = 4;
 
 struct Tile {
-    std::vector<float> values; // radiance and what the first surface shows
+    std::vector<double> values; // radiance and what the first surface shows
     int64_t rays = 0;
 };
 
@@ -38,8 +38,9 @@ struct Compiled {
         workers.run([&] { kernel.render(context, job, *scratch); });
         Tile tile;
         FirstHitColumns& f = *scratch->first;
-        for (const Column<float>* column : {&scratch->r, &scratch->g, &scratch->b, &f.albedo_r, &f.albedo_g, &f.albedo_b, &f.normal_x,
-                                            &f.normal_y, &f.normal_z, &f.depth})
+        for (const Column<double>* column : {&scratch->r, &scratch->g, &scratch->b})
+            tile.values.insert(tile.values.end(), column->data, column->data + job.paths());
+        for (const Column<float>* column : {&f.albedo_r, &f.albedo_g, &f.albedo_b, &f.normal_x, &f.normal_y, &f.normal_z, &f.depth})
             tile.values.insert(tile.values.end(), column->data, column->data + job.paths());
         tile.rays = scratch->camera_rays + scratch->bounce_rays + scratch->shadow_rays;
         return tile;
@@ -49,7 +50,7 @@ struct Compiled {
 // Values of `b` whose bits differ from `a`.
 int64_t differing_bits(const Tile& a, const Tile& b) {
     int64_t n = 0;
-    for (size_t i = 0; i < a.values.size(); ++i) n += std::memcmp(&a.values[i], &b.values[i], sizeof(float)) != 0;
+    for (size_t i = 0; i < a.values.size(); ++i) n += std::memcmp(&a.values[i], &b.values[i], sizeof(double)) != 0;
     return n;
 }
 

@@ -36,9 +36,9 @@ Findings film_fed(int64_t samples) {
     film.reset(1, 1, {}, false);
     for (int64_t first = 0; first < samples; first += tile_capacity) {
         const int count = int(std::min<int64_t>(tile_capacity, samples - first));
-        for (float* column : {tile->r.data, tile->g.data, tile->b.data}) {
-            std::fill_n(column, count, 1.f);
-            if (first == 0) column[0] = 0x1p24f;
+        for (double* column : {tile->r.data, tile->g.data, tile->b.data}) {
+            std::fill_n(column, count, 1.0);
+            if (first == 0) column[0] = 0x1p24;
         }
         film.add({0, 0, 1, 1, first, count}, *tile, 0);
     }
@@ -81,7 +81,7 @@ Findings threads_and_pieces() {
 Findings honest_error(int seeds) {
     double sum = 0, squares = 0, stated = 0;
     for (int seed = 0; seed < seeds; ++seed) {
-        RenderSettings settings = settings_for(16, 16, 8);
+        RenderSettings settings = settings_for(8, 8, 8);
         settings.seed = uint32_t(seed);
         const Measured m = render(room(1), settings).whole();
         sum += m.mean.x;
@@ -103,7 +103,7 @@ std::vector<StabilityCase> film_cases() {
     cases.push_back({"all lights off", ranges, in_the_dark});
     cases.push_back({"samples from 2^31 on", random_numbers, [] { return late_samples(int64_t(1) << 31); }});
     cases.push_back({"three threads, in pieces, bit for bit", determinism, threads_and_pieces});
-    cases.push_back({"standard errors against the scatter of 256 seeds", random_numbers, [] { return honest_error(256); }});
+    cases.push_back({"standard errors against the scatter of 1024 seeds", random_numbers, [] { return honest_error(1024); }});
     return cases;
 }
 

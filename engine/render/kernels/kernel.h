@@ -58,7 +58,7 @@ struct FirstHitColumns {
 // The radiance of each path as it grows: after[k] holds what arrived by at most k scatterings. Never longer than the film asked for.
 struct BounceColumns {
     struct Radiance {
-        Column<float> r, g, b;
+        Column<double> r, g, b;
     };
     explicit BounceColumns(int count) : after(size_t(count)) {}
     std::vector<Radiance> after;
@@ -73,7 +73,7 @@ struct TileScratch {
     Column<uint32_t> random;
     Column<uint8_t> blocked;
 
-    Column<float> r, g, b;                  // radiance
+    Column<double> r, g, b;                 // radiance; in single precision a long path's last terms would be lost in its sum
     std::unique_ptr<FirstHitColumns> first; // null: nobody reads it
     std::unique_ptr<BounceColumns> bounces; // null: nobody reads it
     int64_t camera_rays = 0, bounce_rays = 0, shadow_rays = 0, truncated_paths = 0; // counted up
