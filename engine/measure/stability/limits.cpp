@@ -107,6 +107,15 @@ Findings room_in_a_wide_world() {
     return {count_of(render(scene, settings).whole().mean.x)};
 }
 
+// Triangles whose area squared single precision cannot hold have no normal.
+Findings closed_ball(float scale) {
+    Scene scene;
+    place(scene, sphere(true), emitter(1, 0.5f), at({0, 0, 0}, scale));
+    scene.view = looking({0, 0, 0}, {0.9f, 0.35f, -0.8f}, 1.2f);
+    const Picture picture = render_anything(scene, settings_for(16, 16, 4));
+    return {compare(picture.whole(), 2), count_of(double(picture.frame.health.dropped()), "samples dropped")};
+}
+
 // A camera 0.3 m from where single precision can put it.
 Findings camera_between_floats() {
     const Vec3 away{1e7f, 0, 0};
@@ -151,6 +160,9 @@ std::vector<StabilityCase> limit_cases() {
          "light sampling adds both, a ray finds one: scenes with coincident emitters have no single answer"},
         {"dark room at the edge of a wide world", 2, room_in_a_wide_world,
          "one origin serves the whole scene: parts far smaller than their distance from its middle, in units of 1e-6, leak at their corners"},
+        {"closed ball of radius 1e-10 m", 3, [] { return closed_ball(1e-10f); },
+         "normals are normalised cross products in single precision: keep triangles between 1e-9 and 1e9 m across"},
+        {"closed ball of radius 1e12 m", 3, [] { return closed_ball(1e12f); }, "as for the ball of 1e-10 m"},
         {"camera 0.3 m beside the metres at 1e7 m", 2, camera_between_floats,
          "nodes and the camera are placed in single precision; hang them from a node that is far away"},
         {"back of a surface that is not double-sided", 20, back_of_a_surface,
