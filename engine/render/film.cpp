@@ -19,7 +19,7 @@ constexpr double beyond_radiance = double(std::numeric_limits<float>::max());
 
 std::optional<BadSample::Cause> fault_of(double r, double g, double b) {
     if (std::isnan(r) || std::isnan(g) || std::isnan(b)) return BadSample::Cause::nan;
-    if (std::max({r, g, b}) > beyond_radiance) return BadSample::Cause::infinite;
+    if (std::max({std::abs(r), std::abs(g), std::abs(b)}) > beyond_radiance) return BadSample::Cause::infinite;
     if (r < 0 || g < 0 || b < 0) return BadSample::Cause::negative;
     return std::nullopt;
 }
