@@ -84,7 +84,7 @@ Findings pane_at(float ior, double degrees) {
     view.lens.orthographic = true;
     view.lens.ymag = 0.5f * view.position.y;
     const double cos = to_affine(view.rotation).z.y;
-    return whole(render(panes(1, ior, view), settings_for(16, 16, 128)), through(2, fresnel(double(ior), cos)));
+    return whole(render(panes(1, ior, view), settings_for(16, 16, 256)), through(2, fresnel(double(ior), cos)));
 }
 
 Findings stack_of_panes(int count) {
