@@ -57,8 +57,8 @@ TEST(Sampling, FacetsFollowTheVisibleNormals) {
             const auto pdf = [&](const Vec3& h) {
                 const double k = reference::sqr(h.x) + reference::sqr(h.y) + reference::sqr(alpha * double(h.z));
                 const double facets = reference::sqr(alpha) / (reference::pi * k * k);
-                return reference::masking(alpha, wo.z) * facets *
-                       std::max(0.0, dot(reference::to_double(wo), reference::to_double(h))) / wo.z;
+                return reference::masking(alpha, wo.z) * facets * std::max(0.0, dot(reference::to_double(wo), reference::to_double(h))) /
+                       wo.z;
             };
             const DirectionTest test{.charts = {reference::facet_normals_chart(alpha)},
                                      .rows = 16,
