@@ -1,5 +1,6 @@
 // A scene reached by edits renders bit for bit like the same scene just opened.
 #include "core/math.h"
+#include "scene/affine.h"
 #include "scene/document.h"
 #include "session/pictures.h"
 #include "session/rich_project.h"
@@ -7,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <set>
 
@@ -99,10 +101,10 @@ TEST(Renderer, FollowsASceneThatMovesFarAway) {
     Updated updated(project);
     const Frame first = updated.picture();
     const Scene near = project.scene;
-    const auto move = [&](const Vec3& by, bool objects_alone) {
+    const auto move = [&](const Vec3& by) {
         project.scene = near;
         for (const auto& [id, root] : near.nodes) {
-            if (root.parent || (objects_alone && !root.mesh)) continue;
+            if (root.parent) continue;
             Node moved = root;
             moved.local.translation = root.local.translation + by;
             if (moved.local.matrix) moved.local.matrix->t = moved.local.matrix->t + by;
@@ -110,16 +112,20 @@ TEST(Renderer, FollowsASceneThatMovesFarAway) {
         }
     };
     for (const float away : {1e3f, 1e6f, 1e6f + 8, 0.f}) {
-        move({away, 0, 0}, false);
+        move({away, 0, 0});
         project.scene.view.position.x += away;
         updated.follow(project);
         EXPECT_TRUE(same_picture(updated.picture(), fresh_picture(project.scene, project.render, samples))) << away;
     }
     EXPECT_TRUE(same_picture(updated.picture(), first));
-    // Only the objects: the camera stays and is looked from at another origin.
-    move({0, 500, 0}, true);
+
+    // Without the camera, which is then looked from at another origin: straight away from it, so that it still sees something.
+    const Vec3d forward = to_affine(near.view.rotation).z * -1;
+    move(to_float(forward * (6 * world_bounds(near).radius())));
     updated.follow(project);
-    EXPECT_TRUE(same_picture(updated.picture(), fresh_picture(project.scene, project.render, samples)));
+    const Frame& small = updated.picture();
+    EXPECT_TRUE(same_picture(small, fresh_picture(project.scene, project.render, samples)));
+    EXPECT_GT(std::count_if(small.object_id.begin(), small.object_id.end(), [](uint32_t id) { return id != 0; }), 10) << "too far to see";
 }
 
 TEST(Renderer, ThreadsAndBatchesDoNotChangeABit) {
