@@ -37,8 +37,8 @@ void print_list(const std::string& only) {
 
 void print_row(const CaseResult& r, std::string_view verdict) {
     const std::string name = r.finding.where.empty() ? r.name : fmt::format("{}: {}", r.name, r.finding.where);
-    fmt::print("  {:<64} {:>12.6g} {:>12.6g} {:>9.2g} {:>9.2g}  {} {:6.2f} s\n", name, r.finding.expected, r.finding.measured, r.finding.sigma,
-               r.tolerance, verdict, r.seconds);
+    fmt::print("  {:<64} {:>12.6g} {:>12.6g} {:>9.2g} {:>9.2g}  {} {:6.2f} s\n", name, r.finding.expected, r.finding.measured,
+               r.finding.sigma, r.tolerance, verdict, r.seconds);
     if (!r.error.empty()) fmt::print("    {}\n", r.error);
 }
 
@@ -54,8 +54,8 @@ void print_report(const BatteryReport& report, double seconds) {
         print_row(r, r.pass ? "holds" : "limit");
         fmt::print("    {}\n", r.limit);
     }
-    fmt::print("\n{} of {} cases passed in {:.0f} s; chance that one fails without a reason: {:.0f} % over the whole battery\n", report.passed,
-               report.passed + report.failed, seconds, 100 * family_wise_level);
+    fmt::print("\n{} of {} cases passed in {:.0f} s; chance that one fails without a reason: {:.0f} % over the whole battery\n",
+               report.passed, report.passed + report.failed, seconds, 100 * family_wise_level);
 }
 
 OrderedJson row_json(const CaseResult& r) {
@@ -109,7 +109,8 @@ int run_check(const CheckCommand& c) {
     if (const Result<void> written = write_json(c.common.json, report_json(report)); !written) return failed(written.error());
     if (!c.common.quiet && c.common.json != "-") print_report(report, seconds);
     if (report.failed > 0)
-        return failed({.what = fmt::format("{} of {} cases of the stability battery failed", report.failed, report.passed + report.failed)});
+        return failed(
+            {.what = fmt::format("{} of {} cases of the stability battery failed", report.failed, report.passed + report.failed)});
     if (!report.complete) return failed({.what = "stopped before all cases were run"});
     return exit_done;
 }

@@ -14,8 +14,8 @@
 namespace blush {
 
 struct Extent {
-    Bounds bounds;          // world space: boxes around the boxes of the objects' parts
-    Vec3d origin{0, 0, 0};  // what the tables call world space is the world's minus this
+    Bounds bounds;         // world space: boxes around the boxes of the objects' parts
+    Vec3d origin{0, 0, 0}; // what the tables call world space is the world's minus this
 };
 
 // The centre of the bounds, rounded to multiples of a power of two between four and eight times their radius: (0, 0, 0) for a scene

@@ -49,12 +49,12 @@ std::vector<StabilityCase> absorption_cases() {
     struct Slab {
         float per_metre, depth;
     };
-    constexpr Slab slabs[] = {{1e-9f, 1}, {1e-9f, 1e8f}, {1e-6f, 1e6f}, {1e-3f, 1}, {1, 1},       {1e3f, 1e-3f},
-                              {1e6f, 1e-6f}, {1e9f, 1e-9f}, {1e9f, 1},   {30, 1},    {1, 80}};
+    constexpr Slab slabs[] = {{1e-9f, 1},    {1e-9f, 1e8f}, {1e-6f, 1e6f}, {1e-3f, 1}, {1, 1}, {1e3f, 1e-3f},
+                              {1e6f, 1e-6f}, {1e9f, 1e-9f}, {1e9f, 1},     {30, 1},    {1, 80}};
     std::vector<StabilityCase> cases;
     for (const Slab& s : slabs)
-        cases.push_back({fmt::format("{:g} per metre, {:g} m deep", s.per_metre, s.depth), s.per_metre * s.depth > 10 ? output_range : thin_solids,
-                         [s] { return slab(s.per_metre, s.depth); }});
+        cases.push_back({fmt::format("{:g} per metre, {:g} m deep", s.per_metre, s.depth),
+                         s.per_metre * s.depth > 10 ? output_range : thin_solids, [s] { return slab(s.per_metre, s.depth); }});
     for (const float passage : {1.f, 0.25f, 1e-6f})
         cases.push_back({fmt::format("pane that passes {:g} each way", passage), thin_solids, [passage] { return pane(passage); }});
     return cases;

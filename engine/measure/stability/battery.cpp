@@ -28,10 +28,11 @@ struct Job {
 
 const std::vector<StabilityGroup>& battery() {
     static const std::vector<StabilityGroup> groups = {
-        {"furnace", furnace_cases()},   {"scale", scale_cases()},           {"lights", light_cases()},     {"worlds", world_cases()},
-        {"microfacet", microfacet_cases()}, {"dielectric", dielectric_cases()}, {"absorption", absorption_cases()}, {"mirrors", mirror_cases()},
-        {"grazing", grazing_cases()},   {"geometry", geometry_cases()},     {"camera", camera_cases()},    {"film", film_cases()},
-        {"health", health_cases()},     {"limits", limit_cases()},
+        {"furnace", furnace_cases()},       {"scale", scale_cases()},           {"lights", light_cases()},
+        {"worlds", world_cases()},          {"microfacet", microfacet_cases()}, {"dielectric", dielectric_cases()},
+        {"absorption", absorption_cases()}, {"mirrors", mirror_cases()},        {"grazing", grazing_cases()},
+        {"geometry", geometry_cases()},     {"camera", camera_cases()},         {"film", film_cases()},
+        {"health", health_cases()},         {"limits", limit_cases()},
     };
     return groups;
 }
@@ -70,13 +71,15 @@ BatteryReport run_battery(const std::string& group, unsigned threads, const Case
     int count = 0;
     const int cases = count_cases();
     const Workers workers(threads);
-    workers.for_each(int64_t(jobs.size()), [&] { return wanted.load(); }, [&](int64_t i, unsigned) {
-        const Job& job = jobs[size_t(i)];
-        results[size_t(i)] = run_case(*job.group, *job.c, cases);
-        const std::lock_guard lock(mutex);
-        finished[size_t(i)] = 1;
-        if (done && !done(++count, int(jobs.size()), job.c->name)) wanted = false;
-    });
+    workers.for_each(
+        int64_t(jobs.size()), [&] { return wanted.load(); },
+        [&](int64_t i, unsigned) {
+            const Job& job = jobs[size_t(i)];
+            results[size_t(i)] = run_case(*job.group, *job.c, cases);
+            const std::lock_guard lock(mutex);
+            finished[size_t(i)] = 1;
+            if (done && !done(++count, int(jobs.size()), job.c->name)) wanted = false;
+        });
 
     BatteryReport report;
     for (size_t i = 0; i < jobs.size(); ++i) {

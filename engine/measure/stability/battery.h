@@ -12,10 +12,10 @@
 namespace blush::stability {
 
 struct StabilityCase {
-    std::string name;             // unique within its group
-    int hot_spot = 0;             // what it guards: a number of hot_spots()
+    std::string name;              // unique within its group
+    int hot_spot = 0;              // what it guards: a number of hot_spots()
     std::function<Findings()> run; // may throw std::exception: then the case fails with its words
-    std::string limit = {};       // not empty: known not to hold, and why. Measured and listed like the others, but not counted.
+    std::string limit = {};        // not empty: known not to hold, and why. Measured and listed like the others, but not counted.
 };
 struct StabilityGroup {
     std::string name;
@@ -32,7 +32,7 @@ struct CaseResult {
     double tolerance = 0; // of that finding
     bool pass = false;
     double seconds = 0;
-    std::string error;    // not empty: what the case threw
+    std::string error; // not empty: what the case threw
 };
 struct BatteryReport {
     std::vector<CaseResult> cases;  // in the order of battery()
@@ -41,9 +41,9 @@ struct BatteryReport {
     bool complete = true;           // false: stopped before all were run
 };
 
-// Runs the cases of one group, or of all for "", each on one thread, `threads` (0: one per core) side by side. The tolerance of a finding is as if
-// the whole battery were run: its family-wise level is shared out over all cases, and a case's over its findings. `done(finished, all, name)`
-// is called after each case, one call at a time; where it returns false, what has not begun is left out.
+// Runs the cases of one group, or of all for "", each on one thread, `threads` (0: one per core) side by side. The tolerance of a finding
+// is as if the whole battery were run: its family-wise level is shared out over all cases, and a case's over its findings. `done(finished,
+// all, name)` is called after each case, one call at a time; where it returns false, what has not begun is left out.
 using CaseDone = std::function<bool(int finished, int all, const std::string& name)>;
 BatteryReport run_battery(const std::string& group, unsigned threads, const CaseDone& done = {});
 // One case at the level that `cases` of them together share.

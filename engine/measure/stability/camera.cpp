@@ -78,8 +78,8 @@ std::vector<StabilityCase> camera_cases() {
     cases.push_back({"1e-4 degrees of view, 1e6 m away", scales, [] { return quarter_of_the_view(1e-4, 1e6f); }});
     cases.push_back({"179 degrees of view, 1e-6 m away", scales, [] { return quarter_of_the_view(179, 1e-6f); }});
     for (const Vec3& direction : {Vec3{0, 1, 0}, Vec3{0, -1, 0}, Vec3{1, 0.4f, 0.2f}, Vec3{1, -0.4f, 0.2f}})
-        cases.push_back({fmt::format("eye on a surface, looking along ({:g}, {:g}, {:g})", direction.x, direction.y, direction.z), leaving_surfaces,
-                         [direction] { return on_a_floor(direction); }});
+        cases.push_back({fmt::format("eye on a surface, looking along ({:g}, {:g}, {:g})", direction.x, direction.y, direction.z),
+                         leaving_surfaces, [direction] { return on_a_floor(direction); }});
     cases.push_back({"picture of 1 x 1", ranges, [] { return shape(1, 1); }});
     cases.push_back({"picture of 16384 x 1", ranges, [] { return shape(16384, 1); }});
     cases.push_back({"picture of 1 x 4096", ranges, [] { return shape(1, 4096); }});

@@ -114,7 +114,8 @@ Findings beside_the_critical_angle(float ior, double off_degrees) {
 std::vector<StabilityCase> dielectric_cases() {
     std::vector<StabilityCase> cases;
     for (const float ior : {1.f, 1 + 1e-6f, 1.001f, 1.5f, 2.5f})
-        cases.push_back({fmt::format("ball of ior {:.7g} in a furnace", ior), towards_vacuum, [ior] { return ball_in_furnace(glass(0, ior)); }});
+        cases.push_back(
+            {fmt::format("ball of ior {:.7g} in a furnace", ior), towards_vacuum, [ior] { return ball_in_furnace(glass(0, ior)); }});
     for (const float ior : {1.f, 1 + 1e-6f})
         cases.push_back({fmt::format("rough ball of ior {:.7g} in a furnace", ior), towards_vacuum,
                          [ior] { return ball_in_furnace(glass(0.5f, ior)); }});
@@ -123,7 +124,8 @@ std::vector<StabilityCase> dielectric_cases() {
             cases.push_back({fmt::format("pane of ior {} at {} degrees", ior, degrees), critical_angle,
                              [ior, degrees] { return pane_at(ior, degrees); }});
     for (const double off : {-1.0, -1e-2, -1e-4, 0.0, 1e-4, 1e-2})
-        cases.push_back({fmt::format("{:g} degrees off the critical angle", off), critical_angle, [off] { return beside_the_critical_angle(1.5f, off); }});
+        cases.push_back({fmt::format("{:g} degrees off the critical angle", off), critical_angle,
+                         [off] { return beside_the_critical_angle(1.5f, off); }});
     for (const float ior : {1.001f, 1.5f, 2.5f})
         cases.push_back({fmt::format("camera within glass of ior {}", ior), nested, [ior] { return within_glass(ior); }});
     cases.push_back({"50 interfaces, one behind another", nested, [] { return stack_of_panes(25); }});

@@ -1,8 +1,8 @@
 // Sums: a million samples without drift, radiance from 1e-30 to 1e30, the dark, and the honesty of the error that all other cases trust.
+#include "render/film.h"
 #include "core/math.h"
 #include "measure/stability/findings.h"
 #include "measure/stability/groups.h"
-#include "render/film.h"
 
 #include <algorithm>
 #include <cmath>
@@ -76,8 +76,8 @@ Findings threads_and_pieces() {
     return {count_of(differ, "values that differ")};
 }
 
-// Over many seeds the means scatter as much as their standard errors say: the ratio of the two variances is 1. Of n independent means it has
-// the variance 2 / (n - 1).
+// Over many seeds the means scatter as much as their standard errors say: the ratio of the two variances is 1. Of n independent means it
+// has the variance 2 / (n - 1).
 Findings honest_error(int seeds) {
     double sum = 0, squares = 0, stated = 0;
     for (int seed = 0; seed < seeds; ++seed) {

@@ -12,7 +12,8 @@ Findings whole(const Picture& picture, double expected, double rounding) { retur
 Findings every_pixel(const Picture& picture, double expected, double rounding) {
     Findings all;
     for (int y = 0; y < picture.height; ++y)
-        for (int x = 0; x < picture.width; ++x) all.push_back({expected, picture.at(x, y).x, 0, rounding, fmt::format("pixel {},{}", x, y)});
+        for (int x = 0; x < picture.width; ++x)
+            all.push_back({expected, picture.at(x, y).x, 0, rounding, fmt::format("pixel {},{}", x, y)});
     return all;
 }
 

@@ -23,7 +23,9 @@ Scene room(const GeometryPtr& walls, float albedo) {
 }
 
 // Le (1 + rho + rho^2 + ...) over a path's first `vertices`.
-double series(float albedo, double vertices) { return double(emission) * -std::expm1(vertices * std::log(double(albedo))) / (1 - double(albedo)); }
+double series(float albedo, double vertices) {
+    return double(emission) * -std::expm1(vertices * std::log(double(albedo))) / (1 - double(albedo));
+}
 
 // Light found by BSDF sampling alone: every path carries the same sum, so a handful of them will do, and what is off is arithmetic. Of n
 // roundings one expects sqrt(n) times one of them (Higham and Mary 2019); n is the number of terms that matter.
@@ -70,7 +72,8 @@ std::vector<StabilityCase> furnace_cases() {
         cases.push_back({fmt::format("closed sphere, rho 0.99, roulette {}", rule), closed_rooms,
                          [rule] { return with_roulette(sphere(true), 0.99f, rule, 32); }});
     for (const float albedo : {0.5f, 0.9f, 0.99f, 0.999f, 1 - 1e-4f, 1.f})
-        cases.push_back({fmt::format("white furnace, rho {:.4g}", albedo), closed_rooms, [albedo] { return white_furnace(lambert(albedo)); }});
+        cases.push_back(
+            {fmt::format("white furnace, rho {:.4g}", albedo), closed_rooms, [albedo] { return white_furnace(lambert(albedo)); }});
     return cases;
 }
 

@@ -193,9 +193,11 @@ std::vector<StabilityCase> geometry_cases() {
     for (const int sheets : {2, 50})
         cases.push_back({fmt::format("{} coincident sheets of 2 %", sheets), transparency, [sheets] { return coincident_sheets(sheets); }});
     for (const Vec3& scale : {Vec3{1, 1e-3f, 1}, Vec3{1, 1e-3f, 1e3f}, Vec3{-1, 1, 1}, Vec3{-2, -0.5f, -1}})
-        cases.push_back({fmt::format("ball scaled by ({:g}, {:g}, {:g})", scale.x, scale.y, scale.z), nested, [scale] { return squashed_ball(scale); }});
+        cases.push_back({fmt::format("ball scaled by ({:g}, {:g}, {:g})", scale.x, scale.y, scale.z), nested,
+                         [scale] { return squashed_ball(scale); }});
     for (const Vec3& scale : {Vec3{0.1f, 3, 1}, Vec3{-1, 1, 1}, Vec3{1, -2, 1}, Vec3{-1, -1, -1}})
-        cases.push_back({fmt::format("panel scaled by ({:g}, {:g}, {:g})", scale.x, scale.y, scale.z), nested, [scale] { return scaled_panel(scale); }});
+        cases.push_back({fmt::format("panel scaled by ({:g}, {:g}, {:g})", scale.x, scale.y, scale.z), nested,
+                         [scale] { return scaled_panel(scale); }});
     for (const float shear : {0.f, 1.f, -2.f})
         cases.push_back({fmt::format("vertex normals sheared by {}", shear), frames, [shear] { return sheared_normals(shear); }});
     return cases;

@@ -109,7 +109,8 @@ std::vector<StabilityCase> health_cases() {
         cases.push_back({fmt::format("texel of {} in the world", bad), not_numbers, [bad] { return bad_world(bad); }});
     }
     for (const float bad : {nan, inf, 1e38f})
-        cases.push_back({fmt::format("vertex at {:g}", bad), not_numbers, [bad] { return beside([bad](Scene& s) { add_bad_vertex(s, bad); }); }});
+        cases.push_back(
+            {fmt::format("vertex at {:g}", bad), not_numbers, [bad] { return beside([bad](Scene& s) { add_bad_vertex(s, bad); }); }});
     cases.push_back({"normals of nan", not_numbers, [] { return beside(add_bad_normals); }});
     cases.push_back({"transform of nan", not_numbers, [] { return beside(add_bad_transform); }});
     cases.push_back({"material of nan and inf", not_numbers, [] { return beside(add_bad_material); }});

@@ -46,8 +46,8 @@ Findings candle(float candela, float height) {
     return quarters(scene, of_point({0, double(height), 0}, double(candela)));
 }
 
-// As a polyhedron, a ball's light differs by direction: by less than what the solid lacks of the ball's area, 0.3 %; and at a height of 2 m its
-// corners are known to 2^-23 m.
+// As a polyhedron, a ball's light differs by direction: by less than what the solid lacks of the ball's area, 0.3 %; and at a height of 2 m
+// its corners are known to 2^-23 m.
 Findings ball(float radius) {
     Scene scene;
     Light light = light_of(Light::Kind::point, 5);
@@ -101,7 +101,8 @@ Findings strong_and_weak() {
     shine(scene, weak, overhead);
     shine(scene, square(1, 1e12f), aimed({0, 1.5f, 0}, {0, 1, 0}));
     const auto corners = rectangle_corners(weak, overhead);
-    return quarters(scene, [&](const Vec3d& x) { return 1e-6f * polygon_irradiance(x, up, corners); }, settings_for(16, 16, 256));
+    return quarters(
+        scene, [&](const Vec3d& x) { return 1e-6f * polygon_irradiance(x, up, corners); }, settings_for(16, 16, 256));
 }
 
 // Stands on the floor's edge: next to it the floor sees it at right angles to its own normal.
@@ -120,10 +121,10 @@ std::vector<StabilityCase> light_cases() {
         cases.push_back({fmt::format("panel of {:g} nits", nits), dynamic_range, [nits] { return panel(square(1, nits), overhead); }});
     cases.push_back({"panel 1e-6 m across of 1e12 nits", no_area, [] { return panel(square(1e-6f, 1e12f), overhead); }});
     cases.push_back({"panel 1e6 m across of 1e12 nits", dynamic_range, [] { return panel(square(1e6f, 1e12f), overhead); }});
-    cases.push_back({"panel 1e6 m across, 1e6 m away", no_area,
-                     [] { return panel(square(1e6f, 3), aimed({0, 1e6f, 0}, {0, -1, 0})); }});
+    cases.push_back({"panel 1e6 m across, 1e6 m away", no_area, [] { return panel(square(1e6f, 3), aimed({0, 1e6f, 0}, {0, -1, 0})); }});
     for (const float scale : {0.5f, 100.f})
-        cases.push_back({fmt::format("upright panel {:g} m high on the floor's edge", 2 * scale), shadow_ends, [scale] { return upright_panel(scale); }});
+        cases.push_back({fmt::format("upright panel {:g} m high on the floor's edge", 2 * scale), shadow_ends,
+                         [scale] { return upright_panel(scale); }});
     for (const float radius : {1e-4f, 1e-2f, 0.5f})
         cases.push_back({fmt::format("ball of radius {:g} m", radius), small_angles, [radius] { return ball(radius); }});
     cases.push_back({"point of 1e-6 cd", dynamic_range, [] { return candle(1e-6f, 1); }});

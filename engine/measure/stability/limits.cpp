@@ -93,7 +93,8 @@ Findings coincident_lamps() {
     return quarters(scene, [&](const Vec3d& x) { return 3 * polygon_irradiance(x, Vec3d{0, 1, 0}, corners); });
 }
 
-// A room of one metre in a world that reaches a thousand kilometres: there is one origin for all, and single precision steps by 0.06 m there.
+// A room of one metre in a world that reaches a thousand kilometres: there is one origin for all, and single precision steps by 0.06 m
+// there.
 Findings room_in_a_wide_world() {
     Scene scene;
     place(scene, cube(true), lambert(0.8f), at({1e6f, 0, 0}));
@@ -149,17 +150,20 @@ std::vector<StabilityCase> limit_cases() {
         {"closed room of rho 0.9999 without roulette: all bounces", 15, longest_path,
          "paths end after 100000 scattering events, which is counted and reported; with roulette the sum is complete"},
         {"rough glass of ior 1.001 in a furnace", 7, rough_glass_towards_vacuum,
-         "facets shadow each other in the microfacet model however little they refract; from an index of 1 + 1e-5 / alpha down light passes straight"},
+         "facets shadow each other in the microfacet model however little they refract; from an index of 1 + 1e-5 / alpha down light "
+         "passes straight"},
         {"ball of glass within a block of the same glass", 20, glass_within_glass,
          "every interface is one with vacuum: no list of the media around a point is kept"},
         {"absorbing sheet 1e-7 as thick as wide", 20, wafer,
-         "rays start off a surface by a bound on its rounding error, which follows its largest coordinate: keep solids thicker than 1e-6 of their extent"},
+         "rays start off a surface by a bound on its rounding error, which follows its largest coordinate: keep solids thicker than 1e-6 "
+         "of their extent"},
         {"coarse ball with shading normals, half lit", 5, terminator,
          "the shading terminator is not softened: where facets face away from a light it does not reach, whatever their normals say"},
         {"two lamps in one place", 4, coincident_lamps,
          "light sampling adds both, a ray finds one: scenes with coincident emitters have no single answer"},
         {"dark room at the edge of a wide world", 2, room_in_a_wide_world,
-         "one origin serves the whole scene: parts far smaller than their distance from its middle, in units of 1e-6, leak at their corners"},
+         "one origin serves the whole scene: parts far smaller than their distance from its middle, in units of 1e-6, leak at their "
+         "corners"},
         {"closed ball of radius 1e-10 m", 3, [] { return closed_ball(1e-10f); },
          "normals are normalised cross products in single precision: keep triangles between 1e-9 and 1e9 m across"},
         {"closed ball of radius 1e12 m", 3, [] { return closed_ball(1e12f); }, "as for the ball of 1e-10 m"},

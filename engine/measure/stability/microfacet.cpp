@@ -59,7 +59,8 @@ Findings white_metal(double alpha, double degrees) {
     return whole(render(scene, settings_for(16, 16, 256)), directional_albedo(alpha, std::cos(degrees * pi_d / 180)), 1e-4);
 }
 
-// A wall that shines up to the height whose reflection crosses the middle of the picture: half of it is lit, whatever blurs the edge evenly.
+// A wall that shines up to the height whose reflection crosses the middle of the picture: half of it is lit, whatever blurs the edge
+// evenly.
 Findings edge_in_a_mirror(double alpha) {
     Scene scene;
     place(scene, floor_quad(10), metal(roughness_of(alpha)));
@@ -93,10 +94,13 @@ std::vector<StabilityCase> microfacet_cases() {
                              [alpha, degrees] { return white_metal(alpha, degrees); }});
     // On both sides of the roughness below which a surface counts as smooth.
     for (const double alpha : {1e-5, 0.99e-4, 1.01e-4, 1e-3})
-        cases.push_back({fmt::format("edge of light in a metal of alpha {:g}", alpha), smooth_limit, [alpha] { return edge_in_a_mirror(alpha); }});
+        cases.push_back(
+            {fmt::format("edge of light in a metal of alpha {:g}", alpha), smooth_limit, [alpha] { return edge_in_a_mirror(alpha); }});
     for (const double alpha : {0.99e-4, 1.01e-4, 3e-4})
-        cases.push_back({fmt::format("lamp in a metal of alpha {:g}", alpha), smooth_limit, [alpha] { return lamp_in_a_mirror(alpha, Strategy::mis); }});
-    cases.push_back({"lamp in a metal of alpha 0.0003, BSDF sampling alone", smooth_limit, [] { return lamp_in_a_mirror(3e-4, Strategy::bsdf); }});
+        cases.push_back({fmt::format("lamp in a metal of alpha {:g}", alpha), smooth_limit,
+                         [alpha] { return lamp_in_a_mirror(alpha, Strategy::mis); }});
+    cases.push_back(
+        {"lamp in a metal of alpha 0.0003, BSDF sampling alone", smooth_limit, [] { return lamp_in_a_mirror(3e-4, Strategy::bsdf); }});
     return cases;
 }
 

@@ -59,7 +59,8 @@ Picture render(const Scene& scene, const RenderSettings& settings, const PlaneSe
     Picture p = render_anything(scene, settings, planes);
     const Health& health = p.frame.health;
     if (health.dropped() > 0 || health.truncated > 0)
-        throw std::runtime_error(fmt::format("{} samples were not finite or negative, {} paths were cut off", health.dropped(), health.truncated));
+        throw std::runtime_error(
+            fmt::format("{} samples were not finite or negative, {} paths were cut off", health.dropped(), health.truncated));
     return p;
 }
 

@@ -106,8 +106,9 @@ Findings instanced_balls(float scale) {
 std::vector<StabilityCase> scale_cases() {
     std::vector<StabilityCase> cases;
     for (const int exponent : {20, -20})
-        cases.push_back({fmt::format("still life scaled by 2^{}, bit for bit", exponent), scales,
-                         [exponent] { return same_bits(std::ldexp(1.f, exponent), {0, 0, 0}); }});
+        cases.push_back({fmt::format("still life scaled by 2^{}, bit for bit", exponent), scales, [exponent] {
+                             return same_bits(std::ldexp(1.f, exponent), {0, 0, 0});
+                         }});
     for (const float scale : {1e-6f, 1e-3f, 1e3f, 1e6f})
         cases.push_back({fmt::format("still life scaled by {:g}", scale), scales, [scale] { return same_picture(scale, {0, 0, 0}); }});
     for (const Vec3& away : {Vec3{1e7f, 0, 0}, Vec3{0, -1e7f, 0}, Vec3{-1e7f, 1e7f, 1e7f}})
@@ -116,12 +117,17 @@ std::vector<StabilityCase> scale_cases() {
     for (const Vec3& away : {Vec3{1234567, -7654321, 9999991}, Vec3{100, 20, -30}})
         cases.push_back({fmt::format("still life at ({:.7g}, {:.7g}, {:.7g})", away.x, away.y, away.z), far_away,
                          [away] { return same_picture(1, away); }});
-    cases.push_back({"still life scaled by 1024, at 2^33 m, bit for bit", far_away, [] { return same_bits(1024, {0x1p33f, 0, -0x1p33f}); }});
+    cases.push_back({"still life scaled by 1024, at 2^33 m, bit for bit", far_away, [] {
+                         return same_bits(1024, {0x1p33f, 0, -0x1p33f});
+                     }});
     for (const float scale : {1e-6f, 1.f, 1e6f})
-        cases.push_back({fmt::format("sunlit ball of radius {:g} m", scale), leaving_surfaces, [scale] { return sunlit_ball(scale, {0, 0, 0}); }});
+        cases.push_back({fmt::format("sunlit ball of radius {:g} m", scale), leaving_surfaces, [scale] {
+                             return sunlit_ball(scale, {0, 0, 0});
+                         }});
     cases.push_back({"sunlit ball at 1e7 m", far_away, [] { return sunlit_ball(1, {1e7f, -2e6f, 1e7f}); }});
     for (const float scale : {1e-6f, 1e6f})
-        cases.push_back({fmt::format("instanced closed balls of radius {:g} m", scale), scales, [scale] { return instanced_balls(scale); }});
+        cases.push_back(
+            {fmt::format("instanced closed balls of radius {:g} m", scale), scales, [scale] { return instanced_balls(scale); }});
     return cases;
 }
 

@@ -10,9 +10,9 @@ namespace blush::stability {
 // One number that is known against one that was measured.
 struct Finding {
     double expected = 0, measured = 0;
-    double sigma = 0;     // standard error of `measured`, from its own variance; 0 where nothing is random
-    double rounding = 0;  // how far arithmetic, or the conditioning of the question, may take `measured` from `expected`
-    std::string where;    // which of a case's findings it is
+    double sigma = 0;    // standard error of `measured`, from its own variance; 0 where nothing is random
+    double rounding = 0; // how far arithmetic, or the conditioning of the question, may take `measured` from `expected`
+    std::string where;   // which of a case's findings it is
 };
 using Findings = std::vector<Finding>;
 

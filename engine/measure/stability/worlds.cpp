@@ -24,7 +24,9 @@ std::vector<Vec3> black_but_for(int column, int row, float background, float bri
 // Irradiance of a floor that looks up at the map, interpolated linearly between texel centres, above the first row's as in it: by
 // the midpoint rule with `steps` points along each side of a texel. The centre column looks along -Z, the top row along +Y.
 double irradiance_of(const std::vector<Vec3>& texels, int steps) {
-    const auto texel = [&](int c, int r) { return double(texels[size_t(std::clamp(r, 0, rows - 1)) * columns + size_t((c + columns) % columns)].x); };
+    const auto texel = [&](int c, int r) {
+        return double(texels[size_t(std::clamp(r, 0, rows - 1)) * columns + size_t((c + columns) % columns)].x);
+    };
     double sum = 0;
     for (int i = 0; i < rows * steps / 2; ++i) {
         const double y = (i + 0.5) / steps - 0.5, theta = pi_d * (y + 0.5) / rows;
