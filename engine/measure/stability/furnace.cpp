@@ -56,7 +56,7 @@ struct Closed {
     float albedo;
     int64_t spp;
 };
-constexpr Closed closed[] = {{1 - 1e-4f, 4}, {0.999f, 16}, {0.99f, 64}, {0.9f, 64}, {0.5f, 64}};
+constexpr Closed closed[] = {{1 - 1e-4f, 16}, {0.999f, 32}, {0.99f, 64}, {0.9f, 64}, {0.5f, 64}};
 
 } // namespace
 
