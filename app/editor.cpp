@@ -56,7 +56,9 @@ private:
     Viewport viewport_;
     EditorFiles files_{&Window::wake};
     FrameStats stats_;
-    FramePtr frame_;
+    Pictures pictures_;
+    PictureMix wanted_mix_;
+    std::string weights_problem_; // why the denoiser's weights are of no use; empty: they are there
     RenderSession session_;
 
     // What the session was last given.
@@ -64,7 +66,7 @@ private:
     uint64_t submitted_ = 0; // the one the window waits for; 0: nothing yet
     Scene submitted_scene_;
     RenderSettings submitted_settings_;
-    bool session_paused_ = false;
+    bool session_paused_ = false, session_denoises_ = false;
 
     bool remembered_follow_viewport_ = true; // what the settings said before the command line
 
@@ -79,7 +81,15 @@ private:
 Editor::Editor(const EditorOptions& options, std::unique_ptr<Window> window, ColorManagement color, const Automation& automation,
                WindowSettings settings)
     : automation_(automation), window_(std::move(window)), color_(std::move(color)), options_(options),
-      session_({.threads = options.threads, .low_priority = true, .first_hit_planes = true}, &Window::wake) {
+      session_({.threads = options.threads,
+                .low_priority = true,
+                .first_hit_planes = true,
+                .denoise = denoiser_made_when_needed(options.weights, options.threads, true)},
+               &Window::wake) {
+    if (const auto found = find_denoiser_weights(options.weights); !found)
+        weights_problem_ = found.error().text() + ": packaging/setup fetches them";
+    else if (options.denoise)
+        ui_.denoise.show = DenoiseView::Show::denoised;
     ui_.settings = std::move(settings);
     remembered_follow_viewport_ = ui_.settings.follow_viewport;
     if (!options.follow_viewport) ui_.settings.follow_viewport = false;
@@ -126,13 +136,16 @@ void Editor::poll() {
 
 PanelContext Editor::context() {
     const RenderSettings r = render_settings();
+    const SessionStatus status = session_.status();
     return {document_,
             ui_,
             color_,
-            frame_,
-            session_.status(),
+            pictures_.frame,
+            status,
             std::max(1, int(float(r.width) * r.resolution_scale)),
-            std::max(1, int(float(r.height) * r.resolution_scale))};
+            std::max(1, int(float(r.height) * r.resolution_scale)),
+            pictures_.denoised,
+            status.denoiser_failure.empty() ? weights_problem_ : status.denoiser_failure};
 }
 
 void Editor::panels() {
@@ -190,6 +203,10 @@ void Editor::obey(PanelContext& c) {
     }
     for (const FileRequest& request : std::exchange(ui_.files, {})) take_file(request);
     if (session_paused_ != ui_.paused) session_.pause(session_paused_ = ui_.paused);
+    if (session_denoises_ != ui_.denoise.wants_denoised()) session_.want_denoised(session_denoises_ = ui_.denoise.wants_denoised());
+    const PictureMix mix = mix_of(ui_.denoise, pictures_.denoised != nullptr);
+    if (mix != wanted_mix_) stats_.looked(frame_begin_);
+    wanted_mix_ = mix;
 }
 
 void Editor::run_own_command(Command command) {
@@ -235,8 +252,9 @@ void Editor::take_dropped(const std::filesystem::path& file) {
 }
 
 void Editor::save_due_snapshot() {
-    if (!snapshot_due_ || !frame_ || frame_->revision != submitted_ || frame_->divider != 1) return;
-    files_.save_snapshot(frame_, document_.project(), submitted_settings_, color_, ui_.settings.snapshot_folder, *snapshot_due_);
+    const FramePtr& frame = pictures_.frame;
+    if (!snapshot_due_ || !frame || frame->revision != submitted_ || frame->divider != 1) return;
+    files_.save_snapshot(pictures_, ui_.denoise, document_.project(), submitted_settings_, color_, ui_.settings.snapshot_folder, *snapshot_due_);
     snapshot_due_.reset();
 }
 
@@ -273,7 +291,13 @@ void Editor::submit() {
     stats_.submitted(submitted_, frame_begin_);
 }
 
-void Editor::latest() { frame_ = session_.latest(); }
+void Editor::latest() {
+    pictures_ = session_.pictures();
+    const std::string failure = session_.status().denoiser_failure;
+    if (failure.empty() || !ui_.denoise.wants_denoised()) return;
+    ui_.denoise.show = DenoiseView::Show::raw;
+    ui_.toasts.fail("The image cannot be denoised", failure);
+}
 
 void Editor::draw() {
     const Toasts& toasts = ui_.toasts;
@@ -288,12 +312,14 @@ void Editor::draw() {
         state.samples = shown->samples;
         state.complete = shown->complete;
         state.up_to_date = shown->revision == submitted_;
+        state.look = shown_text(ui_.denoise, *shown, pictures_.denoised.get());
     }
     window_->end_frame();
     const auto now = Clock::now();
     // Loading and compiling shaders, before there is a picture, is not what smoothness is judged by.
     if (shown) stats_.add_frame(std::chrono::duration<double, std::milli>(now - frame_begin_).count());
     if (shown) stats_.shown(shown->revision, now);
+    if (viewport_.shows(wanted_mix_)) stats_.look_shown(now);
     ui_.probe.end_frame(state);
 }
 

@@ -11,11 +11,13 @@ namespace blush {
 
 struct EditorOptions {
     std::filesystem::path assets;      // folder that holds scenes/, ocio/ and fonts/
+    std::filesystem::path weights;     // folder with the denoiser's
     std::filesystem::path scene;       // empty: the card-and-mug scene in `assets`
     std::filesystem::path ocio_config; // empty: as ColorManagement::load decides
     SceneOverrides overrides;          // of the scene given here, not of those opened later
     RenderSettings render;
     ViewSettings view;
+    bool denoise = false;        // begin with the denoised picture
     bool follow_viewport = true; // the image has the viewport's size; false: render.width x render.height, as `--size` asks
     unsigned threads = 0;        // 0: one per core
 };

@@ -80,6 +80,11 @@ void change_exposure(PanelContext& c, float exposure_ev) {
     c.apply(SetView{v});
 }
 
+void toggle_denoise(PanelContext& c) {
+    if (c.denoiser_problem.empty()) return c.ui.denoise.toggle();
+    c.ui.toasts.warn("The image cannot be denoised", c.denoiser_problem);
+}
+
 } // namespace
 
 bool run_command(Command command, PanelContext& c) {
@@ -104,6 +109,7 @@ bool run_command(Command command, PanelContext& c) {
     case Command::exposure_up: change_exposure(c, c.project().view.exposure_ev + 0.5f); return true;
     case Command::exposure_down: change_exposure(c, c.project().view.exposure_ev - 0.5f); return true;
     case Command::exposure_reset: change_exposure(c, 0); return true;
+    case Command::toggle_denoise: toggle_denoise(c); return true;
     case Command::pause: c.ui.paused = !c.ui.paused; return true;
     case Command::shortcuts: c.ui.show_shortcuts = !c.ui.show_shortcuts; return true;
     case Command::history: c.ui.show_history = !c.ui.show_history; return true;

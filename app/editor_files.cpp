@@ -84,9 +84,9 @@ void EditorFiles::load_environment(const std::filesystem::path& file) {
         "Loading " + file.filename().string(), [file](JobProgress&) { return read_environment_image(file); }, wake_);
 }
 
-void EditorFiles::save_snapshot(const FramePtr& frame, const Project& project, const RenderSettings& settings, const ColorManagement& color,
-                                const std::filesystem::path& folder, Format format) {
-    const SnapshotJob job{frame, project, settings, imported_, scene_file_, folder};
+void EditorFiles::save_snapshot(const Pictures& pictures, const DenoiseView& view, const Project& project, const RenderSettings& settings,
+                                const ColorManagement& color, const std::filesystem::path& folder, Format format) {
+    const SnapshotJob job{pictures, view, project, settings, imported_, scene_file_, folder};
     snapshot_job_ = std::make_unique<BackgroundJob<Result<std::filesystem::path>>>(
         "Saving the snapshot",
         [job, format, &color](JobProgress&) { return format == Format::exr ? write_snapshot_exr(job) : write_snapshot_png(job, color); },

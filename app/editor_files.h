@@ -4,9 +4,10 @@
 #include "app/commands/load_scene.h"
 #include "color/color_management.h"
 #include "core/result.h"
-#include "render/frame.h"
+#include "render/showcase.h"
 #include "scene/document.h"
 #include "ui/background_job.h"
+#include "ui/denoise_view.h"
 #include "ui/panels/panels.h"
 #include "ui/ui_state.h"
 
@@ -44,9 +45,9 @@ public:
     void reload() { start_import(scene_file_, Purpose::reload, {}, 1); }
     void load_environment(const std::filesystem::path& file);
     enum class Format { exr, png };
-    // Of a frame that `settings` made.
-    void save_snapshot(const FramePtr& frame, const Project& project, const RenderSettings& settings, const ColorManagement& color,
-                       const std::filesystem::path& folder, Format format);
+    // Of a frame in full resolution that `settings` made, looked at in this way.
+    void save_snapshot(const Pictures& pictures, const DenoiseView& view, const Project& project, const RenderSettings& settings,
+                       const ColorManagement& color, const std::filesystem::path& folder, Format format);
 
     // Brings finished work into the document, and looks once a second whether the scene file was rewritten: it is then
     // loaded again, or, when there are edits to lose, a toast offers it. True if a scene was opened.

@@ -1,5 +1,6 @@
 #include "app/editor_snapshot.h"
 
+#include "app/commands/denoising.h"
 #include "app/commands/picture.h"
 #include "app/scene_overrides.h"
 #include "io/scene_edits_json.h"
@@ -23,8 +24,9 @@ Result<std::filesystem::path> free_name(const SnapshotJob& job, const char* exte
     return Error{folder.string(), "the folder is full of snapshots", ""};
 }
 
-SnapshotMetadata metadata_of(const SnapshotJob& job) {
-    const Frame& f = *job.frame;
+// `denoised`: what the picture shows of it; null: nothing.
+SnapshotMetadata metadata_of(const SnapshotJob& job, const DenoisedPicture* denoised) {
+    const Frame& f = *job.pictures.frame;
     SnapshotMetadata m;
     m.version = BLUSH_VERSION;
     m.scene = job.scene_file.filename().string();
@@ -39,6 +41,7 @@ SnapshotMetadata metadata_of(const SnapshotJob& job) {
     m.settings = job.settings;
     m.edits = edits_json(job.imported, job.project.scene);
     m.partial = !f.complete;
+    if (denoised) m.denoised = fmt::format("{}, {} spp", denoised_by(denoised->denoised), denoised->samples);
     return m;
 }
 
@@ -48,16 +51,24 @@ Result<std::filesystem::path> write_snapshot_exr(const SnapshotJob& job) {
     const auto file = free_name(job, ".exr");
     if (!file) return file;
     const Layers layers{.albedo = true, .normal = true, .depth = true, .samples = true, .ids = true};
-    if (const auto written = write_exr_picture(*file, *job.frame, {}, layers, metadata_of(job)); !written) return written.error();
+    // A coarse one, of the moment after an edit, is no layer.
+    const DenoisedPicture* denoised = job.pictures.denoised.get();
+    if (denoised && denoised->divider != 1) denoised = nullptr;
+    ExtraLayers extra;
+    if (denoised) extra.denoised = denoised->denoised.rgb;
+    const auto written = write_exr_picture(*file, *job.pictures.frame, extra, layers, metadata_of(job, denoised));
+    if (!written) return written.error();
     return file;
 }
 
 Result<std::filesystem::path> write_snapshot_png(const SnapshotJob& job, const ColorManagement& color) {
     const auto file = free_name(job, ".png");
     if (!file) return file;
-    const Frame& frame = *job.frame;
-    const auto written = write_display_picture(*file, frame.width, frame.height, beauty_rgb(frame), color, job.project.view,
-                                               display_metadata(metadata_of(job)));
+    const Frame& frame = *job.pictures.frame;
+    const DenoisedPicture* denoised = job.view.wants_denoised() ? job.pictures.denoised.get() : nullptr;
+    std::vector<float> shown = mixed_picture(frame, denoised, mix_of(job.view, denoised != nullptr));
+    const auto written = write_display_picture(*file, frame.width, frame.height, std::move(shown), color, job.project.view,
+                                               display_metadata(metadata_of(job, denoised)));
     if (!written) return written.error();
     return file;
 }

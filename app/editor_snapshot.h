@@ -3,8 +3,9 @@
 
 #include "color/color_management.h"
 #include "core/result.h"
-#include "render/frame.h"
+#include "render/showcase.h"
 #include "scene/edit.h"
+#include "ui/denoise_view.h"
 
 #include <filesystem>
 
@@ -12,7 +13,8 @@ namespace blush {
 
 // Everything a snapshot is made of; copies are cheap, so it may be written while the user goes on.
 struct SnapshotJob {
-    FramePtr frame;
+    Pictures pictures;
+    DenoiseView view; // how they are looked at
     Project project;
     RenderSettings settings; // that the frame was rendered with
     Scene imported;          // the scene as its file has it
@@ -20,9 +22,10 @@ struct SnapshotJob {
     std::filesystem::path folder;
 };
 
-// The layered EXR of cli.md; returns the file, named after the scene and numbered so that none is overwritten.
+// The layered EXR of cli.md: the raw beauty always, the denoised picture as a layer beside it. Returns the file, named after the scene and
+// numbered so that none is overwritten.
 Result<std::filesystem::path> write_snapshot_exr(const SnapshotJob& job);
-// The same picture through the display's view, as a PNG.
+// The picture as it is looked at, through the display's view, as a PNG.
 Result<std::filesystem::path> write_snapshot_png(const SnapshotJob& job, const ColorManagement& color);
 
 } // namespace blush

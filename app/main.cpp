@@ -28,12 +28,14 @@ int edit(const EditorCommand& c) {
     if (!settings) return bad_usage(settings.error().text());
     EditorOptions editor;
     editor.assets = assets_dir();
+    editor.weights = weights_dir();
     editor.scene = c.scene;
     editor.render = *settings;
     // Nobody waits for the window to end, so it goes on for longer than a render does.
     if (!c.options.spp_given && !c.options.samples_given && settings->spp > 0) editor.render.spp = 1024;
     editor.view = c.options.view;
     editor.overrides = c.options.overrides;
+    editor.denoise = c.options.denoise.has_value(); // the session chooses the quality as time allows
     editor.follow_viewport = !c.options.size_given;
     editor.threads = c.common.threads;
     return run_editor(editor);

@@ -6,11 +6,18 @@
 namespace blush {
 namespace {
 
+// mixed_picture() on the graphics card.
 const char* const main_source = R"(
-uniform sampler2D image;
+uniform sampler2D image, denoised;
+uniform float raw_weight, denoised_weight;
+uniform vec2 denoised_scale;
 void main() {
-    result = vec4(display_color(vec4(texelFetch(image, ivec2(gl_FragCoord.xy), 0).rgb, 1.0)).rgb, 1.0);
+    vec3 color = raw_weight * texelFetch(image, ivec2(gl_FragCoord.xy), 0).rgb;
+    if (denoised_weight != 0.0) color += denoised_weight * texelFetch(denoised, ivec2(gl_FragCoord.xy * denoised_scale), 0).rgb;
+    result = vec4(display_color(vec4(abs(color), 1.0)).rgb, 1.0);
 })";
+
+constexpr GLint image_unit = 0, denoised_unit = 1, first_table_unit = 2;
 
 std::pair<GLenum, GlTexture> upload_table(const DisplayShader::Lut& lut) {
     const GLenum target = lut.dimensions == 1 ? GL_TEXTURE_1D : lut.dimensions == 2 ? GL_TEXTURE_2D : GL_TEXTURE_3D;
@@ -41,36 +48,46 @@ Result<void> DisplayPass::set_shader(const DisplayShader& shader) {
     if (!no_vertices_) no_vertices_ = GlVertexArray::create();
     tables_.clear();
     glUseProgram(program_.name());
-    glUniform1i(glGetUniformLocation(program_.name(), "image"), 0);
+    glUniform1i(glGetUniformLocation(program_.name(), "image"), image_unit);
+    glUniform1i(glGetUniformLocation(program_.name(), "denoised"), denoised_unit);
     for (const DisplayShader::Lut& lut : shader.luts) {
+        glUniform1i(glGetUniformLocation(program_.name(), lut.sampler.c_str()), first_table_unit + GLint(tables_.size()));
         tables_.push_back(upload_table(lut));
-        glUniform1i(glGetUniformLocation(program_.name(), lut.sampler.c_str()), GLint(tables_.size()));
     }
     return {};
 }
 
-void DisplayPass::upload(const Frame& frame) {
-    if (!image_) image_ = GlTexture::create();
+void DisplayPass::Picture::upload(int w, int h, GLenum format, const float* values) {
+    if (!texture) texture = GlTexture::create();
     glActiveTexture(GL_TEXTURE0);
-    glBindTexture(GL_TEXTURE_2D, image_.name());
+    glBindTexture(GL_TEXTURE_2D, texture.name());
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-    // Every edit brings small frames and then full ones again: the texture keeps the largest size, so that none is allocated anew.
-    if (frame.width > image_width_ || frame.height > image_height_) {
-        image_width_ = std::max(image_width_, frame.width);
-        image_height_ = std::max(image_height_, frame.height);
-        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, image_width_, image_height_, 0, GL_RGBA, GL_FLOAT, nullptr);
+    // Every edit brings small pictures and then full ones again: the texture keeps the largest size, so that none is allocated anew.
+    if (w > room_width || h > room_height) {
+        room_width = std::max(room_width, w);
+        room_height = std::max(room_height, h);
+        glTexImage2D(GL_TEXTURE_2D, 0, format == GL_RGB ? GL_RGB32F : GL_RGBA32F, room_width, room_height, 0, format, GL_FLOAT, nullptr);
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     }
-    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, frame.width, frame.height, GL_RGBA, GL_FLOAT, frame.rgba.data());
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, w, h, format, GL_FLOAT, values);
+    width = w;
+    height = h;
+}
+
+void DisplayPass::upload(const DenoisedPicture& denoised) {
+    denoised_.upload(denoised.width, denoised.height, GL_RGB, denoised.denoised.rgb.data());
+}
+
+void DisplayPass::upload(const Frame& frame) {
+    image_.upload(frame.width, frame.height, GL_RGBA, frame.rgba.data());
     rows_per_millisecond_ *= double(std::max(width_, 1)) / frame.width; // rows of another length
     width_ = frame.width;
     height_ = next_row_ = frame.height;
 }
 
-void DisplayPass::begin(float exposure_ev, float gamma) {
-    exposure_ev_ = exposure_ev;
-    gamma_ = gamma;
+void DisplayPass::begin(const DisplayLook& look) {
+    look_ = look;
     if (program_) next_row_ = 0;
 }
 
@@ -80,12 +97,19 @@ void DisplayPass::draw_rows(int first, int count) {
     glEnable(GL_SCISSOR_TEST);
     glScissor(0, first, width_, count);
     glUseProgram(program_.name());
-    glUniform1f(glGetUniformLocation(program_.name(), "exposure_ev"), exposure_ev_);
-    glUniform1f(glGetUniformLocation(program_.name(), "gamma"), gamma_);
-    glActiveTexture(GL_TEXTURE0);
-    glBindTexture(GL_TEXTURE_2D, image_.name());
+    const auto set = [&](const char* name, float value) { glUniform1f(glGetUniformLocation(program_.name(), name), value); };
+    set("exposure_ev", look_.exposure_ev);
+    set("gamma", look_.gamma);
+    set("raw_weight", look_.mix.raw_weight);
+    set("denoised_weight", look_.mix.denoised_weight);
+    glUniform2f(glGetUniformLocation(program_.name(), "denoised_scale"), float(denoised_.width) / float(width_),
+                float(denoised_.height) / float(height_));
+    glActiveTexture(GL_TEXTURE0 + image_unit);
+    glBindTexture(GL_TEXTURE_2D, image_.texture.name());
+    glActiveTexture(GL_TEXTURE0 + denoised_unit);
+    glBindTexture(GL_TEXTURE_2D, denoised_.texture.name());
     for (size_t i = 0; i < tables_.size(); ++i) {
-        glActiveTexture(GLenum(GL_TEXTURE1 + i));
+        glActiveTexture(GLenum(GL_TEXTURE0 + first_table_unit + GLint(i)));
         glBindTexture(tables_[i].first, tables_[i].second.name());
     }
     glBindVertexArray(no_vertices_.name());

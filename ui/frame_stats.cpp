@@ -25,6 +25,11 @@ void FrameStats::shown(uint64_t revision, Clock::time_point when) {
     }
 }
 
+void FrameStats::look_shown(Clock::time_point when) {
+    if (look_begun_) keep(looks_, std::chrono::duration<double, std::milli>(when - *look_begun_).count());
+    look_begun_.reset();
+}
+
 Result<void> FrameStats::write(const std::filesystem::path& file) const {
     const nlohmann::json json{{"frames", frames_.size()},
                               {"p50_ms", percentile(frames_, 0.5)},
@@ -33,7 +38,10 @@ Result<void> FrameStats::write(const std::filesystem::path& file) const {
                               {"edits", latencies_.size()},
                               {"latency_p50_ms", percentile(latencies_, 0.5)},
                               {"latency_p95_ms", percentile(latencies_, 0.95)},
-                              {"latency_max_ms", percentile(latencies_, 1)}};
+                              {"latency_max_ms", percentile(latencies_, 1)},
+                              {"looks", looks_.size()},
+                              {"look_p50_ms", percentile(looks_, 0.5)},
+                              {"look_max_ms", percentile(looks_, 1)}};
     std::ofstream out(file);
     out << json.dump(2) << '\n';
     out.close();

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <deque>
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 namespace blush {
@@ -24,9 +25,15 @@ public:
     void submitted(uint64_t revision, Clock::time_point when);
     void shown(uint64_t revision, Clock::time_point when);
 
+    // Another way of looking at the picture was asked for, and later it was on the screen.
+    void looked(Clock::time_point when) { look_begun_ = when; }
+    void look_shown(Clock::time_point when);
+
     const std::vector<double>& frames() const { return frames_; }
     const std::vector<double>& latencies() const { return latencies_; }
-    // {"frames": n, "p50_ms", "p95_ms", "max_ms", "edits": n, "latency_p50_ms", "latency_p95_ms", "latency_max_ms"}
+    const std::vector<double>& looks() const { return looks_; }
+    // {"frames": n, "p50_ms", "p95_ms", "max_ms", "edits": n, "latency_p50_ms", "latency_p95_ms", "latency_max_ms",
+    //  "looks": n, "look_p50_ms", "look_max_ms"}
     Result<void> write(const std::filesystem::path& file) const;
 
 private:
@@ -38,7 +45,8 @@ private:
     static void keep(std::vector<double>& values, double value) {
         if (values.size() < (1u << 20)) values.push_back(value);
     }
-    std::vector<double> frames_, latencies_;
+    std::vector<double> frames_, latencies_, looks_;
+    std::optional<Clock::time_point> look_begun_;
     std::deque<Submit> unanswered_;
 };
 

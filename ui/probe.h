@@ -19,6 +19,7 @@ struct ProbeState {
     uint64_t revision = 0;   // counts the edits that reach the picture
     bool up_to_date = false; // the picture answers the latest edit
     std::string toast;       // the newest
+    std::string look = {};   // raw, denoised, ...: shown_text()
     bool operator==(const ProbeState&) const = default;
 };
 

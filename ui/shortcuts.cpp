@@ -40,6 +40,7 @@ constexpr Shortcut table[] = {
     {Command::exposure_up, "View", "Brighter by 1/2 EV", plain(']')},
     {Command::exposure_down, "View", "Darker by 1/2 EV", plain('[')},
     {Command::exposure_reset, "View", "Exposure 0", plain(key::zero)},
+    {Command::toggle_denoise, "View", "Raw / denoised", plain('N')},
     {Command::pause, "View", "Pause rendering", plain(key::space)},
     {Command::shortcuts, "Help", "Shortcuts", plain(key::f1)},
 };

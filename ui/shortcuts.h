@@ -43,6 +43,7 @@ enum class Command {
     exposure_up,
     exposure_down,
     exposure_reset,
+    toggle_denoise,
     pause,
     clear_selection,
     shortcuts,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scene/scene.h"
+#include "ui/denoise_view.h"
 #include "ui/gestures.h"
 #include "ui/probe.h"
 #include "ui/shortcuts.h"
@@ -54,6 +55,7 @@ struct UiState {
     Id<Node> renaming;
     std::string rename_text;
 
+    DenoiseView denoise; // a way of looking, not of rendering: apart from the document and its history
     bool paused = false;
     double next_frame_in = 1e9; // seconds until something moves by itself: a toast that goes, a tooltip that comes
     bool show_shortcuts = false;

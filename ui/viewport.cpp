@@ -51,17 +51,21 @@ Result<void> Viewport::set_display_shader(const DisplayShader& shader) {
 
 void Viewport::take_frame(PanelContext& c) {
     const ViewSettings& v = c.project().view;
+    const DisplayLook look{v.exposure_ev, v.gamma, mix_of(c.ui.denoise, c.denoised != nullptr)};
     const bool new_frame = c.frame && c.frame->width > 0 && c.frame != uploaded_frame_;
-    if (!display_.busy() &&
-        (new_frame || (uploaded_frame_ && (shader_changed_ || shown_exposure_ != v.exposure_ev || shown_gamma_ != v.gamma)))) {
+    const bool new_denoised = look.mix.denoised_weight != 0 && c.denoised != uploaded_denoised_;
+    if (!display_.busy() && (new_frame || (uploaded_frame_ && (new_denoised || shader_changed_ || look_ != look)))) {
         if (new_frame) {
             display_.upload(*c.frame);
             uploaded_frame_ = c.frame;
         }
-        display_.begin(v.exposure_ev, v.gamma);
+        if (new_denoised) {
+            display_.upload(*c.denoised);
+            uploaded_denoised_ = c.denoised;
+        }
+        display_.begin(look);
         begun_ = true;
-        shown_exposure_ = v.exposure_ev;
-        shown_gamma_ = v.gamma;
+        look_ = look;
         shader_changed_ = false;
     }
     drew_display_ = display_.busy();

@@ -19,6 +19,8 @@ public:
     ImageRect draw(PanelContext& c);
     // The frame whose picture is on the screen; null before the first.
     const FramePtr& shown() const { return shown_frame_; }
+    // Are its pictures on the screen in this mixture?
+    bool shows(const PictureMix& mix) const { return shown_frame_ && !begun_ && look_.mix == mix; }
 
 private:
     void take_frame(PanelContext& c);
@@ -33,7 +35,8 @@ private:
 
     // What the textures hold, to draw into them only when something differs.
     FramePtr uploaded_frame_, shown_frame_;
-    float shown_exposure_ = 0, shown_gamma_ = 0;
+    DenoisedPtr uploaded_denoised_;
+    DisplayLook look_;
     bool shader_changed_ = false, begun_ = false;
     bool drew_display_ = false; // in this frame of the window
     uint64_t pictures_ = 0;     // finished by the display pass

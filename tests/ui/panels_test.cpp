@@ -26,7 +26,7 @@ protected:
             ui.tab = InspectorTab(tab);
             for (int i = 0; i < 3; ++i) {
                 in_window([&] {
-                    PanelContext c{document, ui, *color, frame, {}, 640, 480};
+                    PanelContext c{document, ui, *color, frame, SessionStatus(), 640, 480};
                     draw_outliner(c);
                     draw_status_bar(c);
                     draw_inspector(c);
@@ -110,6 +110,33 @@ TEST_F(Panels, EveryEnvironmentKindAndLightKind) {
     }
 }
 
+TEST_F(Panels, EveryWayOfLookingAtADenoisedPicture) {
+    Document document(test::sample_project().project);
+    auto raw = std::make_shared<Frame>();
+    raw->width = raw->height = 2;
+    raw->rgba.assign(16, 0.5f);
+    auto picture = std::make_shared<DenoisedPicture>();
+    picture->width = picture->height = 1;
+    picture->denoised.rgb.assign(3, 0.25f);
+    picture->denoised.sanitised = 7;
+    ui.tab = InspectorTab::display;
+    for (const auto show : {DenoiseView::Show::raw, DenoiseView::Show::denoised, DenoiseView::Show::blend, DenoiseView::Show::difference})
+        for (const DenoisedPtr& denoised : {DenoisedPtr(), DenoisedPtr(picture)})
+            for (const char* problem : {"", "the weights are not there"}) {
+                ui.denoise = {show, 0.5f};
+                ui.pixel = PixelProbe{0.9, 0.9};
+                in_window([&] {
+                    PanelContext c{document, ui, *color, raw, SessionStatus(), 2, 2, denoised, problem};
+                    draw_inspector(c);
+                    draw_status_bar(c);
+                    draw_pixel_panel(c);
+                    draw_menu_bar(c);
+                });
+                EXPECT_EQ(ui.denoise, (DenoiseView{show, 0.5f})) << "drawing alone changes nothing";
+            }
+    EXPECT_FALSE(document.can_undo());
+}
+
 TEST_F(Panels, AnEmptySceneAndAFrameWithoutPlanes) {
     Document document;
     auto bare = std::make_shared<Frame>();
@@ -121,7 +148,7 @@ TEST_F(Panels, AnEmptySceneAndAFrameWithoutPlanes) {
     ui.pixel = PixelProbe{0.5, 0.5};
     for (int i = 0; i < 3; ++i) {
         in_window([&] {
-            PanelContext c{document, ui, *color, frame, {}, 1, 1};
+            PanelContext c{document, ui, *color, frame, SessionStatus(), 1, 1};
             draw_pixel_panel(c);
         });
     }

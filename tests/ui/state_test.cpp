@@ -98,6 +98,17 @@ TEST(FrameStats, PercentilesByNearestRank) {
     EXPECT_EQ(percentile({}, 0.5), 0);
 }
 
+TEST(FrameStats, AnotherLookIsCountedOnceItIsShown) {
+    FrameStats stats;
+    const FrameStats::Clock::time_point start{};
+    stats.look_shown(start);
+    EXPECT_TRUE(stats.looks().empty()) << "nobody asked for one";
+    stats.looked(start + 10ms);
+    stats.look_shown(start + 42ms);
+    stats.look_shown(start + 99ms);
+    EXPECT_EQ(stats.looks(), std::vector<double>{32});
+}
+
 TEST(FrameStats, APictureAnswersItsOwnSubmitAndClearsTheOlder) {
     FrameStats stats;
     const FrameStats::Clock::time_point start{};

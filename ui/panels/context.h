@@ -16,6 +16,8 @@ struct PanelContext {
     SessionStatus status;
     // The size that the image has at full resolution.
     int render_width = 0, render_height = 0;
+    DenoisedPtr denoised = {};         // of the frame's image, if any
+    std::string denoiser_problem = {}; // why nothing can be denoised; empty: it can
 
     const Project& project() const { return document.project(); }
     const Scene& scene() const { return document.project().scene; }

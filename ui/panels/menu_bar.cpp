@@ -62,6 +62,7 @@ void draw_view_menu(PanelContext& c) {
     item(c, Command::exposure_up);
     item(c, Command::exposure_down);
     item(c, Command::exposure_reset);
+    item(c, Command::toggle_denoise, c.denoiser_problem.empty(), nullptr, c.ui.denoise.wants_denoised());
     ImGui::Separator();
     item(c, Command::pause, true, nullptr, c.ui.paused);
 }

@@ -23,8 +23,8 @@ std::string triple(const Vec3& v, const char* format = "{:.4g}  {:.4g}  {:.4g}")
     return fmt::format(fmt::runtime(format), v.x, v.y, v.z);
 }
 
-std::string displayed(const PanelContext& c, const float* rgb) {
-    float shown[3] = {rgb[0], rgb[1], rgb[2]};
+std::string displayed(const PanelContext& c, const Vec3& rgb) {
+    float shown[3] = {rgb.x, rgb.y, rgb.z};
     const ViewSettings& v = c.project().view;
     if (const auto done = c.color.apply_display(v.display, v.view, v.exposure_ev, v.gamma, shown, 1); !done) return done.error().text();
     const auto byte = [](float x) { return int(std::clamp(x, 0.f, 1.f) * 255 + 0.5f); };
@@ -38,7 +38,9 @@ void draw_values(const PanelContext& c, const Frame& f, int x, int y) {
     row("Pixel", f.divider > 1 ? fmt::format("{}, {}  at 1/{} size", x, y, f.divider) : fmt::format("{}, {}", x, y));
     row("Linear RGB", triple({rgba[0], rgba[1], rgba[2]}));
     row("Luminance", fmt::format("{:.4g} nits", 0.2126 * rgba[0] + 0.7152 * rgba[1] + 0.0722 * rgba[2]));
-    row("Displayed", displayed(c, rgba));
+    if (c.denoised) row("Denoised RGB", triple(denoised_pixel(f, *c.denoised, x, y)));
+    const Vec3 shown = mixed_pixel(f, c.denoised.get(), mix_of(c.ui.denoise, c.denoised != nullptr), x, y);
+    row("Displayed", displayed(c, shown));
     if (!f.albedo.empty()) row("Albedo", triple(f.albedo[i]));
     if (!f.normal.empty()) row("Normal", triple(f.normal[i], "{:+.3f}  {:+.3f}  {:+.3f}"));
     if (!f.depth.empty()) row("Distance", f.depth[i] > 0 ? fmt::format("{:.4g} m", f.depth[i]) : "nothing hit");

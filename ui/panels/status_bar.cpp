@@ -51,6 +51,17 @@ void draw_progress_line(double progress) {
     ImGui::GetWindowDrawList()->AddRectFilled(low, {low.x + std::floor(width * float(progress)), low.y + height}, tone::field_filled);
 }
 
+// Which picture is looked at. The error before it is the raw one's in any case; what the denoiser did to the picture stands beside it.
+void draw_denoised_cells(PanelContext& c, float& x, const Frame& frame) {
+    const DenoiseView& view = c.ui.denoise;
+    if (!view.wants_denoised()) return cell(c, x, 4, "raw", "The image is shown as it was traced.", tone::dim_text);
+    const DenoisedPicture* denoised = c.denoised.get();
+    cell(c, x, 15, shown_text(view, frame, denoised), "What is shown, and by how much the denoised picture is older than the raw one.");
+    if (!denoised) return;
+    cell(c, x, 9, fmt::format("energy {:+.2f} %", energy_change_percent(denoised->denoised)),
+         "By how much the denoiser changed the mean luminance of the picture. The estimated error is that of the raw image.");
+}
+
 void draw_frame_cells(PanelContext& c, float& x, const Frame& frame) {
     const int64_t target = c.project().render.spp;
     cell(c, x, 9, target > 0 ? fmt::format("{} / {} spp", frame.samples, target) : fmt::format("{} spp", frame.samples),
@@ -62,6 +73,7 @@ void draw_frame_cells(PanelContext& c, float& x, const Frame& frame) {
                                          frame.error.relmse, frame.error.low, frame.error.high)
                                  .c_str()
                            : "The error is estimated from two independent halves of the samples, once both hold some.");
+    draw_denoised_cells(c, x, frame);
     cell(c, x, 6, duration_text(frame.seconds), "Time spent rendering since the last edit.");
     cell(c, x, 8.5f,
          frame.divider > 1 ? fmt::format("{} × {}  1/{}", frame.width, frame.height, frame.divider)
