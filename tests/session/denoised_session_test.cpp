@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <map>
 #include <mutex>
@@ -208,15 +209,17 @@ TEST(DenoisedSession, DraggingShowsNoNoiseInBetween) {
 
 TEST(DenoisedSession, AnEditCancelsWhatIsBeingDenoised) {
     StandIn networks;
-    networks.instead = [](size_t call, const std::function<bool()>& wanted) {
+    std::atomic<bool> begun{false};
+    networks.instead = [&](size_t call, const std::function<bool()>& wanted) {
         // The first would never end by itself; the next are done at once.
-        if (call == 1) return wait_until_unwanted(wanted);
-        return Result<std::optional<Denoised>>(std::optional<Denoised>(Denoised{}));
+        if (call > 1) return Result<std::optional<Denoised>>(std::optional<Denoised>(Denoised{}));
+        begun = true, begun.notify_all();
+        return wait_until_unwanted(wanted);
     };
     WatchedSession session(2, {}, networks.function());
     session->want_denoised(true);
     submit(session, 1, small_project());
-    session.wait_for(1, State::complete);
+    begun.wait(false);
     submit(session, 2, lit_by(small_project(), 3));
     session.wait_for(ends(2));
     session.shut_down();
