@@ -13,7 +13,7 @@ constexpr HotSpot spots[] = {
     {7, "index of refraction towards 1", "Fresnel around eta^2 - 1 as a number of its own (Cook and Torrance 1982)"},
     {8, "samples that are no numbers", "dropped, counted, remembered by pixel, sample and seed; inputs cleaned when compiled"},
     {9, "clamping", "there is none"},
-    {10, "long accumulation", "sums and counts of a pixel in double and 64 bits"},
+    {10, "long accumulation", "sums of a path and of a pixel in double, counts in 64 bits"},
     {11, "correlated random numbers", "Owen-scrambled Sobol points keyed on pixel and seed (Burley 2020)"},
     {12, "densities that vanish", "MIS weights that ask for a density above 0 before they divide (Veach 1997)"},
     {13, "emitters without area", "an emitter of no area has no power and is never picked"},
