@@ -120,7 +120,7 @@ void add_integrator_options(CLI::App& app, RenderOptions& o) {
     add_parsed(app, "--max-bounces", o.settings.max_bounces, parse_max_bounces, "Scattering events a path may have [unlimited]")
         ->type_name("N|unlimited");
     add_parsed(app, "--roulette", o.settings.roulette, parse_roulette,
-               "How paths end at random: off, max, luminance, sqrt, constant=P, biased-cut=T [max,start=3]")
+               "How paths end at random: off, max, luminance, sqrt, constant=P, biased-cut=T [sqrt,start=3]")
         ->type_name("RULE[,start=N][,floor=P][,cap=P]");
     add_parsed(app, "--strategy", o.settings.strategy, parse_strategy, "Direct light by both, light or BSDF sampling [mis]")
         ->type_name("mis|light|bsdf");

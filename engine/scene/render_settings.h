@@ -20,7 +20,7 @@ struct Roulette {
         constant,   // q = probability
         biased_cut, // ends paths with max(beta) < threshold and gives nothing back: wrong on purpose, for teaching
     };
-    Rule rule = Rule::max;
+    Rule rule = Rule::sqrt;
     int start = 3;           // first bounce at which it may end a path
     float floor = 0;         // q >= floor
     float cap = 1;           // q <= cap
@@ -54,7 +54,7 @@ struct RenderSettings {
 // True if an image accumulated under `before` is still the one `after` asks for: they differ in stop rules alone.
 bool same_image(const RenderSettings& before, const RenderSettings& after);
 
-// "max,start=3", "constant=0.7,start=1", "biased-cut=0.05", ... as in `blush render --roulette`.
+// "sqrt,start=3", "constant=0.7,start=1", "biased-cut=0.05", ... as in `blush render --roulette`.
 Result<Roulette> parse_roulette(std::string_view text);
 std::string to_string(const Roulette& roulette);
 Result<int> parse_max_bounces(std::string_view text); // a number or "unlimited"

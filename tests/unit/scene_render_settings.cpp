@@ -25,7 +25,7 @@ TEST(SameImage, OnlyStopRulesMayDiffer) {
 }
 
 TEST(Roulette, ReadsWhatTheManualShows) {
-    EXPECT_EQ(*parse_roulette("max,start=3"), Roulette{});
+    EXPECT_EQ(*parse_roulette("sqrt,start=3"), Roulette{});
     EXPECT_EQ(parse_roulette("off")->rule, Roulette::Rule::off);
     EXPECT_EQ(parse_roulette("luminance")->rule, Roulette::Rule::luminance);
     EXPECT_EQ(parse_roulette("sqrt,start=0")->start, 0);
@@ -37,7 +37,7 @@ TEST(Roulette, ReadsWhatTheManualShows) {
 }
 
 TEST(Roulette, TextGoesThereAndBack) {
-    EXPECT_EQ(to_string(Roulette{}), "max,start=3");
+    EXPECT_EQ(to_string(Roulette{}), "sqrt,start=3");
     std::mt19937 rng(5);
     std::uniform_real_distribution<float> u(0.001f, 1);
     for (int i = 0; i < 1000; ++i) {
