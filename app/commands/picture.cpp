@@ -56,7 +56,9 @@ Result<void> write_exr_picture(const std::filesystem::path& file, const Frame& f
     if (layers.normal) input.normal = frame.normal;
     if (layers.depth) input.depth = frame.depth;
     std::vector<float> samples;
-    if (layers.samples) {
+    if (layers.samples && !frame.pixel_samples.empty()) {
+        input.samples = frame.pixel_samples;
+    } else if (layers.samples) {
         samples.assign(frame.rgba.size() / 4, float(frame.samples));
         input.samples = samples;
     }

@@ -126,6 +126,8 @@ void add_integrator_options(CLI::App& app, RenderOptions& o) {
         ->type_name("mis|light|bsdf");
     add_parsed(app, "--energy-compensation", o.settings.energy_compensation, parse_switch, "Multiple scattering between microfacets [off]")
         ->type_name("on|off");
+    add_parsed(app, "--adaptive", o.settings.adaptive, parse_switch, "More samples where the noise is, N per pixel on average [off]")
+        ->type_name("on|off");
     add_parsed(app, "--filter", o.settings.filter, parse_filter, "Pixel filter [blackman-harris]")->type_name("blackman-harris|box");
 }
 
@@ -150,6 +152,8 @@ void add_render_options(CLI::App& app, RenderOptions& options) {
 Result<RenderSettings> settings_of(const RenderOptions& options) {
     RenderSettings settings = options.settings;
     if (options.spp_given && options.samples_given) return Error{.what = "--spp and --samples both say which samples to render; give one"};
+    if (settings.adaptive && options.samples_given)
+        return Error{.what = "--samples names sample indices, --adaptive decides by itself how many a pixel has; give one"};
     const bool other_limit = settings.seconds > 0 || settings.error > 0;
     if (other_limit && !options.spp_given && !options.samples_given) settings.spp = 0;
     if (Result<void> valid = validate(settings); !valid) return valid.error();

@@ -82,6 +82,7 @@ std::string render_settings_json(const RenderSettings& s) {
     json["strategy"] = to_string(s.strategy);
     json["filter"] = to_string(s.filter);
     json["energy_compensation"] = s.energy_compensation;
+    json["adaptive"] = s.adaptive;
     return json_text(json);
 }
 
@@ -122,6 +123,7 @@ Result<ParsedSettings<RenderSettings>> parse_render_settings(std::string_view te
         {"strategy", word(s.strategy, parse_strategy)},
         {"filter", word(s.filter, parse_filter)},
         {"energy_compensation", plain(s.energy_compensation)},
+        {"adaptive", plain(s.adaptive)},
     };
     return parse(text, std::move(parsed), readers);
 }

@@ -2,14 +2,14 @@
 
 namespace blush {
 
-void BouncePlanes::reset(size_t pixels, int planes) {
+void BouncePlanes::reset(size_t places, int planes) {
     planes_ = planes;
-    sums_.assign(pixels * size_t(planes), Vec3d{0, 0, 0});
+    sums_.assign(places * size_t(planes), Vec3d{0, 0, 0});
 }
 
-void BouncePlanes::add(size_t pixel, const TileScratch& tile, int slot) {
+void BouncePlanes::add(size_t place, const TileScratch& tile, int slot) {
     const BounceColumns& columns = *tile.bounces;
-    Vec3d* sums = &sums_[pixel * size_t(planes_)];
+    Vec3d* sums = &sums_[place * size_t(planes_)];
     Vec3d before{0, 0, 0};
     const auto add_difference = [&](Vec3d& sum, const auto& column) {
         const Vec3d now{column.r[slot], column.g[slot], column.b[slot]};
@@ -18,13 +18,6 @@ void BouncePlanes::add(size_t pixel, const TileScratch& tile, int slot) {
     };
     for (int k = 0; k < columns.recorded; ++k) add_difference(sums[k], columns.after[size_t(k)]);
     add_difference(sums[columns.recorded], tile);
-}
-
-void BouncePlanes::resolve(size_t pixel, double scale, std::vector<std::vector<Vec3>>& planes) const {
-    for (size_t k = 0; k < planes.size(); ++k) {
-        const Vec3d& sum = sums_[pixel * planes.size() + k];
-        planes[k][pixel] = {float(sum.x * scale), float(sum.y * scale), float(sum.z * scale)};
-    }
 }
 
 } // namespace blush

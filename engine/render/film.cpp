@@ -1,5 +1,7 @@
 #include "render/film.h"
 
+#include "core/math.h"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -42,10 +44,11 @@ void remember(Health& health, const std::vector<BadSample>& bad) {
 
 } // namespace
 
-void Film::require_memory(int width, int height, const PlaneSet& planes) {
-    // Said before the system's killer says it in its own way.
+void Film::require_memory(int width, int height, const PlaneSet& planes, bool adaptive) {
+    // Said before the system's killer says it in its own way. Adaptive sampling keeps bounces by halves and remembers half of its pilot.
     const double per_pixel = 2 * sizeof(Half) + (planes.albedo || planes.normal ? sizeof(FeatureSums) : 0) +
-                             double(BouncePlanes::bytes_per_pixel(planes.bounces)) + 64;
+                             double(BouncePlanes::bytes_per_pixel(planes.bounces)) * (adaptive ? 2 : 1) +
+                             (adaptive ? 2 * sizeof(Vec3d) : 0) + 64;
     const double needed = per_pixel * double(width) * double(height);
     const double present = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGE_SIZE));
     if (needed > 0.8 * present)
@@ -53,12 +56,13 @@ void Film::require_memory(int width, int height, const PlaneSet& planes) {
                                              needed / 1e9, present / 1e9));
 }
 
-void Film::reset(int width, int height, const PlaneSet& planes, bool transparent_background) {
-    require_memory(width, height, planes);
+void Film::reset(int width, int height, const PlaneSet& planes, bool transparent_background, bool adaptive) {
+    require_memory(width, height, planes, adaptive);
     width_ = width;
     height_ = height;
     planes_ = planes;
     transparent_ = transparent_background;
+    adaptive_ = adaptive;
     clear();
 }
 
@@ -66,15 +70,27 @@ void Film::clear() {
     const size_t n = size_t(width_) * size_t(height_);
     halves_.assign(2 * n, {});
     features_.assign(planes_.albedo || planes_.normal ? n : 0, {});
-    covered_.assign(transparent_ ? n : 0, 0);
+    const size_t places = adaptive_ ? 2 * n : n;
+    covered_.assign(transparent_ ? places : 0, 0);
     depth_.assign(planes_.depth ? n : 0, 0.f);
     object_id_.assign(planes_.ids ? n : 0, 0u);
     material_.assign(planes_.ids ? n : 0, -1);
-    bounces_.reset(n, planes_.bounces);
+    bounces_.reset(places, planes_.bounces);
     health_ = {};
 }
 
-void Film::add_first_hit(size_t pixel, const FirstHitColumns& first, int slot, bool first_of_pixel) {
+Film::Weights Film::weights(const Half& a, const Half& b) const {
+    if (adaptive_ && a.count > 0 && b.count > 0) return {0.5 / double(a.count), 0.5 / double(b.count)};
+    const double each = 1 / double(std::max<int64_t>(1, a.count + b.count));
+    return {each, each};
+}
+
+// Of a plane's sums, at one or two places, over all samples of a pixel.
+template <class Sum> auto Film::mean_of(size_t pixel, const Weights& w, const Sum& sum) const {
+    return adaptive_ ? sum(2 * pixel) * w.a + sum(2 * pixel + 1) * w.b : sum(pixel) * w.a;
+}
+
+void Film::add_first_hit(size_t pixel, size_t place, const FirstHitColumns& first, int slot, bool first_of_pixel) {
     if (!features_.empty()) {
         FeatureSums& f = features_[pixel];
         const float albedo[3] = {first.albedo_r[slot], first.albedo_g[slot], first.albedo_b[slot]};
@@ -85,7 +101,7 @@ void Film::add_first_hit(size_t pixel, const FirstHitColumns& first, int slot, b
             if (std::isfinite(normal[c])) f.normal[c] += double(normal[c]);
         }
     }
-    if (transparent_) covered_[pixel] += first.material[slot] >= 0;
+    if (transparent_) covered_[place] += first.material[slot] >= 0;
     if (!first_of_pixel) return;
     if (planes_.depth) depth_[pixel] = first.depth[slot];
     if (planes_.ids) {
@@ -102,7 +118,7 @@ void Film::add(const TileJob& job, const TileScratch& tile, uint32_t seed) {
             const size_t pixel = size_t(y) * size_t(width_) + size_t(x);
             Half* halves = &halves_[2 * pixel];
             for (int s = 0; s < job.samples; ++s, ++slot) {
-                const int64_t sample = job.first_sample + s;
+                const int64_t sample = job.sample(s);
                 const double r = tile.r[slot], g = tile.g[slot], b = tile.b[slot];
                 // One comparison for the many that are sound; the slow question only for the rest.
                 const bool sound = r >= 0 && g >= 0 && b >= 0 && r + g + b <= beyond_radiance;
@@ -118,8 +134,9 @@ void Film::add(const TileJob& job, const TileScratch& tile, uint32_t seed) {
                 half.g += g;
                 half.b += b;
                 ++half.count;
-                if (needs_first_hits()) add_first_hit(pixel, *tile.first, slot, first_of_pixel);
-                if (bounces_.columns() > 0) bounces_.add(pixel, tile, slot);
+                const size_t place = place_of(pixel, sample);
+                if (needs_first_hits()) add_first_hit(pixel, place, *tile.first, slot, first_of_pixel);
+                if (bounces_.columns() > 0) bounces_.add(place, tile, slot);
             }
         }
     }
@@ -132,13 +149,18 @@ void Film::resolve_rows(Frame& frame, int first, int last, ErrorAccumulator& err
     for (size_t i = size_t(first) * size_t(width_); i < size_t(last) * size_t(width_); ++i) {
         const Half &a = halves_[2 * i], &b = halves_[2 * i + 1];
         const int64_t count = a.count + b.count;
-        const double inverse = 1 / double(std::max<int64_t>(1, count));
+        const Weights w = weights(a, b);
         float* rgba = &frame.rgba[4 * i];
-        rgba[0] = float((a.r + b.r) * inverse);
-        rgba[1] = float((a.g + b.g) * inverse);
-        rgba[2] = float((a.b + b.b) * inverse);
-        rgba[3] = transparent_ ? float(double(covered_[i]) * inverse) : 1.f;
-        const auto mean = [&](const double(&sum)[3]) { return Vec3{float(sum[0] * inverse), float(sum[1] * inverse), float(sum[2] * inverse)}; };
+        rgba[0] = float(a.r * w.a + b.r * w.b);
+        rgba[1] = float(a.g * w.a + b.g * w.b);
+        rgba[2] = float(a.b * w.a + b.b * w.b);
+        rgba[3] = transparent_ ? float(mean_of(i, w, [&](size_t place) { return double(covered_[place]); })) : 1.f;
+        if (adaptive_) frame.pixel_samples[i] = float(count);
+        // Guides for denoising, where it does no harm that all samples count alike.
+        const double inverse = 1 / double(std::max<int64_t>(1, count));
+        const auto mean = [&](const double(&sum)[3]) {
+            return Vec3{float(sum[0] * inverse), float(sum[1] * inverse), float(sum[2] * inverse)};
+        };
         if (planes_.albedo) frame.albedo[i] = mean(features_[i].albedo);
         if (planes_.normal) frame.normal[i] = mean(features_[i].normal);
         if (planes_.depth) frame.depth[i] = depth_[i];
@@ -146,10 +168,13 @@ void Film::resolve_rows(Frame& frame, int first, int last, ErrorAccumulator& err
             frame.object_id[i] = object_id_[i];
             frame.material_id[i] = uint32_t(material_[i] + 1);
         }
-        bounces_.resolve(i, inverse, frame.bounces);
+        for (size_t k = 0; k < frame.bounces.size(); ++k) {
+            const Vec3d light = mean_of(i, w, [&](size_t place) { return bounces_.sum(place, k); });
+            frame.bounces[k][i] = {float(light.x), float(light.y), float(light.z)};
+        }
         if (a.count > 0 && b.count > 0) {
             const double na = double(a.count), nb = double(b.count);
-            error.add({a.r / na, a.g / na, a.b / na}, {b.r / nb, b.g / nb, b.b / nb}, na * inverse);
+            error.add({a.r / na, a.g / na, a.b / na}, {b.r / nb, b.g / nb, b.b / nb}, na * w.a);
         }
     }
 }
@@ -159,6 +184,7 @@ void Film::resolve(Frame& frame, const Workers& workers) const {
     frame.width = width_;
     frame.height = height_;
     frame.rgba.resize(4 * n);
+    frame.pixel_samples.resize(adaptive_ ? n : 0);
     frame.albedo.resize(planes_.albedo ? n : 0);
     frame.normal.resize(planes_.normal ? n : 0);
     frame.depth.resize(planes_.depth ? n : 0);
@@ -188,9 +214,10 @@ std::vector<Vec3> Film::standard_error() const {
         if (a.count == 0 || b.count == 0) return {};
         const double na = double(a.count), nb = double(b.count);
         // |A - B| times the factor that makes its square an unbiased estimate of the variance of the weighted mean.
-        const double k = std::sqrt(na * nb) / (na + nb);
-        result.push_back({float(std::abs(a.r / na - b.r / nb) * k), float(std::abs(a.g / na - b.g / nb) * k),
-                          float(std::abs(a.b / na - b.b / nb) * k)});
+        const Weights w = weights(a, b);
+        const double k = std::sqrt(na * w.a * nb * w.b);
+        result.push_back(
+            {float(std::abs(a.r / na - b.r / nb) * k), float(std::abs(a.g / na - b.g / nb) * k), float(std::abs(a.b / na - b.b / nb) * k)});
     }
     return result;
 }

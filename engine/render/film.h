@@ -17,9 +17,10 @@ namespace blush {
 class Film {
 public:
     // Throws std::runtime_error, with a sentence for the user, if such a film does not fit into this machine.
-    static void require_memory(int width, int height, const PlaneSet& planes);
-    // Clears, and allocates what is missing. Throws as above.
-    void reset(int width, int height, const PlaneSet& planes, bool transparent_background);
+    static void require_memory(int width, int height, const PlaneSet& planes, bool adaptive = false);
+    // Clears, and allocates what is missing. Throws as above. `adaptive`: how many samples a pixel has in each half depends on the values
+    // themselves, so the halves count alike (sample_plan.h).
+    void reset(int width, int height, const PlaneSet& planes, bool transparent_background, bool adaptive = false);
     void clear();
 
     int width() const { return width_; }
@@ -33,6 +34,11 @@ public:
     // not finite or negative is dropped, counted and remembered. Tiles in flight must not share pixels. Thread-safe.
     void add(const TileJob& job, const TileScratch& tile, uint32_t seed);
 
+    // Sum of the samples of half `half` of a pixel.
+    Vec3d sum(size_t pixel, int half) const {
+        const Half& h = halves_[2 * pixel + size_t(half)];
+        return {h.r, h.g, h.b};
+    }
     // Everything the film knows: pixels, planes, health, error. Reuses the frame's memory. Material ids are left as table indices + 1.
     void resolve(Frame& frame, const Workers& workers) const;
     // Standard error of each pixel's mean from the two halves, RGB; empty before both hold samples.
@@ -47,16 +53,26 @@ private:
         double albedo[3] = {}, normal[3] = {};
     };
 
-    void add_first_hit(size_t pixel, const FirstHitColumns& first, int slot, bool first_of_pixel);
+    // What to multiply the sums of the halves of a pixel with so that they add up to its value. All samples count alike, except that
+    // adaptive ones count for their half.
+    struct Weights {
+        double a = 0, b = 0;
+    };
+    Weights weights(const Half& a, const Half& b) const;
+    // Where the other sums of a pixel are that must be right on average: side by side where halves have their own weights.
+    size_t place_of(size_t pixel, int64_t sample) const { return adaptive_ ? 2 * pixel + size_t(sample & 1) : pixel; }
+    template <class Sum> auto mean_of(size_t pixel, const Weights& w, const Sum& sum) const;
+
+    void add_first_hit(size_t pixel, size_t place, const FirstHitColumns& first, int slot, bool first_of_pixel);
     void resolve_rows(Frame& frame, int first, int last, ErrorAccumulator& error) const;
 
     int width_ = 0, height_ = 0;
     PlaneSet planes_;
-    bool transparent_ = false;
+    bool transparent_ = false, adaptive_ = false;
     std::vector<Half> halves_; // two per pixel: even and odd samples, two randomisations of the sampler
     std::vector<FeatureSums> features_;
-    std::vector<int64_t> covered_;    // samples that hit something; only for transparent backgrounds
-    std::vector<float> depth_;        // of the first sample, as are the ids: means of them mean nothing
+    std::vector<int64_t> covered_; // samples that hit something; only for transparent backgrounds
+    std::vector<float> depth_;     // of the first sample, as are the ids: means of them mean nothing
     std::vector<uint32_t> object_id_;
     std::vector<int32_t> material_; // index into the material table
     BouncePlanes bounces_;

@@ -41,10 +41,11 @@ struct Frame {
     uint64_t revision = 0;     // of the submit that it answers
     int width = 0, height = 0; // of the pixels below
     int divider = 1;           // full resolution / this one
-    int64_t samples = 0;       // per pixel
+    int64_t samples = 0;       // per pixel, on average
     bool complete = false;     // a stop rule is reached
 
     std::vector<float> rgba;          // width * height * 4, scene-linear, top row first; alpha is 1, or coverage where an environment is hidden from the camera
+    std::vector<float> pixel_samples; // of each pixel; empty if all have the same number
     std::vector<Vec3> albedo, normal; // empty unless read; normal in world space
     std::vector<float> depth;         // metres along the ray; 0 on a miss; empty unless read
     std::vector<uint32_t> object_id;  // Id<Node>.value, 0 on a miss; empty unless read

@@ -3,7 +3,9 @@
 #include "core/parallel.h"
 #include "render/film.h"
 #include "render/lowering.h"
+#include "render/pilot_noise.h"
 #include "render/render_scene.h"
+#include "render/sample_plan.h"
 #include "render/settings_for_kernels.h"
 
 #include <algorithm>
@@ -44,6 +46,8 @@ struct Renderer::State {
     std::optional<Scene> lowered;
     RenderSettings settings;
     Film film;
+    SamplePlan sample_plan; // if sampling is adaptive, as is
+    PilotNoise pilot_noise;
     bool film_is_stale = true;
     int divider = 1;
     const Kernel* kernel = nullptr;
@@ -71,9 +75,23 @@ struct Renderer::State {
     void wipe_stale_film() {
         if (!film_is_stale) return;
         const bool transparent = lowered && hides_environment(lowered->environment);
-        film.reset(film_width(), film_height(), options.planes, transparent);
+        film.reset(film_width(), film_height(), options.planes, transparent, settings.adaptive);
+        sample_plan.reset(film_width(), film_height());
         film_is_stale = false;
     }
+    // Samples first, first + stride, ... of a pixel.
+    struct Run {
+        int64_t first, count;
+        int stride;
+    };
+    using Wanted = std::function<bool()>;
+    using TileTask = std::function<bool(int tile, const TileJob& rectangle, unsigned worker)>;
+    // False if stopped before the end, as all that follow.
+    bool render_run(TileJob rectangle, const Run& run, int most_samples, unsigned worker, const Wanted& wanted);
+    bool for_each_tile(const TileShape& shape, const Wanted& wanted, const TileTask& task);
+    bool render_evenly(int64_t first, int64_t count, const Wanted& wanted);
+    bool render_by_plan(int64_t first, int64_t count, const Wanted& wanted);
+
     TileScratch& scratch_of(unsigned worker) {
         if (!scratch[worker]) scratch[worker] = std::make_unique<TileScratch>();
         TileScratch& s = *scratch[worker];
@@ -94,7 +112,7 @@ Renderer::~Renderer() = default;
 bool Renderer::update(const Scene& scene, const RenderSettings& settings) {
     State& s = *state_;
     const auto begin = Clock::now();
-    Film::require_memory(settings.width, settings.height, s.options.planes);
+    Film::require_memory(settings.width, settings.height, s.options.planes, settings.adaptive);
     Scene lowered = lower_area_lights(scene);
     const UpdatePlan todo = s.lowered ? plan(diff(*s.lowered, s.settings, lowered, settings)) : full_plan();
     s.scene.update(lowered, settings, todo, s.workers);
@@ -134,43 +152,80 @@ std::vector<Vec3> Renderer::resolve_error() const {
     return state_->film.standard_error();
 }
 
-bool Renderer::render(int64_t first, int64_t count, const std::function<bool()>& wanted) {
-    State& s = *state_;
-    s.wipe_stale_film();
-    const int width = s.film.width(), height = s.film.height();
-    const TileShape shape = tile_shape(count, int64_t(width) * height / s.workers.threads());
-    const int across = (width + shape.width - 1) / shape.width, down = (height + shape.height - 1) / shape.height;
-    const KernelContext context{&s.scene.tables(), &s.scene.accel(), settings_for_kernels(s.settings, width, height), s.settings.seed};
+bool Renderer::State::render_run(TileJob job, const Run& run, int most_samples, unsigned worker, const Wanted& wanted) {
+    const KernelContext context{&scene.tables(), &scene.accel(), settings_for_kernels(settings, film.width(), film.height()),
+                                settings.seed};
+    TileScratch& tile = scratch_of(worker);
+    job.stride = run.stride;
+    for (int64_t done = 0; done < run.count; done += job.samples) {
+        if (done > 0 && wanted && !wanted()) return false;
+        job.first_sample = run.first + done * run.stride;
+        job.samples = int(std::min<int64_t>(most_samples, run.count - done));
+        kernel->render(context, job, tile);
+        film.add(job, tile, settings.seed);
+    }
+    return true;
+}
 
+bool Renderer::State::for_each_tile(const TileShape& shape, const Wanted& wanted, const TileTask& task) {
+    const int across = (film.width() + shape.width - 1) / shape.width, down = (film.height() + shape.height - 1) / shape.height;
     std::atomic<bool> cut_short{false};
-    const bool all_begun = s.workers.for_each(int64_t(across) * down, wanted, [&](int64_t tile, unsigned worker) {
-        TileScratch& scratch = s.scratch_of(worker);
+    const bool all_begun = workers.for_each(int64_t(across) * down, wanted, [&](int64_t tile, unsigned worker) {
         TileJob job;
         job.x = int(tile % across) * shape.width;
         job.y = int(tile / across) * shape.height;
-        job.width = std::min(shape.width, width - job.x);
-        job.height = std::min(shape.height, height - job.y);
-        for (int64_t sample = first; sample < first + count; sample += shape.samples) {
-            if (sample > first && wanted && !wanted()) {
-                cut_short = true;
-                return;
-            }
-            job.first_sample = sample;
-            job.samples = int(std::min<int64_t>(shape.samples, first + count - sample));
-            s.kernel->render(context, job, scratch);
-            s.film.add(job, scratch, s.settings.seed);
-        }
+        job.width = std::min(shape.width, film.width() - job.x);
+        job.height = std::min(shape.height, film.height() - job.y);
+        if (!task(int(tile), job, worker)) cut_short = true;
     });
-    for (const auto& scratch : s.scratch) {
-        if (!scratch) continue;
-        s.rays.bounce += std::exchange(scratch->bounce_rays, 0);
-        s.rays.shadow += std::exchange(scratch->shadow_rays, 0);
-        s.rays.camera += std::exchange(scratch->camera_rays, 0);
-        s.truncated += std::exchange(scratch->truncated_paths, 0);
+    for (const auto& used : scratch) {
+        if (!used) continue;
+        rays.bounce += std::exchange(used->bounce_rays, 0);
+        rays.shadow += std::exchange(used->shadow_rays, 0);
+        rays.camera += std::exchange(used->camera_rays, 0);
+        truncated += std::exchange(used->truncated_paths, 0);
     }
-    const bool done = all_begun && !cut_short;
-    if (done) s.samples += count;
-    return done;
+    return all_begun && !cut_short;
+}
+
+// The same samples of every pixel.
+bool Renderer::State::render_evenly(int64_t first, int64_t count, const Wanted& wanted) {
+    const TileShape shape = tile_shape(count, int64_t(film.width()) * film.height() / workers.threads());
+    return for_each_tile(shape, wanted, [&](int, const TileJob& job, unsigned worker) {
+        return render_run(job, {first, count, 1}, shape.samples, worker, wanted);
+    });
+}
+
+// Of each half of each tile what the plan says.
+bool Renderer::State::render_by_plan(int64_t first, int64_t count, const Wanted& wanted) {
+    constexpr TileShape shape{SamplePlan::tile_size, SamplePlan::tile_size, 8};
+    return for_each_tile(shape, wanted, [&](int tile, const TileJob& job, unsigned worker) {
+        for (int half = 0; half < 2; ++half) {
+            const int64_t from = sample_plan.samples(tile, half, first), to = sample_plan.samples(tile, half, first + count);
+            if (!render_run(job, {2 * from + half, to - from, 2}, shape.samples, worker, wanted)) return false;
+        }
+        return true;
+    });
+}
+
+bool Renderer::render(int64_t first, int64_t count, const std::function<bool()>& wanted) {
+    State& s = *state_;
+    s.wipe_stale_film();
+    if (!s.settings.adaptive) {
+        if (!s.render_evenly(first, count, wanted)) return false;
+        s.samples += count;
+        return true;
+    }
+    // Up to where the pilot is looked at, then on.
+    for (int64_t left = count; left > 0;) {
+        const int64_t step = std::min(left, SamplePlan::next_look(s.samples) - s.samples);
+        if (!(s.sample_plan.decided() ? s.render_by_plan(s.samples, step, wanted) : s.render_evenly(s.samples, step, wanted))) return false;
+        s.samples += step;
+        left -= step;
+        if (s.samples == SamplePlan::pilot_samples / 2) s.pilot_noise.mark(s.film);
+        if (s.samples == SamplePlan::pilot_samples) s.sample_plan.decide(s.pilot_noise.measure(s.film));
+    }
+    return true;
 }
 
 void Renderer::resolve(Frame& frame) const {

@@ -40,13 +40,13 @@ struct FeatureUse {
 
 struct CompiledInfo {
     int64_t meshes = 0, instances = 0, materials = 0, textures = 0;
-    int64_t triangles = 0;          // as seen by rays: instances counted each time
+    int64_t triangles = 0; // as seen by rays: instances counted each time
     int64_t emissive_triangles = 0, point_lights = 0, suns = 0;
     bool environment = false;
-    std::string kernel;             // "v4/plain"
+    std::string kernel; // "v4/plain"
     std::vector<FeatureUse> features;
-    double memory_mb = 0;           // tables, textures and Embree's structures
-    double seconds_setup = 0;       // the last update: from scene to first ray
+    double memory_mb = 0;             // tables, textures and Embree's structures
+    double seconds_setup = 0;         // the last update: from scene to first ray
     std::vector<Diagnostic> warnings; // degenerate triangles dropped, non-finite transforms, ...
 };
 
@@ -66,8 +66,9 @@ public:
     int divider() const;
 
     // Adds samples [first, first + count) of every pixel, tile by tile, while `wanted` (called often, from many threads)
-    // says true. False if it was stopped: pixels then hold different numbers of samples, which is still a picture but not one to go on from.
-    // Results do not depend on threads, tiles or on how a range of samples is split into calls.
+    // says true. False if it was stopped: pixels then hold different numbers of samples, which is still a picture but not one to go on
+    // from. Results do not depend on threads, tiles or on how a range of samples is split into calls. Adaptive: `count` more samples per
+    // pixel on average (sample_plan.h), whatever `first`.
     bool render(int64_t first, int64_t count, const std::function<bool()>& wanted = {});
     void clear();
 

@@ -92,7 +92,7 @@ template <Features S, class F> [[gnu::flatten]] void generate_paths(const Kernel
             for (int s = 0; s < job.samples; ++s, ++n) {
                 xs[n] = float(job.x + x);
                 ys[n] = float(job.y + y);
-                samples[n] = uint32_t(job.first_sample + s);
+                samples[n] = uint32_t(job.sample(s));
             }
     const uint32_t half[2] = {randomisation(context.seed, 0), randomisation(context.seed, 1)};
     q.size = 0;

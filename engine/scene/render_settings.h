@@ -48,6 +48,7 @@ struct RenderSettings {
     Strategy strategy = Strategy::mis;
     PixelFilter filter = PixelFilter::blackman_harris;
     bool energy_compensation = false;
+    bool adaptive = false;          // spp is a mean: more samples where the noise is. Starts at sample 0
     bool operator==(const RenderSettings&) const = default;
 };
 

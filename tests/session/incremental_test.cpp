@@ -139,6 +139,27 @@ TEST(Renderer, ThreadsAndBatchesDoNotChangeABit) {
     EXPECT_TRUE(same_picture(one, split.resolve()));
 }
 
+// What the pilot of one scene decided must not outlive it.
+TEST(Renderer, AdaptiveSamplingStartsAgainWithEachPicture) {
+    Project project = test::rich_project();
+    project.render.adaptive = true;
+    Renderer renderer(all_planes());
+    const auto follow = [&](int64_t count) {
+        renderer.update(project.scene, project.render);
+        renderer.render(0, count);
+        EXPECT_TRUE(same_picture(renderer.resolve(), fresh_picture(project.scene, project.render, count)));
+    };
+    follow(40);
+    project.scene.environment.intensity *= 7;
+    follow(40);
+    project.render.width = 40;
+    follow(40);
+    project.scene.environment.intensity *= 2;
+    follow(11);
+    project.render.adaptive = false;
+    follow(18);
+}
+
 TEST(Renderer, DividersLeaveNoTrace) {
     const Project project = test::rich_project();
     Renderer renderer(all_planes());

@@ -15,9 +15,13 @@ struct Plane {
     size_t pixel_size;
 };
 std::vector<Plane> planes_of(const Frame& frame) {
-    return {{"rgba", bytes_of(frame.rgba), 4 * sizeof(float)},         {"albedo", bytes_of(frame.albedo), sizeof(Vec3)},
-            {"normal", bytes_of(frame.normal), sizeof(Vec3)},          {"depth", bytes_of(frame.depth), sizeof(float)},
-            {"object id", bytes_of(frame.object_id), sizeof(uint32_t)}, {"material id", bytes_of(frame.material_id), sizeof(uint32_t)}};
+    return {{"rgba", bytes_of(frame.rgba), 4 * sizeof(float)},
+            {"samples", bytes_of(frame.pixel_samples), sizeof(float)},
+            {"albedo", bytes_of(frame.albedo), sizeof(Vec3)},
+            {"normal", bytes_of(frame.normal), sizeof(Vec3)},
+            {"depth", bytes_of(frame.depth), sizeof(float)},
+            {"object id", bytes_of(frame.object_id), sizeof(uint32_t)},
+            {"material id", bytes_of(frame.material_id), sizeof(uint32_t)}};
 }
 
 } // namespace
@@ -45,7 +49,8 @@ Frame fresh_picture(const Scene& scene, const RenderSettings& settings, int64_t 
         for (size_t k = p.size() / pixel_size; k-- > 0;)
             if (p.substr(k * pixel_size, pixel_size) != q.substr(k * pixel_size, pixel_size)) ++differing, first = k;
         if (result) result = ::testing::AssertionFailure();
-        result << name << " differs in " << differing << " pixels, first at " << first % size_t(a.width) << "," << first / size_t(a.width) << "; ";
+        result << name << " differs in " << differing << " pixels, first at " << first % size_t(a.width) << "," << first / size_t(a.width)
+               << "; ";
     }
     return result;
 }

@@ -274,6 +274,23 @@ TEST(RenderSession, StopRulesMayChangeInTheMiddle) {
     EXPECT_TRUE(same_picture(*done.frame, fresh(with_spp(project, done.frame->samples))));
 }
 
+TEST(RenderSession, AdaptiveSamplingShowsThePictureThatARendererMakes) {
+    Project project = small_project(48, 32, 48);
+    project.render.adaptive = true;
+    WatchedSession session;
+    submit(session, 1, project);
+    const Event done = session.wait_for(1, State::complete);
+    ASSERT_TRUE(done.frame);
+    EXPECT_EQ(done.frame->samples, 48);
+    EXPECT_EQ(done.frame->pixel_samples.size(), size_t(48 * 32));
+    EXPECT_TRUE(same_picture(*done.frame, fresh(project)));
+    // More of it goes on from there.
+    submit(session, 2, with_spp(project, 80));
+    const Event more = session.wait_for(2, State::complete);
+    ASSERT_TRUE(more.frame);
+    EXPECT_TRUE(same_picture(*more.frame, fresh(with_spp(project, 80))));
+}
+
 TEST(RenderSession, FewerSamplesThanAreDoneCompleteWithThePictureThereIs) {
     const Project project = small_project(32, 24, 16);
     WatchedSession session;

@@ -7,6 +7,7 @@
 
 #include <csignal>
 #include <fstream>
+#include <numeric>
 
 namespace blush {
 namespace {
@@ -95,6 +96,21 @@ TEST(Render, BouncesSumToTheBeautyInFileAndJson) {
             EXPECT_NEAR(sum, whole, whole * 0x1.01p-23) << channel << i;
         }
     }
+}
+
+TEST(Render, AdaptiveSamplingIsRecordedAndItsLayerHoldsTheSamplesOfEachPixel) {
+    const TemporaryFolder folder;
+    const std::vector<std::string> arguments = {"render", scene_file("cornell"), "-o", folder / "out.exr", "--size", "64x48", "--spp",
+                                                "40",     "--adaptive",          "on", "--layers",         "samples"};
+    const Json json = blush_json(arguments);
+    const LayeredImage image = *read_layers(folder / "out.exr");
+    const std::vector<float>& samples = image.find("samples.Y")->values;
+    EXPECT_NE(*std::ranges::min_element(samples), *std::ranges::max_element(samples));
+    EXPECT_EQ(std::accumulate(samples.begin(), samples.end(), 0.0), json["rays"]["camera"].get<double>());
+    const Result<SnapshotMetadata> metadata = read_snapshot_metadata(image);
+    ASSERT_TRUE(metadata) << metadata.error().text();
+    EXPECT_TRUE(metadata->settings.adaptive);
+    EXPECT_EQ(metadata->spp, 40);
 }
 
 TEST(Render, WritesPicturesForDisplay) {

@@ -93,6 +93,17 @@ TEST(RenderOptions, SamplesAreARange) {
     EXPECT_FALSE(settings_of(parsed({"--samples", "16:48", "--spp", "64"})));
 }
 
+TEST(RenderOptions, AdaptiveSamplingTakesNoRange) {
+    EXPECT_FALSE(settings_of(parsed({}))->adaptive);
+    EXPECT_TRUE(settings_of(parsed({"--adaptive", "on"}))->adaptive);
+    EXPECT_FALSE(settings_of(parsed({"--adaptive", "off", "--samples", "16:48"}))->adaptive);
+    for (const char* range : {"16:48", "0:48"}) {
+        const Result<RenderSettings> both = settings_of(parsed({"--adaptive", "on", "--samples", range}));
+        ASSERT_FALSE(both);
+        EXPECT_NE(both.error().text().find("--adaptive"), std::string::npos) << both.error().text();
+    }
+}
+
 TEST(RenderOptions, AnotherLimitLiftsTheDefaultOne) {
     EXPECT_EQ(settings_of(parsed({"--time", "5"}))->spp, 0);
     EXPECT_EQ(settings_of(parsed({"--error", "0.01"}))->spp, 0);

@@ -25,7 +25,9 @@ RenderSettings unusual_settings() {
 }
 
 TEST(SettingsJson, RenderSettingsComeBack) {
-    for (const RenderSettings& s : {RenderSettings{}, unusual_settings()}) {
+    RenderSettings adaptive;
+    adaptive.adaptive = true;
+    for (const RenderSettings& s : {RenderSettings{}, unusual_settings(), adaptive}) {
         const auto parsed = parse_render_settings(render_settings_json(s));
         ASSERT_TRUE(parsed) << error_text(parsed);
         EXPECT_EQ(parsed->settings, s);

@@ -116,6 +116,11 @@ TEST(Validate, RenderSettingsRanges) {
                  accepts(&R::error, -1) || accepts(&R::first_sample, -1) || accepts(&R::max_bounces, -2));
     EXPECT_FALSE(accepts(&R::first_sample, 64)) << "nothing left of 64 samples";
     EXPECT_TRUE(accepts(&R::spp, 0)) << "no limit";
+    EXPECT_TRUE(accepts(&R::adaptive, true));
+    R late;
+    late.adaptive = true;
+    late.first_sample = 16;
+    EXPECT_FALSE(validate(late)) << "the pilot is the first samples";
     const auto roulette = [](auto&& change) {
         R settings;
         change(settings.roulette);

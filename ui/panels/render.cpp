@@ -94,6 +94,9 @@ void draw_paths(Fields& f, RenderSettings& r) {
     f.checkbox("Multiscatter", r.energy_compensation,
                "Give back the light that rough metal and glass lose by scattering more than once between their microscopic facets. Off is "
                "what glTF specifies.");
+    f.checkbox("Adaptive", r.adaptive,
+               "After 16 samples per pixel, give noisy parts of the image more samples and quiet ones fewer, the same number on average. Each half "
+               "of the samples decides for the other, so the mean stays right.");
     int64_t seed = r.seed;
     if (f.integer("Seed", seed, 0, UINT32_MAX, 0,
                   "Another seed gives another, equally good noise. The same seed gives the same image, bit for bit."))

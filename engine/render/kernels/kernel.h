@@ -19,11 +19,13 @@ namespace blush {
 // Paths a tile holds at most. Enough to fill packets after most paths have ended, small enough for the second-level cache.
 constexpr int tile_capacity = 4096;
 
-// A rectangle of pixels with `samples` consecutive sample indices each; width * height * samples <= tile_capacity.
+// A rectangle of pixels with `samples` sample indices each; width * height * samples <= tile_capacity.
 struct TileJob {
     int x = 0, y = 0, width = 0, height = 0;
     int64_t first_sample = 0;
     int samples = 1;
+    int stride = 1; // from one sample index to the next: 2 stays within one half of the film
+    int64_t sample(int s) const { return first_sample + int64_t(s) * stride; }
     int paths() const { return width * height * samples; }
 };
 

@@ -1,0 +1,31 @@
+// What adaptive sampling goes by: the noise of the film's tiles during the pilot, each half of the film by itself.
+#pragma once
+
+#include "core/vec.h"
+#include "render/film.h"
+#include "render/sample_plan.h"
+
+#include <array>
+#include <vector>
+
+namespace blush {
+
+// The noise of a pixel is judged by how much its mean over the first part of the pilot differs from that over the second, so that what the
+// sampler's stratification takes away does not count. Its square is divided by the brightness: half-way between the squared error, which
+// is that of the brightest pixels alone, and the relative one, which looks for noise where there is hardly light. A firefly makes its
+// pixel bright too, so it counts for its size and not for its square. A tile's noise is the root of the mean over its pixels, smoothed over
+// the tiles around, for what made a firefly here can make one there.
+class PilotNoise {
+public:
+    // When the film holds half of the pilot: remembers its sums.
+    void mark(const Film& film);
+    // When it holds all of the pilot; forgets the sums. For each half, the noise of its tiles.
+    std::array<TileNoise, 2> measure(const Film& film);
+
+private:
+    double of_pixel(const Film& film, size_t pixel, int half) const;
+
+    std::vector<Vec3d> marked_; // sums of both halves of each pixel
+};
+
+} // namespace blush

@@ -1,0 +1,64 @@
+#include "render/sample_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace blush {
+
+int64_t SamplePlan::next_look(int64_t mean) {
+    if (mean < pilot_samples / 2) return pilot_samples / 2;
+    return mean < pilot_samples ? pilot_samples : std::numeric_limits<int64_t>::max();
+}
+
+void SamplePlan::reset(int width, int height) {
+    width_ = width;
+    height_ = height;
+    across_ = (width + tile_size - 1) / tile_size;
+    down_ = (height + tile_size - 1) / tile_size;
+    for (std::vector<double>& shares : shares_) shares.clear();
+}
+
+void SamplePlan::decide(const std::array<TileNoise, 2>& noise) {
+    for (size_t half = 0; half < 2; ++half) shares_[half] = shares_of(noise[1 - half]);
+}
+
+// In proportion to the noise, which is best (Neyman 1934), within limits: bisection for the logarithm of the factor of proportion at which
+// shares are 1 on average.
+std::vector<double> SamplePlan::shares_of(const TileNoise& noise) const {
+    std::vector<double> pixels(noise.size());
+    for (int tile = 0; tile < tiles(); ++tile)
+        pixels[size_t(tile)] = double(std::min(tile_size, width_ - tile % across_ * tile_size)) *
+                               double(std::min(tile_size, height_ - tile / across_ * tile_size));
+    std::vector<double> shares(noise.size());
+    const auto spend = [&](double exponent) {
+        double sum = 0;
+        for (size_t tile = 0; tile < noise.size(); ++tile) {
+            shares[tile] = std::clamp(std::exp2(exponent) * noise[tile], least_share, largest_share);
+            sum += pixels[tile] * shares[tile];
+        }
+        return sum;
+    };
+    const double all = double(width_) * double(height_);
+    double low = -1000, high = 1000; // beyond any noise of finite samples
+    for (int step = 0; step < 60; ++step) {
+        const double middle = 0.5 * (low + high);
+        (spend(middle) < all ? low : high) = middle;
+    }
+    // Where nearly everything is silent the limits leave something over: all get of that.
+    const double scale = all / spend(high);
+    for (double& share : shares) share *= scale;
+    return shares;
+}
+
+int64_t SamplePlan::samples(int tile, int half, int64_t mean) const {
+    const int64_t uniform = (mean + 1 - half) / 2;
+    if (mean <= pilot_samples || !decided()) return uniform;
+    const double wanted = 0.5 * double(mean - pilot_samples) * shares_[size_t(half)][size_t(tile)];
+    // Tiles take their turns, so that at any time the film holds about as many samples as it should: a golden-ratio sequence of thresholds.
+    const double turn = std::fmod(double(2 * tile + half) * (std::numbers::phi - 1), 1.0);
+    return pilot_samples / 2 + granularity * int64_t(std::floor(wanted / double(granularity) + turn));
+}
+
+} // namespace blush
