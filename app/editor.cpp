@@ -254,7 +254,8 @@ void Editor::take_dropped(const std::filesystem::path& file) {
 void Editor::save_due_snapshot() {
     const FramePtr& frame = pictures_.frame;
     if (!snapshot_due_ || !frame || frame->revision != submitted_ || frame->divider != 1) return;
-    files_.save_snapshot(pictures_, ui_.denoise, document_.project(), submitted_settings_, color_, ui_.settings.snapshot_folder, *snapshot_due_);
+    files_.save_snapshot(pictures_, ui_.denoise, document_.project(), submitted_settings_, color_, ui_.settings.snapshot_folder,
+                         *snapshot_due_);
     snapshot_due_.reset();
 }
 

@@ -21,7 +21,9 @@ PictureMix mix_of(const DenoiseView& view, bool has_denoised) {
 
 Vec3 denoised_pixel(const Frame& frame, const DenoisedPicture& denoised, int x, int y) {
     // The middle of the frame's pixel, in the coarser picture: as the display pass finds it.
-    const auto in_coarse = [](int i, int fine, int coarse) { return std::min(int((float(i) + 0.5f) * (float(coarse) / float(fine))), coarse - 1); };
+    const auto in_coarse = [](int i, int fine, int coarse) {
+        return std::min(int((float(i) + 0.5f) * (float(coarse) / float(fine))), coarse - 1);
+    };
     const size_t row = size_t(in_coarse(y, frame.height, denoised.height)), column = size_t(in_coarse(x, frame.width, denoised.width));
     const float* rgb = &denoised.denoised.rgb[3 * (row * size_t(denoised.width) + column)];
     return {rgb[0], rgb[1], rgb[2]};
@@ -55,7 +57,8 @@ std::string shown_text(const DenoiseView& view, const Frame& frame, const Denois
                                                                 : "difference";
     if (denoised->divider != frame.divider) return text + fmt::format(" of 1/{} size", denoised->divider);
     const int64_t samples = frame.samples - denoised->samples;
-    if (samples > 0) text += fmt::format(", {} spp and {:.1f} s behind", samples, std::max(0.0, frame.seconds - denoised->rendered_seconds));
+    if (samples > 0)
+        text += fmt::format(", {} spp and {:.1f} s behind", samples, std::max(0.0, frame.seconds - denoised->rendered_seconds));
     return text;
 }
 

@@ -15,7 +15,9 @@ Result<RgbImage> read_exr_rgb(const std::filesystem::path& file, const std::stri
     const Result<LayeredImage> image = read_layers(file);
     if (!image) return image.error();
     const auto [r, g, b] = image->find_color(layer);
-    if (!r) return Error{.what = layer.empty() ? "the file has no channels R, G and B" : fmt::format("the file has no layer {}.{{R,G,B}}", layer)};
+    if (!r)
+        return Error{.what =
+                         layer.empty() ? "the file has no channels R, G and B" : fmt::format("the file has no layer {}.{{R,G,B}}", layer)};
     RgbImage rgb{image->width, image->height, {}};
     rgb.pixels.reserve(r->values.size());
     for (size_t i = 0; i < r->values.size(); ++i) rgb.pixels.push_back({r->values[i], g->values[i], b->values[i]});

@@ -80,10 +80,12 @@ Result<void> write_exr_output(const DenoiseCommand& c, LayeredImage image, const
 }
 
 // What was display-encoded is encoded again as it was; what was scene-linear goes through the view.
-Result<void> write_display_output(const DenoiseCommand& c, const LayeredImage& image, const Denoised& denoised, const ColorManagement& color) {
+Result<void> write_display_output(const DenoiseCommand& c, const LayeredImage& image, const Denoised& denoised,
+                                  const ColorManagement& color) {
     const std::map<std::string, std::string> metadata{{"blush:version", BLUSH_VERSION}, {"blush:denoised", denoised_by(denoised)}};
     std::vector<float> rgb = denoised.rgb;
-    if (!is_display_encoded(c.input)) return write_display_picture(c.output, image.width, image.height, std::move(rgb), color, c.view, metadata);
+    if (!is_display_encoded(c.input))
+        return write_display_picture(c.output, image.width, image.height, std::move(rgb), color, c.view, metadata);
     std::ranges::transform(rgb, rgb.begin(), srgb_from_linear);
     return write_display_image(c.output, image.width, image.height, rgb, metadata);
 }
@@ -108,8 +110,8 @@ Result<Outcome> denoise_file(const DenoiseCommand& c, const ColorManagement* col
     Result<Denoised> denoised = denoise_with_progress(denoiser, input, c.quality, c.common.quiet, guard.interrupted());
     if (!denoised) return in_file(denoised.error(), c.input);
     outcome.denoised = *std::move(denoised);
-    const Result<void> written = color ? write_display_output(c, *image, outcome.denoised, *color)
-                                       : write_exr_output(c, *std::move(image), outcome.denoised);
+    const Result<void> written =
+        color ? write_display_output(c, *image, outcome.denoised, *color) : write_exr_output(c, *std::move(image), outcome.denoised);
     if (!written) return in_file(written.error(), c.output);
     return outcome;
 }

@@ -215,8 +215,10 @@ Result<Rendered> render_picture(const RenderCommand& c, const Plan& plan, const 
         const std::atomic<bool> never{false};
         Result<Denoised> result = denoise_with_progress(denoiser, denoise_input(rendered.loop.frame), *c.options.denoise, c.common.quiet,
                                                         interrupted ? never : interrupted);
-        if (result) rendered.denoised = *std::move(result);
-        else denoised = result.error();
+        if (result)
+            rendered.denoised = *std::move(result);
+        else
+            denoised = result.error();
     }
     const std::vector<Vec3> error = plan.layers.error ? renderer.resolve_error() : std::vector<Vec3>();
     const Result<void> written = write_picture(c, plan, rendered, error, metadata_of(c, plan, loaded, rendered), color);

@@ -68,9 +68,7 @@ std::string BackgroundDenoiser::failure() const {
     return failure_;
 }
 
-bool BackgroundDenoiser::is_wanted(const Task& task) const {
-    return !quit_ && wanted_ && (task.promised || newest_image_ == task.image);
-}
+bool BackgroundDenoiser::is_wanted(const Task& task) const { return !quit_ && wanted_ && (task.promised || newest_image_ == task.image); }
 
 DenoiseOptions BackgroundDenoiser::options_for(const Task& task, DenoiseQuality quality) const {
     DenoiseOptions options;
@@ -96,8 +94,10 @@ void BackgroundDenoiser::run() {
     while (!quit_) {
         const DenoiseCadence::Decision decision = wanted_ && failure_.empty() ? cadence_.next(now()) : DenoiseCadence::Decision{};
         if (!decision.quality) {
-            if (std::isinf(decision.wait)) wake_.wait(lock);
-            else wake_.wait_for(lock, std::chrono::duration<double>(decision.wait));
+            if (std::isinf(decision.wait))
+                wake_.wait(lock);
+            else
+                wake_.wait_for(lock, std::chrono::duration<double>(decision.wait));
             continue;
         }
         const Task task = newest_;

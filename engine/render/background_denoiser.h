@@ -14,7 +14,8 @@
 namespace blush {
 
 // What a Denoiser does, as a value: tests put another one in its place.
-using DenoiseFunction = std::function<Result<std::optional<Denoised>>(const DenoiseInput&, const DenoiseOptions&, const std::function<bool()>&)>;
+using DenoiseFunction =
+    std::function<Result<std::optional<Denoised>>(const DenoiseInput&, const DenoiseOptions&, const std::function<bool()>&)>;
 // A Denoiser that is made at the first call, on the thread of that call (see Denoiser for its arguments).
 DenoiseFunction denoiser_made_when_needed(std::filesystem::path weights, unsigned threads, bool low_priority);
 

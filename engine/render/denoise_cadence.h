@@ -30,7 +30,7 @@ public:
         double megapixels = 0;
     };
     struct Decision {
-        std::optional<DenoiseQuality> quality; // denoise the newest frame now
+        std::optional<DenoiseQuality> quality;                 // denoise the newest frame now
         double wait = std::numeric_limits<double>::infinity(); // else: ask again after so many seconds, or when there is something new
     };
 

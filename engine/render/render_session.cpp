@@ -133,8 +133,10 @@ void RenderSession::State::publish(const Work* work) {
     frame->samples_per_second = samples_per_second;
     const Pictures previous = look(); // freed without the lock
     const std::lock_guard lock(mutex);
-    if (denoiser->offer(current.image, frame)) showcase.withhold(current.image, frame);
-    else showcase.show(current.image, frame);
+    if (denoiser->offer(current.image, frame))
+        showcase.withhold(current.image, frame);
+    else
+        showcase.show(current.image, frame);
 }
 
 // On the denoiser's thread.
@@ -210,12 +212,13 @@ void RenderSession::State::run() {
             work = has_work();
         }
         try {
-            if (taken) take_up(std::move(*taken));
-            else if (work) work_once();
-            else announce();
-        } catch (const std::bad_alloc&) {
-            fail("not enough memory");
-        } catch (const std::exception& e) {
+            if (taken)
+                take_up(std::move(*taken));
+            else if (work)
+                work_once();
+            else
+                announce();
+        } catch (const std::bad_alloc&) { fail("not enough memory"); } catch (const std::exception& e) {
             fail(e.what());
         }
     }

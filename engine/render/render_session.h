@@ -15,8 +15,8 @@
 namespace blush {
 
 struct SessionOptions {
-    unsigned threads = 0;     // 0: one per core
-    bool low_priority = true; // below the UI: render threads may not starve it
+    unsigned threads = 0;         // 0: one per core
+    bool low_priority = true;     // below the UI: render threads may not starve it
     bool first_hit_planes = true; // albedo, normal, depth, ids in every frame: picking, the pixel probe and the denoiser read them
     DenoiseFunction denoise = {}; // not called before denoised pictures are wanted; empty: there are none
 };
@@ -24,15 +24,16 @@ struct SessionOptions {
 struct SessionStatus {
     enum class State { idle, updating, rendering, paused, complete, failed };
     State state = State::idle;
-    uint64_t revision = 0; // the last one taken up
-    double progress = 0;   // towards the nearest stop rule, 0 .. 1; 1 only when reached
-    std::string message;   // failed: what went wrong
+    uint64_t revision = 0;        // the last one taken up
+    double progress = 0;          // towards the nearest stop rule, 0 .. 1; 1 only when reached
+    std::string message;          // failed: what went wrong
     std::string denoiser_failure; // why there are no denoised pictures any more; empty: all is well
 };
 
 class RenderSession {
 public:
-    // `on_frame` is called after each publication and each change of state, on the threads here, perhaps on both at once; it must not block.
+    // `on_frame` is called after each publication and each change of state, on the threads here, perhaps on both at once; it must not
+    // block.
     RenderSession(const SessionOptions& options, std::function<void()> on_frame);
     // Stops in mid-pass if need be, and joins.
     ~RenderSession();

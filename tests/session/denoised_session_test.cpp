@@ -38,7 +38,9 @@ public:
     std::function<Result<std::optional<Denoised>>(size_t call, const std::function<bool()>& wanted)> instead;
 
     DenoiseFunction function() {
-        return [this](const DenoiseInput& input, const DenoiseOptions& options, const std::function<bool()>& wanted) { return answer(input, options, wanted); };
+        return [this](const DenoiseInput& input, const DenoiseOptions& options, const std::function<bool()>& wanted) {
+            return answer(input, options, wanted);
+        };
     }
     std::vector<Call> calls() const {
         const std::lock_guard lock(mutex_);
@@ -50,7 +52,8 @@ private:
         size_t number = 0;
         {
             const std::lock_guard lock(mutex_);
-            calls_.push_back({options.quality, options.exposure_scale, options.exposure_tolerance, !input.albedo.values.empty() && !input.normal.values.empty()});
+            calls_.push_back({options.quality, options.exposure_scale, options.exposure_tolerance,
+                              !input.albedo.values.empty() && !input.normal.values.empty()});
             number = calls_.size();
         }
         if (instead) return instead(number, wanted);
@@ -58,7 +61,8 @@ private:
         for (size_t i = 0; i < size_t(input.width) * size_t(input.height); ++i)
             for (size_t k = 0; k < 3; ++k) denoised.rgb.push_back(input.color.values[i * size_t(input.color.stride) + k]);
         // What it measures is never within the tolerance.
-        denoised.exposure_scale = options.exposure_scale && std::isinf(options.exposure_tolerance) ? *options.exposure_scale : float(number);
+        denoised.exposure_scale =
+            options.exposure_scale && std::isinf(options.exposure_tolerance) ? *options.exposure_scale : float(number);
         return std::optional(std::move(denoised));
     }
 
@@ -89,7 +93,9 @@ Project lit_by(Project project, float intensity) {
 }
 
 void submit(RenderSession& session, uint64_t revision, const Project& project) { session.submit(revision, project.scene, project.render); }
-void submit(WatchedSession& session, uint64_t revision, const Project& project) { session->submit(revision, project.scene, project.render); }
+void submit(WatchedSession& session, uint64_t revision, const Project& project) {
+    session->submit(revision, project.scene, project.render);
+}
 
 // The picture with which denoising a revision ends.
 test::EventTest ends(uint64_t revision) {
@@ -159,7 +165,9 @@ TEST(DenoisedSession, ToggledAtRestItAddsAPictureAndResetsNothing) {
     session.shut_down();
     EXPECT_EQ(session.events().back().denoised->revision, 2u);
     for (const Event& e : session.events())
-        if (e.denoised && e.denoised->revision == 1) { EXPECT_TRUE(e.denoised == after.denoised || e.denoised->quality == DenoiseQuality::fast); }
+        if (e.denoised && e.denoised->revision == 1) {
+            EXPECT_TRUE(e.denoised == after.denoised || e.denoised->quality == DenoiseQuality::fast);
+        }
 }
 
 TEST(DenoisedSession, APictureNeverStandsBesideAnotherImagesFrame) {
@@ -186,7 +194,9 @@ TEST(DenoisedSession, DraggingShowsNoNoiseInBetween) {
     // Coarse pictures that are denoised within a frame come with their denoised ones, or the window would flicker.
     const Project project = small_project(2, 256, 256);
     StandIn networks;
-    networks.instead = [](size_t, const std::function<bool()>&) { return Result<std::optional<Denoised>>(std::optional<Denoised>(Denoised{})); };
+    networks.instead = [](size_t, const std::function<bool()>&) {
+        return Result<std::optional<Denoised>>(std::optional<Denoised>(Denoised{}));
+    };
     WatchedSession session(2, {}, networks.function());
     session->want_denoised(true);
     // At first it does not know how fast it is; on a busy machine it may be wrong once.

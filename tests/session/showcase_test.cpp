@@ -45,8 +45,10 @@ TEST(Showcase, AWithheldFrameComesEvenWithoutOne) {
         Showcase showcase;
         const FramePtr next = frame();
         showcase.withhold(1, next);
-        if (answered) showcase.answer(1, next, nullptr);
-        else showcase.release();
+        if (answered)
+            showcase.answer(1, next, nullptr);
+        else
+            showcase.release();
         EXPECT_EQ(showcase.pictures().frame, next);
         EXPECT_EQ(showcase.pictures().denoised, nullptr);
         showcase.release();

@@ -23,13 +23,15 @@ using EventTest = std::function<bool(const Event&)>;
 class WatchedSession {
 public:
     // `on_event` runs at each announcement, after it was recorded, one at a time.
-    explicit WatchedSession(unsigned threads = 2, std::function<void(RenderSession&, const Event&)> on_event = {}, DenoiseFunction denoise = {});
+    explicit WatchedSession(unsigned threads = 2, std::function<void(RenderSession&, const Event&)> on_event = {},
+                            DenoiseFunction denoise = {});
 
     RenderSession* operator->() { return session_.get(); }
     // Stops and joins; what was announced stays readable.
     void shut_down() { session_.reset(); }
 
-    // The first event for which `test` holds, from the first ever on. A test that waits for more than minutes has failed: returns an empty event.
+    // The first event for which `test` holds, from the first ever on. A test that waits for more than minutes has failed: returns an empty
+    // event.
     Event wait_for(const EventTest& test);
     Event wait_for(uint64_t revision, SessionStatus::State state);
     std::vector<Event> events() const;

@@ -221,7 +221,8 @@ TEST(RenderDenoised, TheLayerStandsBesideTheUntouchedBeauty) {
 TEST(RenderDenoised, PicturesShowItAndCompareSeesTheLayer) {
     const TemporaryFolder folder;
     const auto render = [&](const std::string& output, const char* denoise, const char* spp) {
-        return test::blush({"render", scene_file("cornell"), "-o", folder / output, "--size", "64x48", "--spp", spp, "--denoise", denoise}).exit_code;
+        return test::blush({"render", scene_file("cornell"), "-o", folder / output, "--size", "64x48", "--spp", spp, "--denoise", denoise})
+            .exit_code;
     };
     ASSERT_EQ(render("raw.png", "off", "2"), 0);
     ASSERT_EQ(render("fast.png", "fast", "2"), 0);

@@ -16,7 +16,8 @@ void draw_denoised_figures(Fields& f, const DenoisedPicture& picture) {
     f.info("Mean energy", fmt::format("{:+.2f} %", energy_change_percent(d)),
            "By how much the denoiser changed the mean luminance. The estimated error is always that of the raw image.");
     if (d.sanitised > 0)
-        f.info("Sanitised", fmt::format("{} pixels", d.sanitised), "Pixels that no network could be given as they were: not finite, negative, or far too bright.");
+        f.info("Sanitised", fmt::format("{} pixels", d.sanitised),
+               "Pixels that no network could be given as they were: not finite, negative, or far too bright.");
 }
 
 void draw_denoise_fields(PanelContext& c) {
@@ -25,14 +26,19 @@ void draw_denoise_fields(PanelContext& c) {
     ImGui::BeginDisabled(!c.denoiser_problem.empty());
     Fields f(c.ui, "Denoise");
     int show = int(view.show);
-    if (f.choice("Show", show, names, "The image as it was traced, its denoised picture, something between them, or by how much they differ. Nothing is rendered again."))
+    if (f.choice("Show", show, names,
+                 "The image as it was traced, its denoised picture, something between them, or by how much they differ. Nothing is "
+                 "rendered again."))
         view.show = DenoiseView::Show(show);
     if (view.show == DenoiseView::Show::blend)
-        f.number("Blend", view.blend, {.min = 0, .max = 1, .reset = 0.5f, .bar = true, .tip = "0 is the raw image, 1 the denoised one.", .format = "%.2f"});
+        f.number("Blend", view.blend,
+                 {.min = 0, .max = 1, .reset = 0.5f, .bar = true, .tip = "0 is the raw image, 1 the denoised one.", .format = "%.2f"});
     if (view.wants_denoised() && c.denoised) draw_denoised_figures(f, *c.denoised);
     ImGui::EndDisabled();
-    if (!c.denoiser_problem.empty()) quiet_text(c.denoiser_problem);
-    else if (!view.wants_denoised()) quiet_text("The image is shown as it was traced, noise included.");
+    if (!c.denoiser_problem.empty())
+        quiet_text(c.denoiser_problem);
+    else if (!view.wants_denoised())
+        quiet_text("The image is shown as it was traced, noise included.");
 }
 
 } // namespace

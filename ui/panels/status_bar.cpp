@@ -56,7 +56,7 @@ void draw_denoised_cells(PanelContext& c, float& x, const Frame& frame) {
     const DenoiseView& view = c.ui.denoise;
     if (!view.wants_denoised()) return cell(c, x, 4, "raw", "The image is shown as it was traced.", tone::dim_text);
     const DenoisedPicture* denoised = c.denoised.get();
-    cell(c, x, 15, shown_text(view, frame, denoised), "What is shown, and by how much the denoised picture is older than the raw one.");
+    cell(c, x, 19, shown_text(view, frame, denoised), "What is shown, and by how much the denoised picture is older than the raw one.");
     if (!denoised) return;
     cell(c, x, 9, fmt::format("energy {:+.2f} %", energy_change_percent(denoised->denoised)),
          "By how much the denoiser changed the mean luminance of the picture. The estimated error is that of the raw image.");
