@@ -128,6 +128,9 @@ void add_integrator_options(CLI::App& app, RenderOptions& o) {
         ->type_name("on|off");
     add_parsed(app, "--adaptive", o.settings.adaptive, parse_switch, "More samples where the noise is, N per pixel on average [off]")
         ->type_name("on|off");
+    add_parsed(app, "--reuse", o.settings.reuse, parse_reuse,
+               "Pixels that share what their paths find at a second matte surface [off]")
+        ->type_name("off|4|8|16");
     add_parsed(app, "--filter", o.settings.filter, parse_filter, "Pixel filter [blackman-harris]")->type_name("blackman-harris|box");
 }
 

@@ -83,6 +83,7 @@ std::string render_settings_json(const RenderSettings& s) {
     json["filter"] = to_string(s.filter);
     json["energy_compensation"] = s.energy_compensation;
     json["adaptive"] = s.adaptive;
+    json["reuse"] = reuse_text(s.reuse);
     return json_text(json);
 }
 
@@ -124,6 +125,7 @@ Result<ParsedSettings<RenderSettings>> parse_render_settings(std::string_view te
         {"filter", word(s.filter, parse_filter)},
         {"energy_compensation", plain(s.energy_compensation)},
         {"adaptive", plain(s.adaptive)},
+        {"reuse", word(s.reuse, parse_reuse)},
     };
     return parse(text, std::move(parsed), readers);
 }

@@ -32,4 +32,12 @@ ErrorEstimate ErrorAccumulator::estimate() const {
     return {true, mean, std::max(0.0, mean - margin), mean + margin};
 }
 
+ErrorEstimate widened(const ErrorEstimate& estimate, int sharing) {
+    const double k = std::sqrt(double(sharing));
+    ErrorEstimate e = estimate;
+    e.low = std::max(0.0, e.relmse - (e.relmse - e.low) * k);
+    e.high = e.relmse + (e.high - e.relmse) * k;
+    return e;
+}
+
 } // namespace blush

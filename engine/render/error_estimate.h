@@ -26,4 +26,8 @@ private:
     double sum_ = 0, sum_squares_ = 0;
 };
 
+// The same estimate, told from pixels of which up to `sharing` at a time have errors in common (path_reuse.h): the interval is what
+// it would be if each such group were one pixel. No correlation within groups can make it wider.
+ErrorEstimate widened(const ErrorEstimate& estimate, int sharing);
+
 } // namespace blush

@@ -33,7 +33,16 @@ template <class F> struct StepWeights {
     F survival;             // roulette's probability; 1 where it was not asked
 };
 
+// What a connection to another pixel's path needs to know of the first two vertices of a path (path_reuse.h).
+template <class F> struct Junction {
+    Mask<F> lambertian;   // scatters the same radiance to all who are in front of ng and ns
+    Vec<F> position;
+    F clearance;          // metres along ng that keep a ray's origin off the surface
+    Vec<F> ng, ns, reflectance;
+};
+
 template <class F> struct Step {
+    Junction<F> junction; // at bounces 0 and 1 only
     Mask<F> emits, connects, continues;
     Vec<F> emitted; // add where `emits`
     Vec<F> direct;  // add where `connects` and nothing lies on the shadow ray
@@ -141,9 +150,12 @@ F surface_emission_weight(const SceneTables& scene, Strategy strategy, const Int
     return found_emission_weight(strategy, bsdf_pdf, pdf);
 }
 
-// The shading frame's normal: interpolated or mapped, turned to the plane's side, and the plane's own where the viewer would look at its back.
+// Cosine to the shading normal from which on a viewer is in front of it.
+constexpr float least_facing = 1e-4f;
+
+// The shading frame's normal: interpolated or mapped, turned to the plane's side.
 template <Features S, class F>
-Vec<F> shading_normal(const Surface<F>& s, const Vec<F>& ng, const Vec<F>& tangent_normal, const Vec<F>& wo, const Mask<F>& may_look_from_behind) {
+Vec<F> shading_normal(const Surface<F>& s, const Vec<F>& ng, const Vec<F>& tangent_normal) {
     Vec<F> ns = select<F>(dot(s.ns, ng) < F(0.f), -s.ns, s.ns);
     if constexpr (S.has(Feature::normal_maps)) {
         if (any(s.has_tangents)) {
@@ -158,7 +170,7 @@ Vec<F> shading_normal(const Surface<F>& s, const Vec<F>& ng, const Vec<F>& tange
             ns = select<F>(s.has_tangents && l2 > F(1e-20f) && dot(turned, ng) > F(0.f), turned, ns);
         }
     }
-    return select<F>(!may_look_from_behind && dot(ns, wo) < F(1e-4f), ng, ns);
+    return ns;
 }
 
 // One vertex of the path: `hit` is what path.ray found. Lanes outside `active` are ignored.
@@ -223,7 +235,10 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
 
     // The shading frame: turned towards the viewer unless the surface bounds a solid.
     const Vec<F> ng = select<F>(front || solid, surface.ng, -surface.ng);
-    const Vec<F> ns = shading_normal<S, F>(surface, ng, material.tangent_normal, wo_world, solid);
+    const Vec<F> bent = shading_normal<S, F>(surface, ng, material.tangent_normal);
+    // A viewer who would look at the back of a normal gets the plane's own, unless there is an inside to look from.
+    const Mask<F> behind = !solid && dot(bent, wo_world) < F(least_facing);
+    const Vec<F> ns = select<F>(behind, ng, bent);
     const Basis<F> frame = basis_around(ns);
     const Vec<F> wo = frame.to_local(wo_world);
     const auto bsdf = make_bsdf<S, F>(material.bsdf, wo, settings.energy);
@@ -234,6 +249,14 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
         out.first.depth = select(found, hit.t, F(0.f));
         out.first.object = select(found, gather_field(scene.parts, &PartRecord::object, surface.part), Int<F>(0));
         out.first.material = select(found, surface.material, Int<F>(-1));
+    }
+    if (bounce <= 1) {
+        out.junction.lambertian = scatters && is_lambertian<S, F>(bsdf) && !behind;
+        out.junction.position = surface.position;
+        out.junction.clearance = clearance(ng, surface.error);
+        out.junction.ng = ng;
+        out.junction.ns = ns;
+        out.junction.reflectance = bsdf.diffuse;
     }
     if (bounce >= settings.max_bounces) return out;
 

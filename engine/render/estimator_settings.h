@@ -1,6 +1,7 @@
 // The render settings as kernels read them.
 #pragma once
 
+#include "render/reuse_groups.h"
 #include "scene/render_settings.h"
 
 #include <cstdint>
@@ -20,6 +21,7 @@ struct EstimatorSettings {
     Strategy strategy = Strategy::mis;
     const FilterTable* filter = nullptr;
     const EnergyTable* energy = nullptr; // null: no multiple-scattering compensation
+    ReuseGroups reuse;                   // of one pixel: none
     float width = 1, height = 1;         // of the film, pixels
 };
 

@@ -85,7 +85,8 @@ std::string trace_sample(const Scene& scene, const RenderSettings& settings, int
     const Scene lowered = lower_area_lights(scene);
     RenderScene compiled;
     compiled.update(lowered, settings, full_plan(), workers);
-    const KernelContext context{&compiled.tables(), &compiled.accel(), settings_for_kernels(settings, settings.width, settings.height), settings.seed};
+    KernelContext context{&compiled.tables(), &compiled.accel(), settings_for_kernels(settings, settings.width, settings.height), settings.seed};
+    context.settings.reuse = {};
     Logger log{lowered, compiled, context.settings, {}};
     log.line("pixel {},{} sample {} seed {}", x, y, sample, settings.seed);
 
@@ -108,6 +109,10 @@ std::string trace_sample(const Scene& scene, const RenderSettings& settings, int
             std::swap(now, next);
         }
     });
+    if (settings.reuse > 1)
+        log.line("path reuse: the film receives what this path found shared among {} pixels, and shares of what theirs found; alone it "
+                 "is worth",
+                 settings.reuse);
     log.line("radiance {}", rgb(to_float(gathered(*scratch))));
     return log.text;
 }

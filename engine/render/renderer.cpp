@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <fmt/format.h>
 #include <optional>
 #include <utility>
 
@@ -24,7 +25,7 @@ double seconds_since(Clock::time_point begin) { return std::chrono::duration<dou
 bool hides_environment(const Environment& e) { return e.kind != Environment::Kind::none && !e.visible_to_camera; }
 
 // About two thousand paths in a tile: enough to fill packets, few enough for the cache. Of a small film, as a drag shows it first,
-// fewer: the last tile of a worker is what all others wait for.
+// fewer: the last tile of a worker is what all others wait for. Sides are multiples of ReuseGroups::block, or tiles would cut groups.
 struct TileShape {
     int width, height, samples;
 };
@@ -142,6 +143,8 @@ const CompiledInfo& Renderer::info() const {
     if (!s.info) {
         s.info = s.scene.info();
         s.info->kernel = s.kernel_name;
+        const int reuse = s.settings.reuse;
+        s.info->features.push_back({"path reuse", reuse > 1, reuse > 1 ? fmt::format("groups of {} pixels", reuse) : "switched off"});
         s.info->seconds_setup = s.seconds_setup;
     }
     return *s.info;
@@ -232,6 +235,7 @@ void Renderer::resolve(Frame& frame) const {
     State& s = *state_;
     s.wipe_stale_film();
     s.film.resolve(frame, s.workers);
+    if (s.settings.reuse > 1) frame.error = widened(frame.error, s.settings.reuse);
     for (uint32_t& id : frame.object_id) id &= ~lowered_bit;
     for (uint32_t& id : frame.material_id) {
         const uint32_t material = s.scene.material_id(int32_t(id) - 1).value;

@@ -20,6 +20,7 @@ EstimatorSettings settings_for_kernels(const RenderSettings& settings, int width
     e.strategy = settings.strategy;
     e.filter = settings.filter == PixelFilter::box ? &box_filter() : &blackman_harris_filter();
     e.energy = settings.energy_compensation ? &energy_table() : nullptr;
+    e.reuse = reuse_groups(settings.reuse);
     e.width = float(width);
     e.height = float(height);
     return e;

@@ -37,16 +37,22 @@ template <class F> F next_float(const F& x, const Mask<F>& up) {
     return select(x == F(0.f), from_zero, float_from_bits(next));
 }
 
-// Start of a ray that leaves `position` on the side of `ng` that `outward` tells: moved along the normal by the error
-// bound, then rounded away (Pharr, Jakob, Humphreys, "Physically Based Rendering", 6.8.6). No scene-wide epsilon.
-template <class F> Vec<F> offset_origin(const Vec<F>& position, const Vec<F>& error, const Vec<F>& ng, const Mask<F>& outward) {
-    const F d = dot(abs(ng), error);
-    const Vec<F> offset = ng * select(outward, d, -d);
+// How far along the unit normal `ng` a point with that bound on its error must move to be off its plane.
+template <class F> F clearance(const Vec<F>& ng, const Vec<F>& error) { return dot(abs(ng), error); }
+
+// Start of a ray that leaves `position` by the vector `offset`: moved, then rounded away (Pharr, Jakob, Humphreys, "Physically Based
+// Rendering", 6.8.6). No scene-wide epsilon.
+template <class F> Vec<F> offset_origin(const Vec<F>& position, const Vec<F>& offset) {
     const auto push = [](const F& p, const F& by) {
         const F moved = p + by;
         return select(by == F(0.f), moved, next_float(moved, by > F(0.f)));
     };
     return {push(position.x, offset.x), push(position.y, offset.y), push(position.z, offset.z)};
+}
+// The same on the side of `ng` that `outward` tells, by the error bound.
+template <class F> Vec<F> offset_origin(const Vec<F>& position, const Vec<F>& error, const Vec<F>& ng, const Mask<F>& outward) {
+    const F d = clearance(ng, error);
+    return offset_origin(position, ng * select(outward, d, -d));
 }
 
 template <class F> struct TriangleVertices {

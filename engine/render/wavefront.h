@@ -3,6 +3,7 @@
 
 #include "render/estimator.h"
 #include "render/kernels/kernel.h"
+#include "render/path_reuse.h"
 
 #include <algorithm>
 #include <utility>
@@ -130,6 +131,7 @@ template <Features S, class F>
         const Mask<F> active = as_mask(iota<F>() + k < now.size);
         const Step<F> step = scatter<S, F>(*context.scene, context.settings, path, load_hit<F>(scratch.hits, k), bounce, active);
         if (bounce == 0 && scratch.first) store_first_hit<F>(*scratch.first, k, step.first);
+        if (bounce <= 1 && context.settings.reuse.size() > 1) store_junction<F>(*scratch.reuse, now, k, bounce, path, step.junction);
         if (any(step.emits))
             for_each_lane(bits(step.emits), [&](int i) {
                 const int slot = now.slot[k + i];
@@ -177,21 +179,29 @@ inline void record_bounce(TileScratch& scratch, int paths, int bounce) {
 template <Features S, class F> void render_tile(const KernelContext& context, const TileJob& job, TileScratch& scratch) {
     generate_paths<S, F>(context, job, scratch);
     if (scratch.bounces) scratch.bounces->recorded = 0;
+    const bool reuses = context.settings.reuse.size() > 1;
+    if (reuses && !scratch.reuse) scratch.reuse = std::make_unique<ReuseColumns>();
+    bool own_is_aside = false;
     PathQueue* now = &scratch.paths[0];
     PathQueue* next = &scratch.paths[1];
     for (int bounce = 0; now->size > 0; ++bounce) {
         if (bounce > longest_path) {
             scratch.truncated_paths += now->size;
-            return;
+            break;
         }
         (bounce > 0 ? scratch.bounce_rays : scratch.camera_rays) += now->size;
         trace_paths<F>(context, scratch, *now, bounce);
         shade_paths<S, F>(context, scratch, *now, *next, bounce);
         if (scratch.bounces) record_bounce(scratch, job.paths(), bounce);
         scratch.shadow_rays += scratch.shadows.size;
+        if (reuses && bounce == 1) {
+            set_own_radiance_aside(*scratch.reuse, scratch, job.paths());
+            own_is_aside = true;
+        }
         if (scratch.shadows.size > 0) connect_paths<F>(context, scratch, bounce);
         std::swap(now, next);
     }
+    if (own_is_aside) share_paths<F>(context, job, scratch);
 }
 
 } // namespace blush::inline BLUSH_ISA

@@ -49,6 +49,7 @@ struct RenderSettings {
     PixelFilter filter = PixelFilter::blackman_harris;
     bool energy_compensation = false;
     bool adaptive = false;          // spp is a mean: more samples where the noise is. Starts at sample 0
+    int reuse = 1;                  // pixels that share their second path vertices: 4, 8, 16 or, alone, 1
     bool operator==(const RenderSettings&) const = default;
 };
 
@@ -60,6 +61,8 @@ Result<Roulette> parse_roulette(std::string_view text);
 std::string to_string(const Roulette& roulette);
 Result<int> parse_max_bounces(std::string_view text); // a number or "unlimited"
 std::string max_bounces_text(int max_bounces);
+Result<int> parse_reuse(std::string_view text); // "4", "8", "16" or "off"
+std::string_view reuse_text(int reuse); // empty for another number
 Result<Strategy> parse_strategy(std::string_view text);
 std::string_view to_string(Strategy strategy);
 Result<PixelFilter> parse_filter(std::string_view text);

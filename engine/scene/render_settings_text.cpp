@@ -32,6 +32,8 @@ constexpr std::array<Word<PixelFilter>, 2> filter_words{{
     {PixelFilter::box, "box"},
 }};
 
+constexpr std::array<Word<int>, 4> reuse_words{{{1, "off"}, {4, "4"}, {8, "8"}, {16, "16"}}};
+
 template <class E, size_t n> std::string_view word_of(const std::array<Word<E>, n>& words, E value) {
     for (const Word<E>& w : words)
         if (w.value == value) return w.text;
@@ -132,6 +134,8 @@ Result<int> parse_max_bounces(std::string_view text) {
 
 std::string max_bounces_text(int max_bounces) { return max_bounces == unlimited_bounces ? "unlimited" : std::to_string(max_bounces); }
 
+Result<int> parse_reuse(std::string_view text) { return value_of(reuse_words, text, "number of pixels that reuse paths"); }
+std::string_view reuse_text(int reuse) { return word_of(reuse_words, reuse); }
 Result<Strategy> parse_strategy(std::string_view text) { return value_of(strategy_words, text, "strategy"); }
 std::string_view to_string(Strategy strategy) { return word_of(strategy_words, strategy); }
 Result<PixelFilter> parse_filter(std::string_view text) { return value_of(filter_words, text, "filter"); }

@@ -164,6 +164,7 @@ Result<void> validate(const RenderSettings& settings) {
     check.is(!settings.adaptive || settings.first_sample == 0,
              fmt::format("adaptive sampling must start at sample 0, not {}", settings.first_sample));
     check.is(settings.max_bounces >= unlimited_bounces, fmt::format("bounces must be a number from 0, not {}", settings.max_bounces));
+    check.is(!reuse_text(settings.reuse).empty(), fmt::format("pixels that reuse paths must be 1, 4, 8 or 16, not {}", settings.reuse));
     const Roulette& roulette = settings.roulette;
     check.not_negative("roulette's start", roulette.start);
     check.between("roulette's floor", roulette.floor, 0, 1);

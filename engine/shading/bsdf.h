@@ -177,6 +177,11 @@ template <Features S, class F> Bsdf<F> make_bsdf(const BsdfParams<F>& m, const V
 }
 
 // True where nothing has a density: eval is 0 for every direction, and light sampling would be wasted.
+// True where all that is scattered is scattered alike to all viewers: reflectance b.diffuse.
+template <Features S, class F> Mask<F> is_lambertian(const Bsdf<F>& b) {
+    if constexpr (has_facets(S)) return b.p_diffuse == F(1.f);
+    else return Mask<F>(true);
+}
 template <class F> Mask<F> is_delta_only(const Bsdf<F>& b) { return b.delta_only; }
 
 template <class F> Vec<F> flip_z(const Mask<F>& m, const Vec<F>& w) { return {w.x, w.y, select(m, -w.z, w.z)}; }

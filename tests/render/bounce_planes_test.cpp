@@ -27,8 +27,10 @@ double channel(const Vec3& v, int c) { return double(c == 0 ? v.x : c == 1 ? v.y
 TEST(BouncePlanes, SumToTheBeauty) {
     for (const std::string& name : shipped_scene_names()) {
         const Scene scene = shipped_scene(name);
-        for (const int planes : {2, 5}) {
-            const Frame frame = render_planes(scene, settings_for(24, 16, 8), planes);
+        for (const auto& [planes, reuse] : {std::pair{2, 1}, {5, 1}, {5, 16}}) {
+            RenderSettings settings = settings_for(24, 16, 8);
+            settings.reuse = reuse;
+            const Frame frame = render_planes(scene, settings, planes);
             ASSERT_EQ(int(frame.bounces.size()), planes);
             for (size_t i = 0; i < 24 * 16; ++i)
                 for (int c = 0; c < 3; ++c) {

@@ -47,6 +47,18 @@ TEST(Determinism, ThreadsRunsAndSplitsDoNotShow) {
     }
 }
 
+TEST(Determinism, SharedPathsDoNotDependOnThreadsAndSplits) {
+    for (const int reuse : {4, 16}) {
+        RenderSettings settings = settings_for(80, 45, 8);
+        settings.reuse = reuse;
+        const Scene scene = shipped_scene("cornell");
+        const Frame once = render_in_steps(scene, settings, 1, {8});
+        expect_same(once, render_in_steps(scene, settings, 2, {8}), "two threads");
+        expect_same(once, render_in_steps(scene, settings, 2, {3, 8}), "0:3 + 3:8");
+        expect_same(once, render_in_steps(scene, settings, 1, {1, 2, 4, 8}), "doubling");
+    }
+}
+
 TEST(Determinism, AlphaAndShadowsOfAlphaDoNotDependOnSplits) {
     Scene scene;
     Material veil = lambert(0.5f);
@@ -59,9 +71,12 @@ TEST(Determinism, AlphaAndShadowsOfAlphaDoNotDependOnSplits) {
     shine(scene, sun, aimed({0, 0, 0}, {0.2f, -1, 0.1f}));
     constant_world(scene, 0.2f);
     scene.view = looking_down(1, 1);
-    const RenderSettings settings = settings_for(40, 40, 8);
-    const Frame once = render_in_steps(scene, settings, 1, {8});
-    expect_same(once, render_in_steps(scene, settings, 2, {3, 8}), "0:3 + 3:8");
+    for (const int reuse : {1, 16}) {
+        RenderSettings settings = settings_for(40, 40, 8);
+        settings.reuse = reuse;
+        const Frame once = render_in_steps(scene, settings, 1, {8});
+        expect_same(once, render_in_steps(scene, settings, 2, {3, 8}), "0:3 + 3:8");
+    }
 }
 
 TEST(Determinism, SeedsAreIndependent) {

@@ -25,7 +25,8 @@ struct Compiled {
     Workers workers{1};
     RenderScene scene;
 
-    explicit Compiled(const Scene& s, bool compensate = false) {
+    explicit Compiled(const Scene& s, bool compensate = false, int reuse = 1) {
+        settings.reuse = reuse;
         settings.energy_compensation = compensate;
         scene.update(lower_area_lights(s), settings, full_plan(), workers);
     }
@@ -74,6 +75,14 @@ TEST(Kernels, GiveTheSameBitsOnShippedScenes) {
         SCOPED_TRACE(name);
         expect_same_bits_from_all_kernels(Compiled(shipped_scene(name)));
     }
+}
+
+TEST(Kernels, GiveTheSameBitsWhenPathsAreShared) {
+    for (const char* name : {"cornell", "corridor"})
+        for (const int reuse : {4, 8, 16}) {
+            SCOPED_TRACE(name + std::to_string(reuse));
+            expect_same_bits_from_all_kernels(Compiled(shipped_scene(name), false, reuse));
+        }
 }
 
 // A little of each feature in front of a lens.
@@ -134,6 +143,7 @@ Scene everything() {
 TEST(Kernels, GiveTheSameBitsOnASceneWithEverything) {
     Scene scene = everything();
     expect_same_bits_from_all_kernels(Compiled(scene, true));
+    expect_same_bits_from_all_kernels(Compiled(scene, true, 16));
     scene.view.lens.orthographic = true;
     scene.view.lens.ymag = 2;
     expect_same_bits_from_all_kernels(Compiled(scene));

@@ -44,6 +44,20 @@ TEST(PathLog, SaysWhatTheFilmReceives) {
     EXPECT_GT(lit, 5);
 }
 
+TEST(PathLog, SaysThatReuseSharesWhatThePathFound) {
+    const Scene scene = shipped_scene("cornell");
+    RenderSettings settings;
+    settings.width = settings.height = 16;
+    const std::string alone = trace_sample(scene, settings, 9, 6, 2);
+    settings.reuse = 16;
+    const std::string shared = trace_sample(scene, settings, 9, 6, 2);
+    EXPECT_EQ(alone.find("path reuse"), std::string::npos);
+    EXPECT_NE(shared.find("shared among 16 pixels"), std::string::npos);
+    Vec3 a, b;
+    ASSERT_TRUE(read_radiance(alone, a) && read_radiance(shared, b));
+    EXPECT_EQ(a, b);
+}
+
 TEST(PathLog, TellsRoulettesProbability) {
     const Scene scene = shipped_scene("cornell");
     RenderSettings settings;

@@ -131,7 +131,7 @@ std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<SetEnvir
 std::optional<Edit> make(Rng& rng, const Project&, std::type_identity<SetLens>) { return SetLens{lens(rng)}; }
 std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<SetRender>) {
     RenderSettings r = p.render;
-    switch (whole(rng, 0, 6)) {
+    switch (whole(rng, 0, 7)) {
     case 0: r.max_bounces = whole(rng, 0, 6); break;
     case 1: r.roulette.rule = Roulette::Rule(whole(rng, 0, 5)); break;
     case 2: r.strategy = Strategy(whole(rng, 0, 2)); break;
@@ -139,6 +139,7 @@ std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<SetRende
     case 4: r.seed = uint32_t(whole(rng, 0, 1000)); break;
     case 5: r.energy_compensation = !r.energy_compensation; break;
     case 6: r.adaptive = !r.adaptive; break;
+    case 7: r.reuse = coin(rng) ? 1 : 4 << whole(rng, 0, 2); break;
     }
     return SetRender{r};
 }

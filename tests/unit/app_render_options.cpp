@@ -43,6 +43,7 @@ TEST(RenderOptions, EachOptionSetsItsField) {
     expected.roulette = {Roulette::Rule::constant, 1, 0, 1, 0.5f, 0.1f};
     expected.strategy = Strategy::light;
     expected.energy_compensation = true;
+    expected.reuse = 16;
     expected.filter = PixelFilter::box;
     const RenderOptions options = parsed({"--size",
                                           "320x200",
@@ -62,6 +63,8 @@ TEST(RenderOptions, EachOptionSetsItsField) {
                                           "light",
                                           "--energy-compensation",
                                           "on",
+                                          "--reuse",
+                                          "16",
                                           "--filter",
                                           "box",
                                           "--exposure",
@@ -128,6 +131,7 @@ TEST(RenderOptions, BadTextIsRefused) {
                                                       {"--max-bounces", "few"},
                                                       {"--strategy", "both"},
                                                       {"--energy-compensation", "maybe"},
+                                                      {"--reuse", "3"},
                                                       {"--filter", "gauss"},
                                                       {"--samples", "8:4"},
                                                       {"--samples", "-1:4"},

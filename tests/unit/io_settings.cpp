@@ -21,6 +21,7 @@ RenderSettings unusual_settings() {
     s.strategy = Strategy::bsdf;
     s.filter = PixelFilter::box;
     s.energy_compensation = true;
+    s.reuse = 8;
     return s;
 }
 
@@ -69,6 +70,7 @@ TEST(SettingsJson, WrongInputIsAnErrorThatNamesTheKey) {
                                                           {R"({"roulette": "russian"})", "roulette"},
                                                           {R"({"strategy": 3})", "strategy"},
                                                           {R"({"energy_compensation": "yes"})", "energy_compensation"},
+                                                          {R"({"reuse": "5"})", "reuse"},
                                                           {"[]", ""},
                                                           {"", ""},
                                                           {"{", ""}}) {

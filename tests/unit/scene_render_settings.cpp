@@ -74,6 +74,12 @@ TEST(Roulette, BadTextIsRefusedWithTheReason) {
     EXPECT_EQ(error("max,start=99999999999"), "roulette's start must be a whole number from 0, not \"99999999999\"");
 }
 
+TEST(Reuse, TextGoesThereAndBack) {
+    for (const int n : {1, 4, 8, 16}) EXPECT_EQ(*parse_reuse(reuse_text(n)), n);
+    for (const char* bad : {"", "1", "on", "5", "16x"}) EXPECT_FALSE(parse_reuse(bad)) << bad;
+    EXPECT_TRUE(reuse_text(3).empty());
+}
+
 TEST(MaxBounces, TextGoesThereAndBack) {
     for (const int n : {0, 1, 17, unlimited_bounces}) EXPECT_EQ(*parse_max_bounces(max_bounces_text(n)), n);
     for (const char* bad : {"", "-1", "many", "3x", "1.5", "99999999999"}) EXPECT_FALSE(parse_max_bounces(bad)) << bad;

@@ -113,7 +113,7 @@ TEST(Validate, GeometryMustFitTogether) {
 TEST(Validate, RenderSettingsRanges) {
     using R = RenderSettings;
     EXPECT_FALSE(accepts(&R::height, 65537) || accepts(&R::resolution_scale, 0) || accepts(&R::spp, -1) || accepts(&R::seconds, nan) ||
-                 accepts(&R::error, -1) || accepts(&R::first_sample, -1) || accepts(&R::max_bounces, -2));
+                 accepts(&R::error, -1) || accepts(&R::first_sample, -1) || accepts(&R::max_bounces, -2) || accepts(&R::reuse, 5));
     EXPECT_FALSE(accepts(&R::first_sample, 64)) << "nothing left of 64 samples";
     EXPECT_TRUE(accepts(&R::spp, 0)) << "no limit";
     EXPECT_TRUE(accepts(&R::adaptive, true));

@@ -5,6 +5,9 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <algorithm>
+#include <iterator>
+
 namespace blush {
 namespace {
 
@@ -71,6 +74,16 @@ void draw_roulette(Fields& f, Roulette& r) {
     share("At most", r.cap, 1, "Highest chance to go on. Below the reflectance of a closed room's walls the variance becomes infinite.");
 }
 
+void draw_reuse(Fields& f, RenderSettings& r) {
+    static constexpr const char* names[] = {"Off", "4 pixels", "8 pixels", "16 pixels"};
+    static constexpr int sizes[] = {1, 4, 8, 16};
+    int choice = int(std::find(std::begin(sizes), std::end(sizes), r.reuse) - std::begin(sizes));
+    if (f.choice("Path reuse", choice, names,
+                 "Groups of this many pixels nearby share the light that their paths find at a second matte surface. The mean stays right, "
+                 "indirect light gets less noisy for a few more shadow rays."))
+        r.reuse = sizes[choice];
+}
+
 void draw_paths(Fields& f, RenderSettings& r) {
     static constexpr const char* strategies[] = {"Both (MIS)", "Light sampling", "BSDF sampling"};
     static constexpr const char* filters[] = {"Blackman-Harris", "Box"};
@@ -97,6 +110,7 @@ void draw_paths(Fields& f, RenderSettings& r) {
     f.checkbox("Adaptive", r.adaptive,
                "After 16 samples per pixel, give noisy parts of the image more samples and quiet ones fewer, the same number on average. Each half "
                "of the samples decides for the other, so the mean stays right.");
+    draw_reuse(f, r);
     int64_t seed = r.seed;
     if (f.integer("Seed", seed, 0, UINT32_MAX, 0,
                   "Another seed gives another, equally good noise. The same seed gives the same image, bit for bit."))

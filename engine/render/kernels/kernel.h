@@ -4,6 +4,8 @@
 #include "core/vec.h"
 #include "render/accel.h"
 #include "render/estimator_settings.h"
+#include "render/kernels/column.h"
+#include "render/kernels/reuse_columns.h"
 #include "render/scene_tables.h"
 #include "shading/features.h"
 
@@ -16,9 +18,6 @@
 
 namespace blush {
 
-// Paths a tile holds at most. Enough to fill packets after most paths have ended, small enough for the second-level cache.
-constexpr int tile_capacity = 4096;
-
 // A rectangle of pixels with `samples` sample indices each; width * height * samples <= tile_capacity.
 struct TileJob {
     int x = 0, y = 0, width = 0, height = 0;
@@ -27,13 +26,6 @@ struct TileJob {
     int stride = 1; // from one sample index to the next: 2 stays within one half of the film
     int64_t sample(int s) const { return first_sample + int64_t(s) * stride; }
     int paths() const { return width * height * samples; }
-};
-
-// One number per path, padded so that whole registers can be read and written past the end.
-template <class T> struct Column {
-    alignas(64) T data[tile_capacity + 64];
-    operator T*() { return data; }
-    operator const T*() const { return data; }
 };
 
 struct PathQueue {
@@ -78,6 +70,7 @@ struct TileScratch {
     Column<double> r, g, b;                 // radiance; in single precision a long path's last terms would be lost in its sum
     std::unique_ptr<FirstHitColumns> first; // null: nobody reads it
     std::unique_ptr<BounceColumns> bounces; // null: nobody reads it
+    std::unique_ptr<ReuseColumns> reuse;    // made by the first kernel that is told to
     int64_t camera_rays = 0, bounce_rays = 0, shadow_rays = 0, truncated_paths = 0; // counted up
 };
 

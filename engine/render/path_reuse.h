@@ -1,0 +1,280 @@
+// Path reuse: the pixels of a small group share the second vertices of their paths (Bekaert, Sbert and Halton 2002,
+// "Accelerating Path Tracing by Re-Using Paths").
+//
+// Pixel k of a group sees a Lambertian point x_k of reflectance rho_k, whose path goes on to a point y_k. If that is Lambertian
+// too, it sends the same radiance L_k to everybody on its side, and every x_i that sees y_k could have found it. With the density
+//   G_i(y) = max(0, cos theta_i) cos theta_y / (pi d^2)
+// per area with which x_i samples y, and V its visibility, the balance heuristic (Veach 1997, section 9.2) over all members as
+// strategies for y gives pixel i
+//   rho_i sum_k [ V_ik G_i(y_k) / sum_j V_jk G_j(y_k) ] L_k.
+// The shares of a vertex sum to one, so reuse makes no outliers. L_k is any unbiased estimate of what y_k scatters: what roulette
+// did on the way does not matter. Emission of y_k itself stays with pixel k, where its MIS weight knows the density it was found with.
+//
+// Whether x_j takes part depends on x_j alone, and whether it can have y on these two points alone, never on directions drawn: the
+// paths that are shared and those that are not make up all of path space, each once. What stochastic opacity decides along a
+// connection is drawn for each anew, as if V were the path's own: the expectation over all of them is the same.
+#pragma once
+
+#include "render/estimator.h"
+#include "render/kernels/kernel.h"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+namespace blush::inline BLUSH_ISA {
+
+// Smaller reflectances are black: too small to divide by.
+constexpr float least_reflectance = 1e-6f;
+
+// And no radiance that would then overflow is shared.
+constexpr float most_radiance = least_reflectance * std::numeric_limits<float>::max();
+
+// Densities per square metre beyond these do not take part: sums and quotients of those within neither overflow nor vanish.
+constexpr float least_density = 0x1p-100f, most_density = 0x1p100f;
+
+// Salt of the random numbers for opacity along connections; those of a path's own rays are numbered from 0.
+constexpr uint32_t connection_salt = 0xffffffffu;
+
+// Notes the vertices of paths k, k + 1, ... of the queue at bounce 0 or 1. At bounce 0 nothing has been compacted: the k-th path is slot k.
+template <class F>
+void store_junction(ReuseColumns& reuse, const PathQueue& now, int k, int bounce, const Path<F>& path, const Junction<F>& j) {
+    JunctionColumns& c = bounce == 0 ? reuse.first : reuse.second;
+    store(c.px + k, j.position.x);
+    store(c.py + k, j.position.y);
+    store(c.pz + k, j.position.z);
+    store(c.clearance + k, j.clearance);
+    store(c.gx + k, j.ng.x);
+    store(c.gy + k, j.ng.y);
+    store(c.gz + k, j.ng.z);
+    store(c.sx + k, j.ns.x);
+    store(c.sy + k, j.ns.y);
+    store(c.sz + k, j.ns.z);
+    store(c.takes_part + k, select(j.lambertian, Int<F>(1), Int<F>(0)));
+    if (bounce == 0) {
+        store(reuse.rho_r + k, j.reflectance.x);
+        store(reuse.rho_g + k, j.reflectance.y);
+        store(reuse.rho_b + k, j.reflectance.z);
+        store(reuse.second_of + k, Int<F>(-1));
+    } else {
+        store(reuse.random + k, pcg_hash(UInt<F>(path.key ^ (path.index + connection_salt))));
+        for (int i = 0; i < width<F> && k + i < now.size; ++i) reuse.second_of[now.slot[k + i]] = k + i;
+    }
+}
+
+// To be called when a path's radiance holds all that is its own - what reached x, and what x found: what comes after can be shared.
+inline void set_own_radiance_aside(ReuseColumns& reuse, TileScratch& scratch, int paths) {
+    const auto set_aside = [&](double* radiance, double* own) {
+        std::copy_n(radiance, paths, own);
+        std::fill_n(radiance, paths, 0.0);
+    };
+    set_aside(scratch.r, reuse.own_r);
+    set_aside(scratch.g, reuse.own_g);
+    set_aside(scratch.b, reuse.own_b);
+}
+
+template <class F> Vec<F> gather_columns(const float* x, const float* y, const float* z, const Int<F>& i) {
+    return {gather(x, i), gather(y, i), gather(z, i)};
+}
+
+// G of every member and vertex of the batch, and a ray from the vertex to the member where it is not known to be seen.
+template <class F> void queue_connections(const ReuseColumns& reuse, ReuseBatch& batch, int group_size, ShadowQueue& q) {
+    const int pairs = batch.vertices * group_size, last_member = group_size - 1, shift = std::countr_zero(unsigned(group_size));
+    const JunctionColumns &a = reuse.first, &b = reuse.second;
+    q.size = 0;
+    for (int k = 0; k < pairs; k += width<F>) {
+        const Int<F> pair = min(Int<F>(iota<F>() + k), Int<F>(pairs - 1));
+        const Int<F> vertex = pair >> shift, member = pair & last_member;
+        const Int<F> own_seat = gather(batch.own_seat.data, vertex), y = gather(batch.place.data, vertex);
+        const Int<F> seat = (own_seat & ~last_member) + member;
+        const Int<F> slot = gather(batch.slot.data, seat);
+        const Mask<F> own = as_mask(seat == own_seat), present = as_mask(slot >= 0) && as_mask(iota<F>() + k < pairs);
+        const Int<F> x = max(slot, Int<F>(0));
+
+        const Vec<F> at_x = gather_columns<F>(a.px, a.py, a.pz, x), at_y = gather_columns<F>(b.px, b.py, b.pz, y);
+        const Vec<F> ng_x = gather_columns<F>(a.gx, a.gy, a.gz, x), ng_y = gather_columns<F>(b.gx, b.gy, b.gz, y);
+        const Vec<F> ns_x = gather_columns<F>(a.sx, a.sy, a.sz, x), ns_y = gather_columns<F>(b.sx, b.sy, b.sz, y);
+        const Vec<F> to = at_y - at_x;
+        const F d2 = dot(to, to);
+        const F cos_x = dot(ns_x, to), cos_y = -dot(ng_y, to); // times d
+        // Where sampling x would reject the direction, or y would look different from there: not for its own path, which has come through.
+        const Mask<F> possible = dot(ng_x, to) > F(0.f) && -dot(ns_y, to) >= F(least_facing) * sqrt(d2);
+        F density = max(cos_x, F(0.f)) * max(cos_y, F(0.f)) / (d2 * d2);
+        density = select(present && (own || possible) && density >= F(least_density) && density <= F(most_density), density, F(0.f));
+        store(batch.density + k, density);
+
+        const Mask<F> asks = !own && density > F(0.f);
+        if (!any(asks)) continue;
+        // Both ends are off their surfaces on the side they face each other from.
+        const Vec<F> from = offset_origin(at_y, ng_y * gather(b.clearance.data, y));
+        const Vec<F> ray = offset_origin(at_x, ng_x * gather(a.clearance.data, x)) - from;
+        const F distance = length(ray);
+        const unsigned lanes = bits(asks);
+        const int n = q.size;
+        compress(q.ox + n, from.x, lanes);
+        compress(q.oy + n, from.y, lanes);
+        compress(q.oz + n, from.z, lanes);
+        compress(q.dx + n, F(ray.x / distance), lanes);
+        compress(q.dy + n, F(ray.y / distance), lanes);
+        compress(q.dz + n, F(ray.z / distance), lanes);
+        compress(q.distance + n, F(distance * (1.f - 4e-7f)), lanes);
+        compress(q.slot + n, Int<F>(iota<F>() + k), lanes);
+        compress(q.random + n, pcg_hash(UInt<F>(gather(reuse.random.data, y) + to_unsigned(member))), lanes);
+        q.size += count(asks);
+    }
+}
+
+// Turns the densities of each vertex into the members' shares of it, up to who reflects which colour.
+inline void weigh(ReuseBatch& batch, int group_size, Vec3* share) {
+    for (int v = 0; v < batch.vertices; ++v) {
+        const int own = batch.own_seat[v], first = own / group_size * group_size;
+        const float* density = &batch.density[v * group_size];
+        Vec3 sum{0, 0, 0};
+        for (int m = 0; m < group_size; ++m) {
+            sum.x += density[m] * batch.reflects_r[first + m];
+            sum.y += density[m] * batch.reflects_g[first + m];
+            sum.z += density[m] * batch.reflects_b[first + m];
+        }
+        // Rounding may have hidden a vertex from its own pixel, which then keeps what it found there.
+        const bool seen = density[own - first] > 0;
+        batch.shared[own] = seen;
+        const auto inverse = [&](float s) { return seen && s > 0 ? 1 / s : 0.f; };
+        share[v] = {inverse(sum.x), inverse(sum.y), inverse(sum.z)};
+    }
+}
+
+// Three columns by slot.
+struct SharedRadiance {
+    double *r, *g, *b;
+};
+
+// Hands the radiance that the batch's paths brought home to all who share in it.
+template <class F>
+void distribute(const ReuseColumns& reuse, ReuseBatch& batch, int group_size, const Vec3* share, const SharedRadiance& radiance) {
+    const int seats = batch.groups * group_size;
+    for (float* sum : {batch.sum_r.data, batch.sum_g.data, batch.sum_b.data}) std::fill_n(sum, seats, 0.f);
+    for (int v = 0; v < batch.vertices; ++v) {
+        const int own = batch.own_seat[v], first = own / group_size * group_size, slot = batch.slot[own];
+        const auto relative = [](double value, float rho) { return rho >= least_reflectance ? float(value) / rho : 0.f; };
+        const float r = relative(radiance.r[slot], reuse.rho_r[slot]);
+        const float g = relative(radiance.g[slot], reuse.rho_g[slot]);
+        const float b = relative(radiance.b[slot], reuse.rho_b[slot]);
+        for (int m = 0; m < group_size; m += width<F>) {
+            const int seat = first + m;
+            const F density = select(as_mask(iota<F>() + m < group_size), load<F>(&batch.density[v * group_size + m]), F(0.f));
+            store(batch.sum_r + seat, load<F>(batch.sum_r + seat) + density * share[v].x * r);
+            store(batch.sum_g + seat, load<F>(batch.sum_g + seat) + density * share[v].y * g);
+            store(batch.sum_b + seat, load<F>(batch.sum_b + seat) + density * share[v].z * b);
+        }
+    }
+    for (int seat = 0; seat < seats; ++seat) {
+        const int slot = batch.slot[seat];
+        if (slot < 0) continue;
+        const bool shared = batch.shared[seat];
+        const auto settle = [&](double& value, float sum, float rho) {
+            if (rho < least_reflectance) return;
+            value = (shared ? 0.0 : value) + double(sum * rho);
+        };
+        settle(radiance.r[slot], batch.sum_r[seat], reuse.rho_r[slot]);
+        settle(radiance.g[slot], batch.sum_g[seat], reuse.rho_g[slot]);
+        settle(radiance.b[slot], batch.sum_b[seat], reuse.rho_b[slot]);
+    }
+}
+
+// Slot in the tile of member (column, row) of the group whose place in the first cell is (x, y), in the block of cells whose first pixel is
+// (block_x, block_y) of the tile; -1 if that is beyond the film.
+inline int slot_of_member(const TileJob& job, int block_x, int block_y, int column, int row, int x, int y, int sample) {
+    constexpr int cell = ReuseGroups::cell;
+    const int cell_x = block_x + column * cell, cell_y = block_y + row * cell;
+    const uint32_t shuffle = pcg_hash(uint32_t(job.x + cell_x) << 16 ^ uint32_t(job.y + cell_y));
+    const int px = cell_x + (x ^ int(shuffle % cell)), py = cell_y + (y ^ int(shuffle / cell % cell));
+    return px < job.width && py < job.height ? (py * job.width + px) * job.samples + sample : -1;
+}
+
+// Gives the next group of the batch its seats, and lists the vertices it has to share.
+inline void seat_group(const ReuseColumns& reuse, const TileScratch& scratch, ReuseBatch& batch, const int* slots, int group_size) {
+    const int first = batch.groups++ * group_size;
+    int members = 0;
+    for (int m = 0; m < group_size; ++m) {
+        const int seat = first + m, slot = slots[m];
+        const bool takes_part = slot >= 0 && reuse.first.takes_part[slot];
+        members += takes_part;
+        batch.slot[seat] = takes_part ? slot : -1;
+        batch.shared[seat] = 0;
+        batch.reflects_r[seat] = takes_part && reuse.rho_r[slot] >= least_reflectance;
+        batch.reflects_g[seat] = takes_part && reuse.rho_g[slot] >= least_reflectance;
+        batch.reflects_b[seat] = takes_part && reuse.rho_b[slot] >= least_reflectance;
+    }
+    if (members < 2) return;
+    for (int seat = first; seat < first + group_size; ++seat) {
+        const int slot = batch.slot[seat];
+        if (slot < 0) continue;
+        const int place = reuse.second_of[slot];
+        if (place < 0 || !reuse.second.takes_part[place]) continue;
+        // Nothing to share, or nothing that others should get or that can be divided: the film counts it, for this pixel alone.
+        const double r = scratch.r[slot], g = scratch.g[slot], b = scratch.b[slot];
+        if (!(r >= 0 && g >= 0 && b >= 0 && r + g + b > 0 && r + g + b <= double(most_radiance))) continue;
+        batch.place[batch.vertices] = place;
+        batch.own_seat[batch.vertices++] = seat;
+    }
+}
+
+template <class F> [[gnu::flatten]] void share_batch(const KernelContext& context, TileScratch& scratch, ReuseBatch& batch) {
+    ReuseColumns& reuse = *scratch.reuse;
+    const int group_size = context.settings.reuse.size();
+    if (batch.vertices > 0) {
+        ShadowQueue& q = scratch.shadows;
+        queue_connections<F>(reuse, batch, group_size, q);
+        const RayArrays rays{q.ox, q.oy, q.oz, q.dx, q.dy, q.dz, q.distance, context.accel->has_alpha() ? q.random.data : nullptr};
+        // Not coherent: though those of one vertex are a narrow fan, packets of several fans then take half as long again.
+        context.accel->occluded(rays, q.size, false, scratch.blocked);
+        scratch.shadow_rays += q.size;
+        for (int k = 0; k < q.size; ++k)
+            if (scratch.blocked[k]) batch.density[q.slot[k]] = 0;
+        Vec3 share[ReuseBatch::most_seats];
+        weigh(batch, group_size, share);
+        distribute<F>(reuse, batch, group_size, share, {scratch.r, scratch.g, scratch.b});
+        // Light by the number of scatterings is shared as its sum is.
+        for (int k = 2; scratch.bounces && k < scratch.bounces->recorded; ++k) {
+            BounceColumns::Radiance& after = scratch.bounces->after[size_t(k)];
+            distribute<F>(reuse, batch, group_size, share, {after.r, after.g, after.b});
+        }
+    }
+    batch.groups = batch.vertices = 0;
+}
+
+// After all paths of the tile have ended and their own radiance was set aside: connects, shares, and puts it back.
+template <class F> void share_paths(const KernelContext& context, const TileJob& job, TileScratch& scratch) {
+    const ReuseGroups& groups = context.settings.reuse;
+    constexpr int cell = ReuseGroups::cell;
+    ReuseColumns& reuse = *scratch.reuse;
+    ReuseBatch& batch = reuse.batch;
+    const int most_groups = tile_capacity / (groups.size() * groups.size());
+    for (int block_y = 0; block_y < job.height; block_y += groups.rows * cell)
+        for (int block_x = 0; block_x < job.width; block_x += groups.columns * cell)
+            for (int in_cell = 0; in_cell < cell * cell; ++in_cell)
+                for (int sample = 0; sample < job.samples; ++sample) {
+                    int slots[ReuseGroups::largest];
+                    for (int m = 0; m < groups.size(); ++m)
+                        slots[m] = slot_of_member(job, block_x, block_y, m % groups.columns, m / groups.columns, in_cell % cell,
+                                                  in_cell / cell, sample);
+                    seat_group(reuse, scratch, batch, slots, groups.size());
+                    if (batch.groups == most_groups) share_batch<F>(context, scratch, batch);
+                }
+    share_batch<F>(context, scratch, batch);
+
+    const auto add_own = [&](const SharedRadiance& to) {
+        for (int k = 0; k < job.paths(); ++k) {
+            to.r[k] += reuse.own_r[k];
+            to.g[k] += reuse.own_g[k];
+            to.b[k] += reuse.own_b[k];
+        }
+    };
+    add_own({scratch.r, scratch.g, scratch.b});
+    for (int k = 2; scratch.bounces && k < scratch.bounces->recorded; ++k) {
+        BounceColumns::Radiance& after = scratch.bounces->after[size_t(k)];
+        add_own({after.r, after.g, after.b});
+    }
+}
+
+} // namespace blush::inline BLUSH_ISA

@@ -1,0 +1,171 @@
+// Path reuse moves noise, not light: the mean of every part of a picture is what it is without, whatever stands in the way of sharing.
+#include "picture.h"
+#include "render/error_estimate.h"
+#include "scenes.h"
+
+#include <array>
+
+namespace blush::test {
+namespace {
+
+using statistics::Moments;
+using statistics::sidak;
+using statistics::significance;
+
+// Pixels and blocks along each side. A group shares out all it has, so that blocks as large as groups are right whatever the shares.
+constexpr int size = 32, blocks = 8;
+using BlockMoments = std::array<Moments, blocks * blocks * 3>;
+
+// Of the means of blocks over independent seeds: pixels of a group have errors in common, renders do not.
+BlockMoments over_seeds(const Scene& scene, RenderSettings settings, uint32_t first_seed, int seeds) {
+    constexpr int side = size / blocks;
+    BlockMoments moments;
+    RendererOptions options;
+    options.threads = 1;
+    Renderer renderer(options);
+    for (int i = 0; i < seeds; ++i) {
+        settings.seed = first_seed + uint32_t(i);
+        renderer.update(scene, settings);
+        renderer.render(0, settings.spp);
+        const Frame frame = renderer.resolve();
+        EXPECT_EQ(frame.health.dropped(), 0);
+        for (int block = 0; block < blocks * blocks; ++block)
+            for (int c = 0; c < 3; ++c) {
+                double sum = 0;
+                for (int y = 0; y < side; ++y)
+                    for (int x = 0; x < side; ++x)
+                        sum += double(frame.rgba[4 * size_t((block / blocks * side + y) * size + block % blocks * side + x) + size_t(c)]);
+                moments[size_t(block * 3 + c)].add(sum / (side * side));
+            }
+    }
+    return moments;
+}
+
+void expect_same_means(const Scene& scene, const RenderSettings& settings, std::initializer_list<int> group_sizes, int seeds) {
+    const BlockMoments alone = over_seeds(scene, settings, 1, seeds);
+    const double alpha = sidak(significance, int64_t(alone.size() * group_sizes.size()));
+    for (const int group_size : group_sizes) {
+        RenderSettings shared = settings;
+        shared.reuse = group_size;
+        const BlockMoments together = over_seeds(scene, shared, 1000 * uint32_t(group_size), seeds);
+        for (size_t i = 0; i < alone.size(); ++i)
+            EXPECT_TRUE(statistics::same_mean(alone[i], together[i], alpha)) << group_size << " pixels, block and channel " << i;
+    }
+}
+
+// A room where everything that can end or bend a connection does: textures that reflect no green or nothing at all, a ball with
+// interpolated normals, a wall with a normal map, a veil that is half there, a mirror and a glossy box, and a lamp that shines to one side.
+Scene obstacle_room() {
+    Scene scene;
+    const std::array<Vec3, 4> texels{{{0.9f, 0, 0.4f}, {0.8f, 0.8f, 0.8f}, {0, 0, 0}, {0.5f, 0.9f, 0}}};
+    Material checks = lambert(1);
+    checks.base_color_texture.texture = add_texture(scene, float_picture(2, 2, texels));
+    place(scene, quad({-1, -1, 1}, {1, -1, 1}, {1, -1, -1}, {-1, -1, -1}), checks);
+
+    Geometry bumpy = *quad({-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1});
+    bumpy.serial = next_payload_serial();
+    bumpy.normals.assign(4, {0, 0, 1});
+    bumpy.tangents.assign(4, {1, 0, 0, 1});
+    const std::array<Vec3, 4> normals{{{0.9f, 0.5f, 0.7f}, {0.3f, 0.6f, 0.8f}, {0.5f, 0.5f, 1}, {0.5f, 0.1f, 0.6f}}};
+    Material mapped = lambert({0.7f, 0.7f, 0.5f});
+    mapped.normal_texture.texture = add_texture(scene, float_picture(2, 2, normals));
+    place(scene, std::make_shared<const Geometry>(bumpy), mapped);
+
+    place(scene, quad({-1, -1, 1}, {-1, -1, -1}, {-1, 1, -1}, {-1, 1, 1}), lambert({0.8f, 0.1f, 0.1f}));
+    place(scene, quad({1, -1, -1}, {1, -1, 1}, {1, 1, 1}, {1, 1, -1}), lambert({0.1f, 0.6f, 0.2f}));
+    place(scene, ceiling_quad(1, 1), lambert(0.75f));
+
+    Geometry smooth = *sphere(false);
+    smooth.serial = next_payload_serial();
+    smooth.normals = smooth.positions;
+    place(scene, std::make_shared<const Geometry>(smooth), lambert(0.8f), at({-0.45f, -0.6f, -0.2f}, 0.35f));
+    place(scene, cube(false), plastic(0.3f), at({0.5f, -0.75f, -0.3f}, 0.25f));
+    place(scene, cube(false), metal(0), at({0.55f, -0.8f, 0.45f}, 0.15f));
+    Material veil = lambert(0.6f);
+    veil.alpha = Material::Alpha::blend;
+    veil.opacity = 0.5f;
+    place(scene, quad({-0.6f, -0.9f, 0.3f}, {0.4f, -0.9f, 0.4f}, {0.4f, 0.3f, 0.2f}, {-0.6f, 0.3f, 0.3f}), veil);
+    Material lamp = emitter(15, 0.5f);
+    lamp.double_sided = false;
+    place(scene, ceiling_quad(0.25f, 0.9f), lamp);
+    scene.view = looking({0, 0, 2.9f}, {0, -0.1f, 0}, 0.75f);
+    return scene;
+}
+
+TEST(PathReuse, KeepsTheMeanOfAMatteRoom) { expect_same_means(shipped_scene("cornell"), settings_for(size, size, 8), {4, 8, 16}, 48); }
+
+TEST(PathReuse, KeepsTheMeanAmongObstacles) { expect_same_means(obstacle_room(), settings_for(size, size, 8), {4, 16}, 48); }
+
+TEST(PathReuse, KeepsTheMeanWhereverPathsEnd) {
+    const Scene scene = obstacle_room();
+    for (const int bounces : {1, 2, 3}) {
+        SCOPED_TRACE(bounces);
+        RenderSettings settings = settings_for(size, size, 4);
+        settings.max_bounces = bounces;
+        expect_same_means(scene, settings, {16}, 32);
+    }
+    for (const char* rule : {"off", "constant=0.6,start=1", "max,start=1"}) {
+        SCOPED_TRACE(rule);
+        RenderSettings settings = settings_for(size, size, 4);
+        settings.roulette = *parse_roulette(rule);
+        settings.max_bounces = 8;
+        expect_same_means(scene, settings, {16}, 32);
+    }
+}
+
+TEST(PathReuse, KeepsTheMeanOfEveryStrategy) {
+    const Scene scene = shipped_scene("cornell");
+    for (const Strategy strategy : {Strategy::light, Strategy::bsdf}) {
+        RenderSettings settings = settings_for(size, size, 16);
+        settings.strategy = strategy;
+        expect_same_means(scene, settings, {16}, 32);
+    }
+}
+
+// Le / (1 - rho), where all that is scattered is scattered by matte walls and goes round for ever.
+TEST(PathReuse, KeepsTheLightOfAClosedSphere) {
+    Scene scene;
+    place(scene, sphere(true), emitter(2, 0.8f));
+    scene.view = looking({0.1f, -0.2f, 0.3f}, {0.9f, 0.35f, -0.8f}, 1.2f);
+    RenderSettings settings = settings_for(size, size, 4);
+    settings.reuse = 16;
+    for (const Moments& m : over_seeds(scene, settings, 1, 24)) EXPECT_TRUE(statistics::z_test(m, 2 / 0.2, sidak(significance, int64_t(std::tuple_size_v<BlockMoments>))));
+}
+
+double mean_square(const Scene& scene, RenderSettings settings) {
+    const Picture a = render(scene, settings);
+    settings.seed += 1;
+    const Picture b = render(scene, settings);
+    double sum = 0;
+    for (size_t i = 0; i < a.pixels.size(); ++i) sum += std::pow(a.pixels[i].y - b.pixels[i].y, 2);
+    return sum;
+}
+
+TEST(PathReuse, LowersTheNoiseOfIndirectLight) {
+    for (const char* name : {"cornell", "corridor"}) {
+        RenderSettings settings = settings_for(64, 64, 8);
+        const double alone = mean_square(shipped_scene(name), settings);
+        settings.reuse = 16;
+        EXPECT_LT(mean_square(shipped_scene(name), settings), alone) << name;
+    }
+}
+
+// A film that ends amid cells and groups, and one smaller than any group.
+TEST(PathReuse, KnowsTheFilmsBorder) {
+    for (const auto& [width, height] : {std::pair{37, 19}, {3, 2}, {1, 1}}) {
+        RenderSettings settings = settings_for(width, height, 16);
+        settings.reuse = 16;
+        const Picture p = render(shipped_scene("cornell"), settings);
+        for (const Vec3d& pixel : p.pixels) EXPECT_GE(pixel.y, 0);
+    }
+}
+
+TEST(PathReuse, WidensTheErrorsInterval) {
+    const ErrorEstimate e = widened({true, 0.4, 0.3, 0.6}, 16);
+    EXPECT_DOUBLE_EQ(e.relmse, 0.4);
+    EXPECT_DOUBLE_EQ(e.low, 0);
+    EXPECT_DOUBLE_EQ(e.high, 1.2);
+}
+
+} // namespace
+} // namespace blush::test
