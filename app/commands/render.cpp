@@ -147,7 +147,7 @@ OrderedJson result_json(const RenderCommand& c, const Rendered& rendered) {
     const RayCounts& rays = r.frame.rays;
     const double paths = double(rays.camera), seconds = std::max(r.seconds, 1e-9);
     const ErrorEstimate& error = r.frame.error;
-    const auto known = [&](double value) { return error.known ? OrderedJson(value) : OrderedJson(); };
+    const auto if_known = [](bool known, double value) { return known ? OrderedJson(value) : OrderedJson(); };
     OrderedJson json;
     json["scene"] = c.scene;
     json["width"] = r.frame.width;
@@ -159,7 +159,12 @@ OrderedJson result_json(const RenderCommand& c, const Rendered& rendered) {
     json["mrays_per_s"] = double(rays.total()) / seconds * 1e-6;
     json["mpaths_per_s"] = paths / seconds * 1e-6;
     json["path_length_mean"] = paths > 0 ? double(rays.camera + rays.bounce) / paths : 0.0;
-    json["error"] = {{"relmse", known(error.relmse)}, {"low", known(error.low)}, {"high", known(error.high)}};
+    json["error"] = {{"relmse", if_known(error.known, error.relmse)},
+                     {"low", if_known(error.known, error.low)},
+                     {"high", if_known(error.known, error.high)},
+                     {"rmse", if_known(error.rmse_known, error.rmse)},
+                     {"rmse_low", if_known(error.rmse_known, error.rmse_low)},
+                     {"rmse_high", if_known(error.rmse_known, error.rmse_high)}};
     json["health"] = health_json(r.frame.health);
     if (!r.frame.bounces.empty()) json["bounces"] = bounces_json(r.frame);
     json["kernel"] = kernel_json(rendered.info);
@@ -174,7 +179,9 @@ void print_summary(const RenderCommand& c, const Rendered& rendered) {
     const LoopResult& r = rendered.loop;
     fmt::print("{}: {}x{}, {} spp in {:.2f} s, {:.2f} Mpaths/s", c.output, r.frame.width, r.frame.height, r.samples, r.seconds,
                double(r.frame.rays.camera) / std::max(r.seconds, 1e-9) * 1e-6);
-    if (r.frame.error.known) fmt::print(", estimated error {:.2g}", r.frame.error.relmse);
+    const ErrorEstimate& e = r.frame.error;
+    if (e.known) fmt::print(", estimated relMSE {:.2g} ({:.2g} to {:.2g})", e.relmse, e.low, e.high);
+    if (e.rmse_known) fmt::print(", RMSE {:.2g} ({:.2g} to {:.2g})", e.rmse, e.rmse_low, e.rmse_high);
     if (rendered.denoised) fmt::print(", {}", denoised_summary(*rendered.denoised));
     fmt::print("{}\n", r.complete ? "" : ", partial");
 }

@@ -145,7 +145,7 @@ void Film::add(const TileJob& job, const TileScratch& tile, uint32_t seed) {
     remember(health_, bad);
 }
 
-void Film::resolve_rows(Frame& frame, int first, int last, ErrorAccumulator& error) const {
+void Film::resolve_rows(Frame& frame, int first, int last) const {
     for (size_t i = size_t(first) * size_t(width_); i < size_t(last) * size_t(width_); ++i) {
         const Half &a = halves_[2 * i], &b = halves_[2 * i + 1];
         const int64_t count = a.count + b.count;
@@ -172,11 +172,26 @@ void Film::resolve_rows(Frame& frame, int first, int last, ErrorAccumulator& err
             const Vec3d light = mean_of(i, w, [&](size_t place) { return bounces_.sum(place, k); });
             frame.bounces[k][i] = {float(light.x), float(light.y), float(light.z)};
         }
-        if (a.count > 0 && b.count > 0) {
-            const double na = double(a.count), nb = double(b.count);
-            error.add({a.r / na, a.g / na, a.b / na}, {b.r / nb, b.g / nb, b.b / nb}, na * w.a);
-        }
     }
+}
+
+ErrorAccumulator Film::error_of_rows(const Frame& frame, int first, int last) const {
+    ErrorAccumulator error;
+    const auto both_hold_samples = [&](size_t i) { return halves_[2 * i].count > 0 && halves_[2 * i + 1].count > 0; };
+    // A drag's single samples have nothing to compare, and no time to look around.
+    size_t i = size_t(first) * size_t(width_);
+    const size_t end = size_t(last) * size_t(width_);
+    while (i < end && !both_hold_samples(i)) ++i;
+    if (i == end) return error;
+    const Surroundings surroundings(frame.rgba, width_, height_, first, last);
+    for (; i < end; ++i) {
+        if (!both_hold_samples(i)) continue;
+        const Half &a = halves_[2 * i], &b = halves_[2 * i + 1];
+        const double na = double(a.count), nb = double(b.count);
+        const Vec3d around = surroundings.mean(int(i % size_t(width_)), int(i / size_t(width_)));
+        error.add({a.r / na, a.g / na, a.b / na}, {b.r / nb, b.g / nb, b.b / nb}, na * weights(a, b).a, around);
+    }
+    return error;
 }
 
 void Film::resolve(Frame& frame, const Workers& workers) const {
@@ -197,9 +212,11 @@ void Film::resolve(Frame& frame, const Workers& workers) const {
     // Bands of a fixed size, summed in order: the estimate does not depend on threads.
     constexpr int band = 32;
     std::vector<ErrorAccumulator> errors(size_t((height_ + band - 1) / band));
-    workers.for_each(int64_t(errors.size()), {}, [&](int64_t i, unsigned) {
-        resolve_rows(frame, int(i) * band, std::min(height_, int(i + 1) * band), errors[size_t(i)]);
-    });
+    const auto for_each_band = [&](const auto& task) {
+        workers.for_each(int64_t(errors.size()), {}, [&](int64_t i, unsigned) { task(size_t(i), int(i) * band, std::min(height_, int(i + 1) * band)); });
+    };
+    for_each_band([&](size_t, int first, int last) { resolve_rows(frame, first, last); });
+    for_each_band([&](size_t i, int first, int last) { errors[i] = error_of_rows(frame, first, last); });
     ErrorAccumulator error;
     for (const ErrorAccumulator& e : errors) error.merge(e);
     frame.error = error.estimate();

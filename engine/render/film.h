@@ -64,7 +64,8 @@ private:
     template <class Sum> auto mean_of(size_t pixel, const Weights& w, const Sum& sum) const;
 
     void add_first_hit(size_t pixel, size_t place, const FirstHitColumns& first, int slot, bool first_of_pixel);
-    void resolve_rows(Frame& frame, int first, int last, ErrorAccumulator& error) const;
+    void resolve_rows(Frame& frame, int first, int last) const;
+    ErrorAccumulator error_of_rows(const Frame& frame, int first, int last) const;
 
     int width_ = 0, height_ = 0;
     PlaneSet planes_;

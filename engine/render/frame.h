@@ -31,10 +31,12 @@ struct RayCounts {
     int64_t total() const { return camera + bounce + shadow; }
 };
 
-// Relative mean squared error (cli.md: relmse) estimated from the two half buffers, with a 95 % interval.
+// The error of a picture against the truth, estimated from its two half buffers, with 95 % intervals (error_estimate.h).
 struct ErrorEstimate {
-    bool known = false; // false until both halves hold samples
-    double relmse = 0, low = 0, high = 0;
+    bool known = false;                   // relmse; false until both halves hold samples and the interval says something
+    double relmse = 0, low = 0, high = 0; // mean of (a - b)^2 / (b^2 + 0.01), b being the truth
+    bool rmse_known = false;
+    double rmse = 0, rmse_low = 0, rmse_high = 0; // root of the mean of (a - b)^2
 };
 
 struct Frame {

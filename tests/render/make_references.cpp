@@ -1,5 +1,5 @@
-// make_references [RENDERS]: writes the reference of every shipped scene, the mean of that many independent renders (default 256)
-// with its standard error as error.*. Run it when a scene changes, never to make a failing test pass.
+// make_references [RENDERS]: writes the references of every shipped scene, the means of that many independent renders (default 256)
+// with their standard errors as error.*. Run it when a scene changes, never to make a failing test pass.
 #include "io/image_io.h"
 #include "reference_scenes.h"
 
@@ -11,9 +11,8 @@ using namespace blush::test;
 
 namespace {
 
-LayeredImage make_reference(const std::string& name, int renders) {
+LayeredImage make_reference(const std::string& name, RenderSettings settings, int renders) {
     const Scene scene = shipped_scene(name);
-    RenderSettings settings = reference_settings(name);
     const size_t pixels = size_t(settings.width) * size_t(settings.height);
     std::vector<statistics::Moments> moments(3 * pixels);
     Renderer renderer;
@@ -50,11 +49,14 @@ int main(int argc, char** argv) {
         return 2;
     }
     for (const std::string& name : shipped_scene_names()) {
-        const auto written = write_exr(reference_file(name), make_reference(name, renders));
-        if (!written) {
-            std::fprintf(stderr, "make_references: %s\n", written.error().text().c_str());
-            return 1;
+        for (const auto& [file, settings] : {std::pair(reference_file(name), reference_settings(name)),
+                                             std::pair(coverage_reference_file(name), coverage_settings())}) {
+            const auto written = write_exr(file, make_reference(name, settings, renders));
+            if (!written) {
+                std::fprintf(stderr, "make_references: %s\n", written.error().text().c_str());
+                return 1;
+            }
+            std::printf("%s\n", file.c_str());
         }
-        std::printf("%s\n", reference_file(name).c_str());
     }
 }

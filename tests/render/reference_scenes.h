@@ -16,4 +16,21 @@ inline RenderSettings reference_settings(const std::string& scene) {
 }
 inline std::string reference_file(const std::string& scene) { return std::string(BLUSH_REFERENCES) + "/" + scene + ".exr"; }
 
+// Pictures as everybody renders them, small, and known far better: what error estimates are held against.
+inline RenderSettings coverage_settings() {
+    RenderSettings settings;
+    settings.width = 64;
+    settings.height = 40;
+    settings.spp = 64;
+    return settings;
+}
+inline std::string coverage_reference_file(const std::string& scene) { return std::string(BLUSH_REFERENCES) + "/coverage/" + scene + ".exr"; }
+
+struct Reference {
+    Picture mean;       // with the standard errors of its pixels
+    double renders = 0; // whose mean it is
+};
+// Throws if the file cannot be read.
+Reference read_reference(const std::string& file);
+
 } // namespace blush::test

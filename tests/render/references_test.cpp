@@ -1,6 +1,5 @@
 // The shipped scenes look as they always did: a z-test of each block of 8 x 8 pixels against stored references.
 #include "core/math.h"
-#include "io/image_io.h"
 #include "reference_scenes.h"
 
 namespace blush::test {
@@ -9,26 +8,6 @@ namespace {
 using namespace statistics;
 
 constexpr int block = 8;
-
-struct Reference {
-    Picture mean;       // with the standard errors of its pixels
-    double renders = 0; // whose mean it is
-};
-
-Reference read_reference(const std::string& scene) {
-    const auto image = read_layers(reference_file(scene));
-    if (!image) throw std::runtime_error(image.error().text());
-    Reference r;
-    r.mean.width = image->width;
-    r.mean.height = image->height;
-    r.renders = std::stod(image->metadata.at("blush:renders"));
-    const auto channel = [&](const char* name) -> const std::vector<float>& { return image->find(name)->values; };
-    for (size_t i = 0; i < channel("R").size(); ++i) {
-        r.mean.pixels.push_back({channel("R")[i], channel("G")[i], channel("B")[i]});
-        r.mean.errors.push_back({channel("error.R")[i], channel("error.G")[i], channel("error.B")[i]});
-    }
-    return r;
-}
 
 // The error of a single render is that of the reference times the root of their number; a render that scatters more than those did
 // is given its own.
@@ -45,13 +24,13 @@ testing::AssertionResult looks_like(const Picture& picture, const Reference& ref
 
 TEST(References, ShippedScenesLookAsTheyDid) {
     for (const std::string& name : shipped_scene_names())
-        EXPECT_TRUE(looks_like(render(shipped_scene(name), reference_settings(name)), read_reference(name))) << name;
+        EXPECT_TRUE(looks_like(render(shipped_scene(name), reference_settings(name)), read_reference(reference_file(name)))) << name;
 }
 
 // The test has teeth: light that ends after four bounces, walls a twentieth less green.
 TEST(References, SmallMistakesAreSeen) {
     const Scene cornell = shipped_scene("cornell");
-    const Reference reference = read_reference("cornell");
+    const Reference reference = read_reference(reference_file("cornell"));
     const RenderSettings settings = reference_settings("cornell");
     RenderSettings shorter = settings;
     shorter.max_bounces = 4;
