@@ -3,6 +3,7 @@
 #include "app/commands/check.h"
 #include "app/commands/common.h"
 #include "app/commands/compare.h"
+#include "app/commands/converge.h"
 #include "app/commands/denoise.h"
 #include "app/commands/info.h"
 #include "app/commands/render.h"
@@ -59,6 +60,7 @@ int run_command_line(int argc, char** argv) {
     add_render_command(app, run);
     add_compare_command(app, run);
     add_check_command(app, run);
+    add_converge_command(app, run);
     add_info_command(app, run);
     add_denoise_command(app, run);
     try {

@@ -154,20 +154,41 @@ Result<LayeredImage> decode_layers(std::span<const uint8_t> bytes, const std::st
     return image;
 }
 
-Error encode_error(const std::filesystem::path& file, OIIO::ImageOutput& output) {
-    return {file.string(), "cannot encode: " + one_line(output.geterror()), ""};
-}
-
-// Encodes into memory, so that a full disk or an unwritable folder is met by write_file alone, the same for every format.
-Result<void> encode_to_file(const std::filesystem::path& file, const char* format, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
-                            const void* pixels) {
+// Encodes into memory, so that a full disk or an unwritable folder is met by write_file alone, the same for every format. `name` is for messages.
+Result<std::vector<uint8_t>> encode(const std::string& name, const char* format, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
+                                    const void* pixels) {
     std::vector<unsigned char> bytes;
     OIIO::Filesystem::IOVecOutput sink(bytes);
     const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format);
-    if (!output) return Error{file.string(), fmt::format("no encoder for {} files", format), ""};
-    if (!output->set_ioproxy(&sink) || !output->open(file.string(), spec) || !output->write_image(type, pixels) || !output->close())
-        return encode_error(file, *output);
-    return write_file(file, std::span<const uint8_t>(bytes));
+    if (!output) return Error{name, fmt::format("no encoder for {} files", format), ""};
+    if (!output->set_ioproxy(&sink) || !output->open(name, spec) || !output->write_image(type, pixels) || !output->close())
+        return Error{name, "cannot encode: " + one_line(output->geterror()), ""};
+    return bytes;
+}
+
+Result<void> encode_to_file(const std::filesystem::path& file, const char* format, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
+                            const void* pixels) {
+    const Result<std::vector<uint8_t>> bytes = encode(file.string(), format, spec, type, pixels);
+    if (!bytes) return bytes.error();
+    return write_file(file, *bytes);
+}
+
+// The comparison is false for NaN, which becomes black.
+std::vector<uint8_t> display_bytes(std::span<const float> rgb) {
+    std::vector<uint8_t> bytes(rgb.size());
+    std::transform(rgb.begin(), rgb.end(), bytes.begin(), [](float v) { return v > 0 ? uint8_t(std::min(v, 1.0f) * 255 + 0.5f) : uint8_t(0); });
+    return bytes;
+}
+
+bool is_rgb_of(std::span<const float> rgb, int width, int height) {
+    return width >= 1 && height >= 1 && rgb.size() == size_t(width) * size_t(height) * 3;
+}
+
+OIIO::ImageSpec display_spec(int width, int height, const char* compression) {
+    OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT8);
+    spec.attribute("oiio:ColorSpace", "sRGB");
+    spec.attribute("compression", compression);
+    return spec;
 }
 
 // What a file that was read said of itself, except for how its pixels were stored.
@@ -272,18 +293,20 @@ Result<void> write_display_image(const std::filesystem::path& file, int width, i
     return guarded(file.string(), [&]() -> Result<void> {
         const char* format = display_format(file);
         if (!format) return Error{file.string(), "not a .png or .jpg name", ""};
-        if (width < 1 || height < 1 || rgb.size() != size_t(width) * size_t(height) * 3)
-            return Error{file.string(), "an image without pixels or of the wrong size cannot be written", ""};
-        std::vector<uint8_t> bytes(rgb.size());
-        // The comparison is false for NaN, which becomes black.
-        std::transform(rgb.begin(), rgb.end(), bytes.begin(),
-                       [](float v) { return v > 0 ? uint8_t(std::min(v, 1.0f) * 255 + 0.5f) : uint8_t(0); });
-        OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT8);
-        spec.attribute("oiio:ColorSpace", "sRGB");
-        spec.attribute("compression", std::string_view(format) == "jpeg" ? "jpeg:95" : "zip");
+        if (!is_rgb_of(rgb, width, height)) return Error{file.string(), "an image without pixels or of the wrong size cannot be written", ""};
+        const std::vector<uint8_t> bytes = display_bytes(rgb);
+        OIIO::ImageSpec spec = display_spec(width, height, std::string_view(format) == "jpeg" ? "jpeg:95" : "zip");
         spec.attribute("jpeg:subsampling", "4:4:4"); // saturated edges keep their colour
         set_metadata(spec, metadata);
         return encode_to_file(file, format, spec, OIIO::TypeDesc::UINT8, bytes.data());
+    });
+}
+
+Result<std::vector<uint8_t>> encode_png(int width, int height, std::span<const float> rgb) {
+    return guarded("picture.png", [&]() -> Result<std::vector<uint8_t>> {
+        if (!is_rgb_of(rgb, width, height)) return Error{"", "an image without pixels or of the wrong size cannot be encoded", ""};
+        const std::vector<uint8_t> bytes = display_bytes(rgb);
+        return encode("picture.png", "png", display_spec(width, height, "zip"), OIIO::TypeDesc::UINT8, bytes.data());
     });
 }
 

@@ -59,4 +59,7 @@ Result<void> write_exr(const std::filesystem::path& file, const LayeredImage& im
 Result<void> write_display_image(const std::filesystem::path& file, int width, int height, std::span<const float> rgb,
                                  const std::map<std::string, std::string>& metadata = {});
 
+// The same as the bytes of a .png, for documents that carry their pictures with them.
+Result<std::vector<uint8_t>> encode_png(int width, int height, std::span<const float> rgb);
+
 } // namespace blush

@@ -92,7 +92,7 @@ double mean_flip(const RgbImage& a, const RgbImage& b, Encoding encoding, const 
 
 } // namespace
 
-Result<Metrics> compare(const RgbImage& a, const RgbImage& b, Encoding encoding) {
+Result<Metrics> compare(const RgbImage& a, const RgbImage& b, Encoding encoding, bool with_flip) {
     if (a.width != b.width || a.height != b.height)
         return Error{.what = fmt::format("the images differ in size: {}x{} and {}x{}", a.width, a.height, b.width, b.height)};
     // Where one image has no number, both are made black, so that no filter of FLIP spreads it or sees an edge there.
@@ -116,7 +116,7 @@ Result<Metrics> compare(const RgbImage& a, const RgbImage& b, Encoding encoding)
     }
     m.nonfinite_a = sums.nonfinite_a;
     m.nonfinite_b = sums.nonfinite_b;
-    m.flip = mean_flip(clean_a, clean_b, encoding, left_out);
+    if (with_flip) m.flip = mean_flip(clean_a, clean_b, encoding, left_out);
     return m;
 }
 

@@ -28,7 +28,7 @@ struct Metrics {
     int64_t nonfinite_a = 0, nonfinite_b = 0; // pixels
 };
 
-// `b` is the reference. Errors: sizes differ, no pixel is finite in both.
-Result<Metrics> compare(const RgbImage& a, const RgbImage& b, Encoding encoding);
+// `b` is the reference. FLIP takes far longer than the rest: without it, it stays 0. Errors: sizes differ, no pixel is finite in both.
+Result<Metrics> compare(const RgbImage& a, const RgbImage& b, Encoding encoding, bool with_flip = true);
 
 } // namespace blush

@@ -26,10 +26,11 @@ private:
 //
 // With a and b for their errors, the picture (A + B) / 2 has the squared error (a + b)^2 / 4 and the half difference (A - B) / 2 has the
 // square (a - b)^2 / 4. They differ by ab, whose mean is 0 because the halves are independent, whatever correlations a sampler has within a
-// half: honest for low-discrepancy points, for which the sample variance is not. So the sum of squared half differences estimates the squared
-// error of this very picture, not of one like it: a firefly is in both alike. What is left over is the sum of ab, of variance
-// var(a) var(b), and a half difference's fourth moment is 3/4 of that if errors are normal. The ratio of error to estimate is then distributed
-// like Fisher's F with as many degrees of freedom above as below, which gives an interval that also holds where few pixels carry the error.
+// half: honest for low-discrepancy points, for which the sample variance is not. So the sum of squared half differences estimates the
+// squared error of this very picture, not of one like it: a firefly is in both alike. What is left over is the sum of ab, of variance
+// var(a) var(b), and a half difference's fourth moment is 3/4 of that if errors are normal. The ratio of error to estimate is then
+// distributed like Fisher's F with as many degrees of freedom above as below, which gives an interval that also holds where few pixels
+// carry the error.
 //
 // relMSE divides by the reference, which is not there. A pixel's own value errs most where the error is largest: the smaller one
 // of it and of the mean around it stands in. What the choice may be worth is measured, not assumed: the estimate is made again with the
@@ -40,8 +41,8 @@ public:
     // One pixel, RGB. weight_a: what A counts for in the picture, n_A / (n_A + n_B) or a half. around: the mean around it.
     void add(const Vec3d& a, const Vec3d& b, double weight_a, const Vec3d& around);
     void merge(const ErrorAccumulator& other);
-    // Of the mean that add() was told of, with 95 % intervals. Not known for fewer than 64 pixels, if hardly more than one of them carries the
-    // error, or if the interval of relmse spans more than a factor of 100.
+    // Of the mean that add() was told of, with 95 % intervals. Not known for fewer than 64 pixels, if hardly more than one of them carries
+    // the error, or if the interval of relmse spans more than a factor of 100.
     ErrorEstimate estimate() const;
 
 private:

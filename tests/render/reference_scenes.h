@@ -24,7 +24,9 @@ inline RenderSettings coverage_settings() {
     settings.spp = 64;
     return settings;
 }
-inline std::string coverage_reference_file(const std::string& scene) { return std::string(BLUSH_REFERENCES) + "/coverage/" + scene + ".exr"; }
+inline std::string coverage_reference_file(const std::string& scene) {
+    return std::string(BLUSH_REFERENCES) + "/coverage/" + scene + ".exr";
+}
 
 struct Reference {
     Picture mean;       // with the standard errors of its pixels

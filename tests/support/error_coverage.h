@@ -21,9 +21,9 @@ TrueError true_error(const Frame& frame, const Truth& truth);
 
 struct Coverage {
     int64_t runs = 0;
-    int64_t known = 0, covered = 0;           // relmse
+    int64_t known = 0, covered = 0; // relmse
     int64_t rmse_known = 0, rmse_covered = 0;
-    double log_ratio = 0, log_width = 0;      // sums over known ones: of estimate / truth, of high / low (relmse)
+    double log_ratio = 0, log_width = 0; // sums over known ones: of estimate / truth, of high / low (relmse)
 
     void add(const ErrorEstimate& estimate, const TrueError& truth);
     void merge(const Coverage& other);

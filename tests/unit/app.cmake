@@ -2,6 +2,7 @@ blush_test(test_app
   SOURCES
     app_check.cpp
     app_compare.cpp
+    app_converge.cpp
     app_denoise.cpp
     app_info.cpp
     app_progress.cpp

@@ -1,7 +1,10 @@
 blush_test(test_measure
   SOURCES
+    measure_bias.cpp
     measure_bounce_energy.cpp
+    measure_convergence.cpp
     measure_flip.cpp
     measure_metrics.cpp
-  LIBS blush_measure
+    measure_plot.cpp
+  LIBS blush_measure fmt::fmt
   LABELS unit)

@@ -1,0 +1,216 @@
+// The report to hand around: one HTML file that needs nothing else.
+#include "app/commands/converge_report.h"
+
+#include "io/image_io.h"
+#include "measure/convergence.h"
+#include "measure/plot.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace blush {
+namespace {
+
+constexpr int widest_thumbnail = 400; // pixels
+
+constexpr const char* style = R"(
+body{font:15px/1.5 system-ui,sans-serif;color:#222;background:#fff;max-width:1340px;margin:2rem auto;padding:0 1.5rem}
+h1{font-size:1.6rem;margin:0 0 .3rem} h2{font-size:1.15rem;margin:2rem 0 .6rem} p{max-width:50rem;margin:.5rem 0} .quiet{color:#666}
+.row{display:flex;flex-wrap:wrap;gap:1.2rem} figure{margin:0} figcaption{font-size:.88rem;color:#444} img{display:block;border:1px solid #ddd}
+table{border-collapse:collapse;font-size:.9rem;font-variant-numeric:tabular-nums} th,td{padding:.3rem .8rem;border-bottom:1px solid #ddd;text-align:right}
+th:first-child,td:first-child{text-align:left} thead th{border-bottom:2px solid #999;font-weight:600} td small{color:#666;display:block}
+.swatch{display:inline-block;width:.8em;height:.8em;margin-right:.5em;border-radius:2px} .biased{color:#a33000;font-weight:600}
+svg{max-width:100%;height:auto} code{font-size:.9em;overflow-wrap:anywhere} dl{display:grid;grid-template-columns:max-content 1fr;gap:.2rem 1rem;font-size:.9rem} dd{margin:0}
+@media print{body{margin:0;max-width:none;font-size:11pt} h2{break-after:avoid} figure,tr{break-inside:avoid}}
+)";
+
+std::string base64(std::span<const uint8_t> bytes) {
+    constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    for (size_t i = 0; i < bytes.size(); i += 3) {
+        uint32_t word = uint32_t(bytes[i]) << 16;
+        if (i + 1 < bytes.size()) word |= uint32_t(bytes[i + 1]) << 8;
+        if (i + 2 < bytes.size()) word |= bytes[i + 2];
+        text += digits[word >> 18];
+        text += digits[word >> 12 & 63];
+        text += i + 1 < bytes.size() ? digits[word >> 6 & 63] : '=';
+        text += i + 2 < bytes.size() ? digits[word & 63] : '=';
+    }
+    return text;
+}
+
+// Means of square blocks of pixels, so that it is no wider than a thumbnail.
+RgbImage shrunk(const RgbImage& image) {
+    const int k = (image.width + widest_thumbnail - 1) / widest_thumbnail;
+    RgbImage small{std::max(1, image.width / k), std::max(1, image.height / k), {}};
+    for (int y = 0; y < small.height; ++y) {
+        for (int x = 0; x < small.width; ++x) {
+            Vec3d sum{0, 0, 0};
+            int count = 0;
+            for (int j = y * k; j < std::min(image.height, (y + 1) * k); ++j) {
+                for (int i = x * k; i < std::min(image.width, (x + 1) * k); ++i, ++count) {
+                    const Vec3& p = image.pixels[size_t(j) * size_t(image.width) + size_t(i)];
+                    sum = {sum.x + double(p.x), sum.y + double(p.y), sum.z + double(p.z)};
+                }
+            }
+            small.pixels.push_back({float(sum.x / count), float(sum.y / count), float(sum.z / count)});
+        }
+    }
+    return small;
+}
+
+Result<std::string> figure(const RgbImage& image, const std::string& caption, const ColorManagement& color, const ViewSettings& view) {
+    const RgbImage small = shrunk(image);
+    std::vector<float> rgb;
+    for (const Vec3& p : small.pixels) rgb.insert(rgb.end(), {p.x, p.y, p.z});
+    if (Result<void> shown = color.apply_display(view.display, view.view, view.exposure_ev, view.gamma, rgb.data(), small.pixels.size());
+        !shown)
+        return shown.error();
+    const Result<std::vector<uint8_t>> png = encode_png(small.width, small.height, rgb);
+    if (!png) return png.error();
+    return fmt::format("<figure style='width:{0}px'><img width='{0}' height='{1}' alt='{2}' src='data:image/png;base64,{3}'>"
+                       "<figcaption>{2}</figcaption></figure>\n",
+                       small.width, small.height, escaped_markup(caption), base64(*png));
+}
+
+// One curve for each repeat in the variant's colour, the first of which is in the legend.
+Plot error_plot(const ConvergeReport& report, const std::string& title, const std::string& x_label, double (*x_of)(const MeasuredPoint&)) {
+    Plot plot{title, x_label, "RMSE against the reference", {}, {}};
+    for (size_t v = 0; v < report.result.variants.size(); ++v) {
+        const VariantResult& variant = report.result.variants[v];
+        for (const MeasuredPoint& p : variant.points) {
+            const bool begins = &p == &variant.points.front() || (&p)[-1].repeat != p.repeat;
+            if (begins) plot.curves.push_back({p.repeat == 0 ? variant.variant.name : "", plot_color(v), {}});
+            plot.curves.back().points.push_back({x_of(p), p.metrics.rmse});
+        }
+    }
+    const PlotCurve guide = plot_guide(plot, -0.5, "1/√N, for comparison");
+    PlotCurve floor{"the reference's own error", "#bbbbbb", {}, true, false};
+    const double own = std::sqrt(mean_square_error(report.reference.measured));
+    for (const PlotCurve::Point& p : guide.points) floor.points.push_back({p.x, own});
+    plot.curves.push_back(guide);
+    if (own > 0) plot.curves.push_back(floor);
+    return plot;
+}
+
+std::string with_interval(const Interval& i) {
+    if (!i.known) return i.value != 0 ? fmt::format("{:.3g}", i.value) : std::string("–");
+    return fmt::format("{:.3g}<small>{:.3g} to {:.3g}</small>", i.value, i.low, i.high);
+}
+
+std::string bias_cell(const BiasTest& b) {
+    const RegionBias& w = b.worst;
+    const bool whole_is_worst = w.width == b.whole.width && w.height == b.whole.height;
+    const std::string region = whole_is_worst ? std::string()
+                                              : fmt::format("<small>most in {}×{} at {},{}: {:+.3g} %, z {:+.1f}</small>", w.width,
+                                                            w.height, w.x, w.y, w.percent(), w.z());
+    const double margin = b.whole.reference > 0 ? 196 * b.whole.error / b.whole.reference : 0;
+    return fmt::format("<td{}>{}<small>whole picture {:+.3g} % ± {:.2g}, z {:+.1f}</small>{}</td>", b.biased ? " class='biased'" : "",
+                       b.verdict(), b.whole.percent(), margin, b.whole.z(), region);
+}
+
+std::string variant_row(const VariantResult& v, size_t index) {
+    if (v.points.empty()) return fmt::format("<tr><td>{}</td><td colspan='8'>not measured</td></tr>\n", escaped_markup(v.variant.name));
+    const MeasuredPoint& p = v.points.back();
+    const auto flip = std::find_if(v.points.rbegin(), v.points.rend(), [](const MeasuredPoint& m) { return m.has_flip; });
+    return fmt::format("<tr><td><span class='swatch' "
+                       "style='background:{}'></span>{}<small><code>{}</code></small></td><td>{}</td><td>{:.3g}</td><td>{:.3g}{}</td>"
+                       "<td>{:.3g}</td><td>{}</td><td>{}</td><td>{}</td>{}</tr>\n",
+                       plot_color(index), escaped_markup(v.variant.name), escaped_markup(v.variant.options), p.spp, p.seconds,
+                       p.metrics.rmse, p.reference_clearly_better ? "" : "<small>no more than the reference's</small>", p.metrics.relmse,
+                       flip == v.points.rend() ? std::string("–") : fmt::format("{:.3g}", flip->metrics.flip),
+                       with_interval(v.over_seconds.slope), with_interval(v.efficiency), bias_cell(v.bias));
+}
+
+std::string table(const ConvergeReport& report) {
+    std::string html =
+        "<table><thead><tr><th>Variant</th><th>samples<br>per pixel</th><th>seconds</th><th>RMSE</th><th>relMSE</th><th>FLIP</th>"
+        "<th>slope</th><th>efficiency<br>1/(MSE·s)</th><th>bias test, all repeats</th></tr></thead><tbody>\n";
+    for (size_t i = 0; i < report.result.variants.size(); ++i) html += variant_row(report.result.variants[i], i);
+    return html + "</tbody></table>\n";
+}
+
+std::string how_to_read(const ConvergeReport& report) {
+    const bool capped = std::ranges::any_of(report.result.variants, [&](const VariantResult& v) {
+        return v.variant.settings.max_bounces != unlimited_bounces && v.bias.biased;
+    });
+    const bool cut = std::ranges::any_of(report.result.variants, [](const VariantResult& v) {
+        return v.variant.settings.roulette.rule == Roulette::Rule::biased_cut && v.bias.biased;
+    });
+    std::string html = fmt::format(
+        "<p>Both axes are logarithmic. Where an error is noise alone it falls like one over the root of the number of samples, a line of "
+        "slope "
+        "−½, and faster where well-spread points sample something smooth; a curve that is lower is better at that time, and one that "
+        "levels off is wrong or has met the error of its reference. Variants took "
+        "turns in slices of a tenth of a second, so that whatever else the machine did cost all of them alike; each was rendered {} "
+        "times, and the time to measure is not counted. Efficiency is one over squared error times seconds: twice of it is the same "
+        "picture in half the time. "
+        "Intervals are 95 %, over the repeats for efficiency; fits leave out points at which the reference is not clearly better.</p>\n",
+        report.input.repeats);
+    html += fmt::format(
+        "<p>The bias test compares means of the whole picture and of a grid of regions with the reference's, in units of the standard "
+        "error of their "
+        "difference. All regions of a variant together call a right picture biased in {:g} % of cases (Šidák's correction).</p>\n",
+        100 * bias_significance);
+    if (capped)
+        html += "<p>A limit on bounces is biased by design: the light of all longer paths is missing, however many samples there are, and "
+                "the curve "
+                "levels off at that error.</p>\n";
+    if (cut)
+        html += "<p>The biased cut ends paths that carry little and gives the survivors nothing in return, so that their light is missing. "
+                "Russian roulette divides "
+                "what survives by the probability to survive, which keeps the mean.</p>\n";
+    return html;
+}
+
+std::string about(const ConvergeReport& report) {
+    const Reference& r = report.reference;
+    std::string html = "<dl>\n";
+    const auto row = [&](const char* what, const std::string& value) {
+        html += fmt::format("<dt>{}</dt><dd>{}</dd>\n", what, escaped_markup(value));
+    };
+    row("scene", fmt::format("{}, {} × {} pixels", report.scene, report.width, report.height));
+    row("budget", report.input.spp > 0 ? fmt::format("{} samples per pixel, {} repeats", report.input.spp, report.input.repeats)
+                                       : fmt::format("{:g} s, {} repeats", report.input.seconds, report.input.repeats));
+    row("seeds", fmt::format("{} to {}", report.input.seed, report.input.seed + uint32_t(report.input.repeats) - 1));
+    row("reference", fmt::format("{}; {} samples per pixel, seed {}, {:.3g} s, own RMSE {:.3g}", report.reference_source,
+                                 r.measured.samples, r.seed, r.seconds, std::sqrt(mean_square_error(r.measured))));
+    row("kernel", report.result.kernel);
+    row("machine", report.machine);
+    row("program", "Blush " + report.build);
+    return html + "</dl>\n";
+}
+
+} // namespace
+
+Result<std::string> converge_html(const ConvergeReport& report, const ColorManagement& color, const ViewSettings& view) {
+    std::string html =
+        "<!DOCTYPE html>\n<html lang='en'>\n<head><meta charset='utf-8'><meta name='viewport' content='width=device-width'>\n";
+    html += fmt::format("<title>Convergence: {}</title>\n<style>{}</style></head>\n<body>\n", escaped_markup(report.scene), style);
+    html += fmt::format("<h1>Error against run time: {}</h1>\n<p class='quiet'>{} × {} pixels, {} variants{}{}</p>\n",
+                        escaped_markup(report.scene), report.width, report.height, report.result.variants.size(),
+                        report.preset.empty() ? "" : ", preset " + escaped_markup(report.preset),
+                        report.result.partial ? ". <strong>Ended early: partial.</strong>" : "");
+    html += "<div class='row'>\n";
+    html += to_svg(error_plot(report, "Error against time", "seconds of rendering", [](const MeasuredPoint& p) { return p.seconds; }));
+    html += to_svg(error_plot(report, "Error against samples", "samples per pixel", [](const MeasuredPoint& p) { return double(p.spp); }));
+    html += "</div>\n<h2>At the end of the last repeat</h2>\n" + table(report) + "<h2>How to read this</h2>\n" + how_to_read(report) +
+            "<h2>Pictures</h2>\n<div class='row'>\n";
+    for (const VariantResult& v : report.result.variants) {
+        if (v.picture.samples == 0) continue;
+        const Result<std::string> shown =
+            figure(v.picture.image, fmt::format("{}, all repeats, {} spp", v.variant.name, v.picture.samples), color, view);
+        if (!shown) return shown.error();
+        html += *shown;
+    }
+    const MeasuredImage& reference = report.reference.measured;
+    const Result<std::string> shown = figure(reference.image, fmt::format("reference, {} spp", reference.samples), color, view);
+    if (!shown) return shown.error();
+    html += *shown + "</div>\n<h2>Settings, machine, build</h2>\n" + about(report);
+    return html + "</body>\n</html>\n";
+}
+
+} // namespace blush
