@@ -114,10 +114,16 @@ ErrorEstimate ErrorAccumulator::estimate() const {
 }
 
 ErrorEstimate widened(const ErrorEstimate& estimate, int sharing) {
+    // Variances grow by the number of those that share, widths of logarithms by its root.
     const double k = std::sqrt(double(sharing));
+    const auto stretch = [&](double& bound, double about) {
+        if (about > 0) bound = about * std::pow(bound / about, k);
+    };
     ErrorEstimate e = estimate;
-    e.low = std::max(0.0, e.relmse - (e.relmse - e.low) * k);
-    e.high = e.relmse + (e.high - e.relmse) * k;
+    stretch(e.low, e.relmse);
+    stretch(e.high, e.relmse);
+    stretch(e.rmse_low, e.rmse);
+    stretch(e.rmse_high, e.rmse);
     return e;
 }
 
