@@ -44,6 +44,7 @@ private:
     void take_dropped(const std::filesystem::path& file);
     void save_due_snapshot();
     void update_display_shader();
+    void update_ledger();
     void remember();
     RenderSettings render_settings() const;
 
@@ -74,6 +75,9 @@ private:
     ImageRect image_;
     std::string display_, view_; // that the display shader is for
     bool shader_ready_ = false;
+    FeatureUse view_transform_{"display", "view transform", false, "there is no picture yet"};
+    Ledger ledger_; // of what the window makes itself
+    std::array<bool, denoise_qualities> ledger_denoised_with_{};
     std::optional<EditorFiles::Format> snapshot_due_; // waits for a picture in full resolution
     Clock::time_point frame_begin_{};
 };
@@ -145,11 +149,13 @@ PanelContext Editor::context() {
             std::max(1, int(float(r.width) * r.resolution_scale)),
             std::max(1, int(float(r.height) * r.resolution_scale)),
             pictures_.denoised,
-            status.denoiser_failure.empty() ? weights_problem_ : status.denoiser_failure};
+            status.denoiser_failure.empty() ? weights_problem_ : status.denoiser_failure,
+            &ledger_};
 }
 
 void Editor::panels() {
     update_display_shader();
+    update_ledger();
     window_->begin_frame();
     ui_.next_frame_in = longest_sleep;
     ui_.probe.begin_frame();
@@ -261,13 +267,29 @@ void Editor::save_due_snapshot() {
 
 void Editor::update_display_shader() {
     const ViewSettings& v = document_.project().view;
-    if (shader_ready_ && v.display == display_ && v.view == view_) return;
+    // No processor and no tables before there is something to show.
+    if (!pictures_.frame || (shader_ready_ && v.display == display_ && v.view == view_)) return;
     shader_ready_ = true;
     display_ = v.display;
     view_ = v.view;
+    const auto begin = Clock::now();
     const auto shader = color_.display_shader(v.display, v.view);
     if (!shader) return ui_.toasts.fail(shader.error().text());
     if (const auto set = viewport_.set_display_shader(*shader); !set) ui_.toasts.fail(set.error().text());
+    int64_t bytes = 0;
+    for (const DisplayShader::Lut& lut : shader->luts) bytes += int64_t(lut.values.size() * sizeof(float));
+    view_transform_ = {"display", "view transform",
+                       true,      "the picture is shown through it",
+                       bytes,     std::chrono::duration<double>(Clock::now() - begin).count()};
+    ledger_.clear();
+}
+
+void Editor::update_ledger() {
+    const auto denoised_with = session_.status().denoised_with;
+    if (!ledger_.empty() && denoised_with == ledger_denoised_with_) return;
+    ledger_denoised_with_ = denoised_with;
+    ledger_ = denoiser_ledger(options_.weights, denoised_with);
+    ledger_.insert(ledger_.begin(), view_transform_);
 }
 
 RenderSettings Editor::render_settings() const {

@@ -4,7 +4,9 @@
 #include "app/commands/interrupt.h"
 #include "app/commands/json_output.h"
 #include "app/commands/load_scene.h"
+#include "app/commands/made_beside.h"
 #include "app/commands/progress.h"
+#include "render/kernel_speed.h"
 #include "scene/placements.h"
 
 #include <CLI/CLI.hpp>
@@ -18,6 +20,7 @@ namespace {
 
 struct InfoCommand {
     std::string scene;
+    bool measure = false;
     CommonOptions common;
 };
 
@@ -54,7 +57,22 @@ std::vector<Diagnostic> all_diagnostics(const ImportReport& report, const Compil
 
 std::string line_of(const Diagnostic& d) { return Error{{}, d.what, d.where}.text(); }
 
-OrderedJson info_json(const LoadedScene& loaded, const CompiledInfo& info) {
+OrderedJson speed_json(const KernelSpeed& s) {
+    return {{"own", s.own},
+            {"own_mpaths_per_s", s.own_mpaths_per_s},
+            {"full", s.full},
+            {"full_mpaths_per_s", s.full_mpaths_per_s},
+            {"ratio", s.ratio}};
+}
+
+// What `info` has to say beside the import.
+struct Findings {
+    CompiledInfo info;
+    std::optional<KernelSpeed> speed;
+};
+
+OrderedJson info_json(const LoadedScene& loaded, const Findings& findings) {
+    const CompiledInfo& info = findings.info;
     const LightCounts lights = count_lights(loaded.scene);
     const ImportReport& report = loaded.report;
     OrderedJson warnings = OrderedJson::array();
@@ -77,7 +95,8 @@ OrderedJson info_json(const LoadedScene& loaded, const CompiledInfo& info) {
                           {"approximated", report.extensions_approximated},
                           {"ignored", report.extensions_ignored}};
     json["warnings"] = warnings;
-    json["kernel"] = kernel_json(info);
+    json["kernel"] = kernel_json(info.kernel, info.features);
+    if (findings.speed) json["kernel"]["speed"] = speed_json(*findings.speed);
     json["memory_mb"] = info.memory_mb;
     json["seconds"] = report.seconds + info.seconds_setup;
     return json;
@@ -87,7 +106,15 @@ void print_list(std::string_view name, const std::vector<std::string>& items) {
     if (!items.empty()) fmt::print("{:<22} {}\n", name, fmt::join(items, ", "));
 }
 
-void print_info(const InfoCommand& c, const LoadedScene& loaded, const CompiledInfo& info) {
+// A line for each, by part.
+void print_uses(const char* title, const Ledger& ledger, bool used) {
+    fmt::print("{}\n", title);
+    for (const FeatureUse& use : ledger)
+        if (use.used == used) fmt::print("  {:<9} {:<26} {:<52} {}\n", use.part, use.name, use.why, cost_text(use));
+}
+
+void print_info(const InfoCommand& c, const LoadedScene& loaded, const Findings& findings) {
+    const CompiledInfo& info = findings.info;
     const LightCounts lights = count_lights(loaded.scene);
     fmt::print("{}\n", c.scene);
     fmt::print("{:<22} {} meshes, {} instances, {} triangles\n", "geometry", info.meshes, info.instances, info.triangles);
@@ -101,8 +128,11 @@ void print_info(const InfoCommand& c, const LoadedScene& loaded, const CompiledI
     for (const Diagnostic& d : all_diagnostics(loaded.report, info))
         fmt::print("{:<22} {}\n", d.severity == Diagnostic::Severity::warning ? "warning" : "note", line_of(d));
     fmt::print("{:<22} {}\n", "kernel", info.kernel);
-    for (const FeatureUse& feature : info.features)
-        fmt::print("{:<22} {}: {}\n", feature.used ? "  with" : "  without", feature.name, feature.why);
+    if (const auto& s = findings.speed)
+        fmt::print("{:<22} {:.2f} Mpaths/s of one core, {} {:.2f}: {:.2f} times as fast\n", "", s->own_mpaths_per_s, s->full,
+                   s->full_mpaths_per_s, s->ratio);
+    print_uses("with", info.features, true);
+    print_uses("left out", info.features, false);
     fmt::print("{:<22} {:.1f} MB, {:.2f} s to load, {:.2f} s to set up\n", "cost", info.memory_mb, loaded.report.seconds,
                info.seconds_setup);
 }
@@ -117,9 +147,11 @@ int run_info(const InfoCommand& c) {
     if (!loaded) return failed(loaded.error());
     Renderer renderer({.threads = c.common.threads, .planes = {}});
     renderer.update(loaded->scene, settings);
-    if (const Result<void> written = write_json(c.common.json, info_json(*loaded, renderer.info())); !written)
-        return failed(written.error());
-    if (!c.common.quiet && c.common.json != "-") print_info(c, *loaded, renderer.info());
+    Findings findings{renderer.info(), {}};
+    if (c.measure) findings.speed = measure_kernel_speed(loaded->scene, settings);
+    findings.info.features = with_made_beside(findings.info.features, c.measure ? measure_made_beside(c.common.threads) : MadeBeside{});
+    if (const Result<void> written = write_json(c.common.json, info_json(*loaded, findings)); !written) return failed(written.error());
+    if (!c.common.quiet && c.common.json != "-") print_info(c, *loaded, findings);
     return exit_done;
 }
 
@@ -129,6 +161,10 @@ void add_info_command(CLI::App& app, std::function<int()>& run) {
     const auto command = std::make_shared<InfoCommand>();
     CLI::App* sub = app.add_subcommand("info", "Print what a scene holds, what of it is ignored, and the kernel it needs");
     sub->add_option("scene", command->scene, "glTF file (.gltf, .glb)")->required()->type_name("SCENE");
+    sub->add_flag(
+        "--measure", command->measure,
+        "Measure what specialising saves: this scene's kernel against the one that can do everything, in turns for a few seconds, and "
+        "the start-up of the view transform and of the denoiser");
     add_common_options(*sub, command->common);
     sub->callback([command, &run] { run = [command] { return run_info(*command); }; });
 }

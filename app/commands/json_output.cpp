@@ -15,15 +15,19 @@ Result<void> write_json(const std::string& target, const OrderedJson& json) {
     return {};
 }
 
-OrderedJson kernel_json(const CompiledInfo& info) {
-    OrderedJson features = OrderedJson::array(), left_out = OrderedJson::array();
-    for (const FeatureUse& feature : info.features) {
-        if (feature.used)
-            features.push_back(feature.name);
+OrderedJson kernel_json(const std::string& kernel, const Ledger& ledger) {
+    const auto known = [](const auto& value, double scale) { return value ? OrderedJson(double(*value) * scale) : OrderedJson(); };
+    OrderedJson features = OrderedJson::array(), left_out = OrderedJson::array(), made = OrderedJson::array();
+    for (const FeatureUse& use : ledger) {
+        const OrderedJson mib = known(use.bytes, 1.0 / 1048576), ms = known(use.seconds, 1e3);
+        if (!use.used)
+            left_out.push_back({{"part", use.part}, {"name", use.name}, {"why", use.why}, {"saves_mib", mib}, {"saves_ms", ms}});
+        else if (use.part == "kernel")
+            features.push_back(use.name);
         else
-            left_out.push_back({{"name", feature.name}, {"why", feature.why}});
+            made.push_back({{"part", use.part}, {"name", use.name}, {"why", use.why}, {"mib", mib}, {"ms", ms}});
     }
-    return {{"name", info.kernel}, {"features", features}, {"left_out", left_out}};
+    return {{"name", kernel}, {"features", features}, {"left_out", left_out}, {"made", made}};
 }
 
 } // namespace blush

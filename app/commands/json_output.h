@@ -16,7 +16,8 @@ using OrderedJson = nlohmann::ordered_json;
 // To a file, whole or not at all, or to stdout for "-"; nothing for an empty name.
 Result<void> write_json(const std::string& target, const OrderedJson& json);
 
-// {name, features: [names], left_out: [{name, why}]}
-OrderedJson kernel_json(const CompiledInfo& info);
+// {name, features: [names of what the kernel has], left_out: [{part, name, why, saves_mib, saves_ms}], made: [{part, name, why, mib, ms}]};
+// figures that are not known are null.
+OrderedJson kernel_json(const std::string& kernel, const Ledger& ledger);
 
 } // namespace blush

@@ -6,6 +6,7 @@
 #include "app/commands/interrupt.h"
 #include "app/commands/json_output.h"
 #include "app/commands/load_scene.h"
+#include "app/commands/made_beside.h"
 #include "app/commands/picture.h"
 #include "app/commands/progress.h"
 #include "app/commands/render_loop.h"
@@ -167,7 +168,10 @@ OrderedJson result_json(const RenderCommand& c, const Rendered& rendered) {
                      {"rmse_high", if_known(error.rmse_known, error.rmse_high)}};
     json["health"] = health_json(r.frame.health);
     if (!r.frame.bounces.empty()) json["bounces"] = bounces_json(r.frame);
-    json["kernel"] = kernel_json(rendered.info);
+    MadeBeside beside;
+    beside.display = is_display_encoded(c.output);
+    if (rendered.denoised) beside.denoiser = c.options.denoise;
+    json["kernel"] = kernel_json(rendered.info.kernel, with_made_beside(rendered.info.features, beside));
     if (rendered.denoised) json["denoise"] = denoised_json(*rendered.denoised);
     json["peak_memory_mb"] = peak_memory_mb();
     json["output"] = c.output;

@@ -16,6 +16,8 @@ class BouncePlanes {
 public:
     static size_t bytes_per_pixel(int planes) { return size_t(planes) * sizeof(Vec3d); }
 
+    size_t memory_bytes() const { return sums_.capacity() * sizeof(Vec3d); }
+
     // Cleared planes with so many places, one or two for each pixel; 0 planes: none.
     void reset(size_t places, int planes);
     // Columns that the kernels must fill for that: all but the last plane's, which is the final radiance.

@@ -186,4 +186,32 @@ Result<void> find_denoiser_weights(const std::filesystem::path& weights) {
     return {};
 }
 
+Ledger denoiser_ledger(const std::filesystem::path& weights, const std::array<bool, denoise_qualities>& loaded) {
+    // With albedo and normal, as every picture of ours has them.
+    struct Networks {
+        DenoiseQuality quality;
+        const char* name;
+        std::vector<const char*> files;
+    };
+    const Networks networks[denoise_qualities] = {{DenoiseQuality::fast, "fast network", {"rt_hdr_alb_nrm_small"}},
+                                                  {DenoiseQuality::base, "base network", {"rt_hdr_alb_nrm"}},
+                                                  {DenoiseQuality::high, "high network", {"rt_alb", "rt_nrm", "rt_hdr_calb_cnrm"}}};
+    Ledger ledger;
+    for (const Networks& n : networks) {
+        const bool used = loaded[size_t(n.quality)];
+        FeatureUse use{"denoiser", n.name, used, used ? "a picture was denoised with it" : "no picture was denoised with it"};
+        int64_t bytes = 0;
+        bool all_there = true;
+        for (const char* name : n.files) {
+            std::error_code code;
+            const uintmax_t size = std::filesystem::file_size(weights / (std::string(name) + ".tza"), code);
+            all_there &= !code;
+            if (!code) bytes += int64_t(size);
+        }
+        if (all_there) use.bytes = bytes;
+        ledger.push_back(std::move(use));
+    }
+    return ledger;
+}
+
 } // namespace blush

@@ -2,7 +2,9 @@
 #pragma once
 
 #include "core/result.h"
+#include "render/ledger.h"
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -20,6 +22,7 @@ enum class DenoiseQuality : uint8_t {
     base, // the base network, albedo and normal as they are
     high, // the base network after albedo and normal were denoised on their own: sharpest, three times the work
 };
+constexpr int denoise_qualities = 3;
 enum class DenoisePrecision : uint8_t {
     automatic, // bfloat16 where the processor computes with it, else float32
     float32,
@@ -91,5 +94,8 @@ private:
 
 // Are all the weights that denoise() may want there? Reads none of them. The error names the first that is missing.
 Result<void> find_denoiser_weights(const std::filesystem::path& weights);
+
+// A line for the networks of each quality: were they loaded, and the bytes of their files, where those are there.
+Ledger denoiser_ledger(const std::filesystem::path& weights, const std::array<bool, denoise_qualities>& loaded);
 
 } // namespace blush

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -79,13 +80,16 @@ EnvironmentRow row_record(const RowBorders& borders, int width) {
             float(1 / borders.cell_solid_angle(width))};
 }
 
+// About four columns for each entry: one cache line of either is touched, where bisection of a row touches ten.
+int guide_bits_for(size_t width) { return std::max(1, int(std::bit_width(unsigned(width))) - 2); }
+
 // A cell weighs what the filtered map shines over it.
 void build_importance(EnvironmentTable& table) {
     const size_t width = size_t(table.width), row_count = size_t(table.height) + 1;
     table.rows.reserve(row_count);
     table.column_thresholds.reserve(row_count * width);
-    // About four columns for each entry: one cache line of either is touched, where bisection of a row touches ten.
-    table.guide_bits = std::max(1, int(std::bit_width(unsigned(width))) - 2);
+    table.guide_bits = guide_bits_for(width);
+    table.column_guides.reserve(row_count * ((size_t(1) << table.guide_bits) + 1));
     std::vector<double> row_weights, border_weights(width), cell_weights(width);
     row_weights.reserve(row_count);
     for (int row = 0; row < int(row_count); ++row) {
@@ -114,6 +118,15 @@ void build_importance(EnvironmentTable& table) {
     table.row_thresholds = make_thresholds(row_weights);
 }
 
+// Radiance in nits of a texel of 1.
+Vec3 scale_of(const Environment& environment) {
+    const auto channel = [&](float c) {
+        const float s = c * environment.intensity;
+        return s >= 0 && std::isfinite(s) ? s : 0;
+    };
+    return {channel(environment.color.x), channel(environment.color.y), channel(environment.color.z)};
+}
+
 } // namespace
 
 Vec3d EnvironmentTable::integral() const { return {scale.x * texel_integral.x, scale.y * texel_integral.y, scale.z * texel_integral.z}; }
@@ -125,6 +138,7 @@ EnvironmentTables EnvironmentTable::tables() const {
 }
 
 EnvironmentTable build_environment_table(const Environment& environment) {
+    const auto begin = std::chrono::steady_clock::now();
     EnvironmentTable table;
     switch (environment.kind) {
     case Environment::Kind::none: set_uniform_texel(table, 0); break;
@@ -139,15 +153,23 @@ EnvironmentTable build_environment_table(const Environment& environment) {
     }
     build_importance(table);
     update_environment_parameters(table, environment);
+    table.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return table;
 }
 
+bool gives_light(const Environment& environment) {
+    const Vec3 scale = scale_of(environment);
+    return environment.kind != Environment::Kind::none && (scale.x > 0 || scale.y > 0 || scale.z > 0);
+}
+
+EnvironmentBytes environment_bytes(int64_t width, int64_t height) {
+    const int64_t guide = (int64_t(1) << guide_bits_for(size_t(width))) + 1;
+    const int64_t row = sizeof(EnvironmentRow) + sizeof(uint32_t) * (1 + width) + sizeof(int32_t) * guide;
+    return {int64_t(3 * sizeof(float)) * width * height, (height + 1) * row};
+}
+
 void update_environment_parameters(EnvironmentTable& table, const Environment& environment) {
-    const auto channel = [&](float c) {
-        const float s = c * environment.intensity;
-        return s >= 0 && std::isfinite(s) ? s : 0;
-    };
-    table.scale = {channel(environment.color.x), channel(environment.color.y), channel(environment.color.z)};
+    table.scale = scale_of(environment);
     const double turns = double(environment.rotation_degrees) / 360;
     table.rotation = std::isfinite(turns) ? float(turns - std::round(turns)) : 0;
     table.visible_to_camera = environment.visible_to_camera;

@@ -24,6 +24,8 @@ struct EnvironmentTable {
     float rotation = 0; // turns
     bool visible_to_camera = true;
 
+    double seconds = 0; // that building it took
+
     // RGB radiance of the filtered map integrated over the sphere, nits x sr: what light selection weighs it by.
     Vec3d integral() const;
     // Valid until the table changes.
@@ -32,6 +34,13 @@ struct EnvironmentTable {
 
 // With a warning: texels that are negative or not finite become 0, an image that cannot be used becomes no environment.
 EnvironmentTable build_environment_table(const Environment& environment);
+// Can it give light at all? Colour and intensity say so; the image may still be black.
+bool gives_light(const Environment& environment);
+// Memory of a map of that size: the texels, and what directions are drawn from.
+struct EnvironmentBytes {
+    int64_t texels = 0, importance = 0;
+};
+EnvironmentBytes environment_bytes(int64_t width, int64_t height);
 // Colour, intensity, rotation and visibility; the map stays. Same bits as a build.
 void update_environment_parameters(EnvironmentTable& table, const Environment& environment);
 

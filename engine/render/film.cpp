@@ -36,19 +36,41 @@ void remember(Health& health, const std::vector<BadSample>& bad) {
         }
     }
     health.first.insert(health.first.end(), bad.begin(), bad.end());
-    std::sort(health.first.begin(), health.first.end(), [](const BadSample& a, const BadSample& b) {
-        return std::tie(a.sample, a.y, a.x) < std::tie(b.sample, b.y, b.x);
-    });
+    std::sort(health.first.begin(), health.first.end(),
+              [](const BadSample& a, const BadSample& b) { return std::tie(a.sample, a.y, a.x) < std::tie(b.sample, b.y, b.x); });
     if (health.first.size() > remembered_bad_samples) health.first.resize(remembered_bad_samples);
 }
 
 } // namespace
 
+std::vector<PlaneUse> Film::plane_uses(const PlaneSet& planes, bool transparent_background, bool adaptive) {
+    const size_t places = adaptive ? 2 : 1; // place_of()
+    const bool features = planes.albedo || planes.normal;
+    const int bounces = planes.bounces > 0 ? planes.bounces : usual_bounce_planes;
+    return {
+        {"beauty", true, "two halves, which tell the error", 2 * sizeof(Half)},
+        {"albedo and normal", features, features ? "somebody reads them" : "nobody reads them: no layer, no denoiser", sizeof(FeatureSums)},
+        {"depth", planes.depth, planes.depth ? "somebody reads it" : "nobody reads it", sizeof(float)},
+        {"ids", planes.ids, planes.ids ? "somebody reads them" : "nobody reads them: no layer, no picking",
+         sizeof(uint32_t) + sizeof(int32_t)},
+        {"coverage", transparent_background, transparent_background ? "the environment is hidden from the camera" : "the picture is opaque",
+         sizeof(int64_t)},
+        {"bounces", planes.bounces > 0, planes.bounces > 0 ? "somebody reads them" : "nobody looks at single bounces",
+         places * BouncePlanes::bytes_per_pixel(bounces)},
+    };
+}
+
+size_t Film::memory_bytes() const {
+    const auto bytes = [](const auto& plane) { return plane.capacity() * sizeof(plane[0]); };
+    return bytes(halves_) + bytes(features_) + bytes(covered_) + bytes(depth_) + bytes(object_id_) + bytes(material_) +
+           bounces_.memory_bytes();
+}
+
 void Film::require_memory(int width, int height, const PlaneSet& planes, bool adaptive) {
-    // Said before the system's killer says it in its own way. Adaptive sampling keeps bounces by halves and remembers half of its pilot.
-    const double per_pixel = 2 * sizeof(Half) + (planes.albedo || planes.normal ? sizeof(FeatureSums) : 0) +
-                             double(BouncePlanes::bytes_per_pixel(planes.bounces)) * (adaptive ? 2 : 1) +
-                             (adaptive ? 2 * sizeof(Vec3d) : 0) + 64;
+    // Said before the system's killer says it in its own way. Beside the planes there are frames, and half of an adaptive pilot.
+    double per_pixel = 64 + (adaptive ? 2 * sizeof(Vec3d) : 0);
+    for (const PlaneUse& plane : plane_uses(planes, false, adaptive))
+        if (plane.used) per_pixel += double(plane.bytes_per_pixel);
     const double needed = per_pixel * double(width) * double(height);
     const double present = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGE_SIZE));
     if (needed > 0.8 * present)

@@ -14,14 +14,34 @@
 
 namespace blush {
 
+// What a film is made for.
+struct FilmSize {
+    int width = 1, height = 1;
+    PlaneSet planes;
+    bool transparent = false; // alpha is coverage
+    bool adaptive = false;
+};
+
+// Of a film plane: is it there, why, and what a pixel of it takes or would take.
+struct PlaneUse {
+    const char* name;
+    bool used;
+    const char* why;
+    size_t bytes_per_pixel;
+};
+
 class Film {
 public:
+    static std::vector<PlaneUse> plane_uses(const PlaneSet& planes, bool transparent_background, bool adaptive = false);
     // Throws std::runtime_error, with a sentence for the user, if such a film does not fit into this machine.
     static void require_memory(int width, int height, const PlaneSet& planes, bool adaptive = false);
     // Clears, and allocates what is missing. Throws as above. `adaptive`: how many samples a pixel has in each half depends on the values
     // themselves, so the halves count alike (sample_plan.h).
     void reset(int width, int height, const PlaneSet& planes, bool transparent_background, bool adaptive = false);
     void clear();
+
+    // Of all planes together.
+    size_t memory_bytes() const;
 
     int width() const { return width_; }
     int height() const { return height_; }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <stdexcept>
 
 namespace blush {
@@ -25,14 +26,15 @@ InstanceRecord make_instance(const Affined& m) {
 
 template <class T> void append_or_fill(std::vector<T>& pool, bool wanted, const std::vector<T>& values, size_t count, const T& filler) {
     if (!wanted) return;
-    if (values.size() == count) pool.insert(pool.end(), values.begin(), values.end());
-    else pool.resize(pool.size() + count, filler);
+    if (values.size() == count)
+        pool.insert(pool.end(), values.begin(), values.end());
+    else
+        pool.resize(pool.size() + count, filler);
 }
 
-int32_t flags_of(const Geometry& g, const AttributeNeeds& needs, const Affined& world_from_object, bool instanced) {
-    int32_t flags = 0;
+int32_t flags_of(const Geometry& g, const AttributeNeeds& needs, bool smooth, const Affined& world_from_object, bool instanced) {
+    int32_t flags = smooth ? part_smooth : 0;
     const size_t n = g.positions.size();
-    if (g.normals.size() == n) flags |= part_smooth;
     if (needs.tangents && g.tangents.size() == n) flags |= part_tangents;
     if (needs.uv0 && g.uv0.size() == n) flags |= part_uv0;
     if (needs.uv1 && g.uv1.size() == n) flags |= part_uv1;
@@ -56,6 +58,18 @@ bool has_flat_normals(const Geometry& g) {
     return true;
 }
 
+// Has it vertex normals of its own? By serial.
+std::map<uint64_t, bool> smooth_shapes(const std::vector<SceneObject>& objects) {
+    std::map<uint64_t, bool> smooth;
+    for (const SceneObject& object : objects)
+        for (const MeshPart& part : object.parts) {
+            const Geometry& g = *part.geometry;
+            const auto [it, is_new] = smooth.try_emplace(g.serial, false);
+            if (is_new) it->second = g.normals.size() == g.positions.size() && !has_flat_normals(g);
+        }
+    return smooth;
+}
+
 // The object's transform into the world about `origin`: the difference is taken before anything is rounded.
 Affined placed(const SceneObject& object, const Vec3d& origin) {
     Affined m = object.world_from_object;
@@ -65,14 +79,34 @@ Affined placed(const SceneObject& object, const Vec3d& origin) {
 
 } // namespace
 
-GeometryPool::Span GeometryPool::append(const Geometry& g) {
-    const size_t n = g.positions.size();
-    if (positions_.size() + n > size_t(INT32_MAX) / 4 || indices_.size() + g.indices.size() > size_t(INT32_MAX))
+// Room for exactly what build() appends.
+void GeometryPool::reserve(const std::vector<SceneObject>& objects, bool normals) {
+    std::set<uint64_t> shared;
+    size_t vertices = 0, indices = 0;
+    for (const SceneObject& object : objects)
+        for (const MeshPart& part : object.parts) {
+            const Geometry& g = *part.geometry;
+            if (object.instanced && !shared.insert(g.serial).second) continue;
+            vertices += g.positions.size();
+            indices += g.indices.size();
+        }
+    if (vertices > size_t(INT32_MAX) / 4 || indices > size_t(INT32_MAX))
         throw std::runtime_error("the scene has more vertices than 32-bit indices reach");
+    indices_.reserve(indices);
+    positions_.reserve(vertices);
+    if (normals) normals_.reserve(vertices);
+    if (needs_.tangents) tangents_.reserve(vertices);
+    if (needs_.colors) colors_.reserve(vertices);
+    if (needs_.uv0) uv0_.reserve(vertices);
+    if (needs_.uv1) uv1_.reserve(vertices);
+}
+
+GeometryPool::Span GeometryPool::append(const Geometry& g, bool normals) {
+    const size_t n = g.positions.size();
     const Span span{int32_t(positions_.size()), int32_t(indices_.size())};
     indices_.insert(indices_.end(), g.indices.begin(), g.indices.end());
     positions_.insert(positions_.end(), g.positions.begin(), g.positions.end());
-    append_or_fill(normals_, true, g.normals, n, Vec3{0, 0, 0});
+    append_or_fill(normals_, normals, g.normals, n, Vec3{0, 0, 0});
     append_or_fill(tangents_, needs_.tangents, g.tangents, n, Vec4{1, 0, 0, 1});
     append_or_fill(colors_, needs_.colors, g.colors, n, Vec4{1, 1, 1, 1});
     append_or_fill(uv0_, needs_.uv0, g.uv0, n, Vec2{0, 0});
@@ -85,7 +119,8 @@ void GeometryPool::place(size_t part, const Geometry& g, const Affined& world_fr
     const Affined normal = normal_matrix(world_from_object);
     record.flags = (record.flags & ~part_mirrored) | (determinant(world_from_object) < 0 ? part_mirrored : 0);
     const size_t first = size_t(record.first_vertex);
-    for (size_t i = 0; i < g.positions.size(); ++i) positions_[first + i] = to_float(transform_point(world_from_object, to_double(g.positions[i])));
+    for (size_t i = 0; i < g.positions.size(); ++i)
+        positions_[first + i] = to_float(transform_point(world_from_object, to_double(g.positions[i])));
     if (record.flags & part_smooth)
         for (size_t i = 0; i < g.normals.size(); ++i) normals_[first + i] = to_float(transform_vector(normal, to_double(g.normals[i])));
     if (record.flags & part_tangents)
@@ -100,8 +135,10 @@ void GeometryPool::build(const std::vector<SceneObject>& objects, const Attribut
     *this = {};
     needs_ = needs;
     origin_ = origin;
-    std::map<uint64_t, Span> shared;      // instanced geometry by serial
-    std::map<uint64_t, bool> flat_normals; // by serial
+    std::map<uint64_t, Span> shared; // instanced geometry by serial
+    const std::map<uint64_t, bool> smooth = smooth_shapes(objects);
+    const bool normals = std::ranges::any_of(smooth, [](const auto& shape) { return shape.second; });
+    reserve(objects, normals);
     for (const SceneObject& object : objects) {
         const Affined world_from_object = placed(object, origin);
         if (object.instanced) {
@@ -111,15 +148,13 @@ void GeometryPool::build(const std::vector<SceneObject>& objects, const Attribut
         for (const MeshPart& part : object.parts) {
             const Geometry& g = *part.geometry;
             Span span;
-            if (!object.instanced) span = append(g);
-            else if (const auto it = shared.find(g.serial); it != shared.end()) span = it->second;
-            else span = shared[g.serial] = append(g);
-            int32_t flags = flags_of(g, needs, world_from_object, object.instanced);
-            if (flags & part_smooth) {
-                const auto [it, is_new] = flat_normals.try_emplace(g.serial, false);
-                if (is_new) it->second = has_flat_normals(g);
-                if (it->second) flags &= ~part_smooth;
-            }
+            if (!object.instanced)
+                span = append(g, normals);
+            else if (const auto it = shared.find(g.serial); it != shared.end())
+                span = it->second;
+            else
+                span = shared[g.serial] = append(g, normals);
+            const int32_t flags = flags_of(g, needs, smooth.at(g.serial), world_from_object, object.instanced);
             parts_.push_back({0, int32_t(object.node.value), span.first_index, span.first_vertex,
                               object.instanced ? int32_t(instances_.size()) - 1 : -1, flags, -1});
             part_materials_.push_back(part.material);
@@ -191,14 +226,16 @@ AccelScene GeometryPool::accel_scene(const std::vector<SceneObject>& objects, co
         std::vector<AccelTriangles> triangles;
         for (const MeshPart& p : object.parts) {
             const PartRecord& record = parts_[part];
-            const int32_t opaque_as = object.instanced ? first_alike.try_emplace({p.geometry->serial, p.material}, int32_t(part)).first->second
-                                                       : int32_t(part);
+            const int32_t opaque_as =
+                object.instanced ? first_alike.try_emplace({p.geometry->serial, p.material}, int32_t(part)).first->second : int32_t(part);
             triangles.push_back({p.geometry->serial, positions_.data() + record.first_vertex, size_t(part_vertices_[part]),
                                  indices_.data() + record.first_index, size_t(part_triangles_[part]), opaque_as, alpha[part]});
             ++part;
         }
-        if (object.instanced) scene.instances.push_back({std::move(triangles), instances_[scene.instances.size()].world_from_object});
-        else scene.flat.insert(scene.flat.end(), triangles.begin(), triangles.end());
+        if (object.instanced)
+            scene.instances.push_back({std::move(triangles), instances_[scene.instances.size()].world_from_object});
+        else
+            scene.flat.insert(scene.flat.end(), triangles.begin(), triangles.end());
     }
     return scene;
 }

@@ -11,7 +11,7 @@
 
 namespace blush {
 
-// Which vertex attributes the materials in use read.
+// Which vertex attributes the shapes and the materials in use call for.
 struct AttributeNeeds {
     bool uv0 = false, uv1 = false, tangents = false, colors = false;
     bool operator==(const AttributeNeeds&) const = default;
@@ -40,13 +40,17 @@ public:
     // For the builder; alpha[part] asks for opacity tests.
     AccelScene accel_scene(const std::vector<SceneObject>& objects, const std::vector<bool>& alpha) const;
     int64_t instance_count() const { return int64_t(instances_.size()); }
+    int64_t vertex_count() const { return int64_t(positions_.size()); }
+    // Some part has vertex normals that differ from its faces'.
+    bool has_normals() const { return !normals_.empty(); }
     size_t memory_bytes() const;
 
 private:
     struct Span {
         int32_t first_vertex = 0, first_index = 0;
     };
-    Span append(const Geometry& geometry);
+    void reserve(const std::vector<SceneObject>& objects, bool normals);
+    Span append(const Geometry& geometry, bool normals);
     void place(size_t part, const Geometry& geometry, const Affined& world_from_object);
 
     std::vector<PartRecord> parts_;

@@ -175,6 +175,14 @@ bool update_material(MaterialTable& table, const Scene& scene, Id<Material> id) 
     return true;
 }
 
+TextureReads texture_reads(const Material& m) {
+    TextureReads reads;
+    for (const TextureSlot& slot : texture_slots)
+        if (is_read(slot, m)) ((m.*slot.ref).uv_set == 1 ? reads.uv1 : reads.uv0) = true;
+    reads.normal_map = has_normal_map(m);
+    return reads;
+}
+
 Features features_of(const Material& m) {
     Features f = no_features;
     if (reflects(m)) f = f.with(Feature::specular);

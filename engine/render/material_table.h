@@ -30,6 +30,12 @@ void build_material_table(MaterialTable& table, const Scene& scene);
 // that are read, or the set of materials, is another.
 bool update_material(MaterialTable& table, const Scene& scene, Id<Material> id);
 
+// What of a mesh a material's textures are laid out by.
+struct TextureReads {
+    bool uv0 = false, uv1 = false, normal_map = false;
+};
+TextureReads texture_reads(const Material& material);
+
 // What a kernel must know to render the material right. Vertex colours are the geometry's and not among them.
 Features features_of(const Material& material);
 

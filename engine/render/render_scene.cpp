@@ -28,10 +28,10 @@ AttributeNeeds needs_of(const Scene& scene, const std::vector<SceneObject>& obje
             if (!part.geometry->colors.empty()) needs.colors = true;
             const Material* m = scene.materials.find(part.material);
             if (!m) continue;
-            for (const TextureRef* ref : {&m->base_color_texture, &m->metallic_roughness_texture, &m->normal_texture, &m->emissive_texture,
-                                          &m->specular_texture, &m->specular_color_texture, &m->transmission_texture})
-                if (ref->texture) (ref->uv_set == 0 ? needs.uv0 : needs.uv1) = true;
-            if (m->normal_texture.texture) needs.tangents = true;
+            const TextureReads reads = texture_reads(*m);
+            needs.uv0 |= reads.uv0;
+            needs.uv1 |= reads.uv1;
+            needs.tangents |= reads.normal_map;
         }
     return needs;
 }
@@ -102,8 +102,12 @@ void RenderScene::update_geometry(const Scene& scene, const UpdatePlan& plan, co
 }
 
 void RenderScene::update_lights(const Scene& scene, const UpdatePlan& plan) {
-    if (plan.environment_map) environment_ = build_environment_table(scene.environment);
-    else if (plan.environment_parameters) update_environment_parameters(environment_, scene.environment);
+    // What gives no light needs no map.
+    const bool needs_map = gives_light(scene.environment);
+    if (plan.environment_map || (plan.environment_parameters && needs_map != has_environment_map_))
+        environment_ = build_environment_table(needs_map ? scene.environment : Environment{});
+    if (plan.environment_map || plan.environment_parameters) update_environment_parameters(environment_, scene.environment);
+    has_environment_map_ = needs_map;
     tables_.environment = environment_.tables();
     if (!plan.lights) return;
     const Vec3d sky = environment_.integral() * (1 / (4 * 3.14159265358979323846));

@@ -5,6 +5,7 @@
 #include "render/accel.h"
 #include "render/environment_table.h"
 #include "render/extent.h"
+#include "render/film.h"
 #include "render/geometry_pool.h"
 #include "render/kernels/kernel.h"
 #include "render/light_table.h"
@@ -30,7 +31,10 @@ public:
     Features features() const { return features_; }
     // The id of a record of the material table; 0 for glTF's default material and for -1.
     Id<Material> material_id(int32_t index) const;
+    // All but the kernel and the ledger.
     CompiledInfo info() const;
+    // `lowered` as last given; the film that it is rendered to.
+    Ledger ledger(const Scene& lowered, const FilmSize& film) const;
 
 private:
     void update_materials(const Scene& scene, const UpdatePlan& plan);
@@ -50,7 +54,7 @@ private:
     Accel accel_;
     SceneTables tables_;
     Features features_;
-    bool has_geometry_ = false;
+    bool has_geometry_ = false, has_environment_map_ = false;
 };
 
 // The view as kernels read it, at the given aspect = width / height, its position about `origin`.

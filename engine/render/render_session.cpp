@@ -144,6 +144,7 @@ void RenderSession::State::take_denoised(uint64_t image, const FramePtr& source,
     const Pictures previous = look();
     {
         const std::lock_guard lock(mutex);
+        if (denoised) status.denoised_with[size_t(denoised->quality)] = true;
         showcase.answer(image, source, std::move(denoised));
         status.denoiser_failure = denoiser->failure();
         if (!status.denoiser_failure.empty()) showcase.release();

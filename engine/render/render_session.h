@@ -7,6 +7,7 @@
 #include "scene/render_settings.h"
 #include "scene/scene.h"
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -24,10 +25,11 @@ struct SessionOptions {
 struct SessionStatus {
     enum class State { idle, updating, rendering, paused, complete, failed };
     State state = State::idle;
-    uint64_t revision = 0;        // the last one taken up
-    double progress = 0;          // towards the nearest stop rule, 0 .. 1; 1 only when reached
-    std::string message;          // failed: what went wrong
-    std::string denoiser_failure; // why there are no denoised pictures any more; empty: all is well
+    uint64_t revision = 0;                               // the last one taken up
+    double progress = 0;                                 // towards the nearest stop rule, 0 .. 1; 1 only when reached
+    std::string message;                                 // failed: what went wrong
+    std::array<bool, denoise_qualities> denoised_with{}; // networks that pictures were made by, and that are in memory since
+    std::string denoiser_failure;                        // why there are no denoised pictures any more; empty: all is well
 };
 
 class RenderSession {

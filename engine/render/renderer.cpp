@@ -56,6 +56,7 @@ struct Renderer::State {
     double seconds_setup = 0;
     // Made when somebody asks: it looks at every triangle, and a drag has no time for that.
     std::optional<CompiledInfo> info;
+    std::shared_ptr<const Ledger> ledger; // null: to be made
     int64_t samples = 0;
     RayCounts rays;
     int64_t truncated = 0;
@@ -65,8 +66,11 @@ struct Renderer::State {
     int film_width() const { return std::max(1, settings.width / divider); }
     int film_height() const { return std::max(1, settings.height / divider); }
 
+    bool transparent() const { return lowered && hides_environment(lowered->environment); }
+
     void clear() {
         film_is_stale = true;
+        ledger.reset();
         samples = 0;
         rays = {};
         truncated = 0;
@@ -75,8 +79,7 @@ struct Renderer::State {
     // another divider.
     void wipe_stale_film() {
         if (!film_is_stale) return;
-        const bool transparent = lowered && hides_environment(lowered->environment);
-        film.reset(film_width(), film_height(), options.planes, transparent, settings.adaptive);
+        film.reset(film_width(), film_height(), options.planes, transparent(), settings.adaptive);
         sample_plan.reset(film_width(), film_height());
         film_is_stale = false;
     }
@@ -143,11 +146,22 @@ const CompiledInfo& Renderer::info() const {
     if (!s.info) {
         s.info = s.scene.info();
         s.info->kernel = s.kernel_name;
-        const int reuse = s.settings.reuse;
-        s.info->features.push_back({"path reuse", reuse > 1, reuse > 1 ? fmt::format("groups of {} pixels", reuse) : "switched off"});
+        s.info->features = *ledger();
         s.info->seconds_setup = s.seconds_setup;
     }
     return *s.info;
+}
+
+std::shared_ptr<const Ledger> Renderer::ledger() const {
+    State& s = *state_;
+    if (!s.ledger) {
+        const FilmSize film{s.settings.width, s.settings.height, s.options.planes, s.transparent(), s.settings.adaptive};
+        Ledger ledger = s.scene.ledger(s.lowered ? *s.lowered : Scene{}, film);
+        const int reuse = s.settings.reuse;
+        ledger.push_back({"kernel", "path reuse", reuse > 1, reuse > 1 ? fmt::format("groups of {} pixels", reuse) : "switched off"});
+        s.ledger = std::make_shared<const Ledger>(std::move(ledger));
+    }
+    return s.ledger;
 }
 
 std::vector<Vec3> Renderer::resolve_error() const {
@@ -246,6 +260,7 @@ void Renderer::resolve(Frame& frame) const {
     frame.rays = s.rays;
     frame.health.truncated = s.truncated;
     frame.kernel = s.kernel_name;
+    frame.ledger = ledger();
 }
 
 Frame Renderer::resolve() const {

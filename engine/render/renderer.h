@@ -21,7 +21,8 @@ constexpr int most_bounce_planes = 32, usual_bounce_planes = 8;
 // Film planes beside the beauty. Only what somebody reads is allocated.
 struct PlaneSet {
     bool albedo = false, normal = false, depth = false, ids = false;
-    int bounces = 0; // radiance by the number of scatterings: 0, 1, ..., bounces - 1 and all further ones; 0: none, else 2 .. most_bounce_planes
+    int bounces =
+        0; // radiance by the number of scatterings: 0, 1, ..., bounces - 1 and all further ones; 0: none, else 2 .. most_bounce_planes
     bool operator==(const PlaneSet&) const = default;
 };
 
@@ -31,20 +32,13 @@ struct RendererOptions {
     PlaneSet planes;
 };
 
-// One line of "what was left out and why".
-struct FeatureUse {
-    std::string name;
-    bool used = false;
-    std::string why; // "3 materials have textures", "no light has a size"
-};
-
 struct CompiledInfo {
     int64_t meshes = 0, instances = 0, materials = 0, textures = 0;
     int64_t triangles = 0; // as seen by rays: instances counted each time
     int64_t emissive_triangles = 0, point_lights = 0, suns = 0;
     bool environment = false;
-    std::string kernel; // "v4/plain"
-    std::vector<FeatureUse> features;
+    std::string kernel;               // "v4/plain"
+    Ledger features;                  // of the kernel and of everything else that is made only where it is needed
     double memory_mb = 0;             // tables, textures and Embree's structures
     double seconds_setup = 0;         // the last update: from scene to first ray
     std::vector<Diagnostic> warnings; // degenerate triangles dropped, non-finite transforms, ...
@@ -80,6 +74,8 @@ public:
 
     // Of the scene last taken up. Not for the path of an edit: looks at every triangle the first time it is asked.
     const CompiledInfo& info() const;
+    // What was made for it and what was left out, at full resolution. Cheap; never null.
+    std::shared_ptr<const Ledger> ledger() const;
 
 private:
     struct State;

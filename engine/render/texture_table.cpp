@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <map>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -75,6 +77,7 @@ public:
     explicit Builder(std::vector<TextureSource> sources) { table_.sources = std::move(sources); }
 
     TextureTable build() && {
+        reserve();
         for (const TextureSource& source : table_.sources) table_.records.push_back(record(source));
         return std::move(table_);
     }
@@ -84,6 +87,20 @@ private:
         int32_t offset;
         TextureEncoding encoding;
     };
+
+    // Room for exactly what is appended.
+    void reserve() {
+        std::set<std::pair<uint64_t, bool>> images; // as offsets_ has them
+        size_t bytes = 0, floats = 0;
+        for (const TextureSource& source : table_.sources) {
+            const Image* image = source.image.get();
+            if (!is_whole(image)) continue;
+            const bool is_float = image->bytes.empty();
+            if (images.emplace(image->serial, is_float && source.is_color).second) (is_float ? floats : bytes) += texel_count(*image);
+        }
+        table_.rgba8.reserve(std::min(bytes, max_byte_texels));
+        table_.rgba32f.reserve(4 * std::min(floats, max_float_texels));
+    }
 
     TextureRecord record(const TextureSource& source) {
         const Image* image = source.image.get();
@@ -149,6 +166,15 @@ int32_t TextureTable::index_of(Id<Texture> id, bool is_color) const {
 
 TextureTables TextureTable::tables() const { return {records.data(), nullptr, rgba8.data(), rgba32f.data(), srgb_table().data()}; }
 
-TextureTable build_texture_table(std::vector<TextureSource> sources) { return Builder(std::move(sources)).build(); }
+int64_t texel_bytes(const Image& image) {
+    return int64_t(texel_count(image)) * int64_t(image.bytes.empty() ? 4 * sizeof(float) : sizeof(uint32_t));
+}
+
+TextureTable build_texture_table(std::vector<TextureSource> sources) {
+    const auto begin = std::chrono::steady_clock::now();
+    TextureTable table = Builder(std::move(sources)).build();
+    table.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return table;
+}
 
 } // namespace blush

@@ -28,12 +28,16 @@ struct TextureTable {
     std::vector<uint32_t> rgba8;
     std::vector<float> rgba32f;
     std::vector<Diagnostic> warnings;
+    double seconds = 0; // that building it took
 
     // -1 if absent.
     int32_t index_of(Id<Texture> id, bool is_color) const;
     // Without uses. Valid until the table changes.
     TextureTables tables() const;
 };
+
+// Memory of an image's texels in the pools.
+int64_t texel_bytes(const Image& image);
 
 // Sources are sorted by (id, is_color), without repetition. An image that several read is stored once. Grey images become
 // RGB, missing alpha is 1. Float images count as sRGB-encoded where they are read as colour and stay within [0, 1], as 16-bit

@@ -25,6 +25,7 @@ Json run_rate(const Options& options);
 Json run_kernels(const Options& options);
 Json run_latency(const Options& options);
 Json run_setup(const Options& options);
+Json run_startup(const Options& options);
 Json run_denoise(const Options& options);
 Json run_error_coverage(const Options& options);
 

@@ -2,8 +2,8 @@
 // the machine does falls on both.
 #include "tests/bench/bench.h"
 #include "tests/bench/recorded_rays.h"
-#include "tests/bench/tiles.h"
 
+#include "render/kernel_speed.h"
 #include "render/lowering.h"
 #include "render/render_scene.h"
 #include "render/renderer.h"
@@ -29,7 +29,7 @@ struct Contest {
         compiled.update(lower_area_lights(scene), settings, full_plan(), workers);
         const KernelContext context{&compiled.tables(), &compiled.accel(), settings_for_kernels(settings, settings.width, settings.height),
                                     settings.seed};
-        rays = record_rays(context, tiles_of(settings, 7), workers);
+        rays = record_rays(context, sample_tiles(settings, 7), workers);
     }
 };
 

@@ -160,11 +160,14 @@ TEST(PathReuse, KnowsTheFilmsBorder) {
     }
 }
 
+// Groups of 16 are as few independent errors as a sixteenth of the pixels: four times the width, on the scale of factors.
 TEST(PathReuse, WidensTheErrorsInterval) {
-    const ErrorEstimate e = widened({true, 0.4, 0.3, 0.6}, 16);
+    const ErrorEstimate e = widened({true, 0.4, 0.2, 0.8, true, 0.1, 0.05, 0.2}, 16);
     EXPECT_DOUBLE_EQ(e.relmse, 0.4);
-    EXPECT_DOUBLE_EQ(e.low, 0);
-    EXPECT_DOUBLE_EQ(e.high, 1.2);
+    EXPECT_NEAR(e.low, 0.4 / 16, 1e-12);
+    EXPECT_NEAR(e.high, 0.4 * 16, 1e-12);
+    EXPECT_NEAR(e.rmse_low, 0.1 / 16, 1e-12);
+    EXPECT_NEAR(e.rmse_high, 0.1 * 16, 1e-12);
 }
 
 } // namespace

@@ -156,5 +156,33 @@ TEST_F(Panels, AnEmptySceneAndAFrameWithoutPlanes) {
     EXPECT_FALSE(document.can_undo());
 }
 
+// Every line of the ledger that was left out takes its room, and what is in use waits behind a heading.
+TEST_F(Panels, EachThingLeftOutHasItsLine) {
+    Document document;
+    const auto height_of = [&](const Ledger& ledger) {
+        auto made = std::make_shared<Frame>();
+        made->ledger = std::make_shared<const Ledger>(ledger);
+        frame = made;
+        float height = 0;
+        for (int i = 0; i < 2; ++i) {
+            in_window([&] {
+                ImGui::GetStateStorage()->SetBool(ImGui::GetID("Left out"), true);
+                const float top = ImGui::GetCursorPosY();
+                PanelContext c{document, ui, *color, frame, {}, 640, 480};
+                draw_left_out_section(c);
+                height = ImGui::GetCursorPosY() - top;
+            });
+        }
+        return height;
+    };
+    const FeatureUse depth{"film", "depth", false, "nobody reads it", 4096}, ids{"film", "ids", false, "nobody reads them", 8192};
+    const FeatureUse beauty{"film", "beauty", true, "always", 65536};
+    const float none = height_of({}), one = height_of({depth}), two = height_of({depth, ids}), in_use = height_of({depth, ids, beauty});
+    EXPECT_GT(one, none);
+    EXPECT_GT(two, one);
+    EXPECT_EQ(in_use, two);
+    EXPECT_FALSE(document.can_undo());
+}
+
 } // namespace
 } // namespace blush

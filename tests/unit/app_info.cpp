@@ -21,6 +21,7 @@ TEST(InfoCommand, JsonHasTheKeysOfTheContract) {
     EXPECT_GE(json["triangles"], 2 * (5 + 2 * 5 + 1));
     EXPECT_GE(json["lights"]["emissive_triangles"], 2);
     EXPECT_FALSE(json["kernel"]["name"].get<std::string>().empty());
+    EXPECT_EQ(test::keys_of(json["kernel"]), (std::vector<std::string>{"features", "left_out", "made", "name"}));
     EXPECT_FALSE(json["kernel"]["left_out"].empty());
     for (const Json& left_out : json["kernel"]["left_out"]) EXPECT_FALSE(left_out["why"].get<std::string>().empty()) << left_out;
 }
@@ -28,8 +29,15 @@ TEST(InfoCommand, JsonHasTheKeysOfTheContract) {
 TEST(InfoCommand, SaysWhatASceneNeeds) {
     const Finished finished = test::blush({"info", scene_file("furnace")});
     EXPECT_EQ(finished.exit_code, 0) << finished.err;
-    for (const char* word : {"geometry", "an environment", "kernel", "without"})
+    for (const char* word : {"geometry", "an environment", "kernel", "left out", "saves"})
         EXPECT_NE(finished.out.find(word), std::string::npos) << word;
+}
+
+TEST(InfoCommand, MeasuresTheKernelBesideTheOneWithEverything) {
+    const Json speed = blush_json({"info", scene_file("cornell"), "--measure"})["kernel"]["speed"];
+    ASSERT_TRUE(speed.is_object());
+    EXPECT_NE(speed["own"], speed["full"]);
+    for (const char* key : {"own_mpaths_per_s", "full_mpaths_per_s", "ratio"}) EXPECT_GT(speed[key].get<double>(), 0) << key;
 }
 
 } // namespace

@@ -190,7 +190,7 @@ TEST(Render, JsonHasTheKeysOfTheContract) {
     EXPECT_EQ(test::keys_of(json["rays"]), (std::vector<std::string>{"bounce", "camera", "shadow"}));
     EXPECT_EQ(test::keys_of(json["error"]), (std::vector<std::string>{"high", "low", "relmse"}));
     EXPECT_EQ(test::keys_of(json["health"]), (std::vector<std::string>{"first", "inf", "nan", "negative"}));
-    EXPECT_EQ(test::keys_of(json["kernel"]), (std::vector<std::string>{"features", "left_out", "name"}));
+    EXPECT_EQ(test::keys_of(json["kernel"]), (std::vector<std::string>{"features", "left_out", "made", "name"}));
     EXPECT_EQ(json["width"], 24);
     EXPECT_EQ(json["spp"], 4);
     EXPECT_EQ(json["rays"]["camera"], 24 * 16 * 4);

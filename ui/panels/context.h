@@ -18,6 +18,7 @@ struct PanelContext {
     int render_width = 0, render_height = 0;
     DenoisedPtr denoised = {};         // of the frame's image, if any
     std::string denoiser_problem = {}; // why nothing can be denoised; empty: it can
+    const Ledger* window_ledger = nullptr; // of what the window makes itself; null: nothing
 
     const Project& project() const { return document.project(); }
     const Scene& scene() const { return document.project().scene; }

@@ -23,6 +23,7 @@ void draw_camera_panel(PanelContext& c);                     // of the view
 void draw_camera_node_panel(PanelContext& c, Id<Node> node); // of one of the scene's cameras
 void draw_environment_panel(PanelContext& c);
 void draw_render_panel(PanelContext& c);
+void draw_left_out_section(PanelContext& c); // of the render panel
 void draw_display_panel(PanelContext& c);
 
 // Above everything else, each in a window of its own while it is open.

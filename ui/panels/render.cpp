@@ -129,6 +129,7 @@ void draw_render_panel(PanelContext& c) {
     if (section(c.ui, "Stop at")) draw_stop_rules(f, r);
     if (section(c.ui, "Paths")) draw_paths(f, r);
     if (f.changed()) c.apply(SetRender{r}, f.gesture());
+    draw_left_out_section(c);
 }
 
 } // namespace blush

@@ -1,0 +1,48 @@
+#include "app/commands/made_beside.h"
+
+#include "app/assets_dir.h"
+#include "app/commands/denoising.h"
+#include "color/color_management.h"
+
+#include <chrono>
+
+namespace blush {
+namespace {
+
+// Seconds; nothing if `make` fails.
+template <class Make> std::optional<double> seconds_to(const Make& make) {
+    const auto begin = std::chrono::steady_clock::now();
+    if (!make()) return std::nullopt;
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+} // namespace
+
+Ledger with_made_beside(const Ledger& renderer, const MadeBeside& made) {
+    Ledger ledger = renderer;
+    ledger.push_back({"display", "view transform", made.display,
+                      made.display ? "the picture is written as a display shows it" : "no picture is written as a display shows it"});
+    ledger.back().seconds = made.display_seconds;
+    std::array<bool, denoise_qualities> loaded{};
+    if (made.denoiser) loaded[size_t(*made.denoiser)] = true;
+    for (FeatureUse& use : denoiser_ledger(weights_dir(), loaded)) ledger.push_back(std::move(use));
+    const auto fast = std::ranges::find(ledger, "fast network", &FeatureUse::name);
+    if (fast != ledger.end()) fast->seconds = made.denoiser_seconds;
+    return ledger;
+}
+
+MadeBeside measure_made_beside(unsigned threads) {
+    MadeBeside made;
+    made.display_seconds = seconds_to([] {
+        const Result<ColorManagement> color = ColorManagement::load(assets_dir());
+        float grey[3] = {0.18f, 0.18f, 0.18f};
+        return color && color->apply_display({}, {}, 0, 1, grey, 1);
+    });
+    made.denoiser_seconds = seconds_to([threads] {
+        Denoiser denoiser(weights_dir(), threads);
+        return bool(try_denoiser(denoiser, DenoiseQuality::fast));
+    });
+    return made;
+}
+
+} // namespace blush

@@ -1,0 +1,136 @@
+// The lines of the ledger that a compiled scene writes.
+#include "render/ledger.h"
+#include "render/render_scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+namespace blush {
+namespace {
+
+struct FeatureText {
+    Feature feature;
+    const char* name;
+    const char* used;
+    const char* unused;
+};
+
+constexpr FeatureText feature_texts[] = {
+    {Feature::specular, "specular", "a material has a GGX reflection", "all materials are Lambertian"},
+    {Feature::transmission, "transmission", "a material transmits light", "no material transmits light"},
+    {Feature::absorption, "absorption", "a solid absorbs light inside", "no solid absorbs light inside"},
+    {Feature::textures, "textures", "a material reads a texture", "no material reads a texture"},
+    {Feature::normal_maps, "normal maps", "a material has a normal map", "no material has a normal map"},
+    {Feature::vertex_colors, "vertex colours", "a mesh has vertex colours", "no mesh has vertex colours"},
+    {Feature::unlit, "unlit", "a material is unlit", "no material is unlit"},
+    {Feature::emissive_triangles, "mesh lights", "a mesh emits light", "no mesh emits light"},
+    {Feature::point_lights, "point lights", "the scene has points or spots without size", "the scene has no points or spots without size"},
+    {Feature::suns, "suns", "the scene has a sun", "the scene has no sun"},
+    {Feature::environment, "environment", "the scene has an environment", "the scene has no environment"},
+    {Feature::instances, "instances", "a mesh is shared or large", "every mesh is small and used once"},
+    {Feature::energy_compensation, "energy compensation", "switched on", "switched off"},
+    {Feature::thin_lens, "depth of field", "the lens has an aperture", "the camera is a pinhole"},
+    {Feature::orthographic, "orthographic camera", "the camera is orthographic", "the camera is not orthographic"},
+};
+
+void add_kernel(Ledger& ledger, Features features) {
+    for (const FeatureText& t : feature_texts) {
+        const bool used = features.has(t.feature);
+        ledger.push_back({"kernel", t.name, used, used ? t.used : t.unused});
+    }
+}
+
+void add_film(Ledger& ledger, const FilmSize& film) {
+    for (const PlaneUse& p : Film::plane_uses(film.planes, film.transparent, film.adaptive))
+        ledger.push_back({"film", p.name, p.used, p.why, int64_t(p.bytes_per_pixel) * film.width * film.height});
+}
+
+void add_vertices(Ledger& ledger, const GeometryPool& geometry, const AttributeNeeds& needs) {
+    struct Attribute {
+        const char* name;
+        bool used;
+        const char *why_used, *why_not;
+        size_t bytes;
+    };
+    const Attribute attributes[] = {
+        {"normals", geometry.has_normals(), "a mesh is smooth", "every mesh is flat", sizeof(Vec3)},
+        {"texture coordinates", needs.uv0, "a texture is laid out by them", "no texture is laid out by them", sizeof(Vec2)},
+        {"second texture coordinates", needs.uv1, "a texture is laid out by them", "no texture is laid out by them", sizeof(Vec2)},
+        {"tangents", needs.tangents, "a material has a normal map", "no material has a normal map", sizeof(Vec4)},
+        {"vertex colours", needs.colors, "a mesh has them", "no mesh has them", sizeof(Vec4)},
+    };
+    for (const Attribute& a : attributes)
+        ledger.push_back({"geometry", a.name, a.used, a.used ? a.why_used : a.why_not, int64_t(a.bytes) * geometry.vertex_count()});
+}
+
+void add_textures(Ledger& ledger, const TextureTable& table, const Scene& scene) {
+    std::set<uint64_t> read, unread; // images by serial
+    for (const TextureSource& source : table.sources) read.insert(source.image->serial);
+    int64_t unread_bytes = 0;
+    for (const auto& [id, texture] : scene.textures) {
+        if (!texture.image || read.contains(texture.image->serial) || !unread.insert(texture.image->serial).second) continue;
+        unread_bytes += texel_bytes(*texture.image);
+    }
+    const bool used = !read.empty();
+    const int64_t bytes = int64_t(table.rgba8.size() * sizeof(uint32_t) + table.rgba32f.size() * sizeof(float));
+    FeatureUse texels{
+        "textures", "texels", used,
+        used ? fmt::format("materials read {} image{}", read.size(), read.size() == 1 ? "" : "s") : "no material reads an image", bytes};
+    if (used) texels.seconds = table.seconds;
+    ledger.push_back(texels);
+    if (!unread.empty())
+        ledger.push_back({"textures", "unread images", false, fmt::format("{} of the scene are read by no material in use", unread.size()),
+                          unread_bytes});
+}
+
+// Why the environment has no map.
+const char* why_no_map(const Environment& e) {
+    if (e.kind == Environment::Kind::none) return "the scene has no environment";
+    if (e.kind == Environment::Kind::constant) return "the environment is one colour";
+    return gives_light(e) ? "the image cannot be used" : "the environment gives no light";
+}
+
+void add_lights(Ledger& ledger, const LightTable& lights, const EnvironmentTable& environment, const Environment& e) {
+    const int64_t light_bytes = int64_t(lights.records.size() * sizeof(LightRecord) + lights.thresholds.size() * sizeof(uint32_t) +
+                                        lights.suns.size() * sizeof(int32_t));
+    ledger.push_back({"lights", "light table", lights.count > 0, lights.count > 0 ? "the scene has lights" : "nothing shines",
+                      lights.count > 0 ? light_bytes : 0});
+
+    const bool used = e.kind == Environment::Kind::image && gives_light(e) && int64_t(environment.width) * environment.height > 1;
+    FeatureUse map{"lights", "environment map", used, used ? "the environment is an image" : why_no_map(e), 0};
+    FeatureUse importance{"lights", "importance map", used, used ? "light from the environment is aimed at" : why_no_map(e), 0};
+    if (e.kind == Environment::Kind::image && e.image) {
+        const EnvironmentBytes bytes = environment_bytes(e.image->width, e.image->height);
+        map.bytes = bytes.texels;
+        importance.bytes = bytes.importance;
+    }
+    if (used) importance.seconds = environment.seconds;
+    ledger.push_back(map);
+    ledger.push_back(importance);
+}
+
+} // namespace
+
+std::string cost_text(const FeatureUse& use) {
+    std::string text;
+    if (use.bytes && *use.bytes >= 1 << 20) text = fmt::format("{:.2f} MiB", double(*use.bytes) / (1 << 20));
+    else if (use.bytes && *use.bytes > 0) text = fmt::format("{:.2f} KiB", double(*use.bytes) / (1 << 10));
+    if (use.seconds) text += fmt::format("{}{:.1f} ms", text.empty() ? "" : ", ", *use.seconds * 1e3);
+    if (use.used) return text;
+    if (text.empty()) return use.bytes ? "saves nothing" : "not measured";
+    return "saves " + text;
+}
+
+Ledger RenderScene::ledger(const Scene& lowered, const FilmSize& film) const {
+    Ledger ledger;
+    add_kernel(ledger, features_);
+    add_film(ledger, film);
+    add_vertices(ledger, geometry_, needs_);
+    add_textures(ledger, materials_.textures, lowered);
+    add_lights(ledger, lights_, environment_, lowered.environment);
+    return ledger;
+}
+
+} // namespace blush

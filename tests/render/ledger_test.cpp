@@ -1,0 +1,184 @@
+// The ledger tells the truth: what it says is there is there, and takes the bytes that it says.
+#include "render/ledger.h"
+
+#include "render/environment_table.h"
+#include "render/film.h"
+#include "render/lowering.h"
+#include "render/render_scene.h"
+#include "scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace blush::test {
+namespace {
+
+struct Compiled {
+    RenderSettings settings;
+    RenderScene scene;
+    Scene lowered;
+
+    explicit Compiled(const Scene& s) : lowered(lower_area_lights(s)) { scene.update(lowered, settings, full_plan(), Workers(1)); }
+    Ledger ledger() const { return scene.ledger(lowered, {settings.width, settings.height, {}, false}); }
+};
+
+const FeatureUse& line(const Ledger& ledger, const std::string& part, const std::string& name) {
+    const auto found = std::ranges::find_if(ledger, [&](const FeatureUse& use) { return use.part == part && use.name == name; });
+    if (found == ledger.end()) throw std::runtime_error("no line " + part + "/" + name);
+    return *found;
+}
+
+Scene bare() {
+    Scene scene;
+    place(scene, floor_quad(1), lambert(0.5f));
+    return scene;
+}
+
+// The rest of a quad's attributes, with normals that lean away from its plane.
+GeometryPtr dressed_quad() {
+    Geometry g = *floor_quad(1);
+    g.serial = next_payload_serial();
+    g.normals = {{0.1f, 1, 0}, {0, 1, 0.1f}, {0, 1, 0}, {0, 1, 0}};
+    g.tangents.assign(4, {1, 0, 0, 1});
+    g.uv1 = g.uv0;
+    g.colors.assign(4, {1, 0.5f, 0.5f, 1});
+    return std::make_shared<const Geometry>(g);
+}
+
+ImagePtr texels(int side) { return float_picture(side, side, std::vector<Vec3>(size_t(side) * size_t(side), {0.5f, 0.5f, 1})); }
+
+Scene rich() {
+    Scene scene;
+    Material m = plastic(0.3f);
+    m.base_color_texture.texture = add_texture(scene, texels(4));
+    m.normal_texture.texture = add_texture(scene, texels(8));
+    m.normal_texture.uv_set = 1;
+    place(scene, dressed_quad(), m);
+    scene.environment.kind = Environment::Kind::image;
+    scene.environment.image = texels(16);
+    return scene;
+}
+
+TEST(Ledger, WhatABareSceneLeavesOutIsNotThere) {
+    const Compiled c(bare());
+    const SceneTables& tables = c.scene.tables();
+    const Ledger ledger = c.ledger();
+    for (const void* column : {tables.normals, tables.tangents, tables.uv0, tables.uv1, tables.colors}) EXPECT_EQ(column, nullptr);
+    EXPECT_EQ(tables.environment.width, 1);
+    for (const FeatureUse& use : ledger) {
+        EXPECT_EQ(use.used, use.part == "film" && use.name == "beauty") << use.part << "/" << use.name;
+        EXPECT_FALSE(use.why.empty()) << use.name;
+        EXPECT_FALSE(use.seconds) << use.name << ": nothing was made that could have taken time";
+    }
+}
+
+TEST(Ledger, WhatARichSceneNeedsIsThere) {
+    const Compiled c(rich());
+    const SceneTables& tables = c.scene.tables();
+    const Ledger ledger = c.ledger();
+    for (const void* column : {tables.normals, tables.tangents, tables.uv0, tables.uv1, tables.colors}) EXPECT_NE(column, nullptr);
+    EXPECT_EQ(tables.environment.width, 16);
+    for (const FeatureUse& use : ledger) {
+        if (use.part == "geometry" || use.part == "textures" || use.part == "lights") { EXPECT_TRUE(use.used) << use.name; }
+    }
+    // RGBA in single precision; four vertices.
+    EXPECT_EQ(line(ledger, "textures", "texels").bytes, (4 * 4 + 8 * 8) * 16);
+    EXPECT_EQ(line(ledger, "geometry", "normals").bytes, 4 * 12);
+    EXPECT_EQ(line(ledger, "geometry", "tangents").bytes, 4 * 16);
+    EXPECT_EQ(line(ledger, "lights", "environment map").bytes, 16 * 16 * 12);
+}
+
+TEST(Ledger, TexturesThatNobodyReadsAreNotKept) {
+    Scene scene = bare();
+    add_texture(scene, texels(4));
+    Material m = lambert(0.5f);
+    m.normal_texture.texture = add_texture(scene, texels(8));
+    m.normal_scale = 0; // read by nobody, nor are the coordinates it would be laid out by
+    place(scene, floor_quad(1), m);
+    const Compiled c(scene);
+    EXPECT_EQ(c.scene.info().textures, 0);
+    EXPECT_EQ(c.scene.tables().uv0, nullptr);
+    EXPECT_EQ(c.scene.tables().tangents, nullptr);
+    const Ledger ledger = c.ledger();
+    EXPECT_FALSE(line(ledger, "textures", "texels").used);
+    EXPECT_EQ(line(ledger, "textures", "unread images").bytes, (4 * 4 + 8 * 8) * 16);
+}
+
+TEST(Ledger, AnEnvironmentWithoutLightHasNoMapUntilItShinesAgain) {
+    Scene scene = rich();
+    scene.environment.intensity = 0;
+    Compiled c(scene);
+    EXPECT_EQ(c.scene.tables().environment.width, 1);
+    const FeatureUse dark = line(c.ledger(), "lights", "importance map");
+    EXPECT_FALSE(dark.used);
+
+    UpdatePlan brighter;
+    brighter.environment_parameters = brighter.lights = brighter.features = true;
+    c.lowered.environment.intensity = 1;
+    c.scene.update(c.lowered, c.settings, brighter, Workers(1));
+    EXPECT_EQ(c.scene.tables().environment.width, 16);
+    const FeatureUse bright = line(c.ledger(), "lights", "importance map");
+    EXPECT_TRUE(bright.used);
+    EXPECT_EQ(bright.bytes, dark.bytes) << "what leaving it out saves is what it takes";
+
+    c.lowered.environment.intensity = 0;
+    c.scene.update(c.lowered, c.settings, brighter, Workers(1));
+    EXPECT_EQ(c.scene.tables().environment.width, 1) << "freed when it is not needed any more";
+}
+
+TEST(Ledger, BytesOfTheEnvironmentAreThoseAllocated) {
+    for (const auto& [width, height] : {std::pair{1, 1}, {7, 5}, {64, 32}, {500, 250}}) {
+        Environment e;
+        e.kind = Environment::Kind::image;
+        e.image = float_picture(width, height, std::vector<Vec3>(size_t(width * height), {1, 2, 3}));
+        const EnvironmentTable t = build_environment_table(e);
+        const auto bytes = [](const auto& v) { return int64_t(v.capacity() * sizeof(v[0])); };
+        const EnvironmentBytes expected = environment_bytes(width, height);
+        EXPECT_EQ(bytes(t.texels), expected.texels);
+        EXPECT_EQ(bytes(t.row_thresholds) + bytes(t.column_thresholds) + bytes(t.column_guides) + bytes(t.rows), expected.importance);
+    }
+}
+
+TEST(Ledger, BytesOfTheFilmAreThoseAllocated) {
+    constexpr int width = 40, height = 30;
+    for (const PlaneSet& planes : {PlaneSet{}, PlaneSet{.albedo = true}, PlaneSet{.depth = true}, PlaneSet{.ids = true},
+                                   PlaneSet{.bounces = 5}, PlaneSet{true, true, true, true, usual_bounce_planes}})
+        for (const auto& [transparent, adaptive] : {std::pair{false, false}, {true, false}, {true, true}}) {
+            Film film;
+            film.reset(width, height, planes, transparent, adaptive);
+            size_t bytes = 0;
+            for (const PlaneUse& plane : Film::plane_uses(planes, transparent, adaptive))
+                if (plane.used) bytes += plane.bytes_per_pixel * width * height;
+            EXPECT_EQ(film.memory_bytes(), bytes);
+        }
+}
+
+// Vertices of instances are kept once, and the ledger counts them once.
+TEST(Ledger, BytesOfVertexAttributesAreThoseAllocated) {
+    Scene scene = rich();
+    const Id<Mesh> twice = scene.meshes.add({"", {{dressed_quad(), scene.materials.add(lambert(0.5f))}}});
+    for (const float x : {-3.f, 3.f}) {
+        Node node;
+        node.mesh = twice;
+        node.local = at({x, 0, 0});
+        scene.nodes.add(node);
+    }
+    GeometryPool pool;
+    pool.build(list_objects(scene), {true, true, true, true}, {0, 0, 0});
+    GeometryPool less;
+    less.build(list_objects(scene), {false, false, false, false}, {0, 0, 0});
+    EXPECT_EQ(pool.vertex_count(), less.vertex_count());
+    EXPECT_EQ(int64_t(pool.memory_bytes() - less.memory_bytes()), pool.vertex_count() * (8 + 8 + 16 + 16));
+}
+
+TEST(Ledger, CostsAreSaidInTheirUnits) {
+    EXPECT_EQ(cost_text({"film", "depth", false, "", 3 << 20}), "saves 3.00 MiB");
+    EXPECT_EQ(cost_text({"film", "depth", true, "", 512, 0.0125}), "0.50 KiB, 12.5 ms");
+    EXPECT_EQ(cost_text({"textures", "texels", false, "", 0}), "saves nothing");
+    EXPECT_EQ(cost_text({"kernel", "suns", false, ""}), "not measured");
+    EXPECT_EQ(cost_text({"kernel", "suns", true, ""}), "");
+}
+
+} // namespace
+} // namespace blush::test

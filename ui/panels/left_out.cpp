@@ -1,0 +1,56 @@
+// What was left out: all that a renderer may have and this scene does not need, why, and what that saves; then what is in.
+#include "ui/panels/panels.h"
+#include "ui/theme.h"
+#include "ui/widgets.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+namespace blush {
+namespace {
+
+int64_t count(const Ledger& ledger, bool used) { return std::ranges::count(ledger, used, &FeatureUse::used); }
+
+// Name and cost on one line, the reason below.
+void draw_line(const FeatureUse& use) {
+    const std::string cost = cost_text(use);
+    const float right = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(cost.c_str()).x;
+    ImGui::TextUnformatted(use.name.c_str());
+    ImGui::SameLine(std::max(right, ImGui::GetCursorPosX()));
+    ImGui::PushStyleColor(ImGuiCol_Text, tone::dim_text);
+    ImGui::TextUnformatted(cost.c_str());
+    ImGui::PopStyleColor();
+    quiet_text(use.why);
+}
+
+void draw_lines(const Ledger& ledger, bool used) {
+    std::string_view part;
+    for (const FeatureUse& use : ledger) {
+        if (use.used != used) continue;
+        if (part != use.part) {
+            part = use.part;
+            ImGui::Spacing();
+            ImGui::PushFont(heading_font());
+            ImGui::TextUnformatted(use.part.c_str());
+            ImGui::PopFont();
+        }
+        draw_line(use);
+    }
+}
+
+} // namespace
+
+void draw_left_out_section(PanelContext& c) {
+    if (!section(c.ui, "Left out", false)) return;
+    if (!c.frame || !c.frame->ledger) return quiet_text("Nothing is rendered yet.");
+    Ledger ledger = *c.frame->ledger;
+    if (c.window_ledger) ledger.insert(ledger.end(), c.window_ledger->begin(), c.window_ledger->end());
+    quiet_text(
+        fmt::format("{} of {} things are made only on need and were not needed. Kernel {}; `blush info --measure` tells how much faster "
+                    "it is than the one with everything.",
+                    count(ledger, false), ledger.size(), c.frame->kernel));
+    draw_lines(ledger, false);
+    if (section(c.ui, "In use", false)) draw_lines(ledger, true);
+}
+
+} // namespace blush
