@@ -67,6 +67,7 @@ private:
     uint64_t submitted_ = 0; // the one the window waits for; 0: nothing yet
     Scene submitted_scene_;
     RenderSettings submitted_settings_;
+    PlaneSet submitted_planes_;
     bool session_paused_ = false, session_denoises_ = false;
 
     bool remembered_follow_viewport_ = true; // what the settings said before the command line
@@ -193,6 +194,9 @@ void Editor::draw_regions(PanelContext& c) {
 void Editor::draw_above(PanelContext& c) {
     draw_pixel_panel(c);
     draw_history(c);
+    draw_bounces_panel(c);
+    draw_roulette_panel(c);
+    draw_health_panel(c);
     draw_shortcut_sheet(c);
     draw_file_browser(c);
     if (const auto job = files_.running()) {
@@ -306,11 +310,13 @@ void Editor::submit() {
     if (files_.scene_file().empty()) return; // nothing is open yet
     const RenderSettings r = render_settings();
     const Scene& scene = document_.project().scene;
-    if (submitted_ != 0 && !diff(submitted_scene_, submitted_settings_, scene, r).any()) return;
+    const PlaneSet planes = ui_.wanted_planes();
+    if (submitted_ != 0 && planes == submitted_planes_ && !diff(submitted_scene_, submitted_settings_, scene, r).any()) return;
     submitted_ = ++revision_;
     submitted_scene_ = scene;
     submitted_settings_ = r;
-    session_.submit(submitted_, scene, r);
+    submitted_planes_ = planes;
+    session_.submit(submitted_, scene, r, planes);
     stats_.submitted(submitted_, frame_begin_);
 }
 

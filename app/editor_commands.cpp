@@ -113,6 +113,9 @@ bool run_command(Command command, PanelContext& c) {
     case Command::pause: c.ui.paused = !c.ui.paused; return true;
     case Command::shortcuts: c.ui.show_shortcuts = !c.ui.show_shortcuts; return true;
     case Command::history: c.ui.show_history = !c.ui.show_history; return true;
+    case Command::bounces: c.ui.bounces.open = !c.ui.bounces.open; return true;
+    case Command::health: c.ui.health.open = !c.ui.health.open; return true;
+    case Command::roulette: c.ui.roulette.open = !c.ui.roulette.open; return true;
     case Command::open:
     case Command::import_scene:
     case Command::environment:

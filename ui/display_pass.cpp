@@ -79,11 +79,11 @@ void DisplayPass::upload(const DenoisedPicture& denoised) {
     denoised_.upload(denoised.width, denoised.height, GL_RGB, denoised.denoised.rgb.data());
 }
 
-void DisplayPass::upload(const Frame& frame) {
-    image_.upload(frame.width, frame.height, GL_RGBA, frame.rgba.data());
-    rows_per_millisecond_ *= double(std::max(width_, 1)) / frame.width; // rows of another length
-    width_ = frame.width;
-    height_ = next_row_ = frame.height;
+void DisplayPass::upload(int width, int height, const std::vector<float>& rgba) {
+    image_.upload(width, height, GL_RGBA, rgba.data());
+    rows_per_millisecond_ *= double(std::max(width_, 1)) / width; // rows of another length
+    width_ = width;
+    height_ = next_row_ = height;
 }
 
 void DisplayPass::begin(const DisplayLook& look) {

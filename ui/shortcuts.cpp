@@ -42,6 +42,9 @@ constexpr Shortcut table[] = {
     {Command::exposure_reset, "View", "Exposure 0", plain(key::zero)},
     {Command::toggle_denoise, "View", "Raw / denoised", plain('N')},
     {Command::pause, "View", "Pause rendering", plain(key::space)},
+    {Command::bounces, "View", "Bounces", in_menu_only},
+    {Command::health, "View", "Health", in_menu_only},
+    {Command::roulette, "View", "Roulette lab", in_menu_only},
     {Command::shortcuts, "Help", "Shortcuts", plain(key::f1)},
 };
 

@@ -48,6 +48,9 @@ enum class Command {
     clear_selection,
     shortcuts,
     history,
+    bounces,
+    health,
+    roulette,
 };
 
 struct Shortcut {

@@ -2,9 +2,12 @@
 #pragma once
 
 #include "scene/scene.h"
+#include "ui/bounces_view.h"
 #include "ui/denoise_view.h"
 #include "ui/gestures.h"
+#include "ui/health_view.h"
 #include "ui/probe.h"
+#include "ui/roulette_view.h"
 #include "ui/shortcuts.h"
 #include "ui/toasts.h"
 #include "ui/window_settings.h"
@@ -60,6 +63,9 @@ struct UiState {
     double next_frame_in = 1e9; // seconds until something moves by itself: a toast that goes, a tooltip that comes
     bool show_shortcuts = false;
     bool show_history = false;
+    BouncesView bounces;
+    HealthView health;
+    RouletteView roulette;
     std::optional<FileBrowser> browser;
     std::optional<PixelProbe> pixel;
     EulerFields euler;
@@ -72,6 +78,18 @@ struct UiState {
     // Done by the editor after the panels are drawn.
     std::vector<Command> commands;
     std::vector<FileRequest> files;
+
+    // What the viewport shows instead of the picture, if some panel asks for it.
+    PictureView picture_view(int bounce_planes) const {
+        if (health.open && health.map) return {PictureView::Show::dropped};
+        if (roulette.open && roulette.map == RouletteView::Map::path_length) return {PictureView::Show::path_length};
+        if (roulette.open && roulette.map == RouletteView::Map::survival) return {PictureView::Show::survival};
+        return blush::picture_view(bounces, bounce_planes);
+    }
+    // Film planes that open panels read, beside those that every frame has.
+    PlaneSet wanted_planes() const {
+        return {.bounces = bounces.open ? usual_bounce_planes : 0, .roulette = roulette.open && roulette.map != RouletteView::Map::none};
+    }
 
     void select(Id<Node> node, Id<Material> material = {}) {
         selected = node;

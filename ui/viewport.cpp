@@ -51,13 +51,17 @@ Result<void> Viewport::set_display_shader(const DisplayShader& shader) {
 
 void Viewport::take_frame(PanelContext& c) {
     const ViewSettings& v = c.project().view;
-    const DisplayLook look{v.exposure_ev, v.gamma, mix_of(c.ui.denoise, c.denoised != nullptr)};
-    const bool new_frame = c.frame && c.frame->width > 0 && c.frame != uploaded_frame_;
+    const PictureView view = c.ui.picture_view(c.frame ? int(c.frame->bounces.size()) : 0);
+    const bool special = c.frame && is_special(*c.frame, view);
+    const DisplayLook look{v.exposure_ev, v.gamma, special ? PictureMix{} : mix_of(c.ui.denoise, c.denoised != nullptr)};
+    const bool new_frame = c.frame && c.frame->width > 0 && (c.frame != uploaded_frame_ || view != uploaded_view_);
     const bool new_denoised = look.mix.denoised_weight != 0 && c.denoised != uploaded_denoised_;
     if (!display_.busy() && (new_frame || (uploaded_frame_ && (new_denoised || shader_changed_ || look_ != look)))) {
         if (new_frame) {
-            display_.upload(*c.frame);
+            if (special) display_.upload(c.frame->width, c.frame->height, pixels_of(*c.frame, view));
+            else display_.upload(*c.frame);
             uploaded_frame_ = c.frame;
+            uploaded_view_ = view;
         }
         if (new_denoised) {
             display_.upload(*c.denoised);
@@ -104,6 +108,17 @@ void Viewport::draw_picture(PanelContext& c, const ImageRect& image) {
     draw.AddCallback(ImDrawCallback_ResetRenderState, nullptr);
 }
 
+// What is shown instead of the picture, where it cannot be overlooked.
+void Viewport::draw_caption(const ImageRect& image) const {
+    if (!is_special(*shown_frame_, uploaded_view_)) return;
+    const std::string text = caption_of(*shown_frame_, uploaded_view_);
+    const float em = ImGui::GetFontSize();
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str()), at{image.x + (image.width - size.x) / 2, image.y + image.height - size.y - em};
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    draw.AddRectFilled({at.x - em * 0.5f, at.y - em * 0.3f}, {at.x + size.x + em * 0.5f, at.y + size.y + em * 0.3f}, IM_COL32(20, 20, 20, 220), em * 0.2f);
+    draw.AddText(at, tone::warning, text.c_str());
+}
+
 void Viewport::obey(PanelContext& c, const NavigationResult& wish, const Projection& projection, const ImageRect& image) {
     if (wish.view) c.document.navigate(*wish.view);
     if (wish.flying) c.ui.next_frame_in = 0;
@@ -144,6 +159,7 @@ ImageRect Viewport::draw(PanelContext& c) {
         on_handle = handles_.update(c, draw, projection, image, hovered && !navigation_.busy());
         draw.PopClipRect();
     }
+    draw_caption(image);
     obey(c, navigation_.update(c.scene().view, image, hovered, !on_handle), projection, image);
     return image;
 }

@@ -26,6 +26,7 @@ private:
     void take_frame(PanelContext& c);
     void draw_picture(PanelContext& c, const ImageRect& image);
     GLuint outlined_picture(const PanelContext& c, const ImageRect& image);
+    void draw_caption(const ImageRect& image) const;
     void obey(PanelContext& c, const NavigationResult& wish, const Projection& projection, const ImageRect& image);
 
     DisplayPass display_;
@@ -35,6 +36,7 @@ private:
 
     // What the textures hold, to draw into them only when something differs.
     FramePtr uploaded_frame_, shown_frame_;
+    PictureView uploaded_view_;
     DenoisedPtr uploaded_denoised_;
     DisplayLook look_;
     bool shader_changed_ = false, begun_ = false;

@@ -3,6 +3,7 @@
 #include "app/assets_dir.h"
 #include "app/commands/common.h"
 #include "app/commands/denoising.h"
+#include "app/commands/frame_json.h"
 #include "app/commands/interrupt.h"
 #include "app/commands/json_output.h"
 #include "app/commands/load_scene.h"
@@ -14,7 +15,6 @@
 #include "core/text.h"
 #include "io/scene_edits_json.h"
 #include "io/scene_hash.h"
-#include "measure/bounce_energy.h"
 #include "render/denoised_picture.h"
 
 #include <CLI/CLI.hpp>
@@ -120,30 +120,7 @@ SnapshotMetadata metadata_of(const RenderCommand& c, const Plan& plan, const Loa
     return m;
 }
 
-std::string_view cause_word(BadSample::Cause cause) {
-    switch (cause) {
-    case BadSample::Cause::nan: return "nan";
-    case BadSample::Cause::infinite: return "inf";
-    case BadSample::Cause::negative: return "negative";
-    }
-    return {};
-}
-
-OrderedJson health_json(const Health& health) {
-    OrderedJson first = OrderedJson::array();
-    for (const BadSample& bad : health.first)
-        first.push_back({{"cause", cause_word(bad.cause)}, {"x", bad.x}, {"y", bad.y}, {"sample", bad.sample}, {"seed", bad.seed}});
-    return {{"nan", health.nan}, {"inf", health.infinite}, {"negative", health.negative}, {"first", first}};
-}
-
-OrderedJson bounces_json(const Frame& frame) {
-    OrderedJson bounces = OrderedJson::array();
-    for (const BounceEnergy& e : bounce_energy(frame))
-        bounces.push_back({{"bounce", e.name}, {"share", e.share}, {"mean", {e.mean.x, e.mean.y, e.mean.z}}});
-    return bounces;
-}
-
-OrderedJson result_json(const RenderCommand& c, const Rendered& rendered) {
+OrderedJson result_json(const RenderCommand& c, const RenderSettings& settings, const Rendered& rendered) {
     const LoopResult& r = rendered.loop;
     const RayCounts& rays = r.frame.rays;
     const double paths = double(rays.camera), seconds = std::max(r.seconds, 1e-9);
@@ -168,6 +145,7 @@ OrderedJson result_json(const RenderCommand& c, const Rendered& rendered) {
                      {"rmse_high", if_known(error.rmse_known, error.rmse_high)}};
     json["health"] = health_json(r.frame.health);
     if (!r.frame.bounces.empty()) json["bounces"] = bounces_json(r.frame);
+    if (settings.clamp.limit > 0) json["clamp"] = clamp_json(settings.clamp, r.frame.clamp);
     MadeBeside beside;
     beside.display = is_display_encoded(c.output);
     if (rendered.denoised) beside.denoiser = c.options.denoise;
@@ -188,6 +166,10 @@ void print_summary(const RenderCommand& c, const Rendered& rendered) {
     if (e.rmse_known) fmt::print(", RMSE {:.2g} ({:.2g} to {:.2g})", e.rmse, e.rmse_low, e.rmse_high);
     if (rendered.denoised) fmt::print(", {}", denoised_summary(*rendered.denoised));
     fmt::print("{}\n", r.complete ? "" : ", partial");
+    if (r.frame.clamp.samples > 0)
+        fmt::print("clamping took {:.3g} % of the light, from {} samples\n", 100 * r.frame.clamp.share, r.frame.clamp.samples);
+    if (r.frame.health.dropped() > 0)
+        fmt::print("{} samples dropped, the first: {}\n", r.frame.health.dropped(), describe(r.frame.health.first.front()));
 }
 
 PlaneSet planes_for(const RenderCommand& c, const Plan& plan) {
@@ -265,7 +247,7 @@ int run_render(const RenderCommand& c) {
     }
     const Result<Rendered> rendered = render_picture(c, *plan, *loaded, *color ? &**color : nullptr, denoiser, guard.interrupted());
     if (!rendered) return failed(rendered.error());
-    if (const Result<void> written = write_json(c.common.json, result_json(c, *rendered)); !written) return failed(written.error());
+    if (const Result<void> written = write_json(c.common.json, result_json(c, plan->settings, *rendered)); !written) return failed(written.error());
     if (!c.common.quiet && c.common.json != "-") print_summary(c, *rendered);
     return exit_done;
 }

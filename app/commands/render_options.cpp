@@ -131,6 +131,9 @@ void add_integrator_options(CLI::App& app, RenderOptions& o) {
     add_parsed(app, "--reuse", o.settings.reuse, parse_reuse,
                "Pixels that share what their paths find at a second matte surface [off]")
         ->type_name("off|4|8|16");
+    add_parsed(app, "--clamp", o.settings.clamp, parse_clamp,
+               "Limit samples to X nits in light scattered more than once, or in all: loses light, the summary says how much [off]")
+        ->type_name("off|X[,all]");
     add_parsed(app, "--filter", o.settings.filter, parse_filter, "Pixel filter [blackman-harris]")->type_name("blackman-harris|box");
 }
 

@@ -84,6 +84,7 @@ std::string render_settings_json(const RenderSettings& s) {
     json["energy_compensation"] = s.energy_compensation;
     json["adaptive"] = s.adaptive;
     json["reuse"] = reuse_text(s.reuse);
+    json["clamp"] = to_string(s.clamp);
     return json_text(json);
 }
 
@@ -126,6 +127,7 @@ Result<ParsedSettings<RenderSettings>> parse_render_settings(std::string_view te
         {"energy_compensation", plain(s.energy_compensation)},
         {"adaptive", plain(s.adaptive)},
         {"reuse", word(s.reuse, parse_reuse)},
+        {"clamp", word(s.clamp, parse_clamp)},
     };
     return parse(text, std::move(parsed), readers);
 }

@@ -1,5 +1,9 @@
 #include "render/bounce_planes.h"
 
+#include "core/math.h"
+
+#include <algorithm>
+
 namespace blush {
 
 void BouncePlanes::reset(size_t places, int planes) {
@@ -7,17 +11,19 @@ void BouncePlanes::reset(size_t places, int planes) {
     sums_.assign(places * size_t(planes), Vec3d{0, 0, 0});
 }
 
-void BouncePlanes::add(size_t place, const TileScratch& tile, int slot) {
+void BouncePlanes::add(size_t place, const TileScratch& tile, int slot, int first_scaled, double scale) {
     const BounceColumns& columns = *tile.bounces;
     Vec3d* sums = &sums_[place * size_t(planes_)];
     Vec3d before{0, 0, 0};
-    const auto add_difference = [&](Vec3d& sum, const auto& column) {
+    const auto add_difference = [&](int k, const auto& column) {
         const Vec3d now{column.r[slot], column.g[slot], column.b[slot]};
-        sum = {sum.x + (now.x - before.x), sum.y + (now.y - before.y), sum.z + (now.z - before.z)};
+        sums[k] = sums[k] + (now - before) * (k < first_scaled ? 1 : scale);
         before = now;
     };
-    for (int k = 0; k < columns.recorded; ++k) add_difference(sums[k], columns.after[size_t(k)]);
-    add_difference(sums[columns.recorded], tile);
+    // Clamping may have asked for more columns than there are planes.
+    const int noted = std::min(columns.recorded, planes_ - 1);
+    for (int k = 0; k < noted; ++k) add_difference(k, columns.after[size_t(k)]);
+    add_difference(noted, tile);
 }
 
 } // namespace blush

@@ -22,8 +22,8 @@ public:
     void reset(size_t places, int planes);
     // Columns that the kernels must fill for that: all but the last plane's, which is the final radiance.
     int columns() const { return planes_ > 0 ? planes_ - 1 : 0; }
-    // One sample: a tile's slot.
-    void add(size_t place, const TileScratch& tile, int slot);
+    // One sample: a tile's slot; light of `first_scaled` scatterings and more times `scale`, which is what clamping does.
+    void add(size_t place, const TileScratch& tile, int slot, int first_scaled, double scale);
     const Vec3d& sum(size_t place, size_t plane) const { return sums_[place * size_t(planes_) + plane]; }
 
 private:

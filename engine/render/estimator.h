@@ -31,6 +31,8 @@ template <class F> struct StepWeights {
     F emission;             // MIS weight of emission that was found
     F light, light_pdf, light_bsdf_pdf; // MIS weight of the light sample; density it was drawn with; density the BSDF would have had
     F survival;             // roulette's probability; 1 where it was not asked
+    Mask<F> asked;          // whether it was
+    Vec<F> arriving;        // throughput at the vertex, after absorption on the way
 };
 
 // What a connection to another pixel's path needs to know of the first two vertices of a path (path_reuse.h).
@@ -44,11 +46,12 @@ template <class F> struct Junction {
 template <class F> struct Step {
     Junction<F> junction; // at bounces 0 and 1 only
     Mask<F> emits, connects, continues;
+    Mask<F> breaks; // the throughput is no finite number: the path ends and its sample is spoilt, for the film to drop and count
     Vec<F> emitted; // add where `emits`
     Vec<F> direct;  // add where `connects` and nothing lies on the shadow ray
     Ray<F> shadow;
     F shadow_distance;
-    Path<F> next;   // where `continues`
+    Path<F> next;   // where `continues` or `breaks`
     FirstHit<F> first; // at bounce 0 only
     StepWeights<F> weights;
 };
@@ -71,6 +74,9 @@ template <class F> F light_sample_weight(Strategy strategy, const F& light_pdf, 
     return select(delta, F(1.f), power_heuristic(light_pdf, bsdf_pdf));
 }
 
+// Not black; what is no number counts, so that it reaches the film and is not lost in silence.
+template <class F> Mask<F> has_light(const Vec<F>& v) { return !(v.x <= F(0.f) && v.y <= F(0.f) && v.z <= F(0.f)); }
+
 // Probability of going on with throughput beta (render_settings.h has the rules); biased_cut gives 0 or 1.
 template <class F> F survival_probability(const Roulette& r, const Vec<F>& beta) {
     F q = F(1.f);
@@ -82,7 +88,7 @@ template <class F> F survival_probability(const Roulette& r, const Vec<F>& beta)
     case Roulette::Rule::constant: q = F(r.probability); break;
     case Roulette::Rule::biased_cut: return select(max_component(beta) < F(r.threshold), F(0.f), F(1.f));
     }
-    return min(max(q, F(r.floor)), F(min(r.cap, 1.f)));
+    return min(F(min(r.cap, 1.f)), max(F(r.floor), q)); // in this order what is no number stays so
 }
 
 template <Features S, class F>
@@ -178,8 +184,8 @@ template <Features S, class F>
 Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, const Path<F>& path, const Hit<F>& hit, int bounce, const Mask<F>& active) {
     Step<F> out;
     out.emitted = splat<F>(0.f);
-    out.connects = out.continues = Mask<F>(false);
-    out.weights = {F(1.f), F(1.f), F(0.f), F(0.f), F(1.f)};
+    out.connects = out.continues = out.breaks = Mask<F>(false);
+    out.weights = {F(1.f), F(1.f), F(0.f), F(0.f), F(1.f), Mask<F>(false), path.beta};
     const Mask<F> found = active && as_mask(hit.geometry >= 0);
     const Mask<F> escaped = active && !found;
     Vec<F> beta = path.beta;
@@ -210,6 +216,7 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
             const Vec<F> optical_depth = material.sigma_a * hit.t;
             const Vec<F> passed{blush::exp(-optical_depth.x), blush::exp(-optical_depth.y), blush::exp(-optical_depth.z)};
             beta = select<F>(within, beta * passed, beta);
+            out.weights.arriving = beta;
         }
     }
 
@@ -284,7 +291,7 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
         out.weights.light_bsdf_pdf = f.pdf;
         // A shading normal must not carry light through the surface.
         const Mask<F> same_side = (wi.z > F(0.f)) == (dot(wi_world, ng) > F(0.f));
-        out.connects = light.valid && same_side && max_component(out.direct) > F(0.f);
+        out.connects = light.valid && same_side && has_light(out.direct);
         out.shadow = {from, wi_world};
         out.shadow_distance = select(light.infinite, F(infinity), distance * (1.f - 4e-7f));
     }
@@ -297,7 +304,7 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
     const Mask<F> leaves_outside = dot(wi, ng) > F(0.f);
     const Mask<F> same_side = (b.wi.z > F(0.f)) == leaves_outside;
     Vec<F> next_beta = beta * b.weight;
-    out.continues = scatters && b.valid && same_side && max_component(next_beta) > F(0.f);
+    out.continues = scatters && b.valid && same_side && has_light(next_beta);
     if (bounce + 1 >= settings.roulette.start && settings.roulette.rule != Roulette::Rule::off) {
         Vec<F> judged = next_beta;
         if constexpr (S.has(Feature::transmission)) {
@@ -306,10 +313,13 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
             judged = select<F>(solid && !leaves_outside && material.bsdf.ior > F(0.f), judged * squeezed, judged);
         }
         const F q = survival_probability(settings.roulette, judged);
-        out.continues = out.continues && choice.y() < q;
-        next_beta = next_beta / max(q, F(1e-30f));
         out.weights.survival = q;
+        out.weights.asked = out.continues;
+        out.continues = out.continues && !(choice.y() >= q);
+        next_beta = next_beta / max(q, F(1e-30f));
     }
+    out.breaks = out.continues && !is_finite(F(next_beta.x + next_beta.y + next_beta.z));
+    out.continues = out.continues && !out.breaks;
     out.next.ray = {offset_origin(surface.position, surface.error, ng, leaves_outside), normalize(wi)};
     out.next.beta = next_beta;
     out.next.pdf = select(b.delta, F(infinity), b.pdf);

@@ -8,13 +8,10 @@
 #include <limits>
 #include <optional>
 #include <stdexcept>
-#include <tuple>
 #include <unistd.h>
 
 namespace blush {
 namespace {
-
-constexpr size_t remembered_bad_samples = 100;
 
 // Radiance that single precision, which pictures are made of, cannot hold.
 constexpr double beyond_radiance = double(std::numeric_limits<float>::max());
@@ -24,21 +21,6 @@ std::optional<BadSample::Cause> fault_of(double r, double g, double b) {
     if (std::max({std::abs(r), std::abs(g), std::abs(b)}) > beyond_radiance) return BadSample::Cause::infinite;
     if (r < 0 || g < 0 || b < 0) return BadSample::Cause::negative;
     return std::nullopt;
-}
-
-// Keeps the first hundred in an order that does not depend on threads.
-void remember(Health& health, const std::vector<BadSample>& bad) {
-    for (const BadSample& b : bad) {
-        switch (b.cause) {
-        case BadSample::Cause::nan: ++health.nan; break;
-        case BadSample::Cause::infinite: ++health.infinite; break;
-        case BadSample::Cause::negative: ++health.negative; break;
-        }
-    }
-    health.first.insert(health.first.end(), bad.begin(), bad.end());
-    std::sort(health.first.begin(), health.first.end(),
-              [](const BadSample& a, const BadSample& b) { return std::tie(a.sample, a.y, a.x) < std::tie(b.sample, b.y, b.x); });
-    if (health.first.size() > remembered_bad_samples) health.first.resize(remembered_bad_samples);
 }
 
 } // namespace
@@ -54,16 +36,17 @@ std::vector<PlaneUse> Film::plane_uses(const PlaneSet& planes, bool transparent_
         {"ids", planes.ids, planes.ids ? "somebody reads them" : "nobody reads them: no layer, no picking",
          sizeof(uint32_t) + sizeof(int32_t)},
         {"coverage", transparent_background, transparent_background ? "the environment is hidden from the camera" : "the picture is opaque",
-         sizeof(int64_t)},
+         places * sizeof(int64_t)},
         {"bounces", planes.bounces > 0, planes.bounces > 0 ? "somebody reads them" : "nobody looks at single bounces",
          places * BouncePlanes::bytes_per_pixel(bounces)},
+        {"path statistics", planes.roulette, planes.roulette ? "roulette is being looked at" : "nobody looks at roulette", places * sizeof(Vec3d)},
     };
 }
 
 size_t Film::memory_bytes() const {
     const auto bytes = [](const auto& plane) { return plane.capacity() * sizeof(plane[0]); };
     return bytes(halves_) + bytes(features_) + bytes(covered_) + bytes(depth_) + bytes(object_id_) + bytes(material_) +
-           bounces_.memory_bytes();
+           bytes(paths_) + bounces_.memory_bytes();
 }
 
 void Film::require_memory(int width, int height, const PlaneSet& planes, bool adaptive) {
@@ -78,13 +61,14 @@ void Film::require_memory(int width, int height, const PlaneSet& planes, bool ad
                                              needed / 1e9, present / 1e9));
 }
 
-void Film::reset(int width, int height, const PlaneSet& planes, bool transparent_background, bool adaptive) {
+void Film::reset(int width, int height, const PlaneSet& planes, bool transparent_background, bool adaptive, const Clamp& clamp) {
     require_memory(width, height, planes, adaptive);
     width_ = width;
     height_ = height;
     planes_ = planes;
     transparent_ = transparent_background;
     adaptive_ = adaptive;
+    clamping_ = clamp;
     clear();
 }
 
@@ -98,7 +82,22 @@ void Film::clear() {
     object_id_.assign(planes_.ids ? n : 0, 0u);
     material_.assign(planes_.ids ? n : 0, -1);
     bounces_.reset(places, planes_.bounces);
-    health_ = {};
+    paths_.assign(planes_.roulette ? places : 0, Vec3d{0, 0, 0});
+    clamp_.reset(places, clamping_);
+    health_.reset();
+}
+
+void Film::keep_only(const PlaneSet& planes) {
+    planes_ = planes;
+    const auto free_unless = [](bool wanted, auto& plane) {
+        if (!wanted) plane = {};
+    };
+    free_unless(planes.albedo || planes.normal, features_);
+    free_unless(planes.depth, depth_);
+    free_unless(planes.ids, object_id_);
+    free_unless(planes.ids, material_);
+    free_unless(planes.roulette, paths_);
+    free_unless(planes.bounces > 0, bounces_);
 }
 
 Film::Weights Film::weights(const Half& a, const Half& b) const {
@@ -132,42 +131,81 @@ void Film::add_first_hit(size_t pixel, size_t place, const FirstHitColumns& firs
     }
 }
 
-void Film::add(const TileJob& job, const TileScratch& tile, uint32_t seed) {
-    std::vector<BadSample> bad;
+Vec3d Film::sum_of(size_t pixel) const {
+    const Half &a = halves_[2 * pixel], &b = halves_[2 * pixel + 1];
+    return {a.r + b.r, a.g + b.g, a.b + b.b};
+}
+
+// Of the pixel's next samples, those whose components sum to at most this are neither clamped nor among the worst fireflies.
+float Film::notable_sum(size_t pixel, int samples) const {
+    float limit = std::min(std::numeric_limits<float>::max(), clamp_.least_sum());
+    const double count = double(halves_[2 * pixel].count + halves_[2 * pixel + 1].count + samples), least = double(health_.least_excess());
+    // No sample is more than n times the mean of n.
+    if (count <= least) return limit;
+    // The mean cannot fall below this in these samples, and luminance is at most 0.716 of the sum.
+    const double mean = luminance(sum_of(pixel)) / count;
+    return std::min(limit, float(least * std::max(mean, 0.1) / 0.716)); // at most sqrt(mean^2 + 0.01) as an excess has it
+}
+
+void Film::add_planes(size_t pixel, size_t place, const TileScratch& tile, int slot, const ClampLedger::Left& left) {
+    const bool first_of_pixel = halves_[2 * pixel].count + halves_[2 * pixel + 1].count == 0;
+    if (needs_first_hits()) add_first_hit(pixel, place, *tile.first, slot, first_of_pixel);
+    if (planes_.bounces > 0) bounces_.add(place, tile, slot, left.first_scaled, left.scale);
+    if (planes_.roulette) {
+        const RouletteColumns& c = *tile.roulette;
+        paths_[place] = paths_[place] + Vec3d{double(c.length[slot]), double(c.asked[slot]), double(c.survival[slot])};
+    }
+}
+
+void Film::add_notable(size_t pixel, const SampleName& at, const TileScratch& tile, int slot, const Diagnose& diagnose, Findings& findings) {
+    const Vec3d radiance{tile.r[slot], tile.g[slot], tile.b[slot]};
+    if (const auto cause = fault_of(radiance.x, radiance.y, radiance.z)) {
+        const Fault fault = diagnose ? diagnose(at.x, at.y, at.sample) : Fault{};
+        findings.dropped.push_back({*cause, at.x, at.y, at.sample, at.seed, fault});
+        return;
+    }
+    const size_t place = place_of(pixel, at.sample);
+    const ClampLedger::Left left = clamp_.clamp(place, tile, slot);
+    if (has_planes()) add_planes(pixel, place, tile, slot, left);
+    halves_[2 * pixel + size_t(at.sample & 1)].add(left.radiance);
+    const double mean = luminance(sum_of(pixel)) / double(halves_[2 * pixel].count + halves_[2 * pixel + 1].count);
+    const double bright = luminance(radiance);
+    const float excess = float(bright / std::sqrt(mean * mean + 0.01));
+    if (excess >= health_.least_excess()) findings.fireflies.push_back({excess, float(bright), at.x, at.y, at.sample, at.seed});
+}
+
+void Film::add(const TileJob& job, const TileScratch& tile, uint32_t seed, const Diagnose& diagnose) {
+    const bool planes = has_planes();
+    Findings findings;
     int slot = 0;
     for (int y = job.y; y < job.y + job.height; ++y) {
         for (int x = job.x; x < job.x + job.width; ++x) {
             const size_t pixel = size_t(y) * size_t(width_) + size_t(x);
-            Half* halves = &halves_[2 * pixel];
+            const float notable = notable_sum(pixel, job.samples);
             for (int s = 0; s < job.samples; ++s, ++slot) {
                 const int64_t sample = job.sample(s);
                 const double r = tile.r[slot], g = tile.g[slot], b = tile.b[slot];
-                // One comparison for the many that are sound; the slow question only for the rest.
-                const bool sound = r >= 0 && g >= 0 && b >= 0 && r + g + b <= beyond_radiance;
-                if (!sound) {
-                    if (const auto fault = fault_of(r, g, b)) {
-                        bad.push_back({*fault, x, y, sample, seed});
-                        continue;
-                    }
+                // One comparison for the many that are sound and ordinary; the slow questions only for the rest.
+                if (r >= 0 && g >= 0 && b >= 0 && r + g + b <= notable) {
+                    if (planes) add_planes(pixel, place_of(pixel, sample), tile, slot, {});
+                    halves_[2 * pixel + size_t(sample & 1)].add({r, g, b});
+                } else {
+                    add_notable(pixel, {x, y, sample, seed}, tile, slot, diagnose, findings);
                 }
-                const bool first_of_pixel = halves[0].count + halves[1].count == 0;
-                Half& half = halves[sample & 1];
-                half.r += r;
-                half.g += g;
-                half.b += b;
-                ++half.count;
-                const size_t place = place_of(pixel, sample);
-                if (needs_first_hits()) add_first_hit(pixel, place, *tile.first, slot, first_of_pixel);
-                if (bounces_.columns() > 0) bounces_.add(place, tile, slot);
             }
         }
     }
-    if (bad.empty()) return;
-    const std::lock_guard lock(health_mutex_);
-    remember(health_, bad);
+    if (!findings.dropped.empty()) health_.add_dropped(findings.dropped, size_t(width_), size_t(width_) * size_t(height_));
+    if (!findings.fireflies.empty()) health_.add_fireflies(findings.fireflies);
 }
 
-void Film::resolve_rows(Frame& frame, int first, int last) const {
+void Film::Totals::merge(const Totals& other) {
+    kept = kept + other.kept;
+    removed = removed + other.removed;
+    clamped += other.clamped;
+}
+
+void Film::resolve_rows(Frame& frame, int first, int last, Totals& totals) const {
     for (size_t i = size_t(first) * size_t(width_); i < size_t(last) * size_t(width_); ++i) {
         const Half &a = halves_[2 * i], &b = halves_[2 * i + 1];
         const int64_t count = a.count + b.count;
@@ -193,6 +231,16 @@ void Film::resolve_rows(Frame& frame, int first, int last) const {
         for (size_t k = 0; k < frame.bounces.size(); ++k) {
             const Vec3d light = mean_of(i, w, [&](size_t place) { return bounces_.sum(place, k); });
             frame.bounces[k][i] = {float(light.x), float(light.y), float(light.z)};
+        }
+        if (planes_.roulette) {
+            const Vec3d p = mean_of(i, w, [&](size_t place) { return paths_[place]; });
+            frame.path_length[i] = float(p.x);
+            frame.survival[i] = p.y > 0 ? float(p.z / p.y) : 1.f;
+        }
+        if (clamp_.on()) {
+            totals.kept = totals.kept + Vec3d{a.r, a.g, a.b} * w.a + Vec3d{b.r, b.g, b.b} * w.b;
+            totals.removed = totals.removed + mean_of(i, w, [&](size_t place) { return clamp_.removed(place); });
+            totals.clamped += adaptive_ ? clamp_.samples(2 * i) + clamp_.samples(2 * i + 1) : clamp_.samples(i);
         }
     }
 }
@@ -229,19 +277,27 @@ void Film::resolve(Frame& frame, const Workers& workers) const {
     frame.material_id.resize(planes_.ids ? n : 0);
     frame.bounces.resize(size_t(planes_.bounces));
     for (std::vector<Vec3>& plane : frame.bounces) plane.resize(n);
-    frame.health = health_;
+    frame.path_length.resize(planes_.roulette ? n : 0);
+    frame.survival.resize(planes_.roulette ? n : 0);
+    frame.health = health_.health();
 
-    // Bands of a fixed size, summed in order: the estimate does not depend on threads.
+    // Bands of a fixed size, summed in order: the totals do not depend on threads.
     constexpr int band = 32;
-    std::vector<ErrorAccumulator> errors(size_t((height_ + band - 1) / band));
+    const size_t bands = size_t((height_ + band - 1) / band);
+    std::vector<Totals> totals(bands);
+    std::vector<ErrorAccumulator> errors(bands);
     const auto for_each_band = [&](const auto& task) {
-        workers.for_each(int64_t(errors.size()), {}, [&](int64_t i, unsigned) { task(size_t(i), int(i) * band, std::min(height_, int(i + 1) * band)); });
+        workers.for_each(int64_t(bands), {}, [&](int64_t i, unsigned) { task(size_t(i), int(i) * band, std::min(height_, int(i + 1) * band)); });
     };
-    for_each_band([&](size_t, int first, int last) { resolve_rows(frame, first, last); });
+    for_each_band([&](size_t i, int first, int last) { resolve_rows(frame, first, last, totals[i]); });
     for_each_band([&](size_t i, int first, int last) { errors[i] = error_of_rows(frame, first, last); });
     ErrorAccumulator error;
     for (const ErrorAccumulator& e : errors) error.merge(e);
     frame.error = error.estimate();
+    Totals total;
+    for (const Totals& t : totals) total.merge(t);
+    const double before = luminance(total.kept) + luminance(total.removed);
+    frame.clamp = {total.clamped, total.removed / double(n), before > 0 ? luminance(total.removed) / before : 0};
 }
 
 std::vector<Vec3> Film::standard_error() const {

@@ -3,13 +3,16 @@
 
 #include "core/parallel.h"
 #include "render/bounce_planes.h"
+#include "render/clamp_ledger.h"
 #include "render/error_estimate.h"
 #include "render/frame.h"
+#include "render/health_recorder.h"
 #include "render/kernels/kernel.h"
 #include "render/renderer.h"
 
+#include <algorithm>
 #include <cstdint>
-#include <mutex>
+#include <functional>
 #include <vector>
 
 namespace blush {
@@ -37,8 +40,11 @@ public:
     static void require_memory(int width, int height, const PlaneSet& planes, bool adaptive = false);
     // Clears, and allocates what is missing. Throws as above. `adaptive`: how many samples a pixel has in each half depends on the values
     // themselves, so the halves count alike (sample_plan.h).
-    void reset(int width, int height, const PlaneSet& planes, bool transparent_background, bool adaptive = false);
+    void reset(int width, int height, const PlaneSet& planes, bool transparent_background, bool adaptive = false,
+               const Clamp& clamp = {});
     void clear();
+    // Frees the planes that are not among these; it must have all of these.
+    void keep_only(const PlaneSet& planes);
 
     // Of all planes together.
     size_t memory_bytes() const;
@@ -48,11 +54,14 @@ public:
     // The kernels must hand over first hits: some plane is made of them.
     bool needs_first_hits() const { return planes_.albedo || planes_.normal || planes_.depth || planes_.ids || transparent_; }
     // How often the kernels must note what a path has gathered: after 0, 1, ... scatterings.
-    int needs_bounces() const { return bounces_.columns(); }
+    int needs_bounces() const { return std::max(bounces_.columns(), clamp_.columns()); }
+    bool needs_roulette() const { return planes_.roulette; }
 
+    // Finds out why a sample (of a pixel x, y) is no sound radiance.
+    using Diagnose = std::function<Fault(int x, int y, int64_t sample)>;
     // Adds a tile sample by sample in order, so that sums do not depend on how samples are split into tiles. A sample that is
-    // not finite or negative is dropped, counted and remembered. Tiles in flight must not share pixels. Thread-safe.
-    void add(const TileJob& job, const TileScratch& tile, uint32_t seed);
+    // not finite or negative is dropped, counted and remembered with its diagnosis. Tiles in flight must not share pixels. Thread-safe.
+    void add(const TileJob& job, const TileScratch& tile, uint32_t seed, const Diagnose& diagnose = {});
 
     // Sum of the samples of half `half` of a pixel.
     Vec3d sum(size_t pixel, int half) const {
@@ -68,6 +77,12 @@ private:
     struct Half {
         double r = 0, g = 0, b = 0;
         int64_t count = 0;
+        void add(const Vec3d& c) {
+            r += c.x;
+            g += c.y;
+            b += c.z;
+            ++count;
+        }
     };
     struct FeatureSums {
         double albedo[3] = {}, normal[3] = {};
@@ -83,22 +98,47 @@ private:
     size_t place_of(size_t pixel, int64_t sample) const { return adaptive_ ? 2 * pixel + size_t(sample & 1) : pixel; }
     template <class Sum> auto mean_of(size_t pixel, const Weights& w, const Sum& sum) const;
 
+    // What one tile found worth telling.
+    struct Findings {
+        std::vector<BadSample> dropped;
+        std::vector<Firefly> fireflies;
+    };
+    struct SampleName {
+        int x, y;
+        int64_t sample;
+        uint32_t seed;
+    };
+
+    Vec3d sum_of(size_t pixel) const;
+    float notable_sum(size_t pixel, int samples) const;
+    bool has_planes() const { return needs_first_hits() || planes_.bounces > 0 || planes_.roulette; }
+    // All that a sample adds to but the beauty, before it is added to that.
+    void add_planes(size_t pixel, size_t place, const TileScratch& tile, int slot, const ClampLedger::Left& left);
+    void add_notable(size_t pixel, const SampleName& at, const TileScratch& tile, int slot, const Diagnose& diagnose, Findings& findings);
     void add_first_hit(size_t pixel, size_t place, const FirstHitColumns& first, int slot, bool first_of_pixel);
-    void resolve_rows(Frame& frame, int first, int last) const;
+    // What bands of rows add up to.
+    struct Totals {
+        Vec3d kept{0, 0, 0}, removed{0, 0, 0};
+        int64_t clamped = 0;
+        void merge(const Totals& other);
+    };
+    void resolve_rows(Frame& frame, int first, int last, Totals& totals) const;
     ErrorAccumulator error_of_rows(const Frame& frame, int first, int last) const;
 
     int width_ = 0, height_ = 0;
     PlaneSet planes_;
     bool transparent_ = false, adaptive_ = false;
+    Clamp clamping_;
     std::vector<Half> halves_; // two per pixel: even and odd samples, two randomisations of the sampler
     std::vector<FeatureSums> features_;
     std::vector<int64_t> covered_; // samples that hit something; only for transparent backgrounds
     std::vector<float> depth_;     // of the first sample, as are the ids: means of them mean nothing
     std::vector<uint32_t> object_id_;
     std::vector<int32_t> material_; // index into the material table
+    std::vector<Vec3d> paths_; // of the paths: length, how often roulette was asked, the probabilities that it gave
     BouncePlanes bounces_;
-    std::mutex health_mutex_;
-    Health health_;
+    ClampLedger clamp_;
+    HealthRecorder health_;
 };
 
 } // namespace blush

@@ -2,7 +2,9 @@
 #pragma once
 
 #include "core/vec.h"
+#include "render/health.h"
 #include "render/ledger.h"
+#include "render/path_counts.h"
 
 #include <cstdint>
 #include <memory>
@@ -10,22 +12,6 @@
 #include <vector>
 
 namespace blush {
-
-// Which (pixel, sample, seed) gave a value that could not be added to the film.
-struct BadSample {
-    enum class Cause : uint8_t { nan, infinite, negative };
-    Cause cause = Cause::nan;
-    int x = 0, y = 0;
-    int64_t sample = 0;
-    uint32_t seed = 0;
-    bool operator==(const BadSample&) const = default;
-};
-struct Health {
-    int64_t nan = 0, infinite = 0, negative = 0; // samples dropped, by cause
-    int64_t truncated = 0;                       // paths ended at the longest length there is, which darkens
-    std::vector<BadSample> first;                // the first hundred in (sample, y, x) order
-    int64_t dropped() const { return nan + infinite + negative; }
-};
 
 struct RayCounts {
     int64_t camera = 0, bounce = 0, shadow = 0;
@@ -38,6 +24,13 @@ struct ErrorEstimate {
     double relmse = 0, low = 0, high = 0; // mean of (a - b)^2 / (b^2 + 0.01), b being the truth
     bool rmse_known = false;
     double rmse = 0, rmse_low = 0, rmse_high = 0; // root of the mean of (a - b)^2
+};
+
+// What clamping took from the picture.
+struct ClampReport {
+    int64_t samples = 0;      // that were clamped
+    Vec3d removed{0, 0, 0};   // mean over the image, scene-linear RGB
+    double share = 0;         // of the luminance that the image would have without clamping, 0 .. 1
 };
 
 struct Frame {
@@ -58,8 +51,14 @@ struct Frame {
     // beauty. Empty unless read.
     std::vector<std::vector<Vec3>> bounces;
 
+    // Of the pixel's paths: mean number of vertices, and the mean probability of going on that roulette gave, 1 where it was never asked.
+    // Empty unless read, as are the counts.
+    std::vector<float> path_length, survival;
+    std::vector<PathCounts> path_counts; // by bounce
+
     ErrorEstimate error;
     Health health;
+    ClampReport clamp;
     RayCounts rays;
     double seconds = 0;        // of rendering at this revision
     double first_image_seconds = 0; // from submit to the first published frame of this revision

@@ -1,11 +1,11 @@
 // One sample, vertex by vertex, in words: the kernels' own stages, one lane wide.
 #include "core/parallel.h"
 #include "render/estimator_settings.h"
+#include "render/fault_finder.h"
 #include "render/lowering.h"
 #include "render/render_scene.h"
 #include "render/renderer.h"
 #include "render/settings_for_kernels.h"
-#include "render/wavefront.h"
 #include "scene/affine.h"
 
 #include <fmt/format.h>
@@ -14,9 +14,10 @@
 namespace blush {
 namespace {
 
-std::string rgb(const Vec3& c) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", c.x, c.y, c.z); }
+// What the film takes.
+bool is_sound(const Vec3& c) { return is_finite(c) && c.x >= 0 && c.y >= 0 && c.z >= 0; }
 
-Vec3d gathered(const TileScratch& scratch) { return {scratch.r[0], scratch.g[0], scratch.b[0]}; }
+std::string rgb(const Vec3& c) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", c.x, c.y, c.z); }
 
 // Nine digits tell single-precision numbers apart, wherever in the world.
 std::string point(const Vec3& p, const Vec3d& origin) {
@@ -65,10 +66,14 @@ struct Logger {
         if (step.emits) line("  emission   contributes {}  MIS weight {:.6g}", rgb(step.emitted), w.emission);
         if (step.connects)
             line("  light      contributes {}, {} over {:.6g} m  pdf {:.6g}, the BSDF's {:.6g}  MIS weight {:.6g}", rgb(step.direct),
-                 max_component(reached) > 0 ? "arrives" : "is blocked", step.shadow_distance, w.light_pdf, w.light_bsdf_pdf, w.light);
+                 has_light<float>(reached) ? "arrives" : "is blocked", step.shadow_distance, w.light_pdf, w.light_bsdf_pdf, w.light);
         const bool roulette = bounce + 1 >= settings.roulette.start && settings.roulette.rule != Roulette::Rule::off;
         if (roulette && w.survival < 1)
             line("  roulette   {} goes on with probability {:.6g}", to_string(settings.roulette), w.survival);
+        if (step.breaks) {
+            line("  breaks     throughput {}  pdf {:.6g}", rgb(step.next.beta), step.next.pdf);
+            return;
+        }
         if (!step.continues) {
             line("  ends here");
             return;
@@ -80,40 +85,34 @@ struct Logger {
 } // namespace
 
 std::string trace_sample(const Scene& scene, const RenderSettings& settings, int x, int y, int64_t sample) {
-    constexpr Features s = all_features;
     const Workers workers(1);
     const Scene lowered = lower_area_lights(scene);
     RenderScene compiled;
     compiled.update(lowered, settings, full_plan(), workers);
-    KernelContext context{&compiled.tables(), &compiled.accel(), settings_for_kernels(settings, settings.width, settings.height), settings.seed};
-    context.settings.reuse = {};
+    const KernelContext context{&compiled.tables(), &compiled.accel(), settings_for_kernels(settings, settings.width, settings.height),
+                                settings.seed};
     Logger log{lowered, compiled, context.settings, {}};
     log.line("pixel {},{} sample {} seed {}", x, y, sample, settings.seed);
 
     // A path of many vertices says nothing new: the log stops where a reader would.
     constexpr int longest_log = 1000;
     const auto scratch = std::make_unique<TileScratch>();
-    PathQueue *now = &scratch->paths[0], *next = &scratch->paths[1];
     workers.run([&] {
-        generate_paths<s, float>(context, {x, y, 1, 1, sample, 1}, *scratch);
-        for (int bounce = 0; now->size > 0 && bounce < longest_log; ++bounce) {
-            trace_paths<float>(context, *scratch, *now, bounce);
-            const Path<float> path = load_path<float>(*now, 0);
-            const Hit<float> hit = load_hit<float>(scratch->hits, 0);
-            const Step<float> step = scatter<s, float>(*context.scene, context.settings, path, hit, bounce, true);
-            shade_paths<s, float>(context, *scratch, *now, *next, bounce);
-            const Vec3d before = gathered(*scratch);
-            connect_paths<float>(context, *scratch, bounce);
-            log.vertex(bounce, path, hit);
-            log.outcome(bounce, step, to_float(gathered(*scratch) - before));
-            std::swap(now, next);
+        const Vec3 radiance = replay_sample(context, x, y, sample, longest_log, *scratch, [&](const ReplayedVertex& vertex) {
+            log.vertex(vertex.bounce, vertex.path, vertex.hit);
+            log.outcome(vertex.bounce, vertex.step, vertex.arrived);
+            return true;
+        });
+        if (settings.reuse > 1)
+            log.line("path reuse: the film receives what this path found shared among {} pixels, and shares of what theirs found; alone it "
+                     "is worth",
+                     settings.reuse);
+        log.line("radiance {}", rgb(radiance));
+        if (!is_sound(radiance)) {
+            const Fault fault = find_fault(context, x, y, sample, *scratch);
+            log.line("refused    {} at {}, vertex {}", to_string(fault.kind), to_string(fault.place), fault.vertex);
         }
     });
-    if (settings.reuse > 1)
-        log.line("path reuse: the film receives what this path found shared among {} pixels, and shares of what theirs found; alone it "
-                 "is worth",
-                 settings.reuse);
-    log.line("radiance {}", rgb(to_float(gathered(*scratch))));
     return log.text;
 }
 

@@ -29,13 +29,14 @@ struct Submission {
     uint64_t image = 0; // counts submissions that ask for another image, not only for other stop rules
     Scene scene;
     RenderSettings settings;
+    PlaneSet planes;
     Clock::time_point when;
 };
 
-// The number of the image that `settings` ask for: that of `last` if it would look the same.
-uint64_t image_number(const std::optional<Submission>& last, const Scene& scene, const RenderSettings& settings) {
+// The number of the image that is asked for: that of `last` if it would look the same and has all the planes.
+uint64_t image_number(const std::optional<Submission>& last, const Scene& scene, const RenderSettings& settings, const PlaneSet& planes) {
     if (!last) return 1;
-    return last->image + diff(last->scene, last->settings, scene, settings).affects_image();
+    return last->image + (!last->planes.covers(planes) || diff(last->scene, last->settings, scene, settings).affects_image());
 }
 
 // The resolution scale folded into the size.
@@ -47,9 +48,9 @@ RenderSettings at_film_size(RenderSettings settings) {
     return settings;
 }
 
-RendererOptions renderer_options(const SessionOptions& o) {
-    const bool on = o.first_hit_planes;
-    return {o.threads, o.low_priority, {on, on, on, on}};
+PlaneSet with_first_hits(PlaneSet planes, const SessionOptions& o) {
+    if (o.first_hit_planes) planes.albedo = planes.normal = planes.depth = planes.ids = true;
+    return planes;
 }
 
 } // namespace
@@ -166,11 +167,13 @@ void RenderSession::State::take_up(Submission next) {
         has_scene = has_first_image = false;
         scheduler.restart(settings, true);
         announce(SessionStatus::State::updating);
-        if (!renderer) renderer.emplace(renderer_options(options));
+        if (!renderer) renderer.emplace(RendererOptions{options.threads, options.low_priority, {}});
+        renderer->set_planes(with_first_hits(current.planes, options));
         renderer->update(current.scene, settings);
         has_scene = true;
     } else {
         scheduler.change_stop_rules(settings);
+        renderer->set_planes(with_first_hits(current.planes, options));
         if (has_first_image) publish(); // the same picture answers the new revision
     }
     announce();
@@ -244,10 +247,10 @@ RenderSession::~RenderSession() {
     state_->thread.join();
 }
 
-void RenderSession::submit(uint64_t revision, const Scene& scene, const RenderSettings& settings) {
+void RenderSession::submit(uint64_t revision, const Scene& scene, const RenderSettings& settings, const PlaneSet& planes) {
     State& s = *state_;
     const std::lock_guard submitting(s.submitting);
-    s.last_submitted = Submission{revision, image_number(s.last_submitted, scene, settings), scene, settings, Clock::now()};
+    s.last_submitted = Submission{revision, image_number(s.last_submitted, scene, settings, planes), scene, settings, planes, Clock::now()};
     std::optional<Submission> next = s.last_submitted;
     {
         const std::lock_guard lock(s.mutex);

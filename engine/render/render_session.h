@@ -3,6 +3,7 @@
 
 #include "render/background_denoiser.h"
 #include "render/frame.h"
+#include "render/renderer.h"
 #include "render/showcase.h"
 #include "scene/render_settings.h"
 #include "scene/scene.h"
@@ -44,7 +45,8 @@ public:
 
     // Replaces whatever was pending; never blocks. Latest wins, but what has been taken up is shown once before the next is. A submit that
     // changes nothing an image shows (stop rules, names) continues it.
-    void submit(uint64_t revision, const Scene& scene, const RenderSettings& settings);
+    // `planes`: what the film holds beside the first-hit planes. To ask for more begins the image anew, to ask for less does not.
+    void submit(uint64_t revision, const Scene& scene, const RenderSettings& settings, const PlaneSet& planes = {});
     // A paused session still shows the first image of what is submitted, then waits.
     void pause(bool paused);
     // Whether denoised pictures are made, beside the frames and at a tenth of their cost (denoise_cadence.h). Never blocks, and resets

@@ -1,6 +1,7 @@
 #include "render/renderer.h"
 
 #include "core/parallel.h"
+#include "render/fault_finder.h"
 #include "render/film.h"
 #include "render/lowering.h"
 #include "render/pilot_noise.h"
@@ -43,6 +44,7 @@ struct Renderer::State {
     RendererOptions options;
     Workers workers;
     std::vector<std::unique_ptr<TileScratch>> scratch;
+    std::vector<std::unique_ptr<TileScratch>> replays; // for samples that went wrong
     RenderScene scene;
     std::optional<Scene> lowered;
     RenderSettings settings;
@@ -59,9 +61,11 @@ struct Renderer::State {
     std::shared_ptr<const Ledger> ledger; // null: to be made
     int64_t samples = 0;
     RayCounts rays;
+    std::vector<PathCounts> path_counts;
     int64_t truncated = 0;
 
-    explicit State(const RendererOptions& o) : options(o), workers(o.threads, o.low_priority), scratch(workers.threads()) {}
+    explicit State(const RendererOptions& o) : options(o), workers(o.threads, o.low_priority), scratch(workers.threads()),
+                                               replays(workers.threads()) {}
 
     int film_width() const { return std::max(1, settings.width / divider); }
     int film_height() const { return std::max(1, settings.height / divider); }
@@ -73,13 +77,14 @@ struct Renderer::State {
         ledger.reset();
         samples = 0;
         rays = {};
+        path_counts.clear();
         truncated = 0;
     }
     // Wiping a film of full size takes as long as a coarse picture, so it waits until somebody draws or looks: an edit is followed by
     // another divider.
     void wipe_stale_film() {
         if (!film_is_stale) return;
-        film.reset(film_width(), film_height(), options.planes, transparent(), settings.adaptive);
+        film.reset(film_width(), film_height(), options.planes, transparent(), settings.adaptive, settings.clamp);
         sample_plan.reset(film_width(), film_height());
         film_is_stale = false;
     }
@@ -96,6 +101,14 @@ struct Renderer::State {
     bool render_evenly(int64_t first, int64_t count, const Wanted& wanted);
     bool render_by_plan(int64_t first, int64_t count, const Wanted& wanted);
 
+    void take_path_counts(RouletteColumns& columns) {
+        path_counts.resize(most_counted_bounces);
+        for (int k = 0; k < most_counted_bounces; ++k) {
+            const PathCounts more = std::exchange(columns.counts[k], {});
+            PathCounts& sum = path_counts[size_t(k)];
+            sum = {sum.alive + more.alive, sum.asked + more.asked, sum.survived + more.survived};
+        }
+    }
     TileScratch& scratch_of(unsigned worker) {
         if (!scratch[worker]) scratch[worker] = std::make_unique<TileScratch>();
         TileScratch& s = *scratch[worker];
@@ -106,6 +119,8 @@ struct Renderer::State {
             s.bounces.reset();
         else if (!s.bounces || int(s.bounces->after.size()) != bounces)
             s.bounces = std::make_unique<BounceColumns>(bounces);
+        if (film.needs_roulette() && !s.roulette) s.roulette = std::make_unique<RouletteColumns>();
+        if (!film.needs_roulette()) s.roulette.reset();
         return s;
     }
 };
@@ -130,6 +145,19 @@ bool Renderer::update(const Scene& scene, const RenderSettings& settings) {
         s.seconds_setup = seconds_since(begin);
     }
     return todo.clear_film;
+}
+
+void Renderer::set_planes(const PlaneSet& planes) {
+    State& s = *state_;
+    if (planes == s.options.planes) return;
+    const bool covered = s.options.planes.covers(planes);
+    s.options.planes = planes;
+    s.info.reset();
+    s.ledger.reset();
+    if (!covered)
+        clear();
+    else if (!s.film_is_stale)
+        s.film.keep_only(planes);
 }
 
 void Renderer::set_divider(int divider) {
@@ -173,13 +201,17 @@ bool Renderer::State::render_run(TileJob job, const Run& run, int most_samples, 
     const KernelContext context{&scene.tables(), &scene.accel(), settings_for_kernels(settings, film.width(), film.height()),
                                 settings.seed};
     TileScratch& tile = scratch_of(worker);
+    const Film::Diagnose diagnose = [&](int x, int y, int64_t sample) {
+        if (!replays[worker]) replays[worker] = std::make_unique<TileScratch>();
+        return find_fault(context, x, y, sample, *replays[worker]);
+    };
     job.stride = run.stride;
     for (int64_t done = 0; done < run.count; done += job.samples) {
         if (done > 0 && wanted && !wanted()) return false;
         job.first_sample = run.first + done * run.stride;
         job.samples = int(std::min<int64_t>(most_samples, run.count - done));
         kernel->render(context, job, tile);
-        film.add(job, tile, settings.seed);
+        film.add(job, tile, settings.seed, diagnose);
     }
     return true;
 }
@@ -201,6 +233,7 @@ bool Renderer::State::for_each_tile(const TileShape& shape, const Wanted& wanted
         rays.shadow += std::exchange(used->shadow_rays, 0);
         rays.camera += std::exchange(used->camera_rays, 0);
         truncated += std::exchange(used->truncated_paths, 0);
+        if (used->roulette) take_path_counts(*used->roulette);
     }
     return all_begun && !cut_short;
 }
@@ -258,6 +291,7 @@ void Renderer::resolve(Frame& frame) const {
     frame.divider = s.divider;
     frame.samples = s.samples;
     frame.rays = s.rays;
+    frame.path_counts = s.options.planes.roulette ? s.path_counts : std::vector<PathCounts>();
     frame.health.truncated = s.truncated;
     frame.kernel = s.kernel_name;
     frame.ledger = ledger();

@@ -21,9 +21,14 @@ constexpr int most_bounce_planes = 32, usual_bounce_planes = 8;
 // Film planes beside the beauty. Only what somebody reads is allocated.
 struct PlaneSet {
     bool albedo = false, normal = false, depth = false, ids = false;
-    int bounces =
-        0; // radiance by the number of scatterings: 0, 1, ..., bounces - 1 and all further ones; 0: none, else 2 .. most_bounce_planes
+    int bounces = 0; // radiance by the number of scatterings: 0, 1, ..., bounces - 1 and all further ones; 0: none, else 2 .. most_bounce_planes
+    bool roulette = false; // path length and survival probability of each pixel, paths by bounce
     bool operator==(const PlaneSet&) const = default;
+    // Has all that `other` has.
+    bool covers(const PlaneSet& other) const {
+        return albedo >= other.albedo && normal >= other.normal && depth >= other.depth && ids >= other.ids && roulette >= other.roulette &&
+               (bounces == other.bounces || other.bounces == 0);
+    }
 };
 
 struct RendererOptions {
@@ -54,6 +59,9 @@ public:
     // Takes up a scene: diff against the last one, plan, update what changed. Clears the film if what is in it no longer
     // answers; returns whether it did. The result renders bit-identically to a fresh Renderer given the same scene.
     bool update(const Scene& scene, const RenderSettings& settings);
+
+    // Clears the film unless it has all of them; what nobody asks for any more is freed.
+    void set_planes(const PlaneSet& planes);
 
     // Size of the film: full size / divider, at least 1x1. Changing the divider clears the film.
     void set_divider(int divider);

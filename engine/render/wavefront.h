@@ -81,6 +81,28 @@ template <class F> void store_first_hit(FirstHitColumns& c, int k, const FirstHi
     store(c.material + k, first.material);
 }
 
+template <class F> void add_light(TileScratch& scratch, const int32_t* slots, const Vec<F>& radiance, const Mask<F>& lanes) {
+    for_each_lane(bits(lanes), [&](int i) {
+        const int slot = slots[i];
+        scratch.r[slot] += double(lane(radiance.x, i));
+        scratch.g[slot] += double(lane(radiance.y, i));
+        scratch.b[slot] += double(lane(radiance.z, i));
+    });
+}
+
+template <class F> void note_roulette(RouletteColumns& c, const int32_t* slots, const Step<F>& step, const Mask<F>& active, int bounce) {
+    const Mask<F> asked = step.weights.asked;
+    for_each_lane(bits(active), [&](int i) { c.length[slots[i]] += 1; });
+    for_each_lane(bits(asked), [&](int i) {
+        c.asked[slots[i]] += 1;
+        c.survival[slots[i]] += lane(step.weights.survival, i);
+    });
+    PathCounts& counts = c.counts[std::min(bounce, most_counted_bounces - 1)];
+    counts.alive += count(active);
+    counts.asked += count(asked);
+    counts.survived += count(asked && (step.continues || step.breaks));
+}
+
 template <Features S, class F> [[gnu::flatten]] void generate_paths(const KernelContext& context, const TileJob& job, TileScratch& scratch) {
     PathQueue& q = scratch.paths[0];
     // Pixel and sample of each slot, by plain counting; the columns that will hold the rays serve as scratch.
@@ -109,6 +131,10 @@ template <Features S, class F> [[gnu::flatten]] void generate_paths(const Kernel
     std::fill_n(scratch.r.data, n, 0.0);
     std::fill_n(scratch.g.data, n, 0.0);
     std::fill_n(scratch.b.data, n, 0.0);
+    if (!scratch.roulette) return;
+    std::fill_n(scratch.roulette->length.data, n, 0.f);
+    std::fill_n(scratch.roulette->asked.data, n, 0.f);
+    std::fill_n(scratch.roulette->survival.data, n, 0.f);
 }
 
 template <class F> void trace_paths(const KernelContext& context, TileScratch& scratch, const PathQueue& q, int bounce) {
@@ -132,13 +158,9 @@ template <Features S, class F>
         const Step<F> step = scatter<S, F>(*context.scene, context.settings, path, load_hit<F>(scratch.hits, k), bounce, active);
         if (bounce == 0 && scratch.first) store_first_hit<F>(*scratch.first, k, step.first);
         if (bounce <= 1 && context.settings.reuse.size() > 1) store_junction<F>(*scratch.reuse, now, k, bounce, path, step.junction);
-        if (any(step.emits))
-            for_each_lane(bits(step.emits), [&](int i) {
-                const int slot = now.slot[k + i];
-                scratch.r[slot] += double(lane(step.emitted.x, i));
-                scratch.g[slot] += double(lane(step.emitted.y, i));
-                scratch.b[slot] += double(lane(step.emitted.z, i));
-            });
+        if (scratch.roulette) note_roulette<F>(*scratch.roulette, now.slot + k, step, active, bounce);
+        if (any(step.emits)) add_light<F>(scratch, now.slot + k, step.emitted, step.emits);
+        if (any(step.breaks)) add_light<F>(scratch, now.slot + k, step.next.beta, step.breaks);
         if (any(step.connects)) {
             if (alpha)
                 compress(scratch.shadows.random + scratch.shadows.size, opacity_random<F>(path.key, path.index, uint32_t(2 * bounce + 1)),

@@ -29,6 +29,13 @@ struct Roulette {
     bool operator==(const Roulette&) const = default;
 };
 
+// Limits samples to `limit` in their largest component: biased, it takes light away; the Frame says how much. Off by default.
+struct Clamp {
+    float limit = 0;  // nits; 0: off
+    bool all = false; // of all light; else of what was scattered more than once
+    bool operator==(const Clamp&) const = default;
+};
+
 enum class Strategy : uint8_t { mis, light, bsdf };
 enum class PixelFilter : uint8_t { blackman_harris, box };
 
@@ -50,6 +57,7 @@ struct RenderSettings {
     bool energy_compensation = false;
     bool adaptive = false;          // spp is a mean: more samples where the noise is. Starts at sample 0
     int reuse = 1;                  // pixels that share their second path vertices: 4, 8, 16 or, alone, 1
+    Clamp clamp = {};
     bool operator==(const RenderSettings&) const = default;
 };
 
@@ -59,6 +67,9 @@ bool same_image(const RenderSettings& before, const RenderSettings& after);
 // "sqrt,start=3", "constant=0.7,start=1", "biased-cut=0.05", ... as in `blush render --roulette`.
 Result<Roulette> parse_roulette(std::string_view text);
 std::string to_string(const Roulette& roulette);
+// "off", "10" (light scattered more than once), "10,all".
+Result<Clamp> parse_clamp(std::string_view text);
+std::string to_string(const Clamp& clamp);
 Result<int> parse_max_bounces(std::string_view text); // a number or "unlimited"
 std::string max_bounces_text(int max_bounces);
 Result<int> parse_reuse(std::string_view text); // "4", "8", "16" or "off"

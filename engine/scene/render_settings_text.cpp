@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 
 namespace blush {
 namespace {
@@ -122,6 +123,22 @@ std::string to_string(const Roulette& roulette) {
     if (roulette.floor != Roulette{}.floor) text += fmt::format(",floor={}", roulette.floor);
     if (roulette.cap != Roulette{}.cap) text += fmt::format(",cap={}", roulette.cap);
     return text;
+}
+
+Result<Clamp> parse_clamp(std::string_view text) {
+    if (text == "off") return Clamp{};
+    const std::vector<std::string_view> parts = split(text, ',');
+    Clamp clamp;
+    const bool number = parse_number(parts[0], clamp.limit) && clamp.limit > 0 && std::isfinite(clamp.limit);
+    clamp.all = parts.size() == 2 && parts[1] == "all";
+    if (!number || parts.size() != (clamp.all ? 2u : 1u))
+        return Error{.what = fmt::format("a clamp is written \"off\", X or X,all with X above 0, not \"{}\"", text)};
+    return clamp;
+}
+
+std::string to_string(const Clamp& clamp) {
+    if (clamp.limit <= 0) return "off";
+    return fmt::format("{}{}", clamp.limit, clamp.all ? ",all" : "");
 }
 
 Result<int> parse_max_bounces(std::string_view text) {

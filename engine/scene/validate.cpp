@@ -166,6 +166,7 @@ Result<void> validate(const RenderSettings& settings) {
     check.is(settings.max_bounces >= unlimited_bounces, fmt::format("bounces must be a number from 0, not {}", settings.max_bounces));
     check.is(!reuse_text(settings.reuse).empty(), fmt::format("pixels that reuse paths must be 1, 4, 8 or 16, not {}", settings.reuse));
     const Roulette& roulette = settings.roulette;
+    check.not_negative("clamp", settings.clamp.limit);
     check.not_negative("roulette's start", roulette.start);
     check.between("roulette's floor", roulette.floor, 0, 1);
     check.is(roulette.cap > 0 && roulette.cap <= 1, fmt::format("roulette's cap must be above 0 and at most 1, not {}", roulette.cap));

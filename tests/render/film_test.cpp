@@ -14,6 +14,7 @@ using namespace statistics;
 struct Fixture {
     Film film;
     std::unique_ptr<TileScratch> tile = std::make_unique<TileScratch>();
+    Film::Diagnose diagnose;
     Workers workers{1};
     int width, height;
 
@@ -27,7 +28,7 @@ struct Fixture {
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < width; ++x)
                 for (int s = 0; s < count; ++s, ++slot) tile->r[slot] = tile->g[slot] = tile->b[slot] = float(value(x, y, first + s));
-        film.add({0, 0, width, height, first, count}, *tile, 42);
+        film.add({0, 0, width, height, first, count}, *tile, 42, diagnose);
     }
     Frame resolve() {
         Frame frame;
@@ -64,6 +65,20 @@ TEST(Film, DropsCountsAndRemembersWhatCannotBeAdded) {
     EXPECT_FLOAT_EQ(frame.rgba[4 * 5], 28.f / 8);
     EXPECT_FLOAT_EQ(frame.rgba[4 * 9], 25.f / 7);
     EXPECT_FLOAT_EQ(frame.rgba[0], 23.f / 7);
+}
+
+TEST(Film, KeepsTheDiagnosisAndAMapOfWhatItDropped) {
+    Fixture f(3, 2);
+    f.diagnose = [](int x, int y, int64_t sample) { return Fault{Fault::Kind::zero_pdf, Fault::Place::bsdf_eval, x + 10 * y + 100 * int(sample)}; };
+    f.add(0, 2, [](int x, int y, int64_t s) { return x == 2 && y == 1 && s == 1 ? NAN : 1.f; });
+    const Health health = f.resolve().health;
+    ASSERT_EQ(health.first.size(), 1u);
+    EXPECT_EQ(health.first[0].fault, (Fault{Fault::Kind::zero_pdf, Fault::Place::bsdf_eval, 112}));
+    EXPECT_EQ(health.count(Fault::Kind::zero_pdf, Fault::Place::bsdf_eval), 1);
+    EXPECT_EQ(health.dropped_map, (std::vector<uint32_t>{0, 0, 0, 0, 0, 1}));
+    Fixture sound(3, 2);
+    sound.add(0, 2, [](int, int, int64_t) { return 1; });
+    EXPECT_TRUE(sound.resolve().health.dropped_map.empty()) << "no memory without need";
 }
 
 TEST(Film, RemembersAHundredAndCountsAll) {

@@ -21,7 +21,7 @@ protected:
     // A few frames of everything, with this selected.
     void draw_all(Document& document, Id<Node> selected) {
         ui.selected = selected;
-        ui.show_shortcuts = ui.show_history = true;
+        ui.show_shortcuts = ui.show_history = ui.bounces.open = ui.health.open = true;
         for (int tab = 0; tab <= int(InspectorTab::display); ++tab) {
             ui.tab = InspectorTab(tab);
             for (int i = 0; i < 3; ++i) {
@@ -31,6 +31,8 @@ protected:
                     draw_status_bar(c);
                     draw_inspector(c);
                     draw_history(c);
+                    draw_bounces_panel(c);
+                    draw_health_panel(c);
                     draw_shortcut_sheet(c);
                     draw_toasts(c);
                 });
@@ -143,6 +145,10 @@ TEST_F(Panels, AnEmptySceneAndAFrameWithoutPlanes) {
     bare->width = bare->height = 1;
     bare->rgba = {1, std::numeric_limits<float>::infinity(), std::nanf(""), 1};
     bare->health.nan = 3;
+    bare->health.faults[0][3] = 3;
+    bare->health.first = {{}, {}, {}};
+    bare->health.fireflies = {{5, 2, 0, 0, 7, 1}};
+    bare->bounces = {{{1, 1, 1}}, {{0, 0, 0}}, {{std::nanf(""), 1, 1}}};
     frame = bare;
     draw_all(document, {});
     ui.pixel = PixelProbe{0.5, 0.5};
@@ -182,6 +188,44 @@ TEST_F(Panels, EachThingLeftOutHasItsLine) {
     EXPECT_GT(two, one);
     EXPECT_EQ(in_use, two);
     EXPECT_FALSE(document.can_undo());
+}
+
+// What can be shown without a rendering behind it, whatever is chosen in it.
+TEST_F(Panels, EveryWayOfLookingAtBounces) {
+    auto three = std::make_shared<Frame>();
+    three->width = three->height = 1;
+    three->rgba = {1, 1, 1, 1};
+    three->bounces = {{{1, 1, 1}}, {{2, 2, 2}}, {{0, 0, 0}}};
+    frame = three;
+    Document document;
+    for (int mode = 0; mode < int(std::size(BouncesView::names)); ++mode) {
+        ui.bounces.mode = BouncesView::Mode(mode);
+        ui.bounces.playing = true;
+        draw_all(document, {});
+    }
+    EXPECT_FALSE(document.can_undo());
+    EXPECT_EQ(ui.bounces.gains, std::vector<float>(3, 1.f));
+}
+
+TEST_F(Panels, TheRouletteLabMeasuresWhileItIsOpen) {
+    Document document(test::sample_project().project);
+    const auto draw = [&] {
+        in_window([&] {
+            PanelContext c{document, ui, *color, frame, {}, 64, 48};
+            draw_roulette_panel(c);
+        });
+    };
+    draw();
+    EXPECT_FALSE(ui.roulette.runner);
+    ui.roulette.open = true;
+    draw();
+    ASSERT_TRUE(ui.roulette.runner);
+    while (ui.roulette.runner->state().report.rounds < 20) draw();
+    draw();
+    EXPECT_FALSE(document.can_undo()) << "looking edits nothing";
+    ui.roulette.open = false;
+    draw();
+    EXPECT_FALSE(ui.roulette.runner);
 }
 
 } // namespace

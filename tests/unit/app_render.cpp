@@ -113,6 +113,21 @@ TEST(Render, AdaptiveSamplingIsRecordedAndItsLayerHoldsTheSamplesOfEachPixel) {
     EXPECT_EQ(metadata->spp, 40);
 }
 
+TEST(Render, ClampingSaysWhatItTakes) {
+    const TemporaryFolder folder;
+    const Json plain = blush_json(with(tiny("cornell", folder / "plain.exr"), {"--quiet"}));
+    EXPECT_FALSE(plain.contains("clamp")) << "off unless asked for";
+    const Finished finished = test::blush(with(tiny("cornell", folder / "out.exr"), {"--clamp", "0.2,all", "--json", folder / "out.json"}));
+    ASSERT_EQ(finished.exit_code, 0) << finished.err;
+    EXPECT_NE(finished.out.find("clamping took "), std::string::npos) << finished.out;
+    std::ifstream file(folder / "out.json");
+    const Json json = Json::parse(file, nullptr, false);
+    EXPECT_EQ(json["clamp"]["light"], "all");
+    EXPECT_GT(json["clamp"]["samples"], 0);
+    EXPECT_GT(json["clamp"]["share"], 0);
+    for (const float value : beauty(*read_layers(folder / "out.exr"))) EXPECT_LE(value, 0.2f);
+}
+
 TEST(Render, WritesPicturesForDisplay) {
     const TemporaryFolder folder;
     for (const char* name : {"out.png", "out.jpg"}) {
@@ -188,8 +203,8 @@ TEST(Render, JsonHasTheKeysOfTheContract) {
                             "path_length_mean", "error", "health", "kernel", "peak_memory_mb", "output", "partial"})
         EXPECT_TRUE(json.contains(key)) << key;
     EXPECT_EQ(test::keys_of(json["rays"]), (std::vector<std::string>{"bounce", "camera", "shadow"}));
-    EXPECT_EQ(test::keys_of(json["error"]), (std::vector<std::string>{"high", "low", "relmse"}));
-    EXPECT_EQ(test::keys_of(json["health"]), (std::vector<std::string>{"first", "inf", "nan", "negative"}));
+    EXPECT_EQ(test::keys_of(json["error"]), (std::vector<std::string>{"high", "low", "relmse", "rmse", "rmse_high", "rmse_low"}));
+    EXPECT_EQ(test::keys_of(json["health"]), (std::vector<std::string>{"faults", "fireflies", "first", "inf", "nan", "negative", "truncated"}));
     EXPECT_EQ(test::keys_of(json["kernel"]), (std::vector<std::string>{"features", "left_out", "made", "name"}));
     EXPECT_EQ(json["width"], 24);
     EXPECT_EQ(json["spp"], 4);

@@ -44,6 +44,7 @@ TEST(RenderOptions, EachOptionSetsItsField) {
     expected.strategy = Strategy::light;
     expected.energy_compensation = true;
     expected.reuse = 16;
+    expected.clamp = {4, true};
     expected.filter = PixelFilter::box;
     const RenderOptions options = parsed({"--size",
                                           "320x200",
@@ -65,6 +66,8 @@ TEST(RenderOptions, EachOptionSetsItsField) {
                                           "on",
                                           "--reuse",
                                           "16",
+                                          "--clamp",
+                                          "4,all",
                                           "--filter",
                                           "box",
                                           "--exposure",

@@ -22,6 +22,7 @@ RenderSettings unusual_settings() {
     s.filter = PixelFilter::box;
     s.energy_compensation = true;
     s.reuse = 8;
+    s.clamp = {2.5f, true};
     return s;
 }
 
@@ -71,6 +72,7 @@ TEST(SettingsJson, WrongInputIsAnErrorThatNamesTheKey) {
                                                           {R"({"strategy": 3})", "strategy"},
                                                           {R"({"energy_compensation": "yes"})", "energy_compensation"},
                                                           {R"({"reuse": "5"})", "reuse"},
+                                                          {R"({"clamp": 3})", "clamp"},
                                                           {"[]", ""},
                                                           {"", ""},
                                                           {"{", ""}}) {

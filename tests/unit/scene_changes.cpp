@@ -193,6 +193,7 @@ TEST(Diff, ViewAndSettings) {
     EXPECT_EQ(seen(of([](RenderSettings& r) { r.energy_compensation = true; })), integrator);
     EXPECT_EQ(seen(of([](RenderSettings& r) { r.adaptive = true; })), integrator);
     EXPECT_EQ(seen(of([](RenderSettings& r) { r.reuse = 8; })), integrator);
+    EXPECT_EQ(seen(of([](RenderSettings& r) { r.clamp.limit = 3; })), integrator);
     EXPECT_EQ(seen(of([](RenderSettings& r) { r.width = 640; })), resolution);
     EXPECT_EQ(seen(of([](RenderSettings& r) { r.height = 640; })), resolution);
     EXPECT_EQ(seen(of([](RenderSettings& r) { r.resolution_scale = 0.5f; })), resolution);

@@ -92,5 +92,13 @@ TEST(Words, GoThereAndBack) {
     EXPECT_EQ(parse_filter("gauss").error().text(), "unknown filter \"gauss\" (known: blackman-harris, box)");
 }
 
+TEST(Clamp, IsParsedAndPrinted) {
+    EXPECT_EQ(*parse_clamp("off"), Clamp{});
+    EXPECT_EQ(*parse_clamp("10"), (Clamp{10, false}));
+    EXPECT_EQ(*parse_clamp("0.5,all"), (Clamp{0.5f, true}));
+    for (const char* text : {"off", "10", "0.5,all"}) EXPECT_EQ(to_string(*parse_clamp(text)), text);
+    for (const char* bad : {"", "0", "-1", "nan", "inf", "10,some", "10,all,all", "all", "off,all"}) EXPECT_FALSE(parse_clamp(bad)) << bad;
+}
+
 } // namespace
 } // namespace blush

@@ -65,6 +65,10 @@ void draw_view_menu(PanelContext& c) {
     item(c, Command::toggle_denoise, c.denoiser_problem.empty(), nullptr, c.ui.denoise.wants_denoised());
     ImGui::Separator();
     item(c, Command::pause, true, nullptr, c.ui.paused);
+    ImGui::Separator();
+    item(c, Command::bounces, true, nullptr, c.ui.bounces.open);
+    item(c, Command::roulette, true, nullptr, c.ui.roulette.open);
+    item(c, Command::health, true, nullptr, c.ui.health.open);
 }
 
 } // namespace

@@ -6,6 +6,7 @@
 #include "render/estimator_settings.h"
 #include "render/kernels/column.h"
 #include "render/kernels/reuse_columns.h"
+#include "render/path_counts.h"
 #include "render/scene_tables.h"
 #include "shading/features.h"
 
@@ -59,6 +60,14 @@ struct BounceColumns {
     int recorded = 0; // of them; where all paths ended earlier, the others would hold their final radiance
 };
 
+// How long paths get and what roulette does to them.
+struct RouletteColumns {
+    Column<float> length;   // vertices of each path, the one where it leaves the scene among them
+    Column<float> asked;    // how often roulette was asked about it,
+    Column<float> survival; // and the sum of the probabilities that it gave
+    PathCounts counts[most_counted_bounces]; // counted up
+};
+
 // A worker's memory for tiles, and what a tile leaves in it. Results are by slot: slot = pixel * samples + sample, pixels by rows.
 struct TileScratch {
     PathQueue paths[2];
@@ -70,7 +79,8 @@ struct TileScratch {
     Column<double> r, g, b;                 // radiance; in single precision a long path's last terms would be lost in its sum
     std::unique_ptr<FirstHitColumns> first; // null: nobody reads it
     std::unique_ptr<BounceColumns> bounces; // null: nobody reads it
-    std::unique_ptr<ReuseColumns> reuse;    // made by the first kernel that is told to
+    std::unique_ptr<ReuseColumns> reuse;       // made by the first kernel that is told to
+    std::unique_ptr<RouletteColumns> roulette; // null: nobody reads it
     int64_t camera_rays = 0, bounce_rays = 0, shadow_rays = 0, truncated_paths = 0; // counted up
 };
 

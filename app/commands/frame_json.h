@@ -1,0 +1,18 @@
+// What a finished frame says about itself, as JSON.
+#pragma once
+
+#include "app/commands/json_output.h"
+#include "render/frame.h"
+#include "scene/render_settings.h"
+
+namespace blush {
+
+// {nan, inf, negative, truncated, faults: [{kind, place, count}], first: [{cause, kind, place, vertex, x, y, sample, seed}],
+// fireflies: [{excess, luminance, x, y, sample, seed}]}
+OrderedJson health_json(const Health& health);
+// [{bounce, share, mean}]
+OrderedJson bounces_json(const Frame& frame);
+// {limit, light, samples, share, removed}
+OrderedJson clamp_json(const Clamp& clamp, const ClampReport& report);
+
+} // namespace blush

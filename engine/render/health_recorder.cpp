@@ -1,0 +1,53 @@
+#include "render/health_recorder.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace blush {
+namespace {
+
+// Appends, and keeps the first hundred in an order without ties, so that who came first does not matter.
+template <class T, class Less> void merge_first(std::vector<T>& kept, const std::vector<T>& more, const Less& less) {
+    kept.insert(kept.end(), more.begin(), more.end());
+    std::sort(kept.begin(), kept.end(), less);
+    if (kept.size() > HealthRecorder::remembered) kept.resize(HealthRecorder::remembered);
+}
+
+template <class T> auto place_in_order(const T& s) { return std::tuple(s.sample, s.y, s.x); }
+
+int64_t& counter(Health& health, BadSample::Cause cause) {
+    switch (cause) {
+    case BadSample::Cause::nan: return health.nan;
+    case BadSample::Cause::infinite: return health.infinite;
+    case BadSample::Cause::negative: break;
+    }
+    return health.negative;
+}
+
+} // namespace
+
+void HealthRecorder::reset() {
+    health_ = {};
+    least_excess_ = least_firefly;
+}
+
+void HealthRecorder::add_dropped(const std::vector<BadSample>& samples, size_t width, size_t pixels) {
+    const std::lock_guard lock(mutex_);
+    health_.dropped_map.resize(pixels);
+    for (const BadSample& s : samples) {
+        ++counter(health_, s.cause);
+        ++health_.faults[size_t(s.fault.kind)][size_t(s.fault.place)];
+        ++health_.dropped_map[size_t(s.y) * width + size_t(s.x)];
+    }
+    merge_first(health_.first, samples, [](const BadSample& a, const BadSample& b) { return place_in_order(a) < place_in_order(b); });
+}
+
+void HealthRecorder::add_fireflies(const std::vector<Firefly>& samples) {
+    const std::lock_guard lock(mutex_);
+    merge_first(health_.fireflies, samples, [](const Firefly& a, const Firefly& b) {
+        return a.excess != b.excess ? a.excess > b.excess : place_in_order(a) < place_in_order(b);
+    });
+    if (health_.fireflies.size() == remembered) least_excess_ = health_.fireflies.back().excess;
+}
+
+} // namespace blush

@@ -1,0 +1,44 @@
+// One sample traced again, vertex by vertex: the kernels' own stages, one lane wide. A sample is a function of scene, settings, pixel,
+// index and seed, so what is seen here is what the film received - under path reuse, what it received before pixels shared it.
+#pragma once
+
+#include "render/wavefront.h"
+#include "scene/affine.h"
+
+#include <utility>
+
+namespace blush {
+
+// A vertex of the path, and how it ended there. `arrived`: what the light sample added, black if it was blocked.
+struct ReplayedVertex {
+    int bounce = 0;
+    Path<float> path;
+    Hit<float> hit;
+    Step<float> step;
+    Vec3 arrived;
+};
+
+// Calls visit(vertex) for each vertex until that says false, at most `longest` times. Returns the radiance so far. To be called from within
+// Workers::run or for_each.
+template <class Visit>
+Vec3 replay_sample(KernelContext context, int x, int y, int64_t sample, int longest, TileScratch& scratch, const Visit& visit) {
+    constexpr Features s = all_features;
+    context.settings.reuse = {};
+    const auto radiance = [&] { return Vec3d{scratch.r[0], scratch.g[0], scratch.b[0]}; };
+    PathQueue *now = &scratch.paths[0], *next = &scratch.paths[1];
+    generate_paths<s, float>(context, {x, y, 1, 1, sample, 1}, scratch);
+    for (int bounce = 0; now->size > 0 && bounce < longest; ++bounce) {
+        trace_paths<float>(context, scratch, *now, bounce);
+        ReplayedVertex vertex{bounce, load_path<float>(*now, 0), load_hit<float>(scratch.hits, 0), {}, {}};
+        vertex.step = scatter<s, float>(*context.scene, context.settings, vertex.path, vertex.hit, bounce, true);
+        shade_paths<s, float>(context, scratch, *now, *next, bounce);
+        const Vec3d before = radiance();
+        connect_paths<float>(context, scratch, bounce);
+        vertex.arrived = to_float(radiance() - before);
+        if (!visit(vertex)) break;
+        std::swap(now, next);
+    }
+    return to_float(radiance());
+}
+
+} // namespace blush

@@ -1,0 +1,130 @@
+// Samples that went wrong are traced to where it happened: by hand-made vertices for every place there is, and end to end.
+#include "picture.h"
+#include "render/fault_finder.h"
+#include "scenes.h"
+
+namespace blush::test {
+namespace {
+
+constexpr float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
+using Kind = Fault::Kind;
+using Place = Fault::Place;
+
+// A sound vertex where the path leaves the scene after `bounce` scatterings.
+ReplayedVertex sound_vertex(int bounce) {
+    ReplayedVertex v;
+    v.bounce = bounce;
+    v.path.ray = {{0, 0, 0}, {0, 0, 1}};
+    v.path.beta = {1, 1, 1};
+    v.path.pdf = 1;
+    v.hit.geometry = -1;
+    v.step.emits = v.step.connects = v.step.continues = v.step.breaks = false;
+    v.step.weights = {1, 1, 1, 1, 1, false, {1, 1, 1}};
+    v.arrived = {0, 0, 0};
+    return v;
+}
+std::optional<Fault> fault(const ReplayedVertex& v) { return fault_at(v, SceneTables{}); }
+
+TEST(Fault, OfASoundVertexIsNone) { EXPECT_FALSE(fault(sound_vertex(0))); }
+
+TEST(Fault, IsFoundInTheRay) {
+    ReplayedVertex v = sound_vertex(0);
+    v.path.ray.direction.y = nan;
+    EXPECT_EQ(fault(v), (Fault{Kind::nan, Place::camera, 0}));
+    v = sound_vertex(3);
+    v.path.ray.origin.x = inf;
+    EXPECT_EQ(fault(v), (Fault{Kind::infinite, Place::bsdf_sample, 3}));
+}
+
+TEST(Fault, IsFoundInLightFromBeyond) {
+    ReplayedVertex v = sound_vertex(2);
+    v.step.emitted = {0, -1, 0};
+    EXPECT_FALSE(fault(v)) << "not added";
+    v.step.emits = true;
+    EXPECT_EQ(fault(v), (Fault{Kind::negative, Place::environment, 2}));
+}
+
+TEST(Fault, IsFoundInTheLightSampleAndItsDensities) {
+    ReplayedVertex v = sound_vertex(1);
+    v.step.connects = true;
+    v.step.direct = {inf, 0, 0};
+    EXPECT_FALSE(fault(v)) << "blocked";
+    v.arrived = v.step.direct;
+    EXPECT_EQ(fault(v), (Fault{Kind::infinite, Place::light_sample, 1}));
+    v.step.weights.light_bsdf_pdf = 0;
+    EXPECT_EQ(fault(v), (Fault{Kind::infinite, Place::light_sample, 1}));
+    v.step.weights.light_bsdf_pdf = inf;
+    EXPECT_EQ(fault(v), (Fault{Kind::overflowing_pdf, Place::bsdf_eval, 1}));
+    v.step.weights.light_pdf = 0;
+    EXPECT_EQ(fault(v), (Fault{Kind::zero_pdf, Place::light_sample, 1}));
+    v.step.weights.light_pdf = inf;
+    EXPECT_EQ(fault(v), (Fault{Kind::overflowing_pdf, Place::light_sample, 1}));
+}
+
+TEST(Fault, IsFoundInWhatScatteringLeaves) {
+    ReplayedVertex v = sound_vertex(4);
+    v.step.next.beta = {nan, 1, 1};
+    v.step.next.pdf = 1;
+    EXPECT_FALSE(fault(v)) << "the path ended there";
+    v.step.breaks = true;
+    EXPECT_EQ(fault(v), (Fault{Kind::nan, Place::bsdf_sample, 4}));
+    v.step.next.pdf = 0;
+    EXPECT_EQ(fault(v), (Fault{Kind::zero_pdf, Place::bsdf_sample, 4}));
+    v.step.next.pdf = inf;
+    EXPECT_EQ(fault(v), (Fault{Kind::nan, Place::bsdf_sample, 4})) << "a smooth lobe";
+}
+
+struct Refused {
+    Frame frame;
+    std::string first_log;
+};
+Refused render_refused(const Scene& scene) {
+    Renderer renderer({.threads = 2, .planes = {}});
+    const RenderSettings settings = settings_for(16, 16, 4);
+    renderer.update(scene, settings);
+    renderer.render(0, 4);
+    Refused r{renderer.resolve(), {}};
+    if (!r.frame.health.first.empty()) {
+        const BadSample& bad = r.frame.health.first.front();
+        r.first_log = trace_sample(scene, settings, bad.x, bad.y, bad.sample);
+    }
+    return r;
+}
+// All that was dropped was dropped for one reason, and the log of a sample says so too.
+void expect_only(const Refused& r, Kind kind, Place place) {
+    ASSERT_GT(r.frame.health.dropped(), 0);
+    EXPECT_EQ(r.frame.health.count(kind, place), r.frame.health.dropped());
+    EXPECT_NE(r.first_log.find(std::string(to_string(kind)) + " at " + std::string(to_string(place))), std::string::npos) << r.first_log;
+    int64_t mapped = 0;
+    for (const uint32_t count : r.frame.health.dropped_map) mapped += count;
+    EXPECT_EQ(mapped, r.frame.health.dropped());
+    for (const float value : r.frame.rgba) EXPECT_TRUE(std::isfinite(value) && value >= 0);
+}
+
+TEST(Fault, OfALightTooBrightForFloats) {
+    Scene scene;
+    place(scene, floor_quad(2), lambert(0.5f));
+    Light bulb;
+    bulb.intensity = 1e38f;
+    shine(scene, bulb, at({0, 0.3f, 0}));
+    scene.view = looking_down(1, 1);
+    expect_only(render_refused(scene), Kind::infinite, Place::light_sample);
+}
+
+// One bad light in a corner: the rest of the picture and the error estimate are as without it.
+TEST(Fault, DoesNotPoisonTheErrorEstimate) {
+    Scene scene;
+    place(scene, floor_quad(2), lambert(0.5f));
+    constant_world(scene, 1);
+    Light bulb;
+    bulb.intensity = 1e38f;
+    shine(scene, bulb, at({0, 0.01f, 0}));
+    scene.view = looking_down(1, 1);
+    const Frame frame = render_refused(scene).frame;
+    EXPECT_GT(frame.health.dropped(), 0);
+    EXPECT_TRUE(frame.error.known);
+    EXPECT_TRUE(std::isfinite(frame.error.relmse) && std::isfinite(frame.error.high));
+}
+
+} // namespace
+} // namespace blush::test

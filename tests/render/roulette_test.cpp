@@ -1,0 +1,143 @@
+// What roulette does to paths, counted, and the lab that weighs it: honest rules pass, the two that darken the picture do not.
+#include "measure/roulette_lab.h"
+#include "picture.h"
+#include "scenes.h"
+
+namespace blush::test {
+namespace {
+
+using statistics::Moments;
+using statistics::z_test;
+
+Roulette constant(float p) {
+    Roulette r;
+    r.rule = Roulette::Rule::constant;
+    r.probability = p;
+    r.start = 1;
+    return r;
+}
+
+// A closed room of which nothing but roulette lets a path out.
+Scene closed_room() {
+    Scene scene;
+    place(scene, cube(true), emitter(1, 0.5f));
+    scene.view = looking({0, 0, 0}, {0, 0, -1}, 1);
+    return scene;
+}
+
+TEST(RouletteColumns, PathsInAClosedRoomAreGeometric) {
+    constexpr double q = 0.7;
+    RenderSettings settings = settings_for(32, 32, 16);
+    settings.roulette = constant(float(q));
+    Renderer renderer({.threads = 2, .planes = {.roulette = true}});
+    renderer.update(closed_room(), settings);
+    renderer.render(0, settings.spp);
+    const Frame frame = renderer.resolve();
+    Moments lengths;
+    for (const float length : frame.path_length) lengths.add(double(length));
+    EXPECT_TRUE(z_test(lengths, 1 / (1 - q)));
+    for (const float survival : frame.survival) EXPECT_NEAR(survival, q, 1e-6);
+    ASSERT_EQ(int(frame.path_counts.size()), most_counted_bounces);
+    EXPECT_EQ(frame.path_counts[0].alive, 32 * 32 * 16);
+    int64_t rays = 0;
+    for (const PathCounts& c : frame.path_counts) rays += c.alive;
+    EXPECT_EQ(rays, frame.rays.camera + frame.rays.bounce);
+    for (int k = 0; k < 8; ++k) {
+        const PathCounts& c = frame.path_counts[size_t(k)];
+        EXPECT_EQ(c.asked, c.alive) << k;
+        EXPECT_EQ(c.survived, frame.path_counts[size_t(k) + 1].alive) << k;
+        const double error = std::sqrt(q * (1 - q) / double(c.asked));
+        EXPECT_LT(std::abs(double(c.survived) / double(c.asked) - q), 5 * error) << k;
+    }
+}
+
+TEST(RouletteColumns, LeaveThePictureAsItIsAndDependOnNothing) {
+    const Scene scene = shipped_scene("cornell");
+    const auto frame = [&](bool roulette, unsigned threads) {
+        Renderer renderer({.threads = threads, .planes = {.roulette = roulette}});
+        renderer.update(scene, settings_for(40, 24, 4));
+        renderer.render(0, 4);
+        return renderer.resolve();
+    };
+    const Frame without = frame(false, 1), one = frame(true, 1), three = frame(true, 3);
+    EXPECT_TRUE(without.path_length.empty() && without.survival.empty() && without.path_counts.empty());
+    EXPECT_EQ(without.rgba, one.rgba);
+    EXPECT_EQ(one.path_length, three.path_length);
+    EXPECT_EQ(one.survival, three.survival);
+    EXPECT_EQ(one.path_counts, three.path_counts);
+}
+
+RouletteReport report_of(const Roulette& roulette, int max_bounces, int rounds) {
+    RenderSettings settings = settings_for(320, 200, 1);
+    settings.roulette = roulette;
+    settings.max_bounces = max_bounces;
+    RouletteLab lab({.threads = 1, .planes = {}});
+    lab.begin(shipped_scene("cornell"), settings, 24, 4);
+    for (int i = 0; i < rounds; ++i) lab.round();
+    return lab.report();
+}
+
+TEST(RouletteLab, HonestRulesPass) {
+    for (const char* text : {"max,start=3", "luminance,start=1", "sqrt,start=2", "constant=0.6,start=1", "max,start=1,cap=0.5"}) {
+        const RouletteReport report = report_of(*parse_roulette(text), unlimited_bounces, 24);
+        EXPECT_FALSE(report.biased()) << text;
+        EXPECT_LT(report.rule.path_length, report.none.path_length) << text;
+        EXPECT_GT(report.bias[0].error, 0) << text;
+    }
+}
+
+TEST(RouletteLab, CatchesTheCutAndSaysAtWhichBounces) {
+    const RouletteReport report = report_of(*parse_roulette("biased-cut=0.3,start=1"), unlimited_bounces, 24);
+    EXPECT_TRUE(report.biased());
+    EXPECT_TRUE(report.bias[0].significant);
+    EXPECT_LT(report.bias[0].difference, 0);
+    EXPECT_EQ(report.bias[1].difference, 0) << "what glows in view is out of its reach";
+    int darkened = 0;
+    double by_bounce = 0;
+    for (size_t i = 1; i < report.bias.size(); ++i) {
+        darkened += report.bias[i].significant;
+        by_bounce += report.bias[i].difference;
+    }
+    EXPECT_GT(darkened, 2);
+    EXPECT_NEAR(by_bounce, report.bias[0].difference, 1e-9);
+}
+
+TEST(RouletteLab, CatchesABareBounceCap) {
+    const RouletteReport report = report_of(*parse_roulette("off"), 3, 24);
+    EXPECT_TRUE(report.bias[0].significant);
+    EXPECT_LT(report.bias[0].difference, 0);
+    for (size_t i = 1; i < report.bias.size(); ++i) {
+        const bool beyond = i - 1 > 3;
+        EXPECT_EQ(report.bias[i].significant, beyond) << report.bias[i].name;
+        EXPECT_NEAR(report.bias[i].difference, beyond ? -report.bias[i].share : 0, 1e-12) << report.bias[i].name;
+    }
+}
+
+TEST(RouletteLab, NothingDiffersFromItself) {
+    const RouletteReport report = report_of(*parse_roulette("off"), unlimited_bounces, 16);
+    for (const RouletteBias& bias : report.bias) EXPECT_EQ(bias.difference, 0);
+    EXPECT_FALSE(report.biased());
+    EXPECT_EQ(report.rule.variance, report.none.variance);
+    EXPECT_EQ(report.rule.alive, report.none.alive);
+    EXPECT_GT(report.gain_error, 0) << "time differs, and is part of it";
+}
+
+TEST(Trials, AreMeanAndSpread) {
+    Trials t;
+    for (const double x : {1.0, 2.0, 4.0, 5.0}) t.add(x);
+    EXPECT_EQ(t.mean(), 3);
+    EXPECT_NEAR(t.variance(), 10.0 / 3, 1e-12);
+    EXPECT_NEAR(t.error(), std::sqrt(10.0 / 12), 1e-12);
+}
+
+TEST(Trials, CriticalValuesAreStudents) {
+    // Two-sided quantiles of Student's distribution: 5 % with 10 and 30, 0.1 % with 20 degrees of freedom.
+    EXPECT_NEAR(critical_t(11, 1, 0.05), 2.2281, 0.01);
+    EXPECT_NEAR(critical_t(31, 1, 0.05), 2.0423, 0.005);
+    EXPECT_NEAR(critical_t(21, 1, 0.001), 3.8495, 0.02);
+    EXPECT_NEAR(critical_t(1000000, 10, 1 - std::pow(0.95, 10)), 1.9600, 0.001) << "ten tests at 5 % each";
+    EXPECT_EQ(critical_t(1, 1, 0.05), std::numeric_limits<double>::infinity());
+}
+
+} // namespace
+} // namespace blush::test

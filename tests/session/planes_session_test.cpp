@@ -1,0 +1,71 @@
+// Planes that somebody wants to see for a while: asking for them begins the image anew, giving them back does not.
+#include "render/render_session.h"
+
+#include "session/pictures.h"
+#include "session/watched_session.h"
+#include "support/sample_project.h"
+
+#include <gtest/gtest.h>
+
+namespace blush {
+namespace {
+
+using State = SessionStatus::State;
+using test::Event;
+using test::WatchedSession;
+
+constexpr PlaneSet bounces{.bounces = 4};
+
+Project small_project() {
+    Project project = test::sample_project().project;
+    project.render.width = 32;
+    project.render.height = 24;
+    project.render.spp = 8;
+    return project;
+}
+
+TEST(SessionPlanes, ComeWithANewImageAndGoWithoutOne) {
+    const Project p = small_project();
+    WatchedSession session;
+    session->submit(1, p.scene, p.render);
+    const FramePtr plain = session.wait_for(1, State::complete).frame;
+    ASSERT_TRUE(plain);
+    EXPECT_TRUE(plain->bounces.empty());
+
+    session->submit(2, p.scene, p.render, bounces);
+    const FramePtr with = session.wait_for(2, State::complete).frame;
+    ASSERT_TRUE(with);
+    EXPECT_EQ(with->bounces.size(), 4u);
+    EXPECT_EQ(with->rgba, plain->rgba) << "the picture is the same";
+    EXPECT_FALSE(with->albedo.empty()) << "first hits stay";
+
+    session->submit(3, p.scene, p.render);
+    const FramePtr without = session.wait_for([](const Event& e) { return e.frame && e.frame->revision == 3; }).frame;
+    ASSERT_TRUE(without);
+    EXPECT_TRUE(without->bounces.empty());
+    EXPECT_EQ(without->samples, 8) << "not rendered again";
+    EXPECT_EQ(without->rgba, plain->rgba);
+}
+
+TEST(SessionPlanes, SurviveEdits) {
+    Project p = small_project();
+    WatchedSession session;
+    session->submit(1, p.scene, p.render, bounces);
+    session.wait_for(1, State::complete);
+    p.render.seed = 5;
+    session->submit(2, p.scene, p.render, bounces);
+    EXPECT_EQ(session.wait_for(2, State::complete).frame->bounces.size(), 4u);
+}
+
+TEST(PlaneSet, CoversWhatItHas) {
+    const PlaneSet all{true, true, true, true, 6, true};
+    EXPECT_TRUE(all.covers(PlaneSet{}));
+    EXPECT_TRUE(all.covers(all));
+    EXPECT_TRUE(all.covers({.depth = true}));
+    EXPECT_FALSE(all.covers({.bounces = 4})) << "another division is another plane";
+    EXPECT_FALSE(PlaneSet{}.covers({.roulette = true}));
+    EXPECT_FALSE(PlaneSet{}.covers({.bounces = 4}));
+}
+
+} // namespace
+} // namespace blush

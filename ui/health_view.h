@@ -1,0 +1,19 @@
+// What the Health panel is set to, and the sample it has traced again.
+#pragma once
+
+#include "ui/background_job.h"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+namespace blush {
+
+struct HealthView {
+    bool open = false;
+    bool map = false;                                   // the viewport shows where samples were dropped
+    std::string log;                                    // of the last replay
+    std::shared_ptr<BackgroundJob<std::string>> replay; // while it goes on
+};
+
+} // namespace blush

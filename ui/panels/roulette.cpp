@@ -1,0 +1,145 @@
+// Roulette lab: the rule with its numbers, what it does to paths, whether it pays, and whether it is honest.
+#include "ui/bars.h"
+#include "ui/panels/panels.h"
+#include "ui/panels/roulette_fields.h"
+#include "ui/theme.h"
+#include "ui/widgets.h"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace blush {
+namespace {
+
+// The rule as a formula, with the current numbers.
+std::string formula(const Roulette& r) {
+    std::string q;
+    switch (r.rule) {
+    case Roulette::Rule::off: return "q = 1: every path goes on until it leaves the scene or carries nothing.";
+    case Roulette::Rule::max: q = "max(beta)"; break;
+    case Roulette::Rule::luminance: q = "Y(beta)"; break;
+    case Roulette::Rule::sqrt: q = "sqrt(max(beta))"; break;
+    case Roulette::Rule::constant: q = fmt::format("{:.3g}", r.probability); break;
+    case Roulette::Rule::biased_cut:
+        return fmt::format(
+            "q = 1 if max(beta) >= {:.3g}, else 0, from bounce {} on. Survivors are not weighted up for those that end: biased.",
+            r.threshold, r.start);
+    }
+    if (r.cap < 1)
+        q = fmt::format("min({:.3g}, {})", r.cap, r.floor > 0 ? fmt::format("max({:.3g}, {})", r.floor, q) : q);
+    else if (r.floor > 0)
+        q = fmt::format("min(1, max({:.3g}, {}))", r.floor, q);
+    else if (r.rule != Roulette::Rule::constant)
+        q = fmt::format("min(1, {})", q);
+    return fmt::format("q = {} from bounce {} on; survivors: beta / q.", q, r.start);
+}
+
+void figure_row(const char* name, const std::string& rule, const std::string& none, const char* tip, UiState& ui) {
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(name);
+    tip_for_last_item(ui, tip);
+    for (const std::string& text : {rule, none}) {
+        ImGui::TableNextColumn();
+        ImGui::TextUnformatted(text.c_str());
+    }
+}
+
+void draw_figures(PanelContext& c, const RouletteReport& r) {
+    if (!ImGui::BeginTable("figures", 3, ImGuiTableFlags_SizingStretchProp)) return;
+    for (const char* column : {"", "As set", "Without"}) ImGui::TableSetupColumn(column);
+    ImGui::TableHeadersRow();
+    const auto row = [&](const char* name, double RouletteSide::*field, const char* format, double scale, const char* tip) {
+        figure_row(name, fmt::format(fmt::runtime(format), scale * (r.rule.*field)),
+                   fmt::format(fmt::runtime(format), scale * (r.none.*field)), tip, c.ui);
+    };
+    row("Path length", &RouletteSide::path_length, "{:.2f} vertices", 1, "On average, the one where the path leaves the scene among them.");
+    row("Rays per pixel", &RouletteSide::rays_per_path, "{:.2f}", 1, "For one sample: camera, bounce and shadow rays.");
+    row("Time per path", &RouletteSide::path_seconds, "{:.3f} µs", 1e6, "Of one thread.");
+    row("Variance", &RouletteSide::variance, "{:.4g}", 1, "Of one path's luminance, mean over the pixels.");
+    row("Efficiency", &RouletteSide::efficiency, "{:.4g}", 1, "1 / (variance x time): how much picture a second buys.");
+    ImGui::EndTable();
+    if (r.efficiency_gain > 0)
+        quiet_text(fmt::format("{:.2f} ± {:.2f} times as efficient as without, over {} rounds of {} × {} pixels.", r.efficiency_gain,
+                               2 * r.gain_error, r.rounds, r.width, r.height));
+    else
+        quiet_text(fmt::format("Round {}: not enough yet to compare efficiency.", r.rounds));
+}
+
+void draw_survival(PanelContext& c, const RouletteReport& r) {
+    std::vector<Bar> bars;
+    for (size_t k = 0; k + 1 < r.rule.alive.size() && k < 12; ++k) {
+        const double q = r.rule.survival[k];
+        bars.push_back({fmt::format("To {}", k + 1), r.rule.alive[k + 1],
+                        fmt::format("{:.1f} %{}", 100 * r.rule.alive[k + 1], q < 0 ? "" : fmt::format("  q {:.2f}", q)), false});
+    }
+    draw_bars(c.ui, "Survival", bars, "Share of the paths that get to this bounce, and the chance that roulette gave them before it.");
+}
+
+void draw_bias(const RouletteReport& r) {
+    if (r.bias.empty() || r.rounds < 8) return quiet_text("Too few rounds yet.");
+    const RouletteBias& whole = r.bias.front();
+    const std::string size = fmt::format("{:+.3f} ± {:.3f} %", 100 * whole.difference, 200 * whole.error);
+    ImGui::PushStyleColor(ImGuiCol_Text, r.biased() ? tone::failure : tone::text);
+    ImGui::PushTextWrapPos(0);
+    ImGui::TextUnformatted(r.biased() ? fmt::format("Biased: the picture is off by {}.", size).c_str()
+                                      : fmt::format("Unbiased within noise: the picture differs by {}.", size).c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::PopStyleColor();
+    if (!ImGui::BeginTable("bias", 3, ImGuiTableFlags_SizingStretchProp)) return;
+    for (const char* column : {"", "Share of light", "Difference"}) ImGui::TableSetupColumn(column);
+    ImGui::TableHeadersRow();
+    for (size_t i = 1; i < r.bias.size(); ++i) {
+        const RouletteBias& b = r.bias[i];
+        if (b.share < 5e-5 && !b.significant) continue;
+        ImGui::TableNextColumn();
+        ImGui::TextUnformatted(b.name.c_str());
+        ImGui::TableNextColumn();
+        ImGui::Text("%.2f %%", 100 * b.share);
+        ImGui::TableNextColumn();
+        ImGui::PushStyleColor(ImGuiCol_Text, b.significant ? tone::failure : tone::dim_text);
+        ImGui::Text("%+.3f ± %.3f %%", 100 * b.difference, 200 * b.error);
+        ImGui::PopStyleColor();
+    }
+    ImGui::EndTable();
+}
+
+void draw_measured(PanelContext& c, RouletteView& view) {
+    if (!view.runner) view.runner = std::make_shared<RouletteRunner>();
+    RenderSettings settings = c.project().render;
+    settings.width = c.render_width;
+    settings.height = c.render_height;
+    view.runner->measure(c.scene(), settings);
+    c.ui.next_frame_in = std::min(c.ui.next_frame_in, 0.25);
+    const RouletteRunner::State state = view.runner->state();
+    if (!state.failure.empty()) return quiet_text(state.failure);
+    if (state.report.rounds == 0) return quiet_text("The first round is being rendered.");
+    if (section(c.ui, "Against no roulette")) draw_figures(c, state.report);
+    if (section(c.ui, "Survival by bounce")) draw_survival(c, state.report);
+    if (section(c.ui, "Bias test")) draw_bias(state.report);
+}
+
+} // namespace
+
+void draw_roulette_panel(PanelContext& c) {
+    RouletteView& view = c.ui.roulette;
+    if (!view.open) return view.runner.reset();
+    const float em = ImGui::GetFontSize();
+    ImGui::SetNextWindowPos({em * 17, em * 3}, ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSize({em * 28, em * 44}, ImGuiCond_FirstUseEver);
+    if (ImGui::Begin("Roulette lab", &view.open, ImGuiWindowFlags_NoCollapse)) {
+        RenderSettings r = c.project().render;
+        Fields f(c.ui, "Roulette");
+        draw_bounce_limit_fields(f, r);
+        draw_roulette_fields(f, r.roulette);
+        quiet_text(formula(r.roulette));
+        int map = int(view.map);
+        if (f.choice("Viewport", map, RouletteView::map_names, "The picture, or a map of what roulette does in it."))
+            view.map = RouletteView::Map(map);
+        else if (f.changed())
+            c.apply(SetRender{r}, f.gesture());
+        draw_measured(c, view);
+    }
+    ImGui::End();
+}
+
+} // namespace blush

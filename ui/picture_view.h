@@ -1,0 +1,32 @@
+// Which picture of a frame the viewport shows: the beauty, or one that is made of the frame's other planes. A way of looking: nothing is
+// rendered for it, and nothing of it is saved.
+#pragma once
+
+#include "render/frame.h"
+
+#include <string>
+#include <vector>
+
+namespace blush {
+
+struct PictureView {
+    enum class Show {
+        beauty,
+        bounces,     // the bounce planes, each times its gain
+        dropped,     // where samples could not be used
+        path_length, // mean number of vertices
+        survival,    // mean probability that roulette gave
+    };
+    Show show = Show::beauty;
+    std::vector<float> gains = {}; // of bounces
+    bool operator==(const PictureView&) const = default;
+};
+
+// The frame has what the view needs and it is not simply the beauty.
+bool is_special(const Frame& frame, const PictureView& view);
+// width * height * 4 scene-linear values of a special view. Maps run from black over blue, red and yellow to white.
+std::vector<float> pixels_of(const Frame& frame, const PictureView& view);
+// Says what a special view shows and that it is not the picture, in one line.
+std::string caption_of(const Frame& frame, const PictureView& view);
+
+} // namespace blush

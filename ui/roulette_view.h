@@ -1,0 +1,19 @@
+// What the Roulette lab is set to.
+#pragma once
+
+#include "ui/roulette_runner.h"
+
+#include <memory>
+
+namespace blush {
+
+struct RouletteView {
+    enum class Map { none, path_length, survival };
+    static constexpr const char* map_names[] = {"The picture", "Path length", "Survival"};
+
+    bool open = false;
+    Map map = Map::none;                    // what the viewport shows
+    std::shared_ptr<RouletteRunner> runner; // while it is open
+};
+
+} // namespace blush
