@@ -226,7 +226,7 @@ template <class F> [[gnu::flatten]] void share_batch(const KernelContext& contex
         ShadowQueue& q = scratch.shadows;
         queue_connections<F>(reuse, batch, group_size, q);
         const RayArrays rays{q.ox, q.oy, q.oz, q.dx, q.dy, q.dz, q.distance, context.accel->has_alpha() ? q.random.data : nullptr};
-        // Not coherent: though those of one vertex are a narrow fan, packets of several fans then take half as long again.
+        // Not coherent: those of one vertex are a narrow fan, but packets hold pieces of several.
         context.accel->occluded(rays, q.size, false, scratch.blocked);
         scratch.shadow_rays += q.size;
         for (int k = 0; k < q.size; ++k)
