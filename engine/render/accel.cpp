@@ -129,8 +129,15 @@ template <int N, class Ray> void load_rays(Ray& ray, const RayArrays& rays, int 
     std::fill_n(ray.flags, N, 0u);
 }
 
-template <int N> void first_lanes_valid(int* valid, int count) {
-    for (int i = 0; i < N; ++i) valid[i] = i < count ? -1 : 0;
+// The first `count` lanes, but for rays that Embree does not take: it wants every number within its range, and a build of it with
+// assertions ends the process over one that is not. Such a ray meets nothing, and its sample's own numbers tell the film.
+template <int N, class Rays> void sound_lanes(int* valid, const Rays& q, int count) {
+    constexpr float embree_range = 1.8e18f;
+    for (int i = 0; i < N; ++i) {
+        const float size = std::abs(q.org_x[i]) + std::abs(q.org_y[i]) + std::abs(q.org_z[i]) + std::abs(q.dir_x[i]) + std::abs(q.dir_y[i]) +
+                           std::abs(q.dir_z[i]);
+        valid[i] = i < count && size <= embree_range && q.tfar[i] >= 0 ? -1 : 0;
+    }
 }
 
 template <int N> void intersect_packets(RTCScene scene, RTCIntersectContext& context, const RayArrays& rays, int count, const HitArrays& hits) {
@@ -140,7 +147,7 @@ template <int N> void intersect_packets(RTCScene scene, RTCIntersectContext& con
         load_rays<N>(q.ray, rays, k);
         std::fill_n(q.hit.geomID, N, RTC_INVALID_GEOMETRY_ID);
         std::fill_n(q.hit.instID[0], N, RTC_INVALID_GEOMETRY_ID);
-        first_lanes_valid<N>(valid, count - k);
+        sound_lanes<N>(valid, q.ray, count - k);
         Packet<N>::intersect(valid, scene, &context, &q);
         const auto copy = [&](auto* to, const auto* from) { std::memcpy(to + k, from, N * sizeof(float)); };
         copy(hits.t, q.ray.tfar);
@@ -157,7 +164,7 @@ template <int N> void occluded_packets(RTCScene scene, RTCIntersectContext& cont
     alignas(64) typename Packet<N>::Ray q;
     for (int k = 0; k < count; k += N) {
         load_rays<N>(q, rays, k);
-        first_lanes_valid<N>(valid, count - k);
+        sound_lanes<N>(valid, q, count - k);
         Packet<N>::occluded(valid, scene, &context, &q);
         const int n = std::min(N, count - k);
         for (int i = 0; i < n; ++i) blocked[k + i] = q.tfar[i] < 0;
