@@ -25,7 +25,7 @@ public:
     void upload(const Frame& frame) { upload(frame.width, frame.height, frame.rgba); }
     void upload(int width, int height, const std::vector<float>& rgba); // scene-linear, 4 values a pixel
     void upload(const DenoisedPicture& denoised);
-    // Begins a new picture of the last uploads, at the frame's resolution. Not while busy.
+    // Begins a new picture of the last uploads, at the frame's resolution; one that is being drawn is given up.
     void begin(const DisplayLook& look);
     // Goes on with it for about so many milliseconds. A graphics card is done at once; where the processor stands in for one, a large
     // picture takes several of the window's frames, none of which it may hold up.

@@ -10,6 +10,7 @@ namespace blush {
 namespace {
 
 constexpr double display_budget = 6; // milliseconds of one frame of the window
+constexpr double asked_display_budget = 14; // where somebody waits for a look they asked for: still within a frame of 33
 
 ImTextureID texture_id(GLuint name) { return reinterpret_cast<ImTextureID>(uintptr_t(name)); }
 
@@ -56,6 +57,13 @@ void Viewport::take_frame(PanelContext& c) {
     const DisplayLook look{v.exposure_ev, v.gamma, special ? PictureMix{} : mix_of(c.ui.denoise, c.denoised != nullptr)};
     const bool new_frame = c.frame && c.frame->width > 0 && (c.frame != uploaded_frame_ || view != uploaded_view_);
     const bool new_denoised = look.mix.denoised_weight != 0 && c.denoised != uploaded_denoised_;
+    // Raw or denoised, at once: what is being drawn is given up for it. Not for a slider, whose every step would start anew.
+    const bool toggled = uploaded_frame_ && look.mix != look_.mix && (look.mix.raw_weight == 0 || look.mix.denoised_weight == 0) && !new_denoised;
+    if (display_.busy() && toggled) {
+        display_.begin(look);
+        look_ = look;
+        answers_ = true;
+    }
     if (!display_.busy() && (new_frame || (uploaded_frame_ && (new_denoised || shader_changed_ || look_ != look)))) {
         if (new_frame) {
             if (special) display_.upload(c.frame->width, c.frame->height, pixels_of(*c.frame, view));
@@ -69,15 +77,17 @@ void Viewport::take_frame(PanelContext& c) {
         }
         display_.begin(look);
         begun_ = true;
+        answers_ = look_ != look;
         look_ = look;
         shader_changed_ = false;
     }
     drew_display_ = display_.busy();
-    display_.advance(display_budget);
+    // Whoever asked for another look is waiting: for the picture that is being drawn to end, and for theirs.
+    display_.advance(look_ != look || answers_ ? asked_display_budget : display_budget);
     if (display_.busy()) {
         c.ui.next_frame_in = 0;
     } else if (begun_) {
-        begun_ = false;
+        begun_ = answers_ = false;
         ++pictures_;
         shown_frame_ = uploaded_frame_;
         c.ui.next_frame_in = 0; // perhaps the next one waits already

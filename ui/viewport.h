@@ -40,6 +40,7 @@ private:
     DenoisedPtr uploaded_denoised_;
     DisplayLook look_;
     bool shader_changed_ = false, begun_ = false;
+    bool answers_ = false; // the picture being drawn is the look that was asked for last
     bool drew_display_ = false; // in this frame of the window
     uint64_t pictures_ = 0;     // finished by the display pass
     struct Outlined {
