@@ -1,4 +1,5 @@
 // The stability battery, group by group; that it would notice a wrong answer; and that its list of limits is honest.
+#include "measure/intervals.h"
 #include "measure/stability/battery.h"
 #include "measure/stability/hot_spots.h"
 #include "statistics.h"
@@ -16,9 +17,9 @@ namespace {
 // ---- the verdict
 
 TEST(Verdict, QuantilesAreThoseOfTheNormalDistribution) {
-    EXPECT_NEAR(two_sided_quantile(0.05), 1.959963985, 1e-8);
-    EXPECT_NEAR(two_sided_quantile(0.01), 2.575829304, 1e-8);
-    EXPECT_NEAR(two_sided_quantile(1e-6), 4.891638475, 1e-7);
+    EXPECT_NEAR(normal_quantile_two_sided(0.05), 1.959963985, 1e-8);
+    EXPECT_NEAR(normal_quantile_two_sided(0.01), 2.575829304, 1e-8);
+    EXPECT_NEAR(normal_quantile_two_sided(1e-6), 4.891638475, 1e-7);
     EXPECT_NEAR(sidak(0.01, 1), 0.01, 1e-15);
     EXPECT_NEAR(1 - std::pow(1 - sidak(0.01, 200), 200), 0.01, 1e-12);
 }
@@ -47,7 +48,7 @@ TEST(Verdict, OfSeveralFindingsTheWorstDecides) {
 // A battery of sound cases fails as often as it says: one in a hundred.
 TEST(Verdict, FamiliesOfSoundCasesFailAsOftenAsStated) {
     constexpr int families = 20000, cases = 50;
-    const double k = two_sided_quantile(sidak(family_wise_level, cases));
+    const double k = normal_quantile_two_sided(sidak(family_wise_level, cases));
     std::mt19937 random(1);
     std::normal_distribution<double> normal;
     statistics::Moments failures;

@@ -1,6 +1,7 @@
 #include "measure/stability/battery.h"
 
 #include "core/parallel.h"
+#include "measure/intervals.h"
 #include "measure/stability/groups.h"
 
 #include <atomic>
@@ -46,7 +47,7 @@ CaseResult run_case(const std::string& group, const StabilityCase& c, int cases)
     const auto begin = std::chrono::steady_clock::now();
     try {
         const Findings findings = c.run();
-        const double k = two_sided_quantile(sidak(sidak(family_wise_level, cases), std::max<int64_t>(1, int64_t(findings.size()))));
+        const double k = normal_quantile_two_sided(sidak(sidak(family_wise_level, cases), std::max<int64_t>(1, int64_t(findings.size()))));
         r.finding = worst_of(findings, k);
         r.tolerance = tolerance(r.finding, k);
         r.pass = holds(r.finding, k);

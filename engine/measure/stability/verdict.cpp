@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace blush::stability {
 namespace {
@@ -18,15 +17,6 @@ double strain(const Finding& f, double k) {
 } // namespace
 
 double sidak(double overall, int64_t count) { return -std::expm1(std::log1p(-overall) / double(count)); }
-
-double two_sided_quantile(double alpha) {
-    double low = 0, high = 40;
-    for (int i = 0; i < 100; ++i) {
-        const double z = 0.5 * (low + high);
-        (std::erfc(z / std::numbers::sqrt2) > alpha ? low : high) = z;
-    }
-    return 0.5 * (low + high);
-}
 
 double tolerance(const Finding& f, double k) { return f.rounding + k * f.sigma + float_rounding * std::abs(f.expected); }
 

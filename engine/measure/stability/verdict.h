@@ -24,8 +24,6 @@ constexpr double family_wise_level = 0.01;
 
 // Level of each of `count` independent tests that together have `overall` (Sidak 1967).
 double sidak(double overall, int64_t count);
-// z > 0 that a standard normal exceeds in absolute value with probability alpha, 0 < alpha < 1.
-double two_sided_quantile(double alpha);
 
 // rounding + k sigma + what single precision rounds.
 double tolerance(const Finding& finding, double k);
