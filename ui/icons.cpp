@@ -72,6 +72,10 @@ void draw_icon(ImDrawList& draw, Icon icon, ImVec2 centre, float size, ImU32 col
     case Icon::rectangle:
         p.box(-0.85f, -0.6f, 0.85f, 0.1f), p.line(-0.5f, 0.35f, -0.6f, 0.8f), p.line(0, 0.35f, 0, 0.8f), p.line(0.5f, 0.35f, 0.6f, 0.8f);
         break;
+    case Icon::disk:
+        p.circle(0, -0.25f, 0.6f), p.line(-0.5f, 0.5f, -0.6f, 0.9f), p.line(0, 0.55f, 0, 0.95f), p.line(0.5f, 0.5f, 0.6f, 0.9f);
+        break;
+    case Icon::sphere: p.circle(0, 0, 0.6f), p.dot(-0.2f, -0.2f, 0.14f); break;
     case Icon::mesh: draw_mesh(p); break;
     case Icon::group: p.line(-0.8f, 0, 0.8f, 0), p.line(0, -0.8f, 0, 0.8f), p.circle(0, 0, 0.3f); break;
     case Icon::camera: draw_camera(p); break;

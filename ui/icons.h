@@ -5,7 +5,7 @@
 
 namespace blush {
 
-enum class Icon { point, spot, sun, rectangle, mesh, group, camera, folder, file, eye, eye_closed, arrow_up };
+enum class Icon { point, spot, sun, rectangle, disk, sphere, mesh, group, camera, folder, file, eye, eye_closed, arrow_up };
 
 // `size` is the side of the square around `centre` that the icon fills.
 void draw_icon(ImDrawList& draw, Icon icon, ImVec2 centre, float size, ImU32 color);

@@ -16,6 +16,8 @@ Icon icon_of(Light::Kind kind) {
     case Light::Kind::spot: return Icon::spot;
     case Light::Kind::sun: return Icon::sun;
     case Light::Kind::rectangle: return Icon::rectangle;
+    case Light::Kind::disk: return Icon::disk;
+    case Light::Kind::sphere: return Icon::sphere;
     }
     return Icon::point;
 }
@@ -68,7 +70,9 @@ void draw_extent(const WorldPen& pen, const Scene& scene, Id<Node> id, const Lig
     const Quat rotation = world_rotation(scene, id);
     const double reach = pen.projection.height_at(distance) * 0.12;
     switch (light.kind) {
+    case Light::Kind::disk: pen.circle(m.t, m.x * double(light.radius), m.y * double(light.radius)); break;
     case Light::Kind::point:
+    case Light::Kind::sphere:
         if (light.radius > 0) pen.circle(m.t, pen.projection.right() * double(light.radius), pen.projection.up() * double(light.radius));
         break;
     case Light::Kind::spot:

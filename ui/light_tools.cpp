@@ -9,21 +9,25 @@ namespace {
 constexpr double pi_d = 3.14159265358979323846;
 constexpr double degrees = 180 / pi_d;
 
-// Candela towards a surface `distance` metres away that the light faces. One that has no candela is asked for its illuminance there.
-double candela(const Light& light, double distance) {
+// Of the light seen from far away in front of it, m^2; 0 for one whose intensity is not per area.
+double face_area(const Light& light) {
     switch (light.kind) {
-    case Light::Kind::sun: return light.intensity * distance * distance;
-    case Light::Kind::rectangle: return double(light.intensity) * light.width * light.height;
-    default: return light.intensity;
+    case Light::Kind::rectangle: return double(light.width) * light.height;
+    case Light::Kind::disk:
+    case Light::Kind::sphere: return pi_d * light.radius * light.radius;
+    default: return 0;
     }
 }
 
+// Candela towards a surface `distance` metres away that the light faces. One that has no candela is asked for its illuminance there.
+double candela(const Light& light, double distance) {
+    if (light.kind == Light::Kind::sun) return light.intensity * distance * distance;
+    return is_per_area(light.kind) ? light.intensity * face_area(light) : light.intensity;
+}
+
 double intensity_for(const Light& light, double candela, double distance) {
-    switch (light.kind) {
-    case Light::Kind::sun: return candela / (distance * distance);
-    case Light::Kind::rectangle: return candela / std::max(double(light.width) * light.height, 1e-12);
-    default: return candela;
-    }
+    if (light.kind == Light::Kind::sun) return candela / (distance * distance);
+    return is_per_area(light.kind) ? candela / std::max(face_area(light), 1e-12) : candela;
 }
 
 } // namespace
@@ -34,19 +38,24 @@ const char* kind_name(Light::Kind kind) {
     case Light::Kind::spot: return "Spot";
     case Light::Kind::sun: return "Sun";
     case Light::Kind::rectangle: return "Rectangle";
+    case Light::Kind::disk: return "Disk";
+    case Light::Kind::sphere: return "Sphere";
     }
     return "";
 }
 
-const char* intensity_unit(Light::Kind kind) { return kind == Light::Kind::sun ? "lx" : kind == Light::Kind::rectangle ? "nits" : "cd"; }
+const char* intensity_unit(Light::Kind kind) { return kind == Light::Kind::sun ? "lx" : is_per_area(kind) ? "nits" : "cd"; }
 
-bool has_direction(Light::Kind kind) { return kind != Light::Kind::point; }
+bool has_direction(Light::Kind kind) { return kind != Light::Kind::point && kind != Light::Kind::sphere; }
+bool is_per_area(Light::Kind kind) { return kind == Light::Kind::rectangle || kind == Light::Kind::disk || kind == Light::Kind::sphere; }
 
 double luminous_flux(const Light& light) {
     switch (light.kind) {
     case Light::Kind::point: return 4 * pi_d * light.intensity;
     case Light::Kind::spot: return 2 * pi_d * (1 - std::cos(double(light.outer_cone_radians))) * light.intensity;
-    case Light::Kind::rectangle: return pi_d * light.intensity * light.width * light.height * (light.two_sided ? 2 : 1);
+    case Light::Kind::rectangle:
+    case Light::Kind::disk: return pi_d * light.intensity * face_area(light) * (light.two_sided ? 2 : 1);
+    case Light::Kind::sphere: return 4 * pi_d * light.intensity * face_area(light);
     case Light::Kind::sun: break;
     }
     return 0;
@@ -55,6 +64,7 @@ double luminous_flux(const Light& light) {
 Light converted(const Light& light, Light::Kind kind, double distance) {
     Light next = light;
     next.kind = kind;
+    if (is_per_area(kind) && next.radius <= 0) next.radius = 0.1f; // a disk and a sphere need one
     next.intensity = float(intensity_for(next, candela(light, distance), distance));
     return next;
 }
@@ -68,6 +78,7 @@ AddLight new_light(Light::Kind kind, const View& view, float exposure_ev) {
     add.light.name = add.node.name = kind_name(kind);
     add.light.kind = kind;
     add.light.width = add.light.height = float(0.2 * reach);
+    if (is_per_area(kind)) add.light.radius = float(0.1 * reach);
     add.light.outer_cone_radians = 0.5f;
     add.light.inner_cone_radians = 0.4f;
     add.light.angle_radians = kind == Light::Kind::sun ? 0.00925f : 0;

@@ -9,6 +9,8 @@ const char* kind_name(Light::Kind kind);
 // "cd", "lx" or "nits".
 const char* intensity_unit(Light::Kind kind);
 bool has_direction(Light::Kind kind);
+// Its intensity is a luminance: of a rectangle, a disk or a sphere.
+bool is_per_area(Light::Kind kind);
 
 // Luminous flux in lumens; 0 for a sun, which has none. A spot counts its outer cone as if evenly lit, an upper bound.
 double luminous_flux(const Light& light);

@@ -25,7 +25,7 @@ struct InfoCommand {
 };
 
 struct LightCounts {
-    int64_t point = 0, spot = 0, sun = 0, rectangle = 0;
+    int64_t point = 0, spot = 0, sun = 0, rectangle = 0, disk = 0, sphere = 0;
 };
 
 LightCounts count_lights(const Scene& scene) {
@@ -39,6 +39,8 @@ LightCounts count_lights(const Scene& scene) {
         case Light::Kind::spot: ++counts.spot; break;
         case Light::Kind::sun: ++counts.sun; break;
         case Light::Kind::rectangle: ++counts.rectangle; break;
+        case Light::Kind::disk: ++counts.disk; break;
+        case Light::Kind::sphere: ++counts.sphere; break;
         }
     }
     return counts;
@@ -87,6 +89,8 @@ OrderedJson info_json(const LoadedScene& loaded, const Findings& findings) {
                       {"spot", lights.spot},
                       {"sun", lights.sun},
                       {"rectangle", lights.rectangle},
+                      {"disk", lights.disk},
+                      {"sphere", lights.sphere},
                       {"emissive_triangles", info.emissive_triangles},
                       {"environment", info.environment}};
     json["cameras"] = count_cameras(loaded.scene);
@@ -119,8 +123,9 @@ void print_info(const InfoCommand& c, const LoadedScene& loaded, const Findings&
     fmt::print("{}\n", c.scene);
     fmt::print("{:<22} {} meshes, {} instances, {} triangles\n", "geometry", info.meshes, info.instances, info.triangles);
     fmt::print("{:<22} {} materials, {} textures\n", "surfaces", info.materials, info.textures);
-    fmt::print("{:<22} {} point, {} spot, {} sun, {} rectangle, {} emissive triangles, {}\n", "lights", lights.point, lights.spot,
-               lights.sun, lights.rectangle, info.emissive_triangles, info.environment ? "an environment" : "no environment");
+    fmt::print("{:<22} {} point, {} spot, {} sun, {} rectangle, {} disk, {} sphere, {} emissive triangles, {}\n", "lights", lights.point,
+               lights.spot, lights.sun, lights.rectangle, lights.disk, lights.sphere, info.emissive_triangles,
+               info.environment ? "an environment" : "no environment");
     fmt::print("{:<22} {}\n", "cameras", count_cameras(loaded.scene));
     print_list("extensions honoured", loaded.report.extensions_honoured);
     print_list("  approximated", loaded.report.extensions_approximated);

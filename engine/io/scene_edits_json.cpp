@@ -179,6 +179,7 @@ std::string edits_json(const Scene& imported, const Scene& edited) {
     add("lights", table_edits(imported.lights, now.lights));
     add("cameras", table_edits(imported.cameras, now.cameras));
     add("environment", changed_fields(imported.environment, now.environment));
+    add("mix", changed_fields(imported.mix, now.mix));
     add("view", changed_fields(imported.view, now.view));
     add("left_out", std::move(left_out));
     return json_text(json);
@@ -197,6 +198,8 @@ Result<Scene> apply_edits_json(Scene scene, std::string_view text, const std::fi
     if (const auto ok = apply_table(member(*json, "lights"), scene.lights, "lights"); !ok) return ok.error();
     if (const auto ok = apply_table(member(*json, "cameras"), scene.cameras, "cameras"); !ok) return ok.error();
     if (const auto ok = apply_environment(member(*json, "environment"), scene.environment, folder); !ok) return ok.error();
+    if (const Json& mix = member(*json, "mix"); !mix.is_null() && !read_json(mix, scene.mix))
+        return Error{"", "an unknown field, or a value of the wrong type", "mix"};
     if (const Json& view = member(*json, "view"); !view.is_null() && !read_json(view, scene.view))
         return Error{"", "an unknown field, or a value of the wrong type", "view"};
     if (const auto ok = validate(scene); !ok) return ok.error();

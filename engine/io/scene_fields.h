@@ -61,13 +61,21 @@ template <Is<Material> T, class V> void visit_fields(T& r, V&& visit) {
     visit("transmission_texture", r.transmission_texture);
 }
 
+template <Is<ObjectSet> T, class V> void visit_fields(T& r, V&& visit) {
+    visit("all_but", r.all_but);
+    visit("nodes", r.nodes);
+}
+
 template <Is<Light> T, class V> void visit_fields(T& r, V&& visit) {
     visit("name", r.name);
     visit("kind", r.kind);
     visit("color", r.color);
     visit("use_temperature", r.use_temperature);
     visit("kelvin", r.kelvin);
+    visit("green_tint", r.green_tint);
     visit("intensity", r.intensity);
+    visit("unit", r.unit);
+    visit("keep_power", r.keep_power);
     visit("radius", r.radius);
     visit("angle_radians", r.angle_radians);
     visit("inner_cone_radians", r.inner_cone_radians);
@@ -75,7 +83,14 @@ template <Is<Light> T, class V> void visit_fields(T& r, V&& visit) {
     visit("width", r.width);
     visit("height", r.height);
     visit("two_sided", r.two_sided);
+    visit("spread_radians", r.spread_radians);
+    visit("visible_to_camera", r.visible_to_camera);
+    visit("ies_file", r.ies_file);
     visit("enabled", r.enabled);
+    visit("solo", r.solo);
+    visit("group", r.group);
+    visit("lit_objects", r.lit_objects);
+    visit("shadow_casters", r.shadow_casters);
 }
 
 template <Is<Lens> T, class V> void visit_fields(T& r, V&& visit) {
@@ -108,13 +123,45 @@ template <Is<Node> T, class V> void visit_fields(T& r, V&& visit) {
     visit("visible", r.visible);
 }
 
+template <Is<Sky> T, class V> void visit_fields(T& r, V&& visit) {
+    visit("turbidity", r.turbidity);
+    visit("ground_albedo", r.ground_albedo);
+    visit("sun_disk", r.sun_disk);
+    visit("by_place_and_time", r.by_place_and_time);
+    visit("elevation_degrees", r.elevation_degrees);
+    visit("azimuth_degrees", r.azimuth_degrees);
+    visit("latitude_degrees", r.latitude_degrees);
+    visit("longitude_degrees", r.longitude_degrees);
+    visit("year", r.year);
+    visit("month", r.month);
+    visit("day", r.day);
+    visit("utc_hours", r.utc_hours);
+}
+
 template <Is<Environment> T, class V> void visit_fields(T& r, V&& visit) {
     visit("kind", r.kind);
     visit("color", r.color);
     visit("intensity", r.intensity);
     visit("rotation_degrees", r.rotation_degrees);
     visit("file", r.file);
+    visit("sky", r.sky);
     visit("visible_to_camera", r.visible_to_camera);
+    visit("lights_scene", r.lights_scene);
+    visit("group", r.group);
+}
+
+template <Is<MixChannel> T, class V> void visit_fields(T& r, V&& visit) {
+    visit("group", r.group);
+    visit("enabled", r.enabled);
+    visit("intensity", r.intensity);
+    visit("color", r.color);
+    visit("use_temperature", r.use_temperature);
+    visit("kelvin", r.kelvin);
+}
+
+template <Is<LightMix> T, class V> void visit_fields(T& r, V&& visit) {
+    visit("grouping", r.grouping);
+    visit("channels", r.channels);
 }
 
 template <Is<View> T, class V> void visit_fields(T& r, V&& visit) {
@@ -132,10 +179,15 @@ concept Fielded = requires(T& record) {
 
 // The words of an enumeration, in the order of its values.
 template <class E> constexpr std::array<std::string_view, 0> enum_words = {};
-template <> inline constexpr std::array<std::string_view, 4> enum_words<Light::Kind> = {"point", "spot", "sun", "rectangle"};
+template <>
+inline constexpr std::array<std::string_view, 6> enum_words<Light::Kind> = {"point", "spot", "sun", "rectangle", "disk", "sphere"};
+template <>
+inline constexpr std::array<std::string_view, 7> enum_words<Light::Unit> = {"own", "watt", "lumen", "candela", "lux", "nits", "ev"};
 template <> inline constexpr std::array<std::string_view, 3> enum_words<Material::Alpha> = {"opaque", "mask", "blend"};
 template <> inline constexpr std::array<std::string_view, 3> enum_words<Texture::Wrap> = {"repeat", "clamp_to_edge", "mirrored_repeat"};
 template <> inline constexpr std::array<std::string_view, 2> enum_words<Texture::Filter> = {"linear", "nearest"};
-template <> inline constexpr std::array<std::string_view, 3> enum_words<Environment::Kind> = {"none", "constant", "image"};
+template <> inline constexpr std::array<std::string_view, 4> enum_words<Environment::Kind> = {"none", "constant", "image", "sky"};
+template <> inline constexpr std::array<std::string_view, 5> enum_words<LightMix::Grouping> = {"none", "by_light", "by_object",
+                                                                                               "by_material", "by_hand"};
 
 } // namespace blush

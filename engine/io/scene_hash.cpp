@@ -48,6 +48,10 @@ public:
         if (m) bytes(std::as_bytes(std::span(&*m, 1)));
     }
     template <Fielded T> void operator()(std::string_view, const T& record) { visit_fields(record, *this); }
+    template <class T> void operator()(std::string_view, const std::vector<T>& list) {
+        word(list.size());
+        for (const T& item : list) (*this)({}, item);
+    }
 
     uint64_t value() const { return state_; }
 

@@ -26,9 +26,15 @@ inline Json to_json(const Quat& q) { return Json::array({q.x, q.y, q.z, q.w}); }
 inline Json to_json(const std::optional<Affine>& m) {
     return m ? Json::array({to_json(m->x), to_json(m->y), to_json(m->z), to_json(m->t)}) : Json();
 }
+template <class T> Json to_json(const std::vector<T>& list);
 template <Fielded T> Json to_json(const T& record) {
     Json json = Json::object();
     visit_fields(record, [&](std::string_view name, const auto& field) { json[std::string(name)] = to_json(field); });
+    return json;
+}
+template <class T> Json to_json(const std::vector<T>& list) {
+    Json json = Json::array();
+    for (const T& item : list) json.push_back(to_json(item));
     return json;
 }
 
@@ -62,6 +68,7 @@ inline bool read_json(const Json& json, std::optional<Affine>& m) {
     return read_json(json[0], m->x) && read_json(json[1], m->y) && read_json(json[2], m->z) && read_json(json[3], m->t);
 }
 
+template <class T> bool read_json(const Json& json, std::vector<T>& list);
 // Sets the fields that the JSON names; every name must be a field.
 template <Fielded T> bool read_json(const Json& json, T& record) {
     if (!json.is_object()) return false;
@@ -71,6 +78,13 @@ template <Fielded T> bool read_json(const Json& json, T& record) {
         if (it != json.end() && read_json(*it, field)) ++understood;
     });
     return understood == json.size();
+}
+template <class T> bool read_json(const Json& json, std::vector<T>& list) {
+    if (!json.is_array()) return false;
+    list.assign(json.size(), T{});
+    for (size_t i = 0; i < list.size(); ++i)
+        if (!read_json(json[i], list[i])) return false;
+    return true;
 }
 
 } // namespace blush

@@ -142,7 +142,8 @@ EnvironmentTable build_environment_table(const Environment& environment) {
     EnvironmentTable table;
     switch (environment.kind) {
     case Environment::Kind::none: set_uniform_texel(table, 0); break;
-    case Environment::Kind::constant: set_uniform_texel(table, 1); break;
+    case Environment::Kind::constant:
+    case Environment::Kind::sky: set_uniform_texel(table, 1); break;
     case Environment::Kind::image:
         if (const std::string what = fault(environment.image.get()); what.empty()) {
             set_texels(table, *environment.image, environment.file);

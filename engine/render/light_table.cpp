@@ -122,7 +122,9 @@ void add_punctual(Builder& b, const Scene& scene, double scene_radius, const Vec
             b.add(record, pi_d * scene_radius * scene_radius * strength);
             break;
         }
-        case Light::Kind::rectangle: break; // lowered to a mesh
+        case Light::Kind::rectangle:
+        case Light::Kind::disk:
+        case Light::Kind::sphere: break; // lowered to a mesh
         }
     }
 }

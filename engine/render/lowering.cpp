@@ -3,7 +3,9 @@
 #include "core/math.h"
 #include "scene/color_temperature.h"
 
+#include <cmath>
 #include <map>
+#include <numbers>
 #include <utility>
 
 namespace blush {
@@ -15,6 +17,23 @@ GeometryPtr unit_rectangle() {
         auto g = std::make_shared<Geometry>();
         g->positions = {{-0.5f, -0.5f, 0}, {0.5f, -0.5f, 0}, {0.5f, 0.5f, 0}, {-0.5f, 0.5f, 0}};
         g->indices = {0, 2, 1, 0, 3, 2};
+        return g;
+    }();
+    return shared;
+}
+
+// A regular polygon in the XY plane, facing -Z, with the area of the unit disk.
+GeometryPtr unit_disk() {
+    static const GeometryPtr shared = [] {
+        constexpr uint32_t corners = 96;
+        constexpr double step = 2 * std::numbers::pi / corners;
+        const double radius = std::sqrt(step / std::sin(step));
+        auto g = std::make_shared<Geometry>();
+        g->positions.push_back({0, 0, 0});
+        for (uint32_t i = 0; i < corners; ++i) {
+            g->positions.push_back({float(radius * std::cos(i * step)), float(radius * std::sin(i * step)), 0});
+            g->indices.insert(g->indices.end(), {0, 1 + (i + 1) % corners, 1 + i});
+        }
         return g;
     }();
     return shared;
@@ -63,7 +82,7 @@ Material emitter(const Light& light, const Vec3& nits) {
     m.metallic = 0;
     m.specular = 0;
     m.emissive = nits;
-    m.double_sided = light.kind == Light::Kind::rectangle && light.two_sided;
+    m.double_sided = (light.kind == Light::Kind::rectangle || light.kind == Light::Kind::disk) && light.two_sided;
     return m;
 }
 
@@ -75,16 +94,26 @@ struct AreaShape {
 
 AreaShape shape_of(const Light& light) {
     const Vec3 emission = light_emission(light);
-    if (light.kind == Light::Kind::rectangle) return {unit_rectangle(), {light.width, light.height, 1}, emission};
-    static const float unit_area = mean_projected_area(*unit_sphere());
     const float r = light.radius;
-    return {unit_sphere(), {r, r, r}, emission / (unit_area * r * r)};
+    if (light.kind == Light::Kind::rectangle) return {unit_rectangle(), {light.width, light.height, 1}, emission};
+    if (light.kind == Light::Kind::disk) return {unit_disk(), {r, r, 1}, emission};
+    static const float unit_area = mean_projected_area(*unit_sphere());
+    const Vec3 candela = light.kind == Light::Kind::sphere ? emission * (std::numbers::pi_v<float> * r * r) : emission;
+    return {unit_sphere(), {r, r, r}, candela / (unit_area * r * r)};
 }
 
 } // namespace
 
 bool is_area_light(const Light& light) {
-    return light.kind == Light::Kind::rectangle || (light.kind == Light::Kind::point && light.radius > 0);
+    switch (light.kind) {
+    case Light::Kind::rectangle:
+    case Light::Kind::disk:
+    case Light::Kind::sphere: return true;
+    case Light::Kind::point: return light.radius > 0;
+    case Light::Kind::spot:
+    case Light::Kind::sun: return false;
+    }
+    return false;
 }
 
 Vec3 light_emission(const Light& light) {

@@ -25,6 +25,7 @@ struct SetCamera { Id<Camera> id; Camera camera; };
 struct SetTexture { Id<Texture> id; Texture texture; };
 struct AssignMaterial { Id<Mesh> mesh; int part = 0; Id<Material> material; };
 struct SetEnvironment { Environment environment; };
+struct SetMix { LightMix mix; };
 struct SetLens { Lens lens; };          // of the view
 struct SetRender { RenderSettings settings; };
 struct SetView { ViewSettings settings; };
@@ -34,7 +35,7 @@ struct RemoveNode { Id<Node> id; };          // with its subtree; records nobody
 struct Import { Scene scene; std::string name; }; // merges the nodes of another scene under fresh ids
 struct LookThrough { Id<Node> camera_node; };
 
-using Edit = std::variant<SetNode, SetMaterial, SetLight, SetCamera, SetTexture, AssignMaterial, SetEnvironment, SetLens, SetRender,
+using Edit = std::variant<SetNode, SetMaterial, SetLight, SetCamera, SetTexture, AssignMaterial, SetEnvironment, SetMix, SetLens, SetRender,
                           SetView, AddLight, DuplicateNode, RemoveNode, Import, LookThrough>;
 
 // "Change light Key", for the history menu.

@@ -107,22 +107,47 @@ struct Mesh {
     bool operator==(const Mesh&) const = default;
 };
 
-// Emits along its node's -Z axis (glTF); a rectangle spans its node's X and Y.
+// What a luminaire sends where, as measured (ANSI/IES LM-63); immutable once shared. See scene/ies_profile.h.
+struct IesProfile;
+using IesPtr = std::shared_ptr<const IesProfile>;
+
+struct Node;
+
+// Objects, named or all but those named; a node stands for all that hangs below it.
+struct ObjectSet {
+    bool all_but = true;
+    std::vector<Id<Node>> nodes;
+    bool operator==(const ObjectSet&) const = default;
+};
+
+// Emits along its node's -Z axis (glTF); a rectangle spans its node's X and Y, a disk lies in them.
 struct Light {
-    enum class Kind : uint8_t { point, spot, sun, rectangle };
+    enum class Kind : uint8_t { point, spot, sun, rectangle, disk, sphere };
+    enum class Unit : uint8_t { own, watt, lumen, candela, lux, nits, ev };
     std::string name;
     Kind kind = Kind::point;
     Vec3 color{1, 1, 1};          // linear RGB tint
     bool use_temperature = false; // multiply by the colour of a black body at `kelvin`
     float kelvin = 6500;
-    float intensity = 1;          // point, spot: candela; sun: lux on a surface that faces it; rectangle: nits
-    float radius = 0;             // point: metres; 0 is a point, more a sphere of the same intensity
+    float green_tint = 0;         // with a temperature: distance from the Planckian locus, -0.05 (magenta) .. 0.05 (green), in CIE 1960 uv
+    float intensity = 1;          // point, spot: candela; sun: lux on a surface that faces it; rectangle, disk, sphere: nits
+    Unit unit = Unit::own;        // what the window states the intensity in; it is kept as above
+    bool keep_power = false;      // rectangle, disk, sphere: resizing in the window keeps the luminous flux rather than the nits
+    float radius = 0;             // metres. point: 0 is a point, more a sphere of the same intensity; disk, sphere: its own; spot: of its disk
     float angle_radians = 0;      // sun: full angle it subtends; 0 is a perfectly parallel beam (the real sun: 0.00925)
     float inner_cone_radians = 0; // spot: half angles, KHR_lights_punctual
     float outer_cone_radians = 0.7853982f;
     float width = 1, height = 1;  // rectangle: metres, before the node's scale
-    bool two_sided = false;       // rectangle
-    bool enabled = true;
+    bool two_sided = false;       // rectangle, disk
+    float spread_radians = 3.1415927f; // rectangle, disk: full angle of the cone that they shine into; pi is all of the half space
+    bool visible_to_camera = true; // those with a size: seen directly; others always see them by reflection
+    IesPtr ies;                   // point, spot: scales the intensity by direction
+    std::string ies_file;         // where it came from
+    bool enabled = true;          // false is muted
+    bool solo = false;            // while any light is solo, only those shine; muted ones never do
+    std::string group;            // of the light mix, where groups are made by hand
+    ObjectSet lit_objects;        // what it lights
+    ObjectSet shadow_casters;     // what stands in its way
     bool operator==(const Light&) const = default;
 };
 
@@ -162,15 +187,32 @@ struct Node {
     bool operator==(const Node&) const = default;
 };
 
+// The sun's place and the air, for a sky of a published model.
+struct Sky {
+    float turbidity = 3;          // 2 clear .. 10 hazy
+    float ground_albedo = 0.3f;
+    bool sun_disk = true;
+    bool by_place_and_time = false; // else by the two angles
+    float elevation_degrees = 35; // of the sun above the horizon
+    float azimuth_degrees = 135;  // clockwise from north, which is -Z; east is +X
+    float latitude_degrees = 52, longitude_degrees = 5; // north, east
+    int32_t year = 2026, month = 6, day = 21;
+    float utc_hours = 10;
+    bool operator==(const Sky&) const = default;
+};
+
 struct Environment {
-    enum class Kind : uint8_t { none, constant, image };
+    enum class Kind : uint8_t { none, constant, image, sky };
     Kind kind = Kind::none;
-    Vec3 color{1, 1, 1};        // constant: radiance in nits; image: tint
+    Vec3 color{1, 1, 1};        // constant: radiance in nits; image, sky: tint
     float intensity = 1;        // multiplies both
     float rotation_degrees = 0; // about +Y
     std::string file;           // image: where it came from
     ImagePtr image;             // lat-long, float, 3 or 4 channels; the centre column looks along -Z
+    Sky sky;
     bool visible_to_camera = true;
+    bool lights_scene = true;   // false: a backdrop, seen by the camera alone
+    std::string group;          // of the light mix, where groups are made by hand
     bool operator==(const Environment&) const = default;
 };
 
@@ -183,6 +225,24 @@ struct View {
     bool operator==(const View&) const = default;
 };
 
+// A group of lights as the light mix scales it.
+struct MixChannel {
+    std::string group;
+    bool enabled = true;
+    float intensity = 1;
+    Vec3 color{1, 1, 1};
+    bool use_temperature = false;
+    float kelvin = 6500;
+    bool operator==(const MixChannel&) const = default;
+};
+// The light mix: which lights share a plane of the film, and what those planes are multiplied with. Groups without a channel stay as they are.
+struct LightMix {
+    enum class Grouping : uint8_t { none, by_light, by_object, by_material, by_hand };
+    Grouping grouping = Grouping::none;
+    std::vector<MixChannel> channels;
+    bool operator==(const LightMix&) const = default;
+};
+
 struct Scene {
     Table<Node> nodes;
     Table<Mesh> meshes;
@@ -191,6 +251,7 @@ struct Scene {
     Table<Light> lights;
     Table<Camera> cameras;
     Environment environment;
+    LightMix mix;
     View view;
     bool operator==(const Scene&) const = default;
 };

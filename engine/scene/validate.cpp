@@ -107,6 +107,9 @@ Result<void> validate(const Light& light) {
     check.between("angle", light.angle_radians, 0, pi);
     check.between("outer cone", light.outer_cone_radians, 0, pi / 2);
     check.between("inner cone", light.inner_cone_radians, 0, light.outer_cone_radians);
+    check.between("green tint", light.green_tint, -0.05, 0.05);
+    check.between("spread", light.spread_radians, 0.001, pi);
+    if (light.kind == Light::Kind::disk || light.kind == Light::Kind::sphere) check.positive("radius", light.radius);
     check.positive("width", light.width);
     check.positive("height", light.height);
     return std::move(check).done();
@@ -146,7 +149,29 @@ Result<void> validate(const Environment& environment) {
         check.is(image && image->width > 0 && image->height > 0 && image->channels >= 3 && !image->floats.empty(),
                  "image must be there, in float, with 3 or 4 channels");
     }
+    const Sky& sky = environment.sky;
+    check.between("turbidity", sky.turbidity, 1.7, 10);
+    check.between("ground albedo", sky.ground_albedo, 0, 1);
+    check.between("sun's elevation", sky.elevation_degrees, -90, 90);
+    check.finite("sun's azimuth", sky.azimuth_degrees);
+    check.between("latitude", sky.latitude_degrees, -90, 90);
+    check.between("longitude", sky.longitude_degrees, -180, 180);
+    check.between("year", sky.year, 1900, 2100);
+    check.between("month", sky.month, 1, 12);
+    check.between("day", sky.day, 1, 31);
+    check.between("hour", sky.utc_hours, 0, 24);
     return std::move(check).done();
+}
+
+Result<void> validate(const LightMix& mix) {
+    for (const MixChannel& channel : mix.channels) {
+        Check check("mix of group", channel.group);
+        check.not_negative("intensity", channel.intensity);
+        check.color("colour", channel.color);
+        check.between("temperature", channel.kelvin, 1000, 40000);
+        if (auto valid = std::move(check).done(); !valid) return valid;
+    }
+    return {};
 }
 
 Result<void> validate(const RenderSettings& settings) {

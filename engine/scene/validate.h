@@ -16,6 +16,7 @@ Result<void> validate(const Texture& texture);
 Result<void> validate(const Camera& camera);
 Result<void> validate(const Lens& lens);
 Result<void> validate(const Environment& environment);
+Result<void> validate(const LightMix& mix);
 Result<void> validate(const RenderSettings& settings);
 Result<void> validate(const ViewSettings& settings);
 // Array sizes and indices; the numbers themselves are the renderer's business, which drops what it cannot use.

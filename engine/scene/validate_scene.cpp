@@ -59,6 +59,7 @@ Result<void> validate(const Scene& scene) {
     if (auto valid = validate_records(scene.lights); !valid) return valid;
     if (auto valid = validate_records(scene.cameras); !valid) return valid;
     if (auto valid = validate(scene.environment); !valid) return valid;
+    if (auto valid = validate(scene.mix); !valid) return valid;
     if (auto valid = validate(scene.view.lens); !valid) return valid;
     if (auto known = check_all_references(scene, scene.nodes); !known) return known;
     if (auto known = check_all_references(scene, scene.meshes); !known) return known;

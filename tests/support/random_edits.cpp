@@ -24,12 +24,13 @@ template <class T> Id<T> pick_id(Rng& rng, const Table<T>& table) {
 
 Light light(Rng& rng) {
     Light l;
-    l.kind = Light::Kind(whole(rng, 0, 3));
+    l.kind = Light::Kind(whole(rng, 0, 5));
     l.color = color(rng);
     l.use_temperature = coin(rng);
     l.kelvin = uniform(rng, 1500, 10000);
     l.intensity = uniform(rng, 0, 50);
-    l.radius = coin(rng) ? uniform(rng, 0.01f, 0.3f) : 0;
+    const bool needs_radius = l.kind == Light::Kind::disk || l.kind == Light::Kind::sphere;
+    l.radius = needs_radius || coin(rng) ? uniform(rng, 0.01f, 0.3f) : 0;
     l.angle_radians = coin(rng) ? uniform(rng, 0.001f, 0.2f) : 0;
     l.outer_cone_radians = uniform(rng, 0.2f, 1.5f);
     l.inner_cone_radians = l.outer_cone_radians * uniform(rng, 0, 1);
@@ -127,6 +128,11 @@ std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<SetEnvir
     e.visible_to_camera = coin(rng);
     if (e.kind == Environment::Kind::image && (!e.image || coin(rng))) e.image = float_image(8, 4, 3, uniform(rng, 0.1f, 2));
     return SetEnvironment{e};
+}
+std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<SetMix>) {
+    LightMix mix = p.scene.mix;
+    mix.channels.push_back({.group = "Key", .enabled = coin(rng), .intensity = uniform(rng, 0, 2), .color = color(rng)});
+    return SetMix{mix};
 }
 std::optional<Edit> make(Rng& rng, const Project&, std::type_identity<SetLens>) { return SetLens{lens(rng)}; }
 std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<SetRender>) {

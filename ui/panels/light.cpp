@@ -14,7 +14,7 @@
 namespace blush {
 namespace {
 
-constexpr const char* kinds[] = {"Point", "Spot", "Sun", "Rectangle"};
+constexpr const char* kinds[] = {"Point", "Spot", "Sun", "Rectangle", "Disk", "Sphere"};
 
 const char* intensity_tip(Light::Kind kind) {
     switch (kind) {
@@ -22,7 +22,9 @@ const char* intensity_tip(Light::Kind kind) {
         return "Illuminance in lux on a surface that faces the light. The sun at noon gives about 100 000 lx, an overcast sky 10 000, an "
                "office 500.";
     case Light::Kind::rectangle:
-        return "Luminance in nits (candela per square metre) of the surface itself. A larger rectangle of the same luminance gives more "
+    case Light::Kind::disk:
+    case Light::Kind::sphere:
+        return "Luminance in nits (candela per square metre) of the surface itself. A larger light of the same luminance gives more "
                "light.";
     default:
         return "Luminous intensity in candela: the illuminance in lux on a surface that faces the light one metre away. It falls with the "
@@ -97,6 +99,16 @@ void draw_size(Fields& f, Light& light) {
         light.inner_cone_radians = std::min(light.inner_cone_radians, light.outer_cone_radians);
         break;
     }
+    case Light::Kind::disk:
+    case Light::Kind::sphere:
+        f.number("Radius", light.radius,
+                 {.min = 1e-4f,
+                  .max = 1e6f,
+                  .reset = 0.1f,
+                  .unit = "m",
+                  .tip = "Before the node's scale. The luminance stays, so a larger light gives more."});
+        if (light.kind == Light::Kind::disk) f.checkbox("Two-sided", light.two_sided, "Shine from the back as well.");
+        break;
     case Light::Kind::rectangle:
         f.number("Width", light.width,
                  {.min = 1e-4f,

@@ -26,6 +26,8 @@ Icon icon_of(const Scene& scene, const Node& node) {
         case Light::Kind::spot: return Icon::spot;
         case Light::Kind::sun: return Icon::sun;
         case Light::Kind::rectangle: return Icon::rectangle;
+        case Light::Kind::disk: return Icon::disk;
+        case Light::Kind::sphere: return Icon::sphere;
         }
     }
     return node.mesh ? Icon::mesh : node.camera ? Icon::camera : Icon::group;
