@@ -24,6 +24,8 @@ public:
     int columns() const { return planes_ > 0 ? planes_ - 1 : 0; }
     // One sample: a tile's slot; light of `first_scaled` scatterings and more times `scale`, which is what clamping does.
     void add(size_t place, const TileScratch& tile, int slot, int first_scaled, double scale);
+    int planes() const { return planes_; }
+    Vec3d& sum(size_t place, size_t plane) { return sums_[place * size_t(planes_) + plane]; }
     const Vec3d& sum(size_t place, size_t plane) const { return sums_[place * size_t(planes_) + plane]; }
 
 private:

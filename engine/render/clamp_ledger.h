@@ -33,15 +33,15 @@ public:
     // Notes the rest in the place's account.
     Left clamp(size_t place, const TileScratch& tile, int slot);
 
-    // Light taken from a place, and the number of samples that it was taken from.
-    const Vec3d& removed(size_t place) const { return accounts_[place].removed; }
-    int64_t samples(size_t place) const { return accounts_[place].samples; }
-
-private:
+    // Light taken from a place, and the number of samples that it was taken from. Only while on.
     struct Account {
         Vec3d removed{0, 0, 0};
         int64_t samples = 0;
     };
+    Account& account(size_t place) { return accounts_[place]; }
+    const Account& account(size_t place) const { return accounts_[place]; }
+
+private:
     Clamp clamp_;
     std::vector<Account> accounts_; // empty while off
 };

@@ -239,8 +239,8 @@ void Film::resolve_rows(Frame& frame, int first, int last, Totals& totals) const
         }
         if (clamp_.on()) {
             totals.kept = totals.kept + Vec3d{a.r, a.g, a.b} * w.a + Vec3d{b.r, b.g, b.b} * w.b;
-            totals.removed = totals.removed + mean_of(i, w, [&](size_t place) { return clamp_.removed(place); });
-            totals.clamped += adaptive_ ? clamp_.samples(2 * i) + clamp_.samples(2 * i + 1) : clamp_.samples(i);
+            totals.removed = totals.removed + mean_of(i, w, [&](size_t place) { return clamp_.account(place).removed; });
+            totals.clamped += adaptive_ ? clamp_.account(2 * i).samples + clamp_.account(2 * i + 1).samples : clamp_.account(i).samples;
         }
     }
 }

@@ -68,12 +68,22 @@ public:
         const Half& h = halves_[2 * pixel + size_t(half)];
         return {h.r, h.g, h.b};
     }
+    // change(index) for the material of each pixel's first hit.
+    template <class Change> void each_material(const Change& change) {
+        for (int32_t& index : material_) change(index);
+    }
+    bool has_samples(size_t pixel) const { return halves_[2 * pixel].count + halves_[2 * pixel + 1].count > 0; }
+    const Health& health() const { return health_.health(); }
+    // Goes on from what another film has found (film_state.h).
+    void restore_health(const Health& health) { health_.restore(health); }
     // Everything the film knows: pixels, planes, health, error. Reuses the frame's memory. Material ids are left as table indices + 1.
     void resolve(Frame& frame, const Workers& workers) const;
     // Standard error of each pixel's mean from the two halves, RGB; empty before both hold samples.
     std::vector<Vec3> standard_error() const;
 
 private:
+    friend struct FilmPlanes;
+
     struct Half {
         double r = 0, g = 0, b = 0;
         int64_t count = 0;

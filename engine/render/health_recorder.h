@@ -21,8 +21,13 @@ public:
     void add_fireflies(const std::vector<Firefly>& samples);
     // Samples of less excess need not be reported: a hundred are worse.
     float least_excess() const { return least_excess_.load(std::memory_order_relaxed); }
+    // Goes on from what another recorder has found.
+    void restore(const Health& health);
     // Not while tiles report.
     const Health& health() const { return health_; }
+
+    // What one recorder would know that had seen the samples of both.
+    static Health merged(const Health& a, const Health& b);
 
 private:
     std::mutex mutex_;

@@ -31,6 +31,8 @@ public:
     Features features() const { return features_; }
     // The id of a record of the material table; 0 for glTF's default material and for -1.
     Id<Material> material_id(int32_t index) const;
+    // And back; 0 for one that it does not have.
+    int32_t material_index(Id<Material> id) const { return materials_.index_of(id); }
     // All but the kernel and the ledger.
     CompiledInfo info() const;
     // `lowered` as last given; the film that it is rendered to.

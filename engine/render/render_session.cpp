@@ -30,6 +30,7 @@ struct Submission {
     Scene scene;
     RenderSettings settings;
     PlaneSet planes;
+    FilmStatePtr film; // to go on from
     Clock::time_point when;
 };
 
@@ -67,19 +68,22 @@ struct RenderSession::State {
     std::condition_variable wake;
     std::optional<Submission> pending;
     bool paused = false;
+    std::optional<uint64_t> film_asked; // of this revision
+    std::optional<KeptFilm> kept_film;
     Showcase showcase;
     SessionStatus status;
 
     // What tiles compare with before they begin: one load, no lock.
     std::atomic<uint64_t> wanted_image{0};
     std::atomic<bool> quit{false};
+    std::atomic<bool> film_wanted{false}; // film_asked holds a value
 
     // The render thread's own.
     std::optional<Renderer> renderer;
     FramePool frames;
     Submission current;
     Scheduler scheduler;
-    std::string failure; // empty: none
+    std::string failure, not_continued; // empty: none
     bool has_scene = false, has_first_image = false;
     double first_image_seconds = 0, samples_per_second = 0;
     std::thread thread;
@@ -95,8 +99,12 @@ struct RenderSession::State {
     void announce(std::optional<SessionStatus::State> passing = {});
     void take_up(Submission next);
     void work_once();
-    void fail(std::string why);
+    void fail(std::string why, std::optional<uint64_t> asked);
+    void go_on_from(const FilmState& film);
+    std::shared_ptr<Frame> resolved();
     void publish(const Work* work = nullptr);
+    void keep_film(uint64_t revision);
+    void answer(KeptFilm kept);
     void take_denoised(uint64_t image, const FramePtr& source, DenoisedPtr denoised);
     Pictures look() const;
 };
@@ -116,22 +124,30 @@ void RenderSession::State::announce(std::optional<SessionStatus::State> passing)
         status.revision = current.revision;
         status.progress = scheduler.progress();
         status.message = failure;
+        status.not_continued = not_continued;
     }
     on_frame();
 }
 
-// Hands out the film as it is; `work` is what was just added to it, if anything.
-void RenderSession::State::publish(const Work* work) {
-    const std::shared_ptr<Frame> frame = frames.take();
+std::shared_ptr<Frame> RenderSession::State::resolved() {
+    std::shared_ptr<Frame> frame = frames.take();
     renderer->resolve(*frame);
-    if (work) scheduler.record_publish(*work, frame->error.known ? frame->error.relmse : -1);
-    if (!has_first_image) first_image_seconds = seconds_between(current.when, Clock::now());
-    has_first_image = true;
     frame->revision = current.revision;
     frame->complete = scheduler.finished();
     frame->seconds = scheduler.seconds();
     frame->first_image_seconds = first_image_seconds;
     frame->samples_per_second = samples_per_second;
+    return frame;
+}
+
+// Hands out the film as it is; `work` is what was just added to it, if anything.
+void RenderSession::State::publish(const Work* work) {
+    const std::shared_ptr<Frame> frame = resolved();
+    if (work) scheduler.record_publish(*work, frame->error.known ? frame->error.relmse : -1);
+    if (!has_first_image) first_image_seconds = seconds_between(current.when, Clock::now());
+    has_first_image = true;
+    frame->complete = scheduler.finished();
+    frame->first_image_seconds = first_image_seconds;
     const Pictures previous = look(); // freed without the lock
     const std::lock_guard lock(mutex);
     if (denoiser->offer(current.image, frame))
@@ -171,12 +187,45 @@ void RenderSession::State::take_up(Submission next) {
         renderer->set_planes(with_first_hits(current.planes, options));
         renderer->update(current.scene, settings);
         has_scene = true;
+        not_continued.clear();
+        if (const FilmStatePtr film = std::exchange(current.film, nullptr)) go_on_from(*film);
     } else {
         scheduler.change_stop_rules(settings);
         renderer->set_planes(with_first_hits(current.planes, options));
         if (has_first_image) publish(); // the same picture answers the new revision
     }
     announce();
+}
+
+void RenderSession::State::go_on_from(const FilmState& film) {
+    if (const auto loaded = renderer->load_film(film); !loaded) {
+        not_continued = loaded.error().text();
+        return;
+    }
+    scheduler.resume(film.samples, film.seconds);
+    const Work none{.first_sample = current.settings.first_sample, .count = 0};
+    publish(&none);
+}
+
+void RenderSession::State::keep_film(uint64_t revision) {
+    KeptFilm kept{.revision = revision};
+    Result<FilmState> film = Error{"", "the image was changed in that moment", ""};
+    if (renderer && has_first_image && revision == current.revision) film = renderer->save_film(current.settings.first_sample);
+    if (film) {
+        film->seconds = scheduler.seconds();
+        kept.frame = resolved();
+        kept.error = renderer->resolve_error();
+        kept.film = std::make_shared<const FilmState>(*std::move(film));
+    } else {
+        kept.why_none = film.error().text();
+    }
+    answer(std::move(kept));
+    announce();
+}
+
+void RenderSession::State::answer(KeptFilm kept) {
+    const std::lock_guard lock(mutex);
+    kept_film = std::move(kept);
 }
 
 void RenderSession::State::work_once() {
@@ -186,7 +235,7 @@ void RenderSession::State::work_once() {
     renderer->set_divider(work.divider);
     if (work.clear) renderer->clear();
     const bool done = renderer->render(work.first_sample, work.count, [&] {
-        return !quit.load(std::memory_order_relaxed) && (work.always_finish || wanted_image.load(std::memory_order_relaxed) == mine);
+        return !quit.load(std::memory_order_relaxed) && (work.always_finish || film_wanted.load(std::memory_order_relaxed) || wanted_image.load(std::memory_order_relaxed) == mine);
     });
     if (!done) return;
     const double seconds = seconds_between(begin, Clock::now());
@@ -196,8 +245,9 @@ void RenderSession::State::work_once() {
     announce();
 }
 
-void RenderSession::State::fail(std::string why) {
+void RenderSession::State::fail(std::string why, std::optional<uint64_t> asked) {
     failure = std::move(why);
+    if (asked) answer({.revision = *asked, .why_none = failure});
     has_scene = has_first_image = false;
     renderer.reset(); // what it holds is no longer known to match any scene
     announce();
@@ -206,24 +256,30 @@ void RenderSession::State::fail(std::string why) {
 void RenderSession::State::run() {
     for (;;) {
         std::optional<Submission> taken;
+        std::optional<uint64_t> asked;
         bool work = false;
         {
             std::unique_lock lock(mutex);
-            wake.wait(lock, [&] { return quit || pending || has_work() || due_state() != status.state; });
+            wake.wait(lock, [&] { return quit || pending || film_asked || has_work() || due_state() != status.state; });
             if (quit) return;
+            // Before the image goes that it is asked of.
+            asked = std::exchange(film_asked, std::nullopt);
+            film_wanted = false;
             // What was taken up is shown once before the next is looked at: else a drag faster than the updates would show nothing.
-            if (!must_show()) taken.swap(pending);
+            if (!asked && !must_show()) taken.swap(pending);
             work = has_work();
         }
         try {
-            if (taken)
+            if (asked)
+                keep_film(*asked);
+            else if (taken)
                 take_up(std::move(*taken));
             else if (work)
                 work_once();
             else
                 announce();
-        } catch (const std::bad_alloc&) { fail("not enough memory"); } catch (const std::exception& e) {
-            fail(e.what());
+        } catch (const std::bad_alloc&) { fail("not enough memory", asked); } catch (const std::exception& e) {
+            fail(e.what(), asked);
         }
     }
 }
@@ -247,17 +303,36 @@ RenderSession::~RenderSession() {
     state_->thread.join();
 }
 
-void RenderSession::submit(uint64_t revision, const Scene& scene, const RenderSettings& settings, const PlaneSet& planes) {
+void RenderSession::submit(uint64_t revision, const Scene& scene, const RenderSettings& settings, const PlaneSet& planes, FilmStatePtr film) {
     State& s = *state_;
     const std::lock_guard submitting(s.submitting);
-    s.last_submitted = Submission{revision, image_number(s.last_submitted, scene, settings, planes), scene, settings, planes, Clock::now()};
+    // Samples that come from elsewhere make another image, even if it would look the same.
+    const uint64_t image = film && s.last_submitted ? s.last_submitted->image + 1 : image_number(s.last_submitted, scene, settings, planes);
+    s.last_submitted = Submission{revision, image, scene, settings, planes, {}, Clock::now()};
     std::optional<Submission> next = s.last_submitted;
     {
         const std::lock_guard lock(s.mutex);
         s.wanted_image = next->image;
+        // Samples that still wait to be taken up are this image's too.
+        if (!film && s.pending && s.pending->image == image) film = s.pending->film;
+        next->film = std::move(film);
         s.pending.swap(next);
     }
     s.wake.notify_one();
+}
+
+void RenderSession::keep_film(uint64_t revision) {
+    {
+        const std::lock_guard lock(state_->mutex);
+        state_->film_asked = revision;
+        state_->film_wanted = true;
+    }
+    state_->wake.notify_one();
+}
+
+std::optional<KeptFilm> RenderSession::take_kept_film() {
+    const std::lock_guard lock(state_->mutex);
+    return std::exchange(state_->kept_film, std::nullopt);
 }
 
 void RenderSession::pause(bool paused) {

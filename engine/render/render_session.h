@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/background_denoiser.h"
+#include "render/film_state.h"
 #include "render/frame.h"
 #include "render/renderer.h"
 #include "render/showcase.h"
@@ -30,7 +31,17 @@ struct SessionStatus {
     double progress = 0;                                 // towards the nearest stop rule, 0 .. 1; 1 only when reached
     std::string message;                                 // failed: what went wrong
     std::array<bool, denoise_qualities> denoised_with{}; // networks that pictures were made by, and that are in memory since
+    std::string not_continued;                           // why this image began anew, not from the samples it was given; empty: it did not
     std::string denoiser_failure;                        // why there are no denoised pictures any more; empty: all is well
+};
+
+// The image at one moment, for a snapshot: a frame and the film that it was made of.
+struct KeptFilm {
+    uint64_t revision = 0;        // that was asked for
+    FramePtr frame = {};          // null as film is
+    std::vector<Vec3> error = {}; // standard error of each pixel's mean, RGB; empty if not known
+    FilmStatePtr film = {};       // null if there is none to go on from,
+    std::string why_none = {};    // and why
 };
 
 class RenderSession {
@@ -46,7 +57,13 @@ public:
     // Replaces whatever was pending; never blocks. Latest wins, but what has been taken up is shown once before the next is. A submit that
     // changes nothing an image shows (stop rules, names) continues it.
     // `planes`: what the film holds beside the first-hit planes. To ask for more begins the image anew, to ask for less does not.
-    void submit(uint64_t revision, const Scene& scene, const RenderSettings& settings, const PlaneSet& planes = {});
+    // `film`: of an image that these scene and settings make; rendering goes on from its samples, or begins anew if they do not fit, and
+    // the status says why.
+    void submit(uint64_t revision, const Scene& scene, const RenderSettings& settings, const PlaneSet& planes = {}, FilmStatePtr film = {});
+    // Asks for the film of the image of this revision, which was seen in a frame of full resolution; what is being added to it is finished
+    // first. Never blocks; the answer, announced like a frame, is taken once.
+    void keep_film(uint64_t revision);
+    std::optional<KeptFilm> take_kept_film();
     // A paused session still shows the first image of what is submitted, then waits.
     void pause(bool paused);
     // Whether denoised pictures are made, beside the frames and at a tenth of their cost (denoise_cadence.h). Never blocks, and resets

@@ -3,6 +3,7 @@
 #include "core/parallel.h"
 #include "render/fault_finder.h"
 #include "render/film.h"
+#include "render/film_state.h"
 #include "render/lowering.h"
 #include "render/pilot_noise.h"
 #include "render/render_scene.h"
@@ -24,6 +25,9 @@ using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
 bool hides_environment(const Environment& e) { return e.kind != Environment::Kind::none && !e.visible_to_camera; }
+
+// What the pilot has measured so far is no part of a film's state.
+bool in_mid_pilot(int64_t samples) { return samples >= SamplePlan::pilot_samples / 2 && samples < SamplePlan::pilot_samples; }
 
 // About two thousand paths in a tile: enough to fill packets, few enough for the cache. Of a small film, as a drag shows it first,
 // fewer: the last tile of a worker is what all others wait for. Sides are multiples of ReuseGroups::block, or tiles would cut groups.
@@ -51,7 +55,7 @@ struct Renderer::State {
     Film film;
     SamplePlan sample_plan; // if sampling is adaptive, as is
     PilotNoise pilot_noise;
-    bool film_is_stale = true;
+    bool film_is_stale = true, film_is_uneven = false; // uneven: rendering was stopped in the middle of a sample
     int divider = 1;
     const Kernel* kernel = nullptr;
     std::string kernel_name;
@@ -74,6 +78,7 @@ struct Renderer::State {
 
     void clear() {
         film_is_stale = true;
+        film_is_uneven = false;
         ledger.reset();
         samples = 0;
         rays = {};
@@ -262,14 +267,15 @@ bool Renderer::render(int64_t first, int64_t count, const std::function<bool()>&
     State& s = *state_;
     s.wipe_stale_film();
     if (!s.settings.adaptive) {
-        if (!s.render_evenly(first, count, wanted)) return false;
+        if (!s.render_evenly(first, count, wanted)) return !(s.film_is_uneven = true);
         s.samples += count;
         return true;
     }
     // Up to where the pilot is looked at, then on.
     for (int64_t left = count; left > 0;) {
         const int64_t step = std::min(left, SamplePlan::next_look(s.samples) - s.samples);
-        if (!(s.sample_plan.decided() ? s.render_by_plan(s.samples, step, wanted) : s.render_evenly(s.samples, step, wanted))) return false;
+        if (!(s.sample_plan.decided() ? s.render_by_plan(s.samples, step, wanted) : s.render_evenly(s.samples, step, wanted)))
+            return !(s.film_is_uneven = true);
         s.samples += step;
         left -= step;
         if (s.samples == SamplePlan::pilot_samples / 2) s.pilot_noise.mark(s.film);
@@ -301,6 +307,51 @@ Frame Renderer::resolve() const {
     Frame frame;
     resolve(frame);
     return frame;
+}
+
+Result<FilmState> Renderer::save_film(int64_t first) const {
+    const State& s = *state_;
+    if (s.film_is_stale || s.samples == 0) return Error{"", "nothing is rendered yet", ""};
+    if (s.film_is_uneven) return Error{"", "rendering was stopped half-way through a sample", ""};
+    if (s.divider != 1) return Error{"", "the image is still a coarse one", ""};
+    if (s.settings.adaptive && in_mid_pilot(s.samples))
+        return Error{"", fmt::format("adaptive sampling cannot be interrupted between {} and {} samples per pixel",
+                                     SamplePlan::pilot_samples / 2, SamplePlan::pilot_samples), ""};
+    FilmState state = blush::save_film(s.film);
+    if (ExactPlane* material = state.find("material"))
+        for (uint32_t& index : material->words)
+            if (index != FilmState::no_material) index = s.scene.material_id(int32_t(index)).value;
+    state.first_sample = first;
+    state.samples = s.samples;
+    state.shares = s.sample_plan.shares();
+    state.rays = s.rays;
+    state.path_counts = s.path_counts;
+    state.truncated = s.truncated;
+    return state;
+}
+
+Result<void> Renderer::load_film(const FilmState& state) {
+    State& s = *state_;
+    s.divider = 1;
+    s.clear();
+    s.wipe_stale_film();
+    const auto refused = [&](Error error) {
+        s.clear();
+        return error;
+    };
+    if (state.samples < 1) return refused({"", "there are no samples", ""});
+    if (s.settings.adaptive && in_mid_pilot(state.samples)) return refused({"", "the samples end in mid-pilot of adaptive sampling", ""});
+    const bool decided = s.settings.adaptive && state.samples >= SamplePlan::pilot_samples;
+    if (decided && !s.sample_plan.restore(state.shares)) return refused({"", "the samples come without the plan of adaptive sampling", ""});
+    if (const auto loaded = blush::load_film(s.film, state); !loaded) return refused(loaded.error());
+    s.film.each_material([&](int32_t& index) {
+        if (uint32_t(index) != FilmState::no_material) index = s.scene.material_index(Id<Material>{uint32_t(index)});
+    });
+    s.samples = state.samples;
+    s.rays = state.rays;
+    s.path_counts = state.path_counts;
+    s.truncated = state.truncated;
+    return {};
 }
 
 std::vector<std::string> available_isas() {

@@ -34,7 +34,7 @@ struct PlaneSet {
 struct RendererOptions {
     unsigned threads = 0; // 0: one per core
     bool low_priority = false;
-    PlaneSet planes;
+    PlaneSet planes = {};
 };
 
 struct CompiledInfo {
@@ -48,6 +48,8 @@ struct CompiledInfo {
     double seconds_setup = 0;         // the last update: from scene to first ray
     std::vector<Diagnostic> warnings; // degenerate triangles dropped, non-finite transforms, ...
 };
+
+struct FilmState; // film_state.h
 
 class Renderer {
 public:
@@ -79,6 +81,14 @@ public:
     void resolve(Frame& frame) const;
     // Standard error of the mean of each pixel from the two half buffers, RGB; empty before both hold samples.
     std::vector<Vec3> resolve_error() const;
+
+    // The film as a value, exactly, from which another renderer of the same scene and settings goes on as if it had rendered it. `first` is
+    // the index of its first sample. Errors: nothing is rendered, rendering was stopped half-way, the film is not of full size, adaptive
+    // sampling is in mid-pilot.
+    Result<FilmState> save_film(int64_t first) const;
+    // Replaces the film, at full size; go on with sample first_sample + samples. Errors: it does not fit the settings or lacks a plane; the
+    // film is then empty.
+    Result<void> load_film(const FilmState& state);
 
     // Of the scene last taken up. Not for the path of an edit: looks at every triangle the first time it is asked.
     const CompiledInfo& info() const;

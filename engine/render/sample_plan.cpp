@@ -24,6 +24,16 @@ void SamplePlan::decide(const std::array<TileNoise, 2>& noise) {
     for (size_t half = 0; half < 2; ++half) shares_[half] = shares_of(noise[1 - half]);
 }
 
+bool SamplePlan::restore(const Shares& shares) {
+    for (const std::vector<double>& half : shares) {
+        if (half.size() != size_t(tiles())) return false;
+        for (const double share : half)
+            if (!(share >= 0 && share <= double(tiles()) * largest_share)) return false;
+    }
+    shares_ = shares;
+    return true;
+}
+
 // In proportion to the noise, which is best (Neyman 1934), within limits: bisection for the logarithm of the factor of proportion at which
 // shares are 1 on average.
 std::vector<double> SamplePlan::shares_of(const TileNoise& noise) const {

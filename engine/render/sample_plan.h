@@ -39,6 +39,11 @@ public:
     void decide(const std::array<TileNoise, 2>& noise);
     bool decided() const { return !shares_[0].empty(); }
 
+    // What it has decided, to be given to another plan; empty before. Restoring: false, and nothing changes, unless they are of as many tiles.
+    using Shares = std::array<std::vector<double>, 2>;
+    const Shares& shares() const { return shares_; }
+    bool restore(const Shares& shares);
+
     int across() const { return across_; }
     int tiles() const { return across_ * down_; }
     // How many samples of half `half` each pixel of `tile` has when the film has `mean` samples per pixel: a function of `mean`, so
@@ -49,7 +54,7 @@ private:
     std::vector<double> shares_of(const TileNoise& noise) const;
 
     int width_ = 0, height_ = 0, across_ = 0, down_ = 0;
-    std::array<std::vector<double>, 2> shares_; // of what comes after the pilot, for each half; their mean over the pixels is 1
+    Shares shares_; // of what comes after the pilot, for each half; their mean over the pixels is 1
 };
 
 } // namespace blush

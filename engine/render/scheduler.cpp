@@ -14,6 +14,12 @@ void Scheduler::restart(const RenderSettings& settings, bool interactive) {
     error_ = -1;
 }
 
+void Scheduler::resume(int64_t samples, double seconds) {
+    film_divider_ = 1;
+    next_sample_ = settings_.first_sample + samples;
+    seconds_ = last_publish_ = seconds;
+}
+
 int Scheduler::first_divider() const {
     if (!interactive_) return 1;
     // Nothing measured yet: guess a machine that traces two million full paths a second.

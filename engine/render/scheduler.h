@@ -32,6 +32,8 @@ public:
 
     // Timings survive a restart: the next revision is probably as heavy as this one.
     void restart(const RenderSettings& settings, bool interactive);
+    // After a restart: goes on from so many samples per pixel, rendered in `seconds`.
+    void resume(int64_t samples, double seconds);
     // The stop rules changed, the image did not.
     void change_stop_rules(const RenderSettings& settings) { settings_ = settings; }
     // `work` was rendered in `seconds`.

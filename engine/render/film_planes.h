@@ -1,0 +1,62 @@
+// Every number that a film holds for each of its pixels, by name, once: saving, loading and adding up walk the same list.
+#pragma once
+
+#include "render/film.h"
+
+#include <fmt/format.h>
+
+namespace blush {
+
+// How two states of one image become one.
+enum class Combine {
+    add,   // sums over samples
+    first, // what the pixel's first sample saw
+};
+
+struct FilmPlanes {
+    // visit(name, combine, at): at(pixel) is a reference to the number.
+    template <class AnyFilm, class Visit> static void visit(AnyFilm& film, const Visit& visit) {
+        for (size_t half = 0; half < 2; ++half) {
+            const auto in_half = [&film, half](size_t pixel) -> auto& { return film.halves_[2 * pixel + half]; };
+            visit(name_of(half, "R"), Combine::add, [=](size_t pixel) -> auto& { return in_half(pixel).r; });
+            visit(name_of(half, "G"), Combine::add, [=](size_t pixel) -> auto& { return in_half(pixel).g; });
+            visit(name_of(half, "B"), Combine::add, [=](size_t pixel) -> auto& { return in_half(pixel).b; });
+            visit(name_of(half, "count"), Combine::add, [=](size_t pixel) -> auto& { return in_half(pixel).count; });
+        }
+        for (size_t c = 0; c < 3 && !film.features_.empty(); ++c) {
+            visit(fmt::format("albedo.{}", "RGB"[c]), Combine::add, [&film, c](size_t i) -> auto& { return film.features_[i].albedo[c]; });
+            visit(fmt::format("normal.{}", "XYZ"[c]), Combine::add, [&film, c](size_t i) -> auto& { return film.features_[i].normal[c]; });
+        }
+        if (!film.depth_.empty()) visit("depth", Combine::first, [&film](size_t i) -> auto& { return film.depth_[i]; });
+        if (!film.object_id_.empty()) visit("object", Combine::first, [&film](size_t i) -> auto& { return film.object_id_[i]; });
+        if (!film.material_.empty()) visit("material", Combine::first, [&film](size_t i) -> auto& { return film.material_[i]; });
+
+        if (!film.covered_.empty()) visit_places(film, visit, "covered", [&film](size_t place) -> auto& { return film.covered_[place]; });
+        for (size_t k = 0; k < size_t(film.bounces_.planes()); ++k)
+            visit_vectors(film, visit, fmt::format("bounce.{}", k), [&film, k](size_t place) -> auto& { return film.bounces_.sum(place, k); });
+        if (!film.paths_.empty()) visit_vectors(film, visit, "paths", [&film](size_t place) -> auto& { return film.paths_[place]; });
+        if (film.clamp_.on()) {
+            visit_vectors(film, visit, "clamped", [&film](size_t place) -> auto& { return film.clamp_.account(place).removed; });
+            visit_places(film, visit, "clamped.count", [&film](size_t place) -> auto& { return film.clamp_.account(place).samples; });
+        }
+    }
+
+private:
+    static std::string name_of(size_t half, std::string_view what) { return fmt::format("{}.{}", half == 0 ? "even" : "odd", what); }
+
+    // One number for each pixel or, where halves have weights of their own, one for each half.
+    template <class AnyFilm, class Visit, class At>
+    static void visit_places(AnyFilm& film, const Visit& visit, const std::string& name, const At& at) {
+        if (!film.adaptive_) return visit(name, Combine::add, at);
+        for (size_t half = 0; half < 2; ++half)
+            visit(name_of(half, name), Combine::add, [=](size_t pixel) -> auto& { return at(2 * pixel + half); });
+    }
+    template <class AnyFilm, class Visit, class At>
+    static void visit_vectors(AnyFilm& film, const Visit& visit, const std::string& name, const At& at) {
+        visit_places(film, visit, name + ".R", [=](size_t place) -> auto& { return at(place).x; });
+        visit_places(film, visit, name + ".G", [=](size_t place) -> auto& { return at(place).y; });
+        visit_places(film, visit, name + ".B", [=](size_t place) -> auto& { return at(place).z; });
+    }
+};
+
+} // namespace blush

@@ -1,0 +1,110 @@
+#include "render/film_state.h"
+
+#include "render/film_planes.h"
+
+#include <algorithm>
+#include <optional>
+#include <type_traits>
+
+namespace blush {
+namespace {
+
+template <class At> using ValueOf = std::remove_cvref_t<std::invoke_result_t<At, size_t>>;
+
+// A depth is kept as a sum is: every float is a double.
+template <class T> constexpr bool is_sum = std::is_floating_point_v<T>;
+
+const ExactPlane* find_plane(const std::vector<ExactPlane>& planes, std::string_view name) {
+    const auto it = std::ranges::find(planes, name, &ExactPlane::name);
+    return it == planes.end() ? nullptr : &*it;
+}
+
+// The state has every plane of the film, and of its size.
+std::optional<Error> misfit(const Film& film, const FilmState& state) {
+    if (state.width != film.width() || state.height != film.height())
+        return Error{"", fmt::format("samples of {} x {} pixels do not fit an image of {} x {}", state.width, state.height, film.width(), film.height()),
+                     ""};
+    const size_t pixels = size_t(state.width) * size_t(state.height);
+    std::optional<Error> error;
+    FilmPlanes::visit(film, [&](const std::string& name, Combine, const auto& at) {
+        const ExactPlane* plane = find_plane(state.planes, name);
+        const bool there = plane && (is_sum<ValueOf<decltype(at)>> ? plane->sums.size() : plane->words.size()) == pixels;
+        if (!there && !error) error = Error{"", fmt::format("the samples come without the plane \"{}\"", name), ""};
+    });
+    return error;
+}
+
+// take(old value, value in the state, pixel, combine) for each number of the film.
+template <class Take> void each_number(Film& film, const FilmState& state, const Take& take) {
+    const size_t pixels = size_t(state.width) * size_t(state.height);
+    FilmPlanes::visit(film, [&](const std::string& name, Combine combine, const auto& at) {
+        using T = ValueOf<decltype(at)>;
+        const ExactPlane& plane = *find_plane(state.planes, name);
+        for (size_t i = 0; i < pixels; ++i) {
+            if constexpr (is_sum<T>)
+                take(at(i), T(plane.sums[i]), i, combine);
+            else
+                take(at(i), T(plane.words[i]), i, combine);
+        }
+    });
+}
+
+} // namespace
+
+const ExactPlane* FilmState::find(std::string_view name) const { return find_plane(planes, name); }
+ExactPlane* FilmState::find(std::string_view name) { return const_cast<ExactPlane*>(find_plane(planes, name)); }
+
+FilmState save_film(const Film& film) {
+    FilmState state;
+    state.width = film.width();
+    state.height = film.height();
+    const size_t pixels = size_t(state.width) * size_t(state.height);
+    FilmPlanes::visit(film, [&](const std::string& name, Combine, const auto& at) {
+        ExactPlane plane{name};
+        if constexpr (is_sum<ValueOf<decltype(at)>>) {
+            plane.sums.resize(pixels);
+            for (size_t i = 0; i < pixels; ++i) plane.sums[i] = double(at(i));
+        } else {
+            plane.words.resize(pixels);
+            for (size_t i = 0; i < pixels; ++i) plane.words[i] = uint32_t(at(i));
+        }
+        state.planes.push_back(std::move(plane));
+    });
+    state.health = film.health();
+    return state;
+}
+
+Result<void> load_film(Film& film, const FilmState& state) {
+    if (const auto error = misfit(film, state)) return *error;
+    each_number(film, state, [](auto& number, auto value, size_t, Combine) { number = value; });
+    film.restore_health(state.health);
+    return {};
+}
+
+Result<void> add_film(Film& film, const FilmState& more) {
+    if (const auto error = misfit(film, more)) return *error;
+    std::vector<bool> seen(size_t(more.width) * size_t(more.height));
+    for (size_t i = 0; i < seen.size(); ++i) seen[i] = film.has_samples(i);
+    each_number(film, more, [&](auto& number, auto value, size_t pixel, Combine combine) {
+        if (combine == Combine::add)
+            number += value;
+        else if (!seen[pixel])
+            number = value;
+    });
+    film.restore_health(HealthRecorder::merged(film.health(), more.health));
+    return {};
+}
+
+FilmSize film_size(const FilmState& state) {
+    FilmSize size{state.width, state.height, {}, false, false};
+    const auto has = [&](const std::string& name) { return state.find(name) != nullptr; };
+    size.planes.albedo = size.planes.normal = has("albedo.R");
+    size.planes.depth = has("depth");
+    size.planes.ids = has("object");
+    size.planes.roulette = has("paths.R");
+    while (size.planes.bounces < most_bounce_planes && has(fmt::format("bounce.{}.R", size.planes.bounces))) ++size.planes.bounces;
+    size.transparent = has("covered");
+    return size;
+}
+
+} // namespace blush

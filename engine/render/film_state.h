@@ -1,0 +1,47 @@
+// All that a film has summed up, as a value: what another film goes on from as if it had seen the samples itself.
+#pragma once
+
+#include "core/exact_plane.h"
+#include "core/result.h"
+#include "render/film.h"
+#include "render/frame.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+namespace blush {
+
+struct FilmState {
+    int width = 0, height = 0;
+    int64_t first_sample = 0, samples = 0; // of each pixel, on average: sample indices [first_sample, first_sample + samples)
+    double seconds = 0;                    // of rendering
+    // "even.R", "odd.count", "albedo.G", "depth", ...: sums over samples, and what the first sample saw. Material ids are Id<Material>.value,
+    // no_material on a miss.
+    std::vector<ExactPlane> planes;
+    std::array<std::vector<double>, 2> shares; // SamplePlan's, once adaptive sampling has decided
+    RayCounts rays;
+    std::vector<PathCounts> path_counts;
+    int64_t truncated = 0;
+    Health health;
+
+    static constexpr uint32_t no_material = 0xffffffffu;
+    const ExactPlane* find(std::string_view name) const;
+    ExactPlane* find(std::string_view name);
+};
+using FilmStatePtr = std::shared_ptr<const FilmState>;
+
+// Planes and health of a film; the rest is whoever's who counts samples.
+FilmState save_film(const Film& film);
+// Into a film that was reset for the same image. Errors: another size, a plane that the film has and the state lacks.
+Result<void> load_film(Film& film, const FilmState& state);
+// Adds other samples of the same image to what the film holds. Sums are those of doubles; first hits stay those of the samples that were
+// there before. Health is added up, the lists of the worst are those of both. Errors as above.
+Result<void> add_film(Film& film, const FilmState& more);
+
+// What a film must be reset with to take up this state.
+FilmSize film_size(const FilmState& state);
+
+} // namespace blush
