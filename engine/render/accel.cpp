@@ -10,6 +10,7 @@
 #include <embree3/rtcore.h>
 #include <limits>
 #include <map>
+#include <span>
 #include <stdexcept>
 
 namespace blush {
@@ -73,6 +74,19 @@ struct SceneHandle {
             rtcSetGeometryIntersectFilterFunction(geometry, opacity_filter);
             rtcSetGeometryOccludedFilterFunction(geometry, opacity_filter);
         }
+        attach(geometry, triangles.mask);
+    }
+    void add_spheres(RTCDevice device, std::span<const AccelSphere> spheres) {
+        RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_SPHERE_POINT);
+        auto* vertices =
+            static_cast<Vec4*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, sizeof(Vec4), spheres.size()));
+        if (!vertices) throw std::runtime_error("not enough memory for the scene's spheres");
+        for (size_t i = 0; i < spheres.size(); ++i)
+            vertices[i] = {spheres[i].center.x, spheres[i].center.y, spheres[i].center.z, spheres[i].radius};
+        attach(geometry, spheres.front().mask);
+    }
+    void attach(RTCGeometry geometry, uint32_t mask) {
+        rtcSetGeometryMask(geometry, mask);
         rtcCommitGeometry(geometry);
         rtcAttachGeometry(scene, geometry);
         rtcReleaseGeometry(geometry);
@@ -125,7 +139,7 @@ template <int N, class Ray> void load_rays(Ray& ray, const RayArrays& rays, int 
     // A ray does not meet the surface that it starts on, as one from an eye that lies in it would: above 0, which the watertight test includes.
     std::fill_n(ray.tnear, N, std::numeric_limits<float>::min());
     std::fill_n(ray.time, N, 0.f);
-    std::fill_n(ray.mask, N, ~0u);
+    std::fill_n(ray.mask, N, rays.mask);
     std::fill_n(ray.flags, N, 0u);
 }
 
@@ -185,6 +199,8 @@ struct Accel::State {
     std::map<BottomKey, SceneHandle> bottoms;
     SceneHandle top;
     uint32_t first_instance = 0; // Embree id of the first instance in the top level
+    uint32_t first_sphere = 0;   // and of the first geometry of spheres after them
+    std::vector<int32_t> sphere_indices; // of the first sphere of each
     bool alpha = false;
 
     State() : device(rtcNewDevice("start_threads=0,set_affinity=0")) {
@@ -231,9 +247,15 @@ void Accel::commit(const AccelScene& scene, const SceneTables* tables, const Wor
         RTCGeometry geometry = rtcNewGeometry(s.device, RTC_GEOMETRY_TYPE_INSTANCE);
         rtcSetGeometryInstancedScene(geometry, it->second.scene);
         rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, &instance.world_from_object);
-        rtcCommitGeometry(geometry);
-        rtcAttachGeometry(top.scene, geometry);
-        rtcReleaseGeometry(geometry);
+        top.attach(geometry, instance.mask);
+    }
+    s.first_sphere = s.first_instance + uint32_t(scene.instances.size());
+    s.sphere_indices.clear();
+    // Embree's masks are those of whole geometries: spheres of equal mask that follow each other share one.
+    for (size_t begin = 0, end = 0; begin < scene.spheres.size(); begin = end) {
+        while (end < scene.spheres.size() && scene.spheres[end].mask == scene.spheres[begin].mask) ++end;
+        top.add_spheres(s.device, std::span(scene.spheres).subspan(begin, end - begin));
+        s.sphere_indices.push_back(int32_t(begin));
     }
     top.commit(workers);
     if (const RTCError error = rtcGetDeviceError(s.device); error != RTC_ERROR_NONE)
@@ -263,10 +285,18 @@ void Accel::intersect(const RayArrays& rays, int count, bool coherent, const Hit
     case 8: intersect_packets<8>(state_->top.scene, context, rays, count, hits); break;
     default: intersect_packets<4>(state_->top.scene, context, rays, count, hits); break;
     }
-    // Embree numbers instances after the flat geometries.
-    if (state_->first_instance > 0)
+    // Embree numbers instances after the flat geometries,
+    const int32_t first_instance = int32_t(state_->first_instance), first_sphere = int32_t(state_->first_sphere);
+    if (first_instance > 0)
         for (int i = 0; i < count; ++i)
-            if (hits.instance[i] >= 0) hits.instance[i] -= int32_t(state_->first_instance);
+            if (hits.instance[i] >= 0) hits.instance[i] -= first_instance;
+    // and spheres after those.
+    if (!state_->sphere_indices.empty())
+        for (int i = 0; i < count; ++i)
+            if (hits.instance[i] < 0 && hits.geometry[i] >= first_sphere) {
+                hits.triangle[i] += state_->sphere_indices[size_t(hits.geometry[i] - first_sphere)];
+                hits.instance[i] = sphere_instance;
+            }
 }
 
 void Accel::occluded(const RayArrays& rays, int count, bool coherent, uint8_t* blocked) const {

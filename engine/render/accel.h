@@ -16,6 +16,10 @@ namespace blush {
 
 struct SceneTables;
 
+// A ray meets what has a bit of its mask in common with the ray's.
+constexpr uint32_t camera_ray_mask = 1, other_ray_mask = ~camera_ray_mask;
+constexpr uint32_t seen_by_all = ~0u, hidden_from_camera = other_ray_mask;
+
 // Triangles as the builder needs them. Arrays are copied.
 struct AccelTriangles {
     uint64_t serial = 0;        // of the Geometry payload: names the bottom level it makes
@@ -25,26 +29,38 @@ struct AccelTriangles {
     size_t triangle_count = 0;
     int32_t part = 0;           // a part whose material and attributes decide opacity
     bool alpha = false;         // hits are tested against the material's opacity
+    uint32_t mask = seen_by_all; // of flat ones
 };
 struct AccelInstance {
     std::vector<AccelTriangles> geometries; // one mesh
     Affine world_from_object;
+    uint32_t mask = seen_by_all;
+};
+struct AccelSphere {
+    Vec3 center;
+    float radius = 0;
+    uint32_t mask = seen_by_all;
 };
 struct AccelScene {
     std::vector<AccelTriangles> flat; // world space; Embree's geometry id is the index
     std::vector<AccelInstance> instances;
+    std::vector<AccelSphere> spheres; // world space
 };
+
+// In place of an instance, of a hit on a sphere: its index is then the triangle.
+constexpr int32_t sphere_instance = -2;
 
 // Rays and hits as arrays of `count`; arrays are readable up to the next multiple of 16.
 struct RayArrays {
     const float *ox, *oy, *oz, *dx, *dy, *dz;
     const float* far_distance;   // null: infinite
     const uint32_t* random;      // per-ray random number for stochastic opacity; read only if has_alpha()
+    uint32_t mask = other_ray_mask;
 };
 struct HitArrays {
     float *t, *u, *v;            // t in units of the direction's length; u, v: weights of vertices 1 and 2
     int32_t *geometry;           // -1: miss
-    int32_t *instance;           // index among the instances, -1: hit in the flat part
+    int32_t *instance;           // index among the instances, -1: hit in the flat part, or sphere_instance
     int32_t *triangle;
 };
 

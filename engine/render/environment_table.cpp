@@ -134,7 +134,7 @@ Vec3d EnvironmentTable::integral() const { return {scale.x * texel_integral.x, s
 EnvironmentTables EnvironmentTable::tables() const {
     return {
         texels.data(), row_thresholds.data(), column_thresholds.data(), column_guides.data(), rows.data(), width, height, guide_bits, scale,
-        rotation,      visible_to_camera};
+        rotation,      visible_to_camera, lights_scene};
 }
 
 EnvironmentTable build_environment_table(const Environment& environment) {
@@ -174,6 +174,7 @@ void update_environment_parameters(EnvironmentTable& table, const Environment& e
     const double turns = double(environment.rotation_degrees) / 360;
     table.rotation = std::isfinite(turns) ? float(turns - std::round(turns)) : 0;
     table.visible_to_camera = environment.visible_to_camera;
+    table.lights_scene = environment.lights_scene;
 }
 
 } // namespace blush

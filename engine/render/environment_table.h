@@ -22,7 +22,7 @@ struct EnvironmentTable {
     // Of the parameters:
     Vec3 scale{0, 0, 0};
     float rotation = 0; // turns
-    bool visible_to_camera = true;
+    bool visible_to_camera = true, lights_scene = true;
 
     double seconds = 0; // that building it took
 

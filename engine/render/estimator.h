@@ -2,6 +2,7 @@
 // estimation, both combined by multiple importance sampling (Veach 1997), and Russian roulette. Written once for any lane type.
 #pragma once
 
+#include "render/accel.h"
 #include "render/camera.h"
 #include "render/estimator_settings.h"
 #include "render/light_sampling.h"
@@ -124,9 +125,11 @@ EscapedLight<F> escaped_light(const SceneTables& scene, const EstimatorSettings&
     F environment_weight = F(1.f);
     const LightTables& lights = scene.lights;
     if constexpr (S.has(Feature::environment)) {
-        if (lights.environment >= 0 && (bounce > 0 || scene.environment.visible_to_camera)) {
+        if (bounce > 0 ? scene.environment.lights_scene : scene.environment.visible_to_camera) {
             const Vec<F> radiance = environment_radiance<F>(scene.environment, path.ray.direction, active);
-            const F pdf = environment_pdf<F>(scene.environment, path.ray.direction) * light_probability<F>(lights, Int<F>(lights.environment));
+            F pdf = F(0.f);
+            if (lights.environment >= 0)
+                pdf = environment_pdf<F>(scene.environment, path.ray.direction) * light_probability<F>(lights, Int<F>(lights.environment));
             environment_weight = found_emission_weight(settings.strategy, path.pdf, pdf);
             sum = radiance * environment_weight;
         }
@@ -134,6 +137,7 @@ EscapedLight<F> escaped_light(const SceneTables& scene, const EstimatorSettings&
     if constexpr (S.has(Feature::suns)) {
         for (int i = 0; i < lights.sun_count; ++i) {
             const LightRecord& sun = lights.lights[lights.suns[i]];
+            if (bounce == 0 && sun.flags & light_hidden) continue;
             const Mask<F> inside = active && in_sun_disk<F>(path.ray.direction, splat<F>(sun.position), F(sun.cone_height));
             if (!any(inside)) continue;
             const F pdf = cone_pdf(F(sun.cone_height)) * light_probability<F>(lights, Int<F>(lights.suns[i]));
@@ -144,16 +148,49 @@ EscapedLight<F> escaped_light(const SceneTables& scene, const EstimatorSettings&
     return {sum, environment_weight};
 }
 
-// MIS weight of the emission of triangle `triangle` of a part, met at distance t under cosine `facing`.
-template <class F>
-F surface_emission_weight(const SceneTables& scene, Strategy strategy, const Int<F>& part, const Int<F>& triangle, const F& bsdf_pdf, const F& t,
-                          const F& facing, const Mask<F>& active) {
+// The light that a triangle of a part is, -1: none.
+template <class F> Int<F> light_of_triangle(const SceneTables& scene, const Int<F>& part, const Int<F>& triangle) {
     const Int<F> first = gather_field(scene.parts, &PartRecord::first_light, part);
-    const Mask<F> sampled = active && as_mask(first >= 0);
-    const Int<F> light = select(sampled, Int<F>(first + triangle), Int<F>(0));
+    return select(as_mask(first >= 0), Int<F>(first + triangle), Int<F>(-1));
+}
+
+// By how much a light's profile scales its emission in the unit direction `away`; 1 for those without one. `light` is -1 or valid.
+template <class F> F emission_profile(const SceneTables& scene, const Int<F>& light, const Vec<F>& away, const Mask<F>& active) {
+    const Int<F> profile = gather_field(scene.lights.lights, &LightRecord::profile, max(light, Int<F>(0)));
+    const Mask<F> shaped = active && as_mask(light >= 0) && as_mask(profile >= 0);
+    if (!any(shaped)) return F(1.f);
+    return select(shaped, profile_factor<F>(scene.lights.profiles, select(shaped, profile, Int<F>(0)), away, shaped), F(1.f));
+}
+
+// MIS weight of the emission of a triangle, met at distance t under cosine `facing`.
+template <class F>
+F surface_emission_weight(const SceneTables& scene, Strategy strategy, const Int<F>& found, const F& bsdf_pdf, const F& t, const F& facing,
+                          const Mask<F>& active) {
+    const Mask<F> sampled = active && as_mask(found >= 0);
+    const Int<F> light = select(sampled, found, Int<F>(0));
     const F per_area = light_probability<F>(scene.lights, light) * gather_field(scene.lights.lights, &LightRecord::inverse_area, light);
     const F pdf = select(sampled, area_to_solid_angle(per_area, F(t * t), facing), F(0.f));
     return found_emission_weight(strategy, bsdf_pdf, pdf);
+}
+
+// Light of a sphere that the path's ray has met, times its MIS weight, and that weight. From within, it is dark.
+template <class F> struct FoundSphere {
+    Vec<F> radiance;
+    F weight;
+    Int<F> object;
+};
+template <Features S, class F>
+FoundSphere<F> found_sphere(const SceneTables& scene, Strategy strategy, const Path<F>& path, const Int<F>& sphere, const Mask<F>& active) {
+    const LightRecord* lights = scene.lights.lights;
+    const Int<F> light = select(active, Int<F>(sphere + scene.lights.first_sphere), Int<F>(0));
+    const Vec<F> to_center = gather_field3<F>(lights, &LightRecord::position, light) - path.ray.origin;
+    const F height = sphere_cone_height(dot(to_center, to_center), gather_field(lights, &LightRecord::radius, light));
+    const Mask<F> outside = active && height > F(0.f);
+    const F pdf = cone_pdf(select(outside, height, F(1.f))) * light_probability<F>(scene.lights, light);
+    const F weight = found_emission_weight(strategy, path.pdf, pdf);
+    Vec<F> emission = gather_field3<F>(lights, &LightRecord::emission, light);
+    if constexpr (S.has(Feature::light_profiles)) emission = emission * emission_profile<F>(scene, light, -path.ray.direction, outside);
+    return {select<F>(outside, emission * weight, splat<F>(0.f)), weight, gather_field(lights, &LightRecord::object, light)};
 }
 
 // Cosine to the shading normal from which on a viewer is in front of it.
@@ -186,8 +223,9 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
     out.emitted = splat<F>(0.f);
     out.connects = out.continues = out.breaks = Mask<F>(false);
     out.weights = {F(1.f), F(1.f), F(0.f), F(0.f), F(1.f), Mask<F>(false), path.beta};
-    const Mask<F> found = active && as_mask(hit.geometry >= 0);
-    const Mask<F> escaped = active && !found;
+    const Mask<F> met = active && as_mask(hit.geometry >= 0);
+    const Mask<F> escaped = active && !met;
+    Mask<F> found = met; // a surface of some material
     Vec<F> beta = path.beta;
 
     // Nothing there: the environment and the suns.
@@ -199,6 +237,21 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
         }
     }
     out.emits = escaped;
+
+    // A sphere that shines: it reflects nothing, and the path ends.
+    Mask<F> on_sphere = Mask<F>(false);
+    Int<F> sphere_object = Int<F>(0);
+    if constexpr (S.has(Feature::sphere_lights)) {
+        on_sphere = met && as_mask(hit.instance == sphere_instance);
+        if (any(on_sphere)) {
+            const FoundSphere<F> sphere = found_sphere<S, F>(scene, settings.strategy, path, hit.triangle, on_sphere);
+            out.emitted = select<F>(on_sphere, beta * sphere.radiance, out.emitted);
+            out.weights.emission = select(on_sphere, sphere.weight, out.weights.emission);
+            out.emits = out.emits || on_sphere;
+            sphere_object = select(on_sphere, sphere.object, sphere_object);
+            found = met && !on_sphere;
+        }
+    }
 
     // The surface and its material.
     const Surface<F> surface = surface_at<S, F>(scene, hit, found);
@@ -225,9 +278,11 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
     if constexpr (S.has(Feature::emissive_triangles)) {
         const Mask<F> emitting = found && max_component(material.emission) > F(0.f) && (front || material.double_sided);
         if (any(emitting)) {
-            const F weight = surface_emission_weight<F>(scene, settings.strategy, surface.part, select(found, hit.triangle, Int<F>(0)), path.pdf, hit.t,
-                                                        abs(outside), emitting);
-            out.emitted = select<F>(emitting, beta * material.emission * weight, out.emitted);
+            const Int<F> light = light_of_triangle<F>(scene, surface.part, select(found, hit.triangle, Int<F>(0)));
+            const F weight = surface_emission_weight<F>(scene, settings.strategy, light, path.pdf, hit.t, abs(outside), emitting);
+            Vec<F> emission = material.emission;
+            if constexpr (S.has(Feature::light_profiles)) emission = emission * emission_profile<F>(scene, light, wo_world, emitting);
+            out.emitted = select<F>(emitting, beta * emission * weight, out.emitted);
             out.weights.emission = select(emitting, weight, out.weights.emission);
             out.emits = out.emits || emitting;
         }
@@ -252,9 +307,9 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
 
     if (bounce == 0) {
         out.first.albedo = select<F>(found, albedo<S, F>(bsdf, wo), out.emitted);
-        out.first.normal = select<F>(found, ns, splat<F>(0.f));
-        out.first.depth = select(found, hit.t, F(0.f));
-        out.first.object = select(found, gather_field(scene.parts, &PartRecord::object, surface.part), Int<F>(0));
+        out.first.normal = select<F>(found, ns, select<F>(on_sphere, wo_world, splat<F>(0.f)));
+        out.first.depth = select(met, hit.t, F(0.f));
+        out.first.object = select(found, gather_field(scene.parts, &PartRecord::object, surface.part), sphere_object);
         out.first.material = select(found, surface.material, Int<F>(-1));
     }
     if (bounce <= 1) {
@@ -273,7 +328,7 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
     // Next event: a point on a light, unless every lobe is smooth.
     const Mask<F> wants_light = scatters && !is_delta_only<F>(bsdf);
     if (scene.lights.count > 0 && any(wants_light)) {
-        const LightPoint<F> light = sample_light_point<S, F>(scene, sampler.pair(dimension + light_dimension), wants_light);
+        const LightPoint<F> light = sample_light_point<S, F>(scene, sampler.pair(dimension + light_dimension), surface.position, wants_light);
         const Vec<F> rough_to = select<F>(light.infinite, light.position, light.position - surface.position);
         const Vec<F> from = offset_origin(surface.position, surface.error, ng, dot(rough_to, ng) > F(0.f));
         // Ends on this side of the light's own plane, so that the light cannot shadow itself.

@@ -34,7 +34,7 @@ Vec3d render_origin(const Bounds& bounds) {
     return {rounded(c.x), rounded(c.y), rounded(c.z)};
 }
 
-Extent ExtentCache::extent_of(const std::vector<SceneObject>& objects) {
+Extent ExtentCache::extent_of(const std::vector<SceneObject>& objects, const std::vector<SphereLight>& spheres) {
     std::map<uint64_t, Bounds> used;
     Extent extent;
     for (const SceneObject& object : objects)
@@ -48,6 +48,8 @@ Extent ExtentCache::extent_of(const std::vector<SceneObject>& objects) {
             include_box(extent.bounds, it->second, object.world_from_object);
         }
     by_serial_ = std::move(used);
+    for (const SphereLight& sphere : spheres)
+        for (const double side : {-sphere.radius, sphere.radius}) extent.bounds.include(sphere.center + Vec3d{side, side, side});
     extent.origin = render_origin(extent.bounds);
     return extent;
 }

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "render/object_list.h"
+#include "render/sphere_lights.h"
 #include "scene/scene.h"
 
 #include <cstdint>
@@ -14,7 +15,7 @@
 namespace blush {
 
 struct Extent {
-    Bounds bounds;         // world space: boxes around the boxes of the objects' parts
+    Bounds bounds;         // world space: boxes around the boxes of the objects' parts, and the lights that are spheres
     Vec3d origin{0, 0, 0}; // what the tables call world space is the world's minus this
 };
 
@@ -26,7 +27,7 @@ Vec3d render_origin(const Bounds& bounds);
 // Computes extents without looking at every vertex at every edit: the bounds of each payload are kept.
 class ExtentCache {
 public:
-    Extent extent_of(const std::vector<SceneObject>& objects);
+    Extent extent_of(const std::vector<SceneObject>& objects, const std::vector<SphereLight>& spheres);
 
 private:
     std::map<uint64_t, Bounds> by_serial_; // object space

@@ -87,7 +87,7 @@ std::optional<Fault> fault_at(const ReplayedVertex& vertex, const SceneTables& s
     const bool escaped = vertex.hit.geometry < 0;
     Blame blame{vertex.bounce};
     look_at_ray(vertex, blame);
-    if (!escaped) look_at_surface(vertex, scene, blame);
+    if (!escaped && vertex.hit.instance != sphere_instance) look_at_surface(vertex, scene, blame);
     look_at_found_light(vertex, escaped, blame);
     look_at_light_sample(vertex, blame);
     look_at_scattering(vertex, blame);

@@ -217,23 +217,26 @@ void GeometryPool::fill(SceneTables& t) const {
     t.colors = pointer(colors_);
 }
 
-AccelScene GeometryPool::accel_scene(const std::vector<SceneObject>& objects, const std::vector<bool>& alpha) const {
+AccelScene GeometryPool::accel_scene(const std::vector<SceneObject>& objects, const std::vector<bool>& alpha,
+                                     const std::vector<uint32_t>& masks) const {
     AccelScene scene;
     // Instanced parts of the same data and material are equally opaque: the first answers for all, so that they share one bottom level.
     std::map<std::pair<uint64_t, Id<Material>>, int32_t> first_alike;
     size_t part = 0;
-    for (const SceneObject& object : objects) {
+    for (size_t i = 0; i < objects.size(); ++i) {
+        const SceneObject& object = objects[i];
         std::vector<AccelTriangles> triangles;
         for (const MeshPart& p : object.parts) {
             const PartRecord& record = parts_[part];
             const int32_t opaque_as =
                 object.instanced ? first_alike.try_emplace({p.geometry->serial, p.material}, int32_t(part)).first->second : int32_t(part);
             triangles.push_back({p.geometry->serial, positions_.data() + record.first_vertex, size_t(part_vertices_[part]),
-                                 indices_.data() + record.first_index, size_t(part_triangles_[part]), opaque_as, alpha[part]});
+                                 indices_.data() + record.first_index, size_t(part_triangles_[part]), opaque_as, alpha[part],
+                                 object.instanced ? seen_by_all : masks[i]});
             ++part;
         }
         if (object.instanced)
-            scene.instances.push_back({std::move(triangles), instances_[scene.instances.size()].world_from_object});
+            scene.instances.push_back({std::move(triangles), instances_[scene.instances.size()].world_from_object, masks[i]});
         else
             scene.flat.insert(scene.flat.end(), triangles.begin(), triangles.end());
     }

@@ -37,8 +37,8 @@ public:
     void corners(size_t part, int64_t triangle, Vec3 (&p)[3]) const;
 
     void fill(SceneTables& tables) const;
-    // For the builder; alpha[part] asks for opacity tests.
-    AccelScene accel_scene(const std::vector<SceneObject>& objects, const std::vector<bool>& alpha) const;
+    // For the builder; alpha[part] asks for opacity tests, masks[object] says which rays meet it.
+    AccelScene accel_scene(const std::vector<SceneObject>& objects, const std::vector<bool>& alpha, const std::vector<uint32_t>& masks) const;
     int64_t instance_count() const { return int64_t(instances_.size()); }
     int64_t vertex_count() const { return int64_t(positions_.size()); }
     // Some part has vertex normals that differ from its faces'.

@@ -27,6 +27,8 @@ constexpr FeatureText feature_texts[] = {
     {Feature::unlit, "unlit", "a material is unlit", "no material is unlit"},
     {Feature::emissive_triangles, "mesh lights", "a mesh emits light", "no mesh emits light"},
     {Feature::point_lights, "point lights", "the scene has points or spots without size", "the scene has no points or spots without size"},
+    {Feature::sphere_lights, "sphere lights", "the scene has spheres that shine", "the scene has no spheres that shine"},
+    {Feature::light_profiles, "light profiles", "a light shines differently in different directions", "every light shines alike to all sides"},
     {Feature::suns, "suns", "the scene has a sun", "the scene has no sun"},
     {Feature::environment, "environment", "the scene has an environment", "the scene has no environment"},
     {Feature::instances, "instances", "a mesh is shared or large", "every mesh is small and used once"},

@@ -4,18 +4,19 @@
 #include "core/sampler.h"
 #include "render/surface.h"
 #include "shading/light.h"
+#include "shading/sphere_light.h"
 
 namespace blush::inline BLUSH_ISA {
 
-// A light and a place on it, drawn without regard to the receiver.
+// A light and a place on it.
 template <class F> struct LightPoint {
     Mask<F> valid, infinite, delta;
     Vec<F> position;    // where a shadow ray ends; infinite: unit direction towards the light
     Vec<F> error;       // bound on the position's rounding error
-    Vec<F> normal;      // triangle: unit; spot: the axis
+    Vec<F> normal;      // triangle, sphere: unit
     Vec<F> emission;    // nits; delta: candela or lux
     F probability;      // of having picked this light
-    F density;          // infinite: per solid angle; triangle: per area; delta: 1
+    F density;          // infinite, sphere: per solid angle; triangle: per area; delta: 1
     Int<F> kind, light;
     Mask<F> two_sided;
 };
@@ -52,7 +53,9 @@ Vec<F> textured_emission(const SceneTables& scene, const Int<F>& light, const Ve
     return emission_at<S, F>(scene.materials, material, uv_at(scene.uv0, part_uv0), uv_at(scene.uv1, part_uv1), active);
 }
 
-template <Features S, class F> LightPoint<F> sample_light_point(const SceneTables& scene, const Pair<F>& random, const Mask<F>& active) {
+// Draws a light for a receiver at `from`, and a point of it.
+template <Features S, class F>
+LightPoint<F> sample_light_point(const SceneTables& scene, const Pair<F>& random, const Vec<F>& from, const Mask<F>& active) {
     const LightTables& table = scene.lights;
     const LightRecord* lights = table.lights;
     const DiscreteSample<F> pick = sample_discrete<F>(table.thresholds, Int<F>(0), table.count, random.bits_x);
@@ -92,9 +95,19 @@ template <Features S, class F> LightPoint<F> sample_light_point(const SceneTable
             p.position = select<F>(triangle, on, p.position);
         }
     }
-    if constexpr (S.has(Feature::point_lights)) {
-        p.delta = p.delta || is(LightKind::point) || is(LightKind::spot);
-        p.normal = select<F>(is(LightKind::spot), gather_field3<F>(lights, &LightRecord::edge1, pick.index), p.normal);
+    if constexpr (S.has(Feature::point_lights)) p.delta = p.delta || is(LightKind::point);
+    if constexpr (S.has(Feature::sphere_lights)) {
+        const Mask<F> sphere = is(LightKind::sphere);
+        if (any(sphere)) {
+            const SpherePoint<F> s = sample_sphere(p.position, gather_field(lights, &LightRecord::radius, pick.index), from, u, v);
+            // As far as Embree may be off about where a ray meets the sphere.
+            const F error = (max_component(abs(p.position)) + max_component(abs(from)) + s.distance) * gamma_bound(16);
+            p.error = select<F>(sphere, splat<F>(1.f) * error, p.error);
+            p.normal = select<F>(sphere, s.normal, p.normal);
+            p.density = select(sphere, cone_pdf(s.height), p.density);
+            p.position = select<F>(sphere, s.position, p.position);
+            p.valid = p.valid && !(sphere && s.height <= F(0.f));
+        }
     }
     if constexpr (S.has(Feature::suns)) {
         const Mask<F> sun = is(LightKind::sun);
@@ -125,9 +138,8 @@ template <Features S, class F> LightPoint<F> sample_light_point(const SceneTable
 // Radiance and density at a receiver `distance_squared` away in direction wi from it; infinite lights ignore the distance.
 template <Features S, class F> IncidentLight<F> incident_light(const SceneTables& scene, const LightPoint<F>& p, const Vec<F>& wi, const F& distance_squared) {
     IncidentLight<F> in{p.emission, p.probability * p.density};
-    const Mask<F> finite = !p.infinite;
     if constexpr (S.has(Feature::emissive_triangles)) {
-        const Mask<F> triangle = finite && !p.delta;
+        const Mask<F> triangle = as_mask(p.kind == int32_t(LightKind::triangle));
         const F cos_light = -dot(p.normal, wi);
         const F facing = select(p.two_sided, abs(cos_light), cos_light);
         const Mask<F> seen = facing > F(0.f);
@@ -135,13 +147,15 @@ template <Features S, class F> IncidentLight<F> incident_light(const SceneTables
         in.pdf = select(triangle, area_to_solid_angle(in.pdf, distance_squared, select(seen, facing, F(1.f))), in.pdf);
     }
     if constexpr (S.has(Feature::point_lights)) {
-        const Mask<F> point = finite && p.delta;
-        if (any(point)) {
-            const F scale = gather_field(scene.lights.lights, &LightRecord::spot_scale, p.light);
-            const F offset = gather_field(scene.lights.lights, &LightRecord::spot_offset, p.light);
-            const Mask<F> spot = as_mask(p.kind == int32_t(LightKind::spot));
-            const F intensity = select(spot, spot_falloff(scale, offset, F(-dot(p.normal, wi))), F(1.f)) / distance_squared;
-            in.radiance = select<F>(point, in.radiance * intensity, in.radiance);
+        const Mask<F> point = p.delta && !p.infinite;
+        in.radiance = select<F>(point, in.radiance * (1.f / distance_squared), in.radiance);
+    }
+    if constexpr (S.has(Feature::light_profiles)) {
+        const Int<F> profile = gather_field(scene.lights.lights, &LightRecord::profile, p.light);
+        const Mask<F> shaped = p.valid && as_mask(profile >= 0);
+        if (any(shaped)) {
+            const F factor = profile_factor<F>(scene.lights.profiles, select(shaped, profile, Int<F>(0)), -wi, shaped);
+            in.radiance = select<F>(shaped, in.radiance * factor, in.radiance);
         }
     }
     return in;

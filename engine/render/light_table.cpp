@@ -40,7 +40,14 @@ double mean_textured_luminance(const SceneTables& tables, size_t light, const Ve
     return std::max(sum / 16, 0.01 * luminance_of(factor));
 }
 
-void add_triangles(Builder& b, const MaterialTable& materials, GeometryPool& geometry, const SceneTables& scene_tables) {
+// The profile of a panel that was lowered to this part; -1 for other meshes.
+int32_t panel_profile(Builder& b, const Scene& scene, Placements& placements, Id<Node> body) {
+    const Light* light = light_of_body(scene, body);
+    return light ? b.table.profiles.add(*light, placements(body).world_from_node).profile : -1;
+}
+
+void add_triangles(Builder& b, const Scene& scene, const MaterialTable& materials, GeometryPool& geometry, const SceneTables& scene_tables) {
+    Placements placements(scene);
     SceneTables tables = scene_tables;
     for (size_t part = 0; part < geometry.parts().size(); ++part) {
         PartRecord& record = geometry.parts()[part];
@@ -48,6 +55,7 @@ void add_triangles(Builder& b, const MaterialTable& materials, GeometryPool& geo
         record.first_light = -1;
         if (!(material.flags & material_emissive) || material.flags & material_unlit) continue;
         record.first_light = int32_t(b.table.records.size());
+        const int32_t profile = panel_profile(b, scene, placements, Id<Node>{uint32_t(record.object)});
         const bool two_sided = material.flags & material_double_sided, textured = material.emissive_texture >= 0;
         // The stored corners wind as in the mesh; under a mirroring transform the other side of their plane is the outside.
         const bool mirrored = record.transform >= 0 ? determinant(scene_tables.instances[record.transform].world_from_object) < 0
@@ -60,6 +68,7 @@ void add_triangles(Builder& b, const MaterialTable& materials, GeometryPool& geo
             light.flags = (two_sided ? light_two_sided : 0) | (textured ? light_textured : 0) | (mirrored ? light_mirrored : 0);
             light.part = int32_t(part);
             light.triangle = int32_t(t);
+            light.profile = profile;
             light.position = p[0];
             light.edge1 = p[1] - p[0];
             light.edge2 = p[2] - p[0];
@@ -80,52 +89,66 @@ void add_triangles(Builder& b, const MaterialTable& materials, GeometryPool& geo
     }
 }
 
+void add_spheres(Builder& b, const Scene& scene, const std::vector<SphereLight>& spheres, const Vec3d& origin) {
+    Placements placements(scene);
+    b.table.first_sphere = int32_t(b.table.records.size());
+    for (const SphereLight& sphere : spheres) {
+        const Light& light = *scene.lights.find(sphere.light);
+        const LightProfiles::Added profile = b.table.profiles.add(light, placements(sphere.node).world_from_node);
+        LightRecord record{};
+        record.kind = int32_t(LightKind::sphere);
+        record.profile = profile.profile;
+        record.object = int32_t(sphere.node.value);
+        record.position = to_float(sphere.center - origin);
+        record.radius = float(sphere.radius);
+        const double disk = pi_d * sphere.radius * sphere.radius; // as seen from afar
+        // The candela of a point or a spot are those of its sphere from any direction.
+        record.emission = light_emission(light);
+        if (light.kind != Light::Kind::sphere) record.emission = to_float(to_double(record.emission) * (1 / disk));
+        ++b.table.sphere_lights;
+        b.add(record, 4 * pi_d * disk * luminance_of(record.emission) * profile.share);
+    }
+}
+
+LightRecord sun_record(const Vec3& towards, float angle_radians, const Vec3& lux) {
+    LightRecord record{};
+    record.kind = int32_t(LightKind::sun);
+    record.profile = -1;
+    record.position = towards;
+    const double half = 0.5 * double(angle_radians), s = std::sin(0.5 * half);
+    record.cone_height = float(2 * s * s);
+    // The disk's radiance gives the stated illuminance on a surface that faces it: E = L pi sin^2(half angle).
+    record.emission = record.cone_height > 0 ? lux / float(pi_d * std::sin(half) * std::sin(half)) : lux;
+    return record;
+}
+
+void add_sun(Builder& b, const LightRecord& record, double lux, double scene_radius) {
+    if (record.cone_height > 0) b.table.suns.push_back(int32_t(b.table.records.size()));
+    ++b.table.sun_lights;
+    b.add(record, pi_d * scene_radius * scene_radius * lux);
+}
+
 void add_punctual(Builder& b, const Scene& scene, double scene_radius, const Vec3d& origin) {
     Placements placements(scene);
     for (const auto& [id, node] : scene.nodes) {
         const Light* light = node.light ? scene.lights.find(node.light) : nullptr;
-        if (!light || !light->enabled || is_area_light(*light) || !placements(id).visible) continue;
+        if (!light || !light->enabled || is_area_light(*light) || is_sphere_light(*light) || !placements(id).visible) continue;
         const Affined& world = placements(id).world_from_node;
-        const Vec3d axis = normalize(-world.z);
+        const Vec3 emission = light_emission(*light);
+        if (light->kind == Light::Kind::sun) {
+            LightRecord record = sun_record(to_float(normalize(world.z)), light->angle_radians, emission);
+            if (!light->visible_to_camera) record.flags |= light_hidden;
+            add_sun(b, record, luminance_of(emission), scene_radius);
+            continue;
+        }
+        const LightProfiles::Added profile = b.table.profiles.add(*light, world);
         LightRecord record{};
+        record.kind = int32_t(LightKind::point);
+        record.profile = profile.profile;
         record.position = to_float(world.t - origin);
-        record.edge1 = to_float(axis);
-        record.emission = light_emission(*light);
-        const double strength = luminance_of(record.emission);
-        switch (light->kind) {
-        case Light::Kind::point:
-            record.kind = int32_t(LightKind::point);
-            ++b.table.point_lights;
-            b.add(record, 4 * pi_d * strength);
-            break;
-        case Light::Kind::spot: {
-            record.kind = int32_t(LightKind::spot);
-            const double inner = std::cos(double(light->inner_cone_radians)), outer = std::cos(double(light->outer_cone_radians));
-            record.spot_scale = float(1 / std::max(0.001, inner - outer)); // as KHR_lights_punctual suggests
-            record.spot_offset = float(-outer) * record.spot_scale;
-            ++b.table.point_lights;
-            b.add(record, 2 * pi_d * (1 - 0.5 * (inner + outer)) * strength);
-            break;
-        }
-        case Light::Kind::sun: {
-            record.kind = int32_t(LightKind::sun);
-            record.position = -record.edge1;
-            const double half = 0.5 * double(light->angle_radians);
-            const double s = std::sin(0.5 * half);
-            record.cone_height = float(2 * s * s);
-            // The disk's radiance gives the stated illuminance on a surface that faces it: E = L pi sin^2(half angle).
-            if (record.cone_height > 0) {
-                record.emission = record.emission / float(pi_d * std::sin(half) * std::sin(half));
-                b.table.suns.push_back(int32_t(b.table.records.size()));
-            }
-            ++b.table.sun_lights;
-            b.add(record, pi_d * scene_radius * scene_radius * strength);
-            break;
-        }
-        case Light::Kind::rectangle:
-        case Light::Kind::disk:
-        case Light::Kind::sphere: break; // lowered to a mesh
-        }
+        record.emission = emission;
+        ++b.table.point_lights;
+        b.add(record, 4 * pi_d * luminance_of(emission) * profile.share);
     }
 }
 
@@ -145,15 +168,17 @@ void share_evenly(std::vector<double>& powers) {
 } // namespace
 
 LightTable build_light_table(const Scene& scene, const MaterialTable& materials, GeometryPool& geometry, const SceneTables& tables,
-                             const Vec3& environment_mean, const Extent& extent) {
+                             const std::vector<SphereLight>& spheres, const Vec3& environment_mean, const Extent& extent) {
     Builder b;
-    add_triangles(b, materials, geometry, tables);
+    add_triangles(b, scene, materials, geometry, tables);
+    add_spheres(b, scene, spheres, extent.origin);
     const double radius = extent.bounds.empty ? 1 : std::max(extent.bounds.radius(), 1e-30);
     add_punctual(b, scene, radius, extent.origin);
     const double sky = luminance_of(environment_mean);
     if (sky > 0) {
         LightRecord record{};
         record.kind = int32_t(LightKind::environment);
+        record.profile = -1;
         b.table.environment = int32_t(b.table.records.size());
         b.add(record, 4 * pi_d * pi_d * radius * radius * sky);
     }
@@ -171,6 +196,8 @@ void LightTable::fill(LightTables& t) const {
     t.environment = environment;
     t.suns = suns.data();
     t.sun_count = int32_t(suns.size());
+    t.first_sphere = first_sphere;
+    t.profiles = profiles.tables();
 }
 
 } // namespace blush

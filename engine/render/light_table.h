@@ -3,7 +3,9 @@
 
 #include "render/extent.h"
 #include "render/geometry_pool.h"
+#include "render/light_profiles.h"
 #include "render/material_table.h"
+#include "render/sphere_lights.h"
 #include "scene/scene.h"
 #include "shading/light.h"
 
@@ -18,17 +20,19 @@ struct LightTable {
     std::vector<int32_t> suns;        // indices of those with a disk
     int32_t count = 0;
     int32_t environment = -1;
-    int64_t emissive_triangles = 0, point_lights = 0, sun_lights = 0;
+    int32_t first_sphere = 0;
+    LightProfiles profiles;
+    int64_t emissive_triangles = 0, point_lights = 0, sphere_lights = 0, sun_lights = 0;
 
     void fill(LightTables& tables) const;
 };
 
-// Emissive triangles part by part (part records get their first_light), then punctual lights in node order, then the
-// environment. `environment_mean` is its radiance averaged over the sphere (nits), 0 if there is none. Powers are luminous fluxes: pi A L for a
-// triangle, 4 pi I for a point, the cone's share of it for a spot; for suns and sky what crosses the sphere of radius R around the
-// scene's bounds: pi R^2 E and 4 pi^2 R^2 L (Pharr, Jakob, Humphreys, section 12.6). Positions are about the extent's origin.
-// One sample in 64 is shared out among all lights alike, so that a faint one is found where it is all there is.
+// Emissive triangles part by part (part records get their first_light), then spheres in their order, then other lights in node order, then
+// the environment. `environment_mean` is its radiance averaged over the sphere (nits), 0 if there is none. Powers are luminous fluxes: pi A L
+// for a triangle, 4 pi^2 r^2 L for a sphere, 4 pi I for a point, times the share that a profile leaves of it; for suns and sky what crosses
+// the sphere of radius R around the scene's bounds: pi R^2 E and 4 pi^2 R^2 L (Pharr, Jakob, Humphreys, section 12.6). Positions are about
+// the extent's origin. One sample in 64 is shared out among all lights alike, so that a faint one is found where it is all there is.
 LightTable build_light_table(const Scene& scene, const MaterialTable& materials, GeometryPool& geometry, const SceneTables& tables,
-                             const Vec3& environment_mean, const Extent& extent);
+                             const std::vector<SphereLight>& spheres, const Vec3& environment_mean, const Extent& extent);
 
 } // namespace blush

@@ -53,6 +53,11 @@ struct Logger {
             line("  leaves the scene");
             return;
         }
+        if (hit.instance == sphere_instance) {
+            const LightTables& lights = compiled.tables().lights;
+            line("  hits       {}, a sphere that shines, at {:.6g} m", object_name(scene, lights.lights[lights.first_sphere + hit.triangle].object), hit.t);
+            return;
+        }
         const Surface<float> s = surface_at<all_features, float>(compiled.tables(), hit, true);
         const int32_t object = compiled.tables().parts[s.part].object;
         line("  hits       {}, {}, triangle {}, at {:.6g} m", object_name(scene, object), material_name(scene, compiled.material_id(s.material)),

@@ -1,6 +1,7 @@
 #include "render/render_scene.h"
 
 #include "core/math.h"
+#include "render/lowering.h"
 #include "scene/affine.h"
 
 #include <algorithm>
@@ -36,6 +37,18 @@ AttributeNeeds needs_of(const Scene& scene, const std::vector<SceneObject>& obje
     return needs;
 }
 
+uint32_t ray_mask(bool visible_to_camera) { return visible_to_camera ? seen_by_all : hidden_from_camera; }
+
+// Which rays meet each object: the bodies of lights may be hidden from the camera.
+std::vector<uint32_t> masks_of(const Scene& lowered, const std::vector<SceneObject>& objects) {
+    std::vector<uint32_t> masks;
+    for (const SceneObject& object : objects) {
+        const Light* light = light_of_body(lowered, object.node);
+        masks.push_back(ray_mask(!light || light->visible_to_camera));
+    }
+    return masks;
+}
+
 } // namespace
 
 CameraRecord camera_record(const View& view, float aspect, const Vec3d& origin) {
@@ -63,17 +76,20 @@ void RenderScene::update_materials(const Scene& scene, const UpdatePlan& plan) {
 
 void RenderScene::update_geometry(const Scene& scene, const UpdatePlan& plan, const Workers& workers) {
     const bool materials_changed = plan.all_materials || !plan.materials.empty();
-    if (!plan.objects && !plan.transforms && !materials_changed) return;
+    if (!plan.objects && !plan.transforms && !materials_changed && !plan.lights) return;
 
+    std::vector<SphereLight> spheres = list_sphere_lights(scene);
+    const bool spheres_changed = spheres != spheres_;
+    spheres_ = std::move(spheres);
     bool rebuild = plan.objects, commit = plan.objects;
-    if (plan.objects || plan.transforms) {
+    if (plan.objects || plan.transforms || spheres_changed) {
         std::vector<SceneObject> objects = list_objects(scene);
         has_geometry_ = !objects.empty();
         if (objects.empty()) objects = placeholder_objects();
         const auto same = [](const SceneObject& a, const SceneObject& b) { return a.same_shape(b); };
         rebuild |= !std::equal(objects.begin(), objects.end(), objects_.begin(), objects_.end(), same);
         std::swap(objects, objects_);
-        extent_ = extents_.extent_of(objects_);
+        extent_ = extents_.extent_of(objects_, spheres_);
         const AttributeNeeds needs = needs_of(scene, objects_);
         rebuild |= needs != needs_;
         if (!rebuild) geometry_.move(objects, objects_, extent_.origin);
@@ -95,10 +111,19 @@ void RenderScene::update_geometry(const Scene& scene, const UpdatePlan& plan, co
         const Material* material = scene.materials.find(id);
         alpha.push_back(material && material->alpha != Material::Alpha::opaque);
     }
-    commit |= alpha != alpha_;
+    std::vector<uint32_t> masks = masks_of(scene, objects_);
+    commit |= alpha != alpha_ || masks != masks_;
     alpha_ = std::move(alpha);
+    masks_ = std::move(masks);
     geometry_.fill(tables_);
-    if (commit) accel_.commit(has_geometry_ ? geometry_.accel_scene(objects_, alpha_) : AccelScene{}, &tables_, workers);
+    if (commit) accel_.commit(accel_scene(), &tables_, workers);
+}
+
+AccelScene RenderScene::accel_scene() const {
+    AccelScene scene = has_geometry_ ? geometry_.accel_scene(objects_, alpha_, masks_) : AccelScene{};
+    for (const SphereLight& s : spheres_)
+        scene.spheres.push_back({to_float(s.center - extent_.origin), float(s.radius), ray_mask(s.visible_to_camera)});
+    return scene;
 }
 
 void RenderScene::update_lights(const Scene& scene, const UpdatePlan& plan) {
@@ -110,8 +135,9 @@ void RenderScene::update_lights(const Scene& scene, const UpdatePlan& plan) {
     has_environment_map_ = needs_map;
     tables_.environment = environment_.tables();
     if (!plan.lights) return;
-    const Vec3d sky = environment_.integral() * (1 / (4 * 3.14159265358979323846));
-    lights_ = build_light_table(scene, materials_, geometry_, tables_, to_float(sky), extent_);
+    // A backdrop is seen and lights nothing.
+    const Vec3d sky = scene.environment.lights_scene ? environment_.integral() * (1 / (4 * 3.14159265358979323846)) : Vec3d{0, 0, 0};
+    lights_ = build_light_table(scene, materials_, geometry_, tables_, spheres_, to_float(sky), extent_);
     lights_.fill(tables_.lights);
 }
 
@@ -130,7 +156,10 @@ Features RenderScene::compute_features(const Scene& scene, const RenderSettings&
     add(Feature::emissive_triangles, lights_.emissive_triangles > 0);
     add(Feature::point_lights, lights_.point_lights > 0);
     add(Feature::suns, lights_.sun_lights > 0);
-    add(Feature::environment, lights_.environment >= 0);
+    add(Feature::sphere_lights, lights_.sphere_lights > 0);
+    add(Feature::light_profiles, !lights_.profiles.empty());
+    const bool is_backdrop = !scene.environment.lights_scene && scene.environment.visible_to_camera && has_environment_map_;
+    add(Feature::environment, lights_.environment >= 0 || is_backdrop);
     add(Feature::energy_compensation, settings.energy_compensation);
     add(Feature::thin_lens, !scene.view.lens.orthographic && scene.view.lens.aperture_radius > 0);
     add(Feature::orthographic, scene.view.lens.orthographic);

@@ -41,16 +41,19 @@ public:
 private:
     void update_materials(const Scene& scene, const UpdatePlan& plan);
     void update_geometry(const Scene& scene, const UpdatePlan& plan, const Workers& workers);
+    AccelScene accel_scene() const;
     void update_lights(const Scene& scene, const UpdatePlan& plan);
     Features compute_features(const Scene& scene, const RenderSettings& settings) const;
 
     MaterialTable materials_;
     std::vector<SceneObject> objects_;
+    std::vector<SphereLight> spheres_;
     AttributeNeeds needs_;
     ExtentCache extents_;
     Extent extent_;
     GeometryPool geometry_;
     std::vector<bool> alpha_; // by part
+    std::vector<uint32_t> masks_; // by object
     LightTable lights_;
     EnvironmentTable environment_;
     Accel accel_;

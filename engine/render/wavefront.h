@@ -142,7 +142,8 @@ template <class F> void trace_paths(const KernelContext& context, TileScratch& s
     if (alpha)
         for (int k = 0; k < q.size; k += width<F>)
             store(scratch.random + k, opacity_random<F>(load<UInt<F>>(q.key + k), load<UInt<F>>(q.index + k), uint32_t(2 * bounce)));
-    const RayArrays rays{q.ox, q.oy, q.oz, q.dx, q.dy, q.dz, nullptr, alpha ? scratch.random.data : nullptr};
+    const RayArrays rays{q.ox, q.oy, q.oz, q.dx, q.dy, q.dz, nullptr, alpha ? scratch.random.data : nullptr,
+                         bounce == 0 ? camera_ray_mask : other_ray_mask};
     HitColumns& h = scratch.hits;
     context.accel->intersect(rays, q.size, bounce == 0, {h.t, h.u, h.v, h.geometry, h.instance, h.triangle});
 }

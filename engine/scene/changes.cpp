@@ -1,5 +1,7 @@
 #include "scene/changes.h"
 
+#include "scene/ies_profile.h"
+
 #include <algorithm>
 
 namespace blush {
@@ -17,7 +19,14 @@ template <class T> bool same_but_for_name(T before, const T& after) {
 }
 
 bool same_to_image(const Material& a, const Material& b) { return same_but_for_name(a, b); }
-bool same_to_image(const Light& a, const Light& b) { return same_but_for_name(a, b); }
+bool same_to_image(Light before, const Light& after) {
+    if (!same_payload(before.ies, after.ies)) return false;
+    before.ies = after.ies;
+    before.ies_file = after.ies_file;
+    before.unit = after.unit;
+    before.keep_power = after.keep_power;
+    return same_but_for_name(std::move(before), after);
+}
 
 bool same_to_image(Texture before, const Texture& after) {
     if (!same_payload(before.image, after.image)) return false;
@@ -60,7 +69,7 @@ void diff_nodes(const Scene& before, const Scene& after, Changes& changes) {
 void diff_environment(const Environment& a, const Environment& b, Changes& changes) {
     changes.environment_image = a.kind != b.kind || !same_payload(a.image, b.image);
     changes.environment_parameters = a.color != b.color || a.intensity != b.intensity || a.rotation_degrees != b.rotation_degrees ||
-                                     a.visible_to_camera != b.visible_to_camera;
+                                     a.visible_to_camera != b.visible_to_camera || a.lights_scene != b.lights_scene;
 }
 
 void diff_settings(const RenderSettings& a, const RenderSettings& b, Changes& changes) {

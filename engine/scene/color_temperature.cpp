@@ -1,5 +1,7 @@
 #include "scene/color_temperature.h"
 
+#include "core/math.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -24,21 +26,43 @@ double planck(double nm, double kelvin) {
     return std::pow(nm * 1e-3, -5) / std::expm1(second_radiation_constant / (nm * kelvin));
 }
 
+Vec3d black_body_xyz(double kelvin) {
+    Vec3d sum{0, 0, 0};
+    for (double nm = 360; nm <= 830; nm += 5) sum = sum + Vec3d{x_bar(nm), y_bar(nm), z_bar(nm)} * planck(nm, kelvin);
+    return sum;
+}
+
+// CIE 1960 uniform chromaticity scale.
+struct Chromaticity {
+    double u, v;
+};
+Chromaticity chromaticity_of(const Vec3d& xyz) {
+    const double d = xyz.x + 15 * xyz.y + 3 * xyz.z;
+    return {4 * xyz.x / d, 6 * xyz.y / d};
+}
+// Of luminance Y.
+Vec3d to_xyz(const Chromaticity& c, double luminance) {
+    const double d = 6 * luminance / c.v, x = c.u * d / 4;
+    return {x, luminance, (d - x - 15 * luminance) / 3};
+}
+
+// Moved by `distance` at right angles to the locus, towards greater v.
+Vec3d off_locus(const Vec3d& xyz, double kelvin, double distance) {
+    const Chromaticity here = chromaticity_of(xyz), hotter = chromaticity_of(black_body_xyz(kelvin * 1.001));
+    const double du = hotter.u - here.u, dv = hotter.v - here.v, step = distance / std::hypot(du, dv);
+    return to_xyz({here.u + dv * step, here.v - du * step}, xyz.y);
+}
+
 } // namespace
 
-Vec3 black_body_color(float kelvin) {
+Vec3 black_body_color(float kelvin, float green_tint) {
     const double temperature = std::clamp(kelvin, min_kelvin, max_kelvin);
-    double x = 0, y = 0, z = 0;
-    for (double nm = 360; nm <= 830; nm += 5) {
-        const double power = planck(nm, temperature);
-        x += power * x_bar(nm);
-        y += power * y_bar(nm);
-        z += power * z_bar(nm);
-    }
+    Vec3d c = black_body_xyz(temperature);
+    if (green_tint != 0) c = off_locus(c, temperature, double(green_tint));
     // XYZ to linear Rec.709 (IEC 61966-2-1).
-    const double r = std::max(0.0, 3.2404542 * x - 1.5371385 * y - 0.4985314 * z);
-    const double g = std::max(0.0, -0.9692660 * x + 1.8760108 * y + 0.0415560 * z);
-    const double b = std::max(0.0, 0.0556434 * x - 0.2040259 * y + 1.0572252 * z);
+    const double r = std::max(0.0, 3.2404542 * c.x - 1.5371385 * c.y - 0.4985314 * c.z);
+    const double g = std::max(0.0, -0.9692660 * c.x + 1.8760108 * c.y + 0.0415560 * c.z);
+    const double b = std::max(0.0, 0.0556434 * c.x - 0.2040259 * c.y + 1.0572252 * c.z);
     const double luminance = 0.2126729 * r + 0.7151522 * g + 0.0721750 * b;
     return {float(r / luminance), float(g / luminance), float(b / luminance)};
 }

@@ -10,6 +10,9 @@ constexpr float min_kelvin = 1000, max_kelvin = 40000;
 // Linear Rec.709 RGB of a black body at `kelvin` (clamped to 1000 .. 40000), scaled to luminance 1, so that turning the temperature does
 // not dim the light: Planck's law, summed over the visible range against the CIE 1931 observer. Components outside Rec.709 are clamped to 0
 // before scaling; below about 1900 K blue is.
-Vec3 black_body_color(float kelvin);
+//
+// `green_tint` is the distance from the Planckian locus in CIE 1960 uv, at right angles to it (Duv of ANSI C78.377): above 0 towards green,
+// below towards magenta; -0.05 .. 0.05 is what can still be called white.
+Vec3 black_body_color(float kelvin, float green_tint = 0);
 
 } // namespace blush

@@ -133,7 +133,7 @@ struct Light {
     float intensity = 1;          // point, spot: candela; sun: lux on a surface that faces it; rectangle, disk, sphere: nits
     Unit unit = Unit::own;        // what the window states the intensity in; it is kept as above
     bool keep_power = false;      // rectangle, disk, sphere: resizing in the window keeps the luminous flux rather than the nits
-    float radius = 0;             // metres. point: 0 is a point, more a sphere of the same intensity; disk, sphere: its own; spot: of its disk
+    float radius = 0;             // metres. point: 0 is a point, more a sphere of the same intensity; disk, sphere: its own; spot: as a point's
     float angle_radians = 0;      // sun: full angle it subtends; 0 is a perfectly parallel beam (the real sun: 0.00925)
     float inner_cone_radians = 0; // spot: half angles, KHR_lights_punctual
     float outer_cone_radians = 0.7853982f;

@@ -31,6 +31,7 @@ struct EnvironmentTables {
     Vec3 scale{0, 0, 0}; // radiance in nits of a texel of 1
     float rotation = 0;  // of the map about +Y, counter-clockwise seen from above, in turns, [-0.5, 0.5]
     int32_t visible_to_camera = 1;
+    int32_t lights_scene = 1; // seen by all other rays
 };
 
 } // namespace blush

@@ -22,6 +22,8 @@ enum class Feature : uint32_t {
     energy_compensation = 1u << 12,
     thin_lens = 1u << 13,
     orthographic = 1u << 14,
+    sphere_lights = 1u << 15,      // spheres, and points and spots with a size
+    light_profiles = 1u << 16,     // some light's emission depends on direction: spots, spread, measured distributions
 };
 
 // A set of features; usable as a template argument.
@@ -36,6 +38,6 @@ struct Features {
 };
 
 inline constexpr Features no_features{};
-inline constexpr Features all_features{(1u << 15) - 1};
+inline constexpr Features all_features{(1u << 17) - 1};
 
 } // namespace blush

@@ -1,35 +1,40 @@
-// One emitter per record: an emissive triangle, a point or spot without size, a sun, or the environment; and the table that
+// One emitter per record: an emissive triangle, a point without size, a sphere, a sun, or the environment; and the table that
 // picks one with a probability proportional to its power (Shirley, Wang and Zimmerman 1996).
 //
-// Photometric units as in glTF: candela for points and spots (irradiance I cos / r^2), lux for suns, nits for triangles. Not
-// modelled: KHR_lights_punctual's `range`, which has no physical counterpart.
+// Photometric units as in glTF: candela for points (irradiance I cos / r^2), lux for suns, nits for triangles and spheres. What makes a
+// point a spot, or a lamp with a measured distribution, is its profile. Not modelled: KHR_lights_punctual's `range`, which has no physical
+// counterpart.
 #pragma once
 
 #include "core/distribution.h"
 #include "core/sampling.h"
+#include "shading/light_profile.h"
 
 #include <cstdint>
 
 namespace blush {
 
-enum class LightKind : int32_t { triangle, point, spot, sun, environment };
+enum class LightKind : int32_t { triangle, point, sphere, sun, environment };
 
 struct LightRecord {
     int32_t kind;        // LightKind
     int32_t flags;       // LightFlag
     int32_t part;        // triangle: whose material and texture coordinates a textured emission reads
     int32_t triangle;
-    Vec3 position;       // triangle: vertex 0; point, spot: itself; sun: unit direction towards it
-    Vec3 edge1, edge2;   // triangle: vertices 1 and 2 minus vertex 0; spot: edge1 is the unit axis it shines along
-    Vec3 emission;       // triangle without texture: nits; point, spot: candela; sun: nits of its disk, or lux if parallel
+    int32_t profile;     // of a ProfileRecord that scales the emission by direction, -1: none
+    int32_t object;      // sphere: Id<Node>.value of its node
+    Vec3 position;       // triangle: vertex 0; point: itself; sphere: its centre; sun: unit direction towards it
+    Vec3 edge1, edge2;   // triangle: vertices 1 and 2 minus vertex 0
+    Vec3 emission;       // triangle without texture, sphere: nits; point: candela; sun: nits of its disk, or lux if parallel
     float inverse_area;  // triangle: 1 / m^2
-    float spot_scale, spot_offset; // spot: intensity factor clamp(cos * scale + offset)^2, as KHR_lights_punctual gives it
+    float radius;        // sphere: metres
     float cone_height;   // sun: 1 - cos of its angular radius; 0 is a parallel beam
 };
 enum LightFlag : int32_t {
     light_two_sided = 1,
     light_textured = 2,
     light_mirrored = 4, // edge1 leads to vertex 2 and edge2 to vertex 1, so that their cross product still points outwards
+    light_hidden = 8,   // sun: the camera does not see its disk
 };
 
 struct LightTables {
@@ -39,6 +44,8 @@ struct LightTables {
     int32_t environment = -1;             // index of the environment, -1: none
     const int32_t* suns = nullptr;        // indices of the suns with a disk: what an escaping ray may hit
     int32_t sun_count = 0;
+    int32_t first_sphere = 0;             // index of the first sphere; they follow each other
+    ProfileTables profiles;
 };
 
 } // namespace blush
@@ -48,12 +55,6 @@ namespace blush::inline BLUSH_ISA {
 // Probability that the table picks `light`.
 template <class F> F light_probability(const LightTables& table, const Int<F>& light) {
     return discrete_probability<F>(table.thresholds, Int<F>(0), Int<F>(table.count), light);
-}
-
-// KHR_lights_punctual's recommended falloff between the cones; cos_theta between the axis and the direction away from the light.
-template <class F> F spot_falloff(const F& scale, const F& offset, const F& cos_theta) {
-    const F f = clamp01(cos_theta * scale + offset);
-    return f * f;
 }
 
 // Solid-angle density, seen from distance^2 away, of a density per area on a surface tilted by cos_light.

@@ -61,7 +61,7 @@ TEST(Extent, IsThatOfTheVerticesWhereverTheObjectsAre) {
     ExtentCache cache;
     const std::vector<SceneObject> objects = list_objects(scene);
     for (int i = 0; i < 2; ++i) { // the second time from what it has kept
-        const Extent extent = cache.extent_of(objects);
+        const Extent extent = cache.extent_of(objects, {});
         EXPECT_EQ(extent.bounds.low, (Vec3d{98, -2, -2}));
         EXPECT_EQ(extent.bounds.high, (Vec3d{111, 6, 2}));
         EXPECT_EQ(extent.origin, render_origin(extent.bounds));

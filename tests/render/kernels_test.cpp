@@ -127,6 +127,14 @@ Scene everything() {
     shine(scene, light, at({0, 2, 1}));
     light.kind = Light::Kind::spot;
     shine(scene, light, aimed({-2, 2, 1}, {1, -1, 0}));
+    light.radius = 0.1f;
+    shine(scene, light, aimed({-1.5f, 1, 0.5f}, {1, -0.5f, 0}));
+    light.kind = Light::Kind::sphere;
+    light.visible_to_camera = false;
+    shine(scene, light, at({0.5f, 0.9f, 0.4f}, 0.7f));
+    light.kind = Light::Kind::disk;
+    light.spread_radians = 1;
+    shine(scene, light, aimed({1, 1.5f, 1}, {-1, -1, -1}));
     light.kind = Light::Kind::sun;
     light.angle_radians = 0.02f;
     shine(scene, light, aimed({0, 0, 0}, {-1, -2, -1}));

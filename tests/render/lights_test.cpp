@@ -1,7 +1,6 @@
 // Each kind of light on a matte floor, against its closed form, from several places and angles.
 #include "core/math.h"
 #include "irradiance.h"
-#include "render/lowering.h"
 #include "scene/affine.h"
 
 #include <map>
@@ -95,40 +94,84 @@ TEST(RectangleLight, ShinesForwardsOnlyUnlessTwoSided) {
     EXPECT_TRUE(shows_on_floor(lit_by(light, away), [&](const Vec3d& x) { return 3 * polygon_irradiance(x, up, corners); }));
 }
 
-// A sphere lights like a point in its middle. Ours is a polyhedron, whose exact light is the sum over its triangles.
-TEST(SphereLight, LightsAsThePointWouldWithinItsFacets) {
-    Light light = light_of(Light::Kind::point, 5);
-    for (const auto& [pose, radius] : {std::pair{poses[0], 0.5f}, {poses[2], 0.2f}, {poses[3], 5.f}}) {
+// As much of the floor as sees all of it is lit by a sphere as by a point in its middle, from however near: E = pi L (r / d)^2 cos.
+TEST(SphereLight, LightsAsThePointInItsMiddle) {
+    for (const auto& [pose, radius] : {std::pair{poses[0], 0.5f}, {poses[2], 0.2f}, {poses[3], 5.f}, {Pose{{0.3f, 0.7f, 0}, {0, -1, 0}}, 0.55f},
+                                       {poses[1], 1e-4f}}) {
+        const Vec3d p = to_double(pose.position);
+        Light light = light_of(Light::Kind::sphere, 3);
         light.radius = radius;
-        const Scene scene = lit_by(light, pose);
-        const Scene lowered = lower_area_lights(scene);
-        const Id<Node> body{lowered_bit | scene.nodes.begin()->id.value};
-        const Mesh& mesh = *lowered.meshes.find(lowered.nodes.find(body)->mesh);
-        const Geometry& g = *mesh.parts[0].geometry;
-        const Material& material = *lowered.materials.find(mesh.parts[0].material);
-        const Affined world = world_from_node(lowered, body);
-        std::vector<Vec3d> corners;
-        for (const uint32_t i : g.indices) corners.push_back(transform_point(world, to_double(g.positions[i])));
-        const auto of_polyhedron = [&](const Vec3d& x) {
-            double sum = 0;
-            for (size_t i = 0; i < corners.size(); i += 3) {
-                const Vec3d& a = corners[i];
-                if (dot(cross(corners[i + 1] - a, corners[i + 2] - a), x - a) > 0)
-                    sum += polygon_irradiance(x, up, std::span(&corners[i], 3));
-            }
-            return sum * double(material.emissive.x * material.emissive_strength);
-        };
-        const Vec3d to = to_double(pose.position);
-        // The projected area of the polyhedron differs by direction, within what it lacks to the ball's.
-        EXPECT_NEAR(of_polyhedron({0, 0, 0}) / (5 * to.y / std::pow(length(to), 3)), 1, 0.003);
-        // One value per pixel quarter would do: the light is smooth and its sum over two thousand triangles slow.
+        const double candela = 3 * pi * double(radius) * double(radius);
+        const auto of_sphere = [&](const Vec3d& x) { return candela * (p - x).y / std::pow(length(p - x), 3); };
+        EXPECT_TRUE(shows_on_floor(lit_by(light, pose), of_sphere, sidak(significance, 10))) << "sphere of radius " << radius;
+
+        light.kind = Light::Kind::point;
+        light.intensity = 5;
+        const auto of_point = [&](const Vec3d& x) { return 5 * (p - x).y / std::pow(length(p - x), 3); };
+        EXPECT_TRUE(shows_on_floor(lit_by(light, pose), of_point, sidak(significance, 10))) << "point of radius " << radius;
+    }
+}
+
+// A node scales what is below it: a sphere keeps its nits, a point its candela.
+TEST(SphereLight, IsScaledByItsNode) {
+    for (const Light::Kind kind : {Light::Kind::sphere, Light::Kind::point}) {
+        Light light = light_of(kind, 3);
+        light.radius = 0.1f;
+        Scene scene;
+        shine(scene, light, at({0, 2, 0}, 4));
+        const double candela = kind == Light::Kind::sphere ? 3 * pi * 0.16 : 3;
+        EXPECT_TRUE(shows_on_floor(scene, [&](const Vec3d& x) {
+            const Vec3d to = Vec3d{0, 2, 0} - x;
+            return candela * to.y / std::pow(length(to), 3);
+        }, sidak(significance, 2)));
+    }
+}
+
+TEST(SphereLight, IsDarkFromWithin) {
+    Light light = light_of(Light::Kind::sphere, 3);
+    light.radius = 5;
+    EXPECT_TRUE(shows_on_floor(lit_by(light, poses[0]), [](const Vec3d&) { return 0; }));
+}
+
+// The floor and a disk above it in parallel planes: Howell's catalogue of configuration factors, B-12, exact from anywhere.
+double parallel_disk_irradiance(const Vec3d& x, const Vec3d& center, double radius) {
+    const double h = center.y - x.y, a2 = (center.x - x.x) * (center.x - x.x) + (center.z - x.z) * (center.z - x.z);
+    const double z = a2 + h * h + radius * radius;
+    return pi / 2 * (1 - (z - 2 * radius * radius) / std::sqrt(z * z - 4 * radius * radius * a2));
+}
+
+TEST(DiskLight, IsItsConfigurationFactor) {
+    for (const auto& [height, radius] : {std::pair{2.f, 0.3f}, {0.5f, 1.f}, {1.f, 4.f}}) {
+        Light light = light_of(Light::Kind::disk, 3);
+        light.radius = radius;
+        const Vec3 center{0.2f, height, -0.1f};
+        EXPECT_TRUE(shows_on_floor(lit_by(light, {center, {0, -1, 0}}),
+                                   [&](const Vec3d& x) { return 3 * parallel_disk_irradiance(x, to_double(center), double(radius)); },
+                                   sidak(significance, 3)))
+            << "height " << height << ", radius " << radius;
+    }
+}
+
+// Tilted, it is what a polygon of very many corners is.
+TEST(DiskLight, ShinesAskanceAndTwoSided) {
+    Light light = light_of(Light::Kind::disk, 3);
+    light.radius = 0.4f;
+    for (const Pose& pose : {poses[1], poses[2], Pose{{0.2f, 1, 0.3f}, {0.3f, 1, 0}}}) {
+        light.two_sided = pose.direction.y > 0;
+        const Affined world = to_affine(aimed(pose.position, pose.direction));
+        std::vector<Vec3d> rim;
+        for (int i = 0; i < 3000; ++i) {
+            const double turn = 2 * pi * i / 3000, r = double(light.radius);
+            rim.push_back(transform_point(world, Vec3d{r * std::cos(turn), r * std::sin(turn), 0}));
+        }
+        // Smooth: one value for each of 1/16 m will do.
         const auto expected = [&, cache = std::map<std::pair<int, int>, double>()](const Vec3d& x) mutable {
             const std::pair key{int(std::floor(x.x * 16)), int(std::floor(x.z * 16))};
-            const auto it = cache.find(key);
-            if (it != cache.end()) return it->second;
-            return cache[key] = of_polyhedron({(key.first + 0.5) / 16, 0, (key.second + 0.5) / 16});
+            const auto [it, is_new] = cache.try_emplace(key);
+            if (is_new) it->second = 3 * polygon_irradiance({(key.first + 0.5) / 16, 0, (key.second + 0.5) / 16}, up, rim);
+            return it->second;
         };
-        EXPECT_TRUE(shows_on_floor(scene, expected, sidak(significance, 3))) << "radius " << radius;
+        EXPECT_TRUE(shows_on_floor(lit_by(light, pose), expected, sidak(significance, 3)));
     }
 }
 

@@ -130,6 +130,8 @@ void add_lights(Builder& b) {
     b.light("Sun", {0, 0, 0}, down, [](Light& l) { l.kind = Light::Kind::sun, l.intensity = 3, l.angle_radians = 0.05f; });
     b.light("Parallel sun", {0, 0, 0}, {}, [](Light& l) { l.kind = Light::Kind::sun, l.intensity = 0.5f; });
     b.light("Panel", {-1, 1.5f, 2}, down, [](Light& l) { l.kind = Light::Kind::rectangle, l.intensity = 4, l.use_temperature = true; });
+    b.light("Disk", {1, 1.2f, 2.5f}, down, [](Light& l) { l.kind = Light::Kind::disk, l.radius = 0.3f, l.spread_radians = 1.5f; });
+    b.light("Hidden ball", {-0.2f, 0.6f, 1.8f}, {}, [](Light& l) { l.kind = Light::Kind::sphere, l.radius = 0.15f, l.visible_to_camera = false; });
 }
 
 } // namespace

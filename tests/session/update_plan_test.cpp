@@ -181,7 +181,9 @@ TEST_F(EditCost, SetLight) {
     EXPECT_EQ(cost_of_lamp([](Light& l) { l.kind = Light::Kind::sun; }), lights());
     EXPECT_EQ(cost_of_lamp([](Light& l) { l.name = "Bulb"; }), nothing());
     EXPECT_EQ(cost_of_lamp([](Light& l) { l.kind = Light::Kind::rectangle; }), listed_anew()) << "a body appears";
-    EXPECT_EQ(cost_of_lamp([](Light& l) { l.radius = 0.1f; }), listed_anew()) << "a body appears";
+    EXPECT_EQ(cost_of_lamp([](Light& l) { l.kind = Light::Kind::disk, l.radius = 0.1f; }), listed_anew()) << "a body appears";
+    EXPECT_EQ(cost_of_lamp([](Light& l) { l.radius = 0.1f; }), lights()) << "a sphere is no mesh";
+    EXPECT_EQ(cost_of_lamp([](Light& l) { l.unit = Light::Unit::lumen, l.keep_power = true; }), nothing()) << "for the window";
 }
 
 TEST_F(EditCost, SetLightWithABody) {

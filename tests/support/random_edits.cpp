@@ -1,5 +1,6 @@
 #include "support/random_edits.h"
 
+#include "scene/ies_profile.h"
 #include "support/sample_project.h"
 
 #include <type_traits>
@@ -22,6 +23,21 @@ template <class T> Id<T> pick_id(Rng& rng, const Table<T>& table) {
     return entry ? entry->id : Id<T>{};
 }
 
+// One of two measured distributions, the same each time it is asked for.
+IesPtr lamp_profile(bool type_b) {
+    const auto make = [](IesProfile::Type type, float first_horizontal, float last_horizontal, float first_vertical, float last_vertical) {
+        IesProfile p;
+        p.type = type;
+        p.vertical = {first_vertical, 0.5f * (first_vertical + last_vertical), last_vertical};
+        p.horizontal = {first_horizontal, last_horizontal};
+        p.candela = {100, 40, 10, 60, 90, 5};
+        p.peak = 100;
+        return std::make_shared<const IesProfile>(std::move(p));
+    };
+    static const IesPtr b = make(IesProfile::Type::b, -90, 90, -80, 80), c = make(IesProfile::Type::c, 0, 360, 0, 120);
+    return type_b ? b : c;
+}
+
 Light light(Rng& rng) {
     Light l;
     l.kind = Light::Kind(whole(rng, 0, 5));
@@ -37,6 +53,10 @@ Light light(Rng& rng) {
     l.width = uniform(rng, 0.1f, 2);
     l.height = uniform(rng, 0.1f, 2);
     l.two_sided = coin(rng);
+    l.spread_radians = coin(rng) ? uniform(rng, 0.1f, 3) : 3.1415927f;
+    l.visible_to_camera = coin(rng);
+    l.green_tint = uniform(rng, -0.05f, 0.05f);
+    if (whole(rng, 0, 3) == 0) l.ies = lamp_profile(coin(rng));
     l.enabled = whole(rng, 0, 4) > 0;
     return l;
 }
@@ -126,6 +146,7 @@ std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<SetEnvir
     e.intensity = uniform(rng, 0, 3);
     e.rotation_degrees = uniform(rng, -180, 180);
     e.visible_to_camera = coin(rng);
+    e.lights_scene = coin(rng);
     if (e.kind == Environment::Kind::image && (!e.image || coin(rng))) e.image = float_image(8, 4, 3, uniform(rng, 0.1f, 2));
     return SetEnvironment{e};
 }

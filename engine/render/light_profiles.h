@@ -1,0 +1,35 @@
+// The profiles of a scene's lights as rays read them.
+#pragma once
+
+#include "scene/scene.h"
+#include "shading/light_profile.h"
+
+#include <cstdint>
+#include <map>
+#include <vector>
+
+namespace blush {
+
+class LightProfiles {
+public:
+    // The profile of `light` on a node placed so, and its share of what the light would emit without it, for the power of the light;
+    // -1 and 1 for a light that shines alike to all sides.
+    struct Added {
+        int32_t profile = -1;
+        double share = 1;
+    };
+    Added add(const Light& light, const Affined& world_from_node);
+
+    ProfileTables tables() const { return {records_.data(), numbers_.data()}; }
+    bool empty() const { return records_.empty(); }
+    size_t memory_bytes() const { return records_.capacity() * sizeof(ProfileRecord) + numbers_.capacity() * sizeof(float); }
+
+private:
+    void add_table(ProfileRecord& record, const IesProfile& profile);
+
+    std::vector<ProfileRecord> records_;
+    std::vector<float> numbers_;
+    std::map<uint64_t, int32_t> first_by_serial_; // of the measured distributions in numbers_
+};
+
+} // namespace blush
