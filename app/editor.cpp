@@ -44,6 +44,7 @@ private:
     void take_dropped(const std::filesystem::path& file);
     void save_due_snapshot();
     void update_display_shader();
+    void meter();
     void update_ledger();
     void remember();
     RenderSettings render_settings() const;
@@ -74,8 +75,11 @@ private:
 
     int viewport_width_ = 0, viewport_height_ = 0; // pixels, as last laid out
     ImageRect image_;
-    std::string display_, view_; // that the display shader is for
+    DisplayTransform transform_; // that the display shader is for
     bool shader_ready_ = false;
+    FramePtr metered_; // by auto exposure
+    AutoExposure metered_by_ = AutoExposure::off;
+    float metered_ev_ = 0;
     FeatureUse view_transform_{"display", "view transform", false, "there is no picture yet"};
     Ledger ledger_; // of what the window makes itself
     std::array<bool, denoise_qualities> ledger_denoised_with_{};
@@ -151,12 +155,14 @@ PanelContext Editor::context() {
             std::max(1, int(float(r.height) * r.resolution_scale)),
             pictures_.denoised,
             status.denoiser_failure.empty() ? weights_problem_ : status.denoiser_failure,
-            &ledger_};
+            &ledger_,
+            metered_ev_};
 }
 
 void Editor::panels() {
     update_display_shader();
     update_ledger();
+    meter();
     window_->begin_frame();
     ui_.next_frame_in = longest_sleep;
     ui_.probe.begin_frame();
@@ -193,6 +199,8 @@ void Editor::draw_regions(PanelContext& c) {
 
 void Editor::draw_above(PanelContext& c) {
     draw_pixel_panel(c);
+    draw_region_panel(c);
+    draw_scopes_panel(c);
     draw_history(c);
     draw_bounces_panel(c);
     draw_roulette_panel(c);
@@ -270,14 +278,13 @@ void Editor::save_due_snapshot() {
 }
 
 void Editor::update_display_shader() {
-    const ViewSettings& v = document_.project().view;
+    const DisplayTransform wanted = transform_of(document_.project().view);
     // No processor and no tables before there is something to show.
-    if (!pictures_.frame || (shader_ready_ && v.display == display_ && v.view == view_)) return;
+    if (!pictures_.frame || (shader_ready_ && wanted == transform_)) return;
     shader_ready_ = true;
-    display_ = v.display;
-    view_ = v.view;
+    transform_ = wanted;
     const auto begin = Clock::now();
-    const auto shader = color_.display_shader(v.display, v.view);
+    const auto shader = color_.display_shader(wanted);
     if (!shader) return ui_.toasts.fail(shader.error().text());
     if (const auto set = viewport_.set_display_shader(*shader); !set) ui_.toasts.fail(set.error().text());
     int64_t bytes = 0;
@@ -286,6 +293,14 @@ void Editor::update_display_shader() {
                        true,      "the picture is shown through it",
                        bytes,     std::chrono::duration<double>(Clock::now() - begin).count()};
     ledger_.clear();
+}
+
+void Editor::meter() {
+    const AutoExposure rule = document_.project().view.auto_exposure;
+    if (rule == metered_by_ && (rule == AutoExposure::off || pictures_.frame == metered_)) return;
+    metered_by_ = rule;
+    metered_ = rule == AutoExposure::off ? nullptr : pictures_.frame;
+    metered_ev_ = metered_ ? metered_exposure(rule, metered_->rgba, 4) : 0;
 }
 
 void Editor::update_ledger() {

@@ -20,7 +20,7 @@ void select_first_after(PanelContext& c, Id<Node> last) {
 
 void add_light(PanelContext& c, Light::Kind kind) {
     const Id<Node> last = last_node(c.scene());
-    if (c.apply(new_light(kind, c.scene().view, c.project().view.exposure_ev))) select_first_after(c, last);
+    if (c.apply(new_light(kind, c.scene().view, c.shown_view().exposure_ev))) select_first_after(c, last);
 }
 
 void duplicate(PanelContext& c) {
@@ -80,6 +80,31 @@ void change_exposure(PanelContext& c, float exposure_ev) {
     c.apply(SetView{v});
 }
 
+// The exposure that auto exposure would have, set once.
+void meter_once(PanelContext& c) {
+    if (!c.frame) return;
+    ViewSettings v = c.project().view;
+    v.exposure_ev = metered_exposure(AutoExposure::average, c.frame->rgba, 4);
+    v.auto_exposure = AutoExposure::off;
+    c.apply(SetView{v});
+}
+
+// Off, the picture keeps the exposure that it has.
+void toggle_auto_exposure(PanelContext& c) {
+    ViewSettings v = c.shown_view();
+    if (c.project().view.auto_exposure == AutoExposure::off) {
+        v.auto_exposure = AutoExposure::average;
+        v.exposure_ev = 0;
+    }
+    c.apply(SetView{v});
+}
+
+void reset_white(PanelContext& c) {
+    ViewSettings v = c.project().view;
+    v.white = {1, 1, 1};
+    c.apply(SetView{v});
+}
+
 void toggle_denoise(PanelContext& c) {
     if (c.denoiser_problem.empty()) return c.ui.denoise.toggle();
     c.ui.toasts.warn("The image cannot be denoised", c.denoiser_problem);
@@ -95,7 +120,11 @@ bool run_command(Command command, PanelContext& c) {
     case Command::duplicate: duplicate(c); return true;
     case Command::remove: remove(c); return true;
     case Command::rename: begin_rename(c); return true;
-    case Command::clear_selection: c.ui.select({}); return true;
+    case Command::clear_selection:
+        if (c.ui.tool == ViewTool::none) c.ui.select({});
+        c.ui.tool = ViewTool::none;
+        c.ui.tool_start.reset();
+        return true;
     case Command::add_point: add_light(c, Light::Kind::point); return true;
     case Command::add_spot: add_light(c, Light::Kind::spot); return true;
     case Command::add_sun: add_light(c, Light::Kind::sun); return true;
@@ -106,15 +135,22 @@ bool run_command(Command command, PanelContext& c) {
     case Command::frame_all: frame(c, world_bounds(c.scene())); return true;
     case Command::toggle_projection: toggle_projection(c); return true;
     case Command::toggle_overlays: c.ui.settings.overlays = !c.ui.settings.overlays; return true;
+    case Command::toggle_zoom: c.ui.zoom = toggled(c.ui.zoom); return true;
     case Command::exposure_up: change_exposure(c, c.project().view.exposure_ev + 0.5f); return true;
     case Command::exposure_down: change_exposure(c, c.project().view.exposure_ev - 0.5f); return true;
     case Command::exposure_reset: change_exposure(c, 0); return true;
+    case Command::exposure_meter: meter_once(c); return true;
+    case Command::exposure_auto: toggle_auto_exposure(c); return true;
+    case Command::reset_white: reset_white(c); return true;
+    case Command::pick_white: c.ui.tool = ViewTool::pick_white; return true;
     case Command::toggle_denoise: toggle_denoise(c); return true;
     case Command::pause: c.ui.paused = !c.ui.paused; return true;
     case Command::shortcuts: c.ui.show_shortcuts = !c.ui.show_shortcuts; return true;
     case Command::history: c.ui.show_history = !c.ui.show_history; return true;
     case Command::bounces: c.ui.bounces.open = !c.ui.bounces.open; return true;
     case Command::health: c.ui.health.open = !c.ui.health.open; return true;
+    case Command::measure: c.ui.tool = ViewTool::measure; return true;
+    case Command::scopes: c.ui.scopes.open = !c.ui.scopes.open; return true;
     case Command::roulette: c.ui.roulette.open = !c.ui.roulette.open; return true;
     case Command::open:
     case Command::import_scene:

@@ -3,6 +3,7 @@
 #include "app/commands/denoising.h"
 #include "app/commands/picture.h"
 #include "app/scene_overrides.h"
+#include "io/displayed.h"
 #include "io/scene_edits_json.h"
 #include "io/scene_hash.h"
 
@@ -67,8 +68,10 @@ Result<std::filesystem::path> write_snapshot_png(const SnapshotJob& job, const C
     const Frame& frame = *job.pictures.frame;
     const DenoisedPicture* denoised = job.view.wants_denoised() ? job.pictures.denoised.get() : nullptr;
     std::vector<float> shown = mixed_picture(frame, denoised, mix_of(job.view, denoised != nullptr));
-    const auto written = write_display_picture(*file, frame.width, frame.height, std::move(shown), color, job.project.view,
-                                               display_metadata(metadata_of(job, denoised)));
+    const ViewSettings& view = job.project.view;
+    const ViewSettings as_shown = settled(view, metered_exposure(view.auto_exposure, frame.rgba, 4));
+    const auto written = write_display_picture(*file, frame.width, frame.height, std::move(shown), color, as_shown,
+                                               display_metadata(metadata_of(job, denoised)), frame.albedo);
     if (!written) return written.error();
     return file;
 }

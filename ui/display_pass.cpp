@@ -39,6 +39,21 @@ std::pair<GLenum, GlTexture> upload_table(const DisplayShader::Lut& lut) {
     return {target, std::move(texture)};
 }
 
+void set(GLuint program, const char* name, float value) { glUniform1f(glGetUniformLocation(program, name), value); }
+void set(GLuint program, const char* name, int value) { glUniform1i(glGetUniformLocation(program, name), value); }
+
+void set_numbers(GLuint program, const DisplayNumbers& n) {
+    set(program, "exposure_ev", n.exposure_ev);
+    set(program, "gamma", n.gamma);
+    const Affine& m = n.white_balance;
+    const float columns[] = {m.x.x, m.x.y, m.x.z, m.y.x, m.y.y, m.y.z, m.z.x, m.z.y, m.z.z};
+    glUniformMatrix3fv(glGetUniformLocation(program, "white_balance"), 1, GL_FALSE, columns);
+    set(program, "false_color_of", int(n.false_color.of));
+    set(program, "false_color_low", n.false_color.low);
+    set(program, "false_color_high", n.false_color.high);
+    set(program, "background_as_it_is", int(n.background_as_it_is));
+}
+
 } // namespace
 
 Result<void> DisplayPass::set_shader(const DisplayShader& shader) {
@@ -97,11 +112,9 @@ void DisplayPass::draw_rows(int first, int count) {
     glEnable(GL_SCISSOR_TEST);
     glScissor(0, first, width_, count);
     glUseProgram(program_.name());
-    const auto set = [&](const char* name, float value) { glUniform1f(glGetUniformLocation(program_.name(), name), value); };
-    set("exposure_ev", look_.exposure_ev);
-    set("gamma", look_.gamma);
-    set("raw_weight", look_.mix.raw_weight);
-    set("denoised_weight", look_.mix.denoised_weight);
+    set_numbers(program_.name(), look_.numbers);
+    set(program_.name(), "raw_weight", look_.mix.raw_weight);
+    set(program_.name(), "denoised_weight", look_.mix.denoised_weight);
     glUniform2f(glGetUniformLocation(program_.name(), "denoised_scale"), float(denoised_.width) / float(width_),
                 float(denoised_.height) / float(height_));
     glActiveTexture(GL_TEXTURE0 + image_unit);

@@ -12,7 +12,7 @@ namespace blush {
 
 // All that can be changed about a picture without another upload.
 struct DisplayLook {
-    float exposure_ev = 0, gamma = 1;
+    DisplayNumbers numbers;
     PictureMix mix;
     bool operator==(const DisplayLook&) const = default;
 };

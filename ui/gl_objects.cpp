@@ -42,6 +42,11 @@ Result<GlProgram> make_fill_program(const std::string& fragment_source) {
     return program;
 }
 
+void set_filter(GLuint texture, GLint filter) {
+    glBindTexture(GL_TEXTURE_2D, texture);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
+}
+
 void RenderTarget::begin(int width, int height) {
     if (!texture_) {
         texture_ = GlTexture::create();

@@ -67,6 +67,9 @@ using GlProgram = GlObject<GlProgramKind>;
 // the first row of the target, and its output `out vec4 result`. The error holds the compiler's message.
 Result<GlProgram> make_fill_program(const std::string& fragment_source);
 
+// GL_LINEAR or GL_NEAREST, for a 2D texture that is shown larger than it is.
+void set_filter(GLuint texture, GLint filter);
+
 // A texture to draw into and to show, resized on demand.
 class RenderTarget {
 public:

@@ -11,6 +11,9 @@ namespace {
 
 constexpr double turn_per_height = 3.2;   // radians for a drag over the picture's height
 constexpr double closer_per_notch = 0.88; // of the distance, for one notch of the wheel
+constexpr double stops_per_height = 8;
+constexpr float stops_per_notch = 0.25f;
+constexpr double same_wheeling = 1; // seconds between notches of the wheel that are one gesture
 constexpr double speed = 0.8;             // pivot distances per second
 
 // Right, up and forward from W A S D Q E.
@@ -30,7 +33,11 @@ void Navigation::press() {
         moved_ = false;
         last_ = {io.MousePos.x, io.MousePos.y};
     };
-    if (ImGui::IsMouseClicked(ImGuiMouseButton_Left))
+    if (ImGui::IsMouseClicked(ImGuiMouseButton_Left) && ImGui::IsKeyDown('E'))
+        start(0, Mode::expose, false);
+    else if (ImGui::IsMouseClicked(ImGuiMouseButton_Left) && io.KeyCtrl)
+        start(0, Mode::shift, true);
+    else if (ImGui::IsMouseClicked(ImGuiMouseButton_Left))
         start(0, io.KeyShift ? Mode::pan : Mode::orbit, !io.KeyAlt && !io.KeyShift);
     else if (ImGui::IsMouseClicked(ImGuiMouseButton_Right))
         start(1, io.KeyAlt ? Mode::dolly : Mode::look, !io.KeyAlt);
@@ -50,6 +57,11 @@ void Navigation::drag(NavigationResult& result, const View& view, const ImageRec
             case Mode::pan: result.view = pan(view, dx, dy); break;
             case Mode::dolly: result.view = dolly(view, std::exp2(2 * (dy - dx))); break;
             case Mode::look: result.view = look_around(view, -dx * turn_per_height / 2, -dy * turn_per_height / 2); break;
+            case Mode::expose: result.brighter = float(stops_per_height * (dx - dy)); break;
+            case Mode::shift:
+                result.shift_x = dx * image.height;
+                result.shift_y = dy * image.height;
+                break;
             case Mode::none: break;
             }
         }
@@ -75,15 +87,32 @@ void Navigation::release(NavigationResult& result) {
     mode_ = Mode::none;
 }
 
+void Navigation::wheel(NavigationResult& result, const View& view) {
+    const ImGuiIO& io = ImGui::GetIO();
+    if (io.KeyCtrl) {
+        result.zoom = std::exp2(io.MouseWheel / 2);
+        return;
+    }
+    if (!io.KeyAlt) {
+        result.view = dolly(result.view.value_or(view), std::pow(closer_per_notch, io.MouseWheel));
+        return;
+    }
+    result.brighter += stops_per_notch * io.MouseWheel;
+    result.begins_exposure |= ImGui::GetTime() - exposed_at_ > same_wheeling;
+    exposed_at_ = ImGui::GetTime();
+}
+
 NavigationResult Navigation::update(const View& view, const ImageRect& image, bool hovered, bool free) {
     NavigationResult result;
-    if (mode_ == Mode::none && hovered && free) press();
+    if (mode_ == Mode::none && hovered && free) {
+        press();
+        result.begins_exposure = mode_ == Mode::expose;
+    }
     if (mode_ != Mode::none) {
         drag(result, view, image);
         if (!ImGui::IsMouseDown(button_)) release(result);
     }
-    const float wheel = ImGui::GetIO().MouseWheel;
-    if (wheel != 0 && hovered) result.view = dolly(result.view.value_or(view), std::pow(closer_per_notch, wheel));
+    if (ImGui::GetIO().MouseWheel != 0 && hovered) wheel(result, view);
     return result;
 }
 

@@ -13,6 +13,10 @@ struct NavigationResult {
     std::optional<View> view;                          // moved there
     std::optional<ScreenPoint> select, focus, inspect; // clicked there: plain, with Ctrl, with the right button
     bool flying = false;                               // moves by itself while a key is held
+    float brighter = 0;                                // stops of exposure
+    bool begins_exposure = false;                      // of a new gesture
+    double zoom = 1;                                   // times as large, about the mouse
+    double shift_x = 0, shift_y = 0;                   // of the picture, pixels of the screen
 };
 
 class Navigation {
@@ -23,16 +27,18 @@ public:
     bool busy() const { return mode_ != Mode::none; }
 
 private:
-    enum class Mode { none, orbit, pan, dolly, look };
+    enum class Mode { none, orbit, pan, dolly, look, expose, shift };
     void press();
     void drag(NavigationResult& result, const View& view, const ImageRect& image);
     void release(NavigationResult& result);
+    void wheel(NavigationResult& result, const View& view);
 
     Mode mode_ = Mode::none;
     int button_ = 0;
     bool moved_ = false;     // further than a click's tremble
     bool may_click_ = false; // released without a move, it is a click
     ScreenPoint last_;
+    double exposed_at_ = -1e9; // when the wheel last changed the exposure, seconds
 };
 
 } // namespace blush

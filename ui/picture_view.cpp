@@ -1,5 +1,6 @@
 #include "ui/picture_view.h"
 
+#include "color/illuminance.h"
 #include "core/math.h"
 
 #include <algorithm>
@@ -68,6 +69,15 @@ std::string bounces_caption(const std::vector<float>& gains) {
     return fmt::format("Bounce{} {} alone: not the whole picture", kept.find(',') == kept.npos ? "" : "s", kept);
 }
 
+std::vector<float> illuminance_of(const Frame& frame) {
+    const size_t pixels = frame.rgba.size() / 4;
+    std::vector<float> rgb(pixels * 3), rgba(frame.rgba.size(), 1.f);
+    for (size_t i = 0; i < pixels; ++i) std::copy_n(&frame.rgba[4 * i], 3, &rgb[3 * i]);
+    to_illuminance(rgb, frame.albedo);
+    for (size_t i = 0; i < pixels; ++i) std::copy_n(&rgb[3 * i], 3, &rgba[4 * i]);
+    return rgba;
+}
+
 } // namespace
 
 bool is_special(const Frame& frame, const PictureView& view) {
@@ -77,11 +87,17 @@ bool is_special(const Frame& frame, const PictureView& view) {
     case Show::dropped: return true;
     case Show::path_length: return !frame.path_length.empty();
     case Show::survival: return !frame.survival.empty();
+    case Show::illuminance: return !frame.albedo.empty();
     }
     return false;
 }
 
+bool is_map(const PictureView& view) {
+    return view.show == Show::dropped || view.show == Show::path_length || view.show == Show::survival;
+}
+
 std::vector<float> pixels_of(const Frame& frame, const PictureView& view) {
+    if (view.show == Show::illuminance) return illuminance_of(frame);
     std::vector<float> rgba(frame.rgba.size(), 1.f);
     const Range range = range_of(frame, view.show);
     for (size_t i = 0; i < rgba.size() / 4; ++i) {

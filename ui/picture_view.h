@@ -16,6 +16,7 @@ struct PictureView {
         dropped,     // where samples could not be used
         path_length, // mean number of vertices
         survival,    // mean probability that roulette gave
+        illuminance, // lux, if surfaces are matte: what false colours of lux are made of
     };
     Show show = Show::beauty;
     std::vector<float> gains = {}; // of bounces
@@ -24,6 +25,8 @@ struct PictureView {
 
 // The frame has what the view needs and it is not simply the beauty.
 bool is_special(const Frame& frame, const PictureView& view);
+// Its colours stand for numbers that are no light.
+bool is_map(const PictureView& view);
 // width * height * 4 scene-linear values of a special view. Maps run from black over blue, red and yellow to white.
 std::vector<float> pixels_of(const Frame& frame, const PictureView& view);
 // Says what a special view shows and that it is not the picture, in one line.

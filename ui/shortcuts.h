@@ -40,9 +40,14 @@ enum class Command {
     frame_all,
     toggle_projection,
     toggle_overlays,
+    toggle_zoom,
     exposure_up,
     exposure_down,
     exposure_reset,
+    exposure_meter,
+    exposure_auto,
+    pick_white,
+    reset_white,
     toggle_denoise,
     pause,
     clear_selection,
@@ -51,6 +56,8 @@ enum class Command {
     bounces,
     health,
     roulette,
+    measure,
+    scopes,
 };
 
 struct Shortcut {

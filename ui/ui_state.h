@@ -6,8 +6,11 @@
 #include "ui/denoise_view.h"
 #include "ui/gestures.h"
 #include "ui/health_view.h"
+#include "ui/picture_zoom.h"
 #include "ui/probe.h"
+#include "ui/region_statistics.h"
 #include "ui/roulette_view.h"
+#include "ui/scopes_view.h"
 #include "ui/shortcuts.h"
 #include "ui/toasts.h"
 #include "ui/window_settings.h"
@@ -20,6 +23,17 @@
 namespace blush {
 
 enum class InspectorTab { selection, camera, environment, render, display };
+
+// What a click or drag in the picture does instead of navigating, once.
+enum class ViewTool {
+    none,
+    pick_white, // a click says what is to look neutral
+    measure,    // a drag says which rectangle has its statistics shown
+};
+// Where in the picture a tool's drag began, (0, 0) top left, (1, 1) bottom right.
+struct ToolStart {
+    double u = 0, v = 0;
+};
 
 // What a file the user chose is for.
 struct FileRequest {
@@ -58,6 +72,9 @@ struct UiState {
     Id<Node> renaming;
     std::string rename_text;
 
+    PictureZoom zoom;
+    ViewTool tool = ViewTool::none;
+    std::optional<ToolStart> tool_start; // while it drags
     DenoiseView denoise; // a way of looking, not of rendering: apart from the document and its history
     bool paused = false;
     double next_frame_in = 1e9; // seconds until something moves by itself: a toast that goes, a tooltip that comes
@@ -66,6 +83,8 @@ struct UiState {
     BouncesView bounces;
     HealthView health;
     RouletteView roulette;
+    ScopesView scopes;
+    RegionView region;
     std::optional<FileBrowser> browser;
     std::optional<PixelProbe> pixel;
     EulerFields euler;

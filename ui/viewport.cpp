@@ -1,9 +1,12 @@
 #include "ui/viewport.h"
 
 #include "scene/edit_tree.h"
+#include "ui/false_color_legend.h"
 #include "ui/light_glyphs.h"
 #include "ui/orbit_camera.h"
 #include "ui/picking.h"
+#include "ui/pixel_grid.h"
+#include "ui/view_tools.h"
 #include "ui/theme.h"
 
 namespace blush {
@@ -14,13 +17,34 @@ constexpr double asked_display_budget = 14; // where somebody waits for a look t
 
 ImTextureID texture_id(GLuint name) { return reinterpret_cast<ImTextureID>(uintptr_t(name)); }
 
+Region window_region() {
+    const ImVec2 at = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+    return {at.x, at.y, size.x, size.y};
+}
+
 // Where the picture lies in the current window; fills what it leaves of it.
 ImageRect place_picture(const PanelContext& c) {
-    const ImVec2 at = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
-    const Region region{at.x, at.y, size.x, size.y};
-    const Region fit = fit_aspect(region, float(std::max(c.render_width, 1)) / float(std::max(c.render_height, 1)));
-    if (fit != region) ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + size.x, at.y + size.y}, tone::surround);
-    return {fit.x, fit.y, fit.width, fit.height};
+    const Region region = window_region();
+    const ImageRect image = placed_picture(c.ui.zoom, region, std::max(c.render_width, 1), std::max(c.render_height, 1));
+    const ImVec2 high{region.x + region.width, region.y + region.height};
+    const bool covered = image.x <= region.x && image.y <= region.y && image.x + image.width >= high.x && image.y + image.height >= high.y;
+    if (!covered) ImGui::GetWindowDrawList()->AddRectFilled({region.x, region.y}, high, tone::surround);
+    return image;
+}
+
+// What of the picture is in the window: where words are to be written.
+ImageRect visible_part(const ImageRect& image) {
+    const Region r = window_region();
+    const float left = std::max(image.x, r.x), top = std::max(image.y, r.y);
+    return {left, top, std::min(image.x + image.width, r.x + r.width) - left, std::min(image.y + image.height, r.y + r.height) - top};
+}
+
+void zoom_picture(PanelContext& c, const NavigationResult& wish) {
+    const Region region = window_region();
+    const int width = std::max(c.render_width, 1), height = std::max(c.render_height, 1);
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    if (wish.zoom != 1) c.ui.zoom = zoomed(c.ui.zoom, region, width, height, {mouse.x, mouse.y}, wish.zoom);
+    if (wish.shift_x != 0 || wish.shift_y != 0) c.ui.zoom = shifted(c.ui.zoom, region, width, height, wish.shift_x, wish.shift_y);
 }
 
 void draw_centred(const char* text) {
@@ -43,6 +67,12 @@ void focus_at(PanelContext& c, const Projection& projection, double u, double v)
     c.apply(SetLens{lens});
 }
 
+void expose(PanelContext& c, float stops, Gesture gesture) {
+    ViewSettings v = c.project().view;
+    v.exposure_ev = std::clamp(v.exposure_ev + stops, -20.f, 20.f);
+    c.apply(SetView{v}, gesture);
+}
+
 } // namespace
 
 Result<void> Viewport::set_display_shader(const DisplayShader& shader) {
@@ -51,10 +81,13 @@ Result<void> Viewport::set_display_shader(const DisplayShader& shader) {
 }
 
 void Viewport::take_frame(PanelContext& c) {
-    const ViewSettings& v = c.project().view;
-    const PictureView view = c.ui.picture_view(c.frame ? int(c.frame->bounces.size()) : 0);
+    const ViewSettings v = c.shown_view();
+    PictureView view = c.ui.picture_view(c.frame ? int(c.frame->bounces.size()) : 0);
+    if (view.show == PictureView::Show::beauty && v.false_color.of == FalseColor::Of::lux) view.show = PictureView::Show::illuminance;
     const bool special = c.frame && is_special(*c.frame, view);
-    const DisplayLook look{v.exposure_ev, v.gamma, special ? PictureMix{} : mix_of(c.ui.denoise, c.denoised != nullptr)};
+    DisplayNumbers numbers = numbers_of(v);
+    if (special && is_map(view)) numbers.false_color = {}; // it has colours of its own
+    const DisplayLook look{numbers, special ? PictureMix{} : mix_of(c.ui.denoise, c.denoised != nullptr)};
     const bool new_frame = c.frame && c.frame->width > 0 && (c.frame != uploaded_frame_ || view != uploaded_view_);
     const bool new_denoised = look.mix.denoised_weight != 0 && c.denoised != uploaded_denoised_;
     // Raw or denoised, at once: what is being drawn is given up for it. Not for a slider, whose every step would start anew.
@@ -110,17 +143,25 @@ GLuint Viewport::outlined_picture(const PanelContext& c, const ImageRect& image)
 
 void Viewport::draw_picture(PanelContext& c, const ImageRect& image) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
-    const bool outlined = c.ui.settings.overlays && c.scene().nodes.contains(c.ui.selected);
+    // The outline is drawn into a picture as large as what is on the screen: not of one that is far larger.
+    const Region region = window_region();
+    const bool fits = image.width <= region.width && image.height <= region.height;
+    const bool outlined = c.ui.settings.overlays && c.scene().nodes.contains(c.ui.selected) && fits;
     const GLuint picture = outlined ? outlined_picture(c, image) : display_.texture();
+    if (!outlined) set_filter(picture, c.ui.zoom.scale >= 1 && shown_frame_->divider == 1 ? GL_NEAREST : GL_LINEAR);
     // It is opaque: blending it would only cost time.
     draw.AddCallback([](const ImDrawList*, const ImDrawCmd*) { glDisable(GL_BLEND); }, nullptr);
-    draw.AddImage(texture_id(picture), {image.x, image.y}, {image.x + image.width, image.y + image.height});
+    // What is in the window of it alone: far beyond, coordinates lose their precision.
+    const ImageRect seen = visible_part(image);
+    const ImVec2 high{seen.x + seen.width, seen.y + seen.height};
+    const auto uv = [&](const ImVec2& at) { return ImVec2{float(image.u(at.x)), float(image.v(at.y))}; };
+    draw.AddImage(texture_id(picture), {seen.x, seen.y}, high, uv({seen.x, seen.y}), uv(high));
     draw.AddCallback(ImDrawCallback_ResetRenderState, nullptr);
 }
 
 // What is shown instead of the picture, where it cannot be overlooked.
 void Viewport::draw_caption(const ImageRect& image) const {
-    if (!is_special(*shown_frame_, uploaded_view_)) return;
+    if (!is_special(*shown_frame_, uploaded_view_) || uploaded_view_.show == PictureView::Show::illuminance) return;
     const std::string text = caption_of(*shown_frame_, uploaded_view_);
     const float em = ImGui::GetFontSize();
     const ImVec2 size = ImGui::CalcTextSize(text.c_str()), at{image.x + (image.width - size.x) / 2, image.y + image.height - size.y - em};
@@ -131,6 +172,12 @@ void Viewport::draw_caption(const ImageRect& image) const {
 
 void Viewport::obey(PanelContext& c, const NavigationResult& wish, const Projection& projection, const ImageRect& image) {
     if (wish.view) c.document.navigate(*wish.view);
+    if (wish.begins_exposure) {
+        exposure_gesture_ = c.ui.gestures.begin();
+        c.ui.gestures.end();
+    }
+    if (wish.brighter != 0) expose(c, wish.brighter, exposure_gesture_);
+    zoom_picture(c, wish);
     if (wish.flying) c.ui.next_frame_in = 0;
     if (wish.focus) focus_at(c, projection, image.u(wish.focus->x), image.v(wish.focus->y));
     if (wish.inspect && image.contains(wish.inspect->x, wish.inspect->y))
@@ -161,15 +208,19 @@ ImageRect Viewport::draw(PanelContext& c) {
     draw_picture(c, image);
     const View view = c.scene().view;
     const Projection projection(view, double(image.width) / image.height);
-    bool on_handle = false;
-    if (c.ui.settings.overlays) {
+    bool on_handle = use_tool(c, image, visible_part(image), hovered && !navigation_.busy());
+    if (c.ui.settings.overlays && c.ui.tool == ViewTool::none) {
         ImDrawList& draw = *ImGui::GetWindowDrawList();
         draw.PushClipRect({image.x, image.y}, {image.x + image.width, image.y + image.height}, true);
         draw_light_glyphs(draw, c.scene(), projection, image, c.ui.selected);
-        on_handle = handles_.update(c, draw, projection, image, hovered && !navigation_.busy());
+        on_handle |= handles_.update(c, draw, projection, image, hovered && !navigation_.busy());
         draw.PopClipRect();
     }
-    draw_caption(image);
+    draw_pixel_grid(*ImGui::GetWindowDrawList(), image, window_region(), *shown_frame_);
+    const ImageRect seen = visible_part(image);
+    draw_false_color_legend(*ImGui::GetWindowDrawList(), seen, is_special(*shown_frame_, uploaded_view_) && is_map(uploaded_view_) ? ViewSettings{} : c.project().view);
+    if (c.ui.settings.overlays) draw_measured_region(*ImGui::GetWindowDrawList(), image, c.project().view);
+    draw_caption(seen);
     obey(c, navigation_.update(c.scene().view, image, hovered, !on_handle), projection, image);
     return image;
 }

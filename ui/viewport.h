@@ -33,6 +33,7 @@ private:
     OutlinePass outline_;
     Navigation navigation_;
     Handles handles_;
+    Gesture exposure_gesture_ = no_gesture;
 
     // What the textures hold, to draw into them only when something differs.
     FramePtr uploaded_frame_, shown_frame_;

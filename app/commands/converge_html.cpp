@@ -1,6 +1,7 @@
 // The report to hand around: one HTML file that needs nothing else.
 #include "app/commands/converge_report.h"
 
+#include "io/displayed.h"
 #include "io/image_io.h"
 #include "measure/convergence.h"
 #include "measure/plot.h"
@@ -66,9 +67,7 @@ Result<std::string> figure(const RgbImage& image, const std::string& caption, co
     const RgbImage small = shrunk(image);
     std::vector<float> rgb;
     for (const Vec3& p : small.pixels) rgb.insert(rgb.end(), {p.x, p.y, p.z});
-    if (Result<void> shown = color.apply_display(view.display, view.view, view.exposure_ev, view.gamma, rgb.data(), small.pixels.size());
-        !shown)
-        return shown.error();
+    if (Result<void> shown = show(color, view, rgb); !shown) return shown.error();
     const Result<std::vector<uint8_t>> png = encode_png(small.width, small.height, rgb);
     if (!png) return png.error();
     return fmt::format("<figure style='width:{0}px'><img width='{0}' height='{1}' alt='{2}' src='data:image/png;base64,{3}'>"

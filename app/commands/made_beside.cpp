@@ -36,7 +36,7 @@ MadeBeside measure_made_beside(unsigned threads) {
     made.display_seconds = seconds_to([] {
         const Result<ColorManagement> color = ColorManagement::load(assets_dir());
         float grey[3] = {0.18f, 0.18f, 0.18f};
-        return color && color->apply_display({}, {}, 0, 1, grey, 1);
+        return color && color->apply_display({}, {}, grey, 1);
     });
     made.denoiser_seconds = seconds_to([threads] {
         Denoiser denoiser(weights_dir(), threads);

@@ -41,10 +41,10 @@ Result<void> write_exr_picture(const std::filesystem::path& file, const Frame& f
 
 // width * height * 3, scene-linear: red, green and blue without alpha.
 std::vector<float> beauty_rgb(const Frame& frame);
-// Scene-linear `rgb` as the display shows it.
+// Scene-linear `rgb` as the display shows it; false colours of lux need the albedo.
 Result<void> write_display_picture(const std::filesystem::path& file, int width, int height, std::vector<float> rgb,
                                    const ColorManagement& color, const ViewSettings& view,
-                                   const std::map<std::string, std::string>& metadata);
+                                   const std::map<std::string, std::string>& metadata, std::span<const Vec3> albedo = {});
 // What of a render's metadata a display picture carries.
 std::map<std::string, std::string> display_metadata(const SnapshotMetadata& metadata);
 

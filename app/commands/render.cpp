@@ -175,6 +175,7 @@ void print_summary(const RenderCommand& c, const Rendered& rendered) {
 PlaneSet planes_for(const RenderCommand& c, const Plan& plan) {
     PlaneSet planes = planes_of(plan.layers);
     if (c.options.denoise) planes.albedo = planes.normal = true;
+    if (c.options.view.false_color.of == FalseColor::Of::lux) planes.albedo = true;
     return planes;
 }
 
@@ -185,7 +186,8 @@ Result<void> write_picture(const RenderCommand& c, const Plan& plan, const Rende
     if (rendered.denoised) denoised = rendered.denoised->rgb;
     if (!color) return write_exr_picture(c.output, frame, {denoised, error}, plan.layers, metadata);
     std::vector<float> rgb = rendered.denoised ? rendered.denoised->rgb : beauty_rgb(frame);
-    return write_display_picture(c.output, frame.width, frame.height, std::move(rgb), *color, c.options.view, display_metadata(metadata));
+    return write_display_picture(c.output, frame.width, frame.height, std::move(rgb), *color, c.options.view, display_metadata(metadata),
+                                 frame.albedo);
 }
 
 // Renders, denoises if that is asked for, and writes. What was rendered is written even if it then cannot be denoised.

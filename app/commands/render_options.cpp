@@ -140,8 +140,16 @@ void add_integrator_options(CLI::App& app, RenderOptions& o) {
 } // namespace
 
 void add_view_options(CLI::App& app, ViewSettings& view) {
+    add_parsed(app, "--auto-exposure", view.auto_exposure, parse_auto_exposure,
+               "Exposure by the picture, for display alone: its mean becomes middle grey, or its highlights white; --exposure is added [off]")
+        ->type_name("off|average|highlights");
+    add_parsed(app, "--white", view.white, parse_white, "Scene-linear colour that is to look neutral, for display alone [1,1,1]")->type_name("R,G,B");
+    add_parsed(app, "--false-color", view.false_color, parse_false_color,
+               "Colours for steps of luminance, for display alone: stops from middle grey, nits, or lux on matte surfaces [off]")
+        ->type_name("off|stops|nits|lux[=LOW:HIGH]");
     app.add_option("--exposure", view.exposure_ev, "Stops, for display alone: never in an EXR [0]")->type_name("EV");
     app.add_option("--view", view.view, "View transform, for display alone [the config's default]")->type_name("NAME");
+    app.add_option("--look", view.look, "Look, for display alone [the view's own]")->type_name("NAME");
     app.add_option("--display", view.display, "Display, for display alone [the config's default]")->type_name("NAME");
 }
 

@@ -25,7 +25,7 @@ struct RenderOptions {
 
 // Text that makes no sense ends parsing with CLI::ValidationError.
 void add_render_options(CLI::App& app, RenderOptions& options);
-// Of those, how a picture is shown: --exposure, --view, --display.
+// Of those, how a picture is shown: --exposure, --view, --look, --display and their like.
 void add_view_options(CLI::App& app, ViewSettings& view);
 
 // The settings that the options together ask for: a time or error limit alone lifts the default limit on samples.

@@ -1,5 +1,7 @@
 #include "color/color_management.h"
 
+#include "core/math.h"
+
 #include <OpenColorIO/OpenColorIO.h>
 #include <fmt/format.h>
 
@@ -63,22 +65,30 @@ bool is_data_view(const OCIO::Config& config, const std::string& display, const 
 
 // From the working space to the display. Raw views pass the numbers as they are. A config without our working space
 // is entered through ACES2065-1, and one that does not name that either is taken to work in Rec.709.
-OCIO::ConstTransformRcPtr display_transform(const OCIO::Config& config, const std::string& display, const std::string& view) {
+OCIO::ConstTransformRcPtr display_transform(const OCIO::Config& config, const DisplayTransform& names) {
     auto group = OCIO::GroupTransform::Create();
-    if (is_data_view(config, display, view)) return group;
+    if (is_data_view(config, names.display, names.view)) return group;
 
-    auto to_display = OCIO::DisplayViewTransform::Create();
-    to_display->setDisplay(display.c_str());
-    to_display->setView(view.c_str());
-    if (const char* name = working_space_of(config)) {
-        to_display->setSrc(name);
-    } else if (config.hasRole(OCIO::ROLE_INTERCHANGE_SCENE)) {
+    const char* source = working_space_of(config);
+    if (!source && config.hasRole(OCIO::ROLE_INTERCHANGE_SCENE)) {
         group->appendTransform(builtin("UTILITY - ACES-AP1_to_LINEAR-REC709_BFD", OCIO::TRANSFORM_DIR_INVERSE));
         group->appendTransform(builtin("ACEScg_to_ACES2065-1", OCIO::TRANSFORM_DIR_FORWARD));
-        to_display->setSrc(OCIO::ROLE_INTERCHANGE_SCENE);
-    } else {
-        to_display->setSrc(OCIO::ROLE_SCENE_LINEAR);
+        source = OCIO::ROLE_INTERCHANGE_SCENE;
+    } else if (!source) {
+        source = OCIO::ROLE_SCENE_LINEAR;
     }
+    if (!names.look.empty()) {
+        auto look = OCIO::LookTransform::Create();
+        look->setSrc(source);
+        look->setDst(source);
+        look->setLooks(names.look.c_str());
+        group->appendTransform(look);
+    }
+    auto to_display = OCIO::DisplayViewTransform::Create();
+    to_display->setSrc(source);
+    to_display->setDisplay(names.display.c_str());
+    to_display->setView(names.view.c_str());
+    to_display->setLooksBypass(!names.look.empty());
     group->appendTransform(to_display);
     return group;
 }
@@ -95,23 +105,31 @@ std::vector<std::string> views_of(const OCIO::Config& config, const std::string&
     return names;
 }
 
+std::vector<std::string> looks_of(const OCIO::Config& config) {
+    std::vector<std::string> names;
+    for (int i = 0; i < config.getNumLooks(); ++i) names.emplace_back(config.getLookNameByIndex(i));
+    return names;
+}
+
 bool contains(const std::vector<std::string>& names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-// The display and view with defaults filled in, as a processor.
-Result<OCIO::ConstProcessorRcPtr> make_processor(const OCIO::Config& config, std::string_view display_name, std::string_view view_name) {
-    const std::string display = display_name.empty() ? config.getDefaultDisplay() : std::string(display_name);
+// With defaults filled in.
+Result<OCIO::ConstProcessorRcPtr> make_processor(const OCIO::Config& config, DisplayTransform names) {
+    if (names.display.empty()) names.display = config.getDefaultDisplay();
     const auto displays = displays_of(config);
-    if (!contains(displays, display))
-        return Error{{}, fmt::format("no display \"{}\"; there are: {}", display, fmt::join(displays, ", ")), {}};
-    const std::string view = view_name.empty() ? config.getDefaultView(display.c_str()) : std::string(view_name);
-    const auto views = views_of(config, display);
-    if (!contains(views, view))
-        return Error{{}, fmt::format("no view \"{}\" for display \"{}\"; there are: {}", view, display, fmt::join(views, ", ")), {}};
+    if (!contains(displays, names.display))
+        return Error{{}, fmt::format("no display \"{}\"; there are: {}", names.display, fmt::join(displays, ", ")), {}};
+    if (names.view.empty()) names.view = config.getDefaultView(names.display.c_str());
+    const auto views = views_of(config, names.display);
+    if (!contains(views, names.view))
+        return Error{{}, fmt::format("no view \"{}\" for display \"{}\"; there are: {}", names.view, names.display, fmt::join(views, ", ")), {}};
+    if (const auto looks = looks_of(config); !names.look.empty() && !contains(looks, names.look))
+        return Error{{}, fmt::format("no look \"{}\"; there are: {}", names.look, fmt::join(looks, ", ")), {}};
     try {
-        return config.getProcessor(display_transform(config, display, view));
-    } catch (const std::exception& e) { return failure(e, {}, fmt::format("view \"{}\" of display \"{}\"", view, display)); }
+        return config.getProcessor(display_transform(config, names));
+    } catch (const std::exception& e) { return failure(e, {}, fmt::format("view \"{}\" of display \"{}\"", names.view, names.display)); }
 }
 
 // A parsed and validated config. Other people's configs must also be able to show their default view, so that a
@@ -122,7 +140,7 @@ Result<OCIO::ConstConfigRcPtr> open_config(const std::filesystem::path& file, bo
         config->validate();
         if (config->getNumDisplays() == 0) return Error{file.string(), "the OpenColorIO config has no display", {}};
         if (prove_default_view) {
-            auto processor = make_processor(*config, {}, {});
+            auto processor = make_processor(*config, {});
             if (!processor) return Error{file.string(), processor.error().what, processor.error().where};
         }
         return config;
@@ -130,24 +148,61 @@ Result<OCIO::ConstConfigRcPtr> open_config(const std::filesystem::path& file, bo
 }
 
 // Not a number becomes black, infinities the ends of the range.
-float sanitized(float x) { return std::isnan(x) ? 0.0f : std::clamp(x, -largest_half, largest_half); }
+float sanitized(float x, float limit = largest_half) { return std::isnan(x) ? 0.0f : std::clamp(x, -limit, limit); }
+Vec3 sanitized(const Vec3& v, float limit = largest_half) { return {sanitized(v.x, limit), sanitized(v.y, limit), sanitized(v.z, limit)}; }
+
+// Of what is rendered: beyond any light, and white balance does not overflow.
+constexpr float largest_scene = 1e30f;
+
+float srgb_encoded(float x) { return x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1 / 2.4f) - 0.055f; }
+
+Vec3 as_it_is(const Vec3& scene) { return {srgb_encoded(clamp01(scene.x)), srgb_encoded(clamp01(scene.y)), srgb_encoded(clamp01(scene.z))}; }
 
 // The same around OCIO's function `ocio_display`, in the same order, as apply_display() has it.
 constexpr const char* shader_frame = R"(
 uniform float exposure_ev;
 uniform float gamma;
+uniform mat3 white_balance;
+uniform int false_color_of;
+uniform float false_color_low, false_color_high;
+uniform bool background_as_it_is;
 
 {ocio}
 
-float sanitized(float x) {{ return isnan(x) ? 0.0 : clamp(x, -{limit}, {limit}); }}
-vec3 sanitized(vec3 v) {{ return vec3(sanitized(v.r), sanitized(v.g), sanitized(v.b)); }}
+const vec3 false_colors[{false_colors}] = vec3[]({false_color_list});
+
+float sanitized(float x, float limit) {{ return isnan(x) ? 0.0 : clamp(x, -limit, limit); }}
+vec3 sanitized(vec3 v, float limit) {{ return vec3(sanitized(v.r, limit), sanitized(v.g, limit), sanitized(v.b, limit)); }}
+vec3 srgb_encoded(vec3 v) {{
+    return mix(12.92 * v, 1.055 * pow(v, vec3(1.0 / 2.4)) - 0.055, vec3(greaterThan(v, vec3(0.0031308))));
+}}
+
+vec3 false_color(vec3 color) {{
+    float y = dot(color, vec3(0.212671, 0.715160, 0.072169));
+    float t = (log2(max(y, 1e-37)) - false_color_low) / (false_color_high - false_color_low);
+    return false_colors[y > 0.0 ? int(clamp(floor(t * {bands}.0) + 1.0, 0.0, {bands}.0 + 1.0)) : 0];
+}}
+
+vec3 displayed(vec3 scene) {{
+    vec3 exposed = sanitized(white_balance * scene * exp2(exposure_ev), {limit});
+    if (false_color_of != 0) return false_color(false_color_of == 1 ? scene : exposed);
+    vec3 encoded = clamp(sanitized(ocio_display(vec4(exposed, 1.0)).rgb, {limit}), 0.0, 1.0);
+    return pow(encoded, vec3(1.0 / max(gamma, {smallest_gamma})));
+}}
 
 vec4 display_color(vec4 scene_linear) {{
-    vec3 exposed = sanitized(scene_linear.rgb * exp2(exposure_ev));
-    vec3 encoded = clamp(sanitized(ocio_display(vec4(exposed, 1.0)).rgb), 0.0, 1.0);
-    return vec4(pow(encoded, vec3(1.0 / max(gamma, {smallest_gamma}))), scene_linear.a);
+    vec3 scene = sanitized(scene_linear.rgb, {largest_scene});
+    vec3 shown = displayed(scene);
+    if (background_as_it_is) shown = mix(srgb_encoded(clamp(scene, 0.0, 1.0)), shown, scene_linear.a);
+    return vec4(shown, scene_linear.a);
 }}
 )";
+
+std::string false_color_list() {
+    std::string list;
+    for (const Vec3& c : false_colors) list += fmt::format("{}vec3({:.8f}, {:.8f}, {:.8f})", list.empty() ? "" : ", ", c.x, c.y, c.z);
+    return list;
+}
 
 std::vector<DisplayShader::Lut> luts_of(const OCIO::GpuShaderDesc& description) {
     std::vector<DisplayShader::Lut> luts;
@@ -223,9 +278,10 @@ std::string ColorManagement::default_display() const { return state_->config->ge
 std::string ColorManagement::default_view(std::string_view display) const {
     return state_->config->getDefaultView(std::string(display).c_str());
 }
+std::vector<std::string> ColorManagement::looks() const { return looks_of(*state_->config); }
 
-Result<DisplayShader> ColorManagement::display_shader(std::string_view display, std::string_view view) const {
-    auto processor = make_processor(*state_->config, display, view);
+Result<DisplayShader> ColorManagement::display_shader(const DisplayTransform& transform) const {
+    auto processor = make_processor(*state_->config, transform);
     if (!processor) return processor.error();
     try {
         auto description = OCIO::GpuShaderDesc::CreateShaderDesc();
@@ -234,29 +290,48 @@ Result<DisplayShader> ColorManagement::display_shader(std::string_view display, 
         description->setResourcePrefix("ocio_");
         (*processor)->getOptimizedGPUProcessor(exact_arithmetic)->extractGpuShaderInfo(description);
         return DisplayShader{fmt::format(shader_frame, fmt::arg("ocio", description->getShaderText()),
-                                         fmt::arg("limit", fmt::format("{:.1f}", largest_half)),
-                                         fmt::arg("smallest_gamma", smallest_gamma)),
+                                         fmt::arg("limit", fmt::format("{:.1f}", largest_half)), fmt::arg("largest_scene", largest_scene),
+                                         fmt::arg("smallest_gamma", smallest_gamma), fmt::arg("bands", false_color_bands),
+                                         fmt::arg("false_colors", false_colors.size()), fmt::arg("false_color_list", false_color_list())),
                              luts_of(*description)};
     } catch (const std::exception& e) { return failure(e, {}, "display shader"); }
 }
 
-Result<void> ColorManagement::apply_display(std::string_view display, std::string_view view, float exposure_ev, float gamma, float* rgb,
-                                            size_t count) const {
-    auto processor = make_processor(*state_->config, display, view);
+Result<void> ColorManagement::apply_display(const DisplayTransform& transform, const DisplayNumbers& numbers, float* rgb, size_t count,
+                                            const float* coverage) const {
+    auto processor = make_processor(*state_->config, transform);
     if (!processor) return processor.error();
 
-    const float gain = std::exp2(exposure_ev);
-    const float power = 1 / std::max(smallest_gamma, gamma);
+    const float gain = std::exp2(numbers.exposure_ev);
+    const float power = 1 / std::max(smallest_gamma, numbers.gamma);
+    const FalseColorScale& scale = numbers.false_color;
+    const bool background = numbers.background_as_it_is && coverage;
     constexpr size_t chunk = 4096; // pixels: what fits into the first caches
+    std::vector<Vec3> scene(std::min(chunk, count)), shown(scene.size());
     try {
         const auto cpu = (*processor)->getOptimizedCPUProcessor(exact_arithmetic);
         for (size_t done = 0; done < count; done += chunk) {
             const size_t pixels = std::min(chunk, count - done);
-            const std::span<float> values(rgb + done * 3, pixels * 3);
-            for (float& x : values) x = sanitized(x * gain);
-            OCIO::PackedImageDesc row(values.data(), long(pixels), 1, 3);
-            cpu->apply(row);
-            for (float& x : values) x = std::pow(std::clamp(sanitized(x), 0.0f, 1.0f), power);
+            float* const values = rgb + done * 3;
+            for (size_t i = 0; i < pixels; ++i) {
+                scene[i] = sanitized({values[3 * i], values[3 * i + 1], values[3 * i + 2]}, largest_scene);
+                shown[i] = sanitized(transform_vector(numbers.white_balance, scene[i]) * gain);
+            }
+            if (scale.of == FalseColorScale::Of::off) {
+                OCIO::PackedImageDesc row(&shown[0].x, long(pixels), 1, 3);
+                cpu->apply(row);
+                const auto bent = [&](float x) { return std::pow(std::clamp(sanitized(x), 0.0f, 1.0f), power); };
+                for (size_t i = 0; i < pixels; ++i) shown[i] = {bent(shown[i].x), bent(shown[i].y), bent(shown[i].z)};
+            } else {
+                const auto& read = scale.of == FalseColorScale::Of::scene ? scene : shown;
+                for (size_t i = 0; i < pixels; ++i) shown[i] = false_colors[size_t(false_color_band(luminance(read[i]), scale))];
+            }
+            for (size_t i = 0; i < pixels; ++i) {
+                const Vec3 c = background ? lerp<float>(as_it_is(scene[i]), shown[i], coverage[done + i]) : shown[i];
+                values[3 * i] = c.x;
+                values[3 * i + 1] = c.y;
+                values[3 * i + 2] = c.z;
+            }
         }
     } catch (const std::exception& e) { return failure(e, {}, "display transform"); }
     return {};

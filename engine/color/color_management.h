@@ -1,6 +1,7 @@
 // OpenColorIO behind plain data. The working space of everything else is scene-linear Rec.709.
 #pragma once
 
+#include "color/display_numbers.h"
 #include "core/result.h"
 
 #include <filesystem>
@@ -12,7 +13,7 @@
 namespace blush {
 
 // Text and tables of the display transform for a fragment shader: GLSL 3.30 source that defines
-// `vec4 display_color(vec4 scene_linear)`, with float uniforms `exposure_ev` and `gamma` declared in it.
+// `vec4 display_color(vec4 scene_linear)`, whose alpha is the share of the pixel that objects cover, with a uniform in it for each DisplayNumber.
 struct DisplayShader {
     struct Lut {
         std::string sampler;  // name of the uniform sampler
@@ -41,11 +42,14 @@ public:
     std::vector<std::string> views(std::string_view display) const;
     std::string default_display() const;
     std::string default_view(std::string_view display) const;
+    std::vector<std::string> looks() const;
 
-    // Empty names mean the defaults. Errors: unknown display or view (the message lists those there are).
-    Result<DisplayShader> display_shader(std::string_view display, std::string_view view) const;
-    // The shader's twin on the processor: rgb is count * 3 floats, scene-linear in, display-encoded out, in place.
-    Result<void> apply_display(std::string_view display, std::string_view view, float exposure_ev, float gamma, float* rgb, size_t count) const;
+    // Errors: unknown display, view or look (the message lists those there are).
+    Result<DisplayShader> display_shader(const DisplayTransform& transform) const;
+    // The shader's twin on the processor: rgb is count * 3 floats, scene-linear in, display-encoded out, in place. `coverage` is count
+    // floats; null: objects cover everything.
+    Result<void> apply_display(const DisplayTransform& transform, const DisplayNumbers& numbers, float* rgb, size_t count,
+                               const float* coverage = nullptr) const;
 
 private:
     struct State;

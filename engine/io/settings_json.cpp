@@ -3,6 +3,7 @@
 #include "io/json_fields.h"
 #include "scene/validate.h"
 
+#include <array>
 #include <charconv>
 #include <functional>
 #include <map>
@@ -29,6 +30,18 @@ template <class T, class Parse> auto word(T& target, Parse parse) {
         Result<T> parsed = parse(text);
         if (!parsed) return parsed.error();
         target = *std::move(parsed);
+        return {};
+    };
+}
+
+// Hands over an array of so many numbers.
+template <size_t n, class Take> auto numbers(Take take) {
+    return [take](const Json& json) -> Result<void> {
+        std::array<float, n> values{};
+        bool good = json.is_array() && json.size() == n;
+        for (size_t i = 0; good && i < n; ++i) good = read_json(json[i], values[i]);
+        if (!good) return Error{"", fmt::format("not {} numbers", n), ""};
+        take(values);
         return {};
     };
 }
@@ -94,6 +107,12 @@ std::string view_settings_json(const ViewSettings& s) {
     json["gamma"] = s.gamma;
     json["display"] = s.display;
     json["view"] = s.view;
+    json["look"] = s.look;
+    json["auto_exposure"] = to_string(s.auto_exposure);
+    json["white"] = {s.white.x, s.white.y, s.white.z};
+    json["false_color"] = to_string(s.false_color);
+    json["background_as_it_is"] = s.background_as_it_is;
+    if (s.measured) json["measured"] = {s.measured->x, s.measured->y, s.measured->width, s.measured->height};
     return json_text(json);
 }
 
@@ -140,6 +159,12 @@ Result<ParsedSettings<ViewSettings>> parse_view_settings(std::string_view text, 
         {"gamma", plain(s.gamma)},
         {"display", plain(s.display)},
         {"view", plain(s.view)},
+        {"look", plain(s.look)},
+        {"auto_exposure", word(s.auto_exposure, parse_auto_exposure)},
+        {"white", numbers<3>([&s](const auto& n) { s.white = {n[0], n[1], n[2]}; })},
+        {"false_color", word(s.false_color, parse_false_color)},
+        {"background_as_it_is", plain(s.background_as_it_is)},
+        {"measured", numbers<4>([&s](const auto& n) { s.measured = {n[0], n[1], n[2], n[3]}; })},
     };
     return parse(text, std::move(parsed), readers);
 }

@@ -15,7 +15,8 @@ namespace blush {
 //  "max_bounces": "unlimited", "roulette": "sqrt,start=3", "strategy": "mis", "filter": "blackman-harris",
 //  "energy_compensation": false, "adaptive": false, "reuse": "off", "clamp": "off"}
 std::string render_settings_json(const RenderSettings& settings);
-// {"exposure": 0.0, "gamma": 1.0, "display": "", "view": ""}
+// {"exposure": 0.0, "gamma": 1.0, "display": "", "view": "", "look": "", "auto_exposure": "off", "white": [1.0, 1.0, 1.0],
+//  "false_color": "nits=1:1000", "background_as_it_is": false, "measured": [x, y, width, height]}, the last if there is one
 std::string view_settings_json(const ViewSettings& settings);
 
 template <class T> struct ParsedSettings {

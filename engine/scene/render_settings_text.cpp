@@ -1,6 +1,7 @@
 // The command line's words for render settings, and back.
 #include "core/text.h"
 #include "scene/render_settings.h"
+#include "scene/words.h"
 
 #include <fmt/format.h>
 
@@ -9,11 +10,6 @@
 
 namespace blush {
 namespace {
-
-template <class E> struct Word {
-    E value;
-    std::string_view text;
-};
 
 constexpr std::array<Word<Roulette::Rule>, 6> roulette_words{{
     {Roulette::Rule::off, "off"},
@@ -34,22 +30,6 @@ constexpr std::array<Word<PixelFilter>, 2> filter_words{{
 }};
 
 constexpr std::array<Word<int>, 4> reuse_words{{{1, "off"}, {4, "4"}, {8, "8"}, {16, "16"}}};
-
-template <class E, size_t n> std::string_view word_of(const std::array<Word<E>, n>& words, E value) {
-    for (const Word<E>& w : words)
-        if (w.value == value) return w.text;
-    return {};
-}
-
-template <class E, size_t n> Result<E> value_of(const std::array<Word<E>, n>& words, std::string_view text, std::string_view kind) {
-    std::string known;
-    for (const Word<E>& w : words) {
-        if (w.text == text) return w.value;
-        if (!known.empty()) known += ", ";
-        known += w.text;
-    }
-    return Error{.what = fmt::format("unknown {} \"{}\" (known: {})", kind, text, known)};
-}
 
 Result<float> parse_probability(std::string_view text, std::string_view name, bool zero_allowed) {
     float p = 0;

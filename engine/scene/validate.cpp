@@ -44,6 +44,10 @@ public:
         is(ref.uv_set <= 1, fmt::format("{} must use UV set 0 or 1, not {}", field, ref.uv_set));
         for (const float c : {ref.offset.x, ref.offset.y, ref.scale.x, ref.scale.y, ref.rotation_radians}) finite(field, c);
     }
+    void region(std::string_view field, const PictureRegion& r) {
+        is(r.x >= 0 && r.y >= 0 && r.width > 0 && r.height > 0 && r.x + r.width <= 1 + 1e-6f && r.y + r.height <= 1 + 1e-6f,
+           fmt::format("{} must be a rectangle within the picture", field));
+    }
     void lens(const Lens& lens) {
         is(lens.yfov_radians > 0 && lens.yfov_radians < pi,
            fmt::format("field of view must be above 0 and below pi radians, not {}", lens.yfov_radians));
@@ -206,6 +210,12 @@ Result<void> validate(const ViewSettings& settings) {
     Check check("view settings");
     check.between("exposure", settings.exposure_ev, -100, 100);
     check.is(settings.gamma > 0 && settings.gamma <= 100, fmt::format("gamma must be above 0 and at most 100, not {}", settings.gamma));
+    check.color("white", settings.white);
+    check.is(settings.white != Vec3{0, 0, 0}, "white must not be black");
+    check.positive("lower end of the false colours", settings.false_color.low);
+    check.positive("upper end of the false colours", settings.false_color.high);
+    check.is(settings.false_color.low < settings.false_color.high, "the lower end of the false colours must be below the upper");
+    if (settings.measured) check.region("measured region", *settings.measured);
     return std::move(check).done();
 }
 

@@ -68,7 +68,7 @@ double engine_core_seconds(const Scene& scene, bool through_view, const Options&
                std::vector<float> rgb;
                for (size_t i = 0; i < frame.rgba.size(); ++i)
                    if (i % 4 != 3) rgb.push_back(frame.rgba[i]);
-               if (!color->apply_display({}, {}, 1, 1, rgb.data(), rgb.size() / 3)) rgb.clear();
+               if (!color->apply_display({}, {.exposure_ev = 1}, rgb.data(), rgb.size() / 3)) rgb.clear();
            })
         .core_seconds;
 }
@@ -150,7 +150,7 @@ Json run_startup(const Options& options) {
     const std::string out = folder / "out";
     const auto plain_program = [&] { return program_core_seconds({cornell->file, "-o", out + ".exr"}, options); };
     const auto full_program = [&] {
-        return program_core_seconds({folder / "full.gltf", "-o", out + ".png", "--env", folder / "sky.exr", "--view", "False colour"}, options);
+        return program_core_seconds({folder / "full.gltf", "-o", out + ".png", "--env", folder / "sky.exr", "--look", "High contrast"}, options);
     };
     return {{"scene", cornell->name()},
             {"engine", compare([&] { return engine_core_seconds(cornell->scene, false, options); },

@@ -21,7 +21,7 @@ protected:
     // A few frames of everything, with this selected.
     void draw_all(Document& document, Id<Node> selected) {
         ui.selected = selected;
-        ui.show_shortcuts = ui.show_history = ui.bounces.open = ui.health.open = true;
+        ui.show_shortcuts = ui.show_history = ui.bounces.open = ui.health.open = ui.scopes.open = true;
         for (int tab = 0; tab <= int(InspectorTab::display); ++tab) {
             ui.tab = InspectorTab(tab);
             for (int i = 0; i < 3; ++i) {
@@ -33,6 +33,8 @@ protected:
                     draw_history(c);
                     draw_bounces_panel(c);
                     draw_health_panel(c);
+                    draw_region_panel(c);
+                    draw_scopes_panel(c);
                     draw_shortcut_sheet(c);
                     draw_toasts(c);
                 });
@@ -75,6 +77,9 @@ Project with_odd_values(Project project) {
     project.render.max_bounces = 0;
     project.render.roulette.rule = Roulette::Rule::biased_cut;
     project.view.exposure_ev = 25;
+    project.view.auto_exposure = AutoExposure::highlights;
+    project.view.false_color = {FalseColor::Of::lux, 1e-20f, 1e30f};
+    project.view.measured = PictureRegion{0.999f, 0, 0.001f, 1};
     return project;
 }
 

@@ -30,7 +30,7 @@ TEST(Shortcuts, AreFoundByTheirKeysAndNoOthers) {
     ASSERT_TRUE(undo);
     EXPECT_EQ(undo->command, Command::undo);
     EXPECT_EQ(find_shortcut({'Z', true, true, false})->command, Command::redo);
-    EXPECT_EQ(find_shortcut({'Z', false, false, false}), nullptr);
+    EXPECT_EQ(find_shortcut({'Y', false, false, false}), nullptr);
     EXPECT_EQ(find_shortcut({}), nullptr);
 }
 

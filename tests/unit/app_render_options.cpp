@@ -76,6 +76,14 @@ TEST(RenderOptions, EachOptionSetsItsField) {
                                           "Raw",
                                           "--display",
                                           "sRGB",
+                                          "--look",
+                                          "High contrast",
+                                          "--auto-exposure",
+                                          "highlights",
+                                          "--white",
+                                          "1,0.8,0.5",
+                                          "--false-color",
+                                          "nits=10:500",
                                           "--aperture",
                                           "0.02",
                                           "--focus",
@@ -87,6 +95,10 @@ TEST(RenderOptions, EachOptionSetsItsField) {
     EXPECT_EQ(options.view.exposure_ev, -1.5f);
     EXPECT_EQ(options.view.view, "Raw");
     EXPECT_EQ(options.view.display, "sRGB");
+    EXPECT_EQ(options.view.look, "High contrast");
+    EXPECT_EQ(options.view.auto_exposure, AutoExposure::highlights);
+    EXPECT_EQ(options.view.white, (Vec3{1, 0.8f, 0.5f}));
+    EXPECT_EQ(options.view.false_color, (FalseColor{FalseColor::Of::nits, 10, 500}));
     EXPECT_EQ(options.overrides.aperture, 0.02f);
     EXPECT_EQ(options.overrides.focus, 3.f);
     EXPECT_EQ(options.overrides.camera, "Top");

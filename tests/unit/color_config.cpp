@@ -49,7 +49,7 @@ TEST(Config, ListsDisplaysAndViews) {
     EXPECT_EQ(color.config_name(), "Blush");
     EXPECT_EQ(color.displays(), (std::vector<std::string>{"sRGB", "Rec.1886", "Display P3"}));
     for (const auto& display : color.displays()) {
-        EXPECT_EQ(color.views(display), (std::vector<std::string>{"ACES SDR", "Standard", "Raw", "False colour"}));
+        EXPECT_EQ(color.views(display), (std::vector<std::string>{"ACES SDR", "Standard", "Raw"}));
         EXPECT_EQ(color.default_view(display), "ACES SDR");
     }
     EXPECT_EQ(color.default_display(), "sRGB");
@@ -59,18 +59,21 @@ TEST(Config, EmptyNamesMeanTheDefaults) {
     const auto color = shipped_config();
     EXPECT_EQ(show(color, "", "", {0.4f, 0.3f, 0.2f}), show(color, "sRGB", "ACES SDR", {0.4f, 0.3f, 0.2f}));
     EXPECT_EQ(show(color, "Rec.1886", "", {0.4f, 0.3f, 0.2f}), show(color, "Rec.1886", "ACES SDR", {0.4f, 0.3f, 0.2f}));
-    EXPECT_EQ(color.display_shader("", "")->text, color.display_shader("sRGB", "ACES SDR")->text);
+    EXPECT_EQ(color.display_shader({})->text, color.display_shader({"sRGB", "ACES SDR"})->text);
 }
 
 TEST(Config, UnknownNamesAreAnsweredWithTheKnownOnes) {
     const auto color = shipped_config();
     Pixel p = grey(0.5f);
-    const auto view = color.apply_display("sRGB", "Sepia", 0, 1, p.data(), 1);
+    const auto view = color.apply_display({"sRGB", "Sepia"}, {}, p.data(), 1);
     ASSERT_FALSE(view);
-    EXPECT_EQ(view.error().text(), "no view \"Sepia\" for display \"sRGB\"; there are: ACES SDR, Standard, Raw, False colour");
-    const auto display = color.display_shader("CRT", "");
+    EXPECT_EQ(view.error().text(), "no view \"Sepia\" for display \"sRGB\"; there are: ACES SDR, Standard, Raw");
+    const auto display = color.display_shader({"CRT"});
     ASSERT_FALSE(display);
     EXPECT_EQ(display.error().text(), "no display \"CRT\"; there are: sRGB, Rec.1886, Display P3");
+    const auto look = color.display_shader({"", "", "Sepia"});
+    ASSERT_FALSE(look);
+    EXPECT_EQ(look.error().text(), "no look \"Sepia\"; there are: Low contrast, High contrast, Black and white");
     EXPECT_EQ(p, grey(0.5f));
 }
 

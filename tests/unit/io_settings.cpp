@@ -38,10 +38,16 @@ TEST(SettingsJson, RenderSettingsComeBack) {
 }
 
 TEST(SettingsJson, ViewSettingsComeBack) {
-    const ViewSettings s{-1.5f, 2.2f, "sRGB", "ACES SDR"};
-    const auto parsed = parse_view_settings(view_settings_json(s));
-    ASSERT_TRUE(parsed) << error_text(parsed);
-    EXPECT_EQ(parsed->settings, s);
+    ViewSettings unusual{-1.5f, 2.2f, "sRGB", "ACES SDR", "High contrast", AutoExposure::highlights, {1, 0.7f, 0.4f}};
+    unusual.false_color = {FalseColor::Of::lux, 10, 20000};
+    unusual.background_as_it_is = true;
+    unusual.measured = {0.25f, 0.5f, 0.125f, 0.25f};
+    for (const ViewSettings& s : {ViewSettings{}, unusual}) {
+        const auto parsed = parse_view_settings(view_settings_json(s));
+        ASSERT_TRUE(parsed) << error_text(parsed);
+        EXPECT_EQ(parsed->settings, s);
+        EXPECT_TRUE(parsed->diagnostics.empty());
+    }
 }
 
 TEST(SettingsJson, PartialInputKeepsTheRestAndUnknownKeysAreReported) {
@@ -80,7 +86,10 @@ TEST(SettingsJson, WrongInputIsAnErrorThatNamesTheKey) {
         ASSERT_FALSE(parsed) << text;
         if (!where.empty()) { EXPECT_EQ(parsed.error().where, where) << text; }
     }
-    EXPECT_FALSE(parse_view_settings(R"({"gamma": 0})"));
+    for (const char* text : {R"({"gamma": 0})", R"({"white": [1, 1]})", R"({"white": [0, 0, 0]})", R"({"white": [1, -1, 1]})", R"({"white": 1})",
+                             R"({"auto_exposure": "on"})", R"({"false_color": "nits=5:1"})", R"({"false_color": "stops=1:2"})",
+                             R"({"measured": [0.5, 0.5, 0.6, 0.1]})", R"({"measured": [0, 0, 0, 1]})", R"({"measured": [0, 0, 1]})"})
+        EXPECT_FALSE(parse_view_settings(text)) << text;
     EXPECT_FALSE(parse_render_settings(std::string(1000000, '[')));
 }
 

@@ -6,5 +6,6 @@ blush_test(test_measure
     measure_flip.cpp
     measure_metrics.cpp
     measure_plot.cpp
+    measure_scopes.cpp
   LIBS blush_measure fmt::fmt
   LABELS unit)

@@ -2,8 +2,10 @@
 #pragma once
 
 #include "color/color_management.h"
+#include "io/displayed.h"
 #include "render/render_session.h"
 #include "scene/document.h"
+#include "ui/shown_picture.h"
 #include "ui/ui_state.h"
 
 namespace blush {
@@ -20,6 +22,12 @@ struct PanelContext {
     std::string denoiser_problem = {}; // why nothing can be denoised; empty: it can
     const Ledger* window_ledger = nullptr; // of what the window makes itself; null: nothing
 
+    float metered_ev = 0; // of the frame, by the auto exposure; 0 without
+
+    // How the picture is looked at, with auto exposure settled.
+    ViewSettings shown_view() const { return settled(project().view, metered_ev); }
+    bool has_picture() const { return frame && frame->width > 0; }
+    ShownPicture shown_picture() const { return {frame, denoised, mix_of(ui.denoise, denoised != nullptr), shown_view(), &color}; }
     const Project& project() const { return document.project(); }
     const Scene& scene() const { return document.project().scene; }
     // An edit that the document refuses becomes a toast.

@@ -1,5 +1,6 @@
 // Display: how the finished image is looked at. Nothing here restarts the render.
 #include "ui/panels/panels.h"
+#include "ui/picture_view.h"
 #include "ui/widgets.h"
 
 #include <fmt/format.h>
@@ -41,28 +42,43 @@ void draw_denoise_fields(PanelContext& c) {
         quiet_text("The image is shown as it was traced, noise included.");
 }
 
-} // namespace
-
-void draw_display_panel(PanelContext& c) {
-    ViewSettings v = c.project().view;
-    Fields f(c.ui, "Display");
+// How scene light becomes display light.
+void draw_transform_fields(PanelContext& c, Fields& f, ViewSettings& v) {
     std::string display = v.display.empty() ? c.color.default_display() : v.display;
     if (f.choice("Display", display, c.color.displays(), "The screen that the image is encoded for.")) {
         v.display = display;
         v.view.clear();
     }
     std::string view = v.view.empty() ? c.color.default_view(display) : v.view;
-    if (f.choice("View", view, c.color.views(display),
-                 "How scene light becomes display light: a film-like curve, none, or false colours that show exposure."))
-        v.view = view;
-    f.number("Exposure", v.exposure_ev,
+    if (f.choice("View", view, c.color.views(display), "How scene light becomes display light: a film-like curve, or none.")) v.view = view;
+    static constexpr const char* no_look = "As the view has it";
+    std::vector<std::string> looks = c.color.looks();
+    looks.insert(looks.begin(), no_look);
+    std::string look = v.look.empty() ? no_look : v.look;
+    if (f.choice("Look", look, looks, "A grade before the view: contrast, or luminance alone.")) v.look = look == no_look ? "" : look;
+    f.info("Colours from", c.color.config_name(), "The OpenColorIO configuration in use. The variable OCIO chooses another.");
+}
+
+void draw_exposure_fields(PanelContext& c, Fields& f, ViewSettings& v) {
+    constexpr const char* names[] = {"By hand", "Mean to middle grey", "Highlights to white"};
+    const bool by_hand = v.auto_exposure == AutoExposure::off;
+    f.number(by_hand ? "Exposure" : "Compensation", v.exposure_ev,
              {.min = -20,
               .max = 20,
               .reset = 0,
               .unit = "EV",
               .step = 0.02f,
-              .tip = "Each EV doubles the brightness of the picture as shown.",
+              .tip = "Each EV doubles the brightness of the picture as shown. In the picture: E+drag, Alt+wheel.",
               .format = "%+.2f"});
+    int rule = int(v.auto_exposure);
+    if (f.choice("Auto exposure", rule, names,
+                 "By hand, or by the picture as it is now: its log-average luminance becomes middle grey (0.18), or the brightest one per cent "
+                 "of its pixels lies above white (1).")) {
+        if (by_hand || rule == int(AutoExposure::off)) v.exposure_ev = rule == int(AutoExposure::off) ? c.shown_view().exposure_ev : 0;
+        v.auto_exposure = AutoExposure(rule);
+    }
+    if (v.auto_exposure != AutoExposure::off) f.info("Exposure", fmt::format("{:+.2f} EV", c.shown_view().exposure_ev));
+    if (f.button("Meter once", "Sets the exposure by the mean of the picture as it is now, and leaves it.")) c.ui.commands.push_back(Command::exposure_meter);
     f.number("Gamma", v.gamma,
              {.min = 0.2f,
               .max = 5,
@@ -70,7 +86,48 @@ void draw_display_panel(PanelContext& c) {
               .step = 0.005f,
               .tip = "Bends the picture after the view: above 1 lifts the shadows. For looking into dark corners, not for saving.",
               .format = "%.2f"});
-    f.info("Colours from", c.color.config_name(), "The OpenColorIO configuration in use. The variable OCIO chooses another.");
+}
+
+void draw_white_fields(PanelContext& c, Fields& f, ViewSettings& v) {
+    f.color("White", v.white, {1, 1, 1}, "The colour that is shown as neutral, as eyes see it that have adapted to it. EXR files never change.");
+    if (v.white.x + v.white.y + v.white.z <= 0) v.white = {1, 1, 1};
+    if (f.button("Pick in the picture", "Click something that should be white or grey.")) c.ui.commands.push_back(Command::pick_white);
+    if (v.white != Vec3{1, 1, 1} && f.button("As rendered", "No white balance.")) c.ui.commands.push_back(Command::reset_white);
+}
+
+// The ends of the scale as the picture has it now.
+FalseColor fitted_to_picture(const PanelContext& c, const FalseColor& scale) {
+    if (scale.of == FalseColor::Of::nits) return fitted(scale, c.frame->rgba, 4);
+    return fitted(scale, pixels_of(*c.frame, {PictureView::Show::illuminance}), 4);
+}
+
+void draw_false_color_fields(PanelContext& c, Fields& f, ViewSettings& v) {
+    FalseColor& scale = v.false_color;
+    constexpr const char* names[] = {"Off", "Stops from grey", "Luminance", "Illuminance"};
+    int of = int(scale.of);
+    if (f.choice("Show", of, names,
+                 "Stops from middle grey as exposed, luminance in nits, or illuminance in lux. Illuminance is told from luminance and albedo: it "
+                 "holds for matte surfaces."))
+        scale.of = FalseColor::Of(of);
+    if (scale.of != FalseColor::Of::nits && scale.of != FalseColor::Of::lux) return;
+    const char* unit = scale.of == FalseColor::Of::nits ? "nits" : "lux";
+    f.number("From", scale.low, {.min = 1e-6f, .max = scale.high * 0.999f, .reset = 1, .unit = unit, .tip = "Black is below."});
+    f.number("To", scale.high, {.min = scale.low * 1.001f, .max = 1e9f, .reset = 1000, .unit = unit, .tip = "White is above."});
+    if (f.button("Fit to the picture", "Ends that hold all but the darkest and the brightest one per cent of the pixels.") && c.has_picture()) {
+        v.false_color = fitted_to_picture(c, scale);
+        c.apply(SetView{v});
+    }
+}
+
+} // namespace
+
+void draw_display_panel(PanelContext& c) {
+    ViewSettings v = c.project().view;
+    Fields f(c.ui, "Display");
+    draw_transform_fields(c, f, v);
+    if (section(c.ui, "Exposure")) draw_exposure_fields(c, f, v);
+    if (section(c.ui, "White balance")) draw_white_fields(c, f, v);
+    if (section(c.ui, "False colour")) draw_false_color_fields(c, f, v);
     if (f.changed()) c.apply(SetView{v}, f.gesture());
 
     if (section(c.ui, "Denoise")) draw_denoise_fields(c);

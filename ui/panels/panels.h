@@ -31,6 +31,8 @@ void draw_file_browser(PanelContext& c);
 void draw_shortcut_sheet(PanelContext& c);
 void draw_history(PanelContext& c);
 void draw_pixel_panel(PanelContext& c);
+void draw_region_panel(PanelContext& c);
+void draw_scopes_panel(PanelContext& c);
 void draw_bounces_panel(PanelContext& c);
 void draw_health_panel(PanelContext& c);
 void draw_roulette_panel(PanelContext& c);

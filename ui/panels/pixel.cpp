@@ -4,6 +4,7 @@
 #include "ui/widgets.h"
 
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
 
 namespace blush {
@@ -23,10 +24,9 @@ std::string triple(const Vec3& v, const char* format = "{:.4g}  {:.4g}  {:.4g}")
     return fmt::format(fmt::runtime(format), v.x, v.y, v.z);
 }
 
-std::string displayed(const PanelContext& c, const Vec3& rgb) {
+std::string displayed(const PanelContext& c, const Vec3& rgb, const Vec3& albedo) {
     float shown[3] = {rgb.x, rgb.y, rgb.z};
-    const ViewSettings& v = c.project().view;
-    if (const auto done = c.color.apply_display(v.display, v.view, v.exposure_ev, v.gamma, shown, 1); !done) return done.error().text();
+    if (const auto done = show(c.color, c.shown_view(), shown, std::array{albedo}); !done) return done.error().text();
     const auto byte = [](float x) { return int(std::clamp(x, 0.f, 1.f) * 255 + 0.5f); };
     return fmt::format("{:.3f}  {:.3f}  {:.3f}   #{:02x}{:02x}{:02x}", shown[0], shown[1], shown[2], byte(shown[0]), byte(shown[1]),
                        byte(shown[2]));
@@ -40,7 +40,7 @@ void draw_values(const PanelContext& c, const Frame& f, int x, int y) {
     row("Luminance", fmt::format("{:.4g} nits", 0.2126 * rgba[0] + 0.7152 * rgba[1] + 0.0722 * rgba[2]));
     if (c.denoised) row("Denoised RGB", triple(denoised_pixel(f, *c.denoised, x, y)));
     const Vec3 shown = mixed_pixel(f, c.denoised.get(), mix_of(c.ui.denoise, c.denoised != nullptr), x, y);
-    row("Displayed", displayed(c, shown));
+    row("Displayed", displayed(c, shown, f.albedo.empty() ? Vec3{0, 0, 0} : f.albedo[i]));
     if (!f.albedo.empty()) row("Albedo", triple(f.albedo[i]));
     if (!f.normal.empty()) row("Normal", triple(f.normal[i], "{:+.3f}  {:+.3f}  {:+.3f}"));
     if (!f.depth.empty()) row("Distance", f.depth[i] > 0 ? fmt::format("{:.4g} m", f.depth[i]) : "nothing hit");

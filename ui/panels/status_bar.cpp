@@ -98,9 +98,12 @@ void draw_status_bar(PanelContext& c) {
         cell(c, x, 30, c.status.message, "", tone::failure);
     else if (c.frame)
         draw_frame_cells(c, x, *c.frame);
-    const float exposure = c.project().view.exposure_ev;
-    if (exposure != 0) {
-        const std::string text = fmt::format("{:+.2f} EV", exposure);
+    if (c.ui.zoom.scale > 0)
+        cell(c, x, 5, fmt::format("{:.0f} %", 100 * c.ui.zoom.scale), "Pixels of the screen for one of the picture. Z shows all of it again.", tone::dim_text);
+    const float exposure = c.shown_view().exposure_ev;
+    const bool metered = c.project().view.auto_exposure != AutoExposure::off;
+    if (exposure != 0 || metered) {
+        const std::string text = fmt::format("{}{:+.2f} EV", metered ? "auto " : "", exposure);
         x = std::max(x, ImGui::GetWindowWidth() - ImGui::CalcTextSize(text.c_str()).x - ImGui::GetStyle().WindowPadding.x);
         cell(c, x, 0, text, "Exposure of the display.", tone::dim_text);
     }

@@ -1,0 +1,81 @@
+#include "io/displayed.h"
+
+#include "color/exposure_meter.h"
+#include "color/illuminance.h"
+#include "color/white_balance.h"
+
+#include <cmath>
+
+namespace blush {
+namespace {
+
+constexpr float stops_from_grey = 6.5f; // to either end of the scale of stops
+
+FalseColorScale scale_of(const FalseColor& f) {
+    switch (f.of) {
+    case FalseColor::Of::off: return {};
+    case FalseColor::Of::stops: {
+        const float grey = std::log2(0.18f);
+        return {FalseColorScale::Of::exposed, grey - stops_from_grey, grey + stops_from_grey};
+    }
+    case FalseColor::Of::nits:
+    case FalseColor::Of::lux: return {FalseColorScale::Of::scene, std::log2(f.low), std::log2(f.high)};
+    }
+    return {};
+}
+
+// 1, 2, 5, 10, 20, ...: the largest of them that is at most x, and the one after x, which is one of them.
+float round_number_below(float x) {
+    const float power = std::pow(10.f, std::floor(std::log10(x)));
+    for (const float digit : {5.f, 2.f})
+        if (digit * power <= x) return digit * power;
+    return power;
+}
+float next_round_number(float x) {
+    const float digit = std::round(x / std::pow(10.f, std::floor(std::log10(x * 1.01f))));
+    return x * (digit == 2 ? 2.5f : 2);
+}
+
+} // namespace
+
+DisplayTransform transform_of(const ViewSettings& view) { return {view.display, view.view, view.look}; }
+
+DisplayNumbers numbers_of(const ViewSettings& view) {
+    return {view.exposure_ev, view.gamma, white_balance(view.white), scale_of(view.false_color)};
+}
+
+float metered_exposure(AutoExposure rule, std::span<const float> values, int channels) {
+    switch (rule) {
+    case AutoExposure::off: return 0;
+    case AutoExposure::average: return average_exposure(values, channels);
+    case AutoExposure::highlights: return highlight_exposure(values, channels);
+    }
+    return 0;
+}
+
+ViewSettings settled(const ViewSettings& view, float metered_ev) {
+    ViewSettings v = view;
+    v.auto_exposure = AutoExposure::off;
+    v.exposure_ev += metered_ev;
+    return v;
+}
+
+FalseColor fitted(const FalseColor& scale, std::span<const float> values, int channels) {
+    const LuminanceRange range = luminance_range(values, channels);
+    if (!(range.low > 0)) return scale;
+    FalseColor f = scale;
+    f.low = round_number_below(range.low);
+    for (f.high = f.low; f.high <= range.high && std::isfinite(f.high);) f.high = next_round_number(f.high);
+    return std::isfinite(f.high) ? f : scale;
+}
+
+Result<void> show(const ColorManagement& color, const ViewSettings& view, std::span<float> rgb, std::span<const Vec3> albedo) {
+    const ViewSettings v = settled(view, metered_exposure(view.auto_exposure, rgb, 3));
+    if (v.false_color.of == FalseColor::Of::lux) {
+        if (albedo.size() != rgb.size() / 3) return Error{.what = "there is no albedo, without which lux cannot be told"};
+        to_illuminance(rgb, albedo);
+    }
+    return color.apply_display(transform_of(v), numbers_of(v), rgb.data(), rgb.size() / 3);
+}
+
+} // namespace blush

@@ -1,0 +1,32 @@
+// A rectangle of a picture of any size.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace blush {
+
+// (0, 0) top left, (1, 1) bottom right.
+struct PictureRegion {
+    float x = 0, y = 0, width = 1, height = 1;
+    bool operator==(const PictureRegion&) const = default;
+};
+
+// Pixels x0 .. x1 - 1, y0 .. y1 - 1.
+struct PixelRect {
+    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+    bool operator==(const PixelRect&) const = default;
+};
+
+// The region in a picture of width x height pixels, its edges rounded to the nearest pixel's; one pixel at least.
+inline PixelRect pixels_of(const PictureRegion& r, int width, int height) {
+    const auto edge = [](double at, int count, int least, int most) { return std::clamp(int(std::lround(at * count)), least, most); };
+    PixelRect p;
+    p.x0 = edge(r.x, width, 0, width - 1);
+    p.y0 = edge(r.y, height, 0, height - 1);
+    p.x1 = edge(double(r.x) + double(r.width), width, p.x0 + 1, width);
+    p.y1 = edge(double(r.y) + double(r.height), height, p.y0 + 1, height);
+    return p;
+}
+
+} // namespace blush

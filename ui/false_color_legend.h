@@ -1,0 +1,14 @@
+// The scale of the false colours, drawn over the picture.
+#pragma once
+
+#include "scene/view_settings.h"
+#include "ui/gizmo.h"
+
+#include <imgui.h>
+
+namespace blush {
+
+// Along the left edge of the picture: the colours, the values where they meet, and the unit. Nothing without false colours.
+void draw_false_color_legend(ImDrawList& draw, const ImageRect& image, const ViewSettings& view);
+
+} // namespace blush

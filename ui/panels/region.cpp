@@ -1,0 +1,67 @@
+// Region: mean, ends and deviation of the measured rectangle, in scene-linear values, nits, stops and display values.
+#include "ui/panels/panels.h"
+#include "ui/region_statistics.h"
+#include "ui/theme.h"
+#include "ui/widgets.h"
+
+#include <fmt/format.h>
+
+namespace blush {
+namespace {
+
+void row(const char* name, const Spread& s, const char* format) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::PushStyleColor(ImGuiCol_Text, tone::dim_text);
+    ImGui::TextUnformatted(name);
+    ImGui::PopStyleColor();
+    for (const double value : {s.mean, s.low, s.high, s.deviation}) {
+        ImGui::TableNextColumn();
+        ImGui::TextUnformatted(s.count > 0 ? fmt::format(fmt::runtime(format), value).c_str() : "-");
+    }
+}
+
+void draw_table(const RegionStatistics& s) {
+    if (!ImGui::BeginTable("statistics", 5, ImGuiTableFlags_SizingFixedFit)) return;
+    const float em = ImGui::GetFontSize();
+    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, em * 9);
+    for (const char* column : {"Mean", "Least", "Most", "Deviation"}) ImGui::TableSetupColumn(column, ImGuiTableColumnFlags_WidthFixed, em * 5);
+    ImGui::TableHeadersRow();
+    constexpr const char* linear[] = {"Linear R", "Linear G", "Linear B"};
+    constexpr const char* displayed[] = {"Displayed R", "Displayed G", "Displayed B"};
+    for (size_t k = 0; k < 3; ++k) row(linear[k], s.linear[k], "{:.4g}");
+    row("Luminance, nits", s.nits, "{:.4g}");
+    row("EV from grey", s.ev, "{:+.2f}");
+    row("EV at ISO 100", s.ev100, "{:+.2f}");
+    for (size_t k = 0; k < 3; ++k) row(displayed[k], s.displayed[k], "{:.3f}");
+    ImGui::EndTable();
+}
+
+void draw_statistics(PanelContext& c, const RegionStatistics& s) {
+    draw_table(s);
+    c.ui.probe.record_last_item("Region/Statistics");
+    const int64_t dark = int64_t(s.width) * s.height - s.ev.count;
+    quiet_text(fmt::format("{} × {} pixels from {}, {}.{}", s.width, s.height, s.x, s.y,
+                           dark > 0 ? fmt::format(" {} of them are black and have no EV.", dark) : ""));
+}
+
+} // namespace
+
+void draw_region_panel(PanelContext& c) {
+    const auto& region = c.project().view.measured;
+    if (!region) return;
+    const float em = ImGui::GetFontSize();
+    ImGui::SetNextWindowPos({em * 16, em * 4}, ImGuiCond_FirstUseEver);
+    bool open = true;
+    if (ImGui::Begin("Region", &open, ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_AlwaysAutoResize) && c.has_picture()) {
+        if (c.ui.region.ask(c.shown_picture(), region_statistics)) c.ui.next_frame_in = std::min(c.ui.next_frame_in, 0.05);
+        if (const RegionStatistics* s = c.ui.region.answer()) draw_statistics(c, *s);
+    }
+    ImGui::End();
+    if (open) return;
+    ViewSettings v = c.project().view;
+    v.measured.reset();
+    c.apply(SetView{v});
+}
+
+} // namespace blush

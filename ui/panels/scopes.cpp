@@ -1,0 +1,156 @@
+// Scopes: histogram and waveform of the light as rendered, in stops from middle grey, and of what the display shows.
+#include "ui/panels/panels.h"
+#include "ui/theme.h"
+#include "ui/widgets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace blush {
+namespace {
+
+constexpr ImU32 channel_tones[] = {IM_COL32(226, 82, 74, 110), IM_COL32(98, 190, 86, 110), IM_COL32(86, 136, 240, 110)};
+constexpr ImU32 luma_tone = IM_COL32(220, 220, 220, 200), ground = IM_COL32(22, 22, 22, 255), grid = IM_COL32(52, 52, 52, 255);
+
+struct Box {
+    ImVec2 low, high;
+    float width() const { return high.x - low.x; }
+    float height() const { return high.y - low.y; }
+};
+
+// Values that get a line and a label.
+struct Marks {
+    float first, step;
+    const char* format;
+};
+Marks marks_of(const ScopeAxis& axis) { return axis.stops ? Marks{-6, 3, "{:+.0f}"} : Marks{0, 0.25f, "{:.2g}"}; }
+
+std::string mark_text(const ScopeAxis& axis, float value) {
+    if (axis.stops && value == 0) return "grey";
+    return fmt::format(fmt::runtime(marks_of(axis).format), value);
+}
+
+// Lines across for values, along the x axis or the y axis.
+void draw_marks(ImDrawList& draw, const Box& box, const ScopeAxis& axis, bool upright) {
+    const Marks marks = marks_of(axis);
+    const float em = ImGui::GetFontSize();
+    for (float value = marks.first; value <= axis.high; value += marks.step) {
+        const float t = (value - axis.low) / (axis.high - axis.low);
+        const std::string text = mark_text(axis, value);
+        if (upright) {
+            const float x = std::round(box.low.x + t * (box.width() - 1));
+            draw.AddLine({x, box.low.y}, {x, box.high.y}, grid);
+            const float width = ImGui::CalcTextSize(text.c_str()).x;
+            draw.AddText({std::clamp(x - width / 2, box.low.x, box.high.x - width), box.high.y + em * 0.1f}, tone::dim_text, text.c_str());
+        } else {
+            const float y = std::round(box.high.y - 1 - t * (box.height() - 1));
+            draw.AddLine({box.low.x, y}, {box.high.x, y}, grid);
+            draw.AddText({box.low.x + em * 0.2f, std::clamp(y - em * 1.05f, box.low.y, box.high.y - em)}, tone::dim_text, text.c_str());
+        }
+    }
+}
+
+// Heights are roots of counts, so that small groups of pixels are seen beside large ones.
+void draw_histogram(ImDrawList& draw, const Box& box, const Histogram& h) {
+    uint32_t most = 1;
+    for (const auto& counts : h.counts) most = std::max(most, *std::max_element(counts.begin(), counts.end()));
+    const auto height = [&](uint32_t count) { return box.height() * 0.96f * std::sqrt(float(count) / float(most)); };
+    const float step = box.width() / float(h.bins);
+    for (int k = 0; k < 3; ++k) {
+        for (int i = 0; i < h.bins; ++i) {
+            const uint32_t count = h.counts[size_t(k)][size_t(i)];
+            if (count == 0) continue;
+            const float x = box.low.x + step * float(i);
+            draw.AddRectFilled({x, box.high.y - height(count)}, {x + step, box.high.y}, channel_tones[k]);
+        }
+    }
+    for (int i = 0; i < h.bins; ++i) {
+        const float x = box.low.x + step * (float(i) + 0.5f);
+        draw.PathLineTo({x, box.high.y - height(h.counts[3][size_t(i)])});
+    }
+    draw.PathStroke(luma_tone, 0, 1);
+}
+
+// A cell's colour: how many pixels of its column are there, channel by channel. Columns of one colour are one rectangle.
+void draw_waveform(ImDrawList& draw, const Box& box, const Waveform& w) {
+    const float column_width = box.width() / float(w.columns), level_height = box.height() / float(w.levels);
+    const auto cell = [&](int column, int level) -> ImU32 {
+        const size_t i = size_t(level) * size_t(w.columns) + size_t(column);
+        int shade[3];
+        for (size_t k = 0; k < 3; ++k) shade[k] = w.counts[k][i] == 0 ? 0 : std::min(40 + int(30 * std::sqrt(float(w.counts[k][i]))), 255) & ~7;
+        return shade[0] + shade[1] + shade[2] == 0 ? 0 : IM_COL32(shade[0], shade[1], shade[2], 255);
+    };
+    for (int column = 0; column < w.columns; ++column) {
+        const float x = box.low.x + column_width * float(column);
+        for (int level = 0; level < w.levels;) {
+            const ImU32 color = cell(column, level);
+            const int from = level++;
+            while (level < w.levels && cell(column, level) == color) ++level;
+            if (color == 0) continue;
+            draw.AddRectFilled({x, box.high.y - level_height * float(level)}, {x + column_width, box.high.y - level_height * float(from)}, color);
+        }
+    }
+}
+
+std::string share(int64_t count, int64_t all) { return all > 0 ? fmt::format("{:.2g} %", 100 * double(count) / double(all)) : ""; }
+
+std::string ends_text(const Histogram& h) {
+    const int64_t below = h.below[3], above = h.above[3], clipped = h.axis.stops ? above : above + int64_t(h.counts[3].back());
+    if (h.axis.stops) return fmt::format("black or below: {}", share(below, h.pixels));
+    return fmt::format("at black: {}, at white: {}", share(below + int64_t(h.counts[3].front()), h.pixels), share(clipped, h.pixels));
+}
+
+Box plot_box(float width, float height) {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImGui::Dummy({width, height + ImGui::GetFontSize() * 1.2f});
+    const Box box{at, {at.x + width, at.y + height}};
+    ImGui::GetWindowDrawList()->AddRectFilled(box.low, box.high, ground);
+    return box;
+}
+
+void draw_column(PanelContext& c, const char* title, const char* tip, const Histogram& h, const Waveform& w, float height) {
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const float width = std::floor(ImGui::GetContentRegionAvail().x);
+    ImGui::PushFont(heading_font());
+    ImGui::TextUnformatted(title);
+    ImGui::PopFont();
+    tip_for_last_item(c.ui, tip);
+    const Box histogram_box = plot_box(width, height);
+    c.ui.probe.record_last_item(std::string("Scopes/") + title);
+    const Box wave_box = plot_box(width, height);
+    if (h.pixels == 0) return;
+    draw_marks(draw, histogram_box, h.axis, true);
+    draw_histogram(draw, histogram_box, h);
+    draw_marks(draw, wave_box, w.axis, false);
+    draw_waveform(draw, wave_box, w);
+    quiet_text(ends_text(h));
+}
+
+} // namespace
+
+void draw_scopes_panel(PanelContext& c) {
+    ScopesView& view = c.ui.scopes;
+    if (!view.open) return;
+    const float em = ImGui::GetFontSize();
+    ImGui::SetNextWindowPos({em * 15, em * 20}, ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSize({em * 42, em * 26}, ImGuiCond_FirstUseEver);
+    if (ImGui::Begin("Scopes", &view.open, ImGuiWindowFlags_NoCollapse)) {
+        if (c.has_picture() && view.scopes.ask(c.shown_picture(), scopes_of)) c.ui.next_frame_in = std::min(c.ui.next_frame_in, 0.05);
+        static const Scopes nothing;
+        const Scopes& scopes = view.scopes.answer() ? *view.scopes.answer() : nothing;
+        const float height = std::max(4 * em, std::floor((ImGui::GetContentRegionAvail().y - 6.2f * em) / 2));
+        if (ImGui::BeginTable("scopes", 2)) {
+            ImGui::TableNextColumn();
+            draw_column(c, "Light", "As rendered, in stops from middle grey. Looking changes nothing here.", scopes.scene, scopes.scene_wave, height);
+            ImGui::TableNextColumn();
+            draw_column(c, "Displayed", "What the display is given: exposure, white balance, look, view and gamma included.", scopes.displayed,
+                        scopes.displayed_wave, height);
+            ImGui::EndTable();
+        }
+        if (scopes.step > 1) quiet_text(fmt::format("One pixel of {} is read.", scopes.step * scopes.step));
+    }
+    ImGui::End();
+}
+
+} // namespace blush

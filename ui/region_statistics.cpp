@@ -1,0 +1,52 @@
+#include "ui/region_statistics.h"
+
+#include "color/white_balance.h"
+#include "core/math.h"
+#include "io/displayed.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace blush {
+namespace {
+
+std::array<Spread, 3> by_channel(const std::vector<float>& rgb) {
+    std::array<std::vector<float>, 3> channels;
+    for (size_t i = 0; i < rgb.size(); ++i) channels[i % 3].push_back(rgb[i]);
+    return {spread_of(channels[0]), spread_of(channels[1]), spread_of(channels[2])};
+}
+
+} // namespace
+
+RegionStatistics region_statistics(const ShownPicture& picture) {
+    const Frame& frame = *picture.frame;
+    const ViewSettings& view = picture.view;
+    const PictureRegion region = view.measured.value_or(PictureRegion{});
+    RegionStatistics s;
+    s.x = std::clamp(int(region.x * float(frame.width)), 0, frame.width - 1);
+    s.y = std::clamp(int(region.y * float(frame.height)), 0, frame.height - 1);
+    s.width = std::clamp(int(std::ceil((region.x + region.width) * float(frame.width))) - s.x, 1, frame.width - s.x);
+    s.height = std::clamp(int(std::ceil((region.y + region.height) * float(frame.height))) - s.y, 1, frame.height - s.y);
+    const Affine balance = white_balance(view.white);
+    std::vector<float> rgb, nits, ev, ev100;
+    std::vector<Vec3> albedo;
+    for (int y = s.y; y < s.y + s.height; ++y) {
+        for (int x = s.x; x < s.x + s.width; ++x) {
+            const Vec3 c = mixed_pixel(frame, picture.denoised.get(), picture.mix, x, y);
+            rgb.insert(rgb.end(), {c.x, c.y, c.z});
+            nits.push_back(luminance(c));
+            // Of what is black the logarithm is no number, and is left out.
+            ev.push_back(std::log2(luminance(transform_vector(balance, c)) / 0.18f) + view.exposure_ev);
+            ev100.push_back(std::log2(nits.back() / 0.125f));
+            if (!frame.albedo.empty()) albedo.push_back(frame.albedo[size_t(y) * size_t(frame.width) + size_t(x)]);
+        }
+    }
+    s.linear = by_channel(rgb);
+    s.nits = spread_of(nits);
+    s.ev = spread_of(ev);
+    s.ev100 = spread_of(ev100);
+    if (show(*picture.color, view, rgb, albedo)) s.displayed = by_channel(rgb);
+    return s;
+}
+
+} // namespace blush

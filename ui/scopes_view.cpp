@@ -1,0 +1,49 @@
+#include "ui/scopes_view.h"
+
+#include "io/displayed.h"
+
+#include <cmath>
+
+namespace blush {
+namespace {
+
+constexpr double enough_pixels = 130000;
+constexpr ScopeAxis stops_axis{true, -8, 8}, display_axis{false, 0, 1};
+constexpr int stops_bins = 128, display_bins = 128; // an eighth of a stop; two bytes
+constexpr int wave_columns = 160, wave_levels = 64;
+
+// Every step-th pixel of every step-th row.
+struct Thinned {
+    int width = 0;
+    std::vector<float> rgb;
+    std::vector<Vec3> albedo;
+};
+Thinned thinned(const ShownPicture& p, int step) {
+    const Frame& f = *p.frame;
+    Thinned t;
+    for (int y = step / 2; y < f.height; y += step) {
+        t.width = 0;
+        for (int x = step / 2; x < f.width; x += step, ++t.width) {
+            const Vec3 c = mixed_pixel(f, p.denoised.get(), p.mix, x, y);
+            t.rgb.insert(t.rgb.end(), {c.x, c.y, c.z});
+            if (!f.albedo.empty()) t.albedo.push_back(f.albedo[size_t(y) * size_t(f.width) + size_t(x)]);
+        }
+    }
+    return t;
+}
+
+} // namespace
+
+Scopes scopes_of(const ShownPicture& picture) {
+    Scopes s;
+    s.step = std::max(1, int(std::sqrt(double(picture.frame->width) * picture.frame->height / enough_pixels)));
+    Thinned t = thinned(picture, s.step);
+    s.scene = histogram(t.rgb, stops_axis, stops_bins);
+    s.scene_wave = waveform(t.rgb, t.width, stops_axis, wave_columns, wave_levels);
+    if (!show(*picture.color, picture.view, t.rgb, t.albedo)) return s;
+    s.displayed = histogram(t.rgb, display_axis, display_bins);
+    s.displayed_wave = waveform(t.rgb, t.width, display_axis, wave_columns, wave_levels);
+    return s;
+}
+
+} // namespace blush
