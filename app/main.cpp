@@ -6,6 +6,7 @@
 #include "app/commands/converge.h"
 #include "app/commands/denoise.h"
 #include "app/commands/info.h"
+#include "app/commands/merge.h"
 #include "app/commands/render.h"
 #include "app/commands/render_options.h"
 #include "app/editor.h"
@@ -63,6 +64,7 @@ int run_command_line(int argc, char** argv) {
     add_converge_command(app, run);
     add_info_command(app, run);
     add_denoise_command(app, run);
+    add_merge_command(app, run);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& asked) { // --help, --version

@@ -12,7 +12,8 @@ struct LayerName {
     bool Layers::*flag;
 };
 constexpr LayerName known[] = {{"albedo", &Layers::albedo}, {"normal", &Layers::normal},   {"depth", &Layers::depth},
-                               {"error", &Layers::error},   {"samples", &Layers::samples}, {"id", &Layers::ids}};
+                               {"error", &Layers::error},   {"samples", &Layers::samples}, {"id", &Layers::ids},
+                               {"film", &Layers::film}};
 
 Result<void> switch_on(Layers& layers, std::string_view name) {
     if (name == "groups") return Error{.what = fmt::format("the layer {} is not in this version", name)};

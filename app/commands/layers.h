@@ -11,6 +11,7 @@ namespace blush {
 
 struct Layers {
     bool albedo = false, normal = false, depth = false, error = false, samples = false, ids = false;
+    bool film = false; // sums in full, to go on from and to merge
     int bounces = 0; // planes of light by the number of scatterings
     bool any() const { return *this != Layers{}; }
     bool operator==(const Layers&) const = default;

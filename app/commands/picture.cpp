@@ -53,6 +53,8 @@ Result<void> write_exr_picture(const std::filesystem::path& file, const Frame& f
     input.rgba = frame.rgba;
     input.denoised = extra.denoised;
     input.error = extra.error;
+    input.film = extra.film;
+    input.half = extra.half;
     input.metadata = metadata;
     if (layers.albedo) input.albedo = frame.albedo;
     if (layers.normal) input.normal = frame.normal;
@@ -86,6 +88,10 @@ Result<void> write_display_picture(const std::filesystem::path& file, int width,
                                    const std::map<std::string, std::string>& metadata, std::span<const Vec3> albedo) {
     if (Result<void> shown = show(color, view, rgb, albedo); !shown) return shown;
     return write_display_image(file, width, height, rgb, metadata);
+}
+
+std::string error_text(const ErrorEstimate& error) {
+    return error.known ? fmt::format("{:.4g} ({:.4g} to {:.4g})", error.relmse, error.low, error.high) : std::string();
 }
 
 std::map<std::string, std::string> display_metadata(const SnapshotMetadata& metadata) {

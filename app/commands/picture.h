@@ -33,8 +33,10 @@ Result<void> expect_folder(const std::filesystem::path& file);
 
 // What goes into an EXR beside what the frame holds; empty: not there.
 struct ExtraLayers {
-    std::span<const float> denoised; // width * height * 3
-    std::span<const Vec3> error;     // Renderer::resolve_error's answer
+    std::span<const float> denoised = {};  // width * height * 3
+    std::span<const Vec3> error = {};      // Renderer::resolve_error's answer
+    std::span<const ExactPlane> film = {}; // planes_in_file()'s; metadata.film is the rest of it
+    bool half = false;                     // as SnapshotInput has it
 };
 Result<void> write_exr_picture(const std::filesystem::path& file, const Frame& frame, const ExtraLayers& extra, const Layers& layers,
                                const SnapshotMetadata& metadata);
@@ -45,6 +47,8 @@ std::vector<float> beauty_rgb(const Frame& frame);
 Result<void> write_display_picture(const std::filesystem::path& file, int width, int height, std::vector<float> rgb,
                                    const ColorManagement& color, const ViewSettings& view,
                                    const std::map<std::string, std::string>& metadata, std::span<const Vec3> albedo = {});
+// "0.0012 (0.0010 to 0.0014)": the estimated relative error as metadata have it; empty if not known.
+std::string error_text(const ErrorEstimate& error);
 // What of a render's metadata a display picture carries.
 std::map<std::string, std::string> display_metadata(const SnapshotMetadata& metadata);
 

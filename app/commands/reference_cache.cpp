@@ -41,7 +41,7 @@ Reference reference_of(const LayeredImage& image) {
     r.measured.error = vectors(image, "error");
     r.measured.error.resize(r.measured.image.pixels.size(), {0, 0, 0});
     r.measured.samples = 1;
-    if (const Result<SnapshotMetadata> m = read_snapshot_metadata(image)) {
+    if (const Result<SnapshotMetadata> m = read_snapshot_metadata(image.metadata)) {
         r.measured.samples = std::max<int64_t>(1, m->spp);
         r.first_sample = m->first_sample;
         r.seed = m->seed;

@@ -1,8 +1,10 @@
 #include "app/commands/render.h"
 
 #include "app/assets_dir.h"
+#include "app/commands/begun_picture.h"
 #include "app/commands/common.h"
 #include "app/commands/denoising.h"
+#include "app/commands/film_json.h"
 #include "app/commands/frame_json.h"
 #include "app/commands/interrupt.h"
 #include "app/commands/json_output.h"
@@ -22,12 +24,13 @@
 #include <sys/resource.h>
 
 #include <memory>
+#include <utility>
 
 namespace blush {
 namespace {
 
 struct RenderCommand {
-    std::string scene, output, layers, pixel;
+    std::string scene, output, layers, pixel, begun;
     RenderOptions options;
     CommonOptions common;
 };
@@ -54,6 +57,7 @@ struct Plan {
     Layers layers;
     std::optional<PixelRequest> pixel;
     PictureFormat format = PictureFormat::exr;
+    std::optional<BegunPicture> begun; // --continue
 };
 
 // What a render came to.
@@ -61,6 +65,8 @@ struct Rendered {
     LoopResult loop;
     CompiledInfo info;
     std::optional<Denoised> denoised;
+    std::vector<Vec3> error;       // if that layer is wanted
+    std::optional<FilmState> film; // and that one
 };
 
 Result<Plan> plan_of(const RenderCommand& c) {
@@ -68,6 +74,8 @@ Result<Plan> plan_of(const RenderCommand& c) {
     const Result<RenderSettings> settings = settings_of(c.options);
     if (!settings) return settings.error();
     plan.settings = *settings;
+    if (!c.begun.empty() && !same_image(*settings, RenderSettings{}))
+        return Error{.what = "with --continue the picture says how it is rendered: only --spp, --time and --error go with it"};
     if (!c.layers.empty()) {
         const Result<Layers> layers = parse_layers(c.layers);
         if (!layers) return layers.error();
@@ -104,19 +112,19 @@ SnapshotMetadata metadata_of(const RenderCommand& c, const Plan& plan, const Loa
     SnapshotMetadata m;
     m.version = BLUSH_VERSION;
     m.scene = std::filesystem::path(c.scene).filename().string();
-    m.scene_hash = scene_hash(loaded.scene);
+    m.scene_hash = scene_hash(loaded.imported);
     m.camera = camera_name(loaded.scene);
     m.spp = result.samples;
     m.first_sample = plan.settings.first_sample;
     m.last_sample = plan.settings.first_sample + result.samples;
     m.seed = plan.settings.seed;
     m.seconds = result.seconds;
-    const ErrorEstimate& error = result.frame.error;
-    if (error.known) m.error = fmt::format("{:.4g} ({:.4g} to {:.4g})", error.relmse, error.low, error.high);
+    m.error = error_text(result.frame.error);
     if (rendered.denoised) m.denoised = denoised_by(*rendered.denoised);
     m.settings = plan.settings;
     m.edits = edits_json(loaded.imported, loaded.scene);
     m.partial = !result.complete;
+    if (rendered.film) m.film = film_json(*rendered.film);
     return m;
 }
 
@@ -179,12 +187,14 @@ PlaneSet planes_for(const RenderCommand& c, const Plan& plan) {
     return planes;
 }
 
-Result<void> write_picture(const RenderCommand& c, const Plan& plan, const Rendered& rendered, const std::vector<Vec3>& error,
-                           const SnapshotMetadata& metadata, const ColorManagement* color) {
+Result<void> write_picture(const RenderCommand& c, const Plan& plan, const Rendered& rendered, const SnapshotMetadata& metadata,
+                           const ColorManagement* color) {
     const Frame& frame = rendered.loop.frame;
-    std::span<const float> denoised;
-    if (rendered.denoised) denoised = rendered.denoised->rgb;
-    if (!color) return write_exr_picture(c.output, frame, {denoised, error}, plan.layers, metadata);
+    ExtraLayers extra{.error = rendered.error};
+    if (rendered.denoised) extra.denoised = rendered.denoised->rgb;
+    const std::vector<ExactPlane> film = rendered.film ? planes_in_file(*rendered.film) : std::vector<ExactPlane>();
+    extra.film = film;
+    if (!color) return write_exr_picture(c.output, frame, extra, plan.layers, metadata);
     std::vector<float> rgb = rendered.denoised ? rendered.denoised->rgb : beauty_rgb(frame);
     return write_display_picture(c.output, frame.width, frame.height, std::move(rgb), *color, c.options.view, display_metadata(metadata),
                                  frame.albedo);
@@ -195,13 +205,20 @@ Result<Rendered> render_picture(const RenderCommand& c, const Plan& plan, const 
                                 Denoiser& denoiser, const std::atomic<bool>& interrupted) {
     Renderer renderer({.threads = c.common.threads, .planes = planes_for(c, plan)});
     renderer.update(loaded.scene, plan.settings);
+    LoopProgress begin;
+    if (plan.begun) {
+        const FilmState& film = plan.begun->film;
+        if (const Result<void> continued = renderer.load_film(film); !continued) return in_file(continued.error(), c.begun);
+        begin.samples = film.samples;
+        begin.seconds = film.seconds;
+    }
     Rendered rendered;
     rendered.info = renderer.info();
     if (!c.common.quiet) print_warnings(c.scene, rendered.info.warnings);
     {
         Progress progress(c.common.quiet);
         rendered.loop = run_render_loop(renderer, plan.settings, interrupted,
-                                        [&](const LoopProgress& p) { progress.update(p.fraction, loop_note(p)); });
+                                        [&](const LoopProgress& p) { progress.update(p.fraction, loop_note(p)); }, begin);
     }
     if (rendered.loop.samples == 0) return Error{.file = c.scene, .what = "interrupted before the first sample"};
     Result<void> denoised;
@@ -215,16 +232,36 @@ Result<Rendered> render_picture(const RenderCommand& c, const Plan& plan, const 
         else
             denoised = result.error();
     }
-    const std::vector<Vec3> error = plan.layers.error ? renderer.resolve_error() : std::vector<Vec3>();
-    const Result<void> written = write_picture(c, plan, rendered, error, metadata_of(c, plan, loaded, rendered), color);
+    if (plan.layers.error) rendered.error = renderer.resolve_error();
+    if (plan.layers.film) {
+        Result<FilmState> film = renderer.save_film(plan.settings.first_sample);
+        if (!film) return in_file(film.error(), c.output);
+        film->seconds = rendered.loop.seconds;
+        rendered.film = *std::move(film);
+    }
+    const Result<void> written = write_picture(c, plan, rendered, metadata_of(c, plan, loaded, rendered), color);
     if (!written) return in_file(written.error(), c.output);
     if (!denoised) return Error{c.output, "written without denoising: " + denoised.error().text(), ""};
     return rendered;
 }
 
+// The picture says how it is rendered, the command line for how long.
+Result<void> go_on_with(const std::string& file, Plan& plan) {
+    Result<BegunPicture> begun = read_begun_picture(file);
+    if (!begun) return begun.error();
+    const RenderSettings stop = std::exchange(plan.settings, begun->metadata.settings);
+    plan.settings.spp = stop.spp;
+    plan.settings.seconds = stop.seconds;
+    plan.settings.error = stop.error;
+    plan.begun = *std::move(begun);
+    return {};
+}
+
 int run_render(const RenderCommand& c) {
-    const Result<Plan> plan = plan_of(c);
+    Result<Plan> plan = plan_of(c);
     if (!plan) return bad_usage(plan.error().text());
+    if (!c.begun.empty())
+        if (const Result<void> begun = go_on_with(c.begun, *plan); !begun) return failed(begun.error());
     if (!plan->pixel)
         if (const Result<void> folder = expect_folder(c.output); !folder) return failed(folder.error());
     const Result<std::optional<ColorManagement>> color = color_for(plan->pixel ? PictureFormat::exr : plan->format, c.options.view);
@@ -240,6 +277,7 @@ int run_render(const RenderCommand& c) {
         Progress progress(c.common.quiet);
         return load_scene(c.scene, c.options.overrides, aspect, progress, guard.interrupted());
     }();
+    if (loaded && plan->begun) loaded = as_begun(*std::move(loaded), c.scene, *plan->begun, c.begun);
     if (!loaded) return failed(loaded.error());
     if (!c.common.quiet) print_warnings(c.scene, loaded->report.diagnostics);
 
@@ -263,8 +301,10 @@ void add_render_command(CLI::App& app, std::function<int()>& run) {
     sub->add_option("-o,--output", command->output, "EXR keeps scene-linear values; PNG and JPEG go through the view transform")
         ->type_name("FILE");
     add_render_options(*sub, command->options);
-    sub->add_option("--layers", command->layers, "Planes beside the beauty, EXR only: albedo,normal,depth,error,samples,id,bounces[=N]")
+    sub->add_option("--layers", command->layers, "Planes beside the beauty, EXR only: albedo,normal,depth,error,samples,id,bounces[=N],film: sums to go on from")
         ->type_name("LIST");
+    sub->add_option("--continue", command->begun, "Go on with a picture that has the layer film, up to --spp, --time or --error")
+        ->type_name("EXR");
     sub->add_option("--pixel", command->pixel, "Trace that one sample and print every vertex, instead of a picture")
         ->type_name("X,Y[,SAMPLE]");
     add_common_options(*sub, command->common);

@@ -41,12 +41,13 @@ double stop_progress(const RenderSettings& settings, int64_t samples, double sec
 }
 
 LoopResult run_render_loop(Renderer& renderer, const RenderSettings& settings, const std::atomic<bool>& interrupted,
-                           const std::function<void(const LoopProgress&)>& on_progress) {
+                           const std::function<void(const LoopProgress&)>& on_progress, const LoopProgress& begin) {
     const int64_t limit = settings.spp > 0 ? settings.spp - settings.first_sample : endless;
     const Stopwatch watch;
-    LoopProgress progress;
+    LoopProgress progress = begin;
+    progress.fraction = stop_progress(settings, begin.samples, begin.seconds, begin.error);
     int64_t count = 0, next_look = 2;
-    double batch_began = 0;
+    double batch_began = begin.seconds;
     while (progress.fraction < 1 && !interrupted) {
         count = next_batch(count, progress.seconds - batch_began, limit - progress.samples);
         batch_began = progress.seconds;
@@ -57,7 +58,7 @@ LoopResult run_render_loop(Renderer& renderer, const RenderSettings& settings, c
             progress.error = renderer.resolve().error;
             next_look = std::max(progress.samples + 1, progress.samples * 5 / 4);
         }
-        progress.seconds = watch.seconds();
+        progress.seconds = begin.seconds + watch.seconds();
         progress.fraction = stop_progress(settings, progress.samples, progress.seconds, progress.error);
         on_progress(progress);
     }

@@ -29,8 +29,8 @@ int64_t next_batch(int64_t last_count, double last_seconds, int64_t left);
 // How far `samples` and `seconds` are towards the nearest of the settings' stop rules, 0 .. 1; below 1 until one is met.
 double stop_progress(const RenderSettings& settings, int64_t samples, double seconds, const ErrorEstimate& error);
 
-// Renders what the renderer was last updated with. `interrupted` is looked at between batches.
+// Renders what the renderer was last updated with, on from the samples and seconds of `begin`. `interrupted` is looked at between batches.
 LoopResult run_render_loop(Renderer& renderer, const RenderSettings& settings, const std::atomic<bool>& interrupted,
-                           const std::function<void(const LoopProgress&)>& on_progress);
+                           const std::function<void(const LoopProgress&)>& on_progress, const LoopProgress& begin = {});
 
 } // namespace blush

@@ -4,11 +4,13 @@
 #include "io/image_end.h"
 
 #include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/half.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
 #include <bit>
 #include <cctype>
+#include <cstring>
 #include <fmt/format.h>
 #include <memory>
 #include <mutex>
@@ -24,6 +26,7 @@ namespace {
 
 constexpr uint64_t max_file_bytes = uint64_t(4) << 30;
 constexpr int max_channels = 256;
+constexpr uint64_t max_layers_bytes = uint64_t(4) << 30; // of all channels of a layered image: zeros compress to nothing
 
 // Only these decoders ever see a file: fewer of them is less to attack, and names such as "x.null" mean nothing. TIFF is not
 // among them because its decoder fills in what a truncated file lacks with black and reports success.
@@ -121,6 +124,13 @@ Result<ImagePtr> decode(std::span<const uint8_t> bytes, const std::string& name,
     return ImagePtr(std::move(image));
 }
 
+std::map<std::string, std::string> text_metadata(const OIIO::ImageSpec& spec) {
+    std::map<std::string, std::string> texts;
+    for (const OIIO::ParamValue& attribute : spec.extra_attribs)
+        if (attribute.type() == OIIO::TypeDesc::STRING) texts[attribute.name().string()] = attribute.get_string();
+    return texts;
+}
+
 bool is_uint_channel(const OIIO::ImageSpec& spec, int channel) { return spec.channelformat(channel) == OIIO::TypeDesc::UINT32; }
 
 // Channels of one kind that stand side by side are decoded in one go. Read as float, 32-bit integers would be scaled to [0, 1].
@@ -129,7 +139,9 @@ Result<LayeredImage> decode_layers(std::span<const uint8_t> bytes, const std::st
     if (!decoder) return decoder.error();
     const OIIO::ImageSpec spec = decoder->spec();
     const size_t pixels = size_t(spec.width) * size_t(spec.height);
-    LayeredImage image{spec.width, spec.height, {}, {}};
+    if (pixels * uint64_t(spec.nchannels) * sizeof(float) > max_layers_bytes)
+        return Error{name, "larger than the limit", fmt::format("{} x {} pixels, {} channels", spec.width, spec.height, spec.nchannels)};
+    LayeredImage image{spec.width, spec.height, {}, text_metadata(spec)};
     if (std::string_view(decoder->input->format_name()) == "openexr") image.header = std::make_shared<ImageHeader>(spec);
     for (int begin = 0, end = 0; begin < spec.nchannels; begin = end) {
         const bool is_uint = is_uint_channel(spec, begin);
@@ -141,15 +153,15 @@ Result<LayeredImage> decode_layers(std::span<const uint8_t> bytes, const std::st
         const size_t stride = size_t(end - begin);
         for (int c = begin; c < end; ++c) {
             LayeredImage::Channel channel{spec.channel_name(c), std::vector<float>(pixels), is_uint};
+            if (is_uint) channel.words.resize(pixels);
             for (size_t i = 0; i < pixels; ++i) {
                 const uint32_t bits = (*values)[i * stride + size_t(c - begin)];
                 channel.values[i] = is_uint ? float(bits) : std::bit_cast<float>(bits);
+                if (is_uint) channel.words[i] = bits;
             }
             image.channels.push_back(std::move(channel));
         }
     }
-    for (const OIIO::ParamValue& attribute : spec.extra_attribs)
-        if (attribute.type() == OIIO::TypeDesc::STRING) image.metadata[attribute.name().string()] = attribute.get_string();
     image.more_parts = decoder->input->seek_subimage(1, 0);
     return image;
 }
@@ -178,6 +190,37 @@ std::vector<uint8_t> display_bytes(std::span<const float> rgb) {
     std::vector<uint8_t> bytes(rgb.size());
     std::transform(rgb.begin(), rgb.end(), bytes.begin(), [](float v) { return v > 0 ? uint8_t(std::min(v, 1.0f) * 255 + 0.5f) : uint8_t(0); });
     return bytes;
+}
+
+OIIO::TypeDesc stored_as(const LayeredImage::Channel& channel) {
+    if (channel.is_uint) return OIIO::TypeDesc::UINT32;
+    return channel.is_half ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT;
+}
+
+// Pixel by pixel, each channel in as many bytes as it is stored in.
+std::vector<uint8_t> in_native_layout(const LayeredImage& image, const OIIO::ImageSpec& spec, size_t pixels) {
+    const size_t stride = spec.pixel_bytes(true);
+    std::vector<uint8_t> packed(pixels * stride);
+    size_t offset = 0;
+    for (const LayeredImage::Channel& channel : image.channels) {
+        const auto pack = [&](const auto& value_of) {
+            for (size_t i = 0; i < pixels; ++i) {
+                const auto value = value_of(i);
+                std::memcpy(&packed[i * stride + offset], &value, sizeof value);
+            }
+            offset += sizeof(value_of(0));
+        };
+        if (channel.is_uint && !channel.words.empty()) {
+            pack([&](size_t i) { return channel.words[i]; });
+        } else if (channel.is_uint) {
+            pack([&](size_t i) { return channel.values[i] > 0 && channel.values[i] < 4294967296.0f ? uint32_t(channel.values[i]) : 0u; });
+        } else if (channel.is_half) {
+            pack([&](size_t i) { return half(std::clamp(channel.values[i], -largest_half, largest_half)); });
+        } else {
+            pack([&](size_t i) { return channel.values[i]; });
+        }
+    }
+    return packed;
 }
 
 bool is_rgb_of(std::span<const float> rgb, int width, int height) {
@@ -259,6 +302,16 @@ Result<LayeredImage> read_layers(const std::filesystem::path& file, const ImageL
     return guarded(file.string(), [&] { return decode_layers(*bytes, file.string(), limits); });
 }
 
+Result<std::map<std::string, std::string>> read_metadata(const std::filesystem::path& file, const ImageLimits& limits) {
+    const Result<std::vector<uint8_t>> bytes = read_file(file, max_file_bytes);
+    if (!bytes) return bytes.error();
+    return guarded(file.string(), [&]() -> Result<std::map<std::string, std::string>> {
+        const Result<Decoder> decoder = open_decoder(*bytes, file.string(), limits);
+        if (!decoder) return decoder.error();
+        return text_metadata(decoder->spec());
+    });
+}
+
 Result<void> write_exr(const std::filesystem::path& file, const LayeredImage& image) {
     return guarded(file.string(), [&]() -> Result<void> {
         const size_t pixels = size_t(std::max(image.width, 0)) * size_t(std::max(image.height, 0));
@@ -266,24 +319,15 @@ Result<void> write_exr(const std::filesystem::path& file, const LayeredImage& im
         OIIO::ImageSpec spec(image.width, image.height, int(image.channels.size()), OIIO::TypeDesc::FLOAT);
         spec.channelnames.clear();
         for (const LayeredImage::Channel& channel : image.channels) {
-            if (channel.values.size() != pixels) return Error{file.string(), "channel of the wrong size", channel.name};
+            const size_t size = channel.is_uint && !channel.words.empty() ? channel.words.size() : channel.values.size();
+            if (size != pixels) return Error{file.string(), "channel of the wrong size", channel.name};
             spec.channelnames.push_back(channel.name);
-            spec.channelformats.push_back(channel.is_uint ? OIIO::TypeDesc::UINT32 : OIIO::TypeDesc::FLOAT);
+            spec.channelformats.push_back(stored_as(channel));
         }
         if (image.header) keep_header(spec, image.header->spec);
         set_metadata(spec, image.metadata);
         spec.attribute("compression", "zip");
-        // Native layout: four bytes per channel, float or unsigned.
-        std::vector<uint32_t> packed(pixels * image.channels.size());
-        for (size_t c = 0; c < image.channels.size(); ++c) {
-            const LayeredImage::Channel& channel = image.channels[c];
-            for (size_t i = 0; i < pixels; ++i) {
-                const float value = channel.values[i];
-                const uint32_t bits =
-                    channel.is_uint ? (value > 0 && value < 4294967296.0f ? uint32_t(value) : 0) : std::bit_cast<uint32_t>(value);
-                packed[i * image.channels.size() + c] = bits;
-            }
-        }
+        const std::vector<uint8_t> packed = in_native_layout(image, spec, pixels);
         return encode_to_file(file, "openexr", spec, OIIO::TypeDesc::UNKNOWN, packed.data());
     });
 }

@@ -37,6 +37,8 @@ struct LayeredImage {
         std::string name;
         std::vector<float> values; // width * height, top row first
         bool is_uint = false;      // stored as 32-bit unsigned (ids): values hold exact integers below 2^24
+        std::vector<uint32_t> words = {}; // of such a channel, exactly: read as well, and written in place of values if there are any
+        bool is_half = false;             // written as 16-bit float; what is beyond its range becomes its largest number
     };
     int width = 0, height = 0;
     std::vector<Channel> channels;
@@ -53,7 +55,11 @@ struct LayeredImage {
 
 // Every channel of the file under its own name, as float, and its text metadata. Errors as in read_image.
 Result<LayeredImage> read_layers(const std::filesystem::path& file, const ImageLimits& limits = {});
-// Written to a temporary name beside the target and renamed: the file is whole or not there. EXR: float32, ZIP.
+// Its text metadata alone: nothing is decoded.
+Result<std::map<std::string, std::string>> read_metadata(const std::filesystem::path& file, const ImageLimits& limits = {});
+constexpr float largest_half = 65504;
+// Written to a temporary name beside the target and renamed: the file is whole or not there. EXR: float32 but for what is said to be uint or
+// half, ZIP.
 Result<void> write_exr(const std::filesystem::path& file, const LayeredImage& image);
 // Display-encoded RGB in [0, 1], width * height * 3; .png or .jpg by extension; text metadata survive in .png only. Atomic too.
 Result<void> write_display_image(const std::filesystem::path& file, int width, int height, std::span<const float> rgb,

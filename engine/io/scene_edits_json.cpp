@@ -185,6 +185,11 @@ std::string edits_json(const Scene& imported, const Scene& edited) {
     return json_text(json);
 }
 
+size_t edits_left_out(std::string_view text) {
+    const Result<Json> json = parse_json_object(text);
+    return json ? member(*json, "left_out").size() : 0;
+}
+
 Result<Scene> apply_edits_json(Scene scene, std::string_view text, const std::filesystem::path& folder) {
     const Result<Json> json = parse_json_object(text);
     if (!json) return json.error();

@@ -24,6 +24,9 @@ namespace blush {
 
 std::string edits_json(const Scene& imported, const Scene& now);
 
+// How many things it lists as left out; 0 for what is no such text.
+size_t edits_left_out(std::string_view json);
+
 // The scene that edits_json was given as `now`, apart from what it lists as left out. `folder` is where a relative path of an
 // environment map begins. Errors: not such text, an id that the import does not have, a value of the wrong type or out of
 // range, an environment map that cannot be read.

@@ -1,9 +1,11 @@
 #include "io/snapshot.h"
 
+#include "io/exact_channels.h"
 #include "io/settings_json.h"
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <fmt/format.h>
 #include <map>
 #include <optional>
@@ -17,14 +19,14 @@ constexpr uint32_t first_inexact_id = 1u << 24;
 // Adds planes and keeps the first thing that is wrong with one.
 class Builder {
 public:
-    Builder(int width, int height) : pixels_(size_t(std::max(width, 0)) * size_t(std::max(height, 0))) {
+    Builder(int width, int height, bool half) : half_(half), pixels_(size_t(std::max(width, 0)) * size_t(std::max(height, 0))) {
         image_.width = width;
         image_.height = height;
     }
 
     // One channel of interleaved values.
-    void channel(const std::string& name, std::span<const float> values, size_t stride, size_t offset) {
-        LayeredImage::Channel channel{name, std::vector<float>(pixels_), false};
+    void channel(const std::string& name, std::span<const float> values, size_t stride, size_t offset, bool half = false) {
+        LayeredImage::Channel channel{name, std::vector<float>(pixels_), false, {}, half};
         for (size_t i = 0; i < pixels_; ++i) channel.values[i] = values[i * stride + offset];
         image_.channels.push_back(std::move(channel));
     }
@@ -34,7 +36,7 @@ public:
     // Interleaved values under one letter each.
     void interleaved(const std::string& layer, std::string_view letters, std::span<const float> values) {
         if (!wanted(layer, values.size(), letters.size())) return;
-        for (size_t c = 0; c < letters.size(); ++c) channel(layer + letters[c], values, letters.size(), c);
+        for (size_t c = 0; c < letters.size(); ++c) channel(layer + letters[c], values, letters.size(), c, half_);
     }
     void vectors(const std::string& layer, std::string_view letters, std::span<const Vec3> values) {
         static_assert(sizeof(Vec3) == 3 * sizeof(float));
@@ -45,6 +47,11 @@ public:
         if (std::any_of(values.begin(), values.end(), [](uint32_t id) { return id >= first_inexact_id; }))
             fail("an id is too large to be kept", name);
         image_.channels.push_back({name, std::vector<float>(values.begin(), values.end()), true});
+    }
+
+    void exact(const std::string& layer, std::span<const ExactPlane> planes) {
+        for (const ExactPlane& plane : planes)
+            if (wanted(layer + "." + plane.name, plane.size(), 1)) add_exact_plane(image_, layer, plane);
     }
 
     Result<LayeredImage> done(std::map<std::string, std::string> metadata) && {
@@ -62,29 +69,11 @@ private:
         if (!error_) error_ = Error{"", what, where};
     }
 
+    bool half_;
     size_t pixels_;
     LayeredImage image_;
     std::optional<Error> error_;
 };
-
-std::map<std::string, std::string> metadata_texts(const SnapshotMetadata& m) {
-    std::map<std::string, std::string> texts{
-        {"blush:version", m.version},
-        {"blush:scene", m.scene},
-        {"blush:scene_hash", m.scene_hash},
-        {"blush:camera", m.camera},
-        {"blush:spp", fmt::format("{}", m.spp)},
-        {"blush:samples", fmt::format("{}:{}", m.first_sample, m.last_sample)},
-        {"blush:seed", fmt::format("{}", m.seed)},
-        {"blush:seconds", fmt::format("{}", m.seconds)},
-        {"blush:error", m.error},
-        {"blush:settings", render_settings_json(m.settings)},
-        {"blush:edits", m.edits},
-    };
-    if (!m.denoised.empty()) texts.emplace("blush:denoised", m.denoised);
-    if (m.partial) texts.emplace("blush:partial", "1");
-    return texts;
-}
 
 // The attribute as a number, its default if it is absent or empty; false if it is neither.
 template <class T> bool read_number(std::string_view text, T& number) {
@@ -100,9 +89,32 @@ bool read_range(std::string_view text, int64_t& first, int64_t& last) {
 
 } // namespace
 
+std::map<std::string, std::string> snapshot_texts(const SnapshotMetadata& m) {
+    std::map<std::string, std::string> texts{
+        {"blush:version", m.version},
+        {"blush:scene", m.scene},
+        {"blush:scene_hash", m.scene_hash},
+        {"blush:camera", m.camera},
+        {"blush:spp", fmt::format("{}", m.spp)},
+        {"blush:samples", fmt::format("{}:{}", m.first_sample, m.last_sample)},
+        {"blush:seed", fmt::format("{}", m.seed)},
+        {"blush:seconds", fmt::format("{}", m.seconds)},
+        {"blush:error", m.error},
+        {"blush:settings", render_settings_json(m.settings)},
+        {"blush:edits", m.edits},
+    };
+    if (!m.denoised.empty()) texts.emplace("blush:denoised", m.denoised);
+    if (m.view) texts.emplace("blush:view", view_settings_json(*m.view));
+    for (const auto& [key, text] : {std::pair("blush:scene_file", &m.scene_file), std::pair("blush:name", &m.name),
+                                    std::pair("blush:note", &m.note), std::pair("blush:film", &m.film)})
+        if (!text->empty()) texts.emplace(key, *text);
+    if (m.partial) texts.emplace("blush:partial", "1");
+    return texts;
+}
+
 Result<LayeredImage> make_snapshot(const SnapshotInput& input) {
     if (input.width < 1 || input.height < 1 || input.rgba.empty()) return Error{"", "a snapshot without pixels", ""};
-    Builder builder(input.width, input.height);
+    Builder builder(input.width, input.height, input.half);
     builder.interleaved("", "RGBA", input.rgba);
     builder.interleaved("denoised.", "RGB", input.denoised);
     builder.vectors("albedo.", "RGB", input.albedo);
@@ -113,15 +125,27 @@ Result<LayeredImage> make_snapshot(const SnapshotInput& input) {
     for (size_t k = 0; k < input.bounces.size(); ++k) builder.vectors(fmt::format("bounce.{}.", k), "RGB", input.bounces[k]);
     builder.ids("id.object", input.object_id);
     builder.ids("id.material", input.material_id);
-    return std::move(builder).done(metadata_texts(input.metadata));
+    builder.exact("film", input.film);
+    return std::move(builder).done(snapshot_texts(input.metadata));
 }
 
-Result<SnapshotMetadata> read_snapshot_metadata(const LayeredImage& image) {
+int64_t beyond_half(const LayeredImage& image) {
+    int64_t count = 0;
+    for (const LayeredImage::Channel& channel : image.channels)
+        if (channel.is_half) count += std::ranges::count_if(channel.values, [](float v) { return std::abs(v) > largest_half; });
+    return count;
+}
+
+bool is_snapshot(const std::map<std::string, std::string>& metadata) {
+    return metadata.contains("blush:version") && (metadata.contains("blush:view") || metadata.contains("blush:film"));
+}
+
+Result<SnapshotMetadata> read_snapshot_metadata(const std::map<std::string, std::string>& texts) {
     const auto text = [&](const char* key) {
-        const auto it = image.metadata.find(key);
-        return it == image.metadata.end() ? std::string() : it->second;
+        const auto it = texts.find(key);
+        return it == texts.end() ? std::string() : it->second;
     };
-    if (!image.metadata.contains("blush:version")) return Error{"", "not a picture of ours: it has no blush:version", ""};
+    if (!texts.contains("blush:version")) return Error{"", "not a picture of ours: it has no blush:version", ""};
     SnapshotMetadata m;
     m.version = text("blush:version");
     m.scene = text("blush:scene");
@@ -131,6 +155,10 @@ Result<SnapshotMetadata> read_snapshot_metadata(const LayeredImage& image) {
     m.denoised = text("blush:denoised");
     m.edits = text("blush:edits");
     m.partial = text("blush:partial") == "1";
+    m.scene_file = text("blush:scene_file");
+    m.name = text("blush:name");
+    m.note = text("blush:note");
+    m.film = text("blush:film");
     if (!read_number(text("blush:spp"), m.spp)) return Error{"", "not a number", "blush:spp"};
     if (!read_range(text("blush:samples"), m.first_sample, m.last_sample)) return Error{"", "not a range A:B", "blush:samples"};
     if (!read_number(text("blush:seed"), m.seed)) return Error{"", "not a number", "blush:seed"};
@@ -139,6 +167,11 @@ Result<SnapshotMetadata> read_snapshot_metadata(const LayeredImage& image) {
         const auto parsed = parse_render_settings(settings);
         if (!parsed) return Error{"", parsed.error().what, "blush:settings " + parsed.error().where};
         m.settings = parsed->settings;
+    }
+    if (const std::string view = text("blush:view"); !view.empty()) {
+        const auto parsed = parse_view_settings(view);
+        if (!parsed) return Error{"", parsed.error().what, "blush:view " + parsed.error().where};
+        m.view = parsed->settings;
     }
     return m;
 }

@@ -226,7 +226,7 @@ void Film::resolve_rows(Frame& frame, int first, int last, Totals& totals) const
         if (planes_.depth) frame.depth[i] = depth_[i];
         if (planes_.ids) {
             frame.object_id[i] = object_id_[i];
-            frame.material_id[i] = uint32_t(material_[i] + 1);
+            frame.material_id[i] = uint32_t(material_[i]) + 1;
         }
         for (size_t k = 0; k < frame.bounces.size(); ++k) {
             const Vec3d light = mean_of(i, w, [&](size_t place) { return bounces_.sum(place, k); });

@@ -1,8 +1,10 @@
 #include "render/film_state.h"
 
 #include "render/film_planes.h"
+#include "render/lowering.h"
 
 #include <algorithm>
+#include <exception>
 #include <optional>
 #include <type_traits>
 
@@ -97,7 +99,7 @@ Result<void> add_film(Film& film, const FilmState& more) {
 
 FilmSize film_size(const FilmState& state) {
     FilmSize size{state.width, state.height, {}, false, false};
-    const auto has = [&](const std::string& name) { return state.find(name) != nullptr; };
+    const auto has = [&](const std::string& name) { return state.find(name) || state.find("even." + name); };
     size.planes.albedo = size.planes.normal = has("albedo.R");
     size.planes.depth = has("depth");
     size.planes.ids = has("object");
@@ -105,6 +107,61 @@ FilmSize film_size(const FilmState& state) {
     while (size.planes.bounces < most_bounce_planes && has(fmt::format("bounce.{}.R", size.planes.bounces))) ++size.planes.bounces;
     size.transparent = has("covered");
     return size;
+}
+
+namespace {
+
+Result<void> load_new(Film& film, const FilmState& state, const RenderSettings& settings) {
+    if (state.width < 1 || state.height < 1 || state.samples < 1) return Error{"", "there are no samples", ""};
+    const FilmSize size = film_size(state);
+    try {
+        film.reset(size.width, size.height, size.planes, size.transparent, settings.adaptive, settings.clamp);
+    } catch (const std::exception& e) { return Error{"", e.what(), ""}; }
+    return load_film(film, state);
+}
+
+} // namespace
+
+Result<ResolvedFilm> resolve_film(const FilmState& state, const RenderSettings& settings, unsigned threads) {
+    Film film;
+    if (const auto loaded = load_new(film, state, settings); !loaded) return loaded.error();
+    // As ids are kept, not as indices, one more is what a frame says of them.
+    ResolvedFilm resolved;
+    Frame& frame = resolved.frame;
+    film.resolve(frame, Workers(threads));
+    for (uint32_t& id : frame.object_id) id &= ~lowered_bit;
+    for (uint32_t& id : frame.material_id) id = (id - 1) & lowered_bit ? 0 : id - 1;
+    frame.samples = state.samples;
+    frame.seconds = state.seconds;
+    frame.rays = state.rays;
+    frame.path_counts = state.path_counts;
+    frame.health.truncated = state.truncated;
+    if (settings.reuse > 1) frame.error = widened(frame.error, settings.reuse);
+    resolved.error = film.standard_error();
+    return resolved;
+}
+
+Result<FilmState> merge_films(const FilmState& a, const FilmState& b, const RenderSettings& settings) {
+    if (b.first_sample < a.first_sample) return merge_films(b, a, settings);
+    const int64_t end = a.first_sample + a.samples;
+    if (b.first_sample < end) return Error{"", fmt::format("both hold sample {}", b.first_sample), ""};
+    if (b.first_sample > end) return Error{"", fmt::format("samples {} to {} are in neither", end, b.first_sample - 1), ""};
+    Film film;
+    if (const auto loaded = load_new(film, a, settings); !loaded) return loaded.error();
+    if (const auto added = add_film(film, b); !added) return added.error();
+    FilmState sum = save_film(film);
+    sum.first_sample = a.first_sample;
+    sum.samples = a.samples + b.samples;
+    sum.seconds = a.seconds + b.seconds;
+    sum.rays = {a.rays.camera + b.rays.camera, a.rays.bounce + b.rays.bounce, a.rays.shadow + b.rays.shadow};
+    sum.truncated = a.truncated + b.truncated;
+    sum.path_counts = a.path_counts;
+    sum.path_counts.resize(std::max(a.path_counts.size(), b.path_counts.size()));
+    for (size_t k = 0; k < b.path_counts.size(); ++k) {
+        PathCounts& c = sum.path_counts[k];
+        c = {c.alive + b.path_counts[k].alive, c.asked + b.path_counts[k].asked, c.survived + b.path_counts[k].survived};
+    }
+    return sum;
 }
 
 } // namespace blush

@@ -41,6 +41,17 @@ Result<void> load_film(Film& film, const FilmState& state);
 // there before. Health is added up, the lists of the worst are those of both. Errors as above.
 Result<void> add_film(Film& film, const FilmState& more);
 
+// The picture that a film state holds, made with these settings: pixels, planes, error, health, all that Renderer::resolve() gives but for
+// who rendered it. Errors as of load_film, a size that is none.
+struct ResolvedFilm {
+    Frame frame;
+    std::vector<Vec3> error; // standard error of each pixel's mean, RGB; empty if not known
+};
+Result<ResolvedFilm> resolve_film(const FilmState& state, const RenderSettings& settings, unsigned threads = 0);
+// The state of the samples of both, of one image and next to one another; neither may be adaptive. Errors as of add_film; ranges that
+// overlap or leave a gap.
+Result<FilmState> merge_films(const FilmState& a, const FilmState& b, const RenderSettings& settings);
+
 // What a film must be reset with to take up this state.
 FilmSize film_size(const FilmState& state);
 

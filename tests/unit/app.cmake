@@ -5,6 +5,7 @@ blush_test(test_app
     app_converge.cpp
     app_denoise.cpp
     app_info.cpp
+    app_merge.cpp
     app_progress.cpp
     app_render.cpp
     app_render_loop.cpp

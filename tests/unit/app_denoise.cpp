@@ -215,7 +215,7 @@ TEST(RenderDenoised, TheLayerStandsBesideTheUntouchedBeauty) {
     EXPECT_EQ(after.channels.size(), before.channels.size() + 3) << "without the guides, unless --layers asks for them";
     for (const char* name : {"R", "G", "B", "A"}) EXPECT_EQ(after.find(name)->values, before.find(name)->values) << name;
     EXPECT_NE(after.find("denoised.R")->values, before.find("R")->values);
-    EXPECT_EQ(read_snapshot_metadata(after)->denoised.substr(0, 16), "rt_hdr_calb_cnrm");
+    EXPECT_EQ(read_snapshot_metadata(after.metadata)->denoised.substr(0, 16), "rt_hdr_calb_cnrm");
 }
 
 TEST(RenderDenoised, PicturesShowItAndCompareSeesTheLayer) {

@@ -47,7 +47,7 @@ TEST(Render, WritesAnExrWithItsMetadata) {
     for (const auto& channel : image->channels) names.push_back(channel.name);
     std::ranges::sort(names);
     EXPECT_EQ(names, (std::vector<std::string>{"A", "B", "G", "R"}));
-    const Result<SnapshotMetadata> metadata = read_snapshot_metadata(*image);
+    const Result<SnapshotMetadata> metadata = read_snapshot_metadata(image->metadata);
     ASSERT_TRUE(metadata) << metadata.error().text();
     EXPECT_EQ(metadata->scene, "cornell.gltf");
     EXPECT_EQ(metadata->spp, 4);
@@ -107,7 +107,7 @@ TEST(Render, AdaptiveSamplingIsRecordedAndItsLayerHoldsTheSamplesOfEachPixel) {
     const std::vector<float>& samples = image.find("samples.Y")->values;
     EXPECT_NE(*std::ranges::min_element(samples), *std::ranges::max_element(samples));
     EXPECT_EQ(std::accumulate(samples.begin(), samples.end(), 0.0), json["rays"]["camera"].get<double>());
-    const Result<SnapshotMetadata> metadata = read_snapshot_metadata(image);
+    const Result<SnapshotMetadata> metadata = read_snapshot_metadata(image.metadata);
     ASSERT_TRUE(metadata) << metadata.error().text();
     EXPECT_TRUE(metadata->settings.adaptive);
     EXPECT_EQ(metadata->spp, 40);
@@ -177,7 +177,7 @@ TEST(Render, SampleRangesAverageToTheWhole) {
     const LayeredImage first = render("a.exr", "0:4"), second = render("b.exr", "4:8"), whole = render("c.exr", "0:8");
     const std::vector<float> a = beauty(first), b = beauty(second), both = beauty(whole);
     for (size_t i = 0; i < both.size(); ++i) EXPECT_NEAR(0.5 * (a[i] + b[i]), both[i], 1e-5 * (1 + both[i]));
-    const SnapshotMetadata metadata = *read_snapshot_metadata(second);
+    const SnapshotMetadata metadata = *read_snapshot_metadata(second.metadata);
     EXPECT_EQ(metadata.spp, 4);
     EXPECT_EQ(metadata.first_sample, 4);
     EXPECT_EQ(metadata.last_sample, 8);
@@ -192,7 +192,7 @@ TEST(Render, TheEnvironmentCanBeReplaced) {
     const LayeredImage blue = *read_layers(folder / "blue.exr");
     EXPECT_EQ(blue.find("R")->values[0], 0);
     EXPECT_NEAR(blue.find("B")->values[0], 3, 1e-4);
-    EXPECT_NE(read_snapshot_metadata(blue)->edits.find("environment"), std::string::npos);
+    EXPECT_NE(read_snapshot_metadata(blue.metadata)->edits.find("environment"), std::string::npos);
 }
 
 TEST(Render, JsonHasTheKeysOfTheContract) {
@@ -255,7 +255,7 @@ TEST(Render, CtrlCKeepsWhatThereIs) {
     EXPECT_NE(finished.out.find("partial"), std::string::npos) << finished.out;
     const Result<LayeredImage> image = read_layers(folder / "out.exr");
     ASSERT_TRUE(image) << image.error().text();
-    const SnapshotMetadata metadata = *read_snapshot_metadata(*image);
+    const SnapshotMetadata metadata = *read_snapshot_metadata(image->metadata);
     EXPECT_TRUE(metadata.partial);
     EXPECT_GE(metadata.spp, 1);
     std::ifstream file(folder / "out.json");
