@@ -71,13 +71,17 @@ Result<Variant> parse_variant(const std::string& text, const RenderOptions& base
 }
 
 Result<std::vector<Variant>> preset_variants(const std::string& name, const RenderOptions& base) {
+    // They compare rules of the plain path tracer.
+    RenderOptions plain = base;
+    if (!base.adaptive_given) plain.settings.adaptive = RenderSettings{}.adaptive;
+    if (!base.reuse_given) plain.settings.reuse = RenderSettings{}.reuse;
     std::string known;
     for (const Preset& preset : presets) {
         known += fmt::format("{}{}", known.empty() ? "" : ", ", preset.name);
         if (name != preset.name) continue;
         std::vector<Variant> variants;
         for (const char* text : preset.variants) {
-            Result<Variant> variant = parse_variant(text, base);
+            Result<Variant> variant = parse_variant(text, plain);
             if (!variant) return variant.error();
             variants.push_back(*std::move(variant));
         }

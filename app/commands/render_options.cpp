@@ -15,13 +15,14 @@ namespace {
 
 // An option whose text `parse` turns into a value for `target`.
 template <class T> CLI::Option* add_parsed(CLI::App& app, const std::string& name, T& target, Result<T> (*parse)(std::string_view),
-                                           const std::string& description) {
+                                           const std::string& description, bool* given = nullptr) {
     return app.add_option_function<std::string>(
         name,
-        [name, &target, parse](const std::string& text) {
+        [name, &target, parse, given](const std::string& text) {
             Result<T> value = parse(text);
             if (!value) throw CLI::ValidationError(name, value.error().text());
             target = *std::move(value);
+            if (given) *given = true;
         },
         description);
 }
@@ -126,10 +127,11 @@ void add_integrator_options(CLI::App& app, RenderOptions& o) {
         ->type_name("mis|light|bsdf");
     add_parsed(app, "--energy-compensation", o.settings.energy_compensation, parse_switch, "Multiple scattering between microfacets [off]")
         ->type_name("on|off");
-    add_parsed(app, "--adaptive", o.settings.adaptive, parse_switch, "More samples where the noise is, N per pixel on average [off]")
+    add_parsed(app, "--adaptive", o.settings.adaptive, parse_switch, "More samples where the noise is, N per pixel on average [on]",
+               &o.adaptive_given)
         ->type_name("on|off");
-    add_parsed(app, "--reuse", o.settings.reuse, parse_reuse,
-               "Pixels that share what their paths find at a second matte surface [off]")
+    add_parsed(app, "--reuse", o.settings.reuse, parse_reuse, "Pixels that share what their paths find at a second matte surface [8]",
+               &o.reuse_given)
         ->type_name("off|4|8|16");
     add_parsed(app, "--clamp", o.settings.clamp, parse_clamp,
                "Limit samples to X nits in light scattered more than once, or in all: loses light, the summary says how much [off]")
@@ -166,6 +168,7 @@ void add_render_options(CLI::App& app, RenderOptions& options) {
 Result<RenderSettings> settings_of(const RenderOptions& options) {
     RenderSettings settings = options.settings;
     if (options.spp_given && options.samples_given) return Error{.what = "--spp and --samples both say which samples to render; give one"};
+    if (options.samples_given && !options.adaptive_given) settings.adaptive = false;
     if (settings.adaptive && options.samples_given)
         return Error{.what = "--samples names sample indices, --adaptive decides by itself how many a pixel has; give one"};
     const bool other_limit = settings.seconds > 0 || settings.error > 0;

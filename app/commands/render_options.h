@@ -16,11 +16,11 @@ class App;
 namespace blush {
 
 struct RenderOptions {
-    RenderSettings settings;
+    RenderSettings settings = recommended_settings();
     ViewSettings view;
     SceneOverrides overrides;
     std::optional<DenoiseQuality> denoise; // empty: off
-    bool size_given = false, spp_given = false, samples_given = false;
+    bool size_given = false, spp_given = false, samples_given = false, adaptive_given = false, reuse_given = false;
 };
 
 // Text that makes no sense ends parsing with CLI::ValidationError.
@@ -28,7 +28,8 @@ void add_render_options(CLI::App& app, RenderOptions& options);
 // Of those, how a picture is shown: --exposure, --view, --look, --display and their like.
 void add_view_options(CLI::App& app, ViewSettings& view);
 
-// The settings that the options together ask for: a time or error limit alone lifts the default limit on samples.
+// The settings that the options together ask for: a time or error limit alone lifts the default limit on samples, and named samples are not
+// spread adaptively.
 // Errors: options that contradict each other, numbers out of range (validate.h).
 Result<RenderSettings> settings_of(const RenderOptions& options);
 

@@ -2,6 +2,13 @@
 
 namespace blush {
 
+RenderSettings recommended_settings() {
+    RenderSettings settings;
+    settings.adaptive = true;
+    settings.reuse = 8;
+    return settings;
+}
+
 bool same_image(const RenderSettings& before, const RenderSettings& after) {
     RenderSettings stops_alike = before;
     stops_alike.spp = after.spp;

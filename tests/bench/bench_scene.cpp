@@ -42,7 +42,7 @@ RenderSettings rate_settings() {
 }
 
 RenderSettings window_settings() {
-    RenderSettings settings;
+    RenderSettings settings = recommended_settings();
     settings.width = 1280;
     settings.height = 720;
     settings.spp = 0;

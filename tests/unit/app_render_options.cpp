@@ -25,14 +25,14 @@ bool refused(const std::vector<std::string>& arguments) {
 
 TEST(RenderOptions, NothingGivenIsTheDefault) {
     const RenderOptions options = parsed({});
-    EXPECT_EQ(*settings_of(options), RenderSettings{});
+    EXPECT_EQ(*settings_of(options), recommended_settings());
     EXPECT_EQ(options.view, ViewSettings{});
     EXPECT_FALSE(options.size_given);
     EXPECT_FALSE(options.overrides.environment);
 }
 
 TEST(RenderOptions, EachOptionSetsItsField) {
-    RenderSettings expected;
+    RenderSettings expected = recommended_settings();
     expected.width = 320;
     expected.height = 200;
     expected.spp = 12;
@@ -43,6 +43,7 @@ TEST(RenderOptions, EachOptionSetsItsField) {
     expected.roulette = {Roulette::Rule::constant, 1, 0, 1, 0.5f, 0.1f};
     expected.strategy = Strategy::light;
     expected.energy_compensation = true;
+    expected.adaptive = false;
     expected.reuse = 16;
     expected.clamp = {4, true};
     expected.filter = PixelFilter::box;
@@ -64,6 +65,8 @@ TEST(RenderOptions, EachOptionSetsItsField) {
                                           "light",
                                           "--energy-compensation",
                                           "on",
+                                          "--adaptive",
+                                          "off",
                                           "--reuse",
                                           "16",
                                           "--clamp",
@@ -112,9 +115,10 @@ TEST(RenderOptions, SamplesAreARange) {
 }
 
 TEST(RenderOptions, AdaptiveSamplingTakesNoRange) {
-    EXPECT_FALSE(settings_of(parsed({}))->adaptive);
-    EXPECT_TRUE(settings_of(parsed({"--adaptive", "on"}))->adaptive);
+    EXPECT_TRUE(settings_of(parsed({}))->adaptive);
+    EXPECT_FALSE(settings_of(parsed({"--adaptive", "off"}))->adaptive);
     EXPECT_FALSE(settings_of(parsed({"--adaptive", "off", "--samples", "16:48"}))->adaptive);
+    EXPECT_FALSE(settings_of(parsed({"--samples", "16:48"}))->adaptive) << "the default gives way";
     for (const char* range : {"16:48", "0:48"}) {
         const Result<RenderSettings> both = settings_of(parsed({"--adaptive", "on", "--samples", range}));
         ASSERT_FALSE(both);
