@@ -4,7 +4,7 @@
 #include "io/displayed.h"
 #include "io/image_io.h"
 #include "measure/convergence.h"
-#include "measure/plot.h"
+#include "measure/plot_svg.h"
 
 #include <fmt/format.h>
 
@@ -77,7 +77,7 @@ Result<std::string> figure(const RgbImage& image, const std::string& caption, co
 
 // One curve for each repeat in the variant's colour, the first of which is in the legend.
 Plot error_plot(const ConvergeReport& report, const std::string& title, const std::string& x_label, double (*x_of)(const MeasuredPoint&)) {
-    Plot plot{title, x_label, "RMSE against the reference", {}, {}};
+    Plot plot{title, x_label, "RMSE against the reference", {}, {}, {}};
     for (size_t v = 0; v < report.result.variants.size(); ++v) {
         const VariantResult& variant = report.result.variants[v];
         for (const MeasuredPoint& p : variant.points) {
@@ -87,7 +87,7 @@ Plot error_plot(const ConvergeReport& report, const std::string& title, const st
         }
     }
     const PlotCurve guide = plot_guide(plot, -0.5, "1/√N, for comparison");
-    PlotCurve floor{"the reference's own error", "#bbbbbb", {}, true, false};
+    PlotCurve floor{"the reference's own error", "#bbbbbb", {}, PlotCurve::Line::dashed, PlotCurve::Dots::none};
     const double own = std::sqrt(mean_square_error(report.reference.measured));
     for (const PlotCurve::Point& p : guide.points) floor.points.push_back({p.x, own});
     plot.curves.push_back(guide);

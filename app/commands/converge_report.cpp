@@ -1,7 +1,7 @@
 #include "app/commands/converge_report.h"
 
 #include "io/settings_json.h"
-#include "measure/convergence.h"
+#include "measure/convergence_csv.h"
 
 #include <fmt/format.h>
 

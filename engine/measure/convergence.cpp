@@ -2,70 +2,78 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 namespace blush {
 namespace {
 
-constexpr double growth = 1.1; // of samples between two points
+using Kind = ConvergencePoint::Kind;
 
-template <class X> PowerFit fit(const std::vector<ConvergencePoint>& points, bool denoised, X x_of) {
-    std::vector<double> x, y;
-    for (const ConvergencePoint& p : points) {
-        if (p.denoised != denoised || !(p.rmse > 0) || !(x_of(p) > 0)) continue;
-        x.push_back(x_of(p));
-        y.push_back(p.rmse);
-    }
-    return fit_power(x, y);
-}
+constexpr double growth = 1.1;        // of samples between two points
+constexpr int64_t fitted_growth = 64; // of samples, that a slope is told from
+constexpr double furthest = 1000;     // how many times the run's length its slope is believed
 
 } // namespace
 
+std::string_view to_string(Kind kind) {
+    switch (kind) {
+    case Kind::estimated: return "estimated";
+    case Kind::measured: return "measured";
+    case Kind::denoised: return "denoised";
+    }
+    return "";
+}
+
+bool ConvergenceRecord::is_due(Kind kind, int64_t spp) const {
+    const auto last = std::find_if(points_.rbegin(), points_.rend(), [&](const ConvergencePoint& p) { return p.kind == kind; });
+    return last == points_.rend() || double(spp) >= growth * double(last->spp);
+}
+
 bool ConvergenceRecord::add(const ConvergencePoint& point) {
-    const auto last =
-        std::find_if(points_.rbegin(), points_.rend(), [&](const ConvergencePoint& p) { return p.denoised == point.denoised; });
-    if (last != points_.rend() && double(point.spp) < growth * double(last->spp)) return false;
+    if (!is_due(point.kind, point.spp)) return false;
     points_.push_back(point);
     return true;
 }
 
-void ConvergenceRecord::clear() {
-    points_.clear();
-    marks_.clear();
+void ConvergenceRecord::set(const ConvergencePoint& point) {
+    const auto at = std::ranges::find_if(points_, [&](const ConvergencePoint& p) { return p.kind == point.kind && p.spp >= point.spp; });
+    if (at != points_.end() && at->spp == point.spp)
+        *at = point;
+    else
+        points_.insert(at, point);
 }
 
-PowerFit ConvergenceRecord::fit_seconds(bool denoised) const {
-    return fit(points_, denoised, [](const ConvergencePoint& p) { return p.seconds; });
-}
-PowerFit ConvergenceRecord::fit_spp(bool denoised) const {
-    return fit(points_, denoised, [](const ConvergencePoint& p) { return double(p.spp); });
-}
-
-double seconds_left(const ConvergenceRecord& record, double target) {
-    const auto& points = record.points();
-    const auto last = std::find_if(points.rbegin(), points.rend(), [](const ConvergencePoint& p) { return !p.denoised; });
-    if (last == points.rend() || !(target > 0)) return -1;
-    if (last->relmse <= target) return 0;
-    const PowerFit f = record.fit_seconds();
-    if (!f.slope.known || f.slope.value >= 0 || !(last->seconds > 0)) return -1;
-    // From the last point on, not from the line: relmse falls with twice the slope of RMSE.
-    return last->seconds * (std::pow(target / last->relmse, 0.5 / f.slope.value) - 1);
+std::vector<ConvergencePoint> ConvergenceRecord::points(Kind kind) const {
+    std::vector<ConvergencePoint> some;
+    std::ranges::copy_if(points_, std::back_inserter(some), [&](const ConvergencePoint& p) { return p.kind == kind; });
+    return some;
 }
 
-std::string csv_field(const std::string& text) {
-    if (text.find_first_of(",\"\n\r") == text.npos) return text;
-    std::string quoted = "\"";
-    for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return quoted + "\"";
+PowerFit fit(const ConvergenceRecord& record, Kind kind, ErrorMetric metric, ProgressAxis axis) {
+    std::vector<double> x, y, samples;
+    const std::vector<ConvergencePoint> points = record.points(kind);
+    for (const ConvergencePoint& p : points) {
+        if (p.spp < points.back().spp / fitted_growth || !(p.error(metric).value > 0) || !(p.at(axis) > 0)) continue;
+        x.push_back(p.at(axis));
+        y.push_back(p.error(metric).value);
+        samples.push_back(double(p.spp));
+    }
+    return fit_running(x, y, samples);
 }
 
-std::string to_csv(const std::vector<ConvergenceRecord>& records) {
-    std::string csv = "name,seconds,spp,relmse,low,high,rmse,denoised\n";
-    for (const ConvergenceRecord& r : records)
-        for (const ConvergencePoint& p : r.points())
-            csv += fmt::format("{},{:.6g},{},{:.6g},{:.6g},{:.6g},{:.6g},{}\n", csv_field(r.name), p.seconds, p.spp, p.relmse, p.low,
-                               p.high, p.rmse, int(p.denoised));
-    return csv;
+TimeLeft time_left(const ConvergenceRecord& record, Kind kind, ErrorMetric metric, double target) {
+    using State = TimeLeft::State;
+    const std::vector<ConvergencePoint> points = record.points(kind);
+    if (points.empty() || !(target > 0)) return {};
+    const ConvergencePoint& last = points.back();
+    const Interval& error = last.error(metric);
+    if (error.value <= target) return {State::reached};
+    const Interval slope = fit(record, kind, metric, ProgressAxis::seconds).slope;
+    if (!slope.known || !(last.seconds > 0)) return {State::too_few};
+    if (slope.high >= 0) return {State::no_trend};
+    const auto left = [&](double from, double p) { return last.seconds * std::max(0.0, std::pow(target / from, 1 / p) - 1); };
+    const double low = error.known ? error.low : error.value, high = error.known ? error.high : error.value;
+    const TimeLeft t{State::known, left(error.value, slope.value), left(low, slope.low), left(high, slope.high)};
+    return t.seconds <= furthest * last.seconds ? t : TimeLeft{State::too_far};
 }
 
 int next_turn(const std::vector<double>& seconds) {

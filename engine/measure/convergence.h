@@ -5,56 +5,82 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace blush {
 
-// The error of a picture at one moment, estimated or measured against a reference.
+enum class ErrorMetric { rmse, relmse };
+enum class ProgressAxis { seconds, spp };
+
+// The error of a picture at one moment.
 struct ConvergencePoint {
+    enum class Kind {
+        estimated, // of the raw picture, from its two halves
+        measured,  // of the raw picture, against a reference
+        denoised,  // of the denoised one, against a reference or, less surely, against the raw picture later on
+    };
+    Kind kind = Kind::estimated;
     double seconds = 0; // of rendering, measuring not included
     int64_t spp = 0;
-    double relmse = 0, low = 0, high = 0; // low = high = relmse where no interval is known
-    double rmse = 0;
-    bool denoised = false;
+    Interval rmse, relmse; // value but not `known`: no interval
+
+    double at(ProgressAxis axis) const { return axis == ProgressAxis::seconds ? seconds : double(spp); }
+    const Interval& error(ErrorMetric metric) const { return metric == ErrorMetric::rmse ? rmse : relmse; }
 };
+std::string_view to_string(ConvergencePoint::Kind kind); // "estimated", "measured", "denoised"
 
 // A moment worth a mark in the plot: an edit, a change of settings.
 struct ConvergenceMark {
     double seconds = 0;
+    int64_t spp = 0;
     std::string label;
+
+    double at(ProgressAxis axis) const { return axis == ProgressAxis::seconds ? seconds : double(spp); }
 };
 
-// One curve. Points are kept when the samples have grown by a tenth since the last one of their kind: evenly in a log-log plot, and about
-// two hundred of them however long it runs.
+// The curves of one run. Points are kept when the samples have grown by a tenth since the last one of their kind: evenly in a log-log
+// plot, and about two hundred of them however long it runs.
 class ConvergenceRecord {
 public:
     std::string name;
 
+    // Would add() keep a point of this kind?
+    bool is_due(ConvergencePoint::Kind kind, int64_t spp) const;
     // False if the point was left out.
     bool add(const ConvergencePoint& point);
+    // In place of the point of the same kind and number of samples; among the others if there is none.
+    void set(const ConvergencePoint& point);
     void mark(const ConvergenceMark& mark) { marks_.push_back(mark); }
-    void clear();
 
     const std::vector<ConvergencePoint>& points() const { return points_; }
     const std::vector<ConvergenceMark>& marks() const { return marks_; }
-    // RMSE against seconds, or samples, of the raw or of the denoised picture.
-    PowerFit fit_seconds(bool denoised = false) const;
-    PowerFit fit_spp(bool denoised = false) const;
+    std::vector<ConvergencePoint> points(ConvergencePoint::Kind kind) const;
 
 private:
     std::vector<ConvergencePoint> points_;
     std::vector<ConvergenceMark> marks_;
 };
 
-// Seconds from the last point until relmse is `target`, as the fitted slope goes on; 0 if it is there already, negative if that cannot be
-// told.
-double seconds_left(const ConvergenceRecord& record, double target);
+// The slope of one kind's error over its last 64-fold growth in samples, which is what matters for how it goes on. Points of one run share
+// samples: see fit_running().
+PowerFit fit(const ConvergenceRecord& record, ConvergencePoint::Kind kind, ErrorMetric metric, ProgressAxis axis);
 
-// name,seconds,spp,relmse,low,high,rmse,denoised; one line per point.
-std::string to_csv(const std::vector<ConvergenceRecord>& records);
-
-// A name as one field of a CSV line.
-std::string csv_field(const std::string& text);
+// How long until the error is `target`, if it goes on as it fell.
+struct TimeLeft {
+    enum class State {
+        reached,
+        known,    // seconds, low and high are; high may be infinite
+        too_few,  // points to tell a slope from
+        no_trend, // the error does not fall for sure
+        too_far,  // more than 1000 times as long as the run so far: nobody knows whether it goes on like this
+    };
+    State state = State::too_few;
+    double seconds = 0, low = 0, high = 0;
+};
+// From the last point on, not from the fitted line, along its slope. Low and high take the ends of both intervals, the slope's and the last
+// point's, so that they hold more often than 95 %.
+TimeLeft time_left(const ConvergenceRecord& record, ConvergencePoint::Kind kind, ErrorMetric metric, double target);
 
 // ---- fair measuring of several settings side by side
 

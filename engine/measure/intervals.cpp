@@ -4,8 +4,44 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <vector>
 
 namespace blush {
+namespace {
+
+// y = one * log at_one + x * slope, up to an error as large as in all the others.
+struct Equation {
+    double one = 0, x = 0, y = 0;
+};
+
+// By least squares.
+PowerFit solve(std::span<const Equation> equations) {
+    if (equations.size() < 3) return {};
+    double one_one = 0, one_x = 0, one_y = 0, xx = 0, xy = 0;
+    for (const Equation& e : equations) {
+        one_one += e.one * e.one;
+        one_x += e.one * e.x;
+        one_y += e.one * e.y;
+    }
+    // Of what is left of x when the constant has taken its part: the difference of large sums would lose digits.
+    for (const Equation& e : equations) {
+        const double dx = e.x - e.one * one_x / one_one;
+        xx += dx * dx;
+        xy += dx * (e.y - e.one * one_y / one_one);
+    }
+    if (!(xx > 1e-12) || !std::isfinite(xy)) return {};
+    const double slope = xy / xx, constant = (one_y - slope * one_x) / one_one;
+    double rest = 0;
+    for (const Equation& e : equations) {
+        const double off = e.y - constant * e.one - slope * e.x;
+        rest += off * off;
+    }
+    const auto degrees = int64_t(equations.size()) - 2;
+    const double margin = student_95(degrees) * std::sqrt(rest / double(degrees) / xx);
+    return {{true, slope, slope - margin, slope + margin}, std::exp(constant)};
+}
+
+} // namespace
 
 double normal_two_sided(double z) { return std::erfc(std::abs(z) / std::numbers::sqrt2); }
 
@@ -39,25 +75,29 @@ Interval mean_interval(std::span<const double> values) {
 
 PowerFit fit_power(std::span<const double> x, std::span<const double> y) {
     const size_t count = std::min(x.size(), y.size());
-    if (count < 3) return {};
-    const double n = double(count);
-    double mean_x = 0, mean_y = 0;
-    for (size_t i = 0; i < count; ++i) mean_x += std::log(x[i]) / n, mean_y += std::log(y[i]) / n;
-    double xx = 0, xy = 0;
+    std::vector<Equation> equations(count);
+    for (size_t i = 0; i < count; ++i) equations[i] = {1, std::log(x[i]), std::log(y[i])};
+    return solve(equations);
+}
+
+PowerFit fit_running(std::span<const double> x, std::span<const double> y, std::span<const double> samples) {
+    const size_t count = std::min({x.size(), y.size(), samples.size()});
+    std::vector<Equation> equations;
     for (size_t i = 0; i < count; ++i) {
-        const double dx = std::log(x[i]) - mean_x;
-        xx += dx * dx;
-        xy += dx * (std::log(y[i]) - mean_y);
+        const Equation own{1, std::log(x[i]), std::log(y[i])};
+        if (i == 0) {
+            equations.push_back(own);
+            continue;
+        }
+        // What is new since the last one, in units of its own deviation.
+        const double shared = samples[i - 1] / samples[i];
+        if (!(shared < 1)) continue;
+        const double scale = 1 / std::sqrt(1 - shared * shared);
+        const Equation before{1, std::log(x[i - 1]), std::log(y[i - 1])};
+        const auto rest = [&](double now, double then) { return scale * (now - shared * then); };
+        equations.push_back({rest(own.one, before.one), rest(own.x, before.x), rest(own.y, before.y)});
     }
-    if (!(xx > 1e-12) || !std::isfinite(xy)) return {};
-    const double slope = xy / xx;
-    double rest = 0;
-    for (size_t i = 0; i < count; ++i) {
-        const double off = std::log(y[i]) - mean_y - slope * (std::log(x[i]) - mean_x);
-        rest += off * off;
-    }
-    const double margin = student_95(int64_t(count) - 2) * std::sqrt(rest / (n - 2) / xx);
-    return {{true, slope, slope - margin, slope + margin}, std::exp(mean_y - slope * mean_x)};
+    return solve(equations);
 }
 
 double reach(const PowerFit& fit, double y) {

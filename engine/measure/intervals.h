@@ -31,6 +31,11 @@ struct PowerFit {
 // Fewer than 3 points, or all at one x: not known. The interval takes the points' scatter about the line as independent.
 PowerFit fit_power(std::span<const double> x, std::span<const double> y);
 
+// The same where y are errors of running means, over the first samples[i] of one series of samples, ascending. They are not independent:
+// those at n and m > n have n / m of their squared error in common, and so correlate like it; the fit and its interval allow for that
+// (Prais and Winsten 1954, for neighbours unevenly apart).
+PowerFit fit_running(std::span<const double> x, std::span<const double> y, std::span<const double> samples);
+
 // Where the fitted curve reaches y; 0 if it never does.
 double reach(const PowerFit& fit, double y);
 

@@ -69,9 +69,39 @@ TEST(PowerFit, SaysWhereACurveArrives) {
     EXPECT_FALSE(fit_power(flat, y).slope.known);
 }
 
-ConvergencePoint at(double seconds, int64_t spp, bool denoised = false) {
+// Errors of running means: what the points of one run have in common must not make the interval of their slope too narrow.
+TEST(PowerFit, OfARunningMeanHoldsTheSlopeInNineteenOfTwentyRuns) {
+    std::mt19937 bits(3);
+    std::normal_distribution<double> normal;
+    constexpr int pixels = 60, longest = 400;
+    Moments slopes, inside;
+    for (int run = 0; run < 600; ++run) {
+        std::vector<double> sums(pixels), x, y, samples;
+        double due = 4;
+        for (int n = 1; n <= longest; ++n) {
+            for (double& s : sums) s += normal(bits);
+            if (n < due) continue;
+            due = std::max(1.1 * n, n + 1.0);
+            double squares = 0;
+            for (const double s : sums) squares += s * s / (n * n);
+            x.push_back(0.01 * n);
+            y.push_back(std::sqrt(squares / pixels));
+            samples.push_back(n);
+        }
+        const PowerFit fit = fit_running(x, y, samples);
+        slopes.add(fit.slope.value);
+        inside.add(fit.slope.low <= -0.5 && -0.5 <= fit.slope.high);
+    }
+    EXPECT_TRUE(z_test(slopes, -0.5, sidak(significance, 2)));
+    EXPECT_TRUE(z_test(inside, 0.95, sidak(significance, 2)));
+}
+
+using Kind = ConvergencePoint::Kind;
+
+ConvergencePoint at(double seconds, int64_t spp, Kind kind = Kind::estimated) {
     const double relmse = 1.0 / double(spp);
-    return {seconds, spp, relmse, relmse, relmse, std::sqrt(relmse), denoised};
+    return {
+        kind, seconds, spp, {true, std::sqrt(relmse), 0.9 * std::sqrt(relmse), 1.1 * std::sqrt(relmse)}, {true, relmse, relmse, relmse}};
 }
 
 TEST(ConvergenceRecord, KeepsPointsATenthApartForEachKind) {
@@ -80,26 +110,55 @@ TEST(ConvergenceRecord, KeepsPointsATenthApartForEachKind) {
     for (int64_t spp = 1; spp <= 100000; ++spp) kept += record.add(at(double(spp), spp));
     EXPECT_LT(kept, 120);
     EXPECT_EQ(size_t(kept), record.points().size());
-    EXPECT_TRUE(record.add(at(5, 100000, true)));
-    EXPECT_FALSE(record.add(at(5, 100001, true)));
-    EXPECT_NEAR(record.fit_spp().slope.value, -0.5, 1e-9);
-    EXPECT_FALSE(record.fit_spp(true).slope.known);
+    EXPECT_TRUE(record.add(at(5, 100000, Kind::denoised)));
+    EXPECT_FALSE(record.add(at(5, 100001, Kind::denoised)));
+    EXPECT_EQ(record.points(Kind::denoised).size(), 1u);
+    EXPECT_NEAR(fit(record, Kind::estimated, ErrorMetric::rmse, ProgressAxis::spp).slope.value, -0.5, 1e-9);
+    EXPECT_NEAR(fit(record, Kind::estimated, ErrorMetric::relmse, ProgressAxis::seconds).slope.value, -1, 1e-9);
+    EXPECT_FALSE(fit(record, Kind::denoised, ErrorMetric::rmse, ProgressAxis::spp).slope.known);
 }
 
-TEST(ConvergenceRecord, TellsTheTimeLeft) {
+TEST(ConvergenceRecord, APointIsReplacedByABetterOneOfTheSamePicture) {
     ConvergenceRecord record;
-    EXPECT_LT(seconds_left(record, 0.1), 0);
-    for (const int64_t spp : {2, 4, 8, 16}) record.add(at(0.5 * double(spp), spp));
-    EXPECT_NEAR(seconds_left(record, 1.0 / 64), 32 - 8, 1e-9);
-    EXPECT_EQ(seconds_left(record, 0.5), 0);
+    for (const int64_t spp : {4, 16, 8, 16}) record.set(at(spp == 16 ? double(record.points().size()) : 1.0, spp, Kind::denoised));
+    ASSERT_EQ(record.points().size(), 3u);
+    EXPECT_EQ(record.points()[1].spp, 8) << "in the order of samples";
+    EXPECT_EQ(record.points()[2].seconds, 3) << "the later one";
 }
 
-TEST(ConvergenceRecord, CsvQuotesWhatNeedsIt) {
+TEST(TimeLeft, IsToldFromTheSlopeWithItsInterval) {
+    using State = TimeLeft::State;
     ConvergenceRecord record;
-    record.name = "a \"fast\", small one";
-    record.add(at(1, 2));
-    EXPECT_EQ(to_csv({record}),
-              "name,seconds,spp,relmse,low,high,rmse,denoised\n\"a \"\"fast\"\", small one\",1,2,0.5,0.5,0.5,0.707107,0\n");
+    const auto left = [&](double target) { return time_left(record, Kind::estimated, ErrorMetric::relmse, target); };
+    EXPECT_EQ(left(0.1).state, State::too_few);
+    for (const int64_t spp : {2, 4}) record.add(at(0.5 * double(spp), spp));
+    EXPECT_EQ(left(0.1).state, State::too_few);
+    for (const int64_t spp : {8, 16}) record.add(at(0.5 * double(spp), spp));
+    EXPECT_EQ(left(0.1).state, State::reached);
+    EXPECT_EQ(left(0).state, State::too_few) << "no target";
+    const TimeLeft t = left(1.0 / 64);
+    EXPECT_EQ(t.state, State::known);
+    EXPECT_NEAR(t.seconds, 32 - 8, 1e-9);
+    EXPECT_NEAR(t.low, t.seconds, 1e-6) << "neither slope nor point are in doubt";
+    const TimeLeft of_rmse = time_left(record, Kind::estimated, ErrorMetric::rmse, 1.0 / 8);
+    EXPECT_NEAR(of_rmse.seconds, 32 - 8, 1e-9);
+    EXPECT_NEAR(of_rmse.low, 32 * 0.81 - 8, 1e-6) << "the point's own interval counts";
+    EXPECT_NEAR(of_rmse.high, 32 * 1.21 - 8, 1e-6);
+    EXPECT_EQ(left(1e-9).state, State::too_far);
+}
+
+// What says nothing promises nothing.
+TEST(TimeLeft, IsNotToldWhereTheErrorDoesNotFall) {
+    ConvergenceRecord flat, scattered;
+    for (const int64_t spp : {2, 4, 8, 16, 32}) {
+        ConvergencePoint p = at(double(spp), spp);
+        p.rmse = {true, 1, 0.9, 1.1};
+        flat.add(p);
+        p.rmse.value = spp == 4 || spp == 32 ? 0.4 : 1;
+        scattered.add(p);
+    }
+    EXPECT_EQ(time_left(flat, Kind::estimated, ErrorMetric::rmse, 0.1).state, TimeLeft::State::no_trend);
+    EXPECT_EQ(time_left(scattered, Kind::estimated, ErrorMetric::rmse, 0.1).state, TimeLeft::State::no_trend);
 }
 
 TEST(Turns, GoToWhoHadTheLeastTime) {

@@ -1,0 +1,74 @@
+#include "measure/convergence_runs.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace blush {
+namespace {
+
+using Origin = ConvergenceRun::Origin;
+
+constexpr size_t colors = 8;
+
+} // namespace
+
+const ConvergenceRun* ConvergenceRuns::find(int id) const {
+    const auto run = std::ranges::find(runs_, id, &ConvergenceRun::id);
+    return run == runs_.end() ? nullptr : &*run;
+}
+ConvergenceRun* ConvergenceRuns::find(int id) { return const_cast<ConvergenceRun*>(std::as_const(*this).find(id)); }
+
+const ConvergenceRun* ConvergenceRuns::live() const {
+    const auto run = std::ranges::find(runs_, Origin::live, &ConvergenceRun::origin);
+    return run == runs_.end() ? nullptr : &*run;
+}
+ConvergenceRun* ConvergenceRuns::live() { return const_cast<ConvergenceRun*>(std::as_const(*this).live()); }
+
+// The one that the fewest runs have, the first of several.
+size_t ConvergenceRuns::free_color() const {
+    std::array<size_t, colors> used{};
+    for (const ConvergenceRun& r : runs_) ++used[r.color % colors];
+    return size_t(std::ranges::min_element(used) - used.begin());
+}
+
+ConvergenceRun& ConvergenceRuns::add(Origin origin, ConvergenceRecord record) {
+    const size_t color = free_color();
+    const auto behind = origin == Origin::stored ? runs_.end() : std::ranges::find(runs_, Origin::stored, &ConvergenceRun::origin);
+    return *runs_.insert(behind, {++last_id_, origin, std::move(record), true, false, color});
+}
+
+int ConvergenceRuns::begin(const std::string& name) {
+    if (ConvergenceRun* ended = live()) {
+        if (ended->record.points(ConvergencePoint::Kind::estimated).size() < fewest_points && !ended->kept) {
+            std::erase_if(runs_, [&](const ConvergenceRun& r) { return r.id == ended->id; });
+        } else {
+            mark(name);
+            ended->origin = Origin::earlier;
+        }
+    }
+    const auto pushed_out = [](const ConvergenceRun& r) { return r.origin == Origin::earlier && !r.kept; };
+    while (size_t(std::ranges::count_if(runs_, pushed_out)) > most_earlier) runs_.erase(std::ranges::find_if(runs_, pushed_out));
+    ConvergenceRecord record;
+    record.name = name;
+    return add(Origin::live, std::move(record)).id;
+}
+
+void ConvergenceRuns::mark(const std::string& label) {
+    ConvergenceRun* run = live();
+    if (!run || run->record.points().empty()) return;
+    const ConvergencePoint& last = *std::ranges::max_element(run->record.points(), {}, &ConvergencePoint::spp);
+    run->record.mark({last.seconds, last.spp, label});
+}
+
+void ConvergenceRuns::add_stored(ConvergenceRecord record) { add(Origin::stored, std::move(record)); }
+
+void ConvergenceRuns::remove(int id) {
+    std::erase_if(runs_, [&](const ConvergenceRun& r) { return r.id == id && r.origin != Origin::live; });
+}
+
+void ConvergenceRuns::clear() {
+    std::erase_if(runs_, [](const ConvergenceRun& r) { return r.origin != Origin::stored; });
+}
+
+} // namespace blush
