@@ -1,7 +1,9 @@
 #include "app/editor.h"
 
 #include "app/editor_commands.h"
+#include "app/editor_convergence.h"
 #include "app/editor_files.h"
+#include "app/run_name.h"
 #include "scene/changes.h"
 #include "ui/automation.h"
 #include "ui/file_listing.h"
@@ -31,6 +33,7 @@ private:
     void poll();
     void panels();
     void submit();
+    void begin_run(const Changes& changes, const RenderSettings& settings, const PlaneSet& planes);
     void latest();
     void draw();
 
@@ -60,6 +63,8 @@ private:
     FrameStats stats_;
     Pictures pictures_;
     PictureMix wanted_mix_;
+    EditorConvergence convergence_;
+    size_t steps_to_redo_ = 0;    // at the last submit
     std::string weights_problem_; // why the denoiser's weights are of no use; empty: they are there
     RenderSession session_;
 
@@ -90,6 +95,7 @@ private:
 Editor::Editor(const EditorOptions& options, std::unique_ptr<Window> window, ColorManagement color, const Automation& automation,
                WindowSettings settings)
     : automation_(automation), window_(std::move(window)), color_(std::move(color)), options_(options),
+      convergence_(&Window::wake, options.threads),
       session_({.threads = options.threads,
                 .low_priority = true,
                 .first_hit_planes = true,
@@ -203,6 +209,7 @@ void Editor::draw_above(PanelContext& c) {
     draw_scopes_panel(c);
     draw_history(c);
     draw_bounces_panel(c);
+    draw_convergence_panel(c);
     draw_roulette_panel(c);
     draw_health_panel(c);
     draw_shortcut_sheet(c);
@@ -220,8 +227,11 @@ void Editor::obey(PanelContext& c) {
         if (!run_command(command, c)) run_own_command(command);
     }
     for (const FileRequest& request : std::exchange(ui_.files, {})) take_file(request);
-    if (session_paused_ != ui_.paused) session_.pause(session_paused_ = ui_.paused);
-    if (session_denoises_ != ui_.denoise.wants_denoised()) session_.want_denoised(session_denoises_ = ui_.denoise.wants_denoised());
+    convergence_.obey(ui_, ui_.settings.snapshot_folder, files_.scene_file());
+    const bool paused = ui_.paused || convergence_.renders_reference();
+    if (session_paused_ != paused) session_.pause(session_paused_ = paused);
+    const bool denoises = ui_.denoise.wants_denoised() || ui_.convergence.wants_denoised();
+    if (session_denoises_ != denoises) session_.want_denoised(session_denoises_ = denoises);
     const PictureMix mix = mix_of(ui_.denoise, pictures_.denoised != nullptr);
     if (mix != wanted_mix_) stats_.looked(frame_begin_);
     wanted_mix_ = mix;
@@ -233,6 +243,7 @@ void Editor::run_own_command(Command command) {
     case Command::import_scene: return open_browser(FileRequest::Use::import_scene);
     case Command::environment: return open_browser(FileRequest::Use::environment);
     case Command::snapshot_folder: return open_browser(FileRequest::Use::snapshot_folder);
+    case Command::load_convergence: return open_browser(FileRequest::Use::convergence);
     case Command::reload: return files_.reload();
     case Command::snapshot_exr: snapshot_due_ = EditorFiles::Format::exr; return save_due_snapshot();
     case Command::snapshot_png: snapshot_due_ = EditorFiles::Format::png; return save_due_snapshot();
@@ -254,6 +265,7 @@ void Editor::take_file(const FileRequest& request) {
     case FileRequest::Use::open: return files_.open(request.path);
     case FileRequest::Use::import_scene: return files_.import_scene(request.path);
     case FileRequest::Use::environment: return files_.load_environment(request.path);
+    case FileRequest::Use::convergence: return convergence_.load(ui_, request.path);
     case FileRequest::Use::snapshot_folder:
         ui_.settings.snapshot_folder = request.path.string();
         return ui_.toasts.note("Snapshots go to " + request.path.string());
@@ -265,8 +277,11 @@ void Editor::take_dropped(const std::filesystem::path& file) {
         files_.open(file);
     else if (matches(environment_files, file))
         files_.load_environment(file);
+    else if (matches(table_files, file))
+        convergence_.load(ui_, file);
     else
-        ui_.toasts.fail(file.filename().string() + ": neither a glTF scene (.gltf, .glb) nor an environment image (.hdr, .exr)");
+        ui_.toasts.fail(file.filename().string() +
+                        ": no glTF scene (.gltf, .glb), environment image (.hdr, .exr) or convergence table (.csv)");
 }
 
 void Editor::save_due_snapshot() {
@@ -326,7 +341,9 @@ void Editor::submit() {
     const RenderSettings r = render_settings();
     const Scene& scene = document_.project().scene;
     const PlaneSet planes = ui_.wanted_planes();
-    if (submitted_ != 0 && planes == submitted_planes_ && !diff(submitted_scene_, submitted_settings_, scene, r).any()) return;
+    const Changes changes = diff(submitted_scene_, submitted_settings_, scene, r);
+    if (submitted_ != 0 && planes == submitted_planes_ && !changes.any()) return;
+    begin_run(changes, r, planes);
     submitted_ = ++revision_;
     submitted_scene_ = scene;
     submitted_settings_ = r;
@@ -335,8 +352,28 @@ void Editor::submit() {
     stats_.submitted(submitted_, frame_begin_);
 }
 
+// The convergence of the image that is about to be submitted, if it is another one.
+void Editor::begin_run(const Changes& changes, const RenderSettings& settings, const PlaneSet& planes) {
+    const size_t steps_to_redo = document_.redo_labels().size();
+    const bool undone = steps_to_redo > std::exchange(steps_to_redo_, steps_to_redo);
+    ConvergenceView& view = ui_.convergence;
+    std::string name;
+    if (submitted_ == 0) {
+        view.runs.clear();
+        name = files_.scene_file().filename().string();
+    } else if (changes.affects_image()) {
+        name = run_name({submitted_scene_, submitted_settings_}, {document_.project().scene, settings}, document_, undone);
+    } else if (!submitted_planes_.covers(planes)) {
+        name = "other film planes";
+    } else {
+        return view.runs.mark(changes.stop_rules ? "stop rules" : "edit");
+    }
+    convergence_.begin(view, name, revision_ + 1, document_.project().scene, settings);
+}
+
 void Editor::latest() {
     pictures_ = session_.pictures();
+    convergence_.look(ui_.convergence, pictures_);
     const std::string failure = session_.status().denoiser_failure;
     if (failure.empty() || !ui_.denoise.wants_denoised()) return;
     ui_.denoise.show = DenoiseView::Show::raw;

@@ -152,6 +152,7 @@ bool run_command(Command command, PanelContext& c) {
     case Command::measure: c.ui.tool = ViewTool::measure; return true;
     case Command::scopes: c.ui.scopes.open = !c.ui.scopes.open; return true;
     case Command::roulette: c.ui.roulette.open = !c.ui.roulette.open; return true;
+    case Command::convergence: c.ui.convergence.open = !c.ui.convergence.open; return true;
     case Command::open:
     case Command::import_scene:
     case Command::environment:
@@ -159,6 +160,7 @@ bool run_command(Command command, PanelContext& c) {
     case Command::snapshot_exr:
     case Command::snapshot_png:
     case Command::snapshot_folder:
+    case Command::load_convergence:
     case Command::quit: return false;
     }
     return false;

@@ -2,6 +2,7 @@
 
 #include "app/commands/denoising.h"
 #include "app/commands/picture.h"
+#include "app/free_name.h"
 #include "app/scene_overrides.h"
 #include "io/displayed.h"
 #include "io/scene_edits_json.h"
@@ -11,19 +12,6 @@
 
 namespace blush {
 namespace {
-
-// FOLDER/SCENE-0001.exr with the first number that is free.
-Result<std::filesystem::path> free_name(const SnapshotJob& job, const char* extension) {
-    std::error_code error;
-    const std::filesystem::path folder = job.folder.empty() ? std::filesystem::current_path(error) : job.folder;
-    std::filesystem::create_directories(folder, error);
-    if (error) return Error{folder.string(), "cannot make the folder: " + error.message(), ""};
-    for (int number = 1; number < 100000; ++number) {
-        const auto file = folder / fmt::format("{}-{:04}{}", job.scene_file.stem().string(), number, extension);
-        if (!std::filesystem::exists(file, error)) return file;
-    }
-    return Error{folder.string(), "the folder is full of snapshots", ""};
-}
 
 // `denoised`: what the picture shows of it; null: nothing.
 SnapshotMetadata metadata_of(const SnapshotJob& job, const DenoisedPicture* denoised) {
@@ -49,7 +37,7 @@ SnapshotMetadata metadata_of(const SnapshotJob& job, const DenoisedPicture* deno
 } // namespace
 
 Result<std::filesystem::path> write_snapshot_exr(const SnapshotJob& job) {
-    const auto file = free_name(job, ".exr");
+    const auto file = free_name(job.folder, job.scene_file.stem().string(), ".exr");
     if (!file) return file;
     const Layers layers{.albedo = true, .normal = true, .depth = true, .samples = true, .ids = true};
     // A coarse one, of the moment after an edit, is no layer.
@@ -63,7 +51,7 @@ Result<std::filesystem::path> write_snapshot_exr(const SnapshotJob& job) {
 }
 
 Result<std::filesystem::path> write_snapshot_png(const SnapshotJob& job, const ColorManagement& color) {
-    const auto file = free_name(job, ".png");
+    const auto file = free_name(job.folder, job.scene_file.stem().string(), ".png");
     if (!file) return file;
     const Frame& frame = *job.pictures.frame;
     const DenoisedPicture* denoised = job.view.wants_denoised() ? job.pictures.denoised.get() : nullptr;

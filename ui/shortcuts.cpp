@@ -41,6 +41,8 @@ constexpr Shortcut table[] = {
     {Command::bounces, "View", "Bounces", in_menu_only},
     {Command::health, "View", "Health", in_menu_only},
     {Command::roulette, "View", "Roulette lab", in_menu_only},
+    {Command::convergence, "View", "Convergence", plain('C')},
+    {Command::load_convergence, "File", "Load convergence table...", in_menu_only},
     {Command::toggle_zoom, "Look", "Zoom 1:1", plain('Z')},
     {Command::exposure_up, "Look", "Brighter by 1/2 EV", plain(']')},
     {Command::exposure_down, "Look", "Darker by 1/2 EV", plain('[')},

@@ -58,6 +58,8 @@ enum class Command {
     roulette,
     measure,
     scopes,
+    convergence,
+    load_convergence,
 };
 
 struct Shortcut {

@@ -3,6 +3,7 @@
 
 #include "scene/scene.h"
 #include "ui/bounces_view.h"
+#include "ui/convergence_view.h"
 #include "ui/denoise_view.h"
 #include "ui/gestures.h"
 #include "ui/health_view.h"
@@ -37,7 +38,7 @@ struct ToolStart {
 
 // What a file the user chose is for.
 struct FileRequest {
-    enum class Use { open, import_scene, environment, snapshot_folder };
+    enum class Use { open, import_scene, environment, snapshot_folder, convergence };
     Use use = Use::open;
     std::filesystem::path path;
 };
@@ -85,6 +86,7 @@ struct UiState {
     RouletteView roulette;
     ScopesView scopes;
     RegionView region;
+    ConvergenceView convergence;
     std::optional<FileBrowser> browser;
     std::optional<PixelProbe> pixel;
     EulerFields euler;

@@ -3,6 +3,7 @@
 #include "core/math.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
@@ -290,10 +291,12 @@ void Film::resolve(Frame& frame, const Workers& workers) const {
         workers.for_each(int64_t(bands), {}, [&](int64_t i, unsigned) { task(size_t(i), int(i) * band, std::min(height_, int(i + 1) * band)); });
     };
     for_each_band([&](size_t i, int first, int last) { resolve_rows(frame, first, last, totals[i]); });
+    const auto begin = std::chrono::steady_clock::now();
     for_each_band([&](size_t i, int first, int last) { errors[i] = error_of_rows(frame, first, last); });
     ErrorAccumulator error;
     for (const ErrorAccumulator& e : errors) error.merge(e);
     frame.error = error.estimate();
+    frame.error_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     Totals total;
     for (const Totals& t : totals) total.merge(t);
     const double before = luminance(total.kept) + luminance(total.removed);

@@ -61,6 +61,7 @@ struct Frame {
     ClampReport clamp;
     RayCounts rays;
     double seconds = 0;        // of rendering at this revision
+    double error_seconds = 0;  // that estimating errors took: this frame's, or, from a session, those of all frames of its image so far
     double first_image_seconds = 0; // from submit to the first published frame of this revision
     double samples_per_second = 0; // whole-image samples per pixel per second, over the last batch
     std::string kernel;        // e.g. "v4/plain"

@@ -85,7 +85,7 @@ struct RenderSession::State {
     Scheduler scheduler;
     std::string failure, not_continued; // empty: none
     bool has_scene = false, has_first_image = false;
-    double first_image_seconds = 0, samples_per_second = 0;
+    double first_image_seconds = 0, samples_per_second = 0, error_seconds = 0;
     std::thread thread;
 
     std::unique_ptr<BackgroundDenoiser> denoiser; // always there; last, so that it goes before what it answers to
@@ -135,6 +135,7 @@ std::shared_ptr<Frame> RenderSession::State::resolved() {
     frame->revision = current.revision;
     frame->complete = scheduler.finished();
     frame->seconds = scheduler.seconds();
+    frame->error_seconds = error_seconds += frame->error_seconds;
     frame->first_image_seconds = first_image_seconds;
     frame->samples_per_second = samples_per_second;
     return frame;
@@ -181,6 +182,7 @@ void RenderSession::State::take_up(Submission next) {
     const RenderSettings settings = at_film_size(current.settings);
     if (new_image) {
         has_scene = has_first_image = false;
+        error_seconds = 0;
         scheduler.restart(settings, true);
         announce(SessionStatus::State::updating);
         if (!renderer) renderer.emplace(RendererOptions{options.threads, options.low_priority, {}});

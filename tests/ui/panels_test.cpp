@@ -21,7 +21,7 @@ protected:
     // A few frames of everything, with this selected.
     void draw_all(Document& document, Id<Node> selected) {
         ui.selected = selected;
-        ui.show_shortcuts = ui.show_history = ui.bounces.open = ui.health.open = ui.scopes.open = true;
+        ui.show_shortcuts = ui.show_history = ui.bounces.open = ui.health.open = ui.scopes.open = ui.convergence.open = true;
         for (int tab = 0; tab <= int(InspectorTab::display); ++tab) {
             ui.tab = InspectorTab(tab);
             for (int i = 0; i < 3; ++i) {
@@ -35,6 +35,7 @@ protected:
                     draw_health_panel(c);
                     draw_region_panel(c);
                     draw_scopes_panel(c);
+                    draw_convergence_panel(c);
                     draw_shortcut_sheet(c);
                     draw_toasts(c);
                 });
@@ -210,6 +211,47 @@ TEST_F(Panels, EveryWayOfLookingAtBounces) {
     }
     EXPECT_FALSE(document.can_undo());
     EXPECT_EQ(ui.bounces.gains, std::vector<float>(3, 1.f));
+}
+
+// Whatever was recorded, and whatever becomes of the reference.
+TEST_F(Panels, EveryStateOfTheConvergencePanel) {
+    Document document(test::sample_project().project);
+    ConvergenceView& view = ui.convergence;
+    const double inf = std::numeric_limits<double>::infinity();
+    const auto all_settings = [&] {
+        for (const ErrorMetric metric : {ErrorMetric::rmse, ErrorMetric::relmse})
+            for (const ProgressAxis axis : {ProgressAxis::seconds, ProgressAxis::spp})
+                for (const float target : {0.f, 1e-3f, 1e6f}) {
+                    view.metric = metric;
+                    view.axis = axis;
+                    view.targets = {target, target};
+                    draw_all(document, {});
+                }
+    };
+    all_settings();
+    view.runs.begin("first");
+    for (const double error : {inf, 0.0, double(std::nanf("")), 1e-300, 0.5}) {
+        ConvergenceRecord& record = view.runs.live()->record;
+        record.set({ConvergencePoint::Kind::estimated, error, int64_t(record.points().size()), {true, error, 0, inf}, {}});
+        draw_all(document, {});
+    }
+    view.runs.begin("a run with a name that is far too long for the column that it has, %s and ##");
+    view.runs.live()->record.set({ConvergencePoint::Kind::denoised, 1, 1, {true, 1, 0.5, 2}, {true, 1, 0.5, 2}});
+    view.runs.mark("edit");
+    view.runs.add_stored({});
+    view.denoised = view.reference = true;
+    view.waiting = 3;
+    view.cost = {1, 2, 3, 4};
+    view.renaming = view.runs.live()->id;
+    all_settings();
+    for (int state = 0; state <= int(ReferenceNews::State::there); ++state) {
+        view.news = {ReferenceNews::State(state), 0.999, 64, 1e-3, "It could not be stored."};
+        draw_all(document, {});
+    }
+    EXPECT_FALSE(document.can_undo());
+    EXPECT_EQ(view.runs.all().size(), 3u);
+    EXPECT_FALSE(view.wanted_export);
+    EXPECT_EQ(view.wanted_reference, ConvergenceView::ReferenceRequest::none);
 }
 
 TEST_F(Panels, TheRouletteLabMeasuresWhileItIsOpen) {

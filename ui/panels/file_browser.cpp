@@ -17,13 +17,21 @@ const char* title(Use use) {
     case Use::import_scene: return "Import into the scene###browser";
     case Use::environment: return "Choose an environment image###browser";
     case Use::snapshot_folder: return "Choose the folder for snapshots###browser";
+    case Use::convergence: return "Load a convergence table###browser";
     }
     return "";
 }
 
 const ExtensionFilter& filter(Use use) {
     static const ExtensionFilter none;
-    return use == Use::environment ? environment_files : use == Use::snapshot_folder ? none : scene_files;
+    switch (use) {
+    case Use::open:
+    case Use::import_scene: return scene_files;
+    case Use::environment: return environment_files;
+    case Use::convergence: return table_files;
+    case Use::snapshot_folder: break;
+    }
+    return none;
 }
 
 void enter(FileBrowser& b, const std::filesystem::path& folder) {

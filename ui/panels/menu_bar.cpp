@@ -32,6 +32,8 @@ void draw_file_menu(PanelContext& c) {
     item(c, Command::snapshot_png);
     item(c, Command::snapshot_folder);
     ImGui::Separator();
+    item(c, Command::load_convergence);
+    ImGui::Separator();
     item(c, Command::quit);
 }
 
@@ -74,6 +76,7 @@ void draw_view_menu(PanelContext& c) {
     item(c, Command::measure, c.frame != nullptr);
     item(c, Command::scopes, true, nullptr, c.ui.scopes.open);
     item(c, Command::bounces, true, nullptr, c.ui.bounces.open);
+    item(c, Command::convergence, true, nullptr, c.ui.convergence.open);
     item(c, Command::roulette, true, nullptr, c.ui.roulette.open);
     item(c, Command::health, true, nullptr, c.ui.health.open);
 }

@@ -1,4 +1,5 @@
 // Status bar: how far the picture is, how fast it gets there, and what makes it.
+#include "ui/time_text.h"
 #include "ui/panels/panels.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
@@ -19,13 +20,6 @@ const char* state_name(SessionStatus::State state) {
     case SessionStatus::State::failed: return "Failed";
     }
     return "";
-}
-
-std::string duration_text(double seconds) {
-    if (seconds < 60) return fmt::format("{:.1f} s", seconds);
-    const auto whole = int64_t(seconds);
-    if (whole < 3600) return fmt::format("{}:{:02} min", whole / 60, whole % 60);
-    return fmt::format("{}:{:02}:{:02} h", whole / 3600, whole / 60 % 60, whole % 60);
 }
 
 std::string rate_text(double rate) {
@@ -74,7 +68,7 @@ void draw_frame_cells(PanelContext& c, float& x, const Frame& frame) {
                                  .c_str()
                            : "The error is estimated from two independent halves of the samples, once both hold some.");
     draw_denoised_cells(c, x, frame);
-    cell(c, x, 6, duration_text(frame.seconds), "Time spent rendering since the last edit.");
+    cell(c, x, 6, elapsed_text(frame.seconds), "Time spent rendering since the last edit.");
     cell(c, x, 8.5f,
          frame.divider > 1 ? fmt::format("{} × {}  1/{}", frame.width, frame.height, frame.divider)
                            : fmt::format("{} × {}", frame.width, frame.height),

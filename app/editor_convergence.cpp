@@ -1,0 +1,145 @@
+#include "app/editor_convergence.h"
+
+#include "app/free_name.h"
+#include "core/files.h"
+#include "io/image_io.h"
+#include "measure/convergence_csv.h"
+#include "measure/plot_svg.h"
+#include "ui/convergence_picture.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+namespace blush {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Kind = ConvergencePoint::Kind;
+
+constexpr uint64_t largest_table = uint64_t(8) << 20; // bytes
+
+std::vector<ConvergenceRecord> shown_records(const ConvergenceRuns& runs) {
+    std::vector<ConvergenceRecord> records;
+    for (const ConvergenceRun& r : runs.all())
+        if (r.shown && !r.record.points().empty()) records.push_back(r.record);
+    return records;
+}
+
+} // namespace
+
+void EditorConvergence::begin(ConvergenceView& view, const std::string& name, uint64_t revision, const Scene& scene,
+                              const RenderSettings& settings) {
+    first_revision_ = revision;
+    subject_ = {scene, settings};
+    recording_seconds_ = 0;
+    view.cost = {};
+    measuring_.begin(view.runs.begin(name));
+    keeper_.forget();
+}
+
+void EditorConvergence::look(ConvergenceView& view, const Pictures& pictures) {
+    const auto begin = Clock::now();
+    const FramePtr& frame = pictures.frame;
+    // A coarse picture has another error than the one that is waited for.
+    const bool ours = frame && frame->revision >= first_revision_ && frame->divider == 1 && view.runs.live();
+    if (ours && frame != last_frame_) record(view, frame);
+    if (ours && pictures.denoised && pictures.denoised != last_denoised_) record_denoised(view, pictures.denoised);
+    last_frame_ = frame;
+    last_denoised_ = pictures.denoised;
+    recording_seconds_ += std::chrono::duration<double>(Clock::now() - begin).count();
+    measure(view, ours ? frame : nullptr);
+    if (ours) view.cost = {frame->error_seconds, recording_seconds_, measuring_.seconds(), frame->seconds};
+}
+
+void EditorConvergence::record(ConvergenceView& view, const FramePtr& frame) {
+    ConvergenceRecord& record = view.runs.live()->record;
+    const ConvergencePoint point = estimated_point(*frame);
+    if (point.rmse.known || point.relmse.known) record.add(point);
+    if (keeper_.reference() && record.is_due(Kind::measured, frame->samples)) measuring_.add_raw(frame);
+}
+
+void EditorConvergence::record_denoised(ConvergenceView& view, const DenoisedPtr& picture) {
+    if (!view.denoised || picture->revision < first_revision_ || picture->divider != 1) return;
+    measuring_.add_denoised(picture);
+}
+
+void EditorConvergence::measure(ConvergenceView& view, const FramePtr& frame) {
+    const ConvergenceRun* live = view.runs.live();
+    // Not for a picture that is gone in a moment: a drag would read the whole scene again and again.
+    const bool settled = live && live->record.points(Kind::estimated).size() >= ConvergenceRuns::fewest_points;
+    if (view.open && view.reference && settled && frame) {
+        subject_.settings.width = frame->width;
+        subject_.settings.height = frame->height;
+        subject_.settings.resolution_scale = 1;
+        keeper_.look(subject_);
+    }
+    if (keeper_.poll() && frame) measuring_.add_raw(frame);
+    measuring_.poll(view.runs, view.reference ? keeper_.reference() : nullptr, frame);
+    view.news = keeper_.news();
+    view.waiting = live ? measuring_.waiting(live->record) : 0;
+}
+
+void EditorConvergence::obey(UiState& ui, const std::filesystem::path& folder, const std::filesystem::path& scene_file) {
+    ConvergenceView& view = ui.convergence;
+    using Request = ConvergenceView::ReferenceRequest;
+    const Request request = std::exchange(view.wanted_reference, Request::none);
+    if (request == Request::stop) keeper_.stop();
+    if (request == Request::render && last_frame_) keeper_.render(subject_, std::max<int64_t>(64, 2 * last_frame_->samples));
+    if (keeper_.renders()) ui.next_frame_in = std::min(ui.next_frame_in, 0.2);
+    if (const auto format = std::exchange(view.wanted_export, std::nullopt)) save(ui, *format, folder, scene_file);
+    if (!save_job_) return;
+    if (const auto saved = save_job_->take()) {
+        save_job_.reset();
+        if (*saved)
+            ui.toasts.note("Saved " + (*saved)->filename().string(), (*saved)->parent_path().string());
+        else
+            ui.toasts.fail(saved->error().text());
+    }
+}
+
+// Drawn here, where ImGui is, and written in the background.
+void EditorConvergence::save(UiState& ui, ConvergenceView::Export format, const std::filesystem::path& folder,
+                             const std::filesystem::path& scene_file) {
+    const std::vector<ConvergenceRecord> records = shown_records(ui.convergence.runs);
+    if (records.empty()) return ui.toasts.warn("There is no curve to save yet");
+    std::function<Result<void>(const std::filesystem::path&)> write;
+    const char* extension = "";
+    const ConvergencePlot chart = paper_chart(ui.convergence, scene_file.filename().string());
+    switch (format) {
+    case ConvergenceView::Export::csv:
+        extension = ".csv";
+        write = [text = to_csv(records)](const auto& file) { return write_file(file, text); };
+        break;
+    case ConvergenceView::Export::svg:
+        extension = ".svg";
+        write = [text = to_svg(chart.plot)](const auto& file) { return write_file(file, text); };
+        break;
+    case ConvergenceView::Export::png:
+        extension = ".png";
+        write = [picture = draw_chart_picture(chart.plot)](const auto& file) {
+            return write_display_image(file, picture.width, picture.height, picture.rgb);
+        };
+        break;
+    }
+    save_job_ = std::make_unique<BackgroundJob<Result<std::filesystem::path>>>(
+        "Saving the chart",
+        [=, stem = scene_file.stem().string() + "-convergence"](JobProgress&) -> Result<std::filesystem::path> {
+            const auto file = free_name(folder, stem, extension);
+            if (!file) return file;
+            if (const auto written = write(*file); !written) return written.error();
+            return *file;
+        },
+        wake_);
+}
+
+void EditorConvergence::load(UiState& ui, const std::filesystem::path& file) {
+    const auto bytes = read_file(file, largest_table);
+    if (!bytes) return ui.toasts.fail(bytes.error().text());
+    auto records = parse_convergence_csv({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
+    if (!records) return ui.toasts.fail(file.filename().string() + ": " + records.error().text());
+    for (ConvergenceRecord& r : *records) ui.convergence.runs.add_stored(std::move(r));
+    ui.convergence.open = true;
+}
+
+} // namespace blush

@@ -1,0 +1,47 @@
+// What the editor does for the Convergence panel: records each picture's error, keeps the runs apart, and writes and reads their files.
+#pragma once
+
+#include "app/error_measuring.h"
+#include "app/reference_keeper.h"
+#include "ui/ui_state.h"
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace blush {
+
+class EditorConvergence {
+public:
+    EditorConvergence(std::function<void()> wake, unsigned threads) : measuring_(wake), keeper_(wake, threads), wake_(std::move(wake)) {}
+
+    // From this revision on another image is rendered, of the scene as it then is.
+    void begin(ConvergenceView& view, const std::string& name, uint64_t revision, const Scene& scene, const RenderSettings& settings);
+    // The newest pictures: once per frame of the window.
+    void look(ConvergenceView& view, const Pictures& pictures);
+    // Does what the panel asked for. Files go into `folder`, named after `scene_file`.
+    void obey(UiState& ui, const std::filesystem::path& folder, const std::filesystem::path& scene_file);
+    void load(UiState& ui, const std::filesystem::path& file);
+
+    // The picture should wait: all cores are at the reference, and its times would be none.
+    bool renders_reference() const { return keeper_.renders(); }
+
+private:
+    void record(ConvergenceView& view, const FramePtr& frame);
+    void record_denoised(ConvergenceView& view, const DenoisedPtr& picture);
+    void measure(ConvergenceView& view, const FramePtr& frame);
+    void save(UiState& ui, ConvergenceView::Export format, const std::filesystem::path& folder, const std::filesystem::path& scene_file);
+
+    ErrorMeasuring measuring_;
+    ReferenceKeeper keeper_;
+    std::function<void()> wake_;
+    uint64_t first_revision_ = 0; // of the live run
+    ReferenceKeeper::Subject subject_;
+    FramePtr last_frame_;
+    DenoisedPtr last_denoised_;
+    double recording_seconds_ = 0;
+    std::unique_ptr<BackgroundJob<Result<std::filesystem::path>>> save_job_;
+};
+
+} // namespace blush

@@ -1,0 +1,36 @@
+#include "ui/convergence_picture.h"
+
+#include "ui/draw_list_image.h"
+#include "ui/plot_drawing.h"
+
+#include <fmt/format.h>
+
+namespace blush {
+
+ConvergencePlot paper_chart(const ConvergenceView& view, const std::string& scene) {
+    ConvergencePlot p = convergence_plot(view.runs, view.plot_options(false));
+    p.plot.title = fmt::format("Error against {}: {}", view.axis == ProgressAxis::seconds ? "time" : "samples", scene);
+    p.plot.width = 960;
+    p.plot.height = 600;
+    return p;
+}
+
+ChartPicture draw_chart_picture(const Plot& chart) {
+    const ImFont& font = *ImGui::GetIO().Fonts->Fonts.front();
+    const float size = font.FontSize, scale = size / 12; // of a chart whose letters are as large as an SVG's
+    Plot plot = chart;
+    plot.title += plot.title.empty() ? plot.y_label : ",  " + plot.y_label; // letters do not lie on their side
+    plot.y_label.clear();
+    ChartPicture picture{int(float(plot.width) * scale), int(float(plot.height) * scale), {}};
+    ImDrawList list(ImGui::GetDrawListSharedData());
+    list._ResetForNewFrame();
+    list.PushClipRect({0, 0}, {float(picture.width), float(picture.height)});
+    list.PushTextureID(ImGui::GetIO().Fonts->TexID);
+    const PlotTones tones = plot_tones_paper();
+    const PlotLayout l = lay_out(plot, plot_metrics({float(picture.width), float(picture.height)}, font, size, true));
+    draw_plot(list, plot, l, {0, 0}, font, size, tones);
+    picture.rgb = rasterize(list, picture.width, picture.height, tones.ground);
+    return picture;
+}
+
+} // namespace blush

@@ -1,0 +1,21 @@
+// The convergence chart for files: on white, with its own legend.
+#pragma once
+
+#include "ui/convergence_view.h"
+
+#include <string>
+#include <vector>
+
+namespace blush {
+
+// As the panel is set, titled after the scene.
+ConvergencePlot paper_chart(const ConvergenceView& view, const std::string& scene);
+
+// Display-encoded RGB in [0, 1], width * height * 3, drawn with the window's fonts.
+struct ChartPicture {
+    int width = 0, height = 0;
+    std::vector<float> rgb;
+};
+ChartPicture draw_chart_picture(const Plot& plot);
+
+} // namespace blush

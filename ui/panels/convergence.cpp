@@ -1,0 +1,240 @@
+// Convergence: error against run time, of this run and others, with what it says about the time that is left.
+#include "ui/panels/convergence_runs.h"
+#include "ui/panels/panels.h"
+#include "ui/plot_drawing.h"
+#include "ui/theme.h"
+#include "ui/widgets.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <utility>
+
+namespace blush {
+namespace {
+
+using Kind = ConvergencePoint::Kind;
+
+// Buttons side by side of which one is chosen. The index of one that was clicked, or `chosen`.
+int segments(PanelContext& c, const char* scope, std::initializer_list<const char*> names, int chosen, const char* tip) {
+    int i = 0, result = chosen;
+    for (const char* name : names) {
+        if (i > 0) ImGui::SameLine(0, 1);
+        ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(i == chosen ? ImGuiCol_ButtonActive : ImGuiCol_FrameBg));
+        ImGui::PushStyleColor(ImGuiCol_Text, i == chosen ? tone::text : tone::dim_text);
+        if (ImGui::Button(name)) result = i;
+        ImGui::PopStyleColor(2);
+        c.ui.probe.record_last_item(fmt::format("Convergence/{}/{}", scope, name));
+        tip_for_last_item(c.ui, tip);
+        ++i;
+    }
+    return result;
+}
+
+void toggle(PanelContext& c, const char* name, bool& value, const char* tip) {
+    ImGui::SameLine(0, ImGui::GetFontSize());
+    ImGui::Checkbox(name, &value);
+    c.ui.probe.record_last_item(fmt::format("Convergence/{}", name));
+    tip_for_last_item(c.ui, tip);
+}
+
+void draw_settings(PanelContext& c, ConvergenceView& view) {
+    const float em = ImGui::GetFontSize();
+    view.metric =
+        ErrorMetric(segments(c, "Error", {"RMSE", "relMSE"}, int(view.metric),
+                             "RMSE: root of the mean squared error, in the picture's units. relMSE: mean of the squared error over the "
+                             "squared value, so that dark parts count as much as bright ones."));
+    ImGui::SameLine(0, em);
+    view.axis = ProgressAxis(segments(c, "Over", {"Seconds", "Samples"}, int(view.axis), "What the error is shown against."));
+    ImGui::SameLine(0, em);
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted("Target");
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(em * 5);
+    float& target = view.targets[size_t(view.metric)];
+    const float speed = std::max(target * 0.01f, 1e-5f);
+    ImGui::DragFloat("##target", &target, speed, 0, 1e6f, target > 0 ? "%.3g" : "none", ImGuiSliderFlags_AlwaysClamp);
+    c.ui.probe.record_last_item("Convergence/Target");
+    tip_for_last_item(c.ui,
+                      "The error to get to: the panel tells when, as the fitted slope goes on. Drag, or Ctrl+click to type; 0 is none.");
+    ImGui::BeginDisabled(!c.denoiser_problem.empty());
+    toggle(
+        c, "Denoised", view.denoised,
+        "A curve of the denoised picture. Its error cannot be told from halves of the samples: it is measured against the reference, or, "
+        "without one, held against the raw picture later in the run, as soon as that is good enough to judge it.");
+    ImGui::EndDisabled();
+    toggle(c, "Reference", view.reference,
+           "Measure against a picture of many samples with a seed of its own. Those that `blush converge` has kept are found, of the same "
+           "scene, "
+           "view and size; another can be rendered.");
+}
+
+void draw_reference(PanelContext& c, ConvergenceView& view) {
+    using State = ReferenceNews::State;
+    if (!view.reference) return;
+    const ReferenceNews& news = view.news;
+    std::string text;
+    const char* button = nullptr;
+    switch (news.state) {
+    case State::none: text = "The reference is looked for when the picture has some samples."; break;
+    case State::looking: text = "Looking for a stored reference"; break;
+    case State::absent:
+        text = "There is no stored reference of this picture.";
+        button = "Render one";
+        break;
+    case State::rendering:
+        text = fmt::format("Rendering the reference, {:.0f} %: the picture waits.", std::floor(100 * news.progress));
+        button = "Stop";
+        break;
+    case State::stopping: text = "Stopping"; break;
+    case State::there:
+        text = fmt::format("Reference of {} spp, itself off by {:.3g} (RMSE).", news.spp, news.rmse);
+        button = "Improve";
+        break;
+    }
+    if (!news.problem.empty()) text += " " + news.problem;
+    ImGui::AlignTextToFramePadding();
+    ImGui::PushStyleColor(ImGuiCol_Text, tone::dim_text);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopStyleColor();
+    if (!button) return;
+    ImGui::SameLine();
+    if (ImGui::SmallButton(button))
+        view.wanted_reference =
+            news.state == State::rendering ? ConvergenceView::ReferenceRequest::stop : ConvergenceView::ReferenceRequest::render;
+    c.ui.probe.record_last_item("Convergence/Reference/Render");
+    tip_for_last_item(c.ui, "With twice as many samples as the picture has, or as the reference has. It is kept for the next time.");
+}
+
+// Lines through the point under the mouse, and what it says beside it.
+void draw_readout(const ConvergenceView& view, const ConvergencePlot& p, const PlotLayout& l, ImVec2 origin) {
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    const float em = ImGui::GetFontSize();
+    const auto found = pick(p.plot, l, double(mouse.x - origin.x), double(mouse.y - origin.y), 3 * double(em));
+    if (!found || found->curve >= p.sources.size()) return;
+    const ConvergencePlot::Source& source = p.sources[found->curve];
+    const ImVec2 at{origin.x + float(found->at.x), origin.y + float(found->at.y)};
+    const float left = origin.x + float(l.left), right = origin.x + float(l.right), top = origin.y + float(l.top),
+                bottom = origin.y + float(l.bottom);
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    constexpr ImU32 hair = IM_COL32(255, 255, 255, 70);
+    draw.AddLine({at.x, top}, {at.x, bottom}, hair);
+    draw.AddLine({left, at.y}, {right, at.y}, hair);
+    draw.AddCircle(at, em * 0.35f, parse_color(p.plot.curves[found->curve].color), 0, 2);
+    const ConvergenceRun* run = view.runs.find(source.run);
+    const std::string text = readout_text(run ? run->record.name : "", source.points[found->point], view.metric);
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str()), room{em * 0.6f, em * 0.4f};
+    // To the right and above, where a falling curve is not, unless it would leave the axes.
+    const float x = at.x + em + size.x + 2 * room.x < right ? at.x + em : at.x - em - size.x - 2 * room.x;
+    const float y = std::max(top + 1, at.y - em - size.y - 2 * room.y);
+    draw.AddRectFilled({x, y}, {x + size.x + 2 * room.x, y + size.y + 2 * room.y}, IM_COL32(18, 18, 18, 235), em * 0.25f);
+    draw.AddRect({x, y}, {x + size.x + 2 * room.x, y + size.y + 2 * room.y}, tone::field_filled, em * 0.25f);
+    draw.AddText({x + room.x, y + room.y}, tone::text, text.c_str());
+}
+
+// The kinds of lines that there are, in the line of the title from the right. Whose they are, the list of runs says.
+void draw_key(const ConvergencePlot& p, const PlotLayout& l, ImVec2 origin) {
+    const float em = ImGui::GetFontSize(), y = origin.y + float(l.top) - 1.55f * em;
+    float x = origin.x + float(l.right);
+    const auto entry = [&](PlotCurve::Line line, const std::string& text) {
+        const float width = ImGui::CalcTextSize(text.c_str()).x;
+        ImGui::GetWindowDrawList()->AddText({std::round(x - width), std::round(y)}, tone::dim_text, text.c_str());
+        draw_line_sample(*ImGui::GetWindowDrawList(), line, {x - width - 2.4f * em, y + em * 0.6f}, 2 * em, tone::dim_text, em);
+        x -= width + 3.6f * em;
+    };
+    if (p.sources.empty()) return;
+    entry(p.plot.curves.back().line, p.plot.curves.back().name);
+    const auto has = [&](Kind kind) { return std::ranges::find(p.sources, kind, &ConvergencePlot::Source::kind) != p.sources.end(); };
+    if (has(Kind::denoised)) entry(PlotCurve::Line::dashed, "denoised");
+    if (has(Kind::measured)) entry(PlotCurve::Line::dotted, "raw, measured");
+    if (has(Kind::estimated)) entry(PlotCurve::Line::solid, "raw, estimated");
+}
+
+void draw_chart(PanelContext& c, const ConvergenceView& view, float height) {
+    const ImVec2 size{std::max(ImGui::GetContentRegionAvail().x, 1.f), height}, origin = ImGui::GetCursorScreenPos();
+    ConvergencePlot p = convergence_plot(view.runs, view.plot_options(true));
+    p.plot.title = std::exchange(p.plot.y_label, {}); // letters that lie on their side are hard to read
+    const ImFont& font = *ImGui::GetFont();
+    const float em = ImGui::GetFontSize();
+    const PlotLayout l = lay_out(p.plot, plot_metrics(size, font, em, false));
+    draw_plot(*ImGui::GetWindowDrawList(), p.plot, l, origin, font, em, plot_tones_dark());
+    draw_key(p, l, origin);
+    ImGui::InvisibleButton("chart", size);
+    c.ui.probe.record_last_item("Convergence/Chart");
+    if (ImGui::IsItemHovered()) draw_readout(view, p, l, origin);
+    if (!l.curves.empty()) return;
+    const char* const text = "The error is estimated once both halves of the samples hold some.";
+    const float width = ImGui::CalcTextSize(text).x;
+    ImGui::GetWindowDrawList()->AddText({origin.x + (size.x - width) / 2, origin.y + size.y / 2 - em}, tone::dim_text, text);
+}
+
+// The live run in words.
+void draw_summary(const ConvergenceView& view) {
+    const ConvergenceRun* live = view.runs.live();
+    if (!live) return quiet_text("There is no run yet.");
+    const auto points = live->record.points(Kind::estimated);
+    std::string text = fmt::format("{} {}", view.metric == ErrorMetric::rmse ? "RMSE" : "relMSE",
+                                   points.empty() ? "not known yet" : error_text(points.back().error(view.metric)));
+    text += ",  " + slope_text(fit(live->record, Kind::estimated, view.metric, view.axis).slope);
+    if (view.target() > 0) text += ",  " + time_left_text(time_left(live->record, Kind::estimated, view.metric, view.target()));
+    ImGui::TextUnformatted(text.c_str());
+    if (view.denoised && view.waiting > 0)
+        quiet_text(fmt::format("{} denoised {} until the raw picture{} good enough to tell how far off {}.", view.waiting,
+                               view.waiting == 1 ? "picture waits" : "pictures wait", view.reference ? ", or the reference, is" : " is",
+                               view.waiting == 1 ? "it is" : "they are"));
+}
+
+void draw_files(PanelContext& c, ConvergenceView& view) {
+    if (ImGui::Button("Load...")) c.ui.commands.push_back(Command::load_convergence);
+    c.ui.probe.record_last_item("Convergence/Load");
+    tip_for_last_item(c.ui, "A table exported here, or the convergence.csv of `blush converge`, beside the runs of this session.");
+    for (const auto format : {ConvergenceView::Export::csv, ConvergenceView::Export::svg, ConvergenceView::Export::png}) {
+        ImGui::SameLine();
+        const std::string name = fmt::format("Save {}", ConvergenceView::export_names[int(format)]);
+        if (ImGui::Button(name.c_str())) view.wanted_export = format;
+        c.ui.probe.record_last_item(fmt::format("Convergence/{}", name));
+        tip_for_last_item(c.ui, format == ConvergenceView::Export::csv
+                                    ? "Every point of every run shown, with its intervals, into the snapshot folder."
+                                    : "The chart on white, into the snapshot folder.");
+    }
+    const RecorderCost& cost = view.cost;
+    if (!(cost.rendering > 0)) return;
+    const std::string text =
+        fmt::format("recorder {}, estimate {} of the time", share_text(cost.recorder_share()), share_text(cost.estimate_share()));
+    ImGui::SameLine();
+    ImGui::SetCursorPosX(std::max(ImGui::GetCursorPosX(), ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(text.c_str()).x));
+    ImGui::TextDisabled("%s", text.c_str());
+    const std::string tip =
+        fmt::format("Of {:.1f} s of rendering this run, {:.3g} ms went into recording errors and {:.3g} ms into measuring them against other "
+                    "pictures; {:.3g} ms into estimating them, which the status bar and the stop rules need in any case.",
+                    cost.rendering, 1e3 * cost.recording, 1e3 * cost.measuring, 1e3 * cost.estimating);
+    tip_for_last_item(c.ui, tip.c_str());
+}
+
+} // namespace
+
+void draw_convergence_panel(PanelContext& c) {
+    ConvergenceView& view = c.ui.convergence;
+    if (!view.open) return;
+    const float em = ImGui::GetFontSize();
+    const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({em * 14, em * 3}, ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSize({std::min(em * 50, screen.x - em * 15), std::min(em * 40, screen.y - em * 5)}, ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSizeConstraints({em * 24, em * 20}, {FLT_MAX, FLT_MAX});
+    if (ImGui::Begin("Convergence", &view.open, ImGuiWindowFlags_NoCollapse)) {
+        draw_settings(c, view);
+        draw_reference(c, view);
+        const float line = ImGui::GetFrameHeightWithSpacing(), rows = float(std::min<size_t>(view.runs.all().size(), 6));
+        const float below = (rows + 1.5f) * line + (view.denoised ? 2 : 1) * ImGui::GetTextLineHeightWithSpacing() + line;
+        draw_chart(c, view, std::max(ImGui::GetContentRegionAvail().y - below, em * 8));
+        draw_summary(view);
+        draw_convergence_runs(c, view, ImGui::GetContentRegionAvail().y - line);
+        draw_files(c, view);
+    }
+    ImGui::End();
+}
+
+} // namespace blush

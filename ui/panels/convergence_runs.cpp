@@ -1,0 +1,118 @@
+#include "ui/panels/convergence_runs.h"
+
+#include "ui/plot_drawing.h"
+#include "ui/theme.h"
+#include "ui/time_text.h"
+#include "ui/widgets.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <imgui_stdlib.h>
+
+namespace blush {
+namespace {
+
+using Kind = ConvergencePoint::Kind;
+using Origin = ConvergenceRun::Origin;
+
+// Filled if the run is shown.
+void draw_swatch(PanelContext& c, ConvergenceRun& run) {
+    const float side = ImGui::GetTextLineHeight();
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    if (ImGui::InvisibleButton("shown", {side, side})) run.shown = !run.shown;
+    c.ui.probe.record_last_item(fmt::format("Convergence/{}/Show", run.record.name));
+    tip_for_last_item(c.ui, "Shown or hidden.");
+    const ImVec2 low{at.x + side * 0.2f, at.y + side * 0.2f}, high{at.x + side * 0.8f, at.y + side * 0.8f};
+    const ImU32 color = parse_color(plot_color_on_dark(run.color));
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    if (run.shown)
+        draw.AddRectFilled(low, high, color, 2);
+    else
+        draw.AddRect(low, high, color, 2);
+}
+
+void draw_name(PanelContext& c, ConvergenceView& view, ConvergenceRun& run) {
+    if (view.renaming == run.id) {
+        ImGui::SetNextItemWidth(-FLT_MIN);
+        if (!ImGui::IsAnyItemActive()) ImGui::SetKeyboardFocusHere();
+        ImGui::InputText("##name", &view.rename_text, ImGuiInputTextFlags_AutoSelectAll);
+        if (!ImGui::IsItemDeactivated()) return;
+        if (!view.rename_text.empty()) run.record.name = view.rename_text;
+        view.renaming = 0;
+        return;
+    }
+    ImGui::PushStyleColor(ImGuiCol_Text, run.shown ? tone::text : tone::dim_text);
+    ImGui::TextUnformatted(run.record.name.c_str());
+    ImGui::PopStyleColor();
+    c.ui.probe.record_last_item(fmt::format("Convergence/{}", run.record.name));
+    if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
+        view.renaming = run.id;
+        view.rename_text = run.record.name;
+    }
+    tip_for_last_item(c.ui, "Double-click to rename.");
+}
+
+void figure(const std::string& text) {
+    ImGui::TableNextColumn();
+    ImGui::PushStyleColor(ImGuiCol_Text, tone::dim_text);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopStyleColor();
+}
+
+void draw_figures(const ConvergenceView& view, const ConvergenceRun& run) {
+    auto points = run.record.points(Kind::estimated);
+    const Kind kind = points.empty() ? Kind::measured : Kind::estimated;
+    if (points.empty()) points = run.record.points(kind);
+    const bool any = !points.empty();
+    const double error = any ? points.back().error(view.metric).value : 0;
+    const Interval slope = fit(run.record, kind, view.metric, view.axis).slope;
+    figure(error > 0 ? fmt::format("{:.3g}", error) : "");
+    figure(slope.known ? fmt::format("{}{:.2f}", slope.value < 0 ? "−" : "", std::abs(slope.value)) : "");
+    figure(any ? fmt::format("{} spp", points.back().spp) : "");
+    figure(any ? elapsed_text(points.back().seconds) : "");
+}
+
+// True if the run is to be removed.
+bool draw_buttons(PanelContext& c, ConvergenceRun& run) {
+    ImGui::TableNextColumn();
+    if (run.origin != Origin::stored) {
+        if (ImGui::SmallButton(run.kept ? "Kept" : "Keep")) run.kept = !run.kept;
+        c.ui.probe.record_last_item(fmt::format("Convergence/{}/Keep", run.record.name));
+        tip_for_last_item(c.ui, "Newer runs push out the oldest, but not those that are kept.");
+    }
+    ImGui::TableNextColumn();
+    if (run.origin == Origin::live) return false;
+    const bool removed = ImGui::SmallButton("×");
+    c.ui.probe.record_last_item(fmt::format("Convergence/{}/Remove", run.record.name));
+    tip_for_last_item(c.ui, "Removes the run from the list.");
+    return removed;
+}
+
+} // namespace
+
+void draw_convergence_runs(PanelContext& c, ConvergenceView& view, float height) {
+    if (!ImGui::BeginTable("runs", 8, ImGuiTableFlags_ScrollY | ImGuiTableFlags_SizingFixedFit, {0, std::max(height, 1.f)})) return;
+    ImGui::TableSetupScrollFreeze(0, 1);
+    ImGui::TableSetupColumn("");
+    ImGui::TableSetupColumn("Run", ImGuiTableColumnFlags_WidthStretch);
+    for (const char* column : {view.metric == ErrorMetric::rmse ? "RMSE" : "relMSE", "Slope", "Samples", "Time", "", ""})
+        ImGui::TableSetupColumn(column);
+    ImGui::TableHeadersRow();
+    int removed = 0;
+    for (const ConvergenceRun& listed : view.runs.all()) {
+        ConvergenceRun& run = *view.runs.find(listed.id);
+        ImGui::PushID(run.id);
+        ImGui::TableNextRow();
+        ImGui::TableNextColumn();
+        draw_swatch(c, run);
+        ImGui::TableNextColumn();
+        draw_name(c, view, run);
+        draw_figures(view, run);
+        if (draw_buttons(c, run)) removed = run.id;
+        ImGui::PopID();
+    }
+    ImGui::EndTable();
+    if (removed) view.runs.remove(removed);
+}
+
+} // namespace blush
