@@ -281,7 +281,7 @@ void Editor::take_dropped(const std::filesystem::path& file) {
         convergence_.load(ui_, file);
     else
         ui_.toasts.fail(file.filename().string() +
-                        ": no glTF scene (.gltf, .glb), environment image (.hdr, .exr) or convergence table (.csv)");
+                        ": neither a glTF scene (.gltf, .glb), nor an environment image (.hdr, .exr), nor a convergence table (.csv)");
 }
 
 void Editor::save_due_snapshot() {

@@ -56,7 +56,7 @@ void EditorConvergence::record(ConvergenceView& view, const FramePtr& frame) {
     ConvergenceRecord& record = view.runs.live()->record;
     const ConvergencePoint point = estimated_point(*frame);
     if (point.rmse.known || point.relmse.known) record.add(point);
-    if (keeper_.reference() && record.is_due(Kind::measured, frame->samples)) measuring_.add_raw(frame);
+    if (view.reference && keeper_.reference() && record.is_due(Kind::measured, frame->samples)) measuring_.add_raw(frame);
 }
 
 void EditorConvergence::record_denoised(ConvergenceView& view, const DenoisedPtr& picture) {

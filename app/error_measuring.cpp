@@ -67,13 +67,18 @@ void ErrorMeasuring::take(ConvergenceRuns& runs) {
         for (const ConvergencePoint& p : measured->points) run->record.set(p);
 }
 
+bool ErrorMeasuring::judges_better(const Frame& raw) const {
+    const double growth = double(raw.samples) / std::max(1.0, double(judged_at_));
+    return raw.complete ? growth > 1 : growth >= judging_growth;
+}
+
 void ErrorMeasuring::poll(ConvergenceRuns& runs, const std::shared_ptr<const Reference>& reference, const FramePtr& raw) {
     if (job_) take(runs);
     if (job_) return;
     Work work;
     if (reference && (!raw_.empty() || !denoised_.empty()))
         work = against_reference(reference);
-    else if (!reference && raw && !denoised_.empty() && double(raw->samples) >= judging_growth * double(judged_at_)) {
+    else if (!reference && raw && !denoised_.empty() && judges_better(*raw)) {
         judged_at_ = raw->samples;
         work = against_raw(raw);
     }

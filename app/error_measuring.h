@@ -42,6 +42,7 @@ private:
     using Work = std::function<Measured(JobProgress&)>;
 
     void take(ConvergenceRuns& runs);
+    bool judges_better(const Frame& raw) const; // than the one before
     Work against_reference(const std::shared_ptr<const Reference>& reference);
     Work against_raw(const FramePtr& raw) const;
 

@@ -33,7 +33,7 @@ public:
 
     // Once per frame of the window. True if there is a new one.
     bool poll();
-    bool renders() const { return job_ && rendering_; }
+    bool renders() const { return job_ && rendering_ && !outdated_; }
     const std::shared_ptr<const Reference>& reference() const { return reference_; } // null: none
     ReferenceNews news() const;
 

@@ -47,6 +47,7 @@ class Convergence : public test::ImGuiTest {
 protected:
     void SetUp() override {
         ImGuiTest::SetUp();
+        in_window([] {}); // what is drawn later takes its style from a frame
         ::setenv("XDG_CACHE_HOME", (folder.path() / "cache").c_str(), 1);
         project.render.width = width;
         project.render.height = height;

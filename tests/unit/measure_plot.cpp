@@ -142,7 +142,7 @@ TEST(PlotLayout, TheLegendKeepsOffTheCurves) {
     EXPECT_GT(falling.legend[0].text.y, (falling.top + falling.bottom) / 2) << "below a curve that falls";
     for (PlotCurve::Point& p : plot.curves[0].points) p.y = p.x < 100 ? 1e-6 : 1e-6 * p.x;
     const PlotLayout low = lay_out(plot, {});
-    EXPECT_LT(low.legend[0].text.y, (low.top + low.bottom) / 2) << "above one that begins low";
+    EXPECT_GT(low.legend[0].text.x, (low.left + low.right) / 2) << "beside one that begins low";
     EXPECT_TRUE(lay_out(plot, {640, 420, 12, false, {}}).legend.empty());
 }
 

@@ -63,8 +63,9 @@ void draw_settings(PanelContext& c, ConvergenceView& view) {
     ImGui::BeginDisabled(!c.denoiser_problem.empty());
     toggle(
         c, "Denoised", view.denoised,
-        "A curve of the denoised picture. Its error cannot be told from halves of the samples: it is measured against the reference, or, "
-        "without one, held against the raw picture later in the run, as soon as that is good enough to judge it.");
+        "A curve of the denoised picture, over the time that its samples took, without its own. Its error cannot be told from halves of the "
+        "samples: it is measured against the reference, or, without one, held against the raw picture later in the run, as soon as that is "
+        "good enough to judge it.");
     ImGui::EndDisabled();
     toggle(c, "Reference", view.reference,
            "Measure against a picture of many samples with a seed of its own. Those that `blush converge` has kept are found, of the same "
