@@ -42,9 +42,11 @@ struct Canvas {
 
     void blend(int x, int y, const Rgba& c) {
         float* p = &rgb[3 * (size_t(y) * size_t(width) + size_t(x))];
-        p[0] += (c.r - p[0]) * c.a;
-        p[1] += (c.g - p[1]) * c.a;
-        p[2] += (c.b - p[2]) * c.a;
+        // Weights of a triangle's corners may sum to a little more than 1.
+        const auto over = [&](float& below, float above) { below = std::clamp(below + (above - below) * c.a, 0.f, 1.f); };
+        over(p[0], c.r);
+        over(p[1], c.g);
+        over(p[2], c.b);
     }
 
     // Pixels whose middle is inside; of one on an edge, only the upper and left edges', so that neighbours do not both draw it.
