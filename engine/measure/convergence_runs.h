@@ -1,4 +1,5 @@
-// The runs that are looked at side by side: the one that goes on, those that edits have ended, and stored ones.
+// The runs that are looked at side by side: the one that goes on, those that edits have ended, and stored ones. No two have the same name:
+// one that is taken gets a number.
 #pragma once
 
 #include "measure/convergence.h"
@@ -36,12 +37,14 @@ public:
     // A mark where the live run is: an edit after which it goes on.
     void mark(const std::string& label);
     void add_stored(ConvergenceRecord record);
+    void rename(int id, const std::string& name); // to nothing: it keeps the one it has
     void remove(int id); // the live one cannot be removed
     void clear();        // all but the stored ones: another scene
 
 private:
     ConvergenceRun& add(ConvergenceRun::Origin origin, ConvergenceRecord record);
     size_t free_color() const;
+    std::string free_name(const std::string& name, int but_of = 0) const;
 
     std::vector<ConvergenceRun> runs_;
     int last_id_ = 0;

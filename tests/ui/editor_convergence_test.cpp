@@ -171,7 +171,7 @@ TEST_F(Convergence, SavesWhatIsShownAndLoadsItAgain) {
     ASSERT_EQ(view.runs.all().size(), 3u);
     const ConvergenceRun& stored = view.runs.all().back();
     EXPECT_EQ(stored.origin, ConvergenceRun::Origin::stored);
-    EXPECT_EQ(stored.record.name, "Opened");
+    EXPECT_EQ(stored.record.name, "Opened 2") << "the name is taken";
     EXPECT_EQ(stored.record.points().size(), 7u);
     EXPECT_EQ(stored.record.marks().size(), 1u);
     EXPECT_TRUE(view.open);

@@ -98,6 +98,25 @@ TEST(ConvergenceRuns, NewerOnesPushOutTheOldestButThoseThatAreKept) {
     EXPECT_EQ(names(runs), (std::vector<std::string>{"stored"}));
 }
 
+// Names are what a table tells runs apart by.
+TEST(ConvergenceRuns, NoTwoHaveTheSameName) {
+    ConvergenceRuns runs;
+    ConvergenceRecord stored;
+    stored.name = "a";
+    runs.add_stored(stored);
+    runs.add_stored(stored);
+    runs.begin("a");
+    record(runs, 8);
+    runs.begin("a");
+    EXPECT_EQ(names(runs), (std::vector<std::string>{"a 3", "a 4", "a", "a 2"}));
+    const int live = runs.live()->id;
+    runs.rename(live, "a 2");
+    EXPECT_EQ(runs.live()->record.name, "a 2 2");
+    runs.rename(live, "a 2 2");
+    runs.rename(live, "");
+    EXPECT_EQ(runs.live()->record.name, "a 2 2");
+}
+
 TEST(ConvergencePlot, HasACurveForEachKindOfEachShownRunAndTheGuide) {
     ConvergenceRuns runs;
     EXPECT_TRUE(convergence_plot(runs, {}).plot.curves.empty());

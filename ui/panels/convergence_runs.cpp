@@ -37,7 +37,7 @@ void draw_name(PanelContext& c, ConvergenceView& view, ConvergenceRun& run) {
         if (!ImGui::IsAnyItemActive()) ImGui::SetKeyboardFocusHere();
         ImGui::InputText("##name", &view.rename_text, ImGuiInputTextFlags_AutoSelectAll);
         if (!ImGui::IsItemDeactivated()) return;
-        if (!view.rename_text.empty()) run.record.name = view.rename_text;
+        view.runs.rename(run.id, view.rename_text);
         view.renaming = 0;
         return;
     }
