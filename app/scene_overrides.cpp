@@ -109,12 +109,12 @@ Result<EnvironmentChoice> parse_environment(std::string_view text) {
     return choice;
 }
 
-Result<void> apply_overrides(const SceneOverrides& overrides, Scene& scene, float aspect) {
+Result<void> apply_overrides(const SceneOverrides& overrides, Scene& scene, float aspect, bool has_view) {
     if (!overrides.camera.empty()) {
         const Result<Id<Node>> camera = find_camera(scene, overrides.camera);
         if (!camera) return camera.error();
         scene.view = view_through(scene, *camera);
-    } else if (camera_nodes(scene).empty()) {
+    } else if (!has_view && camera_nodes(scene).empty()) {
         scene.view = framed(scene.view, world_bounds(scene), aspect);
     }
     if (overrides.aperture) scene.view.lens.aperture_radius = *overrides.aperture;

@@ -31,7 +31,8 @@ struct SceneOverrides {
 
 // Without any camera in the scene, one is framed around it for a picture of `aspect` (width / height).
 // Errors: no such camera, an environment map that cannot be read, a lens that makes no sense.
-Result<void> apply_overrides(const SceneOverrides& overrides, Scene& scene, float aspect);
+// `has_view`: the scene was saved with a view, which is then kept.
+Result<void> apply_overrides(const SceneOverrides& overrides, Scene& scene, float aspect, bool has_view = false);
 
 // Of the camera node that the view looks through; empty for a free view.
 std::string camera_name(const Scene& scene);

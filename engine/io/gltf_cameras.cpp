@@ -1,5 +1,7 @@
 #include "io/gltf_cameras.h"
 
+#include "io/gltf_extras.h"
+#include "io/gltf_numbering.h"
 #include "io/gltf_object.h"
 
 #include <algorithm>
@@ -39,13 +41,18 @@ Quat three_quarter_rotation() {
 } // namespace
 
 std::vector<Id<Camera>> import_cameras(const GltfContext& context, Scene& scene) {
-    std::vector<Id<Camera>> ids;
+    std::vector<std::optional<Camera>> cameras;
+    std::vector<uint32_t> wanted;
     for (size_t i = 0; i < context.model().cameras.size(); ++i) {
         const tinygltf::Camera& source = context.model().cameras[i];
         const std::string where = fmt::format("cameras[{}]", i);
-        ids.push_back(
-            scene.cameras.add({source.name.empty() ? fmt::format("Camera {}", i) : source.name, read_lens(context, source, where)}));
+        Camera camera{source.name.empty() ? fmt::format("Camera {}", i) : source.name, read_lens(context, source, where)};
+        const ParsedGltf& object = gltf_item(context.json(), "cameras", i);
+        read_extras(context, object, camera, where);
+        cameras.push_back(std::move(camera));
+        wanted.push_back(wanted_id(object));
     }
+    const std::vector<Id<Camera>> ids = add_numbered(scene.cameras, std::move(cameras), wanted);
     if (!ids.empty()) context.note("ignored: clipping planes and aspect ratio of cameras; the picture's size decides", "cameras");
     return ids;
 }
@@ -58,6 +65,20 @@ View initial_view(const Scene& scene) {
     View view;
     view.rotation = three_quarter_rotation();
     return framed(view, world_bounds(scene), aspect);
+}
+
+bool import_view(const GltfContext& context, const ParsedGltf& gltf_scene, const std::string& scene_where, View& view) {
+    const std::string where = scene_where + ".extras.blush.view";
+    const Json fields = blush_fields(context, gltf_scene, "view", where);
+    if (fields.is_null()) return false;
+    View candidate = view;
+    read_extra_fields(context, fields, candidate, where);
+    if (const auto valid = validate(candidate.lens); !valid) {
+        context.warn("ignored: " + valid.error().what, where);
+        return false;
+    }
+    view = candidate;
+    return true;
 }
 
 } // namespace blush

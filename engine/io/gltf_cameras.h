@@ -14,4 +14,7 @@ std::vector<Id<Camera>> import_cameras(const GltfContext& context, Scene& scene)
 // Through the first camera node, or, without one, from a three-quarter angle with everything in the picture.
 View initial_view(const Scene& scene);
 
+// Sets the view that extras.blush.view of a glTF scene holds; false if it holds none that makes sense.
+bool import_view(const GltfContext& context, const nlohmann::json& gltf_scene, const std::string& where, View& view);
+
 } // namespace blush

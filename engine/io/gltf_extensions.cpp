@@ -15,6 +15,8 @@ struct Row {
 
 constexpr std::array rows{
     Row{"KHR_lights_punctual", {Kind::honoured, ""}},
+    Row{"KHR_node_visibility", {Kind::honoured, ""}},
+    Row{"EXT_lights_area", {Kind::approximated, "a node's scale acts on width and height each, not the larger on both"}},
     Row{"KHR_materials_emissive_strength", {Kind::honoured, ""}},
     Row{"KHR_materials_ior", {Kind::honoured, ""}},
     Row{"KHR_materials_specular", {Kind::honoured, ""}},

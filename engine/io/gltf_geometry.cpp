@@ -2,6 +2,7 @@
 
 #include "core/math.h"
 #include "io/gltf_accessors.h"
+#include "io/gltf_extras.h"
 #include "io/gltf_tangents.h"
 #include "scene/affine.h"
 
@@ -31,7 +32,8 @@ Vec4 element(const FloatArray& a, size_t i, Vec4*) {
 template <class V> Result<std::vector<V>> read_attribute(const GltfContext& context, const tinygltf::Primitive& primitive, const char* name,
                                                          int min_components, int max_components, const std::string& where) {
     const auto it = primitive.attributes.find(name);
-    if (it == primitive.attributes.end()) return std::vector<V>();
+    if (it == primitive.attributes.end() || is_fallback(gltf_item(context.json(), "accessors", size_t(it->second))))
+        return std::vector<V>();
     const Result<FloatArray> array = read_floats(context, it->second, min_components, max_components, where + "." + name);
     if (!array) return array.error();
     std::vector<V> vectors(array->count());

@@ -1,6 +1,8 @@
 #include "io/gltf_import.h"
 
 #include "io/gltf_cameras.h"
+#include "io/gltf_convert.h"
+#include "io/gltf_extras.h"
 #include "io/gltf_lights.h"
 #include "io/gltf_materials.h"
 #include "io/gltf_meshes.h"
@@ -8,6 +10,7 @@
 #include "io/gltf_report.h"
 #include "io/gltf_source.h"
 #include "io/gltf_textures.h"
+#include "io/settings_json.h"
 
 #include <chrono>
 #include <exception>
@@ -16,8 +19,54 @@
 namespace blush {
 namespace {
 
-Result<Scene> convert(const GltfContext& context) {
-    Scene scene;
+// By id, the places of those that are not none.
+template <class T> std::map<Id<T>, int> indices_of(const std::vector<Id<T>>& ids) {
+    std::map<Id<T>, int> indices;
+    for (size_t i = 0; i < ids.size(); ++i)
+        if (ids[i]) indices[ids[i]] = int(i);
+    return indices;
+}
+
+// What saving wrote beside the scene. Settings that make no sense are left as they are.
+template <class Settings>
+std::optional<Settings> saved_settings(const GltfContext& context, const nlohmann::json& gltf_scene, const char* key,
+                                       Result<ParsedSettings<Settings>> (*parse)(std::string_view, const Settings&)) {
+    const std::string where = fmt::format("scene.extras.blush.{}", key);
+    const Json json = blush_fields(context, gltf_scene, key, where);
+    if (json.is_null()) return std::nullopt;
+    const auto parsed = parse(json_text(json), {});
+    if (parsed) return parsed->settings;
+    context.warn("ignored: " + parsed.error().text(), where);
+    return std::nullopt;
+}
+
+void import_mix(const GltfContext& context, const nlohmann::json& gltf_scene, const std::string& where, LightMix& mix) {
+    LightMix candidate;
+    read_extra_fields(context, blush_fields(context, gltf_scene, "mix", where), candidate, where);
+    if (const auto valid = validate(candidate); valid)
+        mix = std::move(candidate);
+    else
+        context.warn("ignored: " + valid.error().what, where);
+}
+
+Result<void> import_scene_extras(const GltfContext& context, size_t index, ImportedScene& imported) {
+    const nlohmann::json& object = gltf_item(context.json(), "scenes", index);
+    const std::string where = fmt::format("scenes[{}]", index);
+    Result<Environment> environment = import_environment(context, object, where);
+    if (!environment) return environment.error();
+    imported.scene.environment = *std::move(environment);
+    import_mix(context, object, where + ".extras.blush.mix", imported.scene.mix);
+    imported.has_view = import_view(context, object, where, imported.scene.view);
+    imported.render = saved_settings<RenderSettings>(context, object, "render", parse_render_settings);
+    imported.view = saved_settings<ViewSettings>(context, object, "display", parse_view_settings);
+    return {};
+}
+
+} // namespace
+
+Result<void> convert_gltf(const GltfContext& context, ImportedScene& imported) {
+    Scene& scene = imported.scene;
+    GltfIndices& indices = imported.origin.indices;
     report_file(context);
     const auto nodes = reachable_nodes(context);
     if (!nodes) return nodes.error();
@@ -28,22 +77,28 @@ Result<Scene> convert(const GltfContext& context) {
     if (!materials) return materials.error();
     if (context.cancelled()) return context.cancel_error();
     context.progress(0.6, "meshes");
-    auto meshes = import_meshes(context, *nodes, *materials, scene);
+    const auto meshes = import_meshes(context, *nodes, *materials, scene);
     if (!meshes) return meshes.error();
-    const NodeTargets targets{*std::move(meshes), import_lights(context, scene), import_cameras(context, scene)};
-    if (const auto ok = import_nodes(context, *nodes, targets, scene); !ok) return ok.error();
-    if (const tinygltf::Scene* gltf_scene = default_scene(context)) {
-        Result<Environment> environment = import_environment(context, *gltf_scene, "scenes");
-        if (!environment) return environment.error();
-        scene.environment = *std::move(environment);
-    }
-    if (context.cancelled()) return context.cancel_error();
-    scene.view = initial_view(scene);
-    context.progress(1, "done");
-    return scene;
-}
+    const NodeTargets targets{meshes->ids, import_lights(context, scene), import_cameras(context, scene)};
+    const auto node_ids = import_nodes(context, *nodes, targets, scene);
+    if (!node_ids) return node_ids.error();
 
-} // namespace
+    for (size_t i = 0; i < node_ids->size(); ++i) indices.nodes[(*node_ids)[i]] = (*nodes)[i];
+    indices.textures = indices_of(*textures);
+    indices.materials = indices_of(*materials);
+    indices.meshes = indices_of(meshes->ids);
+    indices.cameras = indices_of(targets.cameras);
+    for (const auto& [id, index] : indices.meshes) indices.primitives[id] = meshes->primitives[size_t(index)];
+    for (const auto& [id, index] : indices_of(targets.lights.punctual)) indices.lights[id] = {GltfLight::List::punctual, index};
+    for (const auto& [id, index] : indices_of(targets.lights.area)) indices.lights[id] = {GltfLight::List::area, index};
+
+    scene.view = initial_view(scene);
+    if (const auto index = default_scene(context))
+        if (const auto ok = import_scene_extras(context, *index, imported); !ok) return ok;
+    if (context.cancelled()) return context.cancel_error();
+    context.progress(1, "done");
+    return {};
+}
 
 Result<ImportedScene> import_gltf(const std::filesystem::path& file, const ImportOptions& options) {
     const auto start = std::chrono::steady_clock::now();
@@ -52,9 +107,11 @@ Result<ImportedScene> import_gltf(const std::filesystem::path& file, const Impor
         const Result<GltfSource> source = load_gltf(file);
         if (!source) return source.error();
         ImportedScene imported;
-        Result<Scene> scene = convert(GltfContext{*source, options, imported.report});
-        if (!scene) return scene.error();
-        imported.scene = *std::move(scene);
+        if (const auto ok = convert_gltf(GltfContext{*source, options, imported.report}, imported); !ok) return ok.error();
+        imported.origin.file = file;
+        imported.origin.json = source->text;
+        imported.origin.meshes = imported.scene.meshes;
+        imported.origin.textures = imported.scene.textures;
         imported.report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         return imported;
     } catch (const std::bad_alloc&) {

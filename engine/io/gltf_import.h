@@ -2,11 +2,15 @@
 #pragma once
 
 #include "core/result.h"
+#include "io/gltf_indices.h"
+#include "scene/render_settings.h"
 #include "scene/scene.h"
+#include "scene/view_settings.h"
 
 #include <atomic>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +26,11 @@ struct ImportReport {
 struct ImportedScene {
     Scene scene;
     ImportReport report;
+    GltfOrigin origin;
+    // What saving wrote beside the scene, if a program of ours has saved it.
+    bool has_view = false; // scene.view is the one that was saved
+    std::optional<RenderSettings> render = {};
+    std::optional<ViewSettings> view = {};
 };
 
 struct ImportOptions {
@@ -29,10 +38,11 @@ struct ImportOptions {
     const std::atomic<bool>* cancel = nullptr;                                 // true ends the import with the error "cancelled"
 };
 
-// The file's default scene, its first camera as the view (or one framed around the geometry), lights of
-// KHR_lights_punctual, and what `extras.blush` adds: on the scene `environment` {kind, color, intensity, rotation_degrees, file,
-// visible_to_camera} (its file relative to the scene's folder), on a light `angle_degrees`, `radius`, `rectangle` {width, height,
-// two_sided}, on a camera `aperture_radius`, `focus_distance`.
+// The file's default scene, the view that was saved with it or its first camera as the view (or one framed around the geometry), lights of
+// KHR_lights_punctual and EXT_lights_area, and what `extras.blush` adds: on the scene `environment` {kind, color, intensity,
+// rotation_degrees, file, visible_to_camera} (its file relative to the scene's folder), on a light `angle_degrees`, `radius`, `rectangle`
+// {width, height, two_sided}, on a camera `aperture_radius`, `focus_distance`, and on anything what saving could not say otherwise
+// (gltf_save.h). Two imports of one file give the same ids, and so do a scene and what is read of it after saving.
 // Errors: unreadable, not glTF, a required extension that is not supported, an index out of range, a buffer that is missing or too
 // short, a file URI that leaves the scene's folder or is not a plain relative path.
 Result<ImportedScene> import_gltf(const std::filesystem::path& file, const ImportOptions& options = {});

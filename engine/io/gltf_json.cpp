@@ -15,6 +15,7 @@ namespace {
 using nlohmann::json;
 
 constexpr int max_nesting = 64;
+constexpr size_t max_members = 10000;
 
 // Byte offset of the bracket that goes too deep, or npos. Brackets inside strings do not count.
 size_t too_deep_at(std::string_view text) {
@@ -36,6 +37,12 @@ size_t too_deep_at(std::string_view text) {
         }
     }
     return std::string_view::npos;
+}
+
+// Nesting is limited before this recurses.
+bool has_huge_object(const json& value) {
+    if (value.is_object() && value.size() > max_members) return true;
+    return value.is_structured() && std::any_of(value.begin(), value.end(), has_huge_object);
 }
 
 // The member if `object` is an object that has it, else null.
@@ -112,7 +119,17 @@ Result<std::string_view> gltf_json_text(std::span<const uint8_t> bytes) {
     return all.starts_with("glTF") ? glb_json_text(bytes) : Result<std::string_view>(all);
 }
 
-Result<void> check_gltf_json(std::string_view text, const std::filesystem::path& folder) {
+std::span<const uint8_t> glb_binary(std::span<const uint8_t> bytes) {
+    constexpr size_t header = 12, chunk_header = 8;
+    constexpr uint32_t binary_chunk = 0x004e4942;
+    const std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (!all.starts_with("glTF")) return {};
+    const uint64_t chunk = header + chunk_header + word_at(bytes, header);
+    if (chunk + chunk_header > word_at(bytes, 8) || word_at(bytes, chunk + 4) != binary_chunk) return {};
+    return bytes.subspan(chunk + chunk_header, word_at(bytes, chunk));
+}
+
+Result<json> check_gltf_json(std::string_view text, const std::filesystem::path& folder) {
     if (const size_t offset = too_deep_at(text); offset != std::string_view::npos)
         return Error{"", fmt::format("JSON nested deeper than {} levels", max_nesting), fmt::format("byte {}", offset)};
     json root;
@@ -122,10 +139,12 @@ Result<void> check_gltf_json(std::string_view text, const std::filesystem::path&
         return Error{"", "not a glTF file: its JSON cannot be parsed", fmt::format("byte {}", e.byte)};
     } catch (const json::exception&) { return Error{"", "not a glTF file: a number in its JSON is out of range", ""}; }
     if (!root.is_object()) return Error{"", "not a glTF file: its JSON is not an object", ""};
-    if (auto ok = check_version(root); !ok) return ok;
-    if (auto ok = check_required_extensions(root); !ok) return ok;
-    if (auto ok = check_uris(root, "buffers", folder); !ok) return ok;
-    return check_uris(root, "images", folder);
+    if (has_huge_object(root)) return Error{"", fmt::format("a JSON object of more than {} members", max_members), ""};
+    if (const auto ok = check_version(root); !ok) return ok.error();
+    if (const auto ok = check_required_extensions(root); !ok) return ok.error();
+    if (const auto ok = check_uris(root, "buffers", folder); !ok) return ok.error();
+    if (const auto ok = check_uris(root, "images", folder); !ok) return ok.error();
+    return root;
 }
 
 } // namespace blush

@@ -3,6 +3,8 @@
 
 #include "core/result.h"
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -13,8 +15,12 @@ namespace blush {
 // The JSON text of a .gltf (the whole file) or a .glb (its first chunk, header and chunk lengths checked).
 Result<std::string_view> gltf_json_text(std::span<const uint8_t> file_bytes);
 
-// Errors, each with its JSON path: nested too deeply for a recursive reader, not JSON, not glTF 2.x, a required extension
-// that is not supported, a buffer or image whose URI is not a file in or below `folder`.
-Result<void> check_gltf_json(std::string_view text, const std::filesystem::path& folder);
+// The second chunk of a .glb whose chunks gltf_json_text has accepted; empty if it has none or is a .gltf.
+std::span<const uint8_t> glb_binary(std::span<const uint8_t> file_bytes);
+
+// The parsed text. Errors, each with its JSON path: nested too deeply for a recursive reader, an object of more members than one that keeps
+// their order can look up in reasonable time, not JSON, not glTF 2.x, a required extension that is not supported, a buffer or image whose
+// URI is not a file in or below `folder`.
+Result<nlohmann::json> check_gltf_json(std::string_view text, const std::filesystem::path& folder);
 
 } // namespace blush

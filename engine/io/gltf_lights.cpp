@@ -1,12 +1,15 @@
 #include "io/gltf_lights.h"
 
 #include "io/environment_image.h"
+#include "io/gltf_extras.h"
+#include "io/gltf_numbering.h"
 #include "io/gltf_object.h"
 #include "io/gltf_uri.h"
 
 #include <fmt/format.h>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 namespace blush {
 namespace {
@@ -20,7 +23,7 @@ void read_cone(const GltfContext& context, const tinygltf::SpotLight& spot, Ligh
     light.inner_cone_radians = checked(context, spot.innerConeAngle, 0, 0, light.outer_cone_radians, where + ".spot.innerConeAngle");
 }
 
-void read_extras(const GltfObject& blush, Light& light) {
+void read_legacy_extras(const GltfObject& blush, Light& light) {
     light.angle_radians = blush.number("angle_degrees", 0, 0, 180) * radians_per_degree;
     light.radius = blush.number("radius", 0, 0, any_float);
     if (const GltfObject rectangle = blush.object("rectangle")) {
@@ -48,51 +51,93 @@ void read_map(const GltfContext& context, const std::filesystem::path& file, Env
     environment.kind = Environment::Kind::constant;
 }
 
-} // namespace
-
-std::vector<Id<Light>> import_lights(const GltfContext& context, Scene& scene) {
-    std::vector<Id<Light>> ids(context.model().lights.size());
-    for (size_t i = 0; i < ids.size(); ++i) {
-        const tinygltf::Light& source = context.model().lights[i];
-        const std::string where = fmt::format("extensions.KHR_lights_punctual.lights[{}]", i);
-        const auto kind = light_kind(source.type);
-        if (!kind) {
-            context.warn("ignored: unknown light type '" + source.type.substr(0, 100) + "'", where);
-            continue;
-        }
-        Light light;
-        light.name = source.name.empty() ? fmt::format("Light {}", i) : source.name;
-        light.kind = *kind;
-        light.color = checked(context, source.color, {1, 1, 1}, 0, any_float, where + ".color");
-        light.intensity = checked(context, source.intensity, 1, 0, any_float, where + ".intensity");
-        if (*kind == Light::Kind::spot) read_cone(context, source.spot, light, where);
-        if (source.range != 0) context.note("ignored: the light's range; light falls off with the square of the distance for ever", where);
-        read_extras(GltfObject(context, source.extras, where + ".extras").object("blush"), light);
-        ids[i] = scene.lights.add(std::move(light));
+std::optional<Light> read_punctual(const GltfContext& context, size_t i) {
+    const tinygltf::Light& source = context.model().lights[i];
+    const std::string where = fmt::format("extensions.KHR_lights_punctual.lights[{}]", i);
+    const auto kind = light_kind(source.type);
+    if (!kind) {
+        context.warn("ignored: unknown light type '" + source.type.substr(0, 100) + "'", where);
+        return std::nullopt;
     }
-    return ids;
+    Light light;
+    light.name = source.name.empty() ? fmt::format("Light {}", i) : source.name;
+    light.kind = *kind;
+    light.color = checked(context, source.color, {1, 1, 1}, 0, any_float, where + ".color");
+    light.intensity = checked(context, source.intensity, 1, 0, any_float, where + ".intensity");
+    if (*kind == Light::Kind::spot) read_cone(context, source.spot, light, where);
+    if (source.range != 0) context.note("ignored: the light's range; light falls off with the square of the distance for ever", where);
+    read_legacy_extras(GltfObject(context, source.extras, where + ".extras").object("blush"), light);
+    read_extras(context, gltf_light(context.json(), "KHR_lights_punctual", i), light, where);
+    return light;
 }
 
-Result<Environment> import_environment(const GltfContext& context, const tinygltf::Scene& gltf_scene, const std::string& where) {
+// EXT_lights_area is a draft of Khronos's: https://github.com/KhronosGroup/glTF/pull/2525
+std::optional<Light> read_area(const GltfContext& context, const ParsedGltf& source, size_t i) {
+    const std::string where = fmt::format("extensions.EXT_lights_area.lights[{}]", i);
+    const auto number = [&](const ParsedGltf& object, const char* key, double otherwise) {
+        const ParsedGltf& value = gltf_member(object, key);
+        return value.is_number() ? value.get<double>() : otherwise;
+    };
+    const ParsedGltf& type = gltf_member(source, "type");
+    if (type != "rect" && type != "disk") {
+        context.warn("ignored: a type of area light other than 'rect' and 'disk'", where);
+        return std::nullopt;
+    }
+    Light light;
+    light.kind = type == "disk" ? Light::Kind::disk : Light::Kind::rectangle;
+    const ParsedGltf& name = gltf_member(source, "name");
+    light.name = name.is_string() && !name.empty() ? name.get<std::string>() : fmt::format("Area light {}", i);
+    std::vector<double> color;
+    for (const ParsedGltf& component : gltf_member(source, "color"))
+        if (component.is_number()) color.push_back(component.get<double>());
+    light.color = checked(context, color, {1, 1, 1}, 0, any_float, where + ".color");
+    light.intensity = checked(context, number(source, "intensity", 1000), 1000, 0, any_float, where + ".intensity");
+    const double size = number(source, "size", 1), aspect = number(gltf_member(source, "rect"), "aspect", 1);
+    if (light.kind == Light::Kind::disk) {
+        light.radius = checked(context, size / 2, 0.5f, smallest_side, any_float, where + ".size");
+    } else {
+        light.width = checked(context, size * aspect, 1, smallest_side, any_float, where + ".rect.aspect");
+        light.height = checked(context, size, 1, smallest_side, any_float, where + ".size");
+    }
+    read_extras(context, source, light, where);
+    return light;
+}
+
+} // namespace
+
+LightIds import_lights(const GltfContext& context, Scene& scene) {
+    std::vector<std::optional<Light>> lights;
+    std::vector<uint32_t> wanted;
+    const size_t punctual = context.model().lights.size();
+    for (size_t i = 0; i < punctual; ++i) {
+        lights.push_back(read_punctual(context, i));
+        wanted.push_back(wanted_id(gltf_light(context.json(), "KHR_lights_punctual", i)));
+    }
+    const ParsedGltf& area = gltf_member(gltf_member(gltf_member(context.json(), "extensions"), "EXT_lights_area"), "lights");
+    for (size_t i = 0; i < area.size() && area.is_array(); ++i) {
+        lights.push_back(read_area(context, area[i], i));
+        wanted.push_back(wanted_id(area[i]));
+    }
+    const std::vector<Id<Light>> ids = add_numbered(scene.lights, std::move(lights), wanted);
+    const auto middle = ids.begin() + std::ptrdiff_t(punctual);
+    return {{ids.begin(), middle}, {middle, ids.end()}};
+}
+
+Result<Environment> import_environment(const GltfContext& context, const ParsedGltf& gltf_scene, const std::string& scene_where) {
+    const std::string where = scene_where + ".extras.blush.environment";
     Environment environment;
-    const GltfObject source = GltfObject(context, gltf_scene.extras, where + ".extras").object("blush").object("environment");
-    if (!source) return environment;
-    const std::string kind = source.text("kind");
-    if (kind == "constant")
-        environment.kind = Environment::Kind::constant;
-    else if (kind == "image")
-        environment.kind = Environment::Kind::image;
-    else if (kind != "none")
-        context.warn("unknown kind of environment; none is used", source.where());
-    environment.color = source.vector3("color", {1, 1, 1}, 0, any_float);
-    environment.intensity = source.number("intensity", 1, 0, any_float);
-    environment.rotation_degrees = source.number("rotation_degrees", 0, -any_float, any_float);
-    environment.visible_to_camera = source.boolean("visible_to_camera", true);
-    if (environment.kind != Environment::Kind::image) return environment;
-    environment.file = source.text("file");
+    read_extra_fields(context, blush_fields(context, gltf_scene, "environment", where), environment, where);
+    // Its image is read only now, and only if the rest makes sense.
+    const Environment::Kind kind = std::exchange(environment.kind, Environment::Kind::none);
+    if (const auto valid = validate(environment); !valid) {
+        context.warn("ignored: " + valid.error().what, where);
+        return Environment{};
+    }
+    environment.kind = kind;
+    if (kind != Environment::Kind::image || context.known) return environment;
     const auto file = resolve_uri(context.source.folder, environment.file);
-    if (!file) return context.error(file.error().what, source.where() + ".file");
-    read_map(context, *file, environment, source.where());
+    if (!file) return context.error(file.error().what, where + ".file");
+    read_map(context, *file, environment, where);
     return environment;
 }
 

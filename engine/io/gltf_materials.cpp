@@ -1,5 +1,7 @@
 #include "io/gltf_materials.h"
 
+#include "io/gltf_extras.h"
+#include "io/gltf_numbering.h"
 #include "io/gltf_object.h"
 
 #include <algorithm>
@@ -147,14 +149,19 @@ void report_back_faces(const GltfContext& context) {
 } // namespace
 
 Result<std::vector<Id<Material>>> import_materials(const GltfContext& context, const std::vector<Id<Texture>>& textures, Scene& scene) {
-    std::vector<Id<Material>> ids;
-    for (size_t i = 0; i < context.model().materials.size(); ++i) {
+    std::vector<std::optional<Material>> materials(context.model().materials.size());
+    std::vector<uint32_t> wanted(materials.size());
+    for (size_t i = 0; i < materials.size(); ++i) {
+        const ParsedGltf& object = gltf_item(context.json(), "materials", i);
+        if (is_fallback(object)) continue;
         Result<Material> material = MaterialReader(context, textures, i).read();
         if (!material) return material.error();
-        ids.push_back(scene.materials.add(*std::move(material)));
+        read_extras(context, object, *material, fmt::format("materials[{}]", i));
+        materials[i] = *std::move(material);
+        wanted[i] = wanted_id(object);
     }
     report_back_faces(context);
-    return ids;
+    return add_numbered(scene.materials, std::move(materials), wanted);
 }
 
 } // namespace blush

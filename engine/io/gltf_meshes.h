@@ -7,9 +7,14 @@
 
 namespace blush {
 
-// Adds the meshes that `nodes` use; result[i] is the id of glTF mesh i, none if unused. Reports progress from 0.6 to 1.
-// Errors: as import_primitive, a material out of range, cancelled.
-Result<std::vector<Id<Mesh>>> import_meshes(const GltfContext& context, const std::vector<int>& nodes,
-                                            const std::vector<Id<Material>>& materials, Scene& scene);
+// By glTF mesh: its id, none if unused, and which of its primitives its parts are.
+struct ImportedMeshes {
+    std::vector<Id<Mesh>> ids;
+    std::vector<std::vector<int>> primitives;
+};
+
+// Adds the meshes that `nodes` use. Reports progress from 0.6 to 1. Errors: as import_primitive, a material out of range, cancelled.
+Result<ImportedMeshes> import_meshes(const GltfContext& context, const std::vector<int>& nodes, const std::vector<Id<Material>>& materials,
+                                     Scene& scene);
 
 } // namespace blush

@@ -1,5 +1,7 @@
 #include "io/gltf_nodes.h"
 
+#include "io/gltf_extras.h"
+#include "io/gltf_numbering.h"
 #include "io/gltf_object.h"
 #include "scene/affine.h"
 
@@ -35,11 +37,12 @@ Result<std::vector<int>> find_parents(const GltfContext& context) {
 }
 
 // Depth first, children in the file's order, with a stack of our own.
-void walk(const GltfContext& context, int root, std::vector<int>& order) {
+void walk(const GltfContext& context, int root, bool skip_fallbacks, std::vector<int>& order) {
     std::vector<int> stack{root};
     while (!stack.empty()) {
         const int node = stack.back();
         stack.pop_back();
+        if (skip_fallbacks && is_fallback(gltf_item(context.json(), "nodes", size_t(node)))) continue;
         order.push_back(node);
         const std::vector<int>& children = context.model().nodes[size_t(node)].children;
         stack.insert(stack.end(), children.rbegin(), children.rend());
@@ -70,7 +73,10 @@ Result<Transform> read_transform(const GltfContext& context, int index) {
     if (const auto& s = node.scale; !s.empty()) local.scale = {float(s[0]), float(s[1]), float(s[2])};
     if (const auto& r = node.rotation; !r.empty()) {
         const double size = std::sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2] + r[3] * r[3]);
-        if (size > 1e-6)
+        // One that is normalised as well as floats can be stays as it is, and so survives any number of saves.
+        if (std::abs(size - 1) <= 1e-6)
+            local.rotation = {float(r[0]), float(r[1]), float(r[2]), float(r[3])};
+        else if (size > 1e-6)
             local.rotation = {float(r[0] / size), float(r[1] / size), float(r[2] / size), float(r[3] / size)};
         else
             context.warn("a rotation of length zero is no rotation", node_where(index));
@@ -95,8 +101,10 @@ Result<Node> read_node(const GltfContext& context, int index, const NodeTargets&
     node.local = *local;
     const GltfObject extensions(context, source.extensions, node_where(index) + ".extensions");
     const int light_index = extensions.object("KHR_lights_punctual").integer("light").value_or(-1);
+    const int area_index = extensions.object("EXT_lights_area").integer("light").value_or(-1);
     const auto mesh = target(context, targets.meshes, source.mesh, "mesh", index);
-    const auto light = target(context, targets.lights, light_index, "light", index);
+    const auto light = light_index < 0 ? target(context, targets.lights.area, area_index, "area light", index)
+                                       : target(context, targets.lights.punctual, light_index, "light", index);
     const auto camera = target(context, targets.cameras, source.camera, "camera", index);
     if (!mesh) return mesh.error();
     if (!light) return light.error();
@@ -104,15 +112,17 @@ Result<Node> read_node(const GltfContext& context, int index, const NodeTargets&
     node.mesh = *mesh;
     node.light = *light;
     node.camera = *camera;
+    node.visible = extensions.object("KHR_node_visibility").boolean("visible", true);
+    read_extras(context, gltf_item(context.json(), "nodes", size_t(index)), node, node_where(index));
     return node;
 }
 
 } // namespace
 
-const tinygltf::Scene* default_scene(const GltfContext& context) {
+std::optional<size_t> default_scene(const GltfContext& context) {
     const tinygltf::Model& model = context.model();
     const size_t index = model.defaultScene >= 0 ? size_t(model.defaultScene) : 0;
-    return index < model.scenes.size() ? &model.scenes[index] : nullptr;
+    return index < model.scenes.size() ? std::optional(index) : std::nullopt;
 }
 
 Result<std::vector<int>> reachable_nodes(const GltfContext& context) {
@@ -125,7 +135,7 @@ Result<std::vector<int>> reachable_nodes(const GltfContext& context) {
     std::vector<int> roots, all;
     for (int i = 0; i < int(model.nodes.size()); ++i)
         if ((*parents)[size_t(i)] < 0) roots.push_back(i);
-    for (const int root : roots) walk(context, root, all);
+    for (const int root : roots) walk(context, root, false, all);
     if (all.size() < model.nodes.size()) {
         std::vector<bool> seen(model.nodes.size());
         for (const int node : all) seen[size_t(node)] = true;
@@ -133,41 +143,57 @@ Result<std::vector<int>> reachable_nodes(const GltfContext& context) {
         return context.error(fmt::format("node {} is its own ancestor", in_cycle), node_where(in_cycle));
     }
 
-    const tinygltf::Scene* scene = default_scene(context);
-    if (!scene) return all;
-    std::vector<int> shown;
-    std::vector<bool> used(model.nodes.size());
-    for (const int root : scene->nodes) {
-        if (root < 0 || size_t(root) >= model.nodes.size())
-            return context.error(fmt::format("node {} does not exist; there are {}", root, model.nodes.size()), "scenes.nodes");
-        if ((*parents)[size_t(root)] >= 0 || used[size_t(root)])
-            return context.error(fmt::format("node {} is listed as a root but is a child, or listed twice", root), "scenes.nodes");
-        used[size_t(root)] = true;
-        walk(context, root, shown);
+    if (const auto scene = default_scene(context)) {
+        roots = model.scenes[*scene].nodes;
+        std::vector<bool> used(model.nodes.size());
+        size_t of_scene = 0;
+        for (const int root : roots) {
+            if (root < 0 || size_t(root) >= model.nodes.size())
+                return context.error(fmt::format("node {} does not exist; there are {}", root, model.nodes.size()), "scenes.nodes");
+            if ((*parents)[size_t(root)] >= 0 || used[size_t(root)])
+                return context.error(fmt::format("node {} is listed as a root but is a child, or listed twice", root), "scenes.nodes");
+            used[size_t(root)] = true;
+            std::vector<int> below;
+            walk(context, root, false, below);
+            of_scene += below.size();
+        }
+        if (of_scene < all.size())
+            context.note(fmt::format("ignored: {} nodes that belong to other scenes or to none", all.size() - of_scene), "nodes");
     }
-    if (shown.size() < all.size())
-        context.note(fmt::format("ignored: {} nodes that belong to other scenes or to none", all.size() - shown.size()), "nodes");
+    std::vector<int> shown;
+    for (const int root : roots) walk(context, root, true, shown);
     return shown;
 }
 
-Result<void> import_nodes(const GltfContext& context, const std::vector<int>& nodes, const NodeTargets& targets, Scene& scene) {
-    std::vector<Id<Node>> parent_of(context.model().nodes.size());
-    std::vector<Affined> world_from_parent(context.model().nodes.size());
+Result<std::vector<Id<Node>>> import_nodes(const GltfContext& context, const std::vector<int>& nodes, const NodeTargets& targets,
+                                           Scene& scene) {
+    const size_t count = context.model().nodes.size();
+    std::vector<std::optional<Node>> read;
+    std::vector<uint32_t> wanted;
     for (const int index : nodes) {
         Result<Node> node = read_node(context, index, targets);
         if (!node) return node.error();
-        node->parent = parent_of[size_t(index)];
-        const Affined world_from_node = world_from_parent[size_t(index)] * to_affine(node->local);
+        read.push_back(*std::move(node));
+        wanted.push_back(wanted_id(gltf_item(context.json(), "nodes", size_t(index))));
+    }
+    // Their ids are known before any is added, since a child may have a lower one than its parent.
+    const std::vector<uint32_t> ids = number_records(wanted);
+    std::vector<Id<Node>> parent_of(count);
+    std::vector<Affined> world_from_parent(count);
+    for (size_t i = 0; i < nodes.size(); ++i) {
+        const auto index = size_t(nodes[i]);
+        Node& node = *read[i];
+        node.parent = parent_of[index];
+        const Affined world_from_node = world_from_parent[index] * to_affine(node.local);
         if (!is_finite(world_from_node))
-            return context.error(fmt::format("node '{}': its transform and its ancestors' multiply to infinity", node->name),
-                                 node_where(index));
-        const Id<Node> id = scene.nodes.add(*std::move(node));
-        for (const int child : context.model().nodes[size_t(index)].children) {
-            parent_of[size_t(child)] = id;
+            return context.error(fmt::format("node '{}': its transform and its ancestors' multiply to infinity", node.name),
+                                 node_where(nodes[i]));
+        for (const int child : context.model().nodes[index].children) {
+            parent_of[size_t(child)] = Id<Node>{ids[i]};
             world_from_parent[size_t(child)] = world_from_node;
         }
     }
-    return {};
+    return add_numbered(scene.nodes, std::move(read), wanted);
 }
 
 } // namespace blush

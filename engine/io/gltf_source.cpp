@@ -4,6 +4,8 @@
 #include "io/gltf_json.h"
 #include "io/gltf_uri.h"
 
+#include <nlohmann/json.hpp>
+
 #include <exception>
 #include <limits>
 
@@ -53,6 +55,40 @@ bool keep_encoded(tinygltf::Image* image, int, std::string*, std::string*, int, 
 
 std::string first_line(const std::string& text) { return text.substr(0, std::min<size_t>(text.find('\n'), 200)); }
 
+bool nothing_exists(const std::string&, void*) { return false; }
+bool read_nothing(std::vector<unsigned char>*, std::string*, const std::string&, void*) { return false; }
+
+// The same document in which primitives have materials but no vertices, and images a name but no bytes.
+nlohmann::json without_payloads(nlohmann::json root) {
+    for (const char* list : {"buffers", "bufferViews", "accessors", "animations", "skins"}) root.erase(list);
+    if (const auto meshes = root.find("meshes"); meshes != root.end())
+        for (nlohmann::json& mesh : *meshes)
+            for (nlohmann::json& primitive : mesh["primitives"]) {
+                primitive["attributes"] = nlohmann::json::object();
+                for (const char* payload : {"indices", "targets", "extensions"}) primitive.erase(payload);
+            }
+    if (const auto images = root.find("images"); images != root.end())
+        for (nlohmann::json& image : *images) {
+            const std::string uri = image.value("uri", "data:");
+            image = {{"name", image.value("name", "")}, {"uri", is_data_uri(uri) ? "embedded" : uri}};
+        }
+    return root;
+}
+
+// Runs tinygltf by `load(parser, &error, &warning)`, and keeps what it has to say.
+template <class Load> Result<void> parse(GltfSource& source, const Load& load) {
+    tinygltf::TinyGLTF parser;
+    parser.SetImageLoader(keep_encoded, nullptr);
+    std::string error, warning;
+    bool parsed = false;
+    try {
+        parsed = load(parser, &error, &warning);
+    } catch (const std::exception& e) { error = e.what(); }
+    if (!parsed) return Error{source.file.string(), "not a valid glTF file: " + first_line(error), ""};
+    source.parser_notes = error + warning;
+    return {};
+}
+
 } // namespace
 
 void GltfContext::add(Diagnostic::Severity severity, std::string what, std::string where) const {
@@ -66,23 +102,33 @@ Result<GltfSource> load_gltf(const std::filesystem::path& file) {
     const auto failed = [&](const Error& error) { return Error{file.string(), error.what, error.where}; };
     const Result<std::vector<uint8_t>> bytes = read_file(file, max_file_bytes);
     if (!bytes) return bytes.error();
-    GltfSource source{file, file.parent_path(), {}, {}};
+    GltfSource source{file, file.parent_path(), {}, {}, {}, {}};
     const Result<std::string_view> text = gltf_json_text(*bytes);
     if (!text) return failed(text.error());
-    if (const auto ok = check_gltf_json(*text, source.folder); !ok) return failed(ok.error());
-
-    tinygltf::TinyGLTF parser;
-    parser.SetFsCallbacks({file_exists, same_name, read_whole_file, refuse_to_write, &source.folder});
-    parser.SetImageLoader(keep_encoded, nullptr);
-    std::string error, warning;
-    bool parsed = false;
+    Result<nlohmann::json> json = check_gltf_json(*text, source.folder);
+    if (!json) return failed(json.error());
+    source.json = std::make_shared<const nlohmann::json>(*std::move(json));
+    source.text = std::make_shared<const std::string>(*text);
     const bool binary = text->data() != reinterpret_cast<const char*>(bytes->data());
-    try {
-        parsed = binary ? parser.LoadBinaryFromMemory(&source.model, &error, &warning, bytes->data(), uint32_t(bytes->size()))
-                        : parser.LoadASCIIFromString(&source.model, &error, &warning, text->data(), uint32_t(text->size()), "");
-    } catch (const std::exception& e) { error = e.what(); }
-    if (!parsed) return Error{file.string(), "not a valid glTF file: " + first_line(error), ""};
-    source.parser_notes = error + warning;
+    const auto parsed = parse(source, [&](tinygltf::TinyGLTF& parser, std::string* error, std::string* warning) {
+        parser.SetFsCallbacks({file_exists, same_name, read_whole_file, refuse_to_write, &source.folder});
+        return binary ? parser.LoadBinaryFromMemory(&source.model, error, warning, bytes->data(), uint32_t(bytes->size()))
+                      : parser.LoadASCIIFromString(&source.model, error, warning, text->data(), uint32_t(text->size()), "");
+    });
+    if (!parsed) return parsed.error();
+    return source;
+}
+
+Result<GltfSource> load_gltf_records(const std::string& text) {
+    GltfSource source;
+    nlohmann::json json = nlohmann::json::parse(text, nullptr, /*allow_exceptions=*/false);
+    const std::string records = without_payloads(json).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    source.json = std::make_shared<const nlohmann::json>(std::move(json));
+    const auto parsed = parse(source, [&](tinygltf::TinyGLTF& parser, std::string* error, std::string* warning) {
+        parser.SetFsCallbacks({nothing_exists, same_name, read_nothing, refuse_to_write, nullptr});
+        return parser.LoadASCIIFromString(&source.model, error, warning, records.data(), uint32_t(records.size()), "");
+    });
+    if (!parsed) return parsed.error();
     return source;
 }
 

@@ -4,28 +4,38 @@
 #include "core/result.h"
 #include "io/gltf_import.h"
 
+#include <nlohmann/json_fwd.hpp>
 #include <tiny_gltf.h>
 
 #include <filesystem>
+#include <memory>
 #include <string>
 
 namespace blush {
 
 struct GltfSource {
     std::filesystem::path file, folder;
-    tinygltf::Model model;    // images hold their encoded bytes, or none if they live in a buffer view or are missing
-    std::string parser_notes; // what tinygltf complained about without giving up
+    tinygltf::Model model;                      // images hold their encoded bytes, or none if they live in a buffer view or are missing
+    std::string parser_notes;                   // what tinygltf complained about without giving up
+    std::shared_ptr<const std::string> text;    // the JSON
+    std::shared_ptr<const nlohmann::json> json; // parsed: extras and extensions are read from here
 };
 
 // Reads and checks the file and the buffers and images beside it. Nothing else is opened, whatever the file says.
 Result<GltfSource> load_gltf(const std::filesystem::path& file);
 
+// Of a document that is being saved: all but its triangles and pixels. Nothing is opened.
+Result<GltfSource> load_gltf_records(const std::string& text);
+
 struct GltfContext {
     const GltfSource& source;
     const ImportOptions& options;
     ImportReport& report;
+    // If set, neither triangles nor pixels are read: which primitives and textures are shown is taken from here.
+    const GltfIndices* known = nullptr;
 
     const tinygltf::Model& model() const { return source.model; }
+    const nlohmann::json& json() const { return *source.json; }
     Error error(std::string what, std::string where) const { return {source.file.string(), std::move(what), std::move(where)}; }
     // Findings beyond a few hundred are dropped: one broken exporter repeats itself for every triangle.
     void warn(std::string what, std::string where) const { add(Diagnostic::Severity::warning, std::move(what), std::move(where)); }

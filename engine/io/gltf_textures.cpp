@@ -1,6 +1,8 @@
 #include "io/gltf_textures.h"
 
 #include "io/gltf_accessors.h"
+#include "io/gltf_extras.h"
+#include "io/gltf_numbering.h"
 #include "io/gltf_uri.h"
 #include "io/image_channels.h"
 #include "io/image_io.h"
@@ -71,32 +73,45 @@ Result<void> apply_sampler(const GltfContext& context, int index, Texture& textu
     return {};
 }
 
+// All but its image; none if there is nothing that can be shown.
+Result<std::optional<Texture>> read_texture(const GltfContext& context, size_t index) {
+    const tinygltf::Texture& source = context.model().textures[index];
+    const std::vector<tinygltf::Image>& images = context.model().images;
+    const std::string where = fmt::format("textures[{}]", index);
+    if (source.source < 0) {
+        context.warn("a texture without an image in PNG or JPEG is not shown", where);
+        return std::optional<Texture>();
+    }
+    if (size_t(source.source) >= images.size())
+        return context.error(fmt::format("image {} does not exist; there are {}", source.source, images.size()), where);
+    const tinygltf::Image& image = images[size_t(source.source)];
+    if (image.bufferView < 0 && image.image.empty()) context.warn("missing image " + image_name(image, size_t(source.source)), where);
+    Texture texture;
+    texture.name = !source.name.empty() ? source.name : image_name(image, size_t(source.source));
+    texture.source = image.uri.empty() ? "embedded" : percent_decoded(image.uri);
+    if (const auto ok = apply_sampler(context, source.sampler, texture, where); !ok) return ok.error();
+    read_extras(context, gltf_item(context.json(), "textures", index), texture, where);
+    return std::optional(std::move(texture));
+}
+
 } // namespace
 
 Result<std::vector<Id<Texture>>> import_textures(const GltfContext& context, Scene& scene) {
     const tinygltf::Model& model = context.model();
-    const Result<std::vector<ImagePtr>> images = decode_images(context);
+    const Result<std::vector<ImagePtr>> images = context.known ? std::vector<ImagePtr>(model.images.size()) : decode_images(context);
     if (!images) return images.error();
-    std::vector<Id<Texture>> ids(model.textures.size());
-    for (size_t i = 0; i < ids.size(); ++i) {
-        const tinygltf::Texture& source = model.textures[i];
-        const std::string where = fmt::format("textures[{}]", i);
-        if (source.source < 0) {
-            context.warn("a texture without an image in PNG or JPEG is not shown", where);
-            continue;
-        }
-        if (size_t(source.source) >= images->size())
-            return context.error(fmt::format("image {} does not exist; there are {}", source.source, images->size()), where);
-        const tinygltf::Image& image = model.images[size_t(source.source)];
-        if (image.bufferView < 0 && image.image.empty()) context.warn("missing image " + image_name(image, size_t(source.source)), where);
-        Texture texture;
-        texture.name = !source.name.empty() ? source.name : image_name(image, size_t(source.source));
-        texture.source = image.uri.empty() ? "embedded" : percent_decoded(image.uri);
-        texture.image = (*images)[size_t(source.source)];
-        if (const auto ok = apply_sampler(context, source.sampler, texture, where); !ok) return ok.error();
-        if (texture.image) ids[i] = scene.textures.add(std::move(texture));
+    std::vector<std::optional<Texture>> textures(model.textures.size());
+    std::vector<uint32_t> wanted(textures.size());
+    const auto known = context.known ? ids_by_index(context.known->textures, textures.size()) : std::vector<Id<Texture>>(textures.size());
+    for (size_t i = 0; i < textures.size(); ++i) {
+        Result<std::optional<Texture>> texture = read_texture(context, i);
+        if (!texture) return texture.error();
+        if (*texture) (*texture)->image = (*images)[size_t(model.textures[i].source)];
+        if (!*texture || (!(*texture)->image && !known[i])) continue;
+        textures[i] = **std::move(texture);
+        wanted[i] = wanted_id(gltf_item(context.json(), "textures", i));
     }
-    return ids;
+    return add_numbered(scene.textures, std::move(textures), wanted);
 }
 
 } // namespace blush

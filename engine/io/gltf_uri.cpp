@@ -34,6 +34,19 @@ std::string percent_decoded(std::string_view uri) {
     return decoded;
 }
 
+std::string percent_encoded(std::string_view path) {
+    constexpr std::string_view digits = "0123456789ABCDEF", plain = "-._~!$&'()*+,;=@/";
+    std::string encoded;
+    for (const char c : path) {
+        const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+        if (letter || plain.find(c) != plain.npos)
+            encoded += c;
+        else
+            (encoded += '%') += {digits[uint8_t(c) >> 4], digits[uint8_t(c) & 15]};
+    }
+    return encoded;
+}
+
 bool is_data_uri(std::string_view uri) { return uri.starts_with("data:"); }
 
 Result<std::filesystem::path> resolve_uri(const std::filesystem::path& folder, const std::string& decoded_uri) {

@@ -354,4 +354,17 @@ Result<std::vector<uint8_t>> encode_png(int width, int height, std::span<const f
     });
 }
 
+Result<std::vector<uint8_t>> encode_png(const Image& image) {
+    return guarded("texture.png", [&]() -> Result<std::vector<uint8_t>> {
+        const bool bytes = !image.bytes.empty();
+        const size_t values = bytes ? image.bytes.size() : image.floats.size();
+        if (values == 0 || values != size_t(image.width) * size_t(image.height) * size_t(image.channels))
+            return Error{"", "an image without pixels or of the wrong size cannot be encoded", ""};
+        OIIO::ImageSpec spec(image.width, image.height, image.channels, bytes ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::UINT16);
+        spec.attribute("oiio:UnassociatedAlpha", 1);
+        if (bytes) return encode("texture.png", "png", spec, OIIO::TypeDesc::UINT8, image.bytes.data());
+        return encode("texture.png", "png", spec, OIIO::TypeDesc::FLOAT, image.floats.data());
+    });
+}
+
 } // namespace blush

@@ -67,5 +67,7 @@ Result<void> write_display_image(const std::filesystem::path& file, int width, i
 
 // The same as the bytes of a .png, for documents that carry their pictures with them.
 Result<std::vector<uint8_t>> encode_png(int width, int height, std::span<const float> rgb);
+// An image as it is, whatever its channels mean: bytes come back the same, floats within [0, 1] are rounded to 16 bits.
+Result<std::vector<uint8_t>> encode_png(const Image& image);
 
 } // namespace blush

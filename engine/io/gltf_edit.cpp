@@ -1,0 +1,228 @@
+#include "io/gltf_edit.h"
+
+#include "io/gltf_unused.h"
+#include "io/gltf_write.h"
+#include "io/gltf_write_extras.h"
+#include "io/gltf_write_fallbacks.h"
+#include "io/gltf_write_payloads.h"
+
+#include <algorithm>
+#include <set>
+
+namespace blush {
+namespace {
+
+// Names of the extensions in use anywhere in the document. Nesting was limited when it was imported.
+void find_extensions(const Json& value, std::set<std::string>& names) {
+    for (auto it = value.begin(); it != value.end(); ++it) {
+        if (!it->is_structured()) continue;
+        const bool member = value.is_object();
+        if (member && it.key() == "extras") continue;
+        if (member && it.key() == "extensions" && it->is_object())
+            for (const auto& [name, extension] : it->items()) names.insert(name);
+        find_extensions(*it, names);
+    }
+}
+std::set<std::string> extensions_in(const Json& root) {
+    std::set<std::string> names;
+    find_extensions(root, names);
+    return names;
+}
+
+// Declares what is new in use, and no longer what went out of use. What was declared without a use stays so.
+void declare_extensions(Json& root, const std::set<std::string>& before) {
+    const std::set<std::string> now = extensions_in(root);
+    const auto gone = [&](const Json& name) {
+        return name.is_string() && before.contains(name.get<std::string>()) && !now.contains(name.get<std::string>());
+    };
+    for (const char* key : {"extensionsUsed", "extensionsRequired"}) {
+        const auto list = root.find(key);
+        if (list == root.end() || !list->is_array()) continue;
+        Json left = Json::array();
+        for (const Json& name : *list)
+            if (!gone(name)) left.push_back(name);
+        *list = std::move(left);
+        if (list->empty()) root.erase(list);
+    }
+    for (const std::string& name : now) {
+        Json& used = root["extensionsUsed"];
+        if (std::find(used.begin(), used.end(), name) == used.end()) used.push_back(name);
+    }
+}
+
+template <class T> bool changed(const Table<T>& before, Id<T> id, const T& now) {
+    const T* old = before.find(id);
+    return !old || !(*old == now);
+}
+
+// Each light in the list of its kind, and what has changed of it.
+void write_lights(GltfDocument& document, const Scene& read, const Scene& scene, const UsedRecords& used) {
+    for (const auto& [id, light] : scene.lights) {
+        const auto place = document.indices.lights.find(id);
+        const bool known = place != document.indices.lights.end();
+        if (known ? !changed(read.lights, id, light) : !used.lights.contains(id)) continue;
+        const GltfLight::List list = list_for(light.kind);
+        if (!known || place->second.list != list)
+            document.indices.lights[id] = {list, document.append(list_name(list), Json{{"name", light.name}})};
+        Json& object = document.object(list_name(list), document.indices.lights.at(id).index);
+        clear_extras(object);
+        if (list == GltfLight::List::area)
+            write_area_light(object, light);
+        else
+            write_punctual_light(object, light);
+    }
+}
+
+void write_cameras(GltfDocument& document, const Scene& read, const Scene& scene, const UsedRecords& used) {
+    for (const auto& [id, camera] : scene.cameras) {
+        const bool known = document.indices.cameras.contains(id);
+        if (known ? !changed(read.cameras, id, camera) : !used.cameras.contains(id)) continue;
+        if (!known) document.indices.cameras[id] = document.append("cameras", Json{{"name", camera.name}});
+        Json& object = document.object("cameras", document.indices.cameras.at(id));
+        clear_extras(object);
+        write_camera(object, camera);
+    }
+}
+
+void write_surfaces(GltfDocument& document, const Scene& read, const Scene& scene) {
+    for (const auto& [id, index] : document.indices.textures) {
+        Texture texture = *scene.textures.find(id);
+        texture.image = nullptr;
+        if (!changed(read.textures, id, texture)) continue;
+        Json& object = document.object("textures", index);
+        clear_extras(object);
+        write_sampler(document, object, texture);
+    }
+    for (const auto& [id, index] : document.indices.materials) {
+        const Material& material = *scene.materials.find(id);
+        if (!changed(read.materials, id, material)) continue;
+        Json& object = document.object("materials", index);
+        clear_extras(object);
+        write_material(document, object, material);
+    }
+}
+
+void write_nodes(GltfDocument& document, const Scene& read, const Scene& scene) {
+    for (const auto& [id, index] : document.indices.nodes) {
+        const Node& node = *scene.nodes.find(id);
+        if (!changed(read.nodes, id, node)) continue;
+        Json& object = document.object("nodes", index);
+        clear_extras(object);
+        write_node(object, node);
+    }
+}
+
+template <class T, class Index> Table<T> kept(Table<T> table, const std::map<Id<T>, Index>& indices) {
+    const Table<T> all = table;
+    for (const auto& [id, record] : all)
+        if (!indices.contains(id)) table.remove(id);
+    return table;
+}
+
+// What an import of the document gives, with the triangles and pixels of `scene`.
+Scene as_saved(Scene scene, const GltfIndices& indices, const Scene& read) {
+    scene.meshes = kept(scene.meshes, indices.meshes);
+    scene.materials = kept(scene.materials, indices.materials);
+    scene.textures = kept(scene.textures, indices.textures);
+    scene.lights = kept(scene.lights, indices.lights);
+    scene.cameras = kept(scene.cameras, indices.cameras);
+    for (const auto& [id, texture] : read.textures)
+        if (const Texture* now = scene.textures.find(id)) {
+            Texture named = *now;
+            named.source = texture.source;
+            scene.textures.set(id, std::move(named));
+        }
+    // What names nothing that is there names nothing.
+    const Table<Node> nodes = scene.nodes;
+    for (auto [id, node] : nodes) {
+        if (!scene.meshes.contains(node.mesh)) node.mesh = {};
+        if (!scene.lights.contains(node.light)) node.light = {};
+        if (!scene.cameras.contains(node.camera)) node.camera = {};
+        scene.nodes.set(id, std::move(node));
+    }
+    const auto is_gone = [&](Id<Node> id) { return !scene.nodes.contains(id); };
+    const Table<Light> lights = scene.lights;
+    for (auto [id, light] : lights) {
+        std::erase_if(light.lit_objects.nodes, is_gone);
+        std::erase_if(light.shadow_casters.nodes, is_gone);
+        scene.lights.set(id, std::move(light));
+    }
+    return scene;
+}
+
+// Records whose import differs from what was meant: none, unless an extension says something that the writers do not know of.
+template <class T> void report_differences(const char* what, const Table<T>& read, const Table<T>& wanted, std::vector<Diagnostic>& found) {
+    for (const Id<T> id : Table<T>::changed(read, wanted)) {
+        const T* record = wanted.find(id);
+        found.push_back({Diagnostic::Severity::warning,
+                         fmt::format("{} \"{}\" will not be read as it is", what, record ? record->name : std::to_string(id.value)), ""});
+    }
+}
+
+void report_differences(const Scene& read, Scene wanted, std::vector<Diagnostic>& found) {
+    // Read without triangles, pixels and measured distributions.
+    for (const auto& [id, texture] : Table<Texture>(wanted.textures)) {
+        Texture flat = texture;
+        flat.image = nullptr;
+        wanted.textures.set(id, std::move(flat));
+    }
+    for (const auto& [id, light] : Table<Light>(wanted.lights)) {
+        Light flat = light;
+        flat.ies = nullptr;
+        wanted.lights.set(id, std::move(flat));
+    }
+    for (const auto& [id, mesh] : Table<Mesh>(wanted.meshes)) {
+        Mesh flat = mesh;
+        for (MeshPart& part : flat.parts) part.geometry = nullptr;
+        wanted.meshes.set(id, std::move(flat));
+    }
+    report_differences("node", read.nodes, wanted.nodes, found);
+    report_differences("mesh", read.meshes, wanted.meshes, found);
+    report_differences("material", read.materials, wanted.materials, found);
+    report_differences("texture", read.textures, wanted.textures, found);
+    report_differences("light", read.lights, wanted.lights, found);
+    report_differences("camera", read.cameras, wanted.cameras, found);
+}
+
+} // namespace
+
+Result<EditedGltf> edited_gltf(const GltfOrigin& origin, const Project& project) {
+    const Scene& scene = project.scene;
+    EditedGltf edited;
+    GltfDocument& document = edited.document;
+    document.root = Json::parse(*origin.json);
+    document.indices = origin.indices;
+    const GltfObjects used_before = used_objects(document);
+    const auto counts_before = count_objects(document);
+    const std::set<std::string> extensions_before = extensions_in(document.root);
+    const Result<ImportedScene> before = read_back(document);
+    if (!before) return before.error();
+
+    const UsedRecords used = used_records(scene);
+    if (const auto ok = write_payloads(document, origin, scene, used); !ok) return ok.error();
+    write_lights(document, before->scene, scene, used);
+    write_cameras(document, before->scene, scene, used);
+    write_surfaces(document, before->scene, scene);
+    write_tree(document, scene);
+    write_nodes(document, before->scene, scene);
+    write_fallbacks(document, scene);
+    if (const int unused = remove_unused(document, used_before, counts_before))
+        edited.diagnostics.push_back(
+            {Diagnostic::Severity::note,
+             fmt::format("{} objects without a use stay in the file: it has extensions that may refer to them", unused), ""});
+    // Meshes that no node uses are not imported, even where they had to stay.
+    std::erase_if(document.indices.meshes, [&](const auto& entry) { return !used.meshes.contains(entry.first); });
+    write_ids(document);
+    const Result<ImportedScene> plain = read_back(document);
+    if (!plain) return plain.error();
+    edited.scene = as_saved(scene, document.indices, plain->scene);
+    write_extra_fields(document, plain->scene, edited.scene);
+    write_scene_extras(document, *plain, project);
+    declare_extensions(document.root, extensions_before);
+    const Result<ImportedScene> after = read_back(document);
+    if (!after) return after.error();
+    report_differences(after->scene, edited.scene, edited.diagnostics);
+    return edited;
+}
+
+} // namespace blush

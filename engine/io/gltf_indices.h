@@ -1,0 +1,50 @@
+// Which object of a glTF document each record of a scene was read from: what saving needs to write it back there.
+#pragma once
+
+#include "scene/scene.h"
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace blush {
+
+// Lights are in the list of one of two extensions: KHR_lights_punctual or EXT_lights_area.
+struct GltfLight {
+    enum class List : uint8_t { punctual, area };
+    List list = List::punctual;
+    int index = 0;
+    bool operator==(const GltfLight&) const = default;
+};
+
+struct GltfIndices {
+    std::map<Id<Node>, int> nodes;
+    std::map<Id<Mesh>, int> meshes;
+    std::map<Id<Material>, int> materials;
+    std::map<Id<Texture>, int> textures;
+    std::map<Id<Camera>, int> cameras;
+    std::map<Id<Light>, GltfLight> lights;
+    std::map<Id<Mesh>, std::vector<int>> primitives; // of each part of a mesh: primitives without triangles are no parts
+};
+
+// The other way round, none where a record is not in the scene. `count` objects.
+template <class T> std::vector<Id<T>> ids_by_index(const std::map<Id<T>, int>& indices, size_t count) {
+    std::vector<Id<T>> ids(count);
+    for (const auto& [id, index] : indices)
+        if (size_t(index) < count) ids[size_t(index)] = id;
+    return ids;
+}
+
+// The document that a scene came from. Copies are cheap.
+struct GltfOrigin {
+    std::filesystem::path file;
+    std::shared_ptr<const std::string> json; // its text, as it was read
+    GltfIndices indices;
+    // Triangles and pixels that the document has already.
+    Table<Mesh> meshes;
+    Table<Texture> textures;
+};
+
+} // namespace blush

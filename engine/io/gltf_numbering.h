@@ -1,0 +1,41 @@
+// Internal to gltf_*.cpp: ids of records read from a file. They stay the same from one save to the next load, because an object
+// whose record is not simply "the next one" names it in extras.blush.id.
+#pragma once
+
+#include "scene/scene.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace blush {
+
+// Ids above are not taken from files: counting on from them must not overflow, and EXR ids end at 2^24.
+constexpr uint32_t max_id_in_file = 1u << 22;
+
+// Ids for records in the order of the file: the wanted one (0: none wanted) where no record before wants the same, else one more
+// than that of the record before, or, where that is taken, one more than all.
+std::vector<uint32_t> number_records(const std::vector<uint32_t>& wanted);
+
+// Adds the records that are there; result[i] is the id of records[i], or none.
+template <class T>
+std::vector<Id<T>> add_numbered(Table<T>& table, std::vector<std::optional<T>> records, const std::vector<uint32_t>& wanted) {
+    std::vector<uint32_t> wanted_by_present;
+    for (size_t i = 0; i < records.size(); ++i)
+        if (records[i]) wanted_by_present.push_back(wanted[i]);
+    const std::vector<uint32_t> numbers = number_records(wanted_by_present);
+    std::vector<Id<T>> ids(records.size());
+    std::vector<std::pair<uint32_t, size_t>> in_id_order;
+    for (size_t i = 0, present = 0; i < records.size(); ++i) {
+        if (!records[i]) continue;
+        ids[i] = Id<T>{numbers[present++]};
+        in_id_order.emplace_back(ids[i].value, i);
+    }
+    std::sort(in_id_order.begin(), in_id_order.end());
+    for (const auto& [id, i] : in_id_order) table.insert(Id<T>{id}, *std::move(records[i]));
+    return ids;
+}
+
+} // namespace blush

@@ -1,0 +1,176 @@
+#include "io/gltf_write_payloads.h"
+
+#include "io/image_io.h"
+#include "scene/texture_slots.h"
+
+#include <algorithm>
+
+namespace blush {
+namespace {
+
+constexpr int array_buffer = 34962, element_array_buffer = 34963;
+constexpr int float_component = 5126, uint_component = 5125;
+
+std::span<const uint8_t> bytes_of(const void* data, size_t size) { return {static_cast<const uint8_t*>(data), size}; }
+
+template <class V> int append_vectors(GltfDocument& document, const std::vector<V>& vectors, bool with_bounds = false) {
+    static_assert(sizeof(V) % sizeof(float) == 0);
+    constexpr int components = int(sizeof(V) / sizeof(float));
+    return append_floats(document, reinterpret_cast<const float*>(vectors.data()), vectors.size(), components, with_bounds);
+}
+
+Json primitive_of(GltfDocument& document, const Geometry& g) {
+    Json attributes{{"POSITION", append_vectors(document, g.positions, true)}};
+    const auto add = [&](const char* name, const auto& vectors) {
+        if (!vectors.empty()) attributes[name] = append_vectors(document, vectors);
+    };
+    add("NORMAL", g.normals);
+    add("TANGENT", g.tangents);
+    add("TEXCOORD_0", g.uv0);
+    add("TEXCOORD_1", g.uv1);
+    add("COLOR_0", g.colors);
+    return {{"attributes", std::move(attributes)}, {"indices", append_indices(document, g.indices)}};
+}
+
+// Parts that share triangles share accessors, as after the import of a file that is in the scene already.
+using Primitives = std::map<uint64_t, Json>; // by the geometry's serial
+
+void append_mesh(GltfDocument& document, Id<Mesh> id, const Mesh& mesh, Primitives& primitives) {
+    Json object{{"primitives", Json::array()}};
+    std::vector<int>& parts = document.indices.primitives[id];
+    parts.clear();
+    for (const MeshPart& part : mesh.parts) {
+        const auto [primitive, is_new] = primitives.try_emplace(part.geometry->serial);
+        if (is_new) primitive->second = primitive_of(document, *part.geometry);
+        parts.push_back(int(object["primitives"].size()));
+        object["primitives"].push_back(primitive->second);
+    }
+    document.indices.meshes[id] = document.append("meshes", std::move(object));
+}
+
+bool has_triangles(const GltfDocument& document, const GltfOrigin& has, Id<Mesh> id, const Mesh& mesh) {
+    const Mesh* old = has.meshes.find(id);
+    return document.indices.meshes.contains(id) && old &&
+           std::ranges::equal(old->parts, mesh.parts, {}, &MeshPart::geometry, &MeshPart::geometry);
+}
+
+Result<int> append_image(GltfDocument& document, const Image& image) {
+    const Result<std::vector<uint8_t>> png = encode_png(image);
+    if (!png) return png.error();
+    return document.append("images", {{"bufferView", document.append_view(*png, 0)}, {"mimeType", "image/png"}});
+}
+
+Result<void> write_textures(GltfDocument& document, const GltfOrigin& has, const Scene& scene, const UsedRecords& used) {
+    std::map<uint64_t, int> images; // by the image's serial
+    for (const Id<Texture> id : used.textures) {
+        const Texture& texture = *scene.textures.find(id);
+        const Texture* old = has.textures.find(id);
+        const bool known = document.indices.textures.contains(id);
+        if (!texture.image || (known && old && old->image == texture.image)) continue;
+        const auto [image, is_new] = images.try_emplace(texture.image->serial);
+        if (is_new) {
+            const Result<int> appended = append_image(document, *texture.image);
+            if (!appended) return appended.error();
+            image->second = *appended;
+        }
+        if (!known) document.indices.textures[id] = document.append("textures", Json::object());
+        Json& object = document.object("textures", document.indices.textures.at(id));
+        set_index(object, "source", image->second);
+        erase(object, "extensions"); // other encodings of the old pixels
+    }
+    return {};
+}
+
+// How many UV sets the textures of a material are laid out by.
+int uv_sets_of(const Scene& scene, Id<Material> id) {
+    const Material* material = scene.materials.find(id);
+    int sets = 0;
+    for (const TextureSlot& slot : texture_slots)
+        if (material && (material->*slot.ref).texture) sets = std::max(sets, (material->*slot.ref).uv_set + 1);
+    return sets;
+}
+
+// A texture on a surface without texture coordinates is all of one colour, but not glTF: the document gets coordinates of
+// zero, marked as a fallback so that they are none of ours.
+void provide_uv_sets(GltfDocument& document, Json& primitive, int sets) {
+    for (int set = 0; set < 2; ++set) {
+        const std::string name = fmt::format("TEXCOORD_{}", set);
+        Json& attributes = primitive["attributes"];
+        int there = -1;
+        const bool fallback =
+            read_json(child_or_null(attributes, name), there) &&
+            child_or_null(child_or_null(child_or_null(document.object("accessors", there), "extras"), "blush"), "fallback") == true;
+        if (fallback && set >= sets) erase(attributes, name);
+        if (there >= 0 || set >= sets) continue;
+        const Json count = child_or_null(document.object("accessors", attributes.at("POSITION").get<int>()), "count");
+        attributes[name] = document.append(
+            "accessors",
+            {{"componentType", float_component}, {"count", count}, {"type", "VEC2"}, {"extras", {{"blush", {{"fallback", true}}}}}});
+    }
+}
+
+} // namespace
+
+UsedRecords used_records(const Scene& scene) {
+    UsedRecords used;
+    for (const auto& [id, node] : scene.nodes) {
+        if (scene.meshes.contains(node.mesh)) used.meshes.insert(node.mesh);
+        if (scene.lights.contains(node.light)) used.lights.insert(node.light);
+        if (scene.cameras.contains(node.camera)) used.cameras.insert(node.camera);
+    }
+    for (const Id<Mesh> id : used.meshes)
+        for (const MeshPart& part : scene.meshes.find(id)->parts)
+            if (scene.materials.contains(part.material)) used.materials.insert(part.material);
+    for (const Id<Material> id : used.materials)
+        for (const TextureSlot& slot : texture_slots)
+            if (const Id<Texture> texture = (scene.materials.find(id)->*slot.ref).texture; scene.textures.contains(texture))
+                used.textures.insert(texture);
+    return used;
+}
+
+Result<void> write_payloads(GltfDocument& document, const GltfOrigin& has, const Scene& scene, const UsedRecords& used) {
+    if (const auto ok = write_textures(document, has, scene, used); !ok) return ok;
+    for (const Id<Material> id : used.materials)
+        if (!document.indices.materials.contains(id)) document.indices.materials[id] = document.append("materials", Json::object());
+    Primitives primitives;
+    for (const Id<Mesh> id : used.meshes) {
+        const Mesh& mesh = *scene.meshes.find(id);
+        if (mesh.parts.empty() && !document.indices.meshes.contains(id)) continue; // glTF has no meshes without primitives
+        if (!has_triangles(document, has, id, mesh)) append_mesh(document, id, mesh, primitives);
+        Json& object = document.object("meshes", document.indices.meshes.at(id));
+        for (size_t part = 0; part < mesh.parts.size(); ++part) {
+            const auto material = document.indices.materials.find(mesh.parts[part].material);
+            Json& primitive = object["primitives"][size_t(document.indices.primitives.at(id)[part])];
+            set_index(primitive, "material", material == document.indices.materials.end() ? -1 : material->second);
+            provide_uv_sets(document, primitive, uv_sets_of(scene, mesh.parts[part].material));
+        }
+    }
+    return {};
+}
+
+int append_floats(GltfDocument& document, const float* values, size_t count, int components, bool with_bounds) {
+    constexpr const char* types[] = {"", "SCALAR", "VEC2", "VEC3", "VEC4"};
+    const size_t size = size_t(components);
+    Json accessor{{"bufferView", document.append_view(bytes_of(values, count * size * sizeof(float)), array_buffer)},
+                  {"componentType", float_component},
+                  {"count", count},
+                  {"type", types[components]}};
+    for (size_t c = 0; c < size && with_bounds && count > 0; ++c) {
+        float low = values[c], high = values[c];
+        for (size_t i = 1; i < count; ++i) {
+            low = std::min(low, values[i * size + c]);
+            high = std::max(high, values[i * size + c]);
+        }
+        accessor["min"].push_back(low);
+        accessor["max"].push_back(high);
+    }
+    return document.append("accessors", std::move(accessor));
+}
+
+int append_indices(GltfDocument& document, const std::vector<uint32_t>& indices) {
+    const int view = document.append_view(bytes_of(indices.data(), indices.size() * sizeof(uint32_t)), element_array_buffer);
+    return document.append("accessors",
+                           {{"bufferView", view}, {"componentType", uint_component}, {"count", indices.size()}, {"type", "SCALAR"}});
+}
+
+} // namespace blush

@@ -1,0 +1,58 @@
+// What the Khronos validator says of saved files: nothing that it did not say of the original.
+#include "core/text.h"
+#include "io/gltf_save.h"
+#include "io_gltf_saving.h"
+#include "support/process.h"
+#include "support/random_edits.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+namespace blush::test {
+namespace {
+
+std::string node_program() {
+    const char* path = std::getenv("PATH");
+    for (const std::string_view folder : split(path ? path : "", ':')) {
+        std::string program = std::string(folder) + "/node";
+        if (std::filesystem::exists(program)) return program;
+    }
+    return {};
+}
+
+TEST(GltfValidator, SavingAddsNoMessages) {
+    if (!std::filesystem::exists(BLUSH_VALIDATOR "/index.js")) GTEST_SKIP() << "no glTF validator: packaging/setup fetches it";
+    const std::string node = node_program();
+    if (node.empty()) GTEST_SKIP() << "no node to run the glTF validator with";
+    const TempFolder folder;
+    std::vector<std::string> command{node, BLUSH_VALIDATE_SCRIPT, BLUSH_VALIDATOR};
+    Rng rng(3);
+    int number = 0;
+    // With an extension that nobody knows, what loses its use would stay.
+    OrderedJson rich = OrderedJson::parse(text_of(rich_gltf(folder)));
+    rich["extensionsUsed"] = {"KHR_lights_punctual"};
+    rich["extensions"].erase("ACME_tag");
+    rich["extensions"]["KHR_lights_punctual"]["lights"][0].erase("extensions");
+    rich["nodes"][0]["extensions"].erase("ACME_tag");
+    write_bytes(folder / "rich/known.gltf", rich.dump());
+    std::vector<std::filesystem::path> scenes{folder / "rich/known.gltf"};
+    for (const char* name : shipped_scenes) scenes.push_back(shipped(name));
+    for (const auto& scene : scenes) {
+        const ImportedScene original = load(scene);
+        for (int sequence = 0; sequence < 12; ++sequence) {
+            Project project{original.scene, {}, {}};
+            for (int step = 0; step < 3 * sequence; ++step) project = *blush::apply(project, random_edit(rng, project));
+            const auto file = folder / fmt::format("{}-{}.{}", scene.stem().string(), number++, sequence % 2 ? "glb" : "gltf");
+            const auto saved = save_gltf(original.origin, project, file);
+            ASSERT_TRUE(saved) << error_text(saved);
+            command.push_back(scene);
+            command.push_back(file);
+        }
+    }
+    const Finished validated = run(command);
+    EXPECT_EQ(validated.exit_code, 0) << validated.out << validated.err;
+}
+
+} // namespace
+} // namespace blush::test
