@@ -2,6 +2,7 @@
 
 #include "core/math.h"
 #include "scene/color_temperature.h"
+#include "scene/shining.h"
 
 #include <cmath>
 #include <numbers>
@@ -72,7 +73,8 @@ Vec3 light_emission(const Light& light) {
     return tint * light.intensity;
 }
 
-Scene lower_area_lights(const Scene& scene) {
+Scene lower_area_lights(const Scene& whole) {
+    const Scene scene = with_solo_applied(whole);
     Scene lowered = scene;
     for (const auto& [id, node] : scene.nodes) {
         const Light* light = node.light ? scene.lights.find(node.light) : nullptr;

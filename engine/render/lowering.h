@@ -8,9 +8,9 @@ namespace blush {
 // Ids at or above this one are made by lowering; without the bit they are those of the light's node.
 constexpr uint32_t lowered_bit = 0x80000000u;
 
-// The same scene with every enabled rectangle and disk replaced by an emissive mesh below its node. A disk becomes a polygon of 96 corners
-// and the same area: sampling either by area is the same, its light differs from the circle's by less than a millionth of the flux, and
-// kernels need not know of it.
+// The same scene with solo applied (scene/shining.h) and every rectangle and disk that shines replaced by an emissive mesh below its node. A
+// disk becomes a polygon of 96 corners and the same area: sampling either by area is the same, its light differs from the circle's by less
+// than a millionth of the flux, and kernels need not know of it.
 Scene lower_area_lights(const Scene& scene);
 // The light is one that lowering turns into a mesh.
 bool is_area_light(const Light& light);

@@ -58,6 +58,7 @@ Light light(Rng& rng) {
     l.green_tint = uniform(rng, -0.05f, 0.05f);
     if (whole(rng, 0, 3) == 0) l.ies = lamp_profile(coin(rng));
     l.enabled = whole(rng, 0, 4) > 0;
+    l.solo = whole(rng, 0, 7) == 0;
     return l;
 }
 

@@ -5,6 +5,7 @@ blush_test(test_scene
     scene_document.cpp
     scene_edit.cpp
     scene_render_settings.cpp
+    scene_shining.cpp
     scene_table.cpp
     scene_transform.cpp
     scene_validate.cpp

@@ -1,0 +1,74 @@
+// Mute and solo.
+#include "scene/shining.h"
+
+#include <gtest/gtest.h>
+
+namespace blush {
+namespace {
+
+struct TwoLamps {
+    Scene scene;
+    Id<Light> key = add("Key"), fill = add("Fill");
+
+    Id<Light> add(const char* name) {
+        Light light;
+        light.name = name;
+        const Id<Light> id = scene.lights.add(light);
+        Node node;
+        node.light = id;
+        scene.nodes.add(node);
+        return id;
+    }
+    void set(Id<Light> id, bool enabled, bool solo) {
+        Light light = *scene.lights.find(id);
+        light.enabled = enabled;
+        light.solo = solo;
+        scene.lights.set(id, light);
+    }
+    bool shine(Id<Light> id) const { return shines(*scene.lights.find(id), any_solo(scene)); }
+};
+
+TEST(Shining, SoloSilencesTheOthersAndMuteWins) {
+    for (const bool key_on : {false, true})
+        for (const bool key_solo : {false, true})
+            for (const bool fill_on : {false, true})
+                for (const bool fill_solo : {false, true}) {
+                    TwoLamps s;
+                    s.set(s.key, key_on, key_solo);
+                    s.set(s.fill, fill_on, fill_solo);
+                    EXPECT_EQ(s.shine(s.key), key_on && (key_solo || !fill_solo)) << key_on << key_solo << fill_on << fill_solo;
+                }
+}
+
+TEST(Shining, ASoloLightThatWasDeletedSilencesNobody) {
+    TwoLamps s;
+    s.set(s.key, true, true);
+    s.scene.nodes.remove(s.scene.nodes.begin()->id);
+    ASSERT_TRUE(s.scene.lights.contains(s.key)) << "the record stays";
+    EXPECT_TRUE(s.shine(s.fill));
+}
+
+TEST(Shining, WithoutSoloTheSceneIsTheSame) {
+    TwoLamps s;
+    s.set(s.key, false, false);
+    EXPECT_TRUE(with_solo_applied(s.scene) == s.scene);
+}
+
+TEST(Shining, SoloAppliedIsSaidByEnabledAlone) {
+    TwoLamps s;
+    s.set(s.key, true, true);
+    Material glow;
+    glow.emissive = {1, 2, 3};
+    const Id<Material> glowing = s.scene.materials.add(glow);
+    s.scene.environment.kind = Environment::Kind::constant;
+    const Scene applied = with_solo_applied(s.scene);
+    EXPECT_FALSE(any_solo(applied));
+    EXPECT_TRUE(applied.lights.find(s.key)->enabled);
+    EXPECT_FALSE(applied.lights.find(s.fill)->enabled);
+    EXPECT_EQ(applied.materials.find(glowing)->emissive_strength, 0);
+    EXPECT_EQ(applied.environment.intensity, 0);
+    EXPECT_TRUE(with_solo_applied(applied) == applied);
+}
+
+} // namespace
+} // namespace blush
