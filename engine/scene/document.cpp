@@ -25,16 +25,31 @@ void Document::reset(Project project) {
 Result<void> Document::apply(const Edit& edit, Gesture gesture) {
     Result<Project> next = blush::apply(project_, edit);
     if (!next) return next.error();
-    if (*next == project_) return {};
+    step_to(*std::move(next), blush::label(edit, project_), gesture);
+    return {};
+}
+
+Result<void> Document::apply(std::span<const Edit> edits, const std::string& label, Gesture gesture) {
+    Project next = project_;
+    for (const Edit& edit : edits) {
+        Result<Project> applied = blush::apply(next, edit);
+        if (!applied) return applied.error();
+        next = *std::move(applied);
+    }
+    step_to(std::move(next), label, gesture);
+    return {};
+}
+
+void Document::step_to(Project next, std::string label, Gesture gesture) {
+    if (next == project_) return;
     const bool continues = gesture != no_gesture && future_.empty() && !past_.empty() && past_.back().gesture == gesture;
     if (!continues) {
-        past_.push_back({project_, label(edit, project_), gesture, bytes_held(project_, *next)});
+        past_.push_back({project_, std::move(label), gesture, bytes_held(project_, next)});
         future_.clear();
         forget_oldest();
     }
-    project_ = *std::move(next);
+    project_ = std::move(next);
     ++revision_;
-    return {};
 }
 
 void Document::forget_oldest() {

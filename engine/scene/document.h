@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,8 @@ public:
     void reset(Project project);
     // An edit that changes nothing leaves no step.
     Result<void> apply(const Edit& edit, Gesture gesture = no_gesture);
+    // Several edits as one step under one label; all of them, or none where one of them is refused.
+    Result<void> apply(std::span<const Edit> edits, const std::string& label, Gesture gesture = no_gesture);
     // Camera navigation: changes the view's pose (position, rotation, pivot, orthographic height), not the history, and is no modification;
     // undo leaves it where it is.
     void navigate(const View& view);
@@ -61,6 +64,7 @@ private:
         size_t bytes = 0; // that the step alone keeps alive, estimated
     };
 
+    void step_to(Project next, std::string label, Gesture gesture);
     bool travel(std::deque<Step>& from, std::deque<Step>& to);
     void forget_oldest();
 

@@ -32,11 +32,17 @@ struct PanelContext {
     const Scene& scene() const { return document.project().scene; }
     // An edit that the document refuses becomes a toast.
     bool apply(const Edit& edit, Gesture gesture = no_gesture) {
-        if (const auto done = document.apply(edit, gesture); !done) {
-            ui.toasts.fail(done.error().text());
-            return false;
-        }
-        return true;
+        return accepted(document.apply(edit, gesture));
+    }
+    // Several as one step of the history; all or none.
+    bool apply(std::span<const Edit> edits, const std::string& label, Gesture gesture = no_gesture) {
+        return accepted(document.apply(edits, label, gesture));
+    }
+
+private:
+    bool accepted(const Result<void>& done) {
+        if (!done) ui.toasts.fail(done.error().text());
+        return bool(done);
     }
 };
 
