@@ -1,36 +1,49 @@
 #include "app/editor_commands.h"
 
+#include "app/light_commands.h"
 #include "scene/edit_tree.h"
+#include "ui/edit_together.h"
 #include "ui/light_tools.h"
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 
 namespace blush {
 namespace {
 
 Id<Node> last_node(const Scene& scene) { return scene.nodes.empty() ? Id<Node>{} : scene.nodes.entries().back().id; }
 
-// Selects the first node that an edit has added.
-void select_first_after(PanelContext& c, Id<Node> last) {
-    for (const auto& entry : c.scene().nodes) {
-        if (entry.id > last) return c.ui.select(entry.id);
-    }
+// Selects what an edit has added: the new nodes that hang below none of each other.
+void select_all_after(PanelContext& c, Id<Node> last) {
+    c.ui.select({});
+    for (const auto& [id, node] : c.scene().nodes)
+        if (id > last && node.parent <= last) c.ui.toggle(id);
+}
+
+// What an edit of whole branches acts upon.
+std::vector<Id<Node>> selected_branches(PanelContext& c) { return topmost(c.scene(), c.ui.selection(c.scene())); }
+
+template <class BranchEdit> bool apply_to_selection(PanelContext& c, const std::string& what) {
+    std::vector<Edit> edits;
+    for (const Id<Node> id : selected_branches(c)) edits.push_back(BranchEdit{id});
+    if (edits.empty()) return false;
+    const std::string name = edits.size() == 1 ? label(edits[0], c.project()) : fmt::format("{} {} objects", what, edits.size());
+    return c.apply(edits, name);
 }
 
 void add_light(PanelContext& c, Light::Kind kind) {
     const Id<Node> last = last_node(c.scene());
-    if (c.apply(new_light(kind, c.scene().view, c.shown_view().exposure_ev))) select_first_after(c, last);
+    if (c.apply(new_light(kind, c.scene().view, c.shown_view().exposure_ev))) select_all_after(c, last);
 }
 
 void duplicate(PanelContext& c) {
     const Id<Node> last = last_node(c.scene());
-    if (c.scene().nodes.contains(c.ui.selected) && c.apply(DuplicateNode{c.ui.selected})) select_first_after(c, last);
+    if (apply_to_selection<DuplicateNode>(c, "Duplicate")) select_all_after(c, last);
 }
 
 void remove(PanelContext& c) {
-    if (!c.scene().nodes.contains(c.ui.selected)) return;
-    if (c.apply(RemoveNode{c.ui.selected})) c.ui.select({});
+    if (apply_to_selection<RemoveNode>(c, "Delete")) c.ui.select({});
 }
 
 void begin_rename(PanelContext& c) {
@@ -57,6 +70,16 @@ Bounds bounds_of(const Scene& scene, Id<Node> root) {
     const double room = everything.empty ? 0.5 : std::max(everything.radius() * 0.1, 1e-3);
     all.include({origin.x - room, origin.y - room, origin.z - room});
     all.include({origin.x + room, origin.y + room, origin.z + room});
+    return all;
+}
+
+Bounds bounds_of_selection(PanelContext& c) {
+    Bounds all;
+    for (const Id<Node> id : c.ui.selection(c.scene())) {
+        const Bounds b = bounds_of(c.scene(), id);
+        all.include(b.low);
+        all.include(b.high);
+    }
     return all;
 }
 
@@ -110,6 +133,20 @@ void toggle_denoise(PanelContext& c) {
     c.ui.toasts.warn("The image cannot be denoised", c.denoiser_problem);
 }
 
+// Ends what was begun last: a tool, placing, looking through a light, a selection.
+void escape(PanelContext& c) {
+    if (c.ui.tool != ViewTool::none) {
+        c.ui.tool = ViewTool::none;
+        return c.ui.tool_start.reset();
+    }
+    if (c.ui.placing_by != PlacingBy::hand) {
+        c.ui.placing_by = PlacingBy::hand;
+        return;
+    }
+    if (c.ui.looked_through) return toggle_look_through(c);
+    c.ui.select({});
+}
+
 } // namespace
 
 bool run_command(Command command, PanelContext& c) {
@@ -120,18 +157,19 @@ bool run_command(Command command, PanelContext& c) {
     case Command::duplicate: duplicate(c); return true;
     case Command::remove: remove(c); return true;
     case Command::rename: begin_rename(c); return true;
-    case Command::clear_selection:
-        if (c.ui.tool == ViewTool::none) c.ui.select({});
-        c.ui.tool = ViewTool::none;
-        c.ui.tool_start.reset();
-        return true;
+    case Command::clear_selection: escape(c); return true;
     case Command::add_point: add_light(c, Light::Kind::point); return true;
     case Command::add_spot: add_light(c, Light::Kind::spot); return true;
     case Command::add_sun: add_light(c, Light::Kind::sun); return true;
     case Command::add_rectangle: add_light(c, Light::Kind::rectangle); return true;
-    case Command::frame_selection:
-        if (c.scene().nodes.contains(c.ui.selected)) frame(c, bounds_of(c.scene(), c.ui.selected));
-        return true;
+    case Command::mute: toggle_mute(c); return true;
+    case Command::solo: toggle_solo(c); return true;
+    case Command::group_lights: group_lights(c); return true;
+    case Command::place_highlight: toggle_placing(c, PlacingBy::highlight); return true;
+    case Command::place_shadow: toggle_placing(c, PlacingBy::shadow); return true;
+    case Command::look_through_light: toggle_look_through(c); return true;
+    case Command::light_table: c.ui.show_light_table = !c.ui.show_light_table; return true;
+    case Command::frame_selection: frame(c, bounds_of_selection(c)); return true;
     case Command::frame_all: frame(c, world_bounds(c.scene())); return true;
     case Command::toggle_projection: toggle_projection(c); return true;
     case Command::toggle_overlays: c.ui.settings.overlays = !c.ui.settings.overlays; return true;

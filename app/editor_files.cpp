@@ -117,6 +117,7 @@ bool EditorFiles::finish_import(Document& document, UiState& ui, Result<LoadedSc
         remember_recent(ui.settings.recent, importing_.string());
         ui.selected = {};
     }
+    ui.also_selected.clear();
     ui.selected_material = {};
     watch_.watch(scene_file_);
     document.reset(std::move(project));

@@ -53,7 +53,7 @@ Handle handle_under(const std::vector<HandleShape>& shapes, ScreenPoint mouse, f
     if (nearest != Handle::none) return nearest;
     best = reach / 2;
     for (const HandleShape& shape : shapes) {
-        if (shape.handle == Handle::aim) continue; // its line crosses the picture; only the grip is to be grabbed
+        if (shape.handle == Handle::aim || is_size(shape.handle)) continue; // their lines cross the picture; only grips are to be grabbed
         const float d = distance_to_segment(mouse, shape.from, shape.grip);
         if (d < best) {
             best = d;
@@ -107,12 +107,16 @@ Transform moved_to(const Scene& scene, Id<Node> id, const Vec3d& world_position)
 }
 
 Transform rotated_to(const Scene& scene, Id<Node> id, const Quat& rotation) {
+    return placed_at(scene, id, world_from_node(scene, id).t, rotation);
+}
+
+Transform placed_at(const Scene& scene, Id<Node> id, const Vec3d& position, const Quat& rotation) {
     const Node& node = *scene.nodes.find(id);
     const Affined world_from = world_from_parent(scene, node);
     if (!invertible(world_from)) return node.local;
     const Affined before = world_from_node(scene, id);
     const Affined after{rotate(rotation, {1, 0, 0}) * length(before.x), rotate(rotation, {0, 1, 0}) * length(before.y),
-                        rotate(rotation, {0, 0, 1}) * length(before.z), before.t};
+                        rotate(rotation, {0, 0, 1}) * length(before.z), position};
     return to_transform(inverse(world_from) * after);
 }
 

@@ -25,7 +25,10 @@ struct ImageRect {
     }
 };
 
-enum class Handle { none, move, move_x, move_y, move_z, aim };
+enum class Handle { none, move, move_x, move_y, move_z, aim, width, height, radius, outer_cone, inner_cone, sun_angle };
+
+// It changes a light's size or cone.
+constexpr bool is_size(Handle handle) { return handle >= Handle::width; }
 
 // A handle as it lies on the screen: a line from the centre to its grip.
 struct HandleShape {
@@ -52,6 +55,8 @@ Vec3d dragged_position(Handle handle, const Projection& projection, const ViewRa
 
 // The node's transform after moving its origin to a world position, its rotation and scale untouched.
 Transform moved_to(const Scene& scene, Id<Node> node, const Vec3d& world_position);
+// The node's transform after putting its origin at a world position and turning it in the world, its scale untouched.
+Transform placed_at(const Scene& scene, Id<Node> node, const Vec3d& world_position, const Quat& world_rotation);
 // The node's transform after turning it in the world, its origin and scale untouched.
 Transform rotated_to(const Scene& scene, Id<Node> node, const Quat& world_rotation);
 // The rotation of a node in the world, scale taken out.

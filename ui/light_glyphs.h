@@ -1,15 +1,17 @@
-// Lights drawn over the picture: an icon each, and size, cone and direction of the selected one.
+// Lights drawn over the picture: an icon each in the light's colour, and its size, cone and direction.
 #pragma once
 
 #include "scene/scene.h"
 #include "ui/gizmo.h"
+#include "ui/ui_state.h"
 
 #include <imgui.h>
 
 namespace blush {
 
-void draw_light_glyphs(ImDrawList& draw, const Scene& scene, const Projection& projection, const ImageRect& image, Id<Node> selected);
+// All but the light that the view looks through.
+void draw_light_glyphs(ImDrawList& draw, const Scene& scene, const Projection& projection, const ImageRect& image, const UiState& ui);
 // The light whose icon is under the mouse; the nearest to the eye if several are.
-Id<Node> light_under(const Scene& scene, const Projection& projection, const ImageRect& image, ScreenPoint mouse);
+Id<Node> light_under(const Scene& scene, const Projection& projection, const ImageRect& image, const UiState& ui, ScreenPoint mouse);
 
 } // namespace blush

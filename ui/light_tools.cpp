@@ -61,6 +61,13 @@ double luminous_flux(const Light& light) {
     return 0;
 }
 
+Light with_power_kept(const Light& before, Light after) {
+    if (!after.keep_power || !is_per_area(after.kind) || before.kind != after.kind) return after;
+    const double flux = luminous_flux(before), unit_flux = luminous_flux(after) / double(after.intensity);
+    if (flux > 0 && unit_flux > 0) after.intensity = float(flux / unit_flux);
+    return after;
+}
+
 Light converted(const Light& light, Light::Kind kind, double distance) {
     Light next = light;
     next.kind = kind;
@@ -88,6 +95,11 @@ AddLight new_light(Light::Kind kind, const View& view, float exposure_ev) {
     add.node.local.translation = to_float(position);
     add.node.local.rotation = looking_along(target - position);
     return add;
+}
+
+float turned_rotation(float rotation_degrees, double share, const Lens& lens) {
+    const double tangent = lens.orthographic ? 1 : 2 * std::tan(lens.yfov_radians / 2.0); // that the height spans
+    return float(std::remainder(rotation_degrees - share * tangent * degrees, 360));
 }
 
 Heading heading_of(const Vec3d& direction) {

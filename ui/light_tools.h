@@ -15,11 +15,18 @@ bool is_per_area(Light::Kind kind);
 // Luminous flux in lumens; 0 for a sun, which has none. A spot counts its outer cone as if evenly lit, an upper bound.
 double luminous_flux(const Light& light);
 
+// `after` with the luminous flux of `before`, where it is a light of some area that asks for that; else as it is.
+Light with_power_kept(const Light& before, Light after);
+
 // `light` as another kind that lights a surface `distance` metres away, facing it, as brightly as before.
 Light converted(const Light& light, Light::Kind kind, double distance);
 
 // A new light beside the view's pivot and aimed at it, bright enough to show a white surface there as white at this exposure.
 AddLight new_light(Light::Kind kind, const View& view, float exposure_ev);
+
+// The rotation of surroundings, in -180 .. 180 degrees, that were dragged to the right by a share of the image's height: what was under the
+// mouse in the middle of the picture goes along.
+float turned_rotation(float rotation_degrees, double share, const Lens& lens);
 
 // Where a direction points: degrees clockwise from -Z seen from above, and degrees above the horizon.
 struct Heading {

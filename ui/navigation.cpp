@@ -36,9 +36,9 @@ void Navigation::press() {
     if (ImGui::IsMouseClicked(ImGuiMouseButton_Left) && ImGui::IsKeyDown('E'))
         start(0, Mode::expose, false);
     else if (ImGui::IsMouseClicked(ImGuiMouseButton_Left) && io.KeyCtrl)
-        start(0, Mode::shift, true);
+        start(0, io.KeyShift ? Mode::turn_surroundings : Mode::shift, !io.KeyShift);
     else if (ImGui::IsMouseClicked(ImGuiMouseButton_Left))
-        start(0, io.KeyShift ? Mode::pan : Mode::orbit, !io.KeyAlt && !io.KeyShift);
+        start(0, io.KeyShift ? Mode::pan : Mode::orbit, !io.KeyAlt);
     else if (ImGui::IsMouseClicked(ImGuiMouseButton_Right))
         start(1, io.KeyAlt ? Mode::dolly : Mode::look, !io.KeyAlt);
     else if (ImGui::IsMouseClicked(ImGuiMouseButton_Middle))
@@ -62,6 +62,7 @@ void Navigation::drag(NavigationResult& result, const View& view, const ImageRec
                 result.shift_x = dx * image.height;
                 result.shift_y = dy * image.height;
                 break;
+            case Mode::turn_surroundings: result.turned = dx; break;
             case Mode::none: break;
             }
         }
@@ -81,6 +82,8 @@ void Navigation::release(NavigationResult& result) {
             result.inspect = last_;
         else if (ImGui::GetIO().KeyCtrl)
             result.focus = last_;
+        else if (ImGui::GetIO().KeyShift)
+            result.toggle = last_;
         else
             result.select = last_;
     }

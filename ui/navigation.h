@@ -11,7 +11,8 @@ namespace blush {
 // What the user asked of the viewport in this frame.
 struct NavigationResult {
     std::optional<View> view;                          // moved there
-    std::optional<ScreenPoint> select, focus, inspect; // clicked there: plain, with Ctrl, with the right button
+    std::optional<ScreenPoint> select, toggle, focus, inspect; // clicked there: plain, with Shift, with Ctrl, with the right button
+    double turned = 0;                                 // the surroundings were dragged to the right by this share of the image's height
     bool flying = false;                               // moves by itself while a key is held
     float brighter = 0;                                // stops of exposure
     bool begins_exposure = false;                      // of a new gesture
@@ -27,7 +28,7 @@ public:
     bool busy() const { return mode_ != Mode::none; }
 
 private:
-    enum class Mode { none, orbit, pan, dolly, look, expose, shift };
+    enum class Mode { none, orbit, pan, dolly, look, expose, shift, turn_surroundings };
     void press();
     void drag(NavigationResult& result, const View& view, const ImageRect& image);
     void release(NavigationResult& result);

@@ -1,20 +1,39 @@
 #include "ui/picking.h"
 
 #include "core/math.h"
+#include "scene/affine.h"
 
 #include <algorithm>
 
 namespace blush {
 
+namespace {
+
+std::optional<size_t> pixel_at(const Frame& frame, double u, double v) {
+    if (frame.width <= 0 || frame.height <= 0 || !(u >= 0 && u < 1 && v >= 0 && v < 1)) return {};
+    const int x = std::min(int(u * frame.width), frame.width - 1), y = std::min(int(v * frame.height), frame.height - 1);
+    return size_t(y) * size_t(frame.width) + size_t(x);
+}
+
+} // namespace
+
 Picked pick(const Frame& frame, double u, double v) {
     Picked picked;
-    if (frame.width <= 0 || frame.height <= 0 || u < 0 || u >= 1 || v < 0 || v >= 1) return picked;
-    const int x = std::min(int(u * frame.width), frame.width - 1), y = std::min(int(v * frame.height), frame.height - 1);
-    const size_t i = size_t(y) * size_t(frame.width) + size_t(x);
-    if (i < frame.object_id.size()) picked.node = {frame.object_id[i]};
-    if (i < frame.material_id.size()) picked.material = {frame.material_id[i]};
-    if (i < frame.depth.size() && frame.depth[i] > 0) picked.depth = frame.depth[i];
+    const auto i = pixel_at(frame, u, v);
+    if (!i) return picked;
+    if (*i < frame.object_id.size()) picked.node = {frame.object_id[*i]};
+    if (*i < frame.material_id.size()) picked.material = {frame.material_id[*i]};
+    if (*i < frame.depth.size() && frame.depth[*i] > 0) picked.depth = frame.depth[*i];
     return picked;
+}
+
+std::optional<SurfaceSpot> seen_surface(const Frame& frame, const Projection& projection, double u, double v) {
+    const auto position = seen_point(frame, projection, u, v);
+    const auto i = pixel_at(frame, u, v);
+    if (!position || *i >= frame.normal.size()) return {};
+    const Vec3d normal = to_double(frame.normal[*i]); // a mean over the pixel: next to nothing where surfaces turn away from each other
+    if (!(length(normal) > 1e-3)) return {};
+    return SurfaceSpot{*position, normalize(normal), pick(frame, u, v).node};
 }
 
 std::optional<Vec3d> seen_point(const Frame& frame, const Projection& projection, double u, double v) {

@@ -18,6 +18,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -65,8 +66,18 @@ struct EulerFields {
     Vec3d degrees{0, 0, 0};
 };
 
+// What a click into the picture decides about the selected light.
+enum class PlacingBy { hand, highlight, shadow };
+
+// The light whose eyes the viewport sees with, and the view to go back to.
+struct LookedThrough {
+    Id<Node> node;
+    View back;
+};
+
 struct UiState {
-    Id<Node> selected;
+    Id<Node> selected;                   // what handles and inspector are for
+    std::vector<Id<Node>> also_selected; // edited together with it
     Id<Material> selected_material;
     bool scroll_to_selected = false; // the outliner brings it into view
     InspectorTab tab = InspectorTab::selection;
@@ -79,6 +90,9 @@ struct UiState {
     DenoiseView denoise; // a way of looking, not of rendering: apart from the document and its history
     bool paused = false;
     double next_frame_in = 1e9; // seconds until something moves by itself: a toast that goes, a tooltip that comes
+    PlacingBy placing_by = PlacingBy::hand;
+    std::optional<LookedThrough> looked_through;
+    bool show_light_table = false;
     bool show_shortcuts = false;
     bool show_history = false;
     BouncesView bounces;
@@ -113,11 +127,19 @@ struct UiState {
     }
 
     void select(Id<Node> node, Id<Material> material = {}) {
+        also_selected.clear();
         selected = node;
         selected_material = material;
         scroll_to_selected = true;
         tab = InspectorTab::selection;
     }
+    // Adds what is not selected and takes away what is.
+    void toggle(Id<Node> node);
+    // All from the one selected to this one, in the order in which they are listed. Where the one selected is not listed, this one alone.
+    void select_range(std::span<const Id<Node>> listed, Id<Node> to);
+    bool is_selected(Id<Node> node) const;
+    // All that is selected and still there; the one selected first.
+    std::vector<Id<Node>> selection(const Scene& scene) const;
 };
 
 } // namespace blush

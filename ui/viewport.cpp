@@ -3,11 +3,14 @@
 #include "scene/edit_tree.h"
 #include "ui/false_color_legend.h"
 #include "ui/light_glyphs.h"
+#include "ui/light_tools.h"
+#include "ui/looking_through.h"
 #include "ui/orbit_camera.h"
 #include "ui/picking.h"
 #include "ui/pixel_grid.h"
 #include "ui/view_tools.h"
 #include "ui/theme.h"
+#include "ui/viewport_marks.h"
 
 namespace blush {
 namespace {
@@ -71,6 +74,22 @@ void expose(PanelContext& c, float stops, Gesture gesture) {
     ViewSettings v = c.project().view;
     v.exposure_ev = std::clamp(v.exposure_ev + stops, -20.f, 20.f);
     c.apply(SetView{v}, gesture);
+}
+
+// The light whose glyph is there, else what the picture shows.
+Picked picked_at(PanelContext& c, const Projection& projection, const ImageRect& image, const ScreenPoint& at) {
+    if (c.ui.settings.overlays) {
+        if (const Id<Node> light = light_under(c.scene(), projection, image, c.ui, at)) return {light, {}, {}};
+    }
+    return c.frame ? pick(*c.frame, image.u(at.x), image.v(at.y)) : Picked{};
+}
+
+void turn_surroundings(PanelContext& c, double share) {
+    Environment e = c.scene().environment;
+    if (e.kind != Environment::Kind::image && e.kind != Environment::Kind::sky)
+        return c.ui.toasts.note("Only an environment that is an image or a sky can be turned");
+    e.rotation_degrees = turned_rotation(e.rotation_degrees, share, c.scene().view.lens);
+    c.apply(SetEnvironment{e}, c.ui.gestures.current());
 }
 
 } // namespace
@@ -171,25 +190,27 @@ void Viewport::draw_caption(const ImageRect& image) const {
 }
 
 void Viewport::obey(PanelContext& c, const NavigationResult& wish, const Projection& projection, const ImageRect& image) {
-    if (wish.view) c.document.navigate(*wish.view);
+    if (wish.view) {
+        c.document.navigate(*wish.view);
+        carry_light_along(c);
+    }
     if (wish.begins_exposure) {
         exposure_gesture_ = c.ui.gestures.begin();
         c.ui.gestures.end();
     }
     if (wish.brighter != 0) expose(c, wish.brighter, exposure_gesture_);
     zoom_picture(c, wish);
+    if (wish.turned != 0) turn_surroundings(c, wish.turned);
     if (wish.flying) c.ui.next_frame_in = 0;
     if (wish.focus) focus_at(c, projection, image.u(wish.focus->x), image.v(wish.focus->y));
     if (wish.inspect && image.contains(wish.inspect->x, wish.inspect->y))
         c.ui.pixel = PixelProbe{image.u(wish.inspect->x), image.v(wish.inspect->y)};
     if (wish.select) {
-        Id<Node> node = c.ui.settings.overlays ? light_under(c.scene(), projection, image, *wish.select) : Id<Node>{};
-        Picked picked;
-        if (!node && c.frame) {
-            picked = pick(*c.frame, image.u(wish.select->x), image.v(wish.select->y));
-            node = picked.node;
-        }
-        c.ui.select(node, picked.material);
+        const Picked picked = picked_at(c, projection, image, *wish.select);
+        c.ui.select(picked.node, picked.material);
+    }
+    if (wish.toggle) {
+        if (const Picked picked = picked_at(c, projection, image, *wish.toggle); picked.node) c.ui.toggle(picked.node);
     }
 }
 
@@ -206,23 +227,45 @@ ImageRect Viewport::draw(PanelContext& c) {
         return image;
     }
     draw_picture(c, image);
+    follow_looked_through(c);
     const View view = c.scene().view;
     const Projection projection(view, double(image.width) / image.height);
-    bool on_handle = use_tool(c, image, visible_part(image), hovered && !navigation_.busy());
-    if (c.ui.settings.overlays && c.ui.tool == ViewTool::none) {
-        ImDrawList& draw = *ImGui::GetWindowDrawList();
-        draw.PushClipRect({image.x, image.y}, {image.x + image.width, image.y + image.height}, true);
-        draw_light_glyphs(draw, c.scene(), projection, image, c.ui.selected);
-        on_handle |= handles_.update(c, draw, projection, image, hovered && !navigation_.busy());
-        draw.PopClipRect();
-    }
-    draw_pixel_grid(*ImGui::GetWindowDrawList(), image, window_region(), *shown_frame_);
     const ImageRect seen = visible_part(image);
+    bool taken = use_tool(c, image, seen, hovered && !navigation_.busy());
+    if (c.ui.tool == ViewTool::none)
+        taken |= draw_overlays(c, projection, image, hovered && !navigation_.busy());
+    draw_pixel_grid(*ImGui::GetWindowDrawList(), image, window_region(), *shown_frame_);
     draw_false_color_legend(*ImGui::GetWindowDrawList(), seen, is_special(*shown_frame_, uploaded_view_) && is_map(uploaded_view_) ? ViewSettings{} : c.project().view);
     if (c.ui.settings.overlays) draw_measured_region(*ImGui::GetWindowDrawList(), image, c.project().view);
     draw_caption(seen);
-    obey(c, navigation_.update(c.scene().view, image, hovered, !on_handle), projection, image);
+    navigate(c, projection, image, hovered, taken);
     return image;
+}
+
+// True if the left button is theirs. What a tool shows is there even while overlays are off: somebody has asked for it.
+bool Viewport::draw_overlays(PanelContext& c, const Projection& projection, const ImageRect& image, bool hovered) {
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const ImageRect seen = visible_part(image);
+    draw.PushClipRect({seen.x, seen.y}, {seen.x + seen.width, seen.y + seen.height}, true);
+    bool taken = false;
+    if (c.ui.settings.overlays) {
+        draw_light_glyphs(draw, c.scene(), projection, image, c.ui);
+        const bool by_hand = c.ui.placing_by == PlacingBy::hand && !(c.ui.looked_through && c.ui.looked_through->node == c.ui.selected);
+        if (by_hand) taken = handles_.update(c, draw, projection, image, hovered);
+    }
+    if (const Light* light = looked_through_light(c); light && c.ui.placing_by == PlacingBy::hand)
+        draw_hint(draw, "Looking through " + light->name + ": moving the view moves the light.  L or Esc goes back");
+    taken |= place_tool_.update(c, draw, projection, image, hovered);
+    draw.PopClipRect();
+    return taken;
+}
+
+void Viewport::navigate(PanelContext& c, const Projection& projection, const ImageRect& image, bool hovered, bool on_handle) {
+    const NavigationResult wish = navigation_.update(c.scene().view, image, hovered, !on_handle);
+    if (navigation_.busy() && !navigating_) c.ui.gestures.begin();
+    obey(c, wish, projection, image);
+    if (!navigation_.busy() && navigating_) c.ui.gestures.end();
+    navigating_ = navigation_.busy();
 }
 
 } // namespace blush

@@ -6,6 +6,7 @@
 #include "ui/navigation.h"
 #include "ui/outline_pass.h"
 #include "ui/panels/context.h"
+#include "ui/place_tool.h"
 
 namespace blush {
 
@@ -27,13 +28,17 @@ private:
     void draw_picture(PanelContext& c, const ImageRect& image);
     GLuint outlined_picture(const PanelContext& c, const ImageRect& image);
     void draw_caption(const ImageRect& image) const;
+    bool draw_overlays(PanelContext& c, const Projection& projection, const ImageRect& image, bool hovered);
+    void navigate(PanelContext& c, const Projection& projection, const ImageRect& image, bool hovered, bool on_handle);
     void obey(PanelContext& c, const NavigationResult& wish, const Projection& projection, const ImageRect& image);
 
     DisplayPass display_;
     OutlinePass outline_;
     Navigation navigation_;
+    bool navigating_ = false; // as of the last frame: what it edits is one step of the history
     Handles handles_;
     Gesture exposure_gesture_ = no_gesture;
+    PlaceTool place_tool_;
 
     // What the textures hold, to draw into them only when something differs.
     FramePtr uploaded_frame_, shown_frame_;

@@ -4,6 +4,7 @@
 #include "ui/orbit_camera.h"
 #include "ui/panels/panels.h"
 #include "ui/rotation.h"
+#include "ui/selected_lights.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
 
@@ -162,13 +163,14 @@ void draw_light_panel(PanelContext& c, Id<Node> id) {
     if (!record || !section(c.ui, "Light")) return;
     const Id<Light> light_id = node->light;
     Light light = *record;
+    if (const std::string several = about_selected_lights(c); !several.empty()) quiet_text(several);
     {
         Fields f(c.ui, "Light");
         f.checkbox("On", light.enabled, "A light that is off gives no light and costs no time.");
         draw_kind(f, c, light, world_from_node(c.scene(), id).t);
         draw_brightness(f, light);
         draw_size(f, light);
-        if (f.changed()) c.apply(SetLight{light_id, light}, f.gesture());
+        if (f.changed()) set_light(c, light_id, light, f.gesture());
     }
     if (has_direction(light.kind)) {
         Fields f(c.ui, "Direction");

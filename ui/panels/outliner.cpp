@@ -2,8 +2,11 @@
 #include "ui/icons.h"
 #include "ui/light_tools.h"
 #include "ui/panels/panels.h"
+#include "ui/row_clicks.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
+
+#include "scene/shining.h"
 
 #include <imgui_stdlib.h>
 #include <map>
@@ -12,6 +15,13 @@ namespace blush {
 namespace {
 
 using Children = std::map<Id<Node>, std::vector<Id<Node>>>;
+
+// What the rows of one frame share.
+struct Rows {
+    Children children;
+    bool some_solo = false;
+    RowClicks clicks;
+};
 
 Children children_of(const Scene& scene) {
     Children children;
@@ -65,33 +75,32 @@ void draw_eye(PanelContext& c, Id<Node> id, const Node& node) {
     tip_for_last_item(c.ui, node.visible ? "Hide" : "Show");
 }
 
-void draw_node(PanelContext& c, const Children& children, Id<Node> id, int depth) {
+void draw_node(PanelContext& c, Rows& rows, Id<Node> id, int depth) {
     const Node* found = c.scene().nodes.find(id);
     if (!found || depth > 200) return;
     const Node node = *found;
-    const auto below = children.find(id);
-    const bool leaf = below == children.end(), selected = c.ui.selected == id;
+    const auto below = rows.children.find(id);
+    const bool leaf = below == rows.children.end();
     ImGui::PushID(int(id.value));
     ImGuiTreeNodeFlags flags = ImGuiTreeNodeFlags_OpenOnArrow | ImGuiTreeNodeFlags_SpanFullWidth | ImGuiTreeNodeFlags_FramePadding |
                                ImGuiTreeNodeFlags_AllowItemOverlap;
     if (depth < 2) flags |= ImGuiTreeNodeFlags_DefaultOpen;
     if (leaf) flags |= ImGuiTreeNodeFlags_Leaf;
-    if (selected) flags |= ImGuiTreeNodeFlags_Selected;
+    if (c.ui.is_selected(id)) flags |= ImGuiTreeNodeFlags_Selected;
     const bool open = ImGui::TreeNodeEx("##node", flags);
     const std::string name = name_of(c.scene(), id, node);
     c.ui.probe.record_last_item("Outliner/" + name);
-    if (ImGui::IsItemClicked() && !ImGui::IsItemToggledOpen()) {
-        const Mesh* mesh = c.scene().meshes.find(node.mesh);
-        c.ui.select(id, mesh && !mesh->parts.empty() ? mesh->parts[0].material : Id<Material>{});
-    }
+    const Mesh* mesh = c.scene().meshes.find(node.mesh);
+    rows.clicks.row(id, ImGui::IsItemClicked() && !ImGui::IsItemToggledOpen(),
+                    mesh && !mesh->parts.empty() ? mesh->parts[0].material : Id<Material>{});
     if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) c.ui.commands.push_back(Command::frame_selection);
-    if (selected && c.ui.scroll_to_selected) {
+    if (c.ui.selected == id && c.ui.scroll_to_selected) {
         if (!ImGui::IsItemVisible()) ImGui::SetScrollHereY();
         c.ui.scroll_to_selected = false;
     }
     ImGui::SameLine(0, 0);
     const Light* light = c.scene().lights.find(node.light);
-    const bool quiet = !node.visible || (light && !light->enabled);
+    const bool quiet = !node.visible || (light && !shines(*light, rows.some_solo));
     icon_item(icon_of(c.scene(), node), quiet ? IM_COL32(95, 95, 95, 255) : light ? tone::light : tone::dim_text, ImGui::GetFrameHeight());
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
@@ -105,7 +114,7 @@ void draw_node(PanelContext& c, const Children& children, Id<Node> id, int depth
     draw_eye(c, id, node);
     if (open) {
         if (!leaf) {
-            for (const Id<Node> child : below->second) draw_node(c, children, child, depth + 1);
+            for (const Id<Node> child : below->second) draw_node(c, rows, child, depth + 1);
         }
         ImGui::TreePop();
     }
@@ -131,10 +140,11 @@ void draw_outliner(PanelContext& c) {
     ImGui::BeginChild("nodes");
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, 0});
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ImGui::GetStyle().FramePadding.x * 0.5f, ImGui::GetStyle().FramePadding.y});
-    const Children children = children_of(c.scene());
-    if (const auto roots = children.find({}); roots != children.end()) {
-        for (const Id<Node> id : roots->second) draw_node(c, children, id, 0);
+    Rows rows{children_of(c.scene()), any_solo(c.scene()), {}};
+    if (const auto roots = rows.children.find({}); roots != rows.children.end()) {
+        for (const Id<Node> id : roots->second) draw_node(c, rows, id, 0);
     }
+    rows.clicks.finish(c.ui);
     ImGui::PopStyleVar(2);
     if (ImGui::IsWindowHovered() && ImGui::IsMouseClicked(ImGuiMouseButton_Left) && !ImGui::IsAnyItemHovered()) c.ui.select({});
     ImGui::EndChild();

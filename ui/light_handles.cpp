@@ -1,0 +1,144 @@
+#include "ui/light_handles.h"
+
+#include "scene/affine.h"
+#include "ui/light_tools.h"
+#include "ui/rotation.h"
+
+#include <numbers>
+
+namespace blush {
+namespace {
+
+constexpr double pi_d = std::numbers::pi;
+constexpr float smallest_size = 1e-4f;
+constexpr double dial_start = 1.6, dial_decade = 1.1, dial_finest = 0.05 * pi_d / 180; // ems, ems, radians
+
+// Right and down on the screen, where no axis handle usually lies.
+Vec3d screen_diagonal(const Projection& projection) { return normalize(projection.right() - projection.up()); }
+
+Vec3d axis_of(const LightSight& sight) { return rotate(sight.rotation, {0, 0, -1}); }
+
+// The side of the cone that is its silhouette for the eye.
+Vec3d silhouette(const Vec3d& axis, const Projection& projection) {
+    const Vec3d side = cross(axis, projection.forward());
+    return length(side) > 1e-6 ? normalize(side) : any_perpendicular(axis);
+}
+
+// The eye looks along the axis rather than across it.
+bool seen_end_on(const Vec3d& axis, const Projection& projection) { return std::abs(dot(axis, projection.forward())) > 0.7; }
+
+// Metres that a drag goes along an axis of the light, or along the screen's diagonal.
+double dragged_along(const Vec3d& axis, const Vec3d& origin, const ViewRay& from, const ViewRay& to) {
+    const auto a = nearest_on_axis(from, origin, axis), b = nearest_on_axis(to, origin, axis);
+    return a && b ? *b - *a : 0;
+}
+double dragged_along_screen(const Projection& projection, const Vec3d& origin, const ViewRay& from, const ViewRay& to) {
+    const auto a = meet_plane(from, origin, projection.forward()), b = meet_plane(to, origin, projection.forward());
+    return a && b ? dot(*b - *a, screen_diagonal(projection)) : 0;
+}
+
+bool is_ball(Light::Kind kind) { return kind == Light::Kind::point || kind == Light::Kind::sphere; }
+
+Vec3d cone_point(const LightSight& sight, const Projection& projection, double angle, double side) {
+    const Vec3d axis = axis_of(sight);
+    return sight.world_from_node.t + (axis * std::cos(angle) + silhouette(axis, projection) * (side * std::sin(angle))) * sight.reach;
+}
+
+Light with_radius(const LightSight& start, const Projection& projection, const ViewRay& from, const ViewRay& to) {
+    Light light = start.light;
+    const Affined& m = start.world_from_node;
+    const double scale = length(m.x);
+    if (!(scale > 0)) return light;
+    const double metres = is_ball(light.kind) ? dragged_along_screen(projection, m.t, from, to) : dragged_along(m.x / scale, m.t, from, to);
+    const bool may_vanish = !is_per_area(light.kind);
+    light.radius = std::max(light.radius + float(metres / scale), may_vanish ? 0.f : smallest_size);
+    return light;
+}
+
+float with_side(float side, const Vec3d& axis, const Vec3d& origin, const ViewRay& from, const ViewRay& to) {
+    const double scale = length(axis);
+    if (!(scale > 0)) return side;
+    return std::max(side + 2 * float(dragged_along(axis / scale, origin, from, to) / scale), smallest_size);
+}
+
+Light with_cone(const LightSight& start, Handle handle, const Projection& projection, const ViewRay& from, const ViewRay& to) {
+    Light light = start.light;
+    const Vec3d apex = start.world_from_node.t, axis = axis_of(start);
+    const auto a = cone_angle_under(from, apex, axis, projection, start.reach),
+               b = cone_angle_under(to, apex, axis, projection, start.reach);
+    if (!a || !b) return light;
+    const auto turned = [&](float angle) { return std::clamp(angle + float(*b - *a), 0.f, float(pi_d / 2)); };
+    if (handle == Handle::outer_cone) {
+        light.outer_cone_radians = std::max(turned(light.outer_cone_radians), 0.01f);
+        light.inner_cone_radians = std::min(light.inner_cone_radians, light.outer_cone_radians);
+    } else {
+        light.inner_cone_radians = std::min(turned(light.inner_cone_radians), light.outer_cone_radians);
+    }
+    return light;
+}
+
+} // namespace
+
+double dial_of_angle(double radians) { return dial_start + dial_decade * std::log10(1 + radians / dial_finest); }
+
+double angle_of_dial(double ems) {
+    return std::clamp(dial_finest * (std::pow(10, std::max(ems - dial_start, 0.0) / dial_decade) - 1), 0.0, pi_d);
+}
+
+std::optional<double> cone_angle_under(const ViewRay& ray, const Vec3d& apex, const Vec3d& axis, const Projection& projection,
+                                       double length) {
+    const Vec3d side = silhouette(axis, projection);
+    // Across, the angle is read in the plane of axis and silhouette; end on, from a cap of the sphere that the cone's rim lies on.
+    if (!seen_end_on(axis, projection)) {
+        const auto p = meet_plane(ray, apex, cross(axis, side));
+        if (!p) return {};
+        return std::atan2(std::abs(dot(*p - apex, side)), dot(*p - apex, axis));
+    }
+    const double b = dot(ray.direction, ray.origin - apex), c = dot(ray.origin - apex, ray.origin - apex) - length * length;
+    const double discriminant = std::max(b * b - c, 0.0); // beside the sphere: its rim
+    const double toward = dot(axis, ray.direction) > 0 ? 1 : -1;
+    const Vec3d p = ray.origin + ray.direction * (-b + toward * std::sqrt(discriminant)) - apex;
+    return std::atan2(blush::length(p - axis * dot(p, axis)), dot(p, axis));
+}
+
+std::vector<SizeHandle> size_handles(const LightSight& sight, const Projection& projection) {
+    const Light& light = sight.light;
+    const Affined& m = sight.world_from_node;
+    const auto along = [&](const Vec3d& axis, double half) {
+        const double scale = length(axis);
+        return scale > 0 ? m.t + axis / scale * std::max(half * scale, 1.4 * sight.em) : m.t;
+    };
+    switch (light.kind) {
+    case Light::Kind::rectangle: return {{Handle::width, along(m.x, light.width / 2.0)}, {Handle::height, along(m.y, light.height / 2.0)}};
+    case Light::Kind::disk: return {{Handle::radius, along(m.x, light.radius)}};
+    case Light::Kind::point:
+    case Light::Kind::sphere:
+        return {{Handle::radius, m.t + screen_diagonal(projection) * std::max(light.radius * length(m.x), 1.4 * sight.em)}};
+    case Light::Kind::spot:
+        return {{Handle::outer_cone, cone_point(sight, projection, light.outer_cone_radians, 1)},
+                {Handle::inner_cone, cone_point(sight, projection, light.inner_cone_radians, -1)}};
+    case Light::Kind::sun:
+        return {{Handle::sun_angle, m.t + screen_diagonal(projection) * (dial_of_angle(light.angle_radians) * sight.em)}};
+    }
+    return {};
+}
+
+Light resized(const LightSight& start, Handle handle, const Projection& projection, const ViewRay& from, const ViewRay& to) {
+    Light light = start.light;
+    const Affined& m = start.world_from_node;
+    switch (handle) {
+    case Handle::width: light.width = with_side(light.width, m.x, m.t, from, to); break;
+    case Handle::height: light.height = with_side(light.height, m.y, m.t, from, to); break;
+    case Handle::radius: light = with_radius(start, projection, from, to); break;
+    case Handle::outer_cone:
+    case Handle::inner_cone: light = with_cone(start, handle, projection, from, to); break;
+    case Handle::sun_angle:
+        light.angle_radians = float(angle_of_dial(dial_of_angle(light.angle_radians) +
+                                                  dragged_along_screen(projection, m.t, from, to) / std::max(start.em, 1e-12)));
+        break;
+    default: break;
+    }
+    return with_power_kept(start.light, light);
+}
+
+} // namespace blush

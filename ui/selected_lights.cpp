@@ -1,0 +1,32 @@
+#include "ui/selected_lights.h"
+
+#include "ui/edit_together.h"
+
+#include <algorithm>
+
+namespace blush {
+
+bool set_light(PanelContext& c, Id<Light> id, const Light& after, Gesture gesture) {
+    std::vector<Id<Light>> lights = lights_of(c.scene(), c.ui.selection(c.scene()));
+    if (!std::ranges::count(lights, id)) lights = {id};
+    const Light before = *c.scene().lights.find(id);
+    std::vector<Edit> edits{SetLight{id, after}};
+    std::erase(lights, id);
+    for (Edit& edit : change_lights(c.scene(), lights, [&](Light& light) { light = edited_alike(light, before, after); }))
+        edits.push_back(std::move(edit));
+    lights.push_back(id);
+    return c.apply(edits, label_for("Change", c.scene(), lights), gesture);
+}
+
+std::string about_selected_lights(const PanelContext& c) {
+    const std::vector<Id<Light>> lights = lights_of(c.scene(), c.ui.selection(c.scene()));
+    if (lights.size() < 2) return {};
+    std::string text = std::to_string(lights.size()) +
+                       " lights are edited together: what is changed here is changed in all, an intensity by "
+                       "the same factor.";
+    const std::vector<std::string> fields = differing_fields(c.scene(), lights);
+    for (size_t i = 0; i < fields.size(); ++i) text += (i == 0 ? " They differ in " : i + 1 < fields.size() ? ", " : " and ") + fields[i];
+    return fields.empty() ? text : text + ".";
+}
+
+} // namespace blush
