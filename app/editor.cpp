@@ -209,6 +209,7 @@ void Editor::draw_above(PanelContext& c) {
     draw_scopes_panel(c);
     draw_history(c);
     draw_bounces_panel(c);
+    draw_light_table(c);
     draw_convergence_panel(c);
     draw_roulette_panel(c);
     draw_health_panel(c);

@@ -162,13 +162,15 @@ bool run_command(Command command, PanelContext& c) {
     case Command::add_spot: add_light(c, Light::Kind::spot); return true;
     case Command::add_sun: add_light(c, Light::Kind::sun); return true;
     case Command::add_rectangle: add_light(c, Light::Kind::rectangle); return true;
+    case Command::add_disk: add_light(c, Light::Kind::disk); return true;
+    case Command::add_sphere: add_light(c, Light::Kind::sphere); return true;
     case Command::mute: toggle_mute(c); return true;
     case Command::solo: toggle_solo(c); return true;
     case Command::group_lights: group_lights(c); return true;
     case Command::place_highlight: toggle_placing(c, PlacingBy::highlight); return true;
     case Command::place_shadow: toggle_placing(c, PlacingBy::shadow); return true;
     case Command::look_through_light: toggle_look_through(c); return true;
-    case Command::light_table: c.ui.show_light_table = !c.ui.show_light_table; return true;
+    case Command::light_table: c.ui.light_table.open = !c.ui.light_table.open; return true;
     case Command::frame_selection: frame(c, bounds_of_selection(c)); return true;
     case Command::frame_all: frame(c, world_bounds(c.scene())); return true;
     case Command::toggle_projection: toggle_projection(c); return true;

@@ -63,6 +63,18 @@ void draw_file(const Pen& p) {
 
 } // namespace
 
+Icon icon_of(Light::Kind kind) {
+    switch (kind) {
+    case Light::Kind::point: return Icon::point;
+    case Light::Kind::spot: return Icon::spot;
+    case Light::Kind::sun: return Icon::sun;
+    case Light::Kind::rectangle: return Icon::rectangle;
+    case Light::Kind::disk: return Icon::disk;
+    case Light::Kind::sphere: return Icon::sphere;
+    }
+    return Icon::point;
+}
+
 void draw_icon(ImDrawList& draw, Icon icon, ImVec2 centre, float size, ImU32 color) {
     const Pen p{draw, centre, size / 2, color, std::fmax(1.f, size / 13)};
     switch (icon) {

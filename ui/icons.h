@@ -1,11 +1,15 @@
 // Small line drawings, made of strokes so that they are sharp at every scale.
 #pragma once
 
+#include "scene/scene.h"
+
 #include <imgui.h>
 
 namespace blush {
 
 enum class Icon { point, spot, sun, rectangle, disk, sphere, mesh, group, camera, folder, file, eye, eye_closed, arrow_up };
+
+Icon icon_of(Light::Kind kind);
 
 // `size` is the side of the square around `centre` that the icon fills.
 void draw_icon(ImDrawList& draw, Icon icon, ImVec2 centre, float size, ImU32 color);

@@ -16,18 +16,6 @@ namespace {
 
 float glyph_size() { return ImGui::GetFontSize() * 1.25f; }
 
-Icon icon_of(Light::Kind kind) {
-    switch (kind) {
-    case Light::Kind::point: return Icon::point;
-    case Light::Kind::spot: return Icon::spot;
-    case Light::Kind::sun: return Icon::sun;
-    case Light::Kind::rectangle: return Icon::rectangle;
-    case Light::Kind::disk: return Icon::disk;
-    case Light::Kind::sphere: return Icon::sphere;
-    }
-    return Icon::point;
-}
-
 // The light's own colour at full brightness, as the display shows it.
 ImU32 color_of(const Light& light, int alpha) {
     Light unit = light;

@@ -36,6 +36,8 @@ enum class Command {
     add_spot,
     add_sun,
     add_rectangle,
+    add_disk,
+    add_sphere,
     mute,
     solo,
     group_lights,

@@ -75,6 +75,14 @@ struct LookedThrough {
     View back;
 };
 
+struct LightTableView {
+    bool open = false;
+    Id<Node> renaming;          // this row's node
+    std::string renaming_group; // or this group
+    std::string text;
+    bool just_begun = false;
+};
+
 struct UiState {
     Id<Node> selected;                   // what handles and inspector are for
     std::vector<Id<Node>> also_selected; // edited together with it
@@ -92,7 +100,7 @@ struct UiState {
     double next_frame_in = 1e9; // seconds until something moves by itself: a toast that goes, a tooltip that comes
     PlacingBy placing_by = PlacingBy::hand;
     std::optional<LookedThrough> looked_through;
-    bool show_light_table = false;
+    LightTableView light_table;
     bool show_shortcuts = false;
     bool show_history = false;
     BouncesView bounces;

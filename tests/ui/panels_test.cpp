@@ -21,7 +21,7 @@ protected:
     // A few frames of everything, with this selected.
     void draw_all(Document& document, Id<Node> selected) {
         ui.selected = selected;
-        ui.show_shortcuts = ui.show_history = ui.bounces.open = ui.health.open = ui.scopes.open = ui.convergence.open = true;
+        ui.show_shortcuts = ui.show_history = ui.bounces.open = ui.health.open = ui.scopes.open = ui.convergence.open = ui.light_table.open = true;
         for (int tab = 0; tab <= int(InspectorTab::display); ++tab) {
             ui.tab = InspectorTab(tab);
             for (int i = 0; i < 3; ++i) {
@@ -32,6 +32,7 @@ protected:
                     draw_inspector(c);
                     draw_history(c);
                     draw_bounces_panel(c);
+                    draw_light_table(c);
                     draw_health_panel(c);
                     draw_region_panel(c);
                     draw_scopes_panel(c);
@@ -90,6 +91,8 @@ TEST_F(Panels, DrawingEditsNothing) {
         Document document(project);
         for (const auto& entry : project.scene.nodes) draw_all(document, entry.id);
         draw_all(document, {});
+        for (const auto& entry : project.scene.nodes) ui.toggle(entry.id); // all at once
+        draw_all(document, ui.selected);
         draw_all(document, {999}); // deleted since
         EXPECT_TRUE(document.project() == project);
         EXPECT_FALSE(document.can_undo());
@@ -100,7 +103,7 @@ TEST_F(Panels, DrawingEditsNothing) {
 
 TEST_F(Panels, EveryEnvironmentKindAndLightKind) {
     const test::Sample sample = test::sample_project();
-    for (const auto kind : {Light::Kind::point, Light::Kind::spot, Light::Kind::sun, Light::Kind::rectangle}) {
+    for (const auto kind : {Light::Kind::point, Light::Kind::spot, Light::Kind::sun, Light::Kind::rectangle, Light::Kind::disk, Light::Kind::sphere}) {
         Project project = sample.project;
         Light light = *project.scene.lights.find(sample.lamp);
         light.kind = kind;

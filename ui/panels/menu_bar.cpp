@@ -48,11 +48,26 @@ void draw_edit_menu(PanelContext& c) {
     item(c, Command::rename, selected);
     item(c, Command::remove, selected);
     item(c, Command::clear_selection, selected);
-    ImGui::Separator();
-    if (ImGui::BeginMenu("Add light")) {
-        for (const Command command : {Command::add_point, Command::add_spot, Command::add_sun, Command::add_rectangle}) item(c, command);
+}
+
+void draw_lights_menu(PanelContext& c) {
+    if (ImGui::BeginMenu("Add")) {
+        for (const Command command : {Command::add_point, Command::add_spot, Command::add_sun, Command::add_rectangle, Command::add_disk,
+                                      Command::add_sphere}) item(c, command);
         ImGui::EndMenu();
     }
+    ImGui::Separator();
+    const Node* node = c.scene().nodes.find(c.ui.selected);
+    const bool light = node && c.scene().lights.contains(node->light);
+    item(c, Command::mute, light);
+    item(c, Command::solo, light);
+    item(c, Command::group_lights, light);
+    ImGui::Separator();
+    item(c, Command::place_highlight, light, nullptr, c.ui.placing_by == PlacingBy::highlight);
+    item(c, Command::place_shadow, light, nullptr, c.ui.placing_by == PlacingBy::shadow);
+    item(c, Command::look_through_light, light || c.ui.looked_through, nullptr, c.ui.looked_through.has_value());
+    ImGui::Separator();
+    item(c, Command::light_table, true, nullptr, c.ui.light_table.open);
 }
 
 void draw_view_menu(PanelContext& c) {
@@ -90,6 +105,10 @@ void draw_menu_bar(PanelContext& c) {
     }
     if (ImGui::BeginMenu("Edit")) {
         draw_edit_menu(c);
+        ImGui::EndMenu();
+    }
+    if (ImGui::BeginMenu("Lights")) {
+        draw_lights_menu(c);
         ImGui::EndMenu();
     }
     if (ImGui::BeginMenu("View")) {

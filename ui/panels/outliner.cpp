@@ -1,6 +1,7 @@
 // Outliner: the scene's nodes as a tree, with what each carries and whether it shows.
 #include "ui/icons.h"
 #include "ui/light_tools.h"
+#include "ui/panels/light_drag.h"
 #include "ui/panels/panels.h"
 #include "ui/row_clicks.h"
 #include "ui/theme.h"
@@ -30,16 +31,7 @@ Children children_of(const Scene& scene) {
 }
 
 Icon icon_of(const Scene& scene, const Node& node) {
-    if (const Light* light = scene.lights.find(node.light)) {
-        switch (light->kind) {
-        case Light::Kind::point: return Icon::point;
-        case Light::Kind::spot: return Icon::spot;
-        case Light::Kind::sun: return Icon::sun;
-        case Light::Kind::rectangle: return Icon::rectangle;
-        case Light::Kind::disk: return Icon::disk;
-        case Light::Kind::sphere: return Icon::sphere;
-        }
-    }
+    if (const Light* light = scene.lights.find(node.light)) return icon_of(light->kind);
     return node.mesh ? Icon::mesh : node.camera ? Icon::camera : Icon::group;
 }
 
@@ -90,6 +82,11 @@ void draw_node(PanelContext& c, Rows& rows, Id<Node> id, int depth) {
     const bool open = ImGui::TreeNodeEx("##node", flags);
     const std::string name = name_of(c.scene(), id, node);
     c.ui.probe.record_last_item("Outliner/" + name);
+    if (c.scene().lights.contains(node.light)) {
+        drag_light(id, name);
+        const std::string& group = c.scene().lights.find(node.light)->group;
+        if (const Id<Node> dropped = light_dropped_here()) put_dropped_into_group(c, dropped, group);
+    }
     const Mesh* mesh = c.scene().meshes.find(node.mesh);
     rows.clicks.row(id, ImGui::IsItemClicked() && !ImGui::IsItemToggledOpen(),
                     mesh && !mesh->parts.empty() ? mesh->parts[0].material : Id<Material>{});
@@ -125,7 +122,7 @@ void draw_add_light(PanelContext& c) {
     if (ImGui::Button("Add light", {-FLT_MIN, 0})) ImGui::OpenPopup("add light");
     c.ui.probe.record_last_item("Outliner/Add light");
     if (!ImGui::BeginPopup("add light")) return;
-    for (const Command command : {Command::add_point, Command::add_spot, Command::add_sun, Command::add_rectangle}) {
+    for (const Command command : {Command::add_point, Command::add_spot, Command::add_sun, Command::add_rectangle, Command::add_disk, Command::add_sphere}) {
         if (ImGui::MenuItem(shortcut(command).name, to_string(shortcut(command).press).c_str())) c.ui.commands.push_back(command);
         c.ui.probe.record_last_item(std::string("Outliner/Add light/") + shortcut(command).name);
     }

@@ -36,6 +36,7 @@ void draw_scopes_panel(PanelContext& c);
 void draw_bounces_panel(PanelContext& c);
 void draw_health_panel(PanelContext& c);
 void draw_roulette_panel(PanelContext& c);
+void draw_light_table(PanelContext& c);
 void draw_convergence_panel(PanelContext& c);
 void draw_toasts(PanelContext& c);
 

@@ -1,0 +1,112 @@
+// What the light table lists, and its groups.
+#include "ui/light_rows.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace blush {
+namespace {
+
+struct Studio {
+    Scene scene;
+    Id<Node> key, fill;
+    Id<Material> neon;
+
+    Studio() {
+        key = lamp("Key", "Warm");
+        fill = lamp("Fill", "");
+        Material glow;
+        glow.name = "Neon";
+        glow.emissive = {1, 0, 0};
+        glow.emissive_strength = 40;
+        neon = scene.materials.add(glow);
+        Node sign;
+        sign.mesh = scene.meshes.add({"Sign", {{nullptr, neon}, {nullptr, scene.materials.add(Material{})}, {nullptr, neon}}});
+        scene.nodes.add(sign);
+        scene.environment.kind = Environment::Kind::constant;
+    }
+    Id<Node> lamp(const char* name, const char* group) {
+        Light light;
+        light.group = group;
+        Node node;
+        node.name = name;
+        node.light = scene.lights.add(light);
+        return scene.nodes.add(node);
+    }
+    Light light(Id<Node> id) const { return *scene.lights.find(scene.nodes.find(id)->light); }
+    void set(Id<Node> id, const Light& light) { scene.lights.set(scene.nodes.find(id)->light, light); }
+    void apply(const std::vector<Edit>& edits) {
+        Document document(Project{scene, {}, {}});
+        ASSERT_TRUE(document.apply(edits, "edit"));
+        scene = document.project().scene;
+    }
+};
+
+std::vector<std::string> names(const LightRows& rows) {
+    std::vector<std::string> all;
+    for (const LightRow& row : rows.rows) all.push_back(row.name);
+    return all;
+}
+
+TEST(LightRows, ListEverythingThatShinesByItsGroup) {
+    const Studio s;
+    const auto groups = light_rows(s.scene);
+    ASSERT_EQ(groups.size(), 2u);
+    EXPECT_EQ(groups[0].group, "Warm");
+    EXPECT_EQ(names(groups[0]), (std::vector<std::string>{"Key"}));
+    EXPECT_EQ(names(groups[1]), (std::vector<std::string>{"Fill", "Neon", "Environment"})) << "a glowing material once, a dark one not";
+    EXPECT_EQ(groups[1].rows[1].material, s.neon);
+    EXPECT_EQ(groups[1].rows[1].intensity, 40);
+    EXPECT_TRUE(groups[1].rows[2].environment);
+    EXPECT_TRUE(light_rows(Scene()).empty());
+}
+
+TEST(LightRows, SayWhatShines) {
+    Studio s;
+    Light key = s.light(s.key);
+    key.solo = true;
+    s.set(s.key, key);
+    for (const LightRows& group : light_rows(s.scene))
+        for (const LightRow& row : group.rows) EXPECT_EQ(row.shines, row.name == "Key") << row.name;
+    key.enabled = false;
+    s.set(s.key, key);
+    EXPECT_FALSE(light_rows(s.scene)[0].rows[0].shines) << "mute wins";
+}
+
+TEST(LightRows, AHiddenLightIsListedAsDark) {
+    Studio s;
+    Node key = *s.scene.nodes.find(s.key);
+    key.visible = false;
+    s.scene.nodes.set(s.key, key);
+    const auto groups = light_rows(s.scene);
+    EXPECT_EQ(groups[0].rows[0].name, "Key");
+    EXPECT_FALSE(groups[0].rows[0].shines);
+}
+
+TEST(LightRows, GroupsAreJoinedLeftAndRenamed) {
+    Studio s;
+    s.apply(put_into_group(s.scene, std::vector{s.scene.nodes.find(s.fill)->light}, true, "Warm"));
+    EXPECT_EQ(s.light(s.fill).group, "Warm");
+    EXPECT_EQ(s.scene.environment.group, "Warm");
+    s.scene.mix.grouping = LightMix::Grouping::by_hand;
+    s.scene.mix.channels = {{.group = "Warm", .intensity = 0.5f}};
+    s.apply(rename_group(s.scene, "Warm", "Lamps"));
+    EXPECT_EQ(s.light(s.key).group, "Lamps");
+    EXPECT_EQ(s.light(s.fill).group, "Lamps");
+    EXPECT_EQ(s.scene.environment.group, "Lamps");
+    EXPECT_EQ(s.scene.mix.channels[0].group, "Lamps");
+    s.apply(put_into_group(s.scene, std::vector{s.scene.nodes.find(s.key)->light}, false, ""));
+    EXPECT_EQ(s.light(s.key).group, "");
+}
+
+TEST(LightRows, AChannelThatIsNotOfGroupsByHandKeepsItsName) {
+    Studio s;
+    s.scene.mix.grouping = LightMix::Grouping::by_light;
+    s.scene.mix.channels = {{.group = "Warm"}};
+    s.apply(rename_group(s.scene, "Warm", "Lamps"));
+    EXPECT_EQ(s.scene.mix.channels[0].group, "Warm");
+}
+
+} // namespace
+} // namespace blush

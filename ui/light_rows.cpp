@@ -1,0 +1,132 @@
+#include "ui/light_rows.h"
+
+#include "scene/placements.h"
+#include "scene/shining.h"
+#include "ui/edit_together.h"
+#include "ui/light_groups.h"
+#include "ui/light_tools.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace blush {
+namespace {
+
+bool glows(const Material& m) { return m.emissive != Vec3{0, 0, 0} && !m.unlit; }
+
+std::string name_of_light(const Node& node, const Light& light) {
+    return !node.name.empty() ? node.name : !light.name.empty() ? light.name : kind_name(light.kind);
+}
+
+const char* type_of(const Environment& e) {
+    switch (e.kind) {
+    case Environment::Kind::none: break;
+    case Environment::Kind::constant: return "Colour";
+    case Environment::Kind::image: return "Image";
+    case Environment::Kind::sky: return "Sky";
+    }
+    return "";
+}
+
+class Collector {
+public:
+    explicit Collector(const Scene& scene) : scene_(scene), some_solo_(any_solo(scene)) {}
+
+    void light(Id<Node> id, const Node& node, const Light& light, bool visible) {
+        groups_[light.group].push_back({id,
+                                        node.light,
+                                        {},
+                                        false,
+                                        name_of_light(node, light),
+                                        kind_name(light.kind),
+                                        light.intensity,
+                                        intensity_unit(light.kind),
+                                        light.enabled,
+                                        light.solo,
+                                        visible && shines(light, some_solo_)});
+    }
+    void materials(Id<Node> id, const Mesh& mesh) {
+        for (const MeshPart& part : mesh.parts) {
+            const Material* m = scene_.materials.find(part.material);
+            if (!m || !glows(*m) || !seen_.insert(part.material).second) continue;
+            glowing_.push_back({id,
+                                {},
+                                part.material,
+                                false,
+                                m->name.empty() ? mesh.name : m->name,
+                                "Surface",
+                                m->emissive_strength,
+                                "×",
+                                m->emissive_strength > 0,
+                                false,
+                                m->emissive_strength > 0 && !some_solo_});
+        }
+    }
+    std::vector<LightRows> finish() {
+        std::vector<LightRow>& ungrouped = groups_[""];
+        ungrouped.insert(ungrouped.end(), glowing_.begin(), glowing_.end());
+        const Environment& e = scene_.environment;
+        if (e.kind != Environment::Kind::none)
+            groups_[e.group].push_back({{},
+                                        {},
+                                        {},
+                                        true,
+                                        "Environment",
+                                        type_of(e),
+                                        e.intensity,
+                                        e.kind == Environment::Kind::constant ? "nits" : "×",
+                                        e.lights_scene,
+                                        false,
+                                        e.lights_scene && !some_solo_});
+        std::vector<LightRows> all;
+        for (auto& [group, rows] : groups_)
+            if (!group.empty()) all.push_back({group, std::move(rows)});
+        if (!groups_[""].empty()) all.push_back({"", std::move(groups_[""])});
+        return all;
+    }
+
+private:
+    const Scene& scene_;
+    bool some_solo_;
+    std::map<std::string, std::vector<LightRow>> groups_;
+    std::vector<LightRow> glowing_;
+    std::set<Id<Material>> seen_;
+};
+
+} // namespace
+
+std::vector<LightRows> light_rows(const Scene& scene) {
+    Collector collector(scene);
+    Placements placements(scene);
+    for (const auto& [id, node] : scene.nodes) {
+        const bool visible = placements(id).visible;
+        if (const Light* light = scene.lights.find(node.light)) collector.light(id, node, *light, visible);
+        if (const Mesh* mesh = scene.meshes.find(node.mesh); mesh && visible) collector.materials(id, *mesh);
+    }
+    return collector.finish();
+}
+
+std::vector<Edit> put_into_group(const Scene& scene, std::span<const Id<Light>> lights, bool environment, const std::string& group) {
+    std::vector<Edit> edits = change_lights(scene, lights, [&](Light& light) { light.group = group; });
+    if (environment && scene.environment.group != group) {
+        Environment e = scene.environment;
+        e.group = group;
+        edits.push_back(SetEnvironment{e});
+    }
+    return edits;
+}
+
+std::vector<Edit> rename_group(const Scene& scene, const std::string& group, const std::string& name) {
+    std::vector<Id<Light>> lights;
+    for (const auto& [id, light] : scene.lights)
+        if (light.group == group) lights.push_back(id);
+    std::vector<Edit> edits = put_into_group(scene, lights, scene.environment.group == group, name);
+    LightMix mix = scene.mix;
+    for (MixChannel& channel : mix.channels)
+        if (channel.group == group && mix.grouping == LightMix::Grouping::by_hand) channel.group = name;
+    if (mix != scene.mix) edits.push_back(SetMix{mix});
+    return edits;
+}
+
+} // namespace blush

@@ -1,0 +1,37 @@
+#include "ui/panels/light_drag.h"
+
+#include "ui/edit_together.h"
+#include "ui/light_rows.h"
+
+#include <imgui.h>
+
+namespace blush {
+namespace {
+
+constexpr const char* payload_type = "light";
+
+} // namespace
+
+void drag_light(Id<Node> node, const std::string& name) {
+    if (!ImGui::BeginDragDropSource()) return;
+    ImGui::SetDragDropPayload(payload_type, &node, sizeof node);
+    ImGui::TextUnformatted(name.c_str());
+    ImGui::EndDragDropSource();
+}
+
+Id<Node> light_dropped_here() {
+    Id<Node> node;
+    if (!ImGui::BeginDragDropTarget()) return node;
+    if (const ImGuiPayload* payload = ImGui::AcceptDragDropPayload(payload_type)) node = *static_cast<const Id<Node>*>(payload->Data);
+    ImGui::EndDragDropTarget();
+    return node;
+}
+
+void put_dropped_into_group(PanelContext& c, Id<Node> dropped, const std::string& group) {
+    std::vector<Id<Node>> nodes{dropped};
+    if (c.ui.is_selected(dropped)) nodes = c.ui.selection(c.scene());
+    const std::vector<Id<Light>> lights = lights_of(c.scene(), nodes);
+    c.apply(put_into_group(c.scene(), lights, false, group), label_for(group.empty() ? "Ungroup" : "Group", c.scene(), lights));
+}
+
+} // namespace blush

@@ -1,0 +1,254 @@
+// The light table: everything that shines, by its group, with what it gives to the picture. Rows are dragged from group to group.
+#include "ui/edit_together.h"
+#include "ui/icons.h"
+#include "ui/light_groups.h"
+#include "ui/light_rows.h"
+#include "ui/light_tools.h"
+#include "ui/panels/light_drag.h"
+#include "ui/panels/panels.h"
+#include "ui/row_clicks.h"
+#include "ui/selected_lights.h"
+#include "ui/theme.h"
+#include "ui/widgets.h"
+
+#include <fmt/format.h>
+#include <imgui_stdlib.h>
+
+#include <cmath>
+
+namespace blush {
+namespace {
+
+constexpr const char* how_to_get_shares =
+    "Its share of the picture's light, and of its noise. They are known while the light mix keeps the lights apart: choose groups there.";
+
+Icon icon_of(const PanelContext& c, const LightRow& row) {
+    if (const Light* light = c.scene().lights.find(row.light)) return icon_of(light->kind);
+    return row.environment ? Icon::sun : Icon::mesh;
+}
+
+// M or S, lit while it is on.
+bool letter_button(PanelContext& c, const char* letter, bool on, ImU32 lit, const std::string& name, const char* tip) {
+    const float size = ImGui::GetFrameHeight();
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const bool pressed = ImGui::InvisibleButton(letter, {size, size});
+    c.ui.probe.record_last_item(name);
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const float inset = std::round(size * 0.12f);
+    const ImU32 back = on ? lit : ImGui::IsItemHovered() ? tone::field_hovered : tone::field;
+    draw.AddRectFilled({at.x + inset, at.y + inset}, {at.x + size - inset, at.y + size - inset}, back, 3);
+    const ImVec2 text = ImGui::CalcTextSize(letter);
+    draw.AddText({at.x + (size - text.x) / 2, at.y + (size - text.y) / 2}, on ? IM_COL32(20, 20, 20, 255) : tone::dim_text, letter);
+    tip_for_last_item(c.ui, tip);
+    return pressed;
+}
+
+void set_environment_on(PanelContext& c, bool on) {
+    Environment e = c.scene().environment;
+    e.lights_scene = on;
+    c.apply(SetEnvironment{e});
+}
+
+void draw_switches(PanelContext& c, const LightRow& row, const std::string& scope) {
+    if (row.material) return;
+    if (letter_button(c, "M", !row.on, tone::failure, scope + "/Mute", "Mute: it gives no light. Mute wins over solo.")) {
+        if (row.environment) return set_environment_on(c, !row.on);
+        Light light = *c.scene().lights.find(row.light);
+        light.enabled = !light.enabled;
+        set_light(c, row.light, light, no_gesture);
+    }
+    if (row.environment) return;
+    ImGui::SameLine(0, 0);
+    if (letter_button(c, "S", row.solo, tone::warning, scope + "/Solo", "Solo: while any light is solo, only those shine.")) {
+        Light light = *c.scene().lights.find(row.light);
+        light.solo = !light.solo;
+        set_light(c, row.light, light, no_gesture);
+    }
+}
+
+void set_intensity(PanelContext& c, const LightRow& row, float intensity) {
+    const Gesture gesture = c.ui.gestures.current();
+    if (row.light) {
+        Light light = *c.scene().lights.find(row.light);
+        light.intensity = intensity;
+        set_light(c, row.light, light, gesture);
+    } else if (row.material) {
+        Material material = *c.scene().materials.find(row.material);
+        material.emissive_strength = intensity;
+        c.apply(SetMaterial{row.material, material}, gesture);
+    } else {
+        Environment e = c.scene().environment;
+        e.intensity = intensity;
+        c.apply(SetEnvironment{e}, gesture);
+    }
+}
+
+void draw_intensity(PanelContext& c, const LightRow& row, const std::string& scope) {
+    float value = row.intensity;
+    ImGui::SetNextItemWidth(-FLT_MIN);
+    const std::string format = fmt::format("%.4g {}", row.unit);
+    const bool changed = ImGui::DragFloat("##intensity", &value, std::max(std::abs(value) * 0.005f, 1e-4f), 0, 1e12f, format.c_str(),
+                                          ImGuiSliderFlags_AlwaysClamp);
+    if (ImGui::IsItemActivated()) c.ui.gestures.begin();
+    if (changed && std::isfinite(value)) set_intensity(c, row, value);
+    if (ImGui::IsItemDeactivated()) c.ui.gestures.end();
+    c.ui.probe.record_last_item(scope + "/Intensity");
+}
+
+// The field in place of a name that is being changed; true when it is done, `text` then holds the new name if it is another.
+bool rename_field(LightTableView& view) {
+    ImGui::SetNextItemWidth(-FLT_MIN);
+    if (std::exchange(view.just_begun, false)) ImGui::SetKeyboardFocusHere();
+    const bool entered = ImGui::InputText("##name", &view.text, ImGuiInputTextFlags_AutoSelectAll | ImGuiInputTextFlags_EnterReturnsTrue);
+    return entered || ImGui::IsItemDeactivated();
+}
+
+void begin_renaming(LightTableView& view, Id<Node> node, const std::string& group, const std::string& text) {
+    view.renaming = node;
+    view.renaming_group = group;
+    view.text = text;
+    view.just_begun = true;
+}
+
+void draw_name(PanelContext& c, RowClicks& clicks, const LightRow& row, const std::string& scope) {
+    LightTableView& view = c.ui.light_table;
+    if (row.light && view.renaming == row.node) {
+        if (!rename_field(view)) return;
+        Node node = *c.scene().nodes.find(row.node);
+        node.name = view.text;
+        c.apply(SetNode{row.node, node});
+        view.renaming = {};
+        return;
+    }
+    const float height = ImGui::GetFrameHeight();
+    const bool selected = row.environment ? c.ui.tab == InspectorTab::environment && !c.ui.selected
+                          : row.material  ? c.ui.selected_material == row.material
+                                          : c.ui.is_selected(row.node);
+    const bool clicked =
+        ImGui::Selectable("##row", selected, ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowItemOverlap, {0, height});
+    c.ui.probe.record_last_item(scope);
+    if (row.light && ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
+        begin_renaming(view, row.node, {}, row.name);
+    if (row.light) {
+        clicks.row(row.node, clicked);
+        drag_light(row.node, row.name);
+        const Light& light = *c.scene().lights.find(row.light);
+        if (const Id<Node> dropped = light_dropped_here()) put_dropped_into_group(c, dropped, light.group);
+    } else if (clicked) {
+        c.ui.select(row.node, row.material);
+        if (row.environment) c.ui.tab = InspectorTab::environment;
+    }
+    ImGui::SameLine(0, 0);
+    icon_item(icon_of(c, row), row.shines ? tone::light : tone::dim_text, height);
+    ImGui::SameLine();
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(row.name.c_str());
+}
+
+void draw_share(PanelContext& c, const std::optional<double>& share) {
+    ImGui::AlignTextToFramePadding();
+    const std::string text = share ? fmt::format("{:.1f} %", 100 * *share) : "-";
+    const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
+    if (room > 0) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + room);
+    ImGui::TextUnformatted(text.c_str());
+    tip_for_last_item(c.ui, how_to_get_shares);
+}
+
+void draw_row(PanelContext& c, RowClicks& clicks, const LightRow& row) {
+    const std::string scope = "Light table/" + row.name;
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::PushStyleColor(ImGuiCol_Text, row.shines ? tone::text : tone::dim_text);
+    draw_name(c, clicks, row, scope);
+    ImGui::TableNextColumn();
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(row.type.c_str());
+    ImGui::TableNextColumn();
+    draw_intensity(c, row, scope);
+    ImGui::TableNextColumn();
+    draw_switches(c, row, scope);
+    for (int share = 0; share < 2; ++share) {
+        ImGui::TableNextColumn();
+        draw_share(c, {});
+    }
+    ImGui::PopStyleColor();
+}
+
+// The heading of a group: dropped on, its rows are joined.
+void draw_group(PanelContext& c, const std::string& group) {
+    LightTableView& view = c.ui.light_table;
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    if (!group.empty() && view.renaming_group == group) {
+        if (!rename_field(view)) return;
+        if (!view.text.empty() && view.text != group) c.apply(rename_group(c.scene(), group, view.text), "Rename group " + group);
+        view.renaming_group.clear();
+        return;
+    }
+    ImGui::PushFont(heading_font());
+    ImGui::Selectable(group.empty() ? "No group" : group.c_str(), false, ImGuiSelectableFlags_SpanAllColumns, {0, ImGui::GetFrameHeight()});
+    ImGui::PopFont();
+    c.ui.probe.record_last_item("Light table/Group/" + group);
+    if (!group.empty() && ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
+        begin_renaming(view, {}, group, group);
+    if (const Id<Node> dropped = light_dropped_here()) put_dropped_into_group(c, dropped, group);
+}
+
+void draw_rows(PanelContext& c, const std::vector<LightRows>& all) {
+    const float em = ImGui::GetFontSize();
+    const ImGuiTableFlags flags =
+        ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY | ImGuiTableFlags_Resizable | ImGuiTableFlags_NoSavedSettings;
+    if (!ImGui::BeginTable("lights", 6, flags, {0, -ImGui::GetFrameHeightWithSpacing() - em * 0.3f})) return;
+    ImGui::TableSetupScrollFreeze(0, 1);
+    ImGui::TableSetupColumn("Name", ImGuiTableColumnFlags_WidthStretch, 1.6f);
+    ImGui::TableSetupColumn("Type", ImGuiTableColumnFlags_WidthFixed, em * 5);
+    ImGui::TableSetupColumn("Intensity", ImGuiTableColumnFlags_WidthStretch, 1);
+    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, ImGui::GetFrameHeight() * 2);
+    ImGui::TableSetupColumn("Energy", ImGuiTableColumnFlags_WidthFixed, em * 4);
+    ImGui::TableSetupColumn("Noise", ImGuiTableColumnFlags_WidthFixed, em * 4);
+    ImGui::TableHeadersRow();
+    RowClicks clicks;
+    const bool grouped = all.size() > 1 || !all[0].group.empty();
+    int row_number = 0;
+    for (const LightRows& group : all) {
+        ImGui::PushID(group.group.c_str());
+        if (grouped) draw_group(c, group.group);
+        for (const LightRow& row : group.rows) {
+            ImGui::PushID(++row_number);
+            draw_row(c, clicks, row);
+            ImGui::PopID();
+        }
+        ImGui::PopID();
+    }
+    clicks.finish(c.ui);
+    ImGui::EndTable();
+}
+
+void draw_new_group(PanelContext& c) {
+    const float width = ImGui::GetContentRegionAvail().x;
+    if (ImGui::Button("New group of the selected, or drop a light here", {width, 0})) c.ui.commands.push_back(Command::group_lights);
+    c.ui.probe.record_last_item("Light table/New group");
+    if (const Id<Node> dropped = light_dropped_here()) put_dropped_into_group(c, dropped, unused_group_name(c.scene()));
+}
+
+} // namespace
+
+void draw_light_table(PanelContext& c) {
+    if (!c.ui.light_table.open) return;
+    const float em = ImGui::GetFontSize();
+    const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({em * 14, screen.y - em * 22}, ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSize({em * 44, em * 19}, ImGuiCond_FirstUseEver);
+    if (ImGui::Begin("Light table", &c.ui.light_table.open, ImGuiWindowFlags_NoCollapse)) {
+        const std::vector<LightRows> rows = light_rows(c.scene());
+        if (rows.empty())
+            quiet_text("Nothing shines in this scene. Add a light, or an environment.");
+        else {
+            draw_rows(c, rows);
+            draw_new_group(c);
+        }
+    }
+    ImGui::End();
+}
+
+} // namespace blush
