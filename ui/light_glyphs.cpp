@@ -16,14 +16,10 @@ namespace {
 
 float glyph_size() { return ImGui::GetFontSize() * 1.25f; }
 
-// The light's own colour at full brightness, as the display shows it.
 ImU32 color_of(const Light& light, int alpha) {
     Light unit = light;
     unit.intensity = 1;
-    const Vec3 glow = light_emission(unit);
-    const float brightest = std::max({glow.x, glow.y, glow.z, 1e-6f});
-    const auto encoded = [&](float c) { return int(255 * std::pow(std::clamp(c / brightest, 0.f, 1.f), 1 / 2.2f)); };
-    return IM_COL32(encoded(glow.x), encoded(glow.y), encoded(glow.z), alpha);
+    return hue_of(light_emission(unit), alpha);
 }
 
 void draw_icon_of(ImDrawList& draw, ScreenPoint at, const Light& light, bool shining, bool selected) {

@@ -1,5 +1,6 @@
 #include "ui/theme.h"
 
+#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 #include <string>
@@ -104,6 +105,12 @@ void apply_theme(float scale) {
     c[ImGuiCol_ModalWindowDimBg] = grey(0.05f, 0.5f);
     c[ImGuiCol_TableRowBgAlt] = grey(1, 0.02f);
     ImGui::GetStyle() = style;
+}
+
+ImU32 hue_of(const Vec3& linear, int alpha) {
+    const float brightest = std::max({linear.x, linear.y, linear.z, 1e-6f});
+    const auto encoded = [&](float c) { return int(255 * std::pow(std::clamp(c / brightest, 0.f, 1.f), 1 / 2.2f)); };
+    return IM_COL32(encoded(linear.x), encoded(linear.y), encoded(linear.z), alpha);
 }
 
 } // namespace blush

@@ -1,6 +1,8 @@
 // The look: neutral greys without a tint, so that the eye judges the picture's colours and not ours.
 #pragma once
 
+#include "core/vec.h"
+
 #include <filesystem>
 #include <imgui.h>
 
@@ -12,6 +14,9 @@ void load_fonts(const std::filesystem::path& assets, float scale);
 ImFont* heading_font();
 
 void apply_theme(float scale);
+
+// A linear colour as the display shows it at full brightness.
+ImU32 hue_of(const Vec3& linear, int alpha = 255);
 
 namespace tone {
 constexpr ImU32 text = IM_COL32(214, 214, 214, 255);

@@ -1,6 +1,7 @@
 #include "ui/viewport.h"
 
 #include "scene/edit_tree.h"
+#include "ui/environment_dial.h"
 #include "ui/false_color_legend.h"
 #include "ui/light_glyphs.h"
 #include "ui/light_tools.h"
@@ -252,6 +253,7 @@ bool Viewport::draw_overlays(PanelContext& c, const Projection& projection, cons
         draw_light_glyphs(draw, c.scene(), projection, image, c.ui);
         const bool by_hand = c.ui.placing_by == PlacingBy::hand && !(c.ui.looked_through && c.ui.looked_through->node == c.ui.selected);
         if (by_hand) taken = handles_.update(c, draw, projection, image, hovered);
+        taken |= draw_environment_dial(c, draw, projection, seen, hovered && !taken);
     }
     if (const Light* light = looked_through_light(c); light && c.ui.placing_by == PlacingBy::hand)
         draw_hint(draw, "Looking through " + light->name + ": moving the view moves the light.  L or Esc goes back");

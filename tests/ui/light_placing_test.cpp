@@ -1,6 +1,7 @@
 // Placing by effect: after it, light goes the way it was asked to go.
 #include "core/math.h"
 #include "scene/affine.h"
+#include "ui/environment_dial.h"
 #include "ui/light_placing.h"
 #include "ui/light_tools.h"
 #include "ui/rotation.h"
@@ -112,6 +113,21 @@ TEST(WithPose, PutsTheNodeThereBelowATurnedAndScaledParent) {
     EXPECT_NEAR(length(pose.position - wanted.position), 0, close);
     EXPECT_NEAR(length(forward_of(pose) - forward_of(wanted)), 0, close);
     EXPECT_NEAR(scene.nodes.find(id)->local.scale.y, 3, 1e-4);
+}
+
+// Seen from above, with what the view looks at above the middle.
+TEST(EnvironmentDial, ShowsDirectionsFromAbove) {
+    const auto expect_at = [](const Vec3d& direction, const Vec3d& forward, float x, float y) {
+        const ScreenPoint p = dial_point(direction, forward);
+        EXPECT_NEAR(p.x, x, close);
+        EXPECT_NEAR(p.y, y, close);
+    };
+    expect_at({0, 0, -1}, {0, 0, -1}, 0, -1);
+    expect_at({1, 0, 0}, {0, 0, -1}, 1, 0);
+    expect_at({0, 0, -1}, {1, 0, 0}, -1, 0);
+    expect_at({0, 1, 0}, {0.3, -1, 0.2}, 0, 0);
+    expect_at(normalize(Vec3d{1, 1, 0}), {0, 0, -1}, 0.5f, 0);
+    expect_at({1, -1, 0}, {0, 0, -1}, 1, 0);
 }
 
 } // namespace

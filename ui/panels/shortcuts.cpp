@@ -47,7 +47,7 @@ void draw_shortcut_sheet(PanelContext& c) {
             ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthStretch, 0.41f);
             ImGui::TableSetupColumn("mouse", ImGuiTableColumnFlags_WidthStretch, 0.59f);
             ImGui::TableNextColumn();
-            for (const char* group : {"File", "Edit", "Lights", "Look"}) draw_group(group, em * 13);
+            for (const char* group : {"File", "Edit", "Add light", "Lights", "Look"}) draw_group(group, em * 13);
             ImGui::TableNextColumn();
             for (const char* group : {"View", "Help"}) draw_group(group, em * 13);
             heading("Mouse");
