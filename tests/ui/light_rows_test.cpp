@@ -1,6 +1,8 @@
 // What the light table lists, and its groups.
 #include "ui/light_rows.h"
 
+#include "scene/document.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -21,7 +21,8 @@ protected:
     // A few frames of everything, with this selected.
     void draw_all(Document& document, Id<Node> selected) {
         ui.selected = selected;
-        ui.show_shortcuts = ui.show_history = ui.bounces.open = ui.health.open = ui.scopes.open = ui.convergence.open = ui.light_table.open = true;
+        ui.show_shortcuts = ui.show_history = ui.bounces.open = ui.health.open = ui.scopes.open = ui.convergence.open =
+            ui.light_table.open = true;
         for (int tab = 0; tab <= int(InspectorTab::display); ++tab) {
             ui.tab = InspectorTab(tab);
             for (int i = 0; i < 3; ++i) {
@@ -103,7 +104,8 @@ TEST_F(Panels, DrawingEditsNothing) {
 
 TEST_F(Panels, EveryEnvironmentKindAndLightKind) {
     const test::Sample sample = test::sample_project();
-    for (const auto kind : {Light::Kind::point, Light::Kind::spot, Light::Kind::sun, Light::Kind::rectangle, Light::Kind::disk, Light::Kind::sphere}) {
+    for (const auto kind :
+         {Light::Kind::point, Light::Kind::spot, Light::Kind::sun, Light::Kind::rectangle, Light::Kind::disk, Light::Kind::sphere}) {
         Project project = sample.project;
         Light light = *project.scene.lights.find(sample.lamp);
         light.kind = kind;
