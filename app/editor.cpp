@@ -99,7 +99,7 @@ Editor::Editor(const EditorOptions& options, std::unique_ptr<Window> window, Col
       session_({.threads = options.threads,
                 .low_priority = true,
                 .first_hit_planes = true,
-                .denoise = denoiser_made_when_needed(options.weights, options.threads, true)},
+                .denoiser = denoiser_maker(options.weights, options.threads, true)},
                &Window::wake) {
     if (const auto found = find_denoiser_weights(options.weights); !found)
         weights_problem_ = found.error().text() + ": packaging/setup fetches them";

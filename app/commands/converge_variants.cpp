@@ -19,7 +19,9 @@ constexpr const char* strategies[]{"both, weighted (mis): --strategy mis", "ligh
 constexpr const char* bounces[]{"emission only: --max-bounces 0", "1 bounce: --max-bounces 1",  "2 bounces: --max-bounces 2",
                                 "4 bounces: --max-bounces 4",     "8 bounces: --max-bounces 8", "unlimited: --max-bounces unlimited"};
 
-constexpr const char* samplers[]{"as many everywhere: --adaptive off", "more where the noise is: --adaptive on"};
+constexpr const char* samplers[]{"random numbers: --sampler random", "Sobol points: --sampler sobol",
+                                 "random numbers, adaptive: --sampler random --adaptive on",
+                                 "Sobol points, adaptive: --sampler sobol --adaptive on"};
 
 struct Preset {
     const char* name;

@@ -25,10 +25,12 @@ Result<void> try_denoiser(Denoiser& denoiser, DenoiseQuality quality) {
 Result<Denoised> denoise_with_progress(Denoiser& denoiser, const DenoiseInput& input, DenoiseQuality quality, bool quiet,
                                        const std::atomic<bool>& interrupted) {
     Progress progress(quiet);
-    progress.update(0, fmt::format("denoising {}x{}", input.width, input.height));
+    const std::string note = fmt::format("denoising {}x{}", input.width, input.height);
+    progress.update(0, note);
     DenoiseOptions options;
     options.quality = quality;
-    Result<std::optional<Denoised>> denoised = denoiser.denoise(input, options, [&] { return !interrupted.load(); });
+    Result<std::optional<Denoised>> denoised = denoiser.denoise(
+        input, options, [&] { return !interrupted.load(); }, [&](double fraction) { progress.update(fraction, note); });
     if (!denoised) return denoised.error();
     if (!*denoised) return Error{.what = "interrupted before it was denoised"};
     return **std::move(denoised);

@@ -137,6 +137,9 @@ void add_integrator_options(CLI::App& app, RenderOptions& o) {
                "Limit samples to X nits in light scattered more than once, or in all: loses light, the summary says how much [off]")
         ->type_name("off|X[,all]");
     add_parsed(app, "--filter", o.settings.filter, parse_filter, "Pixel filter [blackman-harris]")->type_name("blackman-harris|box");
+    add_parsed(app, "--sampler", o.settings.sampler, parse_sampler,
+               "Well distributed points, or independent random numbers to compare with [sobol]")
+        ->type_name("sobol|random");
 }
 
 } // namespace

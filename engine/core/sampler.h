@@ -69,4 +69,7 @@ template <class F> UInt<F> pixel_key(const UInt<F>& x, const UInt<F>& y, const U
     return pcg_hash(UInt<F>(pcg_hash(UInt<F>(x ^ randomisation)) + y));
 }
 
+// Independent random numbers instead of points that know of each other: each sample has a key of its own, and is point 0 of it.
+template <class U> U independent_key(const U& key, const U& sample) { return pcg_hash(U(pcg_hash(U(sample ^ 0x5bd1e995u)) ^ key)); }
+
 } // namespace blush::inline BLUSH_ISA

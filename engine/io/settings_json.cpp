@@ -94,6 +94,7 @@ std::string render_settings_json(const RenderSettings& s) {
     json["roulette"] = to_string(s.roulette);
     json["strategy"] = to_string(s.strategy);
     json["filter"] = to_string(s.filter);
+    json["sampler"] = to_string(s.sampler);
     json["energy_compensation"] = s.energy_compensation;
     json["adaptive"] = s.adaptive;
     json["reuse"] = reuse_text(s.reuse);
@@ -143,6 +144,7 @@ Result<ParsedSettings<RenderSettings>> parse_render_settings(std::string_view te
         {"roulette", word(s.roulette, parse_roulette)},
         {"strategy", word(s.strategy, parse_strategy)},
         {"filter", word(s.filter, parse_filter)},
+        {"sampler", word(s.sampler, parse_sampler)},
         {"energy_compensation", plain(s.energy_compensation)},
         {"adaptive", plain(s.adaptive)},
         {"reuse", word(s.reuse, parse_reuse)},

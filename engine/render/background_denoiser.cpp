@@ -1,8 +1,10 @@
 #include "render/background_denoiser.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <exception>
+#include <limits>
 #include <new>
 #include <utility>
 
@@ -20,17 +22,18 @@ DenoiseCadence::Source source_of(uint64_t image, const Frame& frame) {
 
 } // namespace
 
-DenoiseFunction denoiser_made_when_needed(std::filesystem::path weights, unsigned threads, bool low_priority) {
-    return [=, denoiser = std::shared_ptr<Denoiser>()](const DenoiseInput& input, const DenoiseOptions& options,
-                                                       const std::function<bool()>& wanted) mutable {
-        if (!denoiser) denoiser = std::make_shared<Denoiser>(weights, threads, low_priority);
-        return denoiser->denoise(input, options, wanted);
+DenoiserMaker denoiser_maker(std::filesystem::path weights, unsigned threads, bool low_priority) {
+    return [=]() -> DenoiseFunction {
+        return [denoiser = std::make_shared<Denoiser>(weights, threads, low_priority)](
+                   const DenoiseInput& input, const DenoiseOptions& options, const std::function<bool()>& wanted) {
+            return denoiser->denoise(input, options, wanted);
+        };
     };
 }
 
-BackgroundDenoiser::BackgroundDenoiser(DenoiseFunction denoise, OnAnswer on_answer)
-    : denoise_(std::move(denoise)), on_answer_(std::move(on_answer)) {
-    if (denoise_) thread_ = std::thread([this] { run(); });
+BackgroundDenoiser::BackgroundDenoiser(DenoiserMaker maker, double grace_seconds, OnAnswer on_answer, OnRelease on_release)
+    : maker_(std::move(maker)), grace_seconds_(grace_seconds), on_answer_(std::move(on_answer)), on_release_(std::move(on_release)) {
+    if (maker_) thread_ = std::thread([this] { run(); });
 }
 
 BackgroundDenoiser::~BackgroundDenoiser() {
@@ -45,6 +48,7 @@ BackgroundDenoiser::~BackgroundDenoiser() {
 void BackgroundDenoiser::want(bool wanted) {
     {
         const std::lock_guard lock(mutex_);
+        if (wanted_ && !wanted) unwanted_since_ = now();
         wanted_ = wanted;
     }
     wake_.notify_one();
@@ -55,7 +59,7 @@ bool BackgroundDenoiser::offer(uint64_t image, FramePtr frame) {
     {
         const std::lock_guard lock(mutex_);
         cadence_.offer(source_of(image, *frame), now());
-        promised = wanted_ && denoise_ && failure_.empty() && cadence_.answers_within_a_frame();
+        promised = wanted_ && maker_ && failure_.empty() && cadence_.answers_within_a_frame();
         newest_ = {image, std::move(frame), promised};
         newest_image_ = image;
     }
@@ -78,8 +82,9 @@ DenoiseOptions BackgroundDenoiser::options_for(const Task& task, DenoiseQuality 
     return options;
 }
 
-BackgroundDenoiser::Outcome BackgroundDenoiser::denoise(const Task& task, const DenoiseOptions& options) const {
+BackgroundDenoiser::Outcome BackgroundDenoiser::denoise(const Task& task, const DenoiseOptions& options) {
     try {
+        if (!denoise_) denoise_ = maker_();
         Result<std::optional<Denoised>> result = denoise_(denoise_input(*task.frame), options, [&] { return is_wanted(task); });
         if (!result) return {nullptr, result.error().text()};
         if (!*result) return {};
@@ -89,15 +94,33 @@ BackgroundDenoiser::Outcome BackgroundDenoiser::denoise(const Task& task, const 
     }
 }
 
+// Infinite while it is wanted or there is nothing to free.
+double BackgroundDenoiser::seconds_to_release() const {
+    if (wanted_ || !denoise_) return std::numeric_limits<double>::infinity();
+    return std::max(0.0, unwanted_since_ + grace_seconds_ - now());
+}
+
+void BackgroundDenoiser::release(std::unique_lock<std::mutex>& lock) {
+    lock.unlock();
+    denoise_ = {};
+    on_release_();
+    lock.lock();
+}
+
 void BackgroundDenoiser::run() {
     std::unique_lock lock(mutex_);
     while (!quit_) {
+        if (seconds_to_release() == 0) {
+            release(lock);
+            continue;
+        }
         const DenoiseCadence::Decision decision = wanted_ && failure_.empty() ? cadence_.next(now()) : DenoiseCadence::Decision{};
         if (!decision.quality) {
-            if (std::isinf(decision.wait))
+            const double wait = std::min(decision.wait, seconds_to_release());
+            if (std::isinf(wait))
                 wake_.wait(lock);
             else
-                wake_.wait_for(lock, std::chrono::duration<double>(decision.wait));
+                wake_.wait_for(lock, std::chrono::duration<double>(wait));
             continue;
         }
         const Task task = newest_;

@@ -16,15 +16,20 @@ namespace blush {
 // What a Denoiser does, as a value: tests put another one in its place.
 using DenoiseFunction =
     std::function<Result<std::optional<Denoised>>(const DenoiseInput&, const DenoiseOptions&, const std::function<bool()>&)>;
-// A Denoiser that is made at the first call, on the thread of that call (see Denoiser for its arguments).
-DenoiseFunction denoiser_made_when_needed(std::filesystem::path weights, unsigned threads, bool low_priority);
+// Makes one. What that holds, weights and memory, is gone with it.
+using DenoiserMaker = std::function<DenoiseFunction()>;
+// Of Denoisers (see there for the arguments).
+DenoiserMaker denoiser_maker(std::filesystem::path weights, unsigned threads, bool low_priority);
 
 class BackgroundDenoiser {
 public:
     // Called on the thread here: what became of a frame that was offered. Null: it was no longer wanted, or could not be denoised.
     using OnAnswer = std::function<void(uint64_t image, const FramePtr& source, DenoisedPtr denoised)>;
-    // An empty function never denoises.
-    BackgroundDenoiser(DenoiseFunction denoise, OnAnswer on_answer);
+    // Called on the thread here: denoised pictures have not been wanted for `grace_seconds`, and all that they took is freed.
+    using OnRelease = std::function<void()>;
+    // An empty maker: nothing is ever denoised. Else it is called on the thread here, for the first picture and for the first one after a
+    // release.
+    BackgroundDenoiser(DenoiserMaker maker, double grace_seconds, OnAnswer on_answer, OnRelease on_release);
     // Stops within a layer of the network, and joins.
     ~BackgroundDenoiser();
     BackgroundDenoiser(const BackgroundDenoiser&) = delete;
@@ -50,11 +55,16 @@ private:
 
     void run();
     DenoiseOptions options_for(const Task& task, DenoiseQuality quality) const;
-    Outcome denoise(const Task& task, const DenoiseOptions& options) const;
+    Outcome denoise(const Task& task, const DenoiseOptions& options);
     bool is_wanted(const Task& task) const;
 
-    DenoiseFunction denoise_;
+    void release(std::unique_lock<std::mutex>& lock);
+    double seconds_to_release() const;
+
+    DenoiserMaker maker_;
+    double grace_seconds_;
     OnAnswer on_answer_;
+    OnRelease on_release_;
 
     // What is asked between layers: no lock.
     std::atomic<bool> wanted_{false}, quit_{false};
@@ -65,8 +75,10 @@ private:
     Task newest_;
     DenoiseCadence cadence_;
     std::string failure_;
+    double unwanted_since_ = 0;
 
-    // The thread's own: the exposure scale of the last picture, and its image.
+    // The thread's own: what denoises, while it is there; the exposure scale of the last picture, and its image.
+    DenoiseFunction denoise_;
     std::optional<float> scale_;
     uint64_t scale_image_ = 0;
     std::thread thread_;

@@ -56,8 +56,8 @@ const float* at(const PixelView& plane, int width, int x, int y) { return &plane
 class Passage {
 public:
     Passage(const DenoiseInput& input, const DenoiseOptions& options, Networks& networks, const Workers& workers,
-            const std::function<bool()>& wanted)
-        : input_(input), options_(options), networks_(networks), workers_(workers), wanted_(wanted),
+            const std::function<bool()>& wanted, const std::function<void(double)>& progress)
+        : input_(input), options_(options), networks_(networks), workers_(workers), wanted_(wanted), progress_(progress),
           features_(!input.albedo.values.empty() && !input.normal.values.empty()),
           prefilter_(features_ && options.quality == DenoiseQuality::high), element_(element_for(options.precision)) {}
 
@@ -101,13 +101,17 @@ private:
         return std::string(features_ ? "rt_hdr_alb_nrm" : "rt_hdr") + (options_.quality == DenoiseQuality::fast ? "_small" : "");
     }
 
-    NetworkJob job(std::string network, int inputs) const {
+    NetworkJob job(std::string network, int inputs) {
+        const auto tell = [this, before = networks_run_++](double share) {
+            if (progress_) progress_((before + share) / (prefilter_ ? 3 : 1));
+        };
         return {.network = std::move(network),
                 .inputs = inputs,
                 .width = input_.width,
                 .height = input_.height,
                 .element = element_,
-                .memory_bytes = options_.memory_bytes};
+                .memory_bytes = options_.memory_bytes,
+                .progress = tell};
     }
 
     // Albedo, or normals as the network sees them, on their own through their own network.
@@ -143,9 +147,11 @@ private:
     Networks& networks_;
     const Workers& workers_;
     const std::function<bool()>& wanted_;
+    const std::function<void(double)>& progress_;
     bool features_;  // albedo and normal are there
     bool prefilter_; // and are denoised first
     Element element_;
+    int networks_run_ = 0;                           // three of about the same size, or one
     std::vector<float> clean_albedo_, clean_normal_; // prefiltered, coded as the network sees them
 };
 
@@ -162,12 +168,12 @@ Denoiser::Denoiser(std::filesystem::path weights, unsigned threads, bool low_pri
 Denoiser::~Denoiser() = default;
 
 Result<std::optional<Denoised>> Denoiser::denoise(const DenoiseInput& input, const DenoiseOptions& options,
-                                                  const std::function<bool()>& wanted) {
+                                                  const std::function<bool()>& wanted, const std::function<void(double)>& progress) {
     const auto begin = std::chrono::steady_clock::now();
     if (const auto good = check(input, options); !good) return good.error();
     try {
         Denoised made;
-        const auto finished = Passage(input, options, state_->networks, state_->workers, wanted).run(made);
+        const auto finished = Passage(input, options, state_->networks, state_->workers, wanted, progress).run(made);
         if (!finished) return finished.error();
         if (!*finished) return std::optional<Denoised>();
         made.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -199,7 +205,7 @@ Ledger denoiser_ledger(const std::filesystem::path& weights, const std::array<bo
     Ledger ledger;
     for (const Networks& n : networks) {
         const bool used = loaded[size_t(n.quality)];
-        FeatureUse use{"denoiser", n.name, used, used ? "a picture was denoised with it" : "no picture was denoised with it"};
+        FeatureUse use{"denoiser", n.name, used, used ? "denoised pictures are wanted" : "no denoised picture wants it"};
         int64_t bytes = 0;
         bool all_there = true;
         for (const char* name : n.files) {

@@ -81,9 +81,10 @@ public:
 
     // Asked often, from many threads: nothing is returned soon after `wanted` says false.
     // Errors: weights absent or damaged, spans too short for the size, memory too small for the smallest tile, a precision that this
-    // processor does not have.
+    // processor does not have. `progress`, if there is one, is told of the share that is done, layer by layer, on the caller's thread; 1 at
+    // the end.
     Result<std::optional<Denoised>> denoise(const DenoiseInput& input, const DenoiseOptions& options,
-                                            const std::function<bool()>& wanted = {});
+                                            const std::function<bool()>& wanted = {}, const std::function<void(double)>& progress = {});
     // Frees everything but the weights; the next call builds it again.
     void release();
 

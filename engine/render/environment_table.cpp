@@ -45,6 +45,7 @@ void set_texels(EnvironmentTable& table, const Image& image, const std::string& 
             const bool is_usable = value >= 0 && std::isfinite(value);
             replaced += !is_usable;
             table.texels[3 * i + c] = is_usable ? value : 0;
+            table.shines |= is_usable && value > 0;
         }
     }
     if (replaced > 0) warn(table, fmt::format("{} values are negative or not finite: read as 0", replaced), file);
@@ -53,6 +54,7 @@ void set_texels(EnvironmentTable& table, const Image& image, const std::string& 
 void set_uniform_texel(EnvironmentTable& table, float value) {
     table.width = table.height = 1;
     table.texels = {value, value, value};
+    table.shines = value > 0;
 }
 
 // Row r of cells ends at the centre of texel row r, the last at the pole.
@@ -137,7 +139,7 @@ EnvironmentTables EnvironmentTable::tables() const {
         rotation,      visible_to_camera, lights_scene};
 }
 
-EnvironmentTable build_environment_table(const Environment& environment) {
+EnvironmentTable build_environment_table(const Environment& environment, bool importance) {
     const auto begin = std::chrono::steady_clock::now();
     EnvironmentTable table;
     switch (environment.kind) {
@@ -152,7 +154,7 @@ EnvironmentTable build_environment_table(const Environment& environment) {
             set_uniform_texel(table, 0);
         }
     }
-    build_importance(table);
+    if (importance) build_importance(table);
     update_environment_parameters(table, environment);
     table.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return table;

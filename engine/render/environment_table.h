@@ -17,7 +17,8 @@ struct EnvironmentTable {
     std::vector<uint32_t> row_thresholds, column_thresholds;
     std::vector<int32_t> column_guides;
     std::vector<EnvironmentRow> rows;
-    Vec3d texel_integral{0, 0, 0}; // of the map over the sphere, sr
+    Vec3d texel_integral{0, 0, 0}; // of the map over the sphere, sr; only with an importance map
+    bool shines = false;           // some texel is not black
     std::vector<Diagnostic> warnings;
     // Of the parameters:
     Vec3 scale{0, 0, 0};
@@ -32,8 +33,9 @@ struct EnvironmentTable {
     EnvironmentTables tables() const;
 };
 
-// With a warning: texels that are negative or not finite become 0, an image that cannot be used becomes no environment.
-EnvironmentTable build_environment_table(const Environment& environment);
+// With a warning: texels that are negative or not finite become 0, an image that cannot be used becomes no environment. Without an
+// importance map it can be looked at, but no directions can be drawn from it, and they have no density.
+EnvironmentTable build_environment_table(const Environment& environment, bool importance = true);
 // Can it give light at all? Colour and intensity say so; the image may still be black.
 bool gives_light(const Environment& environment);
 // Memory of a map of that size: the texels, and what directions are drawn from.

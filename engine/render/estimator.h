@@ -124,13 +124,17 @@ EscapedLight<F> escaped_light(const SceneTables& scene, const EstimatorSettings&
     Vec<F> sum = splat<F>(0.f);
     F environment_weight = F(1.f);
     const LightTables& lights = scene.lights;
+    // Of the density there would be by aiming, for its share of the weight. Nobody aims under Strategy::bsdf, and then there are no tables.
+    const bool aims = settings.strategy != Strategy::bsdf;
     if constexpr (S.has(Feature::environment)) {
         if (bounce > 0 ? scene.environment.lights_scene : scene.environment.visible_to_camera) {
             const Vec<F> radiance = environment_radiance<F>(scene.environment, path.ray.direction, active);
-            F pdf = F(0.f);
-            if (lights.environment >= 0)
-                pdf = environment_pdf<F>(scene.environment, path.ray.direction) * light_probability<F>(lights, Int<F>(lights.environment));
-            environment_weight = found_emission_weight(settings.strategy, path.pdf, pdf);
+            if (aims) {
+                F pdf = F(0.f);
+                if (lights.environment >= 0)
+                    pdf = environment_pdf<F>(scene.environment, path.ray.direction) * light_probability<F>(lights, Int<F>(lights.environment));
+                environment_weight = found_emission_weight(settings.strategy, path.pdf, pdf);
+            }
             sum = radiance * environment_weight;
         }
     }
@@ -140,8 +144,11 @@ EscapedLight<F> escaped_light(const SceneTables& scene, const EstimatorSettings&
             if (bounce == 0 && sun.flags & light_hidden) continue;
             const Mask<F> inside = active && in_sun_disk<F>(path.ray.direction, splat<F>(sun.position), F(sun.cone_height));
             if (!any(inside)) continue;
-            const F pdf = cone_pdf(F(sun.cone_height)) * light_probability<F>(lights, Int<F>(lights.suns[i]));
-            const F weight = found_emission_weight(settings.strategy, path.pdf, pdf);
+            F weight = F(1.f);
+            if (aims) {
+                const F pdf = cone_pdf(F(sun.cone_height)) * light_probability<F>(lights, Int<F>(lights.suns[i]));
+                weight = found_emission_weight(settings.strategy, path.pdf, pdf);
+            }
             sum = select<F>(inside, sum + splat<F>(sun.emission) * weight, sum);
         }
     }
@@ -166,6 +173,7 @@ template <class F> F emission_profile(const SceneTables& scene, const Int<F>& li
 template <class F>
 F surface_emission_weight(const SceneTables& scene, Strategy strategy, const Int<F>& found, const F& bsdf_pdf, const F& t, const F& facing,
                           const Mask<F>& active) {
+    if (strategy == Strategy::bsdf) return F(1.f);
     const Mask<F> sampled = active && as_mask(found >= 0);
     const Int<F> light = select(sampled, found, Int<F>(0));
     const F per_area = light_probability<F>(scene.lights, light) * gather_field(scene.lights.lights, &LightRecord::inverse_area, light);

@@ -19,6 +19,7 @@ struct EstimatorSettings {
     int32_t max_bounces = longest_path; // scattering events
     Roulette roulette;
     Strategy strategy = Strategy::mis;
+    SampleNumbers sampler = SampleNumbers::sobol;
     const FilterTable* filter = nullptr;
     const EnergyTable* energy = nullptr; // null: no multiple-scattering compensation
     ReuseGroups reuse;                   // of one pixel: none

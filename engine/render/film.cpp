@@ -32,15 +32,23 @@ std::vector<PlaneUse> Film::plane_uses(const PlaneSet& planes, bool transparent_
     const int bounces = planes.bounces > 0 ? planes.bounces : usual_bounce_planes;
     return {
         {"beauty", true, "two halves, which tell the error", 2 * sizeof(Half)},
-        {"albedo and normal", features, features ? "somebody reads them" : "nobody reads them: no layer, no denoiser", sizeof(FeatureSums)},
-        {"depth", planes.depth, planes.depth ? "somebody reads it" : "nobody reads it", sizeof(float)},
-        {"ids", planes.ids, planes.ids ? "somebody reads them" : "nobody reads them: no layer, no picking",
+        {"albedo and normal", features,
+         features ? "the denoiser, the values of a pixel or a layer: what samples saw can only be kept while they are taken"
+                  : "nobody reads them: no layer, no denoiser",
+         sizeof(FeatureSums)},
+        {"depth", planes.depth,
+         planes.depth ? "a click that focuses, lights aimed at what is seen, the values of a pixel or a layer"
+                      : "nobody reads it: no layer, no focusing",
+         sizeof(float)},
+        {"ids", planes.ids,
+         planes.ids ? "a click that selects, the outline, the values of a pixel or a layer" : "nobody reads them: no layer, no picking",
          sizeof(uint32_t) + sizeof(int32_t)},
         {"coverage", transparent_background, transparent_background ? "the environment is hidden from the camera" : "the picture is opaque",
          places * sizeof(int64_t)},
         {"bounces", planes.bounces > 0, planes.bounces > 0 ? "somebody reads them" : "nobody looks at single bounces",
          places * BouncePlanes::bytes_per_pixel(bounces)},
-        {"path statistics", planes.roulette, planes.roulette ? "roulette is being looked at" : "nobody looks at roulette", places * sizeof(Vec3d)},
+        {"path statistics", planes.roulette, planes.roulette ? "roulette is being looked at" : "nobody looks at roulette",
+         places * sizeof(Vec3d)},
     };
 }
 

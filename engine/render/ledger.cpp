@@ -94,21 +94,37 @@ const char* why_no_map(const Environment& e) {
     return gives_light(e) ? "the image cannot be used" : "the environment gives no light";
 }
 
-void add_lights(Ledger& ledger, const LightTable& lights, const EnvironmentTable& environment, const Environment& e) {
-    const int64_t light_bytes = int64_t(lights.records.size() * sizeof(LightRecord) + lights.thresholds.size() * sizeof(uint32_t) +
-                                        lights.suns.size() * sizeof(int32_t));
-    ledger.push_back({"lights", "light table", lights.count > 0, lights.count > 0 ? "the scene has lights" : "nothing shines",
-                      lights.count > 0 ? light_bytes : 0});
+constexpr const char* nobody_aims = "BSDF sampling alone aims at nothing that has a size";
+
+void add_light_table(Ledger& ledger, const LightTable& lights, Aim aim) {
+    const int64_t all = lights.emissive_triangles + lights.point_lights + lights.sphere_lights + lights.sun_lights + (lights.environment >= 0);
+    const bool used = lights.count > 0;
+    ledger.push_back({"lights", "light table", used,
+                      used      ? "the scene has lights"
+                      : all > 0 ? nobody_aims
+                                : "nothing shines",
+                      light_table_bytes(used ? lights.count : all)});
+    if (aim == Aim::at_points && used && all > lights.count)
+        ledger.push_back({"lights", "lights with a size", false, nobody_aims, light_table_bytes(all - lights.count)});
+}
+
+void add_lights(Ledger& ledger, const LightTable& lights, const EnvironmentTable& environment, const Environment& e, Aim aim) {
+    add_light_table(ledger, lights, aim);
 
     const bool used = e.kind == Environment::Kind::image && gives_light(e) && int64_t(environment.width) * environment.height > 1;
     FeatureUse map{"lights", "environment map", used, used ? "the environment is an image" : why_no_map(e), 0};
-    FeatureUse importance{"lights", "importance map", used, used ? "light from the environment is aimed at" : why_no_map(e), 0};
+    const bool aimed_at = used && aim == Aim::at_all;
+    FeatureUse importance{"lights", "importance map", aimed_at,
+                          aimed_at ? "light from the environment is aimed at"
+                          : used   ? nobody_aims
+                                   : why_no_map(e),
+                          0};
     if (e.kind == Environment::Kind::image && e.image) {
         const EnvironmentBytes bytes = environment_bytes(e.image->width, e.image->height);
         map.bytes = bytes.texels;
         importance.bytes = bytes.importance;
     }
-    if (used) importance.seconds = environment.seconds;
+    if (aimed_at) importance.seconds = environment.seconds;
     ledger.push_back(map);
     ledger.push_back(importance);
 }
@@ -131,7 +147,7 @@ Ledger RenderScene::ledger(const Scene& lowered, const FilmSize& film) const {
     add_film(ledger, film);
     add_vertices(ledger, geometry_, needs_);
     add_textures(ledger, materials_.textures, lowered);
-    add_lights(ledger, lights_, environment_, lowered.environment);
+    add_lights(ledger, lights_, environment_, lowered.environment, aim_);
     return ledger;
 }
 

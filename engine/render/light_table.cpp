@@ -19,6 +19,7 @@ constexpr double pi_d = 3.14159265358979323846;
 double luminance_of(const Vec3& c) { return double(luminance(c)); }
 
 struct Builder {
+    Aim aim = Aim::at_all;
     LightTable table;
     std::vector<double> powers;
 
@@ -26,6 +27,8 @@ struct Builder {
         table.records.push_back(record);
         powers.push_back(std::isfinite(power) && power > 0 ? power : 0);
     }
+    // A light that rays can find as well.
+    void add_findable(const LightRecord& record, double power) { add(record, aim == Aim::at_all ? power : 0); }
 };
 
 // Mean emission of a textured triangle over a 4 x 4 grid, and never quite nothing where the material may emit: what the
@@ -54,8 +57,13 @@ void add_triangles(Builder& b, const Scene& scene, const MaterialTable& material
         const MaterialRecord& material = materials.records[size_t(record.material)];
         record.first_light = -1;
         if (!(material.flags & material_emissive) || material.flags & material_unlit) continue;
-        record.first_light = int32_t(b.table.records.size());
         const int32_t profile = panel_profile(b, scene, placements, Id<Node>{uint32_t(record.object)});
+        // Whoever finds a light reads its profile.
+        if (b.aim == Aim::at_points && profile < 0) {
+            b.table.emissive_triangles += geometry.triangle_count(part);
+            continue;
+        }
+        record.first_light = int32_t(b.table.records.size());
         const bool two_sided = material.flags & material_double_sided, textured = material.emissive_texture >= 0;
         // The stored corners wind as in the mesh; under a mirroring transform the other side of their plane is the outside.
         const bool mirrored = record.transform >= 0 ? determinant(scene_tables.instances[record.transform].world_from_object) < 0
@@ -83,7 +91,7 @@ void add_triangles(Builder& b, const Scene& scene, const MaterialTable& material
                 nits = mean_textured_luminance(tables, b.table.records.size() - 1, material.emission);
             }
             const double power = pi_d * area * nits * (two_sided ? 2 : 1);
-            b.powers.push_back(std::isfinite(power) && light.inverse_area > 0 ? power : 0);
+            b.powers.push_back(b.aim == Aim::at_all && std::isfinite(power) && light.inverse_area > 0 ? power : 0);
             ++b.table.emissive_triangles;
         }
     }
@@ -106,7 +114,7 @@ void add_spheres(Builder& b, const Scene& scene, const std::vector<SphereLight>&
         record.emission = light_emission(light);
         if (light.kind != Light::Kind::sphere) record.emission = to_float(to_double(record.emission) * (1 / disk));
         ++b.table.sphere_lights;
-        b.add(record, 4 * pi_d * disk * luminance_of(record.emission) * profile.share);
+        b.add_findable(record, 4 * pi_d * disk * luminance_of(record.emission) * profile.share);
     }
 }
 
@@ -125,7 +133,8 @@ LightRecord sun_record(const Vec3& towards, float angle_radians, const Vec3& lux
 void add_sun(Builder& b, const LightRecord& record, double lux, double scene_radius) {
     if (record.cone_height > 0) b.table.suns.push_back(int32_t(b.table.records.size()));
     ++b.table.sun_lights;
-    b.add(record, pi_d * scene_radius * scene_radius * lux);
+    const double power = pi_d * scene_radius * scene_radius * lux;
+    record.cone_height > 0 ? b.add_findable(record, power) : b.add(record, power);
 }
 
 void add_punctual(Builder& b, const Scene& scene, double scene_radius, const Vec3d& origin) {
@@ -168,26 +177,30 @@ void share_evenly(std::vector<double>& powers) {
 } // namespace
 
 LightTable build_light_table(const Scene& scene, const MaterialTable& materials, GeometryPool& geometry, const SceneTables& tables,
-                             const std::vector<SphereLight>& spheres, const Vec3& environment_mean, const Extent& extent) {
+                             const std::vector<SphereLight>& spheres, const SkyLight& sky, const Extent& extent, Aim aim) {
     Builder b;
+    b.aim = aim;
     add_triangles(b, scene, materials, geometry, tables);
     add_spheres(b, scene, spheres, extent.origin);
     const double radius = extent.bounds.empty ? 1 : std::max(extent.bounds.radius(), 1e-30);
     add_punctual(b, scene, radius, extent.origin);
-    const double sky = luminance_of(environment_mean);
-    if (sky > 0) {
+    if (sky.shines) {
         LightRecord record{};
         record.kind = int32_t(LightKind::environment);
         record.profile = -1;
         b.table.environment = int32_t(b.table.records.size());
-        b.add(record, 4 * pi_d * pi_d * radius * radius * sky);
+        b.add_findable(record, 4 * pi_d * pi_d * radius * radius * luminance_of(sky.mean));
     }
     share_evenly(b.powers);
     b.table.count = int32_t(b.table.records.size());
+    // Nothing is drawn from what nobody aims at: not even by the last of all random numbers.
+    while (aim == Aim::at_points && b.table.count > 0 && b.powers[size_t(b.table.count) - 1] == 0) --b.table.count;
     if (b.table.records.empty()) b.add({}, 1);
     b.table.thresholds = make_thresholds(b.powers);
     return std::move(b.table);
 }
+
+int64_t light_table_bytes(int64_t lights) { return lights * int64_t(sizeof(LightRecord) + sizeof(uint32_t)); }
 
 void LightTable::fill(LightTables& t) const {
     t.lights = records.data();

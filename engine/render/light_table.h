@@ -18,7 +18,7 @@ struct LightTable {
     std::vector<LightRecord> records; // at least one, so that kernels can always read
     std::vector<uint32_t> thresholds;
     std::vector<int32_t> suns;        // indices of those with a disk
-    int32_t count = 0;
+    int32_t count = 0;                // records to draw from; 0: nothing to aim at
     int32_t environment = -1;
     int32_t first_sphere = 0;
     LightProfiles profiles;
@@ -28,11 +28,21 @@ struct LightTable {
 };
 
 // Emissive triangles part by part (part records get their first_light), then spheres in their order, then other lights in node order, then
-// the environment. `environment_mean` is its radiance averaged over the sphere (nits), 0 if there is none. Powers are luminous fluxes: pi A L
-// for a triangle, 4 pi^2 r^2 L for a sphere, 4 pi I for a point, times the share that a profile leaves of it; for suns and sky what crosses
-// the sphere of radius R around the scene's bounds: pi R^2 E and 4 pi^2 R^2 L (Pharr, Jakob, Humphreys, section 12.6). Positions are about
-// the extent's origin. One sample in 64 is shared out among all lights alike, so that a faint one is found where it is all there is.
+// the environment. Powers are luminous fluxes: pi A L for a triangle, 4 pi^2 r^2 L for a sphere, 4 pi I for a point, times the share that a
+// profile leaves of it; for suns and sky what crosses the sphere of radius R around the scene's bounds: pi R^2 E and 4 pi^2 R^2 L (Pharr,
+// Jakob, Humphreys, section 12.6). Positions are about the extent's origin. One sample in 64 is shared out among all lights alike, so that a
+// faint one is found where it is all there is.
+//
+// Aim::at_points: only what no ray can find, lights without size, is aimed at. What is found has records where they are read then:
+// spheres, suns, and triangles with a profile.
+enum class Aim { at_all, at_points };
+struct SkyLight {
+    bool shines = false;
+    Vec3 mean{0, 0, 0}; // radiance averaged over the sphere, nits
+};
 LightTable build_light_table(const Scene& scene, const MaterialTable& materials, GeometryPool& geometry, const SceneTables& tables,
-                             const std::vector<SphereLight>& spheres, const Vec3& environment_mean, const Extent& extent);
+                             const std::vector<SphereLight>& spheres, const SkyLight& sky, const Extent& extent, Aim aim);
+// Bytes of a table of `lights` records.
+int64_t light_table_bytes(int64_t lights);
 
 } // namespace blush

@@ -126,18 +126,20 @@ AccelScene RenderScene::accel_scene() const {
     return scene;
 }
 
-void RenderScene::update_lights(const Scene& scene, const UpdatePlan& plan) {
-    // What gives no light needs no map.
+void RenderScene::update_lights(const Scene& scene, const RenderSettings& settings, const UpdatePlan& plan) {
+    // What gives no light needs no map, and where nobody aims, nothing to aim with.
+    aim_ = settings.strategy == Strategy::bsdf ? Aim::at_points : Aim::at_all;
     const bool needs_map = gives_light(scene.environment);
     if (plan.environment_map || (plan.environment_parameters && needs_map != has_environment_map_))
-        environment_ = build_environment_table(needs_map ? scene.environment : Environment{});
+        environment_ = build_environment_table(needs_map ? scene.environment : Environment{}, aim_ == Aim::at_all);
     if (plan.environment_map || plan.environment_parameters) update_environment_parameters(environment_, scene.environment);
     has_environment_map_ = needs_map;
     tables_.environment = environment_.tables();
     if (!plan.lights) return;
+    const Vec3d mean = environment_.integral() * (1 / (4 * 3.14159265358979323846));
     // A backdrop is seen and lights nothing.
-    const Vec3d sky = scene.environment.lights_scene ? environment_.integral() * (1 / (4 * 3.14159265358979323846)) : Vec3d{0, 0, 0};
-    lights_ = build_light_table(scene, materials_, geometry_, tables_, spheres_, to_float(sky), extent_);
+    const bool shines = scene.environment.lights_scene && needs_map && environment_.shines;
+    lights_ = build_light_table(scene, materials_, geometry_, tables_, spheres_, {shines, to_float(mean)}, extent_, aim_);
     lights_.fill(tables_.lights);
 }
 
@@ -170,7 +172,7 @@ void RenderScene::update(const Scene& scene, const RenderSettings& settings, con
     const Vec3d origin_before = extent_.origin;
     update_materials(scene, plan);
     update_geometry(scene, plan, workers);
-    update_lights(scene, plan);
+    update_lights(scene, settings, plan);
     geometry_.fill(tables_);
     if (plan.camera || extent_.origin != origin_before)
         tables_.camera = camera_record(scene.view, float(settings.width) / float(settings.height), extent_.origin);

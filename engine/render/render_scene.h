@@ -42,7 +42,7 @@ private:
     void update_materials(const Scene& scene, const UpdatePlan& plan);
     void update_geometry(const Scene& scene, const UpdatePlan& plan, const Workers& workers);
     AccelScene accel_scene() const;
-    void update_lights(const Scene& scene, const UpdatePlan& plan);
+    void update_lights(const Scene& scene, const RenderSettings& settings, const UpdatePlan& plan);
     Features compute_features(const Scene& scene, const RenderSettings& settings) const;
 
     MaterialTable materials_;
@@ -60,6 +60,7 @@ private:
     SceneTables tables_;
     Features features_;
     bool has_geometry_ = false, has_environment_map_ = false;
+    Aim aim_ = Aim::at_all; // at lights, as last told
 };
 
 // The view as kernels read it, at the given aspect = width / height, its position about `origin`.

@@ -106,6 +106,7 @@ struct RenderSession::State {
     void keep_film(uint64_t revision);
     void answer(KeptFilm kept);
     void take_denoised(uint64_t image, const FramePtr& source, DenoisedPtr denoised);
+    void forget_networks();
     Pictures look() const;
 };
 
@@ -166,6 +167,15 @@ void RenderSession::State::take_denoised(uint64_t image, const FramePtr& source,
         showcase.answer(image, source, std::move(denoised));
         status.denoiser_failure = denoiser->failure();
         if (!status.denoiser_failure.empty()) showcase.release();
+    }
+    on_frame();
+}
+
+// On the denoiser's thread: they are freed.
+void RenderSession::State::forget_networks() {
+    {
+        const std::lock_guard lock(mutex);
+        status.denoised_with = {};
     }
     on_frame();
 }
@@ -290,9 +300,11 @@ RenderSession::RenderSession(const SessionOptions& options, std::function<void()
     state_->options = options;
     state_->on_frame = on_frame ? std::move(on_frame) : [] {};
     state_->denoiser = std::make_unique<BackgroundDenoiser>(
-        options.denoise, [s = state_.get()](uint64_t image, const FramePtr& source, DenoisedPtr denoised) {
+        options.denoiser, options.denoiser_grace,
+        [s = state_.get()](uint64_t image, const FramePtr& source, DenoisedPtr denoised) {
             s->take_denoised(image, source, std::move(denoised));
-        });
+        },
+        [s = state_.get()] { s->forget_networks(); });
     state_->thread = std::thread([s = state_.get()] { s->run(); });
 }
 

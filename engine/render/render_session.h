@@ -21,7 +21,8 @@ struct SessionOptions {
     unsigned threads = 0;         // 0: one per core
     bool low_priority = true;     // below the UI: render threads may not starve it
     bool first_hit_planes = true; // albedo, normal, depth, ids in every frame: picking, the pixel probe and the denoiser read them
-    DenoiseFunction denoise = {}; // not called before denoised pictures are wanted; empty: there are none
+    DenoiserMaker denoiser = {};  // not called before denoised pictures are wanted; empty: there are none
+    double denoiser_grace = 30;   // seconds for which what it made is kept after they are wanted no more
 };
 
 struct SessionStatus {
@@ -30,7 +31,7 @@ struct SessionStatus {
     uint64_t revision = 0;                               // the last one taken up
     double progress = 0;                                 // towards the nearest stop rule, 0 .. 1; 1 only when reached
     std::string message;                                 // failed: what went wrong
-    std::array<bool, denoise_qualities> denoised_with{}; // networks that pictures were made by, and that are in memory since
+    std::array<bool, denoise_qualities> denoised_with{}; // networks that pictures were made by, and that are in memory
     std::string not_continued;                           // why this image began anew, not from the samples it was given; empty: it did not
     std::string denoiser_failure;                        // why there are no denoised pictures any more; empty: all is well
 };

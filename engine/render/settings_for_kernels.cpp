@@ -18,6 +18,7 @@ EstimatorSettings settings_for_kernels(const RenderSettings& settings, int width
     if (settings.max_bounces != unlimited_bounces) e.max_bounces = settings.max_bounces;
     e.roulette = settings.roulette;
     e.strategy = settings.strategy;
+    e.sampler = settings.sampler;
     e.filter = settings.filter == PixelFilter::box ? &box_filter() : &blackman_harris_filter();
     e.energy = settings.energy_compensation ? &energy_table() : nullptr;
     e.reuse = reuse_groups(settings.reuse);

@@ -8,8 +8,8 @@ UpdatePlan plan(const Changes& c) {
     p.transforms = p.objects || !c.transforms.empty();
     p.all_materials = p.objects || !c.textures.empty();
     if (!p.all_materials) p.materials = c.materials;
-    p.environment_map = c.environment_image;
-    p.environment_parameters = c.environment_parameters || c.environment_image;
+    p.environment_map = c.environment_image || c.aiming;
+    p.environment_parameters = c.environment_parameters || p.environment_map;
     // Moving an object may move an emitter, and the scene's size tells how much power the sky has.
     p.lights = p.transforms || p.all_materials || !c.materials.empty() || !c.lights.empty() || p.environment_parameters;
     p.camera = c.view || c.resolution;

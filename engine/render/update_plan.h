@@ -13,7 +13,7 @@ struct UpdatePlan {
     bool all_materials = false;      // the set of materials or textures in use may have changed
     std::vector<Id<Material>> materials; // rewrite these records
     bool lights = false;             // light records and probabilities
-    bool environment_map = false;    // importance map
+    bool environment_map = false;    // texels and importance map
     bool environment_parameters = false;
     bool camera = false;
     bool clear_film = false;

@@ -124,9 +124,13 @@ template <Features S, class F> [[gnu::flatten]] void generate_paths(const Kernel
         const UInt<F> sample = load<UInt<F>>(samples + k);
         const UInt<F> odd = sample & 1u;
         const UInt<F> random = select(as_mask(odd != 0u), UInt<F>(half[1]), UInt<F>(half[0]));
-        const UInt<F> key = pixel_key<F>(to_unsigned(to_int(x)), to_unsigned(to_int(y)), random);
+        UInt<F> key = pixel_key<F>(to_unsigned(to_int(x)), to_unsigned(to_int(y)), random), index = sample >> 1;
+        if (context.settings.sampler == SampleNumbers::random) {
+            key = independent_key(key, index);
+            index = UInt<F>(0u);
+        }
         const Int<F> slot = iota<F>() + k;
-        append(q, begin_path<S, F>(*context.scene, context.settings, x, y, key, UInt<F>(sample >> 1), slot), as_mask(slot < n));
+        append(q, begin_path<S, F>(*context.scene, context.settings, x, y, key, index, slot), as_mask(slot < n));
     }
     std::fill_n(scratch.r.data, n, 0.0);
     std::fill_n(scratch.g.data, n, 0.0);

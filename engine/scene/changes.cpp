@@ -74,6 +74,7 @@ void diff_environment(const Environment& a, const Environment& b, Changes& chang
 
 void diff_settings(const RenderSettings& a, const RenderSettings& b, Changes& changes) {
     changes.resolution = a.width != b.width || a.height != b.height || a.resolution_scale != b.resolution_scale;
+    changes.aiming = (a.strategy == Strategy::bsdf) != (b.strategy == Strategy::bsdf);
     changes.stop_rules = a.spp != b.spp || a.seconds != b.seconds || a.error != b.error;
     RenderSettings sized_alike = a;
     sized_alike.width = b.width;

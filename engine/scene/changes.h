@@ -12,6 +12,7 @@ struct Changes {
     bool view = false;        // pose or lens; the pivot is not seen
     bool resolution = false;
     bool integrator = false;  // bounces, roulette, strategy, filter, seed, first sample, energy compensation
+    bool aiming = false;      // lights are sampled now and were not, or the other way round: Strategy::bsdf
     bool stop_rules = false;
     bool environment_parameters = false; // colour, intensity, rotation, visibility
     bool environment_image = false;      // kind or pixels

@@ -38,6 +38,8 @@ struct Clamp {
 
 enum class Strategy : uint8_t { mis, light, bsdf };
 enum class PixelFilter : uint8_t { blackman_harris, box };
+// Where samples get their numbers from: well distributed points, or independent random numbers.
+enum class SampleNumbers : uint8_t { sobol, random };
 
 constexpr int unlimited_bounces = -1;
 
@@ -54,6 +56,7 @@ struct RenderSettings {
     Roulette roulette = {};
     Strategy strategy = Strategy::mis;
     PixelFilter filter = PixelFilter::blackman_harris;
+    SampleNumbers sampler = SampleNumbers::sobol;
     bool energy_compensation = false;
     bool adaptive = false;          // spp is a mean: more samples where the noise is. Starts at sample 0
     int reuse = 1;                  // pixels that share their second path vertices: 4, 8, 16 or, alone, 1
@@ -82,5 +85,7 @@ Result<Strategy> parse_strategy(std::string_view text);
 std::string_view to_string(Strategy strategy);
 Result<PixelFilter> parse_filter(std::string_view text);
 std::string_view to_string(PixelFilter filter);
+Result<SampleNumbers> parse_sampler(std::string_view text);
+std::string_view to_string(SampleNumbers sampler);
 
 } // namespace blush

@@ -28,7 +28,10 @@ constexpr std::array<Word<PixelFilter>, 2> filter_words{{
     {PixelFilter::blackman_harris, "blackman-harris"},
     {PixelFilter::box, "box"},
 }};
-
+constexpr std::array<Word<SampleNumbers>, 2> sampler_words{{
+    {SampleNumbers::sobol, "sobol"},
+    {SampleNumbers::random, "random"},
+}};
 constexpr std::array<Word<int>, 4> reuse_words{{{1, "off"}, {4, "4"}, {8, "8"}, {16, "16"}}};
 
 Result<float> parse_probability(std::string_view text, std::string_view name, bool zero_allowed) {
@@ -137,5 +140,7 @@ Result<Strategy> parse_strategy(std::string_view text) { return value_of(strateg
 std::string_view to_string(Strategy strategy) { return word_of(strategy_words, strategy); }
 Result<PixelFilter> parse_filter(std::string_view text) { return value_of(filter_words, text, "filter"); }
 std::string_view to_string(PixelFilter filter) { return word_of(filter_words, filter); }
+Result<SampleNumbers> parse_sampler(std::string_view text) { return value_of(sampler_words, text, "sampler"); }
+std::string_view to_string(SampleNumbers sampler) { return word_of(sampler_words, sampler); }
 
 } // namespace blush

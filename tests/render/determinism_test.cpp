@@ -47,6 +47,27 @@ TEST(Determinism, ThreadsRunsAndSplitsDoNotShow) {
     }
 }
 
+TEST(Determinism, IndependentNumbersDoNotDependOnThreadsAndSplits) {
+    RenderSettings settings = settings_for(80, 45, 8);
+    settings.sampler = SampleNumbers::random;
+    const Scene scene = shipped_scene("veach-mis");
+    const Frame once = render_in_steps(scene, settings, 1, {8});
+    expect_same(once, render_in_steps(scene, settings, 2, {3, 8}), "two threads, 0:3 + 3:8");
+    expect_same(once, render_in_steps(scene, settings, 1, {1, 2, 4, 8}), "doubling");
+}
+
+// The same mean, and of 64 samples clearly more noise than evenly distributed points leave.
+TEST(Samplers, AgreeInTheMeanAndDifferInNoise) {
+    const Scene scene = shipped_scene("cornell");
+    RenderSettings settings = settings_for(32, 32, 64);
+    const Picture points = render(scene, settings);
+    settings.sampler = SampleNumbers::random;
+    settings.seed = 1;
+    const Picture numbers = render(scene, settings);
+    EXPECT_TRUE(same_means(points.blocks(16, 16), numbers.blocks(16, 16)));
+    EXPECT_LT(points.frame.error.rmse_high, numbers.frame.error.rmse_low);
+}
+
 TEST(Determinism, SharedPathsDoNotDependOnThreadsAndSplits) {
     for (const int reuse : {4, 16}) {
         RenderSettings settings = settings_for(80, 45, 8);

@@ -25,8 +25,9 @@ struct Compiled {
     Workers workers{1};
     RenderScene scene;
 
-    explicit Compiled(const Scene& s, bool compensate = false, int reuse = 1) {
+    explicit Compiled(const Scene& s, bool compensate = false, int reuse = 1, SampleNumbers sampler = SampleNumbers::sobol) {
         settings.reuse = reuse;
+        settings.sampler = sampler;
         settings.energy_compensation = compensate;
         scene.update(lower_area_lights(s), settings, full_plan(), workers);
     }
@@ -75,6 +76,10 @@ TEST(Kernels, GiveTheSameBitsOnShippedScenes) {
         SCOPED_TRACE(name);
         expect_same_bits_from_all_kernels(Compiled(shipped_scene(name)));
     }
+}
+
+TEST(Kernels, GiveTheSameBitsFromIndependentNumbers) {
+    expect_same_bits_from_all_kernels(Compiled(shipped_scene("card-and-mug"), false, 1, SampleNumbers::random));
 }
 
 TEST(Kernels, GiveTheSameBitsWhenPathsAreShared) {

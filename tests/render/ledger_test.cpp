@@ -19,7 +19,16 @@ struct Compiled {
     RenderScene scene;
     Scene lowered;
 
-    explicit Compiled(const Scene& s) : lowered(lower_area_lights(s)) { scene.update(lowered, settings, full_plan(), Workers(1)); }
+    explicit Compiled(const Scene& s, Strategy strategy = Strategy::mis) : lowered(lower_area_lights(s)) {
+        settings.strategy = strategy;
+        scene.update(lowered, settings, full_plan(), Workers(1));
+    }
+    void change_strategy(Strategy strategy) {
+        RenderSettings changed = settings;
+        changed.strategy = strategy;
+        scene.update(lowered, changed, plan(diff(lowered, settings, lowered, changed)), Workers(1));
+        settings = changed;
+    }
     Ledger ledger() const { return scene.ledger(lowered, {settings.width, settings.height, {}, false}); }
 };
 
@@ -125,6 +134,43 @@ TEST(Ledger, AnEnvironmentWithoutLightHasNoMapUntilItShinesAgain) {
     c.lowered.environment.intensity = 0;
     c.scene.update(c.lowered, c.settings, brighter, Workers(1));
     EXPECT_EQ(c.scene.tables().environment.width, 1) << "freed when it is not needed any more";
+}
+
+TEST(Ledger, WhereNobodyAimsThereIsNothingToAimWith) {
+    Scene scene = rich();
+    place(scene, floor_quad(1), emitter(2));
+    Compiled c(scene, Strategy::bsdf);
+    const auto expect_nothing = [&] {
+        const SceneTables& tables = c.scene.tables();
+        EXPECT_EQ(tables.lights.count, 0);
+        EXPECT_EQ(tables.environment.rows, nullptr);
+        EXPECT_EQ(tables.environment.width, 16) << "its light is still found";
+        EXPECT_TRUE(c.scene.features().has(Feature::emissive_triangles) && c.scene.features().has(Feature::environment));
+        const Ledger ledger = c.ledger();
+        EXPECT_FALSE(line(ledger, "lights", "light table").used);
+        EXPECT_FALSE(line(ledger, "lights", "importance map").used);
+        EXPECT_TRUE(line(ledger, "lights", "environment map").used);
+    };
+    expect_nothing();
+    const Ledger without = c.ledger();
+    c.change_strategy(Strategy::mis);
+    EXPECT_EQ(c.scene.tables().lights.count, 3) << "two triangles and the sky";
+    EXPECT_NE(c.scene.tables().environment.rows, nullptr);
+    for (const char* name : {"light table", "importance map"}) {
+        const Ledger with = c.ledger();
+        EXPECT_TRUE(line(with, "lights", name).used) << name;
+        EXPECT_EQ(line(with, "lights", name).bytes, line(without, "lights", name).bytes)
+            << name << ": what leaving it out saves is what it takes";
+    }
+    c.change_strategy(Strategy::bsdf);
+    expect_nothing();
+
+    Light point;
+    point.intensity = 1;
+    shine(scene, point, at({0, 1, 0}));
+    const Compiled lit(scene, Strategy::bsdf);
+    EXPECT_EQ(lit.scene.tables().lights.count, 1) << "no ray finds a point";
+    EXPECT_FALSE(line(lit.ledger(), "lights", "lights with a size").used);
 }
 
 TEST(Ledger, BytesOfTheEnvironmentAreThoseAllocated) {

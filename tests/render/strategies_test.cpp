@@ -83,6 +83,27 @@ TEST(Strategies, AgreeOnCardAndMugUnderAWideSun) {
     EXPECT_TRUE(same_means(mis, with_strategy(scene, Strategy::bsdf, 32, 16, 512), sidak(significance, 2))) << "bsdf";
 }
 
+// Under BSDF sampling alone, lights without a size are still aimed at, for no ray can find them, and nothing else is.
+TEST(Strategies, AgreeUnderLightsWithAndWithoutSize) {
+    Scene scene;
+    place(scene, floor_quad(2), lambert(0.7f));
+    place(scene, floor_quad(0.5f, 0.4f), plastic(0.5f));
+    place(scene, ceiling_quad(1, 2), emitter(3));
+    Light point;
+    point.intensity = 4;
+    shine(scene, point, at({0.7f, 1, 0.2f}));
+    Light sun;
+    sun.kind = Light::Kind::sun;
+    sun.intensity = 2;
+    shine(scene, sun, aimed({0, 0, 0}, {0.6f, -1, 0.4f})); // parallel: a disk of no size
+    sun.angle_radians = 0.8f;
+    shine(scene, sun, aimed({0, 0, 0}, {-0.6f, -1, 0.1f}));
+    constant_world(scene, 0.3f);
+    scene.view = looking_down(1.5f, 1);
+    const auto mis = with_strategy(scene, Strategy::mis, 16, 16, 256);
+    EXPECT_TRUE(same_means(mis, with_strategy(scene, Strategy::bsdf, 16, 16, 1024)));
+}
+
 std::vector<Measured> with_roulette(const Scene& scene, const char* rule, uint32_t seed) {
     RenderSettings settings = settings_for(32, 32, 64);
     settings.roulette = *parse_roulette(rule);

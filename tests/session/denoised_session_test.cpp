@@ -309,6 +309,50 @@ TEST(DenoisedSession, TheExposureScaleHoldsWhileAnImageRefines) {
     EXPECT_EQ(std::count_if(calls.begin(), calls.end(), [](const auto& c) { return std::isfinite(c.tolerance); }), 3) << "one an image";
 }
 
+// Weights and working memory go when the toggle is off and stays off; the picture that there is stays.
+TEST(DenoisedSession, WhatDenoisesIsFreedWhenNoPictureIsWantedAnyMore) {
+    constexpr std::array<bool, denoise_qualities> none{};
+    StandIn networks;
+    std::mutex guard;
+    std::vector<std::weak_ptr<int>> made; // by the maker, for as long as somebody holds it
+    SessionOptions options;
+    options.threads = 2;
+    options.denoiser_grace = 0;
+    options.denoiser = [&] {
+        const auto weights = std::make_shared<int>();
+        const std::lock_guard lock(guard);
+        made.push_back(weights);
+        return [weights, denoise = networks.function()](const auto&... arguments) { return denoise(arguments...); };
+    };
+    {
+        WatchedSession session(options);
+        session->want_denoised(true);
+        submit(session, 1, small_project());
+        EXPECT_NE(session.wait_for(ends(1)).status.denoised_with, none);
+        session->want_denoised(false);
+        session.wait_for([&](const Event& e) { return ends(1)(e) && e.status.denoised_with == none; });
+        {
+            const std::lock_guard lock(guard);
+            ASSERT_EQ(made.size(), 1u);
+            EXPECT_TRUE(made[0].expired());
+        }
+        session->want_denoised(true);
+        submit(session, 2, lit_by(small_project(), 3));
+        session.wait_for(ends(2));
+        EXPECT_EQ(made.size(), 2u) << "made again";
+    }
+    made.clear();
+    options.denoiser_grace = 1e6;
+    WatchedSession session(options);
+    for (uint64_t revision = 1; revision <= 3; ++revision) {
+        session->want_denoised(true);
+        submit(session, revision, lit_by(small_project(), float(revision)));
+        session.wait_for(ends(revision));
+        session->want_denoised(false);
+    }
+    EXPECT_EQ(made.size(), 1u) << "who toggles to and fro waits for nothing";
+}
+
 TEST(DenoisedSession, PublishedPicturesNeverChange) {
     const Project project = small_project(12);
     const auto sum = [](const DenoisedPicture& p) {

@@ -94,6 +94,7 @@ TEST(UpdatePlan, EachChangeCostsItsRowAndNothingMore) {
     EXPECT_EQ(plan_if([](Changes& c) { c.view = true; }), camera());
     EXPECT_EQ(plan_if([](Changes& c) { c.resolution = true; }), film_size());
     EXPECT_EQ(plan_if([](Changes& c) { c.integrator = true; }), integrator());
+    EXPECT_EQ(plan_if([](Changes& c) { c.integrator = c.aiming = true; }), environment_image()) << "all that is aimed with";
     EXPECT_EQ(plan_if([](Changes& c) { c.environment_parameters = true; }), environment());
     EXPECT_EQ(plan_if([](Changes& c) { c.environment_image = true; }), environment_image());
     EXPECT_EQ(plan_if([](Changes& c) { c.transforms = {{1}}; }), moved());

@@ -6,12 +6,22 @@
 #include <chrono>
 
 namespace blush::test {
+namespace {
 
-WatchedSession::WatchedSession(unsigned threads, std::function<void(RenderSession&, const Event&)> on_event, DenoiseFunction denoise)
-    : on_event_(std::move(on_event)) {
+SessionOptions options_with(unsigned threads, DenoiseFunction denoise) {
     SessionOptions options;
     options.threads = threads;
-    options.denoise = std::move(denoise);
+    if (denoise) options.denoiser = [denoise = std::move(denoise)] { return denoise; };
+    return options;
+}
+
+} // namespace
+
+WatchedSession::WatchedSession(unsigned threads, std::function<void(RenderSession&, const Event&)> on_event, DenoiseFunction denoise)
+    : WatchedSession(options_with(threads, std::move(denoise)), std::move(on_event)) {}
+
+WatchedSession::WatchedSession(const SessionOptions& options, std::function<void(RenderSession&, const Event&)> on_event)
+    : on_event_(std::move(on_event)) {
     session_ = std::make_unique<RenderSession>(options, [this] { record(); });
     watched_ = session_.get();
 }

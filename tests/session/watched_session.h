@@ -25,6 +25,7 @@ public:
     // `on_event` runs at each announcement, after it was recorded, one at a time.
     explicit WatchedSession(unsigned threads = 2, std::function<void(RenderSession&, const Event&)> on_event = {},
                             DenoiseFunction denoise = {});
+    explicit WatchedSession(const SessionOptions& options, std::function<void(RenderSession&, const Event&)> on_event = {});
 
     RenderSession* operator->() { return session_.get(); }
     // Stops and joins; what was announced stays readable.

@@ -159,7 +159,7 @@ std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<SetMix>)
 std::optional<Edit> make(Rng& rng, const Project&, std::type_identity<SetLens>) { return SetLens{lens(rng)}; }
 std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<SetRender>) {
     RenderSettings r = p.render;
-    switch (whole(rng, 0, 8)) {
+    switch (whole(rng, 0, 9)) {
     case 0: r.max_bounces = whole(rng, 0, 6); break;
     case 1: r.roulette.rule = Roulette::Rule(whole(rng, 0, 5)); break;
     case 2: r.strategy = Strategy(whole(rng, 0, 2)); break;
@@ -168,7 +168,8 @@ std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<SetRende
     case 5: r.energy_compensation = !r.energy_compensation; break;
     case 6: r.adaptive = !r.adaptive; break;
     case 7: r.reuse = coin(rng) ? 1 : 4 << whole(rng, 0, 2); break;
-    case 8: r.clamp = {uniform(rng, 0, 2), whole(rng, 0, 1) == 1}; break;
+    case 8: r.sampler = SampleNumbers(whole(rng, 0, 1)); break;
+    case 9: r.clamp = {uniform(rng, 0, 2), whole(rng, 0, 1) == 1}; break;
     }
     return SetRender{r};
 }

@@ -47,6 +47,7 @@ TEST(RenderOptions, EachOptionSetsItsField) {
     expected.reuse = 16;
     expected.clamp = {4, true};
     expected.filter = PixelFilter::box;
+    expected.sampler = SampleNumbers::random;
     const RenderOptions options = parsed({"--size",
                                           "320x200",
                                           "--spp",
@@ -73,6 +74,8 @@ TEST(RenderOptions, EachOptionSetsItsField) {
                                           "4,all",
                                           "--filter",
                                           "box",
+                                          "--sampler",
+                                          "random",
                                           "--exposure",
                                           "-1.5",
                                           "--view",
@@ -149,6 +152,7 @@ TEST(RenderOptions, BadTextIsRefused) {
                                                       {"--seed", "-1"},
                                                       {"--max-bounces", "few"},
                                                       {"--strategy", "both"},
+                                                      {"--sampler", "halton"},
                                                       {"--energy-compensation", "maybe"},
                                                       {"--reuse", "3"},
                                                       {"--filter", "gauss"},

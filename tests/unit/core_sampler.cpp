@@ -29,6 +29,11 @@ bool is_net(uint32_t x, uint32_t y, uint32_t dimension, uint32_t first, int k) {
     return true;
 }
 
+// Sample `sample` of a pixel where samples know nothing of each other.
+Sampler<float> independent(uint32_t x, uint32_t y, uint32_t sample) {
+    return {independent_key(pixel_key<float>(x, y, randomisation(7, 0)), sample), 0};
+}
+
 } // namespace
 
 TEST(Sampler, EveryAlignedRunOfPointsIsANet) {
@@ -64,43 +69,59 @@ TEST(Sampler, PixelsDimensionsSeedsAndHalvesAreIndependent) {
         const char* name;
         std::function<std::array<float, 2>(uint32_t x, uint32_t y)> draw;
     };
-    const std::vector<Case> cases = {{"x and y of one pair",
-                                      [](uint32_t x, uint32_t y) {
-                                          return std::array{sampler(x, y, 0).pair(0).x(), sampler(x, y, 0).pair(0).y()};
-                                      }},
-                                     {"two dimensions",
-                                      [](uint32_t x, uint32_t y) {
-                                          return std::array{sampler(x, y, 0).pair(0).x(), sampler(x, y, 0).pair(1).x()};
-                                      }},
-                                     {"distant dimensions",
-                                      [](uint32_t x, uint32_t y) {
-                                          return std::array{sampler(x, y, 3).pair(2).y(), sampler(x, y, 3).pair(90).x()};
-                                      }},
-                                     {"neighbours in x",
-                                      [](uint32_t x, uint32_t y) {
-                                          return std::array{sampler(2 * x, y, 0).pair(0).x(), sampler(2 * x + 1, y, 0).pair(0).x()};
-                                      }},
-                                     {"neighbours in y",
-                                      [](uint32_t x, uint32_t y) {
-                                          return std::array{sampler(x, 2 * y, 5).pair(1).y(), sampler(x, 2 * y + 1, 5).pair(1).y()};
-                                      }},
-                                     {"mirror pixels",
-                                      [](uint32_t x, uint32_t y) {
-                                          return std::array{sampler(x, y + 256, 0).pair(0).x(), sampler(y + 256, x, 0).pair(0).x()};
-                                      }},
-                                     {"distant samples",
-                                      [](uint32_t x, uint32_t y) {
-                                          return std::array{sampler(x, y, 1).pair(0).x(), sampler(x, y, 1'000'003).pair(0).x()};
-                                      }},
-                                     {"seeds",
-                                      [](uint32_t x, uint32_t y) {
-                                          return std::array{sampler(x, y, 0, 1).pair(0).x(), sampler(x, y, 0, 2).pair(0).x()};
-                                      }},
-                                     {"halves", [](uint32_t x, uint32_t y) {
-                                          const uint32_t a = pixel_key<float>(x, y, randomisation(7, 0)),
-                                                         b = pixel_key<float>(x, y, randomisation(7, 1));
-                                          return std::array{Sampler<float>{a, 0}.pair(0).x(), Sampler<float>{b, 0}.pair(0).x()};
-                                      }}};
+    const std::vector<Case> cases = {
+        {"x and y of one pair",
+         [](uint32_t x, uint32_t y) {
+             return std::array{sampler(x, y, 0).pair(0).x(), sampler(x, y, 0).pair(0).y()};
+         }},
+        {"two dimensions",
+         [](uint32_t x, uint32_t y) {
+             return std::array{sampler(x, y, 0).pair(0).x(), sampler(x, y, 0).pair(1).x()};
+         }},
+        {"distant dimensions",
+         [](uint32_t x, uint32_t y) {
+             return std::array{sampler(x, y, 3).pair(2).y(), sampler(x, y, 3).pair(90).x()};
+         }},
+        {"neighbours in x",
+         [](uint32_t x, uint32_t y) {
+             return std::array{sampler(2 * x, y, 0).pair(0).x(), sampler(2 * x + 1, y, 0).pair(0).x()};
+         }},
+        {"neighbours in y",
+         [](uint32_t x, uint32_t y) {
+             return std::array{sampler(x, 2 * y, 5).pair(1).y(), sampler(x, 2 * y + 1, 5).pair(1).y()};
+         }},
+        {"mirror pixels",
+         [](uint32_t x, uint32_t y) {
+             return std::array{sampler(x, y + 256, 0).pair(0).x(), sampler(y + 256, x, 0).pair(0).x()};
+         }},
+        {"distant samples",
+         [](uint32_t x, uint32_t y) {
+             return std::array{sampler(x, y, 1).pair(0).x(), sampler(x, y, 1'000'003).pair(0).x()};
+         }},
+        {"seeds",
+         [](uint32_t x, uint32_t y) {
+             return std::array{sampler(x, y, 0, 1).pair(0).x(), sampler(x, y, 0, 2).pair(0).x()};
+         }},
+        {"independent samples",
+         [](uint32_t x, uint32_t y) {
+             return std::array{independent(3, 5, 2 * (256 * y + x)).pair(0).x(), independent(3, 5, 2 * (256 * y + x) + 1).pair(0).x()};
+         }},
+        {"x and y of one pair of an independent sample",
+         [](uint32_t x, uint32_t y) {
+             return std::array{independent(3, 5, 256 * y + x).pair(4).x(), independent(3, 5, 256 * y + x).pair(4).y()};
+         }},
+        {"two dimensions of an independent sample",
+         [](uint32_t x, uint32_t y) {
+             return std::array{independent(3, 5, 256 * y + x).pair(0).y(), independent(3, 5, 256 * y + x).pair(1).y()};
+         }},
+        {"an independent sample of two pixels",
+         [](uint32_t x, uint32_t y) {
+             return std::array{independent(x, y, 9).pair(0).x(), independent(x + 256, y, 9).pair(0).x()};
+         }},
+        {"halves", [](uint32_t x, uint32_t y) {
+             const uint32_t a = pixel_key<float>(x, y, randomisation(7, 0)), b = pixel_key<float>(x, y, randomisation(7, 1));
+             return std::array{Sampler<float>{a, 0}.pair(0).x(), Sampler<float>{b, 0}.pair(0).x()};
+         }}};
     const std::vector<double> expected(cells * cells, double(size * size) / (cells * cells));
     for (const Case& c : cases) {
         std::vector<int64_t> counts(cells * cells);
@@ -128,6 +149,23 @@ TEST(Sampler, DimensionsOfAPixelAreUncorrelated) {
     // Independent points would have variance 1 / 64. The shuffle of indices is nested, so that points stay in pairs: at worst half
     // of them are independent.
     EXPECT_LT(correlation.variance(), 2.0 / 64);
+}
+
+// Means of n independent numbers scatter with variance 1 / (12 n), as random ones do; those of points that fill the interval evenly do not.
+TEST(Sampler, IndependentSamplesScatterAsRandomNumbersDo) {
+    constexpr uint32_t n = 64, pixels = 4000;
+    Moments squares, of_points;
+    for (uint32_t pixel = 0; pixel < pixels; ++pixel) {
+        double sum = 0, points = 0;
+        for (uint32_t i = 0; i < n; ++i) {
+            sum += independent(pixel, 1, i).pair(2).x() - 0.5;
+            points += sampler(pixel, 1, i).pair(2).x() - 0.5;
+        }
+        squares.add(sum * sum / n * 12);
+        of_points.add(points * points / n * 12);
+    }
+    EXPECT_TRUE(z_test(squares, 1));
+    EXPECT_LT(of_points.mean, 0.1);
 }
 
 TEST(Sampler, LanesEqualOnePathBitForBit) {

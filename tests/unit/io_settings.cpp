@@ -20,6 +20,7 @@ RenderSettings unusual_settings() {
     s.roulette = {Roulette::Rule::constant, 1, 0.05f, 0.95f, 0.7f, 0.1f};
     s.strategy = Strategy::bsdf;
     s.filter = PixelFilter::box;
+    s.sampler = SampleNumbers::random;
     s.energy_compensation = true;
     s.reuse = 8;
     s.clamp = {2.5f, true};
@@ -76,6 +77,7 @@ TEST(SettingsJson, WrongInputIsAnErrorThatNamesTheKey) {
                                                           {R"({"max_bounces": "few"})", "max_bounces"},
                                                           {R"({"roulette": "russian"})", "roulette"},
                                                           {R"({"strategy": 3})", "strategy"},
+                                                          {R"({"sampler": "halton"})", "sampler"},
                                                           {R"({"energy_compensation": "yes"})", "energy_compensation"},
                                                           {R"({"reuse": "5"})", "reuse"},
                                                           {R"({"clamp": 3})", "clamp"},

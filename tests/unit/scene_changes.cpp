@@ -187,7 +187,10 @@ TEST(Diff, ViewAndSettings) {
     EXPECT_EQ(seen(of([](RenderSettings& r) { r.max_bounces = 2; })), integrator);
     EXPECT_EQ(seen(of([](RenderSettings& r) { r.roulette.start = 1; })), integrator);
     EXPECT_EQ(seen(of([](RenderSettings& r) { r.strategy = Strategy::bsdf; })), integrator);
+    EXPECT_TRUE(of([](RenderSettings& r) { r.strategy = Strategy::bsdf; }).aiming);
+    EXPECT_FALSE(of([](RenderSettings& r) { r.strategy = Strategy::light; }).aiming);
     EXPECT_EQ(seen(of([](RenderSettings& r) { r.filter = PixelFilter::box; })), integrator);
+    EXPECT_EQ(seen(of([](RenderSettings& r) { r.sampler = SampleNumbers::random; })), integrator);
     EXPECT_EQ(seen(of([](RenderSettings& r) { r.seed = 1; })), integrator);
     EXPECT_EQ(seen(of([](RenderSettings& r) { r.first_sample = 1; })), integrator);
     EXPECT_EQ(seen(of([](RenderSettings& r) { r.energy_compensation = true; })), integrator);

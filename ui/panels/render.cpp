@@ -66,9 +66,10 @@ void draw_reuse(Fields& f, RenderSettings& r) {
 void draw_paths(Fields& f, RenderSettings& r) {
     static constexpr const char* strategies[] = {"Both (MIS)", "Light sampling", "BSDF sampling"};
     static constexpr const char* filters[] = {"Blackman-Harris", "Box"};
+    static constexpr const char* samplers[] = {"Sobol points", "Random numbers"};
     draw_bounce_limit_fields(f, r);
     draw_roulette_fields(f, r.roulette);
-    int strategy = int(r.strategy), filter = int(r.filter);
+    int strategy = int(r.strategy), filter = int(r.filter), sampler = int(r.sampler);
     if (f.choice("Direct light", strategy, strategies,
                  "How light is found: by aiming at lights, by following the surface's reflection, or both combined by multiple importance "
                  "sampling. The mean is the same, the noise is not."))
@@ -76,6 +77,11 @@ void draw_paths(Fields& f, RenderSettings& r) {
     if (f.choice("Pixel filter", filter, filters,
                  "How light is gathered around a pixel: a smooth bell 1.5 pixels wide, or the bare pixel."))
         r.filter = PixelFilter(filter);
+    if (f.choice(
+            "Sampler", sampler, samplers,
+            "Where samples get their numbers from: points that fill every pixel evenly, or independent random numbers, for comparison. "
+            "The mean is the same, the noise is not."))
+        r.sampler = SampleNumbers(sampler);
     f.checkbox("Multiscatter", r.energy_compensation,
                "Give back the light that rough metal and glass lose by scattering more than once between their microscopic facets. Off is "
                "what glTF specifies.");

@@ -47,11 +47,15 @@ Result<int> Networks::run(const NetworkJob& job, const Workers& workers, const s
     if (!unet) return unet.error();
 
     std::byte* memory = this->memory((*unet)->bytes(workers));
-    for (int i = 0; i < grid->columns * grid->rows; i++) {
+    const int tiles = grid->columns * grid->rows;
+    for (int i = 0; i < tiles; i++) {
         const Tile tile = tile_at(*grid, i % grid->columns, i / grid->columns);
-        if (!run_unet(**unet, workers, wanted, memory, tile_source(job, *grid, tile), tile_sink(job, tile))) return 0;
+        const auto progress = [&](double of_tile) {
+            if (job.progress) job.progress((i + of_tile) / tiles);
+        };
+        if (!run_unet(**unet, workers, wanted, memory, tile_source(job, *grid, tile), tile_sink(job, tile), progress)) return 0;
     }
-    return grid->columns * grid->rows;
+    return tiles;
 }
 
 void Networks::release() {

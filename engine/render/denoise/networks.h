@@ -30,6 +30,7 @@ struct NetworkJob {
     uint64_t memory_bytes = 0;
     ImageSource source = {};
     ImageSink sink = {};
+    std::function<void(double)> progress = {}; // told of the share that is done
 };
 
 class Networks {

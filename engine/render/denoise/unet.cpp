@@ -120,11 +120,13 @@ private:
 };
 
 template <class T> bool run(const Unet& unet, const Workers& workers, const std::function<bool()>& wanted, std::byte* memory,
-                            const UnetSource& source, const UnetSink& sink) {
+                            const UnetSource& source, const UnetSink& sink, const std::function<void(double)>& progress) {
     const Pass<T> pass(unet, workers, wanted, memory);
     if (!pass.read(source)) return false;
-    for (int layer = 0; layer < unet_layer_count; layer++)
+    for (int layer = 0; layer < unet_layer_count; layer++) {
         if (!pass.compute(layer, sink)) return false;
+        if (progress) progress(unet.done_after[size_t(layer)]);
+    }
     return true;
 }
 
@@ -132,10 +134,13 @@ template <class T> bool run(const Unet& unet, const Workers& workers, const std:
 
 Result<Unet> make_unet(const UnetWeights& weights, int width, int height, Element element) {
     Unet unet{.plan = plan_unet(weights.channels(), width, height, element)};
+    double multiplications = 0;
     for (int i = 0; i < unet_layer_count; i++) {
         const ConvolutionWeights packed = layer_weights(weights, i, element);
         const UnetPlane& made = unet.plan.planes[i + 1];
         const int scale = unet_layers[i].pool ? 2 : 1, rows = made.height * scale;
+        multiplications += double(made.width) * made.height * (scale * scale) * packed.inputs * packed.outputs;
+        unet.done_after.push_back(multiplications);
         BandShape shape{made.width * scale, std::min(band_rows, rows), unet.plan.planes[i].element, made.element};
         auto band = Convolution::make(packed, shape);
         if (!band) return band.error();
@@ -149,14 +154,15 @@ Result<Unet> make_unet(const UnetWeights& weights, int width, int height, Elemen
         unet.layers.back().last_band = std::move(*last);
         unet.scratch_bytes = std::max(unet.scratch_bytes, unet.layers.back().last_band->scratch_bytes());
     }
+    for (double& done : unet.done_after) done /= multiplications;
     unet.scratch_bytes = (unet.scratch_bytes + 63) / 64 * 64;
     return unet;
 }
 
 bool run_unet(const Unet& unet, const Workers& workers, const std::function<bool()>& wanted, std::byte* memory, const UnetSource& source,
-              const UnetSink& sink) {
+              const UnetSink& sink, const std::function<void(double)>& progress) {
     const auto typed = unet.plan.planes[0].element == Element::float32 ? run<float> : run<Bfloat16>;
-    return typed(unet, workers, wanted, memory, source, sink);
+    return typed(unet, workers, wanted, memory, source, sink, progress);
 }
 
 } // namespace blush::denoise

@@ -22,6 +22,7 @@ struct Unet {
 
     UnetPlan plan;
     std::vector<Layer> layers = {};
+    std::vector<double> done_after = {}; // share of all multiplications that is done after each layer; the last is 1
     size_t scratch_bytes = 0; // of the convolutions, for each worker
 
     // Of the memory that run_unet() works in.
@@ -37,8 +38,9 @@ using UnetSource = std::function<void(int y, float* row)>;
 using UnetSink = std::function<void(int y, const float* row)>;
 
 // memory: unet.bytes(workers), aligned to 64; holds nothing between calls. Source and sink are called once for each row, from many
-// threads. False if it stopped because it was no longer wanted.
+// threads; progress after each layer, with the share of the work that is done, on the caller's. False if it stopped because it was no
+// longer wanted.
 bool run_unet(const Unet& unet, const Workers& workers, const std::function<bool()>& wanted, std::byte* memory, const UnetSource& source,
-              const UnetSink& sink);
+              const UnetSink& sink, const std::function<void(double)>& progress = {});
 
 } // namespace blush::denoise
