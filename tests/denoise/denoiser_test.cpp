@@ -120,6 +120,28 @@ TEST(Denoiser, StopsWhenNoLongerWanted) {
     EXPECT_EQ(denoised(denoiser, planes, {}).rgb, denoised(planes, {}).rgb);
 }
 
+// Layer by layer and tile by tile, for all the networks of the quality: many steps forward, the last of them to the end.
+TEST(Denoiser, TellsHowFarItIs) {
+    Denoiser denoiser(BLUSH_WEIGHTS, 2);
+    const Planes planes = noisy_planes(500, 60);
+    const auto steps = [&](const DenoiseOptions& options) {
+        std::vector<double> told;
+        const auto made = denoiser.denoise(planes.input(), options, {}, [&](double share) { told.push_back(share); });
+        EXPECT_TRUE(made && *made);
+        EXPECT_TRUE(std::ranges::is_sorted(told, std::less_equal())) << "forward only";
+        EXPECT_GT(told.front(), 0);
+        EXPECT_DOUBLE_EQ(told.back(), 1);
+        double widest = told.front();
+        for (size_t i = 1; i < told.size(); ++i) widest = std::max(widest, told[i] - told[i - 1]);
+        EXPECT_LT(widest, 0.4) << "no step is most of the way";
+        return told.size();
+    };
+    const size_t one = steps({});
+    EXPECT_EQ(steps({.quality = DenoiseQuality::high}), 3 * one);
+    EXPECT_GT(steps({.quality = DenoiseQuality::high, .precision = DenoisePrecision::float32, .memory_bytes = uint64_t(20) << 20}),
+              3 * one);
+}
+
 TEST(Denoiser, SharesNothingWithItsInput) {
     Planes planes = noisy_planes(64, 40);
     const Planes copy = planes;

@@ -2,6 +2,9 @@
 #include "denoise/agreement.h"
 
 #include "core/files.h"
+#include "measure/stability/picture.h"
+#include "measure/stability/scenes.h"
+#include "render/denoised_picture.h"
 #include "support/process.h"
 
 #include <algorithm>
@@ -46,6 +49,47 @@ TEST(DenoiserHostile, BadFeatures) {
         const Denoised made = denoised(planes, {.quality = quality});
         EXPECT_TRUE(all_good(made));
         EXPECT_EQ(made.sanitised, 0) << "only colours are counted";
+    }
+}
+
+// A floor of which one texel shines beyond all numbers: its samples are dropped, and where that leaves a hole in the picture, nothing but
+// its surroundings shows it. How much two soundly rendered pictures of other seeds differ says what "nothing" is.
+TEST(DenoiserHostile, DroppedSamplesPoisonNothing) {
+    constexpr int side = 128, texels = 16, reach = 40;
+    const auto picture = [&](float odd_one, uint32_t seed) {
+        std::vector<Vec3> values(texels * texels, Vec3{0.1f, 0.1f, 0.1f});
+        values[0] = {odd_one, odd_one, odd_one};
+        Scene scene;
+        Material material = stability::emitter(5, 0.7f);
+        material.emissive_texture.texture = stability::add_texture(scene, stability::float_picture(texels, texels, values));
+        stability::place(scene, stability::floor_quad(1), material);
+        stability::constant_world(scene, 1);
+        scene.view = stability::looking_down(1, 1);
+        RenderSettings settings = stability::settings_for(side, side, 4);
+        settings.seed = seed;
+        return stability::render_anything(scene, settings, {.albedo = true, .normal = true}).frame;
+    };
+    const Frame sound = picture(0.1f, 0), other = picture(0.1f, 1), broken = picture(3e38f, 0);
+    EXPECT_EQ(sound.health.dropped(), 0);
+    EXPECT_GT(broken.health.dropped(), 0);
+    Denoiser denoiser(BLUSH_WEIGHTS, 2);
+    for (const DenoiseQuality quality : {DenoiseQuality::fast, DenoiseQuality::high}) {
+        const auto denoised_of = [&](const Frame& frame) {
+            const auto made = denoiser.denoise(denoise_input(frame), {.quality = quality, .exposure_scale = 0.36f});
+            EXPECT_TRUE(made && *made);
+            return **made;
+        };
+        const Denoised with = denoised_of(broken), without = denoised_of(sound), again = denoised_of(other);
+        EXPECT_TRUE(all_good(with));
+        EXPECT_EQ(with.sanitised, 0) << "what the film drops never gets here";
+        double largest = 0, usual = 0;
+        for (size_t i = 0; i < with.rgb.size(); ++i) {
+            const size_t x = i / 3 % side, y = i / 3 / side;
+            const bool near = x < reach || y < reach || x >= side - reach || y >= side - reach;
+            if (!near) largest = std::max(largest, double(std::abs(with.rgb[i] - without.rgb[i])));
+            usual = std::max(usual, double(std::abs(again.rgb[i] - without.rgb[i])));
+        }
+        EXPECT_LE(largest, usual);
     }
 }
 
