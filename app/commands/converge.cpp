@@ -50,6 +50,7 @@ Result<Plan> plan_of(const ConvergeCommand& c) {
     input.spp = base->spp;
     input.seed = base->seed;
     input.threads = c.common.threads;
+    input.whole_paths = base->max_bounces == unlimited_bounces;
     if (!c.preset.empty()) {
         Result<std::vector<Variant>> preset = preset_variants(c.preset, options);
         if (!preset) return preset.error();
@@ -123,6 +124,7 @@ void print_summary(const ConvergeCommand& c, const ConvergeReport& report) {
         fmt::print("{:<32} {:>7} spp  RMSE {:.3g}  efficiency {:.3g}  {}", v.variant.name, last.spp, last.metrics.rmse, v.efficiency.value,
                    v.bias.verdict());
         if (v.bias.biased) fmt::print(", {:+.2f} %", v.bias.whole.percent());
+        if (const std::string where = bias_by_bounce_text(v); !where.empty()) fmt::print(" ({})", where);
         fmt::print("{}\n", last.reference_clearly_better ? "" : "  (the reference is not clearly better)");
     }
     fmt::print("{}/report.html{}\n", c.folder, report.result.partial ? ", partial" : "");

@@ -100,15 +100,18 @@ std::string with_interval(const Interval& i) {
     return fmt::format("{:.3g}<small>{:.3g} to {:.3g}</small>", i.value, i.low, i.high);
 }
 
-std::string bias_cell(const BiasTest& b) {
+std::string bias_cell(const VariantResult& v) {
+    const BiasTest& b = v.bias;
     const RegionBias& w = b.worst;
     const bool whole_is_worst = w.width == b.whole.width && w.height == b.whole.height;
     const std::string region = whole_is_worst ? std::string()
                                               : fmt::format("<small>most in {}×{} at {},{}: {:+.3g} %, z {:+.1f}</small>", w.width,
                                                             w.height, w.x, w.y, w.percent(), w.z());
     const double margin = b.whole.reference > 0 ? 196 * b.whole.error / b.whole.reference : 0;
-    return fmt::format("<td{}>{}<small>whole picture {:+.3g} % ± {:.2g}, z {:+.1f}</small>{}</td>", b.biased ? " class='biased'" : "",
-                       b.verdict(), b.whole.percent(), margin, b.whole.z(), region);
+    std::string bounces = bias_by_bounce_text(v);
+    if (!bounces.empty()) bounces = fmt::format("<small>{}</small>", bounces);
+    return fmt::format("<td{}>{}<small>whole picture {:+.3g} % ± {:.2g}, z {:+.1f}</small>{}{}</td>", b.biased ? " class='biased'" : "",
+                       b.verdict(), b.whole.percent(), margin, b.whole.z(), region, bounces);
 }
 
 std::string variant_row(const VariantResult& v, size_t index) {
@@ -121,7 +124,7 @@ std::string variant_row(const VariantResult& v, size_t index) {
                        plot_color(index), escaped_markup(v.variant.name), escaped_markup(v.variant.options), p.spp, p.seconds,
                        p.metrics.rmse, p.reference_clearly_better ? "" : "<small>no more than the reference's</small>", p.metrics.relmse,
                        flip == v.points.rend() ? std::string("–") : fmt::format("{:.3g}", flip->metrics.flip),
-                       with_interval(v.over_seconds.slope), with_interval(v.efficiency), bias_cell(v.bias));
+                       with_interval(v.over_seconds.slope), with_interval(v.efficiency), bias_cell(v));
 }
 
 std::string table(const ConvergeReport& report) {
@@ -152,7 +155,11 @@ std::string how_to_read(const ConvergeReport& report) {
     html += fmt::format(
         "<p>The bias test compares means of the whole picture and of a grid of regions with the reference's, in units of the standard "
         "error of their "
-        "difference. All regions of a variant together call a right picture biased in {:g} % of cases (Šidák's correction).</p>\n",
+        "difference. All regions of a variant together call a right picture biased in {:g} % of cases (Šidák's correction). A picture that "
+        "is "
+        "no darker than it would be for want of samples as bright as the brightest it has met is not called biased. Which bounces a biased "
+        "variant takes light from is measured apart, with the same random numbers and without roulette and limit: per cent of all light."
+        "</p>\n",
         100 * bias_significance);
     if (capped)
         html += "<p>A limit on bounces is biased by design: the light of all longer paths is missing, however many samples there are, and "

@@ -24,7 +24,19 @@ OrderedJson point_json(const MeasuredPoint& p) {
             {"reference_clearly_better", p.reference_clearly_better}};
 }
 
-OrderedJson bias_json(const BiasTest& b) {
+OrderedJson bounces_json(const std::vector<RouletteBias>& bounces) {
+    OrderedJson json = OrderedJson::array();
+    for (const RouletteBias& b : bounces)
+        json.push_back({{"bounce", b.name.substr(b.name.find(' ') + 1)},
+                        {"share_percent", 100 * b.share},
+                        {"percent", 100 * b.difference},
+                        {"percent_error", 100 * b.error},
+                        {"significant", b.significant}});
+    return json;
+}
+
+OrderedJson bias_json(const VariantResult& v) {
+    const BiasTest& b = v.bias;
     const RegionBias& w = b.worst;
     return {{"z", b.whole.z()},
             {"verdict", b.verdict()},
@@ -32,7 +44,8 @@ OrderedJson bias_json(const BiasTest& b) {
             {"percent_error", b.whole.reference > 0 ? OrderedJson(100 * b.whole.error / b.whole.reference) : OrderedJson()},
             {"threshold", b.threshold},
             {"regions", b.regions.size()},
-            {"worst", {{"x", w.x}, {"y", w.y}, {"width", w.width}, {"height", w.height}, {"percent", w.percent()}, {"z", w.z()}}}};
+            {"worst", {{"x", w.x}, {"y", w.y}, {"width", w.width}, {"height", w.height}, {"percent", w.percent()}, {"z", w.z()}}},
+            {"bounces", bounces_json(v.bias_by_bounce)}};
 }
 
 OrderedJson variant_json(const VariantResult& v) {
@@ -51,7 +64,7 @@ OrderedJson variant_json(const VariantResult& v) {
     json["efficiency"] = if_known(v.efficiency.value > 0, v.efficiency.value);
     json["efficiency_low"] = if_known(v.efficiency.known, v.efficiency.low);
     json["efficiency_high"] = if_known(v.efficiency.known, v.efficiency.high);
-    json["bias"] = bias_json(v.bias);
+    json["bias"] = bias_json(v);
     return json;
 }
 
@@ -66,6 +79,13 @@ std::string machine_text() {
         break;
     }
     return fmt::format("{}, {} hardware threads", model, std::max(1u, std::thread::hardware_concurrency()));
+}
+
+std::string bias_by_bounce_text(const VariantResult& variant) {
+    std::string text;
+    for (const RouletteBias& b : variant.bias_by_bounce)
+        if (b.significant) text += fmt::format("{}{} {:+.2g} %", text.empty() ? "" : ", ", b.name, 100 * b.difference);
+    return text;
 }
 
 std::string converge_csv(const ConvergeReport& report) {

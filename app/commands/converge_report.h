@@ -23,11 +23,15 @@ struct ConvergeReport {
 // "AMD Ryzen ..., 16 cores".
 std::string machine_text();
 
+// "bounce 4 -0.8 %, bounce 5 -0.6 %": where the bias certainly is, per cent of the whole image's light; empty if that is not known.
+std::string bias_by_bounce_text(const VariantResult& variant);
+
 // variant,seconds,spp,mse,relmse,flip,mean_r,mean_g,mean_b,repeat; flip is empty where it was not measured.
 std::string converge_csv(const ConvergeReport& report);
 
 // The keys of cli.md, and: points have a repeat; slope_low, slope_high and slope_spp, efficiency_low and _high; bias{z, verdict, percent,
-// threshold, worst{x, y, width, height, percent, z}}. What is not known is null.
+// threshold, worst{x, y, width, height, percent, z}, bounces[{bounce, share_percent, percent, percent_error, significant}]}. What is not
+// known is null.
 OrderedJson converge_json(const ConvergeReport& report);
 
 // Pictures go through the view transform. Errors: unknown view.

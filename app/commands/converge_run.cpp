@@ -13,6 +13,7 @@ namespace blush {
 namespace {
 
 constexpr double slice_seconds = 0.1;
+constexpr int explaining_rounds = 24;
 
 // One variant in one repeat.
 struct Runner {
@@ -96,6 +97,16 @@ void conclude(VariantResult& v, const MeasuredImage& reference) {
     v.bias = test_bias(v.picture, reference);
 }
 
+// Rendered once more, small, with the same random numbers as without roulette and limit: what differs by bounce is their doing.
+std::vector<RouletteBias> explain(const ConvergeInput& input, const RenderSettings& settings, const std::atomic<bool>& interrupted) {
+    RouletteLab lab({.threads = input.threads, .low_priority = false, .planes = {}});
+    lab.begin(*input.scene, settings);
+    for (int round = 0; round < explaining_rounds && !interrupted; ++round) lab.round([&] { return !interrupted; });
+    const RouletteReport& report = lab.report();
+    if (!report.biased()) return {};
+    return {report.bias.begin() + 1, report.bias.end()}; // without the whole image
+}
+
 } // namespace
 
 std::vector<uint32_t> seeds_of(const ConvergeInput& input) {
@@ -108,7 +119,7 @@ ConvergeResult run_converge(const ConvergeInput& input, const MeasuredImage& ref
                             const ConvergeProgress& progress) {
     ConvergeResult result;
     std::vector<Runner> runners(input.variants.size());
-    for (const Variant& v : input.variants) result.variants.push_back({v, {}, {}, {}, {}, {}, {}});
+    for (const Variant& v : input.variants) result.variants.push_back({v, {}, {}, {}, {}, {}, {}, {}});
     for (Runner& r : runners)
         r.renderer = std::make_unique<Renderer>(RendererOptions{.threads = input.threads, .low_priority = false, .planes = {}});
     const double reference_mse = mean_square_error(reference);
@@ -137,7 +148,10 @@ ConvergeResult run_converge(const ConvergeInput& input, const MeasuredImage& ref
                 result.variants[v].picture = merged(result.variants[v].picture, measured_image(*runners[v].renderer));
     }
     result.partial = interrupted;
-    for (VariantResult& v : result.variants) conclude(v, reference);
+    for (VariantResult& v : result.variants) {
+        conclude(v, reference);
+        if (v.bias.biased && input.whole_paths) v.bias_by_bounce = explain(input, v.variant.settings, interrupted);
+    }
     return result;
 }
 

@@ -6,6 +6,7 @@
 #include "measure/intervals.h"
 #include "measure/metrics.h"
 #include "measure/reference.h"
+#include "measure/roulette_lab.h"
 
 #include <array>
 #include <atomic>
@@ -31,6 +32,8 @@ struct VariantResult {
     PowerFit over_seconds, over_spp; // of RMSE; of points whose reference is clearly better alone
     Interval efficiency;             // 1 / (MSE x seconds), over the repeats' last points
     BiasTest bias;
+    // Where light is lost or gained: by the number of scatterings, of a biased variant that its roulette or its limit on bounces makes so.
+    std::vector<RouletteBias> bias_by_bounce;
 };
 
 struct ConvergeInput {
@@ -41,6 +44,7 @@ struct ConvergeInput {
     int64_t spp = 0;    // the same in samples per pixel
     uint32_t seed = 0;  // of the first repeat; the next ones follow
     unsigned threads = 0;
+    bool whole_paths = true; // the reference has no limit on bounces
 };
 
 // The seeds of all repeats.

@@ -10,11 +10,12 @@
 
 namespace blush {
 
-// A picture and what its pixels may be off: the standard error of each pixel's mean, RGB. Pixels err independently.
+// A picture and what its pixels may be off: the standard error of each pixel's mean, RGB.
 struct MeasuredImage {
     RgbImage image;
     std::vector<Vec3> error; // width * height
     int64_t samples = 0;     // per pixel
+    double sharing = 1;      // times which the variance of a mean over pixels is what it would be if they erred independently
 };
 
 // The mean of two pictures weighted by their samples, and its error. Same size; an empty one counts for nothing.
@@ -25,8 +26,10 @@ struct RegionBias {
     double mean = 0, reference = 0;          // luminance
     double error = 0;                        // standard error of their difference
     double degrees = 0;                      // of freedom of that error: how many pixels carry it
-    // The difference in standard errors, as a normal one would be that is as unlikely: where few pixels carry the error, it is itself
-    // uncertain.
+    double unseen = 0; // by how much the mean may be too dark for want of rare bright samples
+    // What is left of the difference when that is granted.
+    double difference() const;
+    // In standard errors, as a normal deviate that is as unlikely.
     double z() const;
     // Of the reference's mean; 0 where it is black.
     double percent() const { return reference > 0 ? 100 * (mean - reference) / reference : 0; }
@@ -45,11 +48,19 @@ struct BiasTest {
 constexpr double bias_significance = 0.01;
 
 // Tests the whole picture and a grid of regions of about 16 x 16 pixels and more, at most 8 x 8 of them, each at such a level that all
-// together err with probability bias_significance (Sidak 1967). The variance of a region's mean is the sum of its pixels'; colours are
-// taken to err together, which is nearly so and never too small. Where rare bright samples carry the light, few may have met them:
-// Student's t with as many degrees of freedom as there are pixels that carry the variance (Satterthwaite 1946) allows for that, and where
-// none has, no region is taken to scatter less than the reference would with as few samples. Differences below `rounding` of the
-// reference's mean are not bias: what sums of floats may be off. Errors: sizes differ or are 0: an empty result.
+// together err with probability bias_significance (Sidak 1967). The variance of a region's mean is the largest of three: the sum of its
+// pixels' own, colours taken to err together, which is nearly so and never too small; what the reference would have with as few samples,
+// for a picture that has met no bright sample knows of none; and that by which its pixels do differ from the reference's. Student's t with
+// as many degrees of freedom as there are pixels that carry it (Satterthwaite 1946) allows for its being uncertain.
+//
+// Where rare bright samples carry the light, as where lights nearby are aimed at or small ones are met by chance, means are mostly too dark
+// and no statistic of a picture that has not met them tells. If samples as bright as the brightest around were due, so many that to see
+// none of them is as unlikely as the test's level, -log(level) of them, they would add as much as `unseen` says: a picture that lacks no
+// more is not called biased. The brightest is taken above what normal noise of so many pixels comes to, so that this costs nothing where
+// noise is normal.
+//
+// Differences below `rounding` of the reference's mean are not bias: what sums of floats may be off. Errors: sizes differ or are 0: an
+// empty result.
 BiasTest test_bias(const MeasuredImage& image, const MeasuredImage& reference, double rounding = 1e-5);
 
 } // namespace blush

@@ -2,6 +2,7 @@
 
 #include "core/math.h"
 #include "measure/bounce_energy.h"
+#include "measure/significance.h"
 
 #include <algorithm>
 #include <array>
@@ -137,13 +138,15 @@ struct RouletteLab::State {
         }
         differences[0].add(whole_with - whole_without);
         levels[0].add(whole_without);
-        const double whole = levels[0].mean(), critical = critical_t(report.rounds, int(differences.size()), false_alarm);
+        const double whole = levels[0].mean(), threshold = significant_deviate(int(differences.size()), false_alarm);
         for (size_t i = 0; whole > 0 && i < differences.size(); ++i) {
             RouletteBias& bias = report.bias[i];
             bias.share = levels[i].mean() / whole;
             bias.difference = differences[i].mean() / whole;
             bias.error = differences[i].error() / whole;
-            bias.significant = report.rounds >= fewest_rounds && std::abs(bias.difference) > critical * bias.error;
+            // Without any scatter, as where a limit takes all of a bounce's light, what differs differs.
+            const double z = normal_deviate(bias.difference / bias.error, double(report.rounds - 1));
+            bias.significant = report.rounds >= fewest_rounds && (bias.error > 0 ? std::abs(z) > threshold : bias.difference != 0);
         }
     }
 

@@ -2,92 +2,120 @@
 
 #include <algorithm>
 #include <cmath>
+#include <experimental/simd>
 
 namespace blush {
 namespace {
 
-constexpr int reach = 2; // of the surroundings, pixels
 constexpr int64_t fewest_pixels = 64;
-constexpr double fewest_degrees = 4;
-constexpr double widest = 100;
-// Of the logarithm of the largest over the smallest estimate of relmse: one standard deviation.
-constexpr double share_of_choice = 0.15;
+constexpr double fewest_degrees = 20;   // of freedom, by normal errors
+constexpr double widest = 10;           // of relmse's interval: high over low
+constexpr double brightest_share = 0.3; // of the squared error, that one sample of the brightest pixel may be
+// Of the logarithm of relmse with the darkest surroundings over the estimate: one standard deviation.
+constexpr double share_of_choice = 0.25;
+// Of a pixel in the mean around it, whose other pixels are 24.
+constexpr double own_share = 0.2 / 24.2;
 // The half with one sample more has less variance than its share if points are well distributed; one standard deviation of what that is
 // worth, per difference of the halves' weights. At most 1 for points whose variance falls with the square of their number.
-constexpr double share_of_inequality = 0.75;
+constexpr double share_of_inequality = 0.6;
 
-// Half width of a 95 % interval of the logarithm of F with n degrees of freedom twice, whose variance is about v = 4 / n: within 1 % for
-// n >= 2 of tabulated quantiles.
+// Half width of a 95 % interval of the logarithm of F with n degrees of freedom twice, whose variance is about v = 4 / n: within 1 % for n
+// >= 2 of tabulated quantiles.
 double log_interval(double v) { return 1.96 * std::sqrt(v) * (1 + 0.16 * v); }
 
-int clipped_count(int at, int size) { return std::min(at + reach, size - 1) - std::max(at - reach, 0) + 1; }
+// What normal errors whose half difference has this square would have as the variance of their product.
+double normal_product(double square) { return 4.0 / 3 * square * square; }
+
+template <class D> D squared(const D& x) { return x * x; }
+
+// The three colours of a pixel side by side, and a 0.
+using Rgb = std::experimental::fixed_size_simd<double, 4>;
+
+Rgb rgb(const Vec3d& v) {
+    return Rgb([&](auto i) { return i == 0 ? v.x : i == 1 ? v.y : i == 2 ? v.z : 0.0; });
+}
+Vec3d vec(const Rgb& v) { return {v[0], v[1], v[2]}; }
+
+Rgb over(const Rgb& value) { return 1 / (squared(value) + 0.01); }
 
 } // namespace
 
-Surroundings::Surroundings(std::span<const float> rgba, int width, int height, int first_row, int last_row)
-    : width_(width), height_(height), first_(std::max(0, first_row - reach)) {
-    const int last = std::min(height, last_row + reach);
-    sums_.resize(size_t(last - first_) * size_t(width));
-    for (int y = first_; y < last; ++y) {
-        const float* row = &rgba[4 * size_t(y) * size_t(width)];
-        Vec3* sums = &sums_[size_t(y - first_) * size_t(width)];
-        for (int x = 0; x < width; ++x) {
-            Vec3 sum{0, 0, 0};
-            for (int i = std::max(0, x - reach), end = std::min(width - 1, x + reach); i <= end; ++i) {
-                sum.x += row[4 * i];
-                sum.y += row[4 * i + 1];
-                sum.z += row[4 * i + 2];
-            }
-            sums[x] = sum;
-        }
-    }
+void ErrorAccumulator::Sums::add(double square, double product) {
+    squares += square;
+    fourths += square * square;
+    own_products += std::min(squared(product), normal_product(square));
 }
 
-Vec3d Surroundings::mean(int x, int y) const {
-    Vec3d sum{0, 0, 0};
-    for (int i = std::max(0, y - reach), end = std::min(height_ - 1, y + reach); i <= end; ++i) {
-        const Vec3& row = sums_[size_t(i - first_) * size_t(width_) + size_t(x)];
-        sum = {sum.x + double(row.x), sum.y + double(row.y), sum.z + double(row.z)};
-    }
-    const double inverse = 1.0 / (clipped_count(x, width_) * clipped_count(y, height_));
-    return {sum.x * inverse, sum.y * inverse, sum.z * inverse};
+void ErrorAccumulator::Sums::merge(const Sums& o) {
+    squares += o.squares;
+    fourths += o.fourths;
+    own_products += o.own_products;
+    neighbour_products += o.neighbour_products;
 }
 
-void ErrorAccumulator::add(const Vec3d& a, const Vec3d& b, double weight_a, const Vec3d& around) {
-    const double weight_b = 1 - weight_a;
-    double absolute = 0, relative = 0;
-    const auto channel = [&](double x, double y, double near) {
-        const double square = (x - y) * (x - y) * weight_a * weight_b;
-        const double own = weight_a * x + weight_b * y;
-        const auto divided = [&](double value) { return square / (value * value + 0.01); };
-        absolute += square;
-        relative += divided(std::min(own, near));
-        relative_low_ += divided(std::max(own, near));
-        relative_high_ += divided(std::min({x, y, near}));
-    };
-    channel(a.x, b.x, around.x);
-    channel(a.y, b.y, around.y);
-    channel(a.z, b.z, around.z);
+ErrorAccumulator::Difference ErrorAccumulator::add_pixel(const PixelHalves& p, const Surroundings& surroundings, int x, int y) {
+    const Surroundings::Around around = surroundings.around(x, y);
+    const double wa = p.weight_a, wb = 1 - wa;
+    const Rgb a = rgb(p.a), b = rgb(p.b), mean = rgb(around.mean), own = wa * a + wb * b;
+    const Rgb difference = (a - b) * std::sqrt(wa * wb), square = squared(difference);
+    // What relmse divides by: shrinkage as by James and Stein (1961); and the least that it may be.
+    const Rgb near = mean + (own - mean) * own_share, off = squared(own - near);
+    const Rgb usual = near + (own - near) * max(Rgb(0), 1 - 2 * square / max(off, Rgb(1e-300)));
+    const Rgb least = min(usual, max(min(own, rgb(around.darkest)), min(a, b)));
+    const Rgb weight = over(usual), product = 4 * wa * wb * (a - mean) * (b - mean);
+    const double squares = reduce(square);
     ++pixels_;
-    absolute_.add(absolute);
-    relative_.add(relative);
-    unequal_ += std::abs(weight_a - weight_b) * absolute;
+    absolute_.add(squares, reduce(product));
+    relative_.add(reduce(square * weight), reduce(product * weight));
+    relative_high_ += reduce(square * over(least));
+    unequal_ += std::abs(wa - wb) * squares;
+    brightest_ = std::max(brightest_, reduce(squared(min(a, b))) / squared(double(p.samples)));
+    return {true, vec(difference), vec(difference * sqrt(weight))};
+}
+
+void ErrorAccumulator::add_neighbours(const Difference& a, const Difference& b) {
+    if (!a.known || !b.known) return;
+    const auto dot = [](const Vec3d& u, const Vec3d& v) { return u.x * v.x + u.y * v.y + u.z * v.z; };
+    absolute_.neighbour_products += 4 * squared(dot(a.absolute, b.absolute));
+    relative_.neighbour_products += 4 * squared(dot(a.relative, b.relative));
+    ++pairs_;
+}
+
+void ErrorAccumulator::lead_in(std::span<const PixelHalves> row, const Surroundings& surroundings, int y) {
+    ErrorAccumulator other;
+    other.add_row(row, surroundings, y);
+    above_ = std::move(other.above_);
+}
+
+void ErrorAccumulator::add_row(std::span<const PixelHalves> row, const Surroundings& surroundings, int y) {
+    std::vector<Difference> differences(row.size());
+    for (size_t x = 0; x < row.size(); ++x) {
+        if (!row[x].known) continue;
+        differences[x] = add_pixel(row[x], surroundings, int(x), y);
+        if (x > 0) add_neighbours(differences[x - 1], differences[x]);
+        if (!above_.empty()) add_neighbours(above_[x], differences[x]);
+    }
+    above_ = std::move(differences);
 }
 
 void ErrorAccumulator::merge(const ErrorAccumulator& other) {
     pixels_ += other.pixels_;
+    pairs_ += other.pairs_;
     absolute_.merge(other.absolute_);
     relative_.merge(other.relative_);
-    relative_low_ += other.relative_low_;
     relative_high_ += other.relative_high_;
     unequal_ += other.unequal_;
+    brightest_ = std::max(brightest_, other.brightest_);
 }
 
-// Of the logarithm of true error over estimate, relative variances being small; colours are taken to err together.
+// Of the logarithm of true error over estimate, relative variances being small.
 double ErrorAccumulator::log_variance(const Sums& sums) const {
-    const double inequality = share_of_inequality * unequal_ / absolute_.squares;
-    return 4.0 / 3 * sums.fourths / (sums.squares * sums.squares) + inequality * inequality;
+    const double neighbours = pairs_ > 0 ? sums.neighbour_products * double(pixels_) / double(pairs_) : 0;
+    const auto [less, more] = std::minmax(neighbours, sums.own_products);
+    return (more + less / 2) / squared(sums.squares);
 }
+
+double ErrorAccumulator::inequality() const { return squared(share_of_inequality * unequal_ / absolute_.squares); }
 
 ErrorEstimate ErrorAccumulator::estimate() const {
     ErrorEstimate e;
@@ -96,26 +124,26 @@ ErrorEstimate ErrorAccumulator::estimate() const {
     if (absolute_.squares == 0) return e; // no noise at all
 
     const double values = 3 * double(pixels_);
-    const double absolute_variance = log_variance(absolute_);
-    const double absolute_width = log_interval(absolute_variance);
-    e.rmse_known = absolute_variance <= 4 / fewest_degrees;
+    const auto carried_by_many = [](const Sums& s) { return normal_product(1) * s.fourths <= 4 / fewest_degrees * squared(s.squares); };
+    const bool brightest_seen = brightest_ <= brightest_share * absolute_.squares;
+    const double absolute_width = log_interval(log_variance(absolute_) + inequality());
+    e.rmse_known = brightest_seen && carried_by_many(absolute_);
     e.rmse = std::sqrt(absolute_.squares / values);
     e.rmse_low = e.rmse * std::exp(-absolute_width / 2);
     e.rmse_high = e.rmse * std::exp(absolute_width / 2);
 
-    const double choice = share_of_choice * std::log(relative_high_ / relative_low_);
-    const double relative_variance = log_variance(relative_) + choice * choice;
-    const double relative_width = log_interval(relative_variance);
-    e.known = log_variance(relative_) <= 4 / fewest_degrees && 2 * relative_width <= std::log(widest);
+    const double choice = share_of_choice * std::log(relative_high_ / relative_.squares);
+    const double relative_width = log_interval(log_variance(relative_) + inequality() + squared(choice));
+    e.known = brightest_seen && carried_by_many(relative_) && 2 * relative_width <= std::log(widest);
     e.relmse = relative_.squares / values;
     e.low = e.relmse * std::exp(-relative_width);
     e.high = e.relmse * std::exp(relative_width);
     return e;
 }
 
-ErrorEstimate widened(const ErrorEstimate& estimate, int sharing) {
-    // Variances grow by the number of those that share, widths of logarithms by its root.
-    const double k = std::sqrt(double(sharing));
+ErrorEstimate widened(const ErrorEstimate& estimate, double sharing) {
+    // Widths of logarithms grow by the root of what variances grow by.
+    const double k = std::sqrt(std::max(1.0, sharing));
     const auto stretch = [&](double& bound, double about) {
         if (about > 0) bound = about * std::pow(bound / about, k);
     };

@@ -254,21 +254,27 @@ void Film::resolve_rows(Frame& frame, int first, int last, Totals& totals) const
     }
 }
 
+PixelHalves Film::halves(size_t pixel) const {
+    const Half &a = halves_[2 * pixel], &b = halves_[2 * pixel + 1];
+    if (a.count == 0 || b.count == 0) return {};
+    const double na = double(a.count), nb = double(b.count);
+    return {true, {a.r / na, a.g / na, a.b / na}, {b.r / nb, b.g / nb, b.b / nb}, na * weights(a, b).a, a.count + b.count};
+}
+
 ErrorAccumulator Film::error_of_rows(const Frame& frame, int first, int last) const {
     ErrorAccumulator error;
-    const auto both_hold_samples = [&](size_t i) { return halves_[2 * i].count > 0 && halves_[2 * i + 1].count > 0; };
-    // A drag's single samples have nothing to compare, and no time to look around.
+    // A drag's single samples have nothing to compare, and no time to look
+    // around.
     size_t i = size_t(first) * size_t(width_);
     const size_t end = size_t(last) * size_t(width_);
-    while (i < end && !both_hold_samples(i)) ++i;
+    while (i < end && !halves(i).known) ++i;
     if (i == end) return error;
-    const Surroundings surroundings(frame.rgba, width_, height_, first, last);
-    for (; i < end; ++i) {
-        if (!both_hold_samples(i)) continue;
-        const Half &a = halves_[2 * i], &b = halves_[2 * i + 1];
-        const double na = double(a.count), nb = double(b.count);
-        const Vec3d around = surroundings.mean(int(i % size_t(width_)), int(i / size_t(width_)));
-        error.add({a.r / na, a.g / na, a.b / na}, {b.r / nb, b.g / nb, b.b / nb}, na * weights(a, b).a, around);
+    const int above = std::max(0, first - 1);
+    const Surroundings surroundings(frame.rgba, width_, height_, above, last);
+    std::vector<PixelHalves> row(static_cast<size_t>(width_));
+    for (int y = above; y < last; ++y) {
+        for (size_t x = 0; x < row.size(); ++x) row[x] = halves(size_t(y) * size_t(width_) + x);
+        y < first ? error.lead_in(row, surroundings, y) : error.add_row(row, surroundings, y);
     }
     return error;
 }

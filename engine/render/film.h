@@ -76,6 +76,7 @@ public:
     const Health& health() const { return health_.health(); }
     // Goes on from what another film has found (film_state.h).
     void restore_health(const Health& health) { health_.restore(health); }
+    PixelHalves halves(size_t pixel) const;
     // Everything the film knows: pixels, planes, health, error. Reuses the frame's memory. Material ids are left as table indices + 1.
     void resolve(Frame& frame, const Workers& workers) const;
     // Standard error of each pixel's mean from the two halves, RGB; empty before both hold samples.

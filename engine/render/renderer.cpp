@@ -202,6 +202,11 @@ std::vector<Vec3> Renderer::resolve_error() const {
     return state_->film.standard_error();
 }
 
+SharedErrors Renderer::shared_errors() const {
+    state_->wipe_stale_film();
+    return state_->settings.reuse > 1 ? measure_shared_errors(state_->film, reuse_groups(state_->settings.reuse)) : SharedErrors{};
+}
+
 bool Renderer::State::render_run(TileJob job, const Run& run, int most_samples, unsigned worker, const Wanted& wanted) {
     const KernelContext context{&scene.tables(), &scene.accel(), settings_for_kernels(settings, film.width(), film.height()),
                                 settings.seed};
@@ -288,7 +293,7 @@ void Renderer::resolve(Frame& frame) const {
     State& s = *state_;
     s.wipe_stale_film();
     s.film.resolve(frame, s.workers);
-    if (s.settings.reuse > 1) frame.error = widened(frame.error, s.settings.reuse);
+    if (s.settings.reuse > 1) frame.error = widened(frame.error, shared_errors().products);
     for (uint32_t& id : frame.object_id) id &= ~lowered_bit;
     for (uint32_t& id : frame.material_id) {
         const uint32_t material = s.scene.material_id(int32_t(id) - 1).value;

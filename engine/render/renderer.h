@@ -4,6 +4,7 @@
 
 #include "core/result.h"
 #include "render/frame.h"
+#include "render/shared_errors.h"
 #include "scene/render_settings.h"
 #include "scene/scene.h"
 
@@ -81,6 +82,8 @@ public:
     void resolve(Frame& frame) const;
     // Standard error of the mean of each pixel from the two half buffers, RGB; empty before both hold samples.
     std::vector<Vec3> resolve_error() const;
+    // What these errors have in common under path reuse; pixels err independently without.
+    SharedErrors shared_errors() const;
 
     // The film as a value, exactly, from which another renderer of the same scene and settings goes on as if it had rendered it. `first` is
     // the index of its first sample. Errors: nothing is rendered, rendering was stopped half-way, the film is not of full size, adaptive

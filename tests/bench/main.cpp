@@ -17,8 +17,8 @@ struct Case {
     Json (*run)(const Options&);
 };
 constexpr Case cases[]{{"setup", run_setup},     {"startup", run_startup}, {"rate", run_rate},        {"kernels", run_kernels},
-                       {"latency", run_latency}, {"denoise", run_denoise}, {"coverage", run_error_coverage},
-                       {"recorder", run_recorder}};
+                       {"latency", run_latency}, {"denoise", run_denoise}, {"estimate", run_estimate},
+                       {"coverage", run_error_coverage}, {"recorder", run_recorder}};
 
 int fail(const Error& error) {
     fmt::print(stderr, "blush_bench: error: {}\n", error.text());
@@ -34,10 +34,11 @@ int run(int argc, char** argv) {
     CLI::App app{"Measures speed and prints JSON: setup (import, compile, memory), startup (to the first image, without and with "
                  "textures, sky and view), rate (paths and rays per second beside raw Embree), kernels "
                  "(every feature set and instruction set), latency (from an edit to the first image), denoise (speed beside the "
-                 "convolutions alone, error left), coverage (how often the estimated error's intervals hold the true one), "
+                 "convolutions alone, error left), estimate (what the error estimate costs beside rendering), coverage (how often the estimated error's "
+                 "intervals hold the true one), "
                  "recorder (what it costs to know the error while rendering)"};
     app.add_option("cases", names, "What to measure; default: everything")
-        ->check(CLI::IsMember({"setup", "startup", "rate", "kernels", "latency", "denoise", "coverage", "recorder"}));
+        ->check(CLI::IsMember({"setup", "startup", "rate", "kernels", "latency", "denoise", "estimate", "coverage", "recorder"}));
     app.add_option("--scenes", peers,
                    "Folder with the scenes that peers are measured on: cornell.glb, cornell_spheres.glb, dense_cornell.glb");
     app.add_option("--only", only, "Scenes whose file name contains this");

@@ -160,14 +160,46 @@ TEST(PathReuse, KnowsTheFilmsBorder) {
     }
 }
 
-// Groups of 16 are as few independent errors as a sixteenth of the pixels: four times the width, on the scale of factors.
+// Sixteen times the variance is four times the width, on the scale of factors;
+// sharing never makes an interval narrower.
 TEST(PathReuse, WidensTheErrorsInterval) {
-    const ErrorEstimate e = widened({true, 0.4, 0.2, 0.8, true, 0.1, 0.05, 0.2}, 16);
+    const ErrorEstimate one{true, 0.4, 0.2, 0.8, true, 0.1, 0.05, 0.2};
+    const ErrorEstimate e = widened(one, 16);
     EXPECT_DOUBLE_EQ(e.relmse, 0.4);
     EXPECT_NEAR(e.low, 0.4 / 16, 1e-12);
     EXPECT_NEAR(e.high, 0.4 * 16, 1e-12);
     EXPECT_NEAR(e.rmse_low, 0.1 / 16, 1e-12);
     EXPECT_NEAR(e.rmse_high, 0.1 * 16, 1e-12);
+    EXPECT_DOUBLE_EQ(widened(one, 0.5).high, one.high);
+}
+
+// By how much the mean of a picture scatters over seeds, against what its
+// pixels' errors say and how far they say that they are shared.
+TEST(PathReuse, SaysHowFarErrorsAreShared) {
+    const Scene scene = shipped_scene("corridor");
+    RenderSettings settings = settings_for(size, size, 8);
+    settings.reuse = 16;
+    Renderer renderer({.threads = 1, .planes = {}});
+    Moments means, told;
+    double shared = 0;
+    constexpr int seeds = 64;
+    for (int seed = 0; seed < seeds; ++seed) {
+        settings.seed = uint32_t(seed);
+        renderer.update(scene, settings);
+        renderer.render(0, settings.spp);
+        const Frame frame = renderer.resolve();
+        double sum = 0, squares = 0;
+        for (size_t i = 0; i < frame.rgba.size(); i += 4) sum += double(frame.rgba[i + 1]);
+        for (const Vec3& e : renderer.resolve_error()) squares += double(e.y) * double(e.y);
+        constexpr double pixels = size * size;
+        means.add(sum / pixels);
+        told.add(squares / (pixels * pixels) * renderer.shared_errors().means);
+        shared += renderer.shared_errors().means / seeds;
+    }
+    EXPECT_GT(shared, 1.5) << "or there would be nothing to tell";
+    // A variance from 64 means has a relative standard error of sqrt(2 / 63) if
+    // they are normal.
+    EXPECT_NEAR(means.variance() / told.mean, 1, 4 * std::sqrt(2.0 / (seeds - 1)));
 }
 
 } // namespace

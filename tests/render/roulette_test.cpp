@@ -130,14 +130,5 @@ TEST(Trials, AreMeanAndSpread) {
     EXPECT_NEAR(t.error(), std::sqrt(10.0 / 12), 1e-12);
 }
 
-TEST(Trials, CriticalValuesAreStudents) {
-    // Two-sided quantiles of Student's distribution: 5 % with 10 and 30, 0.1 % with 20 degrees of freedom.
-    EXPECT_NEAR(critical_t(11, 1, 0.05), 2.2281, 0.01);
-    EXPECT_NEAR(critical_t(31, 1, 0.05), 2.0423, 0.005);
-    EXPECT_NEAR(critical_t(21, 1, 0.001), 3.8495, 0.02);
-    EXPECT_NEAR(critical_t(1000000, 10, 1 - std::pow(0.95, 10)), 1.9600, 0.001) << "ten tests at 5 % each";
-    EXPECT_EQ(critical_t(1, 1, 0.05), std::numeric_limits<double>::infinity());
-}
-
 } // namespace
 } // namespace blush::test

@@ -85,6 +85,20 @@ TEST_F(Converge, CatchesWhatIsWrongAndByHowMuch) {
     EXPECT_EQ(j["variants"][1]["bias"]["verdict"], "biased");
     EXPECT_LT(j["variants"][1]["bias"]["percent"], -2);
     EXPECT_EQ(j["variants"][2]["bias"]["verdict"], "unbiased-within-noise");
+    EXPECT_TRUE(j["variants"][2]["bias"]["bounces"].empty());
+    // At which bounces: all light beyond two, and none of what is before; the cut takes from several.
+    int cut_from = 0;
+    for (const auto& b : j["variants"][0]["bias"]["bounces"]) {
+        cut_from += b["significant"].get<bool>();
+        EXPECT_TRUE(!b["significant"] || b["percent"] < 0) << b.dump();
+    }
+    EXPECT_GT(cut_from, 1);
+    for (const auto& b : j["variants"][1]["bias"]["bounces"]) {
+        const bool beyond = std::stoi(b["bounce"].get<std::string>()) > 2;
+        EXPECT_EQ(b["significant"], beyond) << b.dump();
+        EXPECT_NEAR(b["percent"].get<double>(), beyond ? -b["share_percent"].get<double>() : 0, 1e-9) << b.dump();
+    }
+    EXPECT_NE(f.out.find("bounce 3 -"), f.out.npos) << f.out;
 }
 
 TEST_F(Converge, KeepsItsReferenceAndMakesItBetter) {

@@ -1,7 +1,9 @@
 // The bias test on pictures made of known noise and known bias.
 #include "measure/bias_test.h"
+#include "measure/significance.h"
 #include "statistics.h"
 
+#include <array>
 #include <random>
 
 namespace blush::test {
@@ -88,6 +90,71 @@ TEST(BiasTest, FewBrightPixelsAreNoEvidence) {
         wrong.add(test_bias(image, reference).biased);
     }
     EXPECT_TRUE(z_test_at_most(wrong, bias_significance));
+}
+
+// Light that three pixels of a region have on average, and many a region none: too dark by a tenth then, and with hardly any noise to say
+// so.
+TEST(BiasTest, RareBrightLightThatIsMissingIsNotBias) {
+    std::mt19937 bits(9);
+    const MeasuredImage reference = noisy(bits, 0.001f, 100'000, [](int, int) { return 0.55f; });
+    constexpr int events = 3 * 16;
+    constexpr float bright = 0.05f * side * side / events;
+    std::poisson_distribution<int> count(events);
+    std::uniform_int_distribution<size_t> place(0, size_t(side) * side - 1);
+    Moments wrong;
+    for (int run = 0; run < 500; ++run) {
+        MeasuredImage image = noisy(bits, 0.02f, 64, even);
+        for (int left = count(bits); left > 0; --left) {
+            const size_t i = place(bits);
+            image.image.pixels[i].x += bright, image.image.pixels[i].y += bright, image.image.pixels[i].z += bright;
+            image.error[i] = {bright, bright, bright};
+        }
+        wrong.add(test_bias(image, reference).biased);
+    }
+    EXPECT_TRUE(z_test_at_most(wrong, bias_significance));
+}
+
+// One pixel in which a picture has nothing and the reference by chance a
+// firefly, of which its own error knows nothing.
+TEST(BiasTest, OnePixelIsNoEvidence) {
+    std::mt19937 bits(10);
+    MeasuredImage reference = noisy(bits, 0.001f, 256, even);
+    reference.image.pixels[500] = {1.5f, 1.5f, 1.5f};
+    const BiasTest t = test_bias(noisy(bits, 0.004f, 16, even), reference);
+    EXPECT_FALSE(t.biased) << t.worst.z();
+}
+
+// Groups of 16 pixels that err as one: who counts them as 16 is wrong far too
+// often.
+TEST(BiasTest, PixelsThatErrTogetherCountOnce) {
+    std::mt19937 bits(11);
+    const auto in_groups = [&](double sharing) {
+        std::array<float, side * side / 16> common;
+        std::normal_distribution<float> normal(0, 0.1f);
+        for (float& c : common) c = normal(bits);
+        MeasuredImage m = noisy(bits, 0, 16, [&](int x, int y) { return 0.5f + common[size_t(y / 4 * (side / 4) + x / 4)]; });
+        m.error.assign(m.error.size(), {0.1f, 0.1f, 0.1f});
+        m.sharing = sharing;
+        return m;
+    };
+    Moments honest, naive;
+    for (int run = 0; run < 500; ++run) {
+        const MeasuredImage reference = noisy(bits, 0.001f, 4096, even);
+        honest.add(test_bias(in_groups(16), reference).biased);
+        naive.add(test_bias(in_groups(1), reference).biased);
+    }
+    EXPECT_TRUE(z_test_at_most(honest, bias_significance));
+    EXPECT_GT(naive.mean, 0.5);
+}
+
+TEST(Significance, DeviatesAreStudents) {
+    // Two-sided quantiles of Student's distribution: 5 % with 10 and 30, 0.1 %
+    // with 20 degrees of freedom.
+    EXPECT_NEAR(normal_deviate(2.2281, 10), 1.96, 0.01);
+    EXPECT_NEAR(normal_deviate(-2.0423, 30), -1.96, 0.005);
+    EXPECT_NEAR(normal_deviate(3.8495, 20), 3.2905, 0.02);
+    EXPECT_EQ(normal_deviate(5, 0), 0);
+    EXPECT_NEAR(significant_deviate(10, 1 - std::pow(0.95, 10)), 1.96, 0.001) << "ten tests at 5 % each";
 }
 
 TEST(BiasTest, MergingWeighsBySamples) {
