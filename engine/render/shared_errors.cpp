@@ -10,6 +10,8 @@
 namespace blush {
 namespace {
 
+constexpr int most_blocks = 512; // of groups, that are looked at: all over the film, and not for long
+
 // Half differences of the members, 0 for those beyond the film.
 using Members = std::array<Vec3d, ReuseGroups::largest>;
 
@@ -40,22 +42,27 @@ SharedErrors measure_shared_errors(const Film& film, const ReuseGroups& groups) 
         return members;
     };
     Sums means, products;
-    for (int block_y = 0; block_y < job.height; block_y += groups.rows * cell)
-        for (int block_x = 0; block_x < job.width; block_x += groups.columns * cell)
-            for (int in_cell = 0; in_cell < cell * cell; ++in_cell) {
-                const Members own = members_of(block_x, block_y, in_cell), beside = members_of(block_x, block_y, in_cell ^ 1);
-                Vec3d sum{0, 0, 0};
-                double product = 0;
-                for (size_t m = 0; m < size_t(groups.size()); ++m) {
-                    const double p = dot(own[m], beside[m]);
-                    sum = sum + own[m];
-                    product += p;
-                    means.apart += dot(own[m], own[m]);
-                    products.apart += p * p;
-                }
-                means.together += dot(sum, sum);
-                products.together += product * product;
-            }
+    const auto add_pair = [&](const Members& one, const Members& other) {
+        Vec3d sum{0, 0, 0}, other_sum{0, 0, 0};
+        double product = 0;
+        for (size_t m = 0; m < size_t(groups.size()); ++m) {
+            const double p = dot(one[m], other[m]);
+            sum = sum + one[m];
+            other_sum = other_sum + other[m];
+            product += p;
+            means.apart += dot(one[m], one[m]) + dot(other[m], other[m]);
+            products.apart += p * p;
+        }
+        means.together += dot(sum, sum) + dot(other_sum, other_sum);
+        products.together += product * product;
+    };
+    const int width = groups.columns * cell, height = groups.rows * cell;
+    const int across = (job.width + width - 1) / width, blocks = across * ((job.height + height - 1) / height);
+    for (int block = 0; block < blocks; block += 1 + blocks / most_blocks)
+        for (int in_cell = 0; in_cell < cell * cell; in_cell += 2) {
+            const int x = block % across * width, y = block / across * height;
+            add_pair(members_of(x, y, in_cell), members_of(x, y, in_cell + 1));
+        }
     return {means.ratio(groups), products.ratio(groups)};
 }
 
