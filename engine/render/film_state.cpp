@@ -136,7 +136,7 @@ Result<ResolvedFilm> resolve_film(const FilmState& state, const RenderSettings& 
     frame.rays = state.rays;
     frame.path_counts = state.path_counts;
     frame.health.truncated = state.truncated;
-    if (settings.reuse > 1) frame.error = widened(frame.error, settings.reuse);
+    frame.error = with_shared_errors(frame.error, film, settings.reuse);
     resolved.error = film.standard_error();
     return resolved;
 }

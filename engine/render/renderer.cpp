@@ -293,8 +293,7 @@ void Renderer::resolve(Frame& frame) const {
     State& s = *state_;
     s.wipe_stale_film();
     s.film.resolve(frame, s.workers);
-    const bool has_interval = frame.error.known || frame.error.rmse_known;
-    if (s.settings.reuse > 1 && has_interval) frame.error = widened(frame.error, shared_errors().products);
+    frame.error = with_shared_errors(frame.error, s.film, s.settings.reuse);
     for (uint32_t& id : frame.object_id) id &= ~lowered_bit;
     for (uint32_t& id : frame.material_id) {
         const uint32_t material = s.scene.material_id(int32_t(id) - 1).value;

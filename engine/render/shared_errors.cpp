@@ -66,4 +66,9 @@ SharedErrors measure_shared_errors(const Film& film, const ReuseGroups& groups) 
     return {means.ratio(groups), products.ratio(groups)};
 }
 
+ErrorEstimate with_shared_errors(const ErrorEstimate& estimate, const Film& film, int reuse) {
+    if (reuse <= 1 || !(estimate.known || estimate.rmse_known)) return estimate;
+    return widened(estimate, measure_shared_errors(film, reuse_groups(reuse)).products);
+}
+
 } // namespace blush

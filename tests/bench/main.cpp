@@ -34,8 +34,8 @@ int run(int argc, char** argv) {
     CLI::App app{"Measures speed and prints JSON: setup (import, compile, memory), startup (to the first image, without and with "
                  "textures, sky and view), rate (paths and rays per second beside raw Embree), kernels "
                  "(every feature set and instruction set), latency (from an edit to the first image), denoise (speed beside the "
-                 "convolutions alone, error left), estimate (what the error estimate costs beside rendering), coverage (how often the estimated error's "
-                 "intervals hold the true one), "
+                 "convolutions alone, error left), estimate (what the error estimate costs beside rendering), coverage (how often the "
+                 "estimated error's intervals hold the true one), "
                  "recorder (what it costs to know the error while rendering)"};
     app.add_option("cases", names, "What to measure; default: everything")
         ->check(CLI::IsMember({"setup", "startup", "rate", "kernels", "latency", "denoise", "estimate", "coverage", "recorder"}));
