@@ -206,6 +206,7 @@ void Editor::draw_regions(PanelContext& c) {
 void Editor::draw_above(PanelContext& c) {
     draw_pixel_panel(c);
     draw_region_panel(c);
+    draw_meters_panel(c);
     draw_scopes_panel(c);
     draw_history(c);
     draw_bounces_panel(c);
@@ -333,7 +334,7 @@ RenderSettings Editor::render_settings() const {
         r.width = viewport_width_;
         r.height = viewport_height_;
     }
-    return r;
+    return carried_out(r);
 }
 
 // Hands the project over when something in it reaches the image.

@@ -4,6 +4,7 @@
 #include "scene/edit_tree.h"
 #include "ui/edit_together.h"
 #include "ui/light_tools.h"
+#include "ui/view_tools.h"
 
 #include <algorithm>
 #include <cmath>
@@ -189,7 +190,13 @@ bool run_command(Command command, PanelContext& c) {
     case Command::history: c.ui.show_history = !c.ui.show_history; return true;
     case Command::bounces: c.ui.bounces.open = !c.ui.bounces.open; return true;
     case Command::health: c.ui.health.open = !c.ui.health.open; return true;
+    case Command::render_region: c.ui.tool = ViewTool::region; return true;
+    case Command::render_all: render_region(c, {}); return true;
     case Command::measure: c.ui.tool = ViewTool::measure; return true;
+    case Command::meters:
+        c.ui.meters.open = !c.ui.meters.open;
+        if (c.ui.meters.open && c.project().view.meters.empty()) c.ui.tool = ViewTool::meter;
+        return true;
     case Command::scopes: c.ui.scopes.open = !c.ui.scopes.open; return true;
     case Command::roulette: c.ui.roulette.open = !c.ui.roulette.open; return true;
     case Command::convergence: c.ui.convergence.open = !c.ui.convergence.open; return true;

@@ -7,6 +7,7 @@
 #include "io/displayed.h"
 #include "io/scene_edits_json.h"
 #include "io/scene_hash.h"
+#include "render/coverage.h"
 
 #include <fmt/format.h>
 
@@ -57,9 +58,10 @@ Result<std::filesystem::path> write_snapshot_png(const SnapshotJob& job, const C
     const DenoisedPicture* denoised = job.view.wants_denoised() ? job.pictures.denoised.get() : nullptr;
     std::vector<float> shown = mixed_picture(frame, denoised, mix_of(job.view, denoised != nullptr));
     const ViewSettings& view = job.project.view;
+    const std::vector<float> coverage = coverage_of(frame);
     const ViewSettings as_shown = settled(view, metered_exposure(view.auto_exposure, frame.rgba, 4));
     const auto written = write_display_picture(*file, frame.width, frame.height, std::move(shown), color, as_shown,
-                                               display_metadata(metadata_of(job, denoised)), frame.albedo);
+                                               display_metadata(metadata_of(job, denoised)), {frame.albedo, coverage});
     if (!written) return written.error();
     return file;
 }

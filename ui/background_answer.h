@@ -18,7 +18,8 @@ public:
         if (!job_ && (!asked_ || *asked_ != question) && Clock::now() >= next_) {
             asked_ = question;
             began_ = Clock::now();
-            job_ = std::make_shared<BackgroundJob<Answer>>("", [question, answer_it](JobProgress&) { return answer_it(question); }, [] {});
+            job_ = std::make_shared<BackgroundJob<Answer>>(
+                "", [question, answer_it](JobProgress&) { return answer_it(question); }, [] {});
         }
         return job_ || !asked_ || *asked_ != question;
     }

@@ -12,9 +12,10 @@ uniform sampler2D image, denoised;
 uniform float raw_weight, denoised_weight;
 uniform vec2 denoised_scale;
 void main() {
-    vec3 color = raw_weight * texelFetch(image, ivec2(gl_FragCoord.xy), 0).rgb;
+    vec4 pixel = texelFetch(image, ivec2(gl_FragCoord.xy), 0);
+    vec3 color = raw_weight * pixel.rgb;
     if (denoised_weight != 0.0) color += denoised_weight * texelFetch(denoised, ivec2(gl_FragCoord.xy * denoised_scale), 0).rgb;
-    result = vec4(display_color(vec4(abs(color), 1.0)).rgb, 1.0);
+    result = vec4(display_color(vec4(abs(color), pixel.a)).rgb, 1.0);
 })";
 
 constexpr GLint image_unit = 0, denoised_unit = 1, first_table_unit = 2;

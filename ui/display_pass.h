@@ -23,7 +23,7 @@ public:
     Result<void> set_shader(const DisplayShader& shader);
     // Takes over a frame's pixels, or a denoised picture's. Not while busy.
     void upload(const Frame& frame) { upload(frame.width, frame.height, frame.rgba); }
-    void upload(int width, int height, const std::vector<float>& rgba); // scene-linear, 4 values a pixel
+    void upload(int width, int height, const std::vector<float>& rgba); // scene-linear; alpha: coverage by objects
     void upload(const DenoisedPicture& denoised);
     // Begins a new picture of the last uploads, at the frame's resolution; one that is being drawn is given up.
     void begin(const DisplayLook& look);

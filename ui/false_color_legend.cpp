@@ -38,7 +38,8 @@ void draw_false_color_legend(ImDrawList& draw, const ImageRect& image, const Vie
     if (step < 2) return;
     const ImVec2 at{image.x + em, image.y + std::floor((image.height - step * float(count)) / 2)};
     const float swatch = em * 1.1f, width = em * 7;
-    draw.AddRectFilled({at.x - em * 0.5f, at.y - em * 1.8f}, {at.x + width, at.y + step * float(count) + em * 0.5f}, IM_COL32(20, 20, 20, 220), em * 0.2f);
+    draw.AddRectFilled({at.x - em * 0.5f, at.y - em * 1.8f}, {at.x + width, at.y + step * float(count) + em * 0.5f},
+                       IM_COL32(20, 20, 20, 220), em * 0.2f);
     draw.AddText({at.x, at.y - em * 1.4f}, tone::text, title_of(view.false_color.of));
     const int every = std::max(1, int(std::ceil(em * 1.05f / step))); // labels that would overlap are left out
     for (int band = 0; band < count; ++band) {

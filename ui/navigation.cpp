@@ -13,7 +13,7 @@ constexpr double turn_per_height = 3.2;   // radians for a drag over the picture
 constexpr double closer_per_notch = 0.88; // of the distance, for one notch of the wheel
 constexpr double stops_per_height = 8;
 constexpr float stops_per_notch = 0.25f;
-constexpr double same_wheeling = 1; // seconds between notches of the wheel that are one gesture
+constexpr double same_wheeling = 1;       // seconds between notches of the wheel that are one gesture
 constexpr double speed = 0.8;             // pivot distances per second
 
 // Right, up and forward from W A S D Q E.

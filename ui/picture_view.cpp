@@ -2,6 +2,7 @@
 
 #include "color/illuminance.h"
 #include "core/math.h"
+#include "render/coverage.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -92,9 +93,7 @@ bool is_special(const Frame& frame, const PictureView& view) {
     return false;
 }
 
-bool is_map(const PictureView& view) {
-    return view.show == Show::dropped || view.show == Show::path_length || view.show == Show::survival;
-}
+bool is_map(const PictureView& view) { return view.show == Show::dropped || view.show == Show::path_length || view.show == Show::survival; }
 
 std::vector<float> pixels_of(const Frame& frame, const PictureView& view) {
     if (view.show == Show::illuminance) return illuminance_of(frame);
@@ -107,6 +106,12 @@ std::vector<float> pixels_of(const Frame& frame, const PictureView& view) {
         rgba[4 * i + 1] = c.y;
         rgba[4 * i + 2] = c.z;
     }
+    return rgba;
+}
+
+std::vector<float> with_coverage(const Frame& frame) {
+    std::vector<float> rgba = frame.rgba;
+    for (size_t i = 0; i < rgba.size() / 4; ++i) rgba[4 * i + 3] = coverage_of_pixel(frame, i);
     return rgba;
 }
 

@@ -16,7 +16,8 @@ struct Span {
     int first, last;
 };
 Span seen(float origin, float size, int count, float from, float length) {
-    return {std::clamp(int(std::floor((from - origin) / size)), 0, count), std::clamp(int(std::ceil((from + length - origin) / size)), 0, count)};
+    return {std::clamp(int(std::floor((from - origin) / size)), 0, count),
+            std::clamp(int(std::ceil((from + length - origin) / size)), 0, count)};
 }
 
 void draw_values(ImDrawList& draw, const ImVec2& at, float height, const float* rgb) {
@@ -33,7 +34,8 @@ void draw_values(ImDrawList& draw, const ImVec2& at, float height, const float* 
 void draw_pixel_grid(ImDrawList& draw, const ImageRect& image, const Region& region, const Frame& frame) {
     const float width = image.width / float(frame.width), height = image.height / float(frame.height);
     if (width < room_for_lines) return;
-    const Span columns = seen(image.x, width, frame.width, region.x, region.width), rows = seen(image.y, height, frame.height, region.y, region.height);
+    const Span columns = seen(image.x, width, frame.width, region.x, region.width),
+               rows = seen(image.y, height, frame.height, region.y, region.height);
     const float top = std::max(image.y, region.y), bottom = std::min(image.y + image.height, region.y + region.height);
     const float left = std::max(image.x, region.x), right = std::min(image.x + image.width, region.x + region.width);
     for (int x = columns.first; x <= columns.last; ++x) {

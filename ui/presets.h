@@ -33,7 +33,8 @@ constexpr std::array<QualityPreset, 4> quality_presets{{
     {"Final", 16384, 1e-4},
 }};
 
-// The preset that these are, or the size of the list: settings of the user's own. A limit on time is no part of a quality, it stands beside it.
+// The preset that these are, or the size of the list: settings of the user's own. A limit on time is no part of a quality, it stands beside
+// it.
 inline size_t preset_of_size(const RenderSettings& r) {
     size_t i = 0;
     while (i < size_presets.size() && (size_presets[i].width != r.width || size_presets[i].height != r.height)) ++i;

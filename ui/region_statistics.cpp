@@ -1,8 +1,8 @@
 #include "ui/region_statistics.h"
 
-#include "color/white_balance.h"
 #include "core/math.h"
 #include "io/displayed.h"
+#include "render/coverage.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,25 +27,28 @@ RegionStatistics region_statistics(const ShownPicture& picture) {
     s.y = std::clamp(int(region.y * float(frame.height)), 0, frame.height - 1);
     s.width = std::clamp(int(std::ceil((region.x + region.width) * float(frame.width))) - s.x, 1, frame.width - s.x);
     s.height = std::clamp(int(std::ceil((region.y + region.height) * float(frame.height))) - s.y, 1, frame.height - s.y);
-    const Affine balance = white_balance(view.white);
+    const DisplayNumbers numbers = numbers_of(view);
     std::vector<float> rgb, nits, ev, ev100;
     std::vector<Vec3> albedo;
+    std::vector<float> coverage;
     for (int y = s.y; y < s.y + s.height; ++y) {
         for (int x = s.x; x < s.x + s.width; ++x) {
             const Vec3 c = mixed_pixel(frame, picture.denoised.get(), picture.mix, x, y);
             rgb.insert(rgb.end(), {c.x, c.y, c.z});
             nits.push_back(luminance(c));
             // Of what is black the logarithm is no number, and is left out.
-            ev.push_back(std::log2(luminance(transform_vector(balance, c)) / 0.18f) + view.exposure_ev);
+            ev.push_back(stops_from_grey(numbers, c));
             ev100.push_back(std::log2(nits.back() / 0.125f));
-            if (!frame.albedo.empty()) albedo.push_back(frame.albedo[size_t(y) * size_t(frame.width) + size_t(x)]);
+            const size_t pixel = size_t(y) * size_t(frame.width) + size_t(x);
+            if (!frame.albedo.empty()) albedo.push_back(frame.albedo[pixel]);
+            coverage.push_back(coverage_of_pixel(frame, pixel));
         }
     }
     s.linear = by_channel(rgb);
     s.nits = spread_of(nits);
     s.ev = spread_of(ev);
     s.ev100 = spread_of(ev100);
-    if (show(*picture.color, view, rgb, albedo)) s.displayed = by_channel(rgb);
+    if (show(*picture.color, view, rgb, {albedo, coverage})) s.displayed = by_channel(rgb);
     return s;
 }
 

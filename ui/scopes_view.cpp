@@ -1,6 +1,7 @@
 #include "ui/scopes_view.h"
 
 #include "io/displayed.h"
+#include "render/coverage.h"
 
 #include <cmath>
 
@@ -17,6 +18,7 @@ struct Thinned {
     int width = 0;
     std::vector<float> rgb;
     std::vector<Vec3> albedo;
+    std::vector<float> coverage;
 };
 Thinned thinned(const ShownPicture& p, int step) {
     const Frame& f = *p.frame;
@@ -26,7 +28,9 @@ Thinned thinned(const ShownPicture& p, int step) {
         for (int x = step / 2; x < f.width; x += step, ++t.width) {
             const Vec3 c = mixed_pixel(f, p.denoised.get(), p.mix, x, y);
             t.rgb.insert(t.rgb.end(), {c.x, c.y, c.z});
-            if (!f.albedo.empty()) t.albedo.push_back(f.albedo[size_t(y) * size_t(f.width) + size_t(x)]);
+            const size_t pixel = size_t(y) * size_t(f.width) + size_t(x);
+            if (!f.albedo.empty()) t.albedo.push_back(f.albedo[pixel]);
+            t.coverage.push_back(coverage_of_pixel(f, pixel));
         }
     }
     return t;
@@ -40,7 +44,7 @@ Scopes scopes_of(const ShownPicture& picture) {
     Thinned t = thinned(picture, s.step);
     s.scene = histogram(t.rgb, stops_axis, stops_bins);
     s.scene_wave = waveform(t.rgb, t.width, stops_axis, wave_columns, wave_levels);
-    if (!show(*picture.color, picture.view, t.rgb, t.albedo)) return s;
+    if (!show(*picture.color, picture.view, t.rgb, {t.albedo, t.coverage})) return s;
     s.displayed = histogram(t.rgb, display_axis, display_bins);
     s.displayed_wave = waveform(t.rgb, t.width, display_axis, wave_columns, wave_levels);
     return s;

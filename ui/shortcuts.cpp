@@ -47,6 +47,8 @@ constexpr Shortcut table[] = {
     {Command::frame_all, "View", "Frame all", plain(key::home)},
     {Command::toggle_projection, "View", "Perspective / orthographic", plain('P')},
     {Command::toggle_overlays, "View", "Overlays", plain('H')},
+    {Command::render_region, "View", "Render a region alone", plain('B')},
+    {Command::render_all, "View", "Render the whole picture", shift('B')},
     {Command::pause, "View", "Pause rendering", plain(key::space)},
     {Command::bounces, "View", "Bounces", in_menu_only},
     {Command::health, "View", "Health", in_menu_only},
@@ -62,6 +64,7 @@ constexpr Shortcut table[] = {
     {Command::reset_white, "Look", "White as rendered", shift('I')},
     {Command::toggle_denoise, "Look", "Raw / denoised", plain('N')},
     {Command::measure, "Look", "Measure a region", plain('M')},
+    {Command::meters, "Look", "Light meters", shift('L')},
     {Command::scopes, "Look", "Scopes", plain('G')},
     {Command::shortcuts, "Help", "Shortcuts", plain(key::f1)},
 };

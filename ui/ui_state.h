@@ -7,6 +7,7 @@
 #include "ui/denoise_view.h"
 #include "ui/gestures.h"
 #include "ui/health_view.h"
+#include "ui/meters_view.h"
 #include "ui/picture_zoom.h"
 #include "ui/probe.h"
 #include "ui/region_statistics.h"
@@ -31,6 +32,8 @@ enum class ViewTool {
     none,
     pick_white, // a click says what is to look neutral
     measure,    // a drag says which rectangle has its statistics shown
+    region,     // a drag says which rectangle is rendered
+    meter,      // a click puts a light meter on a surface
 };
 // Where in the picture a tool's drag began, (0, 0) top left, (1, 1) bottom right.
 struct ToolStart {
@@ -107,6 +110,7 @@ struct UiState {
     HealthView health;
     RouletteView roulette;
     ScopesView scopes;
+    MetersView meters;
     RegionView region;
     ConvergenceView convergence;
     std::optional<FileBrowser> browser;

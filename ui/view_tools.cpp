@@ -4,6 +4,7 @@
 #include "ui/theme.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace blush {
 namespace {
@@ -14,6 +15,8 @@ const char* hint_of(ViewTool tool) {
     switch (tool) {
     case ViewTool::none: return "";
     case ViewTool::pick_white: return "Click what is to look white.  Esc: nothing";
+    case ViewTool::meter: return "Click a surface to put a light meter on it.  Esc: nothing";
+    case ViewTool::region: return "Drag a rectangle to render alone.  Esc: nothing";
     case ViewTool::measure: return "Drag a rectangle to measure.  Esc: nothing";
     }
     return "";
@@ -23,7 +26,8 @@ void draw_hint(const ImageRect& image, const char* text) {
     const float em = ImGui::GetFontSize();
     const ImVec2 size = ImGui::CalcTextSize(text), at{image.x + (image.width - size.x) / 2, image.y + em};
     ImDrawList& draw = *ImGui::GetWindowDrawList();
-    draw.AddRectFilled({at.x - em * 0.6f, at.y - em * 0.3f}, {at.x + size.x + em * 0.6f, at.y + size.y + em * 0.3f}, IM_COL32(20, 20, 20, 220), em * 0.2f);
+    draw.AddRectFilled({at.x - em * 0.6f, at.y - em * 0.3f}, {at.x + size.x + em * 0.6f, at.y + size.y + em * 0.3f},
+                       IM_COL32(20, 20, 20, 220), em * 0.2f);
     draw.AddText(at, tone::text, text);
 }
 
@@ -36,6 +40,15 @@ void pick_white(PanelContext& c, double u, double v) {
     c.apply(SetView{view});
 }
 
+void place_meter(PanelContext& c, const Projection& projection, double u, double v) {
+    ViewSettings view = c.project().view;
+    const auto meter = meter_at(*c.frame, c.scene(), projection, u, v, new_meter_name(view.meters));
+    if (!meter) return c.ui.toasts.note("There is no surface there");
+    view.meters.push_back(*meter);
+    c.ui.meters.open = true;
+    c.apply(SetView{view});
+}
+
 void draw_rectangle(ImDrawList& draw, const ImageRect& image, const PictureRegion& r) {
     const ImVec2 low{image.x + r.x * image.width, image.y + r.y * image.height};
     const ImVec2 high{low.x + r.width * image.width, low.y + r.height * image.height};
@@ -44,9 +57,10 @@ void draw_rectangle(ImDrawList& draw, const ImageRect& image, const PictureRegio
 }
 
 void take_region(PanelContext& c, const PictureRegion& region) {
-    c.ui.tool = ViewTool::none;
+    const ViewTool tool = std::exchange(c.ui.tool, ViewTool::none);
     c.ui.tool_start.reset();
     if (region.width <= 0 || region.height <= 0) return;
+    if (tool == ViewTool::region) return render_region(c, region);
     ViewSettings v = c.project().view;
     v.measured = region;
     c.apply(SetView{v});
@@ -74,19 +88,39 @@ void draw_measured_region(ImDrawList& draw, const ImageRect& image, const ViewSe
     if (view.measured) draw_rectangle(draw, image, *view.measured);
 }
 
-bool use_tool(PanelContext& c, const ImageRect& image, const ImageRect& seen, bool hovered) {
+void draw_rendered_region(ImDrawList& draw, const ImageRect& image, const PictureRegion& r) {
+    if (r == PictureRegion{}) return;
+    const float left = image.x + r.x * image.width, top = image.y + r.y * image.height;
+    const float right = left + r.width * image.width, bottom = top + r.height * image.height, end_x = image.x + image.width,
+                end_y = image.y + image.height;
+    draw.AddRectFilled({image.x, image.y}, {end_x, top}, tone::surround);
+    draw.AddRectFilled({image.x, bottom}, {end_x, end_y}, tone::surround);
+    draw.AddRectFilled({image.x, top}, {left, bottom}, tone::surround);
+    draw.AddRectFilled({right, top}, {end_x, bottom}, tone::surround);
+    draw.AddRect({left - 1, top - 1}, {right + 1, bottom + 1}, tone::field_filled);
+}
+
+void render_region(PanelContext& c, const PictureRegion& region) {
+    RenderSettings r = c.project().render;
+    r.region = region;
+    c.apply(SetRender{r});
+}
+
+bool use_tool(PanelContext& c, const Projection& projection, const ImageRect& image, const ImageRect& seen, bool hovered) {
     if (c.ui.tool == ViewTool::none) return false;
     draw_hint(seen, hint_of(c.ui.tool));
     if (!c.has_picture()) return true;
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     const double u = image.u(mouse.x), v = image.v(mouse.y);
     if (hovered && ImGui::IsMouseClicked(ImGuiMouseButton_Left) && image.contains(mouse.x, mouse.y)) {
-        if (c.ui.tool != ViewTool::pick_white) {
-            c.ui.tool_start = ToolStart{u, v};
-        } else {
-            pick_white(c, u, v);
-            c.ui.tool = ViewTool::none;
+        switch (c.ui.tool) {
+        case ViewTool::none: break;
+        case ViewTool::pick_white: pick_white(c, u, v); break;
+        case ViewTool::meter: place_meter(c, projection, u, v); break;
+        case ViewTool::measure:
+        case ViewTool::region: c.ui.tool_start = ToolStart{u, v}; break;
         }
+        if (!c.ui.tool_start) c.ui.tool = ViewTool::none;
     }
     if (!c.ui.tool_start) return true;
     const PictureRegion region = region_between(c.ui.tool_start->u, c.ui.tool_start->v, u, v);

@@ -9,8 +9,8 @@
 #include "ui/orbit_camera.h"
 #include "ui/picking.h"
 #include "ui/pixel_grid.h"
-#include "ui/view_tools.h"
 #include "ui/theme.h"
+#include "ui/view_tools.h"
 #include "ui/viewport_marks.h"
 
 namespace blush {
@@ -108,7 +108,9 @@ void Viewport::take_frame(PanelContext& c) {
     DisplayNumbers numbers = numbers_of(v);
     if (special && is_map(view)) numbers.false_color = {}; // it has colours of its own
     const DisplayLook look{numbers, special ? PictureMix{} : mix_of(c.ui.denoise, c.denoised != nullptr)};
-    const bool new_frame = c.frame && c.frame->width > 0 && (c.frame != uploaded_frame_ || view != uploaded_view_);
+    const bool new_frame =
+        c.frame && c.frame->width > 0 &&
+        (c.frame != uploaded_frame_ || view != uploaded_view_ || numbers.background_as_it_is != look_.numbers.background_as_it_is);
     const bool new_denoised = look.mix.denoised_weight != 0 && c.denoised != uploaded_denoised_;
     // Raw or denoised, at once: what is being drawn is given up for it. Not for a slider, whose every step would start anew.
     const bool toggled = uploaded_frame_ && look.mix != look_.mix && (look.mix.raw_weight == 0 || look.mix.denoised_weight == 0) && !new_denoised;
@@ -120,6 +122,8 @@ void Viewport::take_frame(PanelContext& c) {
     if (!display_.busy() && (new_frame || (uploaded_frame_ && (new_denoised || shader_changed_ || look_ != look)))) {
         if (new_frame) {
             if (special) display_.upload(c.frame->width, c.frame->height, pixels_of(*c.frame, view));
+            else if (numbers.background_as_it_is)
+                display_.upload(c.frame->width, c.frame->height, with_coverage(*c.frame));
             else display_.upload(*c.frame);
             uploaded_frame_ = c.frame;
             uploaded_view_ = view;
@@ -232,12 +236,17 @@ ImageRect Viewport::draw(PanelContext& c) {
     const View view = c.scene().view;
     const Projection projection(view, double(image.width) / image.height);
     const ImageRect seen = visible_part(image);
-    bool taken = use_tool(c, image, seen, hovered && !navigation_.busy());
-    if (c.ui.tool == ViewTool::none)
-        taken |= draw_overlays(c, projection, image, hovered && !navigation_.busy());
-    draw_pixel_grid(*ImGui::GetWindowDrawList(), image, window_region(), *shown_frame_);
-    draw_false_color_legend(*ImGui::GetWindowDrawList(), seen, is_special(*shown_frame_, uploaded_view_) && is_map(uploaded_view_) ? ViewSettings{} : c.project().view);
-    if (c.ui.settings.overlays) draw_measured_region(*ImGui::GetWindowDrawList(), image, c.project().view);
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    draw_rendered_region(draw, image, c.project().render.region);
+    bool taken = use_tool(c, projection, image, seen, hovered && !navigation_.busy());
+    if (c.ui.tool == ViewTool::none) taken |= draw_overlays(c, projection, image, hovered && !navigation_.busy());
+    draw_pixel_grid(draw, image, window_region(), *shown_frame_);
+    const bool map = is_special(*shown_frame_, uploaded_view_) && is_map(uploaded_view_);
+    draw_false_color_legend(draw, seen, map ? ViewSettings{} : c.project().view);
+    if (c.ui.settings.overlays) {
+        draw_measured_region(draw, image, c.project().view);
+        draw_meters(draw, image, projection, c.scene(), c.project().view, c.ui.meters);
+    }
     draw_caption(seen);
     navigate(c, projection, image, hovered, taken);
     return image;

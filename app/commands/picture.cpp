@@ -1,7 +1,6 @@
 #include "app/commands/picture.h"
 
 #include "app/assets_dir.h"
-#include "io/displayed.h"
 
 #include <fmt/format.h>
 
@@ -33,7 +32,7 @@ Result<std::optional<ColorManagement>> color_for(PictureFormat format, const Vie
     Result<ColorManagement> color = ColorManagement::load(assets_dir());
     if (!color) return color.error();
     float grey[3] = {0.18f, 0.18f, 0.18f};
-    if (Result<void> known = show(*color, view, grey, std::array{Vec3{1, 1, 1}}); !known)
+    if (Result<void> known = show(*color, view, grey, {.albedo = std::array{Vec3{1, 1, 1}}}); !known)
         return known.error();
     return std::optional<ColorManagement>(*std::move(color));
 }
@@ -85,8 +84,8 @@ std::vector<float> beauty_rgb(const Frame& frame) {
 
 Result<void> write_display_picture(const std::filesystem::path& file, int width, int height, std::vector<float> rgb,
                                    const ColorManagement& color, const ViewSettings& view,
-                                   const std::map<std::string, std::string>& metadata, std::span<const Vec3> albedo) {
-    if (Result<void> shown = show(color, view, rgb, albedo); !shown) return shown;
+                                   const std::map<std::string, std::string>& metadata, const ShownWith& with) {
+    if (Result<void> shown = show(color, view, rgb, with); !shown) return shown;
     return write_display_image(file, width, height, rgb, metadata);
 }
 

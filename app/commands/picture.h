@@ -3,6 +3,7 @@
 
 #include "app/commands/layers.h"
 #include "color/color_management.h"
+#include "io/displayed.h"
 #include "io/snapshot.h"
 #include "scene/view_settings.h"
 
@@ -43,10 +44,10 @@ Result<void> write_exr_picture(const std::filesystem::path& file, const Frame& f
 
 // width * height * 3, scene-linear: red, green and blue without alpha.
 std::vector<float> beauty_rgb(const Frame& frame);
-// Scene-linear `rgb` as the display shows it; false colours of lux need the albedo.
+// Scene-linear `rgb` as the display shows it.
 Result<void> write_display_picture(const std::filesystem::path& file, int width, int height, std::vector<float> rgb,
                                    const ColorManagement& color, const ViewSettings& view,
-                                   const std::map<std::string, std::string>& metadata, std::span<const Vec3> albedo = {});
+                                   const std::map<std::string, std::string>& metadata, const ShownWith& with = {});
 // "0.0012 (0.0010 to 0.0014)": the estimated relative error as metadata have it; empty if not known.
 std::string error_text(const ErrorEstimate& error);
 // What of a render's metadata a display picture carries.

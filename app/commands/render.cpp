@@ -17,6 +17,7 @@
 #include "core/text.h"
 #include "io/scene_edits_json.h"
 #include "io/scene_hash.h"
+#include "render/coverage.h"
 #include "render/denoised_picture.h"
 
 #include <CLI/CLI.hpp>
@@ -184,6 +185,7 @@ PlaneSet planes_for(const RenderCommand& c, const Plan& plan) {
     PlaneSet planes = planes_of(plan.layers);
     if (c.options.denoise) planes.albedo = planes.normal = true;
     if (c.options.view.false_color.of == FalseColor::Of::lux) planes.albedo = true;
+    if (c.options.view.background_as_it_is) planes.ids = true;
     return planes;
 }
 
@@ -196,8 +198,9 @@ Result<void> write_picture(const RenderCommand& c, const Plan& plan, const Rende
     extra.film = film;
     if (!color) return write_exr_picture(c.output, frame, extra, plan.layers, metadata);
     std::vector<float> rgb = rendered.denoised ? rendered.denoised->rgb : beauty_rgb(frame);
+    const std::vector<float> coverage = coverage_of(frame);
     return write_display_picture(c.output, frame.width, frame.height, std::move(rgb), *color, c.options.view, display_metadata(metadata),
-                                 frame.albedo);
+                                 {frame.albedo, coverage});
 }
 
 // Renders, denoises if that is asked for, and writes. What was rendered is written even if it then cannot be denoised.

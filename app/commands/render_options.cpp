@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <functional>
 #include <string>
 
@@ -51,6 +52,17 @@ Result<SampleRange> parse_samples(std::string_view text) {
     return Error{.what = fmt::format("samples must be A:B with 0 <= A < B, not \"{}\"", text)};
 }
 
+Result<std::optional<PixelRect>> parse_region(std::string_view text) {
+    const std::vector<std::string_view> parts = split(text, ',');
+    int x = 0, y = 0, width = 0, height = 0;
+    const bool numbers = parts.size() == 4 && parse_number(parts[0], x) && parse_number(parts[1], y) && parse_number(parts[2], width) &&
+                         parse_number(parts[3], height);
+    constexpr int most = 65536; // pixels of a picture's side
+    if (numbers && x >= 0 && y >= 0 && width > 0 && height > 0 && std::max({x, y, width, height}) <= most)
+        return std::optional(PixelRect{x, y, x + width, y + height});
+    return Error{.what = fmt::format("a region must be X,Y,WIDTH,HEIGHT in pixels, not \"{}\"", text)};
+}
+
 Result<bool> parse_switch(std::string_view text) {
     if (text == "on") return true;
     if (text == "off") return false;
@@ -76,6 +88,8 @@ void add_picture_options(CLI::App& app, RenderOptions& o) {
            },
            "Pixels [1280x720]")
         ->type_name("WxH");
+    add_parsed(app, "--region", o.region, parse_region, "Render these pixels of the picture alone; the rest stays empty [all]")
+        ->type_name("X,Y,W,H");
     app.add_option("--camera", o.overrides.camera, "Which camera [the first; without any, one is framed around the scene]")
         ->type_name("NAME|INDEX");
     app.add_option("--aperture", o.overrides.aperture, "Radius of the thin lens in metres; 0 is a pinhole [the camera's]")->type_name("M");
@@ -148,10 +162,13 @@ void add_view_options(CLI::App& app, ViewSettings& view) {
     add_parsed(app, "--auto-exposure", view.auto_exposure, parse_auto_exposure,
                "Exposure by the picture, for display alone: its mean becomes middle grey, or its highlights white; --exposure is added [off]")
         ->type_name("off|average|highlights");
-    add_parsed(app, "--white", view.white, parse_white, "Scene-linear colour that is to look neutral, for display alone [1,1,1]")->type_name("R,G,B");
+    add_parsed(app, "--white", view.white, parse_white, "Scene-linear colour that is to look neutral, for display alone [1,1,1]")
+        ->type_name("R,G,B");
     add_parsed(app, "--false-color", view.false_color, parse_false_color,
                "Colours for steps of luminance, for display alone: stops from middle grey, nits, or lux on matte surfaces [off]")
         ->type_name("off|stops|nits|lux[=LOW:HIGH]");
+    app.add_flag("--background-as-it-is", view.background_as_it_is,
+                 "Leave what the camera sees past all objects out of exposure, white balance, look and view, for display alone");
     app.add_option("--exposure", view.exposure_ev, "Stops, for display alone: never in an EXR [0]")->type_name("EV");
     app.add_option("--view", view.view, "View transform, for display alone [the config's default]")->type_name("NAME");
     app.add_option("--look", view.look, "Look, for display alone [the view's own]")->type_name("NAME");
@@ -174,6 +191,15 @@ Result<RenderSettings> settings_of(const RenderOptions& options) {
     if (options.samples_given && !options.adaptive_given) settings.adaptive = false;
     if (settings.adaptive && options.samples_given)
         return Error{.what = "--samples names sample indices, --adaptive decides by itself how many a pixel has; give one"};
+    if (const auto& r = options.region) {
+        const float w = float(settings.width), h = float(settings.height);
+        if (r->x1 > settings.width || r->y1 > settings.height)
+            return Error{.what = fmt::format("--region reaches out of a picture of {}x{}", settings.width, settings.height)};
+        settings.region = {float(r->x0) / w, float(r->y0) / h, float(r->x1 - r->x0) / w, float(r->y1 - r->y0) / h};
+        if (options.adaptive_given && settings.adaptive)
+            return Error{.what = "--adaptive is of whole pictures, --region of a part; give one"};
+        settings = carried_out(settings);
+    }
     const bool other_limit = settings.seconds > 0 || settings.error > 0;
     if (other_limit && !options.spp_given && !options.samples_given) settings.spp = 0;
     if (Result<void> valid = validate(settings); !valid) return valid.error();

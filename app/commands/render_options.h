@@ -20,6 +20,7 @@ struct RenderOptions {
     ViewSettings view;
     SceneOverrides overrides;
     std::optional<DenoiseQuality> denoise; // empty: off
+    std::optional<PixelRect> region;       // of a picture of the size asked for; empty: all of it
     bool size_given = false, spp_given = false, samples_given = false, adaptive_given = false, reuse_given = false;
 };
 

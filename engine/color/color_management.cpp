@@ -124,7 +124,8 @@ Result<OCIO::ConstProcessorRcPtr> make_processor(const OCIO::Config& config, Dis
     if (names.view.empty()) names.view = config.getDefaultView(names.display.c_str());
     const auto views = views_of(config, names.display);
     if (!contains(views, names.view))
-        return Error{{}, fmt::format("no view \"{}\" for display \"{}\"; there are: {}", names.view, names.display, fmt::join(views, ", ")), {}};
+        return Error{
+            {}, fmt::format("no view \"{}\" for display \"{}\"; there are: {}", names.view, names.display, fmt::join(views, ", ")), {}};
     if (const auto looks = looks_of(config); !names.look.empty() && !contains(looks, names.look))
         return Error{{}, fmt::format("no look \"{}\"; there are: {}", names.look, fmt::join(looks, ", ")), {}};
     try {
@@ -156,7 +157,9 @@ constexpr float largest_scene = 1e30f;
 
 float srgb_encoded(float x) { return x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1 / 2.4f) - 0.055f; }
 
-Vec3 as_it_is(const Vec3& scene) { return {srgb_encoded(clamp01(scene.x)), srgb_encoded(clamp01(scene.y)), srgb_encoded(clamp01(scene.z))}; }
+Vec3 as_it_is(const Vec3& scene) {
+    return {srgb_encoded(clamp01(scene.x)), srgb_encoded(clamp01(scene.y)), srgb_encoded(clamp01(scene.z))};
+}
 
 // The same around OCIO's function `ocio_display`, in the same order, as apply_display() has it.
 constexpr const char* shader_frame = R"(

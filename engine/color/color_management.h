@@ -13,7 +13,8 @@
 namespace blush {
 
 // Text and tables of the display transform for a fragment shader: GLSL 3.30 source that defines
-// `vec4 display_color(vec4 scene_linear)`, whose alpha is the share of the pixel that objects cover, with a uniform in it for each DisplayNumber.
+// `vec4 display_color(vec4 scene_linear)`, whose alpha is the share of the pixel that objects cover, with a uniform in it for each
+// DisplayNumber.
 struct DisplayShader {
     struct Lut {
         std::string sampler;  // name of the uniform sampler

@@ -8,14 +8,15 @@
 
 namespace blush {
 
-// What a shader is made for. Empty names mean the config's default display, the display's default view, and the looks that the view has of itself.
+// What a shader is made for. Empty names mean the config's default display, the display's default view, and the looks that the view has of
+// itself.
 struct DisplayTransform {
     std::string display = {}, view = {}, look = {};
     bool operator==(const DisplayTransform&) const = default;
 };
 
-// All else: the uniforms of the shader. In this order: white balance, exposure, look and view, gamma; false colours take the place of what comes after
-// the exposure.
+// All else: the uniforms of the shader. In this order: white balance, exposure, look and view, gamma; false colours take the place of what
+// comes after the exposure.
 struct DisplayNumbers {
     float exposure_ev = 0;
     float gamma = 1;

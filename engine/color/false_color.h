@@ -16,8 +16,8 @@ struct FalseColorScale {
     bool operator==(const FalseColorScale&) const = default;
 };
 
-// sRGB-encoded, black below, 13 bands, white above. Dark to bright in hues that are told apart by name: purple, violet, blues, cyan, greens, grey in the
-// middle, yellow, amber, orange, red, pink.
+// sRGB-encoded, black below, 13 bands, white above. Dark to bright in hues that are told apart by name: purple, violet, blues, cyan,
+// greens, grey in the middle, yellow, amber, orange, red, pink.
 extern const std::array<Vec3, false_color_bands + 2> false_colors;
 
 // 0 below the scale, 1 .. 13 for its bands, 14 above. What is not a number lies below.

@@ -8,7 +8,8 @@ namespace blush {
 namespace {
 
 // Columns. IEC 61966-2-1, from the chromaticities of Rec.709 and D65.
-constexpr Affined xyz_from_rgb{{0.4124564, 0.2126729, 0.0193339}, {0.3575761, 0.7151522, 0.1191920}, {0.1804375, 0.0721750, 0.9503041}, {0, 0, 0}};
+constexpr Affined xyz_from_rgb{
+    {0.4124564, 0.2126729, 0.0193339}, {0.3575761, 0.7151522, 0.1191920}, {0.1804375, 0.0721750, 0.9503041}, {0, 0, 0}};
 constexpr Affined cones_from_xyz{{0.8951, -0.7502, 0.0389}, {0.2664, 1.7135, -0.0685}, {-0.1614, 0.0367, 1.0296}, {0, 0, 0}};
 
 bool is_color(const Vec3& c) {

@@ -3,6 +3,7 @@
 #include "color/exposure_meter.h"
 #include "color/illuminance.h"
 #include "color/white_balance.h"
+#include "core/math.h"
 
 #include <cmath>
 
@@ -41,7 +42,7 @@ float next_round_number(float x) {
 DisplayTransform transform_of(const ViewSettings& view) { return {view.display, view.view, view.look}; }
 
 DisplayNumbers numbers_of(const ViewSettings& view) {
-    return {view.exposure_ev, view.gamma, white_balance(view.white), scale_of(view.false_color)};
+    return {view.exposure_ev, view.gamma, white_balance(view.white), scale_of(view.false_color), view.background_as_it_is};
 }
 
 float metered_exposure(AutoExposure rule, std::span<const float> values, int channels) {
@@ -60,6 +61,10 @@ ViewSettings settled(const ViewSettings& view, float metered_ev) {
     return v;
 }
 
+float stops_from_grey(const DisplayNumbers& numbers, const Vec3& scene) {
+    return std::log2(luminance(transform_vector(numbers.white_balance, scene)) / 0.18f) + numbers.exposure_ev;
+}
+
 FalseColor fitted(const FalseColor& scale, std::span<const float> values, int channels) {
     const LuminanceRange range = luminance_range(values, channels);
     if (!(range.low > 0)) return scale;
@@ -69,13 +74,14 @@ FalseColor fitted(const FalseColor& scale, std::span<const float> values, int ch
     return std::isfinite(f.high) ? f : scale;
 }
 
-Result<void> show(const ColorManagement& color, const ViewSettings& view, std::span<float> rgb, std::span<const Vec3> albedo) {
+Result<void> show(const ColorManagement& color, const ViewSettings& view, std::span<float> rgb, const ShownWith& with) {
     const ViewSettings v = settled(view, metered_exposure(view.auto_exposure, rgb, 3));
     if (v.false_color.of == FalseColor::Of::lux) {
-        if (albedo.size() != rgb.size() / 3) return Error{.what = "there is no albedo, without which lux cannot be told"};
-        to_illuminance(rgb, albedo);
+        if (with.albedo.size() != rgb.size() / 3) return Error{.what = "there is no albedo, without which lux cannot be told"};
+        to_illuminance(rgb, with.albedo);
     }
-    return color.apply_display(transform_of(v), numbers_of(v), rgb.data(), rgb.size() / 3);
+    const float* coverage = with.coverage.size() == rgb.size() / 3 ? with.coverage.data() : nullptr;
+    return color.apply_display(transform_of(v), numbers_of(v), rgb.data(), rgb.size() / 3, coverage);
 }
 
 } // namespace blush

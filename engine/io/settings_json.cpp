@@ -46,6 +46,24 @@ template <size_t n, class Take> auto numbers(Take take) {
     };
 }
 
+Result<void> read_meters(const Json& json, std::vector<LightMeter>& meters) {
+    meters.clear();
+    if (!json.is_array() || json.size() > most_light_meters)
+        return Error{"", fmt::format("not a list of at most {} meters", most_light_meters), ""};
+    for (const Json& item : json) {
+        LightMeter m;
+        const auto vector = [&](const char* key, Vec3& v) {
+            return numbers<3>([&v](const auto& n) { v = {n[0], n[1], n[2]}; })(item.value(key, Json()));
+        };
+        const bool good = item.is_object() && read_json(item.value("name", Json()), m.name) &&
+                          read_json(item.value("node", Json()), m.node.value) && vector("position", m.position) &&
+                          vector("normal", m.normal) && read_json(item.value("clearance", Json()), m.clearance);
+        if (!good) return Error{"", "a meter has a name, a node, a position, a normal and a clearance", ""};
+        meters.push_back(std::move(m));
+    }
+    return {};
+}
+
 // "1280x720".
 Result<std::pair<int, int>> parse_size(std::string_view text) {
     int width = 0, height = 0;
@@ -99,6 +117,7 @@ std::string render_settings_json(const RenderSettings& s) {
     json["adaptive"] = s.adaptive;
     json["reuse"] = reuse_text(s.reuse);
     json["clamp"] = to_string(s.clamp);
+    json["region"] = {s.region.x, s.region.y, s.region.width, s.region.height};
     return json_text(json);
 }
 
@@ -113,6 +132,12 @@ std::string view_settings_json(const ViewSettings& s) {
     json["white"] = {s.white.x, s.white.y, s.white.z};
     json["false_color"] = to_string(s.false_color);
     json["background_as_it_is"] = s.background_as_it_is;
+    for (const LightMeter& m : s.meters)
+        json["meters"].push_back({{"name", m.name},
+                                  {"node", m.node.value},
+                                  {"position", {m.position.x, m.position.y, m.position.z}},
+                                  {"normal", {m.normal.x, m.normal.y, m.normal.z}},
+                                  {"clearance", m.clearance}});
     if (s.measured) json["measured"] = {s.measured->x, s.measured->y, s.measured->width, s.measured->height};
     return json_text(json);
 }
@@ -149,6 +174,9 @@ Result<ParsedSettings<RenderSettings>> parse_render_settings(std::string_view te
         {"adaptive", plain(s.adaptive)},
         {"reuse", word(s.reuse, parse_reuse)},
         {"clamp", word(s.clamp, parse_clamp)},
+        {"region", numbers<4>([&s](const auto& n) {
+             s.region = {n[0], n[1], n[2], n[3]};
+         })},
     };
     return parse(text, std::move(parsed), readers);
 }
@@ -163,10 +191,15 @@ Result<ParsedSettings<ViewSettings>> parse_view_settings(std::string_view text, 
         {"view", plain(s.view)},
         {"look", plain(s.look)},
         {"auto_exposure", word(s.auto_exposure, parse_auto_exposure)},
-        {"white", numbers<3>([&s](const auto& n) { s.white = {n[0], n[1], n[2]}; })},
+        {"white", numbers<3>([&s](const auto& n) {
+             s.white = {n[0], n[1], n[2]};
+         })},
         {"false_color", word(s.false_color, parse_false_color)},
         {"background_as_it_is", plain(s.background_as_it_is)},
-        {"measured", numbers<4>([&s](const auto& n) { s.measured = {n[0], n[1], n[2], n[3]}; })},
+        {"meters", [&s](const Json& json) { return read_meters(json, s.meters); }},
+        {"measured", numbers<4>([&s](const auto& n) {
+             s.measured = {n[0], n[1], n[2], n[3]};
+         })},
     };
     return parse(text, std::move(parsed), readers);
 }

@@ -13,10 +13,12 @@ namespace blush {
 
 // {"size": "1280x720", "resolution_scale": 1.0, "spp": 64, "time": 0.0, "error": 0.0, "first_sample": 0, "seed": 0,
 //  "max_bounces": "unlimited", "roulette": "sqrt,start=3", "strategy": "mis", "filter": "blackman-harris",
-//  "sampler": "sobol", "energy_compensation": false, "adaptive": false, "reuse": "off", "clamp": "off"}
+//  "sampler": "sobol", "energy_compensation": false, "adaptive": false, "reuse": "off", "clamp": "off", "region": [0.0, 0.0, 1.0, 1.0]}
 std::string render_settings_json(const RenderSettings& settings);
 // {"exposure": 0.0, "gamma": 1.0, "display": "", "view": "", "look": "", "auto_exposure": "off", "white": [1.0, 1.0, 1.0],
-//  "false_color": "nits=1:1000", "background_as_it_is": false, "measured": [x, y, width, height]}, the last if there is one
+//  "false_color": "nits=1:1000", "background_as_it_is": false,
+//  "meters": [{"name": "", "node": 7, "position": [x, y, z], "normal": [x, y, z], "clearance": 0.001}], "measured": [x, y, width, height]},
+// the last two if there are any
 std::string view_settings_json(const ViewSettings& settings);
 
 template <class T> struct ParsedSettings {

@@ -223,7 +223,7 @@ void Film::resolve_rows(Frame& frame, int first, int last, Totals& totals) const
         rgba[0] = float(a.r * w.a + b.r * w.b);
         rgba[1] = float(a.g * w.a + b.g * w.b);
         rgba[2] = float(a.b * w.a + b.b * w.b);
-        rgba[3] = transparent_ ? float(mean_of(i, w, [&](size_t place) { return double(covered_[place]); })) : 1.f;
+        rgba[3] = transparent_ ? float(mean_of(i, w, [&](size_t place) { return double(covered_[place]); })) : count > 0 ? 1.f : 0.f;
         if (adaptive_) frame.pixel_samples[i] = float(count);
         // Guides for denoising, where it does no harm that all samples count alike.
         const double inverse = 1 / double(std::max<int64_t>(1, count));

@@ -40,7 +40,8 @@ struct Frame {
     int64_t samples = 0;       // per pixel, on average
     bool complete = false;     // a stop rule is reached
 
-    std::vector<float> rgba;          // width * height * 4, scene-linear, top row first; alpha is 1, or coverage where an environment is hidden from the camera
+    std::vector<float> rgba; // width * height * 4, scene-linear, top row first; alpha is 1, or coverage where an environment is hidden from
+                             // the camera; 0 where nothing is rendered
     std::vector<float> pixel_samples; // of each pixel; empty if all have the same number
     std::vector<Vec3> albedo, normal; // empty unless read; normal in world space
     std::vector<float> depth;         // metres along the ray; 0 on a miss; empty unless read

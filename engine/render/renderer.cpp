@@ -4,9 +4,11 @@
 #include "render/fault_finder.h"
 #include "render/film.h"
 #include "render/film_state.h"
+#include "render/irradiance.h"
 #include "render/lowering.h"
 #include "render/pilot_noise.h"
 #include "render/render_scene.h"
+#include "render/reuse_groups.h"
 #include "render/sample_plan.h"
 #include "render/settings_for_kernels.h"
 
@@ -100,6 +102,7 @@ struct Renderer::State {
     };
     using Wanted = std::function<bool()>;
     using TileTask = std::function<bool(int tile, const TileJob& rectangle, unsigned worker)>;
+    PixelRect rendered_pixels() const;
     // False if stopped before the end, as all that follow.
     bool render_run(TileJob rectangle, const Run& run, int most_samples, unsigned worker, const Wanted& wanted);
     bool for_each_tile(const TileShape& shape, const Wanted& wanted, const TileTask& task);
@@ -133,8 +136,9 @@ struct Renderer::State {
 Renderer::Renderer(const RendererOptions& options) : state_(std::make_unique<State>(options)) {}
 Renderer::~Renderer() = default;
 
-bool Renderer::update(const Scene& scene, const RenderSettings& settings) {
+bool Renderer::update(const Scene& scene, const RenderSettings& asked) {
     State& s = *state_;
+    const RenderSettings settings = carried_out(asked);
     const auto begin = Clock::now();
     Film::require_memory(settings.width, settings.height, s.options.planes, settings.adaptive);
     Scene lowered = lower_area_lights(scene);
@@ -226,15 +230,38 @@ bool Renderer::State::render_run(TileJob job, const Run& run, int most_samples, 
     return true;
 }
 
+Vec3d Renderer::irradiance(const MeterPlace& place, uint32_t replicate, int samples) const {
+    State& s = *state_;
+    const KernelContext context{&s.scene.tables(), &s.scene.accel(), settings_for_kernels(s.settings, 1, 1), s.settings.seed};
+    const Vec3d position = place.position + place.normal * place.clearance - s.scene.origin();
+    const Receiver receiver{to_float(position), to_float(place.normal)};
+    if (!s.replays[0]) s.replays[0] = std::make_unique<TileScratch>();
+    Vec3d mean{0, 0, 0};
+    s.workers.run([&] { mean = estimate_irradiance(context, receiver, replicate, samples, *s.replays[0]); });
+    return mean;
+}
+
+// Of the film, those that are rendered. Path reuse needs its groups whole.
+PixelRect Renderer::State::rendered_pixels() const {
+    PixelRect r = pixels_of(settings.region, film.width(), film.height());
+    if (settings.reuse <= 1) return r;
+    constexpr int block = ReuseGroups::block;
+    const auto up = [](int x) { return (x + block - 1) / block * block; };
+    return {r.x0 / block * block, r.y0 / block * block, std::min(up(r.x1), film.width()), std::min(up(r.y1), film.height())};
+}
+
 bool Renderer::State::for_each_tile(const TileShape& shape, const Wanted& wanted, const TileTask& task) {
     const int across = (film.width() + shape.width - 1) / shape.width, down = (film.height() + shape.height - 1) / shape.height;
+    const PixelRect wanted_pixels = rendered_pixels();
     std::atomic<bool> cut_short{false};
     const bool all_begun = workers.for_each(int64_t(across) * down, wanted, [&](int64_t tile, unsigned worker) {
+        const int x = int(tile % across) * shape.width, y = int(tile / across) * shape.height;
         TileJob job;
-        job.x = int(tile % across) * shape.width;
-        job.y = int(tile / across) * shape.height;
-        job.width = std::min(shape.width, film.width() - job.x);
-        job.height = std::min(shape.height, film.height() - job.y);
+        job.x = std::max(x, wanted_pixels.x0);
+        job.y = std::max(y, wanted_pixels.y0);
+        job.width = std::min(x + shape.width, wanted_pixels.x1) - job.x;
+        job.height = std::min(y + shape.height, wanted_pixels.y1) - job.y;
+        if (job.width <= 0 || job.height <= 0) return;
         if (!task(int(tile), job, worker)) cut_short = true;
     });
     for (const auto& used : scratch) {
@@ -250,7 +277,8 @@ bool Renderer::State::for_each_tile(const TileShape& shape, const Wanted& wanted
 
 // The same samples of every pixel.
 bool Renderer::State::render_evenly(int64_t first, int64_t count, const Wanted& wanted) {
-    const TileShape shape = tile_shape(count, int64_t(film.width()) * film.height() / workers.threads());
+    const PixelRect pixels = rendered_pixels();
+    const TileShape shape = tile_shape(count, int64_t(pixels.x1 - pixels.x0) * (pixels.y1 - pixels.y0) / workers.threads());
     return for_each_tile(shape, wanted, [&](int, const TileJob& job, unsigned worker) {
         return render_run(job, {first, count, 1}, shape.samples, worker, wanted);
     });

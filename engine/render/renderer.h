@@ -38,6 +38,13 @@ struct RendererOptions {
     PlaneSet planes = {};
 };
 
+// Of a light meter, in the world: light falls on it from the side of its normal.
+struct MeterPlace {
+    Vec3d position{0, 0, 0}, normal{0, 1, 0};
+    double clearance = 0; // metres off the surface, so that it does not shadow itself
+    bool operator==(const MeterPlace&) const = default;
+};
+
 struct CompiledInfo {
     int64_t meshes = 0, instances = 0, materials = 0, textures = 0;
     int64_t triangles = 0; // as seen by rays: instances counted each time
@@ -92,6 +99,10 @@ public:
     // Replaces the film, at full size; go on with sample first_sample + samples. Errors: it does not fit the settings or lacks a plane; the
     // film is then empty.
     Result<void> load_film(const FilmState& state);
+
+    // What a light meter at a place of the scene last taken up reads: one of many independent estimates (irradiance.h), RGB in lux. The
+    // film is not touched.
+    Vec3d irradiance(const MeterPlace& place, uint32_t replicate, int samples) const;
 
     // Of the scene last taken up. Not for the path of an edit: looks at every triangle the first time it is asked.
     const CompiledInfo& info() const;

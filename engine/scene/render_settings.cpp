@@ -9,6 +9,11 @@ RenderSettings recommended_settings() {
     return settings;
 }
 
+RenderSettings carried_out(RenderSettings settings) {
+    settings.adaptive = settings.adaptive && settings.region == PictureRegion{};
+    return settings;
+}
+
 bool same_image(const RenderSettings& before, const RenderSettings& after) {
     RenderSettings stops_alike = before;
     stops_alike.spp = after.spp;

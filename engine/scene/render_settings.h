@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/result.h"
+#include "scene/picture_region.h"
 
 #include <cstdint>
 #include <string>
@@ -61,12 +62,16 @@ struct RenderSettings {
     bool adaptive = false;          // spp is a mean: more samples where the noise is. Starts at sample 0
     int reuse = 1;                  // pixels that share their second path vertices: 4, 8, 16 or, alone, 1
     Clamp clamp = {};
+    PictureRegion region = {};      // alone is rendered, evenly whatever adaptive says; the rest of the picture stays empty
     bool operator==(const RenderSettings&) const = default;
 };
 
 // What the command line and the window begin with. RenderSettings{} is the plain path tracer that is taught and tested against; this adds what
 // gives less error for the time on the scenes measured (README).
 RenderSettings recommended_settings();
+
+// As they are carried out: a region is not sampled adaptively, so that it is the same as in a whole picture that is not.
+RenderSettings carried_out(RenderSettings settings);
 
 // True if an image accumulated under `before` is still the one `after` asks for: they differ in stop rules alone.
 bool same_image(const RenderSettings& before, const RenderSettings& after);

@@ -192,6 +192,7 @@ Result<void> validate(const RenderSettings& settings) {
              fmt::format("first sample must be below the last, {}, not {}", settings.spp, settings.first_sample));
     check.is(!settings.adaptive || settings.first_sample == 0,
              fmt::format("adaptive sampling must start at sample 0, not {}", settings.first_sample));
+    check.region("rendered region", settings.region);
     check.is(settings.max_bounces >= unlimited_bounces, fmt::format("bounces must be a number from 0, not {}", settings.max_bounces));
     check.is(!reuse_text(settings.reuse).empty(), fmt::format("pixels that reuse paths must be 1, 4, 8 or 16, not {}", settings.reuse));
     const Roulette& roulette = settings.roulette;
@@ -216,6 +217,13 @@ Result<void> validate(const ViewSettings& settings) {
     check.positive("upper end of the false colours", settings.false_color.high);
     check.is(settings.false_color.low < settings.false_color.high, "the lower end of the false colours must be below the upper");
     if (settings.measured) check.region("measured region", *settings.measured);
+    check.is(settings.meters.size() <= most_light_meters, fmt::format("there can be at most {} light meters", most_light_meters));
+    for (const LightMeter& meter : settings.meters) {
+        check.finite("light meter's position", meter.position);
+        check.finite("light meter's normal", meter.normal);
+        check.is(meter.normal != Vec3{0, 0, 0}, "light meter's normal must not be zero");
+        check.not_negative("light meter's clearance", meter.clearance);
+    }
     return std::move(check).done();
 }
 

@@ -51,8 +51,8 @@ std::string to_string(const FalseColor& scale) {
 Result<Vec3> parse_white(std::string_view text) {
     const std::vector<std::string_view> parts = split(text, ',');
     Vec3 white{0, 0, 0};
-    if (parts.size() == 3 && parse_component(parts[0], white.x) && parse_component(parts[1], white.y) && parse_component(parts[2], white.z) &&
-        white != Vec3{0, 0, 0})
+    if (parts.size() == 3 && parse_component(parts[0], white.x) && parse_component(parts[1], white.y) &&
+        parse_component(parts[2], white.z) && white != Vec3{0, 0, 0})
         return white;
     return Error{.what = fmt::format("a white is written R,G,B with numbers from 0, not all 0, not \"{}\"", text)};
 }

@@ -3,11 +3,14 @@
 
 #include "core/result.h"
 #include "core/vec.h"
+#include "scene/light_meter.h"
+#include "scene/picture_region.h"
 
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace blush {
 
@@ -31,12 +34,6 @@ struct FalseColor {
     bool operator==(const FalseColor&) const = default;
 };
 
-// A rectangle of the picture, (0, 0) top left, (1, 1) bottom right.
-struct PictureRegion {
-    float x = 0, y = 0, width = 1, height = 1;
-    bool operator==(const PictureRegion&) const = default;
-};
-
 struct ViewSettings {
     float exposure_ev = 0;
     float gamma = 1;
@@ -44,10 +41,11 @@ struct ViewSettings {
     std::string view = {};    // empty: the display's default
     std::string look = {};    // empty: what the view has of itself
     AutoExposure auto_exposure = AutoExposure::off;
-    Vec3 white{1, 1, 1};      // scene-linear: the colour that is to look neutral
+    Vec3 white{1, 1, 1}; // scene-linear: the colour that is to look neutral
     FalseColor false_color = {};
     bool background_as_it_is = false; // the environment as the camera sees it is only encoded: no exposure, white balance, look or view
     std::optional<PictureRegion> measured = {}; // whose statistics are shown
+    std::vector<LightMeter> meters = {};
     bool operator==(const ViewSettings&) const = default;
 };
 

@@ -150,7 +150,8 @@ Json run_startup(const Options& options) {
     const std::string out = folder / "out";
     const auto plain_program = [&] { return program_core_seconds({cornell->file, "-o", out + ".exr"}, options); };
     const auto full_program = [&] {
-        return program_core_seconds({folder / "full.gltf", "-o", out + ".png", "--env", folder / "sky.exr", "--look", "High contrast"}, options);
+        return program_core_seconds({folder / "full.gltf", "-o", out + ".png", "--env", folder / "sky.exr", "--look", "High contrast"},
+                                    options);
     };
     return {{"scene", cornell->name()},
             {"engine", compare([&] { return engine_core_seconds(cornell->scene, false, options); },

@@ -1,5 +1,5 @@
-// What the graphics card shows is what the processor writes into files: the shader against ColorManagement::apply_display, pixel by pixel, for
-// every display, view and look. Needs a display; window_display_test gives it one.
+// What the graphics card shows is what the processor writes into files: the shader against ColorManagement::apply_display, pixel by pixel,
+// for every display, view and look. Needs a display; window_display_test gives it one.
 #include "color/white_balance.h"
 #include "core/math.h"
 #include "ui/display_pass.h"
@@ -26,7 +26,7 @@ std::vector<float> test_picture() {
     std::vector<float> rgba;
     for (int i = 0; i < width * height; ++i) {
         const float y = 0.18f * std::exp2(stops(rng));
-        rgba.insert(rgba.end(), {y * hue(rng), y * hue(rng), y * hue(rng), 1});
+        rgba.insert(rgba.end(), {y * hue(rng), y * hue(rng), y * hue(rng), hue(rng)});
     }
     return rgba;
 }
@@ -66,10 +66,9 @@ protected:
     }
 
     static std::vector<float> computed(const std::vector<float>& rgba, const DisplayTransform& transform, const DisplayNumbers& numbers) {
-        std::vector<float> rgb;
-        for (size_t i = 0; i < rgba.size(); ++i)
-            if (i % 4 != 3) rgb.push_back(rgba[i]);
-        EXPECT_TRUE(color->apply_display(transform, numbers, rgb.data(), rgb.size() / 3));
+        std::vector<float> rgb, coverage;
+        for (size_t i = 0; i < rgba.size(); ++i) (i % 4 != 3 ? rgb : coverage).push_back(rgba[i]);
+        EXPECT_TRUE(color->apply_display(transform, numbers, rgb.data(), rgb.size() / 3, coverage.data()));
         return rgb;
     }
 
@@ -92,15 +91,22 @@ TEST_F(DisplayPassTest, ShowsEveryViewAndLookAsFilesHaveIt) {
     for (const auto& look : color->looks()) expect_twins(test_picture(), {"", "", look}, numbers);
 }
 
+TEST_F(DisplayPassTest, LeavesTheBackgroundAsItIsLikeFilesDo) {
+    expect_twins(test_picture(), {},
+                 {.exposure_ev = 2, .gamma = 0.8f, .white_balance = white_balance({1, 0.4f, 0.1f}), .background_as_it_is = true});
+}
+
 TEST_F(DisplayPassTest, ShowsFalseColoursAsFilesHaveThem) {
     const std::vector<float> picture = test_picture();
     for (const auto of : {FalseColorScale::Of::scene, FalseColorScale::Of::exposed}) {
-        const DisplayNumbers numbers{.exposure_ev = 1.3f, .white_balance = white_balance({0.6f, 0.8f, 1}), .false_color = {of, -7.1f, 4.9f}};
+        const DisplayNumbers numbers{
+            .exposure_ev = 1.3f, .white_balance = white_balance({0.6f, 0.8f, 1}), .false_color = {of, -7.1f, 4.9f}};
         const std::vector<float> card = drawn(picture, {}, numbers), processor = computed(picture, {}, numbers);
         int compared = 0;
         for (size_t i = 0; i < card.size() / 3; ++i) {
             const Vec3 scene{picture[4 * i], picture[4 * i + 1], picture[4 * i + 2]};
-            const float y = luminance(of == FalseColorScale::Of::scene ? scene : transform_vector(numbers.white_balance, scene) * std::exp2(1.3f));
+            const float y =
+                luminance(of == FalseColorScale::Of::scene ? scene : transform_vector(numbers.white_balance, scene) * std::exp2(1.3f));
             const float at = (std::log2(y) + 7.1f) / 12 * false_color_bands;
             if (std::abs(at - std::round(at)) < 1e-3f) continue; // two logarithms may disagree on which side of an edge it lies
             ++compared;

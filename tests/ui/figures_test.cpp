@@ -1,5 +1,7 @@
 // Figures about the picture that is shown: region statistics and scopes against what one adds up by hand.
 #include "io/displayed.h"
+#include "render/coverage.h"
+#include "ui/meters_view.h"
 #include "ui/region_statistics.h"
 #include "ui/scopes_view.h"
 #include "ui/view_tools.h"
@@ -112,6 +114,21 @@ TEST_F(Figures, PickedColoursAreMeansOfAFewPixels) {
     EXPECT_FLOAT_EQ(c.y, 1);
     const Vec3 corner = picked_color(*p.frame, nullptr, {}, 0, 0, 1);
     EXPECT_FLOAT_EQ(corner.x, 0.5f) << "of those that there are";
+}
+
+TEST(Coverage, IsWhereObjectsAre) {
+    Frame f;
+    f.rgba = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0.25f};
+    EXPECT_EQ(coverage_of(f), (std::vector<float>{1, 1, 0.25f})) << "without ids all is object";
+    f.object_id = {0, 7, 0};
+    EXPECT_EQ(coverage_of(f), (std::vector<float>{0, 1, 0.25f})) << "alpha is exact where there is one";
+}
+
+TEST(Meters, AreReadAsPreciselyAsTheyAreKnown) {
+    EXPECT_EQ(reading_text({.rounds = 9, .lux = {true, 342.345, 338.2, 346.6}}), "342.3 ± 4.2 lx");
+    EXPECT_EQ(reading_text({.rounds = 9, .lux = {true, 34234.4, 34100, 34368}}), "34234 ± 134 lx");
+    EXPECT_EQ(reading_text({}), "...");
+    EXPECT_EQ(new_meter_name({{"Meter 1"}, {"Desk"}, {"Meter 3"}}), "Meter 2");
 }
 
 TEST(FalseColorFit, IsRoundNumbersAroundThePicture) {

@@ -21,8 +21,8 @@ protected:
     // A few frames of everything, with this selected.
     void draw_all(Document& document, Id<Node> selected) {
         ui.selected = selected;
-        ui.show_shortcuts = ui.show_history = ui.bounces.open = ui.health.open = ui.scopes.open = ui.convergence.open =
-            ui.light_table.open = true;
+        ui.show_shortcuts = ui.show_history = ui.bounces.open = ui.health.open = true;
+        ui.scopes.open = ui.meters.open = ui.convergence.open = ui.light_table.open = true;
         for (int tab = 0; tab <= int(InspectorTab::display); ++tab) {
             ui.tab = InspectorTab(tab);
             for (int i = 0; i < 3; ++i) {
@@ -36,6 +36,7 @@ protected:
                     draw_light_table(c);
                     draw_health_panel(c);
                     draw_region_panel(c);
+                    draw_meters_panel(c);
                     draw_scopes_panel(c);
                     draw_convergence_panel(c);
                     draw_shortcut_sheet(c);
@@ -82,6 +83,7 @@ Project with_odd_values(Project project) {
     project.view.exposure_ev = 25;
     project.view.auto_exposure = AutoExposure::highlights;
     project.view.false_color = {FalseColor::Of::lux, 1e-20f, 1e30f};
+    project.view.meters = {{"far away", {4711}, {1e30f, 0, -1e30f}, {0, 1e-20f, 0}, 1e30f}};
     project.view.measured = PictureRegion{0.999f, 0, 0.001f, 1};
     return project;
 }

@@ -110,6 +110,14 @@ TEST(RenderOptions, EachOptionSetsItsField) {
     EXPECT_EQ(options.overrides.camera, "Top");
 }
 
+TEST(RenderOptions, ARegionIsPixelsOfThePicture) {
+    const RenderSettings settings = *settings_of(parsed({"--size", "640x480", "--region", "160,120,320,60"}));
+    EXPECT_EQ(settings.region, (PictureRegion{0.25f, 0.25f, 0.5f, 0.125f}));
+    EXPECT_EQ(pixels_of(settings.region, 640, 480), (PixelRect{160, 120, 480, 180}));
+    EXPECT_FALSE(settings_of(parsed({"--size", "640x480", "--region", "600,0,41,10"})));
+    EXPECT_FALSE(settings_of(parsed({"--region", "0,0,64,64", "--adaptive", "on"})));
+}
+
 TEST(RenderOptions, SamplesAreARange) {
     const RenderSettings settings = *settings_of(parsed({"--samples", "16:48"}));
     EXPECT_EQ(settings.first_sample, 16);

@@ -55,7 +55,8 @@ TEST(WhiteBalance, MakesThePickedColourNeutralAndKeepsItsLuminance) {
 
 // Lindbloom's published Bradford matrix from illuminant A to D65, applied in XYZ.
 TEST(WhiteBalance, IsTheBradfordAdaptation) {
-    const Affined a_to_d65{{0.8446965, -0.1366303, 0.0798489}, {-0.1179225, 1.1041226, -0.1348999}, {0.3948108, 0.1291718, 3.1924009}, {0, 0, 0}};
+    const Affined a_to_d65{
+        {0.8446965, -0.1366303, 0.0798489}, {-0.1179225, 1.1041226, -0.1348999}, {0.3948108, 0.1291718, 3.1924009}, {0, 0, 0}};
     const Affined xyz_from_rgb{
         {0.4124564, 0.2126729, 0.0193339}, {0.3575761, 0.7151522, 0.1191920}, {0.1804375, 0.0721750, 0.9503041}, {0, 0, 0}};
     const Vec3d white_a = transform_vector(inverse(xyz_from_rgb), Vec3d{1.09850, 1, 0.35585});
@@ -148,7 +149,8 @@ TEST(FalseColor, TakeThePlaceOfTheViewOnEveryDisplay) {
         numbers.false_color.of = FalseColorScale::Of::exposed;
         const Pixel exposed = show_with(color, {display}, numbers, {0.4f, 2.3f, 0.9f});
         const float y = luminance(Pixel{0.4f, 2.3f, 0.9f});
-        const Vec3 wanted = false_colors[size_t(false_color_band(y, one_to_thousand))], brighter = false_colors[size_t(false_color_band(8 * y, one_to_thousand))];
+        const Vec3 wanted = false_colors[size_t(false_color_band(y, one_to_thousand))],
+                   brighter = false_colors[size_t(false_color_band(8 * y, one_to_thousand))];
         EXPECT_EQ(scene, (Pixel{wanted.x, wanted.y, wanted.z}));
         EXPECT_EQ(exposed, (Pixel{brighter.x, brighter.y, brighter.z}));
         EXPECT_NE(scene, exposed);
@@ -157,7 +159,8 @@ TEST(FalseColor, TakeThePlaceOfTheViewOnEveryDisplay) {
 
 TEST(Background, AsItIsIsClippedAndEncodedAndNothingElse) {
     const auto color = shipped_config();
-    const DisplayNumbers numbers{.exposure_ev = -3, .gamma = 2, .white_balance = white_balance({1, 0.5f, 0.2f}), .background_as_it_is = true};
+    const DisplayNumbers numbers{
+        .exposure_ev = -3, .gamma = 2, .white_balance = white_balance({1, 0.5f, 0.2f}), .background_as_it_is = true};
     const Pixel p{0.2f, 0.5f, 3};
     std::vector<float> rgb;
     for (int i = 0; i < 3; ++i) rgb.insert(rgb.end(), p.begin(), p.end());

@@ -29,7 +29,8 @@ inline ColorManagement shipped_config() {
 
 inline Pixel show(const ColorManagement& color, std::string_view display, std::string_view view, Pixel pixel, float exposure_ev = 0,
                   float gamma = 1) {
-    const auto done = color.apply_display({std::string(display), std::string(view)}, {.exposure_ev = exposure_ev, .gamma = gamma}, pixel.data(), 1);
+    const auto done =
+        color.apply_display({std::string(display), std::string(view)}, {.exposure_ev = exposure_ev, .gamma = gamma}, pixel.data(), 1);
     EXPECT_TRUE(done) << (done ? "" : done.error().text());
     return pixel;
 }

@@ -24,6 +24,7 @@ RenderSettings unusual_settings() {
     s.energy_compensation = true;
     s.reuse = 8;
     s.clamp = {2.5f, true};
+    s.region = {0.25f, 0.125f, 0.5f, 0.375f};
     return s;
 }
 
@@ -42,6 +43,7 @@ TEST(SettingsJson, ViewSettingsComeBack) {
     ViewSettings unusual{-1.5f, 2.2f, "sRGB", "ACES SDR", "High contrast", AutoExposure::highlights, {1, 0.7f, 0.4f}};
     unusual.false_color = {FalseColor::Of::lux, 10, 20000};
     unusual.background_as_it_is = true;
+    unusual.meters = {{"Desk", {7}, {1, 2, 3}, {0, 0, 1}, 0.001f}, {"\"Floor\"", {}, {-1, 0, 5}, {0, 1, 0}, 0}};
     unusual.measured = {0.25f, 0.5f, 0.125f, 0.25f};
     for (const ViewSettings& s : {ViewSettings{}, unusual}) {
         const auto parsed = parse_view_settings(view_settings_json(s));
@@ -88,9 +90,12 @@ TEST(SettingsJson, WrongInputIsAnErrorThatNamesTheKey) {
         ASSERT_FALSE(parsed) << text;
         if (!where.empty()) { EXPECT_EQ(parsed.error().where, where) << text; }
     }
-    for (const char* text : {R"({"gamma": 0})", R"({"white": [1, 1]})", R"({"white": [0, 0, 0]})", R"({"white": [1, -1, 1]})", R"({"white": 1})",
-                             R"({"auto_exposure": "on"})", R"({"false_color": "nits=5:1"})", R"({"false_color": "stops=1:2"})",
-                             R"({"measured": [0.5, 0.5, 0.6, 0.1]})", R"({"measured": [0, 0, 0, 1]})", R"({"measured": [0, 0, 1]})"})
+    for (const char* text :
+         {R"({"gamma": 0})", R"({"white": [1, 1]})", R"({"white": [0, 0, 0]})", R"({"white": [1, -1, 1]})", R"({"white": 1})",
+          R"({"auto_exposure": "on"})", R"({"false_color": "nits=5:1"})", R"({"false_color": "stops=1:2"})",
+          R"({"measured": [0.5, 0.5, 0.6, 0.1]})", R"({"measured": [0, 0, 0, 1]})", R"({"measured": [0, 0, 1]})", R"({"meters": {}})",
+          R"({"meters": [3]})", R"({"meters": [{"name": "", "node": 0, "position": [0, 0, 0], "normal": [0, 0, 0], "clearance": 0}]})",
+          R"({"meters": [{"name": "", "node": -1, "position": [0, 0, 0], "normal": [0, 1, 0], "clearance": 0}]})"})
         EXPECT_FALSE(parse_view_settings(text)) << text;
     EXPECT_FALSE(parse_render_settings(std::string(1000000, '[')));
 }

@@ -4,6 +4,7 @@ blush_test(test_scene
     scene_color_temperature.cpp
     scene_document.cpp
     scene_edit.cpp
+    scene_light_meter.cpp
     scene_render_settings.cpp
     scene_shining.cpp
     scene_table.cpp

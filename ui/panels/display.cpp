@@ -56,6 +56,9 @@ void draw_transform_fields(PanelContext& c, Fields& f, ViewSettings& v) {
     looks.insert(looks.begin(), no_look);
     std::string look = v.look.empty() ? no_look : v.look;
     if (f.choice("Look", look, looks, "A grade before the view: contrast, or luminance alone.")) v.look = look == no_look ? "" : look;
+    f.checkbox(
+        "Background as it is", v.background_as_it_is,
+        "What the camera sees past all objects is left out of exposure, white balance, look and view: a backdrop keeps its own colours.");
     f.info("Colours from", c.color.config_name(), "The OpenColorIO configuration in use. The variable OCIO chooses another.");
 }
 
@@ -71,14 +74,16 @@ void draw_exposure_fields(PanelContext& c, Fields& f, ViewSettings& v) {
               .tip = "Each EV doubles the brightness of the picture as shown. In the picture: E+drag, Alt+wheel.",
               .format = "%+.2f"});
     int rule = int(v.auto_exposure);
-    if (f.choice("Auto exposure", rule, names,
-                 "By hand, or by the picture as it is now: its log-average luminance becomes middle grey (0.18), or the brightest one per cent "
-                 "of its pixels lies above white (1).")) {
+    if (f.choice(
+            "Auto exposure", rule, names,
+            "By hand, or by the picture as it is now: its log-average luminance becomes middle grey (0.18), or the brightest one per cent "
+            "of its pixels lies above white (1).")) {
         if (by_hand || rule == int(AutoExposure::off)) v.exposure_ev = rule == int(AutoExposure::off) ? c.shown_view().exposure_ev : 0;
         v.auto_exposure = AutoExposure(rule);
     }
     if (v.auto_exposure != AutoExposure::off) f.info("Exposure", fmt::format("{:+.2f} EV", c.shown_view().exposure_ev));
-    if (f.button("Meter once", "Sets the exposure by the mean of the picture as it is now, and leaves it.")) c.ui.commands.push_back(Command::exposure_meter);
+    if (f.button("Meter once", "Sets the exposure by the mean of the picture as it is now, and leaves it."))
+        c.ui.commands.push_back(Command::exposure_meter);
     f.number("Gamma", v.gamma,
              {.min = 0.2f,
               .max = 5,
@@ -89,7 +94,8 @@ void draw_exposure_fields(PanelContext& c, Fields& f, ViewSettings& v) {
 }
 
 void draw_white_fields(PanelContext& c, Fields& f, ViewSettings& v) {
-    f.color("White", v.white, {1, 1, 1}, "The colour that is shown as neutral, as eyes see it that have adapted to it. EXR files never change.");
+    f.color("White", v.white, {1, 1, 1},
+            "The colour that is shown as neutral, as eyes see it that have adapted to it. EXR files never change.");
     if (v.white.x + v.white.y + v.white.z <= 0) v.white = {1, 1, 1};
     if (f.button("Pick in the picture", "Click something that should be white or grey.")) c.ui.commands.push_back(Command::pick_white);
     if (v.white != Vec3{1, 1, 1} && f.button("As rendered", "No white balance.")) c.ui.commands.push_back(Command::reset_white);
@@ -106,14 +112,16 @@ void draw_false_color_fields(PanelContext& c, Fields& f, ViewSettings& v) {
     constexpr const char* names[] = {"Off", "Stops from grey", "Luminance", "Illuminance"};
     int of = int(scale.of);
     if (f.choice("Show", of, names,
-                 "Stops from middle grey as exposed, luminance in nits, or illuminance in lux. Illuminance is told from luminance and albedo: it "
+                 "Stops from middle grey as exposed, luminance in nits, or illuminance in lux. Illuminance is told from luminance and "
+                 "albedo: it "
                  "holds for matte surfaces."))
         scale.of = FalseColor::Of(of);
     if (scale.of != FalseColor::Of::nits && scale.of != FalseColor::Of::lux) return;
     const char* unit = scale.of == FalseColor::Of::nits ? "nits" : "lux";
     f.number("From", scale.low, {.min = 1e-6f, .max = scale.high * 0.999f, .reset = 1, .unit = unit, .tip = "Black is below."});
     f.number("To", scale.high, {.min = scale.low * 1.001f, .max = 1e9f, .reset = 1000, .unit = unit, .tip = "White is above."});
-    if (f.button("Fit to the picture", "Ends that hold all but the darkest and the brightest one per cent of the pixels.") && c.has_picture()) {
+    if (f.button("Fit to the picture", "Ends that hold all but the darkest and the brightest one per cent of the pixels.") &&
+        c.has_picture()) {
         v.false_color = fitted_to_picture(c, scale);
         c.apply(SetView{v});
     }

@@ -86,9 +86,12 @@ void draw_view_menu(PanelContext& c) {
     item(c, Command::reset_white, c.project().view.white != Vec3{1, 1, 1});
     item(c, Command::toggle_denoise, c.denoiser_problem.empty(), nullptr, c.ui.denoise.wants_denoised());
     ImGui::Separator();
+    item(c, Command::render_region, c.frame != nullptr);
+    item(c, Command::render_all, c.project().render.region != PictureRegion{});
     item(c, Command::pause, true, nullptr, c.ui.paused);
     ImGui::Separator();
     item(c, Command::measure, c.frame != nullptr);
+    item(c, Command::meters, true, nullptr, c.ui.meters.open);
     item(c, Command::scopes, true, nullptr, c.ui.scopes.open);
     item(c, Command::bounces, true, nullptr, c.ui.bounces.open);
     item(c, Command::convergence, true, nullptr, c.ui.convergence.open);

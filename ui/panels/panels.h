@@ -31,6 +31,7 @@ void draw_file_browser(PanelContext& c);
 void draw_shortcut_sheet(PanelContext& c);
 void draw_history(PanelContext& c);
 void draw_pixel_panel(PanelContext& c);
+void draw_meters_panel(PanelContext& c);
 void draw_region_panel(PanelContext& c);
 void draw_scopes_panel(PanelContext& c);
 void draw_bounces_panel(PanelContext& c);

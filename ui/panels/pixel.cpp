@@ -1,10 +1,14 @@
 // What one pixel holds: scene-linear and displayed colour, luminance, and what the camera hit there.
+#include "color/illuminance.h"
+#include "core/math.h"
+#include "render/coverage.h"
 #include "ui/panels/panels.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace blush {
@@ -24,9 +28,10 @@ std::string triple(const Vec3& v, const char* format = "{:.4g}  {:.4g}  {:.4g}")
     return fmt::format(fmt::runtime(format), v.x, v.y, v.z);
 }
 
-std::string displayed(const PanelContext& c, const Vec3& rgb, const Vec3& albedo) {
+std::string displayed(const PanelContext& c, const Vec3& rgb, const Vec3& albedo, float coverage) {
     float shown[3] = {rgb.x, rgb.y, rgb.z};
-    if (const auto done = show(c.color, c.shown_view(), shown, std::array{albedo}); !done) return done.error().text();
+    if (const auto done = show(c.color, c.shown_view(), shown, {std::array{albedo}, std::array{coverage}}); !done)
+        return done.error().text();
     const auto byte = [](float x) { return int(std::clamp(x, 0.f, 1.f) * 255 + 0.5f); };
     return fmt::format("{:.3f}  {:.3f}  {:.3f}   #{:02x}{:02x}{:02x}", shown[0], shown[1], shown[2], byte(shown[0]), byte(shown[1]),
                        byte(shown[2]));
@@ -37,10 +42,20 @@ void draw_values(const PanelContext& c, const Frame& f, int x, int y) {
     const float* rgba = &f.rgba[4 * i];
     row("Pixel", f.divider > 1 ? fmt::format("{}, {}  at 1/{} size", x, y, f.divider) : fmt::format("{}, {}", x, y));
     row("Linear RGB", triple({rgba[0], rgba[1], rgba[2]}));
-    row("Luminance", fmt::format("{:.4g} nits", 0.2126 * rgba[0] + 0.7152 * rgba[1] + 0.0722 * rgba[2]));
+    const float nits = luminance(Vec3{rgba[0], rgba[1], rgba[2]});
+    row("Luminance", fmt::format("{:.4g} nits", nits));
+    if (nits > 0)
+        row("EV from grey",
+            fmt::format("{:+.2f}   at ISO 100 {:+.2f}", stops_from_grey(numbers_of(c.shown_view()), {rgba[0], rgba[1], rgba[2]}),
+                        std::log2(nits / 0.125f)));
+    if (!f.albedo.empty() && luminance(f.albedo[i]) >= 0.01f) {
+        float lux[3] = {rgba[0], rgba[1], rgba[2]};
+        to_illuminance(lux, {&f.albedo[i], 1});
+        row("Illuminance", fmt::format("{:.4g} lx, if matte", lux[0]));
+    }
     if (c.denoised) row("Denoised RGB", triple(denoised_pixel(f, *c.denoised, x, y)));
     const Vec3 shown = mixed_pixel(f, c.denoised.get(), mix_of(c.ui.denoise, c.denoised != nullptr), x, y);
-    row("Displayed", displayed(c, shown, f.albedo.empty() ? Vec3{0, 0, 0} : f.albedo[i]));
+    row("Displayed", displayed(c, shown, f.albedo.empty() ? Vec3{0, 0, 0} : f.albedo[i], coverage_of_pixel(f, i)));
     if (!f.albedo.empty()) row("Albedo", triple(f.albedo[i]));
     if (!f.normal.empty()) row("Normal", triple(f.normal[i], "{:+.3f}  {:+.3f}  {:+.3f}"));
     if (!f.depth.empty()) row("Distance", f.depth[i] > 0 ? fmt::format("{:.4g} m", f.depth[i]) : "nothing hit");

@@ -25,7 +25,8 @@ void draw_table(const RegionStatistics& s) {
     if (!ImGui::BeginTable("statistics", 5, ImGuiTableFlags_SizingFixedFit)) return;
     const float em = ImGui::GetFontSize();
     ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, em * 9);
-    for (const char* column : {"Mean", "Least", "Most", "Deviation"}) ImGui::TableSetupColumn(column, ImGuiTableColumnFlags_WidthFixed, em * 5);
+    for (const char* column : {"Mean", "Least", "Most", "Deviation"})
+        ImGui::TableSetupColumn(column, ImGuiTableColumnFlags_WidthFixed, em * 5);
     ImGui::TableHeadersRow();
     constexpr const char* linear[] = {"Linear R", "Linear G", "Linear B"};
     constexpr const char* displayed[] = {"Displayed R", "Displayed G", "Displayed B"};

@@ -1,6 +1,7 @@
 // Render: size, when to stop, and how paths are traced. The same settings as `blush render` takes.
 #include "ui/panels/panels.h"
 #include "ui/panels/roulette_fields.h"
+#include "ui/presets.h"
 #include "ui/widgets.h"
 
 #include <fmt/format.h>
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <vector>
 
 namespace blush {
 namespace {
@@ -15,6 +17,14 @@ namespace {
 void draw_size(Fields& f, PanelContext& c, RenderSettings& r) {
     f.checkbox("Fit viewport", c.ui.settings.follow_viewport, "Render as many pixels as the viewport shows. Otherwise the size below.");
     if (!c.ui.settings.follow_viewport) {
+        std::vector<const char*> names;
+        for (const SizePreset& preset : size_presets) names.push_back(preset.name);
+        names.push_back("Of my own");
+        int preset = int(preset_of_size(r));
+        if (f.choice("Preset", preset, names, "Sizes that have names.") && size_t(preset) < size_presets.size()) {
+            r.width = size_presets[size_t(preset)].width;
+            r.height = size_presets[size_t(preset)].height;
+        }
         int64_t width = r.width, height = r.height;
         if (f.integer("Width", width, 1, 65536, 1280, "Pixels.")) r.width = int(width);
         if (f.integer("Height", height, 1, 65536, 720, "Pixels.")) r.height = int(height);
@@ -28,9 +38,27 @@ void draw_size(Fields& f, PanelContext& c, RenderSettings& r) {
               .tip = "Share of the full size that is rendered. Half the resolution converges four times as fast.",
               .format = "%.2f"});
     f.info("", fmt::format("{} × {} pixels", c.render_width, c.render_height));
+    const PixelRect part = pixels_of(r.region, std::max(c.render_width, 1), std::max(c.render_height, 1));
+    if (r.region == PictureRegion{}) {
+        if (f.button("Render a region alone", "Drag a rectangle in the picture: all samples go there."))
+            c.ui.commands.push_back(Command::render_region);
+    } else {
+        f.info("Region", fmt::format("{} × {} from {}, {}", part.x1 - part.x0, part.y1 - part.y0, part.x0, part.y0));
+        if (f.button("Render the whole picture")) c.ui.commands.push_back(Command::render_all);
+    }
 }
 
 void draw_stop_rules(Fields& f, RenderSettings& r) {
+    std::vector<const char*> names;
+    for (const QualityPreset& preset : quality_presets) names.push_back(preset.name);
+    names.push_back("Of my own");
+    int preset = int(preset_of_quality(r));
+    if (f.choice("Quality", preset, names,
+                 "When it is good enough: 32, 256 or 1024 samples per pixel, or as many as bring the estimated relMSE to 0.01 %.") &&
+        size_t(preset) < quality_presets.size()) {
+        r.spp = quality_presets[size_t(preset)].spp;
+        r.error = quality_presets[size_t(preset)].error;
+    }
     f.integer("Samples", r.spp, 0, int64_t(1) << 40, 1024,
               "Stop at this many paths per pixel. 0 never stops. The noise halves with four times as many.");
     float seconds = float(r.seconds), per_cent = float(r.error * 100);

@@ -78,7 +78,8 @@ void draw_waveform(ImDrawList& draw, const Box& box, const Waveform& w) {
     const auto cell = [&](int column, int level) -> ImU32 {
         const size_t i = size_t(level) * size_t(w.columns) + size_t(column);
         int shade[3];
-        for (size_t k = 0; k < 3; ++k) shade[k] = w.counts[k][i] == 0 ? 0 : std::min(40 + int(30 * std::sqrt(float(w.counts[k][i]))), 255) & ~7;
+        for (size_t k = 0; k < 3; ++k)
+            shade[k] = w.counts[k][i] == 0 ? 0 : std::min(40 + int(30 * std::sqrt(float(w.counts[k][i]))), 255) & ~7;
         return shade[0] + shade[1] + shade[2] == 0 ? 0 : IM_COL32(shade[0], shade[1], shade[2], 255);
     };
     for (int column = 0; column < w.columns; ++column) {
@@ -88,7 +89,8 @@ void draw_waveform(ImDrawList& draw, const Box& box, const Waveform& w) {
             const int from = level++;
             while (level < w.levels && cell(column, level) == color) ++level;
             if (color == 0) continue;
-            draw.AddRectFilled({x, box.high.y - level_height * float(level)}, {x + column_width, box.high.y - level_height * float(from)}, color);
+            draw.AddRectFilled({x, box.high.y - level_height * float(level)}, {x + column_width, box.high.y - level_height * float(from)},
+                               color);
         }
     }
 }
@@ -142,10 +144,11 @@ void draw_scopes_panel(PanelContext& c) {
         const float height = std::max(4 * em, std::floor((ImGui::GetContentRegionAvail().y - 6.2f * em) / 2));
         if (ImGui::BeginTable("scopes", 2)) {
             ImGui::TableNextColumn();
-            draw_column(c, "Light", "As rendered, in stops from middle grey. Looking changes nothing here.", scopes.scene, scopes.scene_wave, height);
+            draw_column(c, "Light", "As rendered, in stops from middle grey. Looking changes nothing here.", scopes.scene,
+                        scopes.scene_wave, height);
             ImGui::TableNextColumn();
-            draw_column(c, "Displayed", "What the display is given: exposure, white balance, look, view and gamma included.", scopes.displayed,
-                        scopes.displayed_wave, height);
+            draw_column(c, "Displayed", "What the display is given: exposure, white balance, look, view and gamma included.",
+                        scopes.displayed, scopes.displayed_wave, height);
             ImGui::EndTable();
         }
         if (scopes.step > 1) quiet_text(fmt::format("One pixel of {} is read.", scopes.step * scopes.step));

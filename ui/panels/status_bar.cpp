@@ -93,7 +93,8 @@ void draw_status_bar(PanelContext& c) {
     else if (c.frame)
         draw_frame_cells(c, x, *c.frame);
     if (c.ui.zoom.scale > 0)
-        cell(c, x, 5, fmt::format("{:.0f} %", 100 * c.ui.zoom.scale), "Pixels of the screen for one of the picture. Z shows all of it again.", tone::dim_text);
+        cell(c, x, 5, fmt::format("{:.0f} %", 100 * c.ui.zoom.scale),
+             "Pixels of the screen for one of the picture. Z shows all of it again.", tone::dim_text);
     const float exposure = c.shown_view().exposure_ev;
     const bool metered = c.project().view.auto_exposure != AutoExposure::off;
     if (exposure != 0 || metered) {

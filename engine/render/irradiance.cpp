@@ -1,0 +1,81 @@
+#include "render/irradiance.h"
+
+#include "render/wavefront.h"
+
+#include <algorithm>
+#include <numbers>
+
+namespace blush {
+namespace {
+
+constexpr Features features = all_features;
+
+// A shadow ray to a point on a light, worth the radiance that a white matte surface would send on.
+Step<float> aim_at_light(const KernelContext& context, const Receiver& receiver, const Sampler<float>& sampler) {
+    const SceneTables& scene = *context.scene;
+    Step<float> step{};
+    const LightPoint<float> light =
+        sample_light_point<features, float>(scene, sampler.pair(first_scatter_dimension + light_dimension), receiver.position, true);
+    const Vec3 rough_to = light.infinite ? light.position : light.position - receiver.position;
+    const Vec3 end = offset_origin<float>(light.position, light.error, light.normal, dot(rough_to, light.normal) < 0);
+    const Vec3 to = light.infinite ? light.position : end - receiver.position;
+    const float distance_squared = dot(to, to), distance = std::sqrt(distance_squared);
+    const Vec3 wi = to / distance;
+    const float cosine = dot(wi, receiver.normal);
+    const IncidentLight<float> in = incident_light<features, float>(scene, light, wi, distance_squared);
+    const float weight = light_sample_weight<float>(context.settings.strategy, in.pdf, cosine_hemisphere_pdf<float>(cosine), light.delta);
+    step.direct = in.radiance * (cosine * inv_pi * weight / in.pdf);
+    step.connects = light.valid && cosine > 0 && has_light<float>(step.direct);
+    step.shadow = {receiver.position, wi};
+    step.shadow_distance = light.infinite ? infinity : distance * (1.f - 4e-7f);
+    return step;
+}
+
+Path<float> leave(const Receiver& receiver, const Sampler<float>& sampler, int slot) {
+    const Pair<float> u = sampler.pair(first_scatter_dimension + bsdf_dimension);
+    const Vec3 local = sample_cosine_hemisphere<float>(u.x(), u.y());
+    Path<float> path;
+    path.ray = {receiver.position, normalize(basis_around(receiver.normal).to_world(local))};
+    path.beta = {1, 1, 1};
+    path.pdf = cosine_hemisphere_pdf<float>(local.z);
+    path.key = sampler.key;
+    path.index = sampler.index;
+    path.slot = slot;
+    return path;
+}
+
+} // namespace
+
+Vec3d estimate_irradiance(KernelContext context, const Receiver& receiver, uint32_t replicate, int samples, TileScratch& scratch) {
+    context.settings.reuse = {};
+    if (context.settings.max_bounces < 1) context.settings.max_bounces = 1;
+    samples = std::clamp(samples, 1, most_irradiance_samples);
+    const uint32_t key = pixel_key<float>(replicate, 0u, randomisation(context.seed, 0));
+    PathQueue *now = &scratch.paths[0], *next = &scratch.paths[1];
+    now->size = scratch.shadows.size = 0;
+    std::fill_n(scratch.r.data, samples, 0.0);
+    std::fill_n(scratch.g.data, samples, 0.0);
+    std::fill_n(scratch.b.data, samples, 0.0);
+    const bool alpha = context.accel->has_alpha();
+    for (int i = 0; i < samples; ++i) {
+        const Sampler<float> sampler{key, uint32_t(i)};
+        append<float>(*now, leave(receiver, sampler, i), true);
+        if (context.scene->lights.count == 0) continue;
+        const Step<float> step = aim_at_light(context, receiver, sampler);
+        if (!step.connects) continue;
+        if (alpha) scratch.shadows.random[scratch.shadows.size] = opacity_random<float>(key, uint32_t(i), 1);
+        append<float>(scratch.shadows, step, i, true);
+    }
+    connect_paths<float>(context, scratch, 0);
+    for (int bounce = 1; now->size > 0 && bounce <= longest_path; ++bounce) {
+        trace_paths<float>(context, scratch, *now, bounce);
+        shade_paths<features, float>(context, scratch, *now, *next, bounce);
+        connect_paths<float>(context, scratch, bounce);
+        std::swap(now, next);
+    }
+    Vec3d sum{0, 0, 0};
+    for (int i = 0; i < samples; ++i) sum = sum + Vec3d{scratch.r[i], scratch.g[i], scratch.b[i]};
+    return sum * (std::numbers::pi / samples);
+}
+
+} // namespace blush

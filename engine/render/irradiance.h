@@ -1,0 +1,25 @@
+// What a light meter reads: the irradiance of a point, estimated with the kernels' own stages, without a receiver in the scene.
+#pragma once
+
+#include "core/vec.h"
+#include "render/kernels/kernel.h"
+
+#include <cstdint>
+
+namespace blush {
+
+// A place that light falls on from the side of its normal.
+struct Receiver {
+    Vec3 position; // about the scene's origin (RenderScene::origin), off any surface
+    Vec3 normal;   // unit length
+};
+
+constexpr int most_irradiance_samples = 1024; // of one call
+
+// Mean of `samples` estimates of the irradiance, RGB in lux: light samples and cosine-distributed rays, combined and followed as at a first
+// matte surface of a path. `replicate` chooses the random numbers: replicates are independent, samples of one are stratified together.
+// Light takes at most settings.max_bounces scatterings on its way, the one that a matte surface here would add included; one at least.
+// To be called from within Workers::run or for_each.
+Vec3d estimate_irradiance(KernelContext context, const Receiver& receiver, uint32_t replicate, int samples, TileScratch& scratch);
+
+} // namespace blush

@@ -1,0 +1,77 @@
+#include "ui/meters_view.h"
+
+#include "core/math.h"
+#include "scene/affine.h"
+#include "ui/picking.h"
+#include "ui/theme.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace blush {
+namespace {
+
+constexpr double clearance_share = 1e-4; // of the distance from the eye: planes hold that in single precision
+
+} // namespace
+
+std::optional<LightMeter> meter_at(const Frame& frame, const Scene& scene, const Projection& projection, double u, double v,
+                                   std::string name) {
+    const Picked picked = pick(frame, u, v);
+    const auto point = seen_point(frame, projection, u, v);
+    if (!point || frame.normal.empty()) return {};
+    const int x = std::min(int(u * frame.width), frame.width - 1), y = std::min(int(v * frame.height), frame.height - 1);
+    const Vec3d normal = to_double(frame.normal[size_t(y) * size_t(frame.width) + size_t(x)]);
+    if (!(length(normal) > 0)) return {};
+    LightMeter meter = meter_on(scene, picked.node, *point, normalize(normal), std::move(name));
+    meter.clearance = float(clearance_share * *picked.depth);
+    return meter;
+}
+
+std::string new_meter_name(const std::vector<LightMeter>& meters) {
+    for (int i = 1;; ++i) {
+        const std::string name = fmt::format("Meter {}", i);
+        if (std::ranges::find(meters, name, &LightMeter::name) == meters.end()) return name;
+    }
+}
+
+std::vector<MeterPlace> places_of(const Scene& scene, const std::vector<LightMeter>& meters) {
+    std::vector<MeterPlace> places;
+    for (const LightMeter& meter : meters) {
+        const PlacedMeter p = placed(scene, meter);
+        places.push_back({p.position, p.normal, double(meter.clearance)});
+    }
+    return places;
+}
+
+std::string reading_text(const MeterReading& reading) {
+    const Interval& lux = reading.lux;
+    if (!lux.known) return "...";
+    const double half = (lux.high - lux.low) / 2;
+    // As many decimals as the interval has something to say about.
+    const int decimals = half > 0 ? std::clamp(1 - int(std::floor(std::log10(half))), 0, 6) : 3;
+    return fmt::format("{:.{}f} ± {:.{}f} lx", lux.value, decimals, half, decimals);
+}
+
+void draw_meters(ImDrawList& draw, const ImageRect& image, const Projection& projection, const Scene& scene, const ViewSettings& view,
+                 const MetersView& meters) {
+    const float em = ImGui::GetFontSize();
+    for (size_t i = 0; i < view.meters.size(); ++i) {
+        const PlacedMeter place = placed(scene, view.meters[i]);
+        const auto at = projection.project(place.position);
+        if (!at) continue;
+        const ScreenPoint p = image.at(*at);
+        draw.AddCircle({p.x, p.y}, em * 0.42f, IM_COL32(0, 0, 0, 200), 0, em * 0.25f);
+        draw.AddCircle({p.x, p.y}, em * 0.42f, tone::text, 0, em * 0.12f);
+        draw.AddCircleFilled({p.x, p.y}, em * 0.12f, tone::text);
+        const bool read = i < meters.state.readings.size();
+        const std::string text = view.meters[i].name + "  " + (read ? reading_text(meters.state.readings[i]) : "...");
+        const ImVec2 corner{p.x + em * 0.8f, p.y - em * 0.6f}, size = ImGui::CalcTextSize(text.c_str());
+        draw.AddRectFilled({corner.x - em * 0.25f, corner.y - em * 0.1f}, {corner.x + size.x + em * 0.25f, corner.y + size.y + em * 0.1f},
+                           IM_COL32(20, 20, 20, 200), em * 0.2f);
+        draw.AddText(corner, tone::text, text.c_str());
+    }
+}
+
+} // namespace blush

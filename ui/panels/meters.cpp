@@ -1,0 +1,83 @@
+// Light meters: illuminance in lux at places on surfaces, with 95 % intervals, refreshed by every edit that light depends on.
+#include "ui/panels/panels.h"
+#include "ui/theme.h"
+#include "ui/widgets.h"
+
+#include <fmt/format.h>
+
+namespace blush {
+namespace {
+
+// Asks again for whatever differs, and takes what there is.
+void follow(PanelContext& c) {
+    MetersView& view = c.ui.meters;
+    const auto& meters = c.project().view.meters;
+    if (meters.empty()) {
+        view.runner.reset();
+        view.state = {};
+        return;
+    }
+    if (!view.runner) view.runner = std::make_shared<MeterRunner>();
+    view.runner->measure(c.scene(), c.project().render, places_of(c.scene(), meters));
+    view.state = view.runner->state();
+    if (!view.state.rests && view.state.failure.empty()) c.ui.next_frame_in = std::min(c.ui.next_frame_in, 0.2);
+}
+
+// Which meter is to go, or one past the last.
+size_t draw_table(PanelContext& c) {
+    const auto& meters = c.project().view.meters;
+    const auto& readings = c.ui.meters.state.readings;
+    size_t gone = meters.size();
+    if (!ImGui::BeginTable("meters", 4, ImGuiTableFlags_SizingFixedFit)) return gone;
+    const float em = ImGui::GetFontSize();
+    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, em * 7);
+    ImGui::TableSetupColumn("Illuminance", ImGuiTableColumnFlags_WidthFixed, em * 10);
+    ImGui::TableSetupColumn("R : G : B", ImGuiTableColumnFlags_WidthFixed, em * 9);
+    ImGui::TableSetupColumn("");
+    ImGui::TableHeadersRow();
+    for (size_t i = 0; i < meters.size(); ++i) {
+        ImGui::PushID(int(i));
+        ImGui::TableNextColumn();
+        ImGui::AlignTextToFramePadding();
+        ImGui::TextUnformatted(meters[i].name.c_str());
+        ImGui::TableNextColumn();
+        ImGui::TextUnformatted(i < readings.size() ? reading_text(readings[i]).c_str() : "...");
+        c.ui.probe.record_last_item("Meters/" + meters[i].name);
+        ImGui::TableNextColumn();
+        if (i < readings.size() && readings[i].rgb.y > 0) {
+            const Vec3d& e = readings[i].rgb;
+            ImGui::TextUnformatted(fmt::format("{:.2f} : 1 : {:.2f}", e.x / e.y, e.z / e.y).c_str());
+        }
+        ImGui::TableNextColumn();
+        if (ImGui::SmallButton("Remove")) gone = i;
+        ImGui::PopID();
+    }
+    ImGui::EndTable();
+    return gone;
+}
+
+} // namespace
+
+void draw_meters_panel(PanelContext& c) {
+    follow(c);
+    MetersView& view = c.ui.meters;
+    if (!view.open) return;
+    const float em = ImGui::GetFontSize();
+    ImGui::SetNextWindowPos({em * 16, em * 30}, ImGuiCond_FirstUseEver);
+    if (ImGui::Begin("Light meters", &view.open, ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_AlwaysAutoResize)) {
+        const size_t count = c.project().view.meters.size(), gone = count > 0 ? draw_table(c) : 0;
+        if (count == 0) quiet_text("Place a meter on a surface to read how much light falls on it.");
+        if (!view.state.failure.empty()) quiet_text(view.state.failure);
+        if (ImGui::Button("Place a meter")) c.ui.tool = ViewTool::meter;
+        c.ui.probe.record_last_item("Meters/Place a meter");
+        tip_for_last_item(c.ui, "Click a surface. The meter moves with the object, and reads what falls on the side that is seen.");
+        if (gone < count) {
+            ViewSettings v = c.project().view;
+            v.meters.erase(v.meters.begin() + ptrdiff_t(gone));
+            c.apply(SetView{v});
+        }
+    }
+    ImGui::End();
+}
+
+} // namespace blush
