@@ -3,7 +3,6 @@
 #include "app/editor_commands.h"
 #include "app/editor_convergence.h"
 #include "app/editor_files.h"
-#include "app/run_name.h"
 #include "scene/changes.h"
 #include "ui/automation.h"
 #include "ui/file_listing.h"
@@ -33,7 +32,6 @@ private:
     void poll();
     void panels();
     void submit();
-    void begin_run(const Changes& changes, const RenderSettings& settings, const PlaneSet& planes);
     void latest();
     void draw();
 
@@ -64,7 +62,6 @@ private:
     Pictures pictures_;
     PictureMix wanted_mix_;
     EditorConvergence convergence_;
-    size_t steps_to_redo_ = 0;    // at the last submit
     std::string weights_problem_; // why the denoiser's weights are of no use; empty: they are there
     RenderSession session_;
 
@@ -343,34 +340,15 @@ void Editor::submit() {
     const RenderSettings r = render_settings();
     const Scene& scene = document_.project().scene;
     const PlaneSet planes = ui_.wanted_planes();
-    const Changes changes = diff(submitted_scene_, submitted_settings_, scene, r);
-    if (submitted_ != 0 && planes == submitted_planes_ && !changes.any()) return;
-    begin_run(changes, r, planes);
+    if (submitted_ != 0 && planes == submitted_planes_ && !diff(submitted_scene_, submitted_settings_, scene, r).any()) return;
+    const std::string opened = submitted_ == 0 ? files_.scene_file().filename().string() : "";
     submitted_ = ++revision_;
+    convergence_.submit(ui_.convergence, {document_, r, planes, submitted_}, opened);
     submitted_scene_ = scene;
     submitted_settings_ = r;
     submitted_planes_ = planes;
     session_.submit(submitted_, scene, r, planes);
     stats_.submitted(submitted_, frame_begin_);
-}
-
-// The convergence of the image that is about to be submitted, if it is another one.
-void Editor::begin_run(const Changes& changes, const RenderSettings& settings, const PlaneSet& planes) {
-    const size_t steps_to_redo = document_.redo_labels().size();
-    const bool undone = steps_to_redo > std::exchange(steps_to_redo_, steps_to_redo);
-    ConvergenceView& view = ui_.convergence;
-    std::string name;
-    if (submitted_ == 0) {
-        view.runs.clear();
-        name = files_.scene_file().filename().string();
-    } else if (changes.affects_image()) {
-        name = run_name({submitted_scene_, submitted_settings_}, {document_.project().scene, settings}, document_, undone);
-    } else if (!submitted_planes_.covers(planes)) {
-        name = "other film planes";
-    } else {
-        return view.runs.mark(changes.stop_rules ? "stop rules" : "edit");
-    }
-    convergence_.begin(view, name, revision_ + 1, document_.project().scene, settings);
 }
 
 void Editor::latest() {

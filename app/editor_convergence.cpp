@@ -1,6 +1,7 @@
 #include "app/editor_convergence.h"
 
 #include "app/free_name.h"
+#include "app/run_name.h"
 #include "core/files.h"
 #include "io/image_io.h"
 #include "measure/convergence_csv.h"
@@ -27,6 +28,27 @@ std::vector<ConvergenceRecord> shown_records(const ConvergenceRuns& runs) {
 }
 
 } // namespace
+
+void EditorConvergence::submit(ConvergenceView& view, const Submission& s, const std::string& opened) {
+    const size_t steps_to_redo = s.document.redo_labels().size();
+    const bool undone = steps_to_redo > std::exchange(steps_to_redo_, steps_to_redo);
+    const Scene& scene = s.document.project().scene;
+    if (!opened.empty()) {
+        view.runs.clear();
+        begin(view, opened, s.revision, scene, s.settings);
+    } else {
+        const Changes changes = diff(scene_, settings_, scene, s.settings);
+        if (changes.affects_image())
+            begin(view, run_name({scene_, settings_}, {scene, s.settings}, s.document, undone), s.revision, scene, s.settings);
+        else if (!planes_.covers(s.planes))
+            begin(view, "other film planes", s.revision, scene, s.settings);
+        else if (changes.stop_rules)
+            view.runs.mark("stop rules");
+    }
+    scene_ = scene;
+    settings_ = s.settings;
+    planes_ = s.planes;
+}
 
 void EditorConvergence::begin(ConvergenceView& view, const std::string& name, uint64_t revision, const Scene& scene,
                               const RenderSettings& settings) {

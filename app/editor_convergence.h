@@ -3,6 +3,7 @@
 
 #include "app/error_measuring.h"
 #include "app/reference_keeper.h"
+#include "scene/document.h"
 #include "ui/ui_state.h"
 
 #include <filesystem>
@@ -16,6 +17,16 @@ class EditorConvergence {
 public:
     EditorConvergence(std::function<void()> wake, unsigned threads) : measuring_(wake), keeper_(wake, threads), wake_(std::move(wake)) {}
 
+    // What the session is about to be given.
+    struct Submission {
+        const Document& document;
+        const RenderSettings& settings;
+        const PlaneSet& planes;
+        uint64_t revision = 0;
+    };
+    // Begins another run if another image will be rendered, named after what was changed, or `opened`, if that is not empty: the file that was
+    // opened. What the image survives only marks the run.
+    void submit(ConvergenceView& view, const Submission& submission, const std::string& opened);
     // From this revision on another image is rendered, of the scene as it then is.
     void begin(ConvergenceView& view, const std::string& name, uint64_t revision, const Scene& scene, const RenderSettings& settings);
     // The newest pictures: once per frame of the window.
@@ -38,6 +49,13 @@ private:
     std::function<void()> wake_;
     uint64_t first_revision_ = 0; // of the live run
     ReferenceKeeper::Subject subject_;
+
+    // Of the last submission.
+    Scene scene_;
+    RenderSettings settings_;
+    PlaneSet planes_;
+    size_t steps_to_redo_ = 0;
+
     FramePtr last_frame_;
     DenoisedPtr last_denoised_;
     double recording_seconds_ = 0;

@@ -111,6 +111,37 @@ TEST_F(Convergence, RecordsTheRunsOwnPicturesInFullResolution) {
     EXPECT_EQ(view.cost.recorder_share(), 0);
 }
 
+TEST_F(Convergence, AnotherImageIsAnotherRunAndOtherStopRulesAreAMark) {
+    Document document(project);
+    RenderSettings settings = project.render;
+    PlaneSet planes;
+    uint64_t revision = 0;
+    const auto submit = [&](const std::string& opened = "") {
+        editor.submit(view, {document, settings, planes, ++revision}, opened);
+        converge(revision, 64);
+    };
+    submit("cornell.gltf");
+    settings.spp = 7;
+    submit();
+    EXPECT_EQ(view.runs.all().size(), 1u);
+    EXPECT_EQ(view.runs.live()->record.marks().size(), 1u);
+    settings.seed = 9;
+    submit();
+    planes.bounces = 4;
+    submit();
+    planes.bounces = 0;
+    submit();
+    ASSERT_TRUE(document.apply(SetLens{{.yfov_radians = 1}}));
+    submit();
+    document.undo();
+    submit();
+    std::vector<std::string> names;
+    for (const ConvergenceRun& r : view.runs.all()) names.push_back(r.record.name);
+    EXPECT_EQ(names, (std::vector<std::string>{"cornell.gltf", "seed 9", "other film planes", "Change lens", "Undo: Change lens"}));
+    submit("furnace.gltf");
+    EXPECT_EQ(view.runs.all().size(), 1u) << "another scene has other errors";
+}
+
 TEST_F(Convergence, DenoisedPicturesAreJudgedByTheRawOneOnceThatIsBetter) {
     view.open = view.denoised = true;
     begin("Opened", 1);
