@@ -81,7 +81,7 @@ constexpr MouseHint hints[] = {
     {"Zoom the picture", "Ctrl+wheel; Ctrl+drag moves it"},
     {"Focus there", "Ctrl+click"},
     {"Read a pixel's values", "Right-click"},
-    {"Move, aim or resize what is selected", "Drag its handles"},
+    {"Move, aim, resize", "Drag the handles of what is selected"},
     {"Reset a value", "Double-click"},
     {"Type a value", "Ctrl+click"},
     {"Change a value finely", "Alt+drag"},

@@ -148,7 +148,7 @@ void draw_name(PanelContext& c, RowClicks& clicks, const LightRow& row, const st
 void draw_share(PanelContext& c, const std::optional<double>& share) {
     ImGui::AlignTextToFramePadding();
     const std::string text = share ? fmt::format("{:.1f} %", 100 * *share) : "-";
-    const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
+    const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x - ImGui::GetFontSize() * 0.4f;
     if (room > 0) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + room);
     ImGui::TextUnformatted(text.c_str());
     tip_for_last_item(c.ui, how_to_get_shares);
@@ -186,7 +186,9 @@ void draw_group(PanelContext& c, const std::string& group) {
         return;
     }
     ImGui::PushFont(heading_font());
+    ImGui::PushStyleVar(ImGuiStyleVar_SelectableTextAlign, {0, 0.5f});
     ImGui::Selectable(group.empty() ? "No group" : group.c_str(), false, ImGuiSelectableFlags_SpanAllColumns, {0, ImGui::GetFrameHeight()});
+    ImGui::PopStyleVar();
     ImGui::PopFont();
     c.ui.probe.record_last_item("Light table/Group/" + group);
     if (!group.empty() && ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))

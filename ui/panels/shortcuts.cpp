@@ -40,18 +40,21 @@ void draw_shortcut_sheet(PanelContext& c) {
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
     const float em = ImGui::GetFontSize();
     ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Appearing, {0.5f, 0.5f});
-    ImGui::SetNextWindowSize({std::min(em * 60, screen.x * 0.95f), 0});
+    ImGui::SetNextWindowSize({std::min(em * 80, screen.x * 0.95f), 0});
     if (ImGui::Begin("Shortcuts", &c.ui.show_shortcuts,
                      ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoSavedSettings)) {
-        if (ImGui::BeginTable("columns", 2)) {
-            ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthStretch, 0.41f);
-            ImGui::TableSetupColumn("mouse", ImGuiTableColumnFlags_WidthStretch, 0.59f);
+        const float width = ImGui::GetContentRegionAvail().x;
+        if (ImGui::BeginTable("columns", 3)) {
+            ImGui::TableSetupColumn("files", ImGuiTableColumnFlags_WidthStretch, 0.3f);
+            ImGui::TableSetupColumn("lights", ImGuiTableColumnFlags_WidthStretch, 0.26f);
+            ImGui::TableSetupColumn("mouse", ImGuiTableColumnFlags_WidthStretch, 0.44f);
             ImGui::TableNextColumn();
-            for (const char* group : {"File", "Edit", "Add light", "Lights", "Look"}) draw_group(group, em * 13);
+            for (const char* group : {"File", "Edit", "View"}) draw_group(group, width * 0.15f);
             ImGui::TableNextColumn();
-            for (const char* group : {"View", "Help"}) draw_group(group, em * 13);
+            for (const char* group : {"Add light", "Lights", "Look", "Help"}) draw_group(group, width * 0.15f);
+            ImGui::TableNextColumn();
             heading("Mouse");
-            for (const MouseHint& hint : mouse_hints()) line(hint.action, hint.gesture, em * 13);
+            for (const MouseHint& hint : mouse_hints()) line(hint.action, hint.gesture, width * 0.17f);
             ImGui::EndTable();
         }
         ImGui::Spacing();
