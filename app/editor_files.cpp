@@ -119,6 +119,9 @@ bool EditorFiles::finish_import(Document& document, UiState& ui, Result<LoadedSc
     }
     ui.also_selected.clear();
     ui.selected_material = {};
+    ui.looked_through.reset(); // ids may mean something else now
+    ui.placing_by = PlacingBy::hand;
+    ui.light_table.renaming = {};
     watch_.watch(scene_file_);
     document.reset(std::move(project));
     return true;

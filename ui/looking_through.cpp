@@ -12,7 +12,10 @@ const Light* looked_through_light(const PanelContext& c) {
 void follow_looked_through(PanelContext& c) {
     if (!c.ui.looked_through) return;
     const Light* light = looked_through_light(c);
-    if (!light) return c.ui.looked_through.reset();
+    if (!light) { // deleted, or its adding undone
+        c.document.navigate(c.ui.looked_through->back);
+        return c.ui.looked_through.reset();
+    }
     const Id<Node> id = c.ui.looked_through->node;
     c.document.navigate(view_through_light(c.scene().view, *light, pose_of(c.scene(), id), clearance(c.scene(), id)));
 }

@@ -7,9 +7,11 @@
 namespace blush {
 
 bool set_light(PanelContext& c, Id<Light> id, const Light& after, Gesture gesture) {
+    const Light* record = c.scene().lights.find(id);
+    if (!record) return false; // undone while it was dragged
+    const Light before = *record;
     std::vector<Id<Light>> lights = lights_of(c.scene(), c.ui.selection(c.scene()));
     if (!std::ranges::count(lights, id)) lights = {id};
-    const Light before = *c.scene().lights.find(id);
     std::vector<Edit> edits{SetLight{id, after}};
     std::erase(lights, id);
     for (Edit& edit : change_lights(c.scene(), lights, [&](Light& light) { light = edited_alike(light, before, after); }))
