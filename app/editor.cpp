@@ -3,11 +3,13 @@
 #include "app/editor_commands.h"
 #include "app/editor_convergence.h"
 #include "app/editor_files.h"
+#include "app/editor_snapshots.h"
 #include "scene/changes.h"
 #include "ui/automation.h"
 #include "ui/file_listing.h"
 #include "ui/frame_stats.h"
 #include "ui/regions.h"
+#include "ui/snapshot_strip.h"
 #include "ui/viewport.h"
 #include "ui/window.h"
 
@@ -49,6 +51,8 @@ private:
     void update_ledger();
     void remember();
     RenderSettings render_settings() const;
+    void keep_size(const RenderSettings& kept);
+    bool worth_restoring(const FilmState& film, const RenderSettings& r) const;
 
     Automation automation_;
     std::unique_ptr<Window> window_; // first to come, last to go: the session wakes it
@@ -58,6 +62,8 @@ private:
     UiState ui_;
     Viewport viewport_;
     EditorFiles files_{&Window::wake};
+    EditorSnapshots snapshots_{&Window::wake};
+    ThumbnailSheet thumbnails_;
     FrameStats stats_;
     Pictures pictures_;
     PictureMix wanted_mix_;
@@ -85,7 +91,8 @@ private:
     FeatureUse view_transform_{"display", "view transform", false, "there is no picture yet"};
     Ledger ledger_; // of what the window makes itself
     std::array<bool, denoise_qualities> ledger_denoised_with_{};
-    std::optional<EditorFiles::Format> snapshot_due_; // waits for a picture in full resolution
+    enum class SnapshotDue { none, keep, png } snapshot_due_ = SnapshotDue::none; // waits for a picture in full resolution
+    std::string not_continued_; // as was last said
     Clock::time_point frame_begin_{};
 };
 
@@ -131,11 +138,13 @@ void Editor::run() {
 
 // Input, and what was finished in the background.
 void Editor::poll() {
-    if (files_.poll(document_, ui_)) {
+    const bool opened = files_.poll(document_, ui_);
+    if (opened) {
         window_->set_title(files_.scene_file().filename().string() + " - Blush");
         submitted_ = 0; // a new scene is submitted whatever it looks like
         window_->request_frames(2);
     }
+    snapshots_.poll(opened, document_, ui_, files_, session_);
     for (const auto& file : window_->take_dropped_files()) take_dropped(file);
     // While text is typed or something is open on top, keys are meant for that.
     const bool taken = ImGui::GetIO().WantTextInput || ui_.browser || ui_.pixel;
@@ -198,9 +207,13 @@ void Editor::draw_regions(PanelContext& c) {
     draw_status_bar(c);
     end_region();
     drag_splitters(ui_, l, screen.x);
+    thumbnails_.update(ui_.snapshots.list, numbers_of(c.shown_view()));
+    draw_snapshot_strip(c, l.viewport, [this](size_t i) { return thumbnails_.part(i); });
 }
 
 void Editor::draw_above(PanelContext& c) {
+    draw_comparison_panel(c);
+    draw_snapshot_panel(c);
     draw_pixel_panel(c);
     draw_region_panel(c);
     draw_meters_panel(c);
@@ -216,6 +229,9 @@ void Editor::draw_above(PanelContext& c) {
     if (const auto job = files_.running()) {
         ui_.next_frame_in = std::min(ui_.next_frame_in, 0.1);
         if (draw_progress(*job)) files_.cancel();
+    } else if (const auto other = snapshots_.running()) {
+        ui_.next_frame_in = std::min(ui_.next_frame_in, 0.1);
+        draw_progress(*other);
     }
     draw_toasts(c);
 }
@@ -227,6 +243,7 @@ void Editor::obey(PanelContext& c) {
     }
     for (const FileRequest& request : std::exchange(ui_.files, {})) take_file(request);
     convergence_.obey(ui_, ui_.settings.snapshot_folder, files_.scene_file());
+    snapshots_.obey(document_, ui_, files_);
     const bool paused = ui_.paused || convergence_.renders_reference();
     if (session_paused_ != paused) session_.pause(session_paused_ = paused);
     const bool denoises = ui_.denoise.wants_denoised() || ui_.convergence.wants_denoised();
@@ -244,8 +261,8 @@ void Editor::run_own_command(Command command) {
     case Command::snapshot_folder: return open_browser(FileRequest::Use::snapshot_folder);
     case Command::load_convergence: return open_browser(FileRequest::Use::convergence);
     case Command::reload: return files_.reload();
-    case Command::snapshot_exr: snapshot_due_ = EditorFiles::Format::exr; return save_due_snapshot();
-    case Command::snapshot_png: snapshot_due_ = EditorFiles::Format::png; return save_due_snapshot();
+    case Command::snapshot_exr: snapshot_due_ = SnapshotDue::keep; return save_due_snapshot();
+    case Command::snapshot_png: snapshot_due_ = SnapshotDue::png; return save_due_snapshot();
     case Command::quit: return window_->request_close();
     default: return;
     }
@@ -274,21 +291,26 @@ void Editor::take_file(const FileRequest& request) {
 void Editor::take_dropped(const std::filesystem::path& file) {
     if (matches(scene_files, file))
         files_.open(file);
+    else if (matches(snapshot_files, file))
+        snapshots_.open(file, files_.scene_file());
     else if (matches(environment_files, file))
         files_.load_environment(file);
     else if (matches(table_files, file))
         convergence_.load(ui_, file);
     else
-        ui_.toasts.fail(file.filename().string() +
-                        ": neither a glTF scene (.gltf, .glb), nor an environment image (.hdr, .exr), nor a convergence table (.csv)");
+        ui_.toasts.fail(file.filename().string() + ": neither a glTF scene (.gltf, .glb), nor an environment image (.hdr, .exr), nor a snapshot "
+                                                   "(.exr), nor a convergence table (.csv)");
 }
 
 void Editor::save_due_snapshot() {
     const FramePtr& frame = pictures_.frame;
-    if (!snapshot_due_ || !frame || frame->revision != submitted_ || frame->divider != 1) return;
-    files_.save_snapshot(pictures_, ui_.denoise, document_.project(), submitted_settings_, color_, ui_.settings.snapshot_folder,
-                         *snapshot_due_);
-    snapshot_due_.reset();
+    if (snapshot_due_ == SnapshotDue::none || !frame || frame->revision != submitted_ || frame->divider != 1) return;
+    EditorSnapshots::Shown shown{submitted_, pictures_, ui_.denoise, document_.project(), submitted_settings_, files_.imported(), files_.scene_file()};
+    if (snapshot_due_ == SnapshotDue::keep)
+        snapshots_.keep(std::move(shown), session_);
+    else
+        snapshots_.save_png(shown, color_, ui_);
+    snapshot_due_ = SnapshotDue::none;
 }
 
 void Editor::update_display_shader() {
@@ -300,6 +322,7 @@ void Editor::update_display_shader() {
     const auto begin = Clock::now();
     const auto shader = color_.display_shader(wanted);
     if (!shader) return ui_.toasts.fail(shader.error().text());
+    thumbnails_.set_shader(*shader);
     if (const auto set = viewport_.set_display_shader(*shader); !set) ui_.toasts.fail(set.error().text());
     int64_t bytes = 0;
     for (const DisplayShader::Lut& lut : shader->luts) bytes += int64_t(lut.values.size() * sizeof(float));
@@ -334,27 +357,48 @@ RenderSettings Editor::render_settings() const {
     return carried_out(r);
 }
 
+// A restored picture is the one that was kept: if the window would give it another size, it no longer does.
+void Editor::keep_size(const RenderSettings& kept) {
+    const RenderSettings r = render_settings();
+    if (!ui_.settings.follow_viewport || (r.width == kept.width && r.height == kept.height)) return;
+    ui_.settings.follow_viewport = false;
+    ui_.toasts.note(fmt::format("The image keeps the snapshot's {} × {} pixels", kept.width, kept.height), "The Render tab lets it follow the window again.");
+}
+
+// Not where the image on the screen is the same and further on.
+bool Editor::worth_restoring(const FilmState& film, const RenderSettings& r) const {
+    const bool same = submitted_ != 0 && !diff(submitted_scene_, submitted_settings_, document_.project().scene, r).affects_image();
+    return !same || !pictures_.frame || pictures_.frame->revision != submitted_ || pictures_.frame->samples < film.samples;
+}
+
 // Hands the project over when something in it reaches the image.
 void Editor::submit() {
     if (files_.scene_file().empty()) return; // nothing is open yet
+    const std::optional<EditorSnapshots::Restored> restored = snapshots_.take_restored();
+    if (restored) keep_size(restored->settings);
     const RenderSettings r = render_settings();
     const Scene& scene = document_.project().scene;
     const PlaneSet planes = ui_.wanted_planes();
-    if (submitted_ != 0 && planes == submitted_planes_ && !diff(submitted_scene_, submitted_settings_, scene, r).any()) return;
+    const FilmStatePtr film = restored && restored->film && worth_restoring(*restored->film, r) ? restored->film : nullptr;
+    const bool changed = planes != submitted_planes_ || diff(submitted_scene_, submitted_settings_, scene, r).any();
+    if (!film && submitted_ != 0 && !changed) return;
     const std::string opened = submitted_ == 0 ? files_.scene_file().filename().string() : "";
     submitted_ = ++revision_;
     convergence_.submit(ui_.convergence, {document_, r, planes, submitted_}, opened);
     submitted_scene_ = scene;
     submitted_settings_ = r;
     submitted_planes_ = planes;
-    session_.submit(submitted_, scene, r, planes);
+    session_.submit(submitted_, scene, r, planes, film);
     stats_.submitted(submitted_, frame_begin_);
 }
 
 void Editor::latest() {
     pictures_ = session_.pictures();
     convergence_.look(ui_.convergence, pictures_);
-    const std::string failure = session_.status().denoiser_failure;
+    const SessionStatus status = session_.status();
+    if (std::exchange(not_continued_, status.not_continued) != status.not_continued && !status.not_continued.empty())
+        ui_.toasts.warn("The snapshot is rendered anew", status.not_continued);
+    const std::string& failure = status.denoiser_failure;
     if (failure.empty() || !ui_.denoise.wants_denoised()) return;
     ui_.denoise.show = DenoiseView::Show::raw;
     ui_.toasts.fail("The image cannot be denoised", failure);

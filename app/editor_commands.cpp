@@ -129,6 +129,10 @@ void reset_white(PanelContext& c) {
     c.apply(SetView{v});
 }
 
+void compare(PanelContext& c, Comparison::Mode mode) {
+    if (!c.ui.snapshots.toggle(mode)) c.ui.toasts.note("There is no snapshot to compare with", "Ctrl+S keeps the image on the screen.");
+}
+
 void toggle_denoise(PanelContext& c) {
     if (c.denoiser_problem.empty()) return c.ui.denoise.toggle();
     c.ui.toasts.warn("The image cannot be denoised", c.denoiser_problem);
@@ -145,6 +149,10 @@ void escape(PanelContext& c) {
         return;
     }
     if (c.ui.looked_through) return toggle_look_through(c);
+    if (Comparison& compare = c.ui.snapshots.compare; compare.mode != Comparison::Mode::off) {
+        compare.mode = Comparison::Mode::off;
+        return;
+    }
     c.ui.select({});
 }
 
@@ -186,6 +194,10 @@ bool run_command(Command command, PanelContext& c) {
     case Command::pick_white: c.ui.tool = ViewTool::pick_white; return true;
     case Command::toggle_denoise: toggle_denoise(c); return true;
     case Command::pause: c.ui.paused = !c.ui.paused; return true;
+    case Command::snapshot_strip: c.ui.snapshots.open = !c.ui.snapshots.open; return true;
+    case Command::compare_wipe: compare(c, Comparison::Mode::wipe); return true;
+    case Command::compare_flicker: compare(c, Comparison::Mode::flicker); return true;
+    case Command::compare_difference: compare(c, Comparison::Mode::difference); return true;
     case Command::shortcuts: c.ui.show_shortcuts = !c.ui.show_shortcuts; return true;
     case Command::history: c.ui.show_history = !c.ui.show_history; return true;
     case Command::bounces: c.ui.bounces.open = !c.ui.bounces.open; return true;

@@ -1,7 +1,6 @@
 #include "app/editor_files.h"
 
 #include "app/commands/common.h"
-#include "app/editor_snapshot.h"
 #include "io/environment_image.h"
 
 #include <fmt/format.h>
@@ -84,15 +83,6 @@ void EditorFiles::load_environment(const std::filesystem::path& file) {
         "Loading " + file.filename().string(), [file](JobProgress&) { return read_environment_image(file); }, wake_);
 }
 
-void EditorFiles::save_snapshot(const Pictures& pictures, const DenoiseView& view, const Project& project, const RenderSettings& settings,
-                                const ColorManagement& color, const std::filesystem::path& folder, Format format) {
-    const SnapshotJob job{pictures, view, project, settings, imported_, scene_file_, folder};
-    snapshot_job_ = std::make_unique<BackgroundJob<Result<std::filesystem::path>>>(
-        "Saving the snapshot",
-        [job, format, &color](JobProgress&) { return format == Format::exr ? write_snapshot_exr(job) : write_snapshot_png(job, color); },
-        wake_);
-}
-
 bool EditorFiles::finish_import(Document& document, UiState& ui, Result<LoadedScene> loaded) {
     const bool cancelled = import_job_->cancelled();
     import_job_.reset();
@@ -161,15 +151,6 @@ bool EditorFiles::poll(Document& document, UiState& ui) {
     if (environment_job_) {
         if (auto result = environment_job_->take()) finish_environment(document, ui, *std::move(result));
     }
-    if (snapshot_job_) {
-        if (const auto result = snapshot_job_->take()) {
-            snapshot_job_.reset();
-            if (*result)
-                ui.toasts.note("Saved " + (*result)->filename().string(), (*result)->parent_path().string());
-            else
-                ui.toasts.fail(result->error().text());
-        }
-    }
     look_at_scene_file(document, ui);
     return opened;
 }
@@ -181,7 +162,6 @@ std::optional<RunningJob> EditorFiles::running() const {
     };
     if (import_job_) return show(import_job_, true);
     if (environment_job_) return show(environment_job_, true);
-    if (snapshot_job_) return show(snapshot_job_, false);
     return {};
 }
 

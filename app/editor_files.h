@@ -35,6 +35,7 @@ public:
     explicit EditorFiles(std::function<void()> wake) : wake_(std::move(wake)) {}
 
     const std::filesystem::path& scene_file() const { return scene_file_; }
+    const Scene& imported() const { return imported_; } // as it is in the file
 
     // Each starts a job and returns; a newer one of the same sort cancels the older.
     // `overrides` of the command line hold for the file they were given with; `aspect` frames a scene without a camera.
@@ -44,11 +45,6 @@ public:
     void import_scene(const std::filesystem::path& file) { start_import(file, Purpose::merge, {}, 1); }
     void reload() { start_import(scene_file_, Purpose::reload, {}, 1); }
     void load_environment(const std::filesystem::path& file);
-    enum class Format { exr, png };
-    // Of a frame in full resolution that `settings` made, looked at in this way.
-    void save_snapshot(const Pictures& pictures, const DenoiseView& view, const Project& project, const RenderSettings& settings,
-                       const ColorManagement& color, const std::filesystem::path& folder, Format format);
-
     // Brings finished work into the document, and looks once a second whether the scene file was rewritten: it is then
     // loaded again, or, when there are edits to lose, a toast offers it. True if a scene was opened.
     bool poll(Document& document, UiState& ui);
@@ -74,7 +70,6 @@ private:
     std::filesystem::path importing_, environment_;
     std::unique_ptr<BackgroundJob<Result<LoadedScene>>> import_job_;
     std::unique_ptr<BackgroundJob<Result<ImagePtr>>> environment_job_;
-    std::unique_ptr<BackgroundJob<Result<std::filesystem::path>>> snapshot_job_;
 };
 
 } // namespace blush

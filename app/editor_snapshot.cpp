@@ -1,6 +1,7 @@
 #include "app/editor_snapshot.h"
 
 #include "app/commands/denoising.h"
+#include "app/commands/film_json.h"
 #include "app/commands/picture.h"
 #include "app/free_name.h"
 #include "app/scene_overrides.h"
@@ -14,22 +15,34 @@
 namespace blush {
 namespace {
 
+// Seen from the folder of the picture, so that both may move together.
+std::string seen_from(const std::filesystem::path& folder, const std::filesystem::path& file) {
+    std::error_code error;
+    const std::filesystem::path relative = std::filesystem::relative(file, folder, error);
+    return error || relative.empty() ? file.string() : relative.string();
+}
+
 // `denoised`: what the picture shows of it; null: nothing.
-SnapshotMetadata metadata_of(const SnapshotJob& job, const DenoisedPicture* denoised) {
-    const Frame& f = *job.pictures.frame;
+SnapshotMetadata metadata_of(const SnapshotJob& job, const std::filesystem::path& file, const DenoisedPicture* denoised) {
+    const Snapshot& s = job.snapshot;
+    const Frame& f = *s.pictures.frame;
     SnapshotMetadata m;
     m.version = BLUSH_VERSION;
-    m.scene = job.scene_file.filename().string();
-    m.scene_hash = scene_hash(job.imported);
-    m.camera = camera_name(job.project.scene);
+    m.scene = s.scene_file.filename().string();
+    m.scene_file = seen_from(file.parent_path(), s.scene_file);
+    m.scene_hash = scene_hash(s.imported);
+    m.camera = camera_name(s.project.scene);
     m.spp = f.samples;
-    m.first_sample = job.settings.first_sample;
-    m.last_sample = job.settings.first_sample + f.samples;
-    m.seed = job.settings.seed;
+    m.first_sample = s.settings.first_sample;
+    m.last_sample = s.settings.first_sample + f.samples;
+    m.seed = s.settings.seed;
     m.seconds = f.seconds;
-    if (f.error.known) m.error = fmt::format("{:.6g}", f.error.relmse);
-    m.settings = job.settings;
-    m.edits = edits_json(job.imported, job.project.scene);
+    m.error = error_text(f.error);
+    m.settings = s.settings;
+    m.edits = edits_json(s.imported, s.project.scene);
+    m.view = s.project.view;
+    m.name = s.name;
+    m.note = s.note;
     m.partial = !f.complete;
     if (denoised) m.denoised = fmt::format("{}, {} spp", denoised_by(denoised->denoised), denoised->samples);
     return m;
@@ -37,33 +50,40 @@ SnapshotMetadata metadata_of(const SnapshotJob& job, const DenoisedPicture* deno
 
 } // namespace
 
-Result<std::filesystem::path> write_snapshot_exr(const SnapshotJob& job) {
-    const auto file = free_name(job.folder, job.scene_file.stem().string(), ".exr");
-    if (!file) return file;
-    const Layers layers{.albedo = true, .normal = true, .depth = true, .samples = true, .ids = true};
-    // A coarse one, of the moment after an edit, is no layer.
-    const DenoisedPicture* denoised = job.pictures.denoised.get();
-    if (denoised && denoised->divider != 1) denoised = nullptr;
-    ExtraLayers extra;
+Result<SavedSnapshot> write_snapshot_exr(const SnapshotJob& job) {
+    const auto file = free_name(job.folder, job.snapshot.scene_file.stem().string(), ".exr");
+    if (!file) return file.error();
+    const Snapshot& s = job.snapshot;
+    const Layers layers{.albedo = true, .normal = true, .depth = true, .error = true, .samples = true, .ids = true};
+    const DenoisedPicture* denoised = s.pictures.denoised.get();
+    SnapshotMetadata metadata = metadata_of(job, *file, denoised);
+    ExtraLayers extra{.error = s.error};
+    extra.half = job.half;
     if (denoised) extra.denoised = denoised->denoised.rgb;
-    const auto written = write_exr_picture(*file, *job.pictures.frame, extra, layers, metadata_of(job, denoised));
-    if (!written) return written.error();
-    return file;
+    std::vector<ExactPlane> film;
+    if (job.film && s.film) {
+        film = planes_in_file(*s.film);
+        metadata.film = film_json(*s.film);
+    }
+    extra.film = film;
+    const Result<int64_t> beyond_half = write_exr_picture(*file, *s.pictures.frame, extra, layers, metadata);
+    if (!beyond_half) return beyond_half.error();
+    return SavedSnapshot{*file, *beyond_half};
 }
 
-Result<std::filesystem::path> write_snapshot_png(const SnapshotJob& job, const ColorManagement& color) {
-    const auto file = free_name(job.folder, job.scene_file.stem().string(), ".png");
-    if (!file) return file;
-    const Frame& frame = *job.pictures.frame;
-    const DenoisedPicture* denoised = job.view.wants_denoised() ? job.pictures.denoised.get() : nullptr;
+Result<SavedSnapshot> write_snapshot_png(const SnapshotJob& job, const ColorManagement& color) {
+    const auto file = free_name(job.folder, job.snapshot.scene_file.stem().string(), ".png");
+    if (!file) return file.error();
+    const Frame& frame = *job.snapshot.pictures.frame;
+    const DenoisedPicture* denoised = job.view.wants_denoised() ? job.snapshot.pictures.denoised.get() : nullptr;
     std::vector<float> shown = mixed_picture(frame, denoised, mix_of(job.view, denoised != nullptr));
-    const ViewSettings& view = job.project.view;
+    const ViewSettings& view = job.snapshot.project.view;
     const std::vector<float> coverage = coverage_of(frame);
     const ViewSettings as_shown = settled(view, metered_exposure(view.auto_exposure, frame.rgba, 4));
     const auto written = write_display_picture(*file, frame.width, frame.height, std::move(shown), color, as_shown,
-                                               display_metadata(metadata_of(job, denoised)), {frame.albedo, coverage});
+                                               display_metadata(metadata_of(job, *file, denoised)), {frame.albedo, coverage});
     if (!written) return written.error();
-    return file;
+    return SavedSnapshot{*file, 0};
 }
 
 } // namespace blush

@@ -16,6 +16,7 @@ std::string lower(std::string text) {
 const ExtensionFilter scene_files{".gltf", ".glb"};
 const ExtensionFilter environment_files{".hdr", ".exr"};
 const ExtensionFilter table_files{".csv"};
+const ExtensionFilter snapshot_files{".exr"};
 
 bool matches(const ExtensionFilter& filter, const std::filesystem::path& file) {
     return std::ranges::find(filter, lower(file.extension().string())) != filter.end();

@@ -16,15 +16,6 @@ struct Range {
     float low = 0, high = 1;
 };
 
-// Black, blue, red, yellow, white: dark to bright, so that it reads without colours too.
-Vec3 heat(float t) {
-    constexpr Vec3 stops[] = {{0, 0, 0}, {0.02f, 0.03f, 0.35f}, {0.6f, 0.05f, 0.08f}, {0.95f, 0.6f, 0.05f}, {1, 1, 1}};
-    constexpr int last = int(std::size(stops)) - 1;
-    const float at = clamp01(t) * last;
-    const int i = std::min(int(at), last - 1);
-    return lerp<float>(stops[i], stops[i + 1], at - float(i));
-}
-
 Range range_of(const std::vector<float>& values) {
     if (values.empty()) return {};
     const auto [low, high] = std::minmax_element(values.begin(), values.end());
@@ -80,6 +71,14 @@ std::vector<float> illuminance_of(const Frame& frame) {
 }
 
 } // namespace
+
+Vec3 heat(float t) {
+    constexpr Vec3 stops[] = {{0, 0, 0}, {0.02f, 0.03f, 0.35f}, {0.6f, 0.05f, 0.08f}, {0.95f, 0.6f, 0.05f}, {1, 1, 1}};
+    constexpr int last = int(std::size(stops)) - 1;
+    const float at = clamp01(t) * last;
+    const int i = std::min(int(at), last - 1);
+    return lerp<float>(stops[i], stops[i + 1], at - float(i));
+}
 
 bool is_special(const Frame& frame, const PictureView& view) {
     switch (view.show) {

@@ -23,6 +23,9 @@ struct PictureView {
     bool operator==(const PictureView&) const = default;
 };
 
+// A map's colour for 0 .. 1: black, blue, red, yellow, white; dark to bright, so that it reads without colours too.
+Vec3 heat(float t);
+
 // The frame has what the view needs and it is not simply the beauty.
 bool is_special(const Frame& frame, const PictureView& view);
 // Its colours stand for numbers that are no light.

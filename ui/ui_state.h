@@ -14,6 +14,7 @@
 #include "ui/roulette_view.h"
 #include "ui/scopes_view.h"
 #include "ui/shortcuts.h"
+#include "ui/snapshots_view.h"
 #include "ui/toasts.h"
 #include "ui/window_settings.h"
 
@@ -24,6 +25,8 @@
 #include <vector>
 
 namespace blush {
+
+struct Difference;
 
 enum class InspectorTab { selection, camera, environment, render, display };
 
@@ -109,6 +112,8 @@ struct UiState {
     BouncesView bounces;
     HealthView health;
     RouletteView roulette;
+    SnapshotsView snapshots;
+    std::shared_ptr<const Difference> difference; // of what is compared, as last worked out; null: none
     ScopesView scopes;
     MetersView meters;
     RegionView region;

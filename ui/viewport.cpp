@@ -97,6 +97,7 @@ void turn_surroundings(PanelContext& c, double share) {
 
 Result<void> Viewport::set_display_shader(const DisplayShader& shader) {
     shader_changed_ = true;
+    compare_.set_shader(shader);
     return display_.set_shader(shader);
 }
 
@@ -233,6 +234,7 @@ ImageRect Viewport::draw(PanelContext& c) {
     }
     draw_picture(c, image);
     follow_looked_through(c);
+    compare_.draw(c, image, visible_part(image), look_);
     const View view = c.scene().view;
     const Projection projection(view, double(image.width) / image.height);
     const ImageRect seen = visible_part(image);

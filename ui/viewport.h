@@ -1,6 +1,7 @@
 // The picture and what the mouse does in it: navigation, picking, handles.
 #pragma once
 
+#include "ui/compare_view.h"
 #include "ui/display_pass.h"
 #include "ui/handles.h"
 #include "ui/navigation.h"
@@ -34,6 +35,7 @@ private:
 
     DisplayPass display_;
     OutlinePass outline_;
+    CompareView compare_;
     Navigation navigation_;
     bool navigating_ = false; // as of the last frame: what it edits is one step of the history
     Handles handles_;

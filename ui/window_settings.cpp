@@ -52,6 +52,9 @@ WindowSettings read_window_settings(const std::filesystem::path& file) {
     read(json, "follow_viewport", settings.follow_viewport);
     read(json, "overlays", settings.overlays);
     read(json, "snapshot_folder", settings.snapshot_folder);
+    read(json, "snapshot_files", settings.snapshot_files);
+    read(json, "snapshot_half", settings.snapshot_half);
+    read(json, "snapshot_film", settings.snapshot_film);
     read(json, "browser_folder", settings.browser_folder);
     if (const auto recent = json.find("recent"); recent != json.end() && recent->is_array()) {
         for (const auto& entry : *recent) {
@@ -71,6 +74,9 @@ Result<void> write_window_settings(const std::filesystem::path& file, const Wind
                               {"overlays", settings.overlays},
                               {"recent", settings.recent},
                               {"snapshot_folder", settings.snapshot_folder},
+                              {"snapshot_files", settings.snapshot_files},
+                              {"snapshot_half", settings.snapshot_half},
+                              {"snapshot_film", settings.snapshot_film},
                               {"browser_folder", settings.browser_folder}};
     std::error_code error;
     std::filesystem::create_directories(file.parent_path(), error);

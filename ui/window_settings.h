@@ -18,6 +18,9 @@ struct WindowSettings {
     bool overlays = true;            // light glyphs, handles, outlines
     std::vector<std::string> recent; // scene files, newest first
     std::string snapshot_folder;     // empty: the working directory
+    bool snapshot_files = true;      // each snapshot is written to a file,
+    bool snapshot_half = false;      // its colours in 16 bits,
+    bool snapshot_film = true;       // with the samples to go on from
     std::string browser_folder;      // where the file browser was last
     bool operator==(const WindowSettings&) const = default;
 };

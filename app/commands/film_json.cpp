@@ -11,6 +11,8 @@ namespace {
 
 constexpr int64_t most_samples = int64_t(1) << 40; // per pixel; beyond any render, far from where integers end
 constexpr const char* dropped_plane = "dropped";
+constexpr std::array pilot_planes{"pilot.even.R", "pilot.even.G", "pilot.even.B", "pilot.odd.R", "pilot.odd.G", "pilot.odd.B"};
+constexpr double Vec3d::*channels[3] = {&Vec3d::x, &Vec3d::y, &Vec3d::z};
 
 // A list of exactly these numbers.
 template <class... T> bool read_numbers(const Json& json, T&... numbers) {
@@ -75,13 +77,35 @@ bool read_health(const Json& json, const LayeredImage& image, Health& h) {
     return read;
 }
 
-bool is_dropped(const ExactPlane& plane) { return plane.name == dropped_plane; }
+// What is no plane of the film itself: takes it out of the planes.
+void take_health_map(FilmState& film, size_t pixels) {
+    if (const ExactPlane* dropped = film.find(dropped_plane)) film.health.dropped_map = dropped->words;
+    if (!film.health.dropped_map.empty()) film.health.dropped_map.resize(pixels);
+    std::erase_if(film.planes, [](const ExactPlane& plane) { return plane.name == dropped_plane; });
+}
+
+void take_pilot(FilmState& film, size_t pixels) {
+    std::vector<Vec3d> marked(2 * pixels);
+    bool all = true;
+    for (size_t k = 0; k < pilot_planes.size(); ++k) {
+        const ExactPlane* plane = film.find(pilot_planes[k]);
+        all = all && plane && plane->sums.size() == pixels;
+        for (size_t i = 0; all && i < pixels; ++i) marked[2 * i + k / 3].*channels[k % 3] = plane->sums[i];
+    }
+    if (all) film.marked = std::move(marked);
+    std::erase_if(film.planes, [](const ExactPlane& plane) { return plane.name.starts_with("pilot."); });
+}
 
 } // namespace
 
 std::vector<ExactPlane> planes_in_file(const FilmState& film) {
     std::vector<ExactPlane> planes = film.planes;
     if (!film.health.dropped_map.empty()) planes.push_back({dropped_plane, {}, film.health.dropped_map});
+    for (size_t k = 0; k < pilot_planes.size() && !film.marked.empty(); ++k) {
+        ExactPlane plane{pilot_planes[k]};
+        for (size_t i = 0; i < film.marked.size() / 2; ++i) plane.sums.push_back(film.marked[2 * i + k / 3].*channels[k % 3]);
+        planes.push_back(std::move(plane));
+    }
     return planes;
 }
 
@@ -125,11 +149,9 @@ Result<FilmState> film_in_file(const LayeredImage& image, const SnapshotMetadata
                 return bad("shares");
     }
     film.planes = exact_planes(image, "film");
-    if (const ExactPlane* dropped = film.find(dropped_plane)) {
-        film.health.dropped_map = dropped->words;
-        film.health.dropped_map.resize(size_t(image.width) * size_t(image.height));
-        std::erase_if(film.planes, is_dropped);
-    }
+    const size_t pixels = size_t(image.width) * size_t(image.height);
+    take_health_map(film, pixels);
+    take_pilot(film, pixels);
     return film;
 }
 

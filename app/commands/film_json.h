@@ -10,7 +10,8 @@
 
 namespace blush {
 
-// What make_snapshot() takes: planes and metadata. Health's map of dropped samples is one more plane.
+// What make_snapshot() takes: planes and metadata. Health's map of dropped samples and what adaptive
+// sampling remembers of its pilot are more planes.
 std::vector<ExactPlane> planes_in_file(const FilmState& film);
 std::string film_json(const FilmState& film);
 

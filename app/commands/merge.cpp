@@ -115,7 +115,8 @@ Result<void> write_sum(const MergeCommand& c, std::vector<Input>& inputs, Snapsh
     const std::vector<ExactPlane> planes = planes_in_file(sum);
     ExtraLayers extra{.film = planes};
     if (layers.error) extra.error = resolved->error;
-    return write_exr_picture(c.output, resolved->frame, extra, layers, metadata);
+    const Result<int64_t> written = write_exr_picture(c.output, resolved->frame, extra, layers, metadata);
+    return written ? Result<void>() : written.error();
 }
 
 // ---- from the means of all

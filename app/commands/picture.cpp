@@ -44,7 +44,7 @@ Result<void> expect_folder(const std::filesystem::path& file) {
     return Error{.file = file.string(), .what = "its folder does not exist"};
 }
 
-Result<void> write_exr_picture(const std::filesystem::path& file, const Frame& frame, const ExtraLayers& extra, const Layers& layers,
+Result<int64_t> write_exr_picture(const std::filesystem::path& file, const Frame& frame, const ExtraLayers& extra, const Layers& layers,
                                const SnapshotMetadata& metadata) {
     SnapshotInput input;
     input.width = frame.width;
@@ -72,7 +72,8 @@ Result<void> write_exr_picture(const std::filesystem::path& file, const Frame& f
     input.bounces = frame.bounces;
     const Result<LayeredImage> image = make_snapshot(input);
     if (!image) return image.error();
-    return write_exr(file, *image);
+    if (const Result<void> written = write_exr(file, *image); !written) return written.error();
+    return beyond_half(*image);
 }
 
 std::vector<float> beauty_rgb(const Frame& frame) {

@@ -39,7 +39,8 @@ struct ExtraLayers {
     std::span<const ExactPlane> film = {}; // planes_in_file()'s; metadata.film is the rest of it
     bool half = false;                     // as SnapshotInput has it
 };
-Result<void> write_exr_picture(const std::filesystem::path& file, const Frame& frame, const ExtraLayers& extra, const Layers& layers,
+// Returns how many values 16 bits could not hold, if they were to.
+Result<int64_t> write_exr_picture(const std::filesystem::path& file, const Frame& frame, const ExtraLayers& extra, const Layers& layers,
                                const SnapshotMetadata& metadata);
 
 // width * height * 3, scene-linear: red, green and blue without alpha.

@@ -75,7 +75,7 @@ Result<Plan> plan_of(const RenderCommand& c) {
     const Result<RenderSettings> settings = settings_of(c.options);
     if (!settings) return settings.error();
     plan.settings = *settings;
-    if (!c.begun.empty() && !same_image(*settings, RenderSettings{}))
+    if (!c.begun.empty() && !same_image(*settings, recommended_settings()))
         return Error{.what = "with --continue the picture says how it is rendered: only --spp, --time and --error go with it"};
     if (!c.layers.empty()) {
         const Result<Layers> layers = parse_layers(c.layers);
@@ -196,7 +196,10 @@ Result<void> write_picture(const RenderCommand& c, const Plan& plan, const Rende
     if (rendered.denoised) extra.denoised = rendered.denoised->rgb;
     const std::vector<ExactPlane> film = rendered.film ? planes_in_file(*rendered.film) : std::vector<ExactPlane>();
     extra.film = film;
-    if (!color) return write_exr_picture(c.output, frame, extra, plan.layers, metadata);
+    if (!color) {
+        const Result<int64_t> written = write_exr_picture(c.output, frame, extra, plan.layers, metadata);
+        return written ? Result<void>() : written.error();
+    }
     std::vector<float> rgb = rendered.denoised ? rendered.denoised->rgb : beauty_rgb(frame);
     const std::vector<float> coverage = coverage_of(frame);
     return write_display_picture(c.output, frame.width, frame.height, std::move(rgb), *color, c.options.view, display_metadata(metadata),

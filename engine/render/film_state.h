@@ -22,6 +22,7 @@ struct FilmState {
     // no_material on a miss.
     std::vector<ExactPlane> planes;
     std::array<std::vector<double>, 2> shares; // SamplePlan's, once adaptive sampling has decided
+    std::vector<Vec3d> marked;                 // PilotNoise's, in the second half of the pilot of adaptive sampling
     RayCounts rays;
     std::vector<PathCounts> path_counts;
     int64_t truncated = 0;

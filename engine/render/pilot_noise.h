@@ -6,6 +6,7 @@
 #include "render/sample_plan.h"
 
 #include <array>
+#include <utility>
 #include <vector>
 
 namespace blush {
@@ -21,6 +22,10 @@ public:
     void mark(const Film& film);
     // When it holds all of the pilot; forgets the sums. For each half, the noise of its tiles.
     std::array<TileNoise, 2> measure(const Film& film);
+
+    // The sums that it remembers, both halves of each pixel side by side, to be given to another one; empty if none.
+    const std::vector<Vec3d>& marked() const { return marked_; }
+    void restore(std::vector<Vec3d> marked) { marked_ = std::move(marked); }
 
 private:
     double of_pixel(const Film& film, size_t pixel, int half) const;

@@ -28,7 +28,7 @@ double seconds_since(Clock::time_point begin) { return std::chrono::duration<dou
 
 bool hides_environment(const Environment& e) { return e.kind != Environment::Kind::none && !e.visible_to_camera; }
 
-// What the pilot has measured so far is no part of a film's state.
+// The pilot's noise is being measured: its first half is remembered.
 bool in_mid_pilot(int64_t samples) { return samples >= SamplePlan::pilot_samples / 2 && samples < SamplePlan::pilot_samples; }
 
 // About two thousand paths in a tile: enough to fill packets, few enough for the cache. Of a small film, as a drag shows it first,
@@ -347,9 +347,6 @@ Result<FilmState> Renderer::save_film(int64_t first) const {
     if (s.film_is_stale || s.samples == 0) return Error{"", "nothing is rendered yet", ""};
     if (s.film_is_uneven) return Error{"", "rendering was stopped half-way through a sample", ""};
     if (s.divider != 1) return Error{"", "the image is still a coarse one", ""};
-    if (s.settings.adaptive && in_mid_pilot(s.samples))
-        return Error{"", fmt::format("adaptive sampling cannot be interrupted between {} and {} samples per pixel",
-                                     SamplePlan::pilot_samples / 2, SamplePlan::pilot_samples), ""};
     FilmState state = blush::save_film(s.film);
     if (ExactPlane* material = state.find("material"))
         for (uint32_t& index : material->words)
@@ -357,6 +354,7 @@ Result<FilmState> Renderer::save_film(int64_t first) const {
     state.first_sample = first;
     state.samples = s.samples;
     state.shares = s.sample_plan.shares();
+    if (s.settings.adaptive && in_mid_pilot(s.samples)) state.marked = s.pilot_noise.marked();
     state.rays = s.rays;
     state.path_counts = s.path_counts;
     state.truncated = s.truncated;
@@ -373,13 +371,16 @@ Result<void> Renderer::load_film(const FilmState& state) {
         return error;
     };
     if (state.samples < 1) return refused({"", "there are no samples", ""});
-    if (s.settings.adaptive && in_mid_pilot(state.samples)) return refused({"", "the samples end in mid-pilot of adaptive sampling", ""});
+    const bool marked = s.settings.adaptive && in_mid_pilot(state.samples);
+    if (marked && state.marked.size() != 2 * size_t(s.film.width()) * size_t(s.film.height()))
+        return refused({"", "the samples come without the pilot of adaptive sampling", ""});
     const bool decided = s.settings.adaptive && state.samples >= SamplePlan::pilot_samples;
     if (decided && !s.sample_plan.restore(state.shares)) return refused({"", "the samples come without the plan of adaptive sampling", ""});
     if (const auto loaded = blush::load_film(s.film, state); !loaded) return refused(loaded.error());
     s.film.each_material([&](int32_t& index) {
         if (uint32_t(index) != FilmState::no_material) index = s.scene.material_index(Id<Material>{uint32_t(index)});
     });
+    if (marked) s.pilot_noise.restore(state.marked);
     s.samples = state.samples;
     s.rays = state.rays;
     s.path_counts = state.path_counts;

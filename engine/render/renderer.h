@@ -93,8 +93,7 @@ public:
     SharedErrors shared_errors() const;
 
     // The film as a value, exactly, from which another renderer of the same scene and settings goes on as if it had rendered it. `first` is
-    // the index of its first sample. Errors: nothing is rendered, rendering was stopped half-way, the film is not of full size, adaptive
-    // sampling is in mid-pilot.
+    // the index of its first sample. Errors: nothing is rendered, rendering was stopped half-way, the film is not of full size.
     Result<FilmState> save_film(int64_t first) const;
     // Replaces the film, at full size; go on with sample first_sample + samples. Errors: it does not fit the settings or lacks a plane; the
     // film is then empty.

@@ -99,6 +99,14 @@ Result<void> apply_to(Project& p, const LookThrough& e) {
     return {};
 }
 
+Result<void> apply_to(Project& p, const Restore& e) {
+    if (auto valid = validate(e.project.scene); !valid) return valid;
+    if (auto valid = validate(e.project.render); !valid) return valid;
+    if (auto valid = validate(e.project.view); !valid) return valid;
+    p = e.project;
+    return {};
+}
+
 template <class T> std::string name_of(const Table<T>& table, Id<T> id) {
     const T* record = table.find(id);
     return record ? record->name : std::string();
@@ -124,6 +132,7 @@ struct Labeller {
     std::string operator()(const DuplicateNode& e) const { return with_name("Duplicate", name_of(p.scene.nodes, e.id)); }
     std::string operator()(const RemoveNode& e) const { return with_name("Delete", name_of(p.scene.nodes, e.id)); }
     std::string operator()(const Import& e) const { return with_name("Import", e.name); }
+    std::string operator()(const Restore& e) const { return with_name("Restore", e.name); }
     std::string operator()(const LookThrough& e) const { return with_name("Look through", name_of(p.scene.nodes, e.camera_node)); }
 };
 

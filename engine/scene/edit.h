@@ -34,9 +34,10 @@ struct DuplicateNode { Id<Node> id; };       // with its subtree; lights are cop
 struct RemoveNode { Id<Node> id; };          // with its subtree; records nobody uses any more stay, unreferenced
 struct Import { Scene scene; std::string name; }; // merges the nodes of another scene under fresh ids
 struct LookThrough { Id<Node> camera_node; };
+struct Restore { Project project; std::string name; }; // all of it, as it was kept in the snapshot of that name
 
 using Edit = std::variant<SetNode, SetMaterial, SetLight, SetCamera, SetTexture, AssignMaterial, SetEnvironment, SetMix, SetLens, SetRender,
-                          SetView, AddLight, DuplicateNode, RemoveNode, Import, LookThrough>;
+                          SetView, AddLight, DuplicateNode, RemoveNode, Import, LookThrough, Restore>;
 
 // "Change light Key", for the history menu.
 std::string label(const Edit& edit, const Project& project);

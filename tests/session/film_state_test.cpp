@@ -85,6 +85,8 @@ TEST(FilmState, GoesOnWithThePlanOfAdaptiveSampling) {
     Project p = small_project();
     p.render.adaptive = true;
     expect_seamless(p, 4, 40);
+    expect_seamless(p, 8, 40);
+    expect_seamless(p, 13, 40);
     expect_seamless(p, 24, 40);
     p.scene.environment.kind = Environment::Kind::constant;
     p.scene.environment.visible_to_camera = false;
@@ -97,9 +99,7 @@ TEST(FilmState, IsNotToBeHadWhereItWouldNotBeWhole) {
     Renderer renderer({.threads = 2});
     renderer.update(p.scene, p.render);
     EXPECT_FALSE(renderer.save_film(0)) << "nothing is rendered";
-    renderer.render(0, 10);
-    EXPECT_FALSE(renderer.save_film(0)) << "in mid-pilot";
-    renderer.render(10, 10);
+    renderer.render(0, 20);
     EXPECT_TRUE(renderer.save_film(0));
     EXPECT_FALSE(renderer.render(20, 10, [] { return false; }));
     EXPECT_FALSE(renderer.save_film(0)) << "stopped half-way";
@@ -132,7 +132,7 @@ TEST(FilmState, IsRefusedWhereItDoesNotFit) {
     twenty.shares[1].push_back(std::numeric_limits<double>::quiet_NaN());
     EXPECT_FALSE(adaptive.load_film(twenty)) << "a plan of no numbers";
     twenty.samples = 10;
-    EXPECT_FALSE(adaptive.load_film(twenty)) << "in mid-pilot";
+    EXPECT_FALSE(adaptive.load_film(twenty)) << "no pilot";
 
     p = small_project();
     p.render.width += 1;

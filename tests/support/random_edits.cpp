@@ -211,6 +211,12 @@ std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<LookThro
     if (cameras.empty()) return {};
     return LookThrough{cameras[size_t(whole(rng, 0, int(cameras.size()) - 1))]};
 }
+std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<Restore>) {
+    Project kept = p;
+    kept.scene.environment.intensity = uniform(rng, 0.1f, 3);
+    kept.scene.view.position = place(rng);
+    return Restore{kept, "kept"};
+}
 
 template <size_t... kinds> std::optional<Edit> make_kind(Rng& rng, const Project& project, size_t kind, std::index_sequence<kinds...>) {
     std::optional<Edit> edit;

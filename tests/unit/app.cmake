@@ -6,6 +6,7 @@ blush_test(test_app
     app_denoise.cpp
     app_info.cpp
     app_merge.cpp
+    app_opened_snapshot.cpp
     app_progress.cpp
     app_render.cpp
     app_render_loop.cpp

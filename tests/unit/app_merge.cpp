@@ -56,15 +56,15 @@ void expect_same_channels(const std::string& file, const std::string& expected_f
 
 TEST(Continue, EndsAsIfItHadNeverStopped) {
     const TemporaryFolder folder;
-    expect_done(with(with(tiny(folder / "whole.exr"), all_layers), {"--spp", "12", "--seed", "3", "--max-bounces", "4"}));
-    expect_done(with(with(tiny(folder / "begun.exr"), all_layers), {"--spp", "5", "--seed", "3", "--max-bounces", "4"}));
-    expect_done(with({"render", scene_file("cornell"), "--continue", folder / "begun.exr", "--spp", "12", "-o", folder / "done.exr", "--quiet"},
+    expect_done(with(with(tiny(folder / "whole.exr"), all_layers), {"--spp", "24", "--seed", "3", "--max-bounces", "4"}));
+    expect_done(with(with(tiny(folder / "begun.exr"), all_layers), {"--spp", "11", "--seed", "3", "--max-bounces", "4"}));
+    expect_done(with({"render", scene_file("cornell"), "--continue", folder / "begun.exr", "--spp", "24", "-o", folder / "done.exr", "--quiet"},
                      all_layers));
     expect_same_channels(folder / "done.exr", folder / "whole.exr");
     const auto metadata = read_snapshot_metadata(read_layers(folder / "done.exr")->metadata);
     ASSERT_TRUE(metadata);
-    EXPECT_EQ(metadata->spp, 12);
-    EXPECT_EQ(metadata->last_sample, 12);
+    EXPECT_EQ(metadata->spp, 24);
+    EXPECT_EQ(metadata->last_sample, 24);
     EXPECT_EQ(metadata->settings.seed, 3u);
 }
 
@@ -116,7 +116,7 @@ TEST(Merge, OfSumsIsTheWholeRender) {
     EXPECT_FALSE(metadata->error.empty());
 
     // And it is something to go on with.
-    expect_done(with(with(tiny(folder / "longer.exr"), all_layers), {"--spp", "20"}));
+    expect_done(with(with(tiny(folder / "longer.exr"), all_layers), {"--spp", "20", "--adaptive", "off"}));
     expect_done(with({"render", scene_file("cornell"), "--continue", folder / "merged.exr", "--spp", "20", "-o", folder / "on.exr", "--quiet"},
                      all_layers));
     expect_same_channels(folder / "on.exr", folder / "longer.exr", 1);

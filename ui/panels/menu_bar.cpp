@@ -90,6 +90,13 @@ void draw_view_menu(PanelContext& c) {
     item(c, Command::render_all, c.project().render.region != PictureRegion{});
     item(c, Command::pause, true, nullptr, c.ui.paused);
     ImGui::Separator();
+    item(c, Command::snapshot_strip, true, nullptr, c.ui.snapshots.open);
+    const Comparison::Mode mode = c.ui.snapshots.compare.mode;
+    const bool any = !c.ui.snapshots.list.empty();
+    item(c, Command::compare_wipe, any, nullptr, mode == Comparison::Mode::wipe);
+    item(c, Command::compare_flicker, any, nullptr, mode == Comparison::Mode::flicker);
+    item(c, Command::compare_difference, any, nullptr, mode == Comparison::Mode::difference);
+    ImGui::Separator();
     item(c, Command::measure, c.frame != nullptr);
     item(c, Command::meters, true, nullptr, c.ui.meters.open);
     item(c, Command::scopes, true, nullptr, c.ui.scopes.open);

@@ -30,6 +30,8 @@ void draw_display_panel(PanelContext& c);
 void draw_file_browser(PanelContext& c);
 void draw_shortcut_sheet(PanelContext& c);
 void draw_history(PanelContext& c);
+void draw_comparison_panel(PanelContext& c);
+void draw_snapshot_panel(PanelContext& c); // name, note and file of one of them
 void draw_pixel_panel(PanelContext& c);
 void draw_meters_panel(PanelContext& c);
 void draw_region_panel(PanelContext& c);

@@ -1,0 +1,230 @@
+#include "app/editor_snapshots.h"
+
+#include "app/commands/common.h"
+
+#include <algorithm>
+#include <ctime>
+#include <exception>
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+namespace blush {
+namespace {
+
+std::string time_of_day() {
+    const std::time_t now = std::time(nullptr);
+    return fmt::format("{:%H:%M}", fmt::localtime(now));
+}
+
+Snapshot snapshot_of(EditorSnapshots::Shown shown) {
+    Snapshot s;
+    s.time = time_of_day();
+    s.pictures = std::move(shown.pictures);
+    // A coarse one, of the moment after an edit, is no layer.
+    if (s.pictures.denoised && s.pictures.denoised->divider != 1) s.pictures.denoised = nullptr;
+    s.project = std::move(shown.project);
+    s.settings = shown.settings;
+    s.imported = std::move(shown.imported);
+    s.scene_file = std::move(shown.scene_file);
+    return s;
+}
+
+// `work`, which must not throw on its thread.
+template <class T, class Work> Result<T> guarded(const Work& work) {
+    try {
+        return work();
+    } catch (const std::exception& e) { return Error{"", e.what(), ""}; }
+}
+
+bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+    std::error_code error;
+    return !a.empty() && !b.empty() && std::filesystem::equivalent(a, b, error);
+}
+
+} // namespace
+
+// ---- keeping
+
+void EditorSnapshots::keep(Shown shown, RenderSession& session) {
+    session.keep_film(shown.revision);
+    keeping_ = std::move(shown);
+}
+
+void EditorSnapshots::finish_keeping(UiState& ui, RenderSession& session) {
+    if (!keeping_) return;
+    std::optional<KeptFilm> kept = session.take_kept_film();
+    if (!kept || kept->revision != keeping_->revision) return;
+    Snapshot s = snapshot_of(*std::exchange(keeping_, std::nullopt));
+    if (kept->frame) {
+        s.pictures.frame = kept->frame;
+        s.error = std::move(kept->error);
+        s.film = std::move(kept->film);
+    }
+    s.thumbnail = thumbnail_of(*s.pictures.frame);
+    const uint64_t id = ui.snapshots.add(std::move(s));
+    const SnapshotPtr snapshot = ui.snapshots.find(id);
+    if (ui.settings.snapshot_files)
+        write(snapshot, ui);
+    else
+        ui.toasts.note("Kept as " + snapshot->name, snapshot->film ? "" : "Without its samples: " + kept->why_none);
+}
+
+// ---- files
+
+void EditorSnapshots::write(const SnapshotPtr& snapshot, const UiState& ui) {
+    const WindowSettings& w = ui.settings;
+    const SnapshotJob job{*snapshot, {}, w.snapshot_folder, w.snapshot_half, w.snapshot_film};
+    to_write_.push_back({snapshot->id, [job] { return write_snapshot_exr(job); }});
+}
+
+void EditorSnapshots::save_png(const Shown& shown, const ColorManagement& color, const UiState& ui) {
+    const SnapshotJob job{snapshot_of(shown), shown.view, ui.settings.snapshot_folder};
+    to_write_.push_back({0, [job, &color] { return write_snapshot_png(job, color); }});
+}
+
+void EditorSnapshots::finish_writing(UiState& ui) {
+    if (writing_) {
+        const auto result = writing_->take();
+        if (!result) return;
+        writing_.reset();
+        if (!*result) {
+            ui.toasts.fail(result->error().text());
+        } else {
+            const SavedSnapshot& saved = **result;
+            if (const SnapshotPtr snapshot = ui.snapshots.find(writing_id_)) snapshot->file = saved.file;
+            const std::string text = "Saved " + saved.file.filename().string();
+            if (saved.beyond_half > 0)
+                ui.toasts.warn(text, fmt::format("{} values are too bright for 16 bits and became {:.0f} nits.", saved.beyond_half, largest_half));
+            else
+                ui.toasts.note(text, saved.file.parent_path().string());
+        }
+    }
+    if (to_write_.empty()) return;
+    Writing next = std::move(to_write_.front());
+    to_write_.pop_front();
+    writing_id_ = next.id;
+    writing_ = std::make_unique<BackgroundJob<Result<SavedSnapshot>>>(
+        "Saving the snapshot", [write = std::move(next.write)](JobProgress&) { return guarded<SavedSnapshot>(write); }, wake_);
+}
+
+void EditorSnapshots::open(const std::filesystem::path& file, const std::filesystem::path& open_scene) {
+    opening_file_ = file;
+    opening_ = std::make_unique<BackgroundJob<Result<OpenAnswer>>>(
+        "Opening " + file.filename().string(),
+        [file, open_scene](JobProgress&) {
+            return guarded<OpenAnswer>([&]() -> Result<OpenAnswer> {
+                const auto metadata = read_metadata(file);
+                if (!metadata) return metadata.error();
+                if (!is_snapshot(*metadata)) return OpenAnswer();
+                Result<OpenedSnapshot> opened = open_snapshot(file, open_scene);
+                if (!opened) return opened.error();
+                return OpenAnswer(*std::move(opened));
+            });
+        },
+        wake_);
+}
+
+void EditorSnapshots::finish_opening(Document& document, UiState& ui, EditorFiles& files) {
+    if (!opening_) return;
+    auto result = opening_->take();
+    if (!result) return;
+    opening_.reset();
+    if (!*result) return ui.toasts.fail(result->error().text());
+    if (!**result) return files.load_environment(opening_file_);
+    OpenedSnapshot opened = *std::move(**result);
+    opened.snapshot.time = time_of_day();
+    opened.snapshot.thumbnail = thumbnail_of(*opened.snapshot.pictures.frame);
+    const SnapshotPtr snapshot = ui.snapshots.find(ui.snapshots.add(std::move(opened.snapshot)));
+    ui.snapshots.open = true;
+    if (!snapshot->no_state.empty()) return ui.toasts.warn(snapshot->name + " is in the strip, without its state", snapshot->no_state);
+    waiting_metadata_ = std::move(opened.metadata);
+    restore(snapshot, document, ui, files);
+}
+
+// ---- going back
+
+void EditorSnapshots::restore(const SnapshotPtr& snapshot, Document& document, UiState& ui, EditorFiles& files) {
+    if (!snapshot->no_state.empty()) return ui.toasts.warn(snapshot->name + " has no state to go back to", snapshot->no_state);
+    waiting_ = snapshot;
+    if (!same_file(snapshot->scene_file, files.scene_file())) return files.open(snapshot->scene_file); // goes on when it is there
+    if (waiting_metadata_) return work_out_state(files);
+    go_back(*std::exchange(waiting_, nullptr), document, ui);
+}
+
+void EditorSnapshots::work_out_state(const EditorFiles& files) {
+    waiting_->imported = files.imported();
+    state_job_ = std::make_unique<BackgroundJob<Result<SnapshotState>>>(
+        "Restoring " + waiting_->name,
+        [metadata = *waiting_metadata_, imported = files.imported(), file = files.scene_file()](JobProgress&) {
+            return guarded<SnapshotState>([&] { return state_of(metadata, imported, file); });
+        },
+        wake_);
+}
+
+void EditorSnapshots::finish_state(Document& document, UiState& ui) {
+    if (!state_job_) return;
+    auto result = state_job_->take();
+    if (!result) return;
+    state_job_.reset();
+    waiting_metadata_.reset();
+    const SnapshotPtr snapshot = std::exchange(waiting_, nullptr);
+    if (!*result) {
+        snapshot->no_state = "Its edits do not fit the scene file as it is now: " + result->error().text();
+        return ui.toasts.warn(snapshot->name + " is in the strip, without its state", snapshot->no_state);
+    }
+    snapshot->project = std::move((**result).project);
+    if (!(**result).warning.empty()) {
+        snapshot->film = nullptr;
+        ui.toasts.warn(snapshot->name, (**result).warning);
+    }
+    go_back(*snapshot, document, ui);
+}
+
+void EditorSnapshots::go_back(const Snapshot& snapshot, Document& document, UiState& ui) {
+    Project project = snapshot.project;
+    // The window may have been of another size: the picture is the one that was kept.
+    project.render.width = snapshot.settings.width;
+    project.render.height = snapshot.settings.height;
+    if (const auto done = document.apply(Restore{std::move(project), snapshot.name}); !done) return ui.toasts.fail(done.error().text());
+    if (!document.project().scene.nodes.contains(ui.selected)) ui.select({});
+    restored_ = Restored{snapshot.film, snapshot.settings};
+}
+
+void EditorSnapshots::obey(Document& document, UiState& ui, EditorFiles& files) {
+    for (const SnapshotRequest& request : std::exchange(ui.snapshots.requests, {})) {
+        const SnapshotPtr snapshot = ui.snapshots.find(request.id);
+        if (!snapshot) continue;
+        if (request.what == SnapshotRequest::What::save)
+            write(snapshot, ui);
+        else if (!waiting_ && !opening_)
+            restore(snapshot, document, ui, files);
+    }
+}
+
+void EditorSnapshots::poll(bool opened, Document& document, UiState& ui, EditorFiles& files, RenderSession& session) {
+    finish_keeping(ui, session);
+    finish_writing(ui);
+    finish_opening(document, ui, files);
+    finish_state(document, ui);
+    if (!waiting_ || state_job_) return;
+    if (opened && same_file(waiting_->scene_file, files.scene_file())) {
+        if (waiting_metadata_) return work_out_state(files);
+        go_back(*std::exchange(waiting_, nullptr), document, ui);
+    } else if (!files.running()) { // its scene could not be read, as a toast says
+        waiting_.reset();
+        waiting_metadata_.reset();
+    }
+}
+
+std::optional<RunningJob> EditorSnapshots::running() const {
+    const auto show = [](const auto& job) {
+        const auto [fraction, what] = job->progress().read();
+        return RunningJob{job->title(), what, fraction, false};
+    };
+    if (opening_) return show(opening_);
+    if (state_job_) return show(state_job_);
+    if (writing_) return show(writing_);
+    return {};
+}
+
+} // namespace blush

@@ -1,0 +1,84 @@
+// What the editor does with snapshots: keeps them, writes and opens their files, goes back to their states.
+#pragma once
+
+#include "app/editor_files.h"
+#include "app/editor_snapshot.h"
+#include "app/opened_snapshot.h"
+#include "render/render_session.h"
+#include "ui/background_job.h"
+#include "ui/panels/panels.h"
+
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+
+namespace blush {
+
+class EditorSnapshots {
+public:
+    explicit EditorSnapshots(std::function<void()> wake) : wake_(std::move(wake)) {}
+
+    // All that makes the image on the screen, when it is one of full resolution.
+    struct Shown {
+        uint64_t revision = 0;
+        Pictures pictures;
+        DenoiseView view;
+        Project project;
+        RenderSettings settings;
+        Scene imported;
+        std::filesystem::path scene_file;
+    };
+    // Keeps it in the strip, when the session has answered, and in a file if the settings say so.
+    void keep(Shown shown, RenderSession& session);
+    // Writes it as a PNG.
+    void save_png(const Shown& shown, const ColorManagement& color, const UiState& ui);
+    // A file that was dropped: a snapshot comes into the strip and its state into the document, any other picture becomes the environment.
+    void open(const std::filesystem::path& file, const std::filesystem::path& open_scene);
+    // Does what panels asked for.
+    void obey(Document& document, UiState& ui, EditorFiles& files);
+
+    // Takes what was finished. `opened`: the scene file has just been read.
+    void poll(bool opened, Document& document, UiState& ui, EditorFiles& files, RenderSession& session);
+    // The samples that the state last restored goes on from, once; `size` is that which it was rendered in.
+    struct Restored {
+        FilmStatePtr film;
+        RenderSettings settings;
+    };
+    std::optional<Restored> take_restored() { return std::exchange(restored_, std::nullopt); }
+
+    std::optional<RunningJob> running() const;
+
+private:
+    // A picture of somebody else's is none of ours to open.
+    using OpenAnswer = std::optional<OpenedSnapshot>;
+    void finish_keeping(UiState& ui, RenderSession& session);
+    void finish_opening(Document& document, UiState& ui, EditorFiles& files);
+    void finish_state(Document& document, UiState& ui);
+    void finish_writing(UiState& ui);
+    void write(const SnapshotPtr& snapshot, const UiState& ui);
+    void restore(const SnapshotPtr& snapshot, Document& document, UiState& ui, EditorFiles& files);
+    void work_out_state(const EditorFiles& files);
+    void go_back(const Snapshot& snapshot, Document& document, UiState& ui);
+
+    std::function<void()> wake_;
+    std::optional<Shown> keeping_;
+    std::optional<Restored> restored_;
+
+    std::filesystem::path opening_file_;
+    std::unique_ptr<BackgroundJob<Result<OpenAnswer>>> opening_;
+    // Whose scene is being read, and from what its state is worked out; no metadata: the state is there.
+    SnapshotPtr waiting_;
+    std::optional<SnapshotMetadata> waiting_metadata_;
+    std::unique_ptr<BackgroundJob<Result<SnapshotState>>> state_job_;
+
+    struct Writing {
+        uint64_t id = 0; // 0: a PNG
+        std::function<Result<SavedSnapshot>()> write;
+    };
+    std::deque<Writing> to_write_;
+    uint64_t writing_id_ = 0;
+    std::unique_ptr<BackgroundJob<Result<SavedSnapshot>>> writing_;
+};
+
+} // namespace blush

@@ -1,0 +1,82 @@
+// Comparison: which two pictures are compared, how, and by how much they differ.
+#include "ui/difference.h"
+#include "ui/panels/panels.h"
+#include "ui/theme.h"
+#include "ui/widgets.h"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace blush {
+namespace {
+
+using Mode = Comparison::Mode;
+
+void draw_side(PanelContext& c, Fields& f, const char* label, uint64_t& side) {
+    std::vector<std::string> names{"Live image"};
+    std::vector<uint64_t> ids{live_image};
+    for (const SnapshotPtr& s : c.ui.snapshots.list) {
+        names.push_back(s->name);
+        ids.push_back(s->id);
+    }
+    std::vector<const char*> texts;
+    for (const std::string& name : names) texts.push_back(name.c_str());
+    int index = int(std::ranges::find(ids, side) - ids.begin());
+    if (f.choice(label, index, texts, "Any snapshot, or the image as it is now.")) side = ids[size_t(index)];
+}
+
+std::string stops(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+    const double ratio = (a[0] + a[1] + a[2]) / (b[0] + b[1] + b[2]);
+    return std::isfinite(ratio) && ratio > 0 ? fmt::format("{:+.2f} EV", std::log2(ratio)) : "";
+}
+
+void draw_numbers(Fields& f, const Difference& d) {
+    const Metrics& m = d.numbers;
+    f.info("relMSE", fmt::format("{:.3g}   {:.2g} %", m.relmse, 100 * std::sqrt(m.relmse)), "Mean of (a - b)² / (b² + 0.01), and its root.");
+    f.info("RMSE", fmt::format("{:.3g} nits", m.rmse), "Root of the mean square difference.");
+    f.info("Mean |A - B|", fmt::format("{:.3g} nits", m.mae), "Mean absolute difference.");
+    f.info("Largest", fmt::format("{:.3g} nits", m.max_abs), "Largest absolute difference of a channel.");
+    f.info("PSNR", std::isfinite(m.psnr) ? fmt::format("{:.1f} dB", m.psnr) : "equal", "Of the sRGB encoding of values clamped to 0 .. 1.");
+    f.info("A is brighter by", stops(m.mean_a, m.mean_b), "Ratio of the means of all channels, in stops.");
+    if (d.has_flip) f.info("FLIP", fmt::format("{:.4f}", m.flip), "Mean HDR-FLIP: 0 nobody sees a difference, 1 as far apart as can be.");
+}
+
+} // namespace
+
+void draw_comparison_panel(PanelContext& c) {
+    Comparison& compare = c.ui.snapshots.compare;
+    if (compare.mode == Mode::off) return;
+    const float em = ImGui::GetFontSize();
+    ImGui::SetNextWindowPos({em * 15, em * 4}, ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSize({em * 20, 0});
+    bool open = true;
+    if (ImGui::Begin("Comparison", &open, ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing)) {
+        Fields f(c.ui, "Compare");
+        draw_side(c, f, "A", compare.a);
+        draw_side(c, f, "B", compare.b);
+        constexpr const char* modes[] = {"Wipe", "Flicker", "Difference"};
+        int mode = int(compare.mode) - 1;
+        if (f.choice("Show", mode, modes, "Side by side with a bar between them, one after the other, or what is different.")) compare.mode = Mode(mode + 1);
+        if (compare.mode == Mode::flicker) {
+            if (f.button(compare.shows_b ? "Show A" : "Show B", "So does the key B.")) compare.shows_b = !compare.shows_b;
+        } else if (compare.mode == Mode::difference) {
+            constexpr const char* kinds[] = {"Absolute", "Relative", "FLIP"};
+            int kind = int(compare.kind);
+            if (f.choice("Kind", kind, kinds, "|A - B| as light; relative to B as a map; or FLIP, what a viewer would notice, as a map. B is the reference."))
+                compare.kind = DifferenceKind(kind);
+            const Difference* d = c.ui.difference.get();
+            if (compare.a == compare.b)
+                quiet_text("Both are the same picture.");
+            else if (!d || d->kind != compare.kind)
+                quiet_text("Comparing...");
+            else if (!d->problem.empty())
+                quiet_text(d->problem);
+            else
+                draw_numbers(f, *d);
+        }
+    }
+    ImGui::End();
+    if (!open) compare.mode = Mode::off;
+}
+
+} // namespace blush

@@ -1,0 +1,138 @@
+#include "ui/snapshot_strip.h"
+
+#include "ui/theme.h"
+#include "ui/widgets.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <utility>
+
+namespace blush {
+namespace {
+
+constexpr ImU32 strip_ground = IM_COL32(32, 32, 32, 225);
+
+// A letter that says, and chooses, which side a snapshot is on.
+void side_button(PanelContext& c, const Snapshot& s, uint64_t& side, const char* letter, const ImVec2& at) {
+    ImGui::SetCursorScreenPos(at);
+    const bool chosen = side == s.id;
+    ImGui::PushStyleColor(ImGuiCol_Button, chosen ? tone::field_filled : IM_COL32(20, 20, 20, 170));
+    ImGui::PushStyleColor(ImGuiCol_Text, chosen ? tone::text : tone::dim_text);
+    if (ImGui::SmallButton(fmt::format("{}##{}", letter, s.id).c_str())) {
+        if (chosen) {
+            side = live_image;
+            c.ui.snapshots.compare.mode = Comparison::Mode::off;
+        } else {
+            c.ui.snapshots.choose(side, s.id);
+        }
+    }
+    ImGui::PopStyleColor(2);
+    c.ui.probe.record_last_item(fmt::format("Snapshot/{}/{}", s.id, letter));
+    tip_for_last_item(c.ui, "Compares this one: A left of the wipe, B right of it, the live image where none is chosen.");
+}
+
+void draw_menu(PanelContext& c, const Snapshot& s) {
+    if (!ImGui::BeginPopupContextItem(fmt::format("menu{}", s.id).c_str())) return;
+    SnapshotsView& v = c.ui.snapshots;
+    if (ImGui::MenuItem("Restore", nullptr, false, s.no_state.empty())) v.requests.push_back({SnapshotRequest::What::restore, s.id});
+    if (ImGui::MenuItem("Wipe against the live image")) {
+        v.compare.a = s.id;
+        v.compare.b = live_image;
+        v.compare.mode = Comparison::Mode::wipe;
+    }
+    if (ImGui::MenuItem("Name, note, file...")) v.details = s.id;
+    if (ImGui::MenuItem("Save as EXR")) v.requests.push_back({SnapshotRequest::What::save, s.id});
+    ImGui::Separator();
+    if (ImGui::MenuItem("Delete")) v.remove(s.id);
+    ImGui::EndPopup();
+}
+
+void clipped_text(const std::string& text, const ImVec2& at, float width, ImU32 color) {
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const ImVec4 clip{at.x, at.y, at.x + width, at.y + ImGui::GetFontSize() * 1.5f};
+    draw.AddText(ImGui::GetFont(), ImGui::GetFontSize(), at, color, text.c_str(), nullptr, 0, &clip);
+}
+
+// A click goes back to its state; the letters and the menu do the rest.
+void draw_card(PanelContext& c, const SnapshotPtr& snapshot, const ThumbnailPart& part, float width) {
+    const Snapshot& s = *snapshot;
+    const float em = ImGui::GetFontSize(), picture_height = width * Thumbnail::height / Thumbnail::width;
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    if (ImGui::InvisibleButton(fmt::format("card{}", s.id).c_str(), {width, picture_height + em * 2.6f}))
+        c.ui.snapshots.requests.push_back({SnapshotRequest::What::restore, s.id});
+    ImGui::SetItemAllowOverlap(); // the letters lie on it
+    c.ui.probe.record_last_item(fmt::format("Snapshot/{}", s.id));
+    const bool hovered = ImGui::IsItemHovered();
+    const std::string tip = fmt::format("{}\n{}{}{}\n{}", s.name, s.figures(), s.note.empty() ? "" : "\n", s.note,
+                                        s.no_state.empty() ? "A click goes back to this state; undo returns." : s.no_state);
+    tip_for_last_item(c.ui, tip.c_str());
+    draw_menu(c, s);
+
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const ImVec2 high{at.x + width, at.y + picture_height};
+    if (part.texture) draw.AddImage(part.texture, at, high, {0, part.v0}, {1, part.v1});
+    draw.AddRect(at, high, hovered ? tone::text : tone::line);
+    clipped_text(s.name, {at.x, high.y + em * 0.15f}, width, tone::text);
+    clipped_text(s.figures(), {at.x, high.y + em * 1.35f}, width, tone::dim_text);
+    const ImVec2 after = ImGui::GetCursorScreenPos();
+    side_button(c, s, c.ui.snapshots.compare.a, "A", {at.x + em * 0.2f, at.y + em * 0.2f});
+    side_button(c, s, c.ui.snapshots.compare.b, "B", {at.x + em * 1.6f, at.y + em * 0.2f});
+    ImGui::SetCursorScreenPos(after);
+}
+
+} // namespace
+
+void draw_snapshot_strip(PanelContext& c, const Region& viewport, const std::function<ThumbnailPart(size_t)>& part) {
+    SnapshotsView& v = c.ui.snapshots;
+    if (!v.open || v.list.empty()) return;
+    const std::vector<SnapshotPtr> list = v.list; // a menu may delete one
+    const float em = ImGui::GetFontSize(), width = em * 9, gap = em * 0.6f;
+    const float height = width * Thumbnail::height / Thumbnail::width + em * 2.6f + 2 * gap + ImGui::GetStyle().ScrollbarSize;
+    ImGui::SetNextWindowPos({viewport.x, viewport.y + viewport.height - height});
+    ImGui::SetNextWindowSize({viewport.width, height});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {gap, gap});
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, strip_ground);
+    ImGui::Begin("Snapshots", nullptr,
+                 ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                     ImGuiWindowFlags_NoNav | ImGuiWindowFlags_HorizontalScrollbar | ImGuiWindowFlags_NoFocusOnAppearing);
+    for (size_t i = 0; i < list.size(); ++i) {
+        if (i > 0) ImGui::SameLine(0, gap);
+        ImGui::BeginGroup();
+        draw_card(c, list[i], part(i), width);
+        ImGui::EndGroup();
+    }
+    ImGui::End();
+    ImGui::PopStyleColor();
+    ImGui::PopStyleVar();
+}
+
+void ThumbnailSheet::set_shader(const DisplayShader& shader) {
+    shader_ = shader;
+    shader_changed_ = true;
+}
+
+void ThumbnailSheet::update(const std::vector<SnapshotPtr>& list, const DisplayNumbers& numbers) {
+    if (list.empty() || !shader_) return;
+    const bool other_shader = std::exchange(shader_changed_, false);
+    if (other_shader && !pass_.set_shader(*shader_)) return; // the viewport says what is wrong with it
+    std::vector<uint64_t> ids;
+    for (const SnapshotPtr& s : list) ids.push_back(s->id);
+    const DisplayLook look{numbers, {}};
+    if (ids != ids_) {
+        std::vector<float> rgba;
+        for (const SnapshotPtr& s : list) rgba.insert(rgba.end(), s->thumbnail.rgba.begin(), s->thumbnail.rgba.end());
+        pass_.upload(Thumbnail::width, Thumbnail::height * int(list.size()), rgba);
+    }
+    if (ids != ids_ || other_shader || look != look_) pass_.begin(look);
+    ids_ = ids;
+    look_ = look;
+    while (pass_.busy()) pass_.advance(1);
+}
+
+ThumbnailPart ThumbnailSheet::part(size_t index) const {
+    if (index >= ids_.size()) return {};
+    const float step = 1 / float(ids_.size());
+    return {reinterpret_cast<ImTextureID>(uintptr_t(pass_.texture())), float(index) * step, float(index + 1) * step};
+}
+
+} // namespace blush
