@@ -258,6 +258,7 @@ void Editor::run_own_command(Command command) {
     case Command::open: return open_browser(FileRequest::Use::open);
     case Command::import_scene: return open_browser(FileRequest::Use::import_scene);
     case Command::environment: return open_browser(FileRequest::Use::environment);
+    case Command::ies: return open_browser(FileRequest::Use::ies);
     case Command::snapshot_folder: return open_browser(FileRequest::Use::snapshot_folder);
     case Command::load_convergence: return open_browser(FileRequest::Use::convergence);
     case Command::reload: return files_.reload();
@@ -282,6 +283,7 @@ void Editor::take_file(const FileRequest& request) {
     case FileRequest::Use::import_scene: return files_.import_scene(request.path);
     case FileRequest::Use::environment: return files_.load_environment(request.path);
     case FileRequest::Use::convergence: return convergence_.load(ui_, request.path);
+    case FileRequest::Use::ies: return files_.load_ies(request.path, document_, ui_);
     case FileRequest::Use::snapshot_folder:
         ui_.settings.snapshot_folder = request.path.string();
         return ui_.toasts.note("Snapshots go to " + request.path.string());
@@ -297,9 +299,11 @@ void Editor::take_dropped(const std::filesystem::path& file) {
         files_.load_environment(file);
     else if (matches(table_files, file))
         convergence_.load(ui_, file);
+    else if (matches(photometric_files, file))
+        files_.load_ies(file, document_, ui_);
     else
         ui_.toasts.fail(file.filename().string() + ": neither a glTF scene (.gltf, .glb), nor an environment image (.hdr, .exr), nor a snapshot "
-                                                   "(.exr), nor a convergence table (.csv)");
+                                                   "(.exr), nor a photometric file (.ies), nor a convergence table (.csv)");
 }
 
 void Editor::save_due_snapshot() {

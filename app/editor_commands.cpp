@@ -215,6 +215,7 @@ bool run_command(Command command, PanelContext& c) {
     case Command::open:
     case Command::import_scene:
     case Command::environment:
+    case Command::ies:
     case Command::reload:
     case Command::snapshot_exr:
     case Command::snapshot_png:

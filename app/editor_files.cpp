@@ -2,6 +2,7 @@
 
 #include "app/commands/common.h"
 #include "io/environment_image.h"
+#include "io/ies.h"
 
 #include <fmt/format.h>
 
@@ -81,6 +82,23 @@ void EditorFiles::load_environment(const std::filesystem::path& file) {
     environment_ = file;
     environment_job_ = std::make_unique<BackgroundJob<Result<ImagePtr>>>(
         "Loading " + file.filename().string(), [file](JobProgress&) { return read_environment_image(file); }, wake_);
+}
+
+void EditorFiles::load_ies(const std::filesystem::path& file, Document& document, UiState& ui) const {
+    const Scene& scene = document.project().scene;
+    const Node* node = scene.nodes.find(ui.selected);
+    const Light* selected = node ? scene.lights.find(node->light) : nullptr;
+    if (!selected || (selected->kind != Light::Kind::point && selected->kind != Light::Kind::spot))
+        return ui.toasts.fail(file.filename().string() + ": select the point or spot light that it is for");
+    Result<IesPtr> profile = read_ies(file);
+    if (!profile) return ui.toasts.fail(profile.error().text());
+    Light light = *selected;
+    light.ies = *std::move(profile);
+    // Files beside the scene are named from there, so that the scene can move with them.
+    const std::filesystem::path beside = file.lexically_relative(scene_file_.parent_path());
+    const bool is_below = !beside.empty() && *beside.begin() != "..";
+    light.ies_file = (is_below ? beside : file).string();
+    if (const auto done = document.apply(SetLight{node->light, light}); !done) ui.toasts.fail(done.error().text());
 }
 
 bool EditorFiles::finish_import(Document& document, UiState& ui, Result<LoadedScene> loaded) {

@@ -45,6 +45,9 @@ public:
     void import_scene(const std::filesystem::path& file) { start_import(file, Purpose::merge, {}, 1); }
     void reload() { start_import(scene_file_, Purpose::reload, {}, 1); }
     void load_environment(const std::filesystem::path& file);
+    // Gives the selected light the distribution of a photometric file, at once.
+    void load_ies(const std::filesystem::path& file, Document& document, UiState& ui) const;
+
     // Brings finished work into the document, and looks once a second whether the scene file was rewritten: it is then
     // loaded again, or, when there are edits to lose, a toast offers it. True if a scene was opened.
     bool poll(Document& document, UiState& ui);

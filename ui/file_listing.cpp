@@ -17,6 +17,7 @@ const ExtensionFilter scene_files{".gltf", ".glb"};
 const ExtensionFilter environment_files{".hdr", ".exr"};
 const ExtensionFilter table_files{".csv"};
 const ExtensionFilter snapshot_files{".exr"};
+const ExtensionFilter photometric_files{".ies"};
 
 bool matches(const ExtensionFilter& filter, const std::filesystem::path& file) {
     return std::ranges::find(filter, lower(file.extension().string())) != filter.end();

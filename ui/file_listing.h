@@ -27,6 +27,6 @@ Result<std::vector<FileEntry>> list_folder(const std::filesystem::path& folder, 
 // "812 B", "3.4 MB".
 std::string bytes_text(uintmax_t bytes);
 
-extern const ExtensionFilter scene_files, environment_files, table_files, snapshot_files;
+extern const ExtensionFilter scene_files, environment_files, table_files, snapshot_files, photometric_files;
 
 } // namespace blush

@@ -9,25 +9,13 @@ namespace {
 constexpr double pi_d = 3.14159265358979323846;
 constexpr double degrees = 180 / pi_d;
 
-// Of the light seen from far away in front of it, m^2; 0 for one whose intensity is not per area.
-double face_area(const Light& light) {
-    switch (light.kind) {
-    case Light::Kind::rectangle: return double(light.width) * light.height;
-    case Light::Kind::disk:
-    case Light::Kind::sphere: return pi_d * light.radius * light.radius;
-    default: return 0;
-    }
-}
-
 // Candela towards a surface `distance` metres away that the light faces. One that has no candela is asked for its illuminance there.
 double candela(const Light& light, double distance) {
-    if (light.kind == Light::Kind::sun) return light.intensity * distance * distance;
-    return is_per_area(light.kind) ? light.intensity * face_area(light) : light.intensity;
+    return light.kind == Light::Kind::sun ? light.intensity * distance * distance : in_unit(light, Light::Unit::candela);
 }
 
 double intensity_for(const Light& light, double candela, double distance) {
-    if (light.kind == Light::Kind::sun) return candela / (distance * distance);
-    return is_per_area(light.kind) ? candela / std::max(face_area(light), 1e-12) : candela;
+    return light.kind == Light::Kind::sun ? candela / (distance * distance) : double(intensity_of(light, Light::Unit::candela, candela));
 }
 
 } // namespace
@@ -47,27 +35,6 @@ const char* kind_name(Light::Kind kind) {
 const char* intensity_unit(Light::Kind kind) { return kind == Light::Kind::sun ? "lx" : is_per_area(kind) ? "nits" : "cd"; }
 
 bool has_direction(Light::Kind kind) { return kind != Light::Kind::point && kind != Light::Kind::sphere; }
-bool is_per_area(Light::Kind kind) { return kind == Light::Kind::rectangle || kind == Light::Kind::disk || kind == Light::Kind::sphere; }
-
-double luminous_flux(const Light& light) {
-    switch (light.kind) {
-    case Light::Kind::point: return 4 * pi_d * light.intensity;
-    case Light::Kind::spot: return 2 * pi_d * (1 - std::cos(double(light.outer_cone_radians))) * light.intensity;
-    case Light::Kind::rectangle:
-    case Light::Kind::disk: return pi_d * light.intensity * face_area(light) * (light.two_sided ? 2 : 1);
-    case Light::Kind::sphere: return 4 * pi_d * light.intensity * face_area(light);
-    case Light::Kind::sun: break;
-    }
-    return 0;
-}
-
-Light with_power_kept(const Light& before, Light after) {
-    if (!after.keep_power || !is_per_area(after.kind) || before.kind != after.kind) return after;
-    const double flux = luminous_flux(before), unit_flux = luminous_flux(after) / double(after.intensity);
-    if (flux > 0 && unit_flux > 0) after.intensity = float(flux / unit_flux);
-    return after;
-}
-
 Light converted(const Light& light, Light::Kind kind, double distance) {
     Light next = light;
     next.kind = kind;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scene/edit.h"
+#include "scene/light_units.h"
 
 namespace blush {
 
@@ -9,15 +10,6 @@ const char* kind_name(Light::Kind kind);
 // "cd", "lx" or "nits".
 const char* intensity_unit(Light::Kind kind);
 bool has_direction(Light::Kind kind);
-// Its intensity is a luminance: of a rectangle, a disk or a sphere.
-bool is_per_area(Light::Kind kind);
-
-// Luminous flux in lumens; 0 for a sun, which has none. A spot counts its outer cone as if evenly lit, an upper bound.
-double luminous_flux(const Light& light);
-
-// `after` with the luminous flux of `before`, where it is a light of some area that asks for that; else as it is.
-Light with_power_kept(const Light& before, Light after);
-
 // `light` as another kind that lights a surface `distance` metres away, facing it, as brightly as before.
 Light converted(const Light& light, Light::Kind kind, double distance);
 

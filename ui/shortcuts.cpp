@@ -16,6 +16,7 @@ constexpr Shortcut table[] = {
     {Command::open, "File", "Open...", ctrl('O')},
     {Command::import_scene, "File", "Import into the scene...", ctrl('I')},
     {Command::environment, "File", "Environment image...", ctrl('E')},
+    {Command::ies, "File", "IES file for the light...", in_menu_only},
     {Command::reload, "File", "Reload from disk", ctrl('R')},
     {Command::snapshot_exr, "File", "Keep snapshot", ctrl('S')},
     {Command::snapshot_png, "File", "Save snapshot (PNG)", ctrl_shift('S')},

@@ -21,6 +21,7 @@ enum class Command {
     open,
     import_scene,
     environment,
+    ies,
     reload,
     snapshot_exr,
     snapshot_png,

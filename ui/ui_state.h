@@ -45,7 +45,7 @@ struct ToolStart {
 
 // What a file the user chose is for.
 struct FileRequest {
-    enum class Use { open, import_scene, environment, snapshot_folder, convergence };
+    enum class Use { open, import_scene, environment, ies, snapshot_folder, convergence };
     Use use = Use::open;
     std::filesystem::path path;
 };

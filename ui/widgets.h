@@ -47,6 +47,9 @@ public:
     // A button in the field's column.
     bool button(const char* label, const char* tip = "");
 
+    // A button's press has changed the record: one step of the history.
+    void note_change() { changed_ = true; }
+
     // Anything edited since construction, and the gesture of that edit.
     bool changed() const { return changed_; }
     Gesture gesture() const { return gesture_; }

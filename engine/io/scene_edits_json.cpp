@@ -1,6 +1,8 @@
 #include "io/scene_edits_json.h"
 
 #include "io/environment_image.h"
+#include "io/gltf_uri.h"
+#include "io/ies.h"
 #include "io/scene_json.h"
 #include "scene/texture_slots.h"
 #include "scene/validate.h"
@@ -36,8 +38,13 @@ Json changed_fields(const Mesh& before, const Mesh& now) {
     return changed;
 }
 
+// As text may name it: by a relative path that does not climb.
+bool is_below_the_scene(const std::filesystem::path& file) {
+    return !file.empty() && file.is_relative() && std::find(file.begin(), file.end(), "..") == file.end();
+}
+
 // `now` without what text cannot hold, so that what is written can be read back: meshes and textures that the file does not
-// have, references to them, an environment map that is no file's.
+// have, references to them, an environment map that is no file's, a measured distribution that is none of the scene's folder.
 Scene without_payloads(const Scene& imported, Scene now, Json& left_out) {
     const Table<Mesh> meshes = now.meshes;
     for (const auto& [id, mesh] : meshes) {
@@ -63,6 +70,15 @@ Scene without_payloads(const Scene& imported, Scene now, Json& left_out) {
         for (const TextureSlot& slot : texture_slots)
             if (TextureRef& ref = material.*slot.ref; ref.texture && !now.textures.contains(ref.texture)) ref = {};
         now.materials.set(id, material);
+    }
+    const Table<Light> lights = now.lights;
+    for (auto [id, light] : lights) {
+        const Light* old_light = imported.lights.find(id);
+        if (!light.ies || is_below_the_scene(light.ies_file) || (old_light && old_light->ies == light.ies)) continue;
+        left_out.push_back(fmt::format("light \"{}\" has a measured distribution that is not a file of the scene's folder", light.name));
+        light.ies = nullptr;
+        light.ies_file.clear();
+        now.lights.set(id, std::move(light));
     }
     const Environment& e = now.environment;
     if (e.kind == Environment::Kind::image && e.file.empty() && e.image != imported.environment.image) {
@@ -164,6 +180,26 @@ Result<void> apply_environment(const Json& edits, Environment& environment, cons
     return {};
 }
 
+// Lights name the files of their measured distributions, in or below the scene's folder.
+Result<void> read_named_profiles(const Table<Light>& before, Table<Light>& lights, const std::filesystem::path& folder) {
+    const Table<Light> named = lights;
+    for (auto [id, light] : named) {
+        const Light* known = before.find(id);
+        if (known && known->ies_file == light.ies_file) continue;
+        light.ies = nullptr;
+        if (!light.ies_file.empty()) {
+            const std::string where = fmt::format("light \"{}\"", light.name);
+            const Result<std::filesystem::path> file = resolve_uri(folder, light.ies_file);
+            if (!file) return Error{light.ies_file, file.error().what, where};
+            Result<IesPtr> profile = read_ies(*file);
+            if (!profile) return profile.error();
+            light.ies = *std::move(profile);
+        }
+        lights.set(id, std::move(light));
+    }
+    return {};
+}
+
 } // namespace
 
 std::string edits_json(const Scene& imported, const Scene& edited) {
@@ -200,7 +236,9 @@ Result<Scene> apply_edits_json(Scene scene, std::string_view text, const std::fi
     if (const auto ok = apply_table(member(*json, "meshes"), scene.meshes, "meshes"); !ok) return ok.error();
     if (const auto ok = apply_table(member(*json, "materials"), scene.materials, "materials"); !ok) return ok.error();
     if (const auto ok = apply_table(member(*json, "textures"), scene.textures, "textures"); !ok) return ok.error();
+    const Table<Light> lights_before = scene.lights;
     if (const auto ok = apply_table(member(*json, "lights"), scene.lights, "lights"); !ok) return ok.error();
+    if (const auto ok = read_named_profiles(lights_before, scene.lights, folder); !ok) return ok.error();
     if (const auto ok = apply_table(member(*json, "cameras"), scene.cameras, "cameras"); !ok) return ok.error();
     if (const auto ok = apply_environment(member(*json, "environment"), scene.environment, folder); !ok) return ok.error();
     if (const Json& mix = member(*json, "mix"); !mix.is_null() && !read_json(mix, scene.mix))

@@ -10,7 +10,7 @@
 //    "left_out": ["mesh \"Chair\" was added: triangles are not kept as text"]}
 //
 // Ids are those of the import, which numbers a file's records the same each time; names are for people. Absent parts are
-// unchanged. An environment map is named by its file and read again. What is left out is left out of everything that refers to it.
+// unchanged. An environment map and a light's measured distribution are named by their files and read again. What is left out is left out of everything that refers to it.
 #pragma once
 
 #include "core/result.h"
@@ -28,8 +28,8 @@ std::string edits_json(const Scene& imported, const Scene& now);
 size_t edits_left_out(std::string_view json);
 
 // The scene that edits_json was given as `now`, apart from what it lists as left out. `folder` is where a relative path of an
-// environment map begins. Errors: not such text, an id that the import does not have, a value of the wrong type or out of
-// range, an environment map that cannot be read.
+// environment map begins; measured distributions lie in or below it. Errors: not such text, an id that the import does not have, a value
+// of the wrong type or out of range, an environment map or a measured distribution that cannot be read.
 Result<Scene> apply_edits_json(Scene imported, std::string_view json, const std::filesystem::path& folder = {});
 
 } // namespace blush

@@ -1,6 +1,7 @@
 #include "io/scene_hash.h"
 
 #include "io/scene_fields.h"
+#include "scene/ies_profile.h"
 
 #include <bit>
 #include <cstring>
@@ -67,6 +68,15 @@ void hash_image(Hasher& hash, const ImagePtr& image) {
     hash.array(image->floats);
 }
 
+void hash_profile(Hasher& hash, const IesPtr& profile) {
+    hash.word(profile != nullptr);
+    if (!profile) return;
+    hash.word(uint64_t(profile->type));
+    hash.array(profile->vertical);
+    hash.array(profile->horizontal);
+    hash.array(profile->candela);
+}
+
 void hash_mesh(Hasher& hash, const Mesh& mesh) {
     hash.word(mesh.parts.size());
     for (const MeshPart& part : mesh.parts) {
@@ -99,6 +109,7 @@ std::string scene_hash(const Scene& scene) {
     hash_fields(hash, scene.nodes);
     hash_fields(hash, scene.materials);
     hash_fields(hash, scene.lights);
+    for (const auto& [id, light] : scene.lights) hash_profile(hash, light.ies);
     hash_fields(hash, scene.textures);
     for (const auto& [id, texture] : scene.textures) hash_image(hash, texture.image);
     for (const auto& [id, mesh] : scene.meshes) {

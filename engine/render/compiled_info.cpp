@@ -35,7 +35,7 @@ CompiledInfo RenderScene::info() const {
     const size_t bytes = geometry_.memory_bytes() + accel_.memory_bytes() + materials_.textures.rgba8.capacity() * 4 +
                          materials_.textures.rgba32f.capacity() * 4 + environment_.texels.capacity() * 4 +
                          environment_.column_thresholds.capacity() * 4 + environment_.column_guides.capacity() * sizeof(environment_.column_guides[0]) +
-                         lights_.records.capacity() * sizeof(LightRecord);
+                         lights_.records.capacity() * sizeof(LightRecord) + lights_.profiles.memory_bytes() + lights_.tree.memory_bytes();
     info.memory_mb = double(bytes) / 1e6;
     return info;
 }

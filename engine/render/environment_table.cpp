@@ -1,6 +1,7 @@
 #include "render/environment_table.h"
 
 #include "scene/affine.h"
+#include "scene/sky_model.h"
 
 #include <fmt/format.h>
 
@@ -144,8 +145,8 @@ EnvironmentTable build_environment_table(const Environment& environment, bool im
     EnvironmentTable table;
     switch (environment.kind) {
     case Environment::Kind::none: set_uniform_texel(table, 0); break;
-    case Environment::Kind::constant:
-    case Environment::Kind::sky: set_uniform_texel(table, 1); break;
+    case Environment::Kind::constant: set_uniform_texel(table, 1); break;
+    case Environment::Kind::sky: set_texels(table, *sky_image(environment.sky, sky_map_width, sky_map_height), {}); break;
     case Environment::Kind::image:
         if (const std::string what = fault(environment.image.get()); what.empty()) {
             set_texels(table, *environment.image, environment.file);

@@ -33,6 +33,9 @@ struct EnvironmentTable {
     EnvironmentTables tables() const;
 };
 
+// Of the map that a sky is computed into: 0.7 degrees a texel, finer than anything in it but the sun's disk, which is a light of its own.
+constexpr int sky_map_width = 512, sky_map_height = 256;
+
 // With a warning: texels that are negative or not finite become 0, an image that cannot be used becomes no environment. Without an
 // importance map it can be looked at, but no directions can be drawn from it, and they have no density.
 EnvironmentTable build_environment_table(const Environment& environment, bool importance = true);

@@ -15,6 +15,7 @@ template <class F> struct Path {
     Ray<F> ray;
     Vec<F> beta;        // throughput: what radiance along the ray is worth to the pixel
     F pdf;              // solid-angle density of the ray's direction; infinite after the camera and smooth lobes
+    Vec<F> normal;      // of the Receiver where the ray begins; only with Feature::light_tree
     UInt<F> key, index; // of the sampler
     Int<F> slot;        // which of the tile's samples it adds to
 };
@@ -108,6 +109,7 @@ Path<F> begin_path(const SceneTables& scene, const EstimatorSettings& settings, 
     path.ray = camera_ray<S, F>(scene.camera, px, py, settings.width, settings.height, lens_u, lens_v);
     path.beta = splat<F>(1.f);
     path.pdf = F(infinity);
+    path.normal = splat<F>(0.f);
     path.key = key;
     path.index = index;
     path.slot = slot;
@@ -126,13 +128,14 @@ EscapedLight<F> escaped_light(const SceneTables& scene, const EstimatorSettings&
     const LightTables& lights = scene.lights;
     // Of the density there would be by aiming, for its share of the weight. Nobody aims under Strategy::bsdf, and then there are no tables.
     const bool aims = settings.strategy != Strategy::bsdf;
+    const Receiver<F> from{path.ray.origin, path.normal};
     if constexpr (S.has(Feature::environment)) {
         if (bounce > 0 ? scene.environment.lights_scene : scene.environment.visible_to_camera) {
             const Vec<F> radiance = environment_radiance<F>(scene.environment, path.ray.direction, active);
             if (aims) {
                 F pdf = F(0.f);
                 if (lights.environment >= 0)
-                    pdf = environment_pdf<F>(scene.environment, path.ray.direction) * light_probability<F>(lights, Int<F>(lights.environment));
+                    pdf = environment_pdf<F>(scene.environment, path.ray.direction) * light_probability<S, F>(lights, from, Int<F>(lights.environment), active);
                 environment_weight = found_emission_weight(settings.strategy, path.pdf, pdf);
             }
             sum = radiance * environment_weight;
@@ -146,7 +149,7 @@ EscapedLight<F> escaped_light(const SceneTables& scene, const EstimatorSettings&
             if (!any(inside)) continue;
             F weight = F(1.f);
             if (aims) {
-                const F pdf = cone_pdf(F(sun.cone_height)) * light_probability<F>(lights, Int<F>(lights.suns[i]));
+                const F pdf = cone_pdf(F(sun.cone_height)) * light_probability<S, F>(lights, from, Int<F>(lights.suns[i]), inside);
                 weight = found_emission_weight(settings.strategy, path.pdf, pdf);
             }
             sum = select<F>(inside, sum + splat<F>(sun.emission) * weight, sum);
@@ -170,15 +173,16 @@ template <class F> F emission_profile(const SceneTables& scene, const Int<F>& li
 }
 
 // MIS weight of the emission of a triangle, met at distance t under cosine `facing`.
-template <class F>
-F surface_emission_weight(const SceneTables& scene, Strategy strategy, const Int<F>& found, const F& bsdf_pdf, const F& t, const F& facing,
+template <Features S, class F>
+F surface_emission_weight(const SceneTables& scene, Strategy strategy, const Path<F>& path, const Int<F>& found, const F& t, const F& facing,
                           const Mask<F>& active) {
     if (strategy == Strategy::bsdf) return F(1.f);
     const Mask<F> sampled = active && as_mask(found >= 0);
     const Int<F> light = select(sampled, found, Int<F>(0));
-    const F per_area = light_probability<F>(scene.lights, light) * gather_field(scene.lights.lights, &LightRecord::inverse_area, light);
+    const Receiver<F> from{path.ray.origin, path.normal};
+    const F per_area = light_probability<S, F>(scene.lights, from, light, sampled) * gather_field(scene.lights.lights, &LightRecord::inverse_area, light);
     const F pdf = select(sampled, area_to_solid_angle(per_area, F(t * t), facing), F(0.f));
-    return found_emission_weight(strategy, bsdf_pdf, pdf);
+    return found_emission_weight(strategy, path.pdf, pdf);
 }
 
 // Light of a sphere that the path's ray has met, times its MIS weight, and that weight. From within, it is dark.
@@ -194,7 +198,7 @@ FoundSphere<F> found_sphere(const SceneTables& scene, Strategy strategy, const P
     const Vec<F> to_center = gather_field3<F>(lights, &LightRecord::position, light) - path.ray.origin;
     const F height = sphere_cone_height(dot(to_center, to_center), gather_field(lights, &LightRecord::radius, light));
     const Mask<F> outside = active && height > F(0.f);
-    const F pdf = cone_pdf(select(outside, height, F(1.f))) * light_probability<F>(scene.lights, light);
+    const F pdf = cone_pdf(select(outside, height, F(1.f))) * light_probability<S, F>(scene.lights, {path.ray.origin, path.normal}, light, outside);
     const F weight = found_emission_weight(strategy, path.pdf, pdf);
     Vec<F> emission = gather_field3<F>(lights, &LightRecord::emission, light);
     if constexpr (S.has(Feature::light_profiles)) emission = emission * emission_profile<F>(scene, light, -path.ray.direction, outside);
@@ -287,7 +291,7 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
         const Mask<F> emitting = found && max_component(material.emission) > F(0.f) && (front || material.double_sided);
         if (any(emitting)) {
             const Int<F> light = light_of_triangle<F>(scene, surface.part, select(found, hit.triangle, Int<F>(0)));
-            const F weight = surface_emission_weight<F>(scene, settings.strategy, light, path.pdf, hit.t, abs(outside), emitting);
+            const F weight = surface_emission_weight<S, F>(scene, settings.strategy, path, light, hit.t, abs(outside), emitting);
             Vec<F> emission = material.emission;
             if constexpr (S.has(Feature::light_profiles)) emission = emission * emission_profile<F>(scene, light, wo_world, emitting);
             out.emitted = select<F>(emitting, beta * emission * weight, out.emitted);
@@ -335,8 +339,10 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
 
     // Next event: a point on a light, unless every lobe is smooth.
     const Mask<F> wants_light = scatters && !is_delta_only<F>(bsdf);
+    Receiver<F> receiver{surface.position, ns};
+    if constexpr (S.has(Feature::transmission)) receiver.normal = select<F>(material.bsdf.transmission > F(0.f), splat<F>(0.f), ns);
     if (scene.lights.count > 0 && any(wants_light)) {
-        const LightPoint<F> light = sample_light_point<S, F>(scene, sampler.pair(dimension + light_dimension), surface.position, wants_light);
+        const LightPoint<F> light = sample_light_point<S, F>(scene, sampler.pair(dimension + light_dimension), receiver, wants_light);
         const Vec<F> rough_to = select<F>(light.infinite, light.position, light.position - surface.position);
         const Vec<F> from = offset_origin(surface.position, surface.error, ng, dot(rough_to, ng) > F(0.f));
         // Ends on this side of the light's own plane, so that the light cannot shadow itself.
@@ -386,6 +392,7 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
     out.next.ray = {offset_origin(surface.position, surface.error, ng, leaves_outside), normalize(wi)};
     out.next.beta = next_beta;
     out.next.pdf = select(b.delta, F(infinity), b.pdf);
+    out.next.normal = receiver.normal;
     out.next.key = path.key;
     out.next.index = path.index;
     out.next.slot = path.slot;

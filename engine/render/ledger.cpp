@@ -29,6 +29,7 @@ constexpr FeatureText feature_texts[] = {
     {Feature::point_lights, "point lights", "the scene has points or spots without size", "the scene has no points or spots without size"},
     {Feature::sphere_lights, "sphere lights", "the scene has spheres that shine", "the scene has no spheres that shine"},
     {Feature::light_profiles, "light profiles", "a light shines differently in different directions", "every light shines alike to all sides"},
+    {Feature::light_tree, "light tree", "the scene has many lights", "the scene has few lights, or more than a tree is built of"},
     {Feature::suns, "suns", "the scene has a sun", "the scene has no sun"},
     {Feature::environment, "environment", "the scene has an environment", "the scene has no environment"},
     {Feature::instances, "instances", "a mesh is shared or large", "every mesh is small and used once"},
@@ -103,7 +104,9 @@ void add_light_table(Ledger& ledger, const LightTable& lights, Aim aim) {
                       used      ? "the scene has lights"
                       : all > 0 ? nobody_aims
                                 : "nothing shines",
-                      light_table_bytes(used ? lights.count : all)});
+                      light_table_bytes(used && lights.tree.nodes.empty() ? lights.count : all)});
+    if (!lights.tree.nodes.empty())
+        ledger.push_back({"lights", "light tree", true, "the scene has many lights", int64_t(lights.tree.memory_bytes())});
     if (aim == Aim::at_points && used && all > lights.count)
         ledger.push_back({"lights", "lights with a size", false, nobody_aims, light_table_bytes(all - lights.count)});
 }
@@ -111,16 +114,18 @@ void add_light_table(Ledger& ledger, const LightTable& lights, Aim aim) {
 void add_lights(Ledger& ledger, const LightTable& lights, const EnvironmentTable& environment, const Environment& e, Aim aim) {
     add_light_table(ledger, lights, aim);
 
-    const bool used = e.kind == Environment::Kind::image && gives_light(e) && int64_t(environment.width) * environment.height > 1;
-    FeatureUse map{"lights", "environment map", used, used ? "the environment is an image" : why_no_map(e), 0};
+    const bool is_sky = e.kind == Environment::Kind::sky;
+    const bool used = (is_sky || e.kind == Environment::Kind::image) && gives_light(e) && int64_t(environment.width) * environment.height > 1;
+    FeatureUse map{"lights", "environment map", used, !used ? why_no_map(e) : is_sky ? "the environment is a sky" : "the environment is an image", 0};
     const bool aimed_at = used && aim == Aim::at_all;
     FeatureUse importance{"lights", "importance map", aimed_at,
                           aimed_at ? "light from the environment is aimed at"
                           : used   ? nobody_aims
                                    : why_no_map(e),
                           0};
-    if (e.kind == Environment::Kind::image && e.image) {
-        const EnvironmentBytes bytes = environment_bytes(e.image->width, e.image->height);
+    if (is_sky || (e.kind == Environment::Kind::image && e.image)) {
+        const EnvironmentBytes bytes =
+            is_sky ? environment_bytes(sky_map_width, sky_map_height) : environment_bytes(e.image->width, e.image->height);
         map.bytes = bytes.texels;
         importance.bytes = bytes.importance;
     }

@@ -53,12 +53,12 @@ Vec<F> textured_emission(const SceneTables& scene, const Int<F>& light, const Ve
     return emission_at<S, F>(scene.materials, material, uv_at(scene.uv0, part_uv0), uv_at(scene.uv1, part_uv1), active);
 }
 
-// Draws a light for a receiver at `from`, and a point of it.
+// Draws a light for a receiver, and a point of it.
 template <Features S, class F>
-LightPoint<F> sample_light_point(const SceneTables& scene, const Pair<F>& random, const Vec<F>& from, const Mask<F>& active) {
+LightPoint<F> sample_light_point(const SceneTables& scene, const Pair<F>& random, const Receiver<F>& to, const Mask<F>& active) {
     const LightTables& table = scene.lights;
     const LightRecord* lights = table.lights;
-    const DiscreteSample<F> pick = sample_discrete<F>(table.thresholds, Int<F>(0), table.count, random.bits_x);
+    const DiscreteSample<F> pick = pick_light<S, F>(table, to, random, active);
     const F u = pick.remainder, v = random.y();
 
     LightPoint<F> p;
@@ -99,9 +99,9 @@ LightPoint<F> sample_light_point(const SceneTables& scene, const Pair<F>& random
     if constexpr (S.has(Feature::sphere_lights)) {
         const Mask<F> sphere = is(LightKind::sphere);
         if (any(sphere)) {
-            const SpherePoint<F> s = sample_sphere(p.position, gather_field(lights, &LightRecord::radius, pick.index), from, u, v);
+            const SpherePoint<F> s = sample_sphere(p.position, gather_field(lights, &LightRecord::radius, pick.index), to.position, u, v);
             // As far as Embree may be off about where a ray meets the sphere.
-            const F error = (max_component(abs(p.position)) + max_component(abs(from)) + s.distance) * gamma_bound(16);
+            const F error = (max_component(abs(p.position)) + max_component(abs(to.position)) + s.distance) * gamma_bound(16);
             p.error = select<F>(sphere, splat<F>(1.f) * error, p.error);
             p.normal = select<F>(sphere, s.normal, p.normal);
             p.density = select(sphere, cone_pdf(s.height), p.density);

@@ -6,6 +6,7 @@
 #include "render/lowering.h"
 #include "scene/affine.h"
 #include "scene/placements.h"
+#include "scene/sky_model.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,13 +23,16 @@ struct Builder {
     Aim aim = Aim::at_all;
     LightTable table;
     std::vector<double> powers;
+    std::vector<LightBounds> bounds; // by record; of suns and the environment they are not asked for
+    int64_t luminaires = 0;          // at finite distance; a panel is one whatever its triangles
 
-    void add(const LightRecord& record, double power) {
+    void add(const LightRecord& record, double power, const LightBounds& where = {}) {
         table.records.push_back(record);
+        bounds.push_back(where);
         powers.push_back(std::isfinite(power) && power > 0 ? power : 0);
     }
     // A light that rays can find as well.
-    void add_findable(const LightRecord& record, double power) { add(record, aim == Aim::at_all ? power : 0); }
+    void add_findable(const LightRecord& record, double power, const LightBounds& where = {}) { add(record, aim == Aim::at_all ? power : 0, where); }
 };
 
 // Mean emission of a textured triangle over a 4 x 4 grid, and never quite nothing where the material may emit: what the
@@ -41,6 +45,35 @@ double mean_textured_luminance(const SceneTables& tables, size_t light, const Ve
             sum += luminance_of(textured_emission<all_features, float>(tables, int32_t(light), b, true));
         }
     return std::max(sum / 16, 0.01 * luminance_of(factor));
+}
+
+// Radians by which cones are taken wider than they are: single-precision cosines do not tell narrower ones from none.
+constexpr double angle_margin = 0.01;
+
+LightBounds triangle_bounds(const Vec3 (&p)[3], const LightRecord& light, const Light* panel) {
+    LightBounds b;
+    const Vec3d v[3] = {to_double(p[0]), to_double(p[1]), to_double(p[2])};
+    b.low = {std::min({v[0].x, v[1].x, v[2].x}), std::min({v[0].y, v[1].y, v[2].y}), std::min({v[0].z, v[1].z, v[2].z})};
+    b.high = {std::max({v[0].x, v[1].x, v[2].x}), std::max({v[0].y, v[1].y, v[2].y}), std::max({v[0].z, v[1].z, v[2].z})};
+    const Vec3d normal = cross(to_double(light.edge1), to_double(light.edge2));
+    b.axis = dot(normal, normal) > 0 ? normalize(normal) : Vec3d{0, 0, 1};
+    b.theta_e = panel ? std::min(0.5 * double(panel->spread_radians) + angle_margin, 0.5 * pi_d) : 0.5 * pi_d;
+    b.two_sided = light.flags & light_two_sided;
+    return b;
+}
+
+// Of what shines from `center` to all sides, or into a spot's cone.
+LightBounds ball_bounds(const Vec3& center, double radius, const Light& light, const Affined& world) {
+    LightBounds b;
+    const Vec3d c = to_double(center), r{radius, radius, radius};
+    b.low = c - r;
+    b.high = c + r;
+    const Vec3d axis = world.z * -1.0;
+    const bool is_spot = light.kind == Light::Kind::spot && dot(axis, axis) > 0;
+    b.axis = is_spot ? normalize(axis) : Vec3d{0, 0, -1};
+    b.theta_o = is_spot ? double(light.inner_cone_radians) : pi_d;
+    b.theta_e = is_spot ? std::min(double(light.outer_cone_radians) - b.theta_o + angle_margin, 0.5 * pi_d) : 0.5 * pi_d;
+    return b;
 }
 
 // The profile of a panel that was lowered to this part; -1 for other meshes.
@@ -57,6 +90,8 @@ void add_triangles(Builder& b, const Scene& scene, const MaterialTable& material
         const MaterialRecord& material = materials.records[size_t(record.material)];
         record.first_light = -1;
         if (!(material.flags & material_emissive) || material.flags & material_unlit) continue;
+        const Light* panel = light_of_body(scene, Id<Node>{uint32_t(record.object)});
+        b.luminaires += panel ? 1 : geometry.triangle_count(part);
         const int32_t profile = panel_profile(b, scene, placements, Id<Node>{uint32_t(record.object)});
         // Whoever finds a light reads its profile.
         if (b.aim == Aim::at_points && profile < 0) {
@@ -92,6 +127,7 @@ void add_triangles(Builder& b, const Scene& scene, const MaterialTable& material
             }
             const double power = pi_d * area * nits * (two_sided ? 2 : 1);
             b.powers.push_back(b.aim == Aim::at_all && std::isfinite(power) && light.inverse_area > 0 ? power : 0);
+            b.bounds.push_back(triangle_bounds(p, light, panel));
             ++b.table.emissive_triangles;
         }
     }
@@ -114,7 +150,9 @@ void add_spheres(Builder& b, const Scene& scene, const std::vector<SphereLight>&
         record.emission = light_emission(light);
         if (light.kind != Light::Kind::sphere) record.emission = to_float(to_double(record.emission) * (1 / disk));
         ++b.table.sphere_lights;
-        b.add_findable(record, 4 * pi_d * disk * luminance_of(record.emission) * profile.share);
+        ++b.luminaires;
+        b.add_findable(record, 4 * pi_d * disk * luminance_of(record.emission) * profile.share,
+                       ball_bounds(record.position, sphere.radius, light, placements(sphere.node).world_from_node));
     }
 }
 
@@ -157,7 +195,8 @@ void add_punctual(Builder& b, const Scene& scene, double scene_radius, const Vec
         record.position = to_float(world.t - origin);
         record.emission = emission;
         ++b.table.point_lights;
-        b.add(record, 4 * pi_d * luminance_of(emission) * profile.share);
+        ++b.luminaires;
+        b.add(record, 4 * pi_d * luminance_of(emission) * profile.share, ball_bounds(record.position, 0, *light, world));
     }
 }
 
@@ -174,6 +213,32 @@ void share_evenly(std::vector<double>& powers) {
         if (p > 0) p = (1 - share) * (p / total) + share / shining;
 }
 
+// Lights at finite distance go into the tree, which gets the first slot; the others a slot each.
+void add_tree(Builder& b) {
+    const auto is_finite_light = [](const LightRecord& r) { return r.kind != int32_t(LightKind::sun) && r.kind != int32_t(LightKind::environment); };
+    std::vector<LightBounds> in_tree;
+    std::vector<double> slot_powers{0};
+    b.table.slot_lights = {0};
+    for (size_t i = 0; i < b.table.records.size(); ++i) {
+        LightRecord& record = b.table.records[i];
+        if (is_finite_light(record)) {
+            LightBounds bounds = b.bounds[i];
+            bounds.power = b.powers[i];
+            bounds.light = int32_t(i);
+            in_tree.push_back(bounds);
+            slot_powers[0] += b.powers[i];
+        } else {
+            record.slot = int32_t(slot_powers.size());
+            slot_powers.push_back(b.powers[i]);
+            b.table.slot_lights.push_back(int32_t(i));
+        }
+    }
+    b.table.tree = build_light_tree(std::move(in_tree), int32_t(b.table.records.size()));
+    if (b.table.tree.nodes.empty()) slot_powers[0] = 0;
+    b.table.thresholds = make_thresholds(slot_powers);
+    b.table.count = int32_t(slot_powers.size());
+}
+
 } // namespace
 
 LightTable build_light_table(const Scene& scene, const MaterialTable& materials, GeometryPool& geometry, const SceneTables& tables,
@@ -184,6 +249,11 @@ LightTable build_light_table(const Scene& scene, const MaterialTable& materials,
     add_spheres(b, scene, spheres, extent.origin);
     const double radius = extent.bounds.empty ? 1 : std::max(extent.bounds.radius(), 1e-30);
     add_punctual(b, scene, radius, extent.origin);
+    if (const SkySun sun = sun_of(scene.environment); luminance_of(sun.lux) > 0) {
+        LightRecord record = sun_record(sun.direction, sun_angle_radians, sun.lux);
+        if (!scene.environment.visible_to_camera) record.flags |= light_hidden;
+        add_sun(b, record, luminance_of(sun.lux), radius);
+    }
     if (sky.shines) {
         LightRecord record{};
         record.kind = int32_t(LightKind::environment);
@@ -196,7 +266,10 @@ LightTable build_light_table(const Scene& scene, const MaterialTable& materials,
     // Nothing is drawn from what nobody aims at: not even by the last of all random numbers.
     while (aim == Aim::at_points && b.table.count > 0 && b.powers[size_t(b.table.count) - 1] == 0) --b.table.count;
     if (b.table.records.empty()) b.add({}, 1);
-    b.table.thresholds = make_thresholds(b.powers);
+    if (aim == Aim::at_all && b.luminaires >= fewest_lights_for_a_tree && int64_t(b.powers.size()) <= most_lights_for_a_tree)
+        add_tree(b);
+    else
+        b.table.thresholds = make_thresholds(b.powers);
     return std::move(b.table);
 }
 
@@ -206,6 +279,8 @@ void LightTable::fill(LightTables& t) const {
     t.lights = records.data();
     t.thresholds = thresholds.data();
     t.count = count;
+    t.slot_lights = slot_lights.data();
+    t.tree = tree.tables();
     t.environment = environment;
     t.suns = suns.data();
     t.sun_count = int32_t(suns.size());

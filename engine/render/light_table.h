@@ -4,6 +4,7 @@
 #include "render/extent.h"
 #include "render/geometry_pool.h"
 #include "render/light_profiles.h"
+#include "render/light_tree.h"
 #include "render/material_table.h"
 #include "render/sphere_lights.h"
 #include "scene/scene.h"
@@ -18,20 +19,23 @@ struct LightTable {
     std::vector<LightRecord> records; // at least one, so that kernels can always read
     std::vector<uint32_t> thresholds;
     std::vector<int32_t> suns;        // indices of those with a disk
-    int32_t count = 0;                // records to draw from; 0: nothing to aim at
+    int32_t count = 0;                // slots to draw from; 0: nothing to aim at
     int32_t environment = -1;
     int32_t first_sphere = 0;
     LightProfiles profiles;
+    LightTreeTable tree;              // empty: lights are drawn by power alone
+    std::vector<int32_t> slot_lights; // with a tree
     int64_t emissive_triangles = 0, point_lights = 0, sphere_lights = 0, sun_lights = 0;
 
     void fill(LightTables& tables) const;
 };
 
 // Emissive triangles part by part (part records get their first_light), then spheres in their order, then other lights in node order, then
-// the environment. Powers are luminous fluxes: pi A L for a triangle, 4 pi^2 r^2 L for a sphere, 4 pi I for a point, times the share that a
+// the sun of a sky, then the environment. Powers are luminous fluxes: pi A L for a triangle, 4 pi^2 r^2 L for a sphere, 4 pi I for a point, times the share that a
 // profile leaves of it; for suns and sky what crosses the sphere of radius R around the scene's bounds: pi R^2 E and 4 pi^2 R^2 L (Pharr,
 // Jakob, Humphreys, section 12.6). Positions are about the extent's origin. One sample in 64 is shared out among all lights alike, so that a
-// faint one is found where it is all there is.
+// faint one is found where it is all there is. If those at finite distance are many, a tree of them is built, which is drawn with the power
+// that they have together.
 //
 // Aim::at_points: only what no ray can find, lights without size, is aimed at. What is found has records where they are read then:
 // spheres, suns, and triangles with a profile.

@@ -159,6 +159,7 @@ Features RenderScene::compute_features(const Scene& scene, const RenderSettings&
     add(Feature::point_lights, lights_.point_lights > 0);
     add(Feature::suns, lights_.sun_lights > 0);
     add(Feature::sphere_lights, lights_.sphere_lights > 0);
+    add(Feature::light_tree, !lights_.tree.nodes.empty());
     add(Feature::light_profiles, !lights_.profiles.empty());
     const bool is_backdrop = !scene.environment.lights_scene && scene.environment.visible_to_camera && has_environment_map_;
     add(Feature::environment, lights_.environment >= 0 || is_backdrop);

@@ -10,19 +10,21 @@
 
 namespace blush::inline BLUSH_ISA {
 
-template <class F> Path<F> load_path(const PathQueue& q, int k) {
+template <Features S, class F> Path<F> load_path(const PathQueue& q, int k) {
     Path<F> p;
     p.ray.origin = {load<F>(q.ox + k), load<F>(q.oy + k), load<F>(q.oz + k)};
     p.ray.direction = {load<F>(q.dx + k), load<F>(q.dy + k), load<F>(q.dz + k)};
     p.beta = {load<F>(q.beta_r + k), load<F>(q.beta_g + k), load<F>(q.beta_b + k)};
     p.pdf = load<F>(q.pdf + k);
+    p.normal = splat<F>(0.f);
+    if constexpr (S.has(Feature::light_tree)) p.normal = {load<F>(q.nx + k), load<F>(q.ny + k), load<F>(q.nz + k)};
     p.key = load<UInt<F>>(q.key + k);
     p.index = load<UInt<F>>(q.index + k);
     p.slot = load<Int<F>>(q.slot + k);
     return p;
 }
 
-template <class F> void append(PathQueue& q, const Path<F>& p, const Mask<F>& lanes) {
+template <Features S, class F> void append(PathQueue& q, const Path<F>& p, const Mask<F>& lanes) {
     const unsigned b = bits(lanes);
     const int k = q.size;
     compress(q.ox + k, p.ray.origin.x, b);
@@ -35,6 +37,11 @@ template <class F> void append(PathQueue& q, const Path<F>& p, const Mask<F>& la
     compress(q.beta_g + k, p.beta.y, b);
     compress(q.beta_b + k, p.beta.z, b);
     compress(q.pdf + k, p.pdf, b);
+    if constexpr (S.has(Feature::light_tree)) {
+        compress(q.nx + k, p.normal.x, b);
+        compress(q.ny + k, p.normal.y, b);
+        compress(q.nz + k, p.normal.z, b);
+    }
     compress(q.key + k, p.key, b);
     compress(q.index + k, p.index, b);
     compress(q.slot + k, p.slot, b);
@@ -130,7 +137,7 @@ template <Features S, class F> [[gnu::flatten]] void generate_paths(const Kernel
             index = UInt<F>(0u);
         }
         const Int<F> slot = iota<F>() + k;
-        append(q, begin_path<S, F>(*context.scene, context.settings, x, y, key, index, slot), as_mask(slot < n));
+        append<S, F>(q, begin_path<S, F>(*context.scene, context.settings, x, y, key, index, slot), as_mask(slot < n));
     }
     std::fill_n(scratch.r.data, n, 0.0);
     std::fill_n(scratch.g.data, n, 0.0);
@@ -158,7 +165,7 @@ template <Features S, class F>
     scratch.shadows.size = 0;
     const bool alpha = context.accel->has_alpha();
     for (int k = 0; k < now.size; k += width<F>) {
-        const Path<F> path = load_path<F>(now, k);
+        const Path<F> path = load_path<S, F>(now, k);
         const Mask<F> active = as_mask(iota<F>() + k < now.size);
         const Step<F> step = scatter<S, F>(*context.scene, context.settings, path, load_hit<F>(scratch.hits, k), bounce, active);
         if (bounce == 0 && scratch.first) store_first_hit<F>(*scratch.first, k, step.first);
@@ -172,7 +179,7 @@ template <Features S, class F>
                          bits(step.connects));
             append<F>(scratch.shadows, step, path.slot, step.connects);
         }
-        if (any(step.continues)) append<F>(next, step.next, step.continues);
+        if (any(step.continues)) append<S, F>(next, step.next, step.continues);
     }
 }
 

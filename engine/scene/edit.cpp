@@ -6,6 +6,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
+
 namespace blush {
 namespace {
 
@@ -47,6 +50,37 @@ Result<void> apply_to(Project& p, const AssignMaterial& e) {
     changed.parts[size_t(e.part)].material = e.material;
     if (auto known = check_references(p.scene, changed); !known) return known;
     p.scene.meshes.set(e.mesh, std::move(changed));
+    return {};
+}
+
+Result<void> apply_to(Project& p, const MakeEmissive& e) {
+    const Node* record = p.scene.nodes.find(e.node);
+    if (!record) return missing("node", e.node);
+    const Mesh* shape = p.scene.meshes.find(record->mesh);
+    if (!shape) return Error{.what = "there is no mesh to make a light of", .where = fmt::format("node \"{}\"", record->name)};
+    Node node = *record;
+    Mesh mesh = *shape;
+    std::map<Id<Material>, Id<Material>> copies;
+    for (MeshPart& part : mesh.parts) {
+        const auto [copy, is_new] = copies.try_emplace(part.material);
+        if (is_new) {
+            const Material* old_material = p.scene.materials.find(part.material);
+            Material material = old_material ? *old_material : Material{};
+            material.name = node.name.empty() ? material.name : node.name;
+            material.emissive = {1, 1, 1};
+            material.emissive_strength = e.nits;
+            if (auto valid = validate(material); !valid) return valid;
+            copy->second = p.scene.materials.add(std::move(material));
+        }
+        part.material = copy->second;
+    }
+    const bool is_shared = std::ranges::count_if(p.scene.nodes, [&](const auto& n) { return n.value.mesh == node.mesh; }) > 1;
+    if (!is_shared) {
+        p.scene.meshes.set(node.mesh, std::move(mesh));
+        return {};
+    }
+    node.mesh = p.scene.meshes.add(std::move(mesh));
+    p.scene.nodes.set(e.node, std::move(node));
     return {};
 }
 
@@ -123,6 +157,7 @@ struct Labeller {
     std::string operator()(const SetCamera& e) const { return with_name("Change camera", e.camera.name); }
     std::string operator()(const SetTexture& e) const { return with_name("Change texture", e.texture.name); }
     std::string operator()(const AssignMaterial& e) const { return with_name("Assign material", name_of(p.scene.materials, e.material)); }
+    std::string operator()(const MakeEmissive& e) const { return with_name("Make a light of", name_of(p.scene.nodes, e.node)); }
     std::string operator()(const SetEnvironment&) const { return "Change environment"; }
     std::string operator()(const SetMix&) const { return "Change light mix"; }
     std::string operator()(const SetLens&) const { return "Change lens"; }

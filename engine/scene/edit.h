@@ -24,6 +24,7 @@ struct SetLight { Id<Light> id; Light light; };
 struct SetCamera { Id<Camera> id; Camera camera; };
 struct SetTexture { Id<Texture> id; Texture texture; };
 struct AssignMaterial { Id<Mesh> mesh; int part = 0; Id<Material> material; };
+struct MakeEmissive { Id<Node> node; float nits = 1; }; // its mesh and materials become its own, and shine
 struct SetEnvironment { Environment environment; };
 struct SetMix { LightMix mix; };
 struct SetLens { Lens lens; };          // of the view
@@ -36,8 +37,8 @@ struct Import { Scene scene; std::string name; }; // merges the nodes of another
 struct LookThrough { Id<Node> camera_node; };
 struct Restore { Project project; std::string name; }; // all of it, as it was kept in the snapshot of that name
 
-using Edit = std::variant<SetNode, SetMaterial, SetLight, SetCamera, SetTexture, AssignMaterial, SetEnvironment, SetMix, SetLens, SetRender,
-                          SetView, AddLight, DuplicateNode, RemoveNode, Import, LookThrough, Restore>;
+using Edit = std::variant<SetNode, SetMaterial, SetLight, SetCamera, SetTexture, AssignMaterial, MakeEmissive, SetEnvironment, SetMix, SetLens,
+                          SetRender, SetView, AddLight, DuplicateNode, RemoveNode, Import, LookThrough, Restore>;
 
 // "Change light Key", for the history menu.
 std::string label(const Edit& edit, const Project& project);

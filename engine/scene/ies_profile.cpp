@@ -23,10 +23,16 @@ Place place_of(const std::vector<float>& angles, double at) {
     return {above - 1, above, (at - low) / (high - low), true};
 }
 
-// Angles between which the integral is smooth; one angle stands for a full turn.
+// Steps of at most 10 degrees between which the integral is smooth; one angle stands for a full turn, and none is beyond one.
 std::vector<double> borders(const std::vector<float>& angles) {
-    if (angles.size() < 2) return {0, 360};
-    return {angles.begin(), angles.end()};
+    const double first = angles.size() < 2 ? 0 : double(angles.front()), last = angles.size() < 2 ? 360 : double(angles.back());
+    std::vector<double> ends{std::max(first, last > 180 ? 0.0 : first)};
+    for (const double end : angles.size() < 2 ? std::vector<double>{last} : std::vector<double>(angles.begin() + 1, angles.end())) {
+        const double begin = ends.back(), until = std::min(end, 360.0);
+        const int steps = int(std::ceil((until - begin) / 10));
+        for (int k = 1; k <= steps; ++k) ends.push_back(begin + (until - begin) * k / steps);
+    }
+    return ends;
 }
 
 } // namespace

@@ -1,5 +1,5 @@
 // One emitter per record: an emissive triangle, a point without size, a sphere, a sun, or the environment; and the table that
-// picks one with a probability proportional to its power (Shirley, Wang and Zimmerman 1996).
+// picks one with a probability proportional to its power (Shirley, Wang and Zimmerman 1996), or many of them by a tree.
 //
 // Photometric units as in glTF: candela for points (irradiance I cos / r^2), lux for suns, nits for triangles and spheres. What makes a
 // point a spot, or a lamp with a measured distribution, is its profile. Not modelled: KHR_lights_punctual's `range`, which has no physical
@@ -8,7 +8,9 @@
 
 #include "core/distribution.h"
 #include "core/sampling.h"
+#include "shading/features.h"
 #include "shading/light_profile.h"
+#include "shading/light_tree.h"
 
 #include <cstdint>
 
@@ -23,6 +25,7 @@ struct LightRecord {
     int32_t triangle;
     int32_t profile;     // of a ProfileRecord that scales the emission by direction, -1: none
     int32_t object;      // sphere: Id<Node>.value of its node
+    int32_t slot;        // with a tree: through which it is drawn; 0 is the tree's
     Vec3 position;       // triangle: vertex 0; point: itself; sphere: its centre; sun: unit direction towards it
     Vec3 edge1, edge2;   // triangle: vertices 1 and 2 minus vertex 0
     Vec3 emission;       // triangle without texture, sphere: nits; point: candela; sun: nits of its disk, or lux if parallel
@@ -37,10 +40,13 @@ enum LightFlag : int32_t {
     light_hidden = 8,   // sun: the camera does not see its disk
 };
 
+// Lights are drawn by power through slots: a slot for each, or with a tree one for the tree and one for each light that is not in it.
 struct LightTables {
     const LightRecord* lights = nullptr;
-    const uint32_t* thresholds = nullptr; // make_thresholds of the powers
-    int32_t count = 0;
+    const uint32_t* thresholds = nullptr; // by slot: make_thresholds of the powers
+    int32_t count = 0;                    // of slots
+    const int32_t* slot_lights = nullptr; // with a tree, by slot: the light; the first slot is the tree's
+    LightTree tree;
     int32_t environment = -1;             // index of the environment, -1: none
     const int32_t* suns = nullptr;        // indices of the suns with a disk: what an escaping ray may hit
     int32_t sun_count = 0;
@@ -52,8 +58,32 @@ struct LightTables {
 
 namespace blush::inline BLUSH_ISA {
 
-// Probability that the table picks `light`.
-template <class F> F light_probability(const LightTables& table, const Int<F>& light) {
+// A light, the probability of having drawn it, and what is left of the random number: uniform in [0, 1).
+template <Features S, class F>
+DiscreteSample<F> pick_light(const LightTables& table, const Receiver<F>& to, const Pair<F>& random, const Mask<F>& active) {
+    const DiscreteSample<F> slot = sample_discrete<F>(table.thresholds, Int<F>(0), table.count, random.bits_x);
+    if constexpr (S.has(Feature::light_tree)) {
+        if (table.tree.nodes) {
+            const Mask<F> in_tree = as_mask(slot.index == 0);
+            const TreeSample<F> leaf = sample_tree<F>(table.tree, to, slot.remainder, random.bits_y, active && in_tree);
+            return {select(in_tree, leaf.light, gather(table.slot_lights, slot.index)),
+                    select(in_tree, slot.probability * leaf.probability, slot.probability), select(in_tree, leaf.remainder, slot.remainder)};
+        }
+    }
+    return slot;
+}
+
+// Probability that pick_light draws `light` for that receiver.
+template <Features S, class F>
+F light_probability(const LightTables& table, const Receiver<F>& to, const Int<F>& light, const Mask<F>& active) {
+    if constexpr (S.has(Feature::light_tree)) {
+        if (table.tree.nodes) {
+            const Int<F> slot = gather_field(table.lights, &LightRecord::slot, light);
+            const F p = discrete_probability<F>(table.thresholds, Int<F>(0), Int<F>(table.count), slot);
+            const Mask<F> in_tree = active && as_mask(slot == 0);
+            return any(in_tree) ? select(in_tree, p * tree_probability<F>(table.tree, to, light, in_tree), p) : p;
+        }
+    }
     return discrete_probability<F>(table.thresholds, Int<F>(0), Int<F>(table.count), light);
 }
 

@@ -162,6 +162,21 @@ TEST(Kernels, GiveTheSameBitsOnASceneWithEverything) {
     expect_same_bits_from_all_kernels(Compiled(scene));
 }
 
+TEST(Kernels, GiveTheSameBitsWithManyLights) {
+    Scene scene = everything();
+    for (int i = 0; i < 60; ++i) {
+        Light light;
+        light.kind = i % 3 == 0 ? Light::Kind::spot : i % 3 == 1 ? Light::Kind::point : Light::Kind::rectangle;
+        light.width = light.height = 0.1f;
+        light.radius = i % 4 == 0 ? 0.05f : 0.f;
+        light.intensity = 0.1f + 0.03f * float(i);
+        shine(scene, light, aimed({float(i % 8) - 4, 1.5f + 0.1f * float(i % 5), float(i / 8) - 3}, {0.1f * float(i % 3), -1, 0.2f}));
+    }
+    const Compiled compiled(scene);
+    EXPECT_TRUE(compiled.scene.features().has(Feature::light_tree));
+    expect_same_bits_from_all_kernels(compiled);
+}
+
 TEST(Kernels, TheSmallestThatKnowsEnoughIsChosen) {
     for (const std::string_view isa : runnable_isas()) {
         for (const Kernel& kernel : kernels_of(isa)) {

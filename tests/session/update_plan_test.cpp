@@ -214,10 +214,16 @@ TEST_F(EditCost, AssignMaterial) {
     EXPECT_EQ(cost_of(AssignMaterial{sample.quad, 0, sample.red}), nothing());
 }
 
+TEST_F(EditCost, MakeEmissive) { EXPECT_EQ(cost_of(MakeEmissive{sample.mug, 5}), listed_anew()); }
+
 TEST_F(EditCost, SetEnvironment) {
     EXPECT_EQ(cost_of_environment([](Environment& e) { e.intensity = 3; }), environment());
     EXPECT_EQ(cost_of_environment([](Environment& e) { e.visible_to_camera = false; }), environment());
+    EXPECT_EQ(cost_of_environment([](Environment& e) { e.lights_scene = false; }), environment());
     EXPECT_EQ(cost_of_environment([](Environment& e) { e.kind = Environment::Kind::none; }), environment_image());
+    EXPECT_EQ(cost_of_environment([](Environment& e) { e.sky.turbidity = 5; }), nothing()) << "of a sky that is not there";
+    sample.project.scene.environment.kind = Environment::Kind::sky;
+    EXPECT_EQ(cost_of_environment([](Environment& e) { e.sky.turbidity = 5; }), environment_image());
 }
 
 TEST_F(EditCost, SetLens) { EXPECT_EQ(cost_of(SetLens{{.aperture_radius = 0.1f}}), camera()); }

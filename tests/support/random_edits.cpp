@@ -140,12 +140,21 @@ std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<AssignMa
     if (!entry || entry->value.parts.empty()) return {};
     return AssignMaterial{entry->id, whole(rng, 0, int(entry->value.parts.size()) - 1), pick_id(rng, p.scene.materials)};
 }
+std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<MakeEmissive>) {
+    const auto* entry = pick(rng, p.scene.nodes);
+    if (!entry || !p.scene.meshes.contains(entry->value.mesh)) return {};
+    return MakeEmissive{entry->id, uniform(rng, 0, 5)};
+}
 std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<SetEnvironment>) {
     Environment e = p.scene.environment;
-    e.kind = Environment::Kind(whole(rng, 0, 2));
+    e.kind = Environment::Kind(whole(rng, 0, 3));
     e.color = color(rng);
     e.intensity = uniform(rng, 0, 3);
     e.rotation_degrees = uniform(rng, -180, 180);
+    e.sky.turbidity = uniform(rng, 2, 9);
+    e.sky.elevation_degrees = uniform(rng, -20, 90);
+    e.sky.sun_disk = coin(rng);
+    e.sky.by_place_and_time = coin(rng);
     e.visible_to_camera = coin(rng);
     e.lights_scene = coin(rng);
     if (e.kind == Environment::Kind::image && (!e.image || coin(rng))) e.image = float_image(8, 4, 3, uniform(rng, 0.1f, 2));

@@ -1,4 +1,5 @@
 // Units and new lights: equal illuminance where a light changes its kind, angles there and back.
+#include "scene/light_units.h"
 #include "ui/light_tools.h"
 #include "ui/orbit_camera.h"
 #include "ui/rotation.h"
@@ -9,13 +10,16 @@ namespace blush {
 namespace {
 
 constexpr double pi_d = 3.14159265358979323846;
-constexpr Light::Kind kinds[] = {Light::Kind::point, Light::Kind::spot, Light::Kind::sun, Light::Kind::rectangle};
+constexpr Light::Kind kinds[] = {Light::Kind::point, Light::Kind::spot, Light::Kind::sun, Light::Kind::rectangle, Light::Kind::disk,
+                                 Light::Kind::sphere};
 
 // Illuminance in lux on a surface far enough away to see the light as a point, facing it.
 double illuminance(const Light& light, double distance) {
     switch (light.kind) {
     case Light::Kind::sun: return light.intensity;
     case Light::Kind::rectangle: return light.intensity * light.width * light.height / (distance * distance);
+    case Light::Kind::disk:
+    case Light::Kind::sphere: return light.intensity * pi_d * light.radius * light.radius / (distance * distance);
     default: return light.intensity / (distance * distance);
     }
 }
@@ -40,8 +44,8 @@ TEST(LuminousFlux, OfTheKindsThatHaveOne) {
     light.intensity = 2;
     EXPECT_NEAR(luminous_flux(light), 8 * pi_d, 1e-5);
     light.kind = Light::Kind::spot;
-    light.outer_cone_radians = float(pi_d / 2); // half the sphere
-    EXPECT_NEAR(luminous_flux(light), 4 * pi_d, 1e-4);
+    light.outer_cone_radians = float(pi_d / 2); // half the sphere, with a falloff of cos^2
+    EXPECT_NEAR(luminous_flux(light), 4 * pi_d / 3, 1e-4);
     light.kind = Light::Kind::rectangle;
     light.width = 2, light.height = 3;
     EXPECT_NEAR(luminous_flux(light), 12 * pi_d, 1e-4);

@@ -1,3 +1,4 @@
+#include "io/ies.h"
 #include "io/image_io.h"
 #include "io/scene_edits_json.h"
 #include "io/scene_hash.h"
@@ -8,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 
 namespace blush::test {
 namespace {
@@ -18,6 +20,12 @@ Scene with_imported_pixels(const Scene& imported, Scene now) {
     for (auto [id, texture] : textures) {
         texture.image = imported.textures.find(id)->image;
         now.textures.set(id, texture);
+    }
+    // Measured distributions of random lights are no file's.
+    const Table<Light> lights = now.lights;
+    for (auto [id, light] : lights) {
+        light.ies = nullptr;
+        now.lights.set(id, light);
     }
     return now;
 }
@@ -152,6 +160,34 @@ TEST(SceneHash, TellsImagesApartAndNothingElse) {
     quad.parts[0].geometry = std::make_shared<const Geometry>(geometry);
     reshaped.meshes.set(sample.quad, quad);
     EXPECT_NE(scene_hash(reshaped), hash);
+}
+
+// A light's measured distribution is read again from its file, in or below the scene's folder and from nowhere else.
+TEST(SceneEdits, MeasuredDistributionsAreNamedByTheirFiles) {
+    const std::filesystem::path folder = std::filesystem::path(BLUSH_ASSETS) / "ies";
+    const Sample sample = sample_project();
+    Scene now = sample.project.scene;
+    Light lamp = *now.lights.find(sample.lamp);
+    lamp.ies_file = "downlight.ies";
+    lamp.ies = *read_ies(folder / lamp.ies_file);
+    now.lights.set(sample.lamp, lamp);
+    const std::string text = edits_json(sample.project.scene, now);
+    EXPECT_EQ(text.find("left_out"), text.npos);
+    const auto applied = apply_edits_json(sample.project.scene, text, folder);
+    ASSERT_TRUE(applied) << error_text(applied);
+    EXPECT_EQ(scene_hash(*applied), scene_hash(now));
+    EXPECT_NE(scene_hash(*applied), scene_hash(sample.project.scene)) << "a distribution is part of the scene";
+
+    for (const char* file : {"../ies/downlight.ies", "/etc/passwd", "nowhere.ies", "file:downlight.ies"}) {
+        std::string elsewhere = text;
+        elsewhere.replace(elsewhere.find("downlight.ies"), 13, file);
+        EXPECT_FALSE(apply_edits_json(sample.project.scene, elsewhere, folder)) << file;
+    }
+    lamp.ies_file = (folder / "downlight.ies").string();
+    now.lights.set(sample.lamp, lamp);
+    const std::string outside = edits_json(sample.project.scene, now);
+    EXPECT_NE(outside.find("left_out"), outside.npos);
+    EXPECT_TRUE(apply_edits_json(sample.project.scene, outside, folder));
 }
 
 } // namespace

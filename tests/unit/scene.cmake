@@ -5,8 +5,10 @@ blush_test(test_scene
     scene_document.cpp
     scene_edit.cpp
     scene_light_meter.cpp
+    scene_light_units.cpp
     scene_render_settings.cpp
     scene_shining.cpp
+    scene_sky.cpp
     scene_table.cpp
     scene_transform.cpp
     scene_validate.cpp

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <utility>
+
 namespace blush {
 namespace {
 
@@ -48,6 +51,24 @@ TEST(BlackBody, GoesFromRedToBlue) {
         EXPECT_LT(redness, last) << kelvin;
         last = redness;
     }
+}
+
+// Off the locus by what was asked for, at right angles to it, upwards for green.
+TEST(BlackBody, GreenTintLeavesTheLocusAtRightAngles) {
+    const auto uv = [](const Vec3& c) {
+        const Chromaticity xy = chromaticity(c);
+        const double d = -2 * xy.x + 12 * xy.y + 3;
+        return std::pair{4 * xy.x / d, 6 * xy.y / d};
+    };
+    for (const float kelvin : {4000.f, 6500.f, 9000.f}) // Rec.709 has all of these
+        for (const float tint : {-0.01f, 0.005f, 0.01f}) {
+            const auto [u0, v0] = uv(black_body_color(kelvin));
+            const auto [u1, v1] = uv(black_body_color(kelvin * 1.01f));
+            const auto [u, v] = uv(black_body_color(kelvin, tint));
+            EXPECT_NEAR(std::hypot(u - u0, v - v0), std::abs(tint), 2e-4) << kelvin;
+            EXPECT_NEAR(((u - u0) * (u1 - u0) + (v - v0) * (v1 - v0)) / (std::hypot(u1 - u0, v1 - v0) * double(std::abs(tint))), 0, 0.03) << kelvin;
+            EXPECT_GT((v - v0) * double(tint), 0) << "above the locus is green";
+        }
 }
 
 TEST(BlackBody, ClampsWhatNoLampReaches) {

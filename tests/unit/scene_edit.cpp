@@ -141,6 +141,29 @@ TEST(Apply, ImportKeepsTheImportedTreeTogether) {
     EXPECT_EQ(scene.environment, s.project.scene.environment);
 }
 
+// Nothing else that wears the material, or has the same shape, begins to shine.
+TEST(Apply, MakeEmissiveTouchesOneObjectAlone) {
+    const Sample s = sample_project();
+    const Scene once = blush::apply(s.project, MakeEmissive{s.mug, 50})->scene;
+    const Mesh& mesh = *once.meshes.find(once.nodes.find(s.mug)->mesh);
+    for (const MeshPart& part : mesh.parts) {
+        EXPECT_FALSE(s.project.scene.materials.contains(part.material)) << "a copy";
+        EXPECT_EQ(once.materials.find(part.material)->emissive_strength, 50);
+        EXPECT_EQ(once.materials.find(part.material)->emissive, (Vec3{1, 1, 1}));
+    }
+    for (const auto& [id, material] : s.project.scene.materials) EXPECT_EQ(*once.materials.find(id), material);
+
+    const Project twins = *blush::apply(s.project, DuplicateNode{s.mug});
+    const Id<Mesh> shared = twins.scene.nodes.find(s.mug)->mesh;
+    const Scene one_shines = blush::apply(twins, MakeEmissive{s.mug, 50})->scene;
+    EXPECT_NE(one_shines.nodes.find(s.mug)->mesh, shared);
+    EXPECT_EQ(*one_shines.meshes.find(shared), *twins.scene.meshes.find(shared));
+
+    EXPECT_TRUE(refused(s.project, MakeEmissive{s.root, 50}, "no mesh"));
+    EXPECT_TRUE(refused(s.project, MakeEmissive{{99}, 50}, ""));
+    EXPECT_TRUE(refused(s.project, MakeEmissive{s.mug, -1}, "emissive strength"));
+}
+
 TEST(Apply, ImportFindsParentsThatComeLater) {
     Scene other;
     Node child, parent;

@@ -16,6 +16,7 @@ const char* title(Use use) {
     case Use::open: return "Open a scene###browser";
     case Use::import_scene: return "Import into the scene###browser";
     case Use::environment: return "Choose an environment image###browser";
+    case Use::ies: return "Choose a photometric file###browser";
     case Use::snapshot_folder: return "Choose the folder for snapshots###browser";
     case Use::convergence: return "Load a convergence table###browser";
     }
@@ -28,6 +29,7 @@ const ExtensionFilter& filter(Use use) {
     case Use::open:
     case Use::import_scene: return scene_files;
     case Use::environment: return environment_files;
+    case Use::ies: return photometric_files;
     case Use::convergence: return table_files;
     case Use::snapshot_folder: break;
     }

@@ -26,6 +26,8 @@ void draw_file_menu(PanelContext& c) {
     draw_recent(c);
     item(c, Command::import_scene);
     item(c, Command::environment);
+    const Node* node = c.scene().nodes.find(c.ui.selected);
+    item(c, Command::ies, node && c.scene().lights.contains(node->light));
     item(c, Command::reload);
     ImGui::Separator();
     item(c, Command::snapshot_exr);

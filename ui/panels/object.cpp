@@ -36,6 +36,17 @@ Vec3d& angles_of(EulerFields& fields, Id<Node> id, const Quat& rotation) {
     return fields.degrees;
 }
 
+// Bright enough to be seen glowing at this exposure: twice what is shown as white.
+void draw_make_light(PanelContext& c, Id<Node> id) {
+    const float nits = 2 * std::exp2(-c.project().view.exposure_ev);
+    if (ImGui::Button("Make it a light", {-FLT_MIN, 0}) && c.apply(MakeEmissive{id, nits})) {
+        const Mesh* mesh = c.scene().meshes.find(c.scene().nodes.find(id)->mesh);
+        c.ui.selected_material = mesh->parts.empty() ? Id<Material>{} : mesh->parts.front().material;
+    }
+    c.ui.probe.record_last_item("Object/Make it a light");
+    tip_for_last_item(c.ui, "Give the object a material of its own that glows. How brightly is set under Emission.");
+}
+
 } // namespace
 
 void draw_object_panel(PanelContext& c, Id<Node> id) {
@@ -57,6 +68,7 @@ void draw_object_panel(PanelContext& c, Id<Node> id) {
     ImGui::SameLine();
     if (ImGui::Button("Delete", {half, 0})) c.ui.commands.push_back(Command::remove);
     c.ui.probe.record_last_item("Object/Delete");
+    if (c.scene().meshes.contains(node.mesh)) draw_make_light(c, id);
 }
 
 void draw_transform_panel(PanelContext& c, Id<Node> id) {

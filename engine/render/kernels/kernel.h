@@ -32,6 +32,7 @@ struct TileJob {
 struct PathQueue {
     int size = 0;
     Column<float> ox, oy, oz, dx, dy, dz, beta_r, beta_g, beta_b, pdf;
+    Column<float> nx, ny, nz; // with a light tree
     Column<uint32_t> key, index;
     Column<int32_t> slot;
 };

@@ -1,0 +1,32 @@
+// Many lamps: how much variance the light tree leaves beside an oracle and beside power sampling, and how long an edit of lights takes.
+#include "support/many_lights.h"
+#include "tests/bench/bench.h"
+
+#include "core/parallel.h"
+#include "render/lowering.h"
+#include "render/render_scene.h"
+
+namespace blush::bench {
+Json run_many_lights(const Options& options) {
+    Json result = Json::array();
+    for (const int rooms : {2, 6, 20}) {
+        const RenderSettings settings;
+        Scene scene = lower_area_lights(test::house(rooms));
+        RenderScene compiled;
+        compiled.update(scene, settings, full_plan(), Workers(1));
+        UpdatePlan relight;
+        relight.lights = true;
+        std::vector<double> seconds;
+        for (int round = 0; round < options.rounds; ++round)
+            seconds.push_back(cost_of([&] { compiled.update(scene, settings, relight, Workers(1)); }).core_seconds);
+        const test::ChoiceVariance v = test::choice_variance(compiled.tables(), rooms, 200);
+        result.push_back({{"lights", rooms * rooms * 25},
+                          {"relative_variance", {{"oracle", rounded(v.oracle)}, {"tree", rounded(v.tree)}, {"power", rounded(v.power)}}},
+                          {"tree_over_oracle", rounded(v.tree / v.oracle)},
+                          {"power_over_tree", rounded(v.power / v.tree)},
+                          {"relight_ms", rounded(median(seconds) * 1e3)}});
+    }
+    return result;
+}
+
+} // namespace blush::bench
