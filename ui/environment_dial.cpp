@@ -2,6 +2,7 @@
 
 #include "core/math.h"
 #include "scene/shining.h"
+#include "scene/sun_position.h"
 #include "ui/light_tools.h"
 #include "ui/theme.h"
 
@@ -36,6 +37,11 @@ bool draw_environment_dial(PanelContext& c, ImDrawList& draw, const Projection& 
         // Where north is, or the middle of the panorama.
         const Vec3d mark = direction_of(Heading{-e.rotation_degrees, 0});
         draw.AddLine(at(mark, 0.65f), at(mark), color, line * 2);
+    }
+    if (e.kind == Environment::Kind::sky) {
+        const SunPosition sun = sun_position(e.sky);
+        const Vec3d towards = direction_of(Heading{float(sun.azimuth) - e.rotation_degrees, float(sun.elevation)});
+        draw.AddCircleFilled(at(towards), radius * 0.18f, sun.elevation > 0 ? tone::light : tone::dim_text);
     }
     if (!e.lights_scene)
         draw.AddLine({centre.x - radius * 0.7f, centre.y + radius * 0.7f}, {centre.x + radius * 0.7f, centre.y - radius * 0.7f},

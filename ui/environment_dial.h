@@ -1,4 +1,4 @@
-// The environment as a dial in a corner of the picture: seen from above, what lies ahead of the view is up.
+// The environment as a dial in a corner of the picture: seen from above, what lies ahead of the view is up. A sky has its sun on it.
 #pragma once
 
 #include "ui/gizmo.h"
