@@ -99,7 +99,7 @@ TEST(OpenedSnapshot, HostileMetadataDoNoHarm) {
         const auto opened = open_snapshot(folder / "h.exr", {});
         if (!opened) continue;
         EXPECT_TRUE(opened->snapshot.pictures.frame);
-        if (key == std::string("blush:film")) EXPECT_FALSE(opened->snapshot.film) << text.substr(0, 80);
+        EXPECT_TRUE(key != std::string("blush:film") || !opened->snapshot.film) << text.substr(0, 80);
         (void)state_of(opened->metadata, cornell(), test::scene_file("cornell"));
     }
     for (const auto& [key, text] : {std::pair("blush:settings", R"({"size":"9999999x1"})"), std::pair("blush:spp", "many")}) {
