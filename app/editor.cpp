@@ -35,6 +35,7 @@ private:
     void panels();
     void submit();
     void latest();
+    void mix_lights();
     void draw();
 
     PanelContext context();
@@ -68,6 +69,9 @@ private:
     Pictures pictures_;
     PictureMix wanted_mix_;
     EditorConvergence convergence_;
+    std::optional<Mixing> mixing_; // of the frame's groups, for the scene as it is now
+    std::shared_ptr<const LightGroups> mixed_groups_; // and of which it is
+    uint64_t mixed_revision_ = 0;
     std::string weights_problem_; // why the denoiser's weights are of no use; empty: they are there
     RenderSession session_;
 
@@ -168,6 +172,7 @@ PanelContext Editor::context() {
             pictures_.denoised,
             status.denoiser_failure.empty() ? weights_problem_ : status.denoiser_failure,
             &ledger_,
+            mixing_ ? &*mixing_ : nullptr,
             metered_ev_};
 }
 
@@ -178,6 +183,7 @@ void Editor::panels() {
     window_->begin_frame();
     ui_.next_frame_in = longest_sleep;
     ui_.probe.begin_frame();
+    mix_lights();
     PanelContext c = context();
     draw_regions(c);
     draw_above(c);
@@ -219,6 +225,7 @@ void Editor::draw_above(PanelContext& c) {
     draw_meters_panel(c);
     draw_scopes_panel(c);
     draw_history(c);
+    draw_light_mix_panel(c);
     draw_bounces_panel(c);
     draw_light_table(c);
     draw_convergence_panel(c);
@@ -396,6 +403,15 @@ void Editor::submit() {
     stats_.submitted(submitted_, frame_begin_);
 }
 
+// The picture follows the document at once where gains are all it takes, whatever the session is at.
+void Editor::mix_lights() {
+    const auto groups = pictures_.frame ? pictures_.frame->light_groups : nullptr;
+    if (groups == mixed_groups_ && document_.revision() == mixed_revision_) return;
+    mixed_groups_ = groups;
+    mixed_revision_ = document_.revision();
+    mixing_ = groups ? mixing_of(*groups, document_.project().scene) : std::nullopt;
+}
+
 void Editor::latest() {
     pictures_ = session_.pictures();
     convergence_.look(ui_.convergence, pictures_);
@@ -427,7 +443,8 @@ void Editor::draw() {
     const auto now = Clock::now();
     // Loading and compiling shaders, before there is a picture, is not what smoothness is judged by.
     if (shown) stats_.add_frame(std::chrono::duration<double, std::milli>(now - frame_begin_).count());
-    if (shown) stats_.shown(shown->revision, now);
+    const bool mixed = shown && mixing_ && shown->light_groups == mixed_groups_ && viewport_.shown_gains() == mixing_->gains;
+    if (shown) stats_.shown(mixed ? submitted_ : shown->revision, now);
     if (viewport_.shows(wanted_mix_)) stats_.look_shown(now);
     ui_.probe.end_frame(state);
 }

@@ -109,6 +109,18 @@ Result<EnvironmentChoice> parse_environment(std::string_view text) {
     return choice;
 }
 
+Result<std::optional<LightMix::Grouping>> parse_grouping(std::string_view text) {
+    using Grouping = LightMix::Grouping;
+    constexpr std::pair<std::string_view, Grouping> known[] = {{"off", Grouping::none},
+                                                               {"by-light", Grouping::by_light},
+                                                               {"by-object", Grouping::by_object},
+                                                               {"by-material", Grouping::by_material},
+                                                               {"by-hand", Grouping::by_hand}};
+    for (const auto& [word, grouping] : known)
+        if (text == word) return std::optional(grouping);
+    return Error{.what = fmt::format("must be off, by-light, by-object, by-material or by-hand, not \"{}\"", text)};
+}
+
 Result<void> apply_overrides(const SceneOverrides& overrides, Scene& scene, float aspect, bool has_view) {
     if (!overrides.camera.empty()) {
         const Result<Id<Node>> camera = find_camera(scene, overrides.camera);
@@ -124,6 +136,7 @@ Result<void> apply_overrides(const SceneOverrides& overrides, Scene& scene, floa
         if (!environment) return environment.error();
         scene.environment = *std::move(environment);
     }
+    if (overrides.groups) scene.mix.grouping = *overrides.groups;
     return validate(scene.view.lens);
 }
 

@@ -23,10 +23,14 @@ struct EnvironmentChoice {
 // Errors name what was expected.
 Result<EnvironmentChoice> parse_environment(std::string_view text);
 
+// "off", "by-light", "by-object", "by-material", "by-hand".
+Result<std::optional<LightMix::Grouping>> parse_grouping(std::string_view text);
+
 struct SceneOverrides {
     std::string camera = {}; // name of a camera or of its node, or its number from 0; empty: the scene's first
     std::optional<EnvironmentChoice> environment = {};
     std::optional<float> aperture = {}, focus = {}; // metres
+    std::optional<LightMix::Grouping> groups = {};
 };
 
 // Without any camera in the scene, one is framed around it for a picture of `aspect` (width / height).

@@ -91,8 +91,8 @@ void DisplayPass::Picture::upload(int w, int h, GLenum format, const float* valu
     height = h;
 }
 
-void DisplayPass::upload(const DenoisedPicture& denoised) {
-    denoised_.upload(denoised.width, denoised.height, GL_RGB, denoised.denoised.rgb.data());
+void DisplayPass::upload_denoised(int width, int height, const std::vector<float>& rgb) {
+    denoised_.upload(width, height, GL_RGB, rgb.data());
 }
 
 void DisplayPass::upload(int width, int height, const std::vector<float>& rgba) {

@@ -24,7 +24,8 @@ public:
     // Takes over a frame's pixels, or a denoised picture's. Not while busy.
     void upload(const Frame& frame) { upload(frame.width, frame.height, frame.rgba); }
     void upload(int width, int height, const std::vector<float>& rgba); // scene-linear; alpha: coverage by objects
-    void upload(const DenoisedPicture& denoised);
+    void upload(const DenoisedPicture& denoised) { upload_denoised(denoised.width, denoised.height, denoised.denoised.rgb); }
+    void upload_denoised(int width, int height, const std::vector<float>& rgb); // 3 values a pixel
     // Begins a new picture of the last uploads, at the frame's resolution; one that is being drawn is given up.
     void begin(const DisplayLook& look);
     // Goes on with it for about so many milliseconds. A graphics card is done at once; where the processor stands in for one, a large

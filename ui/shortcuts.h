@@ -67,6 +67,7 @@ enum class Command {
     clear_selection,
     shortcuts,
     history,
+    light_mix,
     bounces,
     health,
     roulette,

@@ -7,6 +7,7 @@
 #include "ui/denoise_view.h"
 #include "ui/gestures.h"
 #include "ui/health_view.h"
+#include "ui/light_mix_view.h"
 #include "ui/meters_view.h"
 #include "ui/picture_zoom.h"
 #include "ui/probe.h"
@@ -109,6 +110,7 @@ struct UiState {
     LightTableView light_table;
     bool show_shortcuts = false;
     bool show_history = false;
+    LightMixView light_mix;
     BouncesView bounces;
     HealthView health;
     RouletteView roulette;

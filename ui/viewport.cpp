@@ -1,5 +1,6 @@
 #include "ui/viewport.h"
 
+#include "render/light_mix.h"
 #include "scene/edit_tree.h"
 #include "ui/environment_dial.h"
 #include "ui/false_color_legend.h"
@@ -101,6 +102,23 @@ Result<void> Viewport::set_display_shader(const DisplayShader& shader) {
     return display_.set_shader(shader);
 }
 
+// As the mix has it by now: the session's own mix of the same planes follows when it has time.
+void Viewport::upload_frame(const Frame& frame, const PictureView& view, const Gains& gains, bool background_as_it_is) {
+    std::vector<float> pixels;
+    const bool mixes = !gains.empty() && gains != frame.gains;
+    if (is_special(frame, view)) pixels = pixels_of(frame, view);
+    else if (background_as_it_is) pixels = with_coverage(frame);
+    if (pixels.empty() && mixes) pixels = mixed_rgba(frame, gains, &workers_);
+    if (pixels.empty()) display_.upload(frame);
+    else display_.upload(frame.width, frame.height, pixels);
+}
+
+void Viewport::upload_denoised(const DenoisedPicture& denoised, const Gains& gains) {
+    const bool mixes = denoised.groups && !gains.empty() && gains != denoised.gains;
+    if (mixes) display_.upload_denoised(denoised.width, denoised.height, mixed_rgb(denoised, gains, &workers_));
+    else display_.upload(denoised);
+}
+
 void Viewport::take_frame(PanelContext& c) {
     const ViewSettings v = c.shown_view();
     PictureView view = c.ui.picture_view(c.frame ? int(c.frame->bounces.size()) : 0);
@@ -109,10 +127,12 @@ void Viewport::take_frame(PanelContext& c) {
     DisplayNumbers numbers = numbers_of(v);
     if (special && is_map(view)) numbers.false_color = {}; // it has colours of its own
     const DisplayLook look{numbers, special ? PictureMix{} : mix_of(c.ui.denoise, c.denoised != nullptr)};
-    const bool new_frame =
-        c.frame && c.frame->width > 0 &&
-        (c.frame != uploaded_frame_ || view != uploaded_view_ || numbers.background_as_it_is != look_.numbers.background_as_it_is);
-    const bool new_denoised = look.mix.denoised_weight != 0 && c.denoised != uploaded_denoised_;
+    const Gains gains = c.mixing ? c.mixing->gains : Gains();
+    const bool new_gains = gains != uploaded_gains_;
+    const bool new_frame = c.frame && c.frame->width > 0 &&
+                           (c.frame != uploaded_frame_ || view != uploaded_view_ || new_gains ||
+                            numbers.background_as_it_is != look_.numbers.background_as_it_is);
+    const bool new_denoised = look.mix.denoised_weight != 0 && (c.denoised != uploaded_denoised_ || new_gains);
     // Raw or denoised, at once: what is being drawn is given up for it. Not for a slider, whose every step would start anew.
     const bool toggled = uploaded_frame_ && look.mix != look_.mix && (look.mix.raw_weight == 0 || look.mix.denoised_weight == 0) && !new_denoised;
     if (display_.busy() && toggled) {
@@ -122,17 +142,15 @@ void Viewport::take_frame(PanelContext& c) {
     }
     if (!display_.busy() && (new_frame || (uploaded_frame_ && (new_denoised || shader_changed_ || look_ != look)))) {
         if (new_frame) {
-            if (special) display_.upload(c.frame->width, c.frame->height, pixels_of(*c.frame, view));
-            else if (numbers.background_as_it_is)
-                display_.upload(c.frame->width, c.frame->height, with_coverage(*c.frame));
-            else display_.upload(*c.frame);
+            upload_frame(*c.frame, view, gains, numbers.background_as_it_is);
             uploaded_frame_ = c.frame;
             uploaded_view_ = view;
         }
         if (new_denoised) {
-            display_.upload(*c.denoised);
+            upload_denoised(*c.denoised, gains);
             uploaded_denoised_ = c.denoised;
         }
+        uploaded_gains_ = gains;
         display_.begin(look);
         begun_ = true;
         answers_ = look_ != look;
@@ -148,6 +166,7 @@ void Viewport::take_frame(PanelContext& c) {
         begun_ = answers_ = false;
         ++pictures_;
         shown_frame_ = uploaded_frame_;
+        shown_gains_ = uploaded_gains_;
         c.ui.next_frame_in = 0; // perhaps the next one waits already
     }
 }

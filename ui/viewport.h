@@ -1,6 +1,8 @@
 // The picture and what the mouse does in it: navigation, picking, handles.
 #pragma once
 
+#include "core/parallel.h"
+#include "render/light_groups.h"
 #include "ui/compare_view.h"
 #include "ui/display_pass.h"
 #include "ui/handles.h"
@@ -21,11 +23,15 @@ public:
     ImageRect draw(PanelContext& c);
     // The frame whose picture is on the screen; null before the first.
     const FramePtr& shown() const { return shown_frame_; }
+    // The gains of its light groups that it is shown with; empty where there are none.
+    const Gains& shown_gains() const { return shown_gains_; }
     // Are its pictures on the screen in this mixture?
     bool shows(const PictureMix& mix) const { return shown_frame_ && !begun_ && look_.mix == mix; }
 
 private:
     void take_frame(PanelContext& c);
+    void upload_frame(const Frame& frame, const PictureView& view, const Gains& gains, bool background_as_it_is);
+    void upload_denoised(const DenoisedPicture& denoised, const Gains& gains);
     void draw_picture(PanelContext& c, const ImageRect& image);
     GLuint outlined_picture(const PanelContext& c, const ImageRect& image);
     void draw_caption(const ImageRect& image) const;
@@ -46,6 +52,8 @@ private:
     FramePtr uploaded_frame_, shown_frame_;
     PictureView uploaded_view_;
     DenoisedPtr uploaded_denoised_;
+    Gains uploaded_gains_, shown_gains_; // of both
+    Workers workers_{0};   // mix planes
     DisplayLook look_;
     bool shader_changed_ = false, begun_ = false;
     bool answers_ = false; // the picture being drawn is the look that was asked for last

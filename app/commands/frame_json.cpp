@@ -1,6 +1,7 @@
 #include "app/commands/frame_json.h"
 
 #include "measure/bounce_energy.h"
+#include "render/light_mix.h"
 
 namespace blush {
 namespace {
@@ -46,6 +47,17 @@ OrderedJson bounces_json(const Frame& frame) {
     for (const BounceEnergy& e : bounce_energy(frame))
         bounces.push_back({{"bounce", e.name}, {"share", e.share}, {"mean", rgb_json(e.mean)}});
     return bounces;
+}
+
+OrderedJson groups_json(const Frame& frame) {
+    OrderedJson groups = OrderedJson::array();
+    const std::vector<GroupReport> reports = report_groups(frame, frame.group_names, frame.gains);
+    for (size_t k = 0; k < reports.size(); ++k) {
+        const Vec3& gain = frame.gains[k];
+        groups.push_back(
+            {{"group", reports[k].name}, {"energy", reports[k].energy}, {"noise", reports[k].noise}, {"gain", {gain.x, gain.y, gain.z}}});
+    }
+    return groups;
 }
 
 OrderedJson clamp_json(const Clamp& clamp, const ClampReport& report) {

@@ -12,6 +12,8 @@ namespace blush {
 OrderedJson health_json(const Health& health);
 // [{bounce, share, mean}]
 OrderedJson bounces_json(const Frame& frame);
+// [{group, energy, noise, gain}]: shares of the image's luminance and variance, and what the group's light was multiplied with
+OrderedJson groups_json(const Frame& frame);
 // {limit, light, samples, share, removed}
 OrderedJson clamp_json(const Clamp& clamp, const ClampReport& report);
 

@@ -13,10 +13,9 @@ struct LayerName {
 };
 constexpr LayerName known[] = {{"albedo", &Layers::albedo}, {"normal", &Layers::normal},   {"depth", &Layers::depth},
                                {"error", &Layers::error},   {"samples", &Layers::samples}, {"id", &Layers::ids},
-                               {"film", &Layers::film}};
+                               {"film", &Layers::film},     {"groups", &Layers::groups}};
 
 Result<void> switch_on(Layers& layers, std::string_view name) {
-    if (name == "groups") return Error{.what = fmt::format("the layer {} is not in this version", name)};
     if (name == "bounces") {
         layers.bounces = usual_bounce_planes;
         return {};

@@ -1,6 +1,7 @@
 #include "app/commands/picture.h"
 
 #include "app/assets_dir.h"
+#include "render/light_mix.h"
 
 #include <fmt/format.h>
 
@@ -70,6 +71,9 @@ Result<int64_t> write_exr_picture(const std::filesystem::path& file, const Frame
         input.material_id = frame.material_id;
     }
     input.bounces = frame.bounces;
+    const std::vector<std::vector<Vec3>> groups = layers.groups ? mixed_groups(frame) : std::vector<std::vector<Vec3>>();
+    input.groups = groups;
+    input.group_names = frame.group_names;
     const Result<LayeredImage> image = make_snapshot(input);
     if (!image) return image.error();
     if (const Result<void> written = write_exr(file, *image); !written) return written.error();

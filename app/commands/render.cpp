@@ -154,6 +154,7 @@ OrderedJson result_json(const RenderCommand& c, const RenderSettings& settings, 
                      {"rmse_high", if_known(error.rmse_known, error.rmse_high)}};
     json["health"] = health_json(r.frame.health);
     if (!r.frame.bounces.empty()) json["bounces"] = bounces_json(r.frame);
+    if (!r.frame.groups.empty()) json["groups"] = groups_json(r.frame);
     if (settings.clamp.limit > 0) json["clamp"] = clamp_json(settings.clamp, r.frame.clamp);
     MadeBeside beside;
     beside.display = is_display_encoded(c.output);
@@ -286,6 +287,7 @@ int run_render(const RenderCommand& c) {
     if (loaded && plan->begun) loaded = as_begun(*std::move(loaded), c.scene, *plan->begun, c.begun);
     if (!loaded) return failed(loaded.error());
     if (!c.common.quiet) print_warnings(c.scene, loaded->report.diagnostics);
+    if (plan->layers.groups && loaded->scene.mix.grouping == LightMix::Grouping::none) loaded->scene.mix.grouping = LightMix::Grouping::by_light;
 
     if (plan->pixel) {
         fmt::print("{}", trace_sample(loaded->scene, plan->settings, plan->pixel->x, plan->pixel->y, plan->pixel->sample));
@@ -307,7 +309,7 @@ void add_render_command(CLI::App& app, std::function<int()>& run) {
     sub->add_option("-o,--output", command->output, "EXR keeps scene-linear values; PNG and JPEG go through the view transform")
         ->type_name("FILE");
     add_render_options(*sub, command->options);
-    sub->add_option("--layers", command->layers, "Planes beside the beauty, EXR only: albedo,normal,depth,error,samples,id,bounces[=N],film: sums to go on from")
+    sub->add_option("--layers", command->layers, "Planes beside the beauty, EXR only: albedo,normal,depth,error,samples,id,groups,bounces[=N],film: sums to go on from")
         ->type_name("LIST");
     sub->add_option("--continue", command->begun, "Go on with a picture that has the layer film, up to --spp, --time or --error")
         ->type_name("EXR");

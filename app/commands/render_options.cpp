@@ -105,6 +105,12 @@ void add_picture_options(CLI::App& app, RenderOptions& o) {
         ->type_name("FILE[,intensity=X][,rotate=DEG]");
 }
 
+void add_light_options(CLI::App& app, RenderOptions& o) {
+    add_parsed(app, "--groups", o.overrides.groups, parse_grouping,
+               "Which lights share a plane of the layer \"groups\" and a gain of the light mix [the scene's; by-light for that layer]")
+        ->type_name("off|by-light|by-object|by-material|by-hand");
+}
+
 void add_stop_options(CLI::App& app, RenderOptions& o) {
     app.add_option_function<int64_t>(
            "--spp",
@@ -177,6 +183,7 @@ void add_view_options(CLI::App& app, ViewSettings& view) {
 
 void add_render_options(CLI::App& app, RenderOptions& options) {
     add_picture_options(app, options);
+    add_light_options(app, options);
     add_stop_options(app, options);
     add_integrator_options(app, options);
     add_view_options(app, options.view);

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <map>
 #include <optional>
+#include <set>
 #include <string_view>
 
 namespace blush {
@@ -75,6 +76,22 @@ private:
     std::optional<Error> error_;
 };
 
+// Printable, without the dot that separates layers, of bounded length, and no two alike.
+std::vector<std::string> channel_names(std::span<const std::string> names) {
+    constexpr size_t longest = 180; // OpenEXR's limit is 255 for all of it
+    std::vector<std::string> channels;
+    std::set<std::string> taken;
+    for (const std::string& name : names) {
+        std::string plain = name.substr(0, longest);
+        for (char& c : plain)
+            if (c < ' ' || c > '~' || c == '.') c = '_';
+        std::string channel = plain;
+        for (int n = 2; !taken.insert(channel).second; ++n) channel = fmt::format("{} {}", plain, n);
+        channels.push_back(std::move(channel));
+    }
+    return channels;
+}
+
 // The attribute as a number, its default if it is absent or empty; false if it is neither.
 template <class T> bool read_number(std::string_view text, T& number) {
     if (text.empty()) return true;
@@ -123,6 +140,9 @@ Result<LayeredImage> make_snapshot(const SnapshotInput& input) {
     builder.vectors("error.", "RGB", input.error);
     builder.scalars("samples.Y", input.samples);
     for (size_t k = 0; k < input.bounces.size(); ++k) builder.vectors(fmt::format("bounce.{}.", k), "RGB", input.bounces[k]);
+    const std::vector<std::string> groups = channel_names(input.group_names);
+    for (size_t k = 0; k < std::min(groups.size(), input.groups.size()); ++k)
+        builder.vectors(fmt::format("group.{}.", groups[k]), "RGB", input.groups[k]);
     builder.ids("id.object", input.object_id);
     builder.ids("id.material", input.material_id);
     builder.exact("film", input.film);

@@ -50,13 +50,17 @@ struct SnapshotInput {
     std::span<const float> samples; // per pixel
     std::span<const uint32_t> object_id, material_id;
     std::span<const std::vector<Vec3>> bounces; // light by the number of scatterings
+    // Light by the group of lights that it came from: the groups sum to the beauty. As many names; characters that channels cannot have in
+    // theirs become underscores.
+    std::span<const std::vector<Vec3>> groups;
+    std::span<const std::string> group_names;
     std::span<const ExactPlane> film;           // what rendering goes on from
     bool half = false;                          // colours, albedo, normals and errors in 16 bits: half the size
     SnapshotMetadata metadata;
 };
 
 // Channels R G B A, then denoised.{R,G,B}, albedo.{R,G,B}, normal.{X,Y,Z}, depth.Z, error.{R,G,B}, samples.Y, bounce.N.{R,G,B},
-// id.object, id.material, film.* (exact_channels.h).
+// group.NAME.{R,G,B}, id.object, id.material, film.* (exact_channels.h).
 // Errors: a plane of the wrong size, an id of 2^24 or more, which a float channel cannot carry.
 Result<LayeredImage> make_snapshot(const SnapshotInput& input);
 

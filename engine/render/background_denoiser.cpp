@@ -1,5 +1,7 @@
 #include "render/background_denoiser.h"
 
+#include "render/light_mix.h"
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -17,7 +19,9 @@ constexpr float scale_tolerance = 1.26f;
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 DenoiseCadence::Source source_of(uint64_t image, const Frame& frame) {
-    return {image, frame.samples, frame.divider, frame.complete, double(frame.width) * double(frame.height) * 1e-6};
+    // Each group of lights is denoised by itself.
+    const double pictures = double(std::max<size_t>(1, frame.groups.size()));
+    return {image, frame.samples, frame.divider, frame.complete, pictures * double(frame.width) * double(frame.height) * 1e-6};
 }
 
 } // namespace
@@ -74,21 +78,40 @@ std::string BackgroundDenoiser::failure() const {
 
 bool BackgroundDenoiser::is_wanted(const Task& task) const { return !quit_ && wanted_ && (task.promised || newest_image_ == task.image); }
 
-DenoiseOptions BackgroundDenoiser::options_for(const Task& task, DenoiseQuality quality) const {
+DenoiseOptions BackgroundDenoiser::options_for(const Task& task, DenoiseQuality quality, size_t group) const {
     DenoiseOptions options;
     options.quality = quality;
-    options.exposure_scale = scale_;
+    if (group < scales_.size()) options.exposure_scale = scales_[group];
     if (scale_image_ != task.image) options.exposure_tolerance = scale_tolerance;
     return options;
 }
 
-BackgroundDenoiser::Outcome BackgroundDenoiser::denoise(const Task& task, const DenoiseOptions& options) {
+// The picture as a whole, or each group of its lights.
+Result<std::vector<Denoised>> BackgroundDenoiser::denoise_all(const Task& task, DenoiseQuality quality) const {
+    const Frame& frame = *task.frame;
+    std::vector<Denoised> all;
+    for (size_t k = 0; k < std::max<size_t>(1, frame.groups.size()); ++k) {
+        DenoiseInput input = denoise_input(frame);
+        if (!frame.groups.empty()) input.color = {span_of(frame.groups[k]), 3};
+        Result<std::optional<Denoised>> result = denoise_(input, options_for(task, quality, k), [&] { return is_wanted(task); });
+        if (!result) return result.error();
+        if (!*result) return std::vector<Denoised>();
+        all.push_back(**std::move(result));
+    }
+    return all;
+}
+
+BackgroundDenoiser::Outcome BackgroundDenoiser::denoise(const Task& task, DenoiseQuality quality) {
     try {
         if (!denoise_) denoise_ = maker_();
-        Result<std::optional<Denoised>> result = denoise_(denoise_input(*task.frame), options, [&] { return is_wanted(task); });
-        if (!result) return {nullptr, result.error().text()};
-        if (!*result) return {};
-        return {denoised_picture(*task.frame, options.quality, **std::move(result)), {}};
+        Result<std::vector<Denoised>> all = denoise_all(task, quality);
+        if (!all) return {nullptr, all.error().text()};
+        if (all->empty()) return {};
+        scales_.clear();
+        for (const Denoised& d : *all) scales_.push_back(d.exposure_scale);
+        scale_image_ = task.image;
+        if (!task.frame->groups.empty()) return {denoised_picture(*task.frame, quality, *std::move(all)), {}};
+        return {denoised_picture(*task.frame, quality, std::move(all->front())), {}};
     } catch (const std::bad_alloc&) { return {nullptr, "not enough memory to denoise"}; } catch (const std::exception& e) {
         return {nullptr, e.what()};
     }
@@ -126,12 +149,8 @@ void BackgroundDenoiser::run() {
         const Task task = newest_;
         lock.unlock();
         const double begun = now();
-        Outcome outcome = denoise(task, options_for(task, *decision.quality));
+        Outcome outcome = denoise(task, *decision.quality);
         const double seconds = now() - begun;
-        if (outcome.picture) {
-            scale_ = outcome.picture->denoised.exposure_scale;
-            scale_image_ = task.image;
-        }
         lock.lock();
         cadence_.record(source_of(task.image, *task.frame), *decision.quality, begun, seconds, outcome.picture != nullptr);
         failure_ = std::move(outcome.failure);

@@ -10,6 +10,7 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <vector>
 
 namespace blush {
 
@@ -54,8 +55,9 @@ private:
     };
 
     void run();
-    DenoiseOptions options_for(const Task& task, DenoiseQuality quality) const;
-    Outcome denoise(const Task& task, const DenoiseOptions& options);
+    DenoiseOptions options_for(const Task& task, DenoiseQuality quality, size_t group) const;
+    Result<std::vector<Denoised>> denoise_all(const Task& task, DenoiseQuality quality) const;
+    Outcome denoise(const Task& task, DenoiseQuality quality);
     bool is_wanted(const Task& task) const;
 
     void release(std::unique_lock<std::mutex>& lock);
@@ -77,9 +79,10 @@ private:
     std::string failure_;
     double unwanted_since_ = 0;
 
-    // The thread's own: what denoises, while it is there; the exposure scale of the last picture, and its image.
+    // The thread's own: what denoises, while it is there; the exposure scales of the last picture, one for each group of lights if those are
+    // mixed, and its image.
     DenoiseFunction denoise_;
-    std::optional<float> scale_;
+    std::vector<float> scales_;
     uint64_t scale_image_ = 0;
     std::thread thread_;
 };

@@ -1,14 +1,32 @@
 #include "render/denoised_picture.h"
 
+#include "core/math.h"
+#include "render/light_mix.h"
+
+#include <algorithm>
 #include <utility>
 
 namespace blush {
 namespace {
 
-PixelView view_of(const std::vector<Vec3>& plane) {
-    static_assert(sizeof(Vec3) == 3 * sizeof(float));
-    if (plane.empty()) return {};
-    return {{&plane.front().x, 3 * plane.size()}, 3};
+PixelView view_of(const std::vector<Vec3>& plane) { return {span_of(plane), 3}; }
+
+DenoisedPicture picture_of(const Frame& source, DenoiseQuality quality) {
+    DenoisedPicture picture;
+    picture.revision = source.revision;
+    picture.width = source.width;
+    picture.height = source.height;
+    picture.divider = source.divider;
+    picture.samples = source.samples;
+    picture.rendered_seconds = source.seconds;
+    picture.quality = quality;
+    return picture;
+}
+
+double mean_luminance(const std::vector<float>& pixels, size_t stride) {
+    double sum = 0;
+    for (size_t i = 0; i < pixels.size(); i += stride) sum += double(luminance(Vec3{pixels[i], pixels[i + 1], pixels[i + 2]}));
+    return sum / double(std::max<size_t>(1, pixels.size() / stride));
 }
 
 } // namespace
@@ -18,16 +36,47 @@ DenoiseInput denoise_input(const Frame& frame) {
 }
 
 DenoisedPtr denoised_picture(const Frame& source, DenoiseQuality quality, Denoised denoised) {
-    auto picture = std::make_shared<DenoisedPicture>();
-    picture->revision = source.revision;
-    picture->width = source.width;
-    picture->height = source.height;
-    picture->divider = source.divider;
-    picture->samples = source.samples;
-    picture->rendered_seconds = source.seconds;
-    picture->quality = quality;
+    auto picture = std::make_shared<DenoisedPicture>(picture_of(source, quality));
     picture->denoised = std::move(denoised);
     return picture;
+}
+
+DenoisedPtr denoised_picture(const Frame& source, DenoiseQuality quality, std::vector<Denoised> groups) {
+    auto picture = std::make_shared<DenoisedPicture>(picture_of(source, quality));
+    auto planes = std::make_shared<DenoisedGroups>();
+    planes->of = source.light_groups;
+    Denoised& all = picture->denoised;
+    if (!groups.empty()) {
+        all.network = groups.front().network;
+        all.precision = groups.front().precision;
+        all.exposure_scale = groups.front().exposure_scale;
+    }
+    for (Denoised& group : groups) {
+        all.sanitised += group.sanitised;
+        all.tiles = std::max(all.tiles, group.tiles);
+        all.seconds += group.seconds;
+        planes->planes.push_back(std::move(group.rgb));
+    }
+    picture->groups = std::move(planes);
+    picture->gains = source.gains;
+    all.rgb = mixed_rgb(*picture, source.gains);
+    all.mean_before = mean_luminance(source.rgba, 4);
+    all.mean_after = mean_luminance(all.rgb, 3);
+    return picture;
+}
+
+DenoisedPtr remixed(const DenoisedPicture& picture, const Gains& gains) {
+    auto mixed = std::make_shared<DenoisedPicture>(picture);
+    mixed->gains = gains;
+    mixed->denoised.rgb = mixed_rgb(picture, gains);
+    return mixed;
+}
+
+std::vector<float> mixed_rgb(const DenoisedPicture& picture, std::span<const Vec3> gains, const Workers* workers) {
+    std::vector<float> rgb(size_t(picture.width) * size_t(picture.height) * 3);
+    const std::vector<PlaneSpan> planes(picture.groups->planes.begin(), picture.groups->planes.end());
+    mix_planes(planes, gains, rgb, 3, workers);
+    return rgb;
 }
 
 double energy_change_percent(const Denoised& denoised) {

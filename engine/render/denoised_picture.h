@@ -3,11 +3,22 @@
 
 #include "render/denoiser.h"
 #include "render/frame.h"
+#include "render/light_groups.h"
 
 #include <cstdint>
 #include <memory>
+#include <span>
+#include <vector>
 
 namespace blush {
+
+class Workers;
+
+// The planes of a frame's light groups, each denoised by itself, so that they can be mixed anew: width * height * 3 values each.
+struct DenoisedGroups {
+    std::shared_ptr<const LightGroups> of;
+    std::vector<std::vector<float>> planes;
+};
 
 // Never modified after publishing.
 struct DenoisedPicture {
@@ -18,7 +29,9 @@ struct DenoisedPicture {
     double rendered_seconds = 0;
 
     DenoiseQuality quality = DenoiseQuality::fast;
-    Denoised denoised;
+    Denoised denoised; // of the whole picture; of groups, the sum of what they were denoised to, each times its gain
+    std::shared_ptr<const DenoisedGroups> groups; // null: it was denoised as a whole
+    Gains gains;                                  // of the groups
 };
 using DenoisedPtr = std::shared_ptr<const DenoisedPicture>;
 
@@ -26,6 +39,12 @@ using DenoisedPtr = std::shared_ptr<const DenoisedPicture>;
 DenoiseInput denoise_input(const Frame& frame);
 
 DenoisedPtr denoised_picture(const Frame& source, DenoiseQuality quality, Denoised denoised);
+// Of the denoised planes of the frame's groups, mixed with its gains.
+DenoisedPtr denoised_picture(const Frame& source, DenoiseQuality quality, std::vector<Denoised> groups);
+// The same with other gains.
+DenoisedPtr remixed(const DenoisedPicture& picture, const Gains& gains);
+// Its pixels with other gains, width * height * 3; it must have groups.
+std::vector<float> mixed_rgb(const DenoisedPicture& picture, std::span<const Vec3> gains, const Workers* workers = nullptr);
 
 // By how many per cent the denoiser changed the mean luminance; 0 where there was none.
 double energy_change_percent(const Denoised& denoised);

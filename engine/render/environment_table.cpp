@@ -121,16 +121,15 @@ void build_importance(EnvironmentTable& table) {
     table.row_thresholds = make_thresholds(row_weights);
 }
 
-// Radiance in nits of a texel of 1.
-Vec3 scale_of(const Environment& environment) {
+} // namespace
+
+Vec3 environment_scale(const Environment& environment) {
     const auto channel = [&](float c) {
         const float s = c * environment.intensity;
         return s >= 0 && std::isfinite(s) ? s : 0;
     };
     return {channel(environment.color.x), channel(environment.color.y), channel(environment.color.z)};
 }
-
-} // namespace
 
 Vec3d EnvironmentTable::integral() const { return {scale.x * texel_integral.x, scale.y * texel_integral.y, scale.z * texel_integral.z}; }
 
@@ -162,7 +161,7 @@ EnvironmentTable build_environment_table(const Environment& environment, bool im
 }
 
 bool gives_light(const Environment& environment) {
-    const Vec3 scale = scale_of(environment);
+    const Vec3 scale = environment_scale(environment);
     return environment.kind != Environment::Kind::none && (scale.x > 0 || scale.y > 0 || scale.z > 0);
 }
 
@@ -173,7 +172,7 @@ EnvironmentBytes environment_bytes(int64_t width, int64_t height) {
 }
 
 void update_environment_parameters(EnvironmentTable& table, const Environment& environment) {
-    table.scale = scale_of(environment);
+    table.scale = environment_scale(environment);
     const double turns = double(environment.rotation_degrees) / 360;
     table.rotation = std::isfinite(turns) ? float(turns - std::round(turns)) : 0;
     table.visible_to_camera = environment.visible_to_camera;

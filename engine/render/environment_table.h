@@ -41,6 +41,8 @@ constexpr int sky_map_width = 512, sky_map_height = 256;
 EnvironmentTable build_environment_table(const Environment& environment, bool importance = true);
 // Can it give light at all? Colour and intensity say so; the image may still be black.
 bool gives_light(const Environment& environment);
+// Radiance in nits of a texel of 1.
+Vec3 environment_scale(const Environment& environment);
 // Memory of a map of that size: the texels, and what directions are drawn from.
 struct EnvironmentBytes {
     int64_t texels = 0, importance = 0;

@@ -51,6 +51,7 @@ template <class F> struct Step {
     Mask<F> breaks; // the throughput is no finite number: the path ends and its sample is spoilt, for the film to drop and count
     Vec<F> emitted; // add where `emits`
     Vec<F> direct;  // add where `connects` and nothing lies on the shadow ray
+    Int<F> light;   // where that comes from: a record of the light table
     Ray<F> shadow;
     F shadow_distance;
     Path<F> next;   // where `continues` or `breaks`
@@ -116,15 +117,11 @@ Path<F> begin_path(const SceneTables& scene, const EstimatorSettings& settings, 
     return path;
 }
 
-// Light from beyond all surfaces along the path's ray, times its MIS weight, and the environment's share of that weight.
-template <class F> struct EscapedLight {
-    Vec<F> radiance;
-    F weight;
-};
-template <Features S, class F>
-EscapedLight<F> escaped_light(const SceneTables& scene, const EstimatorSettings& settings, const Path<F>& path, int bounce, const Mask<F>& active) {
-    Vec<F> sum = splat<F>(0.f);
-    F environment_weight = F(1.f);
+// Light from beyond all surfaces along the path's ray, one source after the other: visit(light, radiance times MIS weight, that weight,
+// lanes), light being a record of the light table, -1 for an environment that lights nothing.
+template <Features S, class F, class Visit>
+void visit_escaped_light(const SceneTables& scene, const EstimatorSettings& settings, const Path<F>& path, int bounce, const Mask<F>& active,
+                         const Visit& visit) {
     const LightTables& lights = scene.lights;
     // Of the density there would be by aiming, for its share of the weight. Nobody aims under Strategy::bsdf, and then there are no tables.
     const bool aims = settings.strategy != Strategy::bsdf;
@@ -132,13 +129,14 @@ EscapedLight<F> escaped_light(const SceneTables& scene, const EstimatorSettings&
     if constexpr (S.has(Feature::environment)) {
         if (bounce > 0 ? scene.environment.lights_scene : scene.environment.visible_to_camera) {
             const Vec<F> radiance = environment_radiance<F>(scene.environment, path.ray.direction, active);
+            F weight = F(1.f);
             if (aims) {
                 F pdf = F(0.f);
                 if (lights.environment >= 0)
                     pdf = environment_pdf<F>(scene.environment, path.ray.direction) * light_probability<S, F>(lights, from, Int<F>(lights.environment), active);
-                environment_weight = found_emission_weight(settings.strategy, path.pdf, pdf);
+                weight = found_emission_weight(settings.strategy, path.pdf, pdf);
             }
-            sum = radiance * environment_weight;
+            visit(lights.environment, radiance * weight, weight, active);
         }
     }
     if constexpr (S.has(Feature::suns)) {
@@ -152,10 +150,25 @@ EscapedLight<F> escaped_light(const SceneTables& scene, const EstimatorSettings&
                 const F pdf = cone_pdf(F(sun.cone_height)) * light_probability<S, F>(lights, from, Int<F>(lights.suns[i]), inside);
                 weight = found_emission_weight(settings.strategy, path.pdf, pdf);
             }
-            sum = select<F>(inside, sum + splat<F>(sun.emission) * weight, sum);
+            visit(lights.suns[i], splat<F>(sun.emission) * weight, weight, inside);
         }
     }
-    return {sum, environment_weight};
+}
+
+// All of it, and the environment's MIS weight.
+template <class F> struct EscapedLight {
+    Vec<F> radiance;
+    F weight;
+};
+template <Features S, class F>
+EscapedLight<F> escaped_light(const SceneTables& scene, const EstimatorSettings& settings, const Path<F>& path, int bounce, const Mask<F>& active) {
+    EscapedLight<F> all{splat<F>(0.f), F(1.f)};
+    visit_escaped_light<S, F>(scene, settings, path, bounce, active,
+                              [&](int32_t light, const Vec<F>& radiance, const F& weight, const Mask<F>& lanes) {
+                                  all.radiance = select<F>(lanes, all.radiance + radiance, all.radiance);
+                                  if (light == scene.lights.environment) all.weight = weight;
+                              });
+    return all;
 }
 
 // The light that a triangle of a part is, -1: none.
@@ -233,6 +246,7 @@ template <Features S, class F>
 Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, const Path<F>& path, const Hit<F>& hit, int bounce, const Mask<F>& active) {
     Step<F> out;
     out.emitted = splat<F>(0.f);
+    out.light = Int<F>(0);
     out.connects = out.continues = out.breaks = Mask<F>(false);
     out.weights = {F(1.f), F(1.f), F(0.f), F(0.f), F(1.f), Mask<F>(false), path.beta};
     const Mask<F> met = active && as_mask(hit.geometry >= 0);
@@ -355,6 +369,7 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
         const BsdfValue<F> f = eval<S, F>(bsdf, wo, wi);
         const F weight = light_sample_weight(settings.strategy, in.pdf, f.pdf, light.delta);
         out.direct = beta * f.f_cos * in.radiance * (weight / in.pdf);
+        out.light = light.light;
         out.weights.light = weight;
         out.weights.light_pdf = in.pdf;
         out.weights.light_bsdf_pdf = f.pdf;

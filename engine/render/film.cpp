@@ -26,8 +26,9 @@ std::optional<BadSample::Cause> fault_of(double r, double g, double b) {
 
 } // namespace
 
-std::vector<PlaneUse> Film::plane_uses(const PlaneSet& planes, bool transparent_background, bool adaptive) {
-    const size_t places = adaptive ? 2 : 1; // place_of()
+std::vector<PlaneUse> Film::plane_uses(const FilmSize& size) {
+    const PlaneSet& planes = size.planes;
+    const size_t places = size.adaptive ? 2 : 1; // place_of()
     const bool features = planes.albedo || planes.normal;
     const int bounces = planes.bounces > 0 ? planes.bounces : usual_bounce_planes;
     return {
@@ -43,10 +44,12 @@ std::vector<PlaneUse> Film::plane_uses(const PlaneSet& planes, bool transparent_
         {"ids", planes.ids,
          planes.ids ? "a click that selects, the outline, the values of a pixel or a layer" : "nobody reads them: no layer, no picking",
          sizeof(uint32_t) + sizeof(int32_t)},
-        {"coverage", transparent_background, transparent_background ? "the environment is hidden from the camera" : "the picture is opaque",
+        {"coverage", size.transparent, size.transparent ? "the environment is hidden from the camera" : "the picture is opaque",
          places * sizeof(int64_t)},
         {"bounces", planes.bounces > 0, planes.bounces > 0 ? "somebody reads them" : "nobody looks at single bounces",
          places * BouncePlanes::bytes_per_pixel(bounces)},
+        {"light groups", size.groups > 0, size.groups > 0 ? "lights are mixed" : "nobody mixes lights",
+         GroupPlanes::bytes_per_pixel(std::max(1, size.groups))},
         {"path statistics", planes.roulette, planes.roulette ? "roulette is being looked at" : "nobody looks at roulette",
          places * sizeof(Vec3d)},
     };
@@ -55,30 +58,37 @@ std::vector<PlaneUse> Film::plane_uses(const PlaneSet& planes, bool transparent_
 size_t Film::memory_bytes() const {
     const auto bytes = [](const auto& plane) { return plane.capacity() * sizeof(plane[0]); };
     return bytes(halves_) + bytes(features_) + bytes(covered_) + bytes(depth_) + bytes(object_id_) + bytes(material_) +
-           bytes(paths_) + bounces_.memory_bytes();
+           bytes(paths_) + bounces_.memory_bytes() + groups_.memory_bytes();
 }
 
-void Film::require_memory(int width, int height, const PlaneSet& planes, bool adaptive) {
+void Film::require_memory(const FilmSize& size) {
     // Said before the system's killer says it in its own way. Beside the planes there are frames, and half of an adaptive pilot.
-    double per_pixel = 64 + (adaptive ? 2 * sizeof(Vec3d) : 0);
-    for (const PlaneUse& plane : plane_uses(planes, false, adaptive))
+    double per_pixel = 64 + 3 * double(sizeof(Vec3)) * size.groups + (size.adaptive ? 2 * sizeof(Vec3d) : 0);
+    for (const PlaneUse& plane : plane_uses(size))
         if (plane.used) per_pixel += double(plane.bytes_per_pixel);
-    const double needed = per_pixel * double(width) * double(height);
+    const double needed = per_pixel * double(size.width) * double(size.height);
     const double present = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGE_SIZE));
     if (needed > 0.8 * present)
-        throw std::runtime_error(fmt::format("an image of {} x {} pixels needs {:.0f} GB of memory, this machine has {:.0f}", width, height,
-                                             needed / 1e9, present / 1e9));
+        throw std::runtime_error(fmt::format("an image of {} x {} pixels needs {:.0f} GB of memory, this machine has {:.0f}", size.width,
+                                             size.height, needed / 1e9, present / 1e9));
 }
 
-void Film::reset(int width, int height, const PlaneSet& planes, bool transparent_background, bool adaptive, const Clamp& clamp) {
-    require_memory(width, height, planes, adaptive);
-    width_ = width;
-    height_ = height;
-    planes_ = planes;
-    transparent_ = transparent_background;
-    adaptive_ = adaptive;
+void Film::reset(const FilmSize& size, const Clamp& clamp) {
+    require_memory(size);
+    width_ = size.width;
+    height_ = size.height;
+    planes_ = size.planes;
+    transparent_ = size.transparent;
+    adaptive_ = size.adaptive;
     clamping_ = clamp;
+    group_count_ = size.groups;
+    if (gains_.size() != size_t(size.groups)) set_gains(std::vector<Vec3>(size_t(size.groups), Vec3{1, 1, 1}));
     clear();
+}
+
+void Film::set_gains(std::span<const Vec3> gains) {
+    gains_.assign(gains.begin(), gains.end());
+    mixed_ = std::ranges::any_of(gains_, [](const Vec3& g) { return g != Vec3{1, 1, 1}; });
 }
 
 void Film::clear() {
@@ -91,6 +101,7 @@ void Film::clear() {
     object_id_.assign(planes_.ids ? n : 0, 0u);
     material_.assign(planes_.ids ? n : 0, -1);
     bounces_.reset(places, planes_.bounces);
+    groups_.reset(n, group_count_);
     paths_.assign(planes_.roulette ? places : 0, Vec3d{0, 0, 0});
     clamp_.reset(places, clamping_);
     health_.reset();
@@ -156,10 +167,12 @@ float Film::notable_sum(size_t pixel, int samples) const {
     return std::min(limit, float(least * std::max(mean, 0.1) / 0.716)); // at most sqrt(mean^2 + 0.01) as an excess has it
 }
 
-void Film::add_planes(size_t pixel, size_t place, const TileScratch& tile, int slot, const ClampLedger::Left& left) {
+void Film::add_planes(size_t pixel, int half, const TileScratch& tile, int slot, const ClampLedger::Left& left) {
+    const size_t place = place_of(pixel, half);
     const bool first_of_pixel = halves_[2 * pixel].count + halves_[2 * pixel + 1].count == 0;
     if (needs_first_hits()) add_first_hit(pixel, place, *tile.first, slot, first_of_pixel);
     if (planes_.bounces > 0) bounces_.add(place, tile, slot, left.first_scaled, left.scale);
+    if (needs_groups() > 0) groups_.add(pixel, half, tile, slot, left.first_scaled, left.scale);
     if (planes_.roulette) {
         const RouletteColumns& c = *tile.roulette;
         paths_[place] = paths_[place] + Vec3d{double(c.length[slot]), double(c.asked[slot]), double(c.survival[slot])};
@@ -175,7 +188,7 @@ void Film::add_notable(size_t pixel, const SampleName& at, const TileScratch& ti
     }
     const size_t place = place_of(pixel, at.sample);
     const ClampLedger::Left left = clamp_.clamp(place, tile, slot);
-    if (has_planes()) add_planes(pixel, place, tile, slot, left);
+    if (has_planes()) add_planes(pixel, int(at.sample & 1), tile, slot, left);
     halves_[2 * pixel + size_t(at.sample & 1)].add(left.radiance);
     const double mean = luminance(sum_of(pixel)) / double(halves_[2 * pixel].count + halves_[2 * pixel + 1].count);
     const double bright = luminance(radiance);
@@ -196,7 +209,7 @@ void Film::add(const TileJob& job, const TileScratch& tile, uint32_t seed, const
                 const double r = tile.r[slot], g = tile.g[slot], b = tile.b[slot];
                 // One comparison for the many that are sound and ordinary; the slow questions only for the rest.
                 if (r >= 0 && g >= 0 && b >= 0 && r + g + b <= notable) {
-                    if (planes) add_planes(pixel, place_of(pixel, sample), tile, slot, {});
+                    if (planes) add_planes(pixel, int(sample & 1), tile, slot, {});
                     halves_[2 * pixel + size_t(sample & 1)].add({r, g, b});
                 } else {
                     add_notable(pixel, {x, y, sample, seed}, tile, slot, diagnose, findings);
@@ -212,6 +225,25 @@ void Film::Totals::merge(const Totals& other) {
     kept = kept + other.kept;
     removed = removed + other.removed;
     clamped += other.clamped;
+    for (size_t k = 0; k < groups.size(); ++k) {
+        groups[k].mean = groups[k].mean + other.groups[k].mean;
+        groups[k].variance = groups[k].variance + other.groups[k].variance;
+    }
+}
+
+void Film::resolve_groups(Frame& frame, size_t pixel, const Weights& w, std::vector<GroupShare>& shares) const {
+    const double na = double(halves_[2 * pixel].count), nb = double(halves_[2 * pixel + 1].count);
+    // The square of |A - B| times this is an unbiased estimate of the variance of the weighted mean.
+    const double k = na > 0 && nb > 0 ? std::sqrt(na * w.a * nb * w.b) : 0;
+    for (size_t g = 0; g < frame.groups.size(); ++g) {
+        const Vec3d &a = groups_.sum(pixel, 0, g), &b = groups_.sum(pixel, 1, g);
+        const Vec3d mean = a * w.a + b * w.b;
+        frame.groups[g][pixel] = {float(mean.x), float(mean.y), float(mean.z)};
+        shares[g].mean = shares[g].mean + mean;
+        if (k == 0) continue;
+        const Vec3d difference = (a * (1 / na) - b * (1 / nb)) * k;
+        shares[g].variance = shares[g].variance + difference * difference;
+    }
 }
 
 void Film::resolve_rows(Frame& frame, int first, int last, Totals& totals) const {
@@ -220,9 +252,10 @@ void Film::resolve_rows(Frame& frame, int first, int last, Totals& totals) const
         const int64_t count = a.count + b.count;
         const Weights w = weights(a, b);
         float* rgba = &frame.rgba[4 * i];
-        rgba[0] = float(a.r * w.a + b.r * w.b);
-        rgba[1] = float(a.g * w.a + b.g * w.b);
-        rgba[2] = float(a.b * w.a + b.b * w.b);
+        const Vec3d sum_a = sum(i, 0), sum_b = sum(i, 1);
+        rgba[0] = float(sum_a.x * w.a + sum_b.x * w.b);
+        rgba[1] = float(sum_a.y * w.a + sum_b.y * w.b);
+        rgba[2] = float(sum_a.z * w.a + sum_b.z * w.b);
         rgba[3] = transparent_ ? float(mean_of(i, w, [&](size_t place) { return double(covered_[place]); })) : count > 0 ? 1.f : 0.f;
         if (adaptive_) frame.pixel_samples[i] = float(count);
         // Guides for denoising, where it does no harm that all samples count alike.
@@ -241,6 +274,7 @@ void Film::resolve_rows(Frame& frame, int first, int last, Totals& totals) const
             const Vec3d light = mean_of(i, w, [&](size_t place) { return bounces_.sum(place, k); });
             frame.bounces[k][i] = {float(light.x), float(light.y), float(light.z)};
         }
+        if (!frame.groups.empty()) resolve_groups(frame, i, w, totals.groups);
         if (planes_.roulette) {
             const Vec3d p = mean_of(i, w, [&](size_t place) { return paths_[place]; });
             frame.path_length[i] = float(p.x);
@@ -258,7 +292,7 @@ PixelHalves Film::halves(size_t pixel) const {
     const Half &a = halves_[2 * pixel], &b = halves_[2 * pixel + 1];
     if (a.count == 0 || b.count == 0) return {};
     const double na = double(a.count), nb = double(b.count);
-    return {true, {a.r / na, a.g / na, a.b / na}, {b.r / nb, b.g / nb, b.b / nb}, na * weights(a, b).a, a.count + b.count};
+    return {true, sum(pixel, 0) / na, sum(pixel, 1) / nb, na * weights(a, b).a, a.count + b.count};
 }
 
 ErrorAccumulator Film::error_of_rows(const Frame& frame, int first, int last) const {
@@ -292,6 +326,9 @@ void Film::resolve(Frame& frame, const Workers& workers) const {
     frame.material_id.resize(planes_.ids ? n : 0);
     frame.bounces.resize(size_t(planes_.bounces));
     for (std::vector<Vec3>& plane : frame.bounces) plane.resize(n);
+    frame.groups.resize(size_t(needs_groups()));
+    for (std::vector<Vec3>& plane : frame.groups) plane.resize(n);
+    frame.gains = gains_;
     frame.path_length.resize(planes_.roulette ? n : 0);
     frame.survival.resize(planes_.roulette ? n : 0);
     frame.health = health_.health();
@@ -299,7 +336,8 @@ void Film::resolve(Frame& frame, const Workers& workers) const {
     // Bands of a fixed size, summed in order: the totals do not depend on threads.
     constexpr int band = 32;
     const size_t bands = size_t((height_ + band - 1) / band);
-    std::vector<Totals> totals(bands);
+    const Totals none{.groups = std::vector<GroupShare>(frame.groups.size())};
+    std::vector<Totals> totals(bands, none);
     std::vector<ErrorAccumulator> errors(bands);
     const auto for_each_band = [&](const auto& task) {
         workers.for_each(int64_t(bands), {}, [&](int64_t i, unsigned) { task(size_t(i), int(i) * band, std::min(height_, int(i + 1) * band)); });
@@ -311,8 +349,10 @@ void Film::resolve(Frame& frame, const Workers& workers) const {
     for (const ErrorAccumulator& e : errors) error.merge(e);
     frame.error = error.estimate();
     frame.error_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    Totals total;
+    Totals total = none;
     for (const Totals& t : totals) total.merge(t);
+    frame.group_shares = total.groups;
+    for (GroupShare& share : frame.group_shares) share = {share.mean / double(n), share.variance / double(n)};
     const double before = luminance(total.kept) + luminance(total.removed);
     frame.clamp = {total.clamped, total.removed / double(n), before > 0 ? luminance(total.removed) / before : 0};
 }
@@ -328,8 +368,8 @@ std::vector<Vec3> Film::standard_error() const {
         // |A - B| times the factor that makes its square an unbiased estimate of the variance of the weighted mean.
         const Weights w = weights(a, b);
         const double k = std::sqrt(na * w.a * nb * w.b);
-        result.push_back(
-            {float(std::abs(a.r / na - b.r / nb) * k), float(std::abs(a.g / na - b.g / nb) * k), float(std::abs(a.b / na - b.b / nb) * k)});
+        const Vec3d difference = sum(i, 0) / na - sum(i, 1) / nb;
+        result.push_back({float(std::abs(difference.x) * k), float(std::abs(difference.y) * k), float(std::abs(difference.z) * k)});
     }
     return result;
 }

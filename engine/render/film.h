@@ -6,6 +6,7 @@
 #include "render/clamp_ledger.h"
 #include "render/error_estimate.h"
 #include "render/frame.h"
+#include "render/group_planes.h"
 #include "render/health_recorder.h"
 #include "render/kernels/kernel.h"
 #include "render/renderer.h"
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 namespace blush {
@@ -20,9 +22,10 @@ namespace blush {
 // What a film is made for.
 struct FilmSize {
     int width = 1, height = 1;
-    PlaneSet planes;
+    PlaneSet planes = {};
     bool transparent = false; // alpha is coverage
     bool adaptive = false;
+    int groups = 0; // of lights, each with its plane
 };
 
 // Of a film plane: is it there, why, and what a pixel of it takes or would take.
@@ -35,16 +38,17 @@ struct PlaneUse {
 
 class Film {
 public:
-    static std::vector<PlaneUse> plane_uses(const PlaneSet& planes, bool transparent_background, bool adaptive = false);
+    static std::vector<PlaneUse> plane_uses(const FilmSize& size);
     // Throws std::runtime_error, with a sentence for the user, if such a film does not fit into this machine.
-    static void require_memory(int width, int height, const PlaneSet& planes, bool adaptive = false);
-    // Clears, and allocates what is missing. Throws as above. `adaptive`: how many samples a pixel has in each half depends on the values
+    static void require_memory(const FilmSize& size);
+    // Clears, and allocates what is missing. Throws as above. Adaptive: how many samples a pixel has in each half depends on the values
     // themselves, so the halves count alike (sample_plan.h).
-    void reset(int width, int height, const PlaneSet& planes, bool transparent_background, bool adaptive = false,
-               const Clamp& clamp = {});
+    void reset(const FilmSize& size, const Clamp& clamp = {});
     void clear();
     // Frees the planes that are not among these; it must have all of these.
     void keep_only(const PlaneSet& planes);
+    // What the groups' planes are multiplied with, from here on, in all that is read; one gain for each.
+    void set_gains(std::span<const Vec3> gains);
 
     // Of all planes together.
     size_t memory_bytes() const;
@@ -55,6 +59,9 @@ public:
     bool needs_first_hits() const { return planes_.albedo || planes_.normal || planes_.depth || planes_.ids || transparent_; }
     // How often the kernels must note what a path has gathered: after 0, 1, ... scatterings.
     int needs_bounces() const { return std::max(bounces_.columns(), clamp_.columns()); }
+    int needs_groups() const { return groups_.groups(); }
+    // Of the groups too, light that was scattered at most once.
+    bool needs_direct_groups() const { return needs_groups() > 0 && clamp_.columns() > 0; }
     bool needs_roulette() const { return planes_.roulette; }
 
     // Finds out why a sample (of a pixel x, y) is no sound radiance.
@@ -63,8 +70,9 @@ public:
     // not finite or negative is dropped, counted and remembered with its diagnosis. Tiles in flight must not share pixels. Thread-safe.
     void add(const TileJob& job, const TileScratch& tile, uint32_t seed, const Diagnose& diagnose = {});
 
-    // Sum of the samples of half `half` of a pixel.
+    // Sum of the samples of half `half` of a pixel, as the groups' gains have it.
     Vec3d sum(size_t pixel, int half) const {
+        if (mixed_) return groups_.mixed(pixel, half, gains_);
         const Half& h = halves_[2 * pixel + size_t(half)];
         return {h.r, h.g, h.b};
     }
@@ -122,17 +130,19 @@ private:
 
     Vec3d sum_of(size_t pixel) const;
     float notable_sum(size_t pixel, int samples) const;
-    bool has_planes() const { return needs_first_hits() || planes_.bounces > 0 || planes_.roulette; }
+    bool has_planes() const { return needs_first_hits() || planes_.bounces > 0 || planes_.roulette || needs_groups() > 0; }
     // All that a sample adds to but the beauty, before it is added to that.
-    void add_planes(size_t pixel, size_t place, const TileScratch& tile, int slot, const ClampLedger::Left& left);
+    void add_planes(size_t pixel, int half, const TileScratch& tile, int slot, const ClampLedger::Left& left);
     void add_notable(size_t pixel, const SampleName& at, const TileScratch& tile, int slot, const Diagnose& diagnose, Findings& findings);
     void add_first_hit(size_t pixel, size_t place, const FirstHitColumns& first, int slot, bool first_of_pixel);
     // What bands of rows add up to.
     struct Totals {
         Vec3d kept{0, 0, 0}, removed{0, 0, 0};
         int64_t clamped = 0;
+        std::vector<GroupShare> groups;
         void merge(const Totals& other);
     };
+    void resolve_groups(Frame& frame, size_t pixel, const Weights& w, std::vector<GroupShare>& shares) const;
     void resolve_rows(Frame& frame, int first, int last, Totals& totals) const;
     ErrorAccumulator error_of_rows(const Frame& frame, int first, int last) const;
 
@@ -140,6 +150,7 @@ private:
     PlaneSet planes_;
     bool transparent_ = false, adaptive_ = false;
     Clamp clamping_;
+    int group_count_ = 0;
     std::vector<Half> halves_; // two per pixel: even and odd samples, two randomisations of the sampler
     std::vector<FeatureSums> features_;
     std::vector<int64_t> covered_; // samples that hit something; only for transparent backgrounds
@@ -148,6 +159,9 @@ private:
     std::vector<int32_t> material_; // index into the material table
     std::vector<Vec3d> paths_; // of the paths: length, how often roulette was asked, the probabilities that it gave
     BouncePlanes bounces_;
+    GroupPlanes groups_;
+    std::vector<Vec3> gains_; // of the groups
+    bool mixed_ = false;      // some gain is not 1
     ClampLedger clamp_;
     HealthRecorder health_;
 };

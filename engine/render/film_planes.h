@@ -34,6 +34,9 @@ struct FilmPlanes {
         if (!film.covered_.empty()) visit_places(film, visit, "covered", [&film](size_t place) -> auto& { return film.covered_[place]; });
         for (size_t k = 0; k < size_t(film.bounces_.planes()); ++k)
             visit_vectors(film, visit, fmt::format("bounce.{}", k), [&film, k](size_t place) -> auto& { return film.bounces_.sum(place, k); });
+        for (size_t k = 0; k < size_t(film.groups_.groups()); ++k)
+            for (int half = 0; half < 2; ++half)
+                visit_vector(visit, group_name(k, half), [&film, k, half](size_t pixel) -> auto& { return film.groups_.sum(pixel, half, k); });
         if (!film.paths_.empty()) visit_vectors(film, visit, "paths", [&film](size_t place) -> auto& { return film.paths_[place]; });
         if (film.clamp_.on()) {
             visit_vectors(film, visit, "clamped", [&film](size_t place) -> auto& { return film.clamp_.account(place).removed; });
@@ -41,8 +44,11 @@ struct FilmPlanes {
         }
     }
 
+    static std::string half_name(int half) { return half == 0 ? "even" : "odd"; }
+    static std::string group_name(size_t group, int half) { return name_of(size_t(half), fmt::format("group.{}", group)); }
+
 private:
-    static std::string name_of(size_t half, std::string_view what) { return fmt::format("{}.{}", half == 0 ? "even" : "odd", what); }
+    static std::string name_of(size_t half, std::string_view what) { return fmt::format("{}.{}", half_name(int(half)), what); }
 
     // One number for each pixel or, where halves have weights of their own, one for each half.
     template <class AnyFilm, class Visit, class At>
@@ -56,6 +62,11 @@ private:
         visit_places(film, visit, name + ".R", [=](size_t place) -> auto& { return at(place).x; });
         visit_places(film, visit, name + ".G", [=](size_t place) -> auto& { return at(place).y; });
         visit_places(film, visit, name + ".B", [=](size_t place) -> auto& { return at(place).z; });
+    }
+    template <class Visit, class At> static void visit_vector(const Visit& visit, const std::string& name, const At& at) {
+        visit(name + ".R", Combine::add, [=](size_t pixel) -> auto& { return at(pixel).x; });
+        visit(name + ".G", Combine::add, [=](size_t pixel) -> auto& { return at(pixel).y; });
+        visit(name + ".B", Combine::add, [=](size_t pixel) -> auto& { return at(pixel).z; });
     }
 };
 

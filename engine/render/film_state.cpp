@@ -1,6 +1,7 @@
 #include "render/film_state.h"
 
 #include "render/film_planes.h"
+#include "render/light_groups.h"
 #include "render/lowering.h"
 
 #include <algorithm>
@@ -97,14 +98,28 @@ Result<void> add_film(Film& film, const FilmState& more) {
     return {};
 }
 
+void scale_groups(FilmState& state, std::span<const Vec3> factors) {
+    const std::array<std::pair<const char*, float Vec3::*>, 3> channels{{{".R", &Vec3::x}, {".G", &Vec3::y}, {".B", &Vec3::z}}};
+    for (int half = 0; half < 2; ++half)
+        for (const auto& [name, channel] : channels) {
+            std::vector<double>& beauty = state.find(FilmPlanes::half_name(half) + name)->sums;
+            std::ranges::fill(beauty, 0.0);
+            for (size_t k = 0; k < factors.size(); ++k) {
+                std::vector<double>& group = state.find(FilmPlanes::group_name(k, half) + name)->sums;
+                for (size_t i = 0; i < group.size(); ++i) beauty[i] += group[i] *= double(factors[k].*channel);
+            }
+        }
+}
+
 FilmSize film_size(const FilmState& state) {
-    FilmSize size{state.width, state.height, {}, false, false};
+    FilmSize size{.width = state.width, .height = state.height};
     const auto has = [&](const std::string& name) { return state.find(name) || state.find("even." + name); };
     size.planes.albedo = size.planes.normal = has("albedo.R");
     size.planes.depth = has("depth");
     size.planes.ids = has("object");
     size.planes.roulette = has("paths.R");
     while (size.planes.bounces < most_bounce_planes && has(fmt::format("bounce.{}.R", size.planes.bounces))) ++size.planes.bounces;
+    while (size.groups < most_light_groups && has(FilmPlanes::group_name(size_t(size.groups), 0) + ".R")) ++size.groups;
     size.transparent = has("covered");
     return size;
 }
@@ -113,9 +128,10 @@ namespace {
 
 Result<void> load_new(Film& film, const FilmState& state, const RenderSettings& settings) {
     if (state.width < 1 || state.height < 1 || state.samples < 1) return Error{"", "there are no samples", ""};
-    const FilmSize size = film_size(state);
+    FilmSize size = film_size(state);
+    size.adaptive = settings.adaptive;
     try {
-        film.reset(size.width, size.height, size.planes, size.transparent, settings.adaptive, settings.clamp);
+        film.reset(size, settings.clamp);
     } catch (const std::exception& e) { return Error{"", e.what(), ""}; }
     return load_film(film, state);
 }

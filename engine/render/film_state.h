@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -52,6 +53,8 @@ Result<ResolvedFilm> resolve_film(const FilmState& state, const RenderSettings& 
 // The state of the samples of both, of one image and next to one another; neither may be adaptive. Errors as of add_film; ranges that
 // overlap or leave a gap.
 Result<FilmState> merge_films(const FilmState& a, const FilmState& b, const RenderSettings& settings);
+// As if each group of lights had shone with that factor from the first sample on.
+void scale_groups(FilmState& state, std::span<const Vec3> factors);
 
 // What a film must be reset with to take up this state.
 FilmSize film_size(const FilmState& state);

@@ -13,6 +13,8 @@
 
 namespace blush {
 
+struct LightGroups;
+
 struct RayCounts {
     int64_t camera = 0, bounce = 0, shadow = 0;
     int64_t total() const { return camera + bounce + shadow; }
@@ -24,6 +26,12 @@ struct ErrorEstimate {
     double relmse = 0, low = 0, high = 0; // mean of (a - b)^2 / (b^2 + 0.01), b being the truth
     bool rmse_known = false;
     double rmse = 0, rmse_low = 0, rmse_high = 0; // root of the mean of (a - b)^2
+};
+
+// Of a group of lights, before its gain: the mean of its plane, and of the square of half the difference of its two halves, which is
+// its share of the picture's variance (error_estimate.h). Per channel.
+struct GroupShare {
+    Vec3d mean{0, 0, 0}, variance{0, 0, 0};
 };
 
 // What clamping took from the picture.
@@ -51,6 +59,14 @@ struct Frame {
     // Light by the number of scatterings it took: 0 seen directly, 1 scattered once, ...; the last holds all further ones. They sum to the
     // beauty. Empty unless read.
     std::vector<std::vector<Vec3>> bounces;
+
+    // Light by the group of lights that it came from (light_groups.h), before gains, and the gains that rgba and error have: rgba is the sum
+    // of planes times gains. Empty unless there are groups.
+    std::shared_ptr<const LightGroups> light_groups; // null: none
+    std::vector<std::string> group_names;
+    std::vector<std::vector<Vec3>> groups;
+    std::vector<Vec3> gains;
+    std::vector<GroupShare> group_shares;
 
     // Of the pixel's paths: mean number of vertices, and the mean probability of going on that roulette gave, 1 where it was never asked.
     // Empty unless read, as are the counts.

@@ -46,7 +46,7 @@ void add_kernel(Ledger& ledger, Features features) {
 }
 
 void add_film(Ledger& ledger, const FilmSize& film) {
-    for (const PlaneUse& p : Film::plane_uses(film.planes, film.transparent, film.adaptive))
+    for (const PlaneUse& p : Film::plane_uses(film))
         ledger.push_back({"film", p.name, p.used, p.why, int64_t(p.bytes_per_pixel) * film.width * film.height});
 }
 

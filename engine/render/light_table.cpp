@@ -22,17 +22,19 @@ double luminance_of(const Vec3& c) { return double(luminance(c)); }
 struct Builder {
     Aim aim = Aim::at_all;
     LightTable table;
-    std::vector<double> powers;
     std::vector<LightBounds> bounds; // by record; of suns and the environment they are not asked for
     int64_t luminaires = 0;          // at finite distance; a panel is one whatever its triangles
 
-    void add(const LightRecord& record, double power, const LightBounds& where = {}) {
+    void add(const LightRecord& record, Id<Node> node, double power, const LightBounds& where = {}) {
         table.records.push_back(record);
+        table.nodes.push_back(node);
+        table.powers.push_back(std::isfinite(power) && power > 0 ? power : 0);
         bounds.push_back(where);
-        powers.push_back(std::isfinite(power) && power > 0 ? power : 0);
     }
     // A light that rays can find as well.
-    void add_findable(const LightRecord& record, double power, const LightBounds& where = {}) { add(record, aim == Aim::at_all ? power : 0, where); }
+    void add_findable(const LightRecord& record, Id<Node> node, double power, const LightBounds& where = {}) {
+        add(record, node, aim == Aim::at_all ? power : 0, where);
+    }
 };
 
 // Mean emission of a textured triangle over a 4 x 4 grid, and never quite nothing where the material may emit: what the
@@ -119,15 +121,14 @@ void add_triangles(Builder& b, const Scene& scene, const MaterialTable& material
             light.emission = material.emission;
             const double area = 0.5 * double(length(cross(light.edge1, light.edge2)));
             light.inverse_area = area > 0 && std::isfinite(1 / area) ? float(1 / area) : 0.f;
-            b.table.records.push_back(light);
             double nits = luminance_of(material.emission);
             if (textured) {
-                tables.lights.lights = b.table.records.data();
-                nits = mean_textured_luminance(tables, b.table.records.size() - 1, material.emission);
+                tables.lights.lights = &light;
+                nits = mean_textured_luminance(tables, 0, material.emission);
             }
             const double power = pi_d * area * nits * (two_sided ? 2 : 1);
-            b.powers.push_back(b.aim == Aim::at_all && std::isfinite(power) && light.inverse_area > 0 ? power : 0);
-            b.bounds.push_back(triangle_bounds(p, light, panel));
+            const bool aimed_at = b.aim == Aim::at_all && light.inverse_area > 0;
+            b.add(light, Id<Node>{uint32_t(record.object)}, aimed_at ? power : 0, triangle_bounds(p, light, panel));
             ++b.table.emissive_triangles;
         }
     }
@@ -147,11 +148,11 @@ void add_spheres(Builder& b, const Scene& scene, const std::vector<SphereLight>&
         record.radius = float(sphere.radius);
         const double disk = pi_d * sphere.radius * sphere.radius; // as seen from afar
         // The candela of a point or a spot are those of its sphere from any direction.
-        record.emission = light_emission(light);
+        record.emission = light.enabled ? light_emission(light) : Vec3{0, 0, 0};
         if (light.kind != Light::Kind::sphere) record.emission = to_float(to_double(record.emission) * (1 / disk));
         ++b.table.sphere_lights;
         ++b.luminaires;
-        b.add_findable(record, 4 * pi_d * disk * luminance_of(record.emission) * profile.share,
+        b.add_findable(record, sphere.node, 4 * pi_d * disk * luminance_of(record.emission) * profile.share,
                        ball_bounds(record.position, sphere.radius, light, placements(sphere.node).world_from_node));
     }
 }
@@ -168,11 +169,11 @@ LightRecord sun_record(const Vec3& towards, float angle_radians, const Vec3& lux
     return record;
 }
 
-void add_sun(Builder& b, const LightRecord& record, double lux, double scene_radius) {
+void add_sun(Builder& b, const LightRecord& record, Id<Node> node, double lux, double scene_radius) {
     if (record.cone_height > 0) b.table.suns.push_back(int32_t(b.table.records.size()));
     ++b.table.sun_lights;
     const double power = pi_d * scene_radius * scene_radius * lux;
-    record.cone_height > 0 ? b.add_findable(record, power) : b.add(record, power);
+    record.cone_height > 0 ? b.add_findable(record, node, power) : b.add(record, node, power);
 }
 
 void add_punctual(Builder& b, const Scene& scene, double scene_radius, const Vec3d& origin) {
@@ -185,7 +186,7 @@ void add_punctual(Builder& b, const Scene& scene, double scene_radius, const Vec
         if (light->kind == Light::Kind::sun) {
             LightRecord record = sun_record(to_float(normalize(world.z)), light->angle_radians, emission);
             if (!light->visible_to_camera) record.flags |= light_hidden;
-            add_sun(b, record, luminance_of(emission), scene_radius);
+            add_sun(b, record, id, luminance_of(emission), scene_radius);
             continue;
         }
         const LightProfiles::Added profile = b.table.profiles.add(*light, world);
@@ -196,25 +197,28 @@ void add_punctual(Builder& b, const Scene& scene, double scene_radius, const Vec
         record.emission = emission;
         ++b.table.point_lights;
         ++b.luminaires;
-        b.add(record, 4 * pi_d * luminance_of(emission) * profile.share, ball_bounds(record.position, 0, *light, world));
+        b.add(record, id, 4 * pi_d * luminance_of(emission) * profile.share, ball_bounds(record.position, 0, *light, world));
     }
 }
 
 // A light that is faint in the whole scene may be all there is in one of its rooms: one sample in 64 goes to all that shine alike (a defensive
 // mixture, Hesterberg 1995), which costs others no more than a 64th of their samples.
-void share_evenly(std::vector<double>& powers) {
+std::vector<double> shared_evenly(std::span<const double> powers, std::span<const double> factors) {
     constexpr double share = 1.0 / 64;
+    std::vector<double> weights(powers.begin(), powers.end());
     double total = 0, shining = 0;
-    for (const double p : powers) {
-        total += p;
-        shining += p > 0;
+    for (size_t i = 0; i < weights.size(); ++i) {
+        if (!factors.empty()) weights[i] *= factors[i];
+        total += weights[i];
+        shining += powers[i] > 0;
     }
-    for (double& p : powers)
-        if (p > 0) p = (1 - share) * (p / total) + share / shining;
+    for (size_t i = 0; i < weights.size(); ++i)
+        if (powers[i] > 0) weights[i] = (1 - share) * (total > 0 ? weights[i] / total : 0) + share / shining;
+    return weights;
 }
 
 // Lights at finite distance go into the tree, which gets the first slot; the others a slot each.
-void add_tree(Builder& b) {
+void add_tree(Builder& b, const std::vector<double>& powers) {
     const auto is_finite_light = [](const LightRecord& r) { return r.kind != int32_t(LightKind::sun) && r.kind != int32_t(LightKind::environment); };
     std::vector<LightBounds> in_tree;
     std::vector<double> slot_powers{0};
@@ -223,13 +227,13 @@ void add_tree(Builder& b) {
         LightRecord& record = b.table.records[i];
         if (is_finite_light(record)) {
             LightBounds bounds = b.bounds[i];
-            bounds.power = b.powers[i];
+            bounds.power = powers[i];
             bounds.light = int32_t(i);
             in_tree.push_back(bounds);
-            slot_powers[0] += b.powers[i];
+            slot_powers[0] += powers[i];
         } else {
             record.slot = int32_t(slot_powers.size());
-            slot_powers.push_back(b.powers[i]);
+            slot_powers.push_back(powers[i]);
             b.table.slot_lights.push_back(int32_t(i));
         }
     }
@@ -252,25 +256,29 @@ LightTable build_light_table(const Scene& scene, const MaterialTable& materials,
     if (const SkySun sun = sun_of(scene.environment); luminance_of(sun.lux) > 0) {
         LightRecord record = sun_record(sun.direction, sun_angle_radians, sun.lux);
         if (!scene.environment.visible_to_camera) record.flags |= light_hidden;
-        add_sun(b, record, luminance_of(sun.lux), radius);
+        add_sun(b, record, {}, luminance_of(sun.lux), radius);
     }
     if (sky.shines) {
         LightRecord record{};
         record.kind = int32_t(LightKind::environment);
         record.profile = -1;
         b.table.environment = int32_t(b.table.records.size());
-        b.add_findable(record, 4 * pi_d * pi_d * radius * radius * luminance_of(sky.mean));
+        b.add_findable(record, {}, 4 * pi_d * pi_d * radius * radius * luminance_of(sky.mean));
     }
-    share_evenly(b.powers);
     b.table.count = int32_t(b.table.records.size());
     // Nothing is drawn from what nobody aims at: not even by the last of all random numbers.
-    while (aim == Aim::at_points && b.table.count > 0 && b.powers[size_t(b.table.count) - 1] == 0) --b.table.count;
-    if (b.table.records.empty()) b.add({}, 1);
-    if (aim == Aim::at_all && b.luminaires >= fewest_lights_for_a_tree && int64_t(b.powers.size()) <= most_lights_for_a_tree)
-        add_tree(b);
+    while (aim == Aim::at_points && b.table.count > 0 && b.table.powers[size_t(b.table.count) - 1] == 0) --b.table.count;
+    if (b.table.records.empty()) b.add({}, {}, 1);
+    const std::vector<double> powers = shared_evenly(b.table.powers, {});
+    if (aim == Aim::at_all && b.luminaires >= fewest_lights_for_a_tree && int64_t(powers.size()) <= most_lights_for_a_tree)
+        add_tree(b, powers);
     else
-        b.table.thresholds = make_thresholds(b.powers);
+        b.table.thresholds = make_thresholds(powers);
     return std::move(b.table);
+}
+
+void weigh_lights(LightTable& table, std::span<const double> factors) {
+    if (table.tree.nodes.empty()) table.thresholds = make_thresholds(shared_evenly(table.powers, factors));
 }
 
 int64_t light_table_bytes(int64_t lights) { return lights * int64_t(sizeof(LightRecord) + sizeof(uint32_t)); }

@@ -11,12 +11,15 @@
 #include "shading/light.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace blush {
 
 struct LightTable {
     std::vector<LightRecord> records; // at least one, so that kernels can always read
+    std::vector<Id<Node>> nodes;      // by record: what carries it; none: the environment
+    std::vector<double> powers;       // by record
     std::vector<uint32_t> thresholds;
     std::vector<int32_t> suns;        // indices of those with a disk
     int32_t count = 0;                // slots to draw from; 0: nothing to aim at
@@ -48,5 +51,9 @@ LightTable build_light_table(const Scene& scene, const MaterialTable& materials,
                              const std::vector<SphereLight>& spheres, const SkyLight& sky, const Extent& extent, Aim aim);
 // Bytes of a table of `lights` records.
 int64_t light_table_bytes(int64_t lights);
+
+// Picks lights as if record i had factors[i] (>= 0) times its power; none: as they are. Whatever the factors, what shines may be picked. A
+// tree of lights stays as it is.
+void weigh_lights(LightTable& table, std::span<const double> factors);
 
 } // namespace blush

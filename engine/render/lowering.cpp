@@ -78,10 +78,12 @@ Scene lower_area_lights(const Scene& whole) {
     Scene lowered = scene;
     for (const auto& [id, node] : scene.nodes) {
         const Light* light = node.light ? scene.lights.find(node.light) : nullptr;
-        if (!light || !light->enabled || !is_area_light(*light)) continue;
+        if (!light || !is_area_light(*light)) continue;
+        // Where lights are mixed their bodies stay when they are off: switching one then changes nothing but its own light.
+        if (!light->enabled && scene.mix.grouping == LightMix::Grouping::none) continue;
         const AreaShape shape = shape_of(*light);
         const uint32_t key = lowered_bit | node.light.value;
-        lowered.materials.insert(Id<Material>{key}, emitter(*light, light_emission(*light)));
+        lowered.materials.insert(Id<Material>{key}, emitter(*light, light->enabled ? light_emission(*light) : Vec3{0, 0, 0}));
         lowered.meshes.insert(Id<Mesh>{key}, {light->name, {{shape.geometry, Id<Material>{key}}}});
         Node body;
         body.parent = id;

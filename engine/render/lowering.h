@@ -10,7 +10,7 @@ constexpr uint32_t lowered_bit = 0x80000000u;
 
 // The same scene with solo applied (scene/shining.h) and every rectangle and disk that shines replaced by an emissive mesh below its node. A
 // disk becomes a polygon of 96 corners and the same area: sampling either by area is the same, its light differs from the circle's by less
-// than a millionth of the flux, and kernels need not know of it.
+// than a millionth of the flux, and kernels need not know of it. Where lights are mixed, those that are off keep a body that is black.
 Scene lower_area_lights(const Scene& scene);
 // The light is one that lowering turns into a mesh.
 bool is_area_light(const Light& light);

@@ -12,7 +12,6 @@ namespace {
 float within(float x, float low, float high) { return x >= low ? std::min(x, high) : low; }
 float unit(float x) { return within(x, 0, 1); }
 Vec3 within(const Vec3& v, float low, float high) { return {within(v.x, low, high), within(v.y, low, high), within(v.z, low, high)}; }
-bool is_black(const Vec3& v) { return v.x == 0 && v.y == 0 && v.z == 0; }
 
 constexpr float max_radiance = 1e30f; // nits: whatever is multiplied with it on a path stays finite
 
@@ -21,11 +20,6 @@ bool reflects(const Material& m) { return !m.unlit && (m.specular > 0 || m.metal
 bool transmits(const Material& m) { return !m.unlit && m.transmission > 0; }
 bool has_normal_map(const Material& m) { return !m.unlit && m.normal_texture.texture && m.normal_scale != 0; }
 bool is_thin(const Material& m) { return !(m.thickness > 0); }
-Vec3 emission_of(const Material& m) {
-    if (m.unlit) return {0, 0, 0};
-    const auto channel = [&](float c) { return within(c * m.emissive_strength, 0, max_radiance); };
-    return {channel(m.emissive.x), channel(m.emissive.y), channel(m.emissive.z)};
-}
 Vec3 sigma_of(const Material& m) {
     return transmits(m) && !is_thin(m) ? absorption(m.attenuation_color, m.attenuation_distance) : Vec3{0, 0, 0};
 }
@@ -138,6 +132,12 @@ void write_material(MaterialTable& table, size_t index, const Material& material
 }
 
 } // namespace
+
+Vec3 emission_of(const Material& m) {
+    if (m.unlit) return {0, 0, 0};
+    const auto channel = [&](float c) { return within(c * m.emissive_strength, 0, max_radiance); };
+    return {channel(m.emissive.x), channel(m.emissive.y), channel(m.emissive.z)};
+}
 
 int32_t MaterialTable::index_of(Id<Material> id) const {
     const auto it = std::ranges::lower_bound(ids, id);

@@ -36,6 +36,10 @@ struct TextureReads {
 };
 TextureReads texture_reads(const Material& material);
 
+// Nits of a surface, before its texture; an unlit one does not shine.
+Vec3 emission_of(const Material& material);
+inline bool is_black(const Vec3& v) { return v.x == 0 && v.y == 0 && v.z == 0; }
+
 // What a kernel must know to render the material right. Vertex colours are the geometry's and not among them.
 Features features_of(const Material& material);
 

@@ -64,13 +64,16 @@ void store_junction(ReuseColumns& reuse, const PathQueue& now, int k, int bounce
 
 // To be called when a path's radiance holds all that is its own - what reached x, and what x found: what comes after can be shared.
 inline void set_own_radiance_aside(ReuseColumns& reuse, TileScratch& scratch, int paths) {
-    const auto set_aside = [&](double* radiance, double* own) {
-        std::copy_n(radiance, paths, own);
-        std::fill_n(radiance, paths, 0.0);
+    const auto set_aside = [&](double* r, double* g, double* b, RadianceColumns& own) {
+        copy_radiance(r, g, b, paths, own);
+        for (double* c : {r, g, b}) std::fill_n(c, paths, 0.0);
     };
-    set_aside(scratch.r, reuse.own_r);
-    set_aside(scratch.g, reuse.own_g);
-    set_aside(scratch.b, reuse.own_b);
+    set_aside(scratch.r, scratch.g, scratch.b, reuse.own);
+    reuse.own_groups.resize(scratch.groups ? scratch.groups->all.size() : 0);
+    for (size_t k = 0; k < reuse.own_groups.size(); ++k) {
+        RadianceColumns& group = scratch.groups->all[k];
+        set_aside(group.r, group.g, group.b, reuse.own_groups[k]);
+    }
 }
 
 template <class F> Vec<F> gather_columns(const float* x, const float* y, const float* z, const Int<F>& i) {
@@ -236,9 +239,12 @@ template <class F> [[gnu::flatten]] void share_batch(const KernelContext& contex
         distribute<F>(reuse, batch, group_size, share, {scratch.r, scratch.g, scratch.b});
         // Light by the number of scatterings is shared as its sum is.
         for (int k = 2; scratch.bounces && k < scratch.bounces->recorded; ++k) {
-            BounceColumns::Radiance& after = scratch.bounces->after[size_t(k)];
+            RadianceColumns& after = scratch.bounces->after[size_t(k)];
             distribute<F>(reuse, batch, group_size, share, {after.r, after.g, after.b});
         }
+        // So is light by the group that it came from.
+        if (scratch.groups)
+            for (RadianceColumns& group : scratch.groups->all) distribute<F>(reuse, batch, group_size, share, {group.r, group.g, group.b});
     }
     batch.groups = batch.vertices = 0;
 }
@@ -263,17 +269,21 @@ template <class F> void share_paths(const KernelContext& context, const TileJob&
                 }
     share_batch<F>(context, scratch, batch);
 
-    const auto add_own = [&](const SharedRadiance& to) {
+    const auto add_own = [&](const RadianceColumns& own, const SharedRadiance& to) {
         for (int k = 0; k < job.paths(); ++k) {
-            to.r[k] += reuse.own_r[k];
-            to.g[k] += reuse.own_g[k];
-            to.b[k] += reuse.own_b[k];
+            to.r[k] += own.r[k];
+            to.g[k] += own.g[k];
+            to.b[k] += own.b[k];
         }
     };
-    add_own({scratch.r, scratch.g, scratch.b});
+    add_own(reuse.own, {scratch.r, scratch.g, scratch.b});
     for (int k = 2; scratch.bounces && k < scratch.bounces->recorded; ++k) {
-        BounceColumns::Radiance& after = scratch.bounces->after[size_t(k)];
-        add_own({after.r, after.g, after.b});
+        RadianceColumns& after = scratch.bounces->after[size_t(k)];
+        add_own(reuse.own, {after.r, after.g, after.b});
+    }
+    for (size_t k = 0; k < reuse.own_groups.size(); ++k) {
+        RadianceColumns& group = scratch.groups->all[k];
+        add_own(reuse.own_groups[k], {group.r, group.g, group.b});
     }
 }
 

@@ -126,7 +126,25 @@ AccelScene RenderScene::accel_scene() const {
     return scene;
 }
 
-void RenderScene::update_lights(const Scene& scene, const RenderSettings& settings, const UpdatePlan& plan) {
+void RenderScene::update_groups(const LightGroups& groups) {
+    for (size_t part = 0; part < geometry_.parts().size(); ++part)
+        group_of_part_.push_back(groups.of_surface(Id<Node>{uint32_t(geometry_.parts()[part].object)}, geometry_.part_materials()[part]));
+    for (size_t i = 0; i < lights_.records.size(); ++i) {
+        const LightRecord& light = lights_.records[i];
+        if (!lights_.nodes[i]) group_of_light_.push_back(groups.of_environment());
+        else if (light.kind == int32_t(LightKind::triangle)) group_of_light_.push_back(group_of_part_[size_t(light.part)]);
+        else group_of_light_.push_back(groups.of_light(lights_.nodes[i]));
+    }
+}
+
+void RenderScene::aim(std::span<const Vec3> gains) {
+    std::vector<double> factors;
+    for (const int32_t group : group_of_light_) factors.push_back(double(luminance(gains[size_t(group)])));
+    weigh_lights(lights_, factors);
+    lights_.fill(tables_.lights);
+}
+
+void RenderScene::update_lights(const Scene& scene, const RenderSettings& settings, const UpdatePlan& plan, const LightGroups* groups) {
     // What gives no light needs no map, and where nobody aims, nothing to aim with.
     aim_ = settings.strategy == Strategy::bsdf ? Aim::at_points : Aim::at_all;
     const bool needs_map = gives_light(scene.environment);
@@ -141,6 +159,10 @@ void RenderScene::update_lights(const Scene& scene, const RenderSettings& settin
     const bool shines = scene.environment.lights_scene && needs_map && environment_.shines;
     lights_ = build_light_table(scene, materials_, geometry_, tables_, spheres_, {shines, to_float(mean)}, extent_, aim_);
     lights_.fill(tables_.lights);
+    group_of_light_.clear();
+    group_of_part_.clear();
+    if (groups) update_groups(*groups);
+    tables_.groups = {group_of_light_.data(), group_of_part_.data(), groups ? groups->of_environment() : 0};
 }
 
 Features RenderScene::compute_features(const Scene& scene, const RenderSettings& settings) const {
@@ -169,11 +191,12 @@ Features RenderScene::compute_features(const Scene& scene, const RenderSettings&
     return f;
 }
 
-void RenderScene::update(const Scene& scene, const RenderSettings& settings, const UpdatePlan& plan, const Workers& workers) {
+void RenderScene::update(const Scene& scene, const RenderSettings& settings, const UpdatePlan& plan, const Workers& workers,
+                         const LightGroups* groups) {
     const Vec3d origin_before = extent_.origin;
     update_materials(scene, plan);
     update_geometry(scene, plan, workers);
-    update_lights(scene, settings, plan);
+    update_lights(scene, settings, plan, groups);
     geometry_.fill(tables_);
     if (plan.camera || extent_.origin != origin_before)
         tables_.camera = camera_record(scene.view, float(settings.width) / float(settings.height), extent_.origin);

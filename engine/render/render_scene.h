@@ -8,6 +8,7 @@
 #include "render/film.h"
 #include "render/geometry_pool.h"
 #include "render/kernels/kernel.h"
+#include "render/light_groups.h"
 #include "render/light_table.h"
 #include "render/material_table.h"
 #include "render/object_list.h"
@@ -20,8 +21,12 @@ namespace blush {
 
 class RenderScene {
 public:
-    // Carries out `plan` for a scene with area lights lowered. After it all tables are those that full_plan() would give.
-    void update(const Scene& lowered, const RenderSettings& settings, const UpdatePlan& plan, const Workers& workers);
+    // Carries out `plan` for a scene with area lights lowered. After it all tables are those that full_plan() would give. `groups`: of its
+    // lights; null: nobody mixes.
+    void update(const Scene& lowered, const RenderSettings& settings, const UpdatePlan& plan, const Workers& workers,
+                const LightGroups* groups = nullptr);
+    // Aims at lights as if each group shone with its gain, until the next update of lights. The picture stays what it is on average.
+    void aim(std::span<const Vec3> gains);
 
     // Positions in them are about origin().
     const SceneTables& tables() const { return tables_; }
@@ -42,7 +47,8 @@ private:
     void update_materials(const Scene& scene, const UpdatePlan& plan);
     void update_geometry(const Scene& scene, const UpdatePlan& plan, const Workers& workers);
     AccelScene accel_scene() const;
-    void update_lights(const Scene& scene, const RenderSettings& settings, const UpdatePlan& plan);
+    void update_lights(const Scene& scene, const RenderSettings& settings, const UpdatePlan& plan, const LightGroups* groups);
+    void update_groups(const LightGroups& groups);
     Features compute_features(const Scene& scene, const RenderSettings& settings) const;
 
     MaterialTable materials_;
@@ -55,6 +61,7 @@ private:
     std::vector<bool> alpha_; // by part
     std::vector<uint32_t> masks_; // by object
     LightTable lights_;
+    std::vector<int32_t> group_of_light_, group_of_part_; // empty: nobody mixes
     EnvironmentTable environment_;
     Accel accel_;
     SceneTables tables_;

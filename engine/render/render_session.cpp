@@ -22,6 +22,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr double rest_seconds = 1; // without a submission, after which sampling follows the mix
+
 double seconds_between(Clock::time_point a, Clock::time_point b) { return std::chrono::duration<double>(b - a).count(); }
 
 struct Submission {
@@ -32,12 +34,27 @@ struct Submission {
     PlaneSet planes;
     FilmStatePtr film; // to go on from
     Clock::time_point when;
+    std::shared_ptr<const LightGroups> groups; // of the scene that began the image; null: its lights are not mixed
+
+    // What the image is rendered from: the mix alone has changed since.
+    const Scene& base() const { return groups ? groups->base : scene; }
 };
 
-// The number of the image that is asked for: that of `last` if it would look the same and has all the planes.
-uint64_t image_number(const std::optional<Submission>& last, const Scene& scene, const RenderSettings& settings, const PlaneSet& planes) {
-    if (!last) return 1;
-    return last->image + (!last->planes.covers(planes) || diff(last->scene, last->settings, scene, settings).affects_image());
+// Is it the same image: one that looks the same, or is the same but for the mix of lights, and has all the planes?
+bool continues(const Submission& last, const Submission& next) {
+    if (!last.planes.covers(next.planes)) return false;
+    if (!diff(last.scene, last.settings, next.scene, next.settings).affects_image()) return true;
+    return last.groups && same_image(last.settings, next.settings) && mixing_of(*last.groups, next.scene);
+}
+
+// Gives the submission its image: the last one's, or a new one. Samples that come from elsewhere make another image, even if it would
+// look the same.
+void name_image(Submission& next, const std::optional<Submission>& last, bool has_samples) {
+    const bool same = last && !has_samples && continues(*last, next);
+    next.image = (last ? last->image : 0) + !same;
+    if (same) next.groups = last->groups;
+    else if (next.scene.mix.grouping != LightMix::Grouping::none)
+        next.groups = std::make_shared<const LightGroups>(make_light_groups(next.scene));
 }
 
 // The resolution scale folded into the size.
@@ -85,6 +102,7 @@ struct RenderSession::State {
     Scheduler scheduler;
     std::string failure, not_continued; // empty: none
     bool has_scene = false, has_first_image = false;
+    bool aims_at_mix = false; // lights are picked by what they are worth in the mix by now
     double first_image_seconds = 0, samples_per_second = 0, error_seconds = 0;
     std::thread thread;
 
@@ -103,6 +121,7 @@ struct RenderSession::State {
     void go_on_from(const FilmState& film);
     std::shared_ptr<Frame> resolved();
     void publish(const Work* work = nullptr);
+    void mix_denoised(const Frame& frame);
     void keep_film(uint64_t revision);
     void answer(KeptFilm kept);
     void take_denoised(uint64_t image, const FramePtr& source, DenoisedPtr denoised);
@@ -142,9 +161,19 @@ std::shared_ptr<Frame> RenderSession::State::resolved() {
     return frame;
 }
 
+// Denoised groups follow the mix without being denoised again.
+void RenderSession::State::mix_denoised(const Frame& frame) {
+    const DenoisedPtr before = look().denoised;
+    if (!before || !before->groups || before->gains == frame.gains || frame.light_groups != before->groups->of) return;
+    DenoisedPtr after = remixed(*before, frame.gains);
+    const std::lock_guard lock(mutex);
+    showcase.replace(before, std::move(after));
+}
+
 // Hands out the film as it is; `work` is what was just added to it, if anything.
 void RenderSession::State::publish(const Work* work) {
     const std::shared_ptr<Frame> frame = resolved();
+    mix_denoised(*frame);
     if (work) scheduler.record_publish(*work, frame->error.known ? frame->error.relmse : -1);
     if (!has_first_image) first_image_seconds = seconds_between(current.when, Clock::now());
     has_first_image = true;
@@ -161,6 +190,9 @@ void RenderSession::State::publish(const Work* work) {
 // On the denoiser's thread.
 void RenderSession::State::take_denoised(uint64_t image, const FramePtr& source, DenoisedPtr denoised) {
     const Pictures previous = look();
+    // The mix may have moved on while it was made.
+    if (denoised && denoised->groups && previous.frame && previous.frame->light_groups == denoised->groups->of)
+        if (previous.frame->gains != denoised->gains) denoised = remixed(*denoised, previous.frame->gains);
     {
         const std::lock_guard lock(mutex);
         if (denoised) status.denoised_with[size_t(denoised->quality)] = true;
@@ -197,15 +229,18 @@ void RenderSession::State::take_up(Submission next) {
         announce(SessionStatus::State::updating);
         if (!renderer) renderer.emplace(RendererOptions{options.threads, options.low_priority, {}});
         renderer->set_planes(with_first_hits(current.planes, options));
-        renderer->update(current.scene, settings);
+        renderer->update(current.base(), settings);
+        if (current.groups) renderer->update(current.scene, settings);
         has_scene = true;
         not_continued.clear();
         if (const FilmStatePtr film = std::exchange(current.film, nullptr)) go_on_from(*film);
     } else {
         scheduler.change_stop_rules(settings);
         renderer->set_planes(with_first_hits(current.planes, options));
+        if (current.groups) renderer->update(current.scene, settings);
         if (has_first_image) publish(); // the same picture answers the new revision
     }
+    aims_at_mix = false;
     announce();
 }
 
@@ -244,6 +279,10 @@ void RenderSession::State::work_once() {
     const Work work = scheduler.next();
     const uint64_t mine = current.image;
     const auto begin = Clock::now();
+    if (current.groups && !aims_at_mix && seconds_between(current.when, begin) > rest_seconds) {
+        renderer->aim_at_mix();
+        aims_at_mix = true;
+    }
     renderer->set_divider(work.divider);
     if (work.clear) renderer->clear();
     const bool done = renderer->render(work.first_sample, work.count, [&] {
@@ -320,15 +359,14 @@ RenderSession::~RenderSession() {
 void RenderSession::submit(uint64_t revision, const Scene& scene, const RenderSettings& settings, const PlaneSet& planes, FilmStatePtr film) {
     State& s = *state_;
     const std::lock_guard submitting(s.submitting);
-    // Samples that come from elsewhere make another image, even if it would look the same.
-    const uint64_t image = film && s.last_submitted ? s.last_submitted->image + 1 : image_number(s.last_submitted, scene, settings, planes);
-    s.last_submitted = Submission{revision, image, scene, settings, planes, {}, Clock::now()};
-    std::optional<Submission> next = s.last_submitted;
+    std::optional<Submission> next = Submission{revision, 0, scene, settings, planes, {}, Clock::now(), nullptr};
+    name_image(*next, s.last_submitted, film != nullptr);
+    s.last_submitted = next;
     {
         const std::lock_guard lock(s.mutex);
         s.wanted_image = next->image;
         // Samples that still wait to be taken up are this image's too.
-        if (!film && s.pending && s.pending->image == image) film = s.pending->film;
+        if (!film && s.pending && s.pending->image == next->image) film = s.pending->film;
         next->film = std::move(film);
         s.pending.swap(next);
     }

@@ -56,7 +56,8 @@ public:
     RenderSession& operator=(const RenderSession&) = delete;
 
     // Replaces whatever was pending; never blocks. Latest wins, but what has been taken up is shown once before the next is. A submit that
-    // changes nothing an image shows (stop rules, names) continues it.
+    // changes nothing an image shows (stop rules, names) continues it, and so does one that changes the light of lights that are mixed: the
+    // frames that follow show the new mix of the same samples.
     // `planes`: what the film holds beside the first-hit planes. To ask for more begins the image anew, to ask for less does not.
     // `film`: of an image that these scene and settings make; rendering goes on from its samples, or begins anew if they do not fit, and
     // the status says why.

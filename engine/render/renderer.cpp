@@ -54,6 +54,8 @@ struct Renderer::State {
     RenderScene scene;
     std::optional<Scene> lowered;
     RenderSettings settings;
+    std::shared_ptr<const LightGroups> groups; // null: nobody mixes
+    Mixing mixing;                             // of the groups
     Film film;
     SamplePlan sample_plan; // if sampling is adaptive, as is
     PilotNoise pilot_noise;
@@ -76,6 +78,27 @@ struct Renderer::State {
     int film_width() const { return std::max(1, settings.width / divider); }
     int film_height() const { return std::max(1, settings.height / divider); }
 
+    FilmSize full_film() const {
+        return {settings.width, settings.height, options.planes, transparent(), settings.adaptive, int(mixing.gains.size())};
+    }
+    // Is the scene what the film holds but for the mix of lights? Then takes over that.
+    bool take_mix(const Scene& whole, const RenderSettings& now) {
+        if (!groups || !same_image(settings, now)) return false;
+        std::optional<Mixing> mix = mixing_of(*groups, whole);
+        if (!mix) return false;
+        mixing = *std::move(mix);
+        settings = now;
+        film.set_gains(mixing.gains);
+        return true;
+    }
+    void make_groups(const Scene& whole) {
+        groups.reset();
+        mixing = {};
+        if (whole.mix.grouping == LightMix::Grouping::none) return;
+        groups = std::make_shared<const LightGroups>(make_light_groups(whole));
+        mixing = mixing_of(*groups, whole).value();
+    }
+
     bool transparent() const { return lowered && hides_environment(lowered->environment); }
 
     void clear() {
@@ -91,7 +114,11 @@ struct Renderer::State {
     // another divider.
     void wipe_stale_film() {
         if (!film_is_stale) return;
-        film.reset(film_width(), film_height(), options.planes, transparent(), settings.adaptive, settings.clamp);
+        FilmSize size = full_film();
+        size.width = film_width();
+        size.height = film_height();
+        film.reset(size, settings.clamp);
+        film.set_gains(mixing.gains);
         sample_plan.reset(film_width(), film_height());
         film_is_stale = false;
     }
@@ -127,6 +154,11 @@ struct Renderer::State {
             s.bounces.reset();
         else if (!s.bounces || int(s.bounces->after.size()) != bounces)
             s.bounces = std::make_unique<BounceColumns>(bounces);
+        const int groups_needed = film.needs_groups();
+        if (groups_needed == 0)
+            s.groups.reset();
+        else if (!s.groups || s.groups->count() != groups_needed || s.groups->direct.empty() == film.needs_direct_groups())
+            s.groups = std::make_unique<GroupColumns>(groups_needed, film.needs_direct_groups());
         if (film.needs_roulette() && !s.roulette) s.roulette = std::make_unique<RouletteColumns>();
         if (!film.needs_roulette()) s.roulette.reset();
         return s;
@@ -140,10 +172,13 @@ bool Renderer::update(const Scene& scene, const RenderSettings& asked) {
     State& s = *state_;
     const RenderSettings settings = carried_out(asked);
     const auto begin = Clock::now();
-    Film::require_memory(settings.width, settings.height, s.options.planes, settings.adaptive);
+    if (s.take_mix(scene, settings)) return false;
     Scene lowered = lower_area_lights(scene);
     const UpdatePlan todo = s.lowered ? plan(diff(*s.lowered, s.settings, lowered, settings)) : full_plan();
-    s.scene.update(lowered, settings, todo, s.workers);
+    s.make_groups(scene);
+    Film::require_memory({settings.width, settings.height, s.options.planes, false, settings.adaptive, int(s.mixing.gains.size())});
+    s.scene.update(lowered, settings, todo, s.workers, s.groups.get());
+    if (s.groups) s.scene.aim(s.mixing.gains);
     s.lowered = std::move(lowered);
     s.settings = settings;
     if (todo.features) s.kernel = &choose_kernel(s.scene.features());
@@ -154,6 +189,10 @@ bool Renderer::update(const Scene& scene, const RenderSettings& asked) {
         s.seconds_setup = seconds_since(begin);
     }
     return todo.clear_film;
+}
+
+void Renderer::aim_at_mix() {
+    if (state_->groups) state_->scene.aim(state_->mixing.gains);
 }
 
 void Renderer::set_planes(const PlaneSet& planes) {
@@ -192,8 +231,7 @@ const CompiledInfo& Renderer::info() const {
 std::shared_ptr<const Ledger> Renderer::ledger() const {
     State& s = *state_;
     if (!s.ledger) {
-        const FilmSize film{s.settings.width, s.settings.height, s.options.planes, s.transparent(), s.settings.adaptive};
-        Ledger ledger = s.scene.ledger(s.lowered ? *s.lowered : Scene{}, film);
+        Ledger ledger = s.scene.ledger(s.lowered ? *s.lowered : Scene{}, s.full_film());
         const int reuse = s.settings.reuse;
         ledger.push_back({"kernel", "path reuse", reuse > 1, reuse > 1 ? fmt::format("groups of {} pixels", reuse) : "switched off"});
         s.ledger = std::make_shared<const Ledger>(std::move(ledger));
@@ -327,6 +365,8 @@ void Renderer::resolve(Frame& frame) const {
         const uint32_t material = s.scene.material_id(int32_t(id) - 1).value;
         id = material & lowered_bit ? 0 : material;
     }
+    frame.light_groups = s.groups;
+    frame.group_names = s.mixing.names;
     frame.divider = s.divider;
     frame.samples = s.samples;
     frame.rays = s.rays;
@@ -348,6 +388,8 @@ Result<FilmState> Renderer::save_film(int64_t first) const {
     if (s.film_is_uneven) return Error{"", "rendering was stopped half-way through a sample", ""};
     if (s.divider != 1) return Error{"", "the image is still a coarse one", ""};
     FilmState state = blush::save_film(s.film);
+    // Whoever goes on begins with the lights as they are by now; channels of the mix are its own affair.
+    if (std::ranges::any_of(s.mixing.factors, [](const Vec3& f) { return f != Vec3{1, 1, 1}; })) scale_groups(state, s.mixing.factors);
     if (ExactPlane* material = state.find("material"))
         for (uint32_t& index : material->words)
             if (index != FilmState::no_material) index = s.scene.material_id(int32_t(index)).value;

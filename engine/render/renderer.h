@@ -68,7 +68,11 @@ public:
 
     // Takes up a scene: diff against the last one, plan, update what changed. Clears the film if what is in it no longer
     // answers; returns whether it did. The result renders bit-identically to a fresh Renderer given the same scene.
+    // While lights are mixed, a change of their light alone keeps the film, whose planes hold what was there when it was last cleared,
+    // and all that is read from it is mixed anew.
     bool update(const Scene& scene, const RenderSettings& settings);
+    // Aims at lights by what they are worth in the mix by now, from the next sample on.
+    void aim_at_mix();
 
     // Clears the film unless it has all of them; what nobody asks for any more is freed.
     void set_planes(const PlaneSet& planes);

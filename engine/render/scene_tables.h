@@ -43,6 +43,13 @@ struct CameraRecord {
     int32_t orthographic;
 };
 
+// Which plane of the film light goes to, by what emits it.
+struct GroupTables {
+    const int32_t* of_light = nullptr; // by record of the light table
+    const int32_t* of_part = nullptr;  // of emission that a ray finds on a surface
+    int32_t environment = 0;           // of one that is no record of the light table: a backdrop
+};
+
 // Everything a kernel reads about the scene. Pointers stay valid until the next update of the RenderScene.
 struct SceneTables {
     const PartRecord* parts = nullptr;          // those in world space first: part = Embree's geometry id
@@ -58,6 +65,7 @@ struct SceneTables {
     MaterialTables materials;
     LightTables lights;
     EnvironmentTables environment;
+    GroupTables groups; // null: nobody mixes
     CameraRecord camera{};
 };
 

@@ -20,6 +20,10 @@ void Showcase::release() {
     if (withheld_) show(withheld_image_, std::move(withheld_));
 }
 
+void Showcase::replace(const DenoisedPtr& shown, DenoisedPtr by) {
+    if (shown_.denoised == shown) shown_.denoised = std::move(by);
+}
+
 void Showcase::answer(uint64_t image, const FramePtr& source, DenoisedPtr denoised) {
     if (withheld_ == source) {
         show(image, source);

@@ -24,6 +24,8 @@ public:
     void withhold(uint64_t image, FramePtr frame);
     // `denoised` was made from `source`; null if it was not to be.
     void answer(uint64_t image, const FramePtr& source, DenoisedPtr denoised);
+    // Shows another version of a denoised picture, if that is still on show.
+    void replace(const DenoisedPtr& shown, DenoisedPtr by);
     // No answer will come: shows what is withheld.
     void release();
 

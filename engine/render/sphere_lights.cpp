@@ -25,7 +25,8 @@ std::vector<SphereLight> list_sphere_lights(const Scene& scene) {
     Placements placements(scene);
     for (const auto& [id, node] : scene.nodes) {
         const Light* light = node.light ? scene.lights.find(node.light) : nullptr;
-        if (!light || !light->enabled || !is_sphere_light(*light) || !placements(id).visible) continue;
+        if (!light || !is_sphere_light(*light) || !placements(id).visible) continue;
+        if (!light->enabled && scene.mix.grouping == LightMix::Grouping::none) continue;
         const Affined& world = placements(id).world_from_node;
         const double radius = double(light->radius) * std::cbrt(std::abs(determinant(world)));
         if (!is_finite(world) || !(radius > 0) || !std::isfinite(radius)) continue;

@@ -18,7 +18,7 @@ struct SphereLight {
     bool operator==(const SphereLight&) const = default;
 };
 
-// Enabled and visible ones, in node order. One without a radius, or whose place is no finite number, gives no light and is left out.
+// Enabled and visible ones - where lights are mixed those that are off too, as black bodies - in node order. One without a radius, or whose place is no finite number, gives no light and is left out.
 std::vector<SphereLight> list_sphere_lights(const Scene& scene);
 // The light is one of them.
 bool is_sphere_light(const Light& light);

@@ -11,7 +11,7 @@ UpdatePlan plan(const Changes& c) {
     p.environment_map = c.environment_image || c.aiming;
     p.environment_parameters = c.environment_parameters || p.environment_map;
     // Moving an object may move an emitter, and the scene's size tells how much power the sky has.
-    p.lights = p.transforms || p.all_materials || !c.materials.empty() || !c.lights.empty() || p.environment_parameters;
+    p.lights = p.transforms || p.all_materials || !c.materials.empty() || !c.lights.empty() || p.environment_parameters || c.mix;
     p.camera = c.view || c.resolution;
     p.clear_film = c.affects_image();
     p.features = p.lights || c.view || c.integrator;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/estimator.h"
+#include "render/group_sums.h"
 #include "render/kernels/kernel.h"
 #include "render/path_reuse.h"
 
@@ -142,6 +143,7 @@ template <Features S, class F> [[gnu::flatten]] void generate_paths(const Kernel
     std::fill_n(scratch.r.data, n, 0.0);
     std::fill_n(scratch.g.data, n, 0.0);
     std::fill_n(scratch.b.data, n, 0.0);
+    if (scratch.groups) scratch.groups->clear(n);
     if (!scratch.roulette) return;
     std::fill_n(scratch.roulette->length.data, n, 0.f);
     std::fill_n(scratch.roulette->asked.data, n, 0.f);
@@ -172,11 +174,16 @@ template <Features S, class F>
         if (bounce <= 1 && context.settings.reuse.size() > 1) store_junction<F>(*scratch.reuse, now, k, bounce, path, step.junction);
         if (scratch.roulette) note_roulette<F>(*scratch.roulette, now.slot + k, step, active, bounce);
         if (any(step.emits)) add_light<F>(scratch, now.slot + k, step.emitted, step.emits);
+        if (scratch.groups && any(step.emits)) add_found_by_group<S, F>(context, *scratch.groups, scratch.hits, k, path, step, bounce);
         if (any(step.breaks)) add_light<F>(scratch, now.slot + k, step.next.beta, step.breaks);
         if (any(step.connects)) {
             if (alpha)
                 compress(scratch.shadows.random + scratch.shadows.size, opacity_random<F>(path.key, path.index, uint32_t(2 * bounce + 1)),
                          bits(step.connects));
+            if (scratch.groups) {
+                const Int<F> light = select(step.connects, step.light, Int<F>(0));
+                compress(scratch.shadows.group + scratch.shadows.size, gather(context.scene->groups.of_light, light), bits(step.connects));
+            }
             append<F>(scratch.shadows, step, path.slot, step.connects);
         }
         if (any(step.continues)) append<S, F>(next, step.next, step.continues);
@@ -195,6 +202,7 @@ template <class F> void connect_paths(const KernelContext& context, TileScratch&
         scratch.r[slot] += double(q.r[k]);
         scratch.g[slot] += double(q.g[k]);
         scratch.b[slot] += double(q.b[k]);
+        if (scratch.groups) scratch.groups->add(q.group[k], slot, double(q.r[k]), double(q.g[k]), double(q.b[k]));
     }
 }
 
@@ -203,10 +211,7 @@ template <class F> void connect_paths(const KernelContext& context, TileScratch&
 inline void record_bounce(TileScratch& scratch, int paths, int bounce) {
     BounceColumns& columns = *scratch.bounces;
     if (bounce >= int(columns.after.size())) return;
-    BounceColumns::Radiance& after = columns.after[size_t(bounce)];
-    std::copy_n(scratch.r.data, paths, after.r.data);
-    std::copy_n(scratch.g.data, paths, after.g.data);
-    std::copy_n(scratch.b.data, paths, after.b.data);
+    copy_radiance(scratch.r, scratch.g, scratch.b, paths, columns.after[size_t(bounce)]);
     columns.recorded = bounce + 1;
 }
 
@@ -227,6 +232,7 @@ template <Features S, class F> void render_tile(const KernelContext& context, co
         trace_paths<F>(context, scratch, *now, bounce);
         shade_paths<S, F>(context, scratch, *now, *next, bounce);
         if (scratch.bounces) record_bounce(scratch, job.paths(), bounce);
+        if (scratch.groups && bounce == 1) scratch.groups->note_direct(job.paths());
         scratch.shadow_rays += scratch.shadows.size;
         if (reuses && bounce == 1) {
             set_own_radiance_aside(*scratch.reuse, scratch, job.paths());

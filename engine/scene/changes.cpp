@@ -25,6 +25,7 @@ bool same_to_image(Light before, const Light& after) {
     before.ies_file = after.ies_file;
     before.unit = after.unit;
     before.keep_power = after.keep_power;
+    before.group = after.group; // diff_mix
     return same_but_for_name(std::move(before), after);
 }
 
@@ -73,6 +74,23 @@ void diff_environment(const Environment& a, const Environment& b, Changes& chang
                                      a.visible_to_camera != b.visible_to_camera || a.lights_scene != b.lights_scene;
 }
 
+// What groups of lights may go by.
+template <class T> bool same_names(const Table<T>& before, const Table<T>& after) {
+    return std::ranges::none_of(Table<T>::changed(before, after), [&](Id<T> id) {
+        const T *a = before.find(id), *b = after.find(id);
+        if (!a || !b) return false;
+        if constexpr (requires { a->group; }) return a->name != b->name || a->group != b->group;
+        return a->name != b->name;
+    });
+}
+
+void diff_mix(const Scene& before, const Scene& after, Changes& changes) {
+    changes.mix = before.mix != after.mix;
+    if (after.mix.grouping == LightMix::Grouping::none) return;
+    changes.mix |= before.environment.group != after.environment.group || !same_names(before.nodes, after.nodes) ||
+                   !same_names(before.lights, after.lights) || !same_names(before.materials, after.materials);
+}
+
 void diff_settings(const RenderSettings& a, const RenderSettings& b, Changes& changes) {
     changes.resolution = a.width != b.width || a.height != b.height || a.resolution_scale != b.resolution_scale;
     changes.aiming = (a.strategy == Strategy::bsdf) != (b.strategy == Strategy::bsdf);
@@ -90,7 +108,12 @@ bool Changes::any() const { return stop_rules || affects_image(); }
 
 bool Changes::affects_image() const {
     return view || resolution || integrator || environment_parameters || environment_image || !transforms.empty() || !structure.empty() ||
-           !meshes.empty() || !materials.empty() || !textures.empty() || !lights.empty();
+           !meshes.empty() || !materials.empty() || !textures.empty() || !lights.empty() || mix;
+}
+
+bool Changes::only_light() const {
+    return !view && !resolution && !integrator && !environment_image && transforms.empty() && structure.empty() && meshes.empty() &&
+           textures.empty();
 }
 
 Changes diff(const Scene& before, const RenderSettings& before_settings, const Scene& after, const RenderSettings& after_settings) {
@@ -102,6 +125,7 @@ Changes diff(const Scene& before, const RenderSettings& before_settings, const S
     diff_settings(before_settings, after_settings, changes);
     diff_environment(before.environment, after.environment, changes);
     diff_nodes(before, after, changes);
+    diff_mix(before, after, changes);
     changes.meshes = seen_changes(before.meshes, after.meshes);
     changes.materials = seen_changes(before.materials, after.materials);
     changes.textures = seen_changes(before.textures, after.textures);

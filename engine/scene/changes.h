@@ -22,13 +22,16 @@ struct Changes {
     std::vector<Id<Material>> materials;
     std::vector<Id<Texture>> textures;
     std::vector<Id<Light>> lights;
+    bool mix = false; // of lights: how groups are made, what they are called, what they are multiplied with
 
     bool any() const;
     // There is something that an image already accumulated does not show.
     bool affects_image() const;
+    // Nothing but lights, materials, the environment's parameters and the mix, none of which moves anything.
+    bool only_light() const;
 };
 
-// Names of nodes, materials, lights, ... are not changes: they do not reach the image. Payloads are compared by serial, never by content;
+// Names of nodes, materials, lights, ... are not changes but where groups of the light mix go by them: they do not reach the image. Payloads are compared by serial, never by content;
 // tables that share storage cost nothing.
 Changes diff(const Scene& before, const RenderSettings& before_settings, const Scene& after, const RenderSettings& after_settings);
 

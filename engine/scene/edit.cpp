@@ -92,6 +92,7 @@ template <class T> Result<void> replace(T& target, const T& value) {
 
 Result<void> apply_to(Project& p, const SetEnvironment& e) { return replace(p.scene.environment, e.environment); }
 Result<void> apply_to(Project& p, const SetMix& e) { return replace(p.scene.mix, e.mix); }
+Result<void> apply_to(Project& p, const BakeMix& e) { return replace(p.scene, e.scene); }
 Result<void> apply_to(Project& p, const SetLens& e) { return replace(p.scene.view.lens, e.lens); }
 Result<void> apply_to(Project& p, const SetRender& e) { return replace(p.render, e.settings); }
 Result<void> apply_to(Project& p, const SetView& e) { return replace(p.view, e.settings); }
@@ -160,6 +161,7 @@ struct Labeller {
     std::string operator()(const MakeEmissive& e) const { return with_name("Make a light of", name_of(p.scene.nodes, e.node)); }
     std::string operator()(const SetEnvironment&) const { return "Change environment"; }
     std::string operator()(const SetMix&) const { return "Change light mix"; }
+    std::string operator()(const BakeMix&) const { return "Bake light mix"; }
     std::string operator()(const SetLens&) const { return "Change lens"; }
     std::string operator()(const SetRender&) const { return "Change render settings"; }
     std::string operator()(const SetView&) const { return "Change display settings"; }

@@ -27,6 +27,7 @@ struct AssignMaterial { Id<Mesh> mesh; int part = 0; Id<Material> material; };
 struct MakeEmissive { Id<Node> node; float nits = 1; }; // its mesh and materials become its own, and shine
 struct SetEnvironment { Environment environment; };
 struct SetMix { LightMix mix; };
+struct BakeMix { Scene scene; };        // the same scene with the mix in its lights (render/bake_mix.h)
 struct SetLens { Lens lens; };          // of the view
 struct SetRender { RenderSettings settings; };
 struct SetView { ViewSettings settings; };
@@ -37,7 +38,7 @@ struct Import { Scene scene; std::string name; }; // merges the nodes of another
 struct LookThrough { Id<Node> camera_node; };
 struct Restore { Project project; std::string name; }; // all of it, as it was kept in the snapshot of that name
 
-using Edit = std::variant<SetNode, SetMaterial, SetLight, SetCamera, SetTexture, AssignMaterial, MakeEmissive, SetEnvironment, SetMix, SetLens,
+using Edit = std::variant<SetNode, SetMaterial, SetLight, SetCamera, SetTexture, AssignMaterial, MakeEmissive, SetEnvironment, SetMix, BakeMix, SetLens,
                           SetRender, SetView, AddLight, DuplicateNode, RemoveNode, Import, LookThrough, Restore>;
 
 // "Change light Key", for the history menu.

@@ -44,7 +44,7 @@ struct Sampled {
     std::mt19937_64 bits;
 
     Sampled(uint64_t seed, Draw draw, Rule rule, int64_t spp) : bits(seed) {
-        film.reset(size, size, {}, false, rule != Rule::uniform);
+        film.reset({size, size, {}, false, rule != Rule::uniform});
         SamplePlan plan;
         PilotNoise noise;
         plan.reset(size, size);

@@ -19,7 +19,7 @@ struct Fixture {
     int width, height;
 
     Fixture(int w, int h, const PlaneSet& planes = {}, bool transparent = false) : width(w), height(h) {
-        film.reset(w, h, planes, transparent);
+        film.reset({w, h, planes, transparent});
         if (film.needs_first_hits()) tile->first = std::make_unique<FirstHitColumns>();
     }
     // value(x, y, sample): grey, for samples [first, first + count) of every pixel.

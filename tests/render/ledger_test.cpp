@@ -192,9 +192,9 @@ TEST(Ledger, BytesOfTheFilmAreThoseAllocated) {
                                    PlaneSet{.bounces = 5}, PlaneSet{true, true, true, true, usual_bounce_planes}})
         for (const auto& [transparent, adaptive] : {std::pair{false, false}, {true, false}, {true, true}}) {
             Film film;
-            film.reset(width, height, planes, transparent, adaptive);
+            film.reset({width, height, planes, transparent, adaptive});
             size_t bytes = 0;
-            for (const PlaneUse& plane : Film::plane_uses(planes, transparent, adaptive))
+            for (const PlaneUse& plane : Film::plane_uses({width, height, planes, transparent, adaptive}))
                 if (plane.used) bytes += plane.bytes_per_pixel * width * height;
             EXPECT_EQ(film.memory_bytes(), bytes);
         }

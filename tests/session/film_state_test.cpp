@@ -178,7 +178,7 @@ TEST(FilmState, RangesOfSamplesAddUpToTheWhole) {
     const FilmSize size = film_size(*first);
     EXPECT_EQ(size.planes, everything);
     Film film;
-    film.reset(size.width, size.height, size.planes, size.transparent);
+    film.reset(size);
     ASSERT_TRUE(load_film(film, *first));
     ASSERT_TRUE(add_film(film, *second));
     Frame merged;

@@ -23,7 +23,7 @@ float red_of(int x, int y, int64_t sample) {
 
 // Fills `film` with all samples, in batches of these sizes.
 void trace(Film& film, std::initializer_list<int> batches) {
-    film.reset(width, height, {true, true, true, true}, false);
+    film.reset({width, height, {true, true, true, true}});
     const auto tile = std::make_unique<TileScratch>();
     tile->first = std::make_unique<FirstHitColumns>();
     int64_t next = 0;

@@ -15,13 +15,15 @@ struct Plane {
     size_t pixel_size;
 };
 std::vector<Plane> planes_of(const Frame& frame) {
-    return {{"rgba", bytes_of(frame.rgba), 4 * sizeof(float)},
+    std::vector<Plane> planes{{"rgba", bytes_of(frame.rgba), 4 * sizeof(float)},
             {"samples", bytes_of(frame.pixel_samples), sizeof(float)},
             {"albedo", bytes_of(frame.albedo), sizeof(Vec3)},
             {"normal", bytes_of(frame.normal), sizeof(Vec3)},
             {"depth", bytes_of(frame.depth), sizeof(float)},
             {"object id", bytes_of(frame.object_id), sizeof(uint32_t)},
             {"material id", bytes_of(frame.material_id), sizeof(uint32_t)}};
+    for (const std::vector<Vec3>& group : frame.groups) planes.push_back({"group", bytes_of(group), sizeof(Vec3)});
+    return planes;
 }
 
 } // namespace
@@ -39,6 +41,7 @@ Frame fresh_picture(const Scene& scene, const RenderSettings& settings, int64_t 
     if (a.width != b.width || a.height != b.height) return ::testing::AssertionFailure() << "sizes differ";
     if (a.samples != b.samples) return ::testing::AssertionFailure() << a.samples << " samples against " << b.samples;
     const std::vector<Plane> planes_a = planes_of(a), planes_b = planes_of(b);
+    if (planes_a.size() != planes_b.size()) return ::testing::AssertionFailure() << "other groups";
     ::testing::AssertionResult result = ::testing::AssertionSuccess();
     for (size_t i = 0; i < planes_a.size(); ++i) {
         const auto& [name, p, pixel_size] = planes_a[i];

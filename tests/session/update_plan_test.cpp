@@ -103,6 +103,7 @@ TEST(UpdatePlan, EachChangeCostsItsRowAndNothingMore) {
     EXPECT_EQ(plan_if([](Changes& c) { c.materials = {{7}}; }), one_material(7));
     EXPECT_EQ(plan_if([](Changes& c) { c.textures = {{1}}; }), every_material());
     EXPECT_EQ(plan_if([](Changes& c) { c.lights = {{1}}; }), lights());
+    EXPECT_EQ(plan_if([](Changes& c) { c.mix = true; }), lights());
 }
 
 TEST(UpdatePlan, TwoChangesCostTheirUnion) {

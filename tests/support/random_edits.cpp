@@ -1,6 +1,8 @@
 #include "support/random_edits.h"
 
 #include "scene/ies_profile.h"
+#include "render/bake_mix.h"
+#include "render/light_groups.h"
 #include "support/sample_project.h"
 
 #include <type_traits>
@@ -62,6 +64,16 @@ Light light(Rng& rng) {
     return l;
 }
 
+// As before but for what a mix of lights takes in its stride.
+Light dimmed(Rng& rng, Light l) {
+    l.intensity *= uniform(rng, 0.1f, 2);
+    if (coin(rng)) l.color = color(rng);
+    if (whole(rng, 0, 4) == 0) l.enabled = !l.enabled;
+    if (whole(rng, 0, 4) == 0) l.group = coin(rng) ? "Warm" : "";
+    if (whole(rng, 0, 4) == 0) l.name = coin(rng) ? "Key" : "Fill";
+    return l;
+}
+
 Material material(Rng& rng, const Scene& scene) {
     Material m;
     m.base_color = color(rng);
@@ -103,14 +115,16 @@ std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<SetNode>
     return SetNode{entry->id, node};
 }
 std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<SetMaterial>) {
-    const Id<Material> id = pick_id(rng, p.scene.materials);
-    if (!id) return {};
-    return SetMaterial{id, material(rng, p.scene)};
+    const auto* entry = pick(rng, p.scene.materials);
+    if (!entry) return {};
+    Material dimmed = entry->value;
+    dimmed.emissive_strength *= uniform(rng, 0.1f, 2);
+    return SetMaterial{entry->id, coin(rng) ? dimmed : material(rng, p.scene)};
 }
 std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<SetLight>) {
-    const Id<Light> id = pick_id(rng, p.scene.lights);
-    if (!id) return {};
-    return SetLight{id, light(rng)};
+    const auto* entry = pick(rng, p.scene.lights);
+    if (!entry) return {};
+    return SetLight{entry->id, coin(rng) ? dimmed(rng, entry->value) : light(rng)};
 }
 Lens lens(Rng& rng) {
     Lens l;
@@ -147,6 +161,10 @@ std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<MakeEmis
 }
 std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<SetEnvironment>) {
     Environment e = p.scene.environment;
+    if (coin(rng)) {
+        e.intensity *= uniform(rng, 0.1f, 2);
+        return SetEnvironment{e};
+    }
     e.kind = Environment::Kind(whole(rng, 0, 3));
     e.color = color(rng);
     e.intensity = uniform(rng, 0, 3);
@@ -162,8 +180,22 @@ std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<SetEnvir
 }
 std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<SetMix>) {
     LightMix mix = p.scene.mix;
-    mix.channels.push_back({.group = "Key", .enabled = coin(rng), .intensity = uniform(rng, 0, 2), .color = color(rng)});
+    if (whole(rng, 0, 3) == 0) mix.grouping = LightMix::Grouping(whole(rng, 0, 4));
+    const std::vector<LightGroup> groups = make_light_groups(p.scene).groups;
+    if (groups.empty()) return SetMix{mix};
+    const std::string& group = groups[size_t(whole(rng, 0, int(groups.size()) - 1))].name;
+    std::erase_if(mix.channels, [&](const MixChannel& c) { return c.group == group; });
+    mix.channels.push_back({.group = group,
+                            .enabled = coin(rng),
+                            .intensity = uniform(rng, 0, 2),
+                            .color = color(rng),
+                            .use_temperature = coin(rng),
+                            .kelvin = uniform(rng, 1500, 10000)});
     return SetMix{mix};
+}
+std::optional<Edit> make(Rng&, const Project& p, std::type_identity<BakeMix>) {
+    if (p.scene.mix.channels.empty()) return {};
+    return bake_mix(p.scene);
 }
 std::optional<Edit> make(Rng& rng, const Project&, std::type_identity<SetLens>) { return SetLens{lens(rng)}; }
 std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<SetRender>) {

@@ -261,6 +261,35 @@ TEST_F(Panels, EveryStateOfTheConvergencePanel) {
     EXPECT_EQ(view.wanted_reference, ConvergenceView::ReferenceRequest::none);
 }
 
+// A picture of groups, and the panel over it: nothing is edited by looking.
+TEST_F(Panels, TheLightMixShowsItsGroups) {
+    test::Sample sample = test::sample_project();
+    sample.project.scene.mix.grouping = LightMix::Grouping::by_light;
+    sample.project.scene.mix.channels.push_back({.group = "Lamp", .intensity = 2, .use_temperature = true});
+    Document document(sample.project);
+    auto picture = std::make_shared<Frame>();
+    picture->width = picture->height = 1;
+    picture->rgba = {1, 1, 1, 1};
+    picture->light_groups = std::make_shared<const LightGroups>(make_light_groups(sample.project.scene));
+    picture->groups = {{{1, 1, 1}}, {{2, 2, 2}}};
+    picture->gains = {{1, 1, 1}, {2, 2, 2}};
+    picture->group_shares.resize(2);
+    frame = picture;
+    const std::optional<Mixing> mixing = mixing_of(*picture->light_groups, sample.project.scene);
+    ASSERT_TRUE(mixing);
+    ui.light_mix.open = true;
+    for (const char* unfolded : {"", "Lamp"})
+        for (const Mixing* shown : {&*mixing, static_cast<const Mixing*>(nullptr)}) {
+            ui.light_mix.unfolded = unfolded;
+            in_window([&] {
+                PanelContext c{document, ui, *color, frame, {}, 64, 48};
+                c.mixing = shown;
+                draw_light_mix_panel(c);
+            });
+        }
+    EXPECT_FALSE(document.can_undo());
+}
+
 TEST_F(Panels, TheRouletteLabMeasuresWhileItIsOpen) {
     Document document(test::sample_project().project);
     const auto draw = [&] {

@@ -98,6 +98,24 @@ TEST(Render, BouncesSumToTheBeautyInFileAndJson) {
     }
 }
 
+TEST(Render, GroupsSumToTheBeautyInFileAndJson) {
+    const TemporaryFolder folder;
+    const Json json = blush_json(with(tiny("card-and-mug", folder / "out.exr"), {"--layers", "groups", "--groups", "by-object", "--quiet"}));
+    double energy = 0;
+    for (const Json& group : json["groups"]) energy += double(group["energy"]);
+    EXPECT_NEAR(energy, 1, 1e-9);
+    const LayeredImage image = *read_layers(folder / "out.exr");
+    for (const std::string channel : {"R", "G", "B"}) {
+        for (size_t i = 0; i < 24 * 16; ++i) {
+            double sum = 0;
+            for (const Json& group : json["groups"]) sum += double(image.find("group." + std::string(group["group"]) + "." + channel)->values[i]);
+            const double whole = double(image.find(channel)->values[i]);
+            EXPECT_NEAR(sum, whole, whole * 0x1p-18) << channel << i; // shared paths are summed in single precision
+        }
+    }
+    EXPECT_EQ(blush_json(with(tiny("cornell", folder / "one.exr"), {"--layers", "groups", "--quiet"}))["groups"].size(), 1u) << "by light";
+}
+
 TEST(Render, AdaptiveSamplingIsRecordedAndItsLayerHoldsTheSamplesOfEachPixel) {
     const TemporaryFolder folder;
     const std::vector<std::string> arguments = {"render", scene_file("cornell"), "-o", folder / "out.exr", "--size", "64x48", "--spp",

@@ -183,7 +183,7 @@ TEST(RenderOptions, DenoisingIsOffUntilAskedFor) {
 TEST(Layers, AreParsedByName) {
     EXPECT_EQ(*parse_layers("albedo"), (Layers{.albedo = true}));
     EXPECT_EQ(*parse_layers("albedo,normal,depth,error,samples,id"), (Layers{true, true, true, true, true, true}));
-    for (const char* bad : {"", "albedo,", "Albedo", "groups", "bounces=1", "bounces=33", "bounces=", "albedo normal"})
+    for (const char* bad : {"", "albedo,", "Albedo", "group", "bounces=1", "bounces=33", "bounces=", "albedo normal"})
         EXPECT_FALSE(parse_layers(bad)) << bad;
 }
 

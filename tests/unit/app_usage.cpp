@@ -48,7 +48,7 @@ TEST(Usage, BadUsageIsTwo) {
     EXPECT_TRUE(refused(2, {"render", scene, "-o", "x.exr", "--spp", "4", "--samples", "0:4"}, "--samples"));
     EXPECT_TRUE(refused(2, {"render", scene, "-o", "x.exr", "--samples", "4:4"}, "0 <= A < B"));
     EXPECT_TRUE(refused(2, {"render", scene, "-o", "x.exr", "--layers", "albedo,depths"}, "unknown layer \"depths\""));
-    EXPECT_TRUE(refused(2, {"render", scene, "-o", "x.exr", "--layers", "groups"}, "not in this version"));
+    EXPECT_TRUE(refused(2, {"render", scene, "-o", "x.exr", "--groups", "by-colour"}, "by-light, by-object"));
     EXPECT_TRUE(refused(2, {"render", scene, "-o", "x.png", "--layers", "albedo"}, "--layers needs an .exr"));
     EXPECT_TRUE(refused(2, {"render", scene, "-o", "x.exr", "--denoise", "yes"}, "must be off, fast or high"));
     EXPECT_TRUE(refused(2, {"render", scene, "--pixel", "5"}, "--pixel must be X,Y"));

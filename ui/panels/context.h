@@ -3,6 +3,7 @@
 
 #include "color/color_management.h"
 #include "io/displayed.h"
+#include "render/light_groups.h"
 #include "render/render_session.h"
 #include "scene/document.h"
 #include "ui/shown_picture.h"
@@ -21,6 +22,7 @@ struct PanelContext {
     DenoisedPtr denoised = {};         // of the frame's image, if any
     std::string denoiser_problem = {}; // why nothing can be denoised; empty: it can
     const Ledger* window_ledger = nullptr; // of what the window makes itself; null: nothing
+    const Mixing* mixing = nullptr;        // what makes the frame's groups the picture of the scene as it is now; null: nothing does
 
     float metered_ev = 0; // of the frame, by the auto exposure; 0 without
 

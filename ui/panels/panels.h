@@ -37,6 +37,7 @@ void draw_meters_panel(PanelContext& c);
 void draw_region_panel(PanelContext& c);
 void draw_scopes_panel(PanelContext& c);
 void draw_bounces_panel(PanelContext& c);
+void draw_light_mix_panel(PanelContext& c);
 void draw_health_panel(PanelContext& c);
 void draw_roulette_panel(PanelContext& c);
 void draw_light_table(PanelContext& c);

@@ -56,17 +56,25 @@ void draw_denoised_cells(PanelContext& c, float& x, const Frame& frame) {
          "By how much the denoiser changed the mean luminance of the picture. The estimated error is that of the raw image.");
 }
 
-void draw_frame_cells(PanelContext& c, float& x, const Frame& frame) {
-    const int64_t target = c.project().render.spp;
-    cell(c, x, 9, target > 0 ? fmt::format("{} / {} spp", frame.samples, target) : fmt::format("{} spp", frame.samples),
-         "Samples, that is paths, per pixel so far and in the end.");
-    cell(c, x, 6.5f, rate_text(frame.samples_per_second), "Samples per pixel and second, over the last batch.");
+void draw_error_cell(PanelContext& c, float& x, const Frame& frame) {
     cell(c, x, 9, frame.error.known ? fmt::format("error {:.3g} %", 100 * std::sqrt(frame.error.relmse)) : "error not known yet",
          frame.error.known ? fmt::format("Estimated relative error (root of relMSE) of the picture, from two independent halves of the "
                                          "samples. relMSE {:.3g}, 95 % interval {:.3g} to {:.3g}.",
                                          frame.error.relmse, frame.error.low, frame.error.high)
                                  .c_str()
                            : "The error is estimated from two independent halves of the samples, once both hold some.");
+}
+
+void draw_frame_cells(PanelContext& c, float& x, const Frame& frame) {
+    const int64_t target = c.project().render.spp;
+    cell(c, x, 9, target > 0 ? fmt::format("{} / {} spp", frame.samples, target) : fmt::format("{} spp", frame.samples),
+         "Samples, that is paths, per pixel so far and in the end.");
+    cell(c, x, 6.5f, rate_text(frame.samples_per_second), "Samples per pixel and second, over the last batch.");
+    const bool mix_is_new = c.mixing && c.mixing->gains != frame.gains;
+    if (mix_is_new)
+        cell(c, x, 9, "error follows", "The mix of lights shows at once; its error is estimated with the next picture of the session.", tone::dim_text);
+    else
+        draw_error_cell(c, x, frame);
     draw_denoised_cells(c, x, frame);
     cell(c, x, 6, elapsed_text(frame.seconds), "Time spent rendering since the last edit.");
     cell(c, x, 8.5f,

@@ -33,7 +33,7 @@ Findings constant_for(int64_t spp) {
 Findings film_fed(int64_t samples) {
     const auto tile = std::make_unique<TileScratch>();
     Film film;
-    film.reset(1, 1, {}, false);
+    film.reset({1, 1});
     for (int64_t first = 0; first < samples; first += tile_capacity) {
         const int count = int(std::min<int64_t>(tile_capacity, samples - first));
         for (double* column : {tile->r.data, tile->g.data, tile->b.data}) {

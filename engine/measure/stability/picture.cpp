@@ -46,6 +46,10 @@ Picture render_anything(const Scene& scene, const RenderSettings& settings, cons
     Renderer renderer(options);
     renderer.update(scene, settings);
     renderer.render(settings.first_sample, settings.spp - settings.first_sample);
+    return picture_of(renderer);
+}
+
+Picture picture_of(const Renderer& renderer) {
     Picture p;
     p.frame = renderer.resolve();
     p.width = p.frame.width;

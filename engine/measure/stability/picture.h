@@ -31,5 +31,7 @@ RenderSettings settings_for(int width, int height, int64_t spp);
 Picture render_anything(const Scene& scene, const RenderSettings& settings, const PlaneSet& planes = {});
 // The same; throws std::runtime_error if samples were dropped or paths cut off, because then the picture is no measurement.
 Picture render(const Scene& scene, const RenderSettings& settings, const PlaneSet& planes = {});
+// Of what a renderer holds.
+Picture picture_of(const Renderer& renderer);
 
 } // namespace blush::stability

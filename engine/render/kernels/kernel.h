@@ -5,6 +5,7 @@
 #include "render/accel.h"
 #include "render/estimator_settings.h"
 #include "render/kernels/column.h"
+#include "render/kernels/group_columns.h"
 #include "render/kernels/reuse_columns.h"
 #include "render/path_counts.h"
 #include "render/scene_tables.h"
@@ -45,6 +46,7 @@ struct ShadowQueue {
     Column<float> ox, oy, oz, dx, dy, dz, distance, r, g, b;
     Column<int32_t> slot;
     Column<uint32_t> random; // for stochastic opacity; written only if something is not opaque
+    Column<int32_t> group;   // of the light; written only if somebody mixes
 };
 struct FirstHitColumns {
     Column<float> albedo_r, albedo_g, albedo_b, normal_x, normal_y, normal_z, depth;
@@ -53,11 +55,8 @@ struct FirstHitColumns {
 
 // The radiance of each path as it grows: after[k] holds what arrived by at most k scatterings. Never longer than the film asked for.
 struct BounceColumns {
-    struct Radiance {
-        Column<double> r, g, b;
-    };
     explicit BounceColumns(int count) : after(size_t(count)) {}
-    std::vector<Radiance> after;
+    std::vector<RadianceColumns> after;
     int recorded = 0; // of them; where all paths ended earlier, the others would hold their final radiance
 };
 
@@ -80,6 +79,7 @@ struct TileScratch {
     Column<double> r, g, b;                 // radiance; in single precision a long path's last terms would be lost in its sum
     std::unique_ptr<FirstHitColumns> first; // null: nobody reads it
     std::unique_ptr<BounceColumns> bounces; // null: nobody reads it
+    std::unique_ptr<GroupColumns> groups;   // null: nobody mixes
     std::unique_ptr<ReuseColumns> reuse;       // made by the first kernel that is told to
     std::unique_ptr<RouletteColumns> roulette; // null: nobody reads it
     int64_t camera_rays = 0, bounce_rays = 0, shadow_rays = 0, truncated_paths = 0; // counted up

@@ -2,8 +2,10 @@
 #pragma once
 
 #include "render/kernels/column.h"
+#include "render/kernels/group_columns.h"
 
 #include <cstdint>
+#include <vector>
 
 namespace blush {
 
@@ -28,7 +30,8 @@ struct ReuseBatch {
 struct ReuseColumns {
     JunctionColumns first;              // by slot
     Column<float> rho_r, rho_g, rho_b;  // by slot: reflectance of the first vertex
-    Column<double> own_r, own_g, own_b; // by slot: radiance that is not shared
+    RadianceColumns own;                // by slot: radiance that is not shared
+    std::vector<RadianceColumns> own_groups; // the same by group of lights; empty: nobody mixes
     Column<int32_t> second_of;          // by slot: place in the queue of bounce 1, -1: none
     JunctionColumns second;             // by place in that queue
     Column<uint32_t> random;            // likewise: for stochastic opacity

@@ -1,0 +1,120 @@
+#include "render/bake_mix.h"
+
+#include "core/math.h"
+#include "render/light_groups.h"
+#include "scene/placements.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace blush {
+namespace {
+
+// A light's, a material's or the environment's colour and strength, so that their product is `gain` times what it was: colours get no
+// brighter.
+void scale(Vec3& color, float& strength, const Vec3& gain) {
+    const float brightest = max_component(gain);
+    color = brightest > 0 ? color * (gain / brightest) : color;
+    strength *= brightest;
+}
+
+void scale(Light& light, const Vec3& gain) {
+    // Switched off it keeps what it was.
+    if (gain == Vec3{0, 0, 0}) light.enabled = false;
+    else scale(light.color, light.intensity, gain);
+}
+void scale(Material& material, const Vec3& gain) { scale(material.emissive, material.emissive_strength, gain); }
+void scale(Environment& environment, const Vec3& gain) { scale(environment.color, environment.intensity, gain); }
+
+// Records under their ids, each with the nodes that use it by the gain that they want.
+template <class T> using Uses = std::map<Id<T>, std::map<int, std::vector<Id<Node>>>>;
+
+class Baker {
+public:
+    explicit Baker(const Scene& scene) : scene_(scene), groups_(make_light_groups(scene)) {
+        for (const LightGroup& group : groups_.groups) gains_.push_back(group.unlit ? Vec3{1, 1, 1} : channel_gain(scene.mix, group.name));
+    }
+
+    Scene baked() {
+        // Without groups, channels mean nothing.
+        if (scene_.mix.grouping == LightMix::Grouping::none || groups_.groups.empty()) return cleared();
+        Placements placements(scene_);
+        Uses<Light> lights;
+        Uses<Material> materials;
+        for (const auto& [id, node] : scene_.nodes) {
+            if (!placements(id).visible) continue;
+            if (groups_.light_nodes.contains(id)) lights[node.light][first_alike(groups_.of_light(id))].push_back(id);
+            if (const Mesh* mesh = scene_.meshes.find(node.mesh))
+                for (const MeshPart& part : mesh->parts)
+                    if (is_scaled(part.material)) materials[part.material][first_alike(groups_.of_surface(id, part.material))].push_back(id);
+        }
+        for (const auto& [id, uses] : lights) bake_light(id, uses);
+        for (const auto& [id, uses] : materials) bake_material(id, uses);
+        if (scene_.environment.kind != Environment::Kind::none) scale(out_.environment, gains_[size_t(groups_.of_environment())]);
+        return cleared();
+    }
+
+private:
+    Scene cleared() {
+        out_.mix.channels.clear();
+        return std::move(out_);
+    }
+    // Groups with the same gain need not be told apart.
+    int first_alike(int group) const {
+        return int(std::ranges::find(gains_, gains_[size_t(group)]) - gains_.begin());
+    }
+    bool is_scaled(Id<Material> id) const {
+        return std::ranges::any_of(groups_.groups, [&](const LightGroup& g) { return std::ranges::find(g.materials, id) != g.materials.end(); });
+    }
+
+    // The first gain is the record's own; every other gets a copy.
+    void bake_light(Id<Light> id, const std::map<int, std::vector<Id<Node>>>& uses) {
+        bool first = true;
+        for (const auto& [group, nodes] : uses) {
+            Light light = *scene_.lights.find(id);
+            scale(light, gains_[size_t(group)]);
+            if (std::exchange(first, false)) {
+                out_.lights.set(id, light);
+                continue;
+            }
+            const Id<Light> copy = out_.lights.add(light);
+            for (const Id<Node> node : nodes) change(node, [&](Node& n) { n.light = copy; });
+        }
+    }
+    void bake_material(Id<Material> id, const std::map<int, std::vector<Id<Node>>>& uses) {
+        bool first = true;
+        for (const auto& [group, nodes] : uses) {
+            Material material = *scene_.materials.find(id);
+            scale(material, gains_[size_t(group)]);
+            if (std::exchange(first, false)) {
+                out_.materials.set(id, material);
+                continue;
+            }
+            const Id<Material> copy = out_.materials.add(material);
+            for (const Id<Node> node : nodes) give_own_mesh(node, id, copy);
+        }
+    }
+    void give_own_mesh(Id<Node> node, Id<Material> from, Id<Material> to) {
+        Mesh mesh = *out_.meshes.find(out_.nodes.find(node)->mesh);
+        for (MeshPart& part : mesh.parts)
+            if (part.material == from) part.material = to;
+        change(node, [&](Node& n) { n.mesh = out_.meshes.add(std::move(mesh)); });
+    }
+    template <class With> void change(Id<Node> id, const With& with) {
+        Node node = *out_.nodes.find(id);
+        with(node);
+        out_.nodes.set(id, std::move(node));
+    }
+
+    const Scene& scene_;
+    Scene out_ = scene_;
+    LightGroups groups_;
+    std::vector<Vec3> gains_; // of the groups' channels
+};
+
+} // namespace
+
+BakeMix bake_mix(const Scene& scene) { return {Baker(scene).baked()}; }
+
+} // namespace blush

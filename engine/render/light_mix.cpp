@@ -1,0 +1,116 @@
+#include "render/light_mix.h"
+
+#include "core/math.h"
+#include "core/parallel.h"
+#include "scene/affine.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace blush {
+namespace {
+
+// Values at a time: small enough for the first-level cache, a multiple of every pixel's and every register's.
+constexpr size_t run = 48;
+constexpr size_t chunk = 32 * run;
+
+using Sums = std::array<float, chunk>;
+
+// Whole runs past the end are summed too where the planes have them.
+void add_plane(const float* plane, size_t count, const Vec3& gain, Sums& sums) {
+    std::array<float, run> pattern;
+    for (size_t i = 0; i < run; i += 3) {
+        pattern[i] = gain.x;
+        pattern[i + 1] = gain.y;
+        pattern[i + 2] = gain.z;
+    }
+    size_t first = 0;
+    for (; first + run <= count; first += run)
+        for (size_t i = 0; i < run; ++i) sums[first + i] += pattern[i] * plane[first + i];
+    for (size_t i = first; i < count; ++i) sums[i] += pattern[i - first] * plane[i];
+}
+
+void mix_chunk(std::span<const PlaneSpan> planes, std::span<const Vec3> gains, size_t first_pixel, size_t pixels, float* to, int stride) {
+    Sums sums;
+    sums.fill(0);
+    for (size_t k = 0; k < planes.size(); ++k)
+        if (gains[k] != Vec3{0, 0, 0}) add_plane(&planes[k][3 * first_pixel], 3 * pixels, gains[k], sums);
+    for (size_t i = 0; i < pixels; ++i)
+        for (size_t c = 0; c < 3; ++c) to[i * size_t(stride) + c] = sums[3 * i + c];
+}
+
+double variance_of(const GroupShare& share, const Vec3& gain) {
+    const auto channel = [](double variance, float g) { return variance * double(g) * double(g); };
+    return channel(share.variance.x, gain.x) + channel(share.variance.y, gain.y) + channel(share.variance.z, gain.z);
+}
+
+double variance_of(const Frame& frame, std::span<const Vec3> gains) {
+    double sum = 0;
+    for (size_t k = 0; k < frame.group_shares.size(); ++k) sum += variance_of(frame.group_shares[k], gains[k]);
+    return sum;
+}
+
+} // namespace
+
+PlaneSpan span_of(const std::vector<Vec3>& plane) {
+    static_assert(sizeof(Vec3) == 3 * sizeof(float));
+    if (plane.empty()) return {};
+    return {&plane.front().x, 3 * plane.size()};
+}
+
+void mix_planes(std::span<const PlaneSpan> planes, std::span<const Vec3> gains, std::span<float> pixels, int stride, const Workers* workers) {
+    const size_t count = pixels.size() / size_t(stride), at_once = chunk / 3;
+    const auto mix = [&](size_t first) {
+        mix_chunk(planes, gains, first, std::min(at_once, count - first), &pixels[first * size_t(stride)], stride);
+    };
+    if (!workers) {
+        for (size_t first = 0; first < count; first += at_once) mix(first);
+        return;
+    }
+    // Tasks of some rows each: starting one costs as much as a chunk does.
+    constexpr size_t chunks = 64;
+    const size_t task = chunks * at_once;
+    workers->for_each(int64_t((count + task - 1) / task), {}, [&](int64_t i, unsigned) {
+        for (size_t first = size_t(i) * task, end = std::min(count, first + task); first < end; first += at_once) mix(first);
+    });
+}
+
+std::vector<float> mixed_rgba(const Frame& frame, std::span<const Vec3> gains, const Workers* workers) {
+    std::vector<float> rgba = frame.rgba;
+    std::vector<PlaneSpan> planes;
+    for (const std::vector<Vec3>& plane : frame.groups) planes.push_back(span_of(plane));
+    mix_planes(planes, gains, rgba, 4, workers);
+    return rgba;
+}
+
+std::vector<std::vector<Vec3>> mixed_groups(const Frame& frame) {
+    std::vector<std::vector<Vec3>> groups = frame.groups;
+    for (size_t k = 0; k < groups.size(); ++k)
+        if (frame.gains[k] != Vec3{1, 1, 1})
+            for (Vec3& pixel : groups[k]) pixel = pixel * frame.gains[k];
+    return groups;
+}
+
+std::vector<GroupReport> report_groups(const Frame& frame, std::span<const std::string> names, std::span<const Vec3> gains) {
+    std::vector<GroupReport> reports;
+    double energy = 0;
+    const double noise = variance_of(frame, gains);
+    for (size_t k = 0; k < frame.group_shares.size(); ++k) {
+        const GroupShare& share = frame.group_shares[k];
+        reports.push_back({names[k], luminance(share.mean * to_double(gains[k])), variance_of(share, gains[k])});
+        energy += reports.back().energy;
+    }
+    for (GroupReport& r : reports) {
+        if (energy > 0) r.energy /= energy;
+        if (noise > 0) r.noise /= noise;
+    }
+    return reports;
+}
+
+double predicted_rmse(const Frame& frame, std::span<const Vec3> gains) {
+    const double known = variance_of(frame, frame.gains);
+    return known > 0 && frame.error.rmse_known ? frame.error.rmse * std::sqrt(variance_of(frame, gains) / known) : 0;
+}
+
+} // namespace blush

@@ -1,0 +1,39 @@
+// Pictures put together from groups of lights, each with its gain.
+#pragma once
+
+#include "render/frame.h"
+#include "render/light_groups.h"
+
+#include <span>
+#include <vector>
+
+namespace blush {
+
+class Workers;
+
+// A plane of width * height * 3 values.
+using PlaneSpan = std::span<const float>;
+PlaneSpan span_of(const std::vector<Vec3>& plane);
+
+// The sum of all planes, each times its gain, into the first three of `stride` (3 or 4) values of each pixel. Bound by memory, not by
+// arithmetic: 8 planes of 1280x720 take some milliseconds. `workers`: shares the work; null: none.
+void mix_planes(std::span<const PlaneSpan> planes, std::span<const Vec3> gains, std::span<float> pixels, int stride,
+                const Workers* workers = nullptr);
+// Those of a frame, into its rgba's layout; alpha as in the frame.
+std::vector<float> mixed_rgba(const Frame& frame, std::span<const Vec3> gains, const Workers* workers = nullptr);
+
+// A frame's groups, each times its gain: what they give to the picture.
+std::vector<std::vector<Vec3>> mixed_groups(const Frame& frame);
+
+// What a group is worth in a mix.
+struct GroupReport {
+    std::string name;
+    double energy = 0; // its share of the image's luminance
+    double noise = 0;  // its share of the variance, channels together; groups are taken for independent
+};
+std::vector<GroupReport> report_groups(const Frame& frame, std::span<const std::string> names, std::span<const Vec3> gains);
+
+// The frame's RMSE as it will be estimated with other gains: scaled as the sum of the groups' variances. 0: not known.
+double predicted_rmse(const Frame& frame, std::span<const Vec3> gains);
+
+} // namespace blush

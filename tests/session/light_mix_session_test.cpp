@@ -1,0 +1,142 @@
+// The light mix in a running session: an edit of light shows on the samples that there are, denoised or not, and nothing begins anew.
+#include "render/light_mix.h"
+#include "render/render_session.h"
+#include "session/pictures.h"
+#include "session/watched_session.h"
+#include "support/sample_project.h"
+
+#include <gtest/gtest.h>
+
+namespace blush {
+namespace {
+
+using State = SessionStatus::State;
+using test::Event;
+using test::WatchedSession;
+
+struct Lamps {
+    test::Sample sample = test::sample_project();
+    Project& project = sample.project;
+
+    Lamps() {
+        project.render.width = 32;
+        project.render.height = 24;
+        project.render.spp = 8;
+        project.scene.mix.grouping = LightMix::Grouping::by_light;
+    }
+    void dim(float factor) {
+        Light lamp = *project.scene.lights.find(sample.lamp);
+        lamp.intensity *= factor;
+        project.scene.lights.set(sample.lamp, lamp);
+    }
+};
+
+FramePtr frame_of(WatchedSession& session, uint64_t revision) {
+    return session.wait_for([&](const Event& e) { return e.frame && e.frame->revision == revision && e.frame->complete; }).frame;
+}
+
+TEST(SessionMix, ShowsOnTheSamplesThatThereAre) {
+    Lamps lamps;
+    WatchedSession session;
+    session->submit(1, lamps.project.scene, lamps.project.render);
+    const FramePtr before = frame_of(session, 1);
+    ASSERT_TRUE(before);
+    ASSERT_EQ(before->groups.size(), 2u);
+
+    lamps.dim(3);
+    session->submit(2, lamps.project.scene, lamps.project.render);
+    const FramePtr after = frame_of(session, 2);
+    ASSERT_TRUE(after);
+    EXPECT_EQ(after->samples, 8);
+    EXPECT_EQ(after->groups, before->groups) << "not rendered again";
+    EXPECT_EQ(after->gains, (Gains{{1, 1, 1}, {3, 3, 3}}));
+    EXPECT_NE(after->rgba, before->rgba);
+    EXPECT_NE(after->error.rmse, before->error.rmse);
+    // What the window shows meanwhile, from the frame before.
+    const std::vector<float> meanwhile = mixed_rgba(*before, after->gains);
+    for (size_t i = 0; i < meanwhile.size(); ++i) ASSERT_NEAR(meanwhile[i], after->rgba[i], 0x1p-20f * after->rgba[i]);
+
+    lamps.dim(1.f / 3);
+    lamps.project.scene.view.position.x += 0.1f;
+    session->submit(3, lamps.project.scene, lamps.project.render);
+    const FramePtr moved = frame_of(session, 3);
+    ASSERT_TRUE(moved);
+    EXPECT_EQ(moved->rgba, test::fresh_picture(lamps.project.scene, lamps.project.render, 8).rgba);
+}
+
+// A mix that is submitted before the image it belongs to was taken up still shows on planes of that image's own light.
+TEST(SessionMix, CountsFromTheSceneThatBeganTheImage) {
+    Lamps lamps;
+    const Scene first = lamps.project.scene;
+    WatchedSession session;
+    session->submit(1, lamps.project.scene, lamps.project.render);
+    lamps.dim(0);
+    session->submit(2, lamps.project.scene, lamps.project.render);
+    lamps.project.scene = first;
+    lamps.dim(2);
+    session->submit(3, lamps.project.scene, lamps.project.render);
+    const FramePtr frame = frame_of(session, 3);
+    ASSERT_TRUE(frame);
+    EXPECT_EQ(frame->gains, (Gains{{1, 1, 1}, {2, 2, 2}}));
+    EXPECT_EQ(frame->samples, 8);
+}
+
+TEST(SessionMix, KeepsTheFilmForOthersToGoOnFrom) {
+    Lamps lamps;
+    WatchedSession session;
+    session->submit(1, lamps.project.scene, lamps.project.render);
+    ASSERT_TRUE(frame_of(session, 1));
+    lamps.dim(3);
+    session->submit(2, lamps.project.scene, lamps.project.render);
+    const FramePtr mixed = frame_of(session, 2);
+    ASSERT_TRUE(mixed);
+    session->keep_film(2);
+    std::optional<KeptFilm> kept;
+    session.wait_for([&](const Event&) {
+        if (!kept) kept = session->take_kept_film();
+        return kept.has_value();
+    });
+    ASSERT_TRUE(kept && kept->film) << (kept ? kept->why_none : "");
+
+    WatchedSession other;
+    other->submit(1, lamps.project.scene, lamps.project.render, {}, kept->film);
+    const FramePtr restored = frame_of(other, 1);
+    ASSERT_TRUE(restored);
+    EXPECT_EQ(restored->gains, Gains(2, Vec3{1, 1, 1})) << "its lights are now as bright as they were mixed";
+    for (size_t i = 0; i < mixed->rgba.size(); ++i) ASSERT_NEAR(restored->rgba[i], mixed->rgba[i], 0x1p-20f * mixed->rgba[i]);
+}
+
+// Stands in for the networks: halves what it is given, so that what it has touched can be told from what it has not.
+Result<std::optional<Denoised>> halved(const DenoiseInput& input, const DenoiseOptions&, const std::function<bool()>&) {
+    Denoised denoised;
+    for (size_t i = 0; i < size_t(input.width) * size_t(input.height); ++i)
+        for (size_t c = 0; c < 3; ++c) denoised.rgb.push_back(input.color.values[i * size_t(input.color.stride) + c] / 2);
+    return std::optional(std::move(denoised));
+}
+
+TEST(SessionMix, StaysDenoised) {
+    Lamps lamps;
+    WatchedSession session(2, {}, halved);
+    session->want_denoised(true);
+    session->submit(1, lamps.project.scene, lamps.project.render);
+    const auto is_done = [](const Event& e) { return e.frame && e.frame->complete && e.denoised && e.denoised->samples == 8; };
+    const Event before = session.wait_for(is_done);
+    ASSERT_TRUE(before.denoised && before.denoised->groups);
+    EXPECT_EQ(before.denoised->groups->planes.size(), 2u);
+
+    lamps.dim(3);
+    session->submit(2, lamps.project.scene, lamps.project.render);
+    const Event after = session.wait_for([&](const Event& e) { return is_done(e) && e.frame->revision == 2; });
+    ASSERT_TRUE(after.denoised);
+    EXPECT_EQ(after.denoised->gains, after.frame->gains);
+    EXPECT_EQ(after.denoised->groups, before.denoised->groups) << "not denoised again";
+    const std::vector<float>& rgb = after.denoised->denoised.rgb;
+    for (size_t i = 0; i < rgb.size() / 3; ++i)
+        for (size_t c = 0; c < 3; ++c) {
+            const float half = after.frame->rgba[4 * i + c] / 2;
+            ASSERT_NEAR(rgb[3 * i + c], half, 0x1p-20f * half);
+        }
+}
+
+} // namespace
+} // namespace blush

@@ -1,0 +1,13 @@
+// The light mix panel's own state; the mix itself is the document's.
+#pragma once
+
+#include <string>
+
+namespace blush {
+
+struct LightMixView {
+    bool open = false;
+    std::string unfolded; // the group whose colour is shown
+};
+
+} // namespace blush
