@@ -89,6 +89,7 @@ constexpr MouseHint hints[] = {
     {"Read a pixel's values", "Right-click"},
     {"Move, aim, resize", "Drag the handles of what is selected"},
     {"Go back to a snapshot", "Click its card; right-click for more"},
+    {"Link light and object", "Shift+click the object, light selected"},
     {"Reset a value", "Double-click"},
     {"Type a value", "Ctrl+click"},
     {"Change a value finely", "Alt+drag"},

@@ -1,5 +1,6 @@
 #include "ui/viewport.h"
 
+#include "render/light_links.h"
 #include "render/light_mix.h"
 #include "scene/edit_tree.h"
 #include "ui/environment_dial.h"
@@ -78,6 +79,18 @@ void expose(PanelContext& c, float stops, Gesture gesture) {
     c.apply(SetView{v}, gesture);
 }
 
+// With a light selected, takes an object out of what it lights, or in again. False: that is not what the click meant.
+bool toggle_link(PanelContext& c, Id<Node> object) {
+    const Node *node = c.scene().nodes.find(c.ui.selected), *other = c.scene().nodes.find(object);
+    const Light* record = node ? c.scene().lights.find(node->light) : nullptr;
+    if (!record || !other || other->light) return false;
+    Light light = *record;
+    toggle(light.lit_objects, c.scene(), object);
+    c.ui.toasts.note(contains(light.lit_objects, c.scene(), object) ? "Lit by the selected light" : "No longer lit by the selected light");
+    c.apply(SetLight{node->light, light});
+    return true;
+}
+
 // The light whose glyph is there, else what the picture shows.
 Picked picked_at(PanelContext& c, const Projection& projection, const ImageRect& image, const ScreenPoint& at) {
     if (c.ui.settings.overlays) {
@@ -105,7 +118,7 @@ Result<void> Viewport::set_display_shader(const DisplayShader& shader) {
 // As the mix has it by now: the session's own mix of the same planes follows when it has time.
 void Viewport::upload_frame(const Frame& frame, const PictureView& view, const Gains& gains, bool background_as_it_is) {
     std::vector<float> pixels;
-    const bool mixes = !gains.empty() && gains != frame.gains;
+    const bool mixes = !gains.empty() && gains.size() == frame.groups.size() && gains != frame.gains;
     if (is_special(frame, view)) pixels = pixels_of(frame, view);
     else if (background_as_it_is) pixels = with_coverage(frame);
     if (pixels.empty() && mixes) pixels = mixed_rgba(frame, gains, &workers_);
@@ -114,7 +127,7 @@ void Viewport::upload_frame(const Frame& frame, const PictureView& view, const G
 }
 
 void Viewport::upload_denoised(const DenoisedPicture& denoised, const Gains& gains) {
-    const bool mixes = denoised.groups && !gains.empty() && gains != denoised.gains;
+    const bool mixes = denoised.groups && gains.size() == denoised.groups->planes.size() && gains != denoised.gains;
     if (mixes) display_.upload_denoised(denoised.width, denoised.height, mixed_rgb(denoised, gains, &workers_));
     else display_.upload(denoised);
 }
@@ -235,7 +248,7 @@ void Viewport::obey(PanelContext& c, const NavigationResult& wish, const Project
         c.ui.select(picked.node, picked.material);
     }
     if (wish.toggle) {
-        if (const Picked picked = picked_at(c, projection, image, *wish.toggle); picked.node) c.ui.toggle(picked.node);
+        if (const Picked picked = picked_at(c, projection, image, *wish.toggle); picked.node && !toggle_link(c, picked.node)) c.ui.toggle(picked.node);
     }
 }
 

@@ -139,7 +139,8 @@ template <int N, class Ray> void load_rays(Ray& ray, const RayArrays& rays, int 
     // A ray does not meet the surface that it starts on, as one from an eye that lies in it would: above 0, which the watertight test includes.
     std::fill_n(ray.tnear, N, std::numeric_limits<float>::min());
     std::fill_n(ray.time, N, 0.f);
-    std::fill_n(ray.mask, N, rays.mask);
+    if (rays.masks) std::memcpy(ray.mask, rays.masks + first, N * sizeof(uint32_t));
+    else std::fill_n(ray.mask, N, rays.mask);
     std::fill_n(ray.flags, N, 0u);
 }
 

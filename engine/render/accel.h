@@ -17,8 +17,9 @@ namespace blush {
 struct SceneTables;
 
 // A ray meets what has a bit of its mask in common with the ray's.
-constexpr uint32_t camera_ray_mask = 1, other_ray_mask = ~camera_ray_mask;
-constexpr uint32_t seen_by_all = ~0u, hidden_from_camera = other_ray_mask;
+// The other bits are those of shadow rays that only some objects stop (light_links.h).
+constexpr uint32_t camera_ray_mask = 1, other_ray_mask = 2;
+constexpr uint32_t seen_by_all = ~0u;
 
 // Triangles as the builder needs them. Arrays are copied.
 struct AccelTriangles {
@@ -56,6 +57,7 @@ struct RayArrays {
     const float* far_distance;   // null: infinite
     const uint32_t* random;      // per-ray random number for stochastic opacity; read only if has_alpha()
     uint32_t mask = other_ray_mask;
+    const uint32_t* masks = nullptr; // of each ray, in place of that
 };
 struct HitArrays {
     float *t, *u, *v;            // t in units of the direction's length; u, v: weights of vertices 1 and 2

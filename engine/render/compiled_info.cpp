@@ -20,6 +20,11 @@ CompiledInfo RenderScene::info() const {
     info.textures = int64_t(materials_.textures.records.size());
     info.warnings = materials_.textures.warnings;
     info.warnings.insert(info.warnings.end(), environment_.warnings.begin(), environment_.warnings.end());
+    if (casters_.left_out() > 0)
+        info.warnings.push_back({Diagnostic::Severity::warning,
+                                 fmt::format("there are more than {} different sets of shadow casters: everything casts the shadows of {}", most_caster_sets,
+                                             counted(casters_.left_out(), "light", "lights")),
+                                 ""});
     info.environment = lights_.environment >= 0;
     info.emissive_triangles = lights_.emissive_triangles;
     info.point_lights = lights_.point_lights;

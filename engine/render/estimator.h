@@ -6,6 +6,7 @@
 #include "render/camera.h"
 #include "render/estimator_settings.h"
 #include "render/light_sampling.h"
+#include "render/links.h"
 #include "render/surface.h"
 #include "shading/bsdf.h"
 
@@ -18,6 +19,7 @@ template <class F> struct Path {
     Vec<F> normal;      // of the Receiver where the ray begins; only with Feature::light_tree
     UInt<F> key, index; // of the sampler
     Int<F> slot;        // which of the tile's samples it adds to
+    Int<F> part;        // that the ray left, -1: the camera; only where lights may be linked
 };
 
 // What the first surface of a path shows: the denoiser's and the picker's planes.
@@ -52,6 +54,7 @@ template <class F> struct Step {
     Vec<F> emitted; // add where `emits`
     Vec<F> direct;  // add where `connects` and nothing lies on the shadow ray
     Int<F> light;   // where that comes from: a record of the light table
+    UInt<F> shadow_mask; // what the shadow ray meets; only where lights are linked
     Ray<F> shadow;
     F shadow_distance;
     Path<F> next;   // where `continues` or `breaks`
@@ -114,7 +117,16 @@ Path<F> begin_path(const SceneTables& scene, const EstimatorSettings& settings, 
     path.key = key;
     path.index = index;
     path.slot = slot;
+    path.part = Int<F>(from_camera);
     return path;
+}
+
+// The MIS weight of emission that the path's ray found, if the light is linked to the surface that the ray left.
+template <Features S, class F>
+F if_linked(const SceneTables& scene, const F& weight, const Int<F>& light, const Path<F>& path, const Mask<F>& active) {
+    if constexpr (S.has(Feature::links))
+        if (scene.links.lit_sets) return linked_weight<F>(scene.links, weight, light, path.part, path.pdf, active);
+    return weight;
 }
 
 // Light from beyond all surfaces along the path's ray, one source after the other: visit(light, radiance times MIS weight, that weight,
@@ -150,6 +162,7 @@ void visit_escaped_light(const SceneTables& scene, const EstimatorSettings& sett
                 const F pdf = cone_pdf(F(sun.cone_height)) * light_probability<S, F>(lights, from, Int<F>(lights.suns[i]), inside);
                 weight = found_emission_weight(settings.strategy, path.pdf, pdf);
             }
+            weight = if_linked<S, F>(scene, weight, Int<F>(lights.suns[i]), path, inside);
             visit(lights.suns[i], splat<F>(sun.emission) * weight, weight, inside);
         }
     }
@@ -212,7 +225,7 @@ FoundSphere<F> found_sphere(const SceneTables& scene, Strategy strategy, const P
     const F height = sphere_cone_height(dot(to_center, to_center), gather_field(lights, &LightRecord::radius, light));
     const Mask<F> outside = active && height > F(0.f);
     const F pdf = cone_pdf(select(outside, height, F(1.f))) * light_probability<S, F>(scene.lights, {path.ray.origin, path.normal}, light, outside);
-    const F weight = found_emission_weight(strategy, path.pdf, pdf);
+    const F weight = if_linked<S, F>(scene, found_emission_weight(strategy, path.pdf, pdf), light, path, active);
     Vec<F> emission = gather_field3<F>(lights, &LightRecord::emission, light);
     if constexpr (S.has(Feature::light_profiles)) emission = emission * emission_profile<F>(scene, light, -path.ray.direction, outside);
     return {select<F>(outside, emission * weight, splat<F>(0.f)), weight, gather_field(lights, &LightRecord::object, light)};
@@ -305,7 +318,8 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
         const Mask<F> emitting = found && max_component(material.emission) > F(0.f) && (front || material.double_sided);
         if (any(emitting)) {
             const Int<F> light = light_of_triangle<F>(scene, surface.part, select(found, hit.triangle, Int<F>(0)));
-            const F weight = surface_emission_weight<S, F>(scene, settings.strategy, path, light, hit.t, abs(outside), emitting);
+            const F unlinked = surface_emission_weight<S, F>(scene, settings.strategy, path, light, hit.t, abs(outside), emitting);
+            const F weight = if_linked<S, F>(scene, unlinked, light, path, emitting);
             Vec<F> emission = material.emission;
             if constexpr (S.has(Feature::light_profiles)) emission = emission * emission_profile<F>(scene, light, wo_world, emitting);
             out.emitted = select<F>(emitting, beta * emission * weight, out.emitted);
@@ -367,7 +381,16 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
         const Vec<F> wi = frame.to_local(wi_world);
         const IncidentLight<F> in = incident_light<S, F>(scene, light, wi_world, distance_squared);
         const BsdfValue<F> f = eval<S, F>(bsdf, wo, wi);
-        const F weight = light_sample_weight(settings.strategy, in.pdf, f.pdf, light.delta);
+        Mask<F> only_sampled = light.delta, lit = Mask<F>(true);
+        if constexpr (S.has(Feature::links)) {
+            if (scene.links.lit_sets) {
+                const Int<F> record = select(light.valid, light.light, Int<F>(0));
+                lit = is_lit<F>(scene.links, record, surface.part, wants_light);
+                only_sampled = only_sampled || has_own_shadows<F>(scene.links, record, wants_light);
+                out.shadow_mask = shadow_mask<F>(scene.links, record);
+            }
+        }
+        const F weight = light_sample_weight(settings.strategy, in.pdf, f.pdf, only_sampled);
         out.direct = beta * f.f_cos * in.radiance * (weight / in.pdf);
         out.light = light.light;
         out.weights.light = weight;
@@ -375,7 +398,7 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
         out.weights.light_bsdf_pdf = f.pdf;
         // A shading normal must not carry light through the surface.
         const Mask<F> same_side = (wi.z > F(0.f)) == (dot(wi_world, ng) > F(0.f));
-        out.connects = light.valid && same_side && has_light(out.direct);
+        out.connects = light.valid && lit && same_side && has_light(out.direct);
         out.shadow = {from, wi_world};
         out.shadow_distance = select(light.infinite, F(infinity), distance * (1.f - 4e-7f));
     }
@@ -411,6 +434,7 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
     out.next.key = path.key;
     out.next.index = path.index;
     out.next.slot = path.slot;
+    if constexpr (S.has(Feature::links)) out.next.part = surface.part;
     return out;
 }
 

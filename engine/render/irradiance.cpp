@@ -23,7 +23,13 @@ Step<float> aim_at_light(const KernelContext& context, const Receiver& receiver,
     const Vec3 wi = to / distance;
     const float cosine = dot(wi, receiver.normal);
     const IncidentLight<float> in = incident_light<features, float>(scene, light, wi, distance_squared);
-    const float weight = light_sample_weight<float>(context.settings.strategy, in.pdf, cosine_hemisphere_pdf<float>(cosine), light.delta);
+    bool only_sampled = light.delta;
+    step.shadow_mask = other_ray_mask;
+    if (scene.links.lit_sets && light.valid) {
+        only_sampled = only_sampled || has_own_shadows<float>(scene.links, light.light, true);
+        step.shadow_mask = shadow_mask<float>(scene.links, light.light);
+    }
+    const float weight = light_sample_weight<float>(context.settings.strategy, in.pdf, cosine_hemisphere_pdf<float>(cosine), only_sampled);
     step.direct = in.radiance * (cosine * inv_pi * weight / in.pdf);
     step.connects = light.valid && cosine > 0 && has_light<float>(step.direct);
     step.shadow = {receiver.position, wi};
@@ -59,11 +65,13 @@ Vec3d estimate_irradiance(KernelContext context, const Receiver& receiver, uint3
     const bool alpha = context.accel->has_alpha();
     for (int i = 0; i < samples; ++i) {
         const Sampler<float> sampler{key, uint32_t(i)};
+        now->part[now->size] = from_meter;
         append<float>(*now, leave(receiver, sampler, i), true);
         if (context.scene->lights.count == 0) continue;
         const Step<float> step = aim_at_light(context, receiver, sampler);
         if (!step.connects) continue;
         if (alpha) scratch.shadows.random[scratch.shadows.size] = opacity_random<float>(key, uint32_t(i), 1);
+        scratch.shadows.mask[scratch.shadows.size] = step.shadow_mask;
         append<float>(scratch.shadows, step, i, true);
     }
     connect_paths<float>(context, scratch, 0);

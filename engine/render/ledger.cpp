@@ -33,6 +33,7 @@ constexpr FeatureText feature_texts[] = {
     {Feature::suns, "suns", "the scene has a sun", "the scene has no sun"},
     {Feature::environment, "environment", "the scene has an environment", "the scene has no environment"},
     {Feature::instances, "instances", "a mesh is shared or large", "every mesh is small and used once"},
+    {Feature::links, "light links", "a light leaves objects out", "every light is everybody's"},
     {Feature::energy_compensation, "energy compensation", "switched on", "switched off"},
     {Feature::thin_lens, "depth of field", "the lens has an aperture", "the camera is a pinhole"},
     {Feature::orthographic, "orthographic camera", "the camera is orthographic", "the camera is not orthographic"},

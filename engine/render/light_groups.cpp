@@ -164,7 +164,6 @@ bool same_but_for_emission(Light before, const Light& after) {
     before.keep_power = after.keep_power;
     before.group = after.group;
     before.enabled = after.enabled;
-    before.solo = after.solo;
     return before == after;
 }
 

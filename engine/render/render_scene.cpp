@@ -37,14 +37,14 @@ AttributeNeeds needs_of(const Scene& scene, const std::vector<SceneObject>& obje
     return needs;
 }
 
-uint32_t ray_mask(bool visible_to_camera) { return visible_to_camera ? seen_by_all : hidden_from_camera; }
+uint32_t ray_mask(bool visible_to_camera) { return other_ray_mask | (visible_to_camera ? camera_ray_mask : 0); }
 
 // Which rays meet each object: the bodies of lights may be hidden from the camera.
-std::vector<uint32_t> masks_of(const Scene& lowered, const std::vector<SceneObject>& objects) {
+std::vector<uint32_t> masks_of(const Scene& lowered, const std::vector<SceneObject>& objects, const CasterSets& casters) {
     std::vector<uint32_t> masks;
     for (const SceneObject& object : objects) {
         const Light* light = light_of_body(lowered, object.node);
-        masks.push_back(ray_mask(!light || light->visible_to_camera));
+        masks.push_back(ray_mask(!light || light->visible_to_camera) | casters.mask_of(lowered, object.node));
     }
     return masks;
 }
@@ -111,18 +111,20 @@ void RenderScene::update_geometry(const Scene& scene, const UpdatePlan& plan, co
         const Material* material = scene.materials.find(id);
         alpha.push_back(material && material->alpha != Material::Alpha::opaque);
     }
-    std::vector<uint32_t> masks = masks_of(scene, objects_);
+    casters_ = CasterSets(scene);
+    std::vector<uint32_t> masks = masks_of(scene, objects_, casters_);
     commit |= alpha != alpha_ || masks != masks_;
     alpha_ = std::move(alpha);
     masks_ = std::move(masks);
     geometry_.fill(tables_);
-    if (commit) accel_.commit(accel_scene(), &tables_, workers);
+    if (commit) accel_.commit(accel_scene(scene), &tables_, workers);
 }
 
-AccelScene RenderScene::accel_scene() const {
+AccelScene RenderScene::accel_scene(const Scene& lowered) const {
     AccelScene scene = has_geometry_ ? geometry_.accel_scene(objects_, alpha_, masks_) : AccelScene{};
     for (const SphereLight& s : spheres_)
-        scene.spheres.push_back({to_float(s.center - extent_.origin), float(s.radius), ray_mask(s.visible_to_camera)});
+        scene.spheres.push_back({to_float(s.center - extent_.origin), float(s.radius),
+                                 ray_mask(s.visible_to_camera) | casters_.mask_of(lowered, s.node)});
     return scene;
 }
 
@@ -146,11 +148,13 @@ void RenderScene::aim(std::span<const Vec3> gains) {
 
 void RenderScene::update_lights(const Scene& scene, const RenderSettings& settings, const UpdatePlan& plan, const LightGroups* groups) {
     // What gives no light needs no map, and where nobody aims, nothing to aim with.
-    aim_ = settings.strategy == Strategy::bsdf ? Aim::at_points : Aim::at_all;
+    // Linked lights are asked about by record, and sampled where rays must not find them.
+    const Aim aim_before = aim_;
+    aim_ = settings.strategy == Strategy::bsdf && !has_links(scene) ? Aim::at_points : Aim::at_all;
     const bool needs_map = gives_light(scene.environment);
-    if (plan.environment_map || (plan.environment_parameters && needs_map != has_environment_map_))
+    if (plan.environment_map || aim_ != aim_before || (plan.environment_parameters && needs_map != has_environment_map_))
         environment_ = build_environment_table(needs_map ? scene.environment : Environment{}, aim_ == Aim::at_all);
-    if (plan.environment_map || plan.environment_parameters) update_environment_parameters(environment_, scene.environment);
+    if (plan.environment_map || aim_ != aim_before || plan.environment_parameters) update_environment_parameters(environment_, scene.environment);
     has_environment_map_ = needs_map;
     tables_.environment = environment_.tables();
     if (!plan.lights) return;
@@ -162,6 +166,8 @@ void RenderScene::update_lights(const Scene& scene, const RenderSettings& settin
     group_of_light_.clear();
     group_of_part_.clear();
     if (groups) update_groups(*groups);
+    links_ = build_light_links(scene, lights_, geometry_, casters_);
+    tables_.links = links_.empty() ? LinkTables{} : links_.tables();
     tables_.groups = {group_of_light_.data(), group_of_part_.data(), groups ? groups->of_environment() : 0};
 }
 
@@ -185,6 +191,7 @@ Features RenderScene::compute_features(const Scene& scene, const RenderSettings&
     add(Feature::light_profiles, !lights_.profiles.empty());
     const bool is_backdrop = !scene.environment.lights_scene && scene.environment.visible_to_camera && has_environment_map_;
     add(Feature::environment, lights_.environment >= 0 || is_backdrop);
+    add(Feature::links, !links_.empty());
     add(Feature::energy_compensation, settings.energy_compensation);
     add(Feature::thin_lens, !scene.view.lens.orthographic && scene.view.lens.aperture_radius > 0);
     add(Feature::orthographic, scene.view.lens.orthographic);

@@ -9,6 +9,7 @@
 #include "render/geometry_pool.h"
 #include "render/kernels/kernel.h"
 #include "render/light_groups.h"
+#include "render/light_links.h"
 #include "render/light_table.h"
 #include "render/material_table.h"
 #include "render/object_list.h"
@@ -46,7 +47,7 @@ public:
 private:
     void update_materials(const Scene& scene, const UpdatePlan& plan);
     void update_geometry(const Scene& scene, const UpdatePlan& plan, const Workers& workers);
-    AccelScene accel_scene() const;
+    AccelScene accel_scene(const Scene& lowered) const;
     void update_lights(const Scene& scene, const RenderSettings& settings, const UpdatePlan& plan, const LightGroups* groups);
     void update_groups(const LightGroups& groups);
     Features compute_features(const Scene& scene, const RenderSettings& settings) const;
@@ -59,7 +60,9 @@ private:
     Extent extent_;
     GeometryPool geometry_;
     std::vector<bool> alpha_; // by part
+    CasterSets casters_;
     std::vector<uint32_t> masks_; // by object
+    LightLinks links_;
     LightTable lights_;
     std::vector<int32_t> group_of_light_, group_of_part_; // empty: nobody mixes
     EnvironmentTable environment_;

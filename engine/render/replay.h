@@ -29,7 +29,9 @@ Vec3 replay_sample(KernelContext context, int x, int y, int64_t sample, int long
     generate_paths<s, float>(context, {x, y, 1, 1, sample, 1}, scratch);
     for (int bounce = 0; now->size > 0 && bounce < longest; ++bounce) {
         trace_paths<float>(context, scratch, *now, bounce);
-        ReplayedVertex vertex{bounce, load_path<s, float>(*now, 0), load_hit<float>(scratch.hits, 0), {}, {}};
+        Path<float> path = load_path<s, float>(*now, 0);
+        path.part = now->part[0];
+        ReplayedVertex vertex{bounce, path, load_hit<float>(scratch.hits, 0), {}, {}};
         vertex.step = scatter<s, float>(*context.scene, context.settings, vertex.path, vertex.hit, bounce, true);
         shade_paths<s, float>(context, scratch, *now, *next, bounce);
         const Vec3d before = radiance();

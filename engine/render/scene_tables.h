@@ -50,6 +50,14 @@ struct GroupTables {
     int32_t environment = 0;           // of one that is no record of the light table: a backdrop
 };
 
+// Whom lights light and who casts their shadows, where that is not everything (light_links.h).
+struct LinkTables {
+    const int32_t* lit_sets = nullptr;       // by record of the light table: a set of parts, -1: all; null: no light is linked
+    const uint32_t* lit_parts = nullptr;     // sets, each of `words` times 32 bits, a bit for each part
+    const uint32_t* shadow_masks = nullptr;  // by record: of shadow rays towards the light
+    int32_t words = 0;
+};
+
 // Everything a kernel reads about the scene. Pointers stay valid until the next update of the RenderScene.
 struct SceneTables {
     const PartRecord* parts = nullptr;          // those in world space first: part = Embree's geometry id
@@ -66,6 +74,7 @@ struct SceneTables {
     LightTables lights;
     EnvironmentTables environment;
     GroupTables groups; // null: nobody mixes
+    LinkTables links;
     CameraRecord camera{};
 };
 

@@ -138,6 +138,7 @@ template <Features S, class F> [[gnu::flatten]] void generate_paths(const Kernel
             index = UInt<F>(0u);
         }
         const Int<F> slot = iota<F>() + k;
+        if constexpr (S.has(Feature::links)) store(q.part + q.size, Int<F>(from_camera));
         append<S, F>(q, begin_path<S, F>(*context.scene, context.settings, x, y, key, index, slot), as_mask(slot < n));
     }
     std::fill_n(scratch.r.data, n, 0.0);
@@ -167,7 +168,8 @@ template <Features S, class F>
     scratch.shadows.size = 0;
     const bool alpha = context.accel->has_alpha();
     for (int k = 0; k < now.size; k += width<F>) {
-        const Path<F> path = load_path<S, F>(now, k);
+        Path<F> path = load_path<S, F>(now, k);
+        if constexpr (S.has(Feature::links)) path.part = load<Int<F>>(now.part + k);
         const Mask<F> active = as_mask(iota<F>() + k < now.size);
         const Step<F> step = scatter<S, F>(*context.scene, context.settings, path, load_hit<F>(scratch.hits, k), bounce, active);
         if (bounce == 0 && scratch.first) store_first_hit<F>(*scratch.first, k, step.first);
@@ -184,8 +186,12 @@ template <Features S, class F>
                 const Int<F> light = select(step.connects, step.light, Int<F>(0));
                 compress(scratch.shadows.group + scratch.shadows.size, gather(context.scene->groups.of_light, light), bits(step.connects));
             }
+            if constexpr (S.has(Feature::links))
+                if (context.scene->links.lit_sets)
+                    compress(scratch.shadows.mask + scratch.shadows.size, step.shadow_mask, bits(step.connects));
             append<F>(scratch.shadows, step, path.slot, step.connects);
         }
+        if constexpr (S.has(Feature::links)) compress(next.part + next.size, step.next.part, bits(step.continues));
         if (any(step.continues)) append<S, F>(next, step.next, step.continues);
     }
 }
@@ -194,7 +200,8 @@ template <Features S, class F>
 template <class F> void connect_paths(const KernelContext& context, TileScratch& scratch, int bounce) {
     const ShadowQueue& q = scratch.shadows;
     const bool alpha = context.accel->has_alpha();
-    const RayArrays rays{q.ox, q.oy, q.oz, q.dx, q.dy, q.dz, q.distance, alpha ? q.random.data : nullptr};
+    const RayArrays rays{q.ox, q.oy, q.oz, q.dx, q.dy, q.dz, q.distance, alpha ? q.random.data : nullptr, other_ray_mask,
+                         context.scene->links.lit_sets ? q.mask.data : nullptr};
     context.accel->occluded(rays, q.size, bounce == 0, scratch.blocked);
     for (int k = 0; k < q.size; ++k) {
         if (scratch.blocked[k]) continue;

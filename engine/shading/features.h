@@ -25,6 +25,7 @@ enum class Feature : uint32_t {
     sphere_lights = 1u << 15,      // spheres, and points and spots with a size
     light_profiles = 1u << 16,     // some light's emission depends on direction: spots, spread, measured distributions
     light_tree = 1u << 17,         // so many lights that they are drawn by a tree
+    links = 1u << 18,              // some light leaves objects out, or some object casts no shadow of it
 };
 
 // A set of features; usable as a template argument.
@@ -39,6 +40,6 @@ struct Features {
 };
 
 inline constexpr Features no_features{};
-inline constexpr Features all_features{(1u << 18) - 1};
+inline constexpr Features all_features{(1u << 19) - 1};
 
 } // namespace blush

@@ -70,6 +70,8 @@ Light dimmed(Rng& rng, Light l) {
     if (coin(rng)) l.color = color(rng);
     if (whole(rng, 0, 4) == 0) l.enabled = !l.enabled;
     if (whole(rng, 0, 4) == 0) l.group = coin(rng) ? "Warm" : "";
+    if (whole(rng, 0, 9) == 0) l.lit_objects = {coin(rng), {Id<Node>{uint32_t(whole(rng, 1, 12))}}};
+    if (whole(rng, 0, 9) == 0) l.shadow_casters = {coin(rng), {Id<Node>{uint32_t(whole(rng, 1, 12))}}};
     if (whole(rng, 0, 4) == 0) l.name = coin(rng) ? "Key" : "Fill";
     return l;
 }

@@ -39,6 +39,7 @@ void draw_selection(PanelContext& c) {
     const Id<Node> id = c.ui.selected;
     draw_object_panel(c, id);
     draw_light_panel(c, id);
+    draw_light_links_panel(c, id);
     draw_camera_node_panel(c, id);
     draw_transform_panel(c, id);
     draw_material_panel(c, id);

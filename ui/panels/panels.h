@@ -18,6 +18,7 @@ void draw_status_bar(PanelContext& c);
 void draw_object_panel(PanelContext& c, Id<Node> node);
 void draw_transform_panel(PanelContext& c, Id<Node> node);
 void draw_light_panel(PanelContext& c, Id<Node> node);
+void draw_light_links_panel(PanelContext& c, Id<Node> node);
 void draw_material_panel(PanelContext& c, Id<Node> node);    // of the selected material, or of the node's mesh
 void draw_camera_panel(PanelContext& c);                     // of the view
 void draw_camera_node_panel(PanelContext& c, Id<Node> node); // of one of the scene's cameras

@@ -23,7 +23,8 @@ inline constexpr Features untextured_features = all_features.without(Feature::te
                                                     .without(Feature::vertex_colors)
                                                     .without(Feature::unlit)
                                                     .without(Feature::energy_compensation)
-                                                    .without(Feature::orthographic);
+                                                    .without(Feature::orthographic)
+                                                    .without(Feature::links);
 // The same without anything to see through.
 inline constexpr Features opaque_features = untextured_features.without(Feature::transmission).without(Feature::absorption);
 

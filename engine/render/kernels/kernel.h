@@ -36,6 +36,7 @@ struct PathQueue {
     Column<float> nx, ny, nz; // with a light tree
     Column<uint32_t> key, index;
     Column<int32_t> slot;
+    Column<int32_t> part; // that the ray left, -1: the camera; written only if lights may be linked
 };
 struct HitColumns {
     Column<float> t, u, v;
@@ -47,6 +48,7 @@ struct ShadowQueue {
     Column<int32_t> slot;
     Column<uint32_t> random; // for stochastic opacity; written only if something is not opaque
     Column<int32_t> group;   // of the light; written only if somebody mixes
+    Column<uint32_t> mask;   // what the ray meets; written only if lights are linked
 };
 struct FirstHitColumns {
     Column<float> albedo_r, albedo_g, albedo_b, normal_x, normal_y, normal_z, depth;
