@@ -11,11 +11,11 @@ namespace {
 constexpr Features features = all_features;
 
 // A shadow ray to a point on a light, worth the radiance that a white matte surface would send on.
-Step<float> aim_at_light(const KernelContext& context, const Receiver& receiver, const Sampler<float>& sampler) {
+Step<float> aim_at_light(const KernelContext& context, const MeterPoint& receiver, const Sampler<float>& sampler) {
     const SceneTables& scene = *context.scene;
     Step<float> step{};
     const LightPoint<float> light =
-        sample_light_point<features, float>(scene, sampler.pair(first_scatter_dimension + light_dimension), receiver.position, true);
+        sample_light_point<features, float>(scene, sampler.pair(first_scatter_dimension + light_dimension), {receiver.position, receiver.normal}, true);
     const Vec3 rough_to = light.infinite ? light.position : light.position - receiver.position;
     const Vec3 end = offset_origin<float>(light.position, light.error, light.normal, dot(rough_to, light.normal) < 0);
     const Vec3 to = light.infinite ? light.position : end - receiver.position;
@@ -37,13 +37,14 @@ Step<float> aim_at_light(const KernelContext& context, const Receiver& receiver,
     return step;
 }
 
-Path<float> leave(const Receiver& receiver, const Sampler<float>& sampler, int slot) {
+Path<float> leave(const MeterPoint& receiver, const Sampler<float>& sampler, int slot) {
     const Pair<float> u = sampler.pair(first_scatter_dimension + bsdf_dimension);
     const Vec3 local = sample_cosine_hemisphere<float>(u.x(), u.y());
     Path<float> path;
     path.ray = {receiver.position, normalize(basis_around(receiver.normal).to_world(local))};
     path.beta = {1, 1, 1};
     path.pdf = cosine_hemisphere_pdf<float>(local.z);
+    path.normal = receiver.normal;
     path.key = sampler.key;
     path.index = sampler.index;
     path.slot = slot;
@@ -52,7 +53,7 @@ Path<float> leave(const Receiver& receiver, const Sampler<float>& sampler, int s
 
 } // namespace
 
-Vec3d estimate_irradiance(KernelContext context, const Receiver& receiver, uint32_t replicate, int samples, TileScratch& scratch) {
+Vec3d estimate_irradiance(KernelContext context, const MeterPoint& receiver, uint32_t replicate, int samples, TileScratch& scratch) {
     context.settings.reuse = {};
     if (context.settings.max_bounces < 1) context.settings.max_bounces = 1;
     samples = std::clamp(samples, 1, most_irradiance_samples);
@@ -66,7 +67,7 @@ Vec3d estimate_irradiance(KernelContext context, const Receiver& receiver, uint3
     for (int i = 0; i < samples; ++i) {
         const Sampler<float> sampler{key, uint32_t(i)};
         now->part[now->size] = from_meter;
-        append<float>(*now, leave(receiver, sampler, i), true);
+        append<features, float>(*now, leave(receiver, sampler, i), true);
         if (context.scene->lights.count == 0) continue;
         const Step<float> step = aim_at_light(context, receiver, sampler);
         if (!step.connects) continue;

@@ -9,7 +9,7 @@
 namespace blush {
 
 // A place that light falls on from the side of its normal.
-struct Receiver {
+struct MeterPoint {
     Vec3 position; // about the scene's origin (RenderScene::origin), off any surface
     Vec3 normal;   // unit length
 };
@@ -20,6 +20,6 @@ constexpr int most_irradiance_samples = 1024; // of one call
 // matte surface of a path. `replicate` chooses the random numbers: replicates are independent, samples of one are stratified together.
 // Light takes at most settings.max_bounces scatterings on its way, the one that a matte surface here would add included; one at least.
 // To be called from within Workers::run or for_each.
-Vec3d estimate_irradiance(KernelContext context, const Receiver& receiver, uint32_t replicate, int samples, TileScratch& scratch);
+Vec3d estimate_irradiance(KernelContext context, const MeterPoint& receiver, uint32_t replicate, int samples, TileScratch& scratch);
 
 } // namespace blush

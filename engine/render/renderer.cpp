@@ -272,7 +272,7 @@ Vec3d Renderer::irradiance(const MeterPlace& place, uint32_t replicate, int samp
     State& s = *state_;
     const KernelContext context{&s.scene.tables(), &s.scene.accel(), settings_for_kernels(s.settings, 1, 1), s.settings.seed};
     const Vec3d position = place.position + place.normal * place.clearance - s.scene.origin();
-    const Receiver receiver{to_float(position), to_float(place.normal)};
+    const MeterPoint receiver{to_float(position), to_float(place.normal)};
     if (!s.replays[0]) s.replays[0] = std::make_unique<TileScratch>();
     Vec3d mean{0, 0, 0};
     s.workers.run([&] { mean = estimate_irradiance(context, receiver, replicate, samples, *s.replays[0]); });
