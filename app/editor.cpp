@@ -3,6 +3,7 @@
 #include "app/editor_commands.h"
 #include "app/editor_convergence.h"
 #include "app/editor_files.h"
+#include "app/editor_saving.h"
 #include "app/editor_snapshots.h"
 #include "scene/changes.h"
 #include "ui/automation.h"
@@ -63,6 +64,8 @@ private:
     UiState ui_;
     Viewport viewport_;
     EditorFiles files_{&Window::wake};
+    EditorSaving saving_;
+    bool leaving_ = false;
     EditorSnapshots snapshots_{&Window::wake};
     ThumbnailSheet thumbnails_;
     FrameStats stats_;
@@ -103,6 +106,7 @@ private:
 Editor::Editor(const EditorOptions& options, std::unique_ptr<Window> window, ColorManagement color, const Automation& automation,
                WindowSettings settings)
     : automation_(automation), window_(std::move(window)), color_(std::move(color)), options_(options),
+      saving_(files_, document_, ui_, options.assets, automation.autosave_interval),
       convergence_(&Window::wake, options.threads),
       session_({.threads = options.threads,
                 .low_priority = true,
@@ -120,12 +124,13 @@ Editor::Editor(const EditorOptions& options, std::unique_ptr<Window> window, Col
     if (!color_.warning().empty()) ui_.toasts.warn("The colour configuration is replaced by our own", color_.warning());
     document_.reset(Project{{}, options.render, options.view});
     if (const auto loaded = viewport_.load(); !loaded) ui_.toasts.fail(loaded.error().text());
-    files_.open(options.scene.empty() ? options.assets / "scenes" / "card-and-mug.gltf" : options.scene, options.overrides,
-                float(options.render.width) / float(options.render.height));
+    files_.open(options.scene.empty() ? options.assets / "scenes" / "card-and-mug.gltf" : options.scene,
+                {options.overrides, float(options.render.width) / float(options.render.height), options.settings_given});
+    saving_.offer_recovery(options.scene);
 }
 
 void Editor::run() {
-    while (!window_->close_requested()) {
+    while (!leaving_) {
         ui_.next_frame_in = std::min(ui_.next_frame_in, longest_sleep);
         const bool asked = window_->wait(ui_.next_frame_in);
         const bool moves_by_itself = ui_.next_frame_in < longest_sleep;
@@ -137,21 +142,28 @@ void Editor::run() {
         submit();
         draw();
     }
+    saving_.end();
     remember();
 }
 
 // Input, and what was finished in the background.
 void Editor::poll() {
-    const bool opened = files_.poll(document_, ui_);
-    if (opened) {
+    const EditorFiles::Finished finished = files_.poll(document_, ui_);
+    saving_.poll(finished);
+    if (finished.opened || finished.saved) {
         window_->set_title(files_.scene_file().filename().string() + " - Blush");
-        submitted_ = 0; // a new scene is submitted whatever it looks like
+        if (finished.opened) submitted_ = 0; // a new scene is submitted whatever it looks like
         window_->request_frames(2);
     }
-    snapshots_.poll(opened, document_, ui_, files_, session_);
+    snapshots_.poll(finished.opened, document_, ui_, files_, session_);
+    if (window_->close_requested()) {
+        window_->cancel_close();
+        window_->request_frames(2);
+        if (!ui_.question) saving_.before_losing_edits("closing the window", [this] { leaving_ = true; });
+    }
     for (const auto& file : window_->take_dropped_files()) take_dropped(file);
     // While text is typed or something is open on top, keys are meant for that.
-    const bool taken = ImGui::GetIO().WantTextInput || ui_.browser || ui_.pixel;
+    const bool taken = ImGui::GetIO().WantTextInput || ui_.browser || ui_.pixel || ui_.question;
     for (const KeyPress& press : window_->take_key_presses()) {
         const Shortcut* s = find_shortcut(press);
         if (s && !taken) ui_.commands.push_back(s->command);
@@ -241,6 +253,7 @@ void Editor::draw_above(PanelContext& c) {
         draw_progress(*other);
     }
     draw_toasts(c);
+    draw_question(c);
 }
 
 // What panels, menus and keys asked for.
@@ -249,6 +262,7 @@ void Editor::obey(PanelContext& c) {
         if (!run_command(command, c)) run_own_command(command);
     }
     for (const FileRequest& request : std::exchange(ui_.files, {})) take_file(request);
+    saving_.hear_answer();
     convergence_.obey(ui_, ui_.settings.snapshot_folder, files_.scene_file());
     snapshots_.obey(document_, ui_, files_);
     const bool paused = ui_.paused || convergence_.renders_reference();
@@ -268,7 +282,9 @@ void Editor::run_own_command(Command command) {
     case Command::ies: return open_browser(FileRequest::Use::ies);
     case Command::snapshot_folder: return open_browser(FileRequest::Use::snapshot_folder);
     case Command::load_convergence: return open_browser(FileRequest::Use::convergence);
-    case Command::reload: return files_.reload();
+    case Command::reload: return saving_.before_losing_edits("reloading the file", [this] { files_.reload(); });
+    case Command::save_scene: return saving_.save();
+    case Command::save_scene_as: return saving_.ask_for_file();
     case Command::snapshot_exr: snapshot_due_ = SnapshotDue::keep; return save_due_snapshot();
     case Command::snapshot_png: snapshot_due_ = SnapshotDue::png; return save_due_snapshot();
     case Command::quit: return window_->request_close();
@@ -286,7 +302,9 @@ void Editor::open_browser(FileRequest::Use use) {
 
 void Editor::take_file(const FileRequest& request) {
     switch (request.use) {
-    case FileRequest::Use::open: return files_.open(request.path);
+    case FileRequest::Use::open:
+        return saving_.before_losing_edits("opening another scene", [this, path = request.path] { files_.open(path); });
+    case FileRequest::Use::save_scene: return saving_.save_as(request.path);
     case FileRequest::Use::import_scene: return files_.import_scene(request.path);
     case FileRequest::Use::environment: return files_.load_environment(request.path);
     case FileRequest::Use::convergence: return convergence_.load(ui_, request.path);
@@ -299,7 +317,7 @@ void Editor::take_file(const FileRequest& request) {
 
 void Editor::take_dropped(const std::filesystem::path& file) {
     if (matches(scene_files, file))
-        files_.open(file);
+        take_file({FileRequest::Use::open, file});
     else if (matches(snapshot_files, file))
         snapshots_.open(file, files_.scene_file());
     else if (matches(environment_files, file))

@@ -17,6 +17,7 @@ struct EditorOptions {
     SceneOverrides overrides;          // of the scene given here, not of those opened later
     RenderSettings render;
     ViewSettings view;
+    bool settings_given = false; // the two are the command line's, and win over those that were saved with the scene
     bool denoise = false;        // begin with the denoised picture
     bool follow_viewport = true; // the image has the viewport's size; false: render.width x render.height, as `--size` asks
     unsigned threads = 0;        // 0: one per core

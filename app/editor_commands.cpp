@@ -218,6 +218,8 @@ bool run_command(Command command, PanelContext& c) {
     case Command::environment:
     case Command::ies:
     case Command::reload:
+    case Command::save_scene:
+    case Command::save_scene_as:
     case Command::snapshot_exr:
     case Command::snapshot_png:
     case Command::snapshot_folder:

@@ -3,7 +3,9 @@
 #include "app/commands/common.h"
 #include "io/environment_image.h"
 #include "io/ies.h"
+#include "io/scene_edits_json.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace blush {
@@ -57,24 +59,42 @@ bool FileWatch::changed() {
     return settled;
 }
 
-void EditorFiles::start_import(const std::filesystem::path& file, Purpose purpose, const SceneOverrides& overrides, float aspect) {
+Result<EditorFiles::Opened> EditorFiles::import_file(const std::filesystem::path& file, const OpenOptions& open,
+                                                     const std::optional<Sidecar>& sidecar, JobProgress& progress) {
+    ImportOptions options;
+    options.cancel = &progress.cancel;
+    options.on_progress = [&progress](double fraction, const std::string& what) { progress.report(fraction, what); };
+    Result<ImportedScene> imported = import_gltf(file, options);
+    if (!imported) return in_file(imported.error(), file.string());
+    Opened opened{*std::move(imported), {}, {}};
+    opened.scene = opened.imported.scene;
+    if (const auto applied = apply_overrides(open.overrides, opened.scene, open.aspect, opened.imported.has_view); !applied)
+        return in_file(applied.error(), file.string());
+    if (!sidecar) return opened;
+    if (hash_text(*opened.imported.origin.json) != sidecar->document_hash)
+        return Error{file.string(), "has changed since: the unsaved edits belong to another version of it", ""};
+    Result<Scene> edited = apply_edits_json(opened.imported.scene, sidecar->edits, file.parent_path());
+    if (!edited) return in_file(edited.error(), file.string());
+    opened.recovered = Project{*std::move(edited), sidecar->render, sidecar->view};
+    return opened;
+}
+
+void EditorFiles::start_import(const std::filesystem::path& file, Purpose purpose, const OpenOptions& options,
+                               const std::optional<Sidecar>& sidecar) {
     if (file.empty()) return;
     purpose_ = purpose;
+    keep_settings_ = options.keep_settings;
     std::error_code error;
     importing_ = std::filesystem::absolute(file, error); // the recent list outlives the working directory
-    import_job_ = std::make_unique<BackgroundJob<Result<LoadedScene>>>(
+    import_job_ = std::make_unique<BackgroundJob<Result<Opened>>>(
         "Loading " + file.filename().string(),
-        [file, overrides, aspect](JobProgress& progress) -> Result<LoadedScene> {
-            ImportOptions options;
-            options.cancel = &progress.cancel;
-            options.on_progress = [&progress](double fraction, const std::string& what) { progress.report(fraction, what); };
-            Result<ImportedScene> imported = import_gltf(file, options);
-            if (!imported) return in_file(imported.error(), file.string());
-            LoadedScene loaded{imported->scene, std::move(imported->scene), std::move(imported->report)};
-            if (const auto applied = apply_overrides(overrides, loaded.scene, aspect); !applied)
-                return in_file(applied.error(), file.string());
-            return loaded;
-        },
+        [file, options, sidecar](JobProgress& progress) { return import_file(file, options, sidecar, progress); }, wake_);
+}
+
+void EditorFiles::save(const std::filesystem::path& file, const Project& project) {
+    saving_ = project;
+    save_job_ = std::make_unique<BackgroundJob<Result<SavedGltf>>>(
+        "Saving " + file.filename().string(), [file, project, origin = origin_](JobProgress&) { return save_gltf(origin, project, file); },
         wake_);
 }
 
@@ -101,22 +121,24 @@ void EditorFiles::load_ies(const std::filesystem::path& file, Document& document
     if (const auto done = document.apply(SetLight{node->light, light}); !done) ui.toasts.fail(done.error().text());
 }
 
-bool EditorFiles::finish_import(Document& document, UiState& ui, Result<LoadedScene> loaded) {
+EditorFiles::Finished EditorFiles::finish_import(Document& document, UiState& ui, Result<Opened> opened) {
     const bool cancelled = import_job_->cancelled();
     import_job_.reset();
-    if (cancelled) return false;
-    if (!loaded) {
-        ui.toasts.fail(loaded.error().text());
-        return false;
+    if (cancelled) return {};
+    if (!opened) {
+        ui.toasts.fail(opened.error().text());
+        return {};
     }
-    report(ui.toasts, importing_, loaded->report);
+    report(ui.toasts, importing_, opened->imported.report);
     if (purpose_ == Purpose::merge) {
-        const auto done = document.apply(Import{loaded->scene, importing_.stem().string()});
+        const auto done = document.apply(Import{opened->scene, importing_.stem().string()});
         if (!done) ui.toasts.fail(done.error().text());
-        return false;
+        return {};
     }
-    Project project{loaded->scene, document.project().render, document.project().view};
-    imported_ = loaded->imported;
+    Project project{opened->scene, document.project().render, document.project().view};
+    imported_ = opened->imported.scene;
+    origin_ = opened->imported.origin;
+    origin_.file = importing_;
     if (purpose_ == Purpose::reload) {
         project.scene.view = document.project().scene.view;
         ui.selected = same_node(document.project().scene, ui.selected, project.scene);
@@ -124,6 +146,10 @@ bool EditorFiles::finish_import(Document& document, UiState& ui, Result<LoadedSc
         scene_file_ = importing_;
         remember_recent(ui.settings.recent, importing_.string());
         ui.selected = {};
+        if (!keep_settings_) {
+            project.render = opened->imported.render.value_or(project.render);
+            project.view = opened->imported.view.value_or(project.view);
+        }
     }
     ui.also_selected.clear();
     ui.selected_material = {};
@@ -132,6 +158,32 @@ bool EditorFiles::finish_import(Document& document, UiState& ui, Result<LoadedSc
     ui.light_table.renaming = {};
     watch_.watch(scene_file_);
     document.reset(std::move(project));
+    if (opened->recovered) document.replace(*std::move(opened->recovered), "Recover unsaved edits");
+    return {.opened = true, .recovered = opened->recovered.has_value()};
+}
+
+bool EditorFiles::finish_save(Document& document, UiState& ui, Result<SavedGltf> saved) {
+    save_job_.reset();
+    if (!saved) {
+        ui.toasts.fail(saved.error().text());
+        return false;
+    }
+    std::error_code error;
+    origin_ = std::move(saved->origin);
+    imported_ = std::move(saved->scene);
+    scene_file_ = std::filesystem::absolute(origin_.file, error);
+    remember_recent(ui.settings.recent, scene_file_.string());
+    watch_.watch(scene_file_);
+    document.mark_saved(saving_);
+    std::string details = scene_file_.parent_path().string();
+    for (const Diagnostic& d : saved->diagnostics) details += "\n" + d.what;
+    const bool warn = std::any_of(saved->diagnostics.begin(), saved->diagnostics.end(),
+                                  [](const Diagnostic& d) { return d.severity == Diagnostic::Severity::warning; });
+    const std::string text = "Saved " + scene_file_.filename().string();
+    if (warn)
+        ui.toasts.warn(text, details);
+    else
+        ui.toasts.note(text, details);
     return true;
 }
 
@@ -155,22 +207,25 @@ void EditorFiles::look_at_scene_file(const Document& document, UiState& ui) {
     const auto now = std::chrono::steady_clock::now();
     if (now < next_look_) return;
     next_look_ = now + std::chrono::seconds(1);
-    if (import_job_ || !watch_.changed()) return;
+    if (import_job_ || save_job_ || !watch_.changed()) return;
     if (!document.modified()) return reload();
     ui.toasts.add({Toast::Kind::warning, scene_file_.filename().string() + " has changed on disk",
                    "Reloading it discards the edits made here.", Command::reload});
 }
 
-bool EditorFiles::poll(Document& document, UiState& ui) {
-    bool opened = false;
+EditorFiles::Finished EditorFiles::poll(Document& document, UiState& ui) {
+    Finished finished;
     if (import_job_) {
-        if (auto result = import_job_->take()) opened = finish_import(document, ui, *std::move(result));
+        if (auto result = import_job_->take()) finished = finish_import(document, ui, *std::move(result));
+    }
+    if (save_job_) {
+        if (auto result = save_job_->take()) finished.saved = finish_save(document, ui, *std::move(result));
     }
     if (environment_job_) {
         if (auto result = environment_job_->take()) finish_environment(document, ui, *std::move(result));
     }
     look_at_scene_file(document, ui);
-    return opened;
+    return finished;
 }
 
 std::optional<RunningJob> EditorFiles::running() const {
@@ -180,6 +235,7 @@ std::optional<RunningJob> EditorFiles::running() const {
     };
     if (import_job_) return show(import_job_, true);
     if (environment_job_) return show(environment_job_, true);
+    if (save_job_) return show(save_job_, false);
     return {};
 }
 

@@ -1,9 +1,12 @@
 // What the editor does with files, in the background: opening, importing, environment images, snapshots, reloading.
 #pragma once
 
-#include "app/commands/load_scene.h"
+#include "app/scene_overrides.h"
 #include "color/color_management.h"
 #include "core/result.h"
+#include "io/gltf_import.h"
+#include "io/gltf_save.h"
+#include "io/sidecar_json.h"
 #include "render/showcase.h"
 #include "scene/document.h"
 #include "ui/background_job.h"
@@ -30,27 +33,40 @@ private:
     std::filesystem::file_time_type known_{}, seen_{};
 };
 
+// What the command line says of the file that it names.
+struct OpenOptions {
+    SceneOverrides overrides = {};
+    float aspect = 1.6f;        // frames a scene without a camera
+    bool keep_settings = false; // rather than take those that were saved with the scene
+};
+
 class EditorFiles {
 public:
     explicit EditorFiles(std::function<void()> wake) : wake_(std::move(wake)) {}
 
     const std::filesystem::path& scene_file() const { return scene_file_; }
     const Scene& imported() const { return imported_; } // as it is in the file
+    const GltfOrigin& origin() const { return origin_; }
 
     // Each starts a job and returns; a newer one of the same sort cancels the older.
-    // `overrides` of the command line hold for the file they were given with; `aspect` frames a scene without a camera.
-    void open(const std::filesystem::path& file, const SceneOverrides& overrides = {}, float aspect = 1.6f) {
-        start_import(file, Purpose::open, overrides, aspect);
-    }
-    void import_scene(const std::filesystem::path& file) { start_import(file, Purpose::merge, {}, 1); }
-    void reload() { start_import(scene_file_, Purpose::reload, {}, 1); }
+    void open(const std::filesystem::path& file, const OpenOptions& options = {}) { start_import(file, Purpose::open, options); }
+    // Opens the scene of a sidecar with its edits. Refuses when the file is not the one that was edited.
+    void recover(const Sidecar& sidecar) { start_import(sidecar.scene, Purpose::open, {}, sidecar); }
+    void import_scene(const std::filesystem::path& file) { start_import(file, Purpose::merge); }
+    void reload() { start_import(scene_file_, Purpose::reload); }
+    // The document as it is now; scene_file() is then the file.
+    void save(const std::filesystem::path& file, const Project& project);
+    bool saving() const { return save_job_ != nullptr; }
     void load_environment(const std::filesystem::path& file);
     // Gives the selected light the distribution of a photometric file, at once.
     void load_ies(const std::filesystem::path& file, Document& document, UiState& ui) const;
 
     // Brings finished work into the document, and looks once a second whether the scene file was rewritten: it is then
-    // loaded again, or, when there are edits to lose, a toast offers it. True if a scene was opened.
-    bool poll(Document& document, UiState& ui);
+    // loaded again, or, when there are edits to lose, a toast offers it.
+    struct Finished {
+        bool opened = false, recovered = false, saved = false;
+    };
+    Finished poll(Document& document, UiState& ui);
 
     // The job to show progress of.
     std::optional<RunningJob> running() const;
@@ -58,20 +74,34 @@ public:
 
 private:
     enum class Purpose { open, merge, reload };
-    void start_import(const std::filesystem::path& file, Purpose purpose, const SceneOverrides& overrides, float aspect);
-    bool finish_import(Document& document, UiState& ui, Result<LoadedScene> loaded);
+    // An imported file, with the overrides in its scene.
+    struct Opened {
+        ImportedScene imported;
+        Scene scene;
+        std::optional<Project> recovered;
+    };
+    void start_import(const std::filesystem::path& file, Purpose purpose, const OpenOptions& options = {},
+                      const std::optional<Sidecar>& sidecar = {});
+    static Result<Opened> import_file(const std::filesystem::path& file, const OpenOptions& options, const std::optional<Sidecar>& sidecar,
+                                      JobProgress& progress);
+    Finished finish_import(Document& document, UiState& ui, Result<Opened> opened);
+    bool finish_save(Document& document, UiState& ui, Result<SavedGltf> saved);
     void finish_environment(Document& document, UiState& ui, Result<ImagePtr> image);
     void look_at_scene_file(const Document& document, UiState& ui);
 
     std::function<void()> wake_;
     std::filesystem::path scene_file_;
     Scene imported_; // as it came from the file: what snapshots list the edits against
+    GltfOrigin origin_;
     FileWatch watch_;
     std::chrono::steady_clock::time_point next_look_{};
 
     Purpose purpose_ = Purpose::open;
     std::filesystem::path importing_, environment_;
-    std::unique_ptr<BackgroundJob<Result<LoadedScene>>> import_job_;
+    bool keep_settings_ = false;
+    Project saving_; // as it was when the save began
+    std::unique_ptr<BackgroundJob<Result<Opened>>> import_job_;
+    std::unique_ptr<BackgroundJob<Result<SavedGltf>>> save_job_;
     std::unique_ptr<BackgroundJob<Result<ImagePtr>>> environment_job_;
 };
 

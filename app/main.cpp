@@ -30,6 +30,7 @@ int edit(const EditorCommand& c) {
     if (!settings) return bad_usage(settings.error().text());
     EditorOptions editor;
     editor.assets = assets_dir();
+    editor.settings_given = *settings != *settings_of(RenderOptions{}) || c.options.view != ViewSettings{};
     editor.weights = weights_dir();
     editor.scene = c.scene;
     editor.render = *settings;

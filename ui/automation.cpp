@@ -31,6 +31,7 @@ Automation automation_from_environment() {
     a.probe_file = variable("BLUSH_UI_PROBE");
     a.stats_file = variable("BLUSH_UI_STATS");
     a.scale = std::clamp(std::strtof(variable("BLUSH_UI_SCALE").c_str(), nullptr), 0.f, 4.f);
+    a.autosave_interval = std::clamp(std::strtod(variable("BLUSH_UI_AUTOSAVE").c_str(), nullptr), 0., 3600.);
     parse_size(variable("BLUSH_UI_SIZE"), a.width, a.height);
     return a;
 }

@@ -9,6 +9,7 @@ namespace {
 constexpr KeyPress plain(int key) { return {key, false, false, false}; }
 constexpr KeyPress ctrl(int key) { return {key, true, false, false}; }
 constexpr KeyPress ctrl_shift(int key) { return {key, true, true, false}; }
+constexpr KeyPress ctrl_alt(int key) { return {key, true, false, true}; }
 constexpr KeyPress shift(int key) { return {key, false, true, false}; }
 constexpr KeyPress in_menu_only{};
 
@@ -18,8 +19,10 @@ constexpr Shortcut table[] = {
     {Command::environment, "File", "Environment image...", ctrl('E')},
     {Command::ies, "File", "IES file for the light...", in_menu_only},
     {Command::reload, "File", "Reload from disk", ctrl('R')},
+    {Command::save_scene, "File", "Save scene", ctrl_shift('S')},
+    {Command::save_scene_as, "File", "Save scene as...", in_menu_only},
     {Command::snapshot_exr, "File", "Keep snapshot", ctrl('S')},
-    {Command::snapshot_png, "File", "Save snapshot (PNG)", ctrl_shift('S')},
+    {Command::snapshot_png, "File", "Save snapshot (PNG)", ctrl_alt('S')},
     {Command::snapshot_folder, "File", "Snapshot folder...", in_menu_only},
     {Command::load_convergence, "File", "Load convergence table...", in_menu_only},
     {Command::quit, "File", "Quit", ctrl('Q')},

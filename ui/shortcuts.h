@@ -8,7 +8,7 @@ namespace blush {
 
 // Key codes as GLFW gives them; letters are their ASCII capitals.
 namespace key {
-constexpr int none = 0, space = 32, zero = 48, escape = 256, remove = 261, home = 268, f1 = 290;
+constexpr int none = 0, space = 32, zero = 48, escape = 256, enter = 257, remove = 261, home = 268, f1 = 290;
 }
 
 struct KeyPress {
@@ -23,6 +23,8 @@ enum class Command {
     environment,
     ies,
     reload,
+    save_scene,
+    save_scene_as,
     snapshot_exr,
     snapshot_png,
     snapshot_folder,

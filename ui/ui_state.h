@@ -11,6 +11,7 @@
 #include "ui/meters_view.h"
 #include "ui/picture_zoom.h"
 #include "ui/probe.h"
+#include "ui/question.h"
 #include "ui/region_statistics.h"
 #include "ui/roulette_view.h"
 #include "ui/scopes_view.h"
@@ -46,7 +47,7 @@ struct ToolStart {
 
 // What a file the user chose is for.
 struct FileRequest {
-    enum class Use { open, import_scene, environment, ies, snapshot_folder, convergence };
+    enum class Use { open, import_scene, environment, ies, snapshot_folder, convergence, save_scene };
     Use use = Use::open;
     std::filesystem::path path;
 };
@@ -121,6 +122,7 @@ struct UiState {
     RegionView region;
     ConvergenceView convergence;
     std::optional<FileBrowser> browser;
+    std::optional<Question> question; // asked by the editor, which also hears the answer
     std::optional<PixelProbe> pixel;
     EulerFields euler;
 

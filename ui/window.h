@@ -44,6 +44,7 @@ public:
 
     bool close_requested() const;
     void request_close();
+    void cancel_close();
     void set_title(const std::string& title);
     struct Size {
         int width, height;

@@ -52,6 +52,8 @@ void Document::step_to(Project next, std::string label, Gesture gesture) {
     ++revision_;
 }
 
+void Document::replace(Project project, std::string label) { step_to(std::move(project), std::move(label), no_gesture); }
+
 void Document::forget_oldest() {
     size_t bytes = 0;
     for (const Step& step : past_) bytes += step.bytes;
@@ -102,6 +104,11 @@ bool Document::travel(std::deque<Step>& from, std::deque<Step>& to) {
 
 bool Document::undo() { return travel(past_, future_); }
 bool Document::redo() { return travel(future_, past_); }
+
+void Document::mark_saved(const Project& project) {
+    saved_ = project;
+    set_pose(saved_.scene.view, project_.scene.view); // navigating is no modification
+}
 
 bool Document::modified() const { return project_ != saved_; }
 

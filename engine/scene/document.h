@@ -55,6 +55,10 @@ public:
     // Differs from the project last marked as saved (or opened).
     bool modified() const;
     void mark_saved() { saved_ = project_; }
+    // Of a project that was handed to a save that has finished since.
+    void mark_saved(const Project& project);
+    // Replaces everything as one step that can be undone.
+    void replace(Project project, std::string label);
 
 private:
     struct Step {

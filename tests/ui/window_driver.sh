@@ -6,7 +6,7 @@ assets=$2
 test_name=$(basename "$0")
 work=$(mktemp -d)
 probe=$work/probe.json
-export LIBGL_ALWAYS_SOFTWARE=1 XDG_CONFIG_HOME=$work/config BLUSH_ASSETS=$assets
+export LIBGL_ALWAYS_SOFTWARE=1 XDG_CONFIG_HOME=$work/config XDG_STATE_HOME=$work/state BLUSH_ASSETS=$assets
 export BLUSH_UI_PROBE=$probe BLUSH_UI_STATS=$work/stats.json BLUSH_UI_SIZE=900x560 BLUSH_UI_SCALE=1
 unset OCIO WAYLAND_DISPLAY
 size=320x240
@@ -50,24 +50,38 @@ start_display() {
     cd "$work" || exit 1
 }
 
-# open_editor SCENE: one of the shipped scenes, until it has converged; overlays are off.
-open_editor() {
-    "$blush" "$assets/scenes/$1.gltf" --size $size --spp $spp >"$work/log" 2>&1 &
+overlays_off() { xdotool key h; }
+# open_file FILE [unanswered]: until it has converged, overlays off; or, with a second argument, until there is a window. An empty FILE:
+# none is named.
+open_file() {
+    rm -rf "$XDG_CONFIG_HOME" # a window begins as if it were the first
+    "$blush" ${1:+"$1"} --size $size --spp $spp >"$work/log" 2>&1 &
     editor=$!
     until_true 120 test -f "$probe" || fail "the window does not open"
+    [ -z "${2:-}" ] || return 0
     until_true 120 converged || fail "the picture does not converge"
-    xdotool key h
+    overlays_off
 }
+# open_editor SCENE: one of the shipped scenes.
+open_editor() { open_file "$assets/scenes/$1.gltf"; }
 
-close_editor() {
-    xdotool key ctrl+q
-    local end=$((SECONDS + 30))
-    while kill -0 "$editor" 2>/dev/null; do
-        [ $SECONDS -lt $end ] || fail "Ctrl+Q does not close the window"
+gone() { ! kill -0 "$editor" 2>/dev/null; }
+# leaves WHY_NOT COMMAND: until the window is gone, doing that again and again.
+leaves() {
+    local end=$((SECONDS + 60))
+    until gone; do
+        [ $SECONDS -lt $end ] || fail "$1"
+        $2
         sleep 0.1
     done
     wait "$editor" || fail "the window ends with an error"
     editor=
+    rm -f "$probe"
+}
+discard_if_asked() { ! has_widget "Question/Discard" || click "Question/Discard"; }
+close_editor() {
+    xdotool key ctrl+q
+    leaves "Ctrl+Q does not close the window" discard_if_asked
 }
 
 # The probe's first line holds the state, each further one a widget.

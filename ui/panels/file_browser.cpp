@@ -19,6 +19,7 @@ const char* title(Use use) {
     case Use::ies: return "Choose a photometric file###browser";
     case Use::snapshot_folder: return "Choose the folder for snapshots###browser";
     case Use::convergence: return "Load a convergence table###browser";
+    case Use::save_scene: return "Save the scene as###browser";
     }
     return "";
 }
@@ -27,7 +28,8 @@ const ExtensionFilter& filter(Use use) {
     static const ExtensionFilter none;
     switch (use) {
     case Use::open:
-    case Use::import_scene: return scene_files;
+    case Use::import_scene:
+    case Use::save_scene: return scene_files;
     case Use::environment: return environment_files;
     case Use::ies: return photometric_files;
     case Use::convergence: return table_files;
@@ -36,9 +38,11 @@ const ExtensionFilter& filter(Use use) {
     return none;
 }
 
+// A name to save under goes along from folder to folder.
 void enter(FileBrowser& b, const std::filesystem::path& folder) {
+    const bool named = b.use == Use::save_scene && !b.typed.empty();
+    b.typed = named ? (folder / std::filesystem::path(b.typed).filename()).string() : folder.string();
     b.folder = folder;
-    b.typed = folder.string();
     b.chosen.clear();
 }
 
@@ -56,6 +60,8 @@ void take_typed(PanelContext& c) {
     const std::filesystem::path path = std::filesystem::absolute(b.typed, unreadable);
     if (std::filesystem::is_directory(path, unreadable))
         enter(b, path);
+    else if (b.use == Use::save_scene && std::filesystem::is_directory(path.parent_path(), unreadable))
+        finish(c, matches(scene_files, path) ? path : std::filesystem::path(path.string() + ".gltf"));
     else if (std::filesystem::is_regular_file(path, unreadable) && b.use != Use::snapshot_folder)
         finish(c, path);
     else
@@ -123,10 +129,15 @@ void draw_buttons(PanelContext& c) {
         return;
     }
     ImGui::SameLine();
-    const bool folder = b.use == Use::snapshot_folder;
-    ImGui::BeginDisabled(!folder && b.chosen.empty());
-    if (ImGui::Button(folder ? "Use this folder" : "Open", {width, 0})) finish(c, folder ? b.folder : b.folder / b.chosen);
-    ImGui::EndDisabled();
+    if (b.use == Use::save_scene) {
+        std::error_code unreadable;
+        if (ImGui::Button(std::filesystem::is_regular_file(b.typed, unreadable) ? "Replace" : "Save", {width, 0})) take_typed(c);
+    } else {
+        const bool folder = b.use == Use::snapshot_folder;
+        ImGui::BeginDisabled(!folder && b.chosen.empty());
+        if (ImGui::Button(folder ? "Use this folder" : "Open", {width, 0})) finish(c, folder ? b.folder : b.folder / b.chosen);
+        ImGui::EndDisabled();
+    }
     if (c.ui.browser) c.ui.probe.record_last_item("Browser/OK");
 }
 

@@ -30,6 +30,9 @@ void draw_file_menu(PanelContext& c) {
     item(c, Command::ies, node && c.scene().lights.contains(node->light));
     item(c, Command::reload);
     ImGui::Separator();
+    item(c, Command::save_scene);
+    item(c, Command::save_scene_as);
+    ImGui::Separator();
     item(c, Command::snapshot_exr);
     item(c, Command::snapshot_png);
     item(c, Command::snapshot_folder);

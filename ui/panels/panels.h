@@ -43,6 +43,7 @@ void draw_health_panel(PanelContext& c);
 void draw_roulette_panel(PanelContext& c);
 void draw_light_table(PanelContext& c);
 void draw_convergence_panel(PanelContext& c);
+void draw_question(PanelContext& c);
 void draw_toasts(PanelContext& c);
 
 // A job that goes on in the background.

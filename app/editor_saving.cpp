@@ -1,0 +1,117 @@
+#include "app/editor_saving.h"
+
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <utility>
+
+namespace blush {
+namespace {
+
+// A crash loses less than a minute, the writing itself included.
+constexpr double usual_interval = 45; // seconds
+
+// In local time.
+std::string time_text(std::filesystem::file_time_type time) {
+    const auto system = std::chrono::file_clock::to_sys(time);
+    const std::time_t seconds =
+        std::chrono::system_clock::to_time_t(std::chrono::time_point_cast<std::chrono::system_clock::duration>(system));
+    return fmt::format("{:%Y-%m-%d %H:%M:%S}", fmt::localtime(seconds));
+}
+
+bool is_in(const std::filesystem::path& file, const std::filesystem::path& folder) {
+    std::error_code error;
+    const auto f = std::filesystem::weakly_canonical(file, error), g = std::filesystem::weakly_canonical(folder, error);
+    return std::mismatch(g.begin(), g.end(), f.begin(), f.end()).first == g.end();
+}
+
+bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+    std::error_code missing;
+    return std::filesystem::equivalent(a, b, missing);
+}
+
+} // namespace
+
+EditorSaving::EditorSaving(EditorFiles& files, Document& document, UiState& ui, std::filesystem::path assets, double interval)
+    : files_(files), document_(document), ui_(ui), assets_(std::move(assets)),
+      autosave_(recovery_folder(), std::chrono::duration<double>(interval > 0 ? interval : usual_interval)) {}
+
+void EditorSaving::save() {
+    if (files_.saving() || files_.scene_file().empty()) return;
+    if (is_in(files_.scene_file(), assets_)) return ask_for_file();
+    files_.save(files_.scene_file(), document_.project());
+}
+
+void EditorSaving::ask_for_file() {
+    const std::filesystem::path scene = files_.scene_file();
+    if (scene.empty()) return;
+    std::error_code error;
+    std::filesystem::path folder = scene.parent_path();
+    if (is_in(scene, assets_)) folder = ui_.settings.browser_folder;
+    if (!std::filesystem::is_directory(folder, error) || is_in(folder, assets_)) folder = std::filesystem::current_path(error);
+    ui_.browser = FileBrowser{FileRequest::Use::save_scene, folder, (folder / scene.filename()).string(), {}, true};
+}
+
+void EditorSaving::save_as(const std::filesystem::path& file) {
+    if (!files_.saving()) files_.save(file, document_.project());
+}
+
+void EditorSaving::before_losing_edits(const std::string& doing, std::function<void()> go_on) {
+    if (!document_.modified()) return go_on();
+    const std::string name = files_.scene_file().filename().string();
+    ask({fmt::format("Save the changes to {}?", name), fmt::format("They would be lost by {}.", doing), {"Save", "Discard", "Cancel"}},
+        [this, go_on = std::move(go_on)](size_t choice) {
+            if (choice == 1) {
+                autosave_.forget();
+                go_on();
+            } else if (choice == 0) {
+                go_on_ = go_on;
+                save();
+            }
+        });
+}
+
+void EditorSaving::offer_recovery(const std::filesystem::path& scene) {
+    const std::vector<Leftover> leftovers = find_leftovers(recovery_folder());
+    const auto wanted =
+        std::ranges::find_if(leftovers, [&](const Leftover& l) { return scene.empty() || same_file(l.sidecar.scene, scene); });
+    if (wanted == leftovers.end()) return;
+    ask({fmt::format("Recover the unsaved changes to {}?", wanted->sidecar.scene.filename().string()),
+         fmt::format("Blush ended before they were saved. They are of {}.\n{}", time_text(wanted->written), wanted->sidecar.scene.string()),
+         {"Recover", "Discard", "Not now"}},
+        [this, leftover = *wanted](size_t choice) {
+            if (choice == 1) remove_leftover(leftover.file);
+            if (choice != 0) return;
+            recovering_ = leftover;
+            files_.recover(leftover.sidecar);
+        });
+}
+
+void EditorSaving::poll(const EditorFiles::Finished& finished) {
+    // From now on the edits are this window's, and so is what keeps them.
+    if (finished.recovered && recovering_) autosave_.adopt(recovering_->file);
+    if (finished.opened) recovering_.reset();
+    if (finished.saved && go_on_) std::exchange(go_on_, {})();
+    // The save has failed, or no file was chosen for it.
+    if (go_on_ && !files_.saving() && !ui_.browser && ui_.files.empty()) go_on_ = {};
+    if (const auto failed = autosave_.poll(document_, files_.imported(), files_.origin())) ui_.toasts.warn(failed->text());
+}
+
+void EditorSaving::hear_answer() {
+    if (!ui_.question || !ui_.question->chosen) return;
+    const size_t choice = *ui_.question->chosen;
+    ui_.question.reset();
+    std::exchange(answer_, {})(choice);
+}
+
+void EditorSaving::ask(Question question, std::function<void(size_t)> answer) {
+    // It stands alone: what is open on top would only be hidden by it.
+    ui_.browser.reset();
+    ui_.pixel.reset();
+    ui_.question = std::move(question);
+    answer_ = std::move(answer);
+}
+
+} // namespace blush

@@ -1,0 +1,55 @@
+// A question in the middle of the window; nothing else can be done until it is answered.
+#include "ui/panels/panels.h"
+#include "ui/theme.h"
+
+#include <algorithm>
+
+namespace blush {
+namespace {
+
+void draw_texts(const Question& question) {
+    ImGui::PushTextWrapPos(ImGui::GetFontSize() * 30);
+    ImGui::TextUnformatted(question.text.c_str());
+    if (!question.details.empty()) {
+        ImGui::Spacing();
+        ImGui::PushStyleColor(ImGuiCol_Text, tone::dim_text);
+        ImGui::TextUnformatted(question.details.c_str());
+        ImGui::PopStyleColor();
+    }
+    ImGui::PopTextWrapPos();
+    ImGui::Spacing();
+    ImGui::Spacing();
+}
+
+// To the right, the first one outermost, as far from the others as possible.
+void draw_choices(PanelContext& c, Question& question) {
+    const float width = ImGui::GetFontSize() * 7, gap = ImGui::GetStyle().ItemSpacing.x;
+    const float all = float(question.choices.size()) * (width + gap) - gap;
+    ImGui::SetCursorPosX(std::max(ImGui::GetCursorPosX(), ImGui::GetWindowContentRegionMax().x - all));
+    for (size_t i = question.choices.size(); i-- > 0;) {
+        if (ImGui::Button(question.choices[i].c_str(), {width, 0})) question.chosen = i;
+        c.ui.probe.record_last_item("Question/" + question.choices[i]);
+        if (i == 0) ImGui::SetItemDefaultFocus();
+        if (i > 0) ImGui::SameLine();
+    }
+    if (ImGui::IsKeyPressed(key::escape)) question.chosen = question.choices.size() - 1;
+    if (ImGui::IsKeyPressed(key::enter)) question.chosen = 0;
+}
+
+} // namespace
+
+void draw_question(PanelContext& c) {
+    if (!c.ui.question) return;
+    constexpr const char* name = "Blush###question";
+    if (!ImGui::IsPopupOpen(name)) ImGui::OpenPopup(name);
+    const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+    if (!ImGui::BeginPopupModal(name, nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoTitleBar))
+        return;
+    draw_texts(*c.ui.question);
+    draw_choices(c, *c.ui.question);
+    if (c.ui.question->chosen) ImGui::CloseCurrentPopup();
+    ImGui::EndPopup();
+}
+
+} // namespace blush
