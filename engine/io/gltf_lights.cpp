@@ -5,6 +5,7 @@
 #include "io/gltf_numbering.h"
 #include "io/gltf_object.h"
 #include "io/gltf_uri.h"
+#include "io/ies.h"
 
 #include <fmt/format.h>
 #include <numbers>
@@ -51,6 +52,17 @@ void read_map(const GltfContext& context, const std::filesystem::path& file, Env
     environment.kind = Environment::Kind::constant;
 }
 
+// The measured distribution that extras name, in or below the scene's folder; without it the light shines as it would with none.
+void read_profile(const GltfContext& context, Light& light, const std::string& where) {
+    if (light.ies_file.empty() || context.known) return;
+    const auto file = resolve_uri(context.source.folder, light.ies_file);
+    const Result<IesPtr> profile = file ? read_ies(*file) : Result<IesPtr>(file.error());
+    if (profile)
+        light.ies = *profile;
+    else
+        context.warn("measured distribution not read: " + profile.error().text(), where);
+}
+
 std::optional<Light> read_punctual(const GltfContext& context, size_t i) {
     const tinygltf::Light& source = context.model().lights[i];
     const std::string where = fmt::format("extensions.KHR_lights_punctual.lights[{}]", i);
@@ -68,6 +80,7 @@ std::optional<Light> read_punctual(const GltfContext& context, size_t i) {
     if (source.range != 0) context.note("ignored: the light's range; light falls off with the square of the distance for ever", where);
     read_legacy_extras(GltfObject(context, source.extras, where + ".extras").object("blush"), light);
     read_extras(context, gltf_light(context.json(), "KHR_lights_punctual", i), light, where);
+    read_profile(context, light, where);
     return light;
 }
 

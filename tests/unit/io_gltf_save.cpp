@@ -1,9 +1,11 @@
 // load(save(x)) is x: for edits of every kind, in both formats, through any number of saves.
 #include "io/gltf_numbering.h"
 #include "io/gltf_save.h"
+#include "io/ies.h"
 #include "io/scene_edits_json.h"
 #include "io/scene_hash.h"
 #include "io_gltf_saving.h"
+#include "scene/ies_profile.h"
 #include "support/random_edits.h"
 #include "support/storable.h"
 
@@ -288,6 +290,27 @@ TEST(GltfSaveFiles, CopiesWhatTheDocumentNames) {
     EXPECT_TRUE(std::filesystem::exists(elsewhere / "pictures/two by two.png"));
     EXPECT_EQ(scene_hash(load(elsewhere / "scene.gltf").scene), scene_hash(original.scene));
     EXPECT_EQ(OrderedJson::parse(*saved->origin.json), OrderedJson::parse(*original.origin.json));
+}
+
+TEST(GltfSaveFiles, MeasuredDistributionsGoAlong) {
+    const TempFolder folder;
+    const ImportedScene original = load(rich_gltf(folder));
+    const std::filesystem::path profile = std::filesystem::path(BLUSH_ASSETS) / "ies" / "downlight.ies";
+    Project project{original.scene, {}, {}};
+    const auto [id, lamp] = *project.scene.lights.begin();
+    Light measured = lamp;
+    measured.ies = *read_ies(profile);
+    measured.ies_file = profile.string();
+    project.scene.lights.set(id, measured);
+    const auto saved = save_gltf(original.origin, project, folder / "saved.gltf");
+    ASSERT_TRUE(saved) << error_text(saved);
+    EXPECT_TRUE(saved->diagnostics.empty());
+    const ImportedScene loaded = load(folder / "saved.gltf");
+    const Light& light = *loaded.scene.lights.find(id);
+    EXPECT_EQ(light.ies_file, "downlight.ies");
+    ASSERT_TRUE(light.ies);
+    EXPECT_EQ(light.ies->candela, measured.ies->candela);
+    EXPECT_EQ(text_of(folder / "downlight.ies"), text_of(profile));
 }
 
 } // namespace
