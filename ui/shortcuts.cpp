@@ -61,7 +61,7 @@ constexpr Shortcut table[] = {
     {Command::convergence, "View", "Convergence", plain('C')},
     {Command::snapshot_strip, "Look", "Snapshots", plain('K')},
     {Command::compare_wipe, "Look", "Wipe between A and B", plain('V')},
-    {Command::compare_flicker, "Look", "Flicker: A, then B", plain('B')},
+    {Command::compare_flicker, "Look", "Flicker: A, then B", plain('J')},
     {Command::compare_difference, "Look", "Difference of A and B", shift('V')},
     {Command::toggle_zoom, "Look", "Zoom 1:1", plain('Z')},
     {Command::exposure_up, "Look", "Brighter by 1/2 EV", plain(']')},

@@ -38,6 +38,14 @@ Json changed_fields(const Mesh& before, const Mesh& now) {
     return changed;
 }
 
+// The imported mesh that has the same triangles; none if there is none. An object that was made a light has a copy with another material.
+Id<Mesh> mesh_like(const Table<Mesh>& imported, const Mesh& mesh) {
+    const auto same_triangles = [](const MeshPart& a, const MeshPart& b) { return a.geometry == b.geometry; };
+    for (const auto& [id, candidate] : imported)
+        if (std::ranges::equal(candidate.parts, mesh.parts, same_triangles)) return id;
+    return {};
+}
+
 // As text may name it: by a relative path that does not climb.
 bool is_below_the_scene(const std::filesystem::path& file) {
     return !file.empty() && file.is_relative() && std::find(file.begin(), file.end(), "..") == file.end();
@@ -48,7 +56,7 @@ bool is_below_the_scene(const std::filesystem::path& file) {
 Scene without_payloads(const Scene& imported, Scene now, Json& left_out) {
     const Table<Mesh> meshes = now.meshes;
     for (const auto& [id, mesh] : meshes) {
-        if (imported.meshes.contains(id)) continue;
+        if (imported.meshes.contains(id) || mesh_like(imported.meshes, mesh)) continue;
         left_out.push_back(fmt::format("mesh \"{}\" was added: triangles are not kept as text", mesh.name));
         now.meshes.remove(id);
     }
@@ -98,6 +106,9 @@ template <class T> Json table_edits(const Table<T>& before, const Table<T>& now)
         } else if (old_record) {
             const Json set = changed_fields(*old_record, *record);
             if (!set.empty()) edits["changed"].push_back({{"id", id.value}, {"name", record->name}, {"set", set}});
+        } else if constexpr (std::same_as<T, Mesh>) {
+            const Id<Mesh> like = mesh_like(before, *record);
+            edits["added"].push_back({{"id", id.value}, {"like", like.value}, {"set", changed_fields(*before.find(like), *record)}});
         } else if constexpr (Fielded<T>) {
             edits["added"].push_back({{"id", id.value}, {"set", to_json(*record)}});
         }
@@ -138,12 +149,22 @@ template <class T> Result<void> apply_changed(const Json& list, Table<T>& table,
     return {};
 }
 
-template <class T> Result<void> apply_added(const Json& list, Table<T>& table, const std::string& where) {
+template <Fielded T> bool read_added(const Json& item, const Table<T>&, T& record) {
+    return !std::same_as<T, Texture> && set_fields(member(item, "set"), record);
+}
+bool read_added(const Json& item, const Table<Mesh>& imported, Mesh& mesh) {
+    Id<Mesh> like;
+    const Mesh* original = read_json(member(item, "like"), like) ? imported.find(like) : nullptr;
+    if (original) mesh = *original;
+    return original && set_fields(member(item, "set"), mesh);
+}
+
+template <class T> Result<void> apply_added(const Json& list, const Table<T>& imported, Table<T>& table, const std::string& where) {
     for (size_t i = 0; i < list.size(); ++i) {
         const std::string item_where = fmt::format("{}.added[{}]", where, i);
         Id<T> id;
         T record;
-        if (!Fielded<T> || std::same_as<T, Texture> || !read_json(member(list[i], "id"), id) || !set_fields(member(list[i], "set"), record))
+        if (!read_json(member(list[i], "id"), id) || !read_added(list[i], imported, record))
             return Error{"", "not a record that can be added", item_where};
         if (!table.insert(id, std::move(record))) return Error{"", "the id is taken", item_where};
     }
@@ -163,8 +184,9 @@ template <class T> Result<void> apply_table(const Json& edits, Table<T>& table, 
     if (!edits.is_null() && !edits.is_object()) return Error{"", "not an object", where};
     for (const char* key : {"removed", "added", "changed"})
         if (const Json& list = member(edits, key); !list.is_null() && !list.is_array()) return Error{"", "not a list", where + "." + key};
+    const Table<T> imported = table;
     if (auto ok = apply_removed(member(edits, "removed"), table, where); !ok) return ok;
-    if (auto ok = apply_added(member(edits, "added"), table, where); !ok) return ok;
+    if (auto ok = apply_added(member(edits, "added"), imported, table, where); !ok) return ok;
     return apply_changed(member(edits, "changed"), table, where);
 }
 

@@ -32,6 +32,7 @@ TEST(LightKind, ChangingItKeepsTheIlluminance) {
             light.intensity = 7;
             light.width = 0.2f;
             light.height = 0.5f;
+            if (is_per_area(from)) light.radius = 0.3f;
             const Light next = converted(light, to, 3);
             EXPECT_EQ(next.kind, to);
             EXPECT_NEAR(illuminance(next, 3) / illuminance(light, 3), 1, 1e-5) << int(from) << " to " << int(to);

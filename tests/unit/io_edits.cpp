@@ -73,7 +73,13 @@ TEST(SceneEdits, OnlyWhatChangedIsWritten) {
 
 TEST(SceneEdits, MeshesAddedAreListedAsLeftOut) {
     const Project imported = sample_project().project;
-    const auto merged = blush::apply(imported, Import{imported.scene, "again"});
+    Scene other = imported.scene;
+    for (const auto& [id, mesh] : imported.scene.meshes) {
+        Mesh copy = mesh;
+        for (MeshPart& part : copy.parts) part.geometry = std::make_shared<Geometry>(*part.geometry);
+        other.meshes.set(id, copy);
+    }
+    const auto merged = blush::apply(imported, Import{other, "again"});
     ASSERT_TRUE(merged) << error_text(merged);
     const std::string text = edits_json(imported.scene, merged->scene);
     EXPECT_NE(text.find("\"left_out\":[\"mesh"), std::string::npos);
