@@ -74,8 +74,8 @@ void draw_sky(Fields& f, Sky& sky) {
     f.checkbox("Sun", sky.sun_disk, "Let the sun itself shine, with the colour that the air leaves it.");
     const SkyModel model(sky);
     const auto lux = [](const Vec3d& c) { return 0.2126729 * c.x + 0.7151522 * c.y + 0.0721750 * c.z; };
-    f.info("", fmt::format("{:.4g} lx of sky, {:.4g} lx of sun", lux(model.sky_illuminance()), lux(model.sun_illuminance())),
-           "On a horizontal surface, and on one that faces the sun.");
+    f.info("Skylight", fmt::format("{:.3g} klx", lux(model.sky_illuminance()) / 1000), "Of the sky alone, on a horizontal surface.");
+    f.info("Sunlight", fmt::format("{:.3g} klx", lux(model.sun_illuminance()) / 1000), "Of the sun alone, on a surface that faces it.");
 }
 
 } // namespace

@@ -19,7 +19,7 @@ void draw_light_distribution(Fields& f, PanelContext& c, Light& light) {
     const IesProfile& profile = *light.ies;
     f.info("IES file", std::filesystem::path(light.ies_file).filename().string(), light.ies_file.c_str());
     draw_polar_plot(profile, light);
-    f.info("", fmt::format("{:.4g} lm, at most {:.4g} cd, as measured", luminous_flux(profile), profile.peak));
+    f.info("", fmt::format("{:.4g} lm, peak {:.4g} cd", luminous_flux(profile), profile.peak));
     if (f.button("As measured", "Give the light the candela of the file. Otherwise the intensity is that of its brightest direction.")) {
         light.intensity = profile.peak;
         f.note_change();
