@@ -107,6 +107,18 @@ std::vector<LightRows> light_rows(const Scene& scene) {
     return collector.finish();
 }
 
+std::optional<RowShare> share_of(const LightRow& row, const LightGroups& groups, std::span<const GroupReport> reports) {
+    if (row.light && !groups.light_nodes.contains(row.node)) return {};
+    if (row.material && !groups.surface_materials.contains(row.material) && !groups.surface_nodes.contains(row.node)) return {};
+    const size_t k = size_t(row.environment ? groups.of_environment()
+                            : row.light     ? groups.of_light(row.node)
+                                            : groups.of_surface(row.node, row.material));
+    if (k >= reports.size() || k >= groups.groups.size()) return {};
+    const LightGroup& group = groups.groups[k];
+    const size_t members = group.lights.size() + group.materials.size() + group.environment;
+    return RowShare{reports[k].energy, reports[k].noise, members == 1};
+}
+
 std::vector<Edit> put_into_group(const Scene& scene, std::span<const Id<Light>> lights, bool environment, const std::string& group) {
     std::vector<Edit> edits = change_lights(scene, lights, [&](Light& light) { light.group = group; });
     if (environment && scene.environment.group != group) {

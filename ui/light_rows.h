@@ -1,7 +1,7 @@
 // What the light table lists: everything that shines, by its group. Pure.
 #pragma once
 
-#include "render/frame.h"
+#include "render/light_mix.h"
 #include "scene/edit.h"
 
 #include <optional>
@@ -29,6 +29,14 @@ struct LightRows {
 };
 // In the order of the nodes, then materials, then the environment; groups by name.
 std::vector<LightRows> light_rows(const Scene& scene);
+
+// What a row's light gives to a picture that keeps groups of lights apart, as far as its group tells.
+struct RowShare {
+    double energy = 0, noise = 0; // of the image's luminance and of the variance of its noise, 0 .. 1
+    bool alone = false;           // nothing else is in its group; else the shares are the group's
+};
+// `reports`: of these groups. Nothing for a light that came after them.
+std::optional<RowShare> share_of(const LightRow& row, const LightGroups& groups, std::span<const GroupReport> reports);
 
 // Edits that put lights (and the environment, if asked) into a group; "" takes them out.
 std::vector<Edit> put_into_group(const Scene& scene, std::span<const Id<Light>> lights, bool environment, const std::string& group);

@@ -86,6 +86,30 @@ TEST(LightRows, AHiddenLightIsListedAsDark) {
     EXPECT_FALSE(groups[0].rows[0].shines);
 }
 
+TEST(LightRows, SharesAreTheirGroups) {
+    Studio s;
+    s.scene.mix.grouping = LightMix::Grouping::by_light;
+    const LightGroups groups = make_light_groups(s.scene);
+    std::vector<GroupReport> reports;
+    for (size_t k = 0; k < groups.groups.size(); ++k) reports.push_back({groups.groups[k].name, double(k), 10.0 + double(k)});
+    const auto rows = light_rows(s.scene);
+    const auto key = share_of(rows[0].rows[0], groups, reports), fill = share_of(rows[1].rows[0], groups, reports);
+    ASSERT_TRUE(key && fill);
+    EXPECT_TRUE(key->alone);
+    EXPECT_EQ(key->energy, groups.of_light(s.key));
+    EXPECT_EQ(fill->noise, 10 + groups.of_light(s.fill));
+    s.lamp("Late", "");
+    EXPECT_FALSE(share_of(light_rows(s.scene)[1].rows[1], groups, reports)) << "the frame knows nothing of it";
+
+    s.lamp("Rim", "Warm");
+    s.scene.mix.grouping = LightMix::Grouping::by_hand;
+    const LightGroups by_hand = make_light_groups(s.scene);
+    reports.resize(by_hand.groups.size());
+    const auto together = share_of(light_rows(s.scene)[0].rows[0], by_hand, reports);
+    ASSERT_TRUE(together);
+    EXPECT_FALSE(together->alone);
+}
+
 TEST(LightRows, GroupsAreJoinedLeftAndRenamed) {
     Studio s;
     s.apply(put_into_group(s.scene, std::vector{s.scene.nodes.find(s.fill)->light}, true, "Warm"));

@@ -22,6 +22,14 @@ namespace {
 constexpr const char* how_to_get_shares =
     "Its share of the picture's light, and of its noise. They are known while the light mix keeps the lights apart: choose groups there.";
 
+constexpr const char* of_its_group = "The share of its whole group, which the light mix keeps together.";
+
+// Of the groups in the frame, as they are mixed now; none where it keeps none apart.
+std::vector<GroupReport> reports_of(const PanelContext& c) {
+    if (!c.frame || !c.frame->light_groups || !c.mixing) return {};
+    return report_groups(*c.frame, c.mixing->names, c.mixing->gains);
+}
+
 Icon icon_of(const PanelContext& c, const LightRow& row) {
     if (const Light* light = c.scene().lights.find(row.light)) return icon_of(light->kind);
     return row.environment ? Icon::sun : Icon::mesh;
@@ -145,16 +153,17 @@ void draw_name(PanelContext& c, RowClicks& clicks, const LightRow& row, const st
     ImGui::TextUnformatted(row.name.c_str());
 }
 
-void draw_share(PanelContext& c, const std::optional<double>& share) {
+// In brackets where it is that of a whole group.
+void draw_share(PanelContext& c, const std::optional<RowShare>& share, double RowShare::*figure) {
     ImGui::AlignTextToFramePadding();
-    const std::string text = share ? fmt::format("{:.1f} %", 100 * *share) : "-";
+    const std::string text = !share ? "-" : fmt::format(fmt::runtime(share->alone ? "{:.1f} %" : "({:.1f} %)"), 100 * (*share).*figure);
     const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x - ImGui::GetFontSize() * 0.4f;
     if (room > 0) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + room);
     ImGui::TextUnformatted(text.c_str());
-    tip_for_last_item(c.ui, how_to_get_shares);
+    tip_for_last_item(c.ui, share && !share->alone ? of_its_group : how_to_get_shares);
 }
 
-void draw_row(PanelContext& c, RowClicks& clicks, const LightRow& row) {
+void draw_row(PanelContext& c, RowClicks& clicks, const LightRow& row, std::span<const GroupReport> reports) {
     const std::string scope = "Light table/" + row.name;
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
@@ -167,9 +176,10 @@ void draw_row(PanelContext& c, RowClicks& clicks, const LightRow& row) {
     draw_intensity(c, row, scope);
     ImGui::TableNextColumn();
     draw_switches(c, row, scope);
-    for (int share = 0; share < 2; ++share) {
+    const std::optional<RowShare> share = reports.empty() ? std::nullopt : share_of(row, *c.frame->light_groups, reports);
+    for (double RowShare::*figure : {&RowShare::energy, &RowShare::noise}) {
         ImGui::TableNextColumn();
-        draw_share(c, {});
+        draw_share(c, share, figure);
     }
     ImGui::PopStyleColor();
 }
@@ -210,6 +220,7 @@ void draw_rows(PanelContext& c, const std::vector<LightRows>& all) {
     ImGui::TableSetupColumn("Noise", ImGuiTableColumnFlags_WidthFixed, em * 4);
     ImGui::TableHeadersRow();
     RowClicks clicks;
+    const std::vector<GroupReport> reports = reports_of(c);
     const bool grouped = all.size() > 1 || !all[0].group.empty();
     int row_number = 0;
     for (const LightRows& group : all) {
@@ -217,7 +228,7 @@ void draw_rows(PanelContext& c, const std::vector<LightRows>& all) {
         if (grouped) draw_group(c, group.group);
         for (const LightRow& row : group.rows) {
             ImGui::PushID(++row_number);
-            draw_row(c, clicks, row);
+            draw_row(c, clicks, row, reports);
             ImGui::PopID();
         }
         ImGui::PopID();
