@@ -66,7 +66,8 @@ private:
     EditorFiles files_{&Window::wake};
     EditorSaving saving_;
     bool leaving_ = false;
-    EditorSnapshots snapshots_{&Window::wake};
+    EditorSnapshots snapshots_{&Window::wake,
+                               [this](std::function<void()> go_on) { saving_.before_losing_edits("opening another scene", std::move(go_on)); }};
     ThumbnailSheet thumbnails_;
     FrameStats stats_;
     Pictures pictures_;

@@ -54,7 +54,7 @@ Result<SavedSnapshot> write_snapshot_exr(const SnapshotJob& job) {
     const auto file = free_name(job.folder, job.snapshot.scene_file.stem().string(), ".exr");
     if (!file) return file.error();
     const Snapshot& s = job.snapshot;
-    const Layers layers{.albedo = true, .normal = true, .depth = true, .error = true, .samples = true, .ids = true};
+    const Layers layers{.albedo = true, .normal = true, .depth = true, .error = true, .samples = true, .ids = true, .groups = true};
     const DenoisedPicture* denoised = s.pictures.denoised.get();
     SnapshotMetadata metadata = metadata_of(job, *file, denoised);
     ExtraLayers extra{.error = s.error};

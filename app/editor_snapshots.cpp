@@ -145,8 +145,14 @@ void EditorSnapshots::finish_opening(Document& document, UiState& ui, EditorFile
 
 void EditorSnapshots::restore(const SnapshotPtr& snapshot, Document& document, UiState& ui, EditorFiles& files) {
     if (!snapshot->no_state.empty()) return ui.toasts.warn(snapshot->name + " has no state to go back to", snapshot->no_state);
+    if (!same_file(snapshot->scene_file, files.scene_file())) {
+        return before_leaving_([this, snapshot, metadata = std::exchange(waiting_metadata_, std::nullopt), &files] {
+            waiting_ = snapshot;
+            waiting_metadata_ = metadata;
+            files.open(snapshot->scene_file); // goes on when it is there
+        });
+    }
     waiting_ = snapshot;
-    if (!same_file(snapshot->scene_file, files.scene_file())) return files.open(snapshot->scene_file); // goes on when it is there
     if (waiting_metadata_) return work_out_state(files);
     go_back(*std::exchange(waiting_, nullptr), document, ui);
 }

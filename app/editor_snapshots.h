@@ -17,7 +17,9 @@ namespace blush {
 
 class EditorSnapshots {
 public:
-    explicit EditorSnapshots(std::function<void()> wake) : wake_(std::move(wake)) {}
+    // `before_leaving`: runs what it is given when no edits of the open scene are lost by it, or never.
+    EditorSnapshots(std::function<void()> wake, std::function<void(std::function<void()>)> before_leaving)
+        : wake_(std::move(wake)), before_leaving_(std::move(before_leaving)) {}
 
     // All that makes the image on the screen, when it is one of full resolution.
     struct Shown {
@@ -62,6 +64,7 @@ private:
     void go_back(const Snapshot& snapshot, Document& document, UiState& ui);
 
     std::function<void()> wake_;
+    std::function<void(std::function<void()>)> before_leaving_;
     std::optional<Shown> keeping_;
     std::optional<Restored> restored_;
 
