@@ -2,77 +2,21 @@
 // estimation, both combined by multiple importance sampling (Veach 1997), and Russian roulette. Written once for any lane type.
 #pragma once
 
-#include "render/accel.h"
 #include "render/camera.h"
 #include "render/estimator_settings.h"
+#include "render/found_light.h"
 #include "render/light_sampling.h"
 #include "render/links.h"
+#include "render/path.h"
 #include "render/surface.h"
 #include "shading/bsdf.h"
 
 namespace blush::inline BLUSH_ISA {
 
-template <class F> struct Path {
-    Ray<F> ray;
-    Vec<F> beta;        // throughput: what radiance along the ray is worth to the pixel
-    F pdf;              // solid-angle density of the ray's direction; infinite after the camera and smooth lobes
-    Vec<F> normal;      // of the Receiver where the ray begins; only with Feature::light_tree
-    UInt<F> key, index; // of the sampler
-    Int<F> slot;        // which of the tile's samples it adds to
-    Int<F> part;        // that the ray left, -1: the camera; only where lights may be linked
-};
-
-// What the first surface of a path shows: the denoiser's and the picker's planes.
-template <class F> struct FirstHit {
-    Vec<F> albedo, normal;
-    F depth;                // metres; 0: nothing was hit
-    Int<F> object, material;
-};
-
-// How a step was weighted, for those who want to know (path_log); kernels do not look and pay nothing. Valid where the step says that it
-// emits, connects or continues.
-template <class F> struct StepWeights {
-    F emission;             // MIS weight of emission that was found
-    F light, light_pdf, light_bsdf_pdf; // MIS weight of the light sample; density it was drawn with; density the BSDF would have had
-    F survival;             // roulette's probability; 1 where it was not asked
-    Mask<F> asked;          // whether it was
-    Vec<F> arriving;        // throughput at the vertex, after absorption on the way
-};
-
-// What a connection to another pixel's path needs to know of the first two vertices of a path (path_reuse.h).
-template <class F> struct Junction {
-    Mask<F> lambertian;   // scatters the same radiance to all who are in front of ng and ns
-    Vec<F> position;
-    F clearance;          // metres along ng that keep a ray's origin off the surface
-    Vec<F> ng, ns, reflectance;
-};
-
-template <class F> struct Step {
-    Junction<F> junction; // at bounces 0 and 1 only
-    Mask<F> emits, connects, continues;
-    Mask<F> breaks; // the throughput is no finite number: the path ends and its sample is spoilt, for the film to drop and count
-    Vec<F> emitted; // add where `emits`
-    Vec<F> direct;  // add where `connects` and nothing lies on the shadow ray
-    Int<F> light;   // where that comes from: a record of the light table
-    UInt<F> shadow_mask; // what the shadow ray meets; only where lights are linked
-    Ray<F> shadow;
-    F shadow_distance;
-    Path<F> next;   // where `continues` or `breaks`
-    FirstHit<F> first; // at bounce 0 only
-    StepWeights<F> weights;
-};
-
 // Dimensions of the sampler in pairs: 0 pixel filter, 1 lens, then three for each scattering event.
 constexpr uint32_t first_scatter_dimension = 2;
 enum ScatterDimension : uint32_t { light_dimension, bsdf_dimension, choice_dimension, dimensions_per_scatter };
 
-// MIS weight of emission that a ray happened to find; light_pdf is what next-event estimation would have had.
-template <class F> F found_emission_weight(Strategy strategy, const F& bsdf_pdf, const F& light_pdf) {
-    const Mask<F> only_found = bsdf_pdf == F(infinity) || light_pdf == F(0.f);
-    if (strategy == Strategy::bsdf) return F(1.f);
-    if (strategy == Strategy::light) return select(only_found, F(1.f), F(0.f));
-    return select(only_found, F(1.f), power_heuristic(bsdf_pdf, light_pdf));
-}
 // MIS weight of a light sample; delta lights can be found in no other way, whatever the strategy.
 template <class F> F light_sample_weight(Strategy strategy, const F& light_pdf, const F& bsdf_pdf, const Mask<F>& delta) {
     if (strategy == Strategy::bsdf) return select(delta, F(1.f), F(0.f));
@@ -119,116 +63,6 @@ Path<F> begin_path(const SceneTables& scene, const EstimatorSettings& settings, 
     path.slot = slot;
     path.part = Int<F>(from_camera);
     return path;
-}
-
-// The MIS weight of emission that the path's ray found, if the light is linked to the surface that the ray left.
-template <Features S, class F>
-F if_linked(const SceneTables& scene, const F& weight, const Int<F>& light, const Path<F>& path, const Mask<F>& active) {
-    if constexpr (S.has(Feature::links))
-        if (scene.links.lit_sets) return linked_weight<F>(scene.links, weight, light, path.part, path.pdf, active);
-    return weight;
-}
-
-// Light from beyond all surfaces along the path's ray, one source after the other: visit(light, radiance times MIS weight, that weight,
-// lanes), light being a record of the light table, -1 for an environment that lights nothing.
-template <Features S, class F, class Visit>
-void visit_escaped_light(const SceneTables& scene, const EstimatorSettings& settings, const Path<F>& path, int bounce, const Mask<F>& active,
-                         const Visit& visit) {
-    const LightTables& lights = scene.lights;
-    // Of the density there would be by aiming, for its share of the weight. Nobody aims under Strategy::bsdf, and then there are no tables.
-    const bool aims = settings.strategy != Strategy::bsdf;
-    const Receiver<F> from{path.ray.origin, path.normal};
-    if constexpr (S.has(Feature::environment)) {
-        if (bounce > 0 ? scene.environment.lights_scene : scene.environment.visible_to_camera) {
-            const Vec<F> radiance = environment_radiance<F>(scene.environment, path.ray.direction, active);
-            F weight = F(1.f);
-            if (aims) {
-                F pdf = F(0.f);
-                if (lights.environment >= 0)
-                    pdf = environment_pdf<F>(scene.environment, path.ray.direction) * light_probability<S, F>(lights, from, Int<F>(lights.environment), active);
-                weight = found_emission_weight(settings.strategy, path.pdf, pdf);
-            }
-            visit(lights.environment, radiance * weight, weight, active);
-        }
-    }
-    if constexpr (S.has(Feature::suns)) {
-        for (int i = 0; i < lights.sun_count; ++i) {
-            const LightRecord& sun = lights.lights[lights.suns[i]];
-            if (bounce == 0 && sun.flags & light_hidden) continue;
-            const Mask<F> inside = active && in_sun_disk<F>(path.ray.direction, splat<F>(sun.position), F(sun.cone_height));
-            if (!any(inside)) continue;
-            F weight = F(1.f);
-            if (aims) {
-                const F pdf = cone_pdf(F(sun.cone_height)) * light_probability<S, F>(lights, from, Int<F>(lights.suns[i]), inside);
-                weight = found_emission_weight(settings.strategy, path.pdf, pdf);
-            }
-            weight = if_linked<S, F>(scene, weight, Int<F>(lights.suns[i]), path, inside);
-            visit(lights.suns[i], splat<F>(sun.emission) * weight, weight, inside);
-        }
-    }
-}
-
-// All of it, and the environment's MIS weight.
-template <class F> struct EscapedLight {
-    Vec<F> radiance;
-    F weight;
-};
-template <Features S, class F>
-EscapedLight<F> escaped_light(const SceneTables& scene, const EstimatorSettings& settings, const Path<F>& path, int bounce, const Mask<F>& active) {
-    EscapedLight<F> all{splat<F>(0.f), F(1.f)};
-    visit_escaped_light<S, F>(scene, settings, path, bounce, active,
-                              [&](int32_t light, const Vec<F>& radiance, const F& weight, const Mask<F>& lanes) {
-                                  all.radiance = select<F>(lanes, all.radiance + radiance, all.radiance);
-                                  if (light == scene.lights.environment) all.weight = weight;
-                              });
-    return all;
-}
-
-// The light that a triangle of a part is, -1: none.
-template <class F> Int<F> light_of_triangle(const SceneTables& scene, const Int<F>& part, const Int<F>& triangle) {
-    const Int<F> first = gather_field(scene.parts, &PartRecord::first_light, part);
-    return select(as_mask(first >= 0), Int<F>(first + triangle), Int<F>(-1));
-}
-
-// By how much a light's profile scales its emission in the unit direction `away`; 1 for those without one. `light` is -1 or valid.
-template <class F> F emission_profile(const SceneTables& scene, const Int<F>& light, const Vec<F>& away, const Mask<F>& active) {
-    const Int<F> profile = gather_field(scene.lights.lights, &LightRecord::profile, max(light, Int<F>(0)));
-    const Mask<F> shaped = active && as_mask(light >= 0) && as_mask(profile >= 0);
-    if (!any(shaped)) return F(1.f);
-    return select(shaped, profile_factor<F>(scene.lights.profiles, select(shaped, profile, Int<F>(0)), away, shaped), F(1.f));
-}
-
-// MIS weight of the emission of a triangle, met at distance t under cosine `facing`.
-template <Features S, class F>
-F surface_emission_weight(const SceneTables& scene, Strategy strategy, const Path<F>& path, const Int<F>& found, const F& t, const F& facing,
-                          const Mask<F>& active) {
-    if (strategy == Strategy::bsdf) return F(1.f);
-    const Mask<F> sampled = active && as_mask(found >= 0);
-    const Int<F> light = select(sampled, found, Int<F>(0));
-    const Receiver<F> from{path.ray.origin, path.normal};
-    const F per_area = light_probability<S, F>(scene.lights, from, light, sampled) * gather_field(scene.lights.lights, &LightRecord::inverse_area, light);
-    const F pdf = select(sampled, area_to_solid_angle(per_area, F(t * t), facing), F(0.f));
-    return found_emission_weight(strategy, path.pdf, pdf);
-}
-
-// Light of a sphere that the path's ray has met, times its MIS weight, and that weight. From within, it is dark.
-template <class F> struct FoundSphere {
-    Vec<F> radiance;
-    F weight;
-    Int<F> object;
-};
-template <Features S, class F>
-FoundSphere<F> found_sphere(const SceneTables& scene, Strategy strategy, const Path<F>& path, const Int<F>& sphere, const Mask<F>& active) {
-    const LightRecord* lights = scene.lights.lights;
-    const Int<F> light = select(active, Int<F>(sphere + scene.lights.first_sphere), Int<F>(0));
-    const Vec<F> to_center = gather_field3<F>(lights, &LightRecord::position, light) - path.ray.origin;
-    const F height = sphere_cone_height(dot(to_center, to_center), gather_field(lights, &LightRecord::radius, light));
-    const Mask<F> outside = active && height > F(0.f);
-    const F pdf = cone_pdf(select(outside, height, F(1.f))) * light_probability<S, F>(scene.lights, {path.ray.origin, path.normal}, light, outside);
-    const F weight = if_linked<S, F>(scene, found_emission_weight(strategy, path.pdf, pdf), light, path, active);
-    Vec<F> emission = gather_field3<F>(lights, &LightRecord::emission, light);
-    if constexpr (S.has(Feature::light_profiles)) emission = emission * emission_profile<F>(scene, light, -path.ray.direction, outside);
-    return {select<F>(outside, emission * weight, splat<F>(0.f)), weight, gather_field(lights, &LightRecord::object, light)};
 }
 
 // Cosine to the shading normal from which on a viewer is in front of it.

@@ -1,18 +1,14 @@
 // A picture is a function of scene, settings and sample range: not of threads, of chance, or of how the range was split.
 #include "picture.h"
 #include "scenes.h"
+#include "support/pictures.h"
 
 namespace blush::test {
 namespace {
 
-constexpr PlaneSet everything{true, true, true, true};
-
 // Renders samples [0, ends[0]), [ends[0], ends[1]), ...
 Frame render_in_steps(const Scene& scene, const RenderSettings& settings, unsigned threads, std::initializer_list<int64_t> ends) {
-    RendererOptions options;
-    options.threads = threads;
-    options.planes = everything;
-    Renderer renderer(options);
+    Renderer renderer(all_planes(threads));
     renderer.update(scene, settings);
     int64_t first = 0;
     for (const int64_t end : ends) {
@@ -22,14 +18,9 @@ Frame render_in_steps(const Scene& scene, const RenderSettings& settings, unsign
     return renderer.resolve();
 }
 
+// Pixels and planes, and what is said about them.
 void expect_same(const Frame& a, const Frame& b, const char* what) {
-    EXPECT_EQ(a.rgba, b.rgba) << what;
-    EXPECT_EQ(a.albedo, b.albedo) << what;
-    EXPECT_EQ(a.normal, b.normal) << what;
-    EXPECT_EQ(a.depth, b.depth) << what;
-    EXPECT_EQ(a.object_id, b.object_id) << what;
-    EXPECT_EQ(a.material_id, b.material_id) << what;
-    EXPECT_EQ(a.samples, b.samples) << what;
+    EXPECT_TRUE(same_picture(a, b)) << what;
     EXPECT_EQ(a.rays.total(), b.rays.total()) << what;
     EXPECT_EQ(a.error.relmse, b.error.relmse) << what;
     EXPECT_EQ(a.error.high, b.error.high) << what;

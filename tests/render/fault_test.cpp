@@ -101,13 +101,7 @@ void expect_only(const Refused& r, Kind kind, Place place) {
 }
 
 TEST(Fault, OfALightTooBrightForFloats) {
-    Scene scene;
-    place(scene, floor_quad(2), lambert(0.5f));
-    Light bulb;
-    bulb.intensity = 1e38f;
-    shine(scene, bulb, at({0, 0.3f, 0}));
-    scene.view = looking_down(1, 1);
-    expect_only(render_refused(scene), Kind::infinite, Place::light_sample);
+    expect_only(render_refused(floor_under_an_overflowing_bulb()), Kind::infinite, Place::light_sample);
 }
 
 // A spot of the floor shines beyond all numbers: the rest of the picture and the error estimate are as without it.

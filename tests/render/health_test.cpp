@@ -19,14 +19,8 @@ void expect_finite(const Frame& frame) {
     for (const Vec3& v : frame.normal) ASSERT_TRUE(std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z));
 }
 
-// So strong and so near that its irradiance overflows in the middle of the picture.
 TEST(Health, OverflowingLightIsDroppedCountedAndRemembered) {
-    Scene scene;
-    place(scene, floor_quad(2), lambert(0.5f));
-    Light bulb;
-    bulb.intensity = 1e38f;
-    shine(scene, bulb, at({0, 0.3f, 0}));
-    scene.view = looking_down(1, 1);
+    const Scene scene = floor_under_an_overflowing_bulb();
     const Frame frame = render_anything(scene);
     expect_finite(frame);
     EXPECT_GT(frame.health.infinite, 0);

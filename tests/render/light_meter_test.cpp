@@ -44,16 +44,25 @@ TEST(LightMeter, ReadsAPointAndASun) {
     EXPECT_TRUE(reads(reading(scene, floor_place), expected));
 }
 
-TEST(LightMeter, ReadsARectangleLight) {
+struct LitPlace {
+    Scene scene;
+    double lux; // at floor_place
+};
+LitPlace under_a_rectangle_light() {
     Light light;
     light.kind = Light::Kind::rectangle;
     light.intensity = 4;
     light.width = 1;
     light.height = 0.5f;
     const Transform transform = aimed({0.5f, 1.2f, 0.3f}, {-0.2f, -1, 0.1f});
-    Scene scene;
-    shine(scene, light, transform);
-    const double expected = 4 * polygon_irradiance(floor_place.position, {0, 1, 0}, rectangle_corners(light, transform));
+    LitPlace lit;
+    shine(lit.scene, light, transform);
+    lit.lux = 4 * polygon_irradiance(floor_place.position, {0, 1, 0}, rectangle_corners(light, transform));
+    return lit;
+}
+
+TEST(LightMeter, ReadsARectangleLight) {
+    const auto [scene, expected] = under_a_rectangle_light();
     for (const Strategy strategy : {Strategy::mis, Strategy::light, Strategy::bsdf}) {
         RenderSettings settings = settings_for(1, 1, 1);
         settings.strategy = strategy;
@@ -91,15 +100,7 @@ TEST(LightMeter, CountsLightThatWasReflectedManyTimes) {
 
 // Of many readings, 95 % hold the truth; how many by chance, the binomial says.
 TEST(LightMeter, IntervalsHoldTheTruthAsOftenAsTheySay) {
-    Light light;
-    light.kind = Light::Kind::rectangle;
-    light.intensity = 4;
-    light.width = 1;
-    light.height = 0.5f;
-    const Transform transform = aimed({0.5f, 1.2f, 0.3f}, {-0.2f, -1, 0.1f});
-    Scene scene;
-    shine(scene, light, transform);
-    const double expected = 4 * polygon_irradiance(floor_place.position, {0, 1, 0}, rectangle_corners(light, transform));
+    const auto [scene, expected] = under_a_rectangle_light();
     constexpr int readings = 400;
     int held = 0;
     for (int i = 0; i < readings; ++i) {

@@ -1,8 +1,8 @@
 // A scene that was saved and opened again gives the very same picture.
 #include "io/gltf_import.h"
 #include "io/gltf_save.h"
-#include "render/renderer.h"
 #include "scenes.h"
+#include "support/pictures.h"
 #include "support/process.h"
 #include "support/random_edits.h"
 #include "support/storable.h"
@@ -16,23 +16,7 @@ Frame picture(const Project& project) {
     RenderSettings settings = project.render;
     settings.width = 48;
     settings.height = 27;
-    settings.spp = 2;
-    RendererOptions options;
-    options.threads = 2;
-    options.planes = {true, true, true, true};
-    Renderer renderer(options);
-    renderer.update(project.scene, settings);
-    EXPECT_TRUE(renderer.render(0, 2));
-    return renderer.resolve();
-}
-
-void expect_same(const Frame& a, const Frame& b, const std::string& what) {
-    EXPECT_EQ(a.rgba, b.rgba) << what;
-    EXPECT_EQ(a.albedo, b.albedo) << what;
-    EXPECT_EQ(a.normal, b.normal) << what;
-    EXPECT_EQ(a.depth, b.depth) << what;
-    EXPECT_EQ(a.object_id, b.object_id) << what;
-    EXPECT_EQ(a.material_id, b.material_id) << what;
+    return fresh_picture(project.scene, settings, 2);
 }
 
 TEST(Saved, ScenesRenderBitForBitAsTheyWere) {
@@ -51,7 +35,7 @@ TEST(Saved, ScenesRenderBitForBitAsTheyWere) {
             const auto loaded = import_gltf(file);
             ASSERT_TRUE(loaded) << loaded.error().text();
             const Project again{loaded->scene, loaded->render.value_or(RenderSettings{}), loaded->view.value_or(ViewSettings{})};
-            expect_same(picture(project), picture(again), file);
+            EXPECT_TRUE(same_picture(picture(project), picture(again))) << file;
         }
     }
 }

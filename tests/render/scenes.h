@@ -14,4 +14,7 @@ using namespace stability;
 Scene shipped_scene(const std::string& name);
 const std::vector<std::string>& shipped_scene_names();
 
+// A bulb so strong and so near to the floor below it that its irradiance overflows in the middle of the picture.
+Scene floor_under_an_overflowing_bulb();
+
 } // namespace blush::test

@@ -1,5 +1,5 @@
 // Leaves of a tree: many instances of one mesh with stochastic alpha share their memory, and are opaque independently of each other.
-#include "session/pictures.h"
+#include "support/pictures.h"
 #include "session/rich_project.h"
 #include "support/sample_project.h"
 

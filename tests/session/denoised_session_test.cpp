@@ -1,7 +1,7 @@
 // Denoised pictures beside frames, with a stand-in for the networks. Proofs rest on the order of what is announced.
 #include "render/render_session.h"
 
-#include "session/pictures.h"
+#include "support/pictures.h"
 #include "session/watched_session.h"
 #include "support/sample_project.h"
 

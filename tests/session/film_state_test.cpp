@@ -2,7 +2,7 @@
 #include "render/film_state.h"
 #include "render/render_session.h"
 
-#include "session/pictures.h"
+#include "support/pictures.h"
 #include "session/watched_session.h"
 #include "support/sample_project.h"
 

@@ -2,7 +2,7 @@
 #include "core/math.h"
 #include "scene/affine.h"
 #include "scene/document.h"
-#include "session/pictures.h"
+#include "support/pictures.h"
 #include "session/rich_project.h"
 #include "support/random_edits.h"
 

@@ -1,7 +1,7 @@
 // The light mix in a running session: an edit of light shows on the samples that there are, denoised or not, and nothing begins anew.
 #include "render/light_mix.h"
 #include "render/render_session.h"
-#include "session/pictures.h"
+#include "support/pictures.h"
 #include "session/watched_session.h"
 #include "support/sample_project.h"
 

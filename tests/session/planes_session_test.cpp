@@ -1,7 +1,7 @@
 // Planes that somebody wants to see for a while: asking for them begins the image anew, giving them back does not.
 #include "render/render_session.h"
 
-#include "session/pictures.h"
+#include "support/pictures.h"
 #include "session/watched_session.h"
 #include "support/sample_project.h"
 

@@ -1,7 +1,7 @@
 // The session as the window uses it. Proofs rest on the order of what is announced, never on how long something takes.
 #include "render/render_session.h"
 
-#include "session/pictures.h"
+#include "support/pictures.h"
 #include "session/rich_project.h"
 #include "session/watched_session.h"
 #include "support/sample_project.h"

@@ -1,4 +1,4 @@
-#include "session/pictures.h"
+#include "support/pictures.h"
 
 #include <string_view>
 
