@@ -10,6 +10,7 @@
 #include "io/gltf_report.h"
 #include "io/gltf_source.h"
 #include "io/gltf_textures.h"
+#include "io/gltf_unpacked.h"
 #include "io/settings_json.h"
 
 #include <chrono>
@@ -104,9 +105,10 @@ Result<ImportedScene> import_gltf(const std::filesystem::path& file, const Impor
     const auto start = std::chrono::steady_clock::now();
     try {
         if (options.on_progress) options.on_progress(0, "reading");
-        const Result<GltfSource> source = load_gltf(file);
+        Result<GltfSource> source = load_gltf(file);
         if (!source) return source.error();
         ImportedScene imported;
+        if (const auto ok = unpack(*source, options, imported.report); !ok) return ok.error();
         if (const auto ok = convert_gltf(GltfContext{*source, options, imported.report}, imported); !ok) return ok.error();
         imported.origin.file = file;
         imported.origin.json = source->text;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstring>
 #include <fmt/format.h>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -14,6 +15,7 @@ namespace {
 
 using nlohmann::json;
 
+constexpr uint32_t json_chunk = 0x4e4f534a, binary_chunk = 0x004e4942;
 constexpr int max_nesting = 64;
 constexpr size_t max_members = 10000;
 
@@ -91,10 +93,13 @@ uint32_t word_at(std::span<const uint8_t> bytes, size_t offset) {
     return word;
 }
 
+void append_word(std::vector<uint8_t>& bytes, uint64_t word) {
+    for (int shift = 0; shift < 32; shift += 8) bytes.push_back(uint8_t(word >> shift));
+}
+
 // glTF 2.0, 4.4: a header of 12 bytes, then chunks of (length, type, bytes); the first is JSON, a second may be binary.
 Result<std::string_view> glb_json_text(std::span<const uint8_t> bytes) {
     constexpr size_t header = 12, chunk_header = 8;
-    constexpr uint32_t json_chunk = 0x4e4f534a;
     if (bytes.size() < header + chunk_header)
         return Error{"", "truncated: shorter than a GLB header", fmt::format("byte {}", bytes.size())};
     if (word_at(bytes, 4) != 2) return Error{"", fmt::format("GLB version {} cannot be read, only 2", word_at(bytes, 4)), "byte 4"};
@@ -121,12 +126,30 @@ Result<std::string_view> gltf_json_text(std::span<const uint8_t> bytes) {
 
 std::span<const uint8_t> glb_binary(std::span<const uint8_t> bytes) {
     constexpr size_t header = 12, chunk_header = 8;
-    constexpr uint32_t binary_chunk = 0x004e4942;
     const std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (!all.starts_with("glTF")) return {};
     const uint64_t chunk = header + chunk_header + word_at(bytes, header);
     if (chunk + chunk_header > word_at(bytes, 8) || word_at(bytes, chunk + 4) != binary_chunk) return {};
     return bytes.subspan(chunk + chunk_header, word_at(bytes, chunk));
+}
+
+std::vector<uint8_t> glb_bytes(std::string text, std::vector<uint8_t> binary) {
+    text.resize((text.size() + 3) / 4 * 4, ' ');
+    binary.resize((binary.size() + 3) / 4 * 4);
+    const uint64_t total = 20 + text.size() + (binary.empty() ? 0 : 8 + binary.size());
+    if (total > std::numeric_limits<uint32_t>::max()) return {};
+    std::vector<uint8_t> bytes{'g', 'l', 'T', 'F'};
+    bytes.reserve(total);
+    append_word(bytes, 2);
+    append_word(bytes, total);
+    append_word(bytes, text.size());
+    append_word(bytes, json_chunk);
+    bytes.insert(bytes.end(), text.begin(), text.end());
+    if (binary.empty()) return bytes;
+    append_word(bytes, binary.size());
+    append_word(bytes, binary_chunk);
+    bytes.insert(bytes.end(), binary.begin(), binary.end());
+    return bytes;
 }
 
 Result<json> check_gltf_json(std::string_view text, const std::filesystem::path& folder) {

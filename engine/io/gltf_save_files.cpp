@@ -29,31 +29,6 @@ void append(std::vector<uint8_t>& bytes, std::span<const uint8_t> more) {
     bytes.insert(bytes.end(), more.begin(), more.end());
 }
 
-void append_word(std::vector<uint8_t>& bytes, uint64_t word) {
-    for (int shift = 0; shift < 32; shift += 8) bytes.push_back(uint8_t(word >> shift));
-}
-
-// glTF 2.0, 4.4. Empty for more than a GLB can hold.
-std::vector<uint8_t> glb(std::string text, std::vector<uint8_t> binary) {
-    constexpr uint32_t json_chunk = 0x4e4f534a, binary_chunk = 0x004e4942;
-    text.resize((text.size() + 3) / 4 * 4, ' ');
-    binary.resize((binary.size() + 3) / 4 * 4);
-    const uint64_t total = 20 + text.size() + (binary.empty() ? 0 : 8 + binary.size());
-    if (total > max_file_bytes) return {};
-    std::vector<uint8_t> bytes{'g', 'l', 'T', 'F'};
-    bytes.reserve(total);
-    append_word(bytes, 2);
-    append_word(bytes, total);
-    append_word(bytes, text.size());
-    append_word(bytes, json_chunk);
-    bytes.insert(bytes.end(), text.begin(), text.end());
-    if (binary.empty()) return bytes;
-    append_word(bytes, binary.size());
-    append_word(bytes, binary_chunk);
-    bytes.insert(bytes.end(), binary.begin(), binary.end());
-    return bytes;
-}
-
 // Every reference to a buffer, with the offset that it goes with.
 template <class Visit> void visit_buffer_ranges(Json& root, const Visit& visit) {
     const auto views = root.find("bufferViews");
@@ -259,7 +234,7 @@ Result<std::string> SavedFiles::write(GltfDocument& document, const std::string&
         Result<std::vector<uint8_t>> binary = binary_of(document, original);
         if (!binary) return binary.error();
         text = json_text(document.root);
-        const std::vector<uint8_t> bytes = glb(text, *std::move(binary));
+        const std::vector<uint8_t> bytes = glb_bytes(text, *std::move(binary));
         if (bytes.empty()) return Error{target_.string(), "cannot save: more than a .glb can hold", ""};
         written = write_file(target_, bytes);
     } else if (extension == ".gltf" || extension == ".GLTF") {

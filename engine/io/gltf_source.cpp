@@ -2,12 +2,14 @@
 
 #include "core/files.h"
 #include "io/gltf_json.h"
+#include "io/gltf_unpacked.h"
 #include "io/gltf_uri.h"
 
 #include <nlohmann/json.hpp>
 
 #include <exception>
 #include <limits>
+#include <optional>
 
 namespace blush {
 namespace {
@@ -75,6 +77,16 @@ nlohmann::json without_payloads(nlohmann::json root) {
     return root;
 }
 
+// The file as the parser takes it, if it does not as it is.
+std::optional<std::vector<uint8_t>> without_packed_references(const nlohmann::json& root, const std::vector<uint8_t>& file, bool binary) {
+    const std::optional<nlohmann::json> changed = parsable(root);
+    if (!changed) return {};
+    const std::string text = changed->dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    if (!binary) return std::vector<uint8_t>(text.begin(), text.end());
+    const std::span<const uint8_t> chunk = glb_binary(file);
+    return glb_bytes(text, {chunk.begin(), chunk.end()});
+}
+
 // Runs tinygltf by `load(parser, &error, &warning)`, and keeps what it has to say.
 template <class Load> Result<void> parse(GltfSource& source, const Load& load) {
     tinygltf::TinyGLTF parser;
@@ -110,10 +122,13 @@ Result<GltfSource> load_gltf(const std::filesystem::path& file) {
     source.json = std::make_shared<const nlohmann::json>(*std::move(json));
     source.text = std::make_shared<const std::string>(*text);
     const bool binary = text->data() != reinterpret_cast<const char*>(bytes->data());
+    const std::optional<std::vector<uint8_t>> changed = without_packed_references(*source.json, *bytes, binary);
+    const std::vector<uint8_t>& parsable = changed ? *changed : *bytes;
+    const auto size = uint32_t(parsable.size());
     const auto parsed = parse(source, [&](tinygltf::TinyGLTF& parser, std::string* error, std::string* warning) {
         parser.SetFsCallbacks({file_exists, same_name, read_whole_file, refuse_to_write, &source.folder});
-        return binary ? parser.LoadBinaryFromMemory(&source.model, error, warning, bytes->data(), uint32_t(bytes->size()))
-                      : parser.LoadASCIIFromString(&source.model, error, warning, text->data(), uint32_t(text->size()), "");
+        return binary ? parser.LoadBinaryFromMemory(&source.model, error, warning, parsable.data(), size)
+                      : parser.LoadASCIIFromString(&source.model, error, warning, reinterpret_cast<const char*>(parsable.data()), size, "");
     });
     if (!parsed) return parsed.error();
     return source;

@@ -73,6 +73,7 @@ class GltfBuilder {
 public:
     Json json = {{"asset", {{"version", "2.0"}}}};
     std::string buffer;
+    Json further_buffers = Json::array(); // behind the one that `buffer` is
 
     // Appends an element to a top-level list and returns its index.
     int add(const char* list, Json value) {
@@ -105,11 +106,13 @@ public:
         Json whole = json;
         if (!buffer.empty() && !whole.contains("buffers"))
             whole["buffers"].push_back({{"byteLength", buffer.size()}, {"uri", "data:application/octet-stream;base64," + base64(buffer)}});
+        for (const Json& further : further_buffers) whole["buffers"].push_back(further);
         return whole.dump();
     }
     std::string glb() const {
         Json whole = json;
         whole["buffers"] = Json::array({Json{{"byteLength", buffer.size()}}});
+        for (const Json& further : further_buffers) whole["buffers"].push_back(further);
         std::string text = whole.dump(), binary = buffer;
         text.resize((text.size() + 3) / 4 * 4, ' ');
         binary.resize((binary.size() + 3) / 4 * 4);

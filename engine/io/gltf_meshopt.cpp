@@ -1,0 +1,95 @@
+#include "io/gltf_meshopt.h"
+
+#include "io/gltf_object.h"
+#include "io/gltf_unpacked.h"
+
+#include <meshoptimizer.h>
+
+#include <fmt/format.h>
+#include <span>
+#include <string_view>
+
+namespace blush {
+namespace {
+
+constexpr const char* extension_name = "EXT_meshopt_compression";
+
+// The densest code is that of equal vertices: two bits for sixteen bytes. What claims to be denser is not made room for.
+constexpr uint64_t most_bytes_per_byte = 64;
+
+struct Stream {
+    std::span<const uint8_t> bytes;
+    uint64_t count = 0, stride = 0;
+    std::string mode, filter;
+};
+
+// As the extension's specification has them ("Specifying compressed views").
+bool is_valid(const Stream& s) {
+    if (s.mode == "ATTRIBUTES") {
+        if (s.stride == 0 || s.stride > 256 || s.stride % 4 != 0) return false;
+        if (s.filter == "OCTAHEDRAL") return s.stride == 4 || s.stride == 8;
+        if (s.filter == "QUATERNION") return s.stride == 8;
+        return s.filter.empty() || s.filter == "NONE" || s.filter == "EXPONENTIAL";
+    }
+    if (!s.filter.empty() && s.filter != "NONE") return false;
+    if (s.stride != 2 && s.stride != 4) return false;
+    return s.mode == "INDICES" || (s.mode == "TRIANGLES" && s.count % 3 == 0);
+}
+
+bool decode(const Stream& s, std::vector<uint8_t>& out) {
+    const auto decoder = s.mode == "ATTRIBUTES"  ? meshopt_decodeVertexBuffer
+                         : s.mode == "TRIANGLES" ? static_cast<decltype(&meshopt_decodeVertexBuffer)>(meshopt_decodeIndexBuffer)
+                                                 : static_cast<decltype(&meshopt_decodeVertexBuffer)>(meshopt_decodeIndexSequence);
+    if (decoder(out.data(), size_t(s.count), size_t(s.stride), s.bytes.data(), s.bytes.size()) != 0) return false;
+    if (s.filter == "OCTAHEDRAL") meshopt_decodeFilterOct(out.data(), size_t(s.count), size_t(s.stride));
+    if (s.filter == "QUATERNION") meshopt_decodeFilterQuat(out.data(), size_t(s.count), size_t(s.stride));
+    if (s.filter == "EXPONENTIAL") meshopt_decodeFilterExp(out.data(), size_t(s.count), size_t(s.stride));
+    return true;
+}
+
+Result<Stream> read_stream(const GltfContext& context, const GltfObject& extension) {
+    const auto whole = [&](const char* key, int otherwise) { return int64_t(extension.integer(key).value_or(otherwise)); };
+    const int64_t buffer = whole("buffer", -1), offset = whole("byteOffset", 0), length = whole("byteLength", -1);
+    const auto& buffers = context.model().buffers;
+    if (buffer < 0 || size_t(buffer) >= buffers.size())
+        return context.error(fmt::format("buffer {} does not exist; there are {}", buffer, buffers.size()), extension.where());
+    const std::span<const uint8_t> bytes = buffers[size_t(buffer)].data;
+    if (offset < 0 || length < 1 || uint64_t(offset) > bytes.size() || uint64_t(length) > bytes.size() - uint64_t(offset))
+        return context.error(fmt::format("offset {} and length {} reach beyond the buffer's {} bytes", offset, length, bytes.size()),
+                             extension.where());
+    const int64_t count = whole("count", -1), stride = whole("byteStride", -1);
+    Stream stream{bytes.subspan(size_t(offset), size_t(length)), uint64_t(count), uint64_t(stride), extension.text("mode"),
+                  extension.text("filter")};
+    if (count < 0 || stride < 0 || !is_valid(stream))
+        return context.error(fmt::format("{} elements of {} bytes, mode '{}', filter '{}' are not what the extension knows", count, stride,
+                                         stream.mode.substr(0, 40), stream.filter.substr(0, 40)),
+                             extension.where());
+    if (stream.count * stream.stride > most_bytes_per_byte * stream.bytes.size())
+        return context.error(fmt::format("{} bytes cannot describe {} elements of {} bytes", length, count, stride), extension.where());
+    return stream;
+}
+
+} // namespace
+
+Result<void> unpack_meshopt(GltfSource& source, const GltfContext& context) {
+    const size_t packed = source.model.bufferViews.size();
+    for (size_t i = 0; i < packed; ++i) {
+        const std::string where = fmt::format("bufferViews[{}]", i);
+        const GltfObject extension =
+            GltfObject(context, source.model.bufferViews[i].extensions, where + ".extensions").object(extension_name);
+        if (!extension) continue;
+        if (context.cancelled()) return context.cancel_error();
+        const Result<Stream> stream = read_stream(context, extension);
+        if (!stream) return stream.error();
+        std::vector<uint8_t> bytes(size_t(stream->count * stream->stride));
+        if (!decode(*stream, bytes)) return context.error("the compressed bytes cannot be decoded", where);
+        tinygltf::BufferView& view = source.model.bufferViews[i];
+        if (stream->mode == "ATTRIBUTES") view.byteStride = size_t(stream->stride);
+        view.byteLength = bytes.size();
+        view.byteOffset = 0;
+        view.buffer = add_unpacked_buffer(source, std::move(bytes));
+    }
+    return {};
+}
+
+} // namespace blush

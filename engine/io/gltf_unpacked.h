@@ -1,0 +1,24 @@
+// Internal to gltf_*.cpp: compressed files. What is packed is unpacked in the parsed model, whose accessors then read like those of any
+// file; the document's JSON stays as it is, so that saving keeps what is packed.
+#pragma once
+
+#include "io/gltf_source.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace blush {
+
+// What the parser is given in place of a document that it would refuse for being compressed: buffers that stand for nothing but their
+// unpacked form have a byte, and packed primitives no indices. None if it takes it as it is.
+std::optional<nlohmann::json> parsable(const nlohmann::json& root);
+
+// KHR_draco_mesh_compression and EXT_meshopt_compression.
+Result<void> unpack(GltfSource& source, const ImportOptions& options, ImportReport& report);
+
+// Indices of what is added: a buffer, or a view of the whole of one.
+int add_unpacked_buffer(GltfSource& source, std::vector<uint8_t> bytes);
+int add_unpacked_view(GltfSource& source, std::vector<uint8_t> bytes);
+
+} // namespace blush
