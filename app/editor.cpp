@@ -70,6 +70,7 @@ private:
                                [this](std::function<void()> go_on) { saving_.before_losing_edits("opening another scene", std::move(go_on)); }};
     ThumbnailSheet thumbnails_;
     FrameStats stats_;
+    FramePace pace_;
     Pictures pictures_;
     PictureMix wanted_mix_;
     EditorConvergence convergence_;
@@ -136,6 +137,7 @@ void Editor::run() {
         const bool asked = window_->wait(ui_.next_frame_in);
         const bool moves_by_itself = ui_.next_frame_in < longest_sleep;
         frame_begin_ = Clock::now();
+        pace_.begin(frame_begin_);
         poll();
         if (!asked && !moves_by_itself && !window_->wait(0)) continue;
         latest();
@@ -217,7 +219,9 @@ void Editor::draw_regions(PanelContext& c) {
     begin_region("Viewport", l.viewport, {.padded = false, .background = false});
     viewport_width_ = int(l.viewport.width);
     viewport_height_ = int(l.viewport.height);
-    image_ = viewport_.draw(c);
+    pace_.begin_picture(Clock::now());
+    image_ = viewport_.draw(c, pace_);
+    pace_.end_picture(Clock::now());
     end_region();
     begin_region("Inspector", l.inspector, {.padded = false});
     draw_inspector(c);
@@ -460,8 +464,9 @@ void Editor::draw() {
     }
     window_->end_frame();
     const auto now = Clock::now();
+    const FrameTimes took = pace_.end(now);
     // Loading and compiling shaders, before there is a picture, is not what smoothness is judged by.
-    if (shown) stats_.add_frame(std::chrono::duration<double, std::milli>(now - frame_begin_).count());
+    if (shown) stats_.add_frame(took);
     const bool mixed = shown && mixing_ && shown->light_groups == mixed_groups_ && viewport_.shown_gains() == mixing_->gains;
     if (shown) stats_.shown(mixed ? submitted_ : shown->revision, now);
     if (viewport_.shows(wanted_mix_)) stats_.look_shown(now);

@@ -10,7 +10,7 @@ namespace {
 
 using Mode = Comparison::Mode;
 
-constexpr double display_budget = 6; // milliseconds of one frame of the window, as the live picture's
+constexpr double usual_frame = 16; // milliseconds of the window, as for the live picture
 
 std::shared_ptr<const Difference> answer(const DifferenceQuestion& question) {
     return std::make_shared<const Difference>(difference_of(question));
@@ -105,10 +105,10 @@ void CompareView::upload_sides(const PanelContext& c, const ComparedSide& a, con
         parts_[i].v1 = float(top + f.height) / float(height);
         top += f.height;
     }
-    pass_.upload(width, height, rgba);
+    pass_.upload(width, height, std::move(rgba));
 }
 
-void CompareView::update(PanelContext& c, const ComparedSide& a, const ComparedSide& b, const DisplayLook& look) {
+void CompareView::update(PanelContext& c, const ComparedSide& a, const ComparedSide& b, const DisplayLook& look, const FramePace& pace) {
     if (shader_changed_ && shader_) {
         if (const auto set = pass_.set_shader(*shader_); !set) c.ui.toasts.fail(set.error().text());
     }
@@ -138,7 +138,7 @@ void CompareView::update(PanelContext& c, const ComparedSide& a, const ComparedS
         pass_.begin(plain);
     }
     shader_changed_ = false;
-    pass_.advance(display_budget);
+    pass_.advance(pace.left(usual_frame, FramePace::Clock::now()));
     if (pass_.busy()) {
         c.ui.next_frame_in = 0;
     } else if (!drawn_) {
@@ -168,7 +168,7 @@ void CompareView::draw_wipe(PanelContext& c, const ComparedSide& a, const Compar
     if (drag_bar(c.ui, x, seen)) compare.wipe = std::clamp((ImGui::GetIO().MousePos.x - seen.x) / std::max(seen.width, 1.f), 0.f, 1.f);
 }
 
-void CompareView::draw(PanelContext& c, const ImageRect& image, const ImageRect& seen, const DisplayLook& look) {
+void CompareView::draw(PanelContext& c, const ImageRect& image, const ImageRect& seen, const DisplayLook& look, const FramePace& pace) {
     Comparison& compare = c.ui.snapshots.compare;
     if (compare.mode == Mode::off) {
         c.ui.difference.reset();
@@ -177,7 +177,7 @@ void CompareView::draw(PanelContext& c, const ImageRect& image, const ImageRect&
     const ComparedSide a = compared_side(c, compare.a), b = compared_side(c, compare.b);
     if (a.id == b.id || !a.pictures.frame || !b.pictures.frame) return;
     ask_difference(c, a, b);
-    update(c, a, b, look);
+    update(c, a, b, look, pace);
     for (Part& part : parts_) part.texture = pass_.texture();
     const float em = ImGui::GetFontSize();
     if (compare.mode == Mode::wipe && drawn_) return draw_wipe(c, a, b, image, seen);

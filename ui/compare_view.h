@@ -4,6 +4,7 @@
 #include "ui/background_answer.h"
 #include "ui/difference.h"
 #include "ui/display_pass.h"
+#include "ui/frame_pace.h"
 #include "ui/gizmo.h"
 #include "ui/panels/context.h"
 
@@ -25,7 +26,7 @@ class CompareView {
 public:
     void set_shader(const DisplayShader& shader);
     // `image` is where the whole picture lies, `seen` what of it is in the window; the live picture is there already, drawn with `look`.
-    void draw(PanelContext& c, const ImageRect& image, const ImageRect& seen, const DisplayLook& look);
+    void draw(PanelContext& c, const ImageRect& image, const ImageRect& seen, const DisplayLook& look, const FramePace& pace);
 
 private:
     // Where in a texture a picture lies.
@@ -34,7 +35,7 @@ private:
         float u = 1, v0 = 0, v1 = 1;
     };
     void ask_difference(PanelContext& c, const ComparedSide& a, const ComparedSide& b);
-    void update(PanelContext& c, const ComparedSide& a, const ComparedSide& b, const DisplayLook& look);
+    void update(PanelContext& c, const ComparedSide& a, const ComparedSide& b, const DisplayLook& look, const FramePace& pace);
     void upload_sides(const PanelContext& c, const ComparedSide& a, const ComparedSide& b);
     void draw_part(const Part& part, const ImageRect& image, const ImageRect& clip) const;
     void draw_wipe(PanelContext& c, const ComparedSide& a, const ComparedSide& b, const ImageRect& image, const ImageRect& seen);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 namespace blush {
 namespace {
@@ -17,6 +18,13 @@ void main() {
     if (denoised_weight != 0.0) color += denoised_weight * texelFetch(denoised, ivec2(gl_FragCoord.xy * denoised_scale), 0).rgb;
     result = vec4(display_color(vec4(abs(color), pixel.a)).rgb, 1.0);
 })";
+
+// Milliseconds after which the clock is looked at: what a step takes is known from the one before alone, and other threads may come between.
+constexpr double longest_step = 2.5;
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point begin) { return std::chrono::duration<double, std::milli>(Clock::now() - begin).count(); }
 
 constexpr GLint image_unit = 0, denoised_unit = 1, first_table_unit = 2;
 
@@ -73,31 +81,46 @@ Result<void> DisplayPass::set_shader(const DisplayShader& shader) {
     return {};
 }
 
-void DisplayPass::Picture::upload(int w, int h, GLenum format, const float* values) {
+void DisplayPass::Picture::take(int w, int h, Values values) {
+    width = w;
+    height = h;
+    coming = std::move(values);
+    next_row = 0;
+    // Every edit brings small pictures and then full ones again: the texture keeps the largest size, so that none is allocated anew.
+    if (texture && w <= room_width && h <= room_height) return;
+    room_width = std::max(room_width, w);
+    room_height = std::max(room_height, h);
     if (!texture) texture = GlTexture::create();
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, texture.name());
+    glTexImage2D(GL_TEXTURE_2D, 0, format == GL_RGB ? GL_RGB32F : GL_RGBA32F, room_width, room_height, 0, format, GL_FLOAT, nullptr);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+}
+
+void DisplayPass::Picture::upload_rows(int count) {
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, texture.name());
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-    // Every edit brings small pictures and then full ones again: the texture keeps the largest size, so that none is allocated anew.
-    if (w > room_width || h > room_height) {
-        room_width = std::max(room_width, w);
-        room_height = std::max(room_height, h);
-        glTexImage2D(GL_TEXTURE_2D, 0, format == GL_RGB ? GL_RGB32F : GL_RGBA32F, room_width, room_height, 0, format, GL_FLOAT, nullptr);
-        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    }
-    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, w, h, format, GL_FLOAT, values);
-    width = w;
-    height = h;
+    const size_t channels = format == GL_RGB ? 3 : 4;
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, next_row, width, count, format, GL_FLOAT, coming.get() + size_t(next_row) * size_t(width) * channels);
+    next_row += count;
+    if (next_row == height) coming.reset();
 }
 
-void DisplayPass::upload_denoised(int width, int height, const std::vector<float>& rgb) {
-    denoised_.upload(width, height, GL_RGB, rgb.data());
+int DisplayPass::Pace::rows(double milliseconds, int width, int left) const {
+    return int(std::clamp(pixels_per_millisecond * milliseconds / width, 1.0, double(left)));
 }
 
-void DisplayPass::upload(int width, int height, const std::vector<float>& rgba) {
-    image_.upload(width, height, GL_RGBA, rgba.data());
-    rows_per_millisecond_ *= double(std::max(width_, 1)) / width; // rows of another length
+DisplayPass::Values DisplayPass::kept(std::vector<float> values) {
+    const auto owner = std::make_shared<const std::vector<float>>(std::move(values));
+    return {owner, owner->data()};
+}
+
+void DisplayPass::upload_denoised(int width, int height, Values rgb) { denoised_.take(width, height, std::move(rgb)); }
+
+void DisplayPass::upload(int width, int height, Values rgba) {
+    image_.take(width, height, std::move(rgba));
     width_ = width;
     height_ = next_row_ = height;
 }
@@ -134,15 +157,25 @@ void DisplayPass::draw_rows(int first, int count) {
     target.end();
 }
 
+// A few rows of what is to be done first.
+void DisplayPass::step(double milliseconds) {
+    Picture* const comes = image_.coming ? &image_ : denoised_.coming ? &denoised_ : nullptr;
+    const int width = comes ? comes->width : width_, left = comes ? comes->height - comes->next_row : height_ - next_row_;
+    Pace& pace = comes ? uploading_ : drawing_;
+    const int count = pace.rows(milliseconds, width, left);
+    const auto begin = Clock::now();
+    if (comes)
+        comes->upload_rows(count);
+    else
+        draw_rows(std::exchange(next_row_, next_row_ + count), count);
+    glFinish(); // else the time would be that of queueing
+    pace.pixels_per_millisecond = double(count) * width / std::max(milliseconds_since(begin), 1e-3);
+}
+
 void DisplayPass::advance(double milliseconds) {
     if (!busy()) return;
-    const int count = std::clamp(int(rows_per_millisecond_ * milliseconds), 1, height_ - next_row_);
-    const auto before = std::chrono::steady_clock::now();
-    draw_rows(next_row_, count);
-    glFinish(); // else the time would be that of queueing
-    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - before;
-    rows_per_millisecond_ = count / std::max(took.count(), 1e-3);
-    next_row_ += count;
+    const auto begin = Clock::now();
+    for (double left = milliseconds; busy() && left > 0; left = milliseconds - milliseconds_since(begin)) step(std::min(left, longest_step));
     if (!busy()) front_ = 1 - front_;
 }
 

@@ -6,6 +6,7 @@
 #include "ui/denoise_view.h"
 #include "ui/gl_objects.h"
 
+#include <memory>
 #include <vector>
 
 namespace blush {
@@ -21,15 +22,16 @@ class DisplayPass {
 public:
     // Compiles the display transform and uploads its tables.
     Result<void> set_shader(const DisplayShader& shader);
-    // Takes over a frame's pixels, or a denoised picture's. Not while busy.
-    void upload(const Frame& frame) { upload(frame.width, frame.height, frame.rgba); }
-    void upload(int width, int height, const std::vector<float>& rgba); // scene-linear; alpha: coverage by objects
-    void upload(const DenoisedPicture& denoised) { upload_denoised(denoised.width, denoised.height, denoised.denoised.rgb); }
-    void upload_denoised(int width, int height, const std::vector<float>& rgb); // 3 values a pixel
+    // Whose pixels the next picture shows: a frame's, or a denoised picture's. They are copied while it is drawn, and kept alive until
+    // then. Not while busy.
+    void upload(const FramePtr& frame) { upload(frame->width, frame->height, {frame, frame->rgba.data()}); }
+    void upload(int width, int height, std::vector<float> rgba) { upload(width, height, kept(std::move(rgba))); } // alpha: coverage by objects
+    void upload(const DenoisedPtr& denoised) { upload_denoised(denoised->width, denoised->height, {denoised, denoised->denoised.rgb.data()}); }
+    void upload_denoised(int width, int height, std::vector<float> rgb) { upload_denoised(width, height, kept(std::move(rgb))); }
     // Begins a new picture of the last uploads, at the frame's resolution; one that is being drawn is given up.
     void begin(const DisplayLook& look);
-    // Goes on with it for about so many milliseconds. A graphics card is done at once; where the processor stands in for one, a large
-    // picture takes several of the window's frames, none of which it may hold up.
+    // Goes on with it for so many milliseconds, or a little longer. A graphics card is done at once; where the processor stands in for
+    // one, a large picture takes several of the window's frames, none of which it may hold up.
     void advance(double milliseconds);
     bool busy() const { return next_row_ < height_; }
 
@@ -37,24 +39,39 @@ public:
     GLuint texture() const { return targets_[front_].texture(); }
 
 private:
+    using Values = std::shared_ptr<const float>;
     // Scene-linear pixels as a texture, of which they fill the lower left corner.
     struct Picture {
-        GlTexture texture;
+        GLenum format; // GL_RGB or GL_RGBA
+        GlTexture texture = {};
         int room_width = 0, room_height = 0;
         int width = 0, height = 0;
-        void upload(int w, int h, GLenum format, const float* values);
+        Values coming = {}; // null: all rows are there
+        int next_row = 0;
+        void take(int w, int h, Values values);
+        void upload_rows(int count);
     };
+    // How fast something goes, by the last time it was done.
+    struct Pace {
+        double pixels_per_millisecond;
+        // At least one; at most `left`.
+        int rows(double milliseconds, int width, int left) const;
+    };
+    static Values kept(std::vector<float> values);
+    void upload(int width, int height, Values rgba);
+    void upload_denoised(int width, int height, Values rgb);
+    void step(double milliseconds);
     void draw_rows(int first, int count);
 
     GlProgram program_;
     GlVertexArray no_vertices_;
-    Picture image_, denoised_;
+    Picture image_{GL_RGBA}, denoised_{GL_RGB};
     std::vector<std::pair<GLenum, GlTexture>> tables_; // in the texture units after those of the pictures
     RenderTarget targets_[2];                          // one is shown while the other is drawn
     int front_ = 0;
     int width_ = 0, height_ = 0;
     int next_row_ = 0;
-    double rows_per_millisecond_ = 16; // measured; a careful guess at first
+    Pace uploading_{1e5}, drawing_{1e4}; // careful guesses at first
     DisplayLook look_;
 };
 

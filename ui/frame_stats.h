@@ -15,11 +15,22 @@ namespace blush {
 // The value below which `fraction` of the values lie (nearest rank); 0 for none.
 double percentile(std::vector<double> values, double fraction);
 
+// Where the time of one of the window's frames went, in milliseconds: to input and panels, to drawing the rendered picture, and to the
+// panels after it and all that is drawn and shown.
+struct FrameTimes {
+    double before_picture = 0, picture = 0, after_picture = 0;
+    double total() const { return before_picture + picture + after_picture; }
+};
+
 class FrameStats {
 public:
     using Clock = std::chrono::steady_clock;
+    static constexpr double late = 33; // milliseconds: a frame that takes longer is felt
 
-    void add_frame(double milliseconds) { keep(frames_, milliseconds); }
+    void add_frame(const FrameTimes& times) {
+        keep(frames_, times.total());
+        if (times.total() > longest_.total()) longest_ = times;
+    }
     // A revision was submitted, and later a picture of some revision was on the screen. One picture answers all revisions up to its own;
     // the wait is counted from the submit that it was made for.
     void submitted(uint64_t revision, Clock::time_point when);
@@ -32,7 +43,7 @@ public:
     const std::vector<double>& frames() const { return frames_; }
     const std::vector<double>& latencies() const { return latencies_; }
     const std::vector<double>& looks() const { return looks_; }
-    // {"frames": n, "p50_ms", "p95_ms", "max_ms", "edits": n, "latency_p50_ms", "latency_p95_ms", "latency_max_ms",
+    // {"frames": n, "p50_ms", "p95_ms", "max_ms", "late": n, "longest": {"before_picture_ms", "picture_ms", "after_picture_ms"}, "edits": n, "latency_p50_ms", "latency_p95_ms", "latency_max_ms",
     //  "looks": n, "look_p50_ms", "look_max_ms"}
     Result<void> write(const std::filesystem::path& file) const;
 
@@ -46,6 +57,7 @@ private:
         if (values.size() < (1u << 20)) values.push_back(value);
     }
     std::vector<double> frames_, latencies_, looks_;
+    FrameTimes longest_;
     std::optional<Clock::time_point> look_begun_;
     std::deque<Submit> unanswered_;
 };

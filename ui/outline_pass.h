@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/frame.h"
+#include "scene/picture_region.h"
 #include "ui/gl_objects.h"
 
 #include <cstdint>
@@ -13,7 +14,7 @@ class OutlinePass {
 public:
     Result<void> load();
     // Takes from the id plane where the selected objects are: those whose selected[Id<Node>.value] is not 0. A frame without
-    // that plane gives no outline.
+    // that plane gives no outline, nor one in which none of them is seen.
     void upload(const Frame& frame, const std::vector<uint8_t>& selected);
     // `picture` with the outline, as large as it is on the screen. Drawn once for many frames of the window: a transparent layer
     // over the picture would be blended anew in each.
@@ -29,6 +30,7 @@ private:
     std::vector<uint8_t> inside_;
     RenderTarget target_;
     int width_ = 0, height_ = 0;
+    PixelRect around_{}; // the objects, in the frame's pixels
 };
 
 } // namespace blush

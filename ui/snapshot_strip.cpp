@@ -121,7 +121,7 @@ void ThumbnailSheet::update(const std::vector<SnapshotPtr>& list, const DisplayN
     if (ids != ids_) {
         std::vector<float> rgba;
         for (const SnapshotPtr& s : list) rgba.insert(rgba.end(), s->thumbnail.rgba.begin(), s->thumbnail.rgba.end());
-        pass_.upload(Thumbnail::width, Thumbnail::height * int(list.size()), rgba);
+        pass_.upload(Thumbnail::width, Thumbnail::height * int(list.size()), std::move(rgba));
     }
     if (ids != ids_ || other_shader || look != look_) pass_.begin(look);
     ids_ = ids;

@@ -18,8 +18,8 @@
 namespace blush {
 namespace {
 
-constexpr double display_budget = 6; // milliseconds of one frame of the window
-constexpr double asked_display_budget = 14; // where somebody waits for a look they asked for: still within a frame of 33
+// Milliseconds that a frame of the window may take while a picture is being drawn for it; where somebody waits for a look they asked for.
+constexpr double usual_frame = 16, asked_frame = 24;
 
 ImTextureID texture_id(GLuint name) { return reinterpret_cast<ImTextureID>(uintptr_t(name)); }
 
@@ -116,23 +116,24 @@ Result<void> Viewport::set_display_shader(const DisplayShader& shader) {
 }
 
 // As the mix has it by now: the session's own mix of the same planes follows when it has time.
-void Viewport::upload_frame(const Frame& frame, const PictureView& view, const Gains& gains, bool background_as_it_is) {
+void Viewport::upload_frame(const FramePtr& shown, const PictureView& view, const Gains& gains, bool background_as_it_is) {
+    const Frame& frame = *shown;
     std::vector<float> pixels;
     const bool mixes = !gains.empty() && gains.size() == frame.groups.size() && gains != frame.gains;
     if (is_special(frame, view)) pixels = pixels_of(frame, view);
     else if (background_as_it_is) pixels = with_coverage(frame);
     if (pixels.empty() && mixes) pixels = mixed_rgba(frame, gains, &workers_);
-    if (pixels.empty()) display_.upload(frame);
-    else display_.upload(frame.width, frame.height, pixels);
+    if (pixels.empty()) display_.upload(shown);
+    else display_.upload(frame.width, frame.height, std::move(pixels));
 }
 
-void Viewport::upload_denoised(const DenoisedPicture& denoised, const Gains& gains) {
-    const bool mixes = denoised.groups && gains.size() == denoised.groups->planes.size() && gains != denoised.gains;
-    if (mixes) display_.upload_denoised(denoised.width, denoised.height, mixed_rgb(denoised, gains, &workers_));
+void Viewport::upload_denoised(const DenoisedPtr& denoised, const Gains& gains) {
+    const bool mixes = denoised->groups && gains.size() == denoised->groups->planes.size() && gains != denoised->gains;
+    if (mixes) display_.upload_denoised(denoised->width, denoised->height, mixed_rgb(*denoised, gains, &workers_));
     else display_.upload(denoised);
 }
 
-void Viewport::take_frame(PanelContext& c) {
+void Viewport::take_frame(PanelContext& c, const FramePace& pace) {
     const ViewSettings v = c.shown_view();
     PictureView view = c.ui.picture_view(c.frame ? int(c.frame->bounces.size()) : 0);
     if (view.show == PictureView::Show::beauty && v.false_color.of == FalseColor::Of::lux) view.show = PictureView::Show::illuminance;
@@ -155,12 +156,12 @@ void Viewport::take_frame(PanelContext& c) {
     }
     if (!display_.busy() && (new_frame || (uploaded_frame_ && (new_denoised || shader_changed_ || look_ != look)))) {
         if (new_frame) {
-            upload_frame(*c.frame, view, gains, numbers.background_as_it_is);
+            upload_frame(c.frame, view, gains, numbers.background_as_it_is);
             uploaded_frame_ = c.frame;
             uploaded_view_ = view;
         }
         if (new_denoised) {
-            upload_denoised(*c.denoised, gains);
+            upload_denoised(c.denoised, gains);
             uploaded_denoised_ = c.denoised;
         }
         uploaded_gains_ = gains;
@@ -172,7 +173,7 @@ void Viewport::take_frame(PanelContext& c) {
     }
     drew_display_ = display_.busy();
     // Whoever asked for another look is waiting: for the picture that is being drawn to end, and for theirs.
-    display_.advance(look_ != look || answers_ ? asked_display_budget : display_budget);
+    display_.advance(pace.left(look_ != look || answers_ ? asked_frame : usual_frame, FramePace::Clock::now()));
     if (display_.busy()) {
         c.ui.next_frame_in = 0;
     } else if (begun_) {
@@ -205,7 +206,7 @@ void Viewport::draw_picture(PanelContext& c, const ImageRect& image) {
     const bool fits = image.width <= region.width && image.height <= region.height;
     const bool outlined = c.ui.settings.overlays && c.scene().nodes.contains(c.ui.selected) && fits;
     const GLuint picture = outlined ? outlined_picture(c, image) : display_.texture();
-    if (!outlined) set_filter(picture, c.ui.zoom.scale >= 1 && shown_frame_->divider == 1 ? GL_NEAREST : GL_LINEAR);
+    if (picture == display_.texture()) set_filter(picture, c.ui.zoom.scale >= 1 && shown_frame_->divider == 1 ? GL_NEAREST : GL_LINEAR);
     // It is opaque: blending it would only cost time.
     draw.AddCallback([](const ImDrawList*, const ImDrawCmd*) { glDisable(GL_BLEND); }, nullptr);
     // What is in the window of it alone: far beyond, coordinates lose their precision.
@@ -252,8 +253,8 @@ void Viewport::obey(PanelContext& c, const NavigationResult& wish, const Project
     }
 }
 
-ImageRect Viewport::draw(PanelContext& c) {
-    take_frame(c);
+ImageRect Viewport::draw(PanelContext& c, const FramePace& pace) {
+    take_frame(c, pace);
     const ImageRect image = place_picture(c);
     ImGui::SetCursorPos({0, 0});
     ImGui::InvisibleButton("picture", ImGui::GetWindowSize(),
@@ -266,7 +267,7 @@ ImageRect Viewport::draw(PanelContext& c) {
     }
     draw_picture(c, image);
     follow_looked_through(c);
-    compare_.draw(c, image, visible_part(image), look_);
+    compare_.draw(c, image, visible_part(image), look_, pace);
     const View view = c.scene().view;
     const Projection projection(view, double(image.width) / image.height);
     const ImageRect seen = visible_part(image);

@@ -5,6 +5,7 @@
 #include "render/light_groups.h"
 #include "ui/compare_view.h"
 #include "ui/display_pass.h"
+#include "ui/frame_pace.h"
 #include "ui/handles.h"
 #include "ui/navigation.h"
 #include "ui/outline_pass.h"
@@ -19,8 +20,8 @@ public:
     Result<void> load() { return outline_.load(); }
     Result<void> set_display_shader(const DisplayShader& shader);
 
-    // Fills the current ImGui window. Returns where the picture lies.
-    ImageRect draw(PanelContext& c);
+    // Fills the current ImGui window. Returns where the picture lies. A new picture is worked at for as long as `pace` leaves time.
+    ImageRect draw(PanelContext& c, const FramePace& pace);
     // The frame whose picture is on the screen; null before the first.
     const FramePtr& shown() const { return shown_frame_; }
     // The gains of its light groups that it is shown with; empty where there are none.
@@ -29,9 +30,9 @@ public:
     bool shows(const PictureMix& mix) const { return shown_frame_ && !begun_ && look_.mix == mix; }
 
 private:
-    void take_frame(PanelContext& c);
-    void upload_frame(const Frame& frame, const PictureView& view, const Gains& gains, bool background_as_it_is);
-    void upload_denoised(const DenoisedPicture& denoised, const Gains& gains);
+    void take_frame(PanelContext& c, const FramePace& pace);
+    void upload_frame(const FramePtr& shown, const PictureView& view, const Gains& gains, bool background_as_it_is);
+    void upload_denoised(const DenoisedPtr& denoised, const Gains& gains);
     void draw_picture(PanelContext& c, const ImageRect& image);
     GLuint outlined_picture(const PanelContext& c, const ImageRect& image);
     void draw_caption(const ImageRect& image) const;

@@ -121,9 +121,9 @@ void Window::begin_frame() {
 
 void Window::end_frame() {
     ImGui::Render();
-    int width = 0, height = 0;
-    glfwGetFramebufferSize(window_, &width, &height);
-    glViewport(0, 0, width, height);
+    // As big as it was when the frame began: to ask again would be to wait for the display's server again.
+    const ImDrawData& drawn = *ImGui::GetDrawData();
+    glViewport(0, 0, GLsizei(drawn.DisplaySize.x * drawn.FramebufferScale.x), GLsizei(drawn.DisplaySize.y * drawn.FramebufferScale.y));
     glDisable(GL_SCISSOR_TEST);
     glClearColor(0.11f, 0.11f, 0.11f, 1);
     glClear(GL_COLOR_BUFFER_BIT);

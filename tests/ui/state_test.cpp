@@ -1,13 +1,16 @@
 // Shortcuts, gestures, toasts, statistics: the window's bookkeeping.
 #include "ui/automation.h"
 #include "ui/background_job.h"
+#include "ui/frame_pace.h"
 #include "ui/frame_stats.h"
 #include "ui/gestures.h"
 #include "ui/shortcuts.h"
 #include "ui/toasts.h"
 
 #include <algorithm>
+#include <fstream>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 namespace blush {
 namespace {
@@ -96,6 +99,45 @@ TEST(FrameStats, PercentilesByNearestRank) {
     EXPECT_EQ(percentile(values, 1), 100);
     EXPECT_EQ(percentile({3}, 0.5), 3);
     EXPECT_EQ(percentile({}, 0.5), 0);
+}
+
+TEST(FramePace, ThePictureGetsWhatTheRestOfAFrameLeaves) {
+    FramePace pace;
+    const FramePace::TimePoint start{};
+    pace.begin(start);
+    EXPECT_NEAR(pace.left(20, start + 3ms), 17, 1e-9) << "nothing is known of the rest yet";
+    pace.begin_picture(start + 3ms);
+    pace.end_picture(start + 5ms);
+    const FrameTimes times = pace.end(start + 17ms);
+    EXPECT_NEAR(times.before_picture, 3, 1e-9);
+    EXPECT_NEAR(times.picture, 2, 1e-9);
+    EXPECT_NEAR(times.after_picture, 12, 1e-9);
+    pace.begin(start + 100ms);
+    EXPECT_NEAR(pace.left(20, start + 101ms), 7, 1e-9);
+    EXPECT_GT(pace.left(20, start + 130ms), 0) << "however late a frame is, its picture goes on";
+    pace.begin_picture(start + 101ms);
+    pace.end_picture(start + 102ms);
+    pace.end(start + 103ms);
+    pace.begin(start + 200ms);
+    const double later = pace.left(20, start + 200ms);
+    EXPECT_GT(later, 8) << "one slow frame is forgotten";
+    EXPECT_LT(later, 19) << "but not at once";
+}
+
+TEST(FrameStats, SaysWhereTheLongestFrameWentAndHowManyWereLate) {
+    FrameStats stats;
+    stats.add_frame({5, 6, 7});
+    stats.add_frame({10, 20, 9});
+    stats.add_frame({1, 30, 3});
+    const std::filesystem::path file = std::filesystem::temp_directory_path() / "blush_frame_stats.json";
+    ASSERT_TRUE(stats.write(file));
+    std::ifstream in(file);
+    const auto json = nlohmann::json::parse(in);
+    std::filesystem::remove(file);
+    EXPECT_EQ(json["frames"], 3);
+    EXPECT_EQ(json["late"], 2);
+    EXPECT_EQ(json["max_ms"], 39.0);
+    EXPECT_EQ(json["longest"]["picture_ms"], 20.0);
 }
 
 TEST(FrameStats, AnotherLookIsCountedOnceItIsShown) {

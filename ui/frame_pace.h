@@ -1,0 +1,36 @@
+// Shares out the time of one of the window's frames, so that drawing a picture, which can wait, does not make the frame late.
+#pragma once
+
+#include "ui/frame_stats.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace blush {
+
+class FramePace {
+public:
+    using Clock = std::chrono::steady_clock;
+    using TimePoint = Clock::time_point;
+
+    void begin(TimePoint now) { begin_ = picture_begun_ = picture_done_ = now; }
+    void begin_picture(TimePoint now) { picture_begun_ = picture_done_ = now; }
+    // Milliseconds from now on that the picture may take of a frame of `whole`, if what comes after it takes as long as lately; never none.
+    double left(double whole, TimePoint now) const { return std::max(least, whole - since(begin_, now) - after_picture_); }
+    void end_picture(TimePoint now) { picture_done_ = now; }
+    FrameTimes end(TimePoint now) {
+        const FrameTimes times{since(begin_, picture_begun_), since(picture_begun_, picture_done_), since(picture_done_, now)};
+        after_picture_ = std::max(times.after_picture, forgetting * after_picture_);
+        return times;
+    }
+
+private:
+    static constexpr double least = 2;        // milliseconds: a picture is finished some time
+    static constexpr double forgetting = 0.9; // a frame
+    static double since(TimePoint from, TimePoint to) { return std::chrono::duration<double, std::milli>(to - from).count(); }
+
+    TimePoint begin_{}, picture_begun_{}, picture_done_{};
+    double after_picture_ = 0;
+};
+
+} // namespace blush
