@@ -2,12 +2,41 @@
 
 #include "ui/edit_together.h"
 #include "ui/light_groups.h"
+#include "ui/light_rows.h"
 #include "ui/light_view.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace blush {
 namespace {
+
+bool wears(const Scene& scene, Id<Node> id, Id<Material> material) {
+    const Mesh* mesh = scene.meshes.find(scene.nodes.find(id)->mesh);
+    return mesh && std::ranges::count(mesh->parts, material, &MeshPart::material) > 0;
+}
+
+// Lights, surfaces that glow, or the environment.
+std::vector<LightRow> selected_rows(PanelContext& c) {
+    const std::vector<Id<Node>> nodes = c.ui.selection(c.scene());
+    const std::vector<Id<Light>> lights = lights_of(c.scene(), nodes);
+    const auto selected = [&](const LightRow& row) {
+        if (row.light) return std::ranges::count(lights, row.light) > 0;
+        if (row.environment) return c.ui.environment_chosen();
+        return std::ranges::any_of(nodes, [&](Id<Node> id) { return wears(c.scene(), id, row.material); });
+    };
+    std::vector<LightRow> rows;
+    for (const LightRows& group : light_rows(c.scene())) std::ranges::copy_if(group.rows, std::back_inserter(rows), selected);
+    if (rows.empty()) c.ui.toasts.note("Nothing that shines is selected");
+    return rows;
+}
+
+template <class Switch> void switch_rows(PanelContext& c, const std::vector<LightRow>& rows, const std::string& what, const Switch& switched) {
+    std::vector<Edit> edits;
+    for (const LightRow& row : rows) edits.push_back(switched(row));
+    const std::string which = rows.size() == 1 ? rows[0].name : std::to_string(rows.size()) + " lights";
+    if (!edits.empty()) c.apply(edits, what + " " + which);
+}
 
 std::vector<Id<Light>> selected_lights(PanelContext& c) {
     std::vector<Id<Light>> lights = lights_of(c.scene(), c.ui.selection(c.scene()));
@@ -23,17 +52,15 @@ const Light* light_of(PanelContext& c, Id<Node> id) {
 } // namespace
 
 void toggle_mute(PanelContext& c) {
-    const auto lights = selected_lights(c);
-    const bool some_on = std::ranges::any_of(lights, [&](Id<Light> id) { return c.scene().lights.find(id)->enabled; });
-    c.apply(change_lights(c.scene(), lights, [&](Light& light) { light.enabled = !some_on; }),
-            label_for(some_on ? "Mute" : "Unmute", c.scene(), lights));
+    const auto rows = selected_rows(c);
+    const bool some_on = std::ranges::any_of(rows, &LightRow::on);
+    switch_rows(c, rows, some_on ? "Mute" : "Unmute", [&](const LightRow& row) { return with_switches(c.scene(), row, !some_on, row.solo); });
 }
 
 void toggle_solo(PanelContext& c) {
-    const auto lights = selected_lights(c);
-    const bool all_solo = std::ranges::all_of(lights, [&](Id<Light> id) { return c.scene().lights.find(id)->solo; });
-    c.apply(change_lights(c.scene(), lights, [&](Light& light) { light.solo = !all_solo; }),
-            label_for(all_solo ? "End solo of" : "Solo", c.scene(), lights));
+    const auto rows = selected_rows(c);
+    const bool all_solo = std::ranges::all_of(rows, &LightRow::solo);
+    switch_rows(c, rows, all_solo ? "End solo of" : "Solo", [&](const LightRow& row) { return with_switches(c.scene(), row, row.on, !all_solo); });
 }
 
 void group_lights(PanelContext& c) {

@@ -23,9 +23,9 @@ bool draw_environment_dial(PanelContext& c, ImDrawList& draw, const Projection& 
     const float em = ImGui::GetFontSize(), radius = em * 1.5f, line = std::max(1.f, em / 12);
     const ImVec2 centre{seen.x + em * 2.4f, seen.y + seen.height - em * 2.4f}, mouse = ImGui::GetIO().MousePos;
     const bool under = hovered && std::hypot(mouse.x - centre.x, mouse.y - centre.y) < radius * 1.2f;
-    const bool chosen = c.ui.tab == InspectorTab::environment && !c.ui.selected;
-    const bool shines = e.lights_scene && !any_solo(c.scene());
-    const ImU32 color = hue_of(e.color, shines ? 255 : 110);
+    const bool chosen = c.ui.environment_chosen();
+    const bool shining = shines(e, any_solo(c.scene()));
+    const ImU32 color = hue_of(e.color, shining ? 255 : 110);
     const auto at = [&](const Vec3d& direction, float stretch = 1) {
         const ScreenPoint p = dial_point(direction, projection.forward());
         return ImVec2{centre.x + p.x * radius * stretch, centre.y + p.y * radius * stretch};

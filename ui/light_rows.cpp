@@ -13,8 +13,6 @@
 namespace blush {
 namespace {
 
-bool glows(const Material& m) { return m.emissive != Vec3{0, 0, 0} && !m.unlit; }
-
 std::string name_of_light(const Node& node, const Light& light) {
     return !node.name.empty() ? node.name : !light.name.empty() ? light.name : kind_name(light.kind);
 }
@@ -49,7 +47,7 @@ public:
     void materials(Id<Node> id, const Mesh& mesh) {
         for (const MeshPart& part : mesh.parts) {
             const Material* m = scene_.materials.find(part.material);
-            if (!m || !glows(*m) || !seen_.insert(part.material).second) continue;
+            if (!m || !has_glow(*m) || !seen_.insert(part.material).second) continue;
             glowing_.push_back({id,
                                 {},
                                 part.material,
@@ -58,9 +56,9 @@ public:
                                 "Surface",
                                 m->emissive_strength,
                                 "×",
-                                m->emissive_strength > 0,
-                                false,
-                                m->emissive_strength > 0 && !some_solo_});
+                                m->emits,
+                                m->solo,
+                                shines(*m, some_solo_)});
         }
     }
     std::vector<LightRows> finish() {
@@ -77,8 +75,8 @@ public:
                                         e.intensity,
                                         e.kind == Environment::Kind::constant ? "nits" : "×",
                                         e.lights_scene,
-                                        false,
-                                        e.lights_scene && !some_solo_});
+                                        e.solo,
+                                        shines(e, some_solo_)});
         std::vector<LightRows> all;
         for (auto& [group, rows] : groups_)
             if (!group.empty()) all.push_back({group, std::move(rows)});
@@ -105,6 +103,25 @@ std::vector<LightRows> light_rows(const Scene& scene) {
         if (const Mesh* mesh = scene.meshes.find(node.mesh); mesh && visible) collector.materials(id, *mesh);
     }
     return collector.finish();
+}
+
+Edit with_switches(const Scene& scene, const LightRow& row, bool on, bool solo) {
+    if (row.light) {
+        Light light = *scene.lights.find(row.light);
+        light.enabled = on;
+        light.solo = solo;
+        return SetLight{row.light, std::move(light)};
+    }
+    if (row.material) {
+        Material material = *scene.materials.find(row.material);
+        material.emits = on;
+        material.solo = solo;
+        return SetMaterial{row.material, std::move(material)};
+    }
+    Environment e = scene.environment;
+    e.lights_scene = on;
+    e.solo = solo;
+    return SetEnvironment{std::move(e)};
 }
 
 std::optional<RowShare> share_of(const LightRow& row, const LightGroups& groups, std::span<const GroupReport> reports) {

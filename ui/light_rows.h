@@ -30,6 +30,9 @@ struct LightRows {
 // In the order of the nodes, then materials, then the environment; groups by name.
 std::vector<LightRows> light_rows(const Scene& scene);
 
+// Mutes or unmutes what a row stands for, and begins or ends its solo.
+Edit with_switches(const Scene& scene, const LightRow& row, bool on, bool solo);
+
 // What a row's light gives to a picture that keeps groups of lights apart, as far as its group tells.
 struct RowShare {
     double energy = 0, noise = 0; // of the image's luminance and of the variance of its noise, 0 .. 1

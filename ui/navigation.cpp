@@ -38,7 +38,7 @@ void Navigation::press() {
     else if (ImGui::IsMouseClicked(ImGuiMouseButton_Left) && io.KeyCtrl)
         start(0, io.KeyShift ? Mode::turn_surroundings : Mode::shift, !io.KeyShift);
     else if (ImGui::IsMouseClicked(ImGuiMouseButton_Left))
-        start(0, io.KeyShift ? Mode::pan : Mode::orbit, !io.KeyAlt);
+        start(0, io.KeyShift ? Mode::pan : Mode::orbit, io.KeyShift || !io.KeyAlt);
     else if (ImGui::IsMouseClicked(ImGuiMouseButton_Right))
         start(1, io.KeyAlt ? Mode::dolly : Mode::look, !io.KeyAlt);
     else if (ImGui::IsMouseClicked(ImGuiMouseButton_Middle))
@@ -83,7 +83,7 @@ void Navigation::release(NavigationResult& result) {
         else if (ImGui::GetIO().KeyCtrl)
             result.focus = last_;
         else if (ImGui::GetIO().KeyShift)
-            result.toggle = last_;
+            (ImGui::GetIO().KeyAlt ? result.toggle_shadow : result.toggle) = last_;
         else
             result.select = last_;
     }

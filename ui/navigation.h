@@ -11,7 +11,7 @@ namespace blush {
 // What the user asked of the viewport in this frame.
 struct NavigationResult {
     std::optional<View> view;                          // moved there
-    std::optional<ScreenPoint> select, toggle, focus, inspect; // clicked there: plain, with Shift, with Ctrl, with the right button
+    std::optional<ScreenPoint> select, toggle, toggle_shadow, focus, inspect; // clicked there: plain, with Shift, Alt+Shift, Ctrl, the right button
     double turned = 0;                                 // the surroundings were dragged to the right by this share of the image's height
     bool flying = false;                               // moves by itself while a key is held
     float brighter = 0;                                // stops of exposure

@@ -1,5 +1,6 @@
 #include "ui/selected_lights.h"
 
+#include "render/light_links.h"
 #include "ui/edit_together.h"
 
 #include <algorithm>
@@ -18,6 +19,20 @@ bool set_light(PanelContext& c, Id<Light> id, const Light& after, Gesture gestur
         edits.push_back(std::move(edit));
     lights.push_back(id);
     return c.apply(edits, label_for("Change", c.scene(), lights), gesture);
+}
+
+bool toggle_link(PanelContext& c, Id<Node> object, ObjectSet Light::*set) {
+    const Node *node = c.scene().nodes.find(c.ui.selected), *other = c.scene().nodes.find(object);
+    const Light* record = node ? c.scene().lights.find(node->light) : nullptr;
+    if (!record || !other || other->light) return false;
+    const std::string name = other->name.empty() ? "The object" : other->name, of = node->name.empty() ? "the light" : node->name;
+    Light light = *record;
+    toggle(light.*set, c.scene(), object);
+    if (!set_light(c, node->light, light, no_gesture)) return true;
+    const bool in = contains(light.*set, c.scene(), object);
+    if (set == &Light::lit_objects) c.ui.toasts.note(name + (in ? " is lit by " : " is no longer lit by ") + of);
+    else c.ui.toasts.note(name + (in ? " casts shadows of " : " casts no shadows of ") + of);
+    return true;
 }
 
 std::string about_selected_lights(const PanelContext& c) {

@@ -93,6 +93,7 @@ constexpr MouseHint hints[] = {
     {"Move, aim, resize", "Drag the handles of what is selected"},
     {"Go back to a snapshot", "Click its card; right-click for more"},
     {"Link light and object", "Shift+click the object, light selected"},
+    {"Link shadow and object", "Alt+Shift+click the object"},
     {"Reset a value", "Double-click"},
     {"Type a value", "Ctrl+click"},
     {"Change a value finely", "Alt+drag"},

@@ -159,6 +159,8 @@ struct UiState {
     // All from the one selected to this one, in the order in which they are listed. Where the one selected is not listed, this one alone.
     void select_range(std::span<const Id<Node>> listed, Id<Node> to);
     bool is_selected(Id<Node> node) const;
+    // It is the environment that is looked at.
+    bool environment_chosen() const { return tab == InspectorTab::environment && !selected; }
     // All that is selected and still there; the one selected first.
     std::vector<Id<Node>> selection(const Scene& scene) const;
 };

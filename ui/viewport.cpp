@@ -1,6 +1,5 @@
 #include "ui/viewport.h"
 
-#include "render/light_links.h"
 #include "render/light_mix.h"
 #include "scene/edit_tree.h"
 #include "ui/environment_dial.h"
@@ -11,6 +10,7 @@
 #include "ui/orbit_camera.h"
 #include "ui/picking.h"
 #include "ui/pixel_grid.h"
+#include "ui/selected_lights.h"
 #include "ui/theme.h"
 #include "ui/view_tools.h"
 #include "ui/viewport_marks.h"
@@ -77,18 +77,6 @@ void expose(PanelContext& c, float stops, Gesture gesture) {
     ViewSettings v = c.project().view;
     v.exposure_ev = std::clamp(v.exposure_ev + stops, -20.f, 20.f);
     c.apply(SetView{v}, gesture);
-}
-
-// With a light selected, takes an object out of what it lights, or in again. False: that is not what the click meant.
-bool toggle_link(PanelContext& c, Id<Node> object) {
-    const Node *node = c.scene().nodes.find(c.ui.selected), *other = c.scene().nodes.find(object);
-    const Light* record = node ? c.scene().lights.find(node->light) : nullptr;
-    if (!record || !other || other->light) return false;
-    Light light = *record;
-    toggle(light.lit_objects, c.scene(), object);
-    c.ui.toasts.note(contains(light.lit_objects, c.scene(), object) ? "Lit by the selected light" : "No longer lit by the selected light");
-    c.apply(SetLight{node->light, light});
-    return true;
 }
 
 // The light whose glyph is there, else what the picture shows.
@@ -249,7 +237,12 @@ void Viewport::obey(PanelContext& c, const NavigationResult& wish, const Project
         c.ui.select(picked.node, picked.material);
     }
     if (wish.toggle) {
-        if (const Picked picked = picked_at(c, projection, image, *wish.toggle); picked.node && !toggle_link(c, picked.node)) c.ui.toggle(picked.node);
+        const Picked picked = picked_at(c, projection, image, *wish.toggle);
+        if (picked.node && !toggle_link(c, picked.node, &Light::lit_objects)) c.ui.toggle(picked.node);
+    }
+    if (wish.toggle_shadow) {
+        const Picked picked = picked_at(c, projection, image, *wish.toggle_shadow);
+        if (picked.node && !toggle_link(c, picked.node, &Light::shadow_casters)) c.ui.toasts.note("Select the light whose shadow it is first");
     }
 }
 

@@ -257,6 +257,21 @@ void Fields::info(const char* label, const std::string& text, const char* tip) {
     tip_for_last_item(ui_, tip);
 }
 
+bool Fields::removable(const std::string& name) {
+    ImGui::PushID(name.c_str());
+    const float right = ImGui::GetWindowContentRegionMax().x;
+    ImGui::SetCursorPosX(label_width() + ImGui::GetStyle().FramePadding.x);
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(name.c_str());
+    ImGui::SameLine(right - ImGui::GetFrameHeight());
+    const bool pressed = ImGui::Button("×", {ImGui::GetFrameHeight(), 0});
+    ui_.probe.record_last_item(std::string(scope_) + "/Remove " + name);
+    tip_for_last_item(ui_, "Take it away");
+    ImGui::PopID();
+    changed_ |= pressed;
+    return pressed;
+}
+
 bool Fields::button(const char* label, const char* tip) {
     ImGui::SetCursorPosX(label_width());
     const bool pressed = ImGui::Button(label, {-FLT_MIN, 0});

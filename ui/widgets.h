@@ -44,6 +44,8 @@ public:
     // Changed when the user is done typing.
     bool text(const char* label, std::string& value, const char* tip);
     void info(const char* label, const std::string& text, const char* tip = "");
+    // A name in the field's column, with a button that takes it away; true when that is pressed.
+    bool removable(const std::string& name);
     // A button in the field's column.
     bool button(const char* label, const char* tip = "");
 

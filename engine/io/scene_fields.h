@@ -40,6 +40,8 @@ template <Is<Material> T, class V> void visit_fields(T& r, V&& visit) {
     visit("roughness", r.roughness);
     visit("emissive", r.emissive);
     visit("emissive_strength", r.emissive_strength);
+    visit("emits", r.emits);
+    visit("solo", r.solo);
     visit("normal_scale", r.normal_scale);
     visit("alpha", r.alpha);
     visit("alpha_cutoff", r.alpha_cutoff);
@@ -147,6 +149,7 @@ template <Is<Environment> T, class V> void visit_fields(T& r, V&& visit) {
     visit("sky", r.sky);
     visit("visible_to_camera", r.visible_to_camera);
     visit("lights_scene", r.lights_scene);
+    visit("solo", r.solo);
     visit("group", r.group);
 }
 

@@ -71,7 +71,8 @@ void diff_environment(const Environment& a, const Environment& b, Changes& chang
     const bool other_sky = b.kind == Environment::Kind::sky && a.sky != b.sky;
     changes.environment_image = a.kind != b.kind || !same_payload(a.image, b.image) || other_sky;
     changes.environment_parameters = a.color != b.color || a.intensity != b.intensity || a.rotation_degrees != b.rotation_degrees ||
-                                     a.visible_to_camera != b.visible_to_camera || a.lights_scene != b.lights_scene;
+                                     a.visible_to_camera != b.visible_to_camera || a.lights_scene != b.lights_scene ||
+                                     a.solo != b.solo;
 }
 
 // What groups of lights may go by.

@@ -73,6 +73,8 @@ struct Material {
     float metallic = 1, roughness = 1;
     Vec3 emissive{0, 0, 0};          // emissiveFactor
     float emissive_strength = 1;     // KHR_materials_emissive_strength; emissive * strength is in nits
+    bool emits = true;               // false: its glow is muted
+    bool solo = false;               // its glow is, as a light may be
     float normal_scale = 1;
     Alpha alpha = Alpha::opaque;
     float alpha_cutoff = 0.5f;
@@ -212,6 +214,7 @@ struct Environment {
     Sky sky;
     bool visible_to_camera = true;
     bool lights_scene = true;   // false: a backdrop, seen by the camera alone
+    bool solo = false;          // as a light's
     std::string group;          // of the light mix, where groups are made by hand
     bool operator==(const Environment&) const = default;
 };

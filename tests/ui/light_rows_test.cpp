@@ -76,6 +76,26 @@ TEST(LightRows, SayWhatShines) {
     EXPECT_FALSE(light_rows(s.scene)[0].rows[0].shines) << "mute wins";
 }
 
+TEST(LightRows, AreAllMutedAndMadeSoloAlike) {
+    for (const char* name : {"Key", "Neon", "Environment"}) {
+        Studio s;
+        const auto row_called = [&](const std::string& wanted) {
+            for (const LightRows& group : light_rows(s.scene))
+                for (const LightRow& row : group.rows)
+                    if (row.name == wanted) return row;
+            return LightRow();
+        };
+        s.apply({with_switches(s.scene, row_called(name), true, true)});
+        for (const char* other : {"Key", "Fill", "Neon", "Environment"})
+            EXPECT_EQ(row_called(other).shines, std::string(other) == name) << name << " solo, " << other;
+        s.apply({with_switches(s.scene, row_called(name), false, true)});
+        EXPECT_FALSE(row_called(name).shines) << name << ": mute wins";
+        EXPECT_FALSE(row_called("Fill").shines);
+        s.apply({with_switches(s.scene, row_called(name), true, false)});
+        EXPECT_TRUE(row_called("Fill").shines);
+    }
+}
+
 TEST(LightRows, AHiddenLightIsListedAsDark) {
     Studio s;
     Node key = *s.scene.nodes.find(s.key);

@@ -1,9 +1,13 @@
 // Every panel, for everything there is to select: drawing alone edits nothing, whatever the values are.
 #include "imgui_test.h"
+#include "render/light_links.h"
 #include "support/sample_project.h"
 #include "ui/panels/panels.h"
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <limits>
 
 namespace blush {
@@ -102,6 +106,42 @@ TEST_F(Panels, DrawingEditsNothing) {
         EXPECT_TRUE(ui.commands.empty());
         EXPECT_TRUE(ui.files.empty());
     }
+}
+
+// More sets of shadow casters than rays can carry.
+TEST_F(Panels, SayWhoseShadowsCannotBeLinked) {
+    Project project;
+    std::vector<Id<Node>> objects, lamps;
+    for (int i = 0; i <= most_caster_sets; ++i) {
+        Node object;
+        object.mesh = project.scene.meshes.add(Mesh());
+        objects.push_back(project.scene.nodes.add(object));
+    }
+    const auto add_lamp = [&](Id<Node> casts_no_shadow) {
+        Light light;
+        light.shadow_casters.nodes = {casts_no_shadow};
+        Node lamp;
+        lamp.light = project.scene.lights.add(light);
+        lamps.push_back(project.scene.nodes.add(lamp));
+    };
+    const auto widgets_with = [&](Id<Node> selected) {
+        const auto file = std::filesystem::path(testing::TempDir()) / "links.json";
+        Document document(project);
+        ui.probe = Probe(file);
+        ui.select(selected);
+        in_window([&] {
+            PanelContext c{document, ui, *color, frame, SessionStatus(), 640, 480};
+            draw_light_links_panel(c, selected);
+        });
+        ui.probe.end_frame({});
+        std::ifstream in(file);
+        return std::string(std::istreambuf_iterator<char>(in), {});
+    };
+    for (int i = 0; i < most_caster_sets; ++i) add_lamp(objects[size_t(i)]);
+    EXPECT_EQ(widgets_with(lamps.back()).find("eft out\""), std::string::npos) << "there is room for so many";
+    add_lamp(objects.back());
+    EXPECT_NE(widgets_with(lamps.back()).find("Linking/Left out\""), std::string::npos);
+    EXPECT_NE(widgets_with(lamps.front()).find("Linking/Others left out\""), std::string::npos);
 }
 
 TEST_F(Panels, EveryEnvironmentKindAndLightKind) {

@@ -11,6 +11,7 @@ export BLUSH_UI_PROBE=$probe BLUSH_UI_STATS=$work/stats.json BLUSH_UI_SIZE=900x5
 unset OCIO WAYLAND_DISPLAY
 size=320x240
 spp=16
+rest="890 550" # where the mouse is out of the picture's way: the end of the status bar
 xvfb= editor=
 
 finish() {
@@ -111,6 +112,10 @@ click() {
     until_true 30 has_widget "$1" || fail "there is no $1 to click"
     xdotool mousemove $(middle "$1") && sleep 0.3 && xdotool click 1 && sleep 0.3
 }
+# click_choice WIDGET NAME: opens a list of choices and takes one.
+click_choice() { click "$1" && click "$1/$2"; }
+# click_menu MENU COMMAND
+click_menu() { click "Menu bar/$1" && click "Menu/$2"; }
 # drag_from X Y X Y
 drag_from() {
     xdotool mousemove "$1" "$2" && sleep 0.3 && xdotool mousedown 1 && sleep 0.3
@@ -134,13 +139,49 @@ image_size() { sed -n "1s/.*\"image\":{[^}]*\"$1\":\([0-9.]*\).*/\1/p" "$probe";
 image_middle() { echo "$(number 1 x) $(image_size width) $(number 1 y) $(image_size height)" | awk '{ printf "%d %d", $1 + $2 / 2, $3 + $4 / 2 }'; }
 # The picture on the screen, the mouse out of its way.
 take_picture() {
-    xdotool mousemove 890 550
+    xdotool mousemove $rest
     sleep 0.7
     local x y w h
     x=$(number 1 x) y=$(number 1 y) w=$(image_size width) h=$(image_size height)
     import -window root -crop "${w%.*}x${h%.*}+${x%.*}+${y%.*}" +repage "$1" || fail "no screenshot"
 }
+# at U V: the place in per cent of the picture's width and height, on the screen.
+at() { echo "$(number 1 x) $(image_size width) $(number 1 y) $(image_size height) $1 $2" | awk '{ printf "%d %d", $1 + $2 * $5 / 100, $3 + $4 * $6 / 100 }'; }
+click_at() { xdotool mousemove $(at "$1" "$2") && sleep 0.3 && xdotool click 1 && sleep 0.3; }
+# drag_over U V U V
+drag_over() { drag_from $(at "$1" "$2") $(at "$3" "$4"); }
+press() { xdotool key "$@" && sleep 0.3; }
+# holding KEYS... -- COMMAND...
+holding() {
+    local key keys=()
+    while [ "$1" != -- ]; do keys+=("$1") && shift; done
+    shift
+    for key in "${keys[@]}"; do xdotool keydown "$key"; done
+    "$@"
+    for key in "${keys[@]}"; do xdotool keyup "$key"; done
+    sleep 0.3
+}
 # Pixels in which two pictures differ.
 differing() { compare -metric AE "$1" "$2" null: 2>&1 | awk '{ printf "%d", $1 }'; }
 expect_changed() { [ "$(differing "$1" "$2")" -gt 1000 ] || fail "$3 changes nothing"; }
 expect_same() { [ "$(differing "$1" "$2")" = 0 ] || fail "$3 does not restore the picture: $(differing "$1" "$2") pixels differ"; }
+# restores WHAT PICTURE STEPS: so many undos bring the picture back.
+restores() {
+    local i
+    for i in $(seq "$3"); do after_edit press ctrl+z; done
+    take_picture undone.png
+    expect_same "$2" undone.png "undoing $1"
+}
+# brightest PICTURE: where it is brightest, blurred so that one stray pixel is none, as x and y from its upper left corner.
+brightest() {
+    convert "$1" -colorspace Gray -blur 0x2 -depth 16 txt:- |
+        awk -F'[,:() ]+' 'NR > 1 && $3 + 0 > best { best = $3 + 0; x = $1; y = $2 } END { print x, y }'
+}
+# expect_brightest PICTURE U V: there, in per cent of its width and height.
+expect_brightest() {
+    local x y
+    read -r x y <<<"$(brightest "$1")"
+    echo "$x $y $(image_size width) $(image_size height) $2 $3" |
+        awk '{ dx = $1 / $3 - $5 / 100; dy = $2 / $4 - $6 / 100; exit !(dx * dx + dy * dy < 0.02 * 0.02) }' ||
+        fail "the brightest place of $1 is at $x $y of $(image_size width) x $(image_size height), not at $2 % $3 %"
+}

@@ -70,5 +70,57 @@ TEST(Shining, SoloAppliedIsSaidByEnabledAlone) {
     EXPECT_TRUE(with_solo_applied(applied) == applied);
 }
 
+// A lamp, a surface that glows and an environment.
+struct AllKinds : TwoLamps {
+    Id<Material> glowing;
+    AllKinds() {
+        Material glow;
+        glow.emissive = {1, 2, 3};
+        glowing = scene.materials.add(glow);
+        Node sign;
+        sign.mesh = scene.meshes.add({"Sign", {{nullptr, glowing}}});
+        scene.nodes.add(sign);
+        scene.environment.kind = Environment::Kind::constant;
+    }
+    void set_glow(bool emits, bool solo) {
+        Material glow = *scene.materials.find(glowing);
+        glow.emits = emits;
+        glow.solo = solo;
+        scene.materials.set(glowing, glow);
+    }
+    float glow_applied() const { return with_solo_applied(scene).materials.find(glowing)->emissive_strength; }
+    float environment_applied() const { return with_solo_applied(scene).environment.intensity; }
+};
+
+TEST(Shining, ASurfaceMayBeSoloAndMuted) {
+    AllKinds s;
+    s.set_glow(false, false);
+    EXPECT_EQ(s.glow_applied(), 0);
+    EXPECT_EQ(s.environment_applied(), 1) << "a muted surface silences nobody else";
+    EXPECT_TRUE(s.shine(s.key));
+    s.set_glow(true, true);
+    EXPECT_EQ(s.glow_applied(), 1);
+    EXPECT_EQ(s.environment_applied(), 0);
+    EXPECT_FALSE(s.shine(s.key));
+    s.set_glow(false, true);
+    EXPECT_EQ(s.glow_applied(), 0) << "mute wins over solo";
+    EXPECT_FALSE(s.shine(s.key));
+    EXPECT_TRUE(with_solo_applied(with_solo_applied(s.scene)) == with_solo_applied(s.scene));
+}
+
+TEST(Shining, TheEnvironmentMayBeSolo) {
+    AllKinds s;
+    s.scene.environment.solo = true;
+    EXPECT_EQ(s.environment_applied(), 1);
+    EXPECT_EQ(s.glow_applied(), 0);
+    EXPECT_FALSE(s.shine(s.key));
+    EXPECT_FALSE(any_solo(with_solo_applied(s.scene)));
+    s.scene.environment.lights_scene = false;
+    EXPECT_FALSE(shines(s.scene.environment, any_solo(s.scene))) << "mute wins over solo";
+    EXPECT_FALSE(s.shine(s.key));
+    s.scene.environment.kind = Environment::Kind::none;
+    EXPECT_TRUE(s.shine(s.key)) << "what is not there is not solo";
+}
+
 } // namespace
 } // namespace blush

@@ -19,8 +19,8 @@ void drag_light(Id<Node> node, const std::string& name) {
     ImGui::EndDragDropSource();
 }
 
-Id<Node> light_dropped_here() {
-    Id<Node> node;
+std::optional<Id<Node>> light_dropped_here() {
+    std::optional<Id<Node>> node;
     if (!ImGui::BeginDragDropTarget()) return node;
     if (const ImGuiPayload* payload = ImGui::AcceptDragDropPayload(payload_type)) node = *static_cast<const Id<Node>*>(payload->Data);
     ImGui::EndDragDropTarget();
@@ -28,10 +28,15 @@ Id<Node> light_dropped_here() {
 }
 
 void put_dropped_into_group(PanelContext& c, Id<Node> dropped, const std::string& group) {
+    const std::string what = group.empty() ? "Ungroup" : "Group";
+    if (!dropped) {
+        c.apply(put_into_group(c.scene(), {}, true, group), what + " environment");
+        return;
+    }
     std::vector<Id<Node>> nodes{dropped};
     if (c.ui.is_selected(dropped)) nodes = c.ui.selection(c.scene());
     const std::vector<Id<Light>> lights = lights_of(c.scene(), nodes);
-    c.apply(put_into_group(c.scene(), lights, false, group), label_for(group.empty() ? "Ungroup" : "Group", c.scene(), lights));
+    c.apply(put_into_group(c.scene(), lights, false, group), label_for(what, c.scene(), lights));
 }
 
 } // namespace blush

@@ -1,17 +1,17 @@
 // Linking: which objects the light lights, and which cast its shadows.
 #include "render/light_links.h"
-#include "ui/light_tools.h"
 #include "ui/panels/panels.h"
+#include "ui/selected_lights.h"
+#include "ui/theme.h"
 #include "ui/widgets.h"
 
 #include <algorithm>
 #include <fmt/format.h>
 #include <imgui.h>
+#include <set>
 
 namespace blush {
 namespace {
-
-constexpr const char* choices[] = {"Everything", "All but", "Only"};
 
 std::string name_of(const Scene& scene, Id<Node> id) {
     const Node* node = scene.nodes.find(id);
@@ -19,54 +19,63 @@ std::string name_of(const Scene& scene, Id<Node> id) {
     return node->name.empty() ? fmt::format("Node {}", id.value) : node->name;
 }
 
-int choice_of(const ObjectSet& set) { return !set.all_but ? 2 : set.nodes.empty() ? 0 : 1; }
-
-// One row for each object of the set, and a menu of those that could be.
-bool draw_objects(PanelContext& c, const std::string& scope, ObjectSet& set) {
-    bool changed = false;
-    for (size_t i = 0; i < set.nodes.size(); ++i) {
-        const std::string name = name_of(c.scene(), set.nodes[i]);
-        ImGui::PushID(int(i));
-        if (ImGui::SmallButton("x")) {
-            set.nodes.erase(set.nodes.begin() + std::ptrdiff_t(i));
-            changed = true;
-        }
-        c.ui.probe.record_last_item(scope + "/Remove " + name);
-        ImGui::SameLine();
-        ImGui::TextUnformatted(name.c_str());
-        ImGui::PopID();
-        if (changed) break;
+// What has triangles, or something with triangles below it, and is not in the set; names that several have tell their number.
+struct Candidates {
+    std::vector<Id<Node>> nodes;
+    std::vector<std::string> names;
+};
+Candidates candidates(const Scene& scene, const ObjectSet& set) {
+    std::set<Id<Node>> solid;
+    for (const auto& [id, node] : scene.nodes) {
+        if (!node.mesh) continue;
+        for (Id<Node> up = id; scene.nodes.contains(up) && solid.insert(up).second;) up = scene.nodes.find(up)->parent;
     }
-    ImGui::SetNextItemWidth(-FLT_MIN);
-    if (ImGui::BeginCombo("##add", "Add an object")) {
-        for (const auto& [id, node] : c.scene().nodes) {
-            if (!node.mesh || std::ranges::find(set.nodes, id) != set.nodes.end()) continue;
-            ImGui::PushID(int(id.value));
-            if (ImGui::Selectable(name_of(c.scene(), id).c_str())) {
-                set.nodes.push_back(id);
-                changed = true;
-            }
-            ImGui::PopID();
-        }
-        ImGui::EndCombo();
+    Candidates found;
+    for (const Id<Node> id : solid) {
+        if (std::ranges::count(set.nodes, id)) continue;
+        std::string name = name_of(scene, id);
+        if (std::ranges::count(found.names, name)) name += fmt::format(" ({})", id.value);
+        found.nodes.push_back(id);
+        found.names.push_back(std::move(name));
     }
-    c.ui.probe.record_last_item(scope + "/Add");
-    return changed;
+    return found;
 }
 
+// Everything, or all but some, or only some: those are the rows, each with a button that takes it away.
 bool draw_set(PanelContext& c, const char* label, ObjectSet& set, const char* tip) {
-    ImGui::PushID(label);
-    Fields f(c.ui, "Linking");
-    int choice = choice_of(set);
-    bool changed = f.choice(label, choice, choices, tip);
-    if (changed) {
-        set.all_but = choice != 2;
-        if (choice == 0) set.nodes.clear();
+    const std::string scope = std::string("Linking/") + label;
+    Fields f(c.ui, scope.c_str());
+    const char* const choices[] = {set.nodes.empty() ? "Everything" : "All but", "Only"};
+    int choice = set.all_but ? 0 : 1;
+    if (f.choice(label, choice, choices, tip)) set.all_but = choice == 0;
+    if (!set.all_but && set.nodes.empty()) f.info("", "nothing yet");
+    for (size_t i = 0; i < set.nodes.size(); ++i) {
+        if (!f.removable(name_of(c.scene(), set.nodes[i]))) continue;
+        set.nodes.erase(set.nodes.begin() + std::ptrdiff_t(i));
+        break;
     }
-    // Of everything, the first object that is added is the first that is left out.
-    changed |= draw_objects(c, std::string("Linking/") + label, set);
-    ImGui::PopID();
-    return changed;
+    const Candidates others = candidates(c.scene(), set);
+    std::vector<const char*> names;
+    for (const std::string& name : others.names) names.push_back(name.c_str());
+    int added = -1;
+    if (f.choice(set.all_but ? "Leave out" : "Add", added, names, "An object stands for all that hangs below it."))
+        set.nodes.push_back(others.nodes[size_t(added)]);
+    return f.changed();
+}
+
+// Where the shadows of this light are not what the panel says.
+void draw_limit(PanelContext& c, const Light& light) {
+    const CasterSets sets(c.scene());
+    if (!leaves_out(light.shadow_casters, c.scene()) || sets.left_out() == 0) return;
+    const bool left_out = sets.ray_mask(c.scene(), light) == CasterSets().ray_mask(c.scene(), light);
+    ImGui::PushStyleColor(ImGuiCol_Text, tone::warning);
+    ImGui::PushTextWrapPos(0);
+    ImGui::TextUnformatted(fmt::format("There are more than {} different sets of shadow casters. Everything casts the shadows of {}.",
+                                       most_caster_sets, left_out ? "this light" : fmt::format("{} other lights", sets.left_out()))
+                               .c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::PopStyleColor();
+    c.ui.probe.record_last_item(left_out ? "Linking/Left out" : "Linking/Others left out");
 }
 
 } // namespace
@@ -74,17 +83,17 @@ bool draw_set(PanelContext& c, const char* label, ObjectSet& set, const char* ti
 void draw_light_links_panel(PanelContext& c, Id<Node> id) {
     const Node* node = c.scene().nodes.find(id);
     const Light* record = node ? c.scene().lights.find(node->light) : nullptr;
-    if (!record || !section(c.ui, "Linking", false)) return;
+    if (!record) return;
+    const bool linked = leaves_out(record->lit_objects, c.scene()) || leaves_out(record->shadow_casters, c.scene());
+    if (!section(c.ui, "Linking", linked)) return;
     const Id<Light> light_id = node->light;
     Light light = *record;
-    bool changed = draw_set(c, "Lights", light.lit_objects,
-                            "What this light lights. An object stands for all that hangs below it. Shift+click on an object in the picture "
-                            "takes it out, or in again.");
-    changed |= draw_set(c, "Shadows of", light.shadow_casters, "What stands in the way of this light. The rest lets its light through.");
-    if (const int left_out = CasterSets(c.scene()).left_out(); left_out > 0)
-        quiet_text(fmt::format("There are more than {} different sets of shadow casters: everything casts the shadows of {} lights.",
-                               most_caster_sets, left_out));
-    if (changed) c.apply(SetLight{light_id, light});
+    bool changed = draw_set(c, "Lights", light.lit_objects, "What this light lights. Shift+click on an object in the picture takes it out, or in again.");
+    changed |= draw_set(c, "Shadows of", light.shadow_casters,
+                        "What stands in the way of this light; the rest lets its light through. Alt+Shift+click on an object in the picture "
+                        "takes it out, or in again.");
+    draw_limit(c, *record);
+    if (changed) set_light(c, light_id, light, no_gesture);
 }
 
 } // namespace blush

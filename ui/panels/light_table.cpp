@@ -51,27 +51,19 @@ bool letter_button(PanelContext& c, const char* letter, bool on, ImU32 lit, cons
     return pressed;
 }
 
-void set_environment_on(PanelContext& c, bool on) {
-    Environment e = c.scene().environment;
-    e.lights_scene = on;
-    c.apply(SetEnvironment{e});
+// Lights that are selected with it are switched with it.
+void set_switches(PanelContext& c, const LightRow& row, bool on, bool solo) {
+    const Edit edit = with_switches(c.scene(), row, on, solo);
+    if (const auto* light = std::get_if<SetLight>(&edit)) set_light(c, light->id, light->light, no_gesture);
+    else c.apply(edit);
 }
 
 void draw_switches(PanelContext& c, const LightRow& row, const std::string& scope) {
-    if (row.material) return;
-    if (letter_button(c, "M", !row.on, tone::failure, scope + "/Mute", "Mute: it gives no light. Mute wins over solo.")) {
-        if (row.environment) return set_environment_on(c, !row.on);
-        Light light = *c.scene().lights.find(row.light);
-        light.enabled = !light.enabled;
-        set_light(c, row.light, light, no_gesture);
-    }
-    if (row.environment) return;
+    if (letter_button(c, "M", !row.on, tone::failure, scope + "/Mute", "Mute: it gives no light. Mute wins over solo."))
+        set_switches(c, row, !row.on, row.solo);
     ImGui::SameLine(0, 0);
-    if (letter_button(c, "S", row.solo, tone::warning, scope + "/Solo", "Solo: while any light is solo, only those shine.")) {
-        Light light = *c.scene().lights.find(row.light);
-        light.solo = !light.solo;
-        set_light(c, row.light, light, no_gesture);
-    }
+    if (letter_button(c, "S", row.solo, tone::warning, scope + "/Solo", "Solo: while anything is solo, only that shines."))
+        set_switches(c, row, row.on, !row.solo);
 }
 
 void set_intensity(PanelContext& c, const LightRow& row, float intensity) {
@@ -118,7 +110,7 @@ void begin_renaming(LightTableView& view, Id<Node> node, const std::string& grou
     view.just_begun = true;
 }
 
-void draw_name(PanelContext& c, RowClicks& clicks, const LightRow& row, const std::string& scope) {
+void draw_name(PanelContext& c, RowClicks& clicks, const LightRow& row, const std::string& group, const std::string& scope) {
     LightTableView& view = c.ui.light_table;
     if (row.light && view.renaming == row.node) {
         if (!rename_field(view)) return;
@@ -129,7 +121,7 @@ void draw_name(PanelContext& c, RowClicks& clicks, const LightRow& row, const st
         return;
     }
     const float height = ImGui::GetFrameHeight();
-    const bool selected = row.environment ? c.ui.tab == InspectorTab::environment && !c.ui.selected
+    const bool selected = row.environment ? c.ui.environment_chosen()
                           : row.material  ? c.ui.selected_material == row.material
                                           : c.ui.is_selected(row.node);
     const bool clicked =
@@ -137,11 +129,12 @@ void draw_name(PanelContext& c, RowClicks& clicks, const LightRow& row, const st
     c.ui.probe.record_last_item(scope);
     if (row.light && ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
         begin_renaming(view, row.node, {}, row.name);
+    if (!row.material) {
+        drag_light(row.node, row.name);
+        if (const auto dropped = light_dropped_here()) put_dropped_into_group(c, *dropped, group);
+    }
     if (row.light) {
         clicks.row(row.node, clicked);
-        drag_light(row.node, row.name);
-        const Light& light = *c.scene().lights.find(row.light);
-        if (const Id<Node> dropped = light_dropped_here()) put_dropped_into_group(c, dropped, light.group);
     } else if (clicked) {
         c.ui.select(row.node, row.material);
         if (row.environment) c.ui.tab = InspectorTab::environment;
@@ -163,12 +156,12 @@ void draw_share(PanelContext& c, const std::optional<RowShare>& share, double Ro
     tip_for_last_item(c.ui, share && !share->alone ? of_its_group : how_to_get_shares);
 }
 
-void draw_row(PanelContext& c, RowClicks& clicks, const LightRow& row, std::span<const GroupReport> reports) {
+void draw_row(PanelContext& c, RowClicks& clicks, const LightRow& row, const std::string& group, std::span<const GroupReport> reports) {
     const std::string scope = "Light table/" + row.name;
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     ImGui::PushStyleColor(ImGuiCol_Text, row.shines ? tone::text : tone::dim_text);
-    draw_name(c, clicks, row, scope);
+    draw_name(c, clicks, row, group, scope);
     ImGui::TableNextColumn();
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted(row.type.c_str());
@@ -203,7 +196,7 @@ void draw_group(PanelContext& c, const std::string& group) {
     c.ui.probe.record_last_item("Light table/Group/" + group);
     if (!group.empty() && ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
         begin_renaming(view, {}, group, group);
-    if (const Id<Node> dropped = light_dropped_here()) put_dropped_into_group(c, dropped, group);
+    if (const auto dropped = light_dropped_here()) put_dropped_into_group(c, *dropped, group);
 }
 
 void draw_rows(PanelContext& c, const std::vector<LightRows>& all) {
@@ -228,7 +221,7 @@ void draw_rows(PanelContext& c, const std::vector<LightRows>& all) {
         if (grouped) draw_group(c, group.group);
         for (const LightRow& row : group.rows) {
             ImGui::PushID(++row_number);
-            draw_row(c, clicks, row, reports);
+            draw_row(c, clicks, row, group.group, reports);
             ImGui::PopID();
         }
         ImGui::PopID();
@@ -241,7 +234,7 @@ void draw_new_group(PanelContext& c) {
     const float width = ImGui::GetContentRegionAvail().x;
     if (ImGui::Button("New group of the selected, or drop a light here", {width, 0})) c.ui.commands.push_back(Command::group_lights);
     c.ui.probe.record_last_item("Light table/New group");
-    if (const Id<Node> dropped = light_dropped_here()) put_dropped_into_group(c, dropped, unused_group_name(c.scene()));
+    if (const auto dropped = light_dropped_here()) put_dropped_into_group(c, *dropped, unused_group_name(c.scene()));
 }
 
 } // namespace

@@ -41,6 +41,7 @@ void draw_surface(Fields& f, Material& m) {
 
 void draw_emission(Fields& f, Material& m) {
     f.color("Emission", m.emissive, {0, 0, 0}, "Colour of the light that the surface gives off. Every such triangle is a light.");
+    f.checkbox("Emits", m.emits, "Otherwise its light is muted, here and wherever else the material is worn.");
     f.number("Strength", m.emissive_strength,
              {.min = 0, .max = 1e12f, .reset = 1, .unit = "nits", .tip = "Luminance of the glow for an emission of 1."});
 }

@@ -21,6 +21,12 @@ void draw_recent(PanelContext& c) {
     ImGui::EndMenu();
 }
 
+bool begin_menu(PanelContext& c, const char* name) {
+    const ImVec2 at = ImGui::GetCursorScreenPos(), size = ImGui::CalcTextSize(name);
+    c.ui.probe.record(std::string("Menu bar/") + name, {at.x, at.y, size.x, ImGui::GetFrameHeight()});
+    return ImGui::BeginMenu(name);
+}
+
 void draw_file_menu(PanelContext& c) {
     item(c, Command::open);
     draw_recent(c);
@@ -64,8 +70,8 @@ void draw_lights_menu(PanelContext& c) {
     ImGui::Separator();
     const Node* node = c.scene().nodes.find(c.ui.selected);
     const bool light = node && c.scene().lights.contains(node->light);
-    item(c, Command::mute, light);
-    item(c, Command::solo, light);
+    item(c, Command::mute);
+    item(c, Command::solo);
     item(c, Command::group_lights, light);
     ImGui::Separator();
     item(c, Command::place_highlight, light, nullptr, c.ui.placing_by == PlacingBy::highlight);
@@ -115,23 +121,23 @@ void draw_view_menu(PanelContext& c) {
 } // namespace
 
 void draw_menu_bar(PanelContext& c) {
-    if (ImGui::BeginMenu("File")) {
+    if (begin_menu(c, "File")) {
         draw_file_menu(c);
         ImGui::EndMenu();
     }
-    if (ImGui::BeginMenu("Edit")) {
+    if (begin_menu(c, "Edit")) {
         draw_edit_menu(c);
         ImGui::EndMenu();
     }
-    if (ImGui::BeginMenu("Lights")) {
+    if (begin_menu(c, "Lights")) {
         draw_lights_menu(c);
         ImGui::EndMenu();
     }
-    if (ImGui::BeginMenu("View")) {
+    if (begin_menu(c, "View")) {
         draw_view_menu(c);
         ImGui::EndMenu();
     }
-    if (ImGui::BeginMenu("Help")) {
+    if (begin_menu(c, "Help")) {
         item(c, Command::shortcuts);
         ImGui::EndMenu();
     }
