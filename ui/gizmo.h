@@ -25,7 +25,7 @@ struct ImageRect {
     }
 };
 
-enum class Handle { none, move, move_x, move_y, move_z, aim, width, height, radius, outer_cone, inner_cone, sun_angle };
+enum class Handle { none, move, move_x, move_y, move_z, aim, width, height, radius, outer_cone, inner_cone, spread, sun_angle };
 
 // It changes a light's size or cone.
 constexpr bool is_size(Handle handle) { return handle >= Handle::width; }

@@ -23,6 +23,7 @@ ImU32 color_of(Handle handle) {
     case Handle::radius:
     case Handle::outer_cone:
     case Handle::inner_cone:
+    case Handle::spread:
     case Handle::sun_angle: return tone::light;
     default: return tone::accent;
     }
@@ -66,6 +67,7 @@ const char* name_of(Handle handle) {
     case Handle::radius: return "Radius";
     case Handle::outer_cone: return "Cone";
     case Handle::inner_cone: return "Full inside";
+    case Handle::spread: return "Spread";
     case Handle::sun_angle: return "Angle";
     }
     return "";
@@ -156,7 +158,8 @@ void Handles::drag(PanelContext& c, const Projection& projection, const ImageRec
     case Handle::radius:
     case Handle::outer_cone:
     case Handle::inner_cone:
-    case Handle::sun_angle: 
+    case Handle::spread:
+    case Handle::sun_angle:
         set_light(c, c.scene().nodes.find(c.ui.selected)->light, resized(*start_sight_, dragged_, projection, start_ray_, projection.ray(u, v)),
                   c.ui.gestures.current());
         break;

@@ -10,7 +10,7 @@ namespace blush {
 namespace {
 
 constexpr double pi_d = std::numbers::pi;
-constexpr float smallest_size = 1e-4f;
+constexpr float smallest_size = 1e-4f, smallest_spread = 0.002f;
 constexpr double dial_start = 1.6, dial_decade = 1.1, dial_finest = 0.05 * pi_d / 180; // ems, ems, radians
 
 // Right and down on the screen, where no axis handle usually lies.
@@ -37,7 +37,8 @@ double dragged_along_screen(const Projection& projection, const Vec3d& origin, c
     return a && b ? dot(*b - *a, screen_diagonal(projection)) : 0;
 }
 
-bool is_ball(Light::Kind kind) { return kind == Light::Kind::point || kind == Light::Kind::sphere; }
+// Its radius is dragged on the screen; a disk's lies in the disk.
+bool is_ball(Light::Kind kind) { return kind != Light::Kind::disk; }
 
 Vec3d cone_point(const LightSight& sight, const Projection& projection, double angle, double side) {
     const Vec3d axis = axis_of(sight);
@@ -68,6 +69,10 @@ Light with_cone(const LightSight& start, Handle handle, const Projection& projec
                b = cone_angle_under(to, apex, axis, projection, start.reach);
     if (!a || !b) return light;
     const auto turned = [&](float angle) { return std::clamp(angle + float(*b - *a), 0.f, float(pi_d / 2)); };
+    if (handle == Handle::spread) {
+        light.spread_radians = std::max(2 * turned(light.spread_radians / 2), smallest_spread);
+        return light;
+    }
     if (handle == Handle::outer_cone) {
         light.outer_cone_radians = std::max(turned(light.outer_cone_radians), 0.01f);
         light.inner_cone_radians = std::min(light.inner_cone_radians, light.outer_cone_radians);
@@ -108,15 +113,17 @@ std::vector<SizeHandle> size_handles(const LightSight& sight, const Projection& 
         const double scale = length(axis);
         return scale > 0 ? m.t + axis / scale * std::max(half * scale, 1.4 * sight.em) : m.t;
     };
+    const SizeHandle ball{Handle::radius, m.t + screen_diagonal(projection) * std::max(light.radius * length(m.x), 1.4 * sight.em)};
+    const SizeHandle spread{Handle::spread, cone_point(sight, projection, light.spread_radians / 2, 1)};
     switch (light.kind) {
-    case Light::Kind::rectangle: return {{Handle::width, along(m.x, light.width / 2.0)}, {Handle::height, along(m.y, light.height / 2.0)}};
-    case Light::Kind::disk: return {{Handle::radius, along(m.x, light.radius)}};
+    case Light::Kind::rectangle: return {{Handle::width, along(m.x, light.width / 2.0)}, {Handle::height, along(m.y, light.height / 2.0)}, spread};
+    case Light::Kind::disk: return {{Handle::radius, along(m.x, light.radius)}, spread};
     case Light::Kind::point:
-    case Light::Kind::sphere:
-        return {{Handle::radius, m.t + screen_diagonal(projection) * std::max(light.radius * length(m.x), 1.4 * sight.em)}};
+    case Light::Kind::sphere: return {ball};
     case Light::Kind::spot:
         return {{Handle::outer_cone, cone_point(sight, projection, light.outer_cone_radians, 1)},
-                {Handle::inner_cone, cone_point(sight, projection, light.inner_cone_radians, -1)}};
+                {Handle::inner_cone, cone_point(sight, projection, light.inner_cone_radians, -1)},
+                ball};
     case Light::Kind::sun:
         return {{Handle::sun_angle, m.t + screen_diagonal(projection) * (dial_of_angle(light.angle_radians) * sight.em)}};
     }
@@ -131,7 +138,8 @@ Light resized(const LightSight& start, Handle handle, const Projection& projecti
     case Handle::height: light.height = with_side(light.height, m.y, m.t, from, to); break;
     case Handle::radius: light = with_radius(start, projection, from, to); break;
     case Handle::outer_cone:
-    case Handle::inner_cone: light = with_cone(start, handle, projection, from, to); break;
+    case Handle::inner_cone:
+    case Handle::spread: light = with_cone(start, handle, projection, from, to); break;
     case Handle::sun_angle:
         light.angle_radians = float(angle_of_dial(dial_of_angle(light.angle_radians) +
                                                   dragged_along_screen(projection, m.t, from, to) / std::max(start.em, 1e-12)));

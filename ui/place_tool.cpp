@@ -1,6 +1,8 @@
 #include "ui/place_tool.h"
 
+#include "render/light_links.h"
 #include "scene/affine.h"
+#include "scene/line_of_sight.h"
 #include "ui/theme.h"
 #include "ui/viewport_marks.h"
 
@@ -48,12 +50,35 @@ void PlaceTool::press(PanelContext& c, const SurfaceSpot& spot) {
     surfaces_ = c.frame;
     start_ = pose_of(c.scene(), node_);
     pressed_at_ = ImGui::GetIO().MousePos;
-    if (by_ == PlacingBy::shadow && !occluder_) occluder_ = spot.position;
+    if (by_ == PlacingBy::highlight) occluder_node_ = {};
+    if (by_ == PlacingBy::shadow && !occluder_) {
+        occluder_ = spot.position;
+        occluder_node_ = spot.node;
+    }
     distance_ = distance_between(start_, by_ == PlacingBy::shadow ? *occluder_ : spot.position);
     c.ui.gestures.begin();
 }
 
+// The light is where the effect would be seen, if nothing else stood in its way: then somebody should know.
+void PlaceTool::say_what_blocks(PanelContext& c) const {
+    const Light* light = light_at(c.scene(), node_);
+    if (!light || !effect_at_) return;
+    const auto counts = [&](Id<Node> id) {
+        return id != node_ && id != occluder_node_ && contains(light->shadow_casters, c.scene(), id);
+    };
+    Vec3d way = pose_of(c.scene(), node_).position - *effect_at_;
+    if (light->kind == Light::Kind::sun) way = way * (1 + 2 * world_bounds(c.scene()).radius() / std::max(length(way), 1e-9)); // from outside
+    const auto blocker = first_between(c.scene(), *effect_at_, *effect_at_ + way, counts);
+    if (!blocker) return;
+    const std::string name = c.scene().nodes.find(*blocker)->name;
+    c.ui.toasts.warn((name.empty() ? "Another object" : name) + " stands in the way",
+                     by_ == PlacingBy::highlight ? "The light does not reach the place where its highlight would be."
+                                                 : "The shadow is not that object's alone: something else is on the line as well.");
+}
+
 void PlaceTool::release(PanelContext& c) {
+    if (placed_) say_what_blocks(c);
+    effect_at_.reset();
     if (placed_) occluder_.reset();
     dragging_ = false;
     surfaces_.reset();
@@ -96,6 +121,7 @@ bool PlaceTool::update(PanelContext& c, ImDrawList& draw, const Projection& proj
     if (pressed && spot) press(c, *spot);
     if (dragging_ && ImGui::IsMouseDragging(ImGuiMouseButton_Left)) placed_ = true;
     const auto pose = spot ? wanted(c, projection, image, *spot) : std::nullopt;
+    if (dragging_ && placed_ && pose) effect_at_ = spot->position;
     if (dragging_ && placed_ && pose) c.apply(SetNode{node_, with_pose(c.scene(), node_, *pose)}, c.ui.gestures.current());
     if (spot) draw_preview(draw, projection, image, *spot, pose);
     if (dragging_ && !ImGui::IsMouseDown(ImGuiMouseButton_Left)) release(c);

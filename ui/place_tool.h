@@ -21,6 +21,7 @@ private:
     std::optional<LightPose> wanted(PanelContext& c, const Projection& projection, const ImageRect& image, const SurfaceSpot& spot) const;
     void press(PanelContext& c, const SurfaceSpot& spot);
     void release(PanelContext& c);
+    void say_what_blocks(PanelContext& c) const;
     void draw_preview(ImDrawList& draw, const Projection& projection, const ImageRect& image, const SurfaceSpot& spot,
                       const std::optional<LightPose>& pose) const;
     std::string hint(const std::string& light) const;
@@ -32,6 +33,8 @@ private:
     LightPose start_;
     double distance_ = 1;           // metres that the drag keeps
     std::optional<Vec3d> occluder_; // whose shadow is placed
+    Id<Node> occluder_node_;
+    std::optional<Vec3d> effect_at_; // where the highlight or shadow was put
     ImVec2 pressed_at_{0, 0};
 };
 

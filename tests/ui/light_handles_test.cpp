@@ -59,6 +59,7 @@ Light of_kind(Light::Kind kind) {
     light.outer_cone_radians = 0.6f;
     light.inner_cone_radians = 0.3f;
     light.angle_radians = 0.1f;
+    light.spread_radians = 1.2f;
     return light;
 }
 
@@ -78,6 +79,9 @@ TEST(SizeHandles, FollowTheMouse) {
                           {Light::Kind::spot, Handle::outer_cone, &Light::outer_cone_radians, 1.0f},
                           {Light::Kind::spot, Handle::outer_cone, &Light::outer_cone_radians, 0.4f},
                           {Light::Kind::spot, Handle::inner_cone, &Light::inner_cone_radians, 0.5f},
+                          {Light::Kind::spot, Handle::radius, &Light::radius, 0.4f},
+                          {Light::Kind::rectangle, Handle::spread, &Light::spread_radians, 2.0f},
+                          {Light::Kind::disk, Handle::spread, &Light::spread_radians, 0.7f},
                           {Light::Kind::sun, Handle::sun_angle, &Light::angle_radians, 0.5f}};
     for (const Case& c : cases)
         for (const Vec3d& eye : eyes)
@@ -112,6 +116,9 @@ TEST(SizeHandles, SizesStaySensible) {
         const Light narrow = spot.dragged(Handle::outer_cone, rotate(spot.sight.rotation, {0, 0, -1}));
         EXPECT_GT(narrow.outer_cone_radians, 0);
         EXPECT_LE(narrow.inner_cone_radians, narrow.outer_cone_radians);
+        const Light slit = panel.dragged(Handle::spread, panel.sight.world_from_node.t + rotate(panel.sight.rotation, {0, 0, -1}));
+        EXPECT_GT(slit.spread_radians, 0);
+        EXPECT_LT(slit.spread_radians, 0.1);
         const Seen ball(of_kind(Light::Kind::point), eye);
         EXPECT_EQ(
             ball.dragged(Handle::radius, ball.sight.world_from_node.t - (ball.grip(Handle::radius) - ball.sight.world_from_node.t) * 2.0)

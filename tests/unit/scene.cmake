@@ -6,6 +6,7 @@ blush_test(test_scene
     scene_edit.cpp
     scene_light_meter.cpp
     scene_light_units.cpp
+    scene_line_of_sight.cpp
     scene_render_settings.cpp
     scene_shining.cpp
     scene_sky.cpp
