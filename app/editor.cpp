@@ -2,6 +2,7 @@
 
 #include "app/editor_commands.h"
 #include "app/editor_convergence.h"
+#include "app/editor_display.h"
 #include "app/editor_files.h"
 #include "app/editor_saving.h"
 #include "app/editor_snapshots.h"
@@ -10,10 +11,12 @@
 #include "ui/file_listing.h"
 #include "ui/frame_stats.h"
 #include "ui/regions.h"
+#include "ui/remembered.h"
 #include "ui/snapshot_strip.h"
 #include "ui/viewport.h"
 #include "ui/window.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <fmt/format.h>
 #include <imgui.h>
@@ -48,9 +51,7 @@ private:
     void take_file(const FileRequest& request);
     void take_dropped(const std::filesystem::path& file);
     void save_due_snapshot();
-    void update_display_shader();
-    void meter();
-    void update_ledger();
+    void list_kept_snapshots();
     void remember();
     RenderSettings render_settings() const;
     void keep_size(const RenderSettings& kept);
@@ -63,6 +64,7 @@ private:
     Document document_;
     UiState ui_;
     Viewport viewport_;
+    EditorDisplay display_;
     EditorFiles files_{&Window::wake};
     EditorSaving saving_;
     bool leaving_ = false;
@@ -92,14 +94,6 @@ private:
 
     int viewport_width_ = 0, viewport_height_ = 0; // pixels, as last laid out
     ImageRect image_;
-    DisplayTransform transform_; // that the display shader is for
-    bool shader_ready_ = false;
-    FramePtr metered_; // by auto exposure
-    AutoExposure metered_by_ = AutoExposure::off;
-    float metered_ev_ = 0;
-    FeatureUse view_transform_{"display", "view transform", false, "there is no picture yet"};
-    Ledger ledger_; // of what the window makes itself
-    std::array<bool, denoise_qualities> ledger_denoised_with_{};
     enum class SnapshotDue { none, keep, png } snapshot_due_ = SnapshotDue::none; // waits for a picture in full resolution
     std::string not_continued_; // as was last said
     Clock::time_point frame_begin_{};
@@ -108,18 +102,21 @@ private:
 Editor::Editor(const EditorOptions& options, std::unique_ptr<Window> window, ColorManagement color, const Automation& automation,
                WindowSettings settings)
     : automation_(automation), window_(std::move(window)), color_(std::move(color)), options_(options),
-      saving_(files_, document_, ui_, options.assets, automation.autosave_interval),
+      display_(color_, options.weights), saving_(files_, document_, ui_, options.assets, automation.autosave_interval),
       convergence_(&Window::wake, options.threads),
       session_({.threads = options.threads,
                 .low_priority = true,
                 .first_hit_planes = true,
                 .denoiser = denoiser_maker(options.weights, options.threads, true)},
                &Window::wake) {
+    ui_.settings = std::move(settings);
+    recall_panels(ui_.settings, ui_);
+    ImGui::LoadIniSettingsFromMemory(ui_.settings.floating.c_str(), ui_.settings.floating.size());
     if (const auto found = find_denoiser_weights(options.weights); !found)
         weights_problem_ = found.error().text() + ": packaging/setup fetches them";
     else if (options.denoise)
         ui_.denoise.show = DenoiseView::Show::denoised;
-    ui_.settings = std::move(settings);
+    if (!weights_problem_.empty()) ui_.denoise.show = DenoiseView::Show::raw;
     remembered_follow_viewport_ = ui_.settings.follow_viewport;
     if (!options.follow_viewport) ui_.settings.follow_viewport = false;
     ui_.probe = Probe(automation.probe_file);
@@ -146,6 +143,7 @@ void Editor::run() {
         draw();
     }
     saving_.end();
+    snapshots_.finish_all();
     remember();
 }
 
@@ -155,7 +153,10 @@ void Editor::poll() {
     saving_.poll(finished);
     if (finished.opened || finished.saved) {
         window_->set_title(files_.scene_file().filename().string() + " - Blush");
-        if (finished.opened) submitted_ = 0; // a new scene is submitted whatever it looks like
+        if (finished.opened) {
+            submitted_ = 0; // a new scene is submitted whatever it looks like
+            list_kept_snapshots();
+        }
         window_->request_frames(2);
     }
     snapshots_.poll(finished.opened, document_, ui_, files_, session_);
@@ -186,15 +187,16 @@ PanelContext Editor::context() {
             std::max(1, int(float(r.height) * r.resolution_scale)),
             pictures_.denoised,
             status.denoiser_failure.empty() ? weights_problem_ : status.denoiser_failure,
-            &ledger_,
+            &display_.ledger(),
             mixing_ ? &*mixing_ : nullptr,
-            metered_ev_};
+            display_.metered_ev()};
 }
 
 void Editor::panels() {
-    update_display_shader();
-    update_ledger();
-    meter();
+    const ViewSettings& view = document_.project().view;
+    display_.update_shader(view, pictures_.frame, viewport_, thumbnails_, ui_.toasts);
+    display_.update_ledger(session_.status());
+    display_.meter(view.auto_exposure, pictures_.frame);
     window_->begin_frame();
     ui_.next_frame_in = longest_sleep;
     ui_.probe.begin_frame();
@@ -347,41 +349,6 @@ void Editor::save_due_snapshot() {
     snapshot_due_ = SnapshotDue::none;
 }
 
-void Editor::update_display_shader() {
-    const DisplayTransform wanted = transform_of(document_.project().view);
-    // No processor and no tables before there is something to show.
-    if (!pictures_.frame || (shader_ready_ && wanted == transform_)) return;
-    shader_ready_ = true;
-    transform_ = wanted;
-    const auto begin = Clock::now();
-    const auto shader = color_.display_shader(wanted);
-    if (!shader) return ui_.toasts.fail(shader.error().text());
-    thumbnails_.set_shader(*shader);
-    if (const auto set = viewport_.set_display_shader(*shader); !set) ui_.toasts.fail(set.error().text());
-    int64_t bytes = 0;
-    for (const DisplayShader::Lut& lut : shader->luts) bytes += int64_t(lut.values.size() * sizeof(float));
-    view_transform_ = {"display", "view transform",
-                       true,      "the picture is shown through it",
-                       bytes,     std::chrono::duration<double>(Clock::now() - begin).count()};
-    ledger_.clear();
-}
-
-void Editor::meter() {
-    const AutoExposure rule = document_.project().view.auto_exposure;
-    if (rule == metered_by_ && (rule == AutoExposure::off || pictures_.frame == metered_)) return;
-    metered_by_ = rule;
-    metered_ = rule == AutoExposure::off ? nullptr : pictures_.frame;
-    metered_ev_ = metered_ ? metered_exposure(rule, metered_->rgba, 4) : 0;
-}
-
-void Editor::update_ledger() {
-    const auto denoised_with = session_.status().denoised_with;
-    if (!ledger_.empty() && denoised_with == ledger_denoised_with_) return;
-    ledger_denoised_with_ = denoised_with;
-    ledger_ = denoiser_ledger(options_.weights, denoised_with);
-    ledger_.insert(ledger_.begin(), view_transform_);
-}
-
 RenderSettings Editor::render_settings() const {
     RenderSettings r = document_.project().render;
     if (ui_.settings.follow_viewport && viewport_width_ > 0) {
@@ -473,8 +440,19 @@ void Editor::draw() {
     ui_.probe.end_frame(state);
 }
 
+// Those that were in the strip when the scene was last left.
+void Editor::list_kept_snapshots() {
+    const std::string file = files_.scene_file().string();
+    const auto known = std::ranges::find(ui_.settings.scenes, file, &SceneMemory::file);
+    const bool listed = std::ranges::any_of(ui_.snapshots.list, [&](const SnapshotPtr& s) { return s->scene_file == file; });
+    if (known != ui_.settings.scenes.end() && !listed) snapshots_.list_files(known->snapshots);
+}
+
 void Editor::remember() {
     WindowSettings& s = ui_.settings;
+    remember_panels(ui_, s);
+    remember_scene(ui_, files_.scene_file().string(), s);
+    s.floating = ImGui::SaveIniSettingsToMemory();
     // `--size` holds for this time only.
     if (!options_.follow_viewport && !s.follow_viewport) s.follow_viewport = remembered_follow_viewport_;
     s.maximized = window_->maximized();

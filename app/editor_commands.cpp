@@ -195,6 +195,7 @@ bool run_command(Command command, PanelContext& c) {
     case Command::toggle_denoise: toggle_denoise(c); return true;
     case Command::pause: c.ui.paused = !c.ui.paused; return true;
     case Command::snapshot_strip: c.ui.snapshots.open = !c.ui.snapshots.open; return true;
+    case Command::undelete_snapshot: c.ui.snapshots.put_back(); return true;
     case Command::compare_wipe: compare(c, Comparison::Mode::wipe); return true;
     case Command::compare_flicker: compare(c, Comparison::Mode::flicker); return true;
     case Command::compare_difference: compare(c, Comparison::Mode::difference); return true;

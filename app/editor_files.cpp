@@ -4,6 +4,7 @@
 #include "io/environment_image.h"
 #include "io/ies.h"
 #include "io/scene_edits_json.h"
+#include "ui/remembered.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -143,9 +144,9 @@ EditorFiles::Finished EditorFiles::finish_import(Document& document, UiState& ui
         project.scene.view = document.project().scene.view;
         ui.selected = same_node(document.project().scene, ui.selected, project.scene);
     } else {
+        remember_scene(ui, scene_file_.string(), ui.settings);
         scene_file_ = importing_;
         remember_recent(ui.settings.recent, importing_.string());
-        ui.selected = {};
         if (!keep_settings_) {
             project.render = opened->imported.render.value_or(project.render);
             project.view = opened->imported.view.value_or(project.view);
@@ -158,6 +159,7 @@ EditorFiles::Finished EditorFiles::finish_import(Document& document, UiState& ui
     ui.light_table.renaming = {};
     watch_.watch(scene_file_);
     document.reset(std::move(project));
+    if (purpose_ == Purpose::open) recall_scene(ui.settings, scene_file_.string(), document.project().scene, ui);
     if (opened->recovered) document.replace(*std::move(opened->recovered), "Recover unsaved edits");
     return {.opened = true, .recovered = opened->recovered.has_value()};
 }

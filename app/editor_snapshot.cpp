@@ -27,6 +27,14 @@ SnapshotMetadata metadata_of(const SnapshotJob& job, const std::filesystem::path
     const Snapshot& s = job.snapshot;
     const Frame& f = *s.pictures.frame;
     SnapshotMetadata m;
+    if (job.metadata) {
+        m = *job.metadata;
+        if (!s.scene_file.empty()) m.scene_file = seen_from(file.parent_path(), s.scene_file);
+        m.name = s.name;
+        m.note = s.note;
+        m.film.clear();
+        return m;
+    }
     m.version = BLUSH_VERSION;
     m.scene = s.scene_file.filename().string();
     m.scene_file = seen_from(file.parent_path(), s.scene_file);
@@ -51,7 +59,7 @@ SnapshotMetadata metadata_of(const SnapshotJob& job, const std::filesystem::path
 } // namespace
 
 Result<SavedSnapshot> write_snapshot_exr(const SnapshotJob& job) {
-    const auto file = free_name(job.folder, job.snapshot.scene_file.stem().string(), ".exr");
+    const Result<std::filesystem::path> file = job.file.empty() ? free_name(job.folder, job.snapshot.scene_file.stem().string(), ".exr") : job.file;
     if (!file) return file.error();
     const Snapshot& s = job.snapshot;
     const Layers layers{.albedo = true, .normal = true, .depth = true, .error = true, .samples = true, .ids = true, .groups = true};

@@ -3,10 +3,12 @@
 
 #include "color/color_management.h"
 #include "core/result.h"
+#include "io/snapshot.h"
 #include "ui/denoise_view.h"
 #include "ui/snapshots_view.h"
 
 #include <filesystem>
+#include <optional>
 
 namespace blush {
 
@@ -15,6 +17,8 @@ struct SnapshotJob {
     Snapshot snapshot;
     DenoiseView view; // how its pictures are looked at
     std::filesystem::path folder;
+    std::filesystem::path file = {}; // that is written anew; empty: one of its own in the folder
+    std::optional<SnapshotMetadata> metadata = {}; // as its file had them, while the snapshot has no state of its own
     bool half = false, film = true; // of an EXR: colours in 16 bits, samples to go on from
 };
 

@@ -1,10 +1,10 @@
 #include "app/editor_snapshots.h"
 
 #include "app/commands/common.h"
+#include "app/guarded.h"
 
 #include <algorithm>
 #include <ctime>
-#include <exception>
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
@@ -27,13 +27,6 @@ Snapshot snapshot_of(EditorSnapshots::Shown shown) {
     s.imported = std::move(shown.imported);
     s.scene_file = std::move(shown.scene_file);
     return s;
-}
-
-// `work`, which must not throw on its thread.
-template <class T, class Work> Result<T> guarded(const Work& work) {
-    try {
-        return work();
-    } catch (const std::exception& e) { return Error{"", e.what(), ""}; }
 }
 
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
@@ -64,22 +57,43 @@ void EditorSnapshots::finish_keeping(UiState& ui, RenderSession& session) {
     const uint64_t id = ui.snapshots.add(std::move(s));
     const SnapshotPtr snapshot = ui.snapshots.find(id);
     if (ui.settings.snapshot_files)
-        write(snapshot, ui);
+        write(snapshot, ui, Why::asked);
     else
         ui.toasts.note("Kept as " + snapshot->name, snapshot->film ? "" : "Without its samples: " + kept->why_none);
 }
 
 // ---- files
 
-void EditorSnapshots::write(const SnapshotPtr& snapshot, const UiState& ui) {
+void EditorSnapshots::write(const SnapshotPtr& snapshot, const UiState& ui, Why why) {
     const WindowSettings& w = ui.settings;
-    const SnapshotJob job{*snapshot, {}, w.snapshot_folder, w.snapshot_half, w.snapshot_film};
-    to_write_.push_back({snapshot->id, [job] { return write_snapshot_exr(job); }});
+    SnapshotJob job{*snapshot, {}, w.snapshot_folder, {}, {}, w.snapshot_half, w.snapshot_film};
+    if (why == Why::renamed) {
+        job.file = snapshot->file;
+        job.film = snapshot->film_in_file;
+    }
+    job.film |= why == Why::room;
+    if (const auto known = stateless_.find(snapshot->id); known != stateless_.end()) job.metadata = known->second;
+    to_write_.push_back({snapshot->id, job.film && snapshot->film, [job] { return write_snapshot_exr(job); }});
 }
 
 void EditorSnapshots::save_png(const Shown& shown, const ColorManagement& color, const UiState& ui) {
     const SnapshotJob job{snapshot_of(shown), shown.view, ui.settings.snapshot_folder};
-    to_write_.push_back({0, [job, &color] { return write_snapshot_png(job, color); }});
+    to_write_.push_back({0, false, [job, &color] { return write_snapshot_png(job, color); }});
+}
+
+bool EditorSnapshots::will_be_written(uint64_t id) const {
+    return (writing_ && writing_id_ == id) || std::ranges::count(to_write_, id, &Writing::id) > 0;
+}
+
+void EditorSnapshots::make_room(UiState& ui) {
+    for (const SnapshotPtr& snapshot : store_.make_room(ui))
+        if (!will_be_written(snapshot->id)) write(snapshot, ui, Why::room);
+}
+
+void EditorSnapshots::finish_all() {
+    writing_.reset(); // waits
+    for (const Writing& left : std::exchange(to_write_, {}))
+        if (const auto written = guarded<SavedSnapshot>(left.write); !written) fmt::print(stderr, "blush: warning: {}\n", written.error().text());
 }
 
 void EditorSnapshots::finish_writing(UiState& ui) {
@@ -87,11 +101,16 @@ void EditorSnapshots::finish_writing(UiState& ui) {
         const auto result = writing_->take();
         if (!result) return;
         writing_.reset();
+        const SnapshotPtr snapshot = ui.snapshots.find(writing_id_);
         if (!*result) {
             ui.toasts.fail(result->error().text());
+            if (snapshot) snapshot->pinned = true; // where it is safe
         } else {
             const SavedSnapshot& saved = **result;
-            if (const SnapshotPtr snapshot = ui.snapshots.find(writing_id_)) snapshot->file = saved.file;
+            if (snapshot) {
+                snapshot->file = saved.file;
+                snapshot->film_in_file = writing_film_;
+            }
             const std::string text = "Saved " + saved.file.filename().string();
             if (saved.beyond_half > 0)
                 ui.toasts.warn(text, fmt::format("{} values are too bright for 16 bits and became {:.0f} nits.", saved.beyond_half, largest_half));
@@ -103,15 +122,29 @@ void EditorSnapshots::finish_writing(UiState& ui) {
     Writing next = std::move(to_write_.front());
     to_write_.pop_front();
     writing_id_ = next.id;
+    writing_film_ = next.film;
     writing_ = std::make_unique<BackgroundJob<Result<SavedSnapshot>>>(
         "Saving the snapshot", [write = std::move(next.write)](JobProgress&) { return guarded<SavedSnapshot>(write); }, wake_);
 }
 
 void EditorSnapshots::open(const std::filesystem::path& file, const std::filesystem::path& open_scene) {
-    opening_file_ = file;
+    to_read_.push_front({file, true});
+    read_next(open_scene);
+}
+
+void EditorSnapshots::list_files(const std::vector<std::string>& files) {
+    for (const std::string& file : files) to_read_.push_back({file, false});
+}
+
+void EditorSnapshots::read_next(const std::filesystem::path& open_scene) {
+    if (opening_ || to_read_.empty()) return;
+    const ToRead next = std::move(to_read_.front());
+    to_read_.pop_front();
+    const std::filesystem::path& file = opening_file_ = next.file;
+    restores_opened_ = next.to_restore;
     opening_ = std::make_unique<BackgroundJob<Result<OpenAnswer>>>(
         "Opening " + file.filename().string(),
-        [file, open_scene](JobProgress&) {
+        [file = next.file, open_scene](JobProgress&) {
             return guarded<OpenAnswer>([&]() -> Result<OpenAnswer> {
                 const auto metadata = read_metadata(file);
                 if (!metadata) return metadata.error();
@@ -125,20 +158,31 @@ void EditorSnapshots::open(const std::filesystem::path& file, const std::filesys
 }
 
 void EditorSnapshots::finish_opening(Document& document, UiState& ui, EditorFiles& files) {
+    read_next(files.scene_file());
     if (!opening_) return;
     auto result = opening_->take();
     if (!result) return;
     opening_.reset();
+    if (!restores_opened_) {
+        if (*result && **result) add_to_strip(*std::move(**result), ui)->let_go();
+        return;
+    }
     if (!*result) return ui.toasts.fail(result->error().text());
     if (!**result) return files.load_environment(opening_file_);
-    OpenedSnapshot opened = *std::move(**result);
-    opened.snapshot.time = time_of_day();
-    opened.snapshot.thumbnail = thumbnail_of(*opened.snapshot.pictures.frame);
-    const SnapshotPtr snapshot = ui.snapshots.find(ui.snapshots.add(std::move(opened.snapshot)));
+    const SnapshotPtr snapshot = add_to_strip(*std::move(**result), ui);
     ui.snapshots.open = true;
     if (!snapshot->no_state.empty()) return ui.toasts.warn(snapshot->name + " is in the strip, without its state", snapshot->no_state);
-    waiting_metadata_ = std::move(opened.metadata);
     restore(snapshot, document, ui, files);
+}
+
+SnapshotPtr EditorSnapshots::add_to_strip(OpenedSnapshot opened, UiState& ui) {
+    Snapshot& s = opened.snapshot;
+    s.time = time_of_day();
+    s.thumbnail = thumbnail_of(*s.pictures.frame);
+    s.film_in_file = s.film != nullptr;
+    const uint64_t id = ui.snapshots.add(std::move(s));
+    stateless_[id] = std::move(opened.metadata);
+    return ui.snapshots.find(id);
 }
 
 // ---- going back
@@ -146,14 +190,18 @@ void EditorSnapshots::finish_opening(Document& document, UiState& ui, EditorFile
 void EditorSnapshots::restore(const SnapshotPtr& snapshot, Document& document, UiState& ui, EditorFiles& files) {
     if (!snapshot->no_state.empty()) return ui.toasts.warn(snapshot->name + " has no state to go back to", snapshot->no_state);
     if (!same_file(snapshot->scene_file, files.scene_file())) {
-        return before_leaving_([this, snapshot, metadata = std::exchange(waiting_metadata_, std::nullopt), &files] {
+        return before_leaving_([this, snapshot, &files] {
             waiting_ = snapshot;
-            waiting_metadata_ = metadata;
             files.open(snapshot->scene_file); // goes on when it is there
         });
     }
     waiting_ = snapshot;
-    if (waiting_metadata_) return work_out_state(files);
+    go_on(document, ui, files);
+}
+
+// Its scene is open.
+void EditorSnapshots::go_on(Document& document, UiState& ui, const EditorFiles& files) {
+    if (stateless_.contains(waiting_->id)) return work_out_state(files);
     go_back(*std::exchange(waiting_, nullptr), document, ui);
 }
 
@@ -161,7 +209,7 @@ void EditorSnapshots::work_out_state(const EditorFiles& files) {
     waiting_->imported = files.imported();
     state_job_ = std::make_unique<BackgroundJob<Result<SnapshotState>>>(
         "Restoring " + waiting_->name,
-        [metadata = *waiting_metadata_, imported = files.imported(), file = files.scene_file()](JobProgress&) {
+        [metadata = stateless_.at(waiting_->id), imported = files.imported(), file = files.scene_file()](JobProgress&) {
             return guarded<SnapshotState>([&] { return state_of(metadata, imported, file); });
         },
         wake_);
@@ -172,12 +220,12 @@ void EditorSnapshots::finish_state(Document& document, UiState& ui) {
     auto result = state_job_->take();
     if (!result) return;
     state_job_.reset();
-    waiting_metadata_.reset();
     const SnapshotPtr snapshot = std::exchange(waiting_, nullptr);
     if (!*result) {
         snapshot->no_state = "Its edits do not fit the scene file as it is now: " + result->error().text();
         return ui.toasts.warn(snapshot->name + " is in the strip, without its state", snapshot->no_state);
     }
+    stateless_.erase(snapshot->id);
     snapshot->project = std::move((**result).project);
     if (!(**result).warning.empty()) {
         snapshot->film = nullptr;
@@ -197,13 +245,30 @@ void EditorSnapshots::go_back(const Snapshot& snapshot, Document& document, UiSt
 }
 
 void EditorSnapshots::obey(Document& document, UiState& ui, EditorFiles& files) {
-    for (const SnapshotRequest& request : std::exchange(ui.snapshots.requests, {})) {
-        const SnapshotPtr snapshot = ui.snapshots.find(request.id);
+    SnapshotsView& view = ui.snapshots;
+    if (view.compare.mode != Comparison::Mode::off)
+        for (const uint64_t id : {view.compare.a, view.compare.b})
+            if (const SnapshotPtr snapshot = view.find(id); snapshot && store_.has(snapshot)) view.use(*snapshot);
+    for (const SnapshotRequest& request : std::exchange(view.requests, {})) {
+        const SnapshotPtr snapshot = view.find(request.id);
         if (!snapshot) continue;
-        if (request.what == SnapshotRequest::What::save)
-            write(snapshot, ui);
-        else if (!waiting_ && !opening_)
-            restore(snapshot, document, ui, files);
+        if (!store_.has(snapshot)) {
+            view.requests.push_back(request); // once it has
+            continue;
+        }
+        view.use(*snapshot);
+        const bool there = snapshot->pictures.frame != nullptr;
+        switch (request.what) {
+        case SnapshotRequest::What::save:
+            if (there) write(snapshot, ui, Why::asked);
+            break;
+        case SnapshotRequest::What::renamed:
+            if (there && !snapshot->file.empty()) write(snapshot, ui, Why::renamed);
+            break;
+        case SnapshotRequest::What::restore:
+            if (!waiting_ && !(opening_ && restores_opened_)) restore(snapshot, document, ui, files);
+            break;
+        }
     }
 }
 
@@ -212,14 +277,11 @@ void EditorSnapshots::poll(bool opened, Document& document, UiState& ui, EditorF
     finish_writing(ui);
     finish_opening(document, ui, files);
     finish_state(document, ui);
+    store_.poll(ui);
+    make_room(ui);
     if (!waiting_ || state_job_) return;
-    if (opened && same_file(waiting_->scene_file, files.scene_file())) {
-        if (waiting_metadata_) return work_out_state(files);
-        go_back(*std::exchange(waiting_, nullptr), document, ui);
-    } else if (!files.running()) { // its scene could not be read, as a toast says
-        waiting_.reset();
-        waiting_metadata_.reset();
-    }
+    if (opened && same_file(waiting_->scene_file, files.scene_file())) go_on(document, ui, files);
+    else if (!files.running()) waiting_.reset(); // its scene could not be read, as a toast says
 }
 
 std::optional<RunningJob> EditorSnapshots::running() const {
@@ -227,7 +289,8 @@ std::optional<RunningJob> EditorSnapshots::running() const {
         const auto [fraction, what] = job->progress().read();
         return RunningJob{job->title(), what, fraction, false};
     };
-    if (opening_) return show(opening_);
+    if (opening_ && restores_opened_) return show(opening_);
+    if (const auto* reading = store_.reading()) return show(reading);
     if (state_job_) return show(state_job_);
     if (writing_) return show(writing_);
     return {};

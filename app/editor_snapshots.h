@@ -4,12 +4,14 @@
 #include "app/editor_files.h"
 #include "app/editor_snapshot.h"
 #include "app/opened_snapshot.h"
+#include "app/snapshot_store.h"
 #include "render/render_session.h"
 #include "ui/background_job.h"
 #include "ui/panels/panels.h"
 
 #include <deque>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -19,7 +21,7 @@ class EditorSnapshots {
 public:
     // `before_leaving`: runs what it is given when no edits of the open scene are lost by it, or never.
     EditorSnapshots(std::function<void()> wake, std::function<void(std::function<void()>)> before_leaving)
-        : wake_(std::move(wake)), before_leaving_(std::move(before_leaving)) {}
+        : wake_(wake), before_leaving_(std::move(before_leaving)), store_(std::move(wake)) {}
 
     // All that makes the image on the screen, when it is one of full resolution.
     struct Shown {
@@ -35,6 +37,8 @@ public:
     void keep(Shown shown, RenderSession& session);
     // Writes it as a PNG.
     void save_png(const Shown& shown, const ColorManagement& color, const UiState& ui);
+    // Files that are to be in the strip again, read one after the other; those that cannot be read are not.
+    void list_files(const std::vector<std::string>& files);
     // A file that was dropped: a snapshot comes into the strip and its state into the document, any other picture becomes the environment.
     void open(const std::filesystem::path& file, const std::filesystem::path& open_scene);
     // Does what panels asked for.
@@ -50,6 +54,8 @@ public:
     std::optional<Restored> take_restored() { return std::exchange(restored_, std::nullopt); }
 
     std::optional<RunningJob> running() const;
+    // Writes what still waits to be written.
+    void finish_all();
 
 private:
     // A picture of somebody else's is none of ours to open.
@@ -58,29 +64,44 @@ private:
     void finish_opening(Document& document, UiState& ui, EditorFiles& files);
     void finish_state(Document& document, UiState& ui);
     void finish_writing(UiState& ui);
-    void write(const SnapshotPtr& snapshot, const UiState& ui);
+    enum class Why { asked, renamed, room };
+    void write(const SnapshotPtr& snapshot, const UiState& ui, Why why);
+    bool will_be_written(uint64_t id) const;
+    void make_room(UiState& ui);
+    void read_next(const std::filesystem::path& open_scene);
+    SnapshotPtr add_to_strip(OpenedSnapshot opened, UiState& ui);
     void restore(const SnapshotPtr& snapshot, Document& document, UiState& ui, EditorFiles& files);
+    void go_on(Document& document, UiState& ui, const EditorFiles& files);
     void work_out_state(const EditorFiles& files);
     void go_back(const Snapshot& snapshot, Document& document, UiState& ui);
 
     std::function<void()> wake_;
     std::function<void(std::function<void()>)> before_leaving_;
+    SnapshotStore store_;
     std::optional<Shown> keeping_;
     std::optional<Restored> restored_;
 
     std::filesystem::path opening_file_;
     std::unique_ptr<BackgroundJob<Result<OpenAnswer>>> opening_;
-    // Whose scene is being read, and from what its state is worked out; no metadata: the state is there.
-    SnapshotPtr waiting_;
-    std::optional<SnapshotMetadata> waiting_metadata_;
+    bool restores_opened_ = false;
+    struct ToRead {
+        std::filesystem::path file;
+        bool to_restore = false; // rather than only be in the strip
+    };
+    std::deque<ToRead> to_read_;
+    // Of those whose state has not been worked out yet.
+    std::map<uint64_t, SnapshotMetadata> stateless_;
+    SnapshotPtr waiting_; // whose scene is being read, or whose state is worked out
     std::unique_ptr<BackgroundJob<Result<SnapshotState>>> state_job_;
 
     struct Writing {
         uint64_t id = 0; // 0: a PNG
+        bool film = false;
         std::function<Result<SavedSnapshot>()> write;
     };
     std::deque<Writing> to_write_;
     uint64_t writing_id_ = 0;
+    bool writing_film_ = false;
     std::unique_ptr<BackgroundJob<Result<SavedSnapshot>>> writing_;
 };
 

@@ -60,6 +60,7 @@ constexpr Shortcut table[] = {
     {Command::roulette, "View", "Roulette lab", in_menu_only},
     {Command::convergence, "View", "Convergence", plain('C')},
     {Command::snapshot_strip, "Look", "Snapshots", plain('K')},
+    {Command::undelete_snapshot, "Look", "Put back the deleted snapshot", in_menu_only},
     {Command::compare_wipe, "Look", "Wipe between A and B", plain('V')},
     {Command::compare_flicker, "Look", "Flicker: A, then B", plain('J')},
     {Command::compare_difference, "Look", "Difference of A and B", shift('V')},

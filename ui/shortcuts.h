@@ -29,6 +29,7 @@ enum class Command {
     snapshot_png,
     snapshot_folder,
     snapshot_strip,
+    undelete_snapshot,
     compare_wipe,
     compare_flicker,
     compare_difference,

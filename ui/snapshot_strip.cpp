@@ -10,6 +10,7 @@
 namespace blush {
 namespace {
 
+constexpr float card_width = 9, card_gap = 0.6f; // ems
 constexpr ImU32 strip_ground = IM_COL32(32, 32, 32, 225);
 
 // A letter that says, and chooses, which side a snapshot is on.
@@ -31,19 +32,25 @@ void side_button(PanelContext& c, const Snapshot& s, uint64_t& side, const char*
     tip_for_last_item(c.ui, "Compares this one: A left of the wipe, B right of it, the live image where none is chosen.");
 }
 
+bool menu_item(PanelContext& c, const char* name, bool enabled = true) {
+    const bool pressed = ImGui::MenuItem(name, nullptr, false, enabled);
+    c.ui.probe.record_last_item(std::string("Snapshot menu/") + name);
+    return pressed;
+}
+
 void draw_menu(PanelContext& c, const Snapshot& s) {
     if (!ImGui::BeginPopupContextItem(fmt::format("menu{}", s.id).c_str())) return;
     SnapshotsView& v = c.ui.snapshots;
-    if (ImGui::MenuItem("Restore", nullptr, false, s.no_state.empty())) v.requests.push_back({SnapshotRequest::What::restore, s.id});
-    if (ImGui::MenuItem("Wipe against the live image")) {
+    if (menu_item(c, "Restore", s.no_state.empty())) v.requests.push_back({SnapshotRequest::What::restore, s.id});
+    if (menu_item(c, "Wipe against the live image")) {
         v.compare.a = s.id;
         v.compare.b = live_image;
         v.compare.mode = Comparison::Mode::wipe;
     }
-    if (ImGui::MenuItem("Name, note, file...")) v.details = s.id;
-    if (ImGui::MenuItem("Save as EXR")) v.requests.push_back({SnapshotRequest::What::save, s.id});
+    if (menu_item(c, "Name, note, file...")) v.details = s.id;
+    if (menu_item(c, "Save as EXR")) v.requests.push_back({SnapshotRequest::What::save, s.id});
     ImGui::Separator();
-    if (ImGui::MenuItem("Delete")) v.remove(s.id);
+    if (menu_item(c, "Delete")) delete_snapshot(c, s);
     ImGui::EndPopup();
 }
 
@@ -51,6 +58,23 @@ void clipped_text(const std::string& text, const ImVec2& at, float width, ImU32 
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const ImVec4 clip{at.x, at.y, at.x + width, at.y + ImGui::GetFontSize() * 1.5f};
     draw.AddText(ImGui::GetFont(), ImGui::GetFontSize(), at, color, text.c_str(), nullptr, 0, &clip);
+}
+
+// Where its picture and samples are, if that is not here; empty: here.
+const char* place_of(const Snapshot& s) {
+    if (s.place == Snapshot::Place::lost) return "lost its file";
+    if (s.place == Snapshot::Place::file) return s.film_in_file ? "in its file" : "in its file, begins anew";
+    return s.film ? "" : "begins anew";
+}
+
+void draw_place(PanelContext& c, const Snapshot& s, const ImVec2& low, float width, float bottom) {
+    const std::string text = place_of(s);
+    if (text.empty()) return;
+    const float em = ImGui::GetFontSize();
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    draw.AddRectFilled({low.x + 1, bottom - em * 1.3f}, {low.x + width - 1, bottom - 1}, IM_COL32(20, 20, 20, 170));
+    clipped_text(text, {low.x + em * 0.3f, bottom - em * 1.2f}, width - em * 0.6f, tone::dim_text);
+    c.ui.probe.record(fmt::format("Snapshot/{}/{}", s.id, text), {low.x, bottom - em, width, em});
 }
 
 // A click goes back to its state; the letters and the menu do the rest.
@@ -65,12 +89,13 @@ void draw_card(PanelContext& c, const SnapshotPtr& snapshot, const ThumbnailPart
     const bool hovered = ImGui::IsItemHovered();
     const std::string tip = fmt::format("{}\n{}{}{}\n{}", s.name, s.figures(), s.note.empty() ? "" : "\n", s.note,
                                         s.no_state.empty() ? "A click goes back to this state; undo returns." : s.no_state);
+    draw_menu(c, s); // before the tip, whose text would be the item that is clicked
     tip_for_last_item(c.ui, tip.c_str());
-    draw_menu(c, s);
 
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const ImVec2 high{at.x + width, at.y + picture_height};
     if (part.texture) draw.AddImage(part.texture, at, high, {0, part.v0}, {1, part.v1});
+    draw_place(c, s, at, width, high.y);
     draw.AddRect(at, high, hovered ? tone::text : tone::line);
     clipped_text(s.name, {at.x, high.y + em * 0.15f}, width, tone::text);
     clipped_text(s.figures(), {at.x, high.y + em * 1.35f}, width, tone::dim_text);
@@ -82,12 +107,24 @@ void draw_card(PanelContext& c, const SnapshotPtr& snapshot, const ThumbnailPart
 
 } // namespace
 
+float snapshot_strip_height(const SnapshotsView& v) {
+    if (!v.open || v.list.empty()) return 0;
+    const float em = ImGui::GetFontSize();
+    return card_width * em * Thumbnail::height / Thumbnail::width + em * 2.6f + 2 * card_gap * em + ImGui::GetStyle().ScrollbarSize;
+}
+
+void delete_snapshot(PanelContext& c, const Snapshot& s) {
+    const std::string name = s.name;
+    c.ui.snapshots.remove(s.id);
+    c.ui.toasts.add({Toast::Kind::note, name + " is deleted", "", Command::undelete_snapshot});
+}
+
 void draw_snapshot_strip(PanelContext& c, const Region& viewport, const std::function<ThumbnailPart(size_t)>& part) {
     SnapshotsView& v = c.ui.snapshots;
-    if (!v.open || v.list.empty()) return;
+    const float height = snapshot_strip_height(v);
+    if (height <= 0) return;
     const std::vector<SnapshotPtr> list = v.list; // a menu may delete one
-    const float em = ImGui::GetFontSize(), width = em * 9, gap = em * 0.6f;
-    const float height = width * Thumbnail::height / Thumbnail::width + em * 2.6f + 2 * gap + ImGui::GetStyle().ScrollbarSize;
+    const float em = ImGui::GetFontSize(), width = em * card_width, gap = em * card_gap;
     ImGui::SetNextWindowPos({viewport.x, viewport.y + viewport.height - height});
     ImGui::SetNextWindowSize({viewport.width, height});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {gap, gap});

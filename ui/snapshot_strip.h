@@ -22,6 +22,12 @@ struct ThumbnailPart {
 // The strip's own window; `part(index)` says where the thumbnail of list[index] is.
 void draw_snapshot_strip(PanelContext& c, const Region& viewport, const std::function<ThumbnailPart(size_t)>& part);
 
+// Pixels; 0 while there is none to be seen.
+float snapshot_strip_height(const SnapshotsView& view);
+
+// Takes it out of the strip; a message offers to put it back.
+void delete_snapshot(PanelContext& c, const Snapshot& snapshot);
+
 // All thumbnails in one texture, one above the other, drawn again when one comes, goes or is looked at in another way.
 class ThumbnailSheet {
 public:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <utility>
 
 namespace blush {
 
@@ -28,10 +29,18 @@ Thumbnail thumbnail_of(const Frame& frame) {
 }
 
 std::string Snapshot::figures() const {
-    if (!pictures.frame) return time;
+    if (!pictures.frame) return last_figures_.empty() ? time : last_figures_;
     const Frame& f = *pictures.frame;
     const std::string relative_error = f.error.known ? fmt::format(", {:.2g} %", 100 * std::sqrt(f.error.relmse)) : std::string();
     return fmt::format("{} spp{}, {}", f.samples, relative_error, time);
+}
+
+void Snapshot::let_go() {
+    last_figures_ = figures();
+    pictures = {};
+    error = {};
+    film = nullptr;
+    place = Place::file;
 }
 
 SnapshotPtr SnapshotsView::find(uint64_t id) const {
@@ -42,14 +51,23 @@ SnapshotPtr SnapshotsView::find(uint64_t id) const {
 uint64_t SnapshotsView::add(Snapshot snapshot) {
     snapshot.id = ++last_id_;
     if (snapshot.name.empty()) snapshot.name = fmt::format("Snapshot {}", snapshot.id);
+    use(snapshot);
     list.push_back(std::make_shared<Snapshot>(std::move(snapshot)));
     return last_id_;
 }
 
 void SnapshotsView::remove(uint64_t id) {
-    std::erase_if(list, [&](const SnapshotPtr& s) { return s->id == id; });
+    removed_ = find(id);
+    std::erase(list, removed_);
+    if (removed_ && !removed_->file.empty() && (!removed_->film || removed_->film_in_file)) removed_->let_go();
     if (compare.a == id || compare.b == id) compare = {.kind = compare.kind};
     if (details == id) details = 0;
+}
+
+void SnapshotsView::put_back() {
+    if (!removed_) return;
+    const auto place = std::ranges::upper_bound(list, removed_->id, {}, &Snapshot::id);
+    list.insert(place, std::exchange(removed_, nullptr));
 }
 
 bool SnapshotsView::toggle(Comparison::Mode mode) {

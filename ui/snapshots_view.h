@@ -37,7 +37,19 @@ struct Snapshot {
     std::string no_state; // why; empty: there is one
 
     std::filesystem::path file; // that it is saved in; empty: none
+    bool film_in_file = false;  // its samples too
+
+    // In memory (snapshot_memory.h).
+    bool pinned = false;                          // stays there
+    uint64_t last_used = 0;
+    enum class Place { memory, file, lost } place = Place::memory; // of pictures and samples; lost: the file is gone or broken
+
     std::string figures() const; // "64 spp, 1.2 %, 14:32"
+    // From now on its pictures and samples are those of its file.
+    void let_go();
+
+private:
+    std::string last_figures_; // while there are no pictures to tell them
 };
 using SnapshotPtr = std::shared_ptr<Snapshot>;
 
@@ -56,7 +68,7 @@ struct Comparison {
 
 // What the editor does with one of them after the panels are drawn.
 struct SnapshotRequest {
-    enum class What { restore, save };
+    enum class What { restore, save, renamed };
     What what = What::restore;
     uint64_t id = 0;
 };
@@ -69,10 +81,16 @@ struct SnapshotsView {
     std::vector<SnapshotRequest> requests;
 
     SnapshotPtr find(uint64_t id) const;
+    // It is one of the two that are compared.
+    bool compares(uint64_t id) const { return compare.mode != Comparison::Mode::off && (compare.a == id || compare.b == id); }
+    // Of all, it is the one used last.
+    void use(Snapshot& snapshot) { snapshot.last_used = ++last_use_; }
     // Its id.
     uint64_t add(Snapshot snapshot);
-    // Comparisons with it end.
+    // Comparisons with it end. The one removed last can be put back.
     void remove(uint64_t id);
+    void put_back();
+    bool can_put_back() const { return removed_ != nullptr; }
     // Switches a way of comparing on, or off if it was; nothing chosen, the newest is compared with the live image. False: there is nothing
     // to compare.
     bool toggle(Comparison::Mode mode);
@@ -80,7 +98,8 @@ struct SnapshotsView {
     void choose(uint64_t& side, uint64_t id);
 
 private:
-    uint64_t last_id_ = 0;
+    uint64_t last_id_ = 0, last_use_ = 0;
+    SnapshotPtr removed_;
 };
 
 } // namespace blush

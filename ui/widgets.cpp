@@ -284,10 +284,11 @@ bool section(UiState& ui, const char* name, bool open_at_first) {
     const float em = ImGui::GetFontSize(), width = ImGui::GetContentRegionAvail().x, height = ImGui::GetFrameHeight();
     ImGui::Dummy({0, em * 0.2f});
     const ImVec2 at = ImGui::GetCursorScreenPos();
-    const ImGuiID id = ImGui::GetID(name);
-    bool open = ImGui::GetStateStorage()->GetBool(id, open_at_first);
+    const std::string key = std::string("section.") + name;
+    const auto kept = ui.settings.panels.find(key);
+    bool open = kept == ui.settings.panels.end() ? open_at_first : kept->second != 0;
     ImGui::PushFont(heading_font());
-    if (ImGui::InvisibleButton(name, {width, height})) ImGui::GetStateStorage()->SetBool(id, open = !open);
+    if (ImGui::InvisibleButton(name, {width, height})) ui.settings.panels[key] = open = !open;
     const ImU32 color = ImGui::IsItemHovered() ? IM_COL32_WHITE : tone::text;
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     draw.AddLine(at, {at.x + width, at.y}, tone::line);

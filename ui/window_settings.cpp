@@ -9,7 +9,7 @@
 namespace blush {
 namespace {
 
-constexpr size_t recent_limit = 10;
+constexpr size_t most_panel_settings = 1000, most_selected = 100000, most_floating_text = 1 << 16, most_snapshots = 64;
 
 // The entry if it is there and of the right type and range, else what `value` was.
 template <class T> void read(const nlohmann::json& json, const char* key, T& value, T low, T high) {
@@ -25,6 +25,40 @@ void read(const nlohmann::json& json, const char* key, bool& value) {
 void read(const nlohmann::json& json, const char* key, std::string& value) {
     const auto it = json.find(key);
     if (it != json.end() && it->is_string()) value = it->get<std::string>();
+}
+
+void read_strings(const nlohmann::json& json, const char* key, std::vector<std::string>& strings, size_t most) {
+    const auto list = json.find(key);
+    if (list == json.end() || !list->is_array()) return;
+    for (const auto& entry : *list)
+        if (entry.is_string() && strings.size() < most) strings.push_back(entry.get<std::string>());
+}
+
+SceneMemory read_scene(const nlohmann::json& json) {
+    SceneMemory m;
+    if (!json.is_object()) return m;
+    read(json, "file", m.file);
+    read(json, "zoom", m.zoom, 0., 1e3);
+    read(json, "u", m.u, 0., 1.);
+    read(json, "v", m.v, 0., 1.);
+    if (const auto ids = json.find("selected"); ids != json.end() && ids->is_array())
+        for (const auto& id : *ids)
+            if (id.is_number_unsigned() && m.selected.size() < most_selected) m.selected.push_back(id.get<uint32_t>());
+    read_strings(json, "snapshots", m.snapshots, most_snapshots);
+    return m;
+}
+
+void read_panels(const nlohmann::json& json, std::map<std::string, double>& panels) {
+    const auto found = json.find("panels");
+    if (found == json.end() || !found->is_object()) return;
+    for (const auto& [name, value] : found->items())
+        if (value.is_number() && panels.size() < most_panel_settings) panels[name] = value.get<double>();
+}
+
+nlohmann::json scenes_json(const std::vector<SceneMemory>& scenes) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const SceneMemory& m : scenes) list.push_back({{"file", m.file}, {"zoom", m.zoom}, {"u", m.u}, {"v", m.v}, {"selected", m.selected}, {"snapshots", m.snapshots}});
+    return list;
 }
 
 } // namespace
@@ -55,12 +89,16 @@ WindowSettings read_window_settings(const std::filesystem::path& file) {
     read(json, "snapshot_files", settings.snapshot_files);
     read(json, "snapshot_half", settings.snapshot_half);
     read(json, "snapshot_film", settings.snapshot_film);
+    read(json, "snapshot_memory", settings.snapshot_memory, int64_t(1), int64_t(1) << 30);
     read(json, "browser_folder", settings.browser_folder);
-    if (const auto recent = json.find("recent"); recent != json.end() && recent->is_array()) {
-        for (const auto& entry : *recent) {
-            if (entry.is_string() && settings.recent.size() < recent_limit) settings.recent.push_back(entry.get<std::string>());
-        }
+    read(json, "floating", settings.floating);
+    if (settings.floating.size() > most_floating_text) settings.floating.clear();
+    read_panels(json, settings.panels);
+    if (const auto scenes = json.find("scenes"); scenes != json.end() && scenes->is_array()) {
+        for (const auto& entry : *scenes)
+            if (settings.scenes.size() < remembered_files) settings.scenes.push_back(read_scene(entry));
     }
+    read_strings(json, "recent", settings.recent, remembered_files);
     return settings;
 }
 
@@ -77,7 +115,11 @@ Result<void> write_window_settings(const std::filesystem::path& file, const Wind
                               {"snapshot_files", settings.snapshot_files},
                               {"snapshot_half", settings.snapshot_half},
                               {"snapshot_film", settings.snapshot_film},
-                              {"browser_folder", settings.browser_folder}};
+                              {"snapshot_memory", settings.snapshot_memory},
+                              {"browser_folder", settings.browser_folder},
+                              {"panels", settings.panels},
+                              {"floating", settings.floating},
+                              {"scenes", scenes_json(settings.scenes)}};
     std::error_code error;
     std::filesystem::create_directories(file.parent_path(), error);
     const std::filesystem::path temporary = file.string() + ".new";
@@ -94,7 +136,7 @@ Result<void> write_window_settings(const std::filesystem::path& file, const Wind
 void remember_recent(std::vector<std::string>& recent, const std::string& file) {
     std::erase(recent, file);
     recent.insert(recent.begin(), file);
-    if (recent.size() > recent_limit) recent.resize(recent_limit);
+    if (recent.size() > remembered_files) recent.resize(remembered_files);
 }
 
 } // namespace blush

@@ -4,11 +4,23 @@
 #include "core/result.h"
 #include "ui/layout.h"
 
+#include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
 namespace blush {
+
+// How the scene of a file was last looked at.
+struct SceneMemory {
+    std::string file;
+    double zoom = 0, u = 0.5, v = 0.5; // PictureZoom
+    std::vector<uint32_t> selected;    // Id<Node>.value, the first to come first
+    std::vector<std::string> snapshots; // files, oldest first
+    bool operator==(const SceneMemory&) const = default;
+};
+constexpr size_t remembered_files = 10;
 
 struct WindowSettings {
     int width = 1280, height = 800; // of the window, in screen coordinates
@@ -21,7 +33,11 @@ struct WindowSettings {
     bool snapshot_files = true;      // each snapshot is written to a file,
     bool snapshot_half = false;      // its colours in 16 bits,
     bool snapshot_film = true;       // with the samples to go on from
+    int64_t snapshot_memory = 2048;  // MiB that the strip's snapshots may take before the oldest live in their files alone
     std::string browser_folder;      // where the file browser was last
+    std::map<std::string, double> panels; // which are open and what they are set to (remembered.h), and sections of the inspector
+    std::string floating;            // where panels lie: ImGui's text
+    std::vector<SceneMemory> scenes; // newest first
     bool operator==(const WindowSettings&) const = default;
 };
 

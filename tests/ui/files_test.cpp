@@ -35,6 +35,10 @@ TEST_F(Files, SettingsComeBack) {
     s.follow_viewport = false;
     s.recent = {"/a/b.gltf", "/c \"d\".glb"};
     s.snapshot_folder = "/somewhere";
+    s.snapshot_memory = 77;
+    s.panels = {{"scopes", 1}, {"denoise.blend", 0.25}};
+    s.floating = "[Window][Scopes]\nPos=1,2\n";
+    s.scenes = {{"/a/b.gltf", 3, 0.25, 0.75, {7, 4711}, {"/a/b-0001.exr"}}, {"/c.glb", 0, 0.5, 0.5, {}, {}}};
     const auto file = folder / "deep" / "window.json";
     ASSERT_TRUE(write_window_settings(file, s));
     EXPECT_EQ(read_window_settings(file), s);
@@ -49,7 +53,8 @@ TEST_F(Files, DamagedSettingsGiveTheDefaults) {
 TEST_F(Files, ADamagedEntryGivesItsDefaultAndLeavesTheOthers) {
     const auto file =
         write("odd.json",
-              R"({"width": "wide", "height": 1e300, "outliner": -5, "maximized": 1, "recent": [1, "ok.glb", null], "inspector": 30})");
+              R"({"width": "wide", "height": 1e300, "outliner": -5, "maximized": 1, "recent": [1, "ok.glb", null], "inspector": 30,
+                  "panels": {"a": "b", "c": 1}, "scenes": [3, {"file": "x", "zoom": -4, "selected": [-1, "2", 5]}]})");
     const WindowSettings s = read_window_settings(file), defaults;
     EXPECT_EQ(s.width, defaults.width);
     EXPECT_EQ(s.maximized, defaults.maximized);
@@ -57,6 +62,10 @@ TEST_F(Files, ADamagedEntryGivesItsDefaultAndLeavesTheOthers) {
     EXPECT_GE(s.splitters.outliner, 1);
     EXPECT_EQ(s.splitters.inspector, 30);
     EXPECT_EQ(s.recent, std::vector<std::string>{"ok.glb"});
+    EXPECT_EQ(s.panels, (std::map<std::string, double>{{"c", 1}}));
+    ASSERT_EQ(s.scenes.size(), 2u);
+    EXPECT_EQ(s.scenes[1].zoom, 0);
+    EXPECT_EQ(s.scenes[1].selected, std::vector<uint32_t>{5});
 }
 
 TEST_F(Files, WritingFailsWithAMessageWhereNothingCanBeWritten) {

@@ -5,6 +5,7 @@
 #include "support/sample_project.h"
 #include "ui/difference.h"
 #include "ui/panels/panels.h"
+#include "ui/snapshot_memory.h"
 #include "ui/snapshot_strip.h"
 
 #include <cmath>
@@ -60,6 +61,57 @@ TEST(Snapshots, TheNewestIsComparedWithTheLiveImage) {
     EXPECT_TRUE(v.compare.shows_b) << "the key goes on";
     v.remove(newest);
     EXPECT_EQ(v.compare.mode, Mode::off) << "what is compared is gone";
+}
+
+TEST(Snapshots, TheLastOneDeletedCanBePutBackInItsPlace) {
+    SnapshotsView v;
+    EXPECT_FALSE(v.can_put_back());
+    const uint64_t first = v.add(snapshot(1)), second = v.add(snapshot(2));
+    v.remove(first);
+    ASSERT_TRUE(v.can_put_back());
+    v.put_back();
+    EXPECT_FALSE(v.can_put_back());
+    ASSERT_EQ(v.list.size(), 2u);
+    EXPECT_EQ(v.list[0]->id, first);
+    EXPECT_EQ(v.list[1]->id, second);
+}
+
+TEST(SnapshotMemory, CountsWhatIsThere) {
+    Snapshot s = snapshot(1, 10, 10);
+    EXPECT_EQ(bytes_of(s), 100 * 4 * sizeof(float));
+    auto film = std::make_shared<FilmState>();
+    film->planes = {{.name = "even.R", .sums = std::vector<double>(100)}, {.name = "depth", .words = std::vector<uint32_t>(100)}};
+    s.film = film;
+    auto denoised = std::make_shared<DenoisedPicture>();
+    denoised->denoised.rgb.resize(300);
+    s.pictures.denoised = denoised;
+    s.error.resize(100);
+    EXPECT_EQ(bytes_of(s), 100 * (4 * sizeof(float) + sizeof(double) + sizeof(uint32_t) + 3 * sizeof(float) + sizeof(Vec3)));
+    const std::string figures = s.figures();
+    s.let_go();
+    EXPECT_EQ(bytes_of(s), 0u);
+    EXPECT_EQ(s.figures(), figures) << "what is in the file is told as before";
+}
+
+TEST(SnapshotMemory, ThoseNotUsedForLongestGoFirst) {
+    SnapshotsView v;
+    for (int i = 0; i < 4; ++i) v.add(snapshot(float(i)));
+    const size_t each = bytes_of(*v.list[0]);
+    const auto leaving = [&](size_t limit) {
+        std::vector<uint64_t> ids;
+        for (const SnapshotPtr& s : beyond_memory(v, limit)) ids.push_back(s->id);
+        return ids;
+    };
+    EXPECT_TRUE(leaving(4 * each).empty());
+    EXPECT_EQ(leaving(4 * each - 1), (std::vector<uint64_t>{1}));
+    v.use(*v.list[0]);
+    EXPECT_EQ(leaving(2 * each), (std::vector<uint64_t>{2, 3}));
+    v.list[1]->pinned = true;
+    EXPECT_EQ(leaving(2 * each), (std::vector<uint64_t>{3, 4}));
+    v.compare = {Mode::wipe, 3, live_image};
+    EXPECT_EQ(leaving(0), (std::vector<uint64_t>{4})) << "pinned, compared and last used ones stay";
+    v.list[3]->let_go();
+    EXPECT_TRUE(leaving(0).empty()) << "it has nothing more to let go of";
 }
 
 TEST(Snapshots, ThumbnailsKeepShapeAndMean) {

@@ -30,7 +30,7 @@ std::string stops(const std::array<double, 3>& a, const std::array<double, 3>& b
     return std::isfinite(ratio) && ratio > 0 ? fmt::format("{:+.2f} EV", std::log2(ratio)) : "";
 }
 
-void draw_numbers(Fields& f, const Difference& d) {
+void draw_numbers(PanelContext& c, Fields& f, const Difference& d) {
     const Metrics& m = d.numbers;
     f.info("relMSE", fmt::format("{:.3g}   {:.2g} %", m.relmse, 100 * std::sqrt(m.relmse)), "Mean of (a - b)² / (b² + 0.01), and its root.");
     f.info("RMSE", fmt::format("{:.3g} nits", m.rmse), "Root of the mean square difference.");
@@ -38,6 +38,7 @@ void draw_numbers(Fields& f, const Difference& d) {
     f.info("Largest", fmt::format("{:.3g} nits", m.max_abs), "Largest absolute difference of a channel.");
     f.info("PSNR", std::isfinite(m.psnr) ? fmt::format("{:.1f} dB", m.psnr) : "equal", "Of the sRGB encoding of values clamped to 0 .. 1.");
     f.info("A is brighter by", stops(m.mean_a, m.mean_b), "Ratio of the means of all channels, in stops.");
+    c.ui.probe.record_last_item(std::string("Compare/Numbers/") + (d.has_flip ? "FLIP" : "difference"));
     if (d.has_flip) f.info("FLIP", fmt::format("{:.4f}", m.flip), "Mean HDR-FLIP: 0 nobody sees a difference, 1 as far apart as can be.");
 }
 
@@ -58,7 +59,7 @@ void draw_comparison_panel(PanelContext& c) {
         int mode = int(compare.mode) - 1;
         if (f.choice("Show", mode, modes, "Side by side with a bar between them, one after the other, or what is different.")) compare.mode = Mode(mode + 1);
         if (compare.mode == Mode::flicker) {
-            if (f.button(compare.shows_b ? "Show A" : "Show B", "So does the key B.")) compare.shows_b = !compare.shows_b;
+            if (f.button(compare.shows_b ? "Show A" : "Show B", "So does the key J.")) compare.shows_b = !compare.shows_b;
         } else if (compare.mode == Mode::difference) {
             constexpr const char* kinds[] = {"Absolute", "Relative", "FLIP"};
             int kind = int(compare.kind);
@@ -72,7 +73,7 @@ void draw_comparison_panel(PanelContext& c) {
             else if (!d->problem.empty())
                 quiet_text(d->problem);
             else
-                draw_numbers(f, *d);
+                draw_numbers(c, f, *d);
         }
     }
     ImGui::End();

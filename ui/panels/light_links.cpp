@@ -84,8 +84,10 @@ void draw_light_links_panel(PanelContext& c, Id<Node> id) {
     const Node* node = c.scene().nodes.find(id);
     const Light* record = node ? c.scene().lights.find(node->light) : nullptr;
     if (!record) return;
-    const bool linked = leaves_out(record->lit_objects, c.scene()) || leaves_out(record->shadow_casters, c.scene());
-    if (!section(c.ui, "Linking", linked)) return;
+    // Once there are links it is open, and does not close with the last of them.
+    if (leaves_out(record->lit_objects, c.scene()) || leaves_out(record->shadow_casters, c.scene()))
+        c.ui.settings.panels.try_emplace("section.Linking", 1);
+    if (!section(c.ui, "Linking", false)) return;
     const Id<Light> light_id = node->light;
     Light light = *record;
     bool changed = draw_set(c, "Lights", light.lit_objects, "What this light lights. Shift+click on an object in the picture takes it out, or in again.");

@@ -102,6 +102,7 @@ void draw_view_menu(PanelContext& c) {
     item(c, Command::pause, true, nullptr, c.ui.paused);
     ImGui::Separator();
     item(c, Command::snapshot_strip, true, nullptr, c.ui.snapshots.open);
+    item(c, Command::undelete_snapshot, c.ui.snapshots.can_put_back());
     const Comparison::Mode mode = c.ui.snapshots.compare.mode;
     const bool any = !c.ui.snapshots.list.empty();
     item(c, Command::compare_wipe, any, nullptr, mode == Comparison::Mode::wipe);

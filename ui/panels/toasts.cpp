@@ -1,5 +1,6 @@
 // Toasts and background jobs: small cards above the status bar, out of the way of the work.
 #include "ui/panels/panels.h"
+#include "ui/snapshot_strip.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
 
@@ -51,7 +52,7 @@ void draw_toasts(PanelContext& c) {
     c.ui.toasts.expire(now);
     const float em = ImGui::GetFontSize();
     const float right = ImGui::GetIO().DisplaySize.x - c.ui.settings.splitters.inspector * em - em;
-    float bottom = ImGui::GetIO().DisplaySize.y - em * 3;
+    float bottom = ImGui::GetIO().DisplaySize.y - em * 3 - snapshot_strip_height(c.ui.snapshots);
     std::optional<size_t> dismissed;
     const std::vector<Toast>& toasts = c.ui.toasts.all();
     for (size_t i = toasts.size(); i-- > 0;) {

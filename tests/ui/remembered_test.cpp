@@ -1,0 +1,84 @@
+// What the window remembers of panels and of scenes.
+#include "ui/remembered.h"
+
+#include <gtest/gtest.h>
+
+namespace blush {
+namespace {
+
+TEST(Remembered, PanelsComeBackAsTheyWereSet) {
+    UiState ui;
+    ui.tab = InspectorTab::render;
+    ui.denoise = {DenoiseView::Show::blend, 0.25f};
+    ui.light_table.open = ui.scopes.open = true;
+    ui.snapshots.open = false;
+    ui.snapshots.compare.kind = DifferenceKind::flip;
+    ui.bounces.mode = BouncesView::Mode::cumulative;
+    ui.bounces.bounce = 3;
+    ui.convergence.targets = {0.5f, 0.01f};
+    WindowSettings settings;
+    settings.panels["section.Light"] = 0;
+    remember_panels(ui, settings);
+    UiState again;
+    recall_panels(settings, again);
+    EXPECT_EQ(again.tab, InspectorTab::render);
+    EXPECT_EQ(again.denoise, ui.denoise);
+    EXPECT_TRUE(again.light_table.open && again.scopes.open);
+    EXPECT_FALSE(again.light_mix.open || again.snapshots.open);
+    EXPECT_EQ(again.snapshots.compare.kind, DifferenceKind::flip);
+    EXPECT_EQ(again.bounces.mode, BouncesView::Mode::cumulative);
+    EXPECT_EQ(again.bounces.bounce, 3);
+    EXPECT_EQ(again.convergence.targets, ui.convergence.targets);
+    WindowSettings twice = settings;
+    remember_panels(again, twice);
+    EXPECT_EQ(twice, settings);
+}
+
+TEST(Remembered, WhatMakesNoSenseChangesNothing) {
+    WindowSettings settings;
+    settings.panels = {{"tab", 99}, {"denoise", -1}, {"denoise.blend", 7}, {"bounces.bounce", 1e30}, {"scopes", 1e300}, {"nobody", 3}};
+    UiState ui;
+    recall_panels(settings, ui);
+    WindowSettings now, defaults;
+    remember_panels(ui, now);
+    remember_panels(UiState(), defaults);
+    EXPECT_EQ(now, defaults);
+}
+
+struct TwoNodes {
+    Scene scene;
+    Id<Node> first = scene.nodes.add(Node()), second = scene.nodes.add(Node());
+};
+
+TEST(Remembered, ASceneIsLookedAtAsItWasLeft) {
+    const TwoNodes s;
+    UiState ui;
+    ui.zoom = {3, 0.25, 0.75};
+    ui.toggle(s.first);
+    ui.toggle(s.second);
+    WindowSettings settings;
+    remember_scene(ui, "/a.gltf", settings);
+    ui.zoom = {};
+    ui.select({});
+    remember_scene(ui, "/b.gltf", settings);
+    recall_scene(settings, "/a.gltf", s.scene, ui);
+    EXPECT_EQ(ui.zoom, (PictureZoom{3, 0.25, 0.75}));
+    EXPECT_EQ(ui.selection(s.scene), (std::vector{s.second, s.first}));
+    recall_scene(settings, "/b.gltf", s.scene, ui);
+    EXPECT_EQ(ui.zoom, PictureZoom());
+    EXPECT_FALSE(ui.selected);
+    recall_scene(settings, "/a.gltf", Scene(), ui);
+    EXPECT_TRUE(!ui.selected && ui.also_selected.empty()) << "nodes that are gone";
+    recall_scene(settings, "/never.gltf", s.scene, ui);
+    EXPECT_EQ(ui.zoom, PictureZoom());
+}
+
+TEST(Remembered, OnlyTheLastScenesAreKept) {
+    WindowSettings settings;
+    for (int i = 0; i < 30; ++i) remember_scene(UiState(), std::to_string(i % 15) + ".gltf", settings);
+    EXPECT_EQ(settings.scenes.size(), remembered_files);
+    EXPECT_EQ(settings.scenes[0].file, "14.gltf");
+}
+
+} // namespace
+} // namespace blush

@@ -1,0 +1,82 @@
+#include "ui/remembered.h"
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+
+namespace blush {
+namespace {
+
+// visit("name", value, least, most) for each; a bool has no ends.
+template <class Ui, class V> void visit_panels(Ui& ui, const V& visit) {
+    visit("tab", ui.tab, InspectorTab::selection, InspectorTab::display);
+    visit("denoise", ui.denoise.show, DenoiseView::Show::raw, DenoiseView::Show::difference);
+    visit("denoise.blend", ui.denoise.blend, 0.f, 1.f);
+    visit("history", ui.show_history, false, true);
+    visit("light_table", ui.light_table.open, false, true);
+    visit("light_mix", ui.light_mix.open, false, true);
+    visit("bounces", ui.bounces.open, false, true);
+    visit("bounces.mode", ui.bounces.mode, BouncesView::Mode::picture, BouncesView::Mode::gains);
+    visit("bounces.bounce", ui.bounces.bounce, 0, usual_bounce_planes);
+    visit("health", ui.health.open, false, true);
+    visit("health.map", ui.health.map, false, true);
+    visit("roulette", ui.roulette.open, false, true);
+    visit("roulette.map", ui.roulette.map, RouletteView::Map::none, RouletteView::Map::survival);
+    visit("snapshots", ui.snapshots.open, false, true);
+    visit("compare.wipe", ui.snapshots.compare.wipe, 0.f, 1.f);
+    visit("compare.kind", ui.snapshots.compare.kind, DifferenceKind::absolute, DifferenceKind::flip);
+    visit("scopes", ui.scopes.open, false, true);
+    visit("meters", ui.meters.open, false, true);
+    visit("convergence", ui.convergence.open, false, true);
+    visit("convergence.metric", ui.convergence.metric, ErrorMetric::rmse, ErrorMetric::relmse);
+    visit("convergence.axis", ui.convergence.axis, ProgressAxis::seconds, ProgressAxis::spp);
+    visit("convergence.target.0", ui.convergence.targets[0], 0.f, 1e9f);
+    visit("convergence.target.1", ui.convergence.targets[1], 0.f, 1e9f);
+    visit("convergence.denoised", ui.convergence.denoised, false, true);
+    visit("convergence.reference", ui.convergence.reference, false, true);
+}
+
+} // namespace
+
+void remember_panels(const UiState& ui, WindowSettings& settings) {
+    visit_panels(ui, [&](const char* name, const auto& value, auto, auto) { settings.panels[name] = double(value); });
+}
+
+void recall_panels(const WindowSettings& settings, UiState& ui) {
+    visit_panels(ui, [&](const char* name, auto& value, auto least, auto most) {
+        using T = std::remove_reference_t<decltype(value)>;
+        const auto found = settings.panels.find(name);
+        if (found == settings.panels.end() || !(found->second >= double(least) && found->second <= double(most))) return;
+        if constexpr (std::is_floating_point_v<T>) value = T(found->second);
+        else value = T(int(found->second));
+    });
+}
+
+void remember_scene(const UiState& ui, const std::string& file, WindowSettings& settings) {
+    if (file.empty()) return;
+    std::erase_if(settings.scenes, [&](const SceneMemory& m) { return m.file == file; });
+    SceneMemory memory{file, ui.zoom.scale, ui.zoom.u, ui.zoom.v, {}, {}};
+    if (ui.selected) memory.selected.push_back(ui.selected.value);
+    for (const Id<Node> id : ui.also_selected) memory.selected.push_back(id.value);
+    for (const SnapshotPtr& s : ui.snapshots.list)
+        if (!s->file.empty() && s->scene_file == file) memory.snapshots.push_back(std::filesystem::absolute(s->file).string());
+    settings.scenes.insert(settings.scenes.begin(), std::move(memory));
+    if (settings.scenes.size() > remembered_files) settings.scenes.resize(remembered_files);
+}
+
+void recall_scene(const WindowSettings& settings, const std::string& file, const Scene& scene, UiState& ui) {
+    ui.zoom = {};
+    ui.selected = {};
+    ui.also_selected.clear();
+    const auto found = std::ranges::find(settings.scenes, file, &SceneMemory::file);
+    if (found == settings.scenes.end()) return;
+    if (found->zoom > 0)
+        ui.zoom = {std::clamp(found->zoom, least_zoom, most_zoom), std::clamp(found->u, 0.0, 1.0), std::clamp(found->v, 0.0, 1.0)};
+    for (const uint32_t id : found->selected) {
+        if (!scene.nodes.contains({id}) || ui.is_selected({id})) continue;
+        if (!ui.selected) ui.selected = {id};
+        else ui.also_selected.push_back({id});
+    }
+}
+
+} // namespace blush

@@ -1,0 +1,33 @@
+// Where each state of the window lives, so that none is lost that somebody may miss.
+//
+// | state                                                       | kept in                                    | taken back by       |
+// |-------------------------------------------------------------|--------------------------------------------|---------------------|
+// | scene, render and display settings, light mix, meters,      | the scene file (glTF, extras.blush), the   | undo                |
+// |   measured and rendered region, links, groups, mute, solo   |   recovery sidecar, every snapshot         |                     |
+// | camera pose                                                 | the same; no step of the history           | moving, frame, look |
+// | snapshots: picture, state, samples, name, note              | layered EXR in the snapshot folder         | restoring is undone |
+// | size and splitters, folder, recent files, overlays,         | window.json                                | the same control    |
+// |   snapshot settings                                         |                                            |                     |
+// | which panels are open, where, and what they are set to;     | window.json, written here                  | the same control    |
+// |   sections, tab, raw or denoised                            |                                            |                     |
+// | of a scene: zoom and pan, selection, which snapshots are in | window.json, for the last ten scenes       | zoom, select, "Put  |
+// |   the strip                                                 |                                            |   back"             |
+// | tool, drag, placing, looking through a light, questions,    | nothing: they are on their way to an edit  | Esc                 |
+// |   comparison, pause                                         |                                            |                     |
+#pragma once
+
+#include "ui/ui_state.h"
+
+#include <string>
+
+namespace blush {
+
+// Panels, tab and ways of looking, to and from the settings. What is missing or out of its range stays as it is.
+void remember_panels(const UiState& ui, WindowSettings& settings);
+void recall_panels(const WindowSettings& settings, UiState& ui);
+
+// Zoom, pan, selection and the files of the strip's snapshots of the scene of a file. A file that is not known leaves the whole picture, and nothing selected.
+void remember_scene(const UiState& ui, const std::string& file, WindowSettings& settings);
+void recall_scene(const WindowSettings& settings, const std::string& file, const Scene& scene, UiState& ui);
+
+} // namespace blush
