@@ -11,6 +11,7 @@ export BLUSH_UI_PROBE=$probe BLUSH_UI_STATS=$work/stats.json BLUSH_UI_SIZE=900x5
 unset OCIO WAYLAND_DISPLAY
 size=320x240
 spp=16
+settings= # JSON of what the window remembers; empty: it begins as if it were the first
 rest="890 550" # where the mouse is out of the picture's way: the end of the status bar
 xvfb= editor=
 
@@ -55,7 +56,8 @@ overlays_off() { xdotool key h; }
 # open_file FILE [unanswered]: until it has converged, overlays off; or, with a second argument, until there is a window. An empty FILE:
 # none is named.
 open_file() {
-    rm -rf "$XDG_CONFIG_HOME" # a window begins as if it were the first
+    rm -rf "$XDG_CONFIG_HOME"
+    [ -z "$settings" ] || { mkdir -p "$XDG_CONFIG_HOME/blush" && echo "$settings" >"$XDG_CONFIG_HOME/blush/window.json"; }
     "$blush" ${1:+"$1"} --size $size --spp $spp >"$work/log" 2>&1 &
     editor=$!
     until_true 120 test -f "$probe" || fail "the window does not open"

@@ -246,6 +246,8 @@ void draw_light_table(PanelContext& c) {
     ImGui::SetNextWindowPos({em * 14, screen.y - em * 22}, ImGuiCond_FirstUseEver);
     ImGui::SetNextWindowSize({em * 44, em * 19}, ImGuiCond_FirstUseEver);
     if (ImGui::Begin("Light table", &c.ui.light_table.open, ImGuiWindowFlags_NoCollapse)) {
+        const ImVec2 at = ImGui::GetWindowPos();
+        c.ui.probe.record("Light table title", {at.x, at.y, ImGui::GetWindowWidth(), ImGui::GetFrameHeight()});
         const std::vector<LightRows> rows = light_rows(c.scene());
         if (rows.empty())
             quiet_text("Nothing shines in this scene. Add a light, or an environment.");

@@ -4,6 +4,7 @@
 #include "ui/widgets.h"
 
 #include <fmt/format.h>
+#include <imgui_stdlib.h>
 
 namespace blush {
 namespace {
@@ -23,14 +24,14 @@ void follow(PanelContext& c) {
     if (!view.state.rests && view.state.failure.empty()) c.ui.next_frame_in = std::min(c.ui.next_frame_in, 0.2);
 }
 
-// Which meter is to go, or one past the last.
-size_t draw_table(PanelContext& c) {
-    const auto& meters = c.project().view.meters;
+// The meters as the table leaves them: one renamed, or one gone.
+std::vector<LightMeter> draw_table(PanelContext& c) {
+    std::vector<LightMeter> meters = c.project().view.meters;
     const auto& readings = c.ui.meters.state.readings;
     size_t gone = meters.size();
-    if (!ImGui::BeginTable("meters", 4, ImGuiTableFlags_SizingFixedFit)) return gone;
+    if (!ImGui::BeginTable("meters", 4, ImGuiTableFlags_SizingFixedFit)) return meters;
     const float em = ImGui::GetFontSize();
-    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, em * 7);
+    ImGui::TableSetupColumn("Name", ImGuiTableColumnFlags_WidthFixed, em * 9);
     ImGui::TableSetupColumn("Illuminance", ImGuiTableColumnFlags_WidthFixed, em * 10);
     ImGui::TableSetupColumn("R : G : B", ImGuiTableColumnFlags_WidthFixed, em * 9);
     ImGui::TableSetupColumn("");
@@ -38,11 +39,15 @@ size_t draw_table(PanelContext& c) {
     for (size_t i = 0; i < meters.size(); ++i) {
         ImGui::PushID(int(i));
         ImGui::TableNextColumn();
-        ImGui::AlignTextToFramePadding();
-        ImGui::TextUnformatted(meters[i].name.c_str());
+        const std::string scope = "Meters/" + meters[i].name;
+        std::string name = meters[i].name;
+        ImGui::SetNextItemWidth(-FLT_MIN);
+        ImGui::InputText("##name", &name, ImGuiInputTextFlags_AutoSelectAll);
+        if (ImGui::IsItemDeactivatedAfterEdit() && !name.empty()) meters[i].name = name;
+        c.ui.probe.record_last_item(scope);
         ImGui::TableNextColumn();
         ImGui::TextUnformatted(i < readings.size() ? reading_text(readings[i]).c_str() : "...");
-        c.ui.probe.record_last_item("Meters/" + meters[i].name);
+        c.ui.probe.record_last_item(scope + "/Reading");
         ImGui::TableNextColumn();
         if (i < readings.size() && readings[i].rgb.y > 0) {
             const Vec3d& e = readings[i].rgb;
@@ -53,7 +58,8 @@ size_t draw_table(PanelContext& c) {
         ImGui::PopID();
     }
     ImGui::EndTable();
-    return gone;
+    if (gone < meters.size()) meters.erase(meters.begin() + ptrdiff_t(gone));
+    return meters;
 }
 
 } // namespace
@@ -65,17 +71,14 @@ void draw_meters_panel(PanelContext& c) {
     const float em = ImGui::GetFontSize();
     ImGui::SetNextWindowPos({em * 16, em * 30}, ImGuiCond_FirstUseEver);
     if (ImGui::Begin("Light meters", &view.open, ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_AlwaysAutoResize)) {
-        const size_t count = c.project().view.meters.size(), gone = count > 0 ? draw_table(c) : 0;
-        if (count == 0) quiet_text("Place a meter on a surface to read how much light falls on it.");
+        ViewSettings v = c.project().view;
+        if (v.meters.empty()) quiet_text("Place a meter on a surface to read how much light falls on it.");
+        else v.meters = draw_table(c);
         if (!view.state.failure.empty()) quiet_text(view.state.failure);
         if (ImGui::Button("Place a meter")) c.ui.tool = ViewTool::meter;
         c.ui.probe.record_last_item("Meters/Place a meter");
         tip_for_last_item(c.ui, "Click a surface. The meter moves with the object, and reads what falls on the side that is seen.");
-        if (gone < count) {
-            ViewSettings v = c.project().view;
-            v.meters.erase(v.meters.begin() + ptrdiff_t(gone));
-            c.apply(SetView{v});
-        }
+        if (v != c.project().view) c.apply(SetView{v});
     }
     ImGui::End();
 }
