@@ -102,16 +102,20 @@ std::string with_interval(const Interval& i) {
 
 std::string bias_cell(const VariantResult& v) {
     const BiasTest& b = v.bias;
-    const RegionBias& w = b.worst;
+    const RegionBias &w = b.worst, &p = b.pooled;
     const bool whole_is_worst = w.width == b.whole.width && w.height == b.whole.height;
     const std::string region = whole_is_worst ? std::string()
                                               : fmt::format("<small>most in {}×{} at {},{}: {:+.3g} %, z {:+.1f}</small>", w.width,
                                                             w.height, w.x, w.y, w.percent(), w.z());
-    const double margin = b.whole.reference > 0 ? 196 * b.whole.error / b.whole.reference : 0;
+    const std::string pooled = std::abs(p.z()) <= std::abs(b.whole.z())
+                                   ? std::string()
+                                   : fmt::format("<small>weighted by what noise lets tell {:+.3g} % ± {:.2g}, z {:+.1f}</small>", p.percent(),
+                                                 1.96 * p.percent_error(), p.z());
     std::string bounces = bias_by_bounce_text(v);
     if (!bounces.empty()) bounces = fmt::format("<small>{}</small>", bounces);
-    return fmt::format("<td{}>{}<small>whole picture {:+.3g} % ± {:.2g}, z {:+.1f}</small>{}{}</td>", b.biased ? " class='biased'" : "",
-                       b.verdict(), b.whole.percent(), margin, b.whole.z(), region, bounces);
+    return fmt::format("<td{}>{}<small>whole picture {:+.3g} % ± {:.2g}, z {:+.1f}</small>{}{}{}</td>",
+                       b.biased ? " class='biased'" : "", b.verdict(), b.whole.percent(), 1.96 * b.whole.percent_error(), b.whole.z(), pooled,
+                       region, bounces);
 }
 
 std::string variant_row(const VariantResult& v, size_t index) {

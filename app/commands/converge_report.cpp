@@ -37,11 +37,12 @@ OrderedJson bounces_json(const std::vector<RouletteBias>& bounces) {
 
 OrderedJson bias_json(const VariantResult& v) {
     const BiasTest& b = v.bias;
-    const RegionBias& w = b.worst;
+    const RegionBias &w = b.worst, &p = b.pooled;
     return {{"z", b.whole.z()},
             {"verdict", b.verdict()},
             {"percent", b.whole.percent()},
-            {"percent_error", b.whole.reference > 0 ? OrderedJson(100 * b.whole.error / b.whole.reference) : OrderedJson()},
+            {"percent_error", if_known(b.whole.reference > 0, b.whole.percent_error())},
+            {"pooled", {{"z", p.z()}, {"percent", p.percent()}, {"percent_error", if_known(p.reference > 0, p.percent_error())}}},
             {"threshold", b.threshold},
             {"regions", b.regions.size()},
             {"worst", {{"x", w.x}, {"y", w.y}, {"width", w.width}, {"height", w.height}, {"percent", w.percent()}, {"z", w.z()}}},

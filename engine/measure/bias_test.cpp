@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace blush {
 namespace {
@@ -27,15 +28,16 @@ struct Variances {
 // Two pictures of one size.
 class Comparison {
 public:
-    Comparison(const MeasuredImage& image, const MeasuredImage& reference, double level)
-        : image_(image), reference_(reference), events_(-std::log(level)) {}
+    // `weights`: what pixels count for, 1 on average over what is measured.
+    Comparison(const MeasuredImage& image, const MeasuredImage& reference, double level, std::vector<double> weights)
+        : image_(image), reference_(reference), events_(-std::log(level)), weights_(std::move(weights)) {}
 
     RegionBias measure(const Rectangle& r) const {
         RegionBias bias{r.left, r.top, r.right - r.left, r.bottom - r.top};
         double off = 0;
         for_each_pixel(r, [&](size_t i) {
-            bias.reference += luminance(reference_.image.pixels[i]);
-            off += difference(i);
+            bias.reference += weights_[i] * luminance(reference_.image.pixels[i]);
+            off += weights_[i] * difference(i);
         });
         const double n = r.pixels();
         bias.reference /= n;
@@ -60,9 +62,10 @@ private:
         Variances own, as_reference, seen;
         for_each_pixel(r, [&](size_t i) {
             const double a = luminance(image_.error[i]), b = luminance(reference_.error[i]), off = difference(i) - mean_difference;
-            own.add(a * a + b * b);
-            as_reference.add(b * b * (fewer + 1));
-            seen.add(off * off);
+            const double w = weights_[i] * weights_[i];
+            own.add(w * (a * a + b * b));
+            as_reference.add(w * b * b * (fewer + 1));
+            seen.add(w * off * off);
         });
         Variances v = std::max({own, as_reference, seen}, [](const Variances& a, const Variances& b) { return a.sum < b.sum; });
         // So many pixels err as one.
@@ -78,7 +81,8 @@ private:
                                std::min(image_.image.height, r.bottom + h)};
         double brightest = 0, own = 0, seen = 0;
         for_each_pixel(around, [&](size_t i) {
-            const double a = luminance(image_.error[i]), b = luminance(reference_.error[i]), off = difference(i);
+            const double weight = weights_[i], off = weight * difference(i);
+            const double a = weight * luminance(image_.error[i]), b = weight * luminance(reference_.error[i]);
             brightest = std::max(brightest, off);
             own += a * a + b * b;
             seen += off * off;
@@ -89,7 +93,37 @@ private:
 
     const MeasuredImage &image_, &reference_;
     double events_;
+    std::vector<double> weights_;
 };
+
+// The least that a region's variance is taken for, of the mean of them: no region alone is the picture.
+constexpr double least_variance = 0.1;
+
+// Of pixels, by the inverse of the variance of the region they are in, as the reference has it; 1 on average.
+std::vector<double> inverse_variances(const MeasuredImage& reference, const std::vector<Rectangle>& regions) {
+    std::vector<double> weights(reference.error.size(), 1);
+    const auto each_pixel = [&](const Rectangle& r, const auto& visit) {
+        for (int y = r.top; y < r.bottom; ++y)
+            for (int x = r.left; x < r.right; ++x) visit(size_t(y) * size_t(reference.image.width) + size_t(x));
+    };
+    std::vector<double> variances;
+    double mean = 0;
+    for (const Rectangle& r : regions) {
+        double sum = 0;
+        each_pixel(r, [&](size_t i) { sum += luminance(reference.error[i]) * luminance(reference.error[i]); });
+        mean += sum / double(weights.size());
+        variances.push_back(sum / r.pixels());
+    }
+    if (!(mean > 0)) return weights;
+    double total = 0;
+    for (size_t k = 0; k < regions.size(); ++k) {
+        const double weight = 1 / (variances[k] + least_variance * mean);
+        each_pixel(regions[k], [&](size_t i) { weights[i] = weight; });
+        total += weight * regions[k].pixels();
+    }
+    for (double& w : weights) w *= double(weights.size()) / total;
+    return weights;
+}
 
 int regions_along(int size) { return std::clamp(size / smallest_region, 1, most_regions); }
 
@@ -125,21 +159,25 @@ BiasTest test_bias(const MeasuredImage& image, const MeasuredImage& reference, d
     if (width < 1 || height < 1 || reference.image.width != width || reference.image.height != height) return test;
     if (image.error.size() != image.image.pixels.size() || reference.error.size() != image.error.size()) return test;
     const int across = regions_along(width), down = regions_along(height);
-    test.threshold = significant_deviate(across * down + 1, bias_significance);
-    const Comparison comparison(image, reference, normal_two_sided(test.threshold));
+    std::vector<Rectangle> regions;
+    for (int j = 0; j < down; ++j)
+        for (int i = 0; i < across; ++i)
+            regions.push_back({i * width / across, j * height / down, (i + 1) * width / across, (j + 1) * height / down});
+    const Rectangle whole{0, 0, width, height};
+    test.threshold = significant_deviate(across * down + 2, bias_significance);
+    const double level = normal_two_sided(test.threshold);
+    const Comparison plain(image, reference, level, std::vector<double>(image.error.size(), 1));
+    const Comparison weighted(image, reference, level, inverse_variances(reference, regions));
     const auto consider = [&](const RegionBias& r) {
         if (std::abs(r.z()) >= std::abs(test.worst.z())) test.worst = r;
         const bool beyond_noise = r.error > 0 ? std::abs(r.z()) > test.threshold : r.mean != r.reference;
         test.biased |= beyond_noise && std::abs(r.mean - r.reference) > rounding * r.reference;
     };
-    test.whole = comparison.measure({0, 0, width, height});
-    consider(test.whole);
-    for (int j = 0; j < down; ++j) {
-        for (int i = 0; i < across; ++i) {
-            test.regions.push_back(
-                comparison.measure({i * width / across, j * height / down, (i + 1) * width / across, (j + 1) * height / down}));
-            consider(test.regions.back());
-        }
+    consider(test.whole = plain.measure(whole));
+    consider(test.pooled = weighted.measure(whole));
+    for (const Rectangle& r : regions) {
+        test.regions.push_back(plain.measure(r));
+        consider(test.regions.back());
     }
     return test;
 }

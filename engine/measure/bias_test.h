@@ -33,12 +33,14 @@ struct RegionBias {
     double z() const;
     // Of the reference's mean; 0 where it is black.
     double percent() const { return reference > 0 ? 100 * (mean - reference) / reference : 0; }
+    double percent_error() const { return reference > 0 ? 100 * error / reference : 0; }
 };
 
 struct BiasTest {
     RegionBias whole;                // the picture
+    RegionBias pooled;               // again, regions counting for the more, the less noise the reference has in them
     std::vector<RegionBias> regions; // of a grid, by rows
-    RegionBias worst;                // of the whole and the regions, the one that is furthest off in standard errors
+    RegionBias worst;                // of all these, the one that is furthest off in standard errors
     double threshold = 0;            // of |z| beyond which it cannot be noise
     bool biased = false;
     std::string_view verdict() const { return biased ? "biased" : "unbiased-within-noise"; }
@@ -47,8 +49,10 @@ struct BiasTest {
 // Chance that a test of a right picture says "biased".
 constexpr double bias_significance = 0.01;
 
-// Tests the whole picture and a grid of regions of about 16 x 16 pixels and more, at most 8 x 8 of them, each at such a level that all
-// together err with probability bias_significance (Sidak 1967). The variance of a region's mean is the largest of three: the sum of its
+// Tests the whole picture, plainly and pooled, and a grid of regions of about 16 x 16 pixels and more, at most 8 x 8 of them, each at such a
+// level that all together err with probability bias_significance (Sidak 1967). Pooled, regions are weighted by the inverse of their variance,
+// so that a lamp's edge does not hide what is missing everywhere. The reference alone says which: a picture that has missed bright samples
+// looks quiet where it is too dark. The variance of a region's mean is the largest of three: the sum of its
 // pixels' own, colours taken to err together, which is nearly so and never too small; what the reference would have with as few samples,
 // for a picture that has met no bright sample knows of none; and that by which its pixels do differ from the reference's. Student's t with
 // as many degrees of freedom as there are pixels that carry it (Satterthwaite 1946) allows for its being uncertain.

@@ -3,6 +3,7 @@
 #include "measure/significance.h"
 #include "statistics.h"
 
+#include <algorithm>
 #include <array>
 #include <random>
 
@@ -13,20 +14,23 @@ using namespace statistics;
 
 constexpr int side = 64;
 
-// Grey `level(x, y)` with normal noise of standard deviation `sigma` per pixel.
-template <class Level> MeasuredImage noisy(std::mt19937& bits, float sigma, int64_t samples, Level level) {
-    std::normal_distribution<float> normal(0, sigma);
+// Grey `level(x, y)` with normal noise of standard deviation `sigma(x, y)` per pixel.
+template <class Sigma, class Level> MeasuredImage unevenly_noisy(std::mt19937& bits, int64_t samples, Sigma sigma, Level level) {
+    std::normal_distribution<float> normal;
     MeasuredImage m;
     m.image = {side, side, {}};
     m.samples = samples;
     for (int y = 0; y < side; ++y) {
         for (int x = 0; x < side; ++x) {
-            const float v = level(x, y) + normal(bits);
+            const float error = sigma(x, y), v = level(x, y) + error * normal(bits);
             m.image.pixels.push_back({v, v, v});
-            m.error.push_back({sigma, sigma, sigma});
+            m.error.push_back({error, error, error});
         }
     }
     return m;
+}
+template <class Level> MeasuredImage noisy(std::mt19937& bits, float sigma, int64_t samples, Level level) {
+    return unevenly_noisy(bits, samples, [sigma](int, int) { return sigma; }, level);
 }
 float even(int, int) { return 0.5f; }
 
@@ -44,6 +48,31 @@ TEST(BiasTest, SeesTwoPercentMissingEverywhereAndSaysHowMuch) {
     EXPECT_EQ(t.verdict(), "biased");
     EXPECT_NEAR(t.whole.percent(), -2, 100 * 3 * t.whole.error / 0.5);
     EXPECT_LT(t.whole.z(), -5);
+}
+
+// A lamp in a corner, whose edge is noisier than all the rest together: what a hundredth less everywhere is hidden behind, but not from the
+// pooled test. And that errs no more often for it.
+TEST(BiasTest, SeesWhatIsMissingEverywhereBehindANoisyLamp) {
+    std::mt19937 bits(12);
+    const auto with_lamp = [&](float level, float noise, int64_t samples) {
+        const auto at_lamp = [](int x, int y) { return x < 16 && y < 16; };
+        return unevenly_noisy(bits, samples, [&](int x, int y) { return at_lamp(x, y) ? 20 * noise : noise; },
+                              [&](int x, int y) { return at_lamp(x, y) ? 10 : level; });
+    };
+    constexpr int runs = 1000;
+    Moments wrong;
+    int found = 0, found_without = 0;
+    for (int run = 0; run < runs; ++run) {
+        const MeasuredImage reference = with_lamp(0.5f, 0.01f, 1600);
+        wrong.add(test_bias(with_lamp(0.5f, 0.1f, 16), reference).biased);
+        const BiasTest darker = test_bias(with_lamp(0.49f, 0.1f, 16), reference);
+        found += darker.biased;
+        const auto shows = [&](const RegionBias& r) { return std::abs(r.z()) > darker.threshold; };
+        found_without += shows(darker.whole) || std::ranges::any_of(darker.regions, shows);
+    }
+    EXPECT_TRUE(z_test_at_most(wrong, bias_significance));
+    EXPECT_GT(found, runs * 19 / 20);
+    EXPECT_LT(found_without, runs / 2) << "or the lamp would hide nothing";
 }
 
 // Too little for the whole picture's mean, but not for the region's.
