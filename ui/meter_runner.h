@@ -2,48 +2,34 @@
 #pragma once
 
 #include "measure/light_meter.h"
+#include "ui/round_runner.h"
 
-#include <atomic>
-#include <condition_variable>
-#include <mutex>
-#include <optional>
-#include <string>
-#include <thread>
 #include <vector>
 
 namespace blush {
 
-class MeterRunner {
+class MeterWork {
 public:
-    MeterRunner();
-    ~MeterRunner(); // gives up the round it is in
-    MeterRunner(const MeterRunner&) = delete;
-    MeterRunner& operator=(const MeterRunner&) = delete;
+    struct Question {
+        Question(const Scene& scene, const RenderSettings& settings, const std::vector<MeterPlace>& places);
 
-    // Starts anew if light at the places may differ from what is measured. Does not wait.
-    void measure(const Scene& scene, const RenderSettings& settings, const std::vector<MeterPlace>& places);
-    struct State {
-        std::vector<MeterReading> readings; // empty until the first round is done
-        bool rests = false;                 // they are as good as is of use
-        std::string failure;                // why there is nothing to read
-    };
-    State state() const;
-
-private:
-    struct Task {
         Scene scene;
         RenderSettings settings;
         std::vector<MeterPlace> places;
+        // Is light at the places the same?
+        bool asks_the_same(const Question& other) const;
     };
-    void run();
-    void work_once(LightMeters& meters, const std::optional<Task>& task);
+    using Answer = std::vector<MeterReading>;
 
-    mutable std::mutex mutex_;
-    std::condition_variable wake_;
-    std::optional<Task> last_, pending_;
-    State state_;
-    std::atomic<bool> quit_{false};
-    std::thread thread_; // last: starts when everything else is there
+    void begin(const Question& q) { meters_.begin(q.scene, q.settings, q.places); }
+    bool round(const std::function<bool()>& wanted);
+    Answer answer() const { return meters_.readings(); }
+    static bool is_good(const Answer& readings);
+
+private:
+    LightMeters meters_{{.threads = 1, .low_priority = true, .planes = {}}};
 };
+
+using MeterRunner = RoundRunner<MeterWork>;
 
 } // namespace blush

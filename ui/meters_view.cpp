@@ -65,8 +65,8 @@ void draw_meters(ImDrawList& draw, const ImageRect& image, const Projection& pro
         draw.AddCircle({p.x, p.y}, em * 0.42f, IM_COL32(0, 0, 0, 200), 0, em * 0.25f);
         draw.AddCircle({p.x, p.y}, em * 0.42f, tone::text, 0, em * 0.12f);
         draw.AddCircleFilled({p.x, p.y}, em * 0.12f, tone::text);
-        const bool read = i < meters.state.readings.size();
-        const std::string text = view.meters[i].name + "  " + (read ? reading_text(meters.state.readings[i]) : "...");
+        const bool read = i < meters.state.answer.size();
+        const std::string text = view.meters[i].name + "  " + (read ? reading_text(meters.state.answer[i]) : "...");
         const ImVec2 corner{p.x + em * 0.8f, p.y - em * 0.6f}, size = ImGui::CalcTextSize(text.c_str());
         draw.AddRectFilled({corner.x - em * 0.25f, corner.y - em * 0.1f}, {corner.x + size.x + em * 0.25f, corner.y + size.y + em * 0.1f},
                            IM_COL32(20, 20, 20, 200), em * 0.2f);

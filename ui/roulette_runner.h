@@ -2,45 +2,28 @@
 #pragma once
 
 #include "measure/roulette_lab.h"
-
-#include <atomic>
-#include <condition_variable>
-#include <mutex>
-#include <optional>
-#include <string>
-#include <thread>
+#include "ui/round_runner.h"
 
 namespace blush {
 
-class RouletteRunner {
+class RouletteWork {
 public:
-    RouletteRunner();
-    ~RouletteRunner(); // gives up the round it is in
-    RouletteRunner(const RouletteRunner&) = delete;
-    RouletteRunner& operator=(const RouletteRunner&) = delete;
-
-    // Starts anew if this differs from what is measured. Does not wait.
-    void measure(const Scene& scene, const RenderSettings& settings);
-    struct State {
-        RouletteReport report;
-        std::string failure; // why there is nothing to report
-    };
-    State state() const;
-
-private:
-    struct Task {
+    struct Question {
         Scene scene;
         RenderSettings settings;
+        bool asks_the_same(const Question& other) const;
     };
-    void run();
-    void work_once(RouletteLab& lab, const std::optional<Task>& task);
+    using Answer = RouletteReport;
 
-    mutable std::mutex mutex_;
-    std::condition_variable wake_;
-    std::optional<Task> last_, pending_;
-    State state_;
-    std::atomic<bool> quit_{false};
-    std::thread thread_; // last: starts when everything else is there
+    void begin(const Question& q) { lab_.begin(q.scene, q.settings); }
+    bool round(const std::function<bool()>& wanted) { return lab_.round(wanted); }
+    Answer answer() const { return lab_.report(); }
+    static bool is_good(const Answer& report);
+
+private:
+    RouletteLab lab_{{.threads = 1, .low_priority = true, .planes = {}}};
 };
+
+using RouletteRunner = RoundRunner<RouletteWork>;
 
 } // namespace blush

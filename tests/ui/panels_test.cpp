@@ -343,7 +343,7 @@ TEST_F(Panels, TheRouletteLabMeasuresWhileItIsOpen) {
     ui.roulette.open = true;
     draw();
     ASSERT_TRUE(ui.roulette.runner);
-    while (ui.roulette.runner->state().report.rounds < 20) draw();
+    while (ui.roulette.runner->state().answer.rounds < 20) draw();
     draw();
     EXPECT_FALSE(document.can_undo()) << "looking edits nothing";
     ui.roulette.open = false;

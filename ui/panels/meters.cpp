@@ -19,7 +19,7 @@ void follow(PanelContext& c) {
         return;
     }
     if (!view.runner) view.runner = std::make_shared<MeterRunner>();
-    view.runner->measure(c.scene(), c.project().render, places_of(c.scene(), meters));
+    view.runner->measure({c.scene(), c.project().render, places_of(c.scene(), meters)});
     view.state = view.runner->state();
     if (!view.state.rests && view.state.failure.empty()) c.ui.next_frame_in = std::min(c.ui.next_frame_in, 0.2);
 }
@@ -27,7 +27,7 @@ void follow(PanelContext& c) {
 // The meters as the table leaves them: one renamed, or one gone.
 std::vector<LightMeter> draw_table(PanelContext& c) {
     std::vector<LightMeter> meters = c.project().view.meters;
-    const auto& readings = c.ui.meters.state.readings;
+    const auto& readings = c.ui.meters.state.answer;
     size_t gone = meters.size();
     if (!ImGui::BeginTable("meters", 4, ImGuiTableFlags_SizingFixedFit)) return meters;
     const float em = ImGui::GetFontSize();

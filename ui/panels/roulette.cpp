@@ -108,14 +108,14 @@ void draw_measured(PanelContext& c, RouletteView& view) {
     RenderSettings settings = c.project().render;
     settings.width = c.render_width;
     settings.height = c.render_height;
-    view.runner->measure(c.scene(), settings);
+    view.runner->measure({c.scene(), settings});
     c.ui.next_frame_in = std::min(c.ui.next_frame_in, 0.25);
     const RouletteRunner::State state = view.runner->state();
     if (!state.failure.empty()) return quiet_text(state.failure);
-    if (state.report.rounds == 0) return quiet_text("The first round is being rendered.");
-    if (section(c.ui, "Against no roulette")) draw_figures(c, state.report);
-    if (section(c.ui, "Survival by bounce")) draw_survival(c, state.report);
-    if (section(c.ui, "Bias test")) draw_bias(state.report);
+    if (state.answer.rounds == 0) return quiet_text("The first round is being rendered.");
+    if (section(c.ui, "Against no roulette")) draw_figures(c, state.answer);
+    if (section(c.ui, "Survival by bounce")) draw_survival(c, state.answer);
+    if (section(c.ui, "Bias test")) draw_bias(state.answer);
 }
 
 } // namespace
