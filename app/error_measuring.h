@@ -1,7 +1,8 @@
 // Measures the error of pictures that cannot tell it themselves, in the background: raw and denoised ones against a reference, denoised
-// ones without one against the raw picture as it gets better.
+// ones without one against the raw picture as it gets better. As often as fits into a share of the rendering time, and once more at the end.
 #pragma once
 
+#include "core/time_budget.h"
 #include "measure/convergence_runs.h"
 #include "measure/picture_error.h"
 #include "measure/reference.h"
@@ -31,27 +32,30 @@ public:
     // `reference` of the run's picture, or else `raw`, the newest frame. Either may be null.
     void poll(ConvergenceRuns& runs, const std::shared_ptr<const Reference>& reference, const FramePtr& raw);
     // Of all measuring for this run so far.
-    double seconds() const { return seconds_; }
+    double seconds() const { return budget_.spent(); }
 
 private:
+    // A denoised picture; oldest first.
+    struct Waiting {
+        DenoisedPtr picture;
+        int64_t judged_at = 0; // samples of the raw picture that it was last held against
+    };
     struct Measured {
-        std::vector<ConvergencePoint> points;
-        std::vector<DenoisedPtr> settled; // whose error is known as well as it can be
-        double seconds = 0;
+        ConvergencePoint point;
+        DenoisedPtr settled; // its error is known as well as it can be
+        double pixels = 0, seconds = 0;
     };
     using Work = std::function<Measured(JobProgress&)>;
 
     void take(ConvergenceRuns& runs);
-    bool judges_better(const Frame& raw) const; // than the one before
     Work against_reference(const std::shared_ptr<const Reference>& reference);
-    Work against_raw(const FramePtr& raw) const;
+    Work against_raw(const FramePtr& raw);
 
     std::function<void()> wake_;
     int run_ = 0, measured_run_ = 0;
-    double seconds_ = 0;
-    std::vector<FramePtr> raw_;
-    std::vector<DenoisedPtr> denoised_; // oldest first
-    int64_t judged_at_ = 0;             // samples of the raw picture that denoised ones were last held against
+    TimeBudget budget_{measuring_share};
+    FramePtr raw_; // the newest that waits
+    std::vector<Waiting> denoised_;
     std::unique_ptr<BackgroundJob<Measured>> job_;
 };
 

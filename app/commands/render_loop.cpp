@@ -30,6 +30,12 @@ int64_t next_batch(int64_t last_count, double last_seconds, int64_t left) {
     return std::min(std::max<int64_t>(1, grown), left);
 }
 
+int64_t next_error_look(int64_t samples) {
+    int64_t look = 2;
+    while (look <= samples) look = std::max(look + 1, look * 5 / 4);
+    return look;
+}
+
 double stop_progress(const RenderSettings& settings, int64_t samples, double seconds, const ErrorEstimate& error) {
     double fraction = 0;
     if (settings.spp > 0) fraction = std::max(fraction, double(samples) / double(settings.spp - settings.first_sample));
@@ -46,17 +52,19 @@ LoopResult run_render_loop(Renderer& renderer, const RenderSettings& settings, c
     const Stopwatch watch;
     LoopProgress progress = begin;
     progress.fraction = stop_progress(settings, begin.samples, begin.seconds, begin.error);
-    int64_t count = 0, next_look = 2;
+    int64_t count = 0, next_look = next_error_look(begin.samples);
     double batch_began = begin.seconds;
     while (progress.fraction < 1 && !interrupted) {
-        count = next_batch(count, progress.seconds - batch_began, limit - progress.samples);
+        // Looks at the error come after so many samples whatever the time, so that the picture does not depend on it.
+        const int64_t end = settings.error > 0 ? std::min(limit, next_look) : limit;
+        count = next_batch(count, progress.seconds - batch_began, end - progress.samples);
         batch_began = progress.seconds;
         renderer.render(settings.first_sample + progress.samples, count);
         progress.samples += count;
-        // Looking at the error reads the whole film: only as often as the answer can have changed.
+        // Reads the whole film: only as often as the answer can have changed.
         if (settings.error > 0 && progress.samples >= next_look) {
-            progress.error = renderer.resolve().error;
-            next_look = std::max(progress.samples + 1, progress.samples * 5 / 4);
+            progress.error = renderer.estimate_error();
+            next_look = next_error_look(progress.samples);
         }
         progress.seconds = begin.seconds + watch.seconds();
         progress.fraction = stop_progress(settings, progress.samples, progress.seconds, progress.error);

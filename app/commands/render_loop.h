@@ -26,6 +26,9 @@ struct LoopResult {
 // How many samples to render next so that a batch takes a quarter of a second: at most doubled, at least one, never past `left`.
 int64_t next_batch(int64_t last_count, double last_seconds, int64_t left);
 
+// After how many samples, more than these, the error is looked at for the stop rule: 2, 3, 4, 5, 6, 7, 8, 10, ... about every fourth more.
+int64_t next_error_look(int64_t samples);
+
 // How far `samples` and `seconds` are towards the nearest of the settings' stop rules, 0 .. 1; below 1 until one is met.
 double stop_progress(const RenderSettings& settings, int64_t samples, double seconds, const ErrorEstimate& error);
 

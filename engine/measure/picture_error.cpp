@@ -71,7 +71,7 @@ PictureError error_against(const PixelView& picture, const PixelView& raw, const
 
 ConvergencePoint estimated_point(const Frame& frame) {
     const ErrorEstimate& e = frame.error;
-    ConvergencePoint p{ConvergencePoint::Kind::estimated, frame.seconds, frame.samples, {}, {}};
+    ConvergencePoint p{ConvergencePoint::Kind::estimated, frame.error_at, frame.error_samples, {}, {}};
     if (e.rmse_known) p.rmse = {true, e.rmse, e.rmse_low, e.rmse_high};
     if (e.known) p.relmse = {true, e.relmse, e.low, e.high};
     return p;

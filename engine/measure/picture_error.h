@@ -8,6 +8,9 @@
 
 namespace blush {
 
+// Of the time that rendering takes: how much of it measuring pictures meanwhile may take.
+constexpr double measuring_share = 0.005;
+
 struct PictureError {
     Interval rmse, relmse; // known: there is an interval that says something
 };
@@ -24,7 +27,7 @@ PictureError error_against(const PixelView& picture, const MeasuredImage& refere
 // unless that is less than half of it.
 PictureError error_against(const PixelView& picture, const PixelView& raw, const ErrorEstimate& raw_error);
 
-// What a frame says of itself.
+// What a frame says of itself, or of what it was when that was estimated.
 ConvergencePoint estimated_point(const Frame& frame);
 
 } // namespace blush

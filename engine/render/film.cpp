@@ -3,7 +3,6 @@
 #include "core/math.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
@@ -288,29 +287,56 @@ void Film::resolve_rows(Frame& frame, int first, int last, Totals& totals) const
     }
 }
 
+size_t Film::count_bands() const { return size_t((height_ + band_rows - 1) / band_rows); }
+
+void Film::for_each_band(const Workers& workers, const std::function<void(size_t band, int first, int last)>& task) const {
+    workers.for_each(int64_t(count_bands()), {}, [&](int64_t i, unsigned) {
+        task(size_t(i), int(i) * band_rows, std::min(height_, int(i + 1) * band_rows));
+    });
+}
+
 PixelHalves Film::halves(size_t pixel) const {
     const Half &a = halves_[2 * pixel], &b = halves_[2 * pixel + 1];
     if (a.count == 0 || b.count == 0) return {};
     const double na = double(a.count), nb = double(b.count);
-    return {true, sum(pixel, 0) / na, sum(pixel, 1) / nb, na * weights(a, b).a, a.count + b.count};
+    return {true, sum(pixel, 0) / na, sum(pixel, 1) / nb, na * weights(a, b).a};
 }
 
-ErrorAccumulator Film::error_of_rows(const Frame& frame, int first, int last) const {
-    ErrorAccumulator error;
-    // A drag's single samples have nothing to compare, and no time to look
-    // around.
-    size_t i = size_t(first) * size_t(width_);
-    const size_t end = size_t(last) * size_t(width_);
-    while (i < end && !halves(i).known) ++i;
-    if (i == end) return error;
-    const int above = std::max(0, first - 1);
-    const Surroundings surroundings(frame.rgba, width_, height_, above, last);
-    std::vector<PixelHalves> row(static_cast<size_t>(width_));
-    for (int y = above; y < last; ++y) {
-        for (size_t x = 0; x < row.size(); ++x) row[x] = halves(size_t(y) * size_t(width_) + x);
-        y < first ? error.lead_in(row, surroundings, y) : error.add_row(row, surroundings, y);
+void Film::load_halves(int y, float scale, HalfRow& row) const {
+    for (int x = 0; x < width_; ++x) {
+        const size_t i = size_t(y) * size_t(width_) + size_t(x);
+        const Half &a = halves_[2 * i], &b = halves_[2 * i + 1];
+        const Vec3d sum_a = sum(i, 0), sum_b = sum(i, 1);
+        const Weights w = weights(a, b);
+        const bool known = a.count > 0 && b.count > 0;
+        const double na = double(a.count), to_a = double(scale) / na, to_b = double(scale) / double(b.count);
+        const auto set = [&](size_t c, double of_a, double of_b) {
+            const float own = float((of_a * w.a + of_b * w.b) * double(scale));
+            row.own[c][x] = own;
+            row.a[c][x] = known ? float(of_a * to_a) : own;
+            row.b[c][x] = known ? float(of_b * to_b) : own;
+        };
+        set(0, sum_a.x, sum_b.x);
+        set(1, sum_a.y, sum_b.y);
+        set(2, sum_a.z, sum_b.z);
+        row.weight_a[x] = known ? float(na * w.a) : 0.5f;
+        row.known[x] = known ? 1.f : 0.f;
+        row.one_sample[x] = known ? 1 / float(a.count + b.count) : 0.f;
     }
-    return error;
+}
+
+ErrorEstimate Film::estimate_error(const Workers& workers, double sharing) const {
+    // A drag's single samples have nothing to compare.
+    size_t i = 0;
+    const size_t n = size_t(width_) * size_t(height_);
+    while (i < n && !halves(i).known) ++i;
+    if (i == n) return {};
+    const HalvesOfPicture picture{width_, height_, [this](int y, float scale, HalfRow& row) { load_halves(y, scale, row); }};
+    std::vector<ErrorSums> bands(count_bands());
+    for_each_band(workers, [&](size_t band, int first, int last) { bands[band] = sum_errors(picture, first, last); });
+    ErrorSums sums;
+    for (const ErrorSums& band : bands) sums.merge(band);
+    return blush::estimate_error(sums, sharing);
 }
 
 void Film::resolve(Frame& frame, const Workers& workers) const {
@@ -332,23 +358,11 @@ void Film::resolve(Frame& frame, const Workers& workers) const {
     frame.path_length.resize(planes_.roulette ? n : 0);
     frame.survival.resize(planes_.roulette ? n : 0);
     frame.health = health_.health();
+    frame.error = {};
 
-    // Bands of a fixed size, summed in order: the totals do not depend on threads.
-    constexpr int band = 32;
-    const size_t bands = size_t((height_ + band - 1) / band);
     const Totals none{.groups = std::vector<GroupShare>(frame.groups.size())};
-    std::vector<Totals> totals(bands, none);
-    std::vector<ErrorAccumulator> errors(bands);
-    const auto for_each_band = [&](const auto& task) {
-        workers.for_each(int64_t(bands), {}, [&](int64_t i, unsigned) { task(size_t(i), int(i) * band, std::min(height_, int(i + 1) * band)); });
-    };
-    for_each_band([&](size_t i, int first, int last) { resolve_rows(frame, first, last, totals[i]); });
-    const auto begin = std::chrono::steady_clock::now();
-    for_each_band([&](size_t i, int first, int last) { errors[i] = error_of_rows(frame, first, last); });
-    ErrorAccumulator error;
-    for (const ErrorAccumulator& e : errors) error.merge(e);
-    frame.error = error.estimate();
-    frame.error_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    std::vector<Totals> totals(count_bands(), none);
+    for_each_band(workers, [&](size_t band, int first, int last) { resolve_rows(frame, first, last, totals[band]); });
     Totals total = none;
     for (const Totals& t : totals) total.merge(t);
     frame.group_shares = total.groups;

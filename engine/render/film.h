@@ -28,6 +28,13 @@ struct FilmSize {
     int groups = 0; // of lights, each with its plane
 };
 
+// A pixel as its two halves have it. Unknown until both hold samples.
+struct PixelHalves {
+    bool known = false;
+    Vec3d a{0, 0, 0}, b{0, 0, 0}; // means
+    double weight_a = 0.5;        // what a counts for in the picture, n_a / (n_a + n_b) or a half
+};
+
 // Of a film plane: is it there, why, and what a pixel of it takes or would take.
 struct PlaneUse {
     const char* name;
@@ -85,8 +92,10 @@ public:
     // Goes on from what another film has found (film_state.h).
     void restore_health(const Health& health) { health_.restore(health); }
     PixelHalves halves(size_t pixel) const;
-    // Everything the film knows: pixels, planes, health, error. Reuses the frame's memory. Material ids are left as table indices + 1.
+    // Everything the film knows but the error: pixels, planes, health. Reuses the frame's memory. Material ids are left as table indices + 1.
     void resolve(Frame& frame, const Workers& workers) const;
+    // `sharing`: see shared_errors.h.
+    ErrorEstimate estimate_error(const Workers& workers, double sharing = 1) const;
     // Standard error of each pixel's mean from the two halves, RGB; empty before both hold samples.
     std::vector<Vec3> standard_error() const;
 
@@ -144,7 +153,11 @@ private:
     };
     void resolve_groups(Frame& frame, size_t pixel, const Weights& w, std::vector<GroupShare>& shares) const;
     void resolve_rows(Frame& frame, int first, int last, Totals& totals) const;
-    ErrorAccumulator error_of_rows(const Frame& frame, int first, int last) const;
+    // Rows of a fixed number, whose sums are added up in order: totals do not depend on threads.
+    static constexpr int band_rows = 32;
+    size_t count_bands() const;
+    void for_each_band(const Workers& workers, const std::function<void(size_t band, int first, int last)>& task) const;
+    void load_halves(int y, float scale, HalfRow& row) const;
 
     int width_ = 0, height_ = 0;
     PlaneSet planes_;

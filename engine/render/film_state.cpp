@@ -144,7 +144,8 @@ Result<ResolvedFilm> resolve_film(const FilmState& state, const RenderSettings& 
     // As ids are kept, not as indices, one more is what a frame says of them.
     ResolvedFilm resolved;
     Frame& frame = resolved.frame;
-    film.resolve(frame, Workers(threads));
+    const Workers workers(threads);
+    film.resolve(frame, workers);
     for (uint32_t& id : frame.object_id) id &= ~lowered_bit;
     for (uint32_t& id : frame.material_id) id = (id - 1) & lowered_bit ? 0 : id - 1;
     frame.samples = state.samples;
@@ -152,7 +153,9 @@ Result<ResolvedFilm> resolve_film(const FilmState& state, const RenderSettings& 
     frame.rays = state.rays;
     frame.path_counts = state.path_counts;
     frame.health.truncated = state.truncated;
-    frame.error = with_shared_errors(frame.error, film, settings.reuse);
+    frame.error = estimate_error(film, settings.reuse, workers);
+    frame.error_samples = frame.samples;
+    frame.error_at = frame.seconds;
     resolved.error = film.standard_error();
     return resolved;
 }

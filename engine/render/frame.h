@@ -73,12 +73,15 @@ struct Frame {
     std::vector<float> path_length, survival;
     std::vector<PathCounts> path_counts; // by bounce
 
+    // The newest estimate of this image's error: of the picture that it was with so many samples per pixel, after so many seconds.
     ErrorEstimate error;
+    int64_t error_samples = 0;
+    double error_at = 0;
     Health health;
     ClampReport clamp;
     RayCounts rays;
     double seconds = 0;        // of rendering at this revision
-    double error_seconds = 0;  // that estimating errors took: this frame's, or, from a session, those of all frames of its image so far
+    double error_seconds = 0;  // that estimating its error took so far, in a session
     double first_image_seconds = 0; // from submit to the first published frame of this revision
     double samples_per_second = 0; // whole-image samples per pixel per second, over the last batch
     std::string kernel;        // e.g. "v4/plain"

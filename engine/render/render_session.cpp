@@ -1,5 +1,6 @@
 #include "render/render_session.h"
 
+#include "render/error_cadence.h"
 #include "render/frame_pool.h"
 #include "render/renderer.h"
 #include "render/scheduler.h"
@@ -103,7 +104,16 @@ struct RenderSession::State {
     std::string failure, not_continued; // empty: none
     bool has_scene = false, has_first_image = false;
     bool aims_at_mix = false; // lights are picked by what they are worth in the mix by now
-    double first_image_seconds = 0, samples_per_second = 0, error_seconds = 0;
+    double first_image_seconds = 0, samples_per_second = 0;
+    ErrorCadence error_cadence;
+    // Of the image, the newest; a frame that gets none of its own shows it.
+    struct Estimated {
+        ErrorEstimate error;
+        int64_t samples = 0;
+        double at = 0;
+        std::vector<Vec3> gains;
+        bool is_of(const Frame& f) const { return samples == f.samples && gains == f.gains; }
+    } estimated;
     std::thread thread;
 
     std::unique_ptr<BackgroundDenoiser> denoiser; // always there; last, so that it goes before what it answers to
@@ -119,8 +129,9 @@ struct RenderSession::State {
     void work_once();
     void fail(std::string why, std::optional<uint64_t> asked);
     void go_on_from(const FilmState& film);
-    std::shared_ptr<Frame> resolved();
-    void publish(const Work* work = nullptr);
+    std::shared_ptr<Frame> resolved(bool wants_error = false);
+    void estimate_error(Frame& frame, bool wanted);
+    void publish();
     void mix_denoised(const Frame& frame);
     void keep_film(uint64_t revision);
     void answer(KeptFilm kept);
@@ -149,13 +160,30 @@ void RenderSession::State::announce(std::optional<SessionStatus::State> passing)
     on_frame();
 }
 
-std::shared_ptr<Frame> RenderSession::State::resolved() {
+// Rarely enough not to be felt, unless it is wanted.
+void RenderSession::State::estimate_error(Frame& frame, bool wanted) {
+    const bool mixed_anew = estimated.samples > 0 && estimated.gains != frame.gains;
+    const ErrorCadence::Picture picture{frame.samples, double(frame.width) * double(frame.height), frame.seconds,
+                                        wanted || mixed_anew || scheduler.finished() || scheduler.error_may_be_reached()};
+    if (frame.divider == 1 && !estimated.is_of(frame) && error_cadence.due(picture)) {
+        const auto begin = Clock::now();
+        estimated = {renderer->estimate_error(), frame.samples, frame.seconds, frame.gains};
+        error_cadence.record(picture, seconds_between(begin, Clock::now()));
+        scheduler.record_error(estimated.error.known ? estimated.error.relmse : -1);
+    }
+    frame.error = estimated.error;
+    frame.error_samples = estimated.samples;
+    frame.error_at = estimated.at;
+    frame.error_seconds = error_cadence.spent();
+}
+
+std::shared_ptr<Frame> RenderSession::State::resolved(bool wants_error) {
     std::shared_ptr<Frame> frame = frames.take();
     renderer->resolve(*frame);
     frame->revision = current.revision;
-    frame->complete = scheduler.finished();
     frame->seconds = scheduler.seconds();
-    frame->error_seconds = error_seconds += frame->error_seconds;
+    estimate_error(*frame, wants_error);
+    frame->complete = scheduler.finished();
     frame->first_image_seconds = first_image_seconds;
     frame->samples_per_second = samples_per_second;
     return frame;
@@ -170,14 +198,12 @@ void RenderSession::State::mix_denoised(const Frame& frame) {
     showcase.replace(before, std::move(after));
 }
 
-// Hands out the film as it is; `work` is what was just added to it, if anything.
-void RenderSession::State::publish(const Work* work) {
+// Hands out the film as it is.
+void RenderSession::State::publish() {
     const std::shared_ptr<Frame> frame = resolved();
     mix_denoised(*frame);
-    if (work) scheduler.record_publish(*work, frame->error.known ? frame->error.relmse : -1);
     if (!has_first_image) first_image_seconds = seconds_between(current.when, Clock::now());
     has_first_image = true;
-    frame->complete = scheduler.finished();
     frame->first_image_seconds = first_image_seconds;
     const Pictures previous = look(); // freed without the lock
     const std::lock_guard lock(mutex);
@@ -224,7 +250,8 @@ void RenderSession::State::take_up(Submission next) {
     const RenderSettings settings = at_film_size(current.settings);
     if (new_image) {
         has_scene = has_first_image = false;
-        error_seconds = 0;
+        error_cadence.restart();
+        estimated = {};
         scheduler.restart(settings, true);
         announce(SessionStatus::State::updating);
         if (!renderer) renderer.emplace(RendererOptions{options.threads, options.low_priority, {}});
@@ -250,8 +277,7 @@ void RenderSession::State::go_on_from(const FilmState& film) {
         return;
     }
     scheduler.resume(film.samples, film.seconds);
-    const Work none{.first_sample = current.settings.first_sample, .count = 0};
-    publish(&none);
+    publish();
 }
 
 void RenderSession::State::keep_film(uint64_t revision) {
@@ -260,7 +286,7 @@ void RenderSession::State::keep_film(uint64_t revision) {
     if (renderer && has_first_image && revision == current.revision) film = renderer->save_film(current.settings.first_sample);
     if (film) {
         film->seconds = scheduler.seconds();
-        kept.frame = resolved();
+        kept.frame = resolved(true);
         kept.error = renderer->resolve_error();
         kept.film = std::make_shared<const FilmState>(*std::move(film));
     } else {
@@ -292,7 +318,10 @@ void RenderSession::State::work_once() {
     const double seconds = seconds_between(begin, Clock::now());
     samples_per_second = double(work.count) / (std::max(seconds, 1e-9) * work.divider * work.divider);
     scheduler.record_render(work, seconds);
-    if (work.publish || scheduler.finished()) publish(&work);
+    if (work.publish || scheduler.finished()) {
+        publish();
+        scheduler.record_publish();
+    }
     announce();
 }
 

@@ -359,7 +359,6 @@ void Renderer::resolve(Frame& frame) const {
     State& s = *state_;
     s.wipe_stale_film();
     s.film.resolve(frame, s.workers);
-    frame.error = with_shared_errors(frame.error, s.film, s.settings.reuse);
     for (uint32_t& id : frame.object_id) id &= ~lowered_bit;
     for (uint32_t& id : frame.material_id) {
         const uint32_t material = s.scene.material_id(int32_t(id) - 1).value;
@@ -379,7 +378,15 @@ void Renderer::resolve(Frame& frame) const {
 Frame Renderer::resolve() const {
     Frame frame;
     resolve(frame);
+    frame.error = estimate_error();
+    frame.error_samples = frame.samples;
     return frame;
+}
+
+ErrorEstimate Renderer::estimate_error() const {
+    State& s = *state_;
+    s.wipe_stale_film();
+    return blush::estimate_error(s.film, s.settings.reuse, s.workers);
 }
 
 Result<FilmState> Renderer::save_film(int64_t first) const {

@@ -88,9 +88,12 @@ public:
     bool render(int64_t first, int64_t count, const std::function<bool()>& wanted = {});
     void clear();
 
-    // The film so far, divided by its sample counts. The second reuses the memory of an old frame.
+    // The film so far, divided by its sample counts. The second reuses the memory of an old frame and does not estimate the error, which
+    // costs as much as some hundredths of a sample.
     Frame resolve() const;
     void resolve(Frame& frame) const;
+    // Of the film so far, from its two halves.
+    ErrorEstimate estimate_error() const;
     // Standard error of the mean of each pixel from the two half buffers, RGB; empty before both hold samples.
     std::vector<Vec3> resolve_error() const;
     // What these errors have in common under path reuse; pixels err independently without.

@@ -1,9 +1,17 @@
 #include "render/scheduler.h"
 
+#include "render/error_cadence.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace blush {
+namespace {
+
+// Of relmse with the number of samples, as a power: independent samples have -1, well distributed ones do better on smooth pictures.
+constexpr double fastest_fall = -1.5;
+
+} // namespace
 
 void Scheduler::restart(const RenderSettings& settings, bool interactive) {
     settings_ = settings;
@@ -12,6 +20,7 @@ void Scheduler::restart(const RenderSettings& settings, bool interactive) {
     next_sample_ = settings.first_sample;
     seconds_ = last_publish_ = 0;
     error_ = -1;
+    error_samples_ = 0;
 }
 
 void Scheduler::resume(int64_t samples, double seconds) {
@@ -69,7 +78,7 @@ Work Scheduler::next() const {
     work.count = std::min<int64_t>(count, 1024);
     const double after = seconds_ + double(work.count) * sample;
     const bool last = settings_.spp > 0 && next_sample_ + work.count >= settings_.spp;
-    work.publish = last || samples() < 8 || after - last_publish_ >= 0.9 * publish_interval() || settings_.error > 0 ||
+    work.publish = last || samples() < 8 || after - last_publish_ >= 0.9 * publish_interval() || error_may_be_reached(samples() + work.count) ||
                    (settings_.seconds > 0 && after >= settings_.seconds);
     return work;
 }
@@ -85,9 +94,15 @@ void Scheduler::record_render(const Work& work, double seconds) {
     if (work.divider == 1) next_sample_ = work.first_sample + work.count;
 }
 
-void Scheduler::record_publish(const Work& work, double error) {
-    last_publish_ = seconds_;
-    if (work.divider == 1) error_ = error;
+void Scheduler::record_error(double error) {
+    error_ = error;
+    error_samples_ = samples();
+}
+
+bool Scheduler::error_may_be_reached(int64_t samples) const {
+    if (settings_.error <= 0 || film_divider_ != 1 || !(error_ >= 0)) return false;
+    const double grown = double(samples) / double(std::max<int64_t>(1, error_samples_));
+    return grown >= ErrorCadence::growth && error_ * std::pow(grown, fastest_fall) <= settings_.error;
 }
 
 bool Scheduler::finished() const {

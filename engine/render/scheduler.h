@@ -38,8 +38,12 @@ public:
     void change_stop_rules(const RenderSettings& settings) { settings_ = settings; }
     // `work` was rendered in `seconds`.
     void record_render(const Work& work, double seconds);
-    // Its frame was published; `error` is the estimated relMSE, negative if not known.
-    void record_publish(const Work& work, double error);
+    // Its frame was published.
+    void record_publish() { last_publish_ = seconds_; }
+    // The relMSE of the picture as it is now, in full resolution, was estimated; negative if not known.
+    void record_error(double error);
+    // May the stop rule by error be met by now, as the last estimate goes on? Then it is worth another.
+    bool error_may_be_reached() const { return error_may_be_reached(samples()); }
 
     bool finished() const;
     // Towards the nearest stop rule, [0, 1]; 1 only when finished.
@@ -54,6 +58,7 @@ public:
 private:
     int first_divider() const;
     double publish_interval() const;
+    bool error_may_be_reached(int64_t samples) const;
 
     RenderSettings settings_;
     Timings timings_;
@@ -62,7 +67,8 @@ private:
     bool interactive_ = true;
     double seconds_ = 0;         // rendered at this revision
     double last_publish_ = 0;    // seconds_ when last published
-    double error_ = -1;
+    double error_ = -1;          // last estimated, with
+    int64_t error_samples_ = 0;
 };
 
 } // namespace blush

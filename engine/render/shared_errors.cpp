@@ -66,9 +66,8 @@ SharedErrors measure_shared_errors(const Film& film, const ReuseGroups& groups) 
     return {means.ratio(groups), products.ratio(groups)};
 }
 
-ErrorEstimate with_shared_errors(const ErrorEstimate& estimate, const Film& film, int reuse) {
-    if (reuse <= 1 || !(estimate.known || estimate.rmse_known)) return estimate;
-    return widened(estimate, measure_shared_errors(film, reuse_groups(reuse)).products);
+ErrorEstimate estimate_error(const Film& film, int reuse, const Workers& workers) {
+    return film.estimate_error(workers, reuse > 1 ? measure_shared_errors(film, reuse_groups(reuse)).products : 1);
 }
 
 } // namespace blush

@@ -6,6 +6,7 @@
 namespace blush {
 
 class Film;
+class Workers;
 struct ErrorEstimate;
 
 // Ratios to what they would be if pixels erred independently; from 1 to the size of a group.
@@ -19,7 +20,7 @@ struct SharedErrors {
 // spread over it.
 SharedErrors measure_shared_errors(const Film& film, const ReuseGroups& groups);
 
-// The estimate of a film that was rendered with `reuse` pixels in a group.
-ErrorEstimate with_shared_errors(const ErrorEstimate& estimate, const Film& film, int reuse);
+// Of a film that was rendered with `reuse` pixels in a group.
+ErrorEstimate estimate_error(const Film& film, int reuse, const Workers& workers);
 
 } // namespace blush

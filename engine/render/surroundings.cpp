@@ -3,65 +3,71 @@
 #include <algorithm>
 
 namespace blush {
-namespace {
 
-// Sums over three pixels side by side, of row y.
-void sum_across(std::span<const float> rgba, int width, int y, std::vector<Vec3>& sums) {
-    const float* row = &rgba[4 * size_t(y) * size_t(width)];
-    const auto sum = [&](int first, int last) {
-        Vec3 s{0, 0, 0};
-        for (int i = first; i <= last; ++i) s = {s.x + row[4 * i], s.y + row[4 * i + 1], s.z + row[4 * i + 2]};
-        return s;
+Surroundings::Surroundings(int width, int height) : width_(width), height_(height), inverse_(width), inverse_at_border_(width), nothing_(width) {
+    const PixelRow row(width);
+    for (auto* rows : {&across_, &blocks_}) rows->fill({row, row, row});
+    const auto clipped_count = [](int at, int size) { return std::min(at + 1, size - 1) - std::max(at - 1, 0) + 1; };
+    const auto fill = [&](PixelRow& inverse, int rows) {
+        for (int x = 0; x < width; ++x) inverse[x] = 1.f / float(std::max(1, clipped_count(x, width) * rows - 1));
+        mirror(inverse);
     };
-    for (int x = 0; x < width; ++x) sums[size_t(x)] = sum(std::max(0, x - 1), std::min(width - 1, x + 1));
+    fill(inverse_, 3);
+    fill(inverse_at_border_, clipped_count(0, height));
 }
 
-int clipped_count(int at, int size) { return std::min(at + 1, size - 1) - std::max(at - 1, 0) + 1; }
+// A pixel at the border has the blocks within twice, instead of those beyond.
+void Surroundings::mirror(PixelRow& row) const {
+    if (width_ < 2) return;
+    row[-1] = row[1];
+    row[width_] = row[width_ - 2];
+}
 
-} // namespace
+void Surroundings::add_row(const ChannelRows& own, int y) {
+    ChannelRows& across = across_[size_t(y % kept)];
+    for (size_t c = 0; c < 3; ++c) {
+        const float* const from = own[c].pixels();
+        float* const to = across[c].pixels();
+        for (int x = 0; x < width_; x += PixelRow::step)
+            store_four(to + x, load_four(from + x - 1) + load_four(from + x) + load_four(from + x + 1));
+    }
+    if (y > 0) sum_block_row(y - 1);
+    if (y == height_ - 1) sum_block_row(y);
+}
 
-Surroundings::Surroundings(std::span<const float> rgba, int width, int height, int first_row, int last_row)
-    : rgba_(rgba), width_(width), height_(height), first_(std::max(0, first_row - 1)) {
-    const int last = std::min(height, last_row + 1);
-    blocks_.assign(size_t(last - first_) * size_t(width), {0, 0, 0});
-    std::vector<Vec3> across(static_cast<size_t>(width));
-    for (int y = std::max(0, first_ - 1), end = std::min(height, last + 1); y < end; ++y) {
-        sum_across(rgba, width, y, across);
-        for (int to = std::max(first_, y - 1); to <= std::min(last - 1, y + 1); ++to) {
-            Vec3* blocks = &blocks_[size_t(to - first_) * size_t(width)];
-            for (int x = 0; x < width; ++x) {
-                blocks[x].x += across[size_t(x)].x;
-                blocks[x].y += across[size_t(x)].y;
-                blocks[x].z += across[size_t(x)].z;
-            }
-        }
+void Surroundings::sum_block_row(int y) {
+    for (size_t c = 0; c < 3; ++c) {
+        const float* const row = across_[size_t(y % kept)][c].pixels();
+        const float* const above = y > 0 ? across_[size_t((y - 1) % kept)][c].pixels() : nothing_.pixels();
+        const float* const below = y + 1 < height_ ? across_[size_t((y + 1) % kept)][c].pixels() : nothing_.pixels();
+        PixelRow& block = blocks_[size_t(y % kept)][c];
+        float* const to = block.pixels();
+        for (int x = 0; x < width_; x += PixelRow::step) store_four(to + x, load_four(row + x) + load_four(above + x) + load_four(below + x));
+        mirror(block);
     }
 }
 
-int Surroundings::pixels_in_block(int x, int y) const { return clipped_count(x, width_) * clipped_count(y, height_); }
-
-Surroundings::Around Surroundings::around(int x, int y) const {
-    const float* rgba = &rgba_[4 * (size_t(y) * size_t(width_) + size_t(x))];
-    const Vec3 own{rgba[0], rgba[1], rgba[2]};
-    const bool inside = x > 1 && y > 1 && x < width_ - 2 && y < height_ - 2;
-    Vec3 sum{0, 0, 0}, darkest{0, 0, 0};
-    int blocks = 0;
-    for (const int dy : {-1, 1})
-        for (const int dx : {-1, 1}) {
-            if (!inside && (x + dx < 0 || x + dx >= width_ || y + dy < 0 || y + dy >= height_)) continue;
-            const Vec3& block = blocks_[size_t(y + dy - first_) * size_t(width_) + size_t(x + dx)];
-            const float inverse = inside ? 1.f / 8 : 1.f / float(pixels_in_block(x + dx, y + dy) - 1);
-            // Sums of floats: what is left of dark pixels beside a bright one may be rounding.
-            const Vec3 mean{std::max(0.f, (block.x - own.x) * inverse), std::max(0.f, (block.y - own.y) * inverse),
-                            std::max(0.f, (block.z - own.z) * inverse)};
-            sum = {sum.x + mean.x, sum.y + mean.y, sum.z + mean.z};
-            darkest = blocks == 0 ? mean : Vec3{std::min(darkest.x, mean.x), std::min(darkest.y, mean.y), std::min(darkest.z, mean.z)};
-            ++blocks;
-        }
-    if (blocks == 0) sum = darkest = own, blocks = 1;
-    const double inverse = 1.0 / blocks;
-    return {{double(sum.x) * inverse, double(sum.y) * inverse, double(sum.z) * inverse},
-            {double(darkest.x), double(darkest.y), double(darkest.z)}};
+void Surroundings::look(size_t channel, int y, const PixelRow& own, Around& around) const {
+    if (width_ < 2 || height_ < 2) {
+        around.mean = around.darkest = own;
+        return;
+    }
+    const int above = y > 0 ? y - 1 : 1, below = y + 1 < height_ ? y + 1 : height_ - 2;
+    const float *const block_above = blocks(above)[channel].pixels(), *const block_below = blocks(below)[channel].pixels();
+    const float *const inverse_above = inverse(above).pixels(), *const inverse_below = inverse(below).pixels();
+    const float* const values = own.pixels();
+    float *const to_mean = around.mean.pixels(), *const to_darkest = around.darkest.pixels();
+    for (int x = 0; x < width_; x += PixelRow::step) {
+        const Four value = load_four(values + x);
+        // Sums of floats: what is left of dark pixels beside a bright one may be rounding.
+        const auto mean = [&](const float* block, const float* inverse, int at) {
+            return max(splat(0), (load_four(block + at) - value) * load_four(inverse + at));
+        };
+        const Four a = mean(block_above, inverse_above, x - 1), b = mean(block_above, inverse_above, x + 1);
+        const Four c = mean(block_below, inverse_below, x - 1), d = mean(block_below, inverse_below, x + 1);
+        store_four(to_mean + x, (a + b + c + d) * 0.25f);
+        store_four(to_darkest + x, min(min(a, b), min(c, d)));
+    }
 }
 
 } // namespace blush

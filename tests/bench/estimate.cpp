@@ -1,5 +1,5 @@
-// What the error estimate costs: resolving a picture of the window's size with it and without - a film of one sample has nothing to compare
-// - beside the rendering of one sample per pixel. Seconds of all cores, in turns.
+// What the error estimate costs: of a picture of the window's size, beside the rendering of one sample per pixel. Seconds of all cores, in
+// turns.
 #include "tests/bench/bench.h"
 
 #include "render/renderer.h"
@@ -10,16 +10,11 @@ namespace {
 Json measure(const BenchScene& scene, const Options& options) {
     Renderer renderer({.threads = options.threads, .planes = {}});
     renderer.update(scene.scene, window_settings());
-    Frame frame;
-    const auto resolve_seconds = [&] { return cost_of([&] { renderer.resolve(frame); }).core_seconds; };
+    renderer.render(0, 1);
     std::vector<double> sample, estimate, shares;
-    for (int round = 0; round < options.rounds; ++round) {
-        renderer.clear();
-        renderer.render(0, 1);
-        renderer.resolve(frame); // memory that is made upon first use is there
-        const double without = resolve_seconds();
-        sample.push_back(cost_of([&] { renderer.render(1, 1); }).core_seconds);
-        estimate.push_back(resolve_seconds() - without);
+    for (int round = 1; round <= options.rounds; ++round) {
+        sample.push_back(cost_of([&] { renderer.render(round, 1); }).core_seconds);
+        estimate.push_back(cost_of([&] { renderer.estimate_error(); }).core_seconds);
         shares.push_back(estimate.back() / sample.back());
     }
     return {{"scene", scene.name()},

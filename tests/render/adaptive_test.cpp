@@ -72,6 +72,7 @@ struct Sampled {
     Frame frame() const {
         Frame f;
         film.resolve(f, Workers(1));
+        f.error = film.estimate_error(Workers(1));
         return f;
     }
 };

@@ -33,6 +33,7 @@ struct Fixture {
     Frame resolve() {
         Frame frame;
         film.resolve(frame, workers);
+        frame.error = film.estimate_error(workers);
         return frame;
     }
 };

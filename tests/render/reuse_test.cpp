@@ -160,19 +160,6 @@ TEST(PathReuse, KnowsTheFilmsBorder) {
     }
 }
 
-// Sixteen times the variance is four times the width, on the scale of factors;
-// sharing never makes an interval narrower.
-TEST(PathReuse, WidensTheErrorsInterval) {
-    const ErrorEstimate one{true, 0.4, 0.2, 0.8, true, 0.1, 0.05, 0.2};
-    const ErrorEstimate e = widened(one, 16);
-    EXPECT_DOUBLE_EQ(e.relmse, 0.4);
-    EXPECT_NEAR(e.low, 0.4 / 16, 1e-12);
-    EXPECT_NEAR(e.high, 0.4 * 16, 1e-12);
-    EXPECT_NEAR(e.rmse_low, 0.1 / 16, 1e-12);
-    EXPECT_NEAR(e.rmse_high, 0.1 * 16, 1e-12);
-    EXPECT_DOUBLE_EQ(widened(one, 0.5).high, one.high);
-}
-
 // By how much the mean of a picture scatters over seeds, against what its
 // pixels' errors say and how far they say that they are shared.
 TEST(PathReuse, SaysHowFarErrorsAreShared) {

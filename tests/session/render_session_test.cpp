@@ -113,6 +113,25 @@ TEST(RenderSession, ComesToTheImageOfARendererAndSaysSo) {
     EXPECT_EQ(session.events().front().status.state, State::updating);
 }
 
+// Not every picture's error is estimated; each shows the newest there is, and says of which picture.
+TEST(RenderSession, ErrorsSayWhichPictureTheyAreOf) {
+    const Project project = small_project(64, 48, 64);
+    WatchedSession session;
+    submit(session, 1, project);
+    session.wait_for(1, State::complete);
+    session.shut_down();
+    const std::vector<FramePtr> frames = session.frames();
+    int64_t samples = 0;
+    for (const FramePtr& f : frames) {
+        EXPECT_LE(f->error_samples, f->samples);
+        EXPECT_LE(f->error_at, f->seconds);
+        EXPECT_GE(f->error_samples, samples) << "none is lost";
+        samples = f->error_samples;
+    }
+    EXPECT_EQ(frames.back()->error_samples, 64) << "the last is always looked at";
+    EXPECT_EQ(frames.back()->error.relmse, fresh(project).error.relmse);
+}
+
 TEST(RenderSession, CoarsePictureFirstFullResolutionNext) {
     const Project project = large_project(2);
     WatchedSession session;

@@ -19,8 +19,9 @@ struct Machine {
 
     void do_work(Scheduler& scheduler, const Work& work) const {
         scheduler.record_render(work, seconds(work));
-        if (work.publish || scheduler.finished())
-            scheduler.record_publish(work, error_of_one_sample / double(work.divider == 1 ? scheduler.samples() : 1));
+        if (!work.publish && !scheduler.finished()) return;
+        scheduler.record_publish();
+        if (work.divider == 1) scheduler.record_error(error_of_one_sample / double(scheduler.samples()));
     }
     // Works until finished, or until that many pieces are done.
     std::vector<Work> run(Scheduler& scheduler, size_t pieces = 100000) const {
@@ -199,14 +200,30 @@ TEST(Scheduler, StopsAtTheErrorOfTheFullImageOnly) {
     settings.error = 0.01;
     const Machine machine{0.2};
     Scheduler scheduler = experienced(machine, settings);
-    const Work coarse = scheduler.next();
-    ASSERT_GT(coarse.divider, 1);
-    scheduler.record_render(coarse, machine.seconds(coarse));
-    scheduler.record_publish(coarse, 1e-9);
-    EXPECT_FALSE(scheduler.finished()) << "a coarse picture's error says nothing about the fine one's";
+    ASSERT_GT(scheduler.next().divider, 1);
     machine.run(scheduler);
     EXPECT_GE(scheduler.samples(), 100);
     EXPECT_LE(scheduler.samples(), 110);
+}
+
+TEST(Scheduler, AnErrorThatMayBeReachedIsWorthALook) {
+    RenderSettings settings = endless(64, 64);
+    Scheduler scheduler;
+    const auto render = [&](int64_t samples) {
+        while (scheduler.samples() < samples) scheduler.record_render({.first_sample = scheduler.samples(), .count = 1}, 0.01);
+    };
+    for (const double target : {0.0, 0.1}) {
+        settings.error = target;
+        scheduler.restart(settings, true);
+        render(100);
+        EXPECT_FALSE(scheduler.error_may_be_reached()) << "nothing is known of it";
+        scheduler.record_error(0.2);
+        render(150);
+        EXPECT_FALSE(scheduler.error_may_be_reached()) << "half as much again does not halve the error";
+        render(170);
+        EXPECT_EQ(scheduler.error_may_be_reached(), target > 0) << "if it falls fast";
+        EXPECT_FALSE(scheduler.finished()) << "it was not seen";
+    }
 }
 
 TEST(Scheduler, AnUnknownErrorStopsNothing) {
@@ -216,7 +233,8 @@ TEST(Scheduler, AnUnknownErrorStopsNothing) {
     for (const double error : {-1.0, std::numeric_limits<double>::quiet_NaN(), 0.6}) {
         const Work work = scheduler.next();
         scheduler.record_render(work, 0.001);
-        scheduler.record_publish(work, error);
+        scheduler.record_publish();
+        scheduler.record_error(error);
         EXPECT_FALSE(scheduler.finished()) << error;
     }
 }

@@ -25,7 +25,8 @@ std::shared_ptr<Frame> frame_of(uint64_t revision, int64_t samples, double error
     f->width = width;
     f->height = height;
     f->samples = samples;
-    f->seconds = 0.01 * double(samples);
+    f->seconds = f->error_at = 0.01 * double(samples);
+    f->error_samples = samples;
     f->error_seconds = 1e-4 * f->seconds;
     f->rgba.assign(size_t(width * height * 4), 1 + float(error));
     f->error = {true, error * error, 0.9 * error * error, 1.1 * error * error, true, error, 0.9 * error, 1.1 * error};

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 namespace blush {
 namespace {
 
@@ -104,6 +106,18 @@ TEST(RenderLoop, AnErrorLimitStopsIt) {
     EXPECT_TRUE(result.complete);
     EXPECT_TRUE(result.frame.error.known);
     EXPECT_LE(result.frame.error.relmse, settings.error);
+}
+
+// Else the picture that an error limit gives would depend on how fast the machine is.
+TEST(RenderLoop, LooksAtTheErrorAfterTheSameSamplesHoweverFastItIs) {
+    const std::atomic<bool> no{false};
+    Renderer renderer;
+    RenderSettings settings = tiny(40);
+    settings.error = 1e-9;
+    renderer.update(test::sample_project().project.scene, settings);
+    std::set<int64_t> halts;
+    run_render_loop(renderer, settings, no, [&](const LoopProgress& p) { halts.insert(p.samples); });
+    for (int64_t look = next_error_look(0); look < 40; look = next_error_look(look)) EXPECT_TRUE(halts.contains(look)) << look;
 }
 
 } // namespace

@@ -57,12 +57,17 @@ void draw_denoised_cells(PanelContext& c, float& x, const Frame& frame) {
 }
 
 void draw_error_cell(PanelContext& c, float& x, const Frame& frame) {
-    cell(c, x, 9, frame.error.known ? fmt::format("error {:.3g} %", 100 * std::sqrt(frame.error.relmse)) : "error not known yet",
-         frame.error.known ? fmt::format("Estimated relative error (root of relMSE) of the picture, from two independent halves of the "
-                                         "samples. relMSE {:.3g}, 95 % interval {:.3g} to {:.3g}.",
-                                         frame.error.relmse, frame.error.low, frame.error.high)
-                                 .c_str()
-                           : "The error is estimated from two independent halves of the samples, once both hold some.");
+    const ErrorEstimate& e = frame.error;
+    if (!e.known)
+        return cell(c, x, 9, "error not known yet", "The error is estimated from two independent halves of the samples, now and then, so that this takes "
+                                                    "hardly any time. The samples so far do not tell.");
+    const bool older = frame.error_samples < frame.samples;
+    const std::string of = older ? fmt::format("the picture as it was after {} samples per pixel", frame.error_samples) : "the picture";
+    cell(c, x, older ? 14 : 9, fmt::format("error {:.3g} %", 100 * std::sqrt(e.relmse)) + (older ? fmt::format(" at {} spp", frame.error_samples) : ""),
+         fmt::format("Estimated relative error (root of relMSE) of {}, from two independent halves of the samples. relMSE {:.3g}, 95 % interval "
+                     "{:.3g} to {:.3g}.",
+                     of, e.relmse, e.low, e.high)
+             .c_str());
 }
 
 void draw_frame_cells(PanelContext& c, float& x, const Frame& frame) {

@@ -1,0 +1,70 @@
+// The two halves of a picture's samples as the error estimate reads them: row by row, channel by channel, whole registers at a time.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <functional>
+#include <vector>
+
+namespace blush {
+
+// Four pixels side by side, on every machine, so that sums do not depend on which it is. Arithmetic is the compiler's.
+using Four = float __attribute__((vector_size(16)));
+
+inline Four splat(float v) { return Four{v, v, v, v}; }
+inline Four min(const Four& a, const Four& b) { return a < b ? a : b; }
+inline Four max(const Four& a, const Four& b) { return a > b ? a : b; }
+inline Four abs(const Four& v) { return max(v, -v); }
+inline Four sqrt(const Four& v) { return Four{std::sqrt(v[0]), std::sqrt(v[1]), std::sqrt(v[2]), std::sqrt(v[3])}; }
+inline Four squared(const Four& v) { return v * v; }
+
+inline Four load_four(const float* from) {
+    Four v;
+    std::memcpy(&v, from, sizeof v);
+    return v;
+}
+inline void store_four(float* to, const Four& v) { std::memcpy(to, &v, sizeof v); }
+
+// A number for each pixel of a row, and for a few beyond both ends: 0 unless somebody sets them.
+class PixelRow {
+public:
+    static constexpr int step = 4, margin = step;
+
+    PixelRow() = default;
+    explicit PixelRow(int width) : values_(size_t(width + 3 * margin)) {}
+
+    // Of pixel 0; from -margin on, and up to whole steps and a margin beyond the last.
+    float* pixels() { return values_.data() + margin; }
+    const float* pixels() const { return values_.data() + margin; }
+    void clear() { std::fill(values_.begin(), values_.end(), 0.f); }
+    float& operator[](int x) { return pixels()[x]; }
+    float operator[](int x) const { return pixels()[x]; }
+
+private:
+    std::vector<float> values_;
+};
+
+// Red, green, blue.
+using ChannelRows = std::array<PixelRow, 3>;
+
+struct HalfRow {
+    ChannelRows a, b, own; // means of the halves, and the picture's values
+    PixelRow weight_a;     // what a counts for in the picture
+    PixelRow known;        // 1 where both halves hold samples; elsewhere 0, and a and b are the picture's value
+    PixelRow one_sample;   // where known, one over the number of samples of both; elsewhere 0
+
+    HalfRow() = default;
+    explicit HalfRow(int width)
+        : a{PixelRow(width), PixelRow(width), PixelRow(width)}, b(a), own(a), weight_a(width), known(width), one_sample(width) {}
+};
+
+// A picture that is read row by row; load(y, scale, row) gives the values of row y times `scale`.
+struct HalvesOfPicture {
+    int width = 0, height = 0;
+    std::function<void(int y, float scale, HalfRow& row)> load;
+};
+
+} // namespace blush
