@@ -1,4 +1,5 @@
-// How often the error estimate's 95 % intervals cover the true error, by scene and samples per pixel. The truth is the mean of renders with
+// How often the error estimate's 95 % intervals cover the true error, by scene and samples per pixel, of the plain path tracer and with the
+// recommended settings. The truth is the mean of renders with
 // other seeds, many times the samples.
 #include "support/error_coverage.h"
 #include "tests/bench/bench.h"
@@ -7,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace blush::bench {
 namespace {
@@ -61,31 +63,37 @@ Json figures_of(const test::Coverage& c) {
 
 Json run_error_coverage(const Options& options) {
     const int runs = 20 * options.rounds;
+    RenderSettings recommended = coverage_settings();
+    recommended.adaptive = recommended_settings().adaptive;
+    recommended.reuse = recommended_settings().reuse;
+    const std::pair<const char*, RenderSettings> kinds[]{{"plain", coverage_settings()}, {"recommended", recommended}};
     Json json;
-    test::Coverage all;
+    test::Coverage all[std::size(kinds)];
     for (const BenchScene& scene : options.scenes) {
         Renderer renderer({.threads = options.threads, .planes = {}});
         const test::Truth truth = truth_of(renderer, scene.scene, 2 * runs);
-        std::vector<test::Coverage> by_count(std::size(counts));
-        RenderSettings settings = coverage_settings();
-        for (int run = 0; run < runs; ++run) {
-            settings.seed = uint32_t(run);
-            renderer.update(scene.scene, settings);
-            renderer.clear();
-            int64_t samples = 0;
+        for (size_t kind = 0; kind < std::size(kinds); ++kind) {
+            auto [name, settings] = kinds[kind];
+            std::vector<test::Coverage> by_count(std::size(counts));
+            for (int run = 0; run < runs; ++run) {
+                settings.seed = uint32_t(run);
+                renderer.update(scene.scene, settings);
+                renderer.clear();
+                int64_t samples = 0;
+                for (size_t i = 0; i < std::size(counts); ++i) {
+                    renderer.render(samples, counts[i] - samples);
+                    samples = counts[i];
+                    const Frame frame = renderer.resolve();
+                    by_count[i].add(frame.error, test::true_error(frame, truth));
+                }
+            }
             for (size_t i = 0; i < std::size(counts); ++i) {
-                renderer.render(samples, counts[i] - samples);
-                samples = counts[i];
-                const Frame frame = renderer.resolve();
-                by_count[i].add(frame.error, test::true_error(frame, truth));
+                json[name][scene.name()][std::to_string(counts[i]) + " spp"] = figures_of(by_count[i]);
+                all[kind].merge(by_count[i]);
             }
         }
-        for (size_t i = 0; i < std::size(counts); ++i) {
-            json[scene.name()][std::to_string(counts[i]) + " spp"] = figures_of(by_count[i]);
-            all.merge(by_count[i]);
-        }
     }
-    json["all"] = figures_of(all);
+    for (size_t kind = 0; kind < std::size(kinds); ++kind) json[kinds[kind].first]["all"] = figures_of(all[kind]);
     return json;
 }
 
