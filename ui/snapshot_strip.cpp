@@ -138,6 +138,9 @@ void draw_snapshot_strip(PanelContext& c, const Region& viewport, const std::fun
         draw_card(c, list[i], part(i), width);
         ImGui::EndGroup();
     }
+    int& shown = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("shown"));
+    if (shown < int(list.size())) ImGui::SetScrollHereX(1); // a new one comes into view
+    shown = int(list.size());
     ImGui::End();
     ImGui::PopStyleColor();
     ImGui::PopStyleVar();

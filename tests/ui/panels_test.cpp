@@ -218,6 +218,7 @@ TEST_F(Panels, AnEmptySceneAndAFrameWithoutPlanes) {
 // Every line of the ledger that was left out takes its room, and what is in use waits behind a heading.
 TEST_F(Panels, EachThingLeftOutHasItsLine) {
     Document document;
+    ui.settings.panels["section.Left out"] = 1;
     const auto height_of = [&](const Ledger& ledger) {
         auto made = std::make_shared<Frame>();
         made->ledger = std::make_shared<const Ledger>(ledger);
@@ -225,7 +226,6 @@ TEST_F(Panels, EachThingLeftOutHasItsLine) {
         float height = 0;
         for (int i = 0; i < 2; ++i) {
             in_window([&] {
-                ImGui::GetStateStorage()->SetBool(ImGui::GetID("Left out"), true);
                 const float top = ImGui::GetCursorPosY();
                 PanelContext c{document, ui, *color, frame, {}, 640, 480};
                 draw_left_out_section(c);

@@ -57,7 +57,7 @@ void draw_transform_fields(PanelContext& c, Fields& f, ViewSettings& v) {
     std::string look = v.look.empty() ? no_look : v.look;
     if (f.choice("Look", look, looks, "A grade before the view: contrast, or luminance alone.")) v.look = look == no_look ? "" : look;
     f.checkbox(
-        "Background as it is", v.background_as_it_is,
+        "Backdrop as it is", v.background_as_it_is,
         "What the camera sees past all objects is left out of exposure, white balance, look and view: a backdrop keeps its own colours.");
     f.info("Colours from", c.color.config_name(), "The OpenColorIO configuration in use. The variable OCIO chooses another.");
 }

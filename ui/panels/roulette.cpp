@@ -45,7 +45,7 @@ void figure_row(const char* name, const std::string& rule, const std::string& no
 }
 
 void draw_figures(PanelContext& c, const RouletteReport& r) {
-    if (!ImGui::BeginTable("figures", 3, ImGuiTableFlags_SizingStretchProp)) return;
+    if (!ImGui::BeginTable("figures", 3, ImGuiTableFlags_SizingStretchSame)) return;
     for (const char* column : {"", "As set", "Without"}) ImGui::TableSetupColumn(column);
     ImGui::TableHeadersRow();
     const auto row = [&](const char* name, double RouletteSide::*field, const char* format, double scale, const char* tip) {
@@ -85,7 +85,7 @@ void draw_bias(const RouletteReport& r) {
                                       : fmt::format("Unbiased within noise: the picture differs by {}.", size).c_str());
     ImGui::PopTextWrapPos();
     ImGui::PopStyleColor();
-    if (!ImGui::BeginTable("bias", 3, ImGuiTableFlags_SizingStretchProp)) return;
+    if (!ImGui::BeginTable("bias", 3, ImGuiTableFlags_SizingStretchSame)) return;
     for (const char* column : {"", "Share of light", "Difference"}) ImGui::TableSetupColumn(column);
     ImGui::TableHeadersRow();
     for (size_t i = 1; i < r.bias.size(); ++i) {
