@@ -10,6 +10,7 @@
 #include "render/path.h"
 #include "render/surface.h"
 #include "shading/bsdf.h"
+#include "shading/focus.h"
 
 namespace blush::inline BLUSH_ISA {
 
@@ -40,6 +41,9 @@ template <class F> F survival_probability(const Roulette& r, const Vec<F>& beta)
     }
     return min(F(min(r.cap, 1.f)), max(F(r.floor), q)); // in this order what is no number stays so
 }
+
+// Bounces until which roulette leaves smooth reflections and refractions alone.
+constexpr int longest_unasked = 16;
 
 template <Features S, class F>
 Path<F> begin_path(const SceneTables& scene, const EstimatorSettings& settings, const F& x, const F& y, const UInt<F>& key, const UInt<F>& index, const Int<F>& slot) {
@@ -178,6 +182,7 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
     const Basis<F> frame = basis_around(ns);
     const Vec<F> wo = frame.to_local(wo_world);
     const auto bsdf = make_bsdf<S, F>(material.bsdf, wo, settings.energy);
+    const Mask<F> matte = scatters && is_lambertian<S, F>(bsdf);
 
     if (bounce == 0) {
         out.first.albedo = select<F>(found, albedo<S, F>(bsdf, wo), out.emitted);
@@ -187,7 +192,7 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
         out.first.material = select(found, surface.material, Int<F>(-1));
     }
     if (bounce <= 1) {
-        out.junction.lambertian = scatters && is_lambertian<S, F>(bsdf) && !behind;
+        out.junction.lambertian = matte && !behind;
         out.junction.position = surface.position;
         out.junction.clearance = clearance(ng, surface.error);
         out.junction.ng = ng;
@@ -198,6 +203,10 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
 
     const Sampler<F> sampler{path.key, path.index};
     const uint32_t dimension = first_scatter_dimension + dimensions_per_scatter * uint32_t(bounce);
+
+    const bool aims = scene.focus.count > 0;
+    Focus<F> focus{};
+    if (aims) focus = focus_at<F>(scene.focus, surface.position, ns, matte);
 
     // Next event: a point on a light, unless every lobe is smooth.
     const Mask<F> wants_light = scatters && !is_delta_only<F>(bsdf);
@@ -224,12 +233,13 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
                 out.shadow_mask = shadow_mask<F>(scene.links, record);
             }
         }
-        const F weight = light_sample_weight(settings.strategy, in.pdf, f.pdf, only_sampled);
+        const F found_pdf = aims ? focused_pdf<F>(scene.focus, focus, wi_world, f.pdf) : f.pdf;
+        const F weight = light_sample_weight(settings.strategy, in.pdf, found_pdf, only_sampled);
         out.direct = beta * f.f_cos * in.radiance * (weight / in.pdf);
         out.light = light.light;
         out.weights.light = weight;
         out.weights.light_pdf = in.pdf;
-        out.weights.light_bsdf_pdf = f.pdf;
+        out.weights.light_bsdf_pdf = found_pdf;
         // A shading normal must not carry light through the surface.
         const Mask<F> same_side = (wi.z > F(0.f)) == (dot(wi_world, ng) > F(0.f));
         out.connects = light.valid && lit && same_side && has_light(out.direct);
@@ -237,25 +247,42 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
         out.shadow_distance = select(light.infinite, F(infinity), distance * (1.f - 4e-7f));
     }
 
-    // Onwards: sample the BSDF, then roulette.
+    // Onwards: sample the BSDF or, from a matte surface, what focuses light; then roulette.
     const Pair<F> choice = sampler.pair(dimension + choice_dimension);
     const Pair<F> direction = sampler.pair(dimension + bsdf_dimension);
-    const BsdfSample<F> b = sample<S, F>(bsdf, wo, direction.x(), direction.y(), choice.x());
-    const Vec<F> wi = frame.to_world(b.wi);
+    BsdfSample<F> b = sample<S, F>(bsdf, wo, direction.x(), direction.y(), choice.x());
+    Vec<F> wi = frame.to_world(b.wi);
+    F rarer = F(1.f); // than without aiming is the direction that was drawn
+    if (aims && any(focus.share > F(0.f))) {
+        const Mask<F> mixes = focus.share > F(0.f), aimed = mixes && choice.x() < focus.share;
+        if (any(aimed)) {
+            const F which = min(F(choice.x() / select(aimed, focus.share, F(1.f))), F(one_minus_epsilon));
+            wi = select<F>(aimed, aim_at_ball<F>(scene.focus, focus, which, direction.x(), direction.y()), wi);
+            b.wi = select<F>(aimed, frame.to_local(wi), b.wi);
+        }
+        const F cosine = cosine_hemisphere_pdf(b.wi.z);
+        b.valid = select(mixes, cosine > F(0.f), b.valid);
+        b.pdf = select(mixes, focused_pdf<F>(scene.focus, focus, wi, cosine), b.pdf);
+        rarer = select(mixes && b.valid, cosine / b.pdf, F(1.f));
+        b.weight = select<F>(mixes, bsdf.diffuse * rarer, b.weight);
+    }
     const Mask<F> leaves_outside = dot(wi, ng) > F(0.f);
     const Mask<F> same_side = (b.wi.z > F(0.f)) == leaves_outside;
     Vec<F> next_beta = beta * b.weight;
     out.continues = scatters && b.valid && same_side && has_light(next_beta);
     if (bounce + 1 >= settings.roulette.start && settings.roulette.rule != Roulette::Rule::off) {
-        Vec<F> judged = next_beta;
+        // That many paths were aimed at the same place is not a reason to end this one before it is there.
+        Vec<F> judged = beta * b.weight * (1.f / rarer);
         if constexpr (S.has(Feature::transmission)) {
             // Refraction into a solid scaled beta by 1 / ior^2, which the way out undoes: not a reason to end the path within.
             const F squeezed = material.bsdf.ior * material.bsdf.ior;
             judged = select<F>(solid && !leaves_outside && material.bsdf.ior > F(0.f), judged * squeezed, judged);
         }
-        const F q = survival_probability(settings.roulette, judged);
+        // Mirrors and glass take little, and a path that ends there has found nothing yet; in vain for ever only where there is nothing else.
+        const Mask<F> asked = !b.delta || Mask<F>(bounce >= longest_unasked);
+        const F q = select(asked, survival_probability(settings.roulette, judged), F(1.f));
         out.weights.survival = q;
-        out.weights.asked = out.continues;
+        out.weights.asked = out.continues && asked;
         out.continues = out.continues && !(choice.y() >= q);
         next_beta = next_beta / max(q, F(1e-30f));
     }

@@ -150,6 +150,9 @@ std::string cost_text(const FeatureUse& use) {
 Ledger RenderScene::ledger(const Scene& lowered, const FilmSize& film) const {
     Ledger ledger;
     add_kernel(ledger, features_);
+    const size_t balls = focus_.balls().size();
+    ledger.push_back({"kernel", "aiming at what focuses", balls > 0,
+                      balls > 0 ? fmt::format("mirrors or glass in {} place{}", balls, balls == 1 ? "" : "s") : "no mirror or glass has light to focus"});
     add_film(ledger, film);
     add_vertices(ledger, geometry_, needs_);
     add_textures(ledger, materials_.textures, lowered);

@@ -7,6 +7,8 @@
 // per area with which x_i samples y, and V its visibility, the balance heuristic (Veach 1997, section 9.2) over all members as
 // strategies for y gives pixel i
 //   rho_i sum_k [ V_ik G_i(y_k) / sum_j V_jk G_j(y_k) ] L_k.
+// Where surfaces also aim at what focuses light (focus.h), x samples y more often than G says, D_i(y) >= G_i(y) / 2: then D stands in the
+// sum, and L_k, which a path that was drawn with D_k brings home, is D_k / G_k times what it brings.
 // The shares of a vertex sum to one, so reuse makes no outliers. L_k is any unbiased estimate of what y_k scatters: what roulette
 // did on the way does not matter. Emission of y_k itself stays with pixel k, where its MIS weight knows the density it was found with.
 //
@@ -81,7 +83,7 @@ template <class F> Vec<F> gather_columns(const float* x, const float* y, const f
 }
 
 // G of every member and vertex of the batch, and a ray from the vertex to the member where it is not known to be seen.
-template <class F> void queue_connections(const ReuseColumns& reuse, ReuseBatch& batch, int group_size, ShadowQueue& q) {
+template <class F> void queue_connections(const FocusTables& focus, const ReuseColumns& reuse, ReuseBatch& batch, int group_size, ShadowQueue& q) {
     const int pairs = batch.vertices * group_size, last_member = group_size - 1, shift = std::countr_zero(unsigned(group_size));
     const JunctionColumns &a = reuse.first, &b = reuse.second;
     q.size = 0;
@@ -105,6 +107,15 @@ template <class F> void queue_connections(const ReuseColumns& reuse, ReuseBatch&
         F density = max(cos_x, F(0.f)) * max(cos_y, F(0.f)) / (d2 * d2);
         density = select(present && (own || possible) && density >= F(least_density) && density <= F(most_density), density, F(0.f));
         store(batch.density + k, density);
+        F drawn = density;
+        if (focus.count > 0) {
+            const F distance = sqrt(d2), cosine = cosine_hemisphere_pdf(F(cos_x / distance));
+            const Mask<F> sampled = density > F(0.f);
+            const Focus<F> from_x = focus_at<F>(focus, at_x, ns_x, sampled);
+            const F mixed = focused_pdf<F>(focus, from_x, Vec<F>(to / distance), cosine);
+            drawn = select(sampled, density * (mixed / select(sampled, cosine, F(1.f))), F(0.f));
+        }
+        store(batch.drawn + k, drawn);
 
         const Mask<F> asks = !own && density > F(0.f);
         if (!any(asks)) continue;
@@ -131,17 +142,18 @@ template <class F> void queue_connections(const ReuseColumns& reuse, ReuseBatch&
 inline void weigh(ReuseBatch& batch, int group_size, Vec3* share) {
     for (int v = 0; v < batch.vertices; ++v) {
         const int own = batch.own_seat[v], first = own / group_size * group_size;
-        const float* density = &batch.density[v * group_size];
+        const float* drawn = &batch.drawn[v * group_size];
         Vec3 sum{0, 0, 0};
         for (int m = 0; m < group_size; ++m) {
-            sum.x += density[m] * batch.reflects_r[first + m];
-            sum.y += density[m] * batch.reflects_g[first + m];
-            sum.z += density[m] * batch.reflects_b[first + m];
+            sum.x += drawn[m] * batch.reflects_r[first + m];
+            sum.y += drawn[m] * batch.reflects_g[first + m];
+            sum.z += drawn[m] * batch.reflects_b[first + m];
         }
         // Rounding may have hidden a vertex from its own pixel, which then keeps what it found there.
-        const bool seen = density[own - first] > 0;
+        const bool seen = drawn[own - first] > 0;
         batch.shared[own] = seen;
-        const auto inverse = [&](float s) { return seen && s > 0 ? 1 / s : 0.f; };
+        const float more = seen ? drawn[own - first] / batch.density[v * group_size + own - first] : 1.f;
+        const auto inverse = [&](float s) { return seen && s > 0 ? more / s : 0.f; };
         share[v] = {inverse(sum.x), inverse(sum.y), inverse(sum.z)};
     }
 }
@@ -227,13 +239,13 @@ template <class F> [[gnu::flatten]] void share_batch(const KernelContext& contex
     const int group_size = context.settings.reuse.size();
     if (batch.vertices > 0) {
         ShadowQueue& q = scratch.shadows;
-        queue_connections<F>(reuse, batch, group_size, q);
+        queue_connections<F>(context.scene->focus, reuse, batch, group_size, q);
         const RayArrays rays{q.ox, q.oy, q.oz, q.dx, q.dy, q.dz, q.distance, context.accel->has_alpha() ? q.random.data : nullptr};
         // Not coherent: those of one vertex are a narrow fan, but packets hold pieces of several.
         context.accel->occluded(rays, q.size, false, scratch.blocked);
         scratch.shadow_rays += q.size;
         for (int k = 0; k < q.size; ++k)
-            if (scratch.blocked[k]) batch.density[q.slot[k]] = 0;
+            if (scratch.blocked[k]) batch.density[q.slot[k]] = batch.drawn[q.slot[k]] = 0;
         Vec3 share[ReuseBatch::most_seats];
         weigh(batch, group_size, share);
         distribute<F>(reuse, batch, group_size, share, {scratch.r, scratch.g, scratch.b});

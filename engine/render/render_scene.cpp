@@ -146,6 +146,14 @@ void RenderScene::aim(std::span<const Vec3> gains) {
     lights_.fill(tables_.lights);
 }
 
+// Only light that a ray can find is focused for it, and who wants the BSDF alone gets that.
+void RenderScene::update_focus(const Scene& scene, const RenderSettings& settings) {
+    const bool found = lights_.emissive_triangles + lights_.sphere_lights > 0 || !lights_.suns.empty();
+    const bool narrow_sky = lights_.environment >= 0 && scene.environment.kind != Environment::Kind::constant;
+    focus_.build(scene, objects_, extent_.origin, settings.strategy != Strategy::bsdf && (found || narrow_sky));
+    tables_.focus = focus_.tables();
+}
+
 void RenderScene::update_lights(const Scene& scene, const RenderSettings& settings, const UpdatePlan& plan, const LightGroups* groups) {
     // What gives no light needs no map, and where nobody aims, nothing to aim with.
     // Linked lights are asked about by record, and sampled where rays must not find them.
@@ -163,6 +171,7 @@ void RenderScene::update_lights(const Scene& scene, const RenderSettings& settin
     const bool shines = scene.environment.lights_scene && needs_map && environment_.shines;
     lights_ = build_light_table(scene, materials_, geometry_, tables_, spheres_, {shines, to_float(mean)}, extent_, aim_);
     lights_.fill(tables_.lights);
+    update_focus(scene, settings);
     group_of_light_.clear();
     group_of_part_.clear();
     if (groups) update_groups(*groups);

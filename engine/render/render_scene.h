@@ -6,6 +6,7 @@
 #include "render/environment_table.h"
 #include "render/extent.h"
 #include "render/film.h"
+#include "render/focus_table.h"
 #include "render/geometry_pool.h"
 #include "render/kernels/kernel.h"
 #include "render/light_groups.h"
@@ -50,6 +51,7 @@ private:
     AccelScene accel_scene(const Scene& lowered) const;
     void update_lights(const Scene& scene, const RenderSettings& settings, const UpdatePlan& plan, const LightGroups* groups);
     void update_groups(const LightGroups& groups);
+    void update_focus(const Scene& scene, const RenderSettings& settings);
     Features compute_features(const Scene& scene, const RenderSettings& settings) const;
 
     MaterialTable materials_;
@@ -66,6 +68,7 @@ private:
     LightTable lights_;
     std::vector<int32_t> group_of_light_, group_of_part_; // empty: nobody mixes
     EnvironmentTable environment_;
+    FocusTable focus_;
     Accel accel_;
     SceneTables tables_;
     Features features_;

@@ -3,6 +3,7 @@
 
 #include "core/vec.h"
 #include "shading/environment.h"
+#include "shading/focus.h"
 #include "shading/light.h"
 #include "shading/material.h"
 
@@ -73,6 +74,7 @@ struct SceneTables {
     MaterialTables materials;
     LightTables lights;
     EnvironmentTables environment;
+    FocusTables focus;  // none: nobody aims at anything but lights
     GroupTables groups; // null: nobody mixes
     LinkTables links;
     CameraRecord camera{};

@@ -98,6 +98,22 @@ TEST(Ledger, WhatARichSceneNeedsIsThere) {
     EXPECT_EQ(line(ledger, "lights", "environment map").bytes, 16 * 16 * 12);
 }
 
+TEST(Ledger, MirrorsAndGlassAreAimedAtWhereTheyFocusLight) {
+    const char* name = "aiming at what focuses";
+    Scene scene = bare();
+    place(scene, sphere(false), glass(0, 1.5f), at({0, 1, 0}, 0.5f));
+    place(scene, sphere(false), metal(0.5f), at({2, 1, 0}, 0.5f)); // too rough
+    constant_world(scene, 1);
+    EXPECT_FALSE(line(Compiled(scene).ledger(), "kernel", name).used) << "a constant world is not focused";
+    place(scene, ceiling_quad(1, 3), emitter(1));
+    const Compiled lit(scene);
+    EXPECT_TRUE(line(lit.ledger(), "kernel", name).used);
+    const FocusTables focus = lit.scene.tables().focus;
+    ASSERT_EQ(focus.count, 1);
+    EXPECT_NEAR(focus.balls[0].radius, 0.5f, 1e-4f);
+    EXPECT_NEAR(focus.balls[0].center.y, 1, 1e-6f);
+}
+
 TEST(Ledger, TexturesThatNobodyReadsAreNotKept) {
     Scene scene = bare();
     add_texture(scene, texels(4));

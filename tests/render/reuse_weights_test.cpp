@@ -48,12 +48,13 @@ template <class Hidden, class Tamper> std::array<Vec3d, size> received(const Hid
     }
     ReuseBatch& batch = reuse.batch;
     seat_group(reuse, *scratch, batch, slots, size);
-    queue_connections<float>(reuse, batch, size, scratch->shadows);
+    queue_connections<float>({}, reuse, batch, size, scratch->shadows);
     for (int v = 0; v < batch.vertices; ++v)
         for (int m = 0; m < size; ++m) {
-            float& d = batch.density[v * size + m];
-            if (hidden(m, batch.own_seat[v])) d = 0;
-            d = tamper(d, m, v);
+            const int pair = v * size + m;
+            if (hidden(m, batch.own_seat[v])) batch.density[pair] = batch.drawn[pair] = 0;
+            batch.density[pair] = tamper(batch.density[pair], m, v);
+            batch.drawn[pair] = tamper(batch.drawn[pair], m, v);
         }
     Vec3 share[ReuseBatch::most_seats];
     weigh(batch, size, share);

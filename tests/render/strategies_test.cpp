@@ -104,6 +104,22 @@ TEST(Strategies, AgreeUnderLightsWithAndWithoutSize) {
     EXPECT_TRUE(same_means(mis, with_strategy(scene, Strategy::bsdf, 16, 16, 1024)));
 }
 
+// Only BSDF sampling alone does not aim at mirrors and glass (shading/focus.h), and only it finds every light by chance.
+TEST(Strategies, AgreeWhereMirrorsAndGlassFocusLight) {
+    Scene scene;
+    place(scene, floor_quad(3), lambert(0.7f));
+    place(scene, ceiling_quad(3, 3), lambert({0.3f, 0.6f, 0.9f}));
+    place(scene, ceiling_quad(1.2f, 2.9f), emitter(3));
+    place(scene, sphere(false), glass(0, 1.5f), at({-0.9f, 0.8f, 0.3f}, 0.7f));
+    place(scene, sphere(false), metal(0), at({0.9f, 0.9f, -0.4f}, 0.8f));
+    scene.view = looking({0, 1.5f, 6}, {0, 1.5f, 0}, 0.6f);
+    const auto by_chance = with_strategy(scene, Strategy::bsdf, 32, 32, 512);
+    EXPECT_TRUE(same_means(by_chance, with_strategy(scene, Strategy::mis, 32, 32, 256), sidak(significance, 2)));
+    RenderSettings shared = settings_for(32, 32, 256);
+    shared.reuse = 8;
+    EXPECT_TRUE(same_means(by_chance, blocks_of(scene, shared, 7), sidak(significance, 2))) << "path reuse";
+}
+
 std::vector<Measured> with_roulette(const Scene& scene, const char* rule, uint32_t seed) {
     RenderSettings settings = settings_for(32, 32, 64);
     settings.roulette = *parse_roulette(rule);

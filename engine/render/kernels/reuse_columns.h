@@ -24,7 +24,7 @@ struct ReuseBatch {
     Column<float> sum_r, sum_g, sum_b;                // by seat: what its pixel gets, over its reflectance
     Column<int32_t> shared;                           // by seat: 1 if its vertex went to all, 0 if not
     Column<int32_t> place, own_seat;                  // by vertex: in the queue of bounce 1; of its own pixel
-    Column<float> density;                            // by vertex and member: pi V G
+    Column<float> density, drawn;                     // by vertex and member: pi V G; and of what the member draws, aiming included
 };
 
 struct ReuseColumns {

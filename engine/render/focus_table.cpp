@@ -1,0 +1,63 @@
+#include "render/focus_table.h"
+
+#include "core/math.h"
+#include "scene/affine.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace blush {
+namespace {
+
+// Rougher ones spread light so far that connections to lights find it.
+constexpr float focusing_roughness = 0.2f;
+
+// Of a material's light that must be reflected or refracted: less is seen beside what the rest scatters.
+constexpr float least_focused_part = 0.5f;
+
+// By how much a transform stretches lengths at most: exact for rotations with one scale, else the Frobenius norm, which is never less.
+double largest_scale(const Affined& a) {
+    const double x = dot(a.x, a.x), y = dot(a.y, a.y), z = dot(a.z, a.z), largest = std::max({x, y, z});
+    const double slant = std::max({std::abs(dot(a.x, a.y)), std::abs(dot(a.y, a.z)), std::abs(dot(a.z, a.x))});
+    return std::sqrt(slant <= 1e-6 * largest ? largest : x + y + z);
+}
+
+} // namespace
+
+bool focuses(const Material& m) {
+    const bool narrow = m.roughness <= focusing_roughness && !m.unlit && m.alpha == Material::Alpha::opaque;
+    return narrow && std::max(m.metallic, m.transmission) >= least_focused_part;
+}
+
+PayloadBall ball_around(const Geometry& geometry) {
+    Bounds box;
+    for (const Vec3& p : geometry.positions) box.include(to_double(p));
+    PayloadBall ball{box.center(), 0};
+    for (const Vec3& p : geometry.positions) ball.radius = std::max(ball.radius, length(to_double(p) - ball.center));
+    return ball;
+}
+
+void FocusTable::build(const Scene& scene, const std::vector<SceneObject>& objects, const Vec3d& origin, bool wanted) {
+    std::map<uint64_t, PayloadBall> used;
+    balls_.clear();
+    for (const SceneObject& object : objects)
+        for (const MeshPart& part : object.parts) {
+            const Material* material = scene.materials.find(part.material);
+            if (!wanted || !material || !focuses(*material)) continue;
+            const uint64_t serial = part.geometry->serial;
+            if (!used.contains(serial)) {
+                const auto known = by_serial_.find(serial);
+                used.emplace(serial, known != by_serial_.end() ? known->second : ball_around(*part.geometry));
+            }
+            const PayloadBall& ball = used.at(serial);
+            const Vec3d center = transform_point(object.world_from_object, ball.center) - origin;
+            // A little larger, so that rounding leaves nothing of it outside.
+            const double radius = ball.radius * largest_scale(object.world_from_object) * (1 + 1e-5);
+            if (radius > 0 && std::isfinite(radius) && std::isfinite(dot(center, center))) balls_.push_back({to_float(center), float(radius)});
+        }
+    by_serial_ = std::move(used);
+    std::ranges::stable_sort(balls_, std::greater<>(), &FocusBall::radius);
+    balls_.resize(std::min(balls_.size(), most_balls));
+}
+
+} // namespace blush

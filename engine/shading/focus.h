@@ -1,0 +1,98 @@
+// Aiming at what focuses light: mirrors and glass throw bright spots on matte surfaces, and from there only a path that happens to leave
+// towards the right place of such an object finds the light. No connection can be made. So matte surfaces send more of their paths into
+// the cones in which they see balls around those objects. Directions then have the mixture of both densities (one-sample model, Veach 1997,
+// section 9.2.4): the expectation is the same whatever lies in the balls, and no path is worth more than 1 / (1 - most_focused) of before.
+#pragma once
+
+#include "core/sampling.h"
+#include "core/vec.h"
+#include "shading/sphere_light.h"
+
+#include <cstdint>
+
+namespace blush {
+
+struct FocusBall {
+    Vec3 center; // in the tables' world space
+    float radius; // metres
+};
+
+struct FocusTables {
+    const FocusBall* balls = nullptr;
+    int32_t count = 0;
+};
+
+} // namespace blush
+
+namespace blush::inline BLUSH_ISA {
+
+// How many times as often as by chance paths go to a ball: where nine tenths of the variance come from an eighth of the paths, as where two
+// spheres fill that much of what a ceiling sees, the root of the quotient of their variances is about this (Neyman 1934). And what part of
+// all paths is aimed at most.
+constexpr float focus_boost = 6, most_focused = 0.5f;
+
+// sin^2 of the angular radius below which a ball is not aimed at.
+constexpr float least_focus = 1e-6f;
+
+// What a surface point sees of the balls.
+template <class F> struct Focus {
+    Vec<F> from, normal;
+    F total; // of the balls' weights
+    F share; // of its paths that are aimed
+};
+
+template <class F> struct FocusCone {
+    Vec<F> to; // the ball's centre, from the point
+    F height;  // 1 - cos of its angular radius
+    F weight;  // 0: not aimed at
+};
+template <class F> FocusCone<F> focus_cone(const FocusBall& ball, const Vec<F>& from, const Vec<F>& normal) {
+    FocusCone<F> c;
+    c.to = splat<F>(ball.center) - from;
+    const F d2 = dot(c.to, c.to);
+    c.height = sphere_cone_height(d2, F(ball.radius));
+    // About its part of a hemisphere that is weighted by the cosine; a ball whose centre is below the horizon is left to chance.
+    const F part = 2.f * c.height * max(F(0.f), dot(c.to, normal)) / sqrt(max(d2, F(1e-30f)));
+    c.weight = select(F(ball.radius) * ball.radius >= least_focus * d2, part * (focus_boost - 1.f), F(0.f));
+    return c;
+}
+
+// `matte`: lanes whose surface is Lambertian; nobody else aims.
+template <class F> Focus<F> focus_at(const FocusTables& table, const Vec<F>& from, const Vec<F>& normal, const Mask<F>& matte) {
+    Focus<F> f{from, normal, F(0.f), F(0.f)};
+    for (int i = 0; i < table.count; ++i) f.total = f.total + focus_cone<F>(table.balls[i], from, normal).weight;
+    f.share = select(matte, min(f.total / (1.f + f.total), F(most_focused)), F(0.f));
+    return f;
+}
+
+// Density of a unit direction, where the surface alone would have had `pdf`.
+template <class F> F focused_pdf(const FocusTables& table, const Focus<F>& f, const Vec<F>& direction, const F& pdf) {
+    F sum = F(0.f);
+    for (int i = 0; i < table.count; ++i) {
+        const FocusBall& ball = table.balls[i];
+        const FocusCone<F> c = focus_cone<F>(ball, f.from, f.normal);
+        // By the distance at which the ray passes the centre: 1 - cos would lose all digits of a small cone.
+        const Mask<F> ahead = c.weight > F(0.f) && dot(direction, c.to) > F(0.f);
+        const Mask<F> within = ahead && length_squared(cross(direction, c.to)) <= F(ball.radius * ball.radius);
+        sum = sum + select(within, c.weight / c.height, F(0.f));
+    }
+    return (1.f - f.share) * pdf + f.share * (0.5f * inv_pi) * sum / max(f.total, F(1e-30f));
+}
+
+// A direction into one of the balls' cones, for lanes with share > 0; u, v and `choice`, which picks the ball, in [0, 1).
+template <class F> Vec<F> aim_at_ball(const FocusTables& table, const Focus<F>& f, const F& choice, const F& u, const F& v) {
+    Vec<F> to{F(0.f), F(0.f), F(1.f)};
+    F height = F(1.f), left = choice * f.total;
+    Mask<F> open = Mask<F>(true);
+    for (int i = 0; i < table.count; ++i) {
+        const FocusCone<F> c = focus_cone<F>(table.balls[i], f.from, f.normal);
+        const Mask<F> it = open && c.weight > F(0.f);
+        to = select<F>(it, c.to, to);
+        height = select(it, c.height, height);
+        open = open && !(it && left < c.weight);
+        left = left - c.weight;
+    }
+    return basis_around(Vec<F>(to / length(to))).to_world(sample_cone(height, u, v));
+}
+
+} // namespace blush::inline BLUSH_ISA
