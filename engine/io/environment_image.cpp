@@ -22,10 +22,7 @@ std::vector<float> linear_floats(const Image& image) {
     return floats;
 }
 
-} // namespace
-
-Result<ImagePtr> read_environment_image(const std::filesystem::path& file, const ImageLimits& limits) {
-    const Result<ImagePtr> read = read_image(file, limits);
+Result<ImagePtr> as_environment(const Result<ImagePtr>& read) {
     if (!read) return read.error();
     const ImagePtr colored = with_color_channels(*read);
     if (!colored->floats.empty() &&
@@ -38,6 +35,16 @@ Result<ImagePtr> read_environment_image(const std::filesystem::path& file, const
     image->floats = linear_floats(*colored);
     for (float& v : image->floats) v = v >= 0 && std::isfinite(v) ? v : 0.0f;
     return ImagePtr(std::move(image));
+}
+
+} // namespace
+
+Result<ImagePtr> read_environment_image(const std::filesystem::path& file, const ImageLimits& limits) {
+    return as_environment(read_image(file, limits));
+}
+
+Result<ImagePtr> read_environment_image(std::span<const uint8_t> bytes, const std::string& name, const ImageLimits& limits) {
+    return as_environment(read_image(bytes, name, limits));
 }
 
 } // namespace blush

@@ -5,10 +5,21 @@
 
 namespace blush {
 
-std::string_view list_name(GltfLight::List list) { return list == GltfLight::List::area ? area_lights : punctual_lights; }
+std::string_view list_name(GltfLight::List list) {
+    switch (list) {
+    case GltfLight::List::punctual: return "KHR_lights_punctual";
+    case GltfLight::List::area: return "EXT_lights_area";
+    case GltfLight::List::measured: return "EXT_lights_ies";
+    }
+    return {};
+}
+
+bool is_extension_list(std::string_view name) {
+    return name == "EXT_lights_image_based" || std::ranges::find(light_lists, name, list_name) != std::end(light_lists);
+}
 
 Json* GltfDocument::find_list(std::string_view name) {
-    const bool lights = name == punctual_lights || name == area_lights;
+    const bool lights = is_extension_list(name);
     Json* parent = &root;
     if (lights)
         for (const std::string_view key : {std::string_view("extensions"), name}) {
@@ -22,7 +33,7 @@ Json* GltfDocument::find_list(std::string_view name) {
 
 Json& GltfDocument::list(std::string_view name) {
     if (Json* found = find_list(name)) return *found;
-    const bool lights = name == punctual_lights || name == area_lights;
+    const bool lights = is_extension_list(name);
     Json& parent = lights ? extension_of(root, name) : root;
     return parent[lights ? "lights" : std::string(name)] = Json::array();
 }

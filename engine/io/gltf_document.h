@@ -29,8 +29,10 @@ struct GltfDocument {
     Json& scene();
 };
 
-constexpr std::string_view punctual_lights = "KHR_lights_punctual", area_lights = "EXT_lights_area";
+constexpr GltfLight::List light_lists[] = {GltfLight::List::punctual, GltfLight::List::area, GltfLight::List::measured};
 std::string_view list_name(GltfLight::List list);
+// The list is that of an extension, which it goes by the name of.
+bool is_extension_list(std::string_view name);
 
 // parent[key] as an object: what is there of another type is replaced.
 Json& child(Json& parent, std::string_view key);

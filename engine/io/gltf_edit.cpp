@@ -1,5 +1,7 @@
 #include "io/gltf_edit.h"
 
+#include "io/gltf_edit_lights.h"
+#include "io/gltf_image_light.h"
 #include "io/gltf_unused.h"
 #include "io/gltf_write.h"
 #include "io/gltf_write_extras.h"
@@ -55,23 +57,6 @@ template <class T> bool changed(const Table<T>& before, Id<T> id, const T& now) 
     return !old || !(*old == now);
 }
 
-// Each light in the list of its kind, and what has changed of it.
-void write_lights(GltfDocument& document, const Scene& read, const Scene& scene, const UsedRecords& used) {
-    for (const auto& [id, light] : scene.lights) {
-        const auto place = document.indices.lights.find(id);
-        const bool known = place != document.indices.lights.end();
-        if (known ? !changed(read.lights, id, light) : !used.lights.contains(id)) continue;
-        const GltfLight::List list = list_for(light.kind);
-        if (!known || place->second.list != list)
-            document.indices.lights[id] = {list, document.append(list_name(list), Json{{"name", light.name}})};
-        Json& object = document.object(list_name(list), document.indices.lights.at(id).index);
-        clear_extras(object);
-        if (list == GltfLight::List::area)
-            write_area_light(object, light);
-        else
-            write_punctual_light(object, light);
-    }
-}
 
 void write_cameras(GltfDocument& document, const Scene& read, const Scene& scene, const UsedRecords& used) {
     for (const auto& [id, camera] : scene.cameras) {
@@ -200,7 +185,8 @@ Result<EditedGltf> edited_gltf(const GltfOrigin& origin, const Project& project)
 
     const UsedRecords used = used_records(scene);
     if (const auto ok = write_payloads(document, origin, scene, used); !ok) return ok.error();
-    write_lights(document, before->scene, scene, used);
+    write_lights(document, before->scene, scene, used, edited.diagnostics);
+    write_image_light(document, before->scene.environment, scene.environment);
     write_cameras(document, before->scene, scene, used);
     write_surfaces(document, before->scene, scene);
     write_tree(document, scene);

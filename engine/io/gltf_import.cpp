@@ -3,6 +3,7 @@
 #include "io/gltf_cameras.h"
 #include "io/gltf_convert.h"
 #include "io/gltf_extras.h"
+#include "io/gltf_image_light.h"
 #include "io/gltf_lights.h"
 #include "io/gltf_materials.h"
 #include "io/gltf_meshes.h"
@@ -53,7 +54,9 @@ void import_mix(const GltfContext& context, const nlohmann::json& gltf_scene, co
 Result<void> import_scene_extras(const GltfContext& context, size_t index, ImportedScene& imported) {
     const nlohmann::json& object = gltf_item(context.json(), "scenes", index);
     const std::string where = fmt::format("scenes[{}]", index);
-    Result<Environment> environment = import_environment(context, object, where);
+    const Environment image_light = import_image_light(context, object, where);
+    imported.origin.indices.image_light = image_light.image;
+    Result<Environment> environment = import_environment(context, object, where, image_light);
     if (!environment) return environment.error();
     imported.scene.environment = *std::move(environment);
     import_mix(context, object, where + ".extras.blush.mix", imported.scene.mix);
@@ -80,7 +83,9 @@ Result<void> convert_gltf(const GltfContext& context, ImportedScene& imported) {
     context.progress(0.6, "meshes");
     const auto meshes = import_meshes(context, *nodes, *materials, scene);
     if (!meshes) return meshes.error();
-    const NodeTargets targets{meshes->ids, import_lights(context, scene), import_cameras(context, scene)};
+    const Result<LightIds> lights = import_lights(context, *nodes, scene);
+    if (!lights) return lights.error();
+    const NodeTargets targets{meshes->ids, *lights, import_cameras(context, scene)};
     const auto node_ids = import_nodes(context, *nodes, targets, scene);
     if (!node_ids) return node_ids.error();
 
@@ -90,8 +95,7 @@ Result<void> convert_gltf(const GltfContext& context, ImportedScene& imported) {
     indices.meshes = indices_of(meshes->ids);
     indices.cameras = indices_of(targets.cameras);
     for (const auto& [id, index] : indices.meshes) indices.primitives[id] = meshes->primitives[size_t(index)];
-    for (const auto& [id, index] : indices_of(targets.lights.punctual)) indices.lights[id] = {GltfLight::List::punctual, index};
-    for (const auto& [id, index] : indices_of(targets.lights.area)) indices.lights[id] = {GltfLight::List::area, index};
+    index_lights(targets.lights, indices);
 
     scene.view = initial_view(scene);
     if (const auto index = default_scene(context))

@@ -39,7 +39,7 @@ struct ImportOptions {
 };
 
 // The file's default scene, the view that was saved with it or its first camera as the view (or one framed around the geometry), lights of
-// KHR_lights_punctual and EXT_lights_area, and what `extras.blush` adds: on the scene `environment` {kind, color, intensity,
+// KHR_lights_punctual, EXT_lights_area and EXT_lights_ies, and what `extras.blush` adds: on the scene `environment` {kind, color, intensity,
 // rotation_degrees, file, visible_to_camera} (its file relative to the scene's folder), on a light `angle_degrees`, `radius`, `rectangle`
 // {width, height, two_sided}, on a camera `aperture_radius`, `focus_distance`, and on anything what saving could not say otherwise
 // (gltf_save.h). Two imports of one file give the same ids, and so do a scene and what is read of it after saving.

@@ -11,9 +11,10 @@
 
 namespace blush {
 
-// Lights are in the list of one of two extensions: KHR_lights_punctual or EXT_lights_area.
+// Lights are in the list of one of three extensions: KHR_lights_punctual, EXT_lights_area or, those with a measured distribution,
+// EXT_lights_ies. Of the last, several may be at one index: nodes say in which strength and colour.
 struct GltfLight {
-    enum class List : uint8_t { punctual, area };
+    enum class List : uint8_t { punctual, area, measured };
     List list = List::punctual;
     int index = 0;
     bool operator==(const GltfLight&) const = default;
@@ -26,6 +27,8 @@ struct GltfIndices {
     std::map<Id<Texture>, int> textures;
     std::map<Id<Camera>, int> cameras;
     std::map<Id<Light>, GltfLight> lights;
+    std::map<int, float> profile_peaks; // by index in EXT_lights_ies: the largest candela of those profiles that were read
+    ImagePtr image_light; // the scene's environment as EXT_lights_image_based has it; null: it has none that is shown
     std::map<Id<Mesh>, std::vector<int>> primitives; // of each part of a mesh: primitives without triangles are no parts
 };
 

@@ -118,7 +118,7 @@ std::optional<Light> read_area(const GltfContext& context, const ParsedGltf& sou
 
 } // namespace
 
-LightIds import_lights(const GltfContext& context, Scene& scene) {
+Result<LightIds> import_lights(const GltfContext& context, const std::vector<int>& nodes, Scene& scene) {
     std::vector<std::optional<Light>> lights;
     std::vector<uint32_t> wanted;
     const size_t punctual = context.model().lights.size();
@@ -131,23 +131,46 @@ LightIds import_lights(const GltfContext& context, Scene& scene) {
         lights.push_back(read_area(context, area[i], i));
         wanted.push_back(wanted_id(area[i]));
     }
+    const auto first_measured = std::ptrdiff_t(lights.size());
+    Result<MeasuredLights> measured = read_measured_lights(context, nodes);
+    if (!measured) return measured.error();
+    const ParsedGltf& profiles = gltf_member(gltf_member(gltf_member(context.json(), "extensions"), "EXT_lights_ies"), "lights");
+    for (size_t i = 0; i < measured->lights.size(); ++i) {
+        const bool first_of_profile = i == 0 || measured->profiles[i] != measured->profiles[i - 1];
+        lights.push_back(std::move(measured->lights[i]));
+        wanted.push_back(first_of_profile ? wanted_id(gltf_element(profiles, size_t(measured->profiles[i]))) : 0);
+    }
     const std::vector<Id<Light>> ids = add_numbered(scene.lights, std::move(lights), wanted);
-    const auto middle = ids.begin() + std::ptrdiff_t(punctual);
-    return {{ids.begin(), middle}, {middle, ids.end()}};
+    const auto middle = ids.begin() + std::ptrdiff_t(punctual), end = ids.begin() + first_measured;
+    return LightIds{{ids.begin(), middle}, {middle, end}, {end, ids.end()}, *std::move(measured)};
 }
 
-Result<Environment> import_environment(const GltfContext& context, const ParsedGltf& gltf_scene, const std::string& scene_where) {
+void index_lights(const LightIds& ids, GltfIndices& indices) {
+    const auto add = [&](const std::vector<Id<Light>>& list, GltfLight::List name, const auto& index_of) {
+        for (size_t i = 0; i < list.size(); ++i)
+            if (list[i]) indices.lights[list[i]] = {name, index_of(i)};
+    };
+    add(ids.punctual, GltfLight::List::punctual, [](size_t i) { return int(i); });
+    add(ids.area, GltfLight::List::area, [](size_t i) { return int(i); });
+    add(ids.measured, GltfLight::List::measured, [&](size_t i) { return ids.measured_as.profiles[i]; });
+    indices.profile_peaks = ids.measured_as.peaks;
+}
+
+Result<Environment> import_environment(const GltfContext& context, const ParsedGltf& gltf_scene, const std::string& scene_where,
+                                       const Environment& otherwise) {
     const std::string where = scene_where + ".extras.blush.environment";
-    Environment environment;
+    Environment environment = otherwise;
     read_extra_fields(context, blush_fields(context, gltf_scene, "environment", where), environment, where);
     // Its image is read only now, and only if the rest makes sense.
     const Environment::Kind kind = std::exchange(environment.kind, Environment::Kind::none);
     if (const auto valid = validate(environment); !valid) {
         context.warn("ignored: " + valid.error().what, where);
-        return Environment{};
+        return otherwise;
     }
     environment.kind = kind;
-    if (kind != Environment::Kind::image || context.known) return environment;
+    const bool keeps_image = kind == Environment::Kind::image && environment.file.empty() && otherwise.kind == kind;
+    if (!keeps_image) environment.image = nullptr;
+    if (keeps_image || kind != Environment::Kind::image || context.known) return environment;
     const auto file = resolve_uri(context.source.folder, environment.file);
     if (!file) return context.error(file.error().what, where + ".file");
     read_map(context, *file, environment, where);

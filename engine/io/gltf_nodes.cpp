@@ -105,12 +105,14 @@ Result<Node> read_node(const GltfContext& context, int index, const NodeTargets&
     const auto mesh = target(context, targets.meshes, source.mesh, "mesh", index);
     const auto light = light_index < 0 ? target(context, targets.lights.area, area_index, "area light", index)
                                        : target(context, targets.lights.punctual, light_index, "light", index);
+    const auto measured = targets.lights.measured_as.by_node.find(index);
     const auto camera = target(context, targets.cameras, source.camera, "camera", index);
     if (!mesh) return mesh.error();
     if (!light) return light.error();
     if (!camera) return camera.error();
     node.mesh = *mesh;
-    node.light = *light;
+    // A measured one knows more than what else the node may have for programs that do not know of such.
+    node.light = measured == targets.lights.measured_as.by_node.end() ? *light : targets.lights.measured[measured->second];
     node.camera = *camera;
     node.visible = extensions.object("KHR_node_visibility").boolean("visible", true);
     read_extras(context, gltf_item(context.json(), "nodes", size_t(index)), node, node_where(index));

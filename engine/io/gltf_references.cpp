@@ -19,7 +19,11 @@ constexpr Reference references[] = {
     {"nodes", "skin", "skins"},
     {"nodes", "extensions/KHR_lights_punctual/light", "KHR_lights_punctual"},
     {"nodes", "extensions/EXT_lights_area/light", "EXT_lights_area"},
+    {"nodes", "extensions/EXT_lights_ies/light", "EXT_lights_ies"},
     {"nodes", "extensions/EXT_mesh_gpu_instancing/attributes/*", "accessors"},
+    {"scenes", "extensions/EXT_lights_image_based/light", "EXT_lights_image_based"},
+    {"EXT_lights_ies", "bufferView", "bufferViews"},
+    {"EXT_lights_image_based", "specularImages/*/*", "images"},
     {"meshes", "primitives/*/attributes/*", "accessors"},
     {"meshes", "primitives/*/indices", "accessors"},
     {"meshes", "primitives/*/targets/*/*", "accessors"},
@@ -47,7 +51,8 @@ constexpr Reference references[] = {
 constexpr std::array known_extensions = {
     "KHR_lights_punctual",        "KHR_node_visibility",     "KHR_texture_transform", "KHR_texture_basisu",
     "KHR_draco_mesh_compression", "KHR_xmp_json_ld",         "KHR_mesh_quantization", "EXT_lights_area",
-    "EXT_mesh_gpu_instancing",    "EXT_meshopt_compression", "EXT_texture_webp",
+    "EXT_mesh_gpu_instancing",    "EXT_meshopt_compression", "EXT_texture_webp",      "EXT_lights_ies",
+    "EXT_lights_image_based",
 };
 
 using Visit = std::function<void(Json&)>;

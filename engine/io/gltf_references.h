@@ -11,7 +11,8 @@ namespace blush {
 // The lists whose objects are named by index; lights go by the names of their extensions.
 inline constexpr std::string_view gltf_lists[] = {"scenes",  "nodes",    "meshes",     "materials",           "textures",
                                                   "images",  "samplers", "cameras",    "accessors",           "bufferViews",
-                                                  "buffers", "skins",    "animations", "KHR_lights_punctual", "EXT_lights_area"};
+                                                  "buffers", "skins",    "animations", "KHR_lights_punctual", "EXT_lights_area",
+                                                  "EXT_lights_ies", "EXT_lights_image_based"};
 
 // Calls visit(list, index) for each reference that an object of `list_name` holds. Only those of extensions that are known
 // are found: see knows_references.

@@ -26,7 +26,7 @@ bool has_changed_on_disk(const GltfOrigin& origin, const std::filesystem::path& 
 void add_profiles(SavedFiles& files, Table<Light>& lights, std::vector<Diagnostic>& lost) {
     const Table<Light> before = lights;
     for (auto [id, light] : before) {
-        if (!light.ies) continue;
+        if (!light.ies || light.ies_file.empty()) continue;
         if (const auto added = files.add_file(light.ies_file); !added)
             lost.push_back({Diagnostic::Severity::warning,
                             fmt::format("the measured distribution of light \"{}\" is not saved: {}", light.name, added.error().text()), ""});
@@ -41,7 +41,9 @@ Result<SavedGltf> save(const GltfOrigin& origin, const Project& project, const s
     SavedFiles files(origin.file, file);
     Project named = project;
     std::vector<Diagnostic> lost;
-    if (const auto ok = files.add_environment(named.scene.environment); !ok) return ok.error();
+    // Pixels of an image-based light are in the document.
+    if (named.scene.environment.image != origin.indices.image_light)
+        if (const auto ok = files.add_environment(named.scene.environment); !ok) return ok.error();
     add_profiles(files, named.scene.lights, lost);
     Result<EditedGltf> edited = edited_gltf(origin, named);
     if (!edited) return edited.error();

@@ -14,12 +14,6 @@
 namespace blush {
 namespace {
 
-Result<std::span<const uint8_t>> encoded_bytes(const GltfContext& context, size_t index) {
-    const tinygltf::Image& image = context.model().images[index];
-    if (image.bufferView >= 0) return buffer_view_bytes(context, image.bufferView, fmt::format("images[{}]", index));
-    return std::span<const uint8_t>(image.image);
-}
-
 std::string image_name(const tinygltf::Image& image, size_t index) {
     if (!image.uri.empty()) return percent_decoded(image.uri);
     return image.name.empty() ? fmt::format("images[{}]", index) : image.name;
@@ -32,7 +26,7 @@ Result<std::vector<ImagePtr>> decode_images(const GltfContext& context) {
     std::vector<std::span<const uint8_t>> encoded(model.images.size());
     for (const tinygltf::Texture& texture : model.textures) {
         if (texture.source < 0 || size_t(texture.source) >= model.images.size()) continue; // reported with the texture
-        const auto bytes = encoded_bytes(context, size_t(texture.source));
+        const auto bytes = encoded_image(context, size_t(texture.source));
         if (!bytes) return bytes.error();
         encoded[size_t(texture.source)] = *bytes;
     }
@@ -95,6 +89,12 @@ Result<std::optional<Texture>> read_texture(const GltfContext& context, size_t i
 }
 
 } // namespace
+
+Result<std::span<const uint8_t>> encoded_image(const GltfContext& context, size_t index) {
+    const tinygltf::Image& image = context.model().images[index];
+    if (image.bufferView >= 0) return buffer_view_bytes(context, image.bufferView, fmt::format("images[{}]", index));
+    return std::span<const uint8_t>(image.image);
+}
 
 Result<std::vector<Id<Texture>>> import_textures(const GltfContext& context, Scene& scene) {
     const tinygltf::Model& model = context.model();

@@ -47,6 +47,10 @@ void move_indices(GltfDocument& document, Moves& moves) {
     move(indices.cameras, moves["cameras"]);
     for (auto& [id, light] : indices.lights) light.index = moves[list_name(light.list)][size_t(light.index)];
     std::erase_if(indices.lights, [](const auto& entry) { return entry.second.index < 0; });
+    std::map<int, float> peaks;
+    for (const auto& [index, peak] : indices.profile_peaks)
+        if (const int now = moves[list_name(GltfLight::List::measured)][size_t(index)]; now >= 0) peaks[now] = peak;
+    indices.profile_peaks = std::move(peaks);
     std::erase_if(indices.primitives, [&](const auto& entry) { return !indices.meshes.contains(entry.first); });
     if (document.added_buffer >= 0) document.added_buffer = moves["buffers"][size_t(document.added_buffer)];
 }
@@ -55,7 +59,7 @@ void move_indices(GltfDocument& document, Moves& moves) {
 void erase_empty_list(GltfDocument& document, std::string_view list) {
     const Json* objects = document.find_list(list);
     if (!objects || !objects->empty()) return;
-    if (list == punctual_lights || list == area_lights)
+    if (is_extension_list(list))
         erase_extension(document.root, list);
     else
         erase(document.root, list);

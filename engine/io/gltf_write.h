@@ -10,7 +10,11 @@ namespace blush {
 void write_punctual_light(Json& object, const Light& light);
 // EXT_lights_area.
 void write_area_light(Json& object, const Light& light);
-// The list in which lights of this kind are.
+// EXT_lights_ies: the file of a profile; of one that came inside of a document, what that says stays.
+void write_profile(Json& object, const Light& light);
+// What a node says of a light that shines with a profile of so many candela.
+void write_measured_instance(Json& extension, const Light& light, float peak);
+// The list in which lights of this kind are, if they have no measured distribution.
 GltfLight::List list_for(Light::Kind kind);
 // Its colour with the temperature in it, and its intensity, 0 if it is off, as other programs want them: the colour within [0, 1].
 struct PlainEmission {

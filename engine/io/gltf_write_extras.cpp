@@ -6,6 +6,9 @@
 #include "io/gltf_source.h"
 #include "io/settings_json.h"
 
+#include <set>
+#include <utility>
+
 namespace blush {
 namespace {
 
@@ -45,13 +48,15 @@ template <class T, class Object> void write_table_fields(const Table<T>& read, c
 
 // In the order in which the importer numbers them.
 struct Numbered {
-    Json* object;
+    Json* object; // null: it cannot say, and need not
     uint32_t id;
 };
 void write_ids_of(const std::vector<Numbered>& records) {
     uint32_t before = 0;
     for (const auto& [object, id] : records) {
-        if (id == before + 1)
+        if (!object) {
+            // The next one, as the importer counts.
+        } else if (id == before + 1)
             erase_blush(*object, "id");
         else if (const Json& now = child_or_null(child_or_null(child_or_null(*object, "extras"), "blush"), "id"); now != id)
             blush_of(*object)["id"] = id;
@@ -124,12 +129,16 @@ void write_ids(GltfDocument& document) {
     write_ids_of(document, "materials", document.indices.materials);
     write_ids_of(document, "textures", document.indices.textures);
     write_ids_of(document, "cameras", document.indices.cameras);
-    // The importer numbers the lights of both lists in one go.
+    // The importer numbers the lights of all lists in one go.
     std::vector<Numbered> lights;
-    for (const auto list : {GltfLight::List::punctual, GltfLight::List::area}) {
-        std::map<int, Id<Light>> by_index;
-        for (const auto& [id, index] : lights_in(document, list)) by_index[index] = id;
-        for (const auto& [index, id] : by_index) lights.push_back({&document.object(list_name(list), index), id.value});
+    for (const auto list : light_lists) {
+        std::set<std::pair<int, Id<Light>>> by_index;
+        for (const auto& [id, index] : lights_in(document, list)) by_index.emplace(index, id);
+        int last = -1;
+        for (const auto& [index, id] : by_index) {
+            const bool first = std::exchange(last, index) != index;
+            lights.push_back({first ? &document.object(list_name(list), index) : nullptr, id.value});
+        }
     }
     write_ids_of(lights);
 }

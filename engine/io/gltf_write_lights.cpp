@@ -1,6 +1,7 @@
 #include "io/gltf_write.h"
 
 #include "core/math.h"
+#include "io/gltf_uri.h"
 #include "scene/color_temperature.h"
 
 #include <algorithm>
@@ -59,6 +60,21 @@ void write_punctual_light(Json& object, const Light& light) {
         write_cone(object, light);
     else
         erase(object, "spot");
+}
+
+void write_profile(Json& object, const Light& light) {
+    const Json& uri = child_or_null(object, "uri");
+    if (light.ies_file.empty() || (uri.is_string() && percent_decoded(uri.get_ref<const std::string&>()) == light.ies_file)) return;
+    for (const char* key : {"bufferView", "mimeType"}) erase(object, key);
+    object["uri"] = percent_encoded(light.ies_file);
+}
+
+void write_measured_instance(Json& extension, const Light& light, float peak) {
+    const PlainEmission e = plain_emission(light);
+    float now = 1;
+    read_json(child_or_null(extension, "multiplier"), now);
+    if (now * peak != e.intensity) set_number(extension, "multiplier", e.intensity / peak, 1);
+    set_vector(extension, "color", {e.color.x, e.color.y, e.color.z}, {1, 1, 1});
 }
 
 void write_area_light(Json& object, const Light& light) {

@@ -59,12 +59,15 @@ void write_children(GltfDocument& document, Json& parent, const char* key, const
         parent[key] = std::move(now);
 }
 
-void write_light_reference(GltfDocument& document, Json& object, Id<Light> id) {
+void write_light_reference(GltfDocument& document, Json& object, const Scene& scene, Id<Light> id) {
     const auto light = document.indices.lights.find(id);
-    for (const auto list : {GltfLight::List::punctual, GltfLight::List::area}) {
+    for (const auto list : light_lists) {
         const bool here = light != document.indices.lights.end() && light->second.list == list;
         if (here) {
-            set_index(extension_of(object, list_name(list)), "light", light->second.index);
+            Json& extension = extension_of(object, list_name(list));
+            set_index(extension, "light", light->second.index);
+            if (list == GltfLight::List::measured)
+                write_measured_instance(extension, *scene.lights.find(id), document.indices.profile_peaks.at(light->second.index));
             continue;
         }
         int now = -1;
@@ -75,14 +78,14 @@ void write_light_reference(GltfDocument& document, Json& object, Id<Light> id) {
     }
 }
 
-void write_attachments(GltfDocument& document, Json& object, const Node& node) {
+void write_attachments(GltfDocument& document, Json& object, const Scene& scene, const Node& node) {
     set_index(object, "mesh", index_of(document.indices.meshes, node.mesh));
     if (!node.mesh) {
         erase(object, "skin");
         erase(object, "weights");
     }
     set_index(object, "camera", index_of(document.indices.cameras, node.camera));
-    write_light_reference(document, object, node.light);
+    write_light_reference(document, object, scene, node.light);
 }
 
 } // namespace
@@ -120,7 +123,7 @@ void write_tree(GltfDocument& document, const Scene& scene) {
         Json& object = document.object("nodes", document.indices.nodes.at(id));
         const bool was_bare = is_bare(object) && !object.empty();
         write_children(document, object, "children", children[id]);
-        write_attachments(document, object, node);
+        write_attachments(document, object, scene, node);
         if (is_bare(object) && !was_bare) blush_of(object);
     }
     write_children(document, document.scene(), "nodes", children[Id<Node>{}]);

@@ -1,6 +1,7 @@
 // What the Khronos validator says of saved files: nothing that it did not say of the original.
 #include "core/text.h"
 #include "io/gltf_save.h"
+#include "io_gltf_lit.h"
 #include "io_gltf_saving.h"
 #include "support/process.h"
 #include "support/random_edits.h"
@@ -38,6 +39,9 @@ TEST(GltfValidator, SavingAddsNoMessages) {
     write_bytes(folder / "rich/known.gltf", rich.dump());
     std::vector<std::filesystem::path> scenes{folder / "rich/known.gltf"};
     for (const char* name : shipped_scenes) scenes.push_back(shipped(name));
+    write_bytes(folder / "luminaires.gltf", with_luminaires(folder).gltf());
+    write_bytes(folder / "environment.gltf", with_image_light(coloured_faces(4)).gltf());
+    for (const char* name : {"luminaires.gltf", "environment.gltf"}) scenes.push_back(folder / name);
     for (const auto& scene : scenes) {
         const ImportedScene original = load(scene);
         for (int sequence = 0; sequence < 12; ++sequence) {

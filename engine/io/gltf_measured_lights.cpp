@@ -1,0 +1,131 @@
+#include "io/gltf_measured_lights.h"
+
+#include "io/gltf_accessors.h"
+#include "io/gltf_extras.h"
+#include "io/gltf_object.h"
+#include "io/gltf_uri.h"
+#include "io/ies.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <tuple>
+
+namespace blush {
+namespace {
+
+constexpr const char* extension = "EXT_lights_ies";
+
+// What a node says of its light.
+struct Instance {
+    int node = 0, profile = 0;
+    float multiplier = 1;
+    Vec3 color{1, 1, 1};
+    auto shine() const { return std::tuple(profile, multiplier, color.x, color.y, color.z); }
+};
+
+std::string uri_of(const ParsedGltf& profile) {
+    const ParsedGltf& uri = gltf_member(profile, "uri");
+    return uri.is_string() ? uri.get<std::string>() : std::string();
+}
+
+Result<IesPtr> parse_embedded(const std::string& data_uri) {
+    // The parser decodes data of types that it knows.
+    const size_t comma = data_uri.find(',');
+    std::vector<uint8_t> bytes;
+    std::string type;
+    if (comma == data_uri.npos || !data_uri.substr(0, comma).ends_with(";base64") ||
+        !tinygltf::DecodeDataURI(&bytes, type, "data:application/octet-stream;base64," + data_uri.substr(comma + 1), 0, false))
+        return Error{"", "a data URI that cannot be decoded", ""};
+    return parse_ies({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+Result<IesPtr> read_profile(const GltfContext& context, const ParsedGltf& profile, const std::string& where) {
+    if (const std::string uri = uri_of(profile); is_data_uri(uri)) {
+        return parse_embedded(uri);
+    } else if (!uri.empty()) {
+        const Result<std::filesystem::path> file = resolve_uri(context.source.folder, percent_decoded(uri));
+        return file ? read_ies(*file) : Result<IesPtr>(file.error());
+    }
+    const ParsedGltf& view = gltf_member(profile, "bufferView");
+    if (!view.is_number_integer()) return Error{"", "neither a URI nor a buffer view", ""};
+    const Result<std::span<const uint8_t>> bytes = buffer_view_bytes(context, view.get<int>(), where);
+    if (!bytes) return bytes.error();
+    return parse_ies({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
+}
+
+Result<std::vector<Instance>> instances_of(const GltfContext& context, const std::vector<int>& nodes, size_t profiles) {
+    std::vector<Instance> instances;
+    for (const int node : nodes) {
+        const std::string where = fmt::format("nodes[{}].extensions", node);
+        const GltfObject object = GltfObject(context, context.model().nodes[size_t(node)].extensions, where).object(extension);
+        const int profile = object.integer("light").value_or(-1);
+        if (profile < 0) continue;
+        if (size_t(profile) >= profiles)
+            return context.error(fmt::format("measured light {} does not exist; there are {}", profile, profiles), where);
+        instances.push_back({node, profile, object.number("multiplier", 1, 0, any_float), object.vector3("color", {1, 1, 1}, 0, 1)});
+    }
+    std::ranges::stable_sort(instances, {}, &Instance::profile);
+    return instances;
+}
+
+// The profile's largest candela and, unless a document is being saved, all of it.
+struct Profile {
+    float peak = 0; // 0: it is not shown
+    IesPtr ies;
+};
+Profile profile_of(const GltfContext& context, const ParsedGltf& json, int index, const std::string& where) {
+    if (context.known) {
+        const auto known = context.known->profile_peaks.find(index);
+        return {known == context.known->profile_peaks.end() ? 0 : known->second, nullptr};
+    }
+    const Result<IesPtr> ies = read_profile(context, json, where);
+    if (ies) return {(*ies)->peak, *ies};
+    context.warn("a measured light is not shown: " + ies.error().text(), where);
+    return {};
+}
+
+std::string name_of(const ParsedGltf& profile, int index) {
+    const ParsedGltf& name = gltf_member(profile, "name");
+    if (name.is_string() && !name.empty() && !name.get_ref<const std::string&>().empty()) return name.get<std::string>();
+    const std::string uri = uri_of(profile);
+    return uri.empty() || is_data_uri(uri) ? fmt::format("Luminaire {}", index) : std::filesystem::path(percent_decoded(uri)).stem().string();
+}
+
+Light light_of(const GltfContext& context, const ParsedGltf& json, const Profile& profile, const Instance& instance, const std::string& where) {
+    Light light;
+    light.name = name_of(json, instance.profile);
+    light.color = instance.color;
+    light.intensity = std::min(instance.multiplier * profile.peak, any_float);
+    light.ies = profile.ies;
+    if (const std::string uri = uri_of(json); !is_data_uri(uri)) light.ies_file = percent_decoded(uri);
+    read_extras(context, json, light, where);
+    return light;
+}
+
+} // namespace
+
+Result<MeasuredLights> read_measured_lights(const GltfContext& context, const std::vector<int>& nodes) {
+    MeasuredLights measured;
+    const ParsedGltf& list = gltf_member(gltf_member(gltf_member(context.json(), "extensions"), extension), "lights");
+    const Result<std::vector<Instance>> instances = instances_of(context, nodes, list.is_array() ? list.size() : 0);
+    if (!instances) return instances.error();
+    std::map<decltype(Instance().shine()), size_t> known;
+    std::map<int, Profile> profiles;
+    for (const Instance& instance : *instances) {
+        const auto [light, is_new] = known.try_emplace(instance.shine(), measured.lights.size());
+        measured.by_node[instance.node] = light->second;
+        if (!is_new) continue;
+        const ParsedGltf& json = gltf_element(list, size_t(instance.profile));
+        const std::string where = fmt::format("extensions.{}.lights[{}]", extension, instance.profile);
+        const auto profile = profiles.find(instance.profile);
+        const Profile& read =
+            profile != profiles.end() ? profile->second : profiles[instance.profile] = profile_of(context, json, instance.profile, where);
+        measured.profiles.push_back(instance.profile);
+        measured.lights.push_back(read.peak > 0 ? std::optional(light_of(context, json, read, instance, where)) : std::nullopt);
+        if (read.peak > 0) measured.peaks[instance.profile] = read.peak;
+    }
+    return measured;
+}
+
+} // namespace blush
