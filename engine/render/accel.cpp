@@ -151,7 +151,7 @@ template <int N, class Rays> void sound_lanes(int* valid, const Rays& q, int cou
     for (int i = 0; i < N; ++i) {
         const float size = std::abs(q.org_x[i]) + std::abs(q.org_y[i]) + std::abs(q.org_z[i]) + std::abs(q.dir_x[i]) + std::abs(q.dir_y[i]) +
                            std::abs(q.dir_z[i]);
-        valid[i] = i < count && size <= embree_range && q.tfar[i] >= 0 ? -1 : 0;
+        valid[i] = -(int(i < count) & int(size <= embree_range) & int(q.tfar[i] >= 0)); // no branches: every ray comes by here
     }
 }
 
