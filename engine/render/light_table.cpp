@@ -217,11 +217,18 @@ std::vector<double> shared_evenly(std::span<const double> powers, std::span<cons
     return weights;
 }
 
+// By slot of a table with a tree.
+std::vector<double> slot_powers(const LightTable& table, std::span<const double> powers) {
+    std::vector<double> slots(table.slot_lights.size(), 0.0);
+    for (size_t i = 0; i < powers.size(); ++i) slots[size_t(table.records[i].slot)] += powers[i];
+    if (table.tree.nodes.empty()) slots[0] = 0;
+    return slots;
+}
+
 // Lights at finite distance go into the tree, which gets the first slot; the others a slot each.
 void add_tree(Builder& b, const std::vector<double>& powers) {
     const auto is_finite_light = [](const LightRecord& r) { return r.kind != int32_t(LightKind::sun) && r.kind != int32_t(LightKind::environment); };
     std::vector<LightBounds> in_tree;
-    std::vector<double> slot_powers{0};
     b.table.slot_lights = {0};
     for (size_t i = 0; i < b.table.records.size(); ++i) {
         LightRecord& record = b.table.records[i];
@@ -230,17 +237,14 @@ void add_tree(Builder& b, const std::vector<double>& powers) {
             bounds.power = powers[i];
             bounds.light = int32_t(i);
             in_tree.push_back(bounds);
-            slot_powers[0] += powers[i];
         } else {
-            record.slot = int32_t(slot_powers.size());
-            slot_powers.push_back(powers[i]);
+            record.slot = int32_t(b.table.slot_lights.size());
             b.table.slot_lights.push_back(int32_t(i));
         }
     }
     b.table.tree = build_light_tree(std::move(in_tree), int32_t(b.table.records.size()));
-    if (b.table.tree.nodes.empty()) slot_powers[0] = 0;
-    b.table.thresholds = make_thresholds(slot_powers);
-    b.table.count = int32_t(slot_powers.size());
+    b.table.thresholds = make_thresholds(slot_powers(b.table, powers));
+    b.table.count = int32_t(b.table.slot_lights.size());
 }
 
 } // namespace
@@ -278,7 +282,13 @@ LightTable build_light_table(const Scene& scene, const MaterialTable& materials,
 }
 
 void weigh_lights(LightTable& table, std::span<const double> factors) {
-    if (table.tree.nodes.empty()) table.thresholds = make_thresholds(shared_evenly(table.powers, factors));
+    const std::vector<double> weights = shared_evenly(table.powers, factors);
+    if (table.slot_lights.empty()) {
+        table.thresholds = make_thresholds(weights);
+        return;
+    }
+    weigh_light_tree(table.tree, weights);
+    table.thresholds = make_thresholds(slot_powers(table, weights));
 }
 
 int64_t light_table_bytes(int64_t lights) { return lights * int64_t(sizeof(LightRecord) + sizeof(uint32_t)); }

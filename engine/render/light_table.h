@@ -53,7 +53,7 @@ LightTable build_light_table(const Scene& scene, const MaterialTable& materials,
 int64_t light_table_bytes(int64_t lights);
 
 // Picks lights as if record i had factors[i] (>= 0) times its power; none: as they are. Whatever the factors, what shines may be picked. A
-// tree of lights stays as it is.
+// tree of lights keeps its shape.
 void weigh_lights(LightTable& table, std::span<const double> factors);
 
 } // namespace blush

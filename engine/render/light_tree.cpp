@@ -81,7 +81,6 @@ struct Builder {
         node.sin_o = b.theta_o >= pi_d ? 0 : float(std::sin(b.theta_o));
         node.cos_o = b.theta_o >= pi_d ? -1 : float(std::cos(b.theta_o));
         node.cos_e = float(std::cos(b.theta_e));
-        node.power = float(b.power);
         node.two_sided = b.two_sided;
         node.children = -1;
         return node;
@@ -182,8 +181,23 @@ LightTreeTable build_light_tree(std::vector<LightBounds> lights, int32_t light_c
     if (lights.empty()) return table;
     table.nodes.reserve(2 * lights.size());
     table.nodes.resize(1);
+    std::vector<double> powers(size_t(light_count), 0.0);
+    for (const LightBounds& b : lights) powers[size_t(b.light)] = b.power;
     Builder{lights, table}.build(0, 0, lights.size(), 0, 0);
+    weigh_light_tree(table, powers);
     return table;
+}
+
+void weigh_light_tree(LightTreeTable& table, std::span<const double> powers) {
+    std::vector<double> below(table.nodes.size(), 0.0);
+    // Children come after their parents.
+    for (size_t i = table.nodes.size(); i-- > 0;) {
+        LightTreeNode& node = table.nodes[i];
+        if (node.children < 0) below[i] = powers[size_t(node.light)];
+        else
+            for (int32_t k = 0; k < node.child_count; ++k) below[i] += below[size_t(node.children + k)];
+        node.power = float(below[i]);
+    }
 }
 
 } // namespace blush

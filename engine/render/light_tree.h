@@ -40,4 +40,7 @@ constexpr int64_t fewest_lights_for_a_tree = 32, most_lights_for_a_tree = 1 << 1
 // whose place is no finite number, are left out. `light_count`: of all lights, those in the tree and others.
 LightTreeTable build_light_tree(std::vector<LightBounds> lights, int32_t light_count);
 
+// Draws the tree's lights as if light i had powers[i] (>= 0). What the nodes bound and how they are split stays as it was built.
+void weigh_light_tree(LightTreeTable& table, std::span<const double> powers);
+
 } // namespace blush
