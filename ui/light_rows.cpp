@@ -150,12 +150,7 @@ std::vector<Edit> rename_group(const Scene& scene, const std::string& group, con
     std::vector<Id<Light>> lights;
     for (const auto& [id, light] : scene.lights)
         if (light.group == group) lights.push_back(id);
-    std::vector<Edit> edits = put_into_group(scene, lights, scene.environment.group == group, name);
-    LightMix mix = scene.mix;
-    for (MixChannel& channel : mix.channels)
-        if (channel.group == group && mix.grouping == LightMix::Grouping::by_hand) channel.group = name;
-    if (mix != scene.mix) edits.push_back(SetMix{mix});
-    return edits;
+    return put_into_group(scene, lights, scene.environment.group == group, name);
 }
 
 } // namespace blush

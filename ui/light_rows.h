@@ -43,7 +43,7 @@ std::optional<RowShare> share_of(const LightRow& row, const LightGroups& groups,
 
 // Edits that put lights (and the environment, if asked) into a group; "" takes them out.
 std::vector<Edit> put_into_group(const Scene& scene, std::span<const Id<Light>> lights, bool environment, const std::string& group);
-// Edits that give a group another name, its channel of the light mix included.
+// Edits that give a group another name.
 std::vector<Edit> rename_group(const Scene& scene, const std::string& group, const std::string& name);
 
 } // namespace blush

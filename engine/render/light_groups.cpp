@@ -30,7 +30,7 @@ bool glows(const Material& m) { return m.unlit || !is_black(emission_of(m)); }
 // Collects emitters in the order of the scene, and gives those of one key one group.
 class Grouper {
 public:
-    explicit Grouper(const Scene& scene) : scene_(scene), by_(scene.mix.grouping) {}
+    Grouper(const Scene& scene, int most) : scene_(scene), by_(scene.mix.grouping), most_(size_t(most)) {}
 
     LightGroups made() {
         if (scene_.environment.kind != Environment::Kind::none) groups_.environment = add_environment();
@@ -107,13 +107,13 @@ private:
     void share_last_plane() {
         std::vector<LightGroup>& all = groups_.groups;
         const size_t count = all.size();
-        if (count <= size_t(most_light_groups)) return;
+        if (count <= most_) return;
         std::vector<int> order(count), place(count);
         for (size_t i = 0; i < count; ++i) order[i] = int(i);
         std::ranges::stable_partition(order, [&](int i) {
             return std::ranges::any_of(scene_.mix.channels, [&](const MixChannel& c) { return c.group == all[size_t(i)].name; });
         });
-        constexpr size_t last = size_t(most_light_groups) - 1;
+        const size_t last = most_ - 1;
         std::vector<LightGroup> kept;
         LightGroup rest{.name = fmt::format("{} others", count - last)};
         for (size_t at = 0; at < count; ++at) {
@@ -142,6 +142,7 @@ private:
 
     const Scene& scene_;
     Grouping by_;
+    size_t most_;
     LightGroups groups_;
     std::map<Key, int> known_;
 };
@@ -150,8 +151,6 @@ template <class Id> int found(const std::map<Id, int>& map, Id id, int otherwise
     const auto it = map.find(id);
     return it == map.end() ? otherwise : it->second;
 }
-
-// Emission of what is the same but for how bright it is and in which colour; else nothing.
 
 bool same_but_for_emission(Light before, const Light& after) {
     before.name = after.name;
@@ -271,9 +270,9 @@ int LightGroups::of_surface(Id<Node> node, Id<Material> material) const {
     return found(surface_materials, material, found(surface_nodes, node, 0));
 }
 
-LightGroups make_light_groups(const Scene& scene) {
+LightGroups make_light_groups(const Scene& scene, int most) {
     const Scene applied = with_solo_applied(scene);
-    return Grouper(applied).made();
+    return Grouper(applied, most).made();
 }
 
 Vec3 channel_gain(const LightMix& mix, const std::string& group) {
@@ -302,7 +301,8 @@ std::optional<Mixing> mixing_of(const LightGroups& groups, const Scene& scene) {
         if (!factor) return std::nullopt;
         mixing.names.push_back(group.name);
         mixing.factors.push_back(*factor);
-        mixing.gains.push_back(group.unlit ? Vec3{1, 1, 1} : *factor * channel_gain(now.mix, group.name));
+        mixing.channels.push_back(group.unlit ? Vec3{1, 1, 1} : channel_gain(now.mix, group.name));
+        mixing.gains.push_back(group.unlit ? Vec3{1, 1, 1} : *factor * mixing.channels.back());
     }
     return mixing;
 }

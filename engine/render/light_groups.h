@@ -42,9 +42,9 @@ struct LightGroups {
 
 // Of all that may shine in the scene, off or on: lights and glowing surfaces of visible nodes, and the environment. By light: each light,
 // each glowing object; by object: each node; by material: each light, each glowing material; by hand: what names the same group, glowing
-// surfaces by their material's name. If there are too many, those that have a channel in the mix come first, the last ones share a plane.
-// Scenes with area lights lowered have the groups that they had before.
-LightGroups make_light_groups(const Scene& scene);
+// surfaces by their material's name. If there are more than `most`, those that have a channel in the mix come first, the last ones share a
+// plane. Scenes with area lights lowered have the groups that they had before.
+LightGroups make_light_groups(const Scene& scene, int most = most_light_groups);
 
 // What a group's channel makes of its light; 1 without one.
 Vec3 channel_gain(const LightMix& mix, const std::string& group);
@@ -53,7 +53,8 @@ Vec3 channel_gain(const LightMix& mix, const std::string& group);
 struct Mixing {
     std::vector<std::string> names; // of the groups, as they are called by now
     Gains factors;                  // what has become of the light of their members
-    Gains gains;                    // that times their channels
+    Gains channels;                 // what their channels make of it
+    Gains gains;                    // both together
 };
 // Channels of the mix times what has changed in the light of each group's members. Nothing, if no gains would do: something else has
 // changed, a colour was black and is no longer, members of a group changed differently, or groups are made up otherwise.

@@ -135,23 +135,12 @@ TEST(LightRows, GroupsAreJoinedLeftAndRenamed) {
     s.apply(put_into_group(s.scene, std::vector{s.scene.nodes.find(s.fill)->light}, true, "Warm"));
     EXPECT_EQ(s.light(s.fill).group, "Warm");
     EXPECT_EQ(s.scene.environment.group, "Warm");
-    s.scene.mix.grouping = LightMix::Grouping::by_hand;
-    s.scene.mix.channels = {{.group = "Warm", .intensity = 0.5f}};
     s.apply(rename_group(s.scene, "Warm", "Lamps"));
     EXPECT_EQ(s.light(s.key).group, "Lamps");
     EXPECT_EQ(s.light(s.fill).group, "Lamps");
     EXPECT_EQ(s.scene.environment.group, "Lamps");
-    EXPECT_EQ(s.scene.mix.channels[0].group, "Lamps");
     s.apply(put_into_group(s.scene, std::vector{s.scene.nodes.find(s.key)->light}, false, ""));
     EXPECT_EQ(s.light(s.key).group, "");
-}
-
-TEST(LightRows, AChannelThatIsNotOfGroupsByHandKeepsItsName) {
-    Studio s;
-    s.scene.mix.grouping = LightMix::Grouping::by_light;
-    s.scene.mix.channels = {{.group = "Warm"}};
-    s.apply(rename_group(s.scene, "Warm", "Lamps"));
-    EXPECT_EQ(s.scene.mix.channels[0].group, "Warm");
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 
 #include "color/color_management.h"
 #include "io/displayed.h"
+#include "render/carried_mix.h"
 #include "render/light_groups.h"
 #include "render/render_session.h"
 #include "scene/document.h"
@@ -33,12 +34,12 @@ struct PanelContext {
     const Project& project() const { return document.project(); }
     const Scene& scene() const { return document.project().scene; }
     // An edit that the document refuses becomes a toast.
-    bool apply(const Edit& edit, Gesture gesture = no_gesture) {
-        return accepted(document.apply(edit, gesture));
-    }
-    // Several as one step of the history; all or none.
+    bool apply(const Edit& edit, Gesture gesture = no_gesture) { return apply({&edit, 1}, label(edit, project()), gesture); }
+    // Several as one step of the history; all or none. Channels of the light mix follow the names of their groups.
     bool apply(std::span<const Edit> edits, const std::string& label, Gesture gesture = no_gesture) {
-        return accepted(document.apply(edits, label, gesture));
+        std::vector<Edit> all(edits.begin(), edits.end());
+        if (std::optional<LightMix> mix = carried_mix(project(), edits)) all.push_back(SetMix{*std::move(mix)});
+        return accepted(document.apply(all, label, gesture));
     }
 
 private:
