@@ -3,8 +3,10 @@
 #include "io/exact_channels.h"
 #include "io/json_fields.h"
 #include "render/health_recorder.h"
+#include "render/light_groups.h"
 
 #include <array>
+#include <cmath>
 
 namespace blush {
 namespace {
@@ -77,6 +79,13 @@ bool read_health(const Json& json, const LayeredImage& image, Health& h) {
     return read;
 }
 
+bool read_mix(const Json& json, std::vector<FilmState::MixedGroup>& mix) {
+    return read_list(json, most_light_groups, mix, [](const Json& item, FilmState::MixedGroup& g) {
+        const auto is_gain = [](float v) { return std::isfinite(v) && v >= 0; };
+        return read_numbers(item, g.name, g.gain.x, g.gain.y, g.gain.z) && is_gain(g.gain.x) && is_gain(g.gain.y) && is_gain(g.gain.z);
+    });
+}
+
 // What is no plane of the film itself: takes it out of the planes.
 void take_health_map(FilmState& film, size_t pixels) {
     if (const ExactPlane* dropped = film.find(dropped_plane)) film.health.dropped_map = dropped->words;
@@ -119,6 +128,7 @@ std::string film_json(const FilmState& film) {
               {"truncated", film.truncated},
               {"paths", paths},
               {"health", health_json(film.health)}};
+    for (const FilmState::MixedGroup& g : film.mix) json["mix"].push_back({g.name, g.gain.x, g.gain.y, g.gain.z});
     if (!film.shares[0].empty()) json["shares"] = {film.shares[0], film.shares[1]};
     return json_text(json);
 }
@@ -148,6 +158,7 @@ Result<FilmState> film_in_file(const LayeredImage& image, const SnapshotMetadata
             if (!read_list(shares[half], pixels, film.shares[half], [](const Json& item, double& share) { return read_json(item, share); }))
                 return bad("shares");
     }
+    if (const Json& mix = member(*json, "mix"); !mix.is_null() && !read_mix(mix, film.mix)) return bad("mix");
     film.planes = exact_planes(image, "film");
     const size_t pixels = size_t(image.width) * size_t(image.height);
     take_health_map(film, pixels);

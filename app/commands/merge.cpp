@@ -111,7 +111,15 @@ Result<void> write_sum(const MergeCommand& c, std::vector<Input>& inputs, Snapsh
     metadata.error = error_text(resolved->frame.error);
     metadata.film = film_json(sum);
     const auto has = [&](const char* channel) { return inputs.front().image.find(channel) != nullptr; };
-    const Layers layers{has("albedo.R"), has("normal.X"), has("depth.Z"), has("error.R"), has("samples.Y"), has("id.object"), true};
+    const bool groups = std::ranges::any_of(inputs.front().image.channels, [](const auto& channel) { return channel.name.starts_with("group."); });
+    const Layers layers{.albedo = has("albedo.R"),
+                        .normal = has("normal.X"),
+                        .depth = has("depth.Z"),
+                        .error = has("error.R"),
+                        .samples = has("samples.Y"),
+                        .ids = has("id.object"),
+                        .film = true,
+                        .groups = groups};
     const std::vector<ExactPlane> planes = planes_in_file(sum);
     ExtraLayers extra{.film = planes};
     if (layers.error) extra.error = resolved->error;

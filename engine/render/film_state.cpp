@@ -144,6 +144,14 @@ Result<ResolvedFilm> resolve_film(const FilmState& state, const RenderSettings& 
     // As ids are kept, not as indices, one more is what a frame says of them.
     ResolvedFilm resolved;
     Frame& frame = resolved.frame;
+    if (int(state.mix.size()) == film.needs_groups()) {
+        std::vector<Vec3> gains;
+        for (const FilmState::MixedGroup& group : state.mix) {
+            frame.group_names.push_back(group.name);
+            gains.push_back(group.gain);
+        }
+        film.set_gains(gains);
+    }
     const Workers workers(threads);
     film.resolve(frame, workers);
     for (uint32_t& id : frame.object_id) id &= ~lowered_bit;
@@ -174,6 +182,7 @@ Result<FilmState> merge_films(const FilmState& a, const FilmState& b, const Rend
     sum.seconds = a.seconds + b.seconds;
     sum.rays = {a.rays.camera + b.rays.camera, a.rays.bounce + b.rays.bounce, a.rays.shadow + b.rays.shadow};
     sum.truncated = a.truncated + b.truncated;
+    sum.mix = a.mix;
     sum.path_counts = a.path_counts;
     sum.path_counts.resize(std::max(a.path_counts.size(), b.path_counts.size()));
     for (size_t k = 0; k < b.path_counts.size(); ++k) {

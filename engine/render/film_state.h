@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -28,6 +29,12 @@ struct FilmState {
     std::vector<PathCounts> path_counts;
     int64_t truncated = 0;
     Health health;
+    // The mix in which the picture was seen; samples know nothing of it. Empty: none.
+    struct MixedGroup {
+        std::string name;
+        Vec3 gain{1, 1, 1};
+    };
+    std::vector<MixedGroup> mix; // one for each group of lights
 
     static constexpr uint32_t no_material = 0xffffffffu;
     const ExactPlane* find(std::string_view name) const;

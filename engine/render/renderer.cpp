@@ -407,6 +407,7 @@ Result<FilmState> Renderer::save_film(int64_t first) const {
     state.rays = s.rays;
     state.path_counts = s.path_counts;
     state.truncated = s.truncated;
+    for (size_t k = 0; k < s.mixing.names.size(); ++k) state.mix.push_back({s.mixing.names[k], s.mixing.channels[k]});
     return state;
 }
 

@@ -122,6 +122,21 @@ TEST(Merge, OfSumsIsTheWholeRender) {
     expect_same_channels(folder / "on.exr", folder / "longer.exr", 1);
 }
 
+// Sums know nothing of the light mix; the picture of them does.
+TEST(Merge, OfSumsIsMixedAsTheWholeRender) {
+    const TemporaryFolder folder;
+    const nlohmann::json channel{{"group", "light 2"}, {"intensity", 3}, {"color", {1, 0.5, 0.25}}};
+    const std::string scene = test::scene_with_mix(folder, "veach-mis", {{"grouping", "by_light"}, {"channels", {channel}}});
+    const auto render = [&](const std::string& name, const char* range) {
+        expect_done({"render", scene, "-o", folder / name, "--size", "24x16", "--quiet", "--layers", "film,groups", "--samples", range});
+    };
+    render("whole.exr", "0:6");
+    render("a.exr", "0:4");
+    render("b.exr", "4:6");
+    expect_done({"merge", "--quiet", "-o", folder / "merged.exr", folder / "a.exr", folder / "b.exr"});
+    expect_same_channels(folder / "merged.exr", folder / "whole.exr", 1);
+}
+
 TEST(Merge, OfMeansWeighsThemByTheirSamples) {
     const TemporaryFolder folder;
     const Arguments layers{"--layers", "depth,samples,error"};
