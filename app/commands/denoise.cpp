@@ -107,9 +107,9 @@ Result<Outcome> denoise_file(const DenoiseCommand& c, const ColorManagement* col
 
     Denoiser denoiser(weights_dir(), c.common.threads);
     const DenoiseInput input{image->width, image->height, view_of(planes->color), view_of(planes->albedo), view_of(planes->normal)};
-    Result<Denoised> denoised = denoise_with_progress(denoiser, input, c.quality, c.common.quiet, guard.interrupted());
+    Result<std::vector<Denoised>> denoised = denoise_with_progress(denoiser, {&input, 1}, c.quality, c.common.quiet, guard.interrupted());
     if (!denoised) return in_file(denoised.error(), c.input);
-    outcome.denoised = *std::move(denoised);
+    outcome.denoised = std::move(denoised->front());
     const Result<void> written =
         color ? write_display_output(c, *image, outcome.denoised, *color) : write_exr_output(c, *std::move(image), outcome.denoised);
     if (!written) return in_file(written.error(), c.output);

@@ -22,18 +22,22 @@ Result<void> try_denoiser(Denoiser& denoiser, DenoiseQuality quality) {
     return {};
 }
 
-Result<Denoised> denoise_with_progress(Denoiser& denoiser, const DenoiseInput& input, DenoiseQuality quality, bool quiet,
-                                       const std::atomic<bool>& interrupted) {
+Result<std::vector<Denoised>> denoise_with_progress(Denoiser& denoiser, std::span<const DenoiseInput> inputs, DenoiseQuality quality, bool quiet,
+                                                    const std::atomic<bool>& interrupted) {
     Progress progress(quiet);
-    const std::string note = fmt::format("denoising {}x{}", input.width, input.height);
-    progress.update(0, note);
     DenoiseOptions options;
     options.quality = quality;
-    Result<std::optional<Denoised>> denoised = denoiser.denoise(
-        input, options, [&] { return !interrupted.load(); }, [&](double fraction) { progress.update(fraction, note); });
-    if (!denoised) return denoised.error();
-    if (!*denoised) return Error{.what = "interrupted before it was denoised"};
-    return **std::move(denoised);
+    std::vector<Denoised> all;
+    for (const DenoiseInput& input : inputs) {
+        const std::string note = fmt::format("denoising {}x{}", input.width, input.height);
+        const auto show = [&](double fraction) { progress.update((double(all.size()) + fraction) / double(inputs.size()), note); };
+        show(0);
+        Result<std::optional<Denoised>> denoised = denoiser.denoise(input, options, [&] { return !interrupted.load(); }, show);
+        if (!denoised) return denoised.error();
+        if (!*denoised) return Error{.what = "interrupted before it was denoised"};
+        all.push_back(**std::move(denoised));
+    }
+    return all;
 }
 
 OrderedJson denoised_json(const Denoised& denoised) {

@@ -6,8 +6,10 @@
 #include "render/denoiser.h"
 
 #include <atomic>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace blush {
 
@@ -18,9 +20,10 @@ Result<DenoiseQuality> parse_denoise_quality(std::string_view text);
 // before hours of rendering. Errors: as Denoiser::denoise.
 Result<void> try_denoiser(Denoiser& denoiser, DenoiseQuality quality);
 
-// Shows that it is busy; `interrupted` is looked at between the networks' layers. Errors: as Denoiser::denoise, or interrupted.
-Result<Denoised> denoise_with_progress(Denoiser& denoiser, const DenoiseInput& input, DenoiseQuality quality, bool quiet,
-                                       const std::atomic<bool>& interrupted);
+// Each of the inputs. Shows that it is busy; `interrupted` is looked at between the networks' layers. Errors: as Denoiser::denoise, or
+// interrupted.
+Result<std::vector<Denoised>> denoise_with_progress(Denoiser& denoiser, std::span<const DenoiseInput> inputs, DenoiseQuality quality, bool quiet,
+                                                    const std::atomic<bool>& interrupted);
 
 // {network, precision, tiles, seconds, energy_change_percent, sanitised}
 OrderedJson denoised_json(const Denoised& denoised);

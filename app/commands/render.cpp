@@ -232,10 +232,11 @@ Result<Rendered> render_picture(const RenderCommand& c, const Plan& plan, const 
     if (c.options.denoise) {
         // The Ctrl-C that ended the samples does not end this as well; a first one that comes now does.
         const std::atomic<bool> never{false};
-        Result<Denoised> result = denoise_with_progress(denoiser, denoise_input(rendered.loop.frame), *c.options.denoise, c.common.quiet,
-                                                        interrupted ? never : interrupted);
+        const Frame& frame = rendered.loop.frame;
+        Result<std::vector<Denoised>> result = denoise_with_progress(denoiser, denoise_inputs(frame), *c.options.denoise, c.common.quiet,
+                                                                     interrupted ? never : interrupted);
         if (result)
-            rendered.denoised = *std::move(result);
+            rendered.denoised = denoised_picture(frame, *c.options.denoise, *std::move(result))->denoised;
         else
             denoised = result.error();
     }

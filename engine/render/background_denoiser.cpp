@@ -1,7 +1,5 @@
 #include "render/background_denoiser.h"
 
-#include "render/light_mix.h"
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -88,12 +86,9 @@ DenoiseOptions BackgroundDenoiser::options_for(const Task& task, DenoiseQuality 
 
 // The picture as a whole, or each group of its lights.
 Result<std::vector<Denoised>> BackgroundDenoiser::denoise_all(const Task& task, DenoiseQuality quality) const {
-    const Frame& frame = *task.frame;
     std::vector<Denoised> all;
-    for (size_t k = 0; k < std::max<size_t>(1, frame.groups.size()); ++k) {
-        DenoiseInput input = denoise_input(frame);
-        if (!frame.groups.empty()) input.color = {span_of(frame.groups[k]), 3};
-        Result<std::optional<Denoised>> result = denoise_(input, options_for(task, quality, k), [&] { return is_wanted(task); });
+    for (const DenoiseInput& input : denoise_inputs(*task.frame)) {
+        Result<std::optional<Denoised>> result = denoise_(input, options_for(task, quality, all.size()), [&] { return is_wanted(task); });
         if (!result) return result.error();
         if (!*result) return std::vector<Denoised>();
         all.push_back(**std::move(result));
@@ -110,8 +105,7 @@ BackgroundDenoiser::Outcome BackgroundDenoiser::denoise(const Task& task, Denois
         scales_.clear();
         for (const Denoised& d : *all) scales_.push_back(d.exposure_scale);
         scale_image_ = task.image;
-        if (!task.frame->groups.empty()) return {denoised_picture(*task.frame, quality, *std::move(all)), {}};
-        return {denoised_picture(*task.frame, quality, std::move(all->front())), {}};
+        return {denoised_picture(*task.frame, quality, *std::move(all)), {}};
     } catch (const std::bad_alloc&) { return {nullptr, "not enough memory to denoise"}; } catch (const std::exception& e) {
         return {nullptr, e.what()};
     }

@@ -31,27 +31,27 @@ double mean_luminance(const std::vector<float>& pixels, size_t stride) {
 
 } // namespace
 
-DenoiseInput denoise_input(const Frame& frame) {
-    return {frame.width, frame.height, {frame.rgba, 4}, view_of(frame.albedo), view_of(frame.normal)};
+std::vector<DenoiseInput> denoise_inputs(const Frame& frame) {
+    const DenoiseInput whole{frame.width, frame.height, {frame.rgba, 4}, view_of(frame.albedo), view_of(frame.normal)};
+    if (frame.groups.empty()) return {whole};
+    std::vector<DenoiseInput> inputs(frame.groups.size(), whole);
+    for (size_t k = 0; k < inputs.size(); ++k) inputs[k].color = view_of(frame.groups[k]);
+    return inputs;
 }
 
-DenoisedPtr denoised_picture(const Frame& source, DenoiseQuality quality, Denoised denoised) {
+DenoisedPtr denoised_picture(const Frame& source, DenoiseQuality quality, std::vector<Denoised> denoised) {
     auto picture = std::make_shared<DenoisedPicture>(picture_of(source, quality));
-    picture->denoised = std::move(denoised);
-    return picture;
-}
-
-DenoisedPtr denoised_picture(const Frame& source, DenoiseQuality quality, std::vector<Denoised> groups) {
-    auto picture = std::make_shared<DenoisedPicture>(picture_of(source, quality));
+    if (source.groups.empty()) {
+        picture->denoised = std::move(denoised.front());
+        return picture;
+    }
     auto planes = std::make_shared<DenoisedGroups>();
     planes->of = source.light_groups;
     Denoised& all = picture->denoised;
-    if (!groups.empty()) {
-        all.network = groups.front().network;
-        all.precision = groups.front().precision;
-        all.exposure_scale = groups.front().exposure_scale;
-    }
-    for (Denoised& group : groups) {
+    all.network = denoised.front().network;
+    all.precision = denoised.front().precision;
+    all.exposure_scale = denoised.front().exposure_scale;
+    for (Denoised& group : denoised) {
         all.sanitised += group.sanitised;
         all.tiles = std::max(all.tiles, group.tiles);
         all.seconds += group.seconds;
@@ -75,7 +75,7 @@ DenoisedPtr remixed(const DenoisedPicture& picture, const Gains& gains) {
 std::vector<float> mixed_rgb(const DenoisedPicture& picture, std::span<const Vec3> gains, const Workers* workers) {
     std::vector<float> rgb(size_t(picture.width) * size_t(picture.height) * 3);
     const std::vector<PlaneSpan> planes(picture.groups->planes.begin(), picture.groups->planes.end());
-    mix_planes(planes, gains, rgb, 3, workers);
+    mix_rgb(planes, gains, rgb, workers);
     return rgb;
 }
 

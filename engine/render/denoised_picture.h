@@ -35,12 +35,12 @@ struct DenoisedPicture {
 };
 using DenoisedPtr = std::shared_ptr<const DenoisedPicture>;
 
-// The frame's planes as the denoiser reads them. Points into the frame.
-DenoiseInput denoise_input(const Frame& frame);
+// The frame's planes as the denoiser reads them: of the whole picture, or, if there are groups of lights, of each of them before its gain.
+// They point into the frame.
+std::vector<DenoiseInput> denoise_inputs(const Frame& frame);
 
-DenoisedPtr denoised_picture(const Frame& source, DenoiseQuality quality, Denoised denoised);
-// Of the denoised planes of the frame's groups, mixed with its gains.
-DenoisedPtr denoised_picture(const Frame& source, DenoiseQuality quality, std::vector<Denoised> groups);
+// Of what denoise_inputs() were denoised to; groups are mixed with the frame's gains.
+DenoisedPtr denoised_picture(const Frame& source, DenoiseQuality quality, std::vector<Denoised> denoised);
 // The same with other gains.
 DenoisedPtr remixed(const DenoisedPicture& picture, const Gains& gains);
 // Its pixels with other gains, width * height * 3; it must have groups.

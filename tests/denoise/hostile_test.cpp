@@ -75,7 +75,7 @@ TEST(DenoiserHostile, DroppedSamplesPoisonNothing) {
     Denoiser denoiser(BLUSH_WEIGHTS, 2);
     for (const DenoiseQuality quality : {DenoiseQuality::fast, DenoiseQuality::high}) {
         const auto denoised_of = [&](const Frame& frame) {
-            const auto made = denoiser.denoise(denoise_input(frame), {.quality = quality, .exposure_scale = 0.36f});
+            const auto made = denoiser.denoise(denoise_inputs(frame).front(), {.quality = quality, .exposure_scale = 0.36f});
             EXPECT_TRUE(made && *made);
             return **made;
         };

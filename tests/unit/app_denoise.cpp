@@ -218,6 +218,23 @@ TEST(RenderDenoised, TheLayerStandsBesideTheUntouchedBeauty) {
     EXPECT_EQ(read_snapshot_metadata(after.metadata)->denoised.substr(0, 16), "rt_hdr_calb_cnrm");
 }
 
+// Each group of lights by itself, then mixed, as in the window: what the networks see does not depend on the mix.
+TEST(RenderDenoised, GroupsAreDenoisedBeforeTheyAreMixed) {
+    const TemporaryFolder folder;
+    // Light 1 alone, and the others alone, with the same samples: the mix comes after the aiming.
+    const auto denoised = [&](const std::string& name, const std::vector<std::string>& off) {
+        Json mix{{"grouping", "by_light"}, {"channels", Json::array()}};
+        for (const std::string& group : off) mix["channels"].push_back({{"group", group}, {"enabled", false}});
+        const std::string scene = test::scene_with_mix(folder, "veach-mis", mix);
+        blush_json({"render", scene, "-o", folder / name, "--size", "48x32", "--spp", "4", "--denoise", "fast", "--strategy", "bsdf"});
+        return read_layers(folder / name)->find("denoised.G")->values;
+    };
+    const std::vector<float> all = denoised("all.exr", {}), first = denoised("first.exr", {"light 2", "light 3", "light 4"}),
+                             others = denoised("others.exr", {"light 1"});
+    ASSERT_EQ(all.size(), 48u * 32u);
+    for (size_t i = 0; i < all.size(); ++i) ASSERT_NEAR(all[i], first[i] + others[i], 1e-5f * (1 + all[i]));
+}
+
 TEST(RenderDenoised, PicturesShowItAndCompareSeesTheLayer) {
     const TemporaryFolder folder;
     const auto render = [&](const std::string& output, const char* denoise, const char* spp) {
