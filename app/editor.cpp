@@ -385,11 +385,11 @@ void Editor::submit() {
     if (!film && submitted_ != 0 && !changed) return;
     const std::string opened = submitted_ == 0 ? files_.scene_file().filename().string() : "";
     submitted_ = ++revision_;
-    convergence_.submit(ui_.convergence, {document_, r, planes, submitted_}, opened);
     submitted_scene_ = scene;
     submitted_settings_ = r;
     submitted_planes_ = planes;
-    session_.submit(submitted_, scene, r, planes, film);
+    const bool goes_on = session_.submit(submitted_, scene, r, planes, film);
+    convergence_.submit(ui_.convergence, {document_, r, planes, submitted_, goes_on}, opened);
     stats_.submitted(submitted_, frame_begin_);
 }
 

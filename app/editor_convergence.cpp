@@ -38,8 +38,11 @@ void EditorConvergence::submit(ConvergenceView& view, const Submission& s, const
         begin(view, opened, s.revision, scene, s.settings);
     } else {
         const Changes changes = diff(scene_, settings_, scene, s.settings);
-        if (changes.affects_image())
-            begin(view, run_name({scene_, settings_}, {scene, s.settings}, s.document, undone), s.revision, scene, s.settings);
+        const std::string name = changes.affects_image() ? run_name({scene_, settings_}, {scene, s.settings}, s.document, undone) : "";
+        if (changes.affects_image() && s.goes_on)
+            remix(name, s.revision, scene);
+        else if (changes.affects_image())
+            begin(view, name, s.revision, scene, s.settings);
         else if (!planes_.covers(s.planes))
             begin(view, "other film planes", s.revision, scene, s.settings);
         else if (changes.stop_rules)
@@ -54,9 +57,19 @@ void EditorConvergence::begin(ConvergenceView& view, const std::string& name, ui
                               const RenderSettings& settings) {
     first_revision_ = revision;
     subject_ = {scene, settings};
+    remixed_by_.clear();
     recording_seconds_ = 0;
     view.cost = {};
     measuring_.begin(view.runs.begin(name));
+    keeper_.forget();
+}
+
+// The same samples from now on, with other weights: errors told so far are another picture's, and so is the reference.
+void EditorConvergence::remix(const std::string& name, uint64_t revision, const Scene& scene) {
+    first_revision_ = revision;
+    subject_.scene = scene;
+    remixed_by_ = name;
+    measuring_.forget_pictures();
     keeper_.forget();
 }
 
@@ -77,7 +90,12 @@ void EditorConvergence::look(ConvergenceView& view, const Pictures& pictures) {
 void EditorConvergence::record(ConvergenceView& view, const FramePtr& frame) {
     ConvergenceRecord& record = view.runs.live()->record;
     const ConvergencePoint point = estimated_point(*frame);
-    if (point.rmse.known || point.relmse.known) record.add(point);
+    const bool known = point.rmse.known || point.relmse.known;
+    if (known && remixed_by_.empty()) record.add(point);
+    if (known && !remixed_by_.empty()) {
+        record.set(point);
+        record.mark({point.seconds, point.spp, std::exchange(remixed_by_, {}), true});
+    }
     if (view.reference && keeper_.reference() && record.is_due(Kind::measured, frame->samples)) measuring_.add_raw(frame);
 }
 

@@ -23,12 +23,15 @@ public:
         const RenderSettings& settings;
         const PlaneSet& planes;
         uint64_t revision = 0;
+        bool goes_on = false; // with the samples that there are, if lights that are mixed are all that differs
     };
     // Begins another run if another image will be rendered, named after what was changed, or `opened`, if that is not empty: the file that was
     // opened. What the image survives only marks the run.
     void submit(ConvergenceView& view, const Submission& submission, const std::string& opened);
     // From this revision on another image is rendered, of the scene as it then is.
     void begin(ConvergenceView& view, const std::string& name, uint64_t revision, const Scene& scene, const RenderSettings& settings);
+    // From this revision on the samples there are, and those to come, are mixed in another way.
+    void remix(const std::string& name, uint64_t revision, const Scene& scene);
     // The newest pictures: once per frame of the window.
     void look(ConvergenceView& view, const Pictures& pictures);
     // Does what the panel asked for. Files go into `folder`, named after `scene_file`.
@@ -56,6 +59,7 @@ private:
     PlaneSet planes_;
     size_t steps_to_redo_ = 0;
 
+    std::string remixed_by_; // the edit after which no picture of the new mix was seen yet; empty: none
     FramePtr last_frame_;
     DenoisedPtr last_denoised_;
     double recording_seconds_ = 0;

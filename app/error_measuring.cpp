@@ -33,6 +33,10 @@ ConvergencePoint only_known(ConvergencePoint p) {
 void ErrorMeasuring::begin(int run) {
     run_ = run;
     budget_.restart();
+    forget_pictures();
+}
+
+void ErrorMeasuring::forget_pictures() {
     raw_.reset();
     denoised_.clear();
 }

@@ -22,6 +22,8 @@ public:
 
     // Another run begins: pictures of the last one are measured no further.
     void begin(int run);
+    // The same run shows another picture: the ones that wait are measured no further.
+    void forget_pictures();
     // Pictures of the run whose points are due: held until they are measured. Those in full resolution only.
     void add_raw(const FramePtr& frame);
     void add_denoised(const DenoisedPtr& picture);

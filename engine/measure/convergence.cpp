@@ -42,6 +42,12 @@ void ConvergenceRecord::set(const ConvergencePoint& point) {
         points_.insert(at, point);
 }
 
+void ConvergenceRecord::mark(const ConvergenceMark& mark) {
+    const bool goes_on = mark.other_mix && !marks_.empty() && marks_.back().other_mix && marks_.back().label == mark.label;
+    if (goes_on) marks_.back() = mark;
+    else marks_.push_back(mark);
+}
+
 std::vector<ConvergencePoint> ConvergenceRecord::points(Kind kind) const {
     std::vector<ConvergencePoint> some;
     std::ranges::copy_if(points_, std::back_inserter(some), [&](const ConvergencePoint& p) { return p.kind == kind; });
@@ -51,8 +57,11 @@ std::vector<ConvergencePoint> ConvergenceRecord::points(Kind kind) const {
 PowerFit fit(const ConvergenceRecord& record, Kind kind, ErrorMetric metric, ProgressAxis axis) {
     std::vector<double> x, y, samples;
     const std::vector<ConvergencePoint> points = record.points(kind);
+    int64_t mixed_at = 0;
+    for (const ConvergenceMark& m : record.marks())
+        if (m.other_mix) mixed_at = std::max(mixed_at, m.spp);
     for (const ConvergencePoint& p : points) {
-        if (p.spp < points.back().spp / fitted_growth || !(p.error(metric).value > 0) || !(p.at(axis) > 0)) continue;
+        if (p.spp < mixed_at || p.spp < points.back().spp / fitted_growth || !(p.error(metric).value > 0) || !(p.at(axis) > 0)) continue;
         x.push_back(p.at(axis));
         y.push_back(p.error(metric).value);
         samples.push_back(double(p.spp));

@@ -35,6 +35,7 @@ struct ConvergenceMark {
     double seconds = 0;
     int64_t spp = 0;
     std::string label;
+    bool other_mix = false; // points before it are of the same samples mixed in another way: no slope is told from them
 
     double at(ProgressAxis axis) const { return axis == ProgressAxis::seconds ? seconds : double(spp); }
 };
@@ -51,7 +52,8 @@ public:
     bool add(const ConvergencePoint& point);
     // In place of the point of the same kind and number of samples; among the others if there is none.
     void set(const ConvergencePoint& point);
-    void mark(const ConvergenceMark& mark) { marks_.push_back(mark); }
+    // Of the steps of a drag through other mixes the last one is marked.
+    void mark(const ConvergenceMark& mark);
 
     const std::vector<ConvergencePoint>& points() const { return points_; }
     const std::vector<ConvergenceMark>& marks() const { return marks_; }
@@ -62,7 +64,7 @@ private:
     std::vector<ConvergenceMark> marks_;
 };
 
-// The slope of one kind's error over its last 64-fold growth in samples, which is what matters for how it goes on. Points of one run share
+// The slope of one kind's error over its last 64-fold growth in samples, from the last other mix on, which is what matters for how it goes on. Points of one run share
 // samples: see fit_running().
 PowerFit fit(const ConvergenceRecord& record, ConvergencePoint::Kind kind, ErrorMetric metric, ProgressAxis axis);
 

@@ -14,7 +14,7 @@ using Kind = ConvergencePoint::Kind;
 using Row = std::vector<std::string>;
 
 constexpr size_t most_records = 64, most_lines = 20000, longest_name = 120;
-constexpr const char* mark_kind = "mark";
+constexpr const char *mark_kind = "mark", *mix_kind = "mix";
 
 std::string line_number(size_t line) { return fmt::format("line {}", line); }
 
@@ -119,10 +119,10 @@ Result<void> take(const Line& line, ConvergenceRecord& record) {
         record.set(*point);
         return {};
     }
-    if (kind != mark_kind) return line.error("unknown kind");
+    if (kind != mark_kind && kind != mix_kind) return line.error("unknown kind");
     const Result<ConvergencePoint> at = point_of(line, Kind::estimated);
     if (!at) return at.error();
-    record.mark({at->seconds, at->spp, line.text("label").substr(0, longest_name)});
+    record.mark({at->seconds, at->spp, line.text("label").substr(0, longest_name), kind == mix_kind});
     return {};
 }
 
@@ -143,7 +143,8 @@ std::string to_csv(const std::vector<ConvergenceRecord>& records) {
             csv += fmt::format("{},{:.6g},{},{},{},{},\n", csv_field(r.name), p.seconds, p.spp, interval_fields(p.relmse),
                                interval_fields(p.rmse), to_string(p.kind));
         for (const ConvergenceMark& m : r.marks())
-            csv += fmt::format("{},{:.6g},{},,,,,,,{},{}\n", csv_field(r.name), m.seconds, m.spp, mark_kind, csv_field(m.label));
+            csv += fmt::format("{},{:.6g},{},,,,,,,{},{}\n", csv_field(r.name), m.seconds, m.spp, m.other_mix ? mix_kind : mark_kind,
+                               csv_field(m.label));
     }
     return csv;
 }

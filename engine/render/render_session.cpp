@@ -48,14 +48,15 @@ bool continues(const Submission& last, const Submission& next) {
     return last.groups && same_image(last.settings, next.settings) && mixing_of(*last.groups, next.scene);
 }
 
-// Gives the submission its image: the last one's, or a new one. Samples that come from elsewhere make another image, even if it would
-// look the same.
-void name_image(Submission& next, const std::optional<Submission>& last, bool has_samples) {
+// Gives the submission its image: the last one's, which is what it returns, or a new one. Samples that come from elsewhere make another
+// image, even if it would look the same.
+bool name_image(Submission& next, const std::optional<Submission>& last, bool has_samples) {
     const bool same = last && !has_samples && continues(*last, next);
     next.image = (last ? last->image : 0) + !same;
     if (same) next.groups = last->groups;
     else if (next.scene.mix.grouping != LightMix::Grouping::none)
         next.groups = std::make_shared<const LightGroups>(make_light_groups(next.scene));
+    return same;
 }
 
 // The resolution scale folded into the size.
@@ -385,11 +386,11 @@ RenderSession::~RenderSession() {
     state_->thread.join();
 }
 
-void RenderSession::submit(uint64_t revision, const Scene& scene, const RenderSettings& settings, const PlaneSet& planes, FilmStatePtr film) {
+bool RenderSession::submit(uint64_t revision, const Scene& scene, const RenderSettings& settings, const PlaneSet& planes, FilmStatePtr film) {
     State& s = *state_;
     const std::lock_guard submitting(s.submitting);
     std::optional<Submission> next = Submission{revision, 0, scene, settings, planes, {}, Clock::now(), nullptr};
-    name_image(*next, s.last_submitted, film != nullptr);
+    const bool goes_on = name_image(*next, s.last_submitted, film != nullptr);
     s.last_submitted = next;
     {
         const std::lock_guard lock(s.mutex);
@@ -400,6 +401,7 @@ void RenderSession::submit(uint64_t revision, const Scene& scene, const RenderSe
         s.pending.swap(next);
     }
     s.wake.notify_one();
+    return goes_on;
 }
 
 void RenderSession::keep_film(uint64_t revision) {

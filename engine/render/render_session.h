@@ -61,7 +61,8 @@ public:
     // `planes`: what the film holds beside the first-hit planes. To ask for more begins the image anew, to ask for less does not.
     // `film`: of an image that these scene and settings make; rendering goes on from its samples, or begins anew if they do not fit, and
     // the status says why.
-    void submit(uint64_t revision, const Scene& scene, const RenderSettings& settings, const PlaneSet& planes = {}, FilmStatePtr film = {});
+    // True if the image goes on with the samples that it has.
+    bool submit(uint64_t revision, const Scene& scene, const RenderSettings& settings, const PlaneSet& planes = {}, FilmStatePtr film = {});
     // Asks for the film of the image of this revision, which was seen in a frame of full resolution; what is being added to it is finished
     // first. Never blocks; the answer, announced like a frame, is taken once.
     void keep_film(uint64_t revision);

@@ -143,6 +143,35 @@ TEST_F(Convergence, AnotherImageIsAnotherRunAndOtherStopRulesAreAMark) {
     EXPECT_EQ(view.runs.all().size(), 1u) << "another scene has other errors";
 }
 
+TEST_F(Convergence, AnotherMixOfTheSameSamplesIsAMark) {
+    project.scene.mix.grouping = LightMix::Grouping::by_light;
+    Document document(project);
+    uint64_t revision = 0;
+    const auto submit = [&](bool goes_on, const std::string& opened = "") {
+        editor.submit(view, {document, project.render, {}, ++revision, goes_on}, opened);
+    };
+    submit(false, "cornell.gltf");
+    converge(revision, 64);
+    const size_t points = view.runs.live()->record.points().size();
+    for (const float intensity : {2.f, 3.f}) { // a drag
+        ASSERT_TRUE(document.apply(SetMix{{LightMix::Grouping::by_light, {{.group = "Lamp", .intensity = intensity}}}}));
+        submit(true);
+        editor.look(view, {frame_of(revision - 1, 64, 0.1), nullptr}); // not mixed yet
+        editor.look(view, {frame_of(revision, 64, 0.1 * double(intensity)), nullptr});
+    }
+    ASSERT_EQ(view.runs.all().size(), 1u) << "nothing begins";
+    const ConvergenceRecord& record = view.runs.live()->record;
+    EXPECT_EQ(record.points().size(), points);
+    EXPECT_DOUBLE_EQ(record.points().back().rmse.value, 0.1 * 3.0) << "the error of what is seen";
+    ASSERT_EQ(record.marks().size(), 1u) << "one for the whole drag";
+    EXPECT_TRUE(record.marks()[0].other_mix);
+    EXPECT_EQ(record.marks()[0].spp, 64);
+    EXPECT_FALSE(fit(record, Kind::estimated, ErrorMetric::rmse, ProgressAxis::spp).slope.known) << "no slope across it";
+    ASSERT_TRUE(document.apply(SetMix{}));
+    submit(false);
+    EXPECT_EQ(view.runs.all().size(), 2u) << "other groups are another image";
+}
+
 TEST_F(Convergence, DenoisedPicturesAreJudgedByTheRawOneOnceThatIsBetter) {
     view.open = view.denoised = true;
     begin("Opened", 1);

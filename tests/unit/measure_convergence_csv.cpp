@@ -15,6 +15,7 @@ TEST(ConvergenceCsv, IsReadAsItWasWritten) {
     a.set({Kind::measured, 0.5, 2, {false, 0.125, 0, 0}, {}});
     a.set({Kind::denoised, 1, 4, {}, {true, 0.0625, 0.03125, 0.125}});
     a.mark({0.75, 3, "Change light sun, \"warm\""});
+    a.mark({0.8, 3, "Change light mix", true});
     b.name = "b";
     b.set({Kind::measured, 1, 1, {false, 1, 0, 0}, {false, 2, 0, 0}});
     const std::string csv = to_csv({a, b});
@@ -25,7 +26,10 @@ TEST(ConvergenceCsv, IsReadAsItWasWritten) {
     ASSERT_EQ(read->size(), 2u);
     EXPECT_EQ((*read)[0].name, a.name);
     ASSERT_EQ((*read)[0].points().size(), 3u);
+    ASSERT_EQ((*read)[0].marks().size(), 2u);
     EXPECT_EQ((*read)[0].marks()[0].label, "Change light sun, \"warm\"");
+    EXPECT_FALSE((*read)[0].marks()[0].other_mix);
+    EXPECT_TRUE((*read)[0].marks()[1].other_mix);
     EXPECT_EQ(to_csv(*read), csv);
 }
 
