@@ -26,6 +26,7 @@ public:
     // then. Not while busy.
     void upload(const FramePtr& frame) { upload(frame->width, frame->height, {frame, frame->rgba.data()}); }
     void upload(int width, int height, std::vector<float> rgba) { upload(width, height, kept(std::move(rgba))); } // alpha: coverage by objects
+    void upload(int width, int height, const std::shared_ptr<const std::vector<float>>& rgba) { upload(width, height, Values(rgba, rgba->data())); }
     void upload(const DenoisedPtr& denoised) { upload_denoised(denoised->width, denoised->height, {denoised, denoised->denoised.rgb.data()}); }
     void upload_denoised(int width, int height, std::vector<float> rgb) { upload_denoised(width, height, kept(std::move(rgb))); }
     // Begins a new picture of the last uploads, at the frame's resolution; one that is being drawn is given up.

@@ -108,8 +108,7 @@ std::vector<float> pixels_of(const Frame& frame, const PictureView& view) {
     return rgba;
 }
 
-std::vector<float> with_coverage(const Frame& frame) {
-    std::vector<float> rgba = frame.rgba;
+std::vector<float> with_coverage(const Frame& frame, std::vector<float> rgba) {
     for (size_t i = 0; i < rgba.size() / 4; ++i) rgba[4 * i + 3] = coverage_of_pixel(frame, i);
     return rgba;
 }

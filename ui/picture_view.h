@@ -32,8 +32,8 @@ bool is_special(const Frame& frame, const PictureView& view);
 bool is_map(const PictureView& view);
 // width * height * 4 scene-linear values of a special view. Maps run from black over blue, red and yellow to white.
 std::vector<float> pixels_of(const Frame& frame, const PictureView& view);
-// The beauty, its alpha the coverage by objects (coverage.h).
-std::vector<float> with_coverage(const Frame& frame);
+// `rgba`, a picture of the frame's, its alpha the coverage by objects (coverage.h).
+std::vector<float> with_coverage(const Frame& frame, std::vector<float> rgba);
 // Says what a special view shows and that it is not the picture, in one line.
 std::string caption_of(const Frame& frame, const PictureView& view);
 

@@ -106,13 +106,19 @@ Result<void> Viewport::set_display_shader(const DisplayShader& shader) {
 // As the mix has it by now: the session's own mix of the same planes follows when it has time.
 void Viewport::upload_frame(const FramePtr& shown, const PictureView& view, const Gains& gains, bool background_as_it_is) {
     const Frame& frame = *shown;
-    std::vector<float> pixels;
-    const bool mixes = !gains.empty() && gains.size() == frame.groups.size() && gains != frame.gains;
-    if (is_special(frame, view)) pixels = pixels_of(frame, view);
-    else if (background_as_it_is) pixels = with_coverage(frame);
-    if (pixels.empty() && mixes) pixels = mixed_rgba(frame, gains, &workers_);
-    if (pixels.empty()) display_.upload(shown);
-    else display_.upload(frame.width, frame.height, std::move(pixels));
+    const bool special = is_special(frame, view), mixes = !gains.empty() && gains.size() == frame.groups.size() && gains != frame.gains;
+    if (mixes && !special && !background_as_it_is) return display_.upload(frame.width, frame.height, mixed(frame, gains));
+    if (frame.groups.empty()) mixed_.reset();
+    if (special) return display_.upload(frame.width, frame.height, pixels_of(frame, view));
+    if (!background_as_it_is) return display_.upload(shown);
+    display_.upload(frame.width, frame.height, with_coverage(frame, mixes ? mixed_rgba(frame, gains) : frame.rgba));
+}
+
+std::shared_ptr<const std::vector<float>> Viewport::mixed(const Frame& frame, const Gains& gains) {
+    const bool still_read = mixed_.use_count() > 1; // the one before is being copied
+    if (!mixed_ || still_read) mixed_ = std::make_shared<std::vector<float>>();
+    mix_rgba(frame, gains, *mixed_, &workers_);
+    return mixed_;
 }
 
 void Viewport::upload_denoised(const DenoisedPtr& denoised, const Gains& gains) {

@@ -32,6 +32,7 @@ public:
 private:
     void take_frame(PanelContext& c, const FramePace& pace);
     void upload_frame(const FramePtr& shown, const PictureView& view, const Gains& gains, bool background_as_it_is);
+    std::shared_ptr<const std::vector<float>> mixed(const Frame& frame, const Gains& gains);
     void upload_denoised(const DenoisedPtr& denoised, const Gains& gains);
     void draw_picture(PanelContext& c, const ImageRect& image);
     GLuint outlined_picture(const PanelContext& c, const ImageRect& image);
@@ -54,6 +55,7 @@ private:
     PictureView uploaded_view_;
     DenoisedPtr uploaded_denoised_;
     Gains uploaded_gains_, shown_gains_; // of both
+    std::shared_ptr<std::vector<float>> mixed_; // the last picture that was mixed here, kept for its memory
     Workers workers_{0};   // mix planes
     DisplayLook look_;
     bool shader_changed_ = false, begun_ = false;

@@ -31,13 +31,30 @@ void add_plane(const float* plane, size_t count, const Vec3& gain, Sums& sums) {
     for (size_t i = first; i < count; ++i) sums[i] += pattern[i - first] * plane[i];
 }
 
-void mix_chunk(std::span<const PlaneSpan> planes, std::span<const Vec3> gains, size_t first_pixel, size_t pixels, float* to, int stride) {
-    Sums sums;
+constexpr size_t pixels_at_once = chunk / 3;
+
+void mix_chunk(std::span<const PlaneSpan> planes, std::span<const Vec3> gains, size_t first_pixel, size_t pixels, Sums& sums) {
     sums.fill(0);
     for (size_t k = 0; k < planes.size(); ++k)
         if (gains[k] != Vec3{0, 0, 0}) add_plane(&planes[k][3 * first_pixel], 3 * pixels, gains[k], sums);
-    for (size_t i = 0; i < pixels; ++i)
-        for (size_t c = 0; c < 3; ++c) to[i * size_t(stride) + c] = sums[3 * i + c];
+}
+
+// take(first, count, sums) for every few pixels.
+template <class Take>
+void mix_all(std::span<const PlaneSpan> planes, std::span<const Vec3> gains, size_t pixels, const Workers* workers, const Take& take) {
+    const auto mix = [&](size_t begin, size_t end) {
+        Sums sums;
+        for (size_t first = begin; first < end; first += pixels_at_once) {
+            const size_t count = std::min(pixels_at_once, end - first);
+            mix_chunk(planes, gains, first, count, sums);
+            take(first, count, sums);
+        }
+    };
+    if (!workers) return mix(0, pixels);
+    // Tasks of some rows each: starting one costs as much as a chunk does.
+    constexpr size_t task = 64 * pixels_at_once;
+    workers->for_each(int64_t((pixels + task - 1) / task), {},
+                      [&](int64_t i, unsigned) { mix(size_t(i) * task, std::min(pixels, (size_t(i) + 1) * task)); });
 }
 
 double variance_of(const GroupShare& share, const Vec3& gain) {
@@ -59,28 +76,28 @@ PlaneSpan span_of(const std::vector<Vec3>& plane) {
     return {&plane.front().x, 3 * plane.size()};
 }
 
-void mix_planes(std::span<const PlaneSpan> planes, std::span<const Vec3> gains, std::span<float> pixels, int stride, const Workers* workers) {
-    const size_t count = pixels.size() / size_t(stride), at_once = chunk / 3;
-    const auto mix = [&](size_t first) {
-        mix_chunk(planes, gains, first, std::min(at_once, count - first), &pixels[first * size_t(stride)], stride);
-    };
-    if (!workers) {
-        for (size_t first = 0; first < count; first += at_once) mix(first);
-        return;
-    }
-    // Tasks of some rows each: starting one costs as much as a chunk does.
-    constexpr size_t chunks = 64;
-    const size_t task = chunks * at_once;
-    workers->for_each(int64_t((count + task - 1) / task), {}, [&](int64_t i, unsigned) {
-        for (size_t first = size_t(i) * task, end = std::min(count, first + task); first < end; first += at_once) mix(first);
+void mix_rgb(std::span<const PlaneSpan> planes, std::span<const Vec3> gains, std::span<float> rgb, const Workers* workers) {
+    mix_all(planes, gains, rgb.size() / 3, workers,
+            [&](size_t first, size_t count, const Sums& sums) { std::copy_n(sums.begin(), 3 * count, &rgb[3 * first]); });
+}
+
+void mix_rgba(const Frame& frame, std::span<const Vec3> gains, std::vector<float>& rgba, const Workers* workers) {
+    std::vector<PlaneSpan> planes;
+    for (const std::vector<Vec3>& plane : frame.groups) planes.push_back(span_of(plane));
+    rgba.resize(frame.rgba.size());
+    mix_all(planes, gains, rgba.size() / 4, workers, [&](size_t first, size_t count, const Sums& sums) {
+        const float* from = &frame.rgba[4 * first];
+        float* to = &rgba[4 * first];
+        for (size_t i = 0; i < count; ++i) {
+            for (size_t c = 0; c < 3; ++c) to[4 * i + c] = sums[3 * i + c];
+            to[4 * i + 3] = from[4 * i + 3];
+        }
     });
 }
 
-std::vector<float> mixed_rgba(const Frame& frame, std::span<const Vec3> gains, const Workers* workers) {
-    std::vector<float> rgba = frame.rgba;
-    std::vector<PlaneSpan> planes;
-    for (const std::vector<Vec3>& plane : frame.groups) planes.push_back(span_of(plane));
-    mix_planes(planes, gains, rgba, 4, workers);
+std::vector<float> mixed_rgba(const Frame& frame, std::span<const Vec3> gains) {
+    std::vector<float> rgba;
+    mix_rgba(frame, gains, rgba);
     return rgba;
 }
 

@@ -15,12 +15,13 @@ class Workers;
 using PlaneSpan = std::span<const float>;
 PlaneSpan span_of(const std::vector<Vec3>& plane);
 
-// The sum of all planes, each times its gain, into the first three of `stride` (3 or 4) values of each pixel. Bound by memory, not by
-// arithmetic: 8 planes of 1280x720 take some milliseconds. `workers`: shares the work; null: none.
-void mix_planes(std::span<const PlaneSpan> planes, std::span<const Vec3> gains, std::span<float> pixels, int stride,
-                const Workers* workers = nullptr);
-// Those of a frame, into its rgba's layout; alpha as in the frame.
-std::vector<float> mixed_rgba(const Frame& frame, std::span<const Vec3> gains, const Workers* workers = nullptr);
+// The sum of all planes, each times its gain, width * height * 3 values. Bound by memory, not by arithmetic: 8 planes of 1280x720 take some
+// milliseconds. `workers`: shares the work; null: none.
+void mix_rgb(std::span<const PlaneSpan> planes, std::span<const Vec3> gains, std::span<float> rgb, const Workers* workers = nullptr);
+// Those of a frame, into its rgba's layout; alpha as in the frame. `rgba` is made as large as it must be: who keeps it spares the system the
+// making of new memory, which takes as long as the mixing.
+void mix_rgba(const Frame& frame, std::span<const Vec3> gains, std::vector<float>& rgba, const Workers* workers = nullptr);
+std::vector<float> mixed_rgba(const Frame& frame, std::span<const Vec3> gains);
 
 // A frame's groups, each times its gain: what they give to the picture.
 std::vector<std::vector<Vec3>> mixed_groups(const Frame& frame);

@@ -3,6 +3,8 @@
 
 #include "core/parallel.h"
 #include "render/bake_mix.h"
+#include "render/lowering.h"
+#include "render/render_scene.h"
 #include "studio.h"
 
 #include <cmath>
@@ -95,7 +97,9 @@ TEST(LightMix, ChannelsAreGains) {
     const std::vector<float> remixed = mixed_rgba(frame, frame.gains);
     for (size_t i = 0; i < remixed.size(); ++i) ASSERT_NEAR(remixed[i], frame.rgba[i], 0x1p-20f * frame.rgba[i]);
     const Workers workers(2);
-    EXPECT_EQ(mixed_rgba(frame, frame.gains, &workers), remixed);
+    std::vector<float> shared;
+    mix_rgba(frame, frame.gains, shared, &workers);
+    EXPECT_EQ(shared, remixed);
 }
 
 TEST(LightMix, ResetsWhereNoGainWouldDo) {
@@ -147,18 +151,27 @@ TEST(LightMix, FollowsNames) {
 }
 
 // Aiming at what matters in the mix goes on from the samples there are, and less noise is left where it has mattered.
-TEST(LightMix, SamplesByTheMixWithoutBias) {
+// What the mix has switched off is sampled no more, without bias: lights that are drawn by power, and those in a tree.
+class MixAim : public testing::TestWithParam<bool> {};
+TEST_P(MixAim, SamplesByTheMixWithoutBias) {
     const RenderSettings settings = settings_for(64, 64, 96);
     Studio studio;
-    Node hidden = *studio.scene.nodes.find(studio.ball); // its many triangles would bring in the tree, which is not aimed anew
-    hidden.visible = false;
-    studio.scene.nodes.set(studio.ball, hidden);
+    const bool tree = GetParam();
+    if (!tree) {
+        Node hidden = *studio.scene.nodes.find(studio.ball); // its many triangles would bring in the tree
+        hidden.visible = false;
+        studio.scene.nodes.set(studio.ball, hidden);
+    }
     Renderer follows({.threads = 2, .planes = {}}), stays({.threads = 2, .planes = {}});
     for (Renderer* r : {&follows, &stays}) {
         r->update(studio.scene, settings);
         r->render(0, 16);
     }
+    RenderScene compiled;
+    compiled.update(lower_area_lights(studio.scene), settings, full_plan(), Workers(1));
+    ASSERT_EQ(compiled.features().has(Feature::light_tree), tree);
     for (const char* off : {"Environment", "Panel", "Sun"}) studio.channel(off).enabled = false;
+    if (tree) studio.channel("Object 6").enabled = false;
     for (Renderer* r : {&follows, &stays}) EXPECT_FALSE(r->update(studio.scene, settings));
     follows.aim_at_mix();
     for (Renderer* r : {&follows, &stays}) r->render(16, 80);
@@ -167,6 +180,7 @@ TEST(LightMix, SamplesByTheMixWithoutBias) {
     EXPECT_LT(a.frame.error.rmse_high, b.frame.error.rmse_low) << "else it would be of no use";
     expect_planes_sum_to_beauty(a.frame, 0x1p-20, "aimed");
 }
+INSTANTIATE_TEST_SUITE_P(Lights, MixAim, testing::Values(false, true), [](const auto& light) { return light.param ? "InATree" : "ByPower"; });
 
 // Estimated from the halves of the groups, the error of a mix is that of the same picture rendered afresh; and what is said before, from
 // the variances of single groups, is near that.
