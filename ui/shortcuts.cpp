@@ -54,7 +54,7 @@ constexpr Shortcut table[] = {
     {Command::render_region, "View", "Render a region alone", plain('B')},
     {Command::render_all, "View", "Render the whole picture", shift('B')},
     {Command::pause, "View", "Pause rendering", plain(key::space)},
-    {Command::light_mix, "View", "Light mix", in_menu_only},
+    {Command::light_mix, "View", "Light mix", ctrl('M')},
     {Command::bounces, "View", "Bounces", in_menu_only},
     {Command::health, "View", "Health", in_menu_only},
     {Command::roulette, "View", "Roulette lab", in_menu_only},

@@ -133,9 +133,11 @@ std::string memory_text(const Frame& frame) {
 
 void draw_groups(PanelContext& c) {
     const Frame& frame = *c.frame;
-    if (const int sharing = frame.light_groups->sharing)
+    if (const int sharing = frame.light_groups->sharing) {
         quiet_text(fmt::format("There are more than {} groups: {} share the last plane and one gain. Those with a gain come first.",
                                most_light_groups, sharing));
+        c.ui.probe.record_last_item("Light mix/Sharing");
+    }
     for (const GroupReport& report : report_groups(frame, c.mixing->names, c.mixing->gains)) draw_group(c, report);
     ImGui::Dummy({0, ImGui::GetFontSize() * 0.4f});
     quiet_text(noise_text(frame, c.mixing->gains));
@@ -156,8 +158,12 @@ void draw_contents(PanelContext& c) {
     if (c.scene().mix.grouping == LightMix::Grouping::none)
         return quiet_text("With groups, the brightness and colour of lights act on the picture that there is: nothing is rendered again.");
     ImGui::Dummy({0, ImGui::GetFontSize() * 0.4f});
-    if (c.mixing) draw_groups(c);
-    else quiet_text("Waiting for a picture with these groups in it.");
+    // However many groups there are, baking them is in sight.
+    if (ImGui::BeginChild("groups", {0, -ImGui::GetFrameHeightWithSpacing()})) {
+        if (c.mixing) draw_groups(c);
+        else quiet_text("Waiting for a picture with these groups in it.");
+    }
+    ImGui::EndChild();
     draw_bake(c);
 }
 
