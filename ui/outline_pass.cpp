@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 namespace blush {
 namespace {
@@ -23,17 +22,35 @@ void main() {
     result.rgb = mix(result.rgb, vec3(1.0, 0.62, 0.2), 0.9 * near * (1.0 - inside(uv)));
 })";
 
-// The smallest rectangle that holds all pixels that are not 0.
-PixelRect rectangle_of(const std::vector<uint8_t>& mask, int width, int height) {
-    PixelRect r{width, height, 0, 0};
-    for (int y = 0; y < height; ++y) {
-        const auto row = mask.begin() + ptrdiff_t(y) * width, end = row + width;
-        const auto first = std::find_if(row, end, [](uint8_t m) { return m != 0; });
-        if (first == end) continue;
-        const auto last = std::find_if(std::reverse_iterator(end), std::reverse_iterator(row), [](uint8_t m) { return m != 0; });
-        r = {std::min(r.x0, int(first - row)), std::min(r.y0, y), std::max(r.x1, int(last.base() - row)), y + 1};
-    }
-    return r;
+constexpr int cell = 16; // pixels along a side; wider than the line
+
+// Where a line may be: cells with something outside the objects, of which they or a neighbour have something inside, in rows of cells side
+// by side.
+std::vector<PixelRect> edges_of(const std::vector<uint8_t>& mask, int width, int height) {
+    const int across = (width + cell - 1) / cell, down = (height + cell - 1) / cell;
+    const auto index = [&](int x, int y) { return size_t(y) * size_t(across) + size_t(x); };
+    std::vector<uint8_t> inside(index(0, down)), outside(inside.size());
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const bool in = mask[size_t(y) * size_t(width) + size_t(x)] != 0;
+            inside[index(x / cell, y / cell)] |= uint8_t(in);
+            outside[index(x / cell, y / cell)] |= uint8_t(!in);
+        }
+    const auto near = [&](int x, int y) {
+        for (int v = std::max(y - 1, 0); v <= std::min(y + 1, down - 1); ++v)
+            for (int u = std::max(x - 1, 0); u <= std::min(x + 1, across - 1); ++u)
+                if (inside[index(u, v)]) return true;
+        return false;
+    };
+    std::vector<PixelRect> edges;
+    for (int y = 0; y < down; ++y)
+        for (int x = 0; x < across; ++x) {
+            if (!outside[index(x, y)] || !near(x, y)) continue;
+            const int from = x;
+            while (x + 1 < across && outside[index(x + 1, y)] && near(x + 1, y)) ++x;
+            edges.push_back({from * cell, y * cell, (x + 1) * cell, (y + 1) * cell});
+        }
+    return edges;
 }
 
 } // namespace
@@ -52,16 +69,15 @@ Result<void> OutlinePass::load() {
 
 void OutlinePass::upload(const Frame& frame, const std::vector<uint8_t>& selected) {
     if (frame.object_id.empty()) {
-        width_ = height_ = 0;
+        edges_.clear();
         return;
     }
     inside_.resize(frame.object_id.size());
     std::ranges::transform(frame.object_id, inside_.begin(), [&](uint32_t id) { return id < selected.size() && selected[id] ? 255 : 0; });
-    around_ = rectangle_of(inside_, frame.width, frame.height);
-    const bool seen = around_.x0 < around_.x1;
-    width_ = seen ? frame.width : 0;
-    height_ = seen ? frame.height : 0;
-    if (!seen) return;
+    edges_ = edges_of(inside_, frame.width, frame.height);
+    if (edges_.empty()) return;
+    width_ = frame.width;
+    height_ = frame.height;
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, mask_.name());
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
@@ -78,18 +94,18 @@ void OutlinePass::draw(GLuint picture, int width, int height, float thickness) {
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, mask_.name());
     glBindVertexArray(no_vertices_.name());
-    // The picture, and then around the objects, where the line may be, again with it: looking for it costs ten times as much.
+    // The picture, and again with the line where that may be: to look for it everywhere would cost ten times as much.
     const GLint ring = glGetUniformLocation(program_.name(), "ring");
     glUniform2f(ring, 0, 0);
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glUniform2f(ring, thickness / float(width), thickness / float(height));
     const float across = float(width) / float(width_), down = float(height) / float(height_);
-    const auto low = [&](int edge, float scale) { return int(std::floor(float(edge) * scale - thickness)) - 1; };
-    const auto high = [&](int edge, float scale) { return int(std::ceil(float(edge) * scale + thickness)) + 1; };
-    const int x = low(around_.x0, across), y = low(around_.y0, down);
     glEnable(GL_SCISSOR_TEST);
-    glScissor(x, y, high(around_.x1, across) - x, high(around_.y1, down) - y);
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    for (const PixelRect& edge : edges_) {
+        const int x0 = int(std::floor(float(edge.x0) * across)), y0 = int(std::floor(float(edge.y0) * down));
+        glScissor(x0, y0, int(std::ceil(float(edge.x1) * across)) - x0, int(std::ceil(float(edge.y1) * down)) - y0);
+        glDrawArrays(GL_TRIANGLES, 0, 3);
+    }
     glDisable(GL_SCISSOR_TEST);
     glBindVertexArray(0);
     target_.end();

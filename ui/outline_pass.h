@@ -21,7 +21,7 @@ public:
     void draw(GLuint picture, int width, int height, float thickness);
 
     GLuint texture() const { return target_.texture(); }
-    bool empty() const { return width_ == 0; }
+    bool empty() const { return edges_.empty(); }
 
 private:
     GlProgram program_;
@@ -30,7 +30,7 @@ private:
     std::vector<uint8_t> inside_;
     RenderTarget target_;
     int width_ = 0, height_ = 0;
-    PixelRect around_{}; // the objects, in the frame's pixels
+    std::vector<PixelRect> edges_; // where the line may be, in the frame's pixels
 };
 
 } // namespace blush
