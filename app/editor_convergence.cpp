@@ -90,13 +90,14 @@ void EditorConvergence::look(ConvergenceView& view, const Pictures& pictures) {
 void EditorConvergence::record(ConvergenceView& view, const FramePtr& frame) {
     ConvergenceRecord& record = view.runs.live()->record;
     const ConvergencePoint point = estimated_point(*frame);
-    const bool known = point.rmse.known || point.relmse.known;
-    if (known && remixed_by_.empty()) record.add(point);
-    if (known && !remixed_by_.empty()) {
+    const bool known = point.rmse.known || point.relmse.known, remixed = !remixed_by_.empty();
+    // Where a run ends or its lights are mixed anew there is a point, whether or not one is due.
+    if (known && (frame->complete || remixed))
         record.set(point);
-        record.mark({point.seconds, point.spp, std::exchange(remixed_by_, {}), true});
-    }
-    if (view.reference && keeper_.reference() && record.is_due(Kind::measured, frame->samples)) measuring_.add_raw(frame);
+    else if (known)
+        record.add(point);
+    if (known && remixed) record.mark({point.seconds, point.spp, std::exchange(remixed_by_, {}), true});
+    if (view.reference && keeper_.reference() && (frame->complete || record.is_due(Kind::measured, frame->samples))) measuring_.add_raw(frame);
 }
 
 void EditorConvergence::record_denoised(ConvergenceView& view, const DenoisedPtr& picture) {

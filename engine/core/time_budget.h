@@ -1,6 +1,8 @@
 // Work that may take a share of the time that something else takes, and no more.
 #pragma once
 
+#include <algorithm>
+
 namespace blush {
 
 // Times are seconds; units are what the work's time is proportional to.
@@ -16,9 +18,10 @@ public:
     bool allows(double units, double elapsed) const { return spent_ + expected(units) <= share_ * elapsed; }
     void record(double units, double seconds) {
         spent_ += seconds;
-        // A machine that was busy for a moment is believed by half.
-        const double now = units > 0 ? seconds / units : per_unit_;
-        per_unit_ = per_unit_ > 0 ? 0.5 * (per_unit_ + now) : now;
+        if (!(units > 0)) return;
+        // What a machine that was busy for a moment took is not what the next will take.
+        const double now = seconds / units;
+        per_unit_ = per_unit_ > 0 ? 0.5 * (per_unit_ + std::min(now, 2 * per_unit_)) : now;
     }
 
 private:

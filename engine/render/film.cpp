@@ -303,25 +303,35 @@ PixelHalves Film::halves(size_t pixel) const {
 }
 
 void Film::load_halves(int y, float scale, HalfRow& row) const {
+    // Most pixels have as many samples as the one before.
+    struct Counted {
+        int64_t a = -1, b = -1;
+        bool known = false;
+        double own_a = 0, own_b = 0, to_a = 0, to_b = 0; // factors for sums
+        float weight_a = 0, one_sample = 0;
+    } n;
     for (int x = 0; x < width_; ++x) {
         const size_t i = size_t(y) * size_t(width_) + size_t(x);
         const Half &a = halves_[2 * i], &b = halves_[2 * i + 1];
+        if (a.count != n.a || b.count != n.b) {
+            const Weights w = weights(a, b);
+            const double s = double(scale), na = double(a.count), nb = double(b.count);
+            const bool known = a.count > 0 && b.count > 0;
+            n = {a.count, b.count, known, w.a * s, w.b * s, s / na, s / nb, known ? float(na * w.a) : 0.5f, known ? float(1 / (na + nb)) : 0.f};
+        }
         const Vec3d sum_a = sum(i, 0), sum_b = sum(i, 1);
-        const Weights w = weights(a, b);
-        const bool known = a.count > 0 && b.count > 0;
-        const double na = double(a.count), to_a = double(scale) / na, to_b = double(scale) / double(b.count);
         const auto set = [&](size_t c, double of_a, double of_b) {
-            const float own = float((of_a * w.a + of_b * w.b) * double(scale));
+            const float own = float(of_a * n.own_a + of_b * n.own_b);
             row.own[c][x] = own;
-            row.a[c][x] = known ? float(of_a * to_a) : own;
-            row.b[c][x] = known ? float(of_b * to_b) : own;
+            row.a[c][x] = n.known ? float(of_a * n.to_a) : own;
+            row.b[c][x] = n.known ? float(of_b * n.to_b) : own;
         };
         set(0, sum_a.x, sum_b.x);
         set(1, sum_a.y, sum_b.y);
         set(2, sum_a.z, sum_b.z);
-        row.weight_a[x] = known ? float(na * w.a) : 0.5f;
-        row.known[x] = known ? 1.f : 0.f;
-        row.one_sample[x] = known ? 1 / float(a.count + b.count) : 0.f;
+        row.weight_a[x] = n.weight_a;
+        row.known[x] = n.known ? 1.f : 0.f;
+        row.one_sample[x] = n.one_sample;
     }
 }
 
