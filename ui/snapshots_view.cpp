@@ -31,7 +31,7 @@ Thumbnail thumbnail_of(const Frame& frame) {
 std::string Snapshot::figures() const {
     if (!pictures.frame) return last_figures_.empty() ? time : last_figures_;
     const Frame& f = *pictures.frame;
-    const std::string relative_error = f.error.known ? fmt::format(", {:.2g} %", 100 * std::sqrt(f.error.relmse)) : std::string();
+    const std::string relative_error = f.error.known ? fmt::format(", {:.3g} %", 100 * std::sqrt(f.error.relmse)) : std::string();
     return fmt::format("{} spp{}, {}", f.samples, relative_error, time);
 }
 

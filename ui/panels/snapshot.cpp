@@ -26,8 +26,8 @@ void draw_facts(Fields& f, const Snapshot& s) {
 void draw_memory(PanelContext& c, Fields& f, Snapshot& s) {
     constexpr double mib = 1 << 20;
     f.checkbox("Stay in memory", s.pinned, "Otherwise its picture and samples may live in its file alone, and are read again when they are wanted.");
-    f.integer("Memory", c.ui.settings.snapshot_memory, 1, int64_t(1) << 30, 2048,
-              "MiB that all snapshots of the strip may take. Those not used for longest are then written, if they are not yet, and kept in their "
+    f.integer("Memory, MiB", c.ui.settings.snapshot_memory, 1, int64_t(1) << 30, 2048,
+              "What all snapshots of the strip may take. Those not used for longest are then written, if they are not yet, and kept in their "
               "files alone.");
     f.info("Taken", fmt::format("{:.0f} MiB, {:.0f} by this one", double(bytes_of(c.ui.snapshots.list)) / mib, double(bytes_of(s)) / mib));
 }
