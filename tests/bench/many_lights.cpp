@@ -1,4 +1,5 @@
-// Many lamps: how much variance the light tree leaves beside an oracle and beside power sampling, and how long an edit of lights takes.
+// Many lamps: how much variance the light tree leaves beside an oracle and beside power sampling, at single points and in a picture, and how
+// long an edit of lights takes.
 #include "support/many_lights.h"
 #include "tests/bench/bench.h"
 
@@ -9,7 +10,7 @@
 namespace blush::bench {
 Json run_many_lights(const Options& options) {
     Json result = Json::array();
-    for (const int rooms : {2, 6, 20}) {
+    for (const int rooms : {3, 6, 20}) {
         const RenderSettings settings;
         Scene scene = lower_area_lights(test::house(rooms));
         RenderScene compiled;
@@ -20,10 +21,13 @@ Json run_many_lights(const Options& options) {
         for (int round = 0; round < options.rounds; ++round)
             seconds.push_back(cost_of([&] { compiled.update(scene, settings, relight, Workers(1)); }).core_seconds);
         const test::ChoiceVariance v = test::choice_variance(compiled.tables(), rooms, 200);
+        const test::ImageVariance image = test::image_variance(rooms, 64);
         result.push_back({{"lights", rooms * rooms * 25},
                           {"relative_variance", {{"oracle", rounded(v.oracle)}, {"tree", rounded(v.tree)}, {"power", rounded(v.power)}}},
                           {"tree_over_oracle", rounded(v.tree / v.oracle)},
                           {"power_over_tree", rounded(v.power / v.tree)},
+                          {"image_rendered_over_oracle", rounded(image.rendered / image.oracle)},
+                          {"image_power_over_rendered", rounded(image.power / image.rendered)},
                           {"relight_ms", rounded(median(seconds) * 1e3)}});
     }
     return result;

@@ -167,5 +167,12 @@ TEST(LightTree, IsNearTheOracleWithTenThousandLights) {
     EXPECT_GT(v.power, 5 * v.tree) << "power " << v.power << ", tree " << v.tree;
 }
 
+// The same of what is rendered. How far the picture's variance is off, told from two seeds, is bounded by their pixels being independent.
+TEST(LightTree, PicturesOfTenThousandLightsAreNearTheOracle) {
+    const ImageVariance v = image_variance(20, 64);
+    EXPECT_LT(v.rendered, 3 * v.oracle) << "oracle " << v.oracle << ", rendered " << v.rendered;
+    EXPECT_GT(v.power, 5 * v.rendered) << "power " << v.power << ", rendered " << v.rendered;
+}
+
 } // namespace
 } // namespace blush::test

@@ -6,8 +6,7 @@
 
 namespace blush::test {
 
-// `rooms` x `rooms` rooms of 4 m with 25 lamps each at the ceiling, of all strengths, half of them points and half downlights; the walls are
-// not built: room_of tells who sees whom.
+// `rooms` x `rooms` rooms of 4 m with 25 lamps each below where the ceiling would be, of all strengths, half of them points and half downlights.
 Scene house(int rooms);
 
 // Relative variances of one light sample, on average over receivers on floors and walls. They follow from the probabilities alone: the sum of
@@ -17,5 +16,12 @@ struct ChoiceVariance {
     double oracle = 0, tree = 0, power = 0;
 };
 ChoiceVariance choice_variance(const SceneTables& tables, int rooms, int receivers);
+
+// Mean variance of the pixels of a picture that looks down on nine rooms in the middle, direct light at `spp` samples per pixel: as it is
+// rendered, told from two seeds, and what it would be with one light drawn for each sample by the oracle, or by power.
+struct ImageVariance {
+    double oracle = 0, rendered = 0, power = 0;
+};
+ImageVariance image_variance(int rooms, int64_t spp);
 
 } // namespace blush::test
