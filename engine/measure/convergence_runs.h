@@ -22,7 +22,7 @@ struct ConvergenceRun {
 class ConvergenceRuns {
 public:
     static constexpr size_t most_earlier = 4;  // not counting those kept
-    static constexpr size_t fewest_points = 4; // of a run that is worth remembering
+    static constexpr size_t fewest_points = 2; // of a run that is worth remembering; they come as far apart as their cost allows
 
     // In the order of their beginning; the live one, if any, is the last of them, stored ones come behind it.
     const std::vector<ConvergenceRun>& all() const { return runs_; }
