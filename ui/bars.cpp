@@ -10,7 +10,9 @@ namespace blush {
 
 int draw_bars(UiState& ui, const char* scope, std::span<const Bar> bars, const char* tip) {
     const float em = ImGui::GetFontSize(), height = std::round(em * 1.35f), gap = em * 0.5f;
-    const float width = ImGui::GetContentRegionAvail().x, name_width = em * 5.5f, figure_width = em * 5;
+    float figure_width = em * 5;
+    for (const Bar& bar : bars) figure_width = std::max(figure_width, ImGui::CalcTextSize(bar.figure.c_str()).x);
+    const float width = ImGui::GetContentRegionAvail().x, name_width = em * 5.5f;
     const float room = std::max(em, width - name_width - figure_width - 2 * gap);
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     int clicked = -1;
