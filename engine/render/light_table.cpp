@@ -221,12 +221,12 @@ std::vector<double> shared_evenly(std::span<const double> powers, std::span<cons
 std::vector<double> slot_powers(const LightTable& table, std::span<const double> powers) {
     std::vector<double> slots(table.slot_lights.size(), 0.0);
     for (size_t i = 0; i < powers.size(); ++i) slots[size_t(table.records[i].slot)] += powers[i];
-    if (table.tree.nodes.empty()) slots[0] = 0;
     return slots;
 }
 
-// Lights at finite distance go into the tree, which gets the first slot; the others a slot each.
-void add_tree(Builder& b, const std::vector<double>& powers) {
+// Lights at finite distance go into the tree, which gets the first slot; the others a slot each. False if none of those gives any light:
+// there is then no tree.
+bool add_tree(Builder& b, const std::vector<double>& powers) {
     const auto is_finite_light = [](const LightRecord& r) { return r.kind != int32_t(LightKind::sun) && r.kind != int32_t(LightKind::environment); };
     std::vector<LightBounds> in_tree;
     b.table.slot_lights = {0};
@@ -243,8 +243,13 @@ void add_tree(Builder& b, const std::vector<double>& powers) {
         }
     }
     b.table.tree = build_light_tree(std::move(in_tree), int32_t(b.table.records.size()));
+    if (b.table.tree.nodes.empty()) {
+        b.table.slot_lights.clear();
+        return false;
+    }
     b.table.thresholds = make_thresholds(slot_powers(b.table, powers));
     b.table.count = int32_t(b.table.slot_lights.size());
+    return true;
 }
 
 } // namespace
@@ -274,10 +279,8 @@ LightTable build_light_table(const Scene& scene, const MaterialTable& materials,
     while (aim == Aim::at_points && b.table.count > 0 && b.table.powers[size_t(b.table.count) - 1] == 0) --b.table.count;
     if (b.table.records.empty()) b.add({}, {}, 1);
     const std::vector<double> powers = shared_evenly(b.table.powers, {});
-    if (aim == Aim::at_all && b.luminaires >= fewest_lights_for_a_tree && int64_t(powers.size()) <= most_lights_for_a_tree)
-        add_tree(b, powers);
-    else
-        b.table.thresholds = make_thresholds(powers);
+    const bool many = aim == Aim::at_all && b.luminaires >= fewest_lights_for_a_tree && int64_t(powers.size()) <= most_lights_for_a_tree;
+    if (!many || !add_tree(b, powers)) b.table.thresholds = make_thresholds(powers);
     return std::move(b.table);
 }
 

@@ -1,5 +1,6 @@
 // Many lights: the tree draws each as often as it says, never leaves out one that matters, and is near what knowing all of them would give.
 #include "core/math.h"
+#include "irradiance.h"
 #include "picture.h"
 #include "render/lowering.h"
 #include "render/render_scene.h"
@@ -73,6 +74,20 @@ TEST(LightTree, IsBuiltOnlyWhereLightsAreMany) {
 }
 
 // Of what is drawn, and of what is asked for when a ray finds a light.
+// Emitters without an area give no light; the sun beside them is drawn like any other.
+TEST(LightTree, IsNotBuiltOfLightsThatGiveNone) {
+    Scene scene;
+    place(scene, sphere(false), emitter(1, 0.5f), at({0, 5, 0}, 1e-24f));
+    Light sun;
+    sun.kind = Light::Kind::sun;
+    sun.intensity = 2;
+    shine(scene, sun, aimed({0, 0, 0}, {1, -1, 0}));
+    const Compiled compiled(scene);
+    EXPECT_GT(compiled.scene.info().emissive_triangles, 32);
+    EXPECT_EQ(compiled.lights().tree.nodes, nullptr);
+    EXPECT_TRUE(shows_on_floor(scene, [](const Vec3d&) { return 2 * std::sqrt(0.5); }));
+}
+
 TEST(LightTree, DrawsLightsWithTheProbabilityItSays) {
     const Compiled compiled(mixed_scene(60));
     const LightTables& t = compiled.lights();

@@ -163,7 +163,8 @@ TEST(Render, ExposureBrightensPicturesAndLeavesExrsAlone) {
     const TemporaryFolder folder;
     const auto sum = [&](const std::string& file) {
         int64_t total = 0;
-        for (const uint8_t byte : (*read_image(folder / file))->bytes) total += byte;
+        const auto image = read_image(folder / file);
+        for (const uint8_t byte : (*image)->bytes) total += byte;
         return total;
     };
     ASSERT_EQ(test::blush(tiny("cornell", folder / "plain.png")).exit_code, 0);
