@@ -119,8 +119,13 @@ FoundSphere<F> found_sphere(const SceneTables& scene, Strategy strategy, const P
     const Vec<F> to_center = gather_field3<F>(lights, &LightRecord::position, light) - path.ray.origin;
     const F height = sphere_cone_height(dot(to_center, to_center), gather_field(lights, &LightRecord::radius, light));
     const Mask<F> outside = active && height > F(0.f);
-    const F pdf = cone_pdf(select(outside, height, F(1.f))) * light_probability<S, F>(scene.lights, {path.ray.origin, path.normal}, light, outside);
-    const F weight = if_linked<S, F>(scene, found_emission_weight(strategy, path.pdf, pdf), light, path, active);
+    F found = F(1.f);
+    if (strategy != Strategy::bsdf) { // else nobody aims, and there is no table
+        const Receiver<F> from{path.ray.origin, path.normal};
+        const F pdf = cone_pdf(select(outside, height, F(1.f))) * light_probability<S, F>(scene.lights, from, light, outside);
+        found = found_emission_weight(strategy, path.pdf, pdf);
+    }
+    const F weight = if_linked<S, F>(scene, found, light, path, active);
     Vec<F> emission = gather_field3<F>(lights, &LightRecord::emission, light);
     if constexpr (S.has(Feature::light_profiles)) emission = emission * emission_profile<F>(scene, light, -path.ray.direction, outside);
     return {select<F>(outside, emission * weight, splat<F>(0.f)), weight, gather_field(lights, &LightRecord::object, light)};
