@@ -30,11 +30,11 @@ constexpr float gamma_bound(int n) { return float(n) * 0x1p-24f / (1 - float(n) 
 
 // The next float away from zero in the direction of `sign`'s sign: +-1 ulp.
 template <class F> F next_float(const F& x, const Mask<F>& up) {
-    const Int<F> b = float_bits(x);
+    const UInt<F> b = to_unsigned(float_bits(x)); // unsigned: of -0, whose neighbours are not used, there is none below
     const Mask<F> away = up == (x >= F(0.f));
-    const Int<F> next = select(away, Int<F>(b + 1), Int<F>(b - 1));
+    const UInt<F> next = select(away, UInt<F>(b + 1u), UInt<F>(b - 1u));
     const F from_zero = select(up, F(0x1p-126f), F(-0x1p-126f));
-    return select(x == F(0.f), from_zero, float_from_bits(next));
+    return select(x == F(0.f), from_zero, float_from_bits(to_signed(next)));
 }
 
 // How far along the unit normal `ng` a point with that bound on its error must move to be off its plane.
