@@ -7,6 +7,7 @@ namespace blush {
 
 std::string elapsed_text(double seconds) {
     if (seconds < 60) return fmt::format("{:.1f} s", seconds);
+    if (!(seconds < 1e12)) return "-";
     const auto whole = int64_t(seconds);
     if (whole < 3600) return fmt::format("{}:{:02} min", whole / 60, whole % 60);
     return fmt::format("{}:{:02}:{:02} h", whole / 3600, whole / 60 % 60, whole % 60);

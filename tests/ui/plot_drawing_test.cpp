@@ -102,6 +102,8 @@ TEST(ConvergenceTexts, SayWhatIsKnownAndNoMore) {
     EXPECT_EQ(share_text(1e-9), "0.01 %");
     EXPECT_EQ(elapsed_text(61.9), "1:01 min");
     EXPECT_EQ(guessed_time_text(std::numeric_limits<double>::infinity()), "years");
+    EXPECT_EQ(elapsed_text(std::numeric_limits<double>::infinity()), "-");
+    EXPECT_EQ(elapsed_text(std::numeric_limits<double>::quiet_NaN()), "-");
     EXPECT_EQ(guessed_time_text(7200), "2.0 h");
     const ConvergencePoint p{ConvergencePoint::Kind::denoised, 2, 64, {true, 0.5, 0.4, 0.6}, {}};
     EXPECT_EQ(readout_text("run", p, ErrorMetric::rmse), "run\ndenoised picture\n2.0 s   64 spp\nRMSE 0.5 (0.4 to 0.6)");
