@@ -153,6 +153,10 @@ click_at() { xdotool mousemove $(at "$1" "$2") && sleep 0.3 && xdotool click 1 &
 # drag_over U V U V
 drag_over() { drag_from $(at "$1" "$2") $(at "$3" "$4"); }
 press() { xdotool key "$@" && sleep 0.3; }
+# As press, but held for longer than a frame takes on a busy machine: fields see only what is down when a frame begins.
+hold() { xdotool keydown "$1" && sleep 0.2 && xdotool keyup "$1" && sleep 0.3; }
+# type_into FIELD TEXT: in place of what it says.
+type_into() { click "$1" && hold ctrl+a && xdotool type --delay 50 "$2" && sleep 0.3 && hold Return; }
 # holding KEYS... -- COMMAND...
 holding() {
     local key keys=()
