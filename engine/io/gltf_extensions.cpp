@@ -21,7 +21,8 @@ constexpr std::array rows{
     Row{"EXT_lights_area", {Kind::approximated, "a node's scale acts on width and height each, not the larger on both"}},
     Row{"EXT_lights_ies", {Kind::honoured, ""}},
     Row{"EXT_lights_image_based",
-        {Kind::approximated, "the environment is the sharpest level of the cube map; diffuse light comes from it too, not from the coefficients"}},
+        {Kind::approximated,
+         "the environment is the sharpest level of the cube map; diffuse light comes from it too, not from the coefficients"}},
     Row{"KHR_materials_emissive_strength", {Kind::honoured, ""}},
     Row{"KHR_materials_ior", {Kind::honoured, ""}},
     Row{"KHR_materials_specular", {Kind::honoured, ""}},
@@ -36,6 +37,7 @@ constexpr std::array rows{
     Row{"KHR_animation_pointer", {Kind::ignored, "the scene is shown at rest"}},
     Row{"KHR_materials_anisotropy", {Kind::ignored, "highlights are round instead of stretched"}},
     Row{"KHR_materials_clearcoat", {Kind::ignored, "surfaces lack their clear coat's second highlight"}},
+    Row{"KHR_materials_diffuse_transmission", {Kind::ignored, "leaves and paper do not shine through"}},
     Row{"KHR_materials_dispersion", {Kind::ignored, "glass does not split colours"}},
     Row{"KHR_materials_iridescence", {Kind::ignored, "thin-film colours are missing"}},
     Row{"KHR_materials_pbrSpecularGlossiness", {Kind::ignored, "the metallic-roughness values beside it are used"}},
@@ -46,6 +48,12 @@ constexpr std::array rows{
 };
 
 } // namespace
+
+std::vector<std::string_view> known_extensions() {
+    std::vector<std::string_view> names;
+    for (const Row& row : rows) names.push_back(row.name);
+    return names;
+}
 
 ExtensionSupport extension_support(std::string_view name) {
     const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.name == name; });

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string_view>
+#include <vector>
 
 namespace blush {
 
@@ -13,5 +14,8 @@ struct ExtensionSupport {
 
 // Unknown names are ignored, with a general reason.
 ExtensionSupport extension_support(std::string_view name);
+
+// Those that this version has something to say about.
+std::vector<std::string_view> known_extensions();
 
 } // namespace blush
