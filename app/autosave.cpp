@@ -4,7 +4,6 @@
 #include "io/scene_edits_json.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
@@ -29,13 +28,8 @@ bool is_locked(const std::filesystem::path& lock) {
 } // namespace
 
 std::filesystem::path recovery_folder() {
-    const auto folder = [](const char* variable) {
-        const char* text = std::getenv(variable);
-        return std::filesystem::path(text ? text : "");
-    };
-    if (const auto state = folder("XDG_STATE_HOME"); !state.empty()) return state / "blush" / "recovery";
-    if (const auto home = folder("HOME"); !home.empty()) return home / ".local" / "state" / "blush" / "recovery";
-    return {};
+    const auto folder = user_folder("XDG_STATE_HOME", ".local/state");
+    return folder.empty() ? folder : folder / "blush" / "recovery";
 }
 
 std::vector<Leftover> find_leftovers(const std::filesystem::path& folder) {

@@ -1,8 +1,9 @@
 #include "ui/window_settings.h"
 
+#include "core/files.h"
+
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -64,13 +65,8 @@ nlohmann::json scenes_json(const std::vector<SceneMemory>& scenes) {
 } // namespace
 
 std::filesystem::path window_settings_file() {
-    const auto folder = [](const char* variable) {
-        const char* text = std::getenv(variable);
-        return std::filesystem::path(text ? text : "");
-    };
-    if (const auto config = folder("XDG_CONFIG_HOME"); !config.empty()) return config / "blush" / "window.json";
-    if (const auto home = folder("HOME"); !home.empty()) return home / ".config" / "blush" / "window.json";
-    return {};
+    const auto folder = user_folder("XDG_CONFIG_HOME", ".config");
+    return folder.empty() ? folder : folder / "blush" / "window.json";
 }
 
 WindowSettings read_window_settings(const std::filesystem::path& file) {

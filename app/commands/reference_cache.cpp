@@ -1,5 +1,6 @@
 #include "app/commands/reference_cache.h"
 
+#include "core/files.h"
 #include "io/scene_hash.h"
 #include "io/settings_json.h"
 #include "io/snapshot.h"
@@ -8,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 namespace blush {
 namespace {
@@ -70,13 +70,8 @@ void remove_oldest(const std::filesystem::path& folder, uint64_t max_bytes) {
 } // namespace
 
 std::filesystem::path reference_folder() {
-    const auto folder = [](const char* variable) {
-        const char* value = std::getenv(variable);
-        return value && *value ? std::filesystem::path(value) : std::filesystem::path();
-    };
-    if (const auto cache = folder("XDG_CACHE_HOME"); cache.is_absolute()) return cache / "blush" / "references";
-    if (const auto home = folder("HOME"); !home.empty()) return home / ".cache" / "blush" / "references";
-    return {};
+    const auto folder = user_folder("XDG_CACHE_HOME", ".cache");
+    return folder.empty() ? folder : folder / "blush" / "references";
 }
 
 std::string reference_key(const Scene& scene, const RenderSettings& settings) {

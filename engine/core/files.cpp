@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -83,6 +84,16 @@ Result<void> write_file(const std::filesystem::path& file, std::span<const uint8
 
 Result<void> write_file(const std::filesystem::path& file, std::string_view text) {
     return write_file(file, std::span(reinterpret_cast<const uint8_t*>(text.data()), text.size()));
+}
+
+std::filesystem::path user_folder(const char* variable, const char* below_home) {
+    const auto folder = [](const char* name) {
+        const char* value = std::getenv(name);
+        return std::filesystem::path(value ? value : "");
+    };
+    if (const auto named = folder(variable); named.is_absolute()) return named;
+    if (const auto home = folder("HOME"); !home.empty()) return home / below_home;
+    return {};
 }
 
 } // namespace blush

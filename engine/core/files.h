@@ -19,4 +19,8 @@ Result<std::vector<uint8_t>> read_file(const std::filesystem::path& file, uint64
 Result<void> write_file(const std::filesystem::path& file, std::span<const uint8_t> bytes);
 Result<void> write_file(const std::filesystem::path& file, std::string_view text);
 
+// Where the user keeps files of a kind: the folder that the environment variable (XDG_CONFIG_HOME, XDG_CACHE_HOME, XDG_STATE_HOME) names, or
+// else `below_home` in $HOME. As the XDG base directory specification wants, relative names do not count. Empty if neither is known.
+std::filesystem::path user_folder(const char* variable, const char* below_home);
+
 } // namespace blush
