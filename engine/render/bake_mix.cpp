@@ -49,8 +49,10 @@ public:
                 for (const MeshPart& part : mesh->parts)
                     if (is_scaled(part.material)) materials[part.material][first_alike(groups_.of_surface(id, part.material))].push_back(id);
         }
-        for (const auto& [id, uses] : lights) bake_light(id, uses);
-        for (const auto& [id, uses] : materials) bake_material(id, uses);
+        for (const auto& [id, uses] : lights)
+            bake(out_.lights, id, uses, [&](Id<Node> node, Id<Light> copy) { change(node, [&](Node& n) { n.light = copy; }); });
+        for (const auto& [id, uses] : materials)
+            bake(out_.materials, id, uses, [&, from = id](Id<Node> node, Id<Material> copy) { give_own_mesh(node, from, copy); });
         if (scene_.environment.kind != Environment::Kind::none) scale(out_.environment, gains_[size_t(groups_.of_environment())]);
         return cleared();
     }
@@ -68,31 +70,20 @@ private:
         return std::ranges::any_of(groups_.groups, [&](const LightGroup& g) { return std::ranges::find(g.materials, id) != g.materials.end(); });
     }
 
-    // The first gain is the record's own; every other gets a copy.
-    void bake_light(Id<Light> id, const std::map<int, std::vector<Id<Node>>>& uses) {
+    // The first gain is the record's own; every other gets a copy, which its nodes are given.
+    template <class T, class Give>
+    void bake(Table<T>& records, Id<T> id, const std::map<int, std::vector<Id<Node>>>& uses, const Give& give) {
+        const T before = *records.find(id);
         bool first = true;
         for (const auto& [group, nodes] : uses) {
-            Light light = *scene_.lights.find(id);
-            scale(light, gains_[size_t(group)]);
+            T scaled = before;
+            scale(scaled, gains_[size_t(group)]);
             if (std::exchange(first, false)) {
-                out_.lights.set(id, light);
+                records.set(id, scaled);
                 continue;
             }
-            const Id<Light> copy = out_.lights.add(light);
-            for (const Id<Node> node : nodes) change(node, [&](Node& n) { n.light = copy; });
-        }
-    }
-    void bake_material(Id<Material> id, const std::map<int, std::vector<Id<Node>>>& uses) {
-        bool first = true;
-        for (const auto& [group, nodes] : uses) {
-            Material material = *scene_.materials.find(id);
-            scale(material, gains_[size_t(group)]);
-            if (std::exchange(first, false)) {
-                out_.materials.set(id, material);
-                continue;
-            }
-            const Id<Material> copy = out_.materials.add(material);
-            for (const Id<Node> node : nodes) give_own_mesh(node, id, copy);
+            const Id<T> copy = records.add(scaled);
+            for (const Id<Node> node : nodes) give(node, copy);
         }
     }
     void give_own_mesh(Id<Node> node, Id<Material> from, Id<Material> to) {
