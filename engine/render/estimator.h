@@ -42,9 +42,6 @@ template <class F> F survival_probability(const Roulette& r, const Vec<F>& beta)
     return min(F(min(r.cap, 1.f)), max(F(r.floor), q)); // in this order what is no number stays so
 }
 
-// Bounces until which roulette leaves smooth reflections and refractions alone.
-constexpr int longest_unasked = 16;
-
 template <Features S, class F>
 Path<F> begin_path(const SceneTables& scene, const EstimatorSettings& settings, const F& x, const F& y, const UInt<F>& key, const UInt<F>& index, const Int<F>& slot) {
     const Sampler<F> sampler{key, index};
@@ -204,7 +201,9 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
     const Sampler<F> sampler{path.key, path.index};
     const uint32_t dimension = first_scatter_dimension + dimensions_per_scatter * uint32_t(bounce);
 
-    const bool aims = scene.focus.count > 0;
+    // Kernels without mirrors and glass have no code for it.
+    constexpr bool may_aim = S.has(Feature::specular) || S.has(Feature::transmission);
+    const bool aims = may_aim && scene.focus.count > 0;
     Focus<F> focus{};
     if (aims) focus = focus_at<F>(scene.focus, surface.position, ns, matte);
 
@@ -279,7 +278,7 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
             judged = select<F>(solid && !leaves_outside && material.bsdf.ior > F(0.f), judged * squeezed, judged);
         }
         // Mirrors and glass take little, and a path that ends there has found nothing yet; in vain for ever only where there is nothing else.
-        const Mask<F> asked = !b.delta || Mask<F>(bounce >= longest_unasked);
+        const Mask<F> asked = !b.delta || Mask<F>(bounce + 1 >= first_asked_at_smooth);
         const F q = select(asked, survival_probability(settings.roulette, judged), F(1.f));
         out.weights.survival = q;
         out.weights.asked = out.continues && asked;

@@ -15,6 +15,10 @@ struct EnergyTable;
 // a closed room of albedo 1 with roulette off.
 constexpr int longest_path = 100000;
 
+// Before this bounce roulette leaves paths alone that a smooth mirror or smooth glass sends on, whatever its rule: they have lost next to
+// nothing there.
+constexpr int first_asked_at_smooth = 17;
+
 struct EstimatorSettings {
     int32_t max_bounces = longest_path; // scattering events
     Roulette roulette;

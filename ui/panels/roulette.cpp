@@ -1,10 +1,12 @@
 // Roulette lab: the rule with its numbers, what it does to paths, whether it pays, and whether it is honest.
+#include "render/estimator_settings.h"
 #include "ui/bars.h"
 #include "ui/panels/panels.h"
 #include "ui/panels/roulette_fields.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -22,8 +24,9 @@ std::string formula(const Roulette& r) {
     case Roulette::Rule::constant: q = fmt::format("{:.3g}", r.probability); break;
     case Roulette::Rule::biased_cut:
         return fmt::format(
-            "q = 1 if max(beta) >= {:.3g}, else 0, from bounce {} on. Survivors are not weighted up for those that end: biased.",
-            r.threshold, r.start);
+            "q = 1 if max(beta) >= {:.3g}, else 0, from bounce {} on, at smooth mirrors and glass from bounce {}. Survivors are not weighted "
+            "up for those that end: biased.",
+            r.threshold, r.start, std::max(r.start, first_asked_at_smooth));
     }
     if (r.cap < 1)
         q = fmt::format("min({:.3g}, {})", r.cap, r.floor > 0 ? fmt::format("max({:.3g}, {})", r.floor, q) : q);
@@ -31,7 +34,8 @@ std::string formula(const Roulette& r) {
         q = fmt::format("min(1, max({:.3g}, {}))", r.floor, q);
     else if (r.rule != Roulette::Rule::constant)
         q = fmt::format("min(1, {})", q);
-    return fmt::format("q = {} from bounce {} on; survivors: beta / q.", q, r.start);
+    return fmt::format("q = {} from bounce {} on; survivors: beta / q. At smooth mirrors and glass q = 1 before bounce {}.", q, r.start,
+                       std::max(r.start, first_asked_at_smooth));
 }
 
 void figure_row(const char* name, const std::string& rule, const std::string& none, const char* tip, UiState& ui) {
