@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 #include <set>
+#include <unordered_set>
 
 namespace blush {
 namespace {
@@ -31,10 +32,11 @@ Candidates candidates(const Scene& scene, const ObjectSet& set) {
         for (Id<Node> up = id; scene.nodes.contains(up) && solid.insert(up).second;) up = scene.nodes.find(up)->parent;
     }
     Candidates found;
+    std::unordered_set<std::string> taken; // asked in every frame, of as many objects as a scene has
     for (const Id<Node> id : solid) {
         if (std::ranges::count(set.nodes, id)) continue;
         std::string name = name_of(scene, id);
-        if (std::ranges::count(found.names, name)) name += fmt::format(" ({})", id.value);
+        if (!taken.insert(name).second) name += fmt::format(" ({})", id.value);
         found.nodes.push_back(id);
         found.names.push_back(std::move(name));
     }
