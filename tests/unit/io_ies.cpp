@@ -142,7 +142,7 @@ TEST(Ies, NumbersMayStandAnywhere) {
     text = "IESNA:LM-63-1995\n[TEST]\n" + text.substr(tilt);
     EXPECT_TRUE(parse_ies(text));
     std::string dos = file.text();
-    for (size_t at = 0; (at = dos.find('\n', at)) != dos.npos; at += 2) dos.insert(at, "\r");
+    for (size_t at = 0; (at = dos.find('\n', at)) != dos.npos; at += 2) dos.insert(at, 1, '\r');
     EXPECT_TRUE(parse_ies(dos));
     EXPECT_TRUE(parse_ies(file.text() + "\x1a"));
 }
