@@ -71,6 +71,7 @@ private:
     EditorSnapshots snapshots_{&Window::wake,
                                [this](std::function<void()> go_on) { saving_.before_losing_edits("opening another scene", std::move(go_on)); }};
     ThumbnailSheet thumbnails_;
+    WaveformSheet waveforms_;
     FrameStats stats_;
     FramePace pace_;
     Pictures pictures_;
@@ -242,7 +243,8 @@ void Editor::draw_above(PanelContext& c) {
     draw_pixel_panel(c);
     draw_region_panel(c);
     draw_meters_panel(c);
-    draw_scopes_panel(c);
+    waveforms_.update(ui_.scopes);
+    draw_scopes_panel(c, waveforms_.textures());
     draw_history(c);
     draw_light_mix_panel(c);
     draw_bounces_panel(c);

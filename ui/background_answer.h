@@ -4,6 +4,7 @@
 #include "ui/background_job.h"
 
 #include <chrono>
+#include <cstdint>
 #include <memory>
 #include <optional>
 
@@ -25,6 +26,8 @@ public:
     }
     // The newest; null before the first.
     const Answer* answer() const { return answer_ ? &*answer_ : nullptr; }
+    // Of that answer, counted from 1; 0 before the first.
+    uint64_t number() const { return number_; }
 
 private:
     using Clock = std::chrono::steady_clock;
@@ -33,12 +36,14 @@ private:
         auto done = job_->take();
         if (!done) return;
         answer_ = *std::move(done);
+        ++number_;
         job_.reset();
         next_ = Clock::now() + 4 * (Clock::now() - began_);
     }
 
     std::optional<Question> asked_;
     std::optional<Answer> answer_;
+    uint64_t number_ = 0;
     std::shared_ptr<BackgroundJob<Answer>> job_; // shared, since what holds it is copied
     Clock::time_point began_{}, next_{};
 };

@@ -151,7 +151,7 @@ void CompareView::draw_part(const Part& part, const ImageRect& image, const Imag
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     draw.PushClipRect({clip.x, clip.y}, {clip.x + clip.width, clip.y + clip.height}, true);
     draw.AddCallback([](const ImDrawList*, const ImDrawCmd*) { glDisable(GL_BLEND); }, nullptr);
-    draw.AddImage(reinterpret_cast<ImTextureID>(uintptr_t(part.texture)), {image.x, image.y}, {image.x + image.width, image.y + image.height},
+    draw.AddImage(texture_id(part.texture), {image.x, image.y}, {image.x + image.width, image.y + image.height},
                   {0, part.v0}, {part.u, part.v1});
     draw.AddCallback(ImDrawCallback_ResetRenderState, nullptr);
     draw.PopClipRect();

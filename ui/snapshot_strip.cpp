@@ -172,7 +172,7 @@ void ThumbnailSheet::update(const std::vector<SnapshotPtr>& list, const DisplayN
 ThumbnailPart ThumbnailSheet::part(size_t index) const {
     if (index >= ids_.size()) return {};
     const float step = 1 / float(ids_.size());
-    return {reinterpret_cast<ImTextureID>(uintptr_t(pass_.texture())), float(index) * step, float(index + 1) * step};
+    return {texture_id(pass_.texture()), float(index) * step, float(index + 1) * step};
 }
 
 } // namespace blush

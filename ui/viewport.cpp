@@ -21,7 +21,6 @@ namespace {
 // Milliseconds that a frame of the window may take while a picture is being drawn for it; where somebody waits for a look they asked for.
 constexpr double usual_frame = 16, asked_frame = 24;
 
-ImTextureID texture_id(GLuint name) { return reinterpret_cast<ImTextureID>(uintptr_t(name)); }
 
 Region window_region() {
     const ImVec2 at = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();

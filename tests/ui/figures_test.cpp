@@ -4,6 +4,7 @@
 #include "ui/meters_view.h"
 #include "ui/region_statistics.h"
 #include "ui/scopes_view.h"
+#include "ui/waveform_sheet.h"
 #include "ui/view_tools.h"
 
 #include <gtest/gtest.h>
@@ -105,6 +106,17 @@ TEST_F(Figures, OfScopesOfALargePictureAreOfAGridOfItsPixels) {
     EXPECT_EQ(s.step, 2);
     EXPECT_EQ(s.scene.pixels, 640 * 360);
     EXPECT_EQ(s.scene.counts[3][64], uint32_t(640 * 360)) << "middle grey is in the middle";
+}
+
+TEST_F(Figures, OfAWaveformAreDrawnHighestFirst) {
+    const float rgb[] = {1, 0, 0, 0, 0, 1}; // a red pixel beside a blue one
+    const std::vector<uint32_t> texels = waveform_texels(waveform(rgb, 2, {false, 0, 1}, 2, 4));
+    ASSERT_EQ(texels.size(), 8u);
+    EXPECT_EQ(texels[0], IM_COL32(70, 0, 0, 255));
+    EXPECT_EQ(texels[1], IM_COL32(0, 0, 70, 255));
+    EXPECT_EQ(texels[2], 0u) << "nothing lies between";
+    EXPECT_EQ(texels[6], IM_COL32(0, 70, 70, 255)) << "what is missing in the left column is at black";
+    EXPECT_EQ(texels[7], IM_COL32(70, 70, 0, 255));
 }
 
 TEST_F(Figures, PickedColoursAreMeansOfAFewPixels) {

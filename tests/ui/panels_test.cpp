@@ -41,7 +41,7 @@ protected:
                     draw_health_panel(c);
                     draw_region_panel(c);
                     draw_meters_panel(c);
-                    draw_scopes_panel(c);
+                    draw_scopes_panel(c, {});
                     draw_convergence_panel(c);
                     draw_shortcut_sheet(c);
                     draw_toasts(c);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "ui/panels/context.h"
+#include "ui/waveform_sheet.h"
 
 #include <string>
 #include <vector>
@@ -36,7 +37,7 @@ void draw_snapshot_panel(PanelContext& c); // name, note and file of one of them
 void draw_pixel_panel(PanelContext& c);
 void draw_meters_panel(PanelContext& c);
 void draw_region_panel(PanelContext& c);
-void draw_scopes_panel(PanelContext& c);
+void draw_scopes_panel(PanelContext& c, const WaveformTextures& waveforms);
 void draw_bounces_panel(PanelContext& c);
 void draw_light_mix_panel(PanelContext& c);
 void draw_health_panel(PanelContext& c);

@@ -72,29 +72,6 @@ void draw_histogram(ImDrawList& draw, const Box& box, const Histogram& h) {
     draw.PathStroke(luma_tone, 0, 1);
 }
 
-// A cell's colour: how many pixels of its column are there, channel by channel. Columns of one colour are one rectangle.
-void draw_waveform(ImDrawList& draw, const Box& box, const Waveform& w) {
-    const float column_width = box.width() / float(w.columns), level_height = box.height() / float(w.levels);
-    const auto cell = [&](int column, int level) -> ImU32 {
-        const size_t i = size_t(level) * size_t(w.columns) + size_t(column);
-        int shade[3];
-        for (size_t k = 0; k < 3; ++k)
-            shade[k] = w.counts[k][i] == 0 ? 0 : std::min(40 + int(30 * std::sqrt(float(w.counts[k][i]))), 255) & ~7;
-        return shade[0] + shade[1] + shade[2] == 0 ? 0 : IM_COL32(shade[0], shade[1], shade[2], 255);
-    };
-    for (int column = 0; column < w.columns; ++column) {
-        const float x = box.low.x + column_width * float(column);
-        for (int level = 0; level < w.levels;) {
-            const ImU32 color = cell(column, level);
-            const int from = level++;
-            while (level < w.levels && cell(column, level) == color) ++level;
-            if (color == 0) continue;
-            draw.AddRectFilled({x, box.high.y - level_height * float(level)}, {x + column_width, box.high.y - level_height * float(from)},
-                               color);
-        }
-    }
-}
-
 std::string share(int64_t count, int64_t all) { return all > 0 ? fmt::format("{:.2g} %", 100 * double(count) / double(all)) : ""; }
 
 std::string ends_text(const Histogram& h) {
@@ -111,7 +88,8 @@ Box plot_box(float width, float height) {
     return box;
 }
 
-void draw_column(PanelContext& c, const char* title, const char* tip, const Histogram& h, const Waveform& w, float height) {
+void draw_column(PanelContext& c, const char* title, const char* tip, const Histogram& h, const ScopeAxis& axis,
+                 ImTextureID waveform, float height) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const float width = std::floor(ImGui::GetContentRegionAvail().x);
     ImGui::PushFont(heading_font());
@@ -124,14 +102,14 @@ void draw_column(PanelContext& c, const char* title, const char* tip, const Hist
     if (h.pixels == 0) return;
     draw_marks(draw, histogram_box, h.axis, true);
     draw_histogram(draw, histogram_box, h);
-    draw_marks(draw, wave_box, w.axis, false);
-    draw_waveform(draw, wave_box, w);
+    draw_marks(draw, wave_box, axis, false);
+    if (waveform) draw.AddImage(waveform, wave_box.low, wave_box.high);
     quiet_text(ends_text(h));
 }
 
 } // namespace
 
-void draw_scopes_panel(PanelContext& c) {
+void draw_scopes_panel(PanelContext& c, const WaveformTextures& waveforms) {
     ScopesView& view = c.ui.scopes;
     if (!view.open) return;
     const float em = ImGui::GetFontSize();
@@ -145,10 +123,10 @@ void draw_scopes_panel(PanelContext& c) {
         if (ImGui::BeginTable("scopes", 2)) {
             ImGui::TableNextColumn();
             draw_column(c, "Light", "As rendered, in stops from middle grey. Looking changes nothing here.", scopes.scene,
-                        scopes.scene_wave, height);
+                        scopes.scene_wave.axis, waveforms.scene, height);
             ImGui::TableNextColumn();
             draw_column(c, "Displayed", "What the display is given: exposure, white balance, look, view and gamma included.",
-                        scopes.displayed, scopes.displayed_wave, height);
+                        scopes.displayed, scopes.displayed_wave.axis, waveforms.displayed, height);
             ImGui::EndTable();
         }
         if (scopes.step > 1) quiet_text(fmt::format("One pixel of {} is read.", scopes.step * scopes.step));
