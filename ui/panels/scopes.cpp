@@ -88,8 +88,8 @@ Box plot_box(float width, float height) {
     return box;
 }
 
-void draw_column(PanelContext& c, const char* title, const char* tip, const Histogram& h, const ScopeAxis& axis,
-                 ImTextureID waveform, float height) {
+void draw_column(PanelContext& c, const char* title, const char* tip, const Histogram& h, const ScopeAxis& axis, ImTextureID waveform,
+                 float height) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const float width = std::floor(ImGui::GetContentRegionAvail().x);
     ImGui::PushFont(heading_font());
