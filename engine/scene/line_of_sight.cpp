@@ -29,6 +29,12 @@ double nearest_in(const Geometry& g, const Vec3d& origin, const Vec3d& way, doub
     return nearest;
 }
 
+// Glass, and what is partly or in places not there: whether its textures let this very line through is not asked.
+bool lets_light_through(const Material* m) {
+    return m && (m->transmission > 0 || m->alpha == Material::Alpha::mask ||
+                 (m->alpha == Material::Alpha::blend && (m->opacity < 1 || m->base_color_texture.texture)));
+}
+
 } // namespace
 
 std::optional<Id<Node>> first_between(const Scene& scene, const Vec3d& from, const Vec3d& to, const std::function<bool(Id<Node>)>& counts) {
@@ -42,7 +48,7 @@ std::optional<Id<Node>> first_between(const Scene& scene, const Vec3d& from, con
         const Affined node_from_world = inverse(placed.world_from_node);
         const Vec3d origin = transform_point(node_from_world, from), way = transform_point(node_from_world, to) - origin;
         for (const MeshPart& part : mesh->parts) {
-            if (!part.geometry) continue;
+            if (!part.geometry || lets_light_through(scene.materials.find(part.material))) continue;
             const double t = nearest_in(*part.geometry, origin, way, nearest);
             if (t < nearest) {
                 nearest = t;

@@ -65,5 +65,25 @@ TEST(LineOfSight, WhatHasNoExtentIsPassed) {
     EXPECT_FALSE(s.between({0, 0, 0}, {5, 0, 0}));
 }
 
+TEST(LineOfSight, GlassAndWhatIsPartlyThereIsPassed) {
+    Screens s;
+    s.put(1);
+    Material paint;
+    Mesh painted = *s.scene.meshes.find(s.square);
+    painted.parts[0].material = s.scene.materials.add(paint);
+    s.scene.meshes.set(s.square, painted);
+    const auto blocks = [&](const auto& change) {
+        Material m = paint;
+        change(m);
+        s.scene.materials.set(painted.parts[0].material, m);
+        return s.between({0, 0, 0}, {5, 0, 0}).has_value();
+    };
+    EXPECT_TRUE(blocks([](Material&) {}));
+    EXPECT_FALSE(blocks([](Material& m) { m.transmission = 0.5f; }));
+    EXPECT_FALSE(blocks([](Material& m) { m.alpha = Material::Alpha::mask; }));
+    EXPECT_TRUE(blocks([](Material& m) { m.alpha = Material::Alpha::blend; })) << "of opacity 1";
+    EXPECT_FALSE(blocks([](Material& m) { m.alpha = Material::Alpha::blend, m.opacity = 0.5f; }));
+}
+
 } // namespace
 } // namespace blush
