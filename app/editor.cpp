@@ -256,10 +256,10 @@ void Editor::draw_above(PanelContext& c) {
     draw_file_browser(c);
     if (const auto job = files_.running()) {
         ui_.next_frame_in = std::min(ui_.next_frame_in, 0.1);
-        if (draw_progress(*job)) files_.cancel();
+        if (draw_progress(c, *job)) files_.cancel();
     } else if (const auto other = snapshots_.running()) {
         ui_.next_frame_in = std::min(ui_.next_frame_in, 0.1);
-        draw_progress(*other);
+        draw_progress(c, *other);
     }
     draw_toasts(c);
     draw_question(c);

@@ -157,7 +157,8 @@ void ThumbnailSheet::update(const std::vector<SnapshotPtr>& list, const DisplayN
     if (other_shader && !pass_.set_shader(*shader_)) return; // the viewport says what is wrong with it
     std::vector<uint64_t> ids;
     for (const SnapshotPtr& s : list) ids.push_back(s->id);
-    const DisplayLook look{numbers, {}};
+    DisplayLook look{numbers, {}};
+    look.numbers.false_color = {}; // pictures to recognise; and they have no albedo to tell lux by
     if (ids != ids_) {
         std::vector<float> rgba;
         for (const SnapshotPtr& s : list) rgba.insert(rgba.end(), s->thumbnail.rgba.begin(), s->thumbnail.rgba.end());

@@ -54,6 +54,6 @@ struct RunningJob {
     bool can_cancel = false;
 };
 // True if the user presses Cancel.
-bool draw_progress(const RunningJob& job);
+bool draw_progress(const PanelContext& c, const RunningJob& job);
 
 } // namespace blush

@@ -12,6 +12,11 @@ namespace {
 constexpr ImGuiWindowFlags card_flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                                         ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_AlwaysAutoResize;
 
+// Where the lowest card ends: above the status bar and the strip of snapshots.
+float cards_bottom(const PanelContext& c) {
+    return ImGui::GetIO().DisplaySize.y - ImGui::GetFontSize() * 3 - snapshot_strip_height(c.ui.snapshots);
+}
+
 void begin_card(const char* id, float right, float bottom, ImU32 edge) {
     ImGui::SetNextWindowPos({right, bottom}, ImGuiCond_Always, {1, 1});
     ImGui::PushStyleColor(ImGuiCol_WindowBg, ImVec4(0.13f, 0.13f, 0.13f, 0.97f));
@@ -52,7 +57,7 @@ void draw_toasts(PanelContext& c) {
     c.ui.toasts.expire(now);
     const float em = ImGui::GetFontSize();
     const float right = ImGui::GetIO().DisplaySize.x - c.ui.settings.splitters.inspector * em - em;
-    float bottom = ImGui::GetIO().DisplaySize.y - em * 3 - snapshot_strip_height(c.ui.snapshots);
+    float bottom = cards_bottom(c);
     std::optional<size_t> dismissed;
     const std::vector<Toast>& toasts = c.ui.toasts.all();
     for (size_t i = toasts.size(); i-- > 0;) {
@@ -71,10 +76,10 @@ void draw_toasts(PanelContext& c) {
     if (dismissed) c.ui.toasts.dismiss(*dismissed);
 }
 
-bool draw_progress(const RunningJob& job) {
+bool draw_progress(const PanelContext& c, const RunningJob& job) {
     const float em = ImGui::GetFontSize();
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
-    begin_card("##job", screen.x / 2 + em * 12, screen.y - em * 3, IM_COL32(90, 90, 90, 255));
+    begin_card("##job", screen.x / 2 + em * 12, cards_bottom(c), IM_COL32(90, 90, 90, 255));
     ImGui::TextUnformatted(job.title.c_str());
     ImGui::ProgressBar(float(job.fraction), {em * 18, em / 2}, "");
     bool cancelled = false;
