@@ -2,6 +2,7 @@
 
 #include "io/gltf_edit_lights.h"
 #include "io/gltf_image_light.h"
+#include "io/gltf_instancing.h"
 #include "io/gltf_unused.h"
 #include "io/gltf_write.h"
 #include "io/gltf_write_extras.h"
@@ -57,7 +58,6 @@ template <class T> bool changed(const Table<T>& before, Id<T> id, const T& now) 
     return !old || !(*old == now);
 }
 
-
 void write_cameras(GltfDocument& document, const Scene& read, const Scene& scene, const UsedRecords& used) {
     for (const auto& [id, camera] : scene.cameras) {
         const bool known = document.indices.cameras.contains(id);
@@ -89,11 +89,20 @@ void write_surfaces(GltfDocument& document, const Scene& read, const Scene& scen
 
 void write_nodes(GltfDocument& document, const Scene& read, const Scene& scene) {
     for (const auto& [id, index] : document.indices.nodes) {
-        const Node& node = *scene.nodes.find(id);
+        Node node = *scene.nodes.find(id);
+        node.instances = nullptr; // write_copies
         if (!changed(read.nodes, id, node)) continue;
         Json& object = document.object("nodes", index);
         clear_extras(object);
         write_node(object, node);
+    }
+}
+
+// Where the copies of nodes' meshes are, if the document has them elsewhere or not at all.
+void write_copies(GltfDocument& document, const GltfOrigin& has, const Scene& scene) {
+    for (const auto& [id, index] : document.indices.nodes) {
+        const Node* old = has.nodes.find(id);
+        write_instances(document, document.object("nodes", index), old ? old->instances : nullptr, scene.nodes.find(id)->instances);
     }
 }
 
@@ -145,7 +154,12 @@ template <class T> void report_differences(const char* what, const Table<T>& rea
 }
 
 void report_differences(const Scene& read, Scene wanted, std::vector<Diagnostic>& found) {
-    // Read without triangles, pixels and measured distributions.
+    // Read without triangles, pixels, places of copies and measured distributions.
+    for (const auto& [id, node] : Table<Node>(wanted.nodes)) {
+        Node flat = node;
+        flat.instances = nullptr;
+        wanted.nodes.set(id, std::move(flat));
+    }
     for (const auto& [id, texture] : Table<Texture>(wanted.textures)) {
         Texture flat = texture;
         flat.image = nullptr;
@@ -190,6 +204,7 @@ Result<EditedGltf> edited_gltf(const GltfOrigin& origin, const Project& project)
     write_cameras(document, before->scene, scene, used);
     write_surfaces(document, before->scene, scene);
     write_tree(document, scene);
+    write_copies(document, origin, scene);
     write_nodes(document, before->scene, scene);
     write_fallbacks(document, scene);
     if (const int unused = remove_unused(document, used_before, counts_before))

@@ -15,6 +15,7 @@ struct Row {
 
 constexpr std::array rows{
     Row{"EXT_meshopt_compression", {Kind::honoured, ""}},
+    Row{"EXT_mesh_gpu_instancing", {Kind::honoured, ""}},
     Row{"KHR_draco_mesh_compression", {Kind::honoured, ""}},
     Row{"KHR_lights_punctual", {Kind::honoured, ""}},
     Row{"KHR_node_visibility", {Kind::honoured, ""}},
@@ -32,7 +33,6 @@ constexpr std::array rows{
     Row{"KHR_texture_transform", {Kind::honoured, ""}},
     Row{"KHR_materials_volume",
         {Kind::approximated, "paths through the volume follow the mesh itself; the thickness only tells solid from thin-walled"}},
-    Row{"EXT_mesh_gpu_instancing", {Kind::ignored, "only one instance of each such mesh is shown"}},
     Row{"EXT_texture_webp", {Kind::ignored, "the PNG or JPEG fallback is read where the file has one"}},
     Row{"KHR_animation_pointer", {Kind::ignored, "the scene is shown at rest"}},
     Row{"KHR_materials_anisotropy", {Kind::ignored, "highlights are round instead of stretched"}},

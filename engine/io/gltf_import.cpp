@@ -118,6 +118,7 @@ Result<ImportedScene> import_gltf(const std::filesystem::path& file, const Impor
         imported.origin.json = source->text;
         imported.origin.meshes = imported.scene.meshes;
         imported.origin.textures = imported.scene.textures;
+        imported.origin.nodes = imported.scene.nodes;
         imported.report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         return imported;
     } catch (const std::bad_alloc&) {

@@ -45,9 +45,10 @@ struct GltfOrigin {
     std::filesystem::path file;
     std::shared_ptr<const std::string> json; // its text, as it was read
     GltfIndices indices;
-    // Triangles and pixels that the document has already.
+    // Triangles, pixels and places of copies that the document has already.
     Table<Mesh> meshes;
     Table<Texture> textures;
+    Table<Node> nodes;
 };
 
 } // namespace blush

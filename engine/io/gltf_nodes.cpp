@@ -1,6 +1,7 @@
 #include "io/gltf_nodes.h"
 
 #include "io/gltf_extras.h"
+#include "io/gltf_instancing.h"
 #include "io/gltf_numbering.h"
 #include "io/gltf_object.h"
 #include "scene/affine.h"
@@ -111,12 +112,20 @@ Result<Node> read_node(const GltfContext& context, int index, const NodeTargets&
     if (!light) return light.error();
     if (!camera) return camera.error();
     node.mesh = *mesh;
+    Result<InstancesPtr> instances = import_instances(context, source, node_where(index));
+    if (!instances) return instances.error();
+    node.instances = *std::move(instances);
     // A measured one knows more than what else the node may have for programs that do not know of such.
     node.light = measured == targets.lights.measured_as.by_node.end() ? *light : targets.lights.measured[measured->second];
     node.camera = *camera;
     node.visible = extensions.object("KHR_node_visibility").boolean("visible", true);
     read_extras(context, gltf_item(context.json(), "nodes", size_t(index)), node, node_where(index));
     return node;
+}
+
+uint64_t count_instances(const Scene& scene, const Node& node) {
+    const Mesh* mesh = node.instances ? scene.meshes.find(node.mesh) : nullptr;
+    return mesh ? uint64_t(node.instances->node_from_copy.size()) * mesh->parts.size() : 0;
 }
 
 } // namespace
@@ -172,9 +181,14 @@ Result<std::vector<Id<Node>>> import_nodes(const GltfContext& context, const std
     const size_t count = context.model().nodes.size();
     std::vector<std::optional<Node>> read;
     std::vector<uint32_t> wanted;
+    uint64_t instances = 0;
     for (const int index : nodes) {
         Result<Node> node = read_node(context, index, targets);
         if (!node) return node.error();
+        instances += count_instances(scene, *node);
+        if (instances > most_instances)
+            return context.error(fmt::format("more than {} copies of meshes, each of their primitives counted", most_instances),
+                                 node_where(index));
         read.push_back(*std::move(node));
         wanted.push_back(wanted_id(gltf_item(context.json(), "nodes", size_t(index))));
     }

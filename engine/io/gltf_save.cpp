@@ -51,7 +51,7 @@ Result<SavedGltf> save(const GltfOrigin& origin, const Project& project, const s
     const Result<std::string> text = files.write(edited->document, *origin.json);
     if (!text) return text.error();
     GltfOrigin written{file, std::make_shared<const std::string>(*text), edited->document.indices, edited->scene.meshes,
-                       edited->scene.textures};
+                       edited->scene.textures, edited->scene.nodes};
     return SavedGltf{std::move(written), std::move(edited->scene), std::move(edited->diagnostics)};
 }
 

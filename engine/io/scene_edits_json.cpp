@@ -46,6 +46,13 @@ Id<Mesh> mesh_like(const Table<Mesh>& imported, const Mesh& mesh) {
     return {};
 }
 
+// The imported node whose mesh has copies at the same places, which are no text either.
+Id<Node> node_like(const Table<Node>& imported, const Node& node) {
+    for (const auto& [id, candidate] : imported)
+        if (candidate.instances == node.instances) return id;
+    return {};
+}
+
 // As text may name it: by a relative path that does not climb.
 bool is_below_the_scene(const std::filesystem::path& file) {
     return !file.empty() && file.is_relative() && std::find(file.begin(), file.end(), "..") == file.end();
@@ -69,8 +76,11 @@ Scene without_payloads(const Scene& imported, Scene now, Json& left_out) {
     }
     const Table<Node> nodes = now.nodes;
     for (auto [id, node] : nodes) {
-        if (!node.mesh || now.meshes.contains(node.mesh)) continue;
-        node.mesh = {};
+        if (!now.meshes.contains(node.mesh)) node.mesh = {};
+        if (node.instances && !node_like(imported.nodes, node)) {
+            left_out.push_back(fmt::format("node \"{}\" has copies of its mesh: their places are not kept as text", node.name));
+            node.instances = nullptr;
+        }
         now.nodes.set(id, node);
     }
     const Table<Material> materials = now.materials;
@@ -110,7 +120,10 @@ template <class T> Json table_edits(const Table<T>& before, const Table<T>& now)
             const Id<Mesh> like = mesh_like(before, *record);
             edits["added"].push_back({{"id", id.value}, {"like", like.value}, {"set", changed_fields(*before.find(like), *record)}});
         } else if constexpr (Fielded<T>) {
-            edits["added"].push_back({{"id", id.value}, {"set", to_json(*record)}});
+            Json added{{"id", id.value}, {"set", to_json(*record)}};
+            if constexpr (std::same_as<T, Node>)
+                if (record->instances) added["copies_like"] = node_like(before, *record).value;
+            edits["added"].push_back(std::move(added));
         }
     }
     return edits;
@@ -151,6 +164,15 @@ template <class T> Result<void> apply_changed(const Json& list, Table<T>& table,
 
 template <Fielded T> bool read_added(const Json& item, const Table<T>&, T& record) {
     return !std::same_as<T, Texture> && set_fields(member(item, "set"), record);
+}
+bool read_added(const Json& item, const Table<Node>& imported, Node& node) {
+    if (const Json& like = member(item, "copies_like"); !like.is_null()) {
+        Id<Node> original;
+        const Node* found = read_json(like, original) ? imported.find(original) : nullptr;
+        if (!found) return false;
+        node.instances = found->instances;
+    }
+    return set_fields(member(item, "set"), node);
 }
 bool read_added(const Json& item, const Table<Mesh>& imported, Mesh& mesh) {
     Id<Mesh> like;

@@ -107,6 +107,11 @@ template <class T> void hash_fields(Hasher& hash, const Table<T>& table) {
 std::string scene_hash(const Scene& scene) {
     Hasher hash;
     hash_fields(hash, scene.nodes);
+    for (const auto& [id, node] : scene.nodes)
+        if (node.instances) {
+            hash.word(id.value);
+            hash.array(node.instances->node_from_copy);
+        }
     hash_fields(hash, scene.materials);
     hash_fields(hash, scene.lights);
     for (const auto& [id, light] : scene.lights) hash_profile(hash, light.ies);

@@ -10,7 +10,6 @@
 #include <embree3/rtcore.h>
 #include <limits>
 #include <map>
-#include <span>
 #include <stdexcept>
 
 namespace blush {
@@ -85,6 +84,12 @@ struct SceneHandle {
             vertices[i] = {spheres[i].center.x, spheres[i].center.y, spheres[i].center.z, spheres[i].radius};
         attach(geometry, spheres.front().mask);
     }
+    void add_instance(RTCDevice device, RTCScene bottom, const Affine& world_from_object, uint32_t mask) {
+        RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
+        rtcSetGeometryInstancedScene(geometry, bottom);
+        rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, &world_from_object);
+        attach(geometry, mask);
+    }
     void attach(RTCGeometry geometry, uint32_t mask) {
         rtcSetGeometryMask(geometry, mask);
         rtcCommitGeometry(geometry);
@@ -99,9 +104,9 @@ struct SceneHandle {
 // What a bottom level is made of: equal keys may share it.
 using BottomKey = std::vector<std::pair<uint64_t, int32_t>>;
 
-BottomKey key_of(const AccelInstance& instance) {
+BottomKey key_of(const AccelInstances& instances) {
     BottomKey key;
-    for (const AccelTriangles& g : instance.geometries) key.emplace_back(g.serial, g.alpha ? g.part : -1);
+    for (const AccelTriangles& g : instances.geometries) key.emplace_back(g.serial, g.alpha ? g.part : -1);
     return key;
 }
 
@@ -231,26 +236,25 @@ void Accel::commit(const AccelScene& scene, const SceneTables* tables, const Wor
         s.alpha |= triangles.alpha;
     }
     s.first_instance = uint32_t(scene.flat.size());
-    for (const AccelInstance& instance : scene.instances) {
-        const BottomKey key = key_of(instance);
+    uint32_t instance_count = 0;
+    for (const AccelInstances& instances : scene.instances) {
+        const BottomKey key = key_of(instances);
         auto it = kept.find(key);
         if (it == kept.end()) {
             SceneHandle bottom;
             if (const auto old = s.bottoms.find(key); old != s.bottoms.end()) bottom = std::move(old->second);
             if (!bottom.scene) {
                 bottom = SceneHandle(s.device);
-                for (const AccelTriangles& triangles : instance.geometries) bottom.add_triangles(s.device, triangles, tables);
+                for (const AccelTriangles& triangles : instances.geometries) bottom.add_triangles(s.device, triangles, tables);
                 bottom.commit(workers);
             }
             it = kept.emplace(key, std::move(bottom)).first;
         }
-        for (const AccelTriangles& triangles : instance.geometries) s.alpha |= triangles.alpha;
-        RTCGeometry geometry = rtcNewGeometry(s.device, RTC_GEOMETRY_TYPE_INSTANCE);
-        rtcSetGeometryInstancedScene(geometry, it->second.scene);
-        rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, &instance.world_from_object);
-        top.attach(geometry, instance.mask);
+        for (const AccelTriangles& triangles : instances.geometries) s.alpha |= triangles.alpha;
+        for (const InstanceRecord& place : instances.places) top.add_instance(s.device, it->second.scene, place.world_from_object, instances.mask);
+        instance_count += uint32_t(instances.places.size());
     }
-    s.first_sphere = s.first_instance + uint32_t(scene.instances.size());
+    s.first_sphere = s.first_instance + instance_count;
     s.sphere_indices.clear();
     // Embree's masks are those of whole geometries: spheres of equal mask that follow each other share one.
     for (size_t begin = 0, end = 0; begin < scene.spheres.size(); begin = end) {

@@ -10,10 +10,12 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace blush {
 
+struct InstanceRecord;
 struct SceneTables;
 
 // A ray meets what has a bit of its mask in common with the ray's.
@@ -32,9 +34,9 @@ struct AccelTriangles {
     bool alpha = false;         // hits are tested against the material's opacity
     uint32_t mask = seen_by_all; // of flat ones
 };
-struct AccelInstance {
+struct AccelInstances {
     std::vector<AccelTriangles> geometries; // one mesh
-    Affine world_from_object;
+    std::span<const InstanceRecord> places; // an instance at each
     uint32_t mask = seen_by_all;
 };
 struct AccelSphere {
@@ -44,7 +46,7 @@ struct AccelSphere {
 };
 struct AccelScene {
     std::vector<AccelTriangles> flat; // world space; Embree's geometry id is the index
-    std::vector<AccelInstance> instances;
+    std::vector<AccelInstances> instances; // numbered through
     std::vector<AccelSphere> spheres; // world space
 };
 

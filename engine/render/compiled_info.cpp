@@ -32,10 +32,8 @@ CompiledInfo RenderScene::info() const {
     if (has_geometry_) {
         info.meshes = int64_t(geometry_.parts().size());
         info.instances = geometry_.instance_count();
-        int64_t degenerate = 0;
         for (size_t part = 0; part < geometry_.parts().size(); ++part) info.triangles += geometry_.triangle_count(part);
-        for (size_t part = 0; part < geometry_.parts().size(); ++part) degenerate += geometry_.degenerate_count(part);
-        if (degenerate > 0) info.warnings.push_back(degenerate_triangles(degenerate));
+        if (const int64_t degenerate = geometry_.degenerate_count(); degenerate > 0) info.warnings.push_back(degenerate_triangles(degenerate));
     }
     const size_t bytes = geometry_.memory_bytes() + accel_.memory_bytes() + materials_.textures.rgba8.capacity() * 4 +
                          materials_.textures.rgba32f.capacity() * 4 + environment_.texels.capacity() * 4 +

@@ -14,13 +14,6 @@ Bounds bounds_of(const Geometry& geometry) {
     return bounds;
 }
 
-void include_box(Bounds& bounds, const Bounds& box, const Affined& world_from_box) {
-    if (box.empty) return;
-    const Vec3d corner[2] = {box.low, box.high};
-    for (int k = 0; k < 8; ++k)
-        bounds.include(transform_point(world_from_box, Vec3d{corner[k & 1].x, corner[k >> 1 & 1].y, corner[k >> 2 & 1].z}));
-}
-
 } // namespace
 
 Vec3d render_origin(const Bounds& bounds) {
@@ -45,7 +38,7 @@ Extent ExtentCache::extent_of(const std::vector<SceneObject>& objects, const std
                 const auto known = by_serial_.find(serial);
                 it = used.emplace(serial, known != by_serial_.end() ? known->second : bounds_of(*part.geometry)).first;
             }
-            include_box(extent.bounds, it->second, object.world_from_object);
+            for (size_t copy = 0; copy < object.copies(); ++copy) extent.bounds.include(it->second, object.world_from_copy(copy));
         }
     by_serial_ = std::move(used);
     for (const SphereLight& sphere : spheres)

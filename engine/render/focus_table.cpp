@@ -50,10 +50,14 @@ void FocusTable::build(const Scene& scene, const std::vector<SceneObject>& objec
                 used.emplace(serial, known != by_serial_.end() ? known->second : ball_around(*part.geometry));
             }
             const PayloadBall& ball = used.at(serial);
-            const Vec3d center = transform_point(object.world_from_object, ball.center) - origin;
-            // A little larger, so that rounding leaves nothing of it outside.
-            const double radius = ball.radius * largest_scale(object.world_from_object) * (1 + 1e-5);
-            if (radius > 0 && std::isfinite(radius) && std::isfinite(dot(center, center))) balls_.push_back({to_float(center), float(radius)});
+            for (size_t copy = 0; copy < object.copies(); ++copy) {
+                const Affined world_from_copy = object.world_from_copy(copy);
+                const Vec3d center = transform_point(world_from_copy, ball.center) - origin;
+                // A little larger, so that rounding leaves nothing of it outside.
+                const double radius = ball.radius * largest_scale(world_from_copy) * (1 + 1e-5);
+                if (radius > 0 && std::isfinite(radius) && std::isfinite(dot(center, center)))
+                    balls_.push_back({to_float(center), float(radius)});
+            }
         }
     by_serial_ = std::move(used);
     std::ranges::stable_sort(balls_, std::greater<>(), &FocusBall::radius);

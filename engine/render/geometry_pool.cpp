@@ -70,28 +70,44 @@ std::map<uint64_t, bool> smooth_shapes(const std::vector<SceneObject>& objects) 
     return smooth;
 }
 
-// The object's transform into the world about `origin`: the difference is taken before anything is rounded.
-Affined placed(const SceneObject& object, const Vec3d& origin) {
-    Affined m = object.world_from_object;
+// A copy's transform into the world about `origin`: the difference is taken before anything is rounded.
+Affined placed(const SceneObject& object, size_t copy, const Vec3d& origin) {
+    Affined m = object.world_from_copy(copy);
     m.t = m.t - origin;
     return m;
 }
+
+// Parts of one object, at all its places.
+size_t placed_parts(const SceneObject& object) { return object.copies() * object.parts.size(); }
+
+// Kernels find the fields of a record of 21 by a 32-bit index.
+constexpr size_t most_placed_parts = size_t(1) << 26;
 
 } // namespace
 
 // Room for exactly what build() appends.
 void GeometryPool::reserve(const std::vector<SceneObject>& objects, bool normals) {
     std::set<uint64_t> shared;
-    size_t vertices = 0, indices = 0;
-    for (const SceneObject& object : objects)
+    size_t vertices = 0, indices = 0, parts = 0, instances = 0;
+    for (const SceneObject& object : objects) {
+        parts += placed_parts(object);
+        if (object.instanced) instances += object.copies();
         for (const MeshPart& part : object.parts) {
             const Geometry& g = *part.geometry;
             if (object.instanced && !shared.insert(g.serial).second) continue;
             vertices += g.positions.size();
             indices += g.indices.size();
         }
+    }
     if (vertices > size_t(INT32_MAX) / 4 || indices > size_t(INT32_MAX))
         throw std::runtime_error("the scene has more vertices than 32-bit indices reach");
+    if (parts > most_placed_parts) throw std::runtime_error("the scene has more instances than 32-bit indices reach");
+    parts_.reserve(parts);
+    part_materials_.reserve(parts);
+    part_triangles_.reserve(parts);
+    part_vertices_.reserve(parts);
+    instances_.reserve(instances);
+    instance_first_part_.reserve(instances);
     indices_.reserve(indices);
     positions_.reserve(vertices);
     if (normals) normals_.reserve(vertices);
@@ -140,27 +156,29 @@ void GeometryPool::build(const std::vector<SceneObject>& objects, const Attribut
     const bool normals = std::ranges::any_of(smooth, [](const auto& shape) { return shape.second; });
     reserve(objects, normals);
     for (const SceneObject& object : objects) {
-        const Affined world_from_object = placed(object, origin);
-        if (object.instanced) {
-            instance_first_part_.push_back(int32_t(parts_.size()));
-            instances_.push_back(make_instance(world_from_object));
-        }
+        std::vector<Span> spans;
         for (const MeshPart& part : object.parts) {
             const Geometry& g = *part.geometry;
-            Span span;
-            if (!object.instanced)
-                span = append(g, normals);
-            else if (const auto it = shared.find(g.serial); it != shared.end())
-                span = it->second;
-            else
-                span = shared[g.serial] = append(g, normals);
-            const int32_t flags = flags_of(g, needs, smooth.at(g.serial), world_from_object, object.instanced);
-            parts_.push_back({0, int32_t(object.node.value), span.first_index, span.first_vertex,
-                              object.instanced ? int32_t(instances_.size()) - 1 : -1, flags, -1});
-            part_materials_.push_back(part.material);
-            part_triangles_.push_back(int64_t(g.triangle_count()));
-            part_vertices_.push_back(int64_t(g.positions.size()));
-            if (!object.instanced) place(parts_.size() - 1, g, world_from_object);
+            const auto known = object.instanced ? shared.find(g.serial) : shared.end();
+            spans.push_back(known != shared.end() ? known->second : append(g, normals));
+            if (object.instanced) shared[g.serial] = spans.back();
+        }
+        for (size_t copy = 0; copy < object.copies(); ++copy) {
+            const Affined world_from_object = placed(object, copy, origin);
+            if (object.instanced) {
+                instance_first_part_.push_back(int32_t(parts_.size()));
+                instances_.push_back(make_instance(world_from_object));
+            }
+            for (size_t i = 0; i < object.parts.size(); ++i) {
+                const Geometry& g = *object.parts[i].geometry;
+                const int32_t flags = flags_of(g, needs, smooth.at(g.serial), world_from_object, object.instanced);
+                parts_.push_back({0, int32_t(object.node.value), spans[i].first_index, spans[i].first_vertex,
+                                  object.instanced ? int32_t(instances_.size()) - 1 : -1, flags, -1});
+                part_materials_.push_back(object.parts[i].material);
+                part_triangles_.push_back(int64_t(g.triangle_count()));
+                part_vertices_.push_back(int64_t(g.positions.size()));
+                if (!object.instanced) place(parts_.size() - 1, g, world_from_object);
+            }
         }
     }
 }
@@ -170,16 +188,14 @@ void GeometryPool::move(const std::vector<SceneObject>& before, const std::vecto
     origin_ = origin;
     size_t part = 0, instance = 0;
     for (size_t i = 0; i < objects.size(); ++i) {
-        const bool moved = all_moved || before[i].world_from_object != objects[i].world_from_object;
-        const Affined world_from_object = placed(objects[i], origin);
-        if (objects[i].instanced) {
-            if (moved) instances_[instance] = make_instance(world_from_object);
-            ++instance;
-        }
-        for (const MeshPart& p : objects[i].parts) {
-            if (moved && !objects[i].instanced) place(part, *p.geometry, world_from_object);
-            ++part;
-        }
+        const SceneObject& object = objects[i];
+        const bool moved = all_moved || before[i].world_from_object != object.world_from_object;
+        if (moved && object.instanced)
+            for (size_t copy = 0; copy < object.copies(); ++copy) instances_[instance + copy] = make_instance(placed(object, copy, origin));
+        if (moved && !object.instanced)
+            for (size_t k = 0; k < object.parts.size(); ++k) place(part + k, *object.parts[k].geometry, placed(object, 0, origin));
+        if (object.instanced) instance += object.copies();
+        part += placed_parts(object);
     }
 }
 
@@ -192,13 +208,36 @@ void GeometryPool::corners(size_t part, int64_t triangle, Vec3 (&p)[3]) const {
     }
 }
 
-int64_t GeometryPool::degenerate_count(size_t part) const {
+int64_t GeometryPool::degenerate_in(size_t part) const {
+    const PartRecord& record = parts_[part];
+    const uint32_t* corner = indices_.data() + record.first_index;
+    const auto position = [&](uint32_t i) { return to_double(positions_[size_t(record.first_vertex) + i]); };
     int64_t n = 0;
-    for (int64_t t = 0; t < part_triangles_[part]; ++t) {
-        Vec3 p[3];
-        corners(part, t, p);
-        const Vec3d a = to_double(p[0]), normal = cross(to_double(p[1]) - a, to_double(p[2]) - a);
+    for (int64_t t = 0; t < part_triangles_[part]; ++t, corner += 3) {
+        const Vec3d a = position(corner[0]), normal = cross(position(corner[1]) - a, position(corner[2]) - a);
         n += !(dot(normal, normal) > 0);
+    }
+    return n;
+}
+
+int64_t GeometryPool::degenerate_count() const {
+    std::map<int32_t, int64_t> in_object_space; // of instanced geometry, by its first index
+    int64_t n = 0;
+    for (size_t part = 0; part < parts_.size(); ++part) {
+        const PartRecord& record = parts_[part];
+        if (record.transform < 0) {
+            n += degenerate_in(part);
+            continue;
+        }
+        const InstanceRecord& instance = instances_[size_t(record.transform)];
+        // What a place flattens has no area there, whatever it has elsewhere.
+        if (!(std::abs(determinant(to_double(instance.world_from_object))) > 0)) {
+            n += part_triangles_[part];
+            continue;
+        }
+        const auto [known, is_new] = in_object_space.try_emplace(record.first_index, 0);
+        if (is_new) known->second = degenerate_in(part);
+        n += known->second;
     }
     return n;
 }
@@ -222,7 +261,7 @@ AccelScene GeometryPool::accel_scene(const std::vector<SceneObject>& objects, co
     AccelScene scene;
     // Instanced parts of the same data and material are equally opaque: the first answers for all, so that they share one bottom level.
     std::map<std::pair<uint64_t, Id<Material>>, int32_t> first_alike;
-    size_t part = 0;
+    size_t part = 0, instance = 0;
     for (size_t i = 0; i < objects.size(); ++i) {
         const SceneObject& object = objects[i];
         std::vector<AccelTriangles> triangles;
@@ -235,9 +274,11 @@ AccelScene GeometryPool::accel_scene(const std::vector<SceneObject>& objects, co
                                  object.instanced ? seen_by_all : masks[i]});
             ++part;
         }
-        if (object.instanced)
-            scene.instances.push_back({std::move(triangles), instances_[scene.instances.size()].world_from_object, masks[i]});
-        else
+        part += placed_parts(object) - object.parts.size(); // those of its other copies
+        if (object.instanced) {
+            scene.instances.push_back({std::move(triangles), std::span(instances_).subspan(instance, object.copies()), masks[i]});
+            instance += object.copies();
+        } else
             scene.flat.insert(scene.flat.end(), triangles.begin(), triangles.end());
     }
     return scene;
@@ -245,7 +286,8 @@ AccelScene GeometryPool::accel_scene(const std::vector<SceneObject>& objects, co
 
 size_t GeometryPool::memory_bytes() const {
     const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-    return bytes(parts_) + bytes(instances_) + bytes(indices_) + bytes(positions_) + bytes(normals_) + bytes(tangents_) + bytes(colors_) +
+    return bytes(parts_) + bytes(part_materials_) + bytes(part_triangles_) + bytes(part_vertices_) + bytes(instances_) +
+           bytes(instance_first_part_) + bytes(indices_) + bytes(positions_) + bytes(normals_) + bytes(tangents_) + bytes(colors_) +
            bytes(uv0_) + bytes(uv1_);
 }
 

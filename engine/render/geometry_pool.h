@@ -25,20 +25,21 @@ public:
     // Objects of the same shape at other places, or seen from another origin: rewrites what moved. `before` as given last time.
     void move(const std::vector<SceneObject>& before, const std::vector<SceneObject>& objects, const Vec3d& origin);
 
-    // One record per part, in the order of objects and their parts.
+    // One record per part and copy, in the order of objects, their copies and the parts of each.
     std::vector<PartRecord>& parts() { return parts_; }
     const std::vector<PartRecord>& parts() const { return parts_; }
     // The material of each part in the scene.
     const std::vector<Id<Material>>& part_materials() const { return part_materials_; }
     int64_t triangle_count(size_t part) const { return part_triangles_[part]; }
-    // Triangles of a part that have no area where they lie.
-    int64_t degenerate_count(size_t part) const;
+    // Triangles that have no area where they lie.
+    int64_t degenerate_count() const;
     // World-space corners of a triangle of a part, as the kernels compute them.
     void corners(size_t part, int64_t triangle, Vec3 (&p)[3]) const;
 
     void fill(SceneTables& tables) const;
-    // For the builder; alpha[part] asks for opacity tests, masks[object] says which rays meet it.
-    AccelScene accel_scene(const std::vector<SceneObject>& objects, const std::vector<bool>& alpha, const std::vector<uint32_t>& masks) const;
+    // For the builder, valid until the next change; alpha[part] asks for opacity tests, masks[object] says which rays meet it.
+    AccelScene accel_scene(const std::vector<SceneObject>& objects, const std::vector<bool>& alpha,
+                           const std::vector<uint32_t>& masks) const;
     int64_t instance_count() const { return int64_t(instances_.size()); }
     int64_t vertex_count() const { return int64_t(positions_.size()); }
     // Some part has vertex normals that differ from its faces'.
@@ -50,6 +51,7 @@ private:
         int32_t first_vertex = 0, first_index = 0;
     };
     void reserve(const std::vector<SceneObject>& objects, bool normals);
+    int64_t degenerate_in(size_t part) const; // as it is stored
     Span append(const Geometry& geometry, bool normals);
     void place(size_t part, const Geometry& geometry, const Affined& world_from_object);
 

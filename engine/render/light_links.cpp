@@ -27,8 +27,12 @@ public:
         sets_.push_back(set);
         const size_t first = bits_.size();
         bits_.resize(first + size_t(words_));
-        for (size_t part = 0; part < geometry_.parts().size(); ++part)
-            if (contains(set, scene_, Id<Node>{uint32_t(geometry_.parts()[part].object)})) bits_[first + part / 32] |= 1u << part % 32;
+        const std::vector<PartRecord>& parts = geometry_.parts();
+        bool in_set = false; // what follows each other is mostly of one object
+        for (size_t part = 0; part < parts.size(); ++part) {
+            if (part == 0 || parts[part].object != parts[part - 1].object) in_set = contains(set, scene_, Id<Node>{uint32_t(parts[part].object)});
+            if (in_set) bits_[first + part / 32] |= 1u << part % 32;
+        }
         return int32_t(sets_.size()) - 1;
     }
     std::vector<uint32_t> bits() && { return std::move(bits_); }

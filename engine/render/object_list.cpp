@@ -22,8 +22,15 @@ size_t triangles_of(const SceneObject& object) {
 } // namespace
 
 bool SceneObject::same_shape(const SceneObject& other) const {
-    const auto same_part = [](const MeshPart& a, const MeshPart& b) { return a.geometry->serial == b.geometry->serial && a.material == b.material; };
-    return node == other.node && instanced == other.instanced && std::equal(parts.begin(), parts.end(), other.parts.begin(), other.parts.end(), same_part);
+    const auto same_part = [](const MeshPart& a, const MeshPart& b) {
+        return a.geometry->serial == b.geometry->serial && a.material == b.material;
+    };
+    return node == other.node && instanced == other.instanced && instances == other.instances &&
+           std::equal(parts.begin(), parts.end(), other.parts.begin(), other.parts.end(), same_part);
+}
+
+Affined SceneObject::world_from_copy(size_t copy) const {
+    return instances ? world_from_object * to_double(instances->node_from_copy[copy]) : world_from_object;
 }
 
 std::vector<SceneObject> list_objects(const Scene& scene) {
@@ -33,17 +40,18 @@ std::vector<SceneObject> list_objects(const Scene& scene) {
     for (const auto& [id, node] : scene.nodes) {
         const Mesh* mesh = node.mesh ? scene.meshes.find(node.mesh) : nullptr;
         if (!mesh || !placements(id).visible) continue;
-        SceneObject object{id, {}, placements(id).world_from_node, false};
+        SceneObject object{id, {}, placements(id).world_from_node, false, node.instances};
         for (const MeshPart& part : mesh->parts)
             if (part.geometry && part.geometry->triangle_count() > 0) object.parts.push_back(part);
-        if (object.parts.empty() || !is_finite(object.world_from_object)) continue;
+        if (object.parts.empty() || object.copies() == 0 || !is_finite(object.world_from_object)) continue;
         ++uses[node.mesh];
         objects.push_back(std::move(object));
     }
     size_t flat = 0;
     for (SceneObject& object : objects) {
         const size_t n = triangles_of(object);
-        object.instanced = uses[scene.nodes.find(object.node)->mesh] > 1 || n > largest_flat_mesh || flat + n > largest_flat_scene;
+        object.instanced =
+            object.instances || uses[scene.nodes.find(object.node)->mesh] > 1 || n > largest_flat_mesh || flat + n > largest_flat_scene;
         if (!object.instanced) flat += n;
     }
     std::stable_partition(objects.begin(), objects.end(), [](const SceneObject& o) { return !o.instanced; });

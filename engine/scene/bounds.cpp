@@ -16,6 +16,14 @@ void include_mesh(const Scene& scene, const Node& node, const Affined& world_fro
     }
 }
 
+// Boxes around the mesh's box for copies, which are many.
+void include_node(const Scene& scene, const Node& node, const Affined& world_from_node, Bounds& bounds) {
+    if (!node.instances) return include_mesh(scene, node, world_from_node, bounds);
+    Bounds box;
+    include_mesh(scene, node, Affined{}, box);
+    for (const Affine& place : node.instances->node_from_copy) bounds.include(box, world_from_node * to_double(place));
+}
+
 } // namespace
 
 void Bounds::include(const Vec3d& p) {
@@ -29,12 +37,19 @@ void Bounds::include(const Vec3d& p) {
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
 }
 
+void Bounds::include(const Bounds& box, const Affined& world_from_box) {
+    if (box.empty) return;
+    const Vec3d corner[2] = {box.low, box.high};
+    for (int k = 0; k < 8; ++k)
+        include(transform_point(world_from_box, Vec3d{corner[k & 1].x, corner[k >> 1 & 1].y, corner[k >> 2 & 1].z}));
+}
+
 Vec3d Bounds::center() const { return (low + high) * 0.5; }
 double Bounds::radius() const { return 0.5 * length(high - low); }
 
 Bounds world_bounds(const Scene& scene, Id<Node> node) {
     Bounds bounds;
-    if (const Node* n = scene.nodes.find(node)) include_mesh(scene, *n, world_from_node(scene, node), bounds);
+    if (const Node* n = scene.nodes.find(node)) include_node(scene, *n, world_from_node(scene, node), bounds);
     return bounds;
 }
 
@@ -42,7 +57,7 @@ Bounds world_bounds(const Scene& scene) {
     Bounds bounds;
     Placements placements(scene);
     for (const auto& [id, node] : scene.nodes)
-        if (node.mesh && placements(id).visible) include_mesh(scene, node, placements(id).world_from_node, bounds);
+        if (node.mesh && placements(id).visible) include_node(scene, node, placements(id).world_from_node, bounds);
     return bounds;
 }
 

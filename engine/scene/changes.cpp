@@ -63,7 +63,8 @@ void diff_nodes(const Scene& before, const Scene& after, Changes& changes) {
         const bool moved_in_tree = a->parent != b->parent;
         if (moved_in_tree || a->local != b->local) changes.transforms.push_back(id);
         const bool shown_or_hidden = a->visible != b->visible || (moved_in_tree && is_visible(before, id) != is_visible(after, id));
-        if (shown_or_hidden || a->mesh != b->mesh || a->light != b->light) changes.structure.push_back(id);
+        if (shown_or_hidden || a->mesh != b->mesh || !same_payload(a->instances, b->instances) || a->light != b->light)
+            changes.structure.push_back(id);
     }
 }
 

@@ -17,7 +17,7 @@ struct Changes {
     bool environment_parameters = false; // colour, intensity, rotation, visibility
     bool environment_image = false;      // kind or pixels
     std::vector<Id<Node>> transforms;    // local transform or parent changed
-    std::vector<Id<Node>> structure;     // node added, removed, shown, hidden, or given another mesh or light
+    std::vector<Id<Node>> structure;     // node added, removed, shown, hidden, or given another mesh, other places for its copies or another light
     std::vector<Id<Mesh>> meshes;        // geometry of a part changed, parts added or removed, material slot of a part changed
     std::vector<Id<Material>> materials;
     std::vector<Id<Texture>> textures;

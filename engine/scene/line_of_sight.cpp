@@ -3,6 +3,7 @@
 #include "scene/affine.h"
 #include "scene/placements.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace blush {
@@ -35,6 +36,58 @@ bool lets_light_through(const Material* m) {
                  (m->alpha == Material::Alpha::blend && (m->opacity < 1 || m->base_color_texture.texture)));
 }
 
+// The parts of a mesh that are in the way of light.
+std::vector<const Geometry*> solid_parts(const Scene& scene, const Mesh& mesh) {
+    std::vector<const Geometry*> parts;
+    for (const MeshPart& part : mesh.parts)
+        if (part.geometry && !lets_light_through(scene.materials.find(part.material))) parts.push_back(part.geometry.get());
+    return parts;
+}
+
+Bounds box_of(const std::vector<const Geometry*>& parts) {
+    Bounds box;
+    for (const Geometry* g : parts)
+        for (const Vec3& p : g->positions) box.include(to_double(p));
+    return box;
+}
+
+// The straight line from `origin` along `way` to its end meets the box.
+bool meets(const Bounds& box, const Vec3d& origin, const Vec3d& way) {
+    const double from[3] = {origin.x, origin.y, origin.z}, along[3] = {way.x, way.y, way.z};
+    const double low[3] = {box.low.x, box.low.y, box.low.z}, high[3] = {box.high.x, box.high.y, box.high.z};
+    double begin = 0, end = 1;
+    for (int k = 0; k < 3; ++k) {
+        if (along[k] == 0 && (from[k] < low[k] || from[k] > high[k])) return false;
+        if (along[k] == 0) continue;
+        const double a = (low[k] - from[k]) / along[k], b = (high[k] - from[k]) / along[k];
+        begin = std::max(begin, std::min(a, b));
+        end = std::min(end, std::max(a, b));
+    }
+    return begin <= end * (1 + 1e-12);
+}
+
+// The nearest in parts that lie somewhere, `box` around them in their own space; null: not worth looking at.
+double nearest_in(const std::vector<const Geometry*>& parts, const Affined& world_from_parts, const Bounds* box, const Vec3d& from, const Vec3d& to,
+                  double nearest) {
+    if (!(std::abs(determinant(world_from_parts)) > 0)) return nearest;
+    const Affined parts_from_world = inverse(world_from_parts);
+    const Vec3d origin = transform_point(parts_from_world, from), way = transform_point(parts_from_world, to) - origin;
+    if (box && !meets(*box, origin, way)) return nearest;
+    for (const Geometry* g : parts) nearest = nearest_in(*g, origin, way, nearest);
+    return nearest;
+}
+
+// The nearest in the mesh of a node, or in all copies of it.
+double nearest_in(const Scene& scene, const Node& node, const Mesh& mesh, const Affined& world_from_node, const Vec3d& from, const Vec3d& to,
+                  double nearest) {
+    const std::vector<const Geometry*> parts = solid_parts(scene, mesh);
+    if (!node.instances) return nearest_in(parts, world_from_node, nullptr, from, to, nearest);
+    const Bounds box = box_of(parts);
+    for (const Affine& place : node.instances->node_from_copy)
+        nearest = nearest_in(parts, world_from_node * to_double(place), &box, from, to, nearest);
+    return nearest;
+}
+
 } // namespace
 
 std::optional<Id<Node>> first_between(const Scene& scene, const Vec3d& from, const Vec3d& to, const std::function<bool(Id<Node>)>& counts) {
@@ -44,16 +97,11 @@ std::optional<Id<Node>> first_between(const Scene& scene, const Vec3d& from, con
     for (const auto& [id, node] : scene.nodes) {
         const Mesh* mesh = scene.meshes.find(node.mesh);
         const Placement& placed = placements(id);
-        if (!mesh || !placed.visible || !counts(id) || !(std::abs(determinant(placed.world_from_node)) > 0)) continue;
-        const Affined node_from_world = inverse(placed.world_from_node);
-        const Vec3d origin = transform_point(node_from_world, from), way = transform_point(node_from_world, to) - origin;
-        for (const MeshPart& part : mesh->parts) {
-            if (!part.geometry || lets_light_through(scene.materials.find(part.material))) continue;
-            const double t = nearest_in(*part.geometry, origin, way, nearest);
-            if (t < nearest) {
-                nearest = t;
-                first = id;
-            }
+        if (!mesh || !placed.visible || !counts(id)) continue;
+        const double t = nearest_in(scene, node, *mesh, placed.world_from_node, from, to, nearest);
+        if (t < nearest) {
+            nearest = t;
+            first = id;
         }
     }
     return first;

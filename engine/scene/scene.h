@@ -168,6 +168,13 @@ struct Camera {
     bool operator==(const Camera&) const = default;
 };
 
+// Places of the copies of a node's mesh, in the node's own space: EXT_mesh_gpu_instancing. Immutable once shared; 48 bytes each.
+struct Instances {
+    uint64_t serial = next_payload_serial();
+    std::vector<Affine> node_from_copy; // finite
+};
+using InstancesPtr = std::shared_ptr<const Instances>;
+
 // Node-local transform. Applied scale, then rotation, then translation. A matrix that no such triple
 // reproduces (shear) is kept in `matrix`, which then wins until the user edits the node.
 struct Transform {
@@ -183,6 +190,7 @@ struct Node {
     Id<Node> parent; // none: a root
     Transform local;
     Id<Mesh> mesh;
+    InstancesPtr instances; // none: the mesh is there once, where the node is
     Id<Light> light;
     Id<Camera> camera;
     bool visible = true; // false hides the node and all below it, light included
@@ -277,10 +285,12 @@ struct Bounds {
     Vec3d low{0, 0, 0}, high{0, 0, 0};
     bool empty = true;
     void include(const Vec3d& p);
+    // The corners of a box that lies somewhere.
+    void include(const Bounds& box, const Affined& world_from_box);
     Vec3d center() const;
     double radius() const; // of the sphere around centre
 };
-// World bounds of one node's own mesh (not its children), or of all visible geometry.
+// World bounds of one node's own mesh (not its children), or of all visible geometry; of copies, of the boxes around their boxes.
 Bounds world_bounds(const Scene& scene, Id<Node> node);
 Bounds world_bounds(const Scene& scene);
 // The view from `view`'s direction that shows the whole of `bounds` at the given aspect (width / height).

@@ -69,6 +69,14 @@ public:
         node.local.scale = {scale, scale, scale};
         return project_.scene.nodes.add(node);
     }
+    void place_copies(const char* name, Id<Mesh> mesh, const std::vector<Vec3>& places, float scale) {
+        Instances instances;
+        for (const Vec3& at : places) instances.node_from_copy.push_back({{scale, 0, 0}, {0, scale, 0}, {0, 0, scale}, at});
+        const Id<Node> id = place(name, mesh, {0, 0, 0});
+        Node node = *project_.scene.nodes.find(id);
+        node.instances = std::make_shared<const Instances>(std::move(instances));
+        project_.scene.nodes.set(id, std::move(node));
+    }
     void light(const char* name, Vec3 at, Quat rotation, auto&& with) {
         Light l;
         l.name = name;
@@ -121,6 +129,7 @@ void add_things(Builder& b) {
     const Id<Mesh> twig = b.mesh("Twig", quad, leaves);
     b.place("Twig 1", twig, {-0.6f, -0.2f, 1.5f}, 0.7f);
     b.place("Twig 2", twig, {-0.4f, -0.1f, 1.8f}, 0.7f);
+    b.place_copies("Lanterns", b.mesh("Lantern", ball, screen), {{-0.9f, 0.9f, 1.4f}, {0.2f, 1, 1.6f}, {0.7f, 0.8f, 1.2f}}, 0.08f);
 }
 
 void add_lights(Builder& b) {

@@ -1,0 +1,97 @@
+// Copies of one node's mesh (EXT_mesh_gpu_instancing) look, shine and are picked as nodes of their own would, but as one object.
+#include "picture.h"
+#include "render/render_scene.h"
+#include "scene/affine.h"
+#include "scene/line_of_sight.h"
+#include "scenes.h"
+
+#include <algorithm>
+
+namespace blush::test {
+namespace {
+
+constexpr PlaneSet planes{.albedo = true, .normal = true, .depth = true, .ids = true};
+
+std::vector<Affine> places() {
+    Transform turned, mirrored;
+    turned.translation = {1.2f, 0.3f, -0.4f}, turned.rotation = {0.1f, 0.2f, 0.05f, 0.97f}, turned.scale = {0.3f, 0.5f, 0.4f};
+    mirrored.translation = {-1.1f, 0.2f, 0.3f}, mirrored.scale = {-0.4f, 0.6f, 0.4f};
+    return {to_float(to_affine(at({0, 0.4f, 0}, 0.4f))), to_float(to_affine(turned)), to_float(to_affine(mirrored))};
+}
+
+struct Orchard {
+    Scene scene;
+    Id<Node> tree; // the only one, or the first
+
+    Orchard(const Material& material, bool copies) {
+        place(scene, floor_quad(3, -0.5f), lambert({0.4f, 0.5f, 0.3f}));
+        constant_world(scene, 0.3f);
+        const Id<Mesh> mesh = scene.meshes.add({"Tree", {{cube(false), scene.materials.add(material)}, {sphere(false), scene.materials.add(lambert(0.6f))}}});
+        Node node;
+        node.mesh = mesh;
+        if (copies) {
+            Instances instances;
+            instances.node_from_copy = places();
+            node.instances = std::make_shared<const Instances>(std::move(instances));
+            tree = scene.nodes.add(node);
+        } else {
+            for (const Affine& place : places()) {
+                node.local.matrix = place;
+                const Id<Node> id = scene.nodes.add(node);
+                if (!tree) tree = id;
+            }
+        }
+        scene.view = looking({1, 3, 4}, {0, 0.2f, 0}, 0.7f);
+    }
+};
+
+TEST(Copies, LookLikeNodesOfTheirOwn) {
+    Material leaves = lambert({0.8f, 0.3f, 0.2f});
+    leaves.alpha = Material::Alpha::blend;
+    leaves.opacity = 0.6f;
+    for (const Material& material : {plastic(0.3f), metal(0.05f), leaves}) {
+        const RenderSettings settings = settings_for(32, 24, 4);
+        const Frame copies = render(Orchard(material, true).scene, settings, planes).frame;
+        const Frame nodes = render(Orchard(material, false).scene, settings, planes).frame;
+        EXPECT_EQ(copies.rgba, nodes.rgba);
+        EXPECT_EQ(copies.normal, nodes.normal);
+        EXPECT_EQ(copies.depth, nodes.depth);
+    }
+}
+
+TEST(Copies, ThatGlowAreSampled) {
+    const Orchard copies(emitter(3, 0.5f), true), nodes(emitter(3, 0.5f), false);
+    RenderSettings settings = settings_for(32, 24, 4);
+    settings.strategy = Strategy::light;
+    const Picture picture = render(copies.scene, settings, planes);
+    EXPECT_EQ(picture.frame.rgba, render(nodes.scene, settings, planes).frame.rgba);
+    Renderer renderer({.threads = 1, .planes = {}});
+    renderer.update(copies.scene, settings);
+    EXPECT_EQ(renderer.info().emissive_triangles, 3 * 12);
+    EXPECT_EQ(renderer.info().instances, 3);
+    EXPECT_EQ(renderer.info().triangles, 3 * (12 + 512) + 2);
+}
+
+TEST(Copies, ArePickedAsTheirNode) {
+    const Orchard orchard(plastic(0.3f), true);
+    const Frame frame = render(orchard.scene, settings_for(32, 24, 1), planes).frame;
+    const auto seen = std::ranges::count(frame.object_id, orchard.tree.value);
+    const Orchard nodes(plastic(0.3f), false);
+    const Frame apart = render(nodes.scene, settings_for(32, 24, 1), planes).frame;
+    EXPECT_GT(seen, 20);
+    EXPECT_EQ(seen, std::ranges::count_if(apart.object_id, [&](uint32_t id) { return id >= nodes.tree.value; }));
+}
+
+TEST(Copies, HaveBoundsAndStandInTheWay) {
+    const Orchard copies(plastic(0.3f), true), nodes(plastic(0.3f), false);
+    const Bounds all = world_bounds(nodes.scene), same = world_bounds(copies.scene);
+    EXPECT_EQ(all.low, same.low) << "of cubes, whose boxes they fill";
+    EXPECT_EQ(all.high, same.high);
+    const auto is_tree = [&](Id<Node> id) { return id == copies.tree; };
+    EXPECT_EQ(first_between(copies.scene, {1.2, 3, -0.4}, {1.2, -3, -0.4}, is_tree), copies.tree);
+    EXPECT_EQ(first_between(copies.scene, {-1.1, 3, 0.3}, {-1.1, -3, 0.3}, is_tree), copies.tree);
+    EXPECT_FALSE(first_between(copies.scene, {-1.1, 3, 1.3}, {-1.1, -3, 1.3}, is_tree)) << "past it";
+}
+
+} // namespace
+} // namespace blush::test
