@@ -3,6 +3,8 @@
 #include "core/math.h"
 #include "io/gltf_accessors.h"
 #include "io/gltf_extras.h"
+#include "io/gltf_points_lines.h"
+#include "io/gltf_suspicions.h"
 #include "io/gltf_tangents.h"
 #include "scene/affine.h"
 
@@ -182,6 +184,17 @@ void provide_tangents(const GltfContext& context, Geometry& g, int uv_set, const
     context.note("approximated: tangents computed from texture coordinates", where);
 }
 
+GeometryPtr solids(const GltfContext& context, const Geometry& vertices, const std::vector<uint32_t>& order, int mode, const std::string& where) {
+    Solids made = solids_of(vertices, order, mode);
+    const char* what = mode == TINYGLTF_MODE_POINTS ? "points" : "lines";
+    if (made.left_out > 0) context.warn(fmt::format("ignored: {} {} that are nowhere, of no length or too many", made.left_out, what), where);
+    if (made.shown == 0) return {};
+    context.note(fmt::format("approximated: {} {} as {} of radius {:.3g}: they have no surface of their own", made.shown, what,
+                             mode == TINYGLTF_MODE_POINTS ? "balls" : "tubes", made.radius),
+                 where);
+    return std::make_shared<const Geometry>(std::move(made.geometry));
+}
+
 void report_ignored(const GltfContext& context, const tinygltf::Primitive& primitive, const std::string& where) {
     constexpr std::array read = {"POSITION", "NORMAL", "TANGENT", "TEXCOORD_0", "TEXCOORD_1", "COLOR_0"};
     for (const auto& [name, accessor] : primitive.attributes)
@@ -195,10 +208,8 @@ void report_ignored(const GltfContext& context, const tinygltf::Primitive& primi
 Result<GeometryPtr> import_primitive(const GltfContext& context, const tinygltf::Primitive& primitive, int tangent_uv_set,
                                      const std::string& where) {
     report_ignored(context, primitive, where);
-    if (primitive.mode < TINYGLTF_MODE_TRIANGLES || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN) {
-        const bool known = primitive.mode >= TINYGLTF_MODE_POINTS && primitive.mode <= TINYGLTF_MODE_LINE_STRIP;
-        context.warn(
-            known ? "ignored: points and lines have no surface" : fmt::format("ignored: unknown primitive mode {}", primitive.mode), where);
+    if (primitive.mode < TINYGLTF_MODE_POINTS || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN) {
+        context.warn(fmt::format("ignored: unknown primitive mode {}", primitive.mode), where);
         return GeometryPtr();
     }
     auto geometry = std::make_shared<Geometry>();
@@ -206,6 +217,7 @@ Result<GeometryPtr> import_primitive(const GltfContext& context, const tinygltf:
     if (const auto ok = read_attributes(context, primitive, g, where); !ok) return ok.error();
     const auto order = vertex_order(context, primitive, g.positions.size(), where);
     if (!order) return order.error();
+    if (primitive.mode < TINYGLTF_MODE_TRIANGLES) return solids(context, g, *order, primitive.mode, where);
     if (primitive.mode == TINYGLTF_MODE_TRIANGLES && order->size() % 3 != 0)
         context.warn("the last triangle lacks a corner and is left out", where);
     g.indices = triangulate(*order, primitive.mode);
@@ -214,6 +226,7 @@ Result<GeometryPtr> import_primitive(const GltfContext& context, const tinygltf:
         return GeometryPtr();
     }
     if (const auto ok = drop_non_finite_triangles(context, g, where); !ok) return ok.error();
+    report_geometry(context, g, where);
     if (g.normals.empty())
         make_flat(g);
     else

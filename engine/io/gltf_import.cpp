@@ -10,6 +10,7 @@
 #include "io/gltf_nodes.h"
 #include "io/gltf_report.h"
 #include "io/gltf_source.h"
+#include "io/gltf_suspicions.h"
 #include "io/gltf_textures.h"
 #include "io/gltf_unpacked.h"
 #include "io/settings_json.h"
@@ -97,6 +98,10 @@ Result<void> convert_gltf(const GltfContext& context, ImportedScene& imported) {
     for (const auto& [id, index] : indices.meshes) indices.primitives[id] = meshes->primitives[size_t(index)];
     index_lights(targets.lights, indices);
 
+    if (!context.known) {
+        report_units(context, scene, indices);
+        report_textures(context, scene, indices);
+    }
     scene.view = initial_view(scene);
     if (const auto index = default_scene(context))
         if (const auto ok = import_scene_extras(context, *index, imported); !ok) return ok;

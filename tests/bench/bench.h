@@ -26,6 +26,7 @@ Json run_kernels(const Options& options);
 Json run_latency(const Options& options);
 Json run_setup(const Options& options);
 Json run_startup(const Options& options);
+Json run_big_scenes(const Options& options);
 Json run_denoise(const Options& options);
 Json run_estimate(const Options& options);
 Json run_error_coverage(const Options& options);

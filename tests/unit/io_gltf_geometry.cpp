@@ -73,17 +73,6 @@ TEST(GltfGeometry, StripsAndFansKeepTheirWinding) {
     }
 }
 
-TEST(GltfGeometry, PointsAndLinesAreReportedIgnored) {
-    for (const int mode : {0, 1, 2, 3}) {
-        GltfBuilder b;
-        b.show({{"attributes", {{"POSITION", b.triangle_positions()}}}, {"mode", mode}});
-        const auto imported = import_built(b);
-        ASSERT_TRUE(imported) << error_text(imported);
-        EXPECT_TRUE(imported->scene.meshes.begin()->value.parts.empty());
-        EXPECT_TRUE(reports(imported->report, "points and lines"));
-    }
-}
-
 TEST(GltfGeometry, IntegerTextureCoordinatesAndColorsAreNormalised) {
     GltfBuilder b;
     const Json attributes = {{"POSITION", b.triangle_positions()},

@@ -1,0 +1,76 @@
+#include "io/gltf_suspicions.h"
+
+#include "core/math.h"
+#include "io/gltf_document.h"
+#include "scene/affine.h"
+#include "scene/light_units.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace blush {
+namespace {
+
+constexpr double brightest_lamp = 100'000;  // lumens: some sixty bulbs of 100 W
+constexpr double brightest_sun = 200'000;   // lux: the sun in space gives 130,000
+constexpr double dimmest_sun = 50;          // lux: of a day; many viewers of the web take 1 to 10 for daylight
+constexpr double brightest_surface = 1e7;   // nits: a bulb's filament
+constexpr double largest_scene = 50'000, smallest_scene = 0.001; // metres across
+
+// Byte-sized normals are off by less.
+constexpr double unit_tolerance = 0.02;
+
+void report_light(const GltfContext& context, const Light& light, const std::string& where) {
+    if (light.ies || !light.enabled) return;
+    if (light.kind == Light::Kind::sun) {
+        if (light.intensity > brightest_sun)
+            context.warn(fmt::format("{:.4g} lux is brighter than the sun in space, {:.0f}", light.intensity, 130'000.0), where);
+        else if (light.intensity > 0 && light.intensity < dimmest_sun)
+            context.note(fmt::format("{:.3g} lux is dimmer than a lit room; a cloudy day has 10000", light.intensity), where);
+        return;
+    }
+    if (is_per_area(light.kind)) {
+        if (light.intensity > brightest_surface) context.warn(fmt::format("{:.4g} nits is brighter than a bulb's filament", light.intensity), where);
+        return;
+    }
+    const double lumens = luminous_flux(light);
+    if (lumens > brightest_lamp)
+        context.warn(fmt::format("{:.4g} candela are {:.3g} lumens, as of {:.0f} bulbs of 100 W; glTF's unit is the candela: were they watts?",
+                                 light.intensity, lumens, lumens / 1600),
+                     where);
+}
+
+} // namespace
+
+void report_units(const GltfContext& context, const Scene& scene, const GltfIndices& indices) {
+    for (const auto& [id, place] : indices.lights)
+        if (const Light* light = scene.lights.find(id))
+            report_light(context, *light, fmt::format("extensions.{}.lights[{}].intensity", list_name(place.list), place.index));
+    for (const auto& [id, index] : indices.materials) {
+        const Material* m = scene.materials.find(id);
+        if (!m) continue;
+        const double nits = double(std::max({m->emissive.x, m->emissive.y, m->emissive.z})) * double(m->emissive_strength);
+        if (nits > brightest_surface) context.warn(fmt::format("{:.4g} nits is brighter than a bulb's filament", nits), fmt::format("materials[{}]", index));
+    }
+    const Bounds bounds = world_bounds(scene);
+    const double across = 2 * bounds.radius();
+    if (!bounds.empty && across > largest_scene)
+        context.warn(fmt::format("the scene is {:.4g} km across; glTF's unit is the metre: were they millimetres or centimetres?", across / 1000), "scene");
+    if (!bounds.empty && across > 0 && across < smallest_scene)
+        context.warn(fmt::format("the scene is {:.4g} mm across; glTF's unit is the metre", across * 1000), "scene");
+}
+
+void report_geometry(const GltfContext& context, const Geometry& g, const std::string& where) {
+    size_t flat = 0;
+    for (size_t i = 0; i + 2 < g.indices.size(); i += 3) {
+        const Vec3d a = to_double(g.positions[g.indices[i]]);
+        const Vec3d normal = cross(to_double(g.positions[g.indices[i + 1]]) - a, to_double(g.positions[g.indices[i + 2]]) - a);
+        flat += !(dot(normal, normal) > 0);
+    }
+    if (flat > 0) context.warn(fmt::format("{} of {} triangles have no area and cannot be seen", flat, g.triangle_count()), where);
+    const auto odd = std::ranges::count_if(g.normals, [](const Vec3& n) { return !(std::abs(length(to_double(n)) - 1) <= unit_tolerance); });
+    if (odd > 0) context.note(fmt::format("{} of {} normals are not of unit length; they are where they are read", odd, g.normals.size()), where);
+}
+
+} // namespace blush

@@ -1,0 +1,9 @@
+// Where libFuzzer comes in: one program for each target.
+#include "targets.h"
+
+#include <cstddef>
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+    blush::fuzz::BLUSH_FUZZ_TARGET({data, size});
+    return 0;
+}
