@@ -2,6 +2,7 @@
 
 #include "io/gltf_cameras.h"
 #include "io/gltf_convert.h"
+#include "io/gltf_demand.h"
 #include "io/gltf_extras.h"
 #include "io/gltf_image_light.h"
 #include "io/gltf_lights.h"
@@ -75,6 +76,7 @@ Result<void> convert_gltf(const GltfContext& context, ImportedScene& imported) {
     report_file(context);
     const auto nodes = reachable_nodes(context);
     if (!nodes) return nodes.error();
+    if (const auto ok = check_demand(context, *nodes); !ok) return ok.error();
     context.progress(0.3, "textures");
     const auto textures = import_textures(context, scene);
     if (!textures) return textures.error();

@@ -28,6 +28,9 @@ constexpr uint64_t max_file_bytes = uint64_t(4) << 30;
 constexpr int max_channels = 256;
 constexpr uint64_t max_layers_bytes = uint64_t(4) << 30; // of all channels of a layered image: zeros compress to nothing
 
+// Pixels of a file that is honest: deflate makes a thousandth of what is all alike, at most. Small pictures may do what they like.
+constexpr uint64_t most_compression = 4096, always_decoded = uint64_t(64) << 20; // bytes
+
 // Only these decoders ever see a file: fewer of them is less to attack, and names such as "x.null" mean nothing. TIFF is not
 // among them because its decoder fills in what a truncated file lacks with black and reports success.
 const char* format_of(std::span<const uint8_t> bytes) {
@@ -102,6 +105,9 @@ Result<Decoder> open_decoder(std::span<const uint8_t> bytes, const std::string& 
                      fmt::format("{} x {}, {} channels", spec.width, spec.height, spec.nchannels)};
     if (spec.width > limits.max_side || spec.height > limits.max_side || int64_t(spec.width) * spec.height > limits.max_pixels)
         return Error{name, "larger than the limit", fmt::format("{} x {} pixels", spec.width, spec.height)};
+    const uint64_t decoded = uint64_t(spec.width) * uint64_t(spec.height) * uint64_t(spec.nchannels) * spec.format.size();
+    if (decoded > always_decoded && decoded / most_compression > bytes.size())
+        return Error{name, "more pixels than its bytes can hold", fmt::format("{} x {} pixels in {} bytes", spec.width, spec.height, bytes.size())};
     return decoder;
 }
 

@@ -23,7 +23,7 @@ struct ImageLimits {
 
 // PNG, JPEG, EXR, HDR, WebP and BMP, told apart by their first bytes. 8-bit files stay bytes, everything else becomes
 // float; at most 4 channels (more are cut). Values are not converted between colour spaces, alpha is not multiplied in.
-// Errors: unreadable, unknown format, beyond the limits, truncated.
+// Errors: unreadable, unknown format, beyond the limits, truncated, more pixels than a file of its size can hold.
 Result<ImagePtr> read_image(const std::filesystem::path& file, const ImageLimits& limits = {});
 // The same from memory; `name` is for messages.
 Result<ImagePtr> read_image(std::span<const uint8_t> bytes, const std::string& name, const ImageLimits& limits = {});

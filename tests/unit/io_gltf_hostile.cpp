@@ -177,7 +177,7 @@ TEST(HostileGltf, UnbrokenItIsRead) {
     ASSERT_TRUE(imported) << error_text(imported);
     EXPECT_EQ(imported->scene.textures.size(), 1u);
     EXPECT_EQ(imported->scene.nodes.size(), 3u);
-    EXPECT_EQ(imported->report.diagnostics.size(), 3u) << "tangents, back faces, and clipping planes";
+    EXPECT_EQ(imported->report.diagnostics.size(), 5u) << "tangents, back faces, clipping planes, and a normal map that is a colour and none";
     const auto valid = validate(imported->scene);
     EXPECT_TRUE(valid) << error_text(valid);
 }
@@ -187,6 +187,16 @@ TEST(HostileGltf, EveryPositionNonFiniteIsAnError) {
     GltfBuilder b;
     b.show({{"attributes", {{"POSITION", b.accessor<float>(std::vector<float>(9, nan), "VEC3")}}}});
     EXPECT_NE(error_text(import_built(b)).find("every triangle has a NaN"), std::string::npos);
+}
+
+// A hundred primitives, each of an array of zeros that needs no bytes: 20 GB from a file of a few kilobytes.
+TEST(HostileGltf, MoreIsNotMadeOfAFileThanItCanHold) {
+    GltfBuilder b = triangle();
+    for (int i = 0; i < 100; ++i) {
+        const int zeros = b.add("accessors", {{"componentType", 5126}, {"count", 1 << 24}, {"type", "VEC3"}});
+        b.json["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", zeros}}}});
+    }
+    EXPECT_NE(error_text(import_built(b)).find("its primitives ask for 20133 MB"), std::string::npos) << error_text(import_built(b));
 }
 
 TEST(HostileGltf, DeeplyNestedJsonIsRefusedBeforeAnyRecursion) {

@@ -135,6 +135,9 @@ TEST(ImageIo, LimitsHoldBeforePixelsAreDecoded) {
     std::fill_n(png.begin() + 18, 2, '\xff');
     std::fill_n(png.begin() + 22, 2, '\xff');
     EXPECT_FALSE(decode(png));
+    // 3 GB of pixels, less than the limits, in 60 bytes.
+    EXPECT_NE(error_text(decode("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 16000 +X 16000\n")).find("more pixels than its bytes can hold"),
+              std::string::npos);
 }
 
 TEST(ImageIo, RandomBytesFlippedDoNoHarm) {

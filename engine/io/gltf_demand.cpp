@@ -1,0 +1,48 @@
+#include "io/gltf_demand.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <limits>
+
+namespace blush {
+namespace {
+
+// Of bytes asked for: what anybody may, and how often all buffers may be read over. Files whose primitives share one array of vertices do so
+// dozens of times.
+constexpr double free_bytes = 128e6, most_readings = 64;
+
+// Any component as a float, which is what it becomes. What cannot be read at all is an error when it is.
+double bytes_of(const GltfContext& context, int index) {
+    const auto& accessors = context.model().accessors;
+    if (index < 0 || size_t(index) >= accessors.size()) return 0;
+    const tinygltf::Accessor& accessor = accessors[size_t(index)];
+    if (accessor.count > std::numeric_limits<uint32_t>::max()) return 0;
+    return 4.0 * double(accessor.count) * std::max(1, tinygltf::GetNumComponentsInType(uint32_t(accessor.type)));
+}
+
+double bytes_of(const GltfContext& context, const tinygltf::Primitive& primitive) {
+    double bytes = bytes_of(context, primitive.indices);
+    for (const auto& [name, accessor] : primitive.attributes) bytes += bytes_of(context, accessor);
+    for (const auto& target : primitive.targets)
+        for (const auto& [name, accessor] : target) bytes += bytes_of(context, accessor);
+    return bytes;
+}
+
+} // namespace
+
+Result<void> check_demand(const GltfContext& context, const std::vector<int>& nodes) {
+    const tinygltf::Model& model = context.model();
+    std::vector<bool> counted(model.meshes.size());
+    double asked = 0, there = 0;
+    for (const int node : nodes) {
+        const int mesh = model.nodes[size_t(node)].mesh;
+        if (mesh < 0 || size_t(mesh) >= counted.size() || counted[size_t(mesh)]) continue;
+        counted[size_t(mesh)] = true;
+        for (const tinygltf::Primitive& primitive : model.meshes[size_t(mesh)].primitives) asked += bytes_of(context, primitive);
+    }
+    for (const tinygltf::Buffer& buffer : model.buffers) there += double(buffer.data.size());
+    if (asked <= free_bytes + most_readings * there) return {};
+    return context.error(fmt::format("its primitives ask for {:.0f} MB, but its buffers have {:.3g}", asked / 1e6, there / 1e6), "meshes");
+}
+
+} // namespace blush

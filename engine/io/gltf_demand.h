@@ -1,0 +1,14 @@
+// Internal to gltf_*.cpp: how much a file asks for before anything is made of it.
+#pragma once
+
+#include "io/gltf_source.h"
+
+#include <vector>
+
+namespace blush {
+
+// Primitives may name the same bytes again and again, and accessors need none at all, so that a small file could ask for all the memory there
+// is. Errors: the meshes of `nodes` ask for more than an honest file of this one's size.
+Result<void> check_demand(const GltfContext& context, const std::vector<int>& nodes);
+
+} // namespace blush
