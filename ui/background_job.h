@@ -1,6 +1,8 @@
 // One piece of work on a thread of its own, with progress and a cancel flag; the UI thread asks for the result once per frame.
 #pragma once
 
+#include "core/parallel.h"
+
 #include <atomic>
 #include <functional>
 #include <mutex>
@@ -37,6 +39,7 @@ public:
     // `wake` is called on the job's thread when the result is there. `work` must not throw.
     BackgroundJob(std::string title, std::function<T(JobProgress&)> work, std::function<void()> wake)
         : title_(std::move(title)), thread_([this, work = std::move(work), wake = std::move(wake)] {
+              lower_priority_of_this_thread();
               T result = work(progress_);
               {
                   const std::lock_guard lock(mutex_);

@@ -1,6 +1,8 @@
 // Measures something round after round on a thread of its own, while somebody looks.
 #pragma once
 
+#include "core/parallel.h"
+
 #include <atomic>
 #include <condition_variable>
 #include <exception>
@@ -75,6 +77,7 @@ private:
     }
 
     void run() {
+        lower_priority_of_this_thread();
         Work work;
         for (;;) {
             std::optional<Question> question;

@@ -20,13 +20,6 @@
 namespace blush {
 namespace {
 
-void lower_priority_of_this_thread() {
-#ifdef __linux__
-    // On Linux a nice value belongs to a thread. Failure only costs smoothness.
-    (void)setpriority(PRIO_PROCESS, id_t(syscall(SYS_gettid)), 10);
-#endif
-}
-
 class ThreadSetup : public tbb::task_scheduler_observer {
 public:
     ThreadSetup(tbb::task_arena& arena, bool low_priority) : tbb::task_scheduler_observer(arena), low_priority_(low_priority) { observe(true); }
@@ -55,6 +48,13 @@ public:
 };
 
 } // namespace
+
+void lower_priority_of_this_thread() {
+#ifdef __linux__
+    // On Linux a nice value belongs to a thread. Failure only costs smoothness.
+    (void)setpriority(PRIO_PROCESS, id_t(syscall(SYS_gettid)), 10);
+#endif
+}
 
 struct Workers::State {
     tbb::task_arena arena;

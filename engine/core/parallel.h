@@ -7,6 +7,9 @@
 
 namespace blush {
 
+// For work that the thread that draws the window must not wait for.
+void lower_priority_of_this_thread();
+
 // A bounded group of worker threads. Denormals are flushed to zero in all of them (Embree asks for it, and results must
 // not depend on which thread computed them); at low priority they never starve the thread that draws the window.
 class Workers {
