@@ -2,34 +2,10 @@
 
 #include "ui/theme.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <epoxy/gl.h>
 #include <imgui.h>
 
 namespace blush {
 namespace {
-
-// Clears a rectangle to an opaque colour. A software rasteriser fills one through ImGui's shader, texture and blending in four times as
-// long.
-void clear_to(ImDrawList& draw, const Region& region, ImU32 color) {
-    draw.PushClipRect({region.x, region.y}, {region.x + region.width, region.y + region.height});
-    draw.AddCallback(
-        [](const ImDrawList*, const ImDrawCmd* command) {
-            const ImVec4 rgba = ImGui::ColorConvertU32ToFloat4(ImU32(reinterpret_cast<uintptr_t>(command->UserCallbackData))),
-                         clip = command->ClipRect;
-            const ImVec2 scale = ImGui::GetIO().DisplayFramebufferScale;
-            const float height = ImGui::GetIO().DisplaySize.y;
-            const auto pixel = [](float at) { return GLint(std::lround(at)); };
-            glScissor(pixel(clip.x * scale.x), pixel((height - clip.w) * scale.y), std::max(pixel((clip.z - clip.x) * scale.x), 0),
-                      std::max(pixel((clip.w - clip.y) * scale.y), 0));
-            glClearColor(rgba.x, rgba.y, rgba.z, 1);
-            glClear(GL_COLOR_BUFFER_BIT);
-        },
-        reinterpret_cast<void*>(uintptr_t(color)));
-    draw.PopClipRect();
-}
 
 // A bar at x, over the edge of two regions. True while it is dragged or was double-clicked.
 bool draw_splitter(UiState& ui, const char* id, float x, const Region& beside, bool& reset) {
@@ -67,9 +43,8 @@ void begin_region(const char* name, const Region& region, const RegionStyle& sty
     ImGui::Begin(name, nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                      ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNav |
-                     ImGuiWindowFlags_NoBackground);
+                     (style.background ? 0 : ImGuiWindowFlags_NoBackground));
     ImGui::PopStyleVar(2);
-    if (style.background) clear_to(*ImGui::GetWindowDrawList(), region, ImGui::GetColorU32(ImGuiCol_WindowBg));
 }
 
 void end_region() { ImGui::End(); }

@@ -1,5 +1,6 @@
 #include "ui/window.h"
 
+#include "ui/spared_fill.h"
 #include "ui/theme.h"
 
 #include <algorithm>
@@ -121,13 +122,14 @@ void Window::begin_frame() {
 
 void Window::end_frame() {
     ImGui::Render();
+    ImDrawData& drawn = *ImGui::GetDrawData();
+    spare_fill(drawn);
     // As big as it was when the frame began: to ask again would be to wait for the display's server again.
-    const ImDrawData& drawn = *ImGui::GetDrawData();
     glViewport(0, 0, GLsizei(drawn.DisplaySize.x * drawn.FramebufferScale.x), GLsizei(drawn.DisplaySize.y * drawn.FramebufferScale.y));
     glDisable(GL_SCISSOR_TEST);
     glClearColor(0.11f, 0.11f, 0.11f, 1);
     glClear(GL_COLOR_BUFFER_BIT);
-    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    ImGui_ImplOpenGL3_RenderDrawData(&drawn);
     glfwSwapBuffers(window_);
 }
 
