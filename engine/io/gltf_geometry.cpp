@@ -31,7 +31,7 @@ Vec4 element(const FloatArray& a, size_t i, Vec4*) {
 }
 
 // One attribute as vectors, empty if the primitive has none.
-template <class V> Result<std::vector<V>> read_attribute(const GltfContext& context, const tinygltf::Primitive& primitive, const char* name,
+template <class V> Result<std::vector<V>> read_attribute(const GltfContext& context, const tinygltf::Primitive& primitive, const std::string& name,
                                                          int min_components, int max_components, const std::string& where) {
     const auto it = primitive.attributes.find(name);
     if (it == primitive.attributes.end() || is_fallback(gltf_item(context.json(), "accessors", size_t(it->second))))
@@ -44,7 +44,7 @@ template <class V> Result<std::vector<V>> read_attribute(const GltfContext& cont
 }
 
 template <class V>
-void replace_non_finite(const GltfContext& context, std::vector<V>& values, V otherwise, const char* name, const std::string& where) {
+void replace_non_finite(const GltfContext& context, std::vector<V>& values, V otherwise, const std::string& name, const std::string& where) {
     size_t bad = 0;
     for (V& v : values) {
         if (finite(v)) continue;
@@ -54,8 +54,11 @@ void replace_non_finite(const GltfContext& context, std::vector<V>& values, V ot
     if (bad) context.warn(fmt::format("{} non-finite values of {} replaced", bad, name), where);
 }
 
-Result<void> read_attributes(const GltfContext& context, const tinygltf::Primitive& primitive, Geometry& g, const std::string& where) {
-    const auto take = [&](auto& target, const char* name, int min_components, int max_components) -> Result<void> {
+std::string uv_attribute(int set) { return fmt::format("TEXCOORD_{}", set); }
+
+Result<void> read_attributes(const GltfContext& context, const tinygltf::Primitive& primitive, const std::vector<int>& uv_sets, Geometry& g,
+                             const std::string& where) {
+    const auto take = [&](auto& target, const std::string& name, int min_components, int max_components) -> Result<void> {
         using V = typename std::remove_reference_t<decltype(target)>::value_type;
         Result<std::vector<V>> values = read_attribute<V>(context, primitive, name, min_components, max_components, where);
         if (!values) return values.error();
@@ -67,11 +70,15 @@ Result<void> read_attributes(const GltfContext& context, const tinygltf::Primiti
     if (auto ok = take(g.positions, "POSITION", 3, 3); !ok) return ok;
     if (auto ok = take(g.normals, "NORMAL", 3, 3); !ok) return ok;
     if (auto ok = take(g.tangents, "TANGENT", 4, 4); !ok) return ok;
-    if (auto ok = take(g.uv0, "TEXCOORD_0", 2, 2); !ok) return ok;
-    if (auto ok = take(g.uv1, "TEXCOORD_1", 2, 2); !ok) return ok;
     if (auto ok = take(g.colors, "COLOR_0", 3, 4); !ok) return ok;
-    replace_non_finite(context, g.uv0, Vec2{0, 0}, "TEXCOORD_0", where);
-    replace_non_finite(context, g.uv1, Vec2{0, 0}, "TEXCOORD_1", where);
+    for (const int set : uv_sets) {
+        std::vector<Vec2> uv;
+        if (auto ok = take(uv, uv_attribute(set), 2, 2); !ok) return ok;
+        if (uv.empty()) continue;
+        replace_non_finite(context, uv, Vec2{0, 0}, uv_attribute(set), where);
+        g.uv.resize(size_t(set) + 1);
+        g.uv.back() = std::move(uv);
+    }
     replace_non_finite(context, g.colors, Vec4{1, 1, 1, 1}, "COLOR_0", where);
     return {};
 }
@@ -142,8 +149,7 @@ void make_flat(Geometry& g) {
         values = std::move(own);
     };
     unweld(g.positions);
-    unweld(g.uv0);
-    unweld(g.uv1);
+    for (std::vector<Vec2>& uv : g.uv) unweld(uv);
     unweld(g.colors);
     g.tangents.clear(); // of normals that are not there: the specification says to ignore them
     std::iota(g.indices.begin(), g.indices.end(), 0u);
@@ -174,14 +180,13 @@ void provide_tangents(const GltfContext& context, Geometry& g, int uv_set, const
     });
     if (!usable && !g.tangents.empty()) context.warn("tangents without a direction", where);
     if (!usable) g.tangents.clear();
-    const std::vector<Vec2>& uv = uv_set == 1 ? g.uv1 : g.uv0;
     if (usable || uv_set < 0) return;
-    if (uv.empty()) {
+    if (!g.has_uv_set(uv_set)) {
         context.warn("a normal map, but no texture coordinates to place it: it has no effect", where);
         return;
     }
-    g.tangents = tangents_from_uv(g, uv);
-    context.note("approximated: tangents computed from texture coordinates", where);
+    add_tangents(g, uv_set);
+    context.note("tangents are missing: computed from texture coordinates as MikkTSpace does", where);
 }
 
 GeometryPtr solids(const GltfContext& context, const Geometry& vertices, const std::vector<uint32_t>& order, int mode, const std::string& where) {
@@ -195,26 +200,30 @@ GeometryPtr solids(const GltfContext& context, const Geometry& vertices, const s
     return std::make_shared<const Geometry>(std::move(made.geometry));
 }
 
-void report_ignored(const GltfContext& context, const tinygltf::Primitive& primitive, const std::string& where) {
-    constexpr std::array read = {"POSITION", "NORMAL", "TANGENT", "TEXCOORD_0", "TEXCOORD_1", "COLOR_0"};
+void report_ignored(const GltfContext& context, const tinygltf::Primitive& primitive, const std::vector<int>& uv_sets, const std::string& where) {
+    constexpr std::array read = {"POSITION", "NORMAL", "TANGENT", "COLOR_0"};
+    const auto is_read = [&](const std::string& name) {
+        return std::ranges::find(read, name) != read.end() || std::ranges::find(uv_sets, name, uv_attribute) != uv_sets.end();
+    };
     for (const auto& [name, accessor] : primitive.attributes)
-        if (std::find(read.begin(), read.end(), name) == read.end()) context.note("ignored: attribute " + name.substr(0, 100), where);
+        if (!is_read(name))
+            context.note("ignored: attribute " + name.substr(0, 100) + (name.starts_with("TEXCOORD_") ? ", which no texture uses" : ""), where);
     if (!primitive.targets.empty())
         context.note(fmt::format("ignored: {} morph targets; the mesh is shown at rest", primitive.targets.size()), where);
 }
 
 } // namespace
 
-Result<GeometryPtr> import_primitive(const GltfContext& context, const tinygltf::Primitive& primitive, int tangent_uv_set,
+Result<GeometryPtr> import_primitive(const GltfContext& context, const tinygltf::Primitive& primitive, const VertexNeeds& needs,
                                      const std::string& where) {
-    report_ignored(context, primitive, where);
+    report_ignored(context, primitive, needs.uv_sets, where);
     if (primitive.mode < TINYGLTF_MODE_POINTS || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN) {
         context.warn(fmt::format("ignored: unknown primitive mode {}", primitive.mode), where);
         return GeometryPtr();
     }
     auto geometry = std::make_shared<Geometry>();
     Geometry& g = *geometry;
-    if (const auto ok = read_attributes(context, primitive, g, where); !ok) return ok.error();
+    if (const auto ok = read_attributes(context, primitive, needs.uv_sets, g, where); !ok) return ok.error();
     const auto order = vertex_order(context, primitive, g.positions.size(), where);
     if (!order) return order.error();
     if (primitive.mode < TINYGLTF_MODE_TRIANGLES) return solids(context, g, *order, primitive.mode, where);
@@ -231,7 +240,7 @@ Result<GeometryPtr> import_primitive(const GltfContext& context, const tinygltf:
         make_flat(g);
     else
         repair_normals(context, g, where);
-    provide_tangents(context, g, tangent_uv_set, where);
+    provide_tangents(context, g, needs.tangent_uv_set, where);
     return GeometryPtr(std::move(geometry));
 }
 

@@ -45,8 +45,8 @@ private:
         }
         const GltfObject transform = extensions.object("KHR_texture_transform");
         uv_set = transform.integer("texCoord").value_or(uv_set);
-        if (uv_set < 0 || uv_set > 1) {
-            context_.warn(fmt::format("ignored: a texture on TEXCOORD_{}; only 0 and 1 are read", uv_set), where);
+        if (uv_set < 0 || uv_set > most_uv_set) {
+            context_.warn(fmt::format("ignored: a texture on TEXCOORD_{}; numbers reach from 0 to {}", uv_set, most_uv_set), where);
             return ref;
         }
         ref.texture = textures_[size_t(index)];

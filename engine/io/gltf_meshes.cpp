@@ -3,6 +3,7 @@
 #include "io/gltf_extras.h"
 #include "io/gltf_geometry.h"
 #include "io/gltf_numbering.h"
+#include "scene/texture_slots.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -14,6 +15,7 @@ struct MeshReader {
     const GltfContext& context;
     const std::vector<Id<Material>>& materials;
     const Scene& scene;
+    std::vector<int> uv_sets; // that are kept
     std::vector<Id<Mesh>> known; // by index, for a document that is read without its triangles
 
     // Its parts' primitives are added to `primitives`.
@@ -46,9 +48,28 @@ struct MeshReader {
     Result<GeometryPtr> import_geometry(const tinygltf::Primitive& primitive, Id<Material> material, const std::string& where) const {
         const Material* found = scene.materials.find(material);
         const int tangent_uv_set = found && found->normal_texture.texture ? found->normal_texture.uv_set : -1;
-        return import_primitive(context, primitive, tangent_uv_set, where);
+        Result<GeometryPtr> geometry = import_primitive(context, primitive, {uv_sets, tangent_uv_set}, where);
+        if (!geometry || !*geometry || !found) return geometry;
+        for (const int set : uv_sets_read(*found))
+            if (!(*geometry)->has_uv_set(set))
+                context.warn(fmt::format("textures on TEXCOORD_{}, which is not there: one texel covers all of the surface", set), where);
+        return geometry;
     }
 };
+
+// The first two, so that textures can be put on a surface that has none yet, and others that textures lie on now. Only so many: meshes that
+// share their data would otherwise multiply a small file.
+std::vector<int> kept_uv_sets(const GltfContext& context, const Scene& scene) {
+    constexpr size_t most_sets = 8;
+    std::set<int> sets{0, 1};
+    for (const auto& [id, material] : scene.materials)
+        for (const int set : uv_sets_read(material))
+            if (sets.size() < most_sets || sets.contains(set))
+                sets.insert(set);
+            else
+                context.warn(fmt::format("ignored: TEXCOORD_{}; textures lie on more than {} UV sets", set, most_sets), "materials");
+    return {sets.begin(), sets.end()};
+}
 
 } // namespace
 
@@ -62,7 +83,7 @@ Result<ImportedMeshes> import_meshes(const GltfContext& context, const std::vect
     }
     const auto total = std::max<std::ptrdiff_t>(1, std::count(used.begin(), used.end(), true));
     const auto known = context.known ? ids_by_index(context.known->meshes, sources.size()) : std::vector<Id<Mesh>>();
-    const MeshReader reader{context, materials, scene, known};
+    const MeshReader reader{context, materials, scene, kept_uv_sets(context, scene), known};
     ImportedMeshes imported;
     imported.primitives.resize(sources.size());
     std::vector<std::optional<Mesh>> meshes(sources.size());

@@ -112,8 +112,8 @@ Solids solids_of(const Geometry& vertices, const std::vector<uint32_t>& order, i
         }
     }
     made.left_out = asked - made.shown;
-    take(b.solids.uv0, vertices.uv0, b.origins);
-    take(b.solids.uv1, vertices.uv1, b.origins);
+    b.solids.uv.resize(vertices.uv.size());
+    for (size_t set = 0; set < vertices.uv.size(); ++set) take(b.solids.uv[set], vertices.uv[set], b.origins);
     take(b.solids.colors, vertices.colors, b.origins);
     made.geometry = std::move(b.solids);
     return made;

@@ -5,10 +5,9 @@
 
 namespace blush {
 
-// One tangent per vertex from the directions in which `uv` grows, averaged over the triangles around the vertex and made
-// perpendicular to its normal; w is the handedness. glTF asks for MikkTSpace, which differs where triangles of unlike UV
-// orientation meet at a vertex. Vertices whose UVs say nothing get some perpendicular of the normal.
-// Needs normals and uv of positions.size().
-std::vector<Vec4> tangents_from_uv(const Geometry& geometry, const std::vector<Vec2>& uv);
+// Gives the geometry the tangents that MikkTSpace computes from one of its UV sets, which it must have beside normals. A vertex whose triangles
+// do not agree, as where the halves of a mirrored texture meet, becomes several: copies are added behind all others.
+// Returns of each added vertex which one it is a copy of.
+std::vector<uint32_t> add_tangents(Geometry& geometry, int uv_set);
 
 } // namespace blush

@@ -3,6 +3,8 @@
 #include "io/image_io.h"
 #include "scene/texture_slots.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace blush {
@@ -21,13 +23,12 @@ template <class V> int append_vectors(GltfDocument& document, const std::vector<
 
 Json primitive_of(GltfDocument& document, const Geometry& g) {
     Json attributes{{"POSITION", append_vectors(document, g.positions, true)}};
-    const auto add = [&](const char* name, const auto& vectors) {
+    const auto add = [&](const std::string& name, const auto& vectors) {
         if (!vectors.empty()) attributes[name] = append_vectors(document, vectors);
     };
     add("NORMAL", g.normals);
     add("TANGENT", g.tangents);
-    add("TEXCOORD_0", g.uv0);
-    add("TEXCOORD_1", g.uv1);
+    for (size_t set = 0; set < g.uv.size(); ++set) add(fmt::format("TEXCOORD_{}", set), g.uv[set]);
     add("COLOR_0", g.colors);
     return {{"attributes", std::move(attributes)}, {"indices", append_indices(document, g.indices)}};
 }
@@ -81,19 +82,16 @@ Result<void> write_textures(GltfDocument& document, const GltfOrigin& has, const
     return {};
 }
 
-// How many UV sets the textures of a material are laid out by.
+// The UV sets that a mesh with this material must have: glTF numbers them without gaps.
 int uv_sets_of(const Scene& scene, Id<Material> id) {
     const Material* material = scene.materials.find(id);
-    int sets = 0;
-    for (const TextureSlot& slot : texture_slots)
-        if (material && (material->*slot.ref).texture) sets = std::max(sets, (material->*slot.ref).uv_set + 1);
-    return sets;
+    return material && !uv_sets_read(*material).empty() ? *uv_sets_read(*material).rbegin() + 1 : 0;
 }
 
 // A texture on a surface without texture coordinates is all of one colour, but not glTF: the document gets coordinates of
 // zero, marked as a fallback so that they are none of ours.
 void provide_uv_sets(GltfDocument& document, Json& primitive, int sets) {
-    for (int set = 0; set < 2; ++set) {
+    for (int set = 0; set <= most_uv_set; ++set) {
         const std::string name = fmt::format("TEXCOORD_{}", set);
         Json& attributes = primitive["attributes"];
         int there = -1;
@@ -101,6 +99,7 @@ void provide_uv_sets(GltfDocument& document, Json& primitive, int sets) {
             read_json(child_or_null(attributes, name), there) &&
             child_or_null(child_or_null(child_or_null(document.object("accessors", there), "extras"), "blush"), "fallback") == true;
         if (fallback && set >= sets) erase(attributes, name);
+        if (there < 0 && set >= sets) break;
         if (there >= 0 || set >= sets) continue;
         const Json count = child_or_null(document.object("accessors", attributes.at("POSITION").get<int>()), "count");
         attributes[name] = document.append(

@@ -87,8 +87,8 @@ void hash_mesh(Hasher& hash, const Mesh& mesh) {
         hash.array(g.positions);
         hash.array(g.normals);
         hash.array(g.tangents);
-        hash.array(g.uv0);
-        hash.array(g.uv1);
+        hash.word(g.uv.size());
+        for (const std::vector<Vec2>& uv : g.uv) hash.array(uv);
         hash.array(g.colors);
         hash.array(g.indices);
     }

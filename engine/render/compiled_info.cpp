@@ -19,6 +19,7 @@ CompiledInfo RenderScene::info() const {
     info.materials = int64_t(materials_.ids.size());
     info.textures = int64_t(materials_.textures.records.size());
     info.warnings = materials_.textures.warnings;
+    info.warnings.insert(info.warnings.end(), materials_.warnings.begin(), materials_.warnings.end());
     info.warnings.insert(info.warnings.end(), environment_.warnings.begin(), environment_.warnings.end());
     if (casters_.left_out() > 0)
         info.warnings.push_back({Diagnostic::Severity::warning,

@@ -129,7 +129,7 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
 
     // The surface and its material.
     const Surface<F> surface = surface_at<S, F>(scene, hit, found);
-    const MaterialPoint<F> material = material_at<S, F>(scene.materials, surface.material, surface.uv0, surface.uv1, surface.color, found);
+    const MaterialPoint<F> material = material_at<S, F>(scene.materials, surface.material, surface.texture, surface.color, found);
     const Vec<F> wo_world = -path.ray.direction;
     const F outside = dot(surface.ng, wo_world);
     const Mask<F> front = outside > F(0.f);

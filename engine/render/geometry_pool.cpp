@@ -32,12 +32,18 @@ template <class T> void append_or_fill(std::vector<T>& pool, bool wanted, const 
         pool.resize(pool.size() + count, filler);
 }
 
+// Empty for one that the shape does not have.
+const std::vector<Vec2>& uv_set(const Geometry& g, int number) {
+    static const std::vector<Vec2> none;
+    return number >= 0 && g.has_uv_set(number) ? g.uv[size_t(number)] : none;
+}
+
 int32_t flags_of(const Geometry& g, const AttributeNeeds& needs, bool smooth, const Affined& world_from_object, bool instanced) {
     int32_t flags = smooth ? part_smooth : 0;
     const size_t n = g.positions.size();
     if (needs.tangents && g.tangents.size() == n) flags |= part_tangents;
-    if (needs.uv0 && g.uv0.size() == n) flags |= part_uv0;
-    if (needs.uv1 && g.uv1.size() == n) flags |= part_uv1;
+    for (size_t set = 0; set < needs.uv_sets.size(); ++set)
+        if (uv_set(g, needs.uv_sets[set]).size() == n) flags |= part_uv << set;
     if (needs.colors && g.colors.size() == n) flags |= part_colors;
     if (!instanced && determinant(world_from_object) < 0) flags |= part_mirrored;
     return flags;
@@ -113,8 +119,8 @@ void GeometryPool::reserve(const std::vector<SceneObject>& objects, bool normals
     if (normals) normals_.reserve(vertices);
     if (needs_.tangents) tangents_.reserve(vertices);
     if (needs_.colors) colors_.reserve(vertices);
-    if (needs_.uv0) uv0_.reserve(vertices);
-    if (needs_.uv1) uv1_.reserve(vertices);
+    for (size_t set = 0; set < needs_.uv_sets.size(); ++set)
+        if (needs_.uv_sets[set] >= 0) uv_[set].reserve(vertices);
 }
 
 GeometryPool::Span GeometryPool::append(const Geometry& g, bool normals) {
@@ -125,8 +131,8 @@ GeometryPool::Span GeometryPool::append(const Geometry& g, bool normals) {
     append_or_fill(normals_, normals, g.normals, n, Vec3{0, 0, 0});
     append_or_fill(tangents_, needs_.tangents, g.tangents, n, Vec4{1, 0, 0, 1});
     append_or_fill(colors_, needs_.colors, g.colors, n, Vec4{1, 1, 1, 1});
-    append_or_fill(uv0_, needs_.uv0, g.uv0, n, Vec2{0, 0});
-    append_or_fill(uv1_, needs_.uv1, g.uv1, n, Vec2{0, 0});
+    for (size_t set = 0; set < needs_.uv_sets.size(); ++set)
+        append_or_fill(uv_[set], needs_.uv_sets[set] >= 0, uv_set(g, needs_.uv_sets[set]), n, Vec2{0, 0});
     return span;
 }
 
@@ -251,8 +257,7 @@ void GeometryPool::fill(SceneTables& t) const {
     t.positions = pointer(positions_);
     t.normals = pointer(normals_);
     t.tangents = pointer(tangents_);
-    t.uv0 = pointer(uv0_);
-    t.uv1 = pointer(uv1_);
+    std::ranges::transform(uv_, t.uv.begin(), pointer);
     t.colors = pointer(colors_);
 }
 
@@ -286,9 +291,10 @@ AccelScene GeometryPool::accel_scene(const std::vector<SceneObject>& objects, co
 
 size_t GeometryPool::memory_bytes() const {
     const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-    return bytes(parts_) + bytes(part_materials_) + bytes(part_triangles_) + bytes(part_vertices_) + bytes(instances_) +
-           bytes(instance_first_part_) + bytes(indices_) + bytes(positions_) + bytes(normals_) + bytes(tangents_) + bytes(colors_) +
-           bytes(uv0_) + bytes(uv1_);
+    size_t sum = bytes(parts_) + bytes(part_materials_) + bytes(part_triangles_) + bytes(part_vertices_) + bytes(instances_) +
+                 bytes(instance_first_part_) + bytes(indices_) + bytes(positions_) + bytes(normals_) + bytes(tangents_) + bytes(colors_);
+    for (const std::vector<Vec2>& uv : uv_) sum += bytes(uv);
+    return sum;
 }
 
 } // namespace blush

@@ -6,6 +6,7 @@
 #include "render/scene_tables.h"
 #include "scene/scene.h"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -13,7 +14,8 @@ namespace blush {
 
 // Which vertex attributes the shapes and the materials in use call for.
 struct AttributeNeeds {
-    bool uv0 = false, uv1 = false, tangents = false, colors = false;
+    bool tangents = false, colors = false;
+    std::vector<int> uv_sets; // at each of the scene's UV sets its number, -1 if no shape needs it
     bool operator==(const AttributeNeeds&) const = default;
 };
 
@@ -64,7 +66,7 @@ private:
     std::vector<uint32_t> indices_;
     std::vector<Vec3> positions_, normals_;
     std::vector<Vec4> tangents_, colors_;
-    std::vector<Vec2> uv0_, uv1_;
+    std::array<std::vector<Vec2>, most_uv_sets> uv_;
     AttributeNeeds needs_;
     Vec3d origin_{0, 0, 0};
 };

@@ -58,10 +58,11 @@ void add_vertices(Ledger& ledger, const GeometryPool& geometry, const AttributeN
         const char *why_used, *why_not;
         size_t bytes;
     };
+    const size_t uv_sets = needs.uv_sets.size() - size_t(std::ranges::count(needs.uv_sets, -1));
     const Attribute attributes[] = {
         {"normals", geometry.has_normals(), "a mesh is smooth", "every mesh is flat", sizeof(Vec3)},
-        {"texture coordinates", needs.uv0, "a texture is laid out by them", "no texture is laid out by them", sizeof(Vec2)},
-        {"second texture coordinates", needs.uv1, "a texture is laid out by them", "no texture is laid out by them", sizeof(Vec2)},
+        {"texture coordinates", uv_sets > 0, uv_sets > 1 ? "textures lie on several sets of them" : "a texture lies on them",
+         "no texture lies on them", std::max<size_t>(1, uv_sets) * sizeof(Vec2)},
         {"tangents", needs.tangents, "a material has a normal map", "no material has a normal map", sizeof(Vec4)},
         {"vertex colours", needs.colors, "a mesh has them", "no mesh has them", sizeof(Vec4)},
     };

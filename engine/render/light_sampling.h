@@ -38,19 +38,11 @@ Vec<F> textured_emission(const SceneTables& scene, const Int<F>& light, const Ve
     const Int<F> flags = gather_field(scene.parts, &PartRecord::flags, part);
     const Int<F> first_vertex = gather_field(scene.parts, &PartRecord::first_vertex, part);
     const Int<F> at = gather_field(scene.parts, &PartRecord::first_index, part) + select(active, triangle, Int<F>(0)) * 3;
-    const auto uv_at = [&](const float* uv, int32_t flag) -> Vec2T<F> {
-        const Mask<F> present = active && as_mask((flags & flag) != 0);
-        if (!any(present)) return {F(0.f), F(0.f)};
-        Vec2T<F> sum{F(0.f), F(0.f)};
-        const F weight[3] = {1.f - b.x - b.y, b.x, b.y};
-        for (int k = 0; k < 3; ++k) {
-            const Int<F> vertex = (first_vertex + to_signed(gather(scene.indices + k, at))) * 2;
-            sum = sum + Vec2T<F>{gather(uv, vertex), gather(uv + 1, vertex)} * weight[k];
-        }
-        return {select(present, sum.x, F(0.f)), select(present, sum.y, F(0.f))};
-    };
+    const auto vertex = [&](int k) { return Int<F>(first_vertex + to_signed(gather(scene.indices + k, at))); };
+    const std::array<F, 3> weights{1.f - b.x - b.y, b.x, b.y};
+    const TexturePoint<F> point = texture_point<F>(scene, flags, {vertex(0), vertex(1), vertex(2)}, weights, active);
     const Int<F> material = gather_field(scene.parts, &PartRecord::material, part);
-    return emission_at<S, F>(scene.materials, material, uv_at(scene.uv0, part_uv0), uv_at(scene.uv1, part_uv1), active);
+    return emission_at<S, F>(scene.materials, material, point, active);
 }
 
 // Draws a light for a receiver, and a point of it.

@@ -1,5 +1,7 @@
 #include "render/material_table.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -45,20 +47,29 @@ constexpr std::array texture_slots{
 
 bool is_read(const TextureSlot& slot, const Material& m) { return (m.*slot.ref).texture && slot.is_read(m); }
 
-// What the materials of all meshes read, in the order the texture table wants.
-std::vector<TextureSource> texture_sources(const Scene& scene) {
-    std::vector<Id<Material>> materials;
+// Those of all meshes, each once.
+std::vector<const Material*> worn_materials(const Scene& scene) {
+    std::set<Id<Material>> ids;
     for (const auto& [id, mesh] : scene.meshes) {
-        for (const MeshPart& part : mesh.parts) materials.push_back(part.material);
+        for (const MeshPart& part : mesh.parts) ids.insert(part.material);
     }
-    std::ranges::sort(materials);
-    const auto repeated = std::ranges::unique(materials);
-    materials.erase(repeated.begin(), repeated.end());
+    std::vector<const Material*> materials;
+    for (const Id<Material> id : ids)
+        if (const Material* material = scene.materials.find(id)) materials.push_back(material);
+    return materials;
+}
 
+// The UV sets that these materials read, ascending, whatever their number.
+std::vector<int> uv_sets_of(const std::vector<const Material*>& materials) {
+    std::set<int> sets;
+    for (const Material* material : materials) sets.merge(texture_reads(*material).uv_sets);
+    return {sets.begin(), sets.end()};
+}
+
+// What these materials read, in the order the texture table wants.
+std::vector<TextureSource> texture_sources(const Scene& scene, const std::vector<const Material*>& materials) {
     std::vector<std::tuple<Id<Texture>, bool>> keys;
-    for (const Id<Material> id : materials) {
-        const Material* material = scene.materials.find(id);
-        if (!material) continue;
+    for (const Material* material : materials) {
         for (const TextureSlot& slot : texture_slots) {
             if (is_read(slot, *material)) keys.emplace_back((material->*slot.ref).texture, slot.is_color);
         }
@@ -104,11 +115,11 @@ MaterialRecord factors_of(const Material& m) {
 
 // KHR_texture_transform: scaled, rotated counter-clockwise as seen with v downwards, moved. The listing in the
 // specification's text turns the other way; its words and every implementation turn this way (KhronosGroup/glTF issue 1563).
-TextureUse texture_use(const TextureRef& ref, int32_t texture) {
+TextureUse texture_use(const TextureRef& ref, int32_t texture, int32_t uv_set) {
     const double c = std::cos(double(ref.rotation_radians)), s = std::sin(double(ref.rotation_radians));
     TextureUse use{};
     use.texture = texture;
-    use.uv_set = ref.uv_set == 1;
+    use.uv_set = uv_set;
     use.u_from_u = float(c * ref.scale.x);
     use.u_from_v = float(s * ref.scale.y);
     use.u_offset = ref.offset.x;
@@ -118,14 +129,27 @@ TextureUse texture_use(const TextureRef& ref, int32_t texture) {
     return use;
 }
 
+void choose_uv_sets(MaterialTable& table, const std::vector<const Material*>& worn) {
+    table.uv_sets = uv_sets_of(worn);
+    table.warnings.clear();
+    if (table.uv_sets.size() <= most_uv_sets) return;
+    table.warnings.push_back({Diagnostic::Severity::warning,
+                              fmt::format("textures lie on {} UV sets; those on sets beyond {} are read as white", table.uv_sets.size(),
+                                          table.uv_sets[most_uv_sets - 1]),
+                              "materials"});
+    table.uv_sets.resize(most_uv_sets);
+}
+
 void write_material(MaterialTable& table, size_t index, const Material& material) {
     MaterialRecord record = factors_of(material);
     for (size_t k = 0; k < texture_slots.size(); ++k) {
         const TextureSlot& slot = texture_slots[k];
         const TextureRef& ref = material.*slot.ref;
-        const int32_t texture = is_read(slot, material) ? table.textures.index_of(ref.texture, slot.is_color) : -1;
+        const auto uv_set = std::ranges::find(table.uv_sets, int(ref.uv_set));
+        const bool reads = is_read(slot, material) && uv_set != table.uv_sets.end();
+        const int32_t texture = reads ? table.textures.index_of(ref.texture, slot.is_color) : -1;
         const size_t use = index * texture_slots.size() + k;
-        table.uses[use] = texture < 0 ? TextureUse{} : texture_use(ref, texture);
+        table.uses[use] = texture < 0 ? TextureUse{} : texture_use(ref, texture, int32_t(uv_set - table.uv_sets.begin()));
         if (texture >= 0) record.*slot.index = int32_t(use);
     }
     table.records[index] = record;
@@ -147,15 +171,18 @@ int32_t MaterialTable::index_of(Id<Material> id) const {
 MaterialTables MaterialTable::tables() const {
     MaterialTables t{records.data(), textures.tables()};
     t.textures.uses = uses.data();
+    t.textures.uv_sets = int32_t(uv_sets.size());
     return t;
 }
 
 void build_material_table(MaterialTable& table, const Scene& scene) {
-    std::vector<TextureSource> sources = texture_sources(scene);
+    const std::vector<const Material*> worn = worn_materials(scene);
+    std::vector<TextureSource> sources = texture_sources(scene, worn);
     if (sources != table.textures.sources) {
         table.textures = {}; // frees the old texels before the new ones are there
         table.textures = build_texture_table(std::move(sources));
     }
+    choose_uv_sets(table, worn);
     const size_t count = scene.materials.size() + 1;
     table.ids.clear();
     table.records.resize(count);
@@ -170,7 +197,9 @@ void build_material_table(MaterialTable& table, const Scene& scene) {
 bool update_material(MaterialTable& table, const Scene& scene, Id<Material> id) {
     const Material* material = scene.materials.find(id);
     const bool same_materials = std::ranges::equal(table.ids, scene.materials, {}, {}, &Table<Material>::Entry::id);
-    if (!material || !same_materials || texture_sources(scene) != table.textures.sources) return false;
+    if (!material || !same_materials) return false;
+    const std::vector<const Material*> worn = worn_materials(scene);
+    if (uv_sets_of(worn) != table.uv_sets || texture_sources(scene, worn) != table.textures.sources) return false;
     write_material(table, size_t(table.index_of(id)), *material);
     return true;
 }
@@ -178,7 +207,7 @@ bool update_material(MaterialTable& table, const Scene& scene, Id<Material> id) 
 TextureReads texture_reads(const Material& m) {
     TextureReads reads;
     for (const TextureSlot& slot : texture_slots)
-        if (is_read(slot, m)) ((m.*slot.ref).uv_set == 1 ? reads.uv1 : reads.uv0) = true;
+        if (is_read(slot, m)) reads.uv_sets.insert((m.*slot.ref).uv_set);
     reads.normal_map = has_normal_map(m);
     return reads;
 }

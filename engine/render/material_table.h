@@ -7,6 +7,7 @@
 #include "shading/material.h"
 
 #include <cstdint>
+#include <set>
 #include <vector>
 
 namespace blush {
@@ -16,6 +17,8 @@ struct MaterialTable {
     std::vector<MaterialRecord> records; // the first is glTF's default material
     std::vector<TextureUse> uses;        // a fixed number per record, so that one can change alone
     TextureTable textures;
+    std::vector<int> uv_sets;            // the numbers of those that textures lie on, ascending, at most most_uv_sets
+    std::vector<Diagnostic> warnings;    // beside those of the textures
 
     // Of the default material for an id that does not exist.
     int32_t index_of(Id<Material> id) const;
@@ -27,12 +30,13 @@ struct MaterialTable {
 // on the scene alone. Only textures that materials of some mesh read are in it.
 void build_material_table(MaterialTable& table, const Scene& scene);
 // Rewrites the record of one material. False, and nothing has changed, if the table must be built anew: the set of textures
-// that are read, or the set of materials, is another.
+// that are read, of their UV sets, or of materials is another.
 bool update_material(MaterialTable& table, const Scene& scene, Id<Material> id);
 
 // What of a mesh a material's textures are laid out by.
 struct TextureReads {
-    bool uv0 = false, uv1 = false, normal_map = false;
+    std::set<int> uv_sets;
+    bool normal_map = false;
 };
 TextureReads texture_reads(const Material& material);
 

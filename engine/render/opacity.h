@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/math.h"
-#include "render/scene_tables.h"
+#include "render/texture_point.h"
 
 namespace blush::inline BLUSH_ISA {
 
@@ -10,16 +10,13 @@ namespace blush::inline BLUSH_ISA {
 inline float opacity_at_hit(const SceneTables& scene, int32_t part_index, int32_t triangle, float u, float v) {
     const PartRecord& part = scene.parts[part_index];
     const uint32_t* index = scene.indices + part.first_index + 3 * triangle;
-    const float weight[3] = {1 - u - v, u, v};
-    Vec2 uv0{0, 0}, uv1{0, 0};
-    Vec4 color{1, 1, 1, part.flags & part_colors ? 0.f : 1.f};
-    for (int k = 0; k < 3; ++k) {
-        const size_t vertex = size_t(part.first_vertex) + index[k];
-        if (part.flags & part_uv0) uv0 = uv0 + Vec2{scene.uv0[2 * vertex], scene.uv0[2 * vertex + 1]} * weight[k];
-        if (part.flags & part_uv1) uv1 = uv1 + Vec2{scene.uv1[2 * vertex], scene.uv1[2 * vertex + 1]} * weight[k];
-        if (part.flags & part_colors) color.w += scene.colors[4 * vertex + 3] * weight[k];
-    }
-    return opacity_at(scene.materials, part.material, uv0, uv1, color.w);
+    const auto vertex = [&](int k) { return part.first_vertex + int32_t(index[k]); };
+    const std::array<int32_t, 3> vertices{vertex(0), vertex(1), vertex(2)};
+    const std::array<float, 3> weights{1 - u - v, u, v};
+    float alpha = part.flags & part_colors ? 0.f : 1.f;
+    if (part.flags & part_colors)
+        for (size_t k = 0; k < 3; ++k) alpha += scene.colors[4 * vertices[k] + 3] * weights[k];
+    return opacity_at(scene.materials, part.material, texture_point<float>(scene, part.flags, vertices, weights, true), alpha);
 }
 
 } // namespace blush::inline BLUSH_ISA

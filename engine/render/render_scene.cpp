@@ -22,16 +22,17 @@ std::vector<SceneObject> placeholder_objects() {
     return {{Id<Node>{}, {{point, Id<Material>{}}}, Affined{}, false}};
 }
 
-AttributeNeeds needs_of(const Scene& scene, const std::vector<SceneObject>& objects) {
+AttributeNeeds needs_of(const Scene& scene, const std::vector<SceneObject>& objects, const std::vector<int>& uv_sets) {
     AttributeNeeds needs;
+    needs.uv_sets.assign(uv_sets.size(), -1);
     for (const SceneObject& object : objects)
         for (const MeshPart& part : object.parts) {
             if (!part.geometry->colors.empty()) needs.colors = true;
             const Material* m = scene.materials.find(part.material);
             if (!m) continue;
             const TextureReads reads = texture_reads(*m);
-            needs.uv0 |= reads.uv0;
-            needs.uv1 |= reads.uv1;
+            for (size_t set = 0; set < uv_sets.size(); ++set)
+                if (reads.uv_sets.contains(uv_sets[set])) needs.uv_sets[set] = uv_sets[set];
             needs.tangents |= reads.normal_map;
         }
     return needs;
@@ -90,12 +91,12 @@ void RenderScene::update_geometry(const Scene& scene, const UpdatePlan& plan, co
         rebuild |= !std::equal(objects.begin(), objects.end(), objects_.begin(), objects_.end(), same);
         std::swap(objects, objects_);
         extent_ = extents_.extent_of(objects_, spheres_);
-        const AttributeNeeds needs = needs_of(scene, objects_);
+        const AttributeNeeds needs = needs_of(scene, objects_, materials_.uv_sets);
         rebuild |= needs != needs_;
         if (!rebuild) geometry_.move(objects, objects_, extent_.origin);
         needs_ = needs;
         commit = true;
-    } else if (const AttributeNeeds needs = needs_of(scene, objects_); needs != needs_) {
+    } else if (const AttributeNeeds needs = needs_of(scene, objects_, materials_.uv_sets); needs != needs_) {
         needs_ = needs;
         rebuild = true;
     }

@@ -7,6 +7,7 @@
 #include "shading/light.h"
 #include "shading/material.h"
 
+#include <array>
 #include <cstdint>
 
 namespace blush {
@@ -25,10 +26,9 @@ struct PartRecord {
 enum PartFlag : int32_t {
     part_smooth = 1,      // vertex normals that differ from the face's
     part_tangents = 2,
-    part_uv0 = 4,
-    part_uv1 = 8,
-    part_colors = 16,
-    part_mirrored = 32,   // in world space by a transform that turned the winding around
+    part_colors = 4,
+    part_mirrored = 8,    // in world space by a transform that turned the winding around
+    part_uv = 1 << 16,    // has the first of the scene's UV sets; the next bits are those of the others
 };
 
 // world_from_object and the columns of the matrix for normals: cofactors times the determinant's sign, which gives the
@@ -68,8 +68,7 @@ struct SceneTables {
     const float* positions = nullptr; // 3 per vertex
     const float* normals = nullptr;   // 3 per vertex
     const float* tangents = nullptr;  // 4 per vertex
-    const float* uv0 = nullptr;       // 2 per vertex
-    const float* uv1 = nullptr;
+    std::array<const float*, most_uv_sets> uv{}; // 2 per vertex, of each UV set that textures lie on
     const float* colors = nullptr;    // 4 per vertex
     MaterialTables materials;
     LightTables lights;

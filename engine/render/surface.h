@@ -4,6 +4,7 @@
 
 #include "core/math.h"
 #include "render/scene_tables.h"
+#include "render/texture_point.h"
 #include "shading/features.h"
 
 namespace blush::inline BLUSH_ISA {
@@ -19,7 +20,7 @@ template <class F> struct Surface {
     Vec<F> ng, ns;       // unit: of the plane, outward by winding; interpolated
     Vec<F> tangent;      // not normalised; only with Feature::normal_maps
     F tangent_sign;
-    Vec2T<F> uv0, uv1;
+    TexturePoint<F> texture; // only with Feature::textures
     Vec4T<F> color;
     Int<F> part, material;
     Mask<F> has_tangents;
@@ -141,20 +142,8 @@ template <Features S, class F> Surface<F> surface_at(const SceneTables& scene, c
     s.ng = normalize(ng);
     s.ns = normalize(ns);
 
-    s.uv0 = s.uv1 = {F(0.f), F(0.f)};
     s.color = {F(1.f), F(1.f), F(1.f), F(1.f)};
-    if constexpr (S.has(Feature::textures)) {
-        const auto uv_at = [&](const float* uv, int32_t flag) -> Vec2T<F> {
-            const Mask<F> present = active && as_mask((flags & flag) != 0);
-            if (!any(present)) return {F(0.f), F(0.f)};
-            const auto mixed = [&](int c) {
-                return gather(uv + c, Int<F>(i0 * 2)) * b0 + gather(uv + c, Int<F>(i1 * 2)) * b1 + gather(uv + c, Int<F>(i2 * 2)) * b2;
-            };
-            return {select(present, mixed(0), F(0.f)), select(present, mixed(1), F(0.f))};
-        };
-        s.uv0 = uv_at(scene.uv0, part_uv0);
-        s.uv1 = uv_at(scene.uv1, part_uv1);
-    }
+    if constexpr (S.has(Feature::textures)) s.texture = texture_point<F>(scene, flags, {i0, i1, i2}, {b0, b1, b2}, active);
     if constexpr (S.has(Feature::vertex_colors)) {
         const Mask<F> present = active && as_mask((flags & int32_t(part_colors)) != 0);
         if (any(present)) {

@@ -26,11 +26,12 @@ struct Geometry {
     std::vector<Vec3> positions;
     std::vector<Vec3> normals;
     std::vector<Vec4> tangents; // xyz and the handedness w = +-1, as in glTF
-    std::vector<Vec2> uv0, uv1; // (0, 0) is the top left corner of the image, as in glTF
+    std::vector<std::vector<Vec2>> uv; // uv[i] is TEXCOORD_i; (0, 0) is the top left corner of the image, as in glTF
     std::vector<Vec4> colors;   // linear RGBA, multiplies the base colour
     std::vector<uint32_t> indices; // 3 per triangle, all < positions.size()
 
     size_t triangle_count() const { return indices.size() / 3; }
+    bool has_uv_set(int set) const { return size_t(set) < uv.size() && !uv[size_t(set)].empty(); }
 };
 
 // Decoded pixels, top row first. Immutable once shared.
@@ -55,10 +56,13 @@ struct Texture {
     bool operator==(const Texture&) const = default;
 };
 
+// Texture coordinates come in sets with numbers up to this one.
+constexpr int most_uv_set = 255;
+
 // A texture as a material uses it: which UV set and KHR_texture_transform.
 struct TextureRef {
     Id<Texture> texture;
-    uint8_t uv_set = 0; // 0 or 1
+    uint8_t uv_set = 0; // 0 .. most_uv_set
     Vec2 offset{0, 0}, scale{1, 1};
     float rotation_radians = 0; // counter-clockwise, as in KHR_texture_transform
     bool operator==(const TextureRef&) const = default;

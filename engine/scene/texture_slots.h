@@ -4,6 +4,7 @@
 #include "scene/scene.h"
 
 #include <array>
+#include <set>
 #include <string_view>
 
 namespace blush {
@@ -22,5 +23,13 @@ inline constexpr std::array<TextureSlot, 7> texture_slots{{
     {"specular colour texture", &Material::specular_color_texture},
     {"transmission texture", &Material::transmission_texture},
 }};
+
+// The UV sets that a material's textures are laid out by.
+inline std::set<int> uv_sets_read(const Material& material) {
+    std::set<int> sets;
+    for (const TextureSlot& slot : texture_slots)
+        if ((material.*slot.ref).texture) sets.insert((material.*slot.ref).uv_set);
+    return sets;
+}
 
 } // namespace blush

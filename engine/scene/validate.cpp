@@ -41,7 +41,6 @@ public:
         for (const float c : {v.x, v.y, v.z}) not_negative(field, c);
     }
     void texture(std::string_view field, const TextureRef& ref) {
-        is(ref.uv_set <= 1, fmt::format("{} must use UV set 0 or 1, not {}", field, ref.uv_set));
         for (const float c : {ref.offset.x, ref.offset.y, ref.scale.x, ref.scale.y, ref.rotation_radians}) finite(field, c);
     }
     void region(std::string_view field, const PictureRegion& r) {

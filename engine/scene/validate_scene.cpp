@@ -25,8 +25,8 @@ bool array_fits(size_t size, size_t positions) { return size == 0 || size == pos
 
 bool is_whole(const Geometry& g) {
     const size_t n = g.positions.size();
-    return array_fits(g.normals.size(), n) && array_fits(g.tangents.size(), n) && array_fits(g.uv0.size(), n) &&
-           array_fits(g.uv1.size(), n) && array_fits(g.colors.size(), n) && g.indices.size() % 3 == 0 &&
+    return array_fits(g.normals.size(), n) && array_fits(g.tangents.size(), n) && array_fits(g.colors.size(), n) &&
+           std::ranges::all_of(g.uv, [n](const auto& uv) { return array_fits(uv.size(), n); }) && g.indices.size() % 3 == 0 &&
            std::ranges::all_of(g.indices, [n](uint32_t i) { return i < n; });
 }
 

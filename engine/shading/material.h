@@ -60,24 +60,24 @@ template <class F> struct MaterialPoint {
 
 // Radiance in nits that the material emits at a point, front side. Zero in a kernel without emissive triangles.
 template <Features S, class F>
-Vec<F> emission_at(const MaterialTables& tables, const Int<F>& material, const Vec2T<F>& uv0, const Vec2T<F>& uv1, const Mask<F>& active) {
+Vec<F> emission_at(const MaterialTables& tables, const Int<F>& material, const TexturePoint<F>& at, const Mask<F>& active) {
     if constexpr (!S.has(Feature::emissive_triangles)) return splat<F>(0.f);
     const Int<F> m = select(active, material, Int<F>(0));
     const MaterialRecord* records = tables.materials;
     const Vec<F> emission = gather_field3<F>(records, &MaterialRecord::emission, m);
     if constexpr (!S.has(Feature::textures)) return emission;
-    return emission * rgb(lookup<F>(tables.textures, gather_field(records, &MaterialRecord::emissive_texture, m), uv0, uv1, active));
+    return emission * rgb(lookup<F>(tables.textures, gather_field(records, &MaterialRecord::emissive_texture, m), at, active));
 }
 
 // Normal of a normal map, glTF 2.0 section 3.9.3: texels map [0, 1] to [-1, 1], scale stretches x and y. Texels that point
 // below the surface are lifted to it.
 template <class F>
-Vec<F> tangent_normal_at(const MaterialTables& tables, const Int<F>& m, const Vec2T<F>& uv0, const Vec2T<F>& uv1, const Mask<F>& active) {
+Vec<F> tangent_normal_at(const MaterialTables& tables, const Int<F>& m, const TexturePoint<F>& at, const Mask<F>& active) {
     const Vec<F> flat{F(0.f), F(0.f), F(1.f)};
     const Int<F> use = gather_field(tables.materials, &MaterialRecord::normal_texture, m);
     const Mask<F> mapped = active && as_mask(use >= 0);
     if (!any(mapped)) return flat;
-    const Vec<F> texel = rgb(lookup<F>(tables.textures, use, uv0, uv1, active)) * 2.f - splat<F>(1.f);
+    const Vec<F> texel = rgb(lookup<F>(tables.textures, use, at, active)) * 2.f - splat<F>(1.f);
     const F scale = gather_field(tables.materials, &MaterialRecord::normal_scale, m);
     const Vec<F> n{texel.x * scale, texel.y * scale, max(texel.z, F(0.f))};
     const F squared = length_squared(n);
@@ -87,19 +87,19 @@ Vec<F> tangent_normal_at(const MaterialTables& tables, const Int<F>& m, const Ve
 
 // Everything the estimator wants to know about the material at a hit. Lanes that are not active get some legal material.
 // Base colour is cut to [0, 1]: a surface that reflects more than it receives would make light out of nothing.
-template <Features S, class F> MaterialPoint<F> material_at(const MaterialTables& tables, const Int<F>& material, const Vec2T<F>& uv0,
-                                                            const Vec2T<F>& uv1, const Vec4T<F>& vertex_color, const Mask<F>& active) {
+template <Features S, class F> MaterialPoint<F> material_at(const MaterialTables& tables, const Int<F>& material, const TexturePoint<F>& at,
+                                                            const Vec4T<F>& vertex_color, const Mask<F>& active) {
     const Int<F> m = select(active, material, Int<F>(0));
     const MaterialRecord* records = tables.materials;
     const auto texture = [&](int32_t MaterialRecord::*slot) {
-        return lookup<F>(tables.textures, gather_field(records, slot, m), uv0, uv1, active);
+        return lookup<F>(tables.textures, gather_field(records, slot, m), at, active);
     };
     const Int<F> flags = gather_field(records, &MaterialRecord::flags, m);
     const auto flag = [&](MaterialFlag f) { return Mask<F>(as_mask((flags & int32_t(f)) != 0)); };
 
     MaterialPoint<F> p;
     p.double_sided = flag(material_double_sided);
-    p.emission = emission_at<S, F>(tables, material, uv0, uv1, active);
+    p.emission = emission_at<S, F>(tables, material, at, active);
     p.unlit = Mask<F>(false);
     if constexpr (S.has(Feature::unlit)) p.unlit = flag(material_unlit);
 
@@ -141,16 +141,16 @@ template <Features S, class F> MaterialPoint<F> material_at(const MaterialTables
     if constexpr (S.has(Feature::absorption)) p.sigma_a = gather_field3<F>(records, &MaterialRecord::sigma_a, m);
 
     p.tangent_normal = {F(0.f), F(0.f), F(1.f)};
-    if constexpr (S.has(Feature::normal_maps)) p.tangent_normal = tangent_normal_at<F>(tables, m, uv0, uv1, active);
+    if constexpr (S.has(Feature::normal_maps)) p.tangent_normal = tangent_normal_at<F>(tables, m, at, active);
     return p;
 }
 
 // Part of the light that meets the surface at all, [0, 1], glTF 2.0 section 3.9.4: 1 if opaque, 0 or 1 if masked, else alpha of
 // factor, texture and vertex colour. One ray at a time, as ray filters ask.
-inline float opacity_at(const MaterialTables& tables, int32_t material, const Vec2& uv0, const Vec2& uv1, float vertex_alpha) {
+inline float opacity_at(const MaterialTables& tables, int32_t material, const TexturePoint<float>& at, float vertex_alpha) {
     const MaterialRecord& m = tables.materials[material];
     if (m.alpha == alpha_opaque) return 1;
-    const float alpha = clamp01(m.opacity * lookup<float>(tables.textures, m.base_color_texture, uv0, uv1, true).w * vertex_alpha);
+    const float alpha = clamp01(m.opacity * lookup<float>(tables.textures, m.base_color_texture, at, true).w * vertex_alpha);
     return m.alpha == alpha_mask ? float(alpha >= m.alpha_cutoff) : alpha;
 }
 

@@ -5,6 +5,8 @@
 
 #include "core/math.h"
 
+#include <array>
+
 namespace blush {
 
 enum TextureWrap : int32_t { wrap_repeat, wrap_clamp, wrap_mirror };
@@ -24,10 +26,13 @@ struct TextureRecord {
     int32_t encoding;       // TextureEncoding
 };
 
+// So many different UV sets can the textures of one scene lie on.
+constexpr int most_uv_sets = 8;
+
 // A texture as one slot of a material reads it: u' = u_from_u * u + u_from_v * v + u_offset, the same for v'.
 struct TextureUse {
     int32_t texture; // index of a TextureRecord
-    int32_t uv_set;  // 0 or 1
+    int32_t uv_set;  // which of TexturePoint::uv
     float u_from_u, u_from_v, u_offset;
     float v_from_u, v_from_v, v_offset;
 };
@@ -39,6 +44,7 @@ struct TextureTables {
     const uint32_t* rgba8 = nullptr;       // red in the lowest byte; below 2^31 texels
     const float* rgba32f = nullptr;        // below 2^29 texels
     const float* srgb_to_linear = nullptr; // of the 256 byte values
+    int32_t uv_sets = 0;                   // that the uses are laid out by
 };
 
 } // namespace blush
@@ -53,6 +59,11 @@ template <class F> Vec4T<F> lerp(const Vec4T<F>& a, const Vec4T<F>& b, const std
     return {lerp(a.x, b.x, t), lerp(a.y, b.y, t), lerp(a.z, b.z, t), lerp(a.w, b.w, t)};
 }
 template <class F> Vec<F> rgb(const Vec4T<F>& c) { return {c.x, c.y, c.z}; }
+
+// Where a point of a surface lies on its textures.
+template <class F> struct TexturePoint {
+    std::array<Vec2T<F>, most_uv_sets> uv; // the first TextureTables::uv_sets of them
+};
 
 // The two texels of one axis that a coordinate lies between, both in [0, size), and the weight of the second.
 template <class F> struct TexturePair {
@@ -89,19 +100,24 @@ template <class F> Vec4T<F> decode_texel(const TextureTables& tables, const UInt
     return select(is_srgb, Vec4T<F>{gather(table, r), gather(table, g), gather(table, b), linear.w}, linear);
 }
 
-// Linear RGBA of a texture use at a point with these texture coordinates. `use` -1 and lanes that are not active read white,
+// Linear RGBA of a texture use at a point. `use` -1 and lanes that are not active read white,
 // the neutral element of glTF's "factor times texture". Coordinates may be anything: those that are not finite read as 0.
 // Out of line: a material reads up to seven textures, and kernels are flattened.
-template <class F> [[gnu::noinline]] Vec4T<F> lookup(const TextureTables& tables, const Int<F>& use, const Vec2T<F>& uv0,
-                                                     const Vec2T<F>& uv1, const Mask<F>& active) {
+template <class F> [[gnu::noinline]] Vec4T<F> lookup(const TextureTables& tables, const Int<F>& use, const TexturePoint<F>& at,
+                                                     const Mask<F>& active) {
     const Vec4T<F> white{F(1.f), F(1.f), F(1.f), F(1.f)};
     const Mask<F> reads = active && as_mask(use >= 0);
     if (!any(reads)) return white;
 
     const Int<F> slot = select(reads, use, Int<F>(0));
     const TextureUse* uses = tables.uses;
-    const Mask<F> second_set = as_mask(gather_field(uses, &TextureUse::uv_set, slot) == 1);
-    const F u = select(second_set, uv1.x, uv0.x), v = select(second_set, uv1.y, uv0.y);
+    const Int<F> uv_set = gather_field(uses, &TextureUse::uv_set, slot);
+    F u = at.uv[0].x, v = at.uv[0].y;
+    for (int set = 1; set < tables.uv_sets; ++set) {
+        const Mask<F> on_set = as_mask(uv_set == set);
+        u = select(on_set, at.uv[size_t(set)].x, u);
+        v = select(on_set, at.uv[size_t(set)].y, v);
+    }
     F s = gather_field(uses, &TextureUse::u_from_u, slot) * u + gather_field(uses, &TextureUse::u_from_v, slot) * v +
           gather_field(uses, &TextureUse::u_offset, slot);
     F t = gather_field(uses, &TextureUse::v_from_u, slot) * u + gather_field(uses, &TextureUse::v_from_v, slot) * v +
@@ -122,13 +138,13 @@ template <class F> [[gnu::noinline]] Vec4T<F> lookup(const TextureTables& tables
     const Mask<F> is_float = reads && as_mask(encoding == encoding_float32), is_bytes = reads && !is_float;
     const Mask<F> is_srgb = as_mask(encoding == encoding_srgb8);
     const auto texel = [&](const Int<F>& column, const Int<F>& row) {
-        const Int<F> at = offset + row * width + column;
+        const Int<F> place = offset + row * width + column;
         Vec4T<F> c = white;
         if (any(is_bytes)) {
-            c = select(is_bytes, decode_texel<F>(tables, gather(tables.rgba8, select(is_bytes, at, Int<F>(0))), is_srgb), c);
+            c = select(is_bytes, decode_texel<F>(tables, gather(tables.rgba8, select(is_bytes, place, Int<F>(0))), is_srgb), c);
         }
         if (any(is_float)) {
-            const Int<F> i = select(is_float, at, Int<F>(0)) * 4;
+            const Int<F> i = select(is_float, place, Int<F>(0)) * 4;
             const float* p = tables.rgba32f;
             c = select(is_float, Vec4T<F>{gather(p, i), gather(p + 1, i), gather(p + 2, i), gather(p + 3, i)}, c);
         }

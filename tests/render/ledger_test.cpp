@@ -50,7 +50,7 @@ GeometryPtr dressed_quad() {
     g.serial = next_payload_serial();
     g.normals = {{0.1f, 1, 0}, {0, 1, 0.1f}, {0, 1, 0}, {0, 1, 0}};
     g.tangents.assign(4, {1, 0, 0, 1});
-    g.uv1 = g.uv0;
+    g.uv = {g.uv[0], g.uv[0]};
     g.colors.assign(4, {1, 0.5f, 0.5f, 1});
     return std::make_shared<const Geometry>(g);
 }
@@ -73,7 +73,7 @@ TEST(Ledger, WhatABareSceneLeavesOutIsNotThere) {
     const Compiled c(bare());
     const SceneTables& tables = c.scene.tables();
     const Ledger ledger = c.ledger();
-    for (const void* column : {tables.normals, tables.tangents, tables.uv0, tables.uv1, tables.colors}) EXPECT_EQ(column, nullptr);
+    for (const void* column : {tables.normals, tables.tangents, tables.uv[0], tables.uv[1], tables.colors}) EXPECT_EQ(column, nullptr);
     EXPECT_EQ(tables.environment.width, 1);
     for (const FeatureUse& use : ledger) {
         EXPECT_EQ(use.used, use.part == "film" && use.name == "beauty") << use.part << "/" << use.name;
@@ -86,7 +86,7 @@ TEST(Ledger, WhatARichSceneNeedsIsThere) {
     const Compiled c(rich());
     const SceneTables& tables = c.scene.tables();
     const Ledger ledger = c.ledger();
-    for (const void* column : {tables.normals, tables.tangents, tables.uv0, tables.uv1, tables.colors}) EXPECT_NE(column, nullptr);
+    for (const void* column : {tables.normals, tables.tangents, tables.uv[0], tables.uv[1], tables.colors}) EXPECT_NE(column, nullptr);
     EXPECT_EQ(tables.environment.width, 16);
     for (const FeatureUse& use : ledger) {
         if (use.part == "geometry" || use.part == "textures" || use.part == "lights") { EXPECT_TRUE(use.used) << use.name; }
@@ -123,7 +123,7 @@ TEST(Ledger, TexturesThatNobodyReadsAreNotKept) {
     place(scene, floor_quad(1), m);
     const Compiled c(scene);
     EXPECT_EQ(c.scene.info().textures, 0);
-    EXPECT_EQ(c.scene.tables().uv0, nullptr);
+    EXPECT_EQ(c.scene.tables().uv[0], nullptr);
     EXPECT_EQ(c.scene.tables().tangents, nullptr);
     const Ledger ledger = c.ledger();
     EXPECT_FALSE(line(ledger, "textures", "texels").used);

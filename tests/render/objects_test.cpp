@@ -12,13 +12,14 @@ using namespace statistics;
 // A lop-sided dome with smooth normals and texture coordinates.
 Geometry dome() {
     Geometry g;
+    g.uv.resize(1);
     constexpr int n = 8;
     for (int i = 0; i <= n; ++i)
         for (int j = 0; j <= n; ++j) {
             const float u = float(i) / n, v = float(j) / n, x = 2 * u - 1, z = 1 - 2 * v;
             g.positions.push_back({x, 0.8f - 0.6f * x * x - 0.4f * z * z + 0.3f * x, z});
             g.normals.push_back(unit({1.2f * x - 0.3f, 1, 0.8f * z}));
-            g.uv0.push_back({u, v});
+            g.uv[0].push_back({u, v});
         }
     for (uint32_t i = 0; i < n; ++i)
         for (uint32_t j = 0; j < n; ++j) {

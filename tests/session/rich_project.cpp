@@ -13,9 +13,10 @@ GeometryPtr octahedron() {
     g.positions = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
     g.indices = {0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5};
     g.normals = g.positions;
+    g.uv.resize(2);
     for (const Vec3& p : g.positions) {
-        g.uv0.push_back({0.5f + 0.5f * p.x, 0.5f + 0.5f * p.y});
-        g.uv1.push_back({0.5f + 0.5f * p.z, 0.5f - 0.5f * p.x});
+        g.uv[0].push_back({0.5f + 0.5f * p.x, 0.5f + 0.5f * p.y});
+        g.uv[1].push_back({0.5f + 0.5f * p.z, 0.5f - 0.5f * p.x});
         g.tangents.push_back({p.y, p.z, p.x, 1}); // perpendicular, as the corners lie on the axes
         g.colors.push_back({0.5f + 0.5f * p.x, 0.7f, 0.5f - 0.5f * p.z, 0.75f + 0.25f * p.y});
     }
@@ -148,11 +149,12 @@ void add_lights(Builder& b) {
 GeometryPtr hill_geometry() {
     constexpr uint32_t n = 130;
     Geometry g;
+    g.uv.resize(1);
     for (uint32_t j = 0; j <= n; ++j)
         for (uint32_t i = 0; i <= n; ++i) {
             const float u = float(i) / n, v = float(j) / n;
             g.positions.push_back({u - 0.5f, v - 0.5f, 0.1f * std::sin(9 * u) * std::cos(7 * v)});
-            g.uv0.push_back({u, v});
+            g.uv[0].push_back({u, v});
         }
     for (uint32_t j = 0; j < n; ++j)
         for (uint32_t i = 0; i < n; ++i) {

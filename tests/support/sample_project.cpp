@@ -6,7 +6,7 @@ GeometryPtr quad_geometry() {
     Geometry g;
     g.positions = {{-0.5f, -0.5f, 0}, {0.5f, -0.5f, 0}, {0.5f, 0.5f, 0}, {-0.5f, 0.5f, 0}};
     g.normals.assign(4, {0, 0, 1});
-    g.uv0 = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
+    g.uv = {{{0, 1}, {1, 1}, {1, 0}, {0, 0}}};
     g.indices = {0, 1, 2, 0, 2, 3};
     return std::make_shared<const Geometry>(std::move(g));
 }

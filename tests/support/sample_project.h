@@ -5,7 +5,7 @@
 
 namespace blush::test {
 
-// A unit quad in the plane z = 0, facing +Z, with normals and uv0.
+// A unit quad in the plane z = 0, facing +Z, with normals and one UV set.
 GeometryPtr quad_geometry();
 // width x height pixels of one value.
 ImagePtr byte_image(int width, int height, int channels, uint8_t value);

@@ -71,7 +71,7 @@ std::vector<Triangle> triangles_of(const Scene& scene) {
                 const size_t v = g.indices[i];
                 if (i % 3 == 0) triangles.emplace_back();
                 triangles.back()[i % 3] = {g.positions[v].x, g.positions[v].y, g.positions[v].z, g.normals[v].x,
-                                           g.normals[v].y,   g.normals[v].z,   g.uv0[v].x,       g.uv0[v].y};
+                                           g.normals[v].y,   g.normals[v].z,   g.uv[0][v].x,     g.uv[0][v].y};
             }
         }
     return sorted(std::move(triangles));

@@ -84,8 +84,9 @@ TEST(GltfGeometry, IntegerTextureCoordinatesAndColorsAreNormalised) {
     const auto imported = import_built(b);
     ASSERT_TRUE(imported) << error_text(imported);
     const Geometry& g = only_geometry(imported->scene);
-    EXPECT_EQ(g.uv0, (std::vector<Vec2>{{0, 1}, {1, 0}, {0.2f, 0.4f}}));
-    EXPECT_EQ(g.uv1, (std::vector<Vec2>{{0, 1}, {1, 0}, {0.2f, 0}}));
+    ASSERT_EQ(g.uv.size(), 2u);
+    EXPECT_EQ(g.uv[0], (std::vector<Vec2>{{0, 1}, {1, 0}, {0.2f, 0.4f}}));
+    EXPECT_EQ(g.uv[1], (std::vector<Vec2>{{0, 1}, {1, 0}, {0.2f, 0}}));
     EXPECT_EQ(g.colors, (std::vector<Vec4>{{1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 1, 1}}));
 }
 

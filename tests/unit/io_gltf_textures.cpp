@@ -87,6 +87,28 @@ TEST(GltfTextures, TransformAndTexCoordOverride) {
     EXPECT_EQ(ref.uv_set, 1);
 }
 
+TEST(GltfTextures, LieOnAnyUvSet) {
+    GltfBuilder b = embedded_texture({{"texCoord", 3}});
+    b.add("materials", {{"emissiveTexture", {{"index", 0}, {"texCoord", 70}}}});
+    b.add("materials", {{"emissiveTexture", {{"index", 0}, {"texCoord", 256}}}});
+    Json attributes = {{"POSITION", b.triangle_positions()}};
+    for (const int set : {0, 2, 3}) attributes[fmt::format("TEXCOORD_{}", set)] = b.accessor<float>({0, 0, float(set), 0, 0, 1}, "VEC2");
+    b.show({{"attributes", attributes}, {"material", 0}});
+    b.show({{"attributes", attributes}, {"material", 1}});
+    const auto imported = import_built(b);
+    ASSERT_TRUE(imported) << error_text(imported);
+    const Scene& scene = imported->scene;
+    EXPECT_EQ(scene.materials.entries()[0].value.base_color_texture.uv_set, 3);
+    EXPECT_FALSE(scene.materials.entries()[2].value.emissive_texture.texture);
+    const Geometry& g = *scene.meshes.begin()->value.parts[0].geometry;
+    ASSERT_EQ(g.uv.size(), 4u);
+    EXPECT_EQ(g.uv[3], (std::vector<Vec2>{{0, 0}, {3, 0}, {0, 1}}));
+    EXPECT_TRUE(g.has_uv_set(0) && !g.has_uv_set(1) && !g.has_uv_set(2)) << "the first two are kept, and what textures lie on";
+    EXPECT_TRUE(reports(imported->report, "TEXCOORD_2, which no texture uses"));
+    EXPECT_TRUE(reports(imported->report, "TEXCOORD_70, which is not there"));
+    EXPECT_TRUE(reports(imported->report, "TEXCOORD_256; numbers reach from 0 to 255"));
+}
+
 TEST(GltfTextures, EveryUseOfATextureIsRead) {
     GltfBuilder b = embedded_texture();
     const Json info = {{"index", 0}, {"texCoord", 1}};
@@ -158,7 +180,7 @@ TEST(GltfTangents, AreComputedForNormalMaps) {
     ASSERT_TRUE(mirrored) << error_text(mirrored);
     EXPECT_EQ(straight->scene.meshes.begin()->value.parts[0].geometry->tangents, std::vector<Vec4>(3, Vec4{1, 0, 0, 1}));
     EXPECT_EQ(mirrored->scene.meshes.begin()->value.parts[0].geometry->tangents, std::vector<Vec4>(3, Vec4{0, -1, 0, -1}));
-    EXPECT_TRUE(reports(straight->report, "approximated: tangents"));
+    EXPECT_TRUE(reports(straight->report, "tangents are missing: computed"));
 }
 
 TEST(GltfTangents, OfDegenerateTextureCoordinatesAreSomePerpendicular) {

@@ -14,7 +14,7 @@ struct TablePoints {
     const MaterialTables* materials;
     const EnvironmentTables* environment;
     int count;
-    std::array<const float*, 12> numbers; // uv0, uv1, vertex colour, direction, u
+    std::array<const float*, 12> numbers; // two UV sets, vertex colour, direction, u
     const int32_t* material;
     const uint32_t* bits;
     const int32_t* active;
@@ -29,9 +29,9 @@ template <class F> void evaluate_tables(const TablePoints& points, const std::ar
     for (int k = 0; k < points.count; k += width<F>) {
         const auto number = [&](size_t i) { return load<F>(points.numbers[i] + k); };
         const Mask<F> active = as_mask(load<Int<F>>(points.active + k) != 0);
-        const Vec2T<F> uv0{number(0), number(1)}, uv1{number(2), number(3)};
+        const TexturePoint<F> at{.uv = {{{number(0), number(1)}, {number(2), number(3)}}}};
         const Vec<F> direction{number(8), number(9), number(10)};
-        const MaterialPoint<F> m = material_at<all_features, F>(*points.materials, load<Int<F>>(points.material + k), uv0, uv1,
+        const MaterialPoint<F> m = material_at<all_features, F>(*points.materials, load<Int<F>>(points.material + k), at,
                                                                 Vec4T<F>{number(4), number(5), number(6), number(7)}, active);
         const Vec<F> radiance = environment_radiance<F>(*points.environment, direction, active);
         const EnvironmentSample<F> s = sample_environment<F>(*points.environment, number(11), load<UInt<F>>(points.bits + k));

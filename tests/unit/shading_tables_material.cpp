@@ -26,7 +26,7 @@ MaterialTable table_of(const Material& material) {
 }
 
 template <Features S> MaterialPoint<float> point_of(const MaterialTable& table, Vec4 vertex_color = white, Vec2 uv = {0.3f, 0.6f}) {
-    return material_at<S, float>(table.tables(), 1, uv, uv, vertex_color, true);
+    return material_at<S, float>(table.tables(), 1, {{{uv, uv}}}, vertex_color, true);
 }
 
 float opacity_of(const Material& material, float vertex_alpha = 1, Vec2 uv = {0, 0}, const Texture* texture = nullptr) {
@@ -36,7 +36,7 @@ float opacity_of(const Material& material, float vertex_alpha = 1, Vec2 uv = {0,
     add_worn_material(scene, textured);
     MaterialTable table;
     build_material_table(table, scene);
-    return opacity_at(table.tables(), 1, uv, uv, vertex_alpha);
+    return opacity_at(table.tables(), 1, {{{uv, uv}}}, vertex_alpha);
 }
 
 // Every field of a point, for comparisons of bits.
@@ -166,7 +166,7 @@ TEST(MaterialTable, ParametersAreMadeLegal) {
         for (const float c : {p.bsdf.specular_color.x, p.bsdf.specular_color.y, p.bsdf.specular_color.z})
             ASSERT_TRUE(within(c, 0, 1.1e30f)) << c;
         ASSERT_TRUE(p.bsdf.ior == 0 || within(p.bsdf.ior, 1, 1000)) << p.bsdf.ior;
-        ASSERT_TRUE(within(opacity_at(table.tables(), 1, {0, 0}, {0, 0}, number()), 0, 1));
+        ASSERT_TRUE(within(opacity_at(table.tables(), 1, {}, number()), 0, 1));
     }
 }
 
@@ -324,10 +324,11 @@ template <uint32_t Bits> void expect_same_bits(const Scene& scene, const Materia
         if (!kernel.contains(features_of(material))) continue;
         ++compared;
         for (int k = 0; k < 20; ++k) {
-            const Vec2 uv0{random.between(-2, 2), random.between(-2, 2)}, uv1{random.between(-2, 2), random.between(-2, 2)};
+            const auto coordinates = [&] { return Vec2{random.between(-2, 2), random.between(-2, 2)}; };
+            const TexturePoint<float> at{{{coordinates(), coordinates()}}};
             const int32_t index = table.index_of(id);
-            const auto small = material_at<kernel, float>(table.tables(), index, uv0, uv1, white, true);
-            const auto large = material_at<all_features, float>(table.tables(), index, uv0, uv1, white, true);
+            const auto small = material_at<kernel, float>(table.tables(), index, at, white, true);
+            const auto large = material_at<all_features, float>(table.tables(), index, at, white, true);
             ASSERT_EQ(bits_of(small), bits_of(large));
         }
     }
@@ -364,9 +365,9 @@ TEST(MaterialTable, EmissionAloneIsTheEmissionOfThePoint) {
     MaterialTable table;
     build_material_table(table, scene);
     for (int32_t i = 0; i <= 50; ++i) {
-        const Vec2 uv0{random.unit(), random.unit()}, uv1{random.unit(), random.unit()};
-        const Vec3 whole = material_at<all_features, float>(table.tables(), i, uv0, uv1, white, true).emission;
-        EXPECT_EQ((emission_at<all_features, float>(table.tables(), i, uv0, uv1, true)), whole);
+        const TexturePoint<float> at{{{Vec2{random.unit(), random.unit()}, Vec2{random.unit(), random.unit()}}}};
+        const Vec3 whole = material_at<all_features, float>(table.tables(), i, at, white, true).emission;
+        EXPECT_EQ((emission_at<all_features, float>(table.tables(), i, at, true)), whole);
     }
 }
 

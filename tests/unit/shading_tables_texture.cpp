@@ -1,5 +1,6 @@
 // Texture lookups against a naive double-precision model, and the table that holds the texels.
 #include "render/material_table.h"
+#include "scene/texture_slots.h"
 #include "unit/shading_tables.h"
 
 #include <gtest/gtest.h>
@@ -32,7 +33,7 @@ struct Textured {
     }
     Vec4 read(bool as_color, Vec2 uv0, Vec2 uv1 = {0, 0}) const {
         const MaterialRecord& r = table.records[1];
-        return lookup<float>(table.tables().textures, as_color ? r.base_color_texture : r.metallic_roughness_texture, uv0, uv1, true);
+        return lookup<float>(table.tables().textures, as_color ? r.base_color_texture : r.metallic_roughness_texture, {{{uv0, uv1}}}, true);
     }
 };
 
@@ -171,6 +172,60 @@ TEST(TextureLookup, ByteEndsAreExact) {
     }
 }
 
+// A material whose textures lie on the sets of these numbers, in the order of texture_slots.
+Material on_uv_sets(Id<Texture> texture, const std::vector<int>& sets) {
+    Material m;
+    m.specular = m.transmission = 0.5f;
+    m.emissive = {1, 1, 1};
+    for (size_t i = 0; i < sets.size(); ++i) {
+        TextureRef& ref = m.*texture_slots[i].ref;
+        ref.texture = texture;
+        ref.uv_set = uint8_t(sets[i]);
+    }
+    return m;
+}
+
+TEST(TextureLookup, EachUseLiesOnItsOwnUvSet) {
+    Scene scene;
+    Texture ramp;
+    int next = 0;
+    ramp.image = make_byte_image(8, 1, 1, [&] { return uint8_t(next++ * 30); });
+    const std::vector<int> sets{4, 0, 255, 2, 9, 5, 1};
+    add_worn_material(scene, on_uv_sets(scene.textures.add(ramp), sets));
+    MaterialTable table;
+    build_material_table(table, scene);
+    EXPECT_EQ(table.uv_sets, (std::vector<int>{0, 1, 2, 4, 5, 9, 255}));
+    EXPECT_TRUE(table.warnings.empty());
+    TexturePoint<float> at{};
+    for (size_t i = 0; i < table.uv_sets.size(); ++i) at.uv[i] = {(float(i) + 0.5f) / 8, 0.5f}; // the centre of texel i
+    const MaterialRecord& r = table.records[1];
+    const std::array uses{r.base_color_texture, r.metallic_roughness_texture, r.normal_texture, r.emissive_texture, r.specular_texture,
+                          r.specular_color_texture, r.transmission_texture};
+    const TextureTables textures = table.tables().textures;
+    for (size_t i = 0; i < uses.size(); ++i) {
+        const auto place = std::ranges::find(table.uv_sets, sets[i]) - table.uv_sets.begin();
+        const float encoded = float(place * 30) / 255.f;
+        const bool is_color = i == 0 || i == 3 || i == 5;
+        EXPECT_NEAR(lookup<float>(textures, uses[i], at, true).x, is_color ? decoded(encoded) : encoded, 1e-6) << texture_slots[i].name;
+    }
+}
+
+TEST(TextureLookup, MoreUvSetsThanThereIsRoomForAreReportedAndReadWhite) {
+    Scene scene;
+    Texture black;
+    black.image = make_byte_image(1, 1, 1, [] { return uint8_t(0); });
+    const Id<Texture> texture = scene.textures.add(black);
+    add_worn_material(scene, on_uv_sets(texture, {0, 1, 2, 3, 4, 5, 6}));
+    add_worn_material(scene, on_uv_sets(texture, {10, 11}));
+    MaterialTable table;
+    build_material_table(table, scene);
+    EXPECT_EQ(table.uv_sets.size(), size_t(most_uv_sets));
+    ASSERT_EQ(table.warnings.size(), 1u);
+    EXPECT_NE(table.warnings[0].what.find("9 UV sets; those on sets beyond 10"), std::string::npos);
+    EXPECT_GE(table.records[2].base_color_texture, 0);
+    EXPECT_EQ(table.records[2].metallic_roughness_texture, -1);
+}
+
 // The extension's sample model turns its arrow this way: u' of a point on the v axis grows with the angle.
 TEST(TextureLookup, RotationTurnsCounterClockwiseWithVDownwards) {
     TextureRef ref;
@@ -224,8 +279,8 @@ TEST(TextureLookup, NoTextureAndIdleLanesReadWhite) {
     texture.image = make_byte_image(1, 1, 1, [] { return uint8_t(0); });
     const Textured textured(texture, {});
     const TextureTables tables = textured.table.tables().textures;
-    EXPECT_EQ(lookup<float>(tables, -1, {0, 0}, {0, 0}, true), (Vec4{1, 1, 1, 1}));
-    EXPECT_EQ(lookup<float>(tables, 1 << 30, {0, 0}, {0, 0}, false), (Vec4{1, 1, 1, 1}));
+    EXPECT_EQ(lookup<float>(tables, -1, {}, true), (Vec4{1, 1, 1, 1}));
+    EXPECT_EQ(lookup<float>(tables, 1 << 30, {}, false), (Vec4{1, 1, 1, 1}));
 }
 
 TEST(TextureTable, StoresAnImageOnceHoweverItIsRead) {

@@ -100,7 +100,7 @@ void draw_texture(Fields& f, PanelContext& c, const char* label, TextureRef& ref
         f.number("Scale V", ref.scale.y, {.reset = 1, .step = 0.005f, .tip = "How many times the image repeats over one unit of V."});
         f.angle("Turn", ref.rotation_radians,
                 {.min = -360, .max = 360, .reset = 0, .step = 0.25f, .tip = "Turns the image counter-clockwise about its corner."});
-        if (f.integer("UV set", uv_set, 0, 1, 0, "Which texture coordinates of the mesh are used.")) ref.uv_set = uint8_t(uv_set);
+        if (f.integer("UV set", uv_set, 0, most_uv_set, 0, "Which texture coordinates of the mesh are used.")) ref.uv_set = uint8_t(uv_set);
     }
     ImGui::PopID();
 }

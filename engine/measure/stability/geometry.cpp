@@ -81,7 +81,7 @@ Findings degenerate_lamp() {
             for (const float x : {-0.5f, 0.f, 0.5f}) g.positions.push_back({x, 1, 0.1f});
             for (const uint32_t k : {n, n + 1, n + 2}) g.indices.push_back(k);
         }
-        g.uv0.clear();
+        g.uv.clear();
     });
     place(scene, lamp, emitter(3));
     const Vec3d corners[] = {{-0.5, 1, -0.5}, {0.5, 1, -0.5}, {0.5, 1, 0.5}, {-0.5, 1, 0.5}};

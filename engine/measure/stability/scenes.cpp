@@ -12,7 +12,8 @@ namespace {
 void add_quad(Geometry& g, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     const uint32_t first = uint32_t(g.positions.size());
     g.positions.insert(g.positions.end(), {a, b, c, d});
-    g.uv0.insert(g.uv0.end(), {{0, 0}, {1, 0}, {1, 1}, {0, 1}});
+    g.uv.resize(1);
+    g.uv[0].insert(g.uv[0].end(), {{0, 0}, {1, 0}, {1, 1}, {0, 1}});
     for (const uint32_t i : {0u, 1u, 2u, 0u, 2u, 3u}) g.indices.push_back(first + i);
 }
 

@@ -10,7 +10,7 @@ namespace blush::stability {
 
 // ---- shapes, without vertex normals: what they reflect follows from their planes alone
 
-// Of four corners, counter-clockwise as seen from its front; uv0 runs from (0, 0) at the first corner to (1, 1) at the third.
+// Of four corners, counter-clockwise as seen from its front; its UV set 0 runs from (0, 0) at the first corner to (1, 1) at the third.
 GeometryPtr quad(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 // [-half, half]^2 at height y, facing up.
 GeometryPtr floor_quad(float half, float y = 0);

@@ -1,0 +1,203 @@
+#include "io/mikktspace.h"
+
+#include "core/math.h"
+#include "scene/affine.h"
+
+#include <algorithm>
+#include <array>
+#include <cfloat>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <tuple>
+
+namespace blush {
+namespace {
+
+constexpr int none = -1;
+
+bool not_zero(double x) { return std::abs(x) > double(FLT_MIN); }
+Vec3d unit_or_same(const Vec3d& v) {
+    const double size = length(v);
+    return not_zero(size) ? v * (1 / size) : v;
+}
+Vec3d in_plane(const Vec3d& v, const Vec3d& normal) { return unit_or_same(v - normal * dot(normal, v)); }
+
+struct Triangle {
+    std::array<uint32_t, 3> vertices{};         // welded
+    std::array<int, 3> neighbors{none, none, none}; // across the edge from corner k to k + 1
+    std::array<int, 3> groups{none, none, none};    // of each corner
+    Vec3d along_u{0, 0, 0};                     // where u grows: unit length, or 0
+    bool keeps_orientation = false;             // else the texture is mirrored
+    bool follows = false;                       // its UVs say nothing: it joins whom it meets
+    bool degenerate = false;                    // two corners in one place
+
+    size_t corner_of(uint32_t vertex) const { return size_t(std::ranges::find(vertices, vertex) - vertices.begin()); }
+};
+
+struct Group {
+    uint32_t vertex = 0;
+    bool keeps_orientation = false;
+    std::vector<uint32_t> triangles;
+};
+
+class TangentSpace {
+public:
+    TangentSpace(const Geometry& g, const std::vector<Vec2>& uv) : g_(g), uv_(uv), triangles_(g.triangle_count()) {
+        weld();
+        for (size_t t = 0; t < triangles_.size(); ++t) describe(t);
+        connect();
+        group();
+    }
+
+    std::vector<Vec4> corners() const {
+        std::vector<std::optional<Vec3d>> tangents;
+        for (const Group& group : groups_) tangents.push_back(tangent_of(group));
+        const std::vector<int> stand_ins = groups_by_vertex();
+        std::vector<Vec4> corners(g_.indices.size());
+        for (size_t i = 0; i < corners.size(); ++i) {
+            const Triangle& triangle = triangles_[i / 3];
+            int group = triangle.groups[i % 3];
+            if (triangle.degenerate) group = stand_ins[triangle.vertices[i % 3]];
+            const Vec3d n = normal(triangle.vertices[i % 3]);
+            const Vec3d t = group != none && tangents[size_t(group)] ? *tangents[size_t(group)] : any_perpendicular(n);
+            const bool keeps = group != none && groups_[size_t(group)].keeps_orientation;
+            corners[i] = {float(t.x), float(t.y), float(t.z), keeps ? -1.0f : 1.0f};
+        }
+        return corners;
+    }
+
+private:
+    Vec3d position(uint32_t vertex) const { return to_double(g_.positions[vertex]); }
+    Vec3d normal(uint32_t vertex) const { return unit_or_same(to_double(g_.normals[vertex])); }
+
+    // The first of vertices that are alike stands for all of them.
+    void weld() {
+        const auto key = [&](uint32_t i) {
+            const Vec3 &p = g_.positions[i], &n = g_.normals[i];
+            return std::tuple(p.x, p.y, p.z, n.x, n.y, n.z, uv_[i].x, uv_[i].y);
+        };
+        std::vector<uint32_t> order(g_.positions.size()), first(order.size());
+        std::iota(order.begin(), order.end(), 0u);
+        std::ranges::sort(order, [&](uint32_t a, uint32_t b) { return std::tuple(key(a), a) < std::tuple(key(b), b); });
+        for (size_t i = 0; i < order.size(); ++i)
+            first[order[i]] = i > 0 && key(order[i]) == key(order[i - 1]) ? first[order[i - 1]] : order[i];
+        for (size_t i = 0; i < g_.indices.size(); ++i) triangles_[i / 3].vertices[i % 3] = first[g_.indices[i]];
+    }
+
+    void describe(size_t index) {
+        Triangle& triangle = triangles_[index];
+        const auto [a, b, c] = triangle.vertices;
+        const Vec3 &pa = g_.positions[a], &pb = g_.positions[b], &pc = g_.positions[c];
+        triangle.degenerate = pa == pb || pa == pc || pb == pc;
+        const double u1 = double(uv_[b].x) - uv_[a].x, v1 = double(uv_[b].y) - uv_[a].y;
+        const double u2 = double(uv_[c].x) - uv_[a].x, v2 = double(uv_[c].y) - uv_[a].y;
+        const double area = u1 * v2 - u2 * v1;
+        triangle.keeps_orientation = area > 0;
+        const Vec3d e1 = position(b) - position(a), e2 = position(c) - position(a);
+        const Vec3d along_u = e1 * v2 - e2 * v1, along_v = e2 * u1 - e1 * u2;
+        triangle.follows = !not_zero(area) || !not_zero(length(along_u)) || !not_zero(length(along_v));
+        if (not_zero(area)) triangle.along_u = unit_or_same(along_u) * (area > 0 ? 1.0 : -1.0);
+    }
+
+    // Each edge joins the two triangles that run along it in opposite directions; of more than two, those that come first.
+    void connect() {
+        struct Edge {
+            uint32_t low, high, triangle;
+            int corner;
+            bool upwards;
+        };
+        std::vector<Edge> edges;
+        for (uint32_t t = 0; t < triangles_.size(); ++t) {
+            if (triangles_[t].degenerate) continue;
+            for (int k = 0; k < 3; ++k) {
+                const uint32_t from = triangles_[t].vertices[size_t(k)], to = triangles_[t].vertices[size_t((k + 1) % 3)];
+                edges.push_back({std::min(from, to), std::max(from, to), t, k, from < to});
+            }
+        }
+        const auto key = [](const Edge& e) { return std::tuple(e.low, e.high, e.triangle, e.corner); };
+        std::ranges::sort(edges, {}, key);
+        for (size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
+            while (end < edges.size() && edges[end].low == edges[begin].low && edges[end].high == edges[begin].high) ++end;
+            // The k-th that runs up and the k-th that runs down.
+            const std::span same(edges.data() + begin, end - begin);
+            auto up = same.begin(), down = same.begin();
+            while (true) {
+                up = std::find_if(up, same.end(), [](const Edge& e) { return e.upwards; });
+                down = std::find_if(down, same.end(), [](const Edge& e) { return !e.upwards; });
+                if (up == same.end() || down == same.end()) break;
+                triangles_[up->triangle].neighbors[size_t(up->corner)] = int(down->triangle);
+                triangles_[down->triangle].neighbors[size_t(down->corner)] = int(up->triangle);
+                ++up;
+                ++down;
+            }
+        }
+    }
+
+    void group() {
+        for (uint32_t t = 0; t < triangles_.size(); ++t) {
+            if (triangles_[t].follows || triangles_[t].degenerate) continue;
+            for (size_t k = 0; k < 3; ++k)
+                if (triangles_[t].groups[k] == none) gather(t, triangles_[t].vertices[k], triangles_[t].keeps_orientation);
+        }
+    }
+
+    // A new group: all that can be reached from triangle `seed` over edges that end at the vertex.
+    void gather(uint32_t seed, uint32_t vertex, bool keeps_orientation) {
+        const int index = int(groups_.size());
+        Group& group = groups_.emplace_back(Group{vertex, keeps_orientation, {}});
+        std::vector<int> waiting{int(seed)};
+        while (!waiting.empty()) {
+            const int t = waiting.back();
+            waiting.pop_back();
+            if (t == none) continue;
+            Triangle& triangle = triangles_[size_t(t)];
+            const size_t k = triangle.corner_of(vertex);
+            if (k == 3 || triangle.groups[k] != none) continue;
+            if (triangle.follows && std::ranges::count(triangle.groups, none) == 3) triangle.keeps_orientation = keeps_orientation;
+            if (triangle.keeps_orientation != keeps_orientation) continue;
+            triangle.groups[k] = index;
+            group.triangles.push_back(uint32_t(t));
+            waiting.push_back(triangle.neighbors[(k + 2) % 3]);
+            waiting.push_back(triangle.neighbors[k]);
+        }
+        std::ranges::sort(group.triangles);
+    }
+
+    std::optional<Vec3d> tangent_of(const Group& group) const {
+        const Vec3d n = normal(group.vertex), at = position(group.vertex);
+        Vec3d sum{0, 0, 0};
+        for (const uint32_t t : group.triangles) {
+            const Triangle& triangle = triangles_[t];
+            if (triangle.follows) continue;
+            const size_t k = triangle.corner_of(group.vertex);
+            const Vec3d before = in_plane(position(triangle.vertices[(k + 2) % 3]) - at, n);
+            const Vec3d after = in_plane(position(triangle.vertices[(k + 1) % 3]) - at, n);
+            sum = sum + in_plane(triangle.along_u, n) * std::acos(std::clamp(dot(before, after), -1.0, 1.0));
+        }
+        const double size = length(sum);
+        if (!not_zero(size) || !std::isfinite(size)) return std::nullopt;
+        return sum * (1 / size);
+    }
+
+    // For triangles without area, which are seen by nobody but must not bend their neighbours' frames.
+    std::vector<int> groups_by_vertex() const {
+        std::vector<int> groups(g_.positions.size(), none);
+        for (const Triangle& triangle : triangles_)
+            for (size_t k = 0; k < 3; ++k)
+                if (int& group = groups[triangle.vertices[k]]; group == none) group = triangle.groups[k];
+        return groups;
+    }
+
+    const Geometry& g_;
+    const std::vector<Vec2>& uv_;
+    std::vector<Triangle> triangles_;
+    std::vector<Group> groups_;
+};
+
+} // namespace
+
+std::vector<Vec4> mikktspace_tangents(const Geometry& geometry, const std::vector<Vec2>& uv) { return TangentSpace(geometry, uv).corners(); }
+
+} // namespace blush
