@@ -65,6 +65,7 @@ Result<EditorFiles::Opened> EditorFiles::import_file(const std::filesystem::path
     ImportOptions options;
     options.cancel = &progress.cancel;
     options.on_progress = [&progress](double fraction, const std::string& what) { progress.report(fraction, what); };
+    if (open.overrides.texture_mib) options.texture_bytes = *open.overrides.texture_mib << 20;
     Result<ImportedScene> imported = import_gltf(file, options);
     if (!imported) return in_file(imported.error(), file.string());
     Opened opened{*std::move(imported), {}, {}};

@@ -1,4 +1,4 @@
-// What the command line changes in a scene after it is loaded: camera, lens and environment. The same for every command and the window.
+// What the command line changes in a scene: camera, lens and environment when it is loaded, the size of textures on the way. The same for every command and the window.
 #pragma once
 
 #include "core/result.h"
@@ -31,6 +31,7 @@ struct SceneOverrides {
     std::optional<EnvironmentChoice> environment = {};
     std::optional<float> aperture = {}, focus = {}; // metres
     std::optional<LightMix::Grouping> groups = {};
+    std::optional<int64_t> texture_mib = {}; // that all textures may take as decoded: while they are read, larger ones are made smaller
 };
 
 // Without any camera in the scene, one is framed around it for a picture of `aspect` (width / height).

@@ -42,8 +42,9 @@ const char* shared_option(const RenderSettings& a, const RenderSettings& b, cons
     if (a.seed != b.seed) return "--seed";
     if (parsed.denoise != base.denoise) return "--denoise";
     const SceneOverrides &o = parsed.overrides, &p = base.overrides;
-    if (o.camera != p.camera || o.environment != p.environment || o.aperture != p.aperture || o.focus != p.focus)
-        return "--camera, --env, --aperture or --focus";
+    if (o.camera != p.camera || o.environment != p.environment || o.aperture != p.aperture || o.focus != p.focus ||
+        o.texture_mib != p.texture_mib)
+        return "--camera, --env, --aperture, --focus or --texture-memory";
     return nullptr;
 }
 

@@ -6,8 +6,8 @@
 #include "app/commands/interrupt.h"
 #include "app/commands/picture.h"
 #include "app/commands/render_options.h"
+#include "core/srgb.h"
 #include "io/image_io.h"
-#include "measure/srgb.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

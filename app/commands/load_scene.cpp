@@ -10,6 +10,7 @@ Result<LoadedScene> load_scene(const std::filesystem::path& file, const SceneOve
     ImportOptions options;
     options.cancel = &interrupted;
     options.on_progress = [&](double fraction, const std::string& what) { progress.update(fraction, what); };
+    if (overrides.texture_mib) options.texture_bytes = *overrides.texture_mib << 20;
     Result<ImportedScene> imported = import_gltf(file, options);
     if (!imported) return in_file(imported.error(), file.string());
     LoadedScene loaded{imported->scene, std::move(imported->scene), std::move(imported->report)};

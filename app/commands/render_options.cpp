@@ -103,6 +103,10 @@ void add_picture_options(CLI::App& app, RenderOptions& o) {
            },
            "Environment: a lat-long HDR or EXR file, none, or constant=R,G,B [the scene's]")
         ->type_name("FILE[,intensity=X][,rotate=DEG]");
+    app.add_option("--texture-memory", o.overrides.texture_mib,
+                   "Memory of all textures as decoded; the largest are halved until they fit, and named [4096]")
+        ->check(CLI::Range(int64_t(1), int64_t(1) << 30))
+        ->type_name("MIB");
 }
 
 void add_light_options(CLI::App& app, RenderOptions& o) {

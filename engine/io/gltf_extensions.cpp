@@ -33,7 +33,7 @@ constexpr std::array rows{
     Row{"KHR_texture_transform", {Kind::honoured, ""}},
     Row{"KHR_materials_volume",
         {Kind::approximated, "paths through the volume follow the mesh itself; the thickness only tells solid from thin-walled"}},
-    Row{"EXT_texture_webp", {Kind::ignored, "the PNG or JPEG fallback is read where the file has one"}},
+    Row{"EXT_texture_webp", {Kind::honoured, ""}},
     Row{"KHR_animation_pointer", {Kind::ignored, "the scene is shown at rest"}},
     Row{"KHR_materials_anisotropy", {Kind::ignored, "highlights are round instead of stretched"}},
     Row{"KHR_materials_clearcoat", {Kind::ignored, "surfaces lack their clear coat's second highlight"}},
@@ -43,7 +43,8 @@ constexpr std::array rows{
     Row{"KHR_materials_pbrSpecularGlossiness", {Kind::ignored, "the metallic-roughness values beside it are used"}},
     Row{"KHR_materials_sheen", {Kind::ignored, "cloth lacks its bright rim"}},
     Row{"KHR_materials_variants", {Kind::ignored, "the default material of each mesh is used"}},
-    Row{"KHR_texture_basisu", {Kind::ignored, "the PNG or JPEG fallback is read where the file has one"}},
+    Row{"KHR_texture_basisu",
+        {Kind::approximated, "KTX2 cannot be decoded; the PNG, JPEG or WebP in its place is read, and without one the factor alone"}},
     Row{"KHR_xmp_json_ld", {Kind::ignored, "metadata does not change the picture"}},
 };
 

@@ -4,7 +4,7 @@
 #include "io/environment_image.h"
 #include "io/gltf_extras.h"
 #include "io/gltf_object.h"
-#include "io/gltf_textures.h"
+#include "io/gltf_images.h"
 
 #include <cmath>
 #include <numbers>

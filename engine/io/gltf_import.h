@@ -36,6 +36,7 @@ struct ImportedScene {
 struct ImportOptions {
     std::function<void(double fraction, const std::string& what)> on_progress; // called on the importing thread
     const std::atomic<bool>* cancel = nullptr;                                 // true ends the import with the error "cancelled"
+    int64_t texture_bytes = int64_t(4) << 30; // of all textures of the file as decoded; the largest are halved until they fit
 };
 
 // The file's default scene, the view that was saved with it or its first camera as the view (or one framed around the geometry), lights of

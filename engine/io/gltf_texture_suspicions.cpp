@@ -1,6 +1,6 @@
 #include "core/math.h"
+#include "io/gltf_images.h"
 #include "io/gltf_suspicions.h"
-#include "io/gltf_textures.h"
 #include "scene/texture_slots.h"
 
 #include <algorithm>
@@ -62,7 +62,7 @@ std::map<int, Uses> uses_of(const GltfContext& context, const Scene& scene, cons
         for (const TextureSlot& slot : texture_slots) {
             const auto texture = indices.textures.find((material.*slot.ref).texture);
             if (texture == indices.textures.end()) continue;
-            Uses& u = uses[context.model().textures[size_t(texture->second)].source];
+            Uses& u = uses[texture_image(context, size_t(texture->second))];
             (holds_color(slot) ? u.as_color : u.as_data).insert(slot.name);
             u.as_normals |= holds_normals(slot);
         }
@@ -71,7 +71,7 @@ std::map<int, Uses> uses_of(const GltfContext& context, const Scene& scene, cons
 
 const Image* image_of(const GltfContext& context, const Scene& scene, const GltfIndices& indices, int image) {
     for (const auto& [id, index] : indices.textures)
-        if (context.model().textures[size_t(index)].source == image)
+        if (texture_image(context, size_t(index)) == image)
             if (const Texture* texture = scene.textures.find(id); texture && texture->image) return texture->image.get();
     return nullptr;
 }

@@ -24,6 +24,16 @@ bool has_packed_indices(const ParsedGltf& root, const ParsedGltf& primitive) {
            gltf_member(gltf_item(root, "accessors", indices.get<size_t>()), "bufferView").is_null();
 }
 
+// The parser knows few kinds of data URI, and takes others for names of files. What is in them is told by their bytes.
+constexpr std::string_view data_scheme = "data:", data_encoding = ";base64,", data_of_no_kind = "data:application/octet-stream;base64,";
+bool has_strange_data(const ParsedGltf& object) {
+    const ParsedGltf& uri = gltf_member(object, "uri");
+    if (!uri.is_string()) return false;
+    const std::string_view text = uri.get_ref<const std::string&>();
+    if (!text.starts_with(data_scheme) || text.find(data_encoding) == text.npos) return false;
+    return !text.starts_with("data:image/png;base64,") && !text.starts_with("data:image/jpeg;base64,") && !text.starts_with(data_of_no_kind);
+}
+
 // Calls visit(object) for each object of a list that is one.
 template <class Root, class Visit> void each(Root& object, const char* list, const Visit& visit) {
     if (!object.is_object()) return;
@@ -37,6 +47,7 @@ template <class Root, class Visit> void each(Root& object, const char* list, con
 std::optional<nlohmann::json> parsable(const nlohmann::json& root) {
     bool refused = false;
     each(root, "buffers", [&](const ParsedGltf& buffer) { refused = refused || stands_for_nothing(buffer); });
+    each(root, "images", [&](const ParsedGltf& image) { refused = refused || has_strange_data(image); });
     each(root, "meshes", [&](const ParsedGltf& mesh) {
         each(mesh, "primitives", [&](const ParsedGltf& primitive) { refused = refused || has_packed_indices(root, primitive); });
     });
@@ -46,6 +57,11 @@ std::optional<nlohmann::json> parsable(const nlohmann::json& root) {
         if (!stands_for_nothing(buffer)) return;
         buffer["uri"] = "data:application/octet-stream;base64,AA==";
         buffer["byteLength"] = 1;
+    });
+    each(changed, "images", [](ParsedGltf& image) {
+        if (!has_strange_data(image)) return;
+        const std::string& uri = image["uri"].get_ref<const std::string&>();
+        image["uri"] = std::string(data_of_no_kind) + uri.substr(uri.find(data_encoding) + data_encoding.size());
     });
     each(changed, "meshes", [&](ParsedGltf& mesh) {
         each(mesh, "primitives", [&](ParsedGltf& primitive) {

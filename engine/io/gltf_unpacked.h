@@ -11,7 +11,7 @@
 namespace blush {
 
 // What the parser is given in place of a document that it would refuse for being compressed: buffers that stand for nothing but their
-// unpacked form have a byte, and packed primitives no indices. None if it takes it as it is.
+// unpacked form have a byte, packed primitives no indices, and data URIs of images no kind that it does not know. None if it takes it as it is.
 std::optional<nlohmann::json> parsable(const nlohmann::json& root);
 
 // KHR_draco_mesh_compression and EXT_meshopt_compression.

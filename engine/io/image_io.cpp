@@ -1,7 +1,9 @@
 #include "io/image_io.h"
 
+#include "core/box_filter.h"
 #include "core/files.h"
 #include "io/image_end.h"
+#include "io/image_shrinker.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/half.h>
@@ -44,6 +46,12 @@ const char* format_of(std::span<const uint8_t> bytes) {
     return nullptr;
 }
 
+// Khronos' container of textures compressed for graphics hardware.
+bool is_ktx2(std::span<const uint8_t> bytes) {
+    constexpr std::string_view magic = "\xabKTX 20\xbb\r\n\x1a\n";
+    return std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()).starts_with(magic);
+}
+
 // A second net below our own header checks, for what a decoder allocates before it shows us the header.
 void lower_library_limits() {
     static std::once_flag once;
@@ -73,6 +81,7 @@ struct Decoder {
     std::unique_ptr<OIIO::Filesystem::IOMemReader> bytes; // must outlive the input
     std::unique_ptr<OIIO::ImageInput> input;
     std::string name;
+    std::string_view format; // as format_of has it
 
     const OIIO::ImageSpec& spec() const { return input->spec(); }
     Error error() const { return {name, "cannot decode: " + one_line(input->geterror()), ""}; }
@@ -88,11 +97,13 @@ struct Decoder {
 Result<Decoder> open_decoder(std::span<const uint8_t> bytes, const std::string& name, const ImageLimits& limits) {
     lower_library_limits();
     const char* format = format_of(bytes);
+    if (is_ktx2(bytes)) return Error{name, "KTX2 cannot be decoded", ""};
     if (!format) return Error{name, "not an image in a known format (PNG, JPEG, EXR, HDR, WebP, BMP)", ""};
     if (std::string_view(format) == "jpeg" && !jpeg_reaches_its_end(bytes)) return Error{name, "truncated JPEG", ""};
     if (std::string_view(format) == "png" && !png_reaches_its_end(bytes)) return Error{name, "truncated PNG", ""};
     Decoder decoder;
     decoder.name = name;
+    decoder.format = format;
     decoder.input = OIIO::ImageInput::create(format);
     if (!decoder.input || !decoder.input->supports("ioproxy")) return Error{name, fmt::format("no decoder for {} files", format), ""};
     decoder.bytes = std::make_unique<OIIO::Filesystem::IOMemReader>(bytes.data(), bytes.size());
@@ -130,6 +141,37 @@ Result<ImagePtr> decode(std::span<const uint8_t> bytes, const std::string& name,
     return ImagePtr(std::move(image));
 }
 
+ImageInfo info_of(const Decoder& decoder) {
+    const OIIO::ImageSpec& spec = decoder.spec();
+    return {decoder.format, spec.width, spec.height, std::min(spec.nchannels, 4), spec.format != OIIO::TypeDesc::UINT8};
+}
+
+// Hands over the rows of an image from the top, a few at a time.
+template <class T> Result<void> read_rows(Decoder& decoder, int channels, OIIO::TypeDesc type, ImageShrinker& shrinker) {
+    const OIIO::ImageSpec& spec = decoder.spec();
+    const int band = spec.tile_width > 0 ? spec.height : 16;
+    std::vector<T> rows(size_t(spec.width) * size_t(std::min(band, spec.height)) * size_t(channels));
+    for (int y = 0; y < spec.height; y += band) {
+        const int end = std::min(y + band, spec.height);
+        const bool ok = spec.tile_width > 0 ? decoder.input->read_image(0, 0, 0, channels, type, rows.data())
+                                            : decoder.input->read_scanlines(0, 0, spec.y + y, spec.y + end, 0, 0, channels, type, rows.data());
+        if (!ok) return decoder.error();
+        shrinker.add(std::span<const T>(rows).first(size_t(spec.width) * size_t(end - y) * size_t(channels)));
+    }
+    return {};
+}
+
+Result<ImagePtr> decode_smaller(std::span<const uint8_t> bytes, const std::string& name, int halvings, bool is_srgb, const ImageLimits& limits) {
+    Result<Decoder> decoder = open_decoder(bytes, name, limits);
+    if (!decoder) return decoder.error();
+    const ImageInfo info = info_of(*decoder);
+    ImageShrinker shrinker({info.width, info.height, info.channels, info.is_float, is_srgb}, halvings);
+    const Result<void> read = info.is_float ? read_rows<float>(*decoder, info.channels, OIIO::TypeDesc::FLOAT, shrinker)
+                                            : read_rows<uint8_t>(*decoder, info.channels, OIIO::TypeDesc::UINT8, shrinker);
+    if (!read) return read.error();
+    return std::move(shrinker).image();
+}
+
 std::map<std::string, std::string> text_metadata(const OIIO::ImageSpec& spec) {
     std::map<std::string, std::string> texts;
     for (const OIIO::ParamValue& attribute : spec.extra_attribs)
@@ -148,7 +190,7 @@ Result<LayeredImage> decode_layers(std::span<const uint8_t> bytes, const std::st
     if (pixels * uint64_t(spec.nchannels) * sizeof(float) > max_layers_bytes)
         return Error{name, "larger than the limit", fmt::format("{} x {} pixels, {} channels", spec.width, spec.height, spec.nchannels)};
     LayeredImage image{spec.width, spec.height, {}, text_metadata(spec)};
-    if (std::string_view(decoder->input->format_name()) == "openexr") image.header = std::make_shared<ImageHeader>(spec);
+    if (decoder->format == "openexr") image.header = std::make_shared<ImageHeader>(spec);
     for (int begin = 0, end = 0; begin < spec.nchannels; begin = end) {
         const bool is_uint = is_uint_channel(spec, begin);
         while (end < spec.nchannels && is_uint_channel(spec, end) == is_uint) ++end;
@@ -300,6 +342,22 @@ Result<ImagePtr> read_image(const std::filesystem::path& file, const ImageLimits
 
 Result<ImagePtr> read_image(std::span<const uint8_t> bytes, const std::string& name, const ImageLimits& limits) {
     return guarded(name, [&] { return decode(bytes, name, limits); });
+}
+
+int64_t ImageInfo::bytes(int halvings) const {
+    return int64_t(halved(width, halvings)) * halved(height, halvings) * channels * int64_t(is_float ? sizeof(float) : 1);
+}
+
+Result<ImageInfo> read_image_info(std::span<const uint8_t> bytes, const std::string& name, const ImageLimits& limits) {
+    return guarded(name, [&]() -> Result<ImageInfo> {
+        const Result<Decoder> decoder = open_decoder(bytes, name, limits);
+        if (!decoder) return decoder.error();
+        return info_of(*decoder);
+    });
+}
+
+Result<ImagePtr> read_smaller_image(std::span<const uint8_t> bytes, const std::string& name, int halvings, bool is_srgb, const ImageLimits& limits) {
+    return guarded(name, [&] { return decode_smaller(bytes, name, halvings, is_srgb, limits); });
 }
 
 Result<LayeredImage> read_layers(const std::filesystem::path& file, const ImageLimits& limits) {

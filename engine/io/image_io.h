@@ -28,6 +28,22 @@ Result<ImagePtr> read_image(const std::filesystem::path& file, const ImageLimits
 // The same from memory; `name` is for messages.
 Result<ImagePtr> read_image(std::span<const uint8_t> bytes, const std::string& name, const ImageLimits& limits = {});
 
+// What the header says.
+struct ImageInfo {
+    std::string_view format; // "png", "jpeg", ... whatever the file is called
+    int width = 0, height = 0, channels = 0;
+    bool is_float = false; // of more than 8 bits
+
+    // Of the Image that becomes of it, with sides halved that often.
+    int64_t bytes(int halvings = 0) const;
+};
+// Decodes no pixel. Errors as in read_image.
+Result<ImageInfo> read_image_info(std::span<const uint8_t> bytes, const std::string& name, const ImageLimits& limits = {});
+// The image with its sides halved that often; pixels become the mean of those that they replace, of their light where the colour is
+// sRGB-encoded. Memory beside the result: a few rows, if the format can be read by rows.
+Result<ImagePtr> read_smaller_image(std::span<const uint8_t> bytes, const std::string& name, int halvings, bool is_srgb,
+                                    const ImageLimits& limits = {});
+
 // What a file says of itself besides pixels and text: its windows, numbers, matrices.
 struct ImageHeader;
 

@@ -1,8 +1,8 @@
 #include "measure/flip.h"
 
+#include "core/srgb.h"
 #include "measure/flip_color.h"
 #include "measure/plane.h"
-#include "measure/srgb.h"
 
 #include <tbb/parallel_for.h>
 

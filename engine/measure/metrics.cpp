@@ -1,7 +1,7 @@
 #include "measure/metrics.h"
 
+#include "core/srgb.h"
 #include "measure/flip.h"
-#include "measure/srgb.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>

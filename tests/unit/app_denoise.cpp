@@ -1,8 +1,8 @@
 // `blush denoise` and `blush render --denoise`, driven as a script would. What the networks give is tested elsewhere.
 #include "app_program.h"
+#include "core/srgb.h"
 #include "io/image_io.h"
 #include "io/snapshot.h"
-#include "measure/srgb.h"
 
 #include <gtest/gtest.h>
 

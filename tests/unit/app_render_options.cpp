@@ -29,6 +29,12 @@ TEST(RenderOptions, NothingGivenIsTheDefault) {
     EXPECT_EQ(options.view, ViewSettings{});
     EXPECT_FALSE(options.size_given);
     EXPECT_FALSE(options.overrides.environment);
+    EXPECT_FALSE(options.overrides.texture_mib);
+}
+
+TEST(RenderOptions, TextureMemoryIsInMebibytes) {
+    EXPECT_EQ(parsed({"--texture-memory", "64"}).overrides.texture_mib, 64);
+    EXPECT_TRUE(refused({"--texture-memory", "0"}));
 }
 
 TEST(RenderOptions, EachOptionSetsItsField) {

@@ -1,6 +1,7 @@
 #include "io/image_io.h"
 #include "io_gltf_builder.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
