@@ -25,6 +25,12 @@ public:
         read_emission(extensions);
         read_dielectric(extensions);
         read_transmission(extensions);
+        read_clearcoat(extensions);
+        read_sheen(extensions);
+        read_anisotropy(extensions);
+        read_iridescence(extensions);
+        read_diffuse_transmission(extensions);
+        material_.dispersion = extensions.object("KHR_materials_dispersion").number("dispersion", 0, 0, any_float);
         material_.unlit = extensions.has("KHR_materials_unlit");
         if (error_) return *error_;
         return std::move(material_);
@@ -125,6 +131,49 @@ private:
         material_.attenuation_color = volume.vector3("attenuationColor", {1, 1, 1}, 0, 1);
         material_.attenuation_distance = volume.number("attenuationDistance", 0, 0, any_float);
         if (volume.has("thicknessTexture")) context_.note("ignored: thickness texture; light travels through the mesh itself", where_);
+    }
+
+    void read_clearcoat(const GltfObject& extensions) {
+        const GltfObject coat = extensions.object("KHR_materials_clearcoat"), normal = coat.object("clearcoatNormalTexture");
+        material_.clearcoat = coat.number("clearcoatFactor", 0, 0, 1);
+        material_.clearcoat_roughness = coat.number("clearcoatRoughnessFactor", 0, 0, 1);
+        material_.clearcoat_normal_scale = normal.number("scale", 1, -any_float, any_float);
+        material_.clearcoat_texture = texture(coat.object("clearcoatTexture"));
+        material_.clearcoat_roughness_texture = texture(coat.object("clearcoatRoughnessTexture"));
+        material_.clearcoat_normal_texture = texture(normal);
+    }
+
+    void read_sheen(const GltfObject& extensions) {
+        const GltfObject sheen = extensions.object("KHR_materials_sheen");
+        material_.sheen_color = sheen.vector3("sheenColorFactor", {0, 0, 0}, 0, 1);
+        material_.sheen_roughness = sheen.number("sheenRoughnessFactor", 0, 0, 1);
+        material_.sheen_color_texture = texture(sheen.object("sheenColorTexture"));
+        material_.sheen_roughness_texture = texture(sheen.object("sheenRoughnessTexture"));
+    }
+
+    void read_anisotropy(const GltfObject& extensions) {
+        const GltfObject anisotropy = extensions.object("KHR_materials_anisotropy");
+        material_.anisotropy = anisotropy.number("anisotropyStrength", 0, 0, 1);
+        material_.anisotropy_rotation_radians = anisotropy.number("anisotropyRotation", 0, -any_float, any_float);
+        material_.anisotropy_texture = texture(anisotropy.object("anisotropyTexture"));
+    }
+
+    void read_iridescence(const GltfObject& extensions) {
+        const GltfObject film = extensions.object("KHR_materials_iridescence");
+        material_.iridescence = film.number("iridescenceFactor", 0, 0, 1);
+        material_.iridescence_ior = film.number("iridescenceIor", 1.3f, 1, 1000);
+        material_.iridescence_thickness_minimum = film.number("iridescenceThicknessMinimum", 100, 0, any_float);
+        material_.iridescence_thickness_maximum = film.number("iridescenceThicknessMaximum", 400, 0, any_float);
+        material_.iridescence_texture = texture(film.object("iridescenceTexture"));
+        material_.iridescence_thickness_texture = texture(film.object("iridescenceThicknessTexture"));
+    }
+
+    void read_diffuse_transmission(const GltfObject& extensions) {
+        const GltfObject diffuse = extensions.object("KHR_materials_diffuse_transmission");
+        material_.diffuse_transmission = diffuse.number("diffuseTransmissionFactor", 0, 0, 1);
+        material_.diffuse_transmission_color = diffuse.vector3("diffuseTransmissionColorFactor", {1, 1, 1}, 0, any_float);
+        material_.diffuse_transmission_texture = texture(diffuse.object("diffuseTransmissionTexture"));
+        material_.diffuse_transmission_color_texture = texture(diffuse.object("diffuseTransmissionColorTexture"));
     }
 
     const GltfContext& context_;

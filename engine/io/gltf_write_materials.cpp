@@ -16,6 +16,11 @@ public:
         write_emission();
         write_dielectric();
         write_transmission();
+        write_clearcoat();
+        write_sheen();
+        write_anisotropy();
+        write_iridescence();
+        write_diffuse_transmission();
         write_unlit();
     }
 
@@ -114,6 +119,71 @@ private:
                 set_number(*e, "attenuationDistance", m_.attenuation_distance, 0);
             else
                 erase(*e, "attenuationDistance");
+        }
+        // Dispersion is of volumes.
+        const bool disperses = m_.dispersion != 0 && existing("KHR_materials_volume").is_object();
+        if (Json* e = extension("KHR_materials_dispersion", disperses)) set_number(*e, "dispersion", m_.dispersion, 0);
+    }
+
+    void write_clearcoat() {
+        const bool coated = m_.clearcoat != 0 || m_.clearcoat_roughness != 0 || m_.clearcoat_texture.texture ||
+                            m_.clearcoat_roughness_texture.texture || m_.clearcoat_normal_texture.texture;
+        Json* const e = extension("KHR_materials_clearcoat", coated);
+        if (!e) return;
+        set_number(*e, "clearcoatFactor", m_.clearcoat, 0);
+        set_number(*e, "clearcoatRoughnessFactor", m_.clearcoat_roughness, 0);
+        texture(*e, "clearcoatTexture", m_.clearcoat_texture);
+        texture(*e, "clearcoatRoughnessTexture", m_.clearcoat_roughness_texture);
+        texture(*e, "clearcoatNormalTexture", m_.clearcoat_normal_texture);
+        if (const auto normal = e->find("clearcoatNormalTexture"); normal != e->end())
+            set_number(*normal, "scale", m_.clearcoat_normal_scale, 1);
+    }
+
+    void write_sheen() {
+        const Vec3& c = m_.sheen_color;
+        const bool has_sheen = c != Vec3{0, 0, 0} || m_.sheen_roughness != 0 || m_.sheen_color_texture.texture || m_.sheen_roughness_texture.texture;
+        if (Json* e = extension("KHR_materials_sheen", has_sheen)) {
+            set_vector(*e, "sheenColorFactor", {c.x, c.y, c.z}, {0, 0, 0});
+            set_number(*e, "sheenRoughnessFactor", m_.sheen_roughness, 0);
+            texture(*e, "sheenColorTexture", m_.sheen_color_texture);
+            texture(*e, "sheenRoughnessTexture", m_.sheen_roughness_texture);
+        }
+    }
+
+    void write_anisotropy() {
+        const bool stretched = m_.anisotropy != 0 || m_.anisotropy_rotation_radians != 0 || m_.anisotropy_texture.texture;
+        if (Json* e = extension("KHR_materials_anisotropy", stretched)) {
+            set_number(*e, "anisotropyStrength", m_.anisotropy, 0);
+            set_number(*e, "anisotropyRotation", m_.anisotropy_rotation_radians, 0);
+            texture(*e, "anisotropyTexture", m_.anisotropy_texture);
+        }
+    }
+
+    void write_iridescence() {
+        const Material plain;
+        const bool has_film = m_.iridescence != 0 || m_.iridescence_ior != plain.iridescence_ior ||
+                              m_.iridescence_thickness_minimum != plain.iridescence_thickness_minimum ||
+                              m_.iridescence_thickness_maximum != plain.iridescence_thickness_maximum || m_.iridescence_texture.texture ||
+                              m_.iridescence_thickness_texture.texture;
+        if (Json* e = extension("KHR_materials_iridescence", has_film)) {
+            set_number(*e, "iridescenceFactor", m_.iridescence, 0);
+            set_number(*e, "iridescenceIor", m_.iridescence_ior, plain.iridescence_ior);
+            set_number(*e, "iridescenceThicknessMinimum", m_.iridescence_thickness_minimum, plain.iridescence_thickness_minimum);
+            set_number(*e, "iridescenceThicknessMaximum", m_.iridescence_thickness_maximum, plain.iridescence_thickness_maximum);
+            texture(*e, "iridescenceTexture", m_.iridescence_texture);
+            texture(*e, "iridescenceThicknessTexture", m_.iridescence_thickness_texture);
+        }
+    }
+
+    void write_diffuse_transmission() {
+        const Vec3& c = m_.diffuse_transmission_color;
+        const bool translucent = m_.diffuse_transmission != 0 || c != Vec3{1, 1, 1} || m_.diffuse_transmission_texture.texture ||
+                                 m_.diffuse_transmission_color_texture.texture;
+        if (Json* e = extension("KHR_materials_diffuse_transmission", translucent)) {
+            set_number(*e, "diffuseTransmissionFactor", m_.diffuse_transmission, 0);
+            set_vector(*e, "diffuseTransmissionColorFactor", {c.x, c.y, c.z}, {1, 1, 1});
+            texture(*e, "diffuseTransmissionTexture", m_.diffuse_transmission_texture);
+            texture(*e, "diffuseTransmissionColorTexture", m_.diffuse_transmission_color_texture);
         }
     }
 

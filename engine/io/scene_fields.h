@@ -61,6 +61,30 @@ template <Is<Material> T, class V> void visit_fields(T& r, V&& visit) {
     visit("specular_texture", r.specular_texture);
     visit("specular_color_texture", r.specular_color_texture);
     visit("transmission_texture", r.transmission_texture);
+    visit("clearcoat", r.clearcoat);
+    visit("clearcoat_roughness", r.clearcoat_roughness);
+    visit("clearcoat_normal_scale", r.clearcoat_normal_scale);
+    visit("sheen_color", r.sheen_color);
+    visit("sheen_roughness", r.sheen_roughness);
+    visit("anisotropy", r.anisotropy);
+    visit("anisotropy_rotation_radians", r.anisotropy_rotation_radians);
+    visit("iridescence", r.iridescence);
+    visit("iridescence_ior", r.iridescence_ior);
+    visit("iridescence_thickness_minimum", r.iridescence_thickness_minimum);
+    visit("iridescence_thickness_maximum", r.iridescence_thickness_maximum);
+    visit("dispersion", r.dispersion);
+    visit("diffuse_transmission", r.diffuse_transmission);
+    visit("diffuse_transmission_color", r.diffuse_transmission_color);
+    visit("clearcoat_texture", r.clearcoat_texture);
+    visit("clearcoat_roughness_texture", r.clearcoat_roughness_texture);
+    visit("clearcoat_normal_texture", r.clearcoat_normal_texture);
+    visit("sheen_color_texture", r.sheen_color_texture);
+    visit("sheen_roughness_texture", r.sheen_roughness_texture);
+    visit("anisotropy_texture", r.anisotropy_texture);
+    visit("iridescence_texture", r.iridescence_texture);
+    visit("iridescence_thickness_texture", r.iridescence_thickness_texture);
+    visit("diffuse_transmission_texture", r.diffuse_transmission_texture);
+    visit("diffuse_transmission_color_texture", r.diffuse_transmission_color_texture);
 }
 
 template <Is<ObjectSet> T, class V> void visit_fields(T& r, V&& visit) {

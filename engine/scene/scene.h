@@ -98,6 +98,29 @@ struct Material {
     TextureRef specular_texture;     // linear: A
     TextureRef specular_color_texture; // sRGB
     TextureRef transmission_texture; // linear: R
+    float clearcoat = 0;             // KHR_materials_clearcoat: a second, colourless reflection of index 1.5 on top of all else
+    float clearcoat_roughness = 0;
+    float clearcoat_normal_scale = 1;
+    TextureRef clearcoat_texture;    // linear: R
+    TextureRef clearcoat_roughness_texture; // linear: G
+    TextureRef clearcoat_normal_texture;    // linear, tangent space; the coat does not follow normal_texture
+    Vec3 sheen_color{0, 0, 0};       // KHR_materials_sheen: reflectance of upright fibres below the coat
+    float sheen_roughness = 0;
+    TextureRef sheen_color_texture;  // sRGB
+    TextureRef sheen_roughness_texture; // linear: A
+    float anisotropy = 0;            // KHR_materials_anisotropy: stretches reflections along a direction in the surface
+    float anisotropy_rotation_radians = 0; // of that direction, counter-clockwise from the tangent
+    TextureRef anisotropy_texture;   // linear: RG direction as of a normal map, B strength
+    float iridescence = 0;           // KHR_materials_iridescence: a thin film on the surface
+    float iridescence_ior = 1.3f;
+    float iridescence_thickness_minimum = 100, iridescence_thickness_maximum = 400; // nanometres; without texture the maximum
+    TextureRef iridescence_texture;  // linear: R
+    TextureRef iridescence_thickness_texture; // linear: G, from minimum to maximum
+    float dispersion = 0;            // KHR_materials_dispersion: 20 / Abbe number, of solids
+    float diffuse_transmission = 0;  // KHR_materials_diffuse_transmission: share of the diffuse part that goes through
+    Vec3 diffuse_transmission_color{1, 1, 1};
+    TextureRef diffuse_transmission_texture;       // linear: A
+    TextureRef diffuse_transmission_color_texture; // sRGB
     bool operator==(const Material&) const = default;
 };
 

@@ -97,6 +97,20 @@ Result<void> validate(const Material& material) {
     check.not_negative("thickness", material.thickness);
     check.color("attenuation colour", material.attenuation_color);
     check.not_negative("attenuation distance", material.attenuation_distance);
+    check.between("clear coat", material.clearcoat, 0, 1);
+    check.between("clear coat roughness", material.clearcoat_roughness, 0, 1);
+    check.finite("clear coat normal scale", material.clearcoat_normal_scale);
+    for (const float c : {material.sheen_color.x, material.sheen_color.y, material.sheen_color.z}) check.between("sheen colour", c, 0, 1);
+    check.between("sheen roughness", material.sheen_roughness, 0, 1);
+    check.between("anisotropy", material.anisotropy, 0, 1);
+    check.finite("anisotropy rotation", material.anisotropy_rotation_radians);
+    check.between("iridescence", material.iridescence, 0, 1);
+    check.between("iridescence index of refraction", material.iridescence_ior, 1, 1000);
+    check.not_negative("least iridescence thickness", material.iridescence_thickness_minimum);
+    check.not_negative("largest iridescence thickness", material.iridescence_thickness_maximum);
+    check.not_negative("dispersion", material.dispersion);
+    check.between("diffuse transmission", material.diffuse_transmission, 0, 1);
+    check.color("diffuse transmission colour", material.diffuse_transmission_color);
     for (const TextureSlot& slot : texture_slots) check.texture(slot.name, material.*slot.ref);
     return std::move(check).done();
 }

@@ -76,6 +76,22 @@ Light dimmed(Rng& rng, Light l) {
     return l;
 }
 
+void add_layers(Rng& rng, const Scene& scene, Material& m) {
+    if (coin(rng)) m.clearcoat = uniform(rng, 0, 1);
+    if (coin(rng)) m.clearcoat_roughness = uniform(rng, 0, 1);
+    if (coin(rng)) m.clearcoat_texture.texture = pick_id(rng, scene.textures);
+    if (coin(rng)) m.clearcoat_normal_texture.texture = pick_id(rng, scene.textures);
+    if (coin(rng)) m.sheen_color = color(rng);
+    m.sheen_roughness = uniform(rng, 0, 1);
+    if (coin(rng)) m.anisotropy = uniform(rng, 0, 1);
+    m.anisotropy_rotation_radians = uniform(rng, -3, 3);
+    if (coin(rng)) m.iridescence = uniform(rng, 0, 1);
+    m.iridescence_thickness_maximum = uniform(rng, 0, 1000);
+    if (coin(rng)) m.dispersion = uniform(rng, 0, 2);
+    if (coin(rng)) m.diffuse_transmission = uniform(rng, 0, 1);
+    if (coin(rng)) m.diffuse_transmission_color = color(rng);
+}
+
 Material material(Rng& rng, const Scene& scene) {
     Material m;
     m.base_color = color(rng);
@@ -92,6 +108,7 @@ Material material(Rng& rng, const Scene& scene) {
     m.transmission = coin(rng) ? uniform(rng, 0, 1) : 0;
     m.thickness = coin(rng) ? 1.f : 0.f;
     if (coin(rng)) m.base_color_texture.texture = pick_id(rng, scene.textures);
+    if (whole(rng, 0, 3) == 0) add_layers(rng, scene, m);
     return m;
 }
 

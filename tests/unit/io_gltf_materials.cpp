@@ -64,6 +64,37 @@ TEST(GltfMaterials, ExtensionsAreRead) {
     EXPECT_TRUE(m.unlit);
 }
 
+TEST(GltfMaterials, LayersAreRead) {
+    const Material m = import_material(
+        {{"extensions",
+          {{"KHR_materials_clearcoat",
+            {{"clearcoatFactor", 0.75}, {"clearcoatRoughnessFactor", 0.125}, {"clearcoatNormalTexture", {{"scale", 0.5}}}}},
+           {"KHR_materials_sheen", {{"sheenColorFactor", {0.25, 0.5, 1.0}}, {"sheenRoughnessFactor", 0.375}}},
+           {"KHR_materials_anisotropy", {{"anisotropyStrength", 0.625}, {"anisotropyRotation", -1.5}}},
+           {"KHR_materials_iridescence",
+            {{"iridescenceFactor", 0.875},
+             {"iridescenceIor", 1.75},
+             {"iridescenceThicknessMinimum", 150.0},
+             {"iridescenceThicknessMaximum", 550.0}}},
+           {"KHR_materials_dispersion", {{"dispersion", 0.36}}},
+           {"KHR_materials_diffuse_transmission",
+            {{"diffuseTransmissionFactor", 0.0625}, {"diffuseTransmissionColorFactor", {1.0, 0.25, 0.5}}}}}}});
+    EXPECT_EQ(m.clearcoat, 0.75f);
+    EXPECT_EQ(m.clearcoat_roughness, 0.125f);
+    EXPECT_EQ(m.clearcoat_normal_scale, 0.5f);
+    EXPECT_EQ(m.sheen_color, (Vec3{0.25f, 0.5f, 1}));
+    EXPECT_EQ(m.sheen_roughness, 0.375f);
+    EXPECT_EQ(m.anisotropy, 0.625f);
+    EXPECT_EQ(m.anisotropy_rotation_radians, -1.5f);
+    EXPECT_EQ(m.iridescence, 0.875f);
+    EXPECT_EQ(m.iridescence_ior, 1.75f);
+    EXPECT_EQ(m.iridescence_thickness_minimum, 150);
+    EXPECT_EQ(m.iridescence_thickness_maximum, 550);
+    EXPECT_EQ(m.dispersion, 0.36f);
+    EXPECT_EQ(m.diffuse_transmission, 0.0625f);
+    EXPECT_EQ(m.diffuse_transmission_color, (Vec3{1, 0.25f, 0.5f}));
+}
+
 TEST(GltfMaterials, ValuesOutOfRangeAreClampedWithAWarning) {
     ImportReport report;
     const Material m = import_material({{"pbrMetallicRoughness", {{"baseColorFactor", {2, -1, 0.5, 1}}, {"roughnessFactor", 1e300}}},

@@ -1,5 +1,6 @@
 #include "io/image_io.h"
 #include "io_gltf_builder.h"
+#include "scene/texture_slots.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -119,16 +120,21 @@ TEST(GltfTextures, EveryUseOfATextureIsRead) {
                               {"emissiveTexture", info},
                               {"extensions",
                                {{"KHR_materials_specular", {{"specularTexture", info}, {"specularColorTexture", info}}},
-                                {"KHR_materials_transmission", {{"transmissionTexture", info}}}}}};
+                                {"KHR_materials_transmission", {{"transmissionTexture", info}}},
+                                {"KHR_materials_clearcoat",
+                                 {{"clearcoatTexture", info}, {"clearcoatRoughnessTexture", info}, {"clearcoatNormalTexture", info}}},
+                                {"KHR_materials_sheen", {{"sheenColorTexture", info}, {"sheenRoughnessTexture", info}}},
+                                {"KHR_materials_anisotropy", {{"anisotropyTexture", info}}},
+                                {"KHR_materials_iridescence", {{"iridescenceTexture", info}, {"iridescenceThicknessTexture", info}}},
+                                {"KHR_materials_diffuse_transmission",
+                                 {{"diffuseTransmissionTexture", info}, {"diffuseTransmissionColorTexture", info}}}}}};
     const auto imported = import_built(b);
     ASSERT_TRUE(imported) << error_text(imported);
     const Material& m = imported->scene.materials.begin()->value;
-    for (const TextureRef& ref : {m.base_color_texture, m.metallic_roughness_texture, m.emissive_texture, m.specular_texture,
-                                  m.specular_color_texture, m.transmission_texture}) {
-        EXPECT_TRUE(ref.texture);
-        EXPECT_EQ(ref.uv_set, 1);
+    for (const TextureSlot& slot : texture_slots) {
+        EXPECT_TRUE((m.*slot.ref).texture) << slot.name;
+        EXPECT_EQ((m.*slot.ref).uv_set, slot.ref == &Material::normal_texture ? 0 : 1) << slot.name;
     }
-    EXPECT_TRUE(m.normal_texture.texture);
     EXPECT_EQ(m.normal_scale, 0.5f);
     EXPECT_TRUE(reports(imported->report, "occlusion texture"));
 }
