@@ -3,12 +3,13 @@
 #pragma once
 
 #include "render/camera.h"
+#include "render/dispersion.h"
 #include "render/estimator_settings.h"
 #include "render/found_light.h"
 #include "render/light_sampling.h"
 #include "render/links.h"
 #include "render/path.h"
-#include "render/surface.h"
+#include "render/shading_frame.h"
 #include "shading/bsdf.h"
 #include "shading/focus.h"
 
@@ -63,30 +64,8 @@ Path<F> begin_path(const SceneTables& scene, const EstimatorSettings& settings, 
     path.index = index;
     path.slot = slot;
     path.part = Int<F>(from_camera);
+    path.dispersed = Int<F>(0);
     return path;
-}
-
-// Cosine to the shading normal from which on a viewer is in front of it.
-constexpr float least_facing = 1e-4f;
-
-// The shading frame's normal: interpolated or mapped, turned to the plane's side.
-template <Features S, class F>
-Vec<F> shading_normal(const Surface<F>& s, const Vec<F>& ng, const Vec<F>& tangent_normal) {
-    Vec<F> ns = select<F>(dot(s.ns, ng) < F(0.f), -s.ns, s.ns);
-    if constexpr (S.has(Feature::normal_maps)) {
-        if (any(s.has_tangents)) {
-            // glTF: bitangent = cross(normal, tangent) * w. Gram-Schmidt against the interpolated normal.
-            const Vec<F> n = s.ns;
-            const Vec<F> flat = s.tangent - n * dot(n, s.tangent);
-            const F l2 = dot(flat, flat);
-            const Vec<F> t = flat / sqrt(max(l2, F(1e-30f)));
-            const Vec<F> b = cross(n, t) * s.tangent_sign;
-            const Vec<F> mapped = normalize(t * tangent_normal.x + b * tangent_normal.y + n * tangent_normal.z);
-            const Vec<F> turned = select<F>(dot(s.ns, ng) < F(0.f), -mapped, mapped);
-            ns = select<F>(s.has_tangents && l2 > F(1e-20f) && dot(turned, ng) > F(0.f), turned, ns);
-        }
-    }
-    return ns;
 }
 
 // One vertex of the path: `hit` is what path.ray found. Lanes outside `active` are ignored.
@@ -134,7 +113,7 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
     const F outside = dot(surface.ng, wo_world);
     const Mask<F> front = outside > F(0.f);
     Mask<F> solid = Mask<F>(false);
-    if constexpr (S.has(Feature::transmission)) solid = material.bsdf.transmission > F(0.f) && !material.bsdf.thin;
+    if constexpr (S.has(Feature::transmission)) solid = is_solid<S, F>(material.bsdf);
 
     // Absorption along the segment that ends here from within (Beer-Lambert).
     if constexpr (S.has(Feature::absorption)) {
@@ -156,6 +135,7 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
             const F unlinked = surface_emission_weight<S, F>(scene, settings.strategy, path, light, hit.t, abs(outside), emitting);
             const F weight = if_linked<S, F>(scene, unlinked, light, path, emitting);
             Vec<F> emission = material.emission;
+            if constexpr (S.has(Feature::clearcoat)) emission = emission * through_clearcoat(material.bsdf.layers.clearcoat, F(abs(outside)));
             if constexpr (S.has(Feature::light_profiles)) emission = emission * emission_profile<F>(scene, light, wo_world, emitting);
             out.emitted = select<F>(emitting, beta * emission * weight, out.emitted);
             out.weights.emission = select(emitting, weight, out.weights.emission);
@@ -176,9 +156,25 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
     // A viewer who would look at the back of a normal gets the plane's own, unless there is an inside to look from.
     const Mask<F> behind = !solid && dot(bent, wo_world) < F(least_facing);
     const Vec<F> ns = select<F>(behind, ng, bent);
-    const Basis<F> frame = basis_around(ns);
+    const Basis<F> frame = shading_frame<S, F>(surface, ns, material);
     const Vec<F> wo = frame.to_local(wo_world);
-    const auto bsdf = make_bsdf<S, F>(material.bsdf, wo, settings.energy);
+    BsdfParams<F> params = material.bsdf;
+    // A coat covers the relief of what lies below it.
+    if constexpr (S.has(Feature::clearcoat))
+        params.layers.clearcoat_normal = frame.to_local(shading_normal<S, F>(surface, ng, material.clearcoat_tangent_normal));
+    if constexpr (S.has(Feature::anisotropy)) params.layers.anisotropy = select(surface.has_tangents, material.anisotropy.strength, F(0.f));
+    Mask<F> dispersed = Mask<F>(false);
+    if constexpr (S.has(Feature::dispersion)) {
+        dispersed = as_mask(path.dispersed != 0);
+        const Mask<F> splits = scatters && solid && material.dispersion > F(0.f);
+        if (any(splits)) {
+            const Wavelength<F> light = wavelength_of(Sampler<F>{path.key, path.index});
+            params.ior = select(splits, dispersed_ior(params.ior, material.dispersion, light.nanometres), params.ior);
+            beta = select<F>(splits && !dispersed, beta * light.rgb, beta);
+            dispersed = dispersed || splits;
+        }
+    }
+    const auto bsdf = make_bsdf<S, F>(params, wo, settings.energy);
     const Mask<F> matte = scatters && is_lambertian<S, F>(bsdf);
 
     if (bounce == 0) {
@@ -210,7 +206,9 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
     // Next event: a point on a light, unless every lobe is smooth.
     const Mask<F> wants_light = scatters && !is_delta_only<F>(bsdf);
     Receiver<F> receiver{surface.position, ns};
-    if constexpr (S.has(Feature::transmission)) receiver.normal = select<F>(material.bsdf.transmission > F(0.f), splat<F>(0.f), ns);
+    if constexpr (S.has(Feature::transmission)) receiver.normal = select<F>(material.bsdf.transmission > F(0.f), splat<F>(0.f), receiver.normal);
+    if constexpr (S.has(Feature::diffuse_transmission))
+        receiver.normal = select<F>(material.bsdf.layers.diffuse_transmission > F(0.f), splat<F>(0.f), receiver.normal);
     if (scene.lights.count > 0 && any(wants_light)) {
         const LightPoint<F> light = sample_light_point<S, F>(scene, sampler.pair(dimension + light_dimension), receiver, wants_light);
         const Vec<F> rough_to = select<F>(light.infinite, light.position, light.position - surface.position);
@@ -274,8 +272,8 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
         Vec<F> judged = beta * b.weight * (1.f / rarer);
         if constexpr (S.has(Feature::transmission)) {
             // Refraction into a solid scaled beta by 1 / ior^2, which the way out undoes: not a reason to end the path within.
-            const F squeezed = material.bsdf.ior * material.bsdf.ior;
-            judged = select<F>(solid && !leaves_outside && material.bsdf.ior > F(0.f), judged * squeezed, judged);
+            const F squeezed = params.ior * params.ior;
+            judged = select<F>(solid && !leaves_outside && params.ior > F(0.f), judged * squeezed, judged);
         }
         // Mirrors and glass take little, and a path that ends there has found nothing yet; in vain for ever only where there is nothing else.
         const Mask<F> asked = !b.delta || Mask<F>(bounce + 1 >= first_asked_at_smooth);
@@ -295,6 +293,7 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
     out.next.index = path.index;
     out.next.slot = path.slot;
     if constexpr (S.has(Feature::links)) out.next.part = surface.part;
+    if constexpr (S.has(Feature::dispersion)) out.next.dispersed = select(dispersed, Int<F>(1), Int<F>(0));
     return out;
 }
 

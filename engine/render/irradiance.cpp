@@ -67,6 +67,7 @@ Vec3d estimate_irradiance(KernelContext context, const MeterPoint& receiver, uin
     for (int i = 0; i < samples; ++i) {
         const Sampler<float> sampler{key, uint32_t(i)};
         now->part[now->size] = from_meter;
+        now->dispersed[now->size] = 0;
         append<features, float>(*now, leave(receiver, sampler, i), true);
         if (context.scene->lights.count == 0) continue;
         const Step<float> step = aim_at_light(context, receiver, sampler);

@@ -36,6 +36,12 @@ constexpr FeatureText feature_texts[] = {
     {Feature::links, "light links", "a light leaves objects out", "every light is everybody's"},
     {Feature::energy_compensation, "energy compensation", "switched on", "switched off"},
     {Feature::thin_lens, "depth of field", "the lens has an aperture", "the camera is a pinhole"},
+    {Feature::clearcoat, "clear coats", "a material has a clear coat", "no material has a clear coat"},
+    {Feature::sheen, "sheen", "a material has a sheen", "no material has a sheen"},
+    {Feature::anisotropy, "anisotropy", "a material stretches reflections", "no material stretches reflections"},
+    {Feature::iridescence, "iridescence", "a material has a thin film", "no material has a thin film"},
+    {Feature::diffuse_transmission, "translucency", "a material transmits light diffusely", "no material transmits light diffusely"},
+    {Feature::dispersion, "dispersion", "a solid spreads light into colours", "no solid spreads light into colours"},
     {Feature::orthographic, "orthographic camera", "the camera is orthographic", "the camera is not orthographic"},
 };
 

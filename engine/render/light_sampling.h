@@ -3,6 +3,7 @@
 
 #include "core/sampler.h"
 #include "render/surface.h"
+#include "shading/clearcoat.h"
 #include "shading/light.h"
 #include "shading/sphere_light.h"
 
@@ -19,6 +20,7 @@ template <class F> struct LightPoint {
     F density;          // infinite, sphere: per solid angle; triangle: per area; delta: 1
     Int<F> kind, light;
     Mask<F> two_sided;
+    F clearcoat;        // triangle: share of the surface that shines through a coat; only with Feature::clearcoat
 };
 
 // What arrives at a receiver along the unit direction wi: radiance (delta: irradiance on a surface facing wi) and its density.
@@ -27,9 +29,14 @@ template <class F> struct IncidentLight {
     F pdf;
 };
 
-// Emission of a textured triangle light at the point edge1 * along.x + edge2 * along.y.
-template <Features S, class F>
-Vec<F> textured_emission(const SceneTables& scene, const Int<F>& light, const Vec2T<F>& along, const Mask<F>& active) {
+// A point of a triangle light as its material sees it.
+template <class F> struct LightSurface {
+    Int<F> material;
+    TexturePoint<F> at;
+};
+// The point edge1 * along.x + edge2 * along.y.
+template <class F>
+LightSurface<F> light_surface(const SceneTables& scene, const Int<F>& light, const Vec2T<F>& along, const Mask<F>& active) {
     const LightRecord* lights = scene.lights.lights;
     const Mask<F> swapped = as_mask((gather_field(lights, &LightRecord::flags, light) & int32_t(light_mirrored)) != 0);
     const Vec2T<F> b{select(swapped, along.y, along.x), select(swapped, along.x, along.y)};
@@ -40,9 +47,15 @@ Vec<F> textured_emission(const SceneTables& scene, const Int<F>& light, const Ve
     const Int<F> at = gather_field(scene.parts, &PartRecord::first_index, part) + select(active, triangle, Int<F>(0)) * 3;
     const auto vertex = [&](int k) { return Int<F>(first_vertex + to_signed(gather(scene.indices + k, at))); };
     const std::array<F, 3> weights{1.f - b.x - b.y, b.x, b.y};
-    const TexturePoint<F> point = texture_point<F>(scene, flags, {vertex(0), vertex(1), vertex(2)}, weights, active);
-    const Int<F> material = gather_field(scene.parts, &PartRecord::material, part);
-    return emission_at<S, F>(scene.materials, material, point, active);
+    return {gather_field(scene.parts, &PartRecord::material, part),
+            texture_point<F>(scene, flags, {vertex(0), vertex(1), vertex(2)}, weights, active)};
+}
+
+// Emission of a textured triangle light at the point edge1 * along.x + edge2 * along.y.
+template <Features S, class F>
+Vec<F> textured_emission(const SceneTables& scene, const Int<F>& light, const Vec2T<F>& along, const Mask<F>& active) {
+    const LightSurface<F> surface = light_surface<F>(scene, light, along, active);
+    return emission_at<S, F>(scene.materials, surface.material, surface.at, active);
 }
 
 // Draws a light for a receiver, and a point of it.
@@ -67,6 +80,7 @@ LightPoint<F> sample_light_point(const SceneTables& scene, const Pair<F>& random
     p.density = F(1.f);
     p.infinite = Mask<F>(false);
     p.delta = Mask<F>(false);
+    p.clearcoat = F(0.f);
     const auto is = [&](LightKind kind) { return p.valid && as_mask(p.kind == int32_t(kind)); };
 
     if constexpr (S.has(Feature::emissive_triangles)) {
@@ -83,6 +97,10 @@ LightPoint<F> sample_light_point(const SceneTables& scene, const Pair<F>& random
             if constexpr (S.has(Feature::textures)) {
                 const Mask<F> textured = triangle && as_mask((flags & int32_t(light_textured)) != 0);
                 if (any(textured)) p.emission = select<F>(textured, textured_emission<S, F>(scene, pick.index, b, textured), p.emission);
+            }
+            if constexpr (S.has(Feature::clearcoat)) {
+                const LightSurface<F> surface = light_surface<F>(scene, pick.index, b, triangle);
+                p.clearcoat = select(triangle, clearcoat_at<S, F>(scene.materials, surface.material, surface.at, triangle), p.clearcoat);
             }
             p.position = select<F>(triangle, on, p.position);
         }
@@ -136,6 +154,7 @@ template <Features S, class F> IncidentLight<F> incident_light(const SceneTables
         const F facing = select(p.two_sided, abs(cos_light), cos_light);
         const Mask<F> seen = facing > F(0.f);
         in.radiance = select<F>(triangle && !seen, splat<F>(0.f), in.radiance);
+        if constexpr (S.has(Feature::clearcoat)) in.radiance = in.radiance * through_clearcoat(p.clearcoat, facing);
         in.pdf = select(triangle, area_to_solid_angle(in.pdf, distance_squared, select(seen, facing, F(1.f))), in.pdf);
     }
     if constexpr (S.has(Feature::point_lights)) {

@@ -1,5 +1,8 @@
 #include "render/material_table.h"
 
+#include "render/material_factors.h"
+#include "render/material_layers.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,42 +13,35 @@
 namespace blush {
 namespace {
 
-// NaN becomes `low`.
-float within(float x, float low, float high) { return x >= low ? std::min(x, high) : low; }
-float unit(float x) { return within(x, 0, 1); }
-Vec3 within(const Vec3& v, float low, float high) { return {within(v.x, low, high), within(v.y, low, high), within(v.z, low, high)}; }
-
 constexpr float max_radiance = 1e30f; // nits: whatever is multiplied with it on a path stays finite
 
-// Which lobes a material has, after the order of precedence of glTF's parameters.
-bool reflects(const Material& m) { return !m.unlit && (m.specular > 0 || m.metallic > 0 || m.transmission > 0); }
-bool transmits(const Material& m) { return !m.unlit && m.transmission > 0; }
 bool has_normal_map(const Material& m) { return !m.unlit && m.normal_texture.texture && m.normal_scale != 0; }
-bool is_thin(const Material& m) { return !(m.thickness > 0); }
 Vec3 sigma_of(const Material& m) {
-    return transmits(m) && !is_thin(m) ? absorption(m.attenuation_color, m.attenuation_distance) : Vec3{0, 0, 0};
+    return is_solid(m) ? absorption(m.attenuation_color, m.attenuation_distance) : Vec3{0, 0, 0};
 }
 
-struct TextureSlot {
-    TextureRef Material::*ref;
-    int32_t MaterialRecord::*index;
-    bool is_color;
-    bool (*is_read)(const Material&);
-};
 constexpr std::array texture_slots{
-    TextureSlot{&Material::base_color_texture, &MaterialRecord::base_color_texture, true, [](const Material&) { return true; }},
-    TextureSlot{&Material::metallic_roughness_texture, &MaterialRecord::metallic_roughness_texture, false, reflects},
-    TextureSlot{&Material::normal_texture, &MaterialRecord::normal_texture, false, has_normal_map},
-    TextureSlot{&Material::emissive_texture, &MaterialRecord::emissive_texture, true,
+    CompiledSlot<MaterialRecord>{&Material::base_color_texture, &MaterialRecord::base_color_texture, true, [](const Material&) { return true; }},
+    CompiledSlot<MaterialRecord>{&Material::metallic_roughness_texture, &MaterialRecord::metallic_roughness_texture, false, reflects},
+    CompiledSlot<MaterialRecord>{&Material::normal_texture, &MaterialRecord::normal_texture, false, has_normal_map},
+    CompiledSlot<MaterialRecord>{&Material::emissive_texture, &MaterialRecord::emissive_texture, true,
                 [](const Material& m) { return !is_black(emission_of(m)); }},
-    TextureSlot{&Material::specular_texture, &MaterialRecord::specular_texture, false,
+    CompiledSlot<MaterialRecord>{&Material::specular_texture, &MaterialRecord::specular_texture, false,
                 [](const Material& m) { return !m.unlit && m.specular > 0; }},
-    TextureSlot{&Material::specular_color_texture, &MaterialRecord::specular_color_texture, true,
+    CompiledSlot<MaterialRecord>{&Material::specular_color_texture, &MaterialRecord::specular_color_texture, true,
                 [](const Material& m) { return !m.unlit && m.specular > 0; }},
-    TextureSlot{&Material::transmission_texture, &MaterialRecord::transmission_texture, false, transmits},
+    CompiledSlot<MaterialRecord>{&Material::transmission_texture, &MaterialRecord::transmission_texture, false, transmits},
 };
 
-bool is_read(const TextureSlot& slot, const Material& m) { return (m.*slot.ref).texture && slot.is_read(m); }
+constexpr size_t slots_per_material = texture_slots.size() + layer_texture_slots.size();
+
+// Calls visit(slot) for each slot that a material reads.
+template <class Visit> void each_read_slot(const Material& m, const Visit& visit) {
+    for (const auto& slot : texture_slots)
+        if (slot.is_read(m)) visit(slot);
+    for (const auto& slot : layer_texture_slots)
+        if (slot.is_read(m)) visit(slot);
+}
 
 // Those of all meshes, each once.
 std::vector<const Material*> worn_materials(const Scene& scene) {
@@ -70,9 +66,7 @@ std::vector<int> uv_sets_of(const std::vector<const Material*>& materials) {
 std::vector<TextureSource> texture_sources(const Scene& scene, const std::vector<const Material*>& materials) {
     std::vector<std::tuple<Id<Texture>, bool>> keys;
     for (const Material* material : materials) {
-        for (const TextureSlot& slot : texture_slots) {
-            if (is_read(slot, *material)) keys.emplace_back((material->*slot.ref).texture, slot.is_color);
-        }
+        each_read_slot(*material, [&](const auto& slot) { keys.emplace_back((material->*slot.ref).texture, slot.is_color); });
     }
     std::ranges::sort(keys);
     keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
@@ -95,11 +89,9 @@ MaterialRecord factors_of(const Material& m) {
         r.specular = unit(m.specular);
         r.specular_color = within(m.specular_color, 0, max_radiance);
     }
-    if (transmits(m)) {
-        r.transmission = unit(m.transmission);
-        if (is_thin(m)) r.flags |= material_thin;
-        r.sigma_a = sigma_of(m);
-    }
+    if (transmits(m)) r.transmission = unit(m.transmission);
+    if ((transmits(m) || is_translucent(m)) && is_thin(m)) r.flags |= material_thin;
+    r.sigma_a = sigma_of(m);
     if (has_normal_map(m) && std::isfinite(m.normal_scale)) r.normal_scale = m.normal_scale;
     r.emission = emission_of(m);
     if (!is_black(r.emission)) r.flags |= material_emissive;
@@ -140,19 +132,26 @@ void choose_uv_sets(MaterialTable& table, const std::vector<const Material*>& wo
     table.uv_sets.resize(most_uv_sets);
 }
 
-void write_material(MaterialTable& table, size_t index, const Material& material) {
-    MaterialRecord record = factors_of(material);
-    for (size_t k = 0; k < texture_slots.size(); ++k) {
-        const TextureSlot& slot = texture_slots[k];
+// The texture uses of one of a material's records, from `use` on.
+template <class Record, size_t N>
+void write_uses(MaterialTable& table, size_t use, const Material& material, const std::array<CompiledSlot<Record>, N>& slots, Record& record) {
+    for (const CompiledSlot<Record>& slot : slots) {
         const TextureRef& ref = material.*slot.ref;
         const auto uv_set = std::ranges::find(table.uv_sets, int(ref.uv_set));
-        const bool reads = is_read(slot, material) && uv_set != table.uv_sets.end();
+        const bool reads = slot.is_read(material) && uv_set != table.uv_sets.end();
         const int32_t texture = reads ? table.textures.index_of(ref.texture, slot.is_color) : -1;
-        const size_t use = index * texture_slots.size() + k;
         table.uses[use] = texture < 0 ? TextureUse{} : texture_use(ref, texture, int32_t(uv_set - table.uv_sets.begin()));
         if (texture >= 0) record.*slot.index = int32_t(use);
+        ++use;
     }
-    table.records[index] = record;
+}
+
+void write_material(MaterialTable& table, size_t index, const Material& material) {
+    table.records[index] = factors_of(material);
+    table.layers[index] = layer_factors_of(material);
+    const size_t use = index * slots_per_material;
+    write_uses(table, use, material, texture_slots, table.records[index]);
+    write_uses(table, use + texture_slots.size(), material, layer_texture_slots, table.layers[index]);
 }
 
 } // namespace
@@ -169,7 +168,7 @@ int32_t MaterialTable::index_of(Id<Material> id) const {
 }
 
 MaterialTables MaterialTable::tables() const {
-    MaterialTables t{records.data(), textures.tables()};
+    MaterialTables t{records.data(), layers.data(), textures.tables()};
     t.textures.uses = uses.data();
     t.textures.uv_sets = int32_t(uv_sets.size());
     return t;
@@ -186,7 +185,8 @@ void build_material_table(MaterialTable& table, const Scene& scene) {
     const size_t count = scene.materials.size() + 1;
     table.ids.clear();
     table.records.resize(count);
-    table.uses.resize(count * texture_slots.size());
+    table.layers.resize(count);
+    table.uses.resize(count * slots_per_material);
     write_material(table, 0, Material{});
     for (const auto& [id, material] : scene.materials) {
         table.ids.push_back(id);
@@ -206,18 +206,17 @@ bool update_material(MaterialTable& table, const Scene& scene, Id<Material> id) 
 
 TextureReads texture_reads(const Material& m) {
     TextureReads reads;
-    for (const TextureSlot& slot : texture_slots)
-        if (is_read(slot, m)) reads.uv_sets.insert((m.*slot.ref).uv_set);
-    reads.normal_map = has_normal_map(m);
+    each_read_slot(m, [&](const auto& slot) { reads.uv_sets.insert((m.*slot.ref).uv_set); });
+    reads.tangents = has_normal_map(m) || has_coat_normal_map(m) || is_anisotropic(m);
     return reads;
 }
 
 Features features_of(const Material& m) {
-    Features f = no_features;
+    Features f = layer_features_of(m);
     if (reflects(m)) f = f.with(Feature::specular);
-    if (transmits(m)) f = f.with(Feature::transmission);
+    if (transmits(m) || is_solid(m)) f = f.with(Feature::transmission);
     if (!is_black(sigma_of(m))) f = f.with(Feature::absorption);
-    if (std::ranges::any_of(texture_slots, [&](const TextureSlot& slot) { return is_read(slot, m); })) f = f.with(Feature::textures);
+    each_read_slot(m, [&](const auto&) { f = f.with(Feature::textures); });
     if (has_normal_map(m)) f = f.with(Feature::normal_maps);
     if (m.unlit) f = f.with(Feature::unlit);
     if (!is_black(emission_of(m))) f = f.with(Feature::emissive_triangles);

@@ -15,6 +15,7 @@ namespace blush {
 struct MaterialTable {
     std::vector<Id<Material>> ids;       // of records[1], records[2], ...; ascending
     std::vector<MaterialRecord> records; // the first is glTF's default material
+    std::vector<LayerRecord> layers;     // beside each of them
     std::vector<TextureUse> uses;        // a fixed number per record, so that one can change alone
     TextureTable textures;
     std::vector<int> uv_sets;            // the numbers of those that textures lie on, ascending, at most most_uv_sets
@@ -36,7 +37,7 @@ bool update_material(MaterialTable& table, const Scene& scene, Id<Material> id);
 // What of a mesh a material's textures are laid out by.
 struct TextureReads {
     std::set<int> uv_sets;
-    bool normal_map = false;
+    bool tangents = false;
 };
 TextureReads texture_reads(const Material& material);
 

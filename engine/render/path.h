@@ -13,6 +13,7 @@ template <class F> struct Path {
     UInt<F> key, index; // of the sampler
     Int<F> slot;        // which of the tile's samples it adds to
     Int<F> part;        // that the ray left, -1: the camera; only where lights may be linked
+    Int<F> dispersed;   // 1: carries the light of one wavelength, 0: of all; only with Feature::dispersion
 };
 
 // What the first surface of a path shows: the denoiser's and the picker's planes.

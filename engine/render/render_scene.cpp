@@ -33,7 +33,7 @@ AttributeNeeds needs_of(const Scene& scene, const std::vector<SceneObject>& obje
             const TextureReads reads = texture_reads(*m);
             for (size_t set = 0; set < uv_sets.size(); ++set)
                 if (reads.uv_sets.contains(uv_sets[set])) needs.uv_sets[set] = uv_sets[set];
-            needs.tangents |= reads.normal_map;
+            needs.tangents |= reads.tangents;
         }
     return needs;
 }

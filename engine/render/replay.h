@@ -31,6 +31,7 @@ Vec3 replay_sample(KernelContext context, int x, int y, int64_t sample, int long
         trace_paths<float>(context, scratch, *now, bounce);
         Path<float> path = load_path<s, float>(*now, 0);
         path.part = now->part[0];
+        path.dispersed = now->dispersed[0];
         ReplayedVertex vertex{bounce, path, load_hit<float>(scratch.hits, 0), {}, {}};
         vertex.step = scatter<s, float>(*context.scene, context.settings, vertex.path, vertex.hit, bounce, true);
         shade_paths<s, float>(context, scratch, *now, *next, bounce);

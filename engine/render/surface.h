@@ -18,7 +18,7 @@ template <class F> struct Surface {
     Vec<F> position;
     Vec<F> error;        // bound on |computed - exact| of the position, per axis
     Vec<F> ng, ns;       // unit: of the plane, outward by winding; interpolated
-    Vec<F> tangent;      // not normalised; only with Feature::normal_maps
+    Vec<F> tangent;      // not normalised; only where S needs it
     F tangent_sign;
     TexturePoint<F> texture; // only with Feature::textures
     Vec4T<F> color;
@@ -108,7 +108,7 @@ template <Features S, class F> Surface<F> surface_at(const SceneTables& scene, c
     s.tangent = {F(1.f), F(0.f), F(0.f)};
     s.tangent_sign = F(1.f);
     s.has_tangents = Mask<F>(false);
-    if constexpr (S.has(Feature::normal_maps)) {
+    if constexpr (S.has(Feature::normal_maps) || S.has(Feature::anisotropy)) {
         s.has_tangents = active && as_mask((flags & int32_t(part_tangents)) != 0);
         if (any(s.has_tangents)) {
             const auto at4 = [&](int c, const Int<F>& i) { return gather(scene.tangents + c, Int<F>(i * 4)); };

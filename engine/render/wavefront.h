@@ -139,6 +139,7 @@ template <Features S, class F> [[gnu::flatten]] void generate_paths(const Kernel
         }
         const Int<F> slot = iota<F>() + k;
         if constexpr (S.has(Feature::links)) store(q.part + q.size, Int<F>(from_camera));
+        if constexpr (S.has(Feature::dispersion)) store(q.dispersed + q.size, Int<F>(0));
         append<S, F>(q, begin_path<S, F>(*context.scene, context.settings, x, y, key, index, slot), as_mask(slot < n));
     }
     std::fill_n(scratch.r.data, n, 0.0);
@@ -170,6 +171,7 @@ template <Features S, class F>
     for (int k = 0; k < now.size; k += width<F>) {
         Path<F> path = load_path<S, F>(now, k);
         if constexpr (S.has(Feature::links)) path.part = load<Int<F>>(now.part + k);
+        if constexpr (S.has(Feature::dispersion)) path.dispersed = load<Int<F>>(now.dispersed + k);
         const Mask<F> active = as_mask(iota<F>() + k < now.size);
         const Step<F> step = scatter<S, F>(*context.scene, context.settings, path, load_hit<F>(scratch.hits, k), bounce, active);
         if (bounce == 0 && scratch.first) store_first_hit<F>(*scratch.first, k, step.first);
@@ -192,6 +194,7 @@ template <Features S, class F>
             append<F>(scratch.shadows, step, path.slot, step.connects);
         }
         if constexpr (S.has(Feature::links)) compress(next.part + next.size, step.next.part, bits(step.continues));
+        if constexpr (S.has(Feature::dispersion)) compress(next.dispersed + next.size, step.next.dispersed, bits(step.continues));
         if (any(step.continues)) append<S, F>(next, step.next, step.continues);
     }
 }

@@ -1,73 +1,21 @@
-// How a surface point scatters light: the material of glTF 2.0 Appendix B with KHR_materials_ior, _specular, _transmission and
-// _volume, as one triple (make_bsdf, then eval / sample) of two parts: a Lambertian one, and GGX facets, each of which
-// reflects or transmits.
-//
-// Local frame: z is the shading normal; directions are unit and point away from the surface. Of a surface that does not
-// transmit into a solid, wo.z > 0. Of a solid's (transmission, not thin) z points out of it, and wo.z < 0 is a viewer within.
+// The base of a material, below its layers: glTF 2.0 Appendix B with KHR_materials_ior, _specular, _transmission, _volume, _anisotropy,
+// _iridescence and _diffuse_transmission, of two parts: a Lambertian one, and GGX facets, each of which reflects or transmits.
 //
 // What S leaves out is not computed, and what a material does not use changes no bit: every factor it then meets is an exact
 // 1, every summand an exact 0.
 #pragma once
 
-#include "core/sampling.h"
+#include "shading/bsdf_types.h"
 #include "shading/energy.h"
-#include "shading/features.h"
-#include "shading/fresnel.h"
-#include "shading/microfacet.h"
+#include "shading/thin_film.h"
 
 namespace blush::inline BLUSH_ISA {
 
-// Scattering at a surface point, textures already applied. Colours are linear Rec.709.
-template <class F> struct BsdfParams {
-    Vec<F> base_color; // reflectance of the diffuse or metallic, tint of the transmitting share
-    F metallic;
-    F roughness; // perceptual: alpha is its square
-    F ior;       // of the material in vacuum, >= 1; or 0, which reflects like a mirror (KHR_materials_ior)
-    F specular;  // KHR_materials_specular; 0 has no dielectric reflection at all
-    Vec<F> specular_color;
-    F transmission; // KHR_materials_transmission
-    Mask<F> thin;   // transmits without refraction, having no inside
-};
-
-// Lobes that scatter into one direction only (delta lobes) are seen by sample() alone.
-template <class F> struct BsdfValue {
-    Vec<F> f_cos; // f |wi.z|, 1/sr
-    F pdf;        // of sample(), per solid angle
-};
-
-template <class F> struct BsdfSample {
-    Vec<F> wi;
-    Vec<F> weight; // f |wi.z| / pdf over all lobes but the delta ones; of a delta lobe its reflectance over its probability
-    F pdf;         // as eval's; 1 for a delta lobe
-    Mask<F> delta;
-    Mask<F> valid; // false: no direction, weight 0
-};
-
-// Prepared by make_bsdf for a point and a viewer.
-template <class F> struct Bsdf {
-    Vec<F> diffuse;     // albedo of the Lambertian part below the Fresnel reflection
-    Mask<F> delta_only; // no part has a density
-    // Only where S has facets:
-    Vec<F> metal_color, metal_gain; // reflects metal_gain * Schlick(metal_color)
-    Vec<F> f0, dielectric_gain;     // ... + dielectric_gain * specular * Fresnel(f0)
-    Vec<F> transmitted;             // what is not reflected by the dielectric goes through, times this
-    F specular, alpha;
-    F cos;                  // |wo.z|
-    F visible;              // masking(wo) / |wo.z|
-    Interface<F> interface; // of a solid
-    F interface_f0;         // its reflectance at normal incidence
-    F radiance_scale;       // of light that goes through
-    F p_diffuse;            // probability of sampling the Lambertian part
-    Mask<F> solid, flipped; // flipped: the viewer is below z = 0
-    Mask<F> mirror;         // ior 0: a solid lets nothing in
-    Mask<F> smooth;         // facets all face z: reflection and thin transmission are deltas
-    Mask<F> straight;       // a solid refracts by less than single precision resolves: transmission is a delta
-};
-
-// Smaller cosines between the viewer and a surface or facet count as this one.
-constexpr float grazing = 1e-6f;
-
-constexpr bool has_facets(Features s) { return s.has(Feature::specular) || s.has(Feature::transmission); }
+// Of the facets: one alpha, or one for each of x and y.
+template <Features S, class F> auto alpha_of(const Bsdf<F>& b) {
+    if constexpr (S.has(Feature::anisotropy)) return b.stretch;
+    else return b.alpha;
+}
 
 // ---- facets: what one with cosine c = dot(wo, h) > 0 does
 
@@ -76,6 +24,12 @@ template <class F> struct FacetAlbedo {
     Vec<F> reflected;   // into the mirror direction
     Vec<F> transmitted; // through the surface
 };
+
+// Outside of a solid, where a film lies: of the ray that is refracted to c or is c itself.
+template <Features S, class F> F cosine_in_air(const Bsdf<F>& b, const F& c) {
+    if constexpr (!S.has(Feature::transmission)) return c;
+    return select(b.flipped, F(refracted_g(b.interface, c) / b.interface.eta), c);
+}
 
 // Appendix B uses Schlick's approximation, and so do we, but for solids: there total internal reflection must be right, and
 // seen from both sides the same light must split in the same ratio. For them Fresnel's curve replaces Schlick's between f0
@@ -92,8 +46,16 @@ template <Features S, class F> FacetAlbedo<F> facet_albedo(const Bsdf<F>& b, con
         total = b.solid && (b.mirror || totally_reflects(b.interface, at));
     }
     const Vec<F> one = splat<F>(1.f);
-    const Vec<F> fresnel = select(total, one, (b.f0 + (one - b.f0) * dielectric_rise) * b.specular);
-    const Vec<F> metal = b.metal_color + (one - b.metal_color) * rise;
+    Vec<F> fresnel = (b.f0 + (one - b.f0) * dielectric_rise) * b.specular;
+    Vec<F> metal = b.metal_color + (one - b.metal_color) * rise;
+    if constexpr (S.has(Feature::iridescence)) {
+        if (any(b.iridescence > F(0.f))) {
+            const ThinFilm<F> film = make_thin_film(b.film_ior, b.film_thickness, cosine_in_air<S>(b, c));
+            fresnel = lerp(fresnel, thin_film_reflectance(film, b.f0) * b.specular, b.iridescence);
+            metal = lerp(metal, thin_film_reflectance(film, b.metal_color), b.iridescence);
+        }
+    }
+    fresnel = select(total, one, fresnel);
     const F layer = max_component(fresnel);
     FacetAlbedo<F> a{layer, fresnel * b.dielectric_gain + metal * b.metal_gain, splat<F>(0.f)};
     if constexpr (S.has(Feature::transmission)) a.transmitted = b.transmitted * (1.f - layer);
@@ -110,14 +72,31 @@ template <Features S, class F> F facet_probability(const FacetAlbedo<F>& a, cons
 
 // ---- make
 
+// Has an inside, where light travels.
+template <Features S, class F> Mask<F> is_solid(const BsdfParams<F>& m) {
+    if constexpr (!S.has(Feature::transmission)) return Mask<F>(false);
+    else if constexpr (!S.has(Feature::diffuse_transmission)) return m.transmission > F(0.f) && !m.thin;
+    else return (m.transmission > F(0.f) || m.layers.diffuse_transmission > F(0.f)) && !m.thin;
+}
+
 template <Features S, class F> void make_facets(Bsdf<F>& b, const BsdfParams<F>& m, const Vec<F>& wo, const EnergyTable* energy) {
     const Vec<F> one = splat<F>(1.f);
     b.cos = max(abs(wo.z), F(grazing));
-    b.solid = S.has(Feature::transmission) ? m.transmission > F(0.f) && !m.thin : Mask<F>(false);
+    b.solid = is_solid<S>(m);
     b.flipped = b.solid && wo.z < F(0.f);
     b.smooth = m.roughness < F(smooth_roughness);
     b.alpha = max(F(m.roughness * m.roughness), F(smooth_roughness * smooth_roughness));
-    b.visible = masking_over_cos(b.alpha, Vec<F>{wo.x, wo.y, b.cos});
+    if constexpr (S.has(Feature::anisotropy)) {
+        const F strength = m.layers.anisotropy;
+        b.stretch = make_stretch(F(b.alpha + (1.f - b.alpha) * (strength * strength)), b.alpha);
+        b.smooth = b.smooth && !(strength > F(0.f));
+    }
+    if constexpr (S.has(Feature::iridescence)) {
+        b.iridescence = m.layers.iridescence;
+        b.film_ior = m.layers.film_ior;
+        b.film_thickness = m.layers.film_thickness;
+    }
+    b.visible = masking_over_cos(alpha_of<S>(b), Vec<F>{wo.x, wo.y, b.cos});
 
     b.metal_color = m.base_color;
     b.specular = m.specular;
@@ -127,7 +106,11 @@ template <Features S, class F> void make_facets(Bsdf<F>& b, const BsdfParams<F>&
     b.dielectric_gain = one * (1.f - m.metallic);
     if constexpr (S.has(Feature::energy_compensation)) {
         if (energy) {
-            const F lost = select(b.smooth, F(0.f), 1.f / directional_albedo(*energy, m.roughness, b.cos) - 1.f);
+            F roughness = m.roughness;
+            // Of stretched facets roughly what round ones of the same product lose.
+            if constexpr (S.has(Feature::anisotropy))
+                roughness = select(m.layers.anisotropy > F(0.f), sqrt(sqrt(b.stretch.product)), roughness);
+            const F lost = select(b.smooth, F(0.f), 1.f / directional_albedo(*energy, roughness, b.cos) - 1.f);
             b.metal_gain = b.metal_gain * (one + b.metal_color * lost);
             b.dielectric_gain = b.dielectric_gain * (one + b.f0 * (b.specular * lost));
         }
@@ -144,50 +127,53 @@ template <Features S, class F> void make_facets(Bsdf<F>& b, const BsdfParams<F>&
         // section 5.2). A path that comes out again has both factors, and a glass ball in a furnace is as bright as the furnace.
         b.radiance_scale = select(b.solid, 1.f / (b.interface.eta * b.interface.eta), F(1.f));
         b.mirror = m.ior < F(1.f);
-        b.straight = b.solid && (b.smooth || b.alpha * (ior - 1.f) < F(1e-5f));
+        b.straight = b.solid && (b.smooth || alpha_along_x(alpha_of<S>(b)) * (ior - 1.f) < F(1e-5f));
     }
+}
+
+// The share of the Lambertian part that goes through. Into a solid it spreads by Lambert's law on the other side, and since only 1 / ior^2 of
+// such light can leave again, the rest is reflected inside: radiance in equilibrium is then ior^2 within, as it is for clear glass.
+template <Features S, class F> void make_through(Bsdf<F>& b, const BsdfParams<F>& m) {
+    const F share = m.layers.diffuse_transmission;
+    const Vec<F> through = m.layers.diffuse_transmission_color * ((1.f - m.metallic) * (1.f - m.transmission) * share);
+    const F ior = max(m.ior, F(1.f)), leaves = select(b.solid, 1.f / (ior * ior), F(1.f));
+    b.diffuse = b.diffuse * (1.f - share) + through * select(b.flipped, 1.f - leaves, F(0.f));
+    b.through = through * select(b.flipped, F(1.f), leaves);
+    const F down = max_component(b.through), up = max_component(b.diffuse);
+    b.p_through = down / max(down + up, F(1e-20f));
 }
 
 // The facets' share of samples follows what the parts reflect towards wo. On a rough surface the facets in view are less
 // grazing than the surface, hence the cosine; the bounds keep the weights bounded where the estimate is off.
-template <Features S, class F> void choose_probabilities(Bsdf<F>& b, const BsdfParams<F>& m) {
+// Returns what both together scatter, roughly.
+template <Features S, class F> F choose_probabilities(Bsdf<F>& b, const BsdfParams<F>& m) {
     const FacetAlbedo<F> a = facet_albedo<S>(b, F(b.cos + (1.f - b.cos) * (0.5f * b.alpha)));
-    const F diffuse = max_component(b.diffuse) * (1.f - a.layer);
+    F matte = max_component(b.diffuse);
+    if constexpr (S.has(Feature::diffuse_transmission)) matte = matte + max_component(b.through);
+    const F diffuse = matte * (1.f - a.layer);
     const F facets = max(max_component(a.reflected), max_component(a.transmitted));
     const F p = min(max(diffuse / max(diffuse + facets, F(1e-20f)), F(0.1f)), F(0.9f));
     // From the parameters: a facet that reflects nothing at one angle may at another.
-    const Mask<F> no_diffuse = !(max_component(b.diffuse) > F(0.f));
+    const Mask<F> no_diffuse = !(matte > F(0.f));
     const Mask<F> no_facets = !(m.metallic > F(0.f) || m.specular > F(0.f) || m.transmission > F(0.f));
     b.p_diffuse = select(no_facets, F(1.f), select(no_diffuse, F(0.f), p));
     b.delta_only = no_diffuse && (no_facets || b.smooth);
+    return diffuse + facets;
 }
 
-// `energy`: scale facet reflection by what the microfacet model loses; null (or S without energy_compensation): do not.
-template <Features S, class F> Bsdf<F> make_bsdf(const BsdfParams<F>& m, const Vec<F>& wo, const EnergyTable* energy) {
-    Bsdf<F> b{};
+// Returns what the base scatters, roughly. `energy`: scale facet reflection by what the microfacet model loses; null (or S without
+// energy_compensation): do not.
+template <Features S, class F> F make_base(Bsdf<F>& b, const BsdfParams<F>& m, const Vec<F>& wo, const EnergyTable* energy) {
     if constexpr (has_facets(S)) {
         b.diffuse = m.base_color * ((1.f - m.metallic) * (1.f - m.transmission));
         make_facets<S>(b, m, wo, energy);
-        choose_probabilities<S>(b, m);
+        if constexpr (S.has(Feature::diffuse_transmission)) make_through<S>(b, m);
+        return choose_probabilities<S>(b, m);
     } else {
         b.diffuse = m.base_color;
         b.delta_only = !(max_component(b.diffuse) > F(0.f));
+        return max_component(b.diffuse);
     }
-    return b;
-}
-
-// True where nothing has a density: eval is 0 for every direction, and light sampling would be wasted.
-// True where all that is scattered is scattered alike to all viewers: reflectance b.diffuse.
-template <Features S, class F> Mask<F> is_lambertian(const Bsdf<F>& b) {
-    if constexpr (has_facets(S)) return b.p_diffuse == F(1.f);
-    else return Mask<F>(true);
-}
-template <class F> Mask<F> is_delta_only(const Bsdf<F>& b) { return b.delta_only; }
-
-template <class F> Vec<F> flip_z(const Mask<F>& m, const Vec<F>& w) { return {w.x, w.y, select(m, -w.z, w.z)}; }
-// wo on the upper side, and never so grazing that a half vector vanishes.
-template <class F> Vec<F> upper_wo(const Bsdf<F>& b, const Vec<F>& wo) {
-    return {wo.x, wo.y, max(select(b.flipped, -wo.z, wo.z), F(grazing))};
 }
 
 // ---- eval
@@ -226,7 +212,7 @@ template <Features S, class F> Facet<F> facet_between(const Bsdf<F>& b, const Ve
     return f;
 }
 
-template <Features S, class F> BsdfValue<F> eval(const Bsdf<F>& b, const Vec<F>& wo_surface, const Vec<F>& wi_surface) {
+template <Features S, class F> BsdfValue<F> eval_base(const Bsdf<F>& b, const Vec<F>& wo_surface, const Vec<F>& wi_surface) {
     if constexpr (!has_facets(S)) {
         const F pdf = cosine_hemisphere_pdf(wi_surface.z);
         return {b.diffuse * pdf, pdf};
@@ -235,14 +221,25 @@ template <Features S, class F> BsdfValue<F> eval(const Bsdf<F>& b, const Vec<F>&
         const Mask<F> above = wi.z > F(0.f);
         const Facet<F> facet = facet_between<S>(b, wo, wi);
         const FacetAlbedo<F> albedo = facet_albedo<S>(b, facet.cos);
-        const F cosine = cosine_hemisphere_pdf(wi.z);
-        const Vec<F> diffuse = b.diffuse * (1.f - select(above, albedo.layer, F(0.f))) * cosine;
+        F cosine = cosine_hemisphere_pdf(wi.z);
+        Vec<F> diffuse = b.diffuse * (1.f - select(above, albedo.layer, F(0.f))) * cosine;
+        if constexpr (S.has(Feature::diffuse_transmission)) {
+            const F below = cosine_hemisphere_pdf(F(-wi.z));
+            const Mask<F> crosses = below * b.p_through > F(0.f);
+            if (any(crosses)) {
+                // What the surface reflects, it does not let through either: by the facet that would mirror the light, as it is for thin walls.
+                const F c = sqrt(max(F(0.5f + 0.5f * dot(wo, flip_z(Mask<F>(true), wi))), F(0.f)));
+                const F reflected = facet_albedo<S>(b, max(c, F(grazing))).layer;
+                diffuse = diffuse + b.through * select(crosses, (1.f - reflected) * below, F(0.f));
+            }
+            cosine = cosine * (1.f - b.p_through) + below * b.p_through;
+        }
 
         const Mask<F> dense = facet.faces_both && select(above, !b.smooth, !(b.smooth || b.straight)) && abs(wi.z) > F(0.f);
-        const F density = select(dense, ggx(b.alpha, facet.h) * b.visible * facet.jacobian, F(0.f));
+        const F density = select(dense, ggx(alpha_of<S>(b), facet.h) * b.visible * facet.jacobian, F(0.f));
         const Vec<F> scattered = select(above, albedo.reflected, albedo.transmitted * b.radiance_scale);
         const F pdf = facet_probability<S>(albedo, above) * density;
-        return {diffuse + scattered * (density * masking(b.alpha, wi)), b.p_diffuse * cosine + (1.f - b.p_diffuse) * pdf};
+        return {diffuse + scattered * (density * masking(alpha_of<S>(b), wi)), b.p_diffuse * cosine + (1.f - b.p_diffuse) * pdf};
     }
 }
 
@@ -251,7 +248,7 @@ template <Features S, class F> BsdfValue<F> eval(const Bsdf<F>& b, const Vec<F>&
 // A direction for the facets alone, in the viewer's frame; u, v choose the facet, `choice` what it does.
 template <Features S, class F> BsdfSample<F> sample_facets(const Bsdf<F>& b, const Vec<F>& wo, const F& u, const F& v, const F& choice) {
     const Vec<F> z{F(0.f), F(0.f), F(1.f)};
-    Vec<F> h = select(b.smooth, z, sample_visible_normal(b.alpha, wo, u, v));
+    Vec<F> h = select(b.smooth, z, sample_visible_normal(alpha_of<S>(b), wo, u, v));
     F cos = max(dot(wo, h), F(grazing));
     const FacetAlbedo<F> a = facet_albedo<S>(b, cos);
     const Mask<F> reflects = choice < facet_probability<S>(a, Mask<F>(true));
@@ -274,19 +271,15 @@ template <Features S, class F> BsdfSample<F> sample_facets(const Bsdf<F>& b, con
     return s;
 }
 
-// u, v, choice: uniform in [0, 1), independent.
-template <Features S, class F> BsdfSample<F> sample(const Bsdf<F>& b, const Vec<F>& wo_surface, const F& u, const F& v, const F& choice) {
+// A direction of the base; of its weight only that of a delta lobe, of its density nothing. u, v, choice: uniform in [0, 1), independent.
+template <Features S, class F> BsdfSample<F> draw_base(const Bsdf<F>& b, const Vec<F>& wo_surface, const F& u, const F& v, const F& choice) {
     BsdfSample<F> s;
     s.wi = sample_cosine_hemisphere(u, v);
+    s.weight = splat<F>(0.f);
     s.delta = Mask<F>(false);
-    if constexpr (!has_facets(S)) {
-        s.weight = b.diffuse;
-        s.pdf = cosine_hemisphere_pdf(s.wi.z);
-        s.valid = s.pdf > F(0.f);
-    } else {
+    s.valid = s.wi.z > F(0.f);
+    if constexpr (has_facets(S)) {
         const Mask<F> is_diffuse = choice < b.p_diffuse;
-        s.valid = s.wi.z > F(0.f);
-        s.weight = splat<F>(0.f);
         const F p_facets = 1.f - b.p_diffuse;
         if (!all(is_diffuse)) {
             const F rest = min(F((choice - b.p_diffuse) / max(p_facets, F(1e-20f))), F(one_minus_epsilon));
@@ -296,24 +289,21 @@ template <Features S, class F> BsdfSample<F> sample(const Bsdf<F>& b, const Vec<
             s.weight = facet.weight / max(p_facets, F(1e-20f));
             s.valid = select(is_diffuse, s.valid, facet.valid);
         }
+        if constexpr (S.has(Feature::diffuse_transmission)) {
+            s.wi = flip_z(choice < b.p_diffuse * b.p_through, s.wi);
+        }
         s.wi = flip_z(b.flipped, s.wi);
-        const BsdfValue<F> value = eval<S>(b, wo_surface, s.wi);
-        s.pdf = select(s.delta, F(1.f), value.pdf);
-        s.valid = s.valid && s.pdf > F(0.f);
-        const Vec<F> mixed = value.f_cos / select(s.valid, s.pdf, F(1.f));
-        // Of a Lambertian surface the quotient is its albedo, exactly.
-        s.weight = select(s.delta, s.weight, select(b.p_diffuse == F(1.f), b.diffuse, mixed));
-        s.weight = select(s.valid, s.weight, splat<F>(0.f));
     }
     return s;
 }
 
-// Roughly how much of a uniform light comes back or through, in [0, 1]: the denoiser's guide.
-template <Features S, class F> Vec<F> albedo(const Bsdf<F>& b, const Vec<F>&) {
+// Roughly how much of a uniform light comes back or through.
+template <Features S, class F> Vec<F> albedo_of_base(const Bsdf<F>& b) {
     if constexpr (has_facets(S)) {
         const FacetAlbedo<F> a = facet_albedo<S>(b, b.cos);
-        const Vec<F> sum = b.diffuse * (1.f - a.layer) + a.reflected + a.transmitted;
-        return {clamp01(sum.x), clamp01(sum.y), clamp01(sum.z)};
+        Vec<F> matte = b.diffuse;
+        if constexpr (S.has(Feature::diffuse_transmission)) matte = matte + b.through;
+        return matte * (1.f - a.layer) + a.reflected + a.transmitted;
     } else {
         return b.diffuse;
     }

@@ -26,6 +26,12 @@ enum class Feature : uint32_t {
     light_profiles = 1u << 16,     // some light's emission depends on direction: spots, spread, measured distributions
     light_tree = 1u << 17,         // so many lights that they are drawn by a tree
     links = 1u << 18,              // some light leaves objects out, or some object casts no shadow of it
+    clearcoat = 1u << 19,          // some material has a clear coat
+    sheen = 1u << 20,
+    anisotropy = 1u << 21,
+    iridescence = 1u << 22,
+    diffuse_transmission = 1u << 23,
+    dispersion = 1u << 24,
 };
 
 // A set of features; usable as a template argument.
@@ -40,6 +46,13 @@ struct Features {
 };
 
 inline constexpr Features no_features{};
-inline constexpr Features all_features{(1u << 19) - 1};
+inline constexpr Features all_features{(1u << 25) - 1};
+// KHR_materials_* beyond the metallic-roughness material that few scenes have.
+inline constexpr Features layer_features = no_features.with(Feature::clearcoat)
+                                               .with(Feature::sheen)
+                                               .with(Feature::anisotropy)
+                                               .with(Feature::iridescence)
+                                               .with(Feature::diffuse_transmission)
+                                               .with(Feature::dispersion);
 
 } // namespace blush

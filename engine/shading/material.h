@@ -3,6 +3,7 @@
 
 #include "shading/bsdf.h"
 #include "shading/features.h"
+#include "shading/material_layers.h"
 #include "shading/texture.h"
 
 namespace blush {
@@ -43,6 +44,7 @@ struct MaterialRecord {
 
 struct MaterialTables {
     const MaterialRecord* materials = nullptr;
+    const LayerRecord* layers = nullptr; // beside each of them
     TextureTables textures;
 };
 
@@ -54,6 +56,9 @@ template <class F> struct MaterialPoint {
     BsdfParams<F> bsdf;
     Vec<F> emission;       // radiance in nits towards the emitting side
     Vec<F> tangent_normal; // unit, in the frame of tangent, bitangent and shading normal; (0, 0, 1) without a normal map
+    Vec<F> clearcoat_tangent_normal; // the coat's, likewise
+    AnisotropyPoint<F> anisotropy;
+    F dispersion; // 20 / Abbe number
     Vec<F> sigma_a;        // 1/m, on the inner side of a solid
     Mask<F> double_sided, unlit;
 };
@@ -69,20 +74,23 @@ Vec<F> emission_at(const MaterialTables& tables, const Int<F>& material, const T
     return emission * rgb(lookup<F>(tables.textures, gather_field(records, &MaterialRecord::emissive_texture, m), at, active));
 }
 
-// Normal of a normal map, glTF 2.0 section 3.9.3: texels map [0, 1] to [-1, 1], scale stretches x and y. Texels that point
-// below the surface are lifted to it.
+// Share of the surface at a point that is coated.
+template <Features S, class F>
+F clearcoat_at(const MaterialTables& tables, const Int<F>& material, const TexturePoint<F>& at, const Mask<F>& active) {
+    const Int<F> m = select(active, material, Int<F>(0));
+    return clearcoat_share<S, F>(tables.layers, m, [&](int32_t LayerRecord::*slot) {
+        return lookup<F>(tables.textures, gather_field(tables.layers, slot, m), at, active);
+    });
+}
+
+// (0, 0, 1) without a normal map.
 template <class F>
 Vec<F> tangent_normal_at(const MaterialTables& tables, const Int<F>& m, const TexturePoint<F>& at, const Mask<F>& active) {
-    const Vec<F> flat{F(0.f), F(0.f), F(1.f)};
     const Int<F> use = gather_field(tables.materials, &MaterialRecord::normal_texture, m);
     const Mask<F> mapped = active && as_mask(use >= 0);
-    if (!any(mapped)) return flat;
-    const Vec<F> texel = rgb(lookup<F>(tables.textures, use, at, active)) * 2.f - splat<F>(1.f);
+    if (!any(mapped)) return {F(0.f), F(0.f), F(1.f)};
     const F scale = gather_field(tables.materials, &MaterialRecord::normal_scale, m);
-    const Vec<F> n{texel.x * scale, texel.y * scale, max(texel.z, F(0.f))};
-    const F squared = length_squared(n);
-    const Mask<F> usable = mapped && squared > F(1e-12f);
-    return select(usable, n / sqrt(select(usable, squared, F(1.f))), flat);
+    return decode_normal<F>(rgb(lookup<F>(tables.textures, use, at, active)), scale, mapped);
 }
 
 // Everything the estimator wants to know about the material at a hit. Lanes that are not active get some legal material.
@@ -93,6 +101,9 @@ template <Features S, class F> MaterialPoint<F> material_at(const MaterialTables
     const MaterialRecord* records = tables.materials;
     const auto texture = [&](int32_t MaterialRecord::*slot) {
         return lookup<F>(tables.textures, gather_field(records, slot, m), at, active);
+    };
+    const auto layer_texture = [&](int32_t LayerRecord::*slot) {
+        return lookup<F>(tables.textures, gather_field(tables.layers, slot, m), at, active);
     };
     const Int<F> flags = gather_field(records, &MaterialRecord::flags, m);
     const auto flag = [&](MaterialFlag f) { return Mask<F>(as_mask((flags & int32_t(f)) != 0)); };
@@ -142,6 +153,13 @@ template <Features S, class F> MaterialPoint<F> material_at(const MaterialTables
 
     p.tangent_normal = {F(0.f), F(0.f), F(1.f)};
     if constexpr (S.has(Feature::normal_maps)) p.tangent_normal = tangent_normal_at<F>(tables, m, at, active);
+    read_layers<S, F>(p.bsdf.layers, tables.layers, m, layer_texture);
+    p.clearcoat_tangent_normal = {F(0.f), F(0.f), F(1.f)};
+    if constexpr (S.has(Feature::normal_maps) && S.has(Feature::clearcoat))
+        p.clearcoat_tangent_normal = clearcoat_tangent_normal<F>(tables.layers, m, active, layer_texture);
+    if constexpr (S.has(Feature::anisotropy)) p.anisotropy = anisotropy_at<S, F>(tables.layers, m, active, layer_texture);
+    p.dispersion = F(0.f);
+    if constexpr (S.has(Feature::dispersion)) p.dispersion = gather_field(tables.layers, &LayerRecord::dispersion, m);
     return p;
 }
 

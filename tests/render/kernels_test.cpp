@@ -184,7 +184,7 @@ TEST(Kernels, TheSmallestThatKnowsEnoughIsChosen) {
             ASSERT_EQ(setenv("BLUSH_ISA", std::string(isa).c_str(), 1), 0);
             EXPECT_EQ(&choose_kernel(kernel.features), &kernel);
         }
-        EXPECT_EQ(choose_kernel(all_features).name, "full");
+        EXPECT_EQ(choose_kernel(all_features).name, "layered");
     }
     setenv("BLUSH_ISA", "none such", 1);
     EXPECT_EQ(choose_kernel(no_features).isa, runnable_isas().back());

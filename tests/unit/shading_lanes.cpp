@@ -1,5 +1,6 @@
 // The same bits whatever shades them: any superset of the features a material needs, one path or a register of them.
 #include "shading_materials.h"
+#include "shading_numbers.h"
 
 #include <gtest/gtest.h>
 
@@ -59,6 +60,21 @@ Params random_params(Random& random) {
     p.thin = random() < 0.5f;
     return p;
 }
+Params random_layered_params(Random& random) {
+    Params p = random_params(random);
+    p.layers.clearcoat = often(random, 0);
+    p.layers.clearcoat_roughness = often(random, 0);
+    p.layers.clearcoat_normal = often(random, 0) == 0 ? Vec3{0, 0, 1} : random.direction();
+    if (random() < 0.5f) p.layers.sheen_color = {random(), random(), often(random, 0)};
+    p.layers.sheen_roughness = random();
+    p.layers.anisotropy = often(random, 0);
+    p.layers.iridescence = often(random, 0);
+    p.layers.film_ior = 1 + random();
+    p.layers.film_thickness = 1000 * often(random, 0);
+    p.layers.diffuse_transmission = often(random, 0);
+    p.layers.diffuse_transmission_color = {random(), random(), random()};
+    return p;
+}
 
 } // namespace
 
@@ -101,48 +117,59 @@ TEST(Features, TransmittingIsTheSameUnderAllThatTransmit) {
     }
 }
 
+// Of layers, what a material lacks changes nothing either.
+TEST(Features, OneLayerIsTheSameUnderAll) {
+    Random random(5);
+    for (int i = 0; i < 50'000; ++i) {
+        const LayerParams<float> all = random_layered_params(random).layers;
+        Params p = random_params(random);
+        p.transmission = 0;
+        p.thin = true;
+        const Point at = random_point(random);
+        const auto expect_same = [&]<Features S>(auto... fields) {
+            p.layers = {};
+            ((p.layers.*fields = all.*fields), ...);
+            ASSERT_TRUE(same_bits(shade<S>(p, at.wo, at.wi, at.u, nullptr), shade<all_features>(p, at.wo, at.wi, at.u, nullptr)));
+        };
+        using L = LayerParams<float>;
+        expect_same.operator()<specular.with(Feature::clearcoat)>(&L::clearcoat, &L::clearcoat_roughness, &L::clearcoat_normal);
+        expect_same.operator()<specular.with(Feature::sheen)>(&L::sheen_color, &L::sheen_roughness);
+        expect_same.operator()<specular.with(Feature::anisotropy)>(&L::anisotropy);
+        expect_same.operator()<specular.with(Feature::iridescence)>(&L::iridescence, &L::film_ior, &L::film_thickness);
+        expect_same.operator()<specular.with(Feature::diffuse_transmission)>(&L::diffuse_transmission, &L::diffuse_transmission_color);
+    }
+}
+
 template <Features S> void expect_lanes_equal_one_path(const EnergyTable* energy) {
     constexpr int n = width<Wide>;
     Random random(4);
     for (int round = 0; round < 10'000; ++round) {
-        float numbers_of[20][n];
+        float columns[numbers_of_params + 9][n], thin[n];
         Params params[n];
         Point points[n];
         for (int i = 0; i < n; ++i) {
-            const Params p = params[i] = random_params(random);
+            Params& p = params[i] = has_layers(S) && i % 2 ? random_layered_params(random) : random_params(random);
             Point& at = points[i] = random_point(random);
             if (is_solid(p) && random() < 0.5f) at.wo.z = -at.wo.z;
-            const float values[20] = {p.base_color.x,
-                                      p.base_color.y,
-                                      p.base_color.z,
-                                      p.metallic,
-                                      p.roughness,
-                                      p.ior,
-                                      p.specular,
-                                      p.specular_color.x,
-                                      p.specular_color.y,
-                                      p.specular_color.z,
-                                      p.transmission,
-                                      at.wo.x,
-                                      at.wo.y,
-                                      at.wo.z,
-                                      at.wi.x,
-                                      at.wi.y,
-                                      at.wi.z,
-                                      at.u.x,
-                                      at.u.y,
-                                      at.u.z};
-            for (int k = 0; k < 20; ++k) numbers_of[k][i] = values[k];
+            int k = 0;
+            each_number(p, [&](float x) { columns[k++][i] = x; });
+            for (const Vec3& v : {at.wo, at.wi, at.u})
+                for (const float x : {v.x, v.y, v.z}) columns[k++][i] = x;
+            thin[i] = p.thin;
         }
-        const auto in = [&](int k) { return load<Wide>(numbers_of[k]); };
-        const auto vec = [&](int k) { return Vec<Wide>{in(k), in(k + 1), in(k + 2)}; };
-        float thin[n];
-        for (int i = 0; i < n; ++i) thin[i] = params[i].thin;
-        const BsdfParams<Wide> p{vec(0), in(3), in(4), in(5), in(6), vec(7), in(10), load<Wide>(thin) > 0.5f};
-        const Vec<Wide> wo = vec(11);
+        int column = 0;
+        const auto next = [&] { return load<Wide>(columns[column++]); };
+        const auto next_vec = [&] {
+            const Wide x = next(), y = next(), z = next();
+            return Vec<Wide>{x, y, z};
+        };
+        BsdfParams<Wide> p;
+        each_number(p, [&](Wide& x) { x = next(); });
+        p.thin = load<Wide>(thin) > 0.5f;
+        const Vec<Wide> wo = next_vec(), wi = next_vec(), u = next_vec();
         const Bsdf<Wide> b = make_bsdf<S>(p, wo, energy);
-        const BsdfSample<Wide> s = sample<S>(b, wo, in(17), in(18), in(19));
-        const BsdfValue<Wide> v = eval<S>(b, wo, vec(14));
+        const BsdfSample<Wide> s = sample<S>(b, wo, u.x, u.y, u.z);
+        const BsdfValue<Wide> v = eval<S>(b, wo, wi);
         const std::vector<Wide> wide = numbers(v, s, albedo<S>(b, wo));
         for (int i = 0; i < n; ++i) {
             const Outputs one = shade<S>(params[i], points[i].wo, points[i].wi, points[i].u, energy);

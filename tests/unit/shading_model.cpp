@@ -11,7 +11,8 @@ namespace {
 // of the distribution (at most 4 / alpha, relatively) and of the cosines it makes with both; near the critical angle light gets
 // through like the root of (eta cos)^2.
 double relative_bound(const Params& p, const Vec3& wo, const Vec3& wi) {
-    const double alpha = std::max(reference::sqr(p.roughness), 1e-4);
+    const float narrowest = p.layers.clearcoat > 0 ? std::min(p.roughness, std::max(p.layers.clearcoat_roughness, smooth_roughness)) : p.roughness;
+    const double alpha = std::max(reference::sqr(narrowest), 1e-4);
     const double eta = wo.z < 0 ? 1 / p.ior : p.ior;
     const bool through = wo.z * wi.z < 0;
     const Vec3d a = reference::to_double(wo), b = reference::to_double(wi);
@@ -22,7 +23,7 @@ double relative_bound(const Params& p, const Vec3& wo, const Vec3& wi) {
 
 } // namespace
 
-TEST(Model, IsAppendixB) {
+TEST(Model, IsTheSpecification) {
     Random random(1);
     std::vector<Material> all;
     for (const float r : {0.1f, 0.3f, 0.6f, 1.f}) {
@@ -39,6 +40,14 @@ TEST(Model, IsAppendixB) {
                                {"solid mixture", solid}});
     }
     all.push_back({"lambert", lambert({0.8f, 0.5f, 0.1f})});
+    for (const float r : {0.2f, 0.5f, 1.f})
+        for (const Material& m : layered_materials(r)) all.push_back(m);
+    for (const float r : {0.3f, 0.7f}) {
+        all.push_back({"tilted coat", coated(half_metal(0.5f), r, 0.6f, normalize(Vec3{0.3f, -0.2f, 1}))});
+        all.push_back({"tilted coat of glass", coated(glass(0.4f, 1.5f, 0.6f), r, 1, normalize(Vec3{-0.2f, 0.3f, 1}))});
+        for (const Params& p : {metal(r, {0.9f, 0.7f, 0.4f}), half_metal(r), thin_glass(r), glass(r, 1.5f)})
+            all.push_back({"stretched", stretched(p, 0.6f)});
+    }
     for (const Material& m : all)
         for (int i = 0; i < 4000; ++i) {
             Vec3 wo = random.direction();
@@ -66,12 +75,12 @@ TEST(Model, WorkedExampleOfPlasticAtNormalIncidence) {
 
 TEST(Model, ReflectionAndThinTransmissionAreReciprocal) {
     Random random(2);
-    for (const Material& m : materials()) {
-        if (is_solid(m.params)) continue;
+    for (const Material& m : all_materials()) {
+        if (is_solid(m.params) || m.params.layers.clearcoat > 0) continue;
         for (int i = 0; i < 500; ++i) {
             Vec3 wo = random.direction(), wi = random.direction();
             wo.z = std::abs(wo.z);
-            if (wo.z < 0.01f || std::abs(wi.z) < 0.01f || (wi.z < 0 && m.params.transmission == 0)) continue;
+            if (wo.z < 0.01f || std::abs(wi.z) < 0.01f || (wi.z < 0 && m.params.transmission == 0 && m.params.layers.diffuse_transmission == 0)) continue;
             // A thin wall looks the same from both sides: the viewer's is up.
             const float side = wi.z < 0 ? -1.f : 1.f;
             const Vec3 back_wo{wi.x, wi.y, side * wi.z}, back_wi{wo.x, wo.y, side * wo.z};

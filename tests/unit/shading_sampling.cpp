@@ -10,13 +10,14 @@ namespace {
 // From some viewers a lobe is narrower than the spacing of single-precision directions: alpha one way, alpha cos the other. Then only
 // its facets can be looked at: see FacetsFollowTheVisibleNormals.
 bool is_resolved(const Params& p, const Vec3& wo) {
-    return p.roughness < smooth_roughness || p.roughness * p.roughness * std::abs(wo.z) > 16 * 0x1p-24f;
+    const auto resolved = [&](float roughness) { return roughness < smooth_roughness || roughness * roughness * std::abs(wo.z) > 16 * 0x1p-24f; };
+    return resolved(p.roughness) && (p.layers.clearcoat == 0 || resolved(p.layers.clearcoat_roughness));
 }
 
 } // namespace
 
 TEST(Sampling, DirectionsFollowThePdf) {
-    const std::vector<Material> all = materials();
+    const std::vector<Material> all = all_materials();
     int64_t tests = 0;
     for (const Material& m : all) tests += int64_t(viewers(m.params).size());
     Random random(1);
@@ -72,13 +73,15 @@ TEST(Sampling, FacetsFollowTheVisibleNormals) {
 
 TEST(Sampling, WeightIsEvalOverPdfAndBounded) {
     Random random(2);
-    for (const Material& m : materials())
+    for (const Material& m : all_materials())
         for (const Viewer& v : viewers(m.params)) {
             SCOPED_TRACE(describe(m, v));
             const Vec3 wo = v.wo();
             const Bsdf<float> b = make_bsdf<all_features>(m.params, wo, nullptr);
-            // No part has less than a tenth of the samples it deserves; refraction may concentrate radiance.
-            const float limit = 10 * max(1.f, b.radiance_scale) * (1 + 1e-5f);
+            // No part of the base, and neither base nor layer, has less than a tenth of the samples it deserves; refraction may
+            // concentrate radiance.
+            const float parts = (b.coat.probability > 0 ? 10.f : 1.f) * (b.sheen.probability > 0 ? 10.f : 1.f);
+            const float limit = 10 * parts * max(1.f, b.radiance_scale) * (1 + 1e-5f);
             for (int i = 0; i < 2000; ++i) {
                 const BsdfSample<float> s = sample_next<all_features>(b, wo, random);
                 ASSERT_TRUE(is_finite(s.weight) && is_finite(s.pdf) && s.pdf >= 0);
@@ -102,7 +105,7 @@ TEST(Sampling, WeightIsEvalOverPdfAndBounded) {
 // Wherever light comes from, exactly grazing and exactly backward included.
 TEST(Sampling, EvalIsFiniteAndNotNegative) {
     Random random(3);
-    for (const Material& m : materials())
+    for (const Material& m : all_materials())
         for (const Viewer& v : viewers(m.params)) {
             SCOPED_TRACE(describe(m, v));
             const Vec3 wo = v.wo();
@@ -142,6 +145,17 @@ TEST(Sampling, ExtremeParametersNeverMakeNaN) {
         p.specular_color = {pick({0, 1, 1e6f}), pick({0, 1}), pick({0, 1})};
         p.transmission = pick({0, 1, 1e-7f});
         p.thin = random() < 0.5f;
+        p.layers.clearcoat = pick({0, 0, 1, 1e-7f});
+        p.layers.clearcoat_roughness = pick({0, 1, 0.01f});
+        p.layers.clearcoat_normal = random.direction();
+        p.layers.sheen_color = {pick({0, 1}), pick({0, 0, 1}), 0};
+        p.layers.sheen_roughness = pick({0, 1});
+        p.layers.anisotropy = pick({0, 0, 1, 1e-7f});
+        p.layers.iridescence = pick({0, 0, 1});
+        p.layers.film_ior = 1 + pick({0, 1, 999});
+        p.layers.film_thickness = 1e6f * pick({0, 1, 1e-3f});
+        p.layers.diffuse_transmission = pick({0, 0, 1, 1e-7f});
+        p.layers.diffuse_transmission_color = {pick({0, 1}), pick({0, 1}), pick({0, 1})};
         Vec3 wo = random.direction();
         wo.z = pick({std::abs(wo.z), 1e-3f, 1e-6f, 1e-20f, 0});
         wo = normalize(wo);

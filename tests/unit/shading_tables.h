@@ -48,6 +48,24 @@ inline ImagePtr make_byte_image(int width, int height, int channels, const std::
     return image;
 }
 
+// What KHR_materials_* add, each or not; in two of three materials nothing.
+inline void add_layers(Random& random, Material& m) {
+    if (random.below(3) != 0) return;
+    m.clearcoat = random.coin() ? random.unit() : 0;
+    m.clearcoat_roughness = random.unit();
+    m.clearcoat_normal_scale = random.between(-2, 2);
+    if (random.coin()) m.sheen_color = {random.unit(), random.unit(), random.unit()};
+    m.sheen_roughness = random.unit();
+    m.anisotropy = random.coin() ? random.unit() : 0;
+    m.anisotropy_rotation_radians = random.between(-4, 4);
+    m.iridescence = random.coin() ? random.unit() : 0;
+    m.iridescence_ior = random.between(1, 2);
+    m.iridescence_thickness_maximum = random.between(0, 1000);
+    m.diffuse_transmission = random.coin() ? random.unit() : 0;
+    m.diffuse_transmission_color = {random.unit(), random.unit(), random.unit()};
+    m.dispersion = random.coin() ? random.unit() : 0;
+}
+
 // Materials are compiled with textures only if some mesh wears them.
 inline Id<Material> add_worn_material(Scene& scene, const Material& material) {
     const Id<Material> id = scene.materials.add(material);

@@ -3,6 +3,7 @@
 
 #include "shading/environment.h"
 #include "shading/material.h"
+#include "unit/shading_numbers.h"
 
 #include <array>
 #include <cstdint>
@@ -19,7 +20,7 @@ struct TablePoints {
     const uint32_t* bits;
     const int32_t* active;
 };
-constexpr int table_answers = 35;
+constexpr int table_answers = numbers_of_params + 33;
 
 } // namespace blush
 
@@ -43,8 +44,9 @@ template <class F> void evaluate_tables(const TablePoints& points, const std::ar
         const auto put_vec = [&](const Vec<F>& v) {
             for (const F& x : {v.x, v.y, v.z}) put(x);
         };
-        for (const Vec<F>& v : {b.base_color, b.specular_color, m.emission, m.tangent_normal, m.sigma_a}) put_vec(v);
-        for (const F& x : {b.metallic, b.roughness, b.ior, b.specular, b.transmission}) put(x);
+        each_number(b, put);
+        for (const Vec<F>& v : {m.emission, m.tangent_normal, m.clearcoat_tangent_normal, m.sigma_a}) put_vec(v);
+        for (const F& x : {m.anisotropy.strength, m.anisotropy.direction.x, m.anisotropy.direction.y, m.dispersion}) put(x);
         for (const Mask<F>& x : {b.thin, m.double_sided, m.unlit}) put_flag(x);
         for (const Vec<F>& v : {radiance, s.direction, s.radiance}) put_vec(v);
         for (const F& x : {s.pdf, environment_pdf<F>(*points.environment, direction)}) put(x);

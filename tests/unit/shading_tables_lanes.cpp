@@ -1,6 +1,7 @@
 // Lane by lane and instruction set by instruction set, the tables answer with the same bits.
 #include "render/environment_table.h"
 #include "render/material_table.h"
+#include "scene/texture_slots.h"
 #include "unit/shading_tables.h"
 #include "unit/shading_tables_evaluate.h"
 
@@ -42,16 +43,15 @@ Scene varied_scene(Random& random) {
     }
     for (int i = 0; i < 40; ++i) {
         Material m;
-        for (TextureRef Material::*slot :
-             {&Material::base_color_texture, &Material::metallic_roughness_texture, &Material::normal_texture, &Material::emissive_texture,
-              &Material::specular_texture, &Material::specular_color_texture, &Material::transmission_texture}) {
-            if (random.coin()) m.*slot = {textures[size_t(random.below(8))], uint8_t(random.below(2)), {0, 0}, {2, 3}, random.unit()};
+        for (const TextureSlot& slot : texture_slots) {
+            if (random.coin()) m.*slot.ref = {textures[size_t(random.below(8))], uint8_t(random.below(2)), {0, 0}, {2, 3}, random.unit()};
         }
         m.base_color = {random.unit(), random.unit(), random.unit()};
         m.emissive = {random.unit(), 0, random.unit()};
         m.metallic = random.unit();
         m.transmission = random.coin() ? random.unit() : 0;
         m.unlit = random.below(5) == 0;
+        add_layers(random, m);
         add_worn_material(scene, m);
     }
     scene.environment.kind = Environment::Kind::image;

@@ -1,5 +1,7 @@
 // Materials from the document to what the estimator sees at a point.
 #include "render/material_table.h"
+#include "scene/texture_slots.h"
+#include "unit/shading_numbers.h"
 #include "unit/shading_tables.h"
 
 #include <gtest/gtest.h>
@@ -43,9 +45,10 @@ float opacity_of(const Material& material, float vertex_alpha = 1, Vec2 uv = {0,
 std::vector<uint32_t> bits_of(const MaterialPoint<float>& p) {
     const BsdfParams<float>& b = p.bsdf;
     std::vector<uint32_t> bits;
-    for (const Vec3& v : {b.base_color, b.specular_color, p.emission, p.tangent_normal, p.sigma_a})
-        for (const float x : {v.x, v.y, v.z}) bits.push_back(std::bit_cast<uint32_t>(x));
-    for (const float x : {b.metallic, b.roughness, b.ior, b.specular, b.transmission}) bits.push_back(std::bit_cast<uint32_t>(x));
+    const auto put = [&](float x) { bits.push_back(std::bit_cast<uint32_t>(x)); };
+    each_number(p.bsdf, put);
+    for (const Vec3& v : {p.emission, p.tangent_normal, p.clearcoat_tangent_normal, p.sigma_a})
+        for (const float x : {v.x, v.y, v.z}) put(x);
     for (const bool x : {b.thin, p.double_sided, p.unlit}) bits.push_back(x);
     return bits;
 }
@@ -77,13 +80,8 @@ Material random_material(Random& random, const std::vector<Id<Texture>>& texture
     m.thickness = some(1);
     if (random.coin()) m.attenuation_color = color();
     m.attenuation_distance = some(random.unit());
-    m.base_color_texture = texture();
-    m.metallic_roughness_texture = texture();
-    m.normal_texture = texture();
-    m.emissive_texture = texture();
-    m.specular_texture = texture();
-    m.specular_color_texture = texture();
-    m.transmission_texture = texture();
+    add_layers(random, m);
+    for (const TextureSlot& slot : texture_slots) m.*slot.ref = texture();
     return m;
 }
 
@@ -389,6 +387,7 @@ TEST(MaterialTable, OneMaterialRewrittenEqualsAllBuiltAnew) {
         MaterialTable fresh;
         build_material_table(fresh, scene);
         ASSERT_EQ(table.records, fresh.records);
+        ASSERT_EQ(table.layers, fresh.layers);
         ASSERT_EQ(table.textures.sources, fresh.textures.sources);
         ASSERT_EQ(table.textures.rgba8, fresh.textures.rgba8);
         ASSERT_EQ(std::memcmp(table.uses.data(), fresh.uses.data(), fresh.uses.size() * sizeof(TextureUse)), 0);

@@ -37,6 +37,7 @@ struct PathQueue {
     Column<uint32_t> key, index;
     Column<int32_t> slot;
     Column<int32_t> part; // that the ray left, -1: the camera; written only if lights may be linked
+    Column<int32_t> dispersed; // written only with Feature::dispersion
 };
 struct HitColumns {
     Column<float> t, u, v;

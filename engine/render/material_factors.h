@@ -1,0 +1,34 @@
+// Internal to material_*.cpp: factors of a material made legal, and which of its parts there are.
+#pragma once
+
+#include "scene/scene.h"
+
+#include <algorithm>
+
+namespace blush {
+
+// NaN becomes `low`.
+inline float within(float x, float low, float high) { return x >= low ? std::min(x, high) : low; }
+inline float unit(float x) { return within(x, 0, 1); }
+inline Vec3 within(const Vec3& v, float low, float high) { return {within(v.x, low, high), within(v.y, low, high), within(v.z, low, high)}; }
+
+// Which lobes a material has, after the order of precedence of glTF's parameters.
+inline bool reflects(const Material& m) { return !m.unlit && (m.specular > 0 || m.metallic > 0 || m.transmission > 0); }
+inline bool transmits(const Material& m) { return !m.unlit && m.transmission > 0; }
+inline bool is_translucent(const Material& m) { return !m.unlit && m.diffuse_transmission > 0; }
+inline bool is_thin(const Material& m) { return !(m.thickness > 0); }
+
+// Light travels inside of it.
+inline bool is_solid(const Material& m) { return (transmits(m) || is_translucent(m)) && !is_thin(m); }
+
+// A place of Material that holds a texture, and that of a compiled record which tells where to read it.
+template <class Record> struct CompiledSlot {
+    TextureRef Material::*ref;
+    int32_t Record::*index;
+    bool is_color;
+    bool (*matters)(const Material&);
+
+    bool is_read(const Material& m) const { return (m.*ref).texture && matters(m); }
+};
+
+} // namespace blush

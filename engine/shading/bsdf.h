@@ -1,0 +1,148 @@
+// How a surface point scatters light, as one triple (make_bsdf, then eval / sample): the base (base.h) and, where S has them, the layers on
+// top of it. A layer takes from what lies below as much as it may reflect itself.
+//
+// What S leaves out is not computed, and what a material does not use changes no bit: every factor it then meets is an exact
+// 1, every summand an exact 0.
+#pragma once
+
+#include "shading/base.h"
+#include "shading/clearcoat.h"
+#include "shading/sheen.h"
+
+namespace blush::inline BLUSH_ISA {
+
+// Probability of sampling a layer that reflects `layer` rather than what is below it and reflects `below`: it follows what both send
+// towards the viewer, as between the parts of the base.
+template <class F> F layer_probability(const F& layer, const F& below) {
+    const F p = min(max(F(layer / max(layer + below, F(1e-20f))), F(0.1f)), F(0.9f));
+    return select(layer > F(0.f), p, F(0.f));
+}
+
+// Fibres on the base, and a coat on both. Where S lacks one, it is there with strength 0.
+template <Features S, class F>
+void make_layers(Bsdf<F>& b, const LayerParams<F>& m, const Vec<F>& wo, const EnergyTable* energy, F base_albedo) {
+    b.p_base = F(1.f);
+    if constexpr (S.has(Feature::sheen)) {
+        b.sheen = make_sheen(m, upper_wo(b, wo));
+        const F layer = b.sheen.strength * min(b.sheen.albedo, F(1.f)), below = base_albedo * left_below_sheen(b.sheen);
+        b.sheen.probability = select(b.sheen.strength > F(0.f), layer_probability(max(layer, F(1e-10f)), below), F(0.f));
+        b.p_base = 1.f - b.sheen.probability;
+        base_albedo = layer + below;
+        b.delta_only = b.delta_only && !(b.sheen.strength > F(0.f));
+    }
+    if constexpr (S.has(Feature::clearcoat)) {
+        b.coat = make_clearcoat<S>(b, m, wo, energy);
+        b.coat.probability = layer_probability(b.coat.reflected, F(base_albedo * b.coat.left));
+        b.p_base = b.p_base * (1.f - b.coat.probability);
+        if constexpr (S.has(Feature::sheen)) b.sheen.probability = b.sheen.probability * (1.f - b.coat.probability);
+        b.delta_only = b.delta_only && (b.coat.smooth || !(b.coat.reflected > F(0.f)));
+    }
+}
+
+// `energy`: scale reflection by what the microfacet model loses; null (or S without energy_compensation): do not.
+template <Features S, class F> Bsdf<F> make_bsdf(const BsdfParams<F>& m, const Vec<F>& wo, const EnergyTable* energy) {
+    Bsdf<F> b{};
+    if constexpr (!has_facets(S)) b.p_diffuse = F(1.f);
+    const F base_albedo = make_base<S>(b, m, wo, energy);
+    if constexpr (has_layers(S)) make_layers<S>(b, m.layers, wo, energy, base_albedo);
+    return b;
+}
+
+// True where nothing has a density: eval is 0 for every direction, and light sampling would be wasted.
+template <class F> Mask<F> is_delta_only(const Bsdf<F>& b) { return b.delta_only; }
+// True where all that is scattered is scattered alike to all viewers: reflectance b.diffuse.
+template <Features S, class F> Mask<F> is_lambertian(const Bsdf<F>& b) {
+    Mask<F> lambertian = Mask<F>(true);
+    if constexpr (has_facets(S)) lambertian = b.p_diffuse == F(1.f);
+    if constexpr (S.has(Feature::diffuse_transmission)) lambertian = lambertian && !(b.p_through > F(0.f));
+    if constexpr (has_layers(S)) lambertian = lambertian && b.p_base == F(1.f);
+    return lambertian;
+}
+
+// What the layers leave of the base between viewer and wi, both in the viewer's frame.
+template <Features S, class F> F left_for_base(const Bsdf<F>& b, const Vec<F>& wi) {
+    F left = F(1.f);
+    if constexpr (S.has(Feature::sheen)) left = left_below_sheen(b.sheen, wi);
+    if constexpr (S.has(Feature::clearcoat)) left = left * b.coat.left;
+    return left;
+}
+
+template <Features S, class F> BsdfValue<F> eval(const Bsdf<F>& b, const Vec<F>& wo_surface, const Vec<F>& wi_surface) {
+    BsdfValue<F> value = eval_base<S>(b, wo_surface, wi_surface);
+    if constexpr (has_layers(S)) {
+        const Vec<F> wi = flip_z(b.flipped, wi_surface);
+        value.f_cos = value.f_cos * left_for_base<S>(b, wi);
+        value.pdf = b.p_base * value.pdf;
+        if constexpr (S.has(Feature::sheen)) {
+            const BsdfValue<F> sheen = eval_sheen(b.sheen, upper_wo(b, wo_surface), wi);
+            F left = F(1.f);
+            if constexpr (S.has(Feature::clearcoat)) left = b.coat.left;
+            value.f_cos = value.f_cos + sheen.f_cos * left;
+            value.pdf = value.pdf + b.sheen.probability * sheen.pdf;
+        }
+        if constexpr (S.has(Feature::clearcoat)) {
+            const BsdfValue<F> coat = eval_clearcoat(b.coat, wi);
+            value.f_cos = value.f_cos + coat.f_cos;
+            value.pdf = value.pdf + b.coat.probability * coat.pdf;
+        }
+    }
+    return value;
+}
+
+// As draw_base; choice decides between the layers first: coat, then sheen, then base.
+template <Features S, class F> BsdfSample<F> draw(const Bsdf<F>& b, const Vec<F>& wo, const F& u, const F& v, const F& choice) {
+    if constexpr (!has_layers(S)) return draw_base<S>(b, wo, u, v, choice);
+    F p_layers = F(0.f);
+    if constexpr (S.has(Feature::clearcoat)) p_layers = b.coat.probability;
+    if constexpr (S.has(Feature::sheen)) p_layers = p_layers + b.sheen.probability;
+    const F rest = min(F((choice - p_layers) / max(b.p_base, F(1e-20f))), F(one_minus_epsilon));
+    BsdfSample<F> s = draw_base<S>(b, wo, u, v, max(rest, F(0.f)));
+    s.weight = s.weight * (left_for_base<S>(b, flip_z(b.flipped, s.wi)) / b.p_base);
+    const Mask<F> in_layer = choice < p_layers;
+    if constexpr (S.has(Feature::sheen)) {
+        s.wi = select(in_layer, flip_z(b.flipped, sample_cone(F(1.f), u, v)), s.wi);
+        s.delta = s.delta && !in_layer;
+        s.valid = s.valid || in_layer;
+    }
+    if constexpr (S.has(Feature::clearcoat)) {
+        const Mask<F> in_coat = choice < b.coat.probability;
+        if (any(in_coat)) {
+            const BsdfSample<F> coat = draw_clearcoat(b.coat, u, v);
+            s.wi = select(in_coat, flip_z(b.flipped, coat.wi), s.wi);
+            s.weight = select(in_coat, coat.weight / max(b.coat.probability, F(1e-20f)), s.weight);
+            s.delta = select(in_coat, coat.delta, s.delta);
+            s.valid = select(in_coat, coat.valid, s.valid);
+        }
+    }
+    return s;
+}
+
+// u, v, choice: uniform in [0, 1), independent.
+template <Features S, class F> BsdfSample<F> sample(const Bsdf<F>& b, const Vec<F>& wo, const F& u, const F& v, const F& choice) {
+    BsdfSample<F> s = draw<S>(b, wo, u, v, choice);
+    if constexpr (!has_facets(S) && !has_layers(S)) {
+        s.weight = b.diffuse;
+        s.pdf = cosine_hemisphere_pdf(s.wi.z);
+        s.valid = s.pdf > F(0.f);
+    } else {
+        const BsdfValue<F> value = eval<S>(b, wo, s.wi);
+        s.pdf = select(s.delta, F(1.f), value.pdf);
+        s.valid = s.valid && s.pdf > F(0.f);
+        const Vec<F> mixed = value.f_cos / select(s.valid, s.pdf, F(1.f));
+        // Of a Lambertian surface the quotient is its albedo, exactly.
+        s.weight = select(s.delta, s.weight, select(is_lambertian<S>(b), b.diffuse, mixed));
+        s.weight = select(s.valid, s.weight, splat<F>(0.f));
+    }
+    return s;
+}
+
+// Roughly how much of a uniform light comes back or through, in [0, 1]: the denoiser's guide.
+template <Features S, class F> Vec<F> albedo(const Bsdf<F>& b, const Vec<F>&) {
+    Vec<F> sum = albedo_of_base<S>(b);
+    if constexpr (S.has(Feature::sheen)) sum = sum * left_below_sheen(b.sheen) + b.sheen.color * min(b.sheen.albedo, F(1.f));
+    if constexpr (S.has(Feature::clearcoat)) sum = sum * b.coat.left + splat<F>(1.f) * b.coat.reflected;
+    if constexpr (has_facets(S) || has_layers(S)) sum = clamp01(sum);
+    return sum;
+}
+
+} // namespace blush::inline BLUSH_ISA

@@ -1,0 +1,69 @@
+// KHR_materials_clearcoat: a colourless GGX reflection of index 1.5 on top of all else, with a normal of its own. What it reflects
+// towards the viewer, by the cosine between viewer and coat normal, what lies below does not scatter there: the layers together
+// never reflect more than they get. As the specification has it, the split depends on the viewer alone, so the coated material is
+// not reciprocal.
+#pragma once
+
+#include "shading/bsdf_types.h"
+#include "shading/energy.h"
+#include "shading/microfacet.h"
+
+namespace blush::inline BLUSH_ISA {
+
+constexpr float clearcoat_f0 = 0.04f; // of index 1.5
+
+// Share of the light that a coat on this share of the surface reflects to a viewer under this cosine.
+template <class F> F clearcoat_reflectance(const F& clearcoat, const F& cos) {
+    return clearcoat * (clearcoat_f0 + (1.f - clearcoat_f0) * schlick(cos));
+}
+
+// Share of a surface's own light that comes out of its coat. By the plane's normal, so that who aims at a light and who finds it agree.
+template <class F> F through_clearcoat(const F& clearcoat, const F& cos) { return 1.f - clearcoat_reflectance(clearcoat, cos); }
+
+// All but the probability.
+template <Features S, class F>
+Clearcoat<F> make_clearcoat(const Bsdf<F>& b, const LayerParams<F>& m, const Vec<F>& wo_surface, const EnergyTable* energy) {
+    Clearcoat<F> coat{};
+    const Vec<F> wo = upper_wo(b, wo_surface), z{F(0.f), F(0.f), F(1.f)};
+    // From within, the coat's back faces the viewer.
+    const Vec<F>& n = m.clearcoat_normal;
+    const Vec<F> towards{select(b.flipped, -n.x, n.x), select(b.flipped, -n.y, n.y), n.z};
+    coat.frame = basis_around(select<F>(dot(towards, wo) > F(least_facing), towards, z));
+    coat.wo = coat.frame.to_local(wo);
+    coat.wo.z = max(coat.wo.z, F(grazing));
+    coat.reflected = clearcoat_reflectance(m.clearcoat, coat.wo.z);
+    coat.left = 1.f - coat.reflected;
+    coat.smooth = m.clearcoat_roughness < F(smooth_roughness);
+    coat.alpha = max(F(m.clearcoat_roughness * m.clearcoat_roughness), F(smooth_roughness * smooth_roughness));
+    coat.visible = masking_over_cos(coat.alpha, coat.wo);
+    if constexpr (S.has(Feature::energy_compensation))
+        if (energy) coat.reflected = coat.reflected / select(coat.smooth, F(1.f), directional_albedo(*energy, m.clearcoat_roughness, coat.wo.z));
+    return coat;
+}
+
+// The coat's own value and density, whatever the probability of sampling it; wi in the viewer's frame.
+template <class F> BsdfValue<F> eval_clearcoat(const Clearcoat<F>& coat, const Vec<F>& wi_viewer) {
+    const Vec<F> wi = coat.frame.to_local(wi_viewer);
+    const Vec<F> sum = coat.wo + wi;
+    const Vec<F> h = sum / sqrt(max(length_squared(sum), F(1e-30f)));
+    // Below the surface the coat does not scatter, however its normal is tilted.
+    const Mask<F> above = wi.z > F(0.f) && wi_viewer.z > F(0.f) && !coat.smooth && coat.reflected > F(0.f);
+    const F pdf = select(above, ggx(coat.alpha, h) * coat.visible * 0.25f, F(0.f));
+    return {splat<F>(1.f) * (coat.reflected * pdf * masking(coat.alpha, wi)), pdf};
+}
+
+// A direction, in the viewer's frame; its weight is that of a delta.
+template <class F> BsdfSample<F> draw_clearcoat(const Clearcoat<F>& coat, const F& u, const F& v) {
+    const Vec<F> z{F(0.f), F(0.f), F(1.f)};
+    const Vec<F> h = select(coat.smooth, z, sample_visible_normal(coat.alpha, coat.wo, u, v));
+    const Vec<F> wi = h * (2.f * max(dot(coat.wo, h), F(grazing))) - coat.wo;
+    BsdfSample<F> s;
+    s.wi = coat.frame.to_world(wi);
+    s.weight = splat<F>(1.f) * coat.reflected;
+    s.pdf = F(1.f);
+    s.delta = coat.smooth;
+    s.valid = wi.z > F(0.f) && s.wi.z > F(0.f);
+    return s;
+}
+
+} // namespace blush::inline BLUSH_ISA
