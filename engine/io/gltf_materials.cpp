@@ -13,8 +13,8 @@ namespace {
 // Reads one material; the first error is kept, so that the many texture references need no test each.
 class MaterialReader {
 public:
-    MaterialReader(const GltfContext& context, const std::vector<Id<Texture>>& textures, size_t index)
-        : context_(context), textures_(textures), source_(context.model().materials[index]), where_(fmt::format("materials[{}]", index)) {
+    MaterialReader(const GltfContext& context, const std::vector<Id<Texture>>& textures, const Table<Texture>& pixels, size_t index)
+        : context_(context), textures_(textures), pixels_(pixels), source_(context.model().materials[index]), where_(fmt::format("materials[{}]", index)) {
         material_.name = source_.name.empty() ? fmt::format("Material {}", index) : source_.name;
     }
 
@@ -32,6 +32,7 @@ public:
         read_diffuse_transmission(extensions);
         material_.dispersion = extensions.object("KHR_materials_dispersion").number("dispersion", 0, 0, any_float);
         material_.unlit = extensions.has("KHR_materials_unlit");
+        if (const GltfObject glossiness = extensions.object("KHR_materials_pbrSpecularGlossiness")) read_specular_glossiness(glossiness);
         if (error_) return *error_;
         return std::move(material_);
     }
@@ -176,8 +177,42 @@ private:
         material_.diffuse_transmission_color_texture = texture(diffuse.object("diffuseTransmissionColorTexture"));
     }
 
+    // The archived model as a dielectric of index 1.5 whose specular colour, which may exceed 1, makes up for F0. Its diffuse part is
+    // diffuse * (1 - max(specular)); with a texture of specular colours that factor is left out, for what is bright in it is dark in the
+    // diffuse texture already. Glossiness is an alpha channel, which no roughness texture can refer to.
+    void read_specular_glossiness(const GltfObject& model) {
+        constexpr float f0 = 0.04f;
+        const Vec3 specular = model.vector3("specularFactor", {1, 1, 1}, 0, 1);
+        const TextureRef map = texture(model.object("specularGlossinessTexture"));
+        const Vec4 diffuse = model.vector4("diffuseFactor", {1, 1, 1, 1}, 0, 1);
+        const float left = map.texture ? 1 : 1 - std::max({specular.x, specular.y, specular.z});
+        material_.base_color = {diffuse.x * left, diffuse.y * left, diffuse.z * left};
+        material_.opacity = diffuse.w;
+        material_.base_color_texture = texture(model.object("diffuseTexture"));
+        material_.metallic = 0;
+        material_.metallic_roughness_texture = {};
+        material_.roughness = 1 - model.number("glossinessFactor", 1, 0, 1) * mean_alpha(map);
+        material_.ior = 1.5f;
+        material_.specular = 1;
+        material_.specular_texture = {};
+        material_.specular_color = {specular.x / f0, specular.y / f0, specular.z / f0};
+        material_.specular_color_texture = map;
+    }
+
+    // 1 without an image or an alpha channel in it.
+    float mean_alpha(const TextureRef& ref) const {
+        const Texture* texture = pixels_.find(ref.texture);
+        const Image* image = texture ? texture->image.get() : nullptr;
+        if (!image || image->channels != 4) return 1;
+        const size_t count = size_t(image->width) * size_t(image->height);
+        double sum = 0;
+        for (size_t i = 0; i < count; ++i) sum += image->bytes.empty() ? double(image->floats[4 * i + 3]) : image->bytes[4 * i + 3] / 255.0;
+        return float(std::clamp(sum / double(count), 0.0, 1.0));
+    }
+
     const GltfContext& context_;
     const std::vector<Id<Texture>>& textures_;
+    const Table<Texture>& pixels_;
     const tinygltf::Material& source_;
     std::string where_;
     Material material_;
@@ -203,7 +238,7 @@ Result<std::vector<Id<Material>>> import_materials(const GltfContext& context, c
     for (size_t i = 0; i < materials.size(); ++i) {
         const ParsedGltf& object = gltf_item(context.json(), "materials", i);
         if (is_fallback(object)) continue;
-        Result<Material> material = MaterialReader(context, textures, i).read();
+        Result<Material> material = MaterialReader(context, textures, scene.textures, i).read();
         if (!material) return material.error();
         read_extras(context, object, *material, fmt::format("materials[{}]", i));
         materials[i] = *std::move(material);

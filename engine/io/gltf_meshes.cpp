@@ -11,6 +11,14 @@
 namespace blush {
 namespace {
 
+// By which texture coordinates a material's normal maps and stretched reflections are laid out, -1: it has none.
+int tangent_uv_set_of(const Material& m) {
+    if (m.normal_texture.texture) return m.normal_texture.uv_set;
+    if (m.clearcoat_normal_texture.texture) return m.clearcoat_normal_texture.uv_set;
+    if (m.anisotropy > 0) return m.anisotropy_texture.uv_set;
+    return -1;
+}
+
 struct MeshReader {
     const GltfContext& context;
     const std::vector<Id<Material>>& materials;
@@ -47,8 +55,7 @@ struct MeshReader {
 
     Result<GeometryPtr> import_geometry(const tinygltf::Primitive& primitive, Id<Material> material, const std::string& where) const {
         const Material* found = scene.materials.find(material);
-        const int tangent_uv_set = found && found->normal_texture.texture ? found->normal_texture.uv_set : -1;
-        Result<GeometryPtr> geometry = import_primitive(context, primitive, {uv_sets, tangent_uv_set}, where);
+        Result<GeometryPtr> geometry = import_primitive(context, primitive, {uv_sets, found ? tangent_uv_set_of(*found) : -1}, where);
         if (!geometry || !*geometry || !found) return geometry;
         for (const int set : uv_sets_read(*found))
             if (!(*geometry)->has_uv_set(set))

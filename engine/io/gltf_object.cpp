@@ -96,6 +96,14 @@ Vec3 GltfObject::vector3(const char* key, Vec3 otherwise, float low, float high)
     return checked(*context_, numbers(key, 3), otherwise, low, high, where_ + "." + key);
 }
 
+Vec4 GltfObject::vector4(const char* key, Vec4 otherwise, float low, float high) const {
+    const std::vector<double> values = numbers(key, 4);
+    if (values.size() != 4) return otherwise;
+    const std::string where = where_ + "." + key;
+    const auto component = [&](size_t i, float fallback) { return checked(*context_, values[i], fallback, low, high, where); };
+    return {component(0, otherwise.x), component(1, otherwise.y), component(2, otherwise.z), component(3, otherwise.w)};
+}
+
 Vec2 GltfObject::vector2(const char* key, Vec2 otherwise) const {
     const std::vector<double> values = numbers(key, 2);
     if (values.size() != 2) return otherwise;

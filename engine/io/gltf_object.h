@@ -37,6 +37,7 @@ public:
     bool boolean(const char* key, bool otherwise) const;
     std::string text(const char* key) const;
     Vec3 vector3(const char* key, Vec3 otherwise, float low, float high) const;
+    Vec4 vector4(const char* key, Vec4 otherwise, float low, float high) const;
     Vec2 vector2(const char* key, Vec2 otherwise) const;
 
 private:

@@ -11,6 +11,8 @@ public:
     MaterialWriter(GltfDocument& document, Json& object, const Material& material) : document_(document), object_(object), m_(material) {}
 
     void write() {
+        // Once it is edited, the material is what it was converted to.
+        erase_extension(object_, "KHR_materials_pbrSpecularGlossiness");
         write_core();
         write_alpha();
         write_emission();

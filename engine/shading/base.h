@@ -79,6 +79,13 @@ template <Features S, class F> Mask<F> is_solid(const BsdfParams<F>& m) {
     else return (m.transmission > F(0.f) || m.layers.diffuse_transmission > F(0.f)) && !m.thin;
 }
 
+// Index of the interface between the material and air; 1, which is none, where nothing reflects there: a translucent body without facets.
+template <Features S, class F> F interface_ior(const BsdfParams<F>& m) {
+    const F ior = max(m.ior, F(1.f));
+    if constexpr (!S.has(Feature::diffuse_transmission)) return ior;
+    else return select(m.specular > F(0.f) || m.transmission > F(0.f), ior, F(1.f));
+}
+
 template <Features S, class F> void make_facets(Bsdf<F>& b, const BsdfParams<F>& m, const Vec<F>& wo, const EnergyTable* energy) {
     const Vec<F> one = splat<F>(1.f);
     b.cos = max(abs(wo.z), F(grazing));
@@ -119,7 +126,7 @@ template <Features S, class F> void make_facets(Bsdf<F>& b, const BsdfParams<F>&
     b.radiance_scale = F(1.f);
     b.straight = Mask<F>(false);
     if constexpr (S.has(Feature::transmission)) {
-        const F ior = max(m.ior, F(1.f));
+        const F ior = interface_ior<S>(m);
         b.transmitted = m.base_color * ((1.f - m.metallic) * m.transmission);
         b.interface = interface_seen(b.flipped, ior);
         b.interface_f0 = normal_reflectance(ior);
@@ -127,6 +134,7 @@ template <Features S, class F> void make_facets(Bsdf<F>& b, const BsdfParams<F>&
         // section 5.2). A path that comes out again has both factors, and a glass ball in a furnace is as bright as the furnace.
         b.radiance_scale = select(b.solid, 1.f / (b.interface.eta * b.interface.eta), F(1.f));
         b.mirror = m.ior < F(1.f);
+        if constexpr (S.has(Feature::diffuse_transmission)) b.mirror = b.mirror && (m.specular > F(0.f) || m.transmission > F(0.f));
         b.straight = b.solid && (b.smooth || alpha_along_x(alpha_of<S>(b)) * (ior - 1.f) < F(1e-5f));
     }
 }
@@ -136,7 +144,7 @@ template <Features S, class F> void make_facets(Bsdf<F>& b, const BsdfParams<F>&
 template <Features S, class F> void make_through(Bsdf<F>& b, const BsdfParams<F>& m) {
     const F share = m.layers.diffuse_transmission;
     const Vec<F> through = m.layers.diffuse_transmission_color * ((1.f - m.metallic) * (1.f - m.transmission) * share);
-    const F ior = max(m.ior, F(1.f)), leaves = select(b.solid, 1.f / (ior * ior), F(1.f));
+    const F ior = interface_ior<S>(m), leaves = select(b.solid, 1.f / (ior * ior), F(1.f));
     b.diffuse = b.diffuse * (1.f - share) + through * select(b.flipped, 1.f - leaves, F(0.f));
     b.through = through * select(b.flipped, F(1.f), leaves);
     const F down = max_component(b.through), up = max_component(b.diffuse);

@@ -19,12 +19,12 @@ struct LayerRecord {
     float anisotropy = 0;
     float anisotropy_cos = 1, anisotropy_sin = 0; // of its rotation
     int32_t anisotropy_texture = -1;
-    float iridescence = 0, film_ior = 1.3f;
+    float iridescence = 0, film_ior = 0;
     float film_thickness_minimum = 0, film_thickness_maximum = 0; // nanometres
     int32_t iridescence_texture = -1;
     int32_t film_thickness_texture = -1;
     float diffuse_transmission = 0;
-    Vec3 diffuse_transmission_color{1, 1, 1};
+    Vec3 diffuse_transmission_color{0, 0, 0};
     int32_t diffuse_transmission_texture = -1;
     int32_t diffuse_transmission_color_texture = -1;
     float dispersion = 0; // 20 / Abbe number

@@ -8,7 +8,8 @@
 
 namespace blush {
 
-// Directional albedo E of white sheen over roughness (rows, least_sheen_roughness to 1) and the root of the viewer's cosine (columns).
+// Directional albedo E of white sheen. Rows: the root of how far roughness is from the least to 1; smooth fibres differ most. Columns: the
+// fourth root of the viewer's cosine; there is a hump where that is a few thousandths.
 struct SheenTable {
     static constexpr int size = 32;
     static constexpr float error = 0.02f; // of an interpolated value at most, for cosines >= 0.001
@@ -57,7 +58,7 @@ template <class F> F charlie_f_cos(const F& alpha, const Vec<F>& wo, const Vec<F
 // E for a direction under this cosine >= 0.
 template <class F> F sheen_albedo(const SheenTable& table, const F& roughness, const F& cos) {
     constexpr float last = float(SheenTable::size - 1);
-    const F row = clamp01(F((roughness - least_sheen_roughness) * (1.f / (1.f - least_sheen_roughness)))) * last, column = sqrt(clamp01(cos)) * last;
+    const F row = sqrt(clamp01(F((roughness - least_sheen_roughness) * (1.f / (1.f - least_sheen_roughness))))) * last, column = sqrt(sqrt(clamp01(cos))) * last;
     const F row0 = min(floor(row), F(last - 1.f)), column0 = min(floor(column), F(last - 1.f));
     const Int<F> at = to_int(row0) * SheenTable::size + to_int(column0);
     const F t = column - column0;

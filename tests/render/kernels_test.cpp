@@ -162,6 +162,39 @@ TEST(Kernels, GiveTheSameBitsOnASceneWithEverything) {
     expect_same_bits_from_all_kernels(Compiled(scene));
 }
 
+TEST(Kernels, GiveTheSameBitsOnCoatsSheenAndFilms) {
+    Scene scene = everything();
+    int next = 0;
+    for (const auto& [id, material] : Table<Material>(scene.materials)) {
+        Material m = material;
+        const int k = next++;
+        m.clearcoat = k % 2 ? 0.8f : 0;
+        m.clearcoat_roughness = 0.1f * float(k % 3);
+        m.clearcoat_normal_texture = m.normal_texture;
+        if (k % 3 == 0) m.sheen_color = {0.5f, 0.4f, 0.6f};
+        m.sheen_roughness = 0.4f;
+        m.anisotropy = k % 3 == 1 ? 0.7f : 0;
+        m.anisotropy_texture = m.base_color_texture;
+        m.iridescence = k % 4 < 2 ? 0.9f : 0;
+        m.diffuse_transmission = k % 3 == 2 ? 0.5f : 0;
+        m.dispersion = 1;
+        scene.materials.set(id, m);
+    }
+    const Compiled compiled(scene, true);
+    EXPECT_TRUE(compiled.scene.features().contains(layer_features));
+    expect_same_bits_from_all_kernels(compiled);
+    expect_same_bits_from_all_kernels(Compiled(scene, false, 16));
+}
+
+// Most scenes have no such material, and their kernels no code for it.
+TEST(Kernels, OnlyTheLargestKnowsLayers) {
+    for (const std::string_view isa : runnable_isas()) {
+        int know = 0;
+        for (const Kernel& kernel : kernels_of(isa)) know += (kernel.features.bits & layer_features.bits) != 0;
+        EXPECT_EQ(know, 1);
+    }
+}
+
 TEST(Kernels, GiveTheSameBitsWithManyLights) {
     Scene scene = everything();
     for (int i = 0; i < 60; ++i) {

@@ -76,15 +76,13 @@ Light dimmed(Rng& rng, Light l) {
     return l;
 }
 
+// Nothing that needs tangents: the importer makes them for materials that do, and so a mesh would come back with more than it had.
 void add_layers(Rng& rng, const Scene& scene, Material& m) {
     if (coin(rng)) m.clearcoat = uniform(rng, 0, 1);
     if (coin(rng)) m.clearcoat_roughness = uniform(rng, 0, 1);
     if (coin(rng)) m.clearcoat_texture.texture = pick_id(rng, scene.textures);
-    if (coin(rng)) m.clearcoat_normal_texture.texture = pick_id(rng, scene.textures);
     if (coin(rng)) m.sheen_color = color(rng);
     m.sheen_roughness = uniform(rng, 0, 1);
-    if (coin(rng)) m.anisotropy = uniform(rng, 0, 1);
-    m.anisotropy_rotation_radians = uniform(rng, -3, 3);
     if (coin(rng)) m.iridescence = uniform(rng, 0, 1);
     m.iridescence_thickness_maximum = uniform(rng, 0, 1000);
     if (coin(rng)) m.dispersion = uniform(rng, 0, 2);

@@ -139,6 +139,34 @@ TEST(GltfTextures, EveryUseOfATextureIsRead) {
     EXPECT_TRUE(reports(imported->report, "occlusion texture"));
 }
 
+TEST(GltfTextures, OfSpecularGlossinessColourEachTexelAndTheMeanOfAlphaIsGlossiness) {
+    auto image = std::make_shared<Image>();
+    image->width = 2;
+    image->height = 1;
+    image->channels = 4;
+    image->bytes = {255, 0, 0, 51, 0, 255, 0, 153}; // glossiness 0.2 and 0.6
+    const auto png = encode_png(*image);
+    ASSERT_TRUE(png);
+    GltfBuilder b;
+    const TempFolder folder;
+    write_bytes(folder / "gloss.png", {reinterpret_cast<const char*>(png->data()), png->size()});
+    b.add("images", {{"uri", "gloss.png"}});
+    b.add("textures", {{"source", 0}});
+    const Json map = {{"index", 0}, {"texCoord", 1}};
+    b.add("materials", {{"extensions",
+                         {{"KHR_materials_pbrSpecularGlossiness",
+                           {{"diffuseFactor", {0.5, 0.5, 0.5, 1.0}}, {"diffuseTexture", map}, {"specularGlossinessTexture", map}}}}}});
+    const auto imported = import_text(folder, b.gltf());
+    ASSERT_TRUE(imported) << error_text(imported);
+    const Material& m = imported->scene.materials.begin()->value;
+    EXPECT_NEAR(m.roughness, 1 - 0.4, 1e-6);
+    EXPECT_EQ(m.base_color, (Vec3{0.5f, 0.5f, 0.5f}));
+    for (const TextureRef& ref : {m.base_color_texture, m.specular_color_texture}) {
+        EXPECT_TRUE(ref.texture);
+        EXPECT_EQ(ref.uv_set, 1);
+    }
+}
+
 TEST(GltfTextures, MissingAndBrokenImagesAreWarningsAndTheFactorRemains) {
     for (const std::string& bytes : {std::string(), std::string("not an image"), png_bytes().substr(0, 50)}) {
         const TempFolder folder;

@@ -84,6 +84,8 @@ inline std::vector<Material> materials() {
     return all;
 }
 
+inline const std::vector<float> layer_roughnesses = {0.05f, 0.3f, 1.f};
+
 // Those with layers and unusual bases. What their parts reflect is narrowest where roughness is `r`.
 inline std::vector<Material> layered_materials(float r) {
     const std::string roughness = " of roughness " + std::to_string(r);
@@ -100,12 +102,12 @@ inline std::vector<Material> layered_materials(float r) {
             {"coloured ball of glass" + roughness, under_film(glass(r, 1.5f), 420, 1.8f)},
             {"leaf" + roughness, translucent(plastic(r, {0.2f, 0.5f, 0.1f}), 0.4f, {0.6f, 0.9f, 0.2f})},
             {"wax" + roughness, solid(translucent(plastic(r, {0.9f, 0.8f, 0.7f}), 0.6f, {0.9f, 0.6f, 0.4f}))},
-            {"milky glass" + roughness, translucent(glass(r, 1.4f, 0.5f), 0.5f)}};
+            {"milky pane" + roughness, translucent(thin_glass(r, 0.5f), 0.5f)}};
 }
 inline std::vector<Material> layered_materials() {
     std::vector<Material> all = {{"unevenly coated lambert", coated(lambert({0.8f, 0.5f, 0.1f}), 0.5f, 1, {0.28f, 0, 0.96f})},
                                  {"smoothly coated mirror", coated(metal(0), 0, 0.7f)}};
-    for (const float r : roughnesses)
+    for (const float r : layer_roughnesses)
         for (const Material& m : layered_materials(r)) all.push_back(m);
     return all;
 }

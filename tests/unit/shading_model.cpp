@@ -18,7 +18,11 @@ double relative_bound(const Params& p, const Vec3& wo, const Vec3& wi) {
     const Vec3d a = reference::to_double(wo), b = reference::to_double(wi);
     const Vec3d sum = a + (!through ? b : p.thin ? Vec3d{b.x, b.y, -b.z} : b * eta);
     const double span = length(sum), cosine = std::min(std::abs(dot(a, sum)), std::abs(dot(b, sum))) / span;
-    return float_rounding * (1 + (4 / alpha + 4 / cosine) / span + (through && !p.thin ? 1 / reference::sqr(eta * cosine) : 0));
+    const double refraction = through && !p.thin ? 1 / reference::sqr(eta * cosine) : 0;
+    // Of light that goes through diffusely, by the facet that would mirror it.
+    const double mirrored = 0.5 + 0.5 * dot(a, Vec3d{b.x, b.y, through ? -b.z : b.z});
+    const double crossing = p.layers.diffuse_transmission > 0 && !p.thin ? 1 / std::max(std::abs(eta * eta - 1 + mirrored), 1e-6) : 0;
+    return float_rounding * (1 + (4 / alpha + 4 / cosine) / span + refraction + crossing);
 }
 
 } // namespace
@@ -45,6 +49,7 @@ TEST(Model, IsTheSpecification) {
     for (const float r : {0.3f, 0.7f}) {
         all.push_back({"tilted coat", coated(half_metal(0.5f), r, 0.6f, normalize(Vec3{0.3f, -0.2f, 1}))});
         all.push_back({"tilted coat of glass", coated(glass(0.4f, 1.5f, 0.6f), r, 1, normalize(Vec3{-0.2f, 0.3f, 1}))});
+        all.push_back({"milky glass", translucent(glass(r, 1.4f, 0.5f), 0.5f)});
         for (const Params& p : {metal(r, {0.9f, 0.7f, 0.4f}), half_metal(r), thin_glass(r), glass(r, 1.5f)})
             all.push_back({"stretched", stretched(p, 0.6f)});
     }

@@ -89,7 +89,7 @@ inline Vec3d f_cos_of_base(const Params& p, Vec3d wo, Vec3d wi) {
     const bool inside = is_solid(p) && wo.z < 0;
     if (inside) wo.z = -wo.z, wi.z = -wi.z;
     const double ay = sqr(p.roughness), ax = ay + (1 - ay) * sqr(p.layers.anisotropy), g = masking(ax, ay, wo) * masking(ax, ay, wi);
-    const double translucency = p.layers.diffuse_transmission, leaves = is_solid(p) ? 1 / sqr(p.ior) : 1;
+    const double translucency = p.layers.diffuse_transmission, leaves = is_solid(p) && (p.specular > 0 || p.transmission > 0) ? 1 / sqr(p.ior) : 1;
     const Vec3d crossing = to_double(p.layers.diffuse_transmission_color) * translucency;
     const Vec3d color = to_double(p.base_color);
     const double metallic = p.metallic, transmission = p.transmission;
@@ -142,6 +142,7 @@ inline Vec3d coat_over(const Vec3d& base, const Params& p, Vec3d wo, Vec3d wi) {
     if (p.layers.clearcoat == 0) return base;
     Vec3d n = to_double(p.layers.clearcoat_normal);
     if (is_solid(p) && wo.z < 0) wo.z = -wo.z, wi.z = -wi.z, n.x = -n.x, n.y = -n.y;
+    if (dot(n, wo) <= double(least_facing)) n = {0, 0, 1}; // nobody looks at the back of a tilted normal
     const Frame frame(n);
     const Vec3d o = frame.to_local(wo), i = frame.to_local(wi);
     const double share = p.layers.clearcoat * (0.04 + 0.96 * std::pow(1 - o.z, 5));

@@ -71,6 +71,37 @@ TEST(Sampling, FacetsFollowTheVisibleNormals) {
         }
 }
 
+TEST(Sampling, StretchedFacetsFollowTheVisibleNormals) {
+    struct Facets {
+        float x, y; // alphas
+    };
+    const std::vector<Facets> all = {{0.3f, 0.04f}, {0.4f, 0.1f}, {1, 0.25f}, {0.1f, 0.5f}};
+    const std::vector<Viewer> from = viewers(metal(0));
+    const auto tests = int64_t(all.size() * from.size());
+    Random random(6);
+    for (const Facets& alpha : all)
+        for (const Viewer& v : from) {
+            const Vec3 wo = v.wo();
+            const Stretch<float> stretch = make_stretch(alpha.x, alpha.y);
+            const auto draw = [&]() -> std::optional<Vec3> {
+                const float a = random(), b = random();
+                return sample_visible_normal(stretch, wo, a, b);
+            };
+            const auto pdf = [&](const Vec3& h) {
+                return reference::masking(alpha.x, alpha.y, reference::to_double(wo)) *
+                       reference::distribution(alpha.x, alpha.y, reference::to_double(h)) *
+                       std::max(0.0, dot(reference::to_double(wo), reference::to_double(h))) / wo.z;
+            };
+            const DirectionTest test{.charts = {reference::facet_normals_chart(std::min(alpha.x, alpha.y))},
+                                     .rows = 16,
+                                     .columns = 12,
+                                     .points = 16,
+                                     .samples = 30'000,
+                                     .alpha = sidak(significance, tests)};
+            EXPECT_TRUE(directions_follow(test, draw, pdf)) << alpha.x << " by " << alpha.y << " at " << v.degrees << " degrees";
+        }
+}
+
 TEST(Sampling, WeightIsEvalOverPdfAndBounded) {
     Random random(2);
     for (const Material& m : all_materials())

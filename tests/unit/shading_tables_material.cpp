@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 namespace blush {
@@ -241,6 +242,71 @@ TEST(MaterialTable, FactorsMultiplyTheChannelsGltfNames) {
     EXPECT_FLOAT_EQ(p.bsdf.specular_color.z, decoded(0.6));
     EXPECT_FLOAT_EQ(p.bsdf.transmission, 0.1f);
     EXPECT_FLOAT_EQ(p.emission.y, 20 * decoded(0.4));
+}
+
+TEST(MaterialTable, LayerFactorsMultiplyTheChannelsGltfNames) {
+    Scene scene;
+    const Id<Texture> texture = scene.textures.add(texel(51, 102, 153, 204)); // 0.2 0.4 0.6 0.8
+    Material m;
+    m.clearcoat = m.clearcoat_roughness = m.sheen_roughness = m.anisotropy = m.iridescence = m.diffuse_transmission = 0.5f;
+    m.anisotropy_rotation_radians = std::numbers::pi_v<float> / 2;
+    m.sheen_color = m.diffuse_transmission_color = {0.5f, 1, 0.5f};
+    m.iridescence_thickness_minimum = 100;
+    m.iridescence_thickness_maximum = 600;
+    for (const TextureSlot& slot : texture_slots)
+        if (slot.ref != &Material::normal_texture) (m.*slot.ref).texture = texture;
+    add_worn_material(scene, m);
+    MaterialTable table;
+    build_material_table(table, scene);
+    const MaterialPoint<float> p = point_of<all_features>(table);
+    const LayerParams<float>& l = p.bsdf.layers;
+    const auto decoded = [](double v) { return float(std::pow((v + 0.055) / 1.055, 2.4)); };
+    EXPECT_FLOAT_EQ(l.clearcoat, 0.1f);
+    EXPECT_FLOAT_EQ(l.clearcoat_roughness, 0.2f);
+    EXPECT_FLOAT_EQ(l.sheen_color.x, 0.5f * decoded(0.2));
+    EXPECT_FLOAT_EQ(l.sheen_color.y, decoded(0.4));
+    EXPECT_FLOAT_EQ(l.sheen_roughness, 0.4f);
+    EXPECT_FLOAT_EQ(l.iridescence, 0.1f);
+    EXPECT_FLOAT_EQ(l.film_thickness, 300);
+    EXPECT_FLOAT_EQ(l.diffuse_transmission, 0.4f);
+    EXPECT_FLOAT_EQ(l.diffuse_transmission_color.z, 0.5f * decoded(0.6));
+    // (-0.6, -0.2) normalised, then a quarter turn counter-clockwise.
+    EXPECT_FLOAT_EQ(p.anisotropy.strength, 0.3f);
+    EXPECT_NEAR(p.anisotropy.direction.x, 0.2 / std::sqrt(0.4), 1e-6);
+    EXPECT_NEAR(p.anisotropy.direction.y, -0.6 / std::sqrt(0.4), 1e-6);
+    const Vec3 n = p.clearcoat_tangent_normal;
+    EXPECT_NEAR(length(n), 1, 1e-6);
+    EXPECT_NEAR(n.x / n.z, -0.6 / 0.2, 1e-5);
+    // Without textures, films have the larger thickness.
+    for (const TextureSlot& slot : texture_slots) m.*slot.ref = {};
+    EXPECT_EQ(point_of<all_features>(table_of(m)).bsdf.layers.film_thickness, 600);
+}
+
+TEST(MaterialTable, FeaturesOfLayersAreWhatTheMaterialUses) {
+    Material m;
+    m.metallic = 0;
+    m.clearcoat_roughness = m.sheen_roughness = 0.5f; // of nothing
+    constexpr Features reflecting = no_features.with(Feature::specular);
+    EXPECT_EQ(features_of(m), reflecting);
+    const auto with = [&](auto change) {
+        Material changed = m;
+        change(changed);
+        return features_of(changed);
+    };
+    EXPECT_EQ(with([](Material& c) { c.clearcoat = 1; }), reflecting.with(Feature::clearcoat));
+    EXPECT_EQ(with([](Material& c) { c.sheen_color.y = 1; }), reflecting.with(Feature::sheen));
+    EXPECT_EQ(with([](Material& c) { c.anisotropy = 1; }), reflecting.with(Feature::anisotropy));
+    EXPECT_EQ(with([](Material& c) { c.iridescence = 1; }), reflecting.with(Feature::iridescence));
+    EXPECT_EQ(with([](Material& c) { c.diffuse_transmission = 1; }), reflecting.with(Feature::diffuse_transmission));
+    // Dispersion needs refraction; what has an inside needs to know about it.
+    EXPECT_EQ(with([](Material& c) { c.dispersion = 1; }), reflecting);
+    EXPECT_EQ(with([](Material& c) { c.dispersion = c.transmission = c.thickness = 1; }),
+              reflecting.with(Feature::transmission).with(Feature::dispersion));
+    EXPECT_EQ(with([](Material& c) { c.diffuse_transmission = c.thickness = 1; }),
+              reflecting.with(Feature::transmission).with(Feature::diffuse_transmission));
+    m.unlit = true;
+    EXPECT_EQ(with([](Material& c) { c.clearcoat = c.anisotropy = c.iridescence = c.diffuse_transmission = c.sheen_color.x = 1; }),
+              no_features.with(Feature::unlit));
 }
 
 TEST(MaterialTable, NormalMapsAreScaledAndOfUnitLength) {
