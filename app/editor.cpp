@@ -252,6 +252,7 @@ void Editor::draw_above(PanelContext& c) {
     draw_convergence_panel(c);
     draw_roulette_panel(c);
     draw_health_panel(c);
+    draw_import_report(c);
     draw_shortcut_sheet(c);
     draw_file_browser(c);
     if (const auto job = files_.running()) {

@@ -203,6 +203,7 @@ bool run_command(Command command, PanelContext& c) {
     case Command::history: c.ui.show_history = !c.ui.show_history; return true;
     case Command::light_mix: c.ui.light_mix.open = !c.ui.light_mix.open; return true;
     case Command::bounces: c.ui.bounces.open = !c.ui.bounces.open; return true;
+    case Command::import_report: c.ui.import_report.open = !c.ui.import_report.open; return true;
     case Command::health: c.ui.health.open = !c.ui.health.open; return true;
     case Command::render_region: c.ui.tool = ViewTool::region; return true;
     case Command::render_all: render_region(c, {}); return true;

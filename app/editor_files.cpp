@@ -18,20 +18,22 @@ std::filesystem::file_time_type time_of(const std::filesystem::path& file) {
     return missing ? std::filesystem::file_time_type{} : time;
 }
 
-// What the import has to say, in a few lines.
-void report(Toasts& toasts, const std::filesystem::path& file, const ImportReport& r) {
+// What the import has to say: all of it in its panel, a few lines at once.
+void report(UiState& ui, const std::filesystem::path& file, const ImportReport& r) {
+    ui.import_report.file = file.filename().string();
+    ui.import_report.report = std::make_shared<const ImportReport>(r);
     std::string details;
     int warnings = 0;
     for (const Diagnostic& d : r.diagnostics) {
         if (d.severity != Diagnostic::Severity::warning) continue;
         if (++warnings <= 4) details += (details.empty() ? "" : "\n") + d.what + (d.where.empty() ? "" : ", " + d.where);
     }
-    if (warnings > 4) details += fmt::format("\nand {} more; `blush info` lists them all", warnings - 4);
+    if (warnings > 4) details += fmt::format("\nand {} more; File > Import report lists them all", warnings - 4);
     const std::string text = fmt::format("{}  ({:.2g} s)", file.filename().string(), r.seconds);
     if (warnings > 0)
-        toasts.warn(text, details);
+        ui.toasts.warn(text, details);
     else
-        toasts.note(text);
+        ui.toasts.note(text);
 }
 
 // The node of another scene that is called the same: ids do not outlive a reload, names mostly do.
@@ -131,7 +133,7 @@ EditorFiles::Finished EditorFiles::finish_import(Document& document, UiState& ui
         ui.toasts.fail(opened.error().text());
         return {};
     }
-    report(ui.toasts, importing_, opened->imported.report);
+    report(ui, importing_, opened->imported.report);
     if (purpose_ == Purpose::merge) {
         const auto done = document.apply(Import{opened->scene, importing_.stem().string()});
         if (!done) ui.toasts.fail(done.error().text());

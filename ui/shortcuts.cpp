@@ -19,6 +19,7 @@ constexpr Shortcut table[] = {
     {Command::environment, "File", "Environment image...", ctrl('E')},
     {Command::ies, "File", "IES file for the light...", in_menu_only},
     {Command::reload, "File", "Reload from disk", ctrl('R')},
+    {Command::import_report, "File", "Import report", in_menu_only},
     {Command::save_scene, "File", "Save scene", ctrl_shift('S')},
     {Command::save_scene_as, "File", "Save scene as...", in_menu_only},
     {Command::snapshot_exr, "File", "Keep snapshot", ctrl('S')},

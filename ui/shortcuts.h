@@ -23,6 +23,7 @@ enum class Command {
     environment,
     ies,
     reload,
+    import_report,
     save_scene,
     save_scene_as,
     snapshot_exr,

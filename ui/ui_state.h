@@ -7,6 +7,7 @@
 #include "ui/denoise_view.h"
 #include "ui/gestures.h"
 #include "ui/health_view.h"
+#include "ui/import_report_view.h"
 #include "ui/light_mix_view.h"
 #include "ui/meters_view.h"
 #include "ui/picture_zoom.h"
@@ -114,6 +115,7 @@ struct UiState {
     LightMixView light_mix;
     BouncesView bounces;
     HealthView health;
+    ImportReportView import_report;
     RouletteView roulette;
     SnapshotsView snapshots;
     std::shared_ptr<const Difference> difference; // of what is compared, as last worked out; null: none

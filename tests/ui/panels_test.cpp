@@ -25,7 +25,9 @@ protected:
     // A few frames of everything, with this selected.
     void draw_all(Document& document, Id<Node> selected) {
         ui.selected = selected;
-        ui.show_shortcuts = ui.show_history = ui.bounces.open = ui.health.open = true;
+        ui.show_shortcuts = ui.show_history = ui.bounces.open = ui.health.open = ui.import_report.open = true;
+        ui.import_report.report = std::make_shared<const ImportReport>(
+            ImportReport{{"A", "B"}, {"A"}, {}, {"B"}, {{Diagnostic::Severity::warning, "ignored: B", "nodes[0]"}, {Diagnostic::Severity::note, "x", ""}}, 1});
         ui.scopes.open = ui.meters.open = ui.convergence.open = ui.light_table.open = true;
         for (int tab = 0; tab <= int(InspectorTab::display); ++tab) {
             ui.tab = InspectorTab(tab);
@@ -39,6 +41,7 @@ protected:
                     draw_bounces_panel(c);
                     draw_light_table(c);
                     draw_health_panel(c);
+                    draw_import_report(c);
                     draw_region_panel(c);
                     draw_meters_panel(c);
                     draw_scopes_panel(c, {});

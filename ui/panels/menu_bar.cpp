@@ -35,6 +35,7 @@ void draw_file_menu(PanelContext& c) {
     const Node* node = c.scene().nodes.find(c.ui.selected);
     item(c, Command::ies, node && c.scene().lights.contains(node->light));
     item(c, Command::reload);
+    item(c, Command::import_report, true, nullptr, c.ui.import_report.open);
     ImGui::Separator();
     item(c, Command::save_scene);
     item(c, Command::save_scene_as);

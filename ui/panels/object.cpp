@@ -59,6 +59,7 @@ void draw_object_panel(PanelContext& c, Id<Node> id) {
     if (const Mesh* mesh = c.scene().meshes.find(node.mesh)) {
         f.info("Mesh", fmt::format("{} triangles{}", grouped(triangle_count(*mesh)),
                                    mesh->parts.size() > 1 ? fmt::format(", {} parts", mesh->parts.size()) : ""));
+        if (node.instances) f.info("Copies", grouped(int64_t(node.instances->node_from_copy.size())));
     }
     if (f.changed()) c.apply(SetNode{id, node}, f.gesture());
 

@@ -41,6 +41,7 @@ void draw_scopes_panel(PanelContext& c, const WaveformTextures& waveforms);
 void draw_bounces_panel(PanelContext& c);
 void draw_light_mix_panel(PanelContext& c);
 void draw_health_panel(PanelContext& c);
+void draw_import_report(PanelContext& c);
 void draw_roulette_panel(PanelContext& c);
 void draw_light_table(PanelContext& c);
 void draw_convergence_panel(PanelContext& c);

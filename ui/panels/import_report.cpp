@@ -1,0 +1,59 @@
+// What the scene file asks for and what the picture makes of it, finding by finding with its place in the file.
+#include "io/gltf_import.h"
+#include "ui/panels/panels.h"
+#include "ui/theme.h"
+#include "ui/widgets.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <imgui.h>
+
+namespace blush {
+namespace {
+
+void draw_extensions(const char* verdict, const std::vector<std::string>& names) {
+    if (names.empty()) return;
+    ImGui::TextUnformatted(verdict);
+    for (const std::string& name : names) ImGui::BulletText("%s", name.c_str());
+}
+
+// What on one line, where below.
+void draw_findings(PanelContext& c, const char* title, const ImportReport& report, Diagnostic::Severity severity) {
+    if (std::ranges::count(report.diagnostics, severity, &Diagnostic::severity) == 0 || !section(c.ui, title)) return;
+    for (const Diagnostic& d : report.diagnostics) {
+        if (d.severity != severity) continue;
+        ImGui::TextWrapped("%s", d.what.c_str());
+        if (!d.where.empty()) quiet_text(d.where);
+    }
+}
+
+void draw_report(PanelContext& c, const ImportReport& report) {
+    quiet_text(fmt::format("{}, read in {:.2g} s", c.ui.import_report.file, report.seconds));
+    if (!report.extensions_used.empty() && section(c.ui, "Extensions")) {
+        draw_extensions("Honoured", report.extensions_honoured);
+        draw_extensions("Approximated", report.extensions_approximated);
+        draw_extensions("Ignored", report.extensions_ignored);
+    }
+    draw_findings(c, "Warnings", report, Diagnostic::Severity::warning);
+    draw_findings(c, "Notes", report, Diagnostic::Severity::note);
+    if (report.diagnostics.empty()) quiet_text("All that the file says is shown as it says.");
+}
+
+} // namespace
+
+void draw_import_report(PanelContext& c) {
+    ImportReportView& view = c.ui.import_report;
+    if (!view.open) return;
+    const float em = ImGui::GetFontSize();
+    ImGui::SetNextWindowPos({em * 18, em * 5}, ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSize({em * 34, em * 30}, ImGuiCond_FirstUseEver);
+    if (ImGui::Begin("Import report", &view.open, ImGuiWindowFlags_NoCollapse)) {
+        if (view.report)
+            draw_report(c, *view.report);
+        else
+            quiet_text("No file was opened yet.");
+    }
+    ImGui::End();
+}
+
+} // namespace blush
