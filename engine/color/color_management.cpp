@@ -1,5 +1,6 @@
 #include "color/color_management.h"
 
+#include "core/files.h"
 #include "core/math.h"
 
 #include <OpenColorIO/OpenColorIO.h>
@@ -9,6 +10,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <span>
+#include <sstream>
 
 namespace OCIO = OCIO_NAMESPACE;
 
@@ -30,6 +32,9 @@ constexpr auto exact_arithmetic =
 // The largest half: OCIO's tables for scene-linear values end there.
 constexpr float largest_half = 65504;
 constexpr float smallest_gamma = 0.01f;
+
+// Bytes of a config's text: those of ACES have less than two million.
+constexpr uint64_t largest_config = 8 << 20;
 
 // What widespread configs call our working space, ours first.
 constexpr const char* working_space_names[] = {"Linear Rec.709",          "lin_rec709",
@@ -137,14 +142,18 @@ Result<OCIO::ConstProcessorRcPtr> make_processor(const OCIO::Config& config, Dis
 // missing table is found here and not at the first image.
 Result<OCIO::ConstConfigRcPtr> open_config(const std::filesystem::path& file, bool prove_default_view) {
     try {
-        auto config = OCIO::Config::CreateFromFile(file.c_str());
+        const Result<std::vector<uint8_t>> bytes = read_file(file, largest_config);
+        if (!bytes) return bytes.error();
+        std::istringstream text(std::string(bytes->begin(), bytes->end()));
+        const OCIO::ConfigRcPtr config = OCIO::Config::CreateFromStream(text)->createEditableCopy();
+        config->setWorkingDir(std::filesystem::absolute(file).parent_path().c_str()); // where its tables are
         config->validate();
         if (config->getNumDisplays() == 0) return Error{file.string(), "the OpenColorIO config has no display", {}};
         if (prove_default_view) {
             auto processor = make_processor(*config, {});
             if (!processor) return Error{file.string(), processor.error().what, processor.error().where};
         }
-        return config;
+        return OCIO::ConstConfigRcPtr(config);
     } catch (const std::exception& e) { return failure(e, file.string(), {}); }
 }
 

@@ -40,9 +40,12 @@ Result<void> check_demand(const GltfContext& context, const std::vector<int>& no
         counted[size_t(mesh)] = true;
         for (const tinygltf::Primitive& primitive : model.meshes[size_t(mesh)].primitives) asked += bytes_of(context, primitive);
     }
+    for (const tinygltf::Animation& animation : model.animations)
+        for (const tinygltf::AnimationSampler& sampler : animation.samplers) asked += bytes_of(context, sampler.input) + bytes_of(context, sampler.output);
+    for (const tinygltf::Skin& skin : model.skins) asked += bytes_of(context, skin.inverseBindMatrices);
     for (const tinygltf::Buffer& buffer : model.buffers) there += double(buffer.data.size());
     if (asked <= free_bytes + most_readings * there) return {};
-    return context.error(fmt::format("its primitives ask for {:.0f} MB, but its buffers have {:.3g}", asked / 1e6, there / 1e6), "meshes");
+    return context.error(fmt::format("its meshes and animations ask for {:.0f} MB, but its buffers have {:.3g}", asked / 1e6, there / 1e6), "accessors");
 }
 
 } // namespace blush

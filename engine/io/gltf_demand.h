@@ -7,8 +7,8 @@
 
 namespace blush {
 
-// Primitives may name the same bytes again and again, and accessors need none at all, so that a small file could ask for all the memory there
-// is. Errors: the meshes of `nodes` ask for more than an honest file of this one's size.
+// Primitives and animations may name the same bytes again and again, and accessors need none at all, so that a small file could ask for all the memory there
+// is. Errors: the meshes of `nodes`, animations and skins ask for more than an honest file of this one's size.
 Result<void> check_demand(const GltfContext& context, const std::vector<int>& nodes);
 
 } // namespace blush

@@ -25,7 +25,7 @@ void report_light(const GltfContext& context, const Light& light, const std::str
     if (light.ies || !light.enabled) return;
     if (light.kind == Light::Kind::sun) {
         if (light.intensity > brightest_sun)
-            context.warn(fmt::format("{:.4g} lux is brighter than the sun in space, {:.0f}", light.intensity, 130'000.0), where);
+            context.warn(fmt::format("{:.6g} lux is brighter than the sun in space, {:.0f}", light.intensity, 130'000.0), where);
         else if (light.intensity > 0 && light.intensity < dimmest_sun)
             context.note(fmt::format("{:.3g} lux is dimmer than a lit room; a cloudy day has 10000", light.intensity), where);
         return;
@@ -36,7 +36,7 @@ void report_light(const GltfContext& context, const Light& light, const std::str
     }
     const double lumens = luminous_flux(light);
     if (lumens > brightest_lamp)
-        context.warn(fmt::format("{:.4g} candela are {:.3g} lumens, as of {:.0f} bulbs of 100 W; glTF's unit is the candela: were they watts?",
+        context.warn(fmt::format("{:.6g} candela are {:.6g} lumens, as of {:.0f} bulbs of 100 W; glTF's unit is the candela: were they watts?",
                                  light.intensity, lumens, lumens / 1600),
                      where);
 }

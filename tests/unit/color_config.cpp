@@ -1,10 +1,13 @@
 // Which config is used, what is in it, and what happens when it is broken.
 #include "unit/color_test.h"
 
+#include <fmt/format.h>
+
 #include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -100,6 +103,34 @@ TEST_F(ConfigFiles, BrokenOnesFallBackToOurs) {
     const auto absent = ColorManagement::load(BLUSH_ASSETS, folder_ / "absent.ocio");
     ASSERT_TRUE(absent);
     EXPECT_NE(absent->warning().find("absent.ocio"), std::string::npos);
+}
+
+// Whatever is in place of a config, there is one to see the picture with.
+TEST_F(ConfigFiles, AnyBytesEndInAConfig) {
+    std::ifstream shipped(std::filesystem::path(BLUSH_ASSETS) / "ocio" / "config.ocio");
+    const std::string whole(std::istreambuf_iterator<char>(shipped), {});
+    std::mt19937 random(4);
+    int as_they_are = 0;
+    constexpr int tries = 60;
+    for (int i = 0; i < tries; ++i) {
+        std::string broken = i % 2 ? whole.substr(0, random() % whole.size()) : whole;
+        for (int flips = i % 3; flips > 0 && !broken.empty(); --flips) broken[random() % broken.size()] = char(random());
+        const auto color = ColorManagement::load(BLUSH_ASSETS, write(broken));
+        ASSERT_TRUE(color) << color.error().text();
+        as_they_are += color->warning().empty();
+    }
+    EXPECT_GT(as_they_are, 0);
+    EXPECT_LT(as_they_are, tries);
+    // Nested without end, aliases of aliases, too large, and no file at all.
+    std::string laughs = "a0: &a0 [x, x, x, x, x, x, x, x, x, x]\n";
+    for (int i = 1; i < 12; ++i) {
+        laughs += fmt::format("a{}: &a{} [", i, i);
+        for (int k = 0; k < 10; ++k) laughs += fmt::format("{}*a{}", k ? ", " : "", i - 1);
+        laughs += "]\n";
+    }
+    for (const std::string& text : {std::string(200000, '['), laughs, whole + std::string(9 << 20, ' ')})
+        EXPECT_NE(ColorManagement::load(BLUSH_ASSETS, write(text))->warning(), "");
+    EXPECT_NE(ColorManagement::load(BLUSH_ASSETS, "/dev/zero")->warning(), "");
 }
 
 TEST_F(ConfigFiles, OursBrokenIsAnError) {

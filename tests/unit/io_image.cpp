@@ -145,8 +145,10 @@ TEST(ImageIo, RandomBytesFlippedDoNoHarm) {
     ASSERT_TRUE(write_display_image(folder / "a.png", 9, 9, noise(9 * 9 * 3)));
     ASSERT_TRUE(write_display_image(folder / "a.jpg", 9, 9, noise(9 * 9 * 3)));
     ASSERT_TRUE(write_exr(folder / "a.exr", layered(9, 9)));
+    write_bytes(folder / "a.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 9 +X 9\n" + std::string(9 * 9 * 4, '\x81'));
+    ASSERT_TRUE(read_image(folder / "a.hdr"));
     std::mt19937 random(3);
-    for (const char* name : {"a.png", "a.jpg", "a.exr"}) {
+    for (const char* name : {"a.png", "a.jpg", "a.exr", "a.hdr"}) {
         const std::string whole = bytes_of(folder / name);
         for (int i = 0; i < 300; ++i) {
             std::string broken = whole;
