@@ -429,7 +429,7 @@ void Editor::draw() {
         state.height = shown->height;
         state.samples = shown->samples;
         state.complete = shown->complete;
-        state.up_to_date = shown->revision == submitted_;
+        state.up_to_date = shown->revision == submitted_ && !viewport_.is_thinned();
         state.look = shown_text(ui_.denoise, *shown, pictures_.denoised.get());
     }
     window_->end_frame();

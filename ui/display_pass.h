@@ -25,9 +25,15 @@ public:
     // Whose pixels the next picture shows: a frame's, or a denoised picture's. They are copied while it is drawn, and kept alive until
     // then. Not while busy.
     void upload(const FramePtr& frame) { upload(frame->width, frame->height, {frame, frame->rgba.data()}); }
-    void upload(int width, int height, std::vector<float> rgba) { upload(width, height, kept(std::move(rgba))); } // alpha: coverage by objects
-    void upload(int width, int height, const std::shared_ptr<const std::vector<float>>& rgba) { upload(width, height, Values(rgba, rgba->data())); }
-    void upload(const DenoisedPtr& denoised) { upload_denoised(denoised->width, denoised->height, {denoised, denoised->denoised.rgb.data()}); }
+    void upload(int width, int height, std::vector<float> rgba) {
+        upload(width, height, kept(std::move(rgba)));
+    } // alpha: coverage by objects
+    void upload(int width, int height, const std::shared_ptr<const std::vector<float>>& rgba) {
+        upload(width, height, Values(rgba, rgba->data()));
+    }
+    void upload(const DenoisedPtr& denoised) {
+        upload_denoised(denoised->width, denoised->height, {denoised, denoised->denoised.rgb.data()});
+    }
     void upload_denoised(int width, int height, std::vector<float> rgb) { upload_denoised(width, height, kept(std::move(rgb))); }
     // Begins a new picture of the last uploads, at the frame's resolution; one that is being drawn is given up.
     void begin(const DisplayLook& look);
@@ -35,6 +41,10 @@ public:
     // one, a large picture takes several of the window's frames, none of which it may hold up.
     void advance(double milliseconds);
     bool busy() const { return next_row_ < height_; }
+    // Milliseconds that so many pixels take to upload and to draw, if they go as the last ones did.
+    double expected_milliseconds(double pixels) const {
+        return pixels / uploading_.pixels_per_millisecond + pixels / drawing_.pixels_per_millisecond;
+    }
 
     // The last finished picture, first row on top.
     GLuint texture() const { return targets_[front_].texture(); }

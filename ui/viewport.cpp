@@ -21,7 +21,6 @@ namespace {
 // Milliseconds that a frame of the window may take while a picture is being drawn for it; where somebody waits for a look they asked for.
 constexpr double usual_frame = 16, asked_frame = 24;
 
-
 Region window_region() {
     const ImVec2 at = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
     return {at.x, at.y, size.x, size.y};
@@ -94,6 +93,12 @@ void turn_surroundings(PanelContext& c, double share) {
     c.apply(SetEnvironment{e}, c.ui.gestures.current());
 }
 
+// Are there planes of groups for these gains, of the frame and of what is shown of it denoised?
+bool can_be_mixed(const PanelContext& c, const Gains& gains, bool denoised) {
+    if (!c.frame || gains.empty() || c.frame->groups.size() != gains.size()) return false;
+    return !denoised || (c.denoised && c.denoised->groups && c.denoised->groups->planes.size() == gains.size());
+}
+
 } // namespace
 
 Result<void> Viewport::set_display_shader(const DisplayShader& shader) {
@@ -122,8 +127,29 @@ std::shared_ptr<const std::vector<float>> Viewport::mixed(const Frame& frame, co
 
 void Viewport::upload_denoised(const DenoisedPtr& denoised, const Gains& gains) {
     const bool mixes = denoised->groups && gains.size() == denoised->groups->planes.size() && gains != denoised->gains;
-    if (mixes) display_.upload_denoised(denoised->width, denoised->height, mixed_rgb(*denoised, gains, &workers_));
-    else display_.upload(denoised);
+    if (mixes)
+        display_.upload_denoised(denoised->width, denoised->height, mixed_rgb(*denoised, gains, &workers_));
+    else
+        display_.upload(denoised);
+}
+
+// Of which pixels a picture can be uploaded and drawn in that time.
+int Viewport::step_in_time(const Frame& frame, double milliseconds) const {
+    constexpr int coarsest = 8;
+    int step = 1;
+    while (step < coarsest && display_.expected_milliseconds(double(frame.width) * frame.height / (step * step)) > milliseconds) step *= 2;
+    return step;
+}
+
+void Viewport::upload_thinned(const PanelContext& c, const Gains& gains, bool denoised, int step) {
+    const Frame& frame = *c.frame;
+    const ThinnedMix raw = mix_thinned(planes_of(frame), gains, frame.width, frame.height, step, &workers_);
+    std::vector<float> rgba(raw.rgb.size() / 3 * 4, 1.f);
+    for (size_t i = 0; i < raw.rgb.size(); ++i) rgba[i / 3 * 4 + i % 3] = raw.rgb[i];
+    display_.upload(raw.width, raw.height, std::move(rgba));
+    if (!denoised) return;
+    ThinnedMix mix = mix_thinned(planes_of(*c.denoised), gains, c.denoised->width, c.denoised->height, step, &workers_);
+    display_.upload_denoised(mix.width, mix.height, std::move(mix.rgb));
 }
 
 void Viewport::take_frame(PanelContext& c, const FramePace& pace) {
@@ -135,28 +161,32 @@ void Viewport::take_frame(PanelContext& c, const FramePace& pace) {
     if (special && is_map(view)) numbers.false_color = {}; // it has colours of its own
     const DisplayLook look{numbers, special ? PictureMix{} : mix_of(c.ui.denoise, c.denoised != nullptr)};
     const Gains gains = c.mixing ? c.mixing->gains : Gains();
-    const bool new_gains = gains != uploaded_gains_;
+    const bool new_gains = gains != uploaded_gains_, shows_denoised = look.mix.denoised_weight != 0;
+    // A mix that is being moved is shown at once, of fewer pixels where there is no time for all of them; those follow when it rests.
+    const bool moved = new_gains && can_be_mixed(c, gains, shows_denoised) && !special && !numbers.background_as_it_is;
+    const int step = moved ? step_in_time(*c.frame, pace.left(usual_frame, FramePace::Clock::now())) : 1;
+    const bool rests = thinned_by_ > 1 && !moved;
     const bool new_frame = c.frame && c.frame->width > 0 &&
-                           (c.frame != uploaded_frame_ || view != uploaded_view_ || new_gains ||
+                           (c.frame != uploaded_frame_ || view != uploaded_view_ || new_gains || rests ||
                             numbers.background_as_it_is != look_.numbers.background_as_it_is);
-    const bool new_denoised = look.mix.denoised_weight != 0 && (c.denoised != uploaded_denoised_ || new_gains);
+    const bool new_denoised = shows_denoised && (c.denoised != uploaded_denoised_ || new_gains || rests);
     // Raw or denoised, at once: what is being drawn is given up for it. Not for a slider, whose every step would start anew.
-    const bool toggled = uploaded_frame_ && look.mix != look_.mix && (look.mix.raw_weight == 0 || look.mix.denoised_weight == 0) && !new_denoised;
+    const bool toggled =
+        uploaded_frame_ && look.mix != look_.mix && (look.mix.raw_weight == 0 || look.mix.denoised_weight == 0) && !new_denoised;
     if (display_.busy() && toggled) {
         display_.begin(look);
         look_ = look;
         answers_ = true;
     }
-    if (!display_.busy() && (new_frame || (uploaded_frame_ && (new_denoised || shader_changed_ || look_ != look)))) {
-        if (new_frame) {
+    const bool free = !display_.busy() || (step > 1 && thinned_by_ == 1);
+    if (free && (new_frame || (uploaded_frame_ && (new_denoised || shader_changed_ || look_ != look)))) {
+        if (step > 1)
+            upload_thinned(c, gains, shows_denoised, step);
+        else if (new_frame)
             upload_frame(c.frame, view, gains, numbers.background_as_it_is);
-            uploaded_frame_ = c.frame;
-            uploaded_view_ = view;
-        }
-        if (new_denoised) {
-            upload_denoised(c.denoised, gains);
-            uploaded_denoised_ = c.denoised;
-        }
+        if (new_denoised && step == 1) upload_denoised(c.denoised, gains);
+        if (new_frame) uploaded_frame_ = c.frame, uploaded_view_ = view, thinned_by_ = step;
+        if (new_denoised) uploaded_denoised_ = c.denoised;
         uploaded_gains_ = gains;
         display_.begin(look);
         begun_ = true;
@@ -174,6 +204,7 @@ void Viewport::take_frame(PanelContext& c, const FramePace& pace) {
         ++pictures_;
         shown_frame_ = uploaded_frame_;
         shown_gains_ = uploaded_gains_;
+        shown_thinned_by_ = thinned_by_;
         c.ui.next_frame_in = 0; // perhaps the next one waits already
     }
 }
@@ -199,7 +230,8 @@ void Viewport::draw_picture(PanelContext& c, const ImageRect& image) {
     const bool fits = image.width <= region.width && image.height <= region.height;
     const bool outlined = c.ui.settings.overlays && c.scene().nodes.contains(c.ui.selected) && fits;
     const GLuint picture = outlined ? outlined_picture(c, image) : display_.texture();
-    if (picture == display_.texture()) set_filter(picture, c.ui.zoom.scale >= 1 && shown_frame_->divider == 1 ? GL_NEAREST : GL_LINEAR);
+    if (picture == display_.texture())
+        set_filter(picture, c.ui.zoom.scale >= 1 && shown_frame_->divider == 1 && shown_thinned_by_ == 1 ? GL_NEAREST : GL_LINEAR);
     // It is opaque: blending it would only cost time.
     draw.AddCallback([](const ImDrawList*, const ImDrawCmd*) { glDisable(GL_BLEND); }, nullptr);
     // What is in the window of it alone: far beyond, coordinates lose their precision.
@@ -217,7 +249,8 @@ void Viewport::draw_caption(const ImageRect& image) const {
     const float em = ImGui::GetFontSize();
     const ImVec2 size = ImGui::CalcTextSize(text.c_str()), at{image.x + (image.width - size.x) / 2, image.y + image.height - size.y - em};
     ImDrawList& draw = *ImGui::GetWindowDrawList();
-    draw.AddRectFilled({at.x - em * 0.5f, at.y - em * 0.3f}, {at.x + size.x + em * 0.5f, at.y + size.y + em * 0.3f}, IM_COL32(20, 20, 20, 220), em * 0.2f);
+    draw.AddRectFilled({at.x - em * 0.5f, at.y - em * 0.3f}, {at.x + size.x + em * 0.5f, at.y + size.y + em * 0.3f},
+                       IM_COL32(20, 20, 20, 220), em * 0.2f);
     draw.AddText(at, tone::warning, text.c_str());
 }
 
@@ -247,7 +280,8 @@ void Viewport::obey(PanelContext& c, const NavigationResult& wish, const Project
     }
     if (wish.toggle_shadow) {
         const Picked picked = picked_at(c, projection, image, *wish.toggle_shadow);
-        if (picked.node && !toggle_link(c, picked.node, &Light::shadow_casters)) c.ui.toasts.note("Select the light whose shadow it is first");
+        if (picked.node && !toggle_link(c, picked.node, &Light::shadow_casters))
+            c.ui.toasts.note("Select the light whose shadow it is first");
     }
 }
 

@@ -28,12 +28,16 @@ public:
     const Gains& shown_gains() const { return shown_gains_; }
     // Are its pictures on the screen in this mixture?
     bool shows(const PictureMix& mix) const { return shown_frame_ && !begun_ && look_.mix == mix; }
+    // Does it show fewer pixels than there are, for a while, of a mix of lights that is being moved?
+    bool is_thinned() const { return thinned_by_ > 1 || shown_thinned_by_ > 1; }
 
 private:
     void take_frame(PanelContext& c, const FramePace& pace);
     void upload_frame(const FramePtr& shown, const PictureView& view, const Gains& gains, bool background_as_it_is);
     std::shared_ptr<const std::vector<float>> mixed(const Frame& frame, const Gains& gains);
     void upload_denoised(const DenoisedPtr& denoised, const Gains& gains);
+    int step_in_time(const Frame& frame, double milliseconds) const;
+    void upload_thinned(const PanelContext& c, const Gains& gains, bool denoised, int step);
     void draw_picture(PanelContext& c, const ImageRect& image);
     GLuint outlined_picture(const PanelContext& c, const ImageRect& image);
     void draw_caption(const ImageRect& image) const;
@@ -55,6 +59,7 @@ private:
     PictureView uploaded_view_;
     DenoisedPtr uploaded_denoised_;
     Gains uploaded_gains_, shown_gains_; // of both
+    int thinned_by_ = 1, shown_thinned_by_ = 1; // only every so many-th pixel of a row, and row, of both
     std::shared_ptr<std::vector<float>> mixed_; // the last picture that was mixed here, kept for its memory
     Workers workers_{0};   // mix planes
     DisplayLook look_;

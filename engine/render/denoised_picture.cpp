@@ -72,10 +72,11 @@ DenoisedPtr remixed(const DenoisedPicture& picture, const Gains& gains) {
     return mixed;
 }
 
+std::vector<PlaneSpan> planes_of(const DenoisedPicture& picture) { return {picture.groups->planes.begin(), picture.groups->planes.end()}; }
+
 std::vector<float> mixed_rgb(const DenoisedPicture& picture, std::span<const Vec3> gains, const Workers* workers) {
     std::vector<float> rgb(size_t(picture.width) * size_t(picture.height) * 3);
-    const std::vector<PlaneSpan> planes(picture.groups->planes.begin(), picture.groups->planes.end());
-    mix_rgb(planes, gains, rgb, workers);
+    mix_rgb(planes_of(picture), gains, rgb, workers);
     return rgb;
 }
 

@@ -43,6 +43,8 @@ std::vector<DenoiseInput> denoise_inputs(const Frame& frame);
 DenoisedPtr denoised_picture(const Frame& source, DenoiseQuality quality, std::vector<Denoised> denoised);
 // The same with other gains.
 DenoisedPtr remixed(const DenoisedPicture& picture, const Gains& gains);
+// Its groups, each denoised alone; it must have some.
+std::vector<std::span<const float>> planes_of(const DenoisedPicture& picture);
 // Its pixels with other gains, width * height * 3; it must have groups.
 std::vector<float> mixed_rgb(const DenoisedPicture& picture, std::span<const Vec3> gains, const Workers* workers = nullptr);
 

@@ -76,14 +76,48 @@ PlaneSpan span_of(const std::vector<Vec3>& plane) {
     return {&plane.front().x, 3 * plane.size()};
 }
 
+std::vector<PlaneSpan> planes_of(const Frame& frame) {
+    std::vector<PlaneSpan> planes;
+    for (const std::vector<Vec3>& plane : frame.groups) planes.push_back(span_of(plane));
+    return planes;
+}
+
 void mix_rgb(std::span<const PlaneSpan> planes, std::span<const Vec3> gains, std::span<float> rgb, const Workers* workers) {
     mix_all(planes, gains, rgb.size() / 3, workers,
             [&](size_t first, size_t count, const Sums& sums) { std::copy_n(sums.begin(), 3 * count, &rgb[3 * first]); });
 }
 
+ThinnedMix mix_thinned(std::span<const PlaneSpan> planes, std::span<const Vec3> gains, int width, int height, int step,
+                       const Workers* workers) {
+    ThinnedMix thinned{std::max(width / step, 1), std::max(height / step, 1), {}};
+    thinned.rgb.assign(3 * size_t(thinned.width) * size_t(thinned.height), 0.f);
+    const int first_x = std::min(step / 2, width - 1), first_y = std::min(step / 2, height - 1);
+    const auto mix_row = [&](int row) {
+        for (size_t k = 0; k < planes.size(); ++k) {
+            if (gains[k] == Vec3{0, 0, 0}) continue;
+            const float* from = &planes[k][3 * (size_t(first_y + row * step) * size_t(width) + size_t(first_x))];
+            float* to = &thinned.rgb[3 * size_t(row) * size_t(thinned.width)];
+            for (int x = 0; x < thinned.width; ++x, from += 3 * step, to += 3) {
+                to[0] += gains[k].x * from[0];
+                to[1] += gains[k].y * from[1];
+                to[2] += gains[k].z * from[2];
+            }
+        }
+    };
+    constexpr int task = 16; // rows
+    const int tasks = (thinned.height + task - 1) / task;
+    const auto mix_rows = [&](int64_t i, unsigned) {
+        for (int row = int(i) * task; row < std::min((int(i) + 1) * task, thinned.height); ++row) mix_row(row);
+    };
+    if (workers)
+        workers->for_each(tasks, {}, mix_rows);
+    else
+        for (int i = 0; i < tasks; ++i) mix_rows(i, 0);
+    return thinned;
+}
+
 void mix_rgba(const Frame& frame, std::span<const Vec3> gains, std::vector<float>& rgba, const Workers* workers) {
-    std::vector<PlaneSpan> planes;
-    for (const std::vector<Vec3>& plane : frame.groups) planes.push_back(span_of(plane));
+    const std::vector<PlaneSpan> planes = planes_of(frame);
     rgba.resize(frame.rgba.size());
     mix_all(planes, gains, rgba.size() / 4, workers, [&](size_t first, size_t count, const Sums& sums) {
         const float* from = &frame.rgba[4 * first];

@@ -56,10 +56,15 @@ struct MixEdit {
 };
 const MixEdit mix_edits[] = {
     {"intensity", [](Studio& s) { s.change(s.bulb, [](Light& l) { l.intensity = 9; }); }},
-    {"colour of a visible lamp", [](Studio& s) { s.change(s.panel, [](Light& l) { l.color = {1, 0.2f, 0.4f}; }); }},
+    {"colour of a visible lamp", [](Studio& s) { s.change(s.panel, [](Light& l) {
+                                                     l.color = {1, 0.2f, 0.4f};
+                                                 }); }},
     {"temperature", [](Studio& s) { s.change(s.bulb, [](Light& l) { l.use_temperature = true, l.kelvin = 3000; }); }},
     {"a visible lamp off", [](Studio& s) { s.change(s.panel, [](Light& l) { l.enabled = false; }); }},
-    {"sky", [](Studio& s) { s.scene.environment.color = {0.3f, 0.5f, 1}, s.scene.environment.intensity = 1; }},
+    {"sky",
+     [](Studio& s) {
+         s.scene.environment.color = {0.3f, 0.5f, 1}, s.scene.environment.intensity = 1;
+     }},
     {"glow",
      [](Studio& s) {
          const Id<Material> id = s.scene.meshes.find(s.scene.nodes.find(s.ball)->mesh)->parts[0].material;
@@ -81,11 +86,32 @@ TEST(LightMix, IsThePictureOfTheEditedLights) {
         edit.edit(after);
         ASSERT_FALSE(renderer.update(after.scene, settings)) << edit.name;
         const Picture mixed = picture_of(renderer), fresh = render(after.scene, settings);
-        EXPECT_TRUE(same_means(mixed.blocks(16, 16), fresh.blocks(16, 16), sidak(significance, int64_t(std::size(mix_edits))))) << edit.name;
+        EXPECT_TRUE(same_means(mixed.blocks(16, 16), fresh.blocks(16, 16), sidak(significance, int64_t(std::size(mix_edits)))))
+            << edit.name;
         EXPECT_FALSE(same_mean(mixed.whole(), render(before.scene, settings).whole())) << edit.name << " shows nothing";
     }
     EXPECT_FALSE(renderer.update(before.scene, settings));
     EXPECT_EQ(renderer.resolve().rgba, render(before.scene, settings).frame.rgba) << "and back without a trace";
+}
+
+TEST(LightMix, ThinnedIsTheSameOfFewerPixels) {
+    RenderedStudio rendered;
+    const Frame frame = rendered.renderer.resolve();
+    Gains gains(frame.groups.size(), Vec3{0.5f, 2, 1});
+    gains[0] = {};
+    const std::vector<float> all = mixed_rgba(frame, gains);
+    for (const int step : {1, 3, 4, 100}) {
+        const ThinnedMix some = mix_thinned(planes_of(frame), gains, frame.width, frame.height, step);
+        EXPECT_EQ(some.width, std::max(frame.width / step, 1));
+        EXPECT_EQ(some.height, std::max(frame.height / step, 1));
+        for (int y = 0; y < some.height; ++y)
+            for (int x = 0; x < some.width; ++x)
+                for (size_t c = 0; c < 3; ++c) {
+                    const int from_x = std::min(x * step + step / 2, frame.width - 1),
+                              from_y = std::min(y * step + step / 2, frame.height - 1);
+                    EXPECT_EQ(some.rgb[3 * size_t(y * some.width + x) + c], all[4 * size_t(from_y * frame.width + from_x) + c]);
+                }
+    }
 }
 
 TEST(LightMix, ChannelsAreGains) {
@@ -110,8 +136,15 @@ TEST(LightMix, ChannelsAreGains) {
 
 TEST(LightMix, ResetsWhereNoGainWouldDo) {
     const MixEdit edits[] = {
-        {"moved", [](Studio& s) { Node n = *s.scene.nodes.find(s.bulb); n.local.translation.x += 1; s.scene.nodes.set(s.bulb, n); }},
-        {"from black", [](Studio& s) { s.change(s.bulb, [](Light& l) { l.color = {1, 1, 1}; }); }},
+        {"moved",
+         [](Studio& s) {
+             Node n = *s.scene.nodes.find(s.bulb);
+             n.local.translation.x += 1;
+             s.scene.nodes.set(s.bulb, n);
+         }},
+        {"from black", [](Studio& s) { s.change(s.bulb, [](Light& l) {
+                                           l.color = {1, 1, 1};
+                                       }); }},
         {"switched on", [](Studio& s) { s.change(s.panel, [](Light& l) { l.enabled = true; }); }},
         {"cone", [](Studio& s) { s.change(s.panel, [](Light& l) { l.width = 2; }); }},
         {"grouping", [](Studio& s) { s.scene.mix.grouping = Grouping::by_object; }},
@@ -186,7 +219,8 @@ TEST_P(MixAim, SamplesByTheMixWithoutBias) {
     EXPECT_LT(a.frame.error.rmse_high, b.frame.error.rmse_low) << "else it would be of no use";
     expect_planes_sum_to_beauty(a.frame, 0x1p-20, "aimed");
 }
-INSTANTIATE_TEST_SUITE_P(Lights, MixAim, testing::Values(false, true), [](const auto& light) { return light.param ? "InATree" : "ByPower"; });
+INSTANTIATE_TEST_SUITE_P(Lights, MixAim, testing::Values(false, true),
+                         [](const auto& light) { return light.param ? "InATree" : "ByPower"; });
 
 // Estimated from the halves of the groups, the error of a mix is that of the same picture rendered afresh; and what is said before, from
 // the variances of single groups, is near that.
