@@ -215,7 +215,7 @@ void Editor::draw_regions(PanelContext& c) {
     }
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
     const Layout l = lay_out(screen.x, screen.y, ImGui::GetFrameHeight(), std::round(ImGui::GetFrameHeight() * 1.25f), ImGui::GetFontSize(),
-                             ui_.settings.splitters);
+                             ui_.settings.splitters, c.scene().clips.empty() ? 0 : std::round(ImGui::GetFrameHeight() * 1.5f));
     begin_region("Outliner", l.outliner);
     draw_outliner(c);
     end_region();
@@ -226,6 +226,11 @@ void Editor::draw_regions(PanelContext& c) {
     image_ = viewport_.draw(c, pace_);
     pace_.end_picture(Clock::now());
     end_region();
+    if (l.time.height > 0) {
+        begin_region("Time", l.time);
+        draw_time(c);
+        end_region();
+    }
     begin_region("Inspector", l.inspector, {.padded = false});
     draw_inspector(c);
     end_region();

@@ -2,6 +2,8 @@
 
 #include "core/text.h"
 #include "io/environment_image.h"
+#include "scene/pose.h"
+#include "scene/staging.h"
 #include "scene/validate.h"
 
 #include <fmt/format.h>
@@ -36,7 +38,7 @@ Result<Vec3> parse_color(std::string_view text) {
 std::vector<Id<Node>> camera_nodes(const Scene& scene) {
     std::vector<Id<Node>> ids;
     for (const auto& [id, node] : scene.nodes)
-        if (node.camera) ids.push_back(id);
+        if (node.camera && is_in_chosen_scene(scene, id)) ids.push_back(id);
     return ids;
 }
 
@@ -122,11 +124,18 @@ Result<std::optional<LightMix::Grouping>> parse_grouping(std::string_view text) 
 }
 
 Result<void> apply_overrides(const SceneOverrides& overrides, Scene& scene, float aspect, bool has_view) {
+    const Result<Staging> staging = find_staging(overrides.staging, scene);
+    if (!staging) return staging.error();
+    const bool other_scene = staging->scene != scene.staging.scene;
+    scene = staged(scene, *staging);
+    const std::vector<Id<Node>> cameras = camera_nodes(scene);
     if (!overrides.camera.empty()) {
         const Result<Id<Node>> camera = find_camera(scene, overrides.camera);
         if (!camera) return camera.error();
         scene.view = view_through(scene, *camera);
-    } else if (!has_view && camera_nodes(scene).empty()) {
+    } else if (other_scene && !cameras.empty()) {
+        scene.view = view_through(scene, cameras.front());
+    } else if ((other_scene || !has_view) && cameras.empty()) {
         scene.view = framed(scene.view, world_bounds(scene), aspect);
     }
     if (overrides.aperture) scene.view.lens.aperture_radius = *overrides.aperture;

@@ -1,6 +1,8 @@
-// What the command line changes in a scene: camera, lens and environment when it is loaded, the size of textures on the way. The same for every command and the window.
+// What the command line changes in a scene: staging, camera, lens and environment when it is loaded, the size of textures on the way. The same for
+// every command and the window.
 #pragma once
 
+#include "app/staging_choice.h"
 #include "core/result.h"
 #include "scene/scene.h"
 
@@ -32,10 +34,11 @@ struct SceneOverrides {
     std::optional<float> aperture = {}, focus = {}; // metres
     std::optional<LightMix::Grouping> groups = {};
     std::optional<int64_t> texture_mib = {}; // that all textures may take as decoded: while they are read, larger ones are made smaller
+    StagingChoice staging = {};
 };
 
 // Without any camera in the scene, one is framed around it for a picture of `aspect` (width / height).
-// Errors: no such camera, an environment map that cannot be read, a lens that makes no sense.
+// Errors: no such animation, scene, variant or camera, an environment map that cannot be read, a lens that makes no sense.
 // `has_view`: the scene was saved with a view, which is then kept.
 Result<void> apply_overrides(const SceneOverrides& overrides, Scene& scene, float aspect, bool has_view = false);
 

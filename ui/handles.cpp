@@ -1,5 +1,6 @@
 #include "ui/handles.h"
 
+#include "scene/pose.h"
 #include "ui/edit_together.h"
 #include "ui/light_outline.h"
 #include "ui/light_tools.h"
@@ -177,7 +178,7 @@ std::optional<LightSight> Handles::sight(const Scene& scene, Id<Node> id, const 
 
 bool Handles::update(PanelContext& c, ImDrawList& draw, const Projection& projection, const ImageRect& image, bool hovered) {
     const Node* node = c.scene().nodes.find(c.ui.selected);
-    if (!node || !is_visible(c.scene(), c.ui.selected)) {
+    if (!node || !is_visible(c.scene(), c.ui.selected) || node->skin || is_placed_by_clip(c.scene(), c.ui.selected)) {
         dragged_ = Handle::none;
         return false;
     }

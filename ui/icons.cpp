@@ -95,6 +95,11 @@ void draw_icon(ImDrawList& draw, Icon icon, ImVec2 centre, float size, ImU32 col
     case Icon::file: draw_file(p); break;
     case Icon::eye: draw_eye(p); break;
     case Icon::eye_closed: p.draw.AddBezierQuadratic(p.at(-0.95f, -0.1f), p.at(0, 1.f), p.at(0.95f, -0.1f), color, p.width); break;
+    case Icon::play: draw.AddTriangleFilled(p.at(-0.5f, -0.7f), p.at(-0.5f, 0.7f), p.at(0.7f, 0), color); break;
+    case Icon::pause:
+        draw.AddRectFilled(p.at(-0.6f, -0.65f), p.at(-0.15f, 0.65f), color);
+        draw.AddRectFilled(p.at(0.15f, -0.65f), p.at(0.6f, 0.65f), color);
+        break;
     case Icon::arrow_up: p.line(0, 0.8f, 0, -0.8f), p.line(0, -0.8f, -0.55f, -0.2f), p.line(0, -0.8f, 0.55f, -0.2f); break;
     }
 }

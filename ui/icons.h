@@ -7,7 +7,7 @@
 
 namespace blush {
 
-enum class Icon { point, spot, sun, rectangle, disk, sphere, mesh, group, camera, folder, file, eye, eye_closed, arrow_up };
+enum class Icon { point, spot, sun, rectangle, disk, sphere, mesh, group, camera, folder, file, eye, eye_closed, arrow_up, play, pause };
 
 Icon icon_of(Light::Kind kind);
 

@@ -10,7 +10,8 @@ constexpr float narrowest_panel = 10, widest_panel = 45, narrowest_viewport = 16
 
 } // namespace
 
-Layout lay_out(float width, float height, float menu_height, float status_height, float font_size, const Splitters& splitters) {
+Layout lay_out(float width, float height, float menu_height, float status_height, float font_size, const Splitters& splitters,
+              float time_height) {
     float left = std::round(splitters.outliner * font_size), right = std::round(splitters.inspector * font_size);
     const float available = std::max(width - narrowest_viewport * font_size, 0.f);
     if (left + right > available) {
@@ -21,7 +22,9 @@ Layout lay_out(float width, float height, float menu_height, float status_height
     const float body = std::max(height - menu_height - status_height, 1.f);
     Layout l;
     l.outliner = {0, menu_height, left, body};
-    l.viewport = {left, menu_height, std::max(width - left - right, 1.f), body};
+    const float row = std::min(time_height, body - 1);
+    l.viewport = {left, menu_height, std::max(width - left - right, 1.f), body - row};
+    l.time = {left, menu_height + body - row, l.viewport.width, row};
     l.inspector = {width - right, menu_height, right, body};
     l.status = {0, menu_height + body, width, status_height};
     return l;

@@ -17,11 +17,13 @@ struct Splitters {
 
 struct Layout {
     Region outliner, viewport, inspector, status;
+    Region time; // below the viewport; of no height if there is none
 };
 
 // Regions of a window of width x height pixels below a menu bar. Side panels give way before the viewport gets narrower than it can be
 // used.
-Layout lay_out(float width, float height, float menu_height, float status_height, float font_size, const Splitters& splitters);
+Layout lay_out(float width, float height, float menu_height, float status_height, float font_size, const Splitters& splitters,
+              float time_height = 0);
 
 // The splitters after dragging the bar on the outliner's right (inspector's left) edge to `x` pixels, kept within sensible limits.
 Splitters drag_outliner(Splitters splitters, float x, float font_size);

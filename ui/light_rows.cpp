@@ -1,6 +1,7 @@
 #include "ui/light_rows.h"
 
 #include "scene/placements.h"
+#include "scene/pose.h"
 #include "scene/shining.h"
 #include "ui/edit_together.h"
 #include "ui/light_groups.h"
@@ -99,7 +100,8 @@ std::vector<LightRows> light_rows(const Scene& scene) {
     Placements placements(scene);
     for (const auto& [id, node] : scene.nodes) {
         const bool visible = placements(id).visible;
-        if (const Light* light = scene.lights.find(node.light)) collector.light(id, node, *light, visible);
+        const Light* light = scene.lights.find(node.light);
+        if (light && is_in_chosen_scene(scene, id)) collector.light(id, node, *light, visible);
         if (const Mesh* mesh = scene.meshes.find(node.mesh); mesh && visible) collector.materials(id, *mesh);
     }
     return collector.finish();

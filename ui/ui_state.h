@@ -18,6 +18,7 @@
 #include "ui/scopes_view.h"
 #include "ui/shortcuts.h"
 #include "ui/snapshots_view.h"
+#include "ui/time_view.h"
 #include "ui/toasts.h"
 #include "ui/window_settings.h"
 
@@ -127,6 +128,7 @@ struct UiState {
     std::optional<Question> question; // asked by the editor, which also hears the answer
     std::optional<PixelProbe> pixel;
     EulerFields euler;
+    TimeView time;
 
     WindowSettings settings; // remembered between starts
     GestureTracker gestures;

@@ -20,6 +20,7 @@ namespace {
 
 struct InfoCommand {
     std::string scene;
+    SceneOverrides overrides;
     bool measure = false;
     CommonOptions common;
 };
@@ -94,6 +95,10 @@ OrderedJson info_json(const LoadedScene& loaded, const Findings& findings) {
                       {"emissive_triangles", info.emissive_triangles},
                       {"environment", info.environment}};
     json["cameras"] = count_cameras(loaded.scene);
+    json["animations"] = OrderedJson::array();
+    for (const auto& [id, clip] : loaded.scene.clips) json["animations"].push_back({{"name", clip.name}, {"seconds", clip.seconds}});
+    json["scenes"] = loaded.scene.scene_names;
+    json["variants"] = loaded.scene.variants;
     json["extensions"] = {{"used", report.extensions_used},
                           {"honoured", report.extensions_honoured},
                           {"approximated", report.extensions_approximated},
@@ -108,6 +113,15 @@ OrderedJson info_json(const LoadedScene& loaded, const Findings& findings) {
 
 void print_list(std::string_view name, const std::vector<std::string>& items) {
     if (!items.empty()) fmt::print("{:<22} {}\n", name, fmt::join(items, ", "));
+}
+
+// What there is to choose from.
+void print_offers(const Scene& scene) {
+    std::vector<std::string> clips;
+    for (const auto& [id, clip] : scene.clips) clips.push_back(fmt::format("{} ({:.4g} s)", clip.name, clip.seconds));
+    print_list("animations", clips);
+    print_list("scenes", scene.scene_names);
+    print_list("material variants", scene.variants);
 }
 
 // A line for each, by part.
@@ -127,6 +141,7 @@ void print_info(const InfoCommand& c, const LoadedScene& loaded, const Findings&
                lights.spot, lights.sun, lights.rectangle, lights.disk, lights.sphere, info.emissive_triangles,
                info.environment ? "an environment" : "no environment");
     fmt::print("{:<22} {}\n", "cameras", count_cameras(loaded.scene));
+    print_offers(loaded.scene);
     print_list("extensions honoured", loaded.report.extensions_honoured);
     print_list("  approximated", loaded.report.extensions_approximated);
     print_list("  ignored", loaded.report.extensions_ignored);
@@ -147,7 +162,7 @@ int run_info(const InfoCommand& c) {
     const RenderSettings settings;
     Result<LoadedScene> loaded = [&] {
         Progress progress(c.common.quiet);
-        return load_scene(c.scene, {}, float(settings.width) / float(settings.height), progress, guard.interrupted());
+        return load_scene(c.scene, c.overrides, float(settings.width) / float(settings.height), progress, guard.interrupted());
     }();
     if (!loaded) return failed(loaded.error());
     Renderer renderer({.threads = c.common.threads, .planes = {}});
@@ -170,6 +185,7 @@ void add_info_command(CLI::App& app, std::function<int()>& run) {
         "--measure", command->measure,
         "Measure what specialising saves: this scene's kernel against the one that can do everything, in turns for a few seconds, and "
         "the start-up of the view transform and of the denoiser");
+    add_staging_options(*sub, command->overrides.staging);
     add_common_options(*sub, command->common);
     sub->callback([command, &run] { run = [command] { return run_info(*command); }; });
 }

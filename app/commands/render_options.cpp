@@ -187,6 +187,7 @@ void add_view_options(CLI::App& app, ViewSettings& view) {
 
 void add_render_options(CLI::App& app, RenderOptions& options) {
     add_picture_options(app, options);
+    add_staging_options(app, options.overrides.staging);
     add_light_options(app, options);
     add_stop_options(app, options);
     add_integrator_options(app, options);

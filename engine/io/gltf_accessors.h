@@ -14,7 +14,7 @@ namespace blush {
 Result<std::span<const uint8_t>> buffer_view_bytes(const GltfContext& context, int buffer_view, const std::string& where);
 
 struct FloatArray {
-    int components = 0;        // 1 .. 4
+    int components = 0;        // 1 .. 4, or 16
     std::vector<float> values; // count * components
     size_t count() const { return components ? values.size() / size_t(components) : 0; }
 };

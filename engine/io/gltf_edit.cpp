@@ -5,6 +5,7 @@
 #include "io/gltf_instancing.h"
 #include "io/gltf_unused.h"
 #include "io/gltf_write.h"
+#include "io/gltf_write_motion.h"
 #include "io/gltf_write_extras.h"
 #include "io/gltf_write_fallbacks.h"
 #include "io/gltf_write_payloads.h"
@@ -120,6 +121,9 @@ Scene as_saved(Scene scene, const GltfIndices& indices, const Scene& read) {
     scene.textures = kept(scene.textures, indices.textures);
     scene.lights = kept(scene.lights, indices.lights);
     scene.cameras = kept(scene.cameras, indices.cameras);
+    scene.skins = kept(scene.skins, indices.skins);
+    scene.clips = kept(scene.clips, indices.clips);
+    if (!scene.clips.contains(scene.staging.clip)) scene.staging.clip = {};
     for (const auto& [id, texture] : read.textures)
         if (const Texture* now = scene.textures.find(id)) {
             Texture named = *now;
@@ -132,6 +136,8 @@ Scene as_saved(Scene scene, const GltfIndices& indices, const Scene& read) {
         if (!scene.meshes.contains(node.mesh)) node.mesh = {};
         if (!scene.lights.contains(node.light)) node.light = {};
         if (!scene.cameras.contains(node.camera)) node.camera = {};
+        if (!node.mesh || !scene.skins.contains(node.skin)) node.skin = {};
+        if (!node.mesh) node.morph_weights.clear();
         scene.nodes.set(id, std::move(node));
     }
     const auto is_gone = [&](Id<Node> id) { return !scene.nodes.contains(id); };
@@ -140,6 +146,17 @@ Scene as_saved(Scene scene, const GltfIndices& indices, const Scene& read) {
         std::erase_if(light.lit_objects.nodes, is_gone);
         std::erase_if(light.shadow_casters.nodes, is_gone);
         scene.lights.set(id, std::move(light));
+    }
+    const Table<Skin> skins = scene.skins;
+    for (auto [id, skin] : skins) {
+        for (Id<Node>& joint : skin.joints)
+            if (is_gone(joint)) joint = {};
+        scene.skins.set(id, std::move(skin));
+    }
+    const Table<Clip> clips = scene.clips;
+    for (auto [id, clip] : clips) {
+        std::erase_if(clip.channels, [&](const Channel& channel) { return is_gone(channel.node); });
+        scene.clips.set(id, std::move(clip));
     }
     return scene;
 }
@@ -205,7 +222,9 @@ Result<EditedGltf> edited_gltf(const GltfOrigin& origin, const Project& project)
     write_surfaces(document, before->scene, scene);
     write_tree(document, scene);
     write_copies(document, origin, scene);
+    write_skins(document, scene);
     write_nodes(document, before->scene, scene);
+    write_animations(document, scene);
     write_fallbacks(document, scene);
     if (const int unused = remove_unused(document, used_before, counts_before))
         edited.diagnostics.push_back(

@@ -2,6 +2,7 @@
 
 #include "core/math.h"
 #include "io/gltf_accessors.h"
+#include "io/gltf_bending.h"
 #include "io/gltf_extras.h"
 #include "io/gltf_points_lines.h"
 #include "io/gltf_suspicions.h"
@@ -148,12 +149,14 @@ void make_flat(Geometry& g) {
         for (size_t i = 0; i < own.size(); ++i) own[i] = values[g.indices[i]];
         values = std::move(own);
     };
+    unweld_bending(g);
     unweld(g.positions);
     for (std::vector<Vec2>& uv : g.uv) unweld(uv);
     unweld(g.colors);
     g.tangents.clear(); // of normals that are not there: the specification says to ignore them
     std::iota(g.indices.begin(), g.indices.end(), 0u);
     g.normals.resize(g.indices.size());
+    g.flat = true;
     for (size_t t = 0; t < g.triangle_count(); ++t)
         std::fill_n(g.normals.begin() + std::ptrdiff_t(3 * t), 3, unit_or_up(area_normal(g, t)));
 }
@@ -185,7 +188,7 @@ void provide_tangents(const GltfContext& context, Geometry& g, int uv_set, const
         context.warn("a normal map, but no texture coordinates to place it: it has no effect", where);
         return;
     }
-    add_tangents(g, uv_set);
+    append_bending(g, add_tangents(g, uv_set));
     context.note("tangents are missing: computed from texture coordinates as MikkTSpace does", where);
 }
 
@@ -206,10 +209,8 @@ void report_ignored(const GltfContext& context, const tinygltf::Primitive& primi
         return std::ranges::find(read, name) != read.end() || std::ranges::find(uv_sets, name, uv_attribute) != uv_sets.end();
     };
     for (const auto& [name, accessor] : primitive.attributes)
-        if (!is_read(name))
+        if (!is_read(name) && !is_influence(name))
             context.note("ignored: attribute " + name.substr(0, 100) + (name.starts_with("TEXCOORD_") ? ", which no texture uses" : ""), where);
-    if (!primitive.targets.empty())
-        context.note(fmt::format("ignored: {} morph targets; the mesh is shown at rest", primitive.targets.size()), where);
 }
 
 } // namespace
@@ -224,6 +225,7 @@ Result<GeometryPtr> import_primitive(const GltfContext& context, const tinygltf:
     auto geometry = std::make_shared<Geometry>();
     Geometry& g = *geometry;
     if (const auto ok = read_attributes(context, primitive, needs.uv_sets, g, where); !ok) return ok.error();
+    if (const auto ok = read_bending(context, primitive, g, where); !ok) return ok.error();
     const auto order = vertex_order(context, primitive, g.positions.size(), where);
     if (!order) return order.error();
     if (primitive.mode < TINYGLTF_MODE_TRIANGLES) return solids(context, g, *order, primitive.mode, where);

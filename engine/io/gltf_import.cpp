@@ -1,5 +1,7 @@
 #include "io/gltf_import.h"
 
+#include "io/gltf_animations.h"
+#include "io/gltf_bending.h"
 #include "io/gltf_cameras.h"
 #include "io/gltf_convert.h"
 #include "io/gltf_demand.h"
@@ -10,10 +12,13 @@
 #include "io/gltf_meshes.h"
 #include "io/gltf_nodes.h"
 #include "io/gltf_report.h"
+#include "io/gltf_skins.h"
 #include "io/gltf_source.h"
+#include "io/gltf_staging.h"
 #include "io/gltf_suspicions.h"
 #include "io/gltf_textures.h"
 #include "io/gltf_unpacked.h"
+#include "io/gltf_variants.h"
 #include "io/settings_json.h"
 
 #include <chrono>
@@ -84,11 +89,12 @@ Result<void> convert_gltf(const GltfContext& context, ImportedScene& imported) {
     if (!materials) return materials.error();
     if (context.cancelled()) return context.cancel_error();
     context.progress(0.6, "meshes");
+    scene.variants = import_variants(context);
     const auto meshes = import_meshes(context, *nodes, *materials, scene);
     if (!meshes) return meshes.error();
     const Result<LightIds> lights = import_lights(context, *nodes, scene);
     if (!lights) return lights.error();
-    const NodeTargets targets{meshes->ids, *lights, import_cameras(context, scene)};
+    const NodeTargets targets{meshes->ids, *lights, import_cameras(context, scene), number_skins(context)};
     const auto node_ids = import_nodes(context, *nodes, targets, scene);
     if (!node_ids) return node_ids.error();
 
@@ -99,13 +105,20 @@ Result<void> convert_gltf(const GltfContext& context, ImportedScene& imported) {
     indices.cameras = indices_of(targets.cameras);
     for (const auto& [id, index] : indices.meshes) indices.primitives[id] = meshes->primitives[size_t(index)];
     index_lights(targets.lights, indices);
+    indices.skins = indices_of(targets.skins);
+    if (const auto ok = import_skins(context, indices, scene); !ok) return ok;
+    indices.clips = indices_of(import_animations(context, indices, scene));
+    limit_bending(context, scene);
 
     if (!context.known) {
         report_units(context, scene, indices);
         report_textures(context, scene, indices);
     }
+    const auto shown = default_scene(context);
+    import_scene_names(context, scene);
+    if (shown) import_staging(context, *shown, indices, scene);
     scene.view = initial_view(scene);
-    if (const auto index = default_scene(context))
+    if (const auto& index = shown)
         if (const auto ok = import_scene_extras(context, *index, imported); !ok) return ok;
     if (context.cancelled()) return context.cancel_error();
     context.progress(1, "done");

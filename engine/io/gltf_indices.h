@@ -26,6 +26,8 @@ struct GltfIndices {
     std::map<Id<Material>, int> materials;
     std::map<Id<Texture>, int> textures;
     std::map<Id<Camera>, int> cameras;
+    std::map<Id<Skin>, int> skins;
+    std::map<Id<Clip>, int> clips;
     std::map<Id<Light>, GltfLight> lights;
     std::map<int, float> profile_peaks; // by index in EXT_lights_ies: the largest candela of those profiles that were read
     ImagePtr image_light; // the scene's environment as EXT_lights_image_based has it; null: it has none that is shown

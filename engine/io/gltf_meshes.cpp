@@ -3,6 +3,7 @@
 #include "io/gltf_extras.h"
 #include "io/gltf_geometry.h"
 #include "io/gltf_numbering.h"
+#include "io/gltf_variants.h"
 #include "scene/texture_slots.h"
 
 #include <algorithm>
@@ -38,13 +39,25 @@ struct MeshReader {
             if (primitive.material >= 0 && size_t(primitive.material) >= materials.size())
                 return context.error(fmt::format("material {} does not exist; there are {}", primitive.material, materials.size()), where);
             const Id<Material> material = primitive.material >= 0 ? materials[size_t(primitive.material)] : Id<Material>();
-            const Result<GeometryPtr> geometry = context.known ? GeometryPtr() : import_geometry(primitive, material, where);
+            Result<std::vector<Id<Material>>> worn = materials_by_variant(context, index, p, material, materials, scene.variants.size());
+            if (!worn) return worn.error();
+            const Result<GeometryPtr> geometry = context.known ? GeometryPtr() : import_geometry(primitive, material, *worn, where);
             if (!geometry) return geometry.error();
             if (!*geometry && !is_known_part(index, p)) continue;
-            mesh.parts.push_back({*geometry, material});
+            mesh.parts.push_back({*geometry, material, *std::move(worn)});
             primitives.push_back(int(p));
         }
+        mesh.target_names = target_names(index);
         return mesh;
+    }
+
+    // Where everybody writes them.
+    std::vector<std::string> target_names(size_t index) const {
+        std::vector<std::string> names;
+        const size_t targets = context.model().meshes[index].primitives.empty() ? 0 : context.model().meshes[index].primitives.front().targets.size();
+        for (const ParsedGltf& name : gltf_member(gltf_member(gltf_item(context.json(), "meshes", index), "extras"), "targetNames"))
+            if (names.size() < targets) names.push_back(name.is_string() ? name.get<std::string>() : std::string());
+        return names;
     }
 
     bool is_known_part(size_t mesh, size_t primitive) const {
@@ -53,9 +66,19 @@ struct MeshReader {
         return parts != context.known->primitives.end() && std::count(parts->second.begin(), parts->second.end(), int(primitive)) > 0;
     }
 
-    Result<GeometryPtr> import_geometry(const tinygltf::Primitive& primitive, Id<Material> material, const std::string& where) const {
+    // Of its material, or else of the first that a variant puts in its place.
+    int normal_map_uv_set(Id<Material> material, const std::vector<Id<Material>>& by_variant) const {
+        std::vector<Id<Material>> worn{material};
+        worn.insert(worn.end(), by_variant.begin(), by_variant.end());
+        for (const Id<Material> id : worn)
+            if (const Material* m = scene.materials.find(id); m && tangent_uv_set_of(*m) >= 0) return tangent_uv_set_of(*m);
+        return -1;
+    }
+
+    Result<GeometryPtr> import_geometry(const tinygltf::Primitive& primitive, Id<Material> material, const std::vector<Id<Material>>& by_variant,
+                                        const std::string& where) const {
         const Material* found = scene.materials.find(material);
-        Result<GeometryPtr> geometry = import_primitive(context, primitive, {uv_sets, found ? tangent_uv_set_of(*found) : -1}, where);
+        Result<GeometryPtr> geometry = import_primitive(context, primitive, {uv_sets, normal_map_uv_set(material, by_variant)}, where);
         if (!geometry || !*geometry || !found) return geometry;
         for (const int set : uv_sets_read(*found))
             if (!(*geometry)->has_uv_set(set))

@@ -50,6 +50,35 @@ void walk(const GltfContext& context, int root, bool skip_fallbacks, std::vector
     }
 }
 
+// Those of all scenes, each once.
+Result<std::vector<int>> roots_of_scenes(const GltfContext& context, const std::vector<int>& parents) {
+    const tinygltf::Model& model = context.model();
+    std::vector<int> roots;
+    std::vector<size_t> last_scene(model.nodes.size()); // that listed it, counted from 1
+    for (size_t s = 0; s < model.scenes.size(); ++s)
+        for (const int root : model.scenes[s].nodes) {
+            if (root < 0 || size_t(root) >= model.nodes.size())
+                return context.error(fmt::format("node {} does not exist; there are {}", root, model.nodes.size()), "scenes.nodes");
+            size_t& last = last_scene[size_t(root)];
+            if (parents[size_t(root)] >= 0 || last == s + 1)
+                return context.error(fmt::format("node {} is listed as a root but is a child, or listed twice", root), "scenes.nodes");
+            if (last == 0) roots.push_back(root);
+            last = s + 1;
+        }
+    return roots;
+}
+
+// By node: the scenes that list it, none where that is all of them.
+std::vector<std::vector<int32_t>> scenes_by_root(const tinygltf::Model& model) {
+    std::vector<std::vector<int32_t>> scenes(model.nodes.size());
+    if (model.scenes.size() < 2) return scenes;
+    for (size_t s = 0; s < model.scenes.size(); ++s)
+        for (const int root : model.scenes[s].nodes) scenes[size_t(root)].push_back(int32_t(s));
+    for (std::vector<int32_t>& listed : scenes)
+        if (listed.size() == model.scenes.size()) listed.clear();
+    return scenes;
+}
+
 bool sized(const std::vector<double>& values, size_t size) { return values.empty() || values.size() == size; }
 
 Result<Transform> read_transform(const GltfContext& context, int index) {
@@ -85,6 +114,19 @@ Result<Transform> read_transform(const GltfContext& context, int index) {
     return local;
 }
 
+// The node's own, or else its mesh's.
+std::vector<float> read_weights(const GltfContext& context, int index) {
+    const tinygltf::Node& node = context.model().nodes[size_t(index)];
+    const tinygltf::Mesh& mesh = context.model().meshes[size_t(node.mesh)];
+    const std::vector<double>& source = node.weights.empty() ? mesh.weights : node.weights;
+    const size_t targets = mesh.primitives.empty() ? 0 : mesh.primitives.front().targets.size();
+    if (source.size() > targets) context.warn(fmt::format("{} weights for {} morph targets", source.size(), targets), node_where(index));
+    std::vector<float> weights;
+    for (size_t i = 0; i < std::min(source.size(), targets); ++i)
+        weights.push_back(checked(context, source[i], 0, -any_float, any_float, fmt::format("{}.weights[{}]", node_where(index), i)));
+    return weights;
+}
+
 // ids[index], or an error; a negative index is no reference.
 template <class T> Result<Id<T>> target(const GltfContext& context, const std::vector<Id<T>>& ids, int index, const char* kind, int node) {
     if (index < 0) return Id<T>();
@@ -93,7 +135,7 @@ template <class T> Result<Id<T>> target(const GltfContext& context, const std::v
     return ids[size_t(index)];
 }
 
-Result<Node> read_node(const GltfContext& context, int index, const NodeTargets& targets) {
+Result<Node> read_node(const GltfContext& context, int index, const NodeTargets& targets, const std::vector<int32_t>& scenes) {
     const tinygltf::Node& source = context.model().nodes[size_t(index)];
     Node node;
     node.name = node_name(context, index);
@@ -118,6 +160,13 @@ Result<Node> read_node(const GltfContext& context, int index, const NodeTargets&
     // A measured one knows more than what else the node may have for programs that do not know of such.
     node.light = measured == targets.lights.measured_as.by_node.end() ? *light : targets.lights.measured[measured->second];
     node.camera = *camera;
+    if (node.mesh) {
+        const auto skin = target(context, targets.skins, source.skin, "skin", index);
+        if (!skin) return skin.error();
+        node.skin = *skin;
+        node.morph_weights = read_weights(context, index);
+    }
+    node.only_in_scenes = scenes;
     node.visible = extensions.object("KHR_node_visibility").boolean("visible", true);
     read_extras(context, gltf_item(context.json(), "nodes", size_t(index)), node, node_where(index));
     return node;
@@ -154,22 +203,13 @@ Result<std::vector<int>> reachable_nodes(const GltfContext& context) {
         return context.error(fmt::format("node {} is its own ancestor", in_cycle), node_where(in_cycle));
     }
 
-    if (const auto scene = default_scene(context)) {
-        roots = model.scenes[*scene].nodes;
-        std::vector<bool> used(model.nodes.size());
-        size_t of_scene = 0;
-        for (const int root : roots) {
-            if (root < 0 || size_t(root) >= model.nodes.size())
-                return context.error(fmt::format("node {} does not exist; there are {}", root, model.nodes.size()), "scenes.nodes");
-            if ((*parents)[size_t(root)] >= 0 || used[size_t(root)])
-                return context.error(fmt::format("node {} is listed as a root but is a child, or listed twice", root), "scenes.nodes");
-            used[size_t(root)] = true;
-            std::vector<int> below;
-            walk(context, root, false, below);
-            of_scene += below.size();
-        }
-        if (of_scene < all.size())
-            context.note(fmt::format("ignored: {} nodes that belong to other scenes or to none", all.size() - of_scene), "nodes");
+    if (!model.scenes.empty()) {
+        const Result<std::vector<int>> listed = roots_of_scenes(context, *parents);
+        if (!listed) return listed.error();
+        roots = *listed;
+        std::vector<int> below;
+        for (const int root : roots) walk(context, root, false, below);
+        if (below.size() < all.size()) context.note(fmt::format("ignored: {} nodes that belong to no scene", all.size() - below.size()), "nodes");
     }
     std::vector<int> shown;
     for (const int root : roots) walk(context, root, true, shown);
@@ -182,8 +222,9 @@ Result<std::vector<Id<Node>>> import_nodes(const GltfContext& context, const std
     std::vector<std::optional<Node>> read;
     std::vector<uint32_t> wanted;
     uint64_t instances = 0;
+    const std::vector<std::vector<int32_t>> scenes = scenes_by_root(context.model());
     for (const int index : nodes) {
-        Result<Node> node = read_node(context, index, targets);
+        Result<Node> node = read_node(context, index, targets, scenes[size_t(index)]);
         if (!node) return node.error();
         instances += count_instances(scene, *node);
         if (instances > most_instances)

@@ -10,7 +10,7 @@
 
 namespace blush {
 
-// Indices of the nodes of the default scene (or the first, or, if the file has no scenes, all), every parent before its
+// Indices of the nodes of all scenes (or, if the file has no scenes, all), scene by scene and each once, every parent before its
 // children, without stand-ins for lights (gltf_extras.h). Errors: an index out of range, a node with two parents, a cycle.
 Result<std::vector<int>> reachable_nodes(const GltfContext& context);
 
@@ -19,6 +19,7 @@ struct NodeTargets {
     std::vector<Id<Mesh>> meshes;
     LightIds lights;
     std::vector<Id<Camera>> cameras;
+    std::vector<Id<Skin>> skins;
 };
 
 // Adds the nodes; result[i] is the id of nodes[i]. Errors: a transform that is not finite or has the wrong number of elements, an index

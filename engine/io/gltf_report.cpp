@@ -34,10 +34,6 @@ void report_file(const GltfContext& context) {
     std::set<std::string> names(model.extensionsUsed.begin(), model.extensionsUsed.end());
     names.insert(model.extensionsRequired.begin(), model.extensionsRequired.end());
     for (const std::string& name : names) report_extension(context, name.substr(0, 100));
-    if (!model.animations.empty())
-        context.note(fmt::format("ignored: {} animations; the scene is shown at rest", model.animations.size()), "animations");
-    if (!model.skins.empty())
-        context.note(fmt::format("ignored: {} skins; meshes are shown in their bind pose", model.skins.size()), "skins");
     std::istringstream lines(context.source.parser_notes);
     for (std::string line; std::getline(lines, line);)
         if (!line.empty()) context.warn(line.substr(0, 200), "");

@@ -5,7 +5,7 @@
 
 namespace blush {
 
-// Sorts the extensions in use into honoured, approximated and ignored, and lists animations, skins and what the parser said.
+// Sorts the extensions in use into honoured, approximated and ignored, and lists what the parser said.
 void report_file(const GltfContext& context);
 
 } // namespace blush

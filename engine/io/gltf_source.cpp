@@ -62,12 +62,15 @@ bool read_nothing(std::vector<unsigned char>*, std::string*, const std::string&,
 
 // The same document in which primitives have materials but no vertices, and images a name but no bytes.
 nlohmann::json without_payloads(nlohmann::json root) {
-    for (const char* list : {"buffers", "bufferViews", "accessors", "animations", "skins"}) root.erase(list);
+    for (const char* list : {"buffers", "bufferViews", "accessors"}) root.erase(list);
     if (const auto meshes = root.find("meshes"); meshes != root.end())
         for (nlohmann::json& mesh : *meshes)
             for (nlohmann::json& primitive : mesh["primitives"]) {
                 primitive["attributes"] = nlohmann::json::object();
-                for (const char* payload : {"indices", "targets", "extensions"}) primitive.erase(payload);
+                for (const char* payload : {"indices", "extensions"}) primitive.erase(payload);
+                // How many there are says how many weights nodes have.
+                if (const auto targets = primitive.find("targets"); targets != primitive.end() && targets->is_array())
+                    for (nlohmann::json& target : *targets) target = nlohmann::json::object();
             }
     if (const auto images = root.find("images"); images != root.end())
         for (nlohmann::json& image : *images) {

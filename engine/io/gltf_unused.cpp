@@ -45,6 +45,8 @@ void move_indices(GltfDocument& document, Moves& moves) {
     move(indices.materials, moves["materials"]);
     move(indices.textures, moves["textures"]);
     move(indices.cameras, moves["cameras"]);
+    move(indices.skins, moves["skins"]);
+    move(indices.clips, moves["animations"]);
     for (auto& [id, light] : indices.lights) light.index = moves[list_name(light.list)][size_t(light.index)];
     std::erase_if(indices.lights, [](const auto& entry) { return entry.second.index < 0; });
     std::map<int, float> peaks;

@@ -4,6 +4,7 @@
 #include "io/gltf_convert.h"
 #include "io/gltf_extras.h"
 #include "io/gltf_source.h"
+#include "io/gltf_staging.h"
 #include "io/settings_json.h"
 
 #include <set>
@@ -89,12 +90,15 @@ std::vector<Numbered> nodes_in_order(GltfDocument& document) {
     const auto push_all = [&](const Json& indices) {
         for (auto it = indices.rbegin(); it != indices.rend(); ++it) waiting.push_back(it->get<int>());
     };
-    push_all(child_or_null(document.scene(), "nodes"));
+    document.scene(); // there is one
+    const Json& scenes = document.list("scenes");
+    for (auto scene = scenes.rbegin(); scene != scenes.rend(); ++scene) push_all(child_or_null(*scene, "nodes"));
+    std::set<int> seen; // roots of several scenes are read where they are met first
     while (!waiting.empty()) {
         const int index = waiting.back();
         waiting.pop_back();
         Json& object = document.object("nodes", index);
-        if (!ids[size_t(index)]) continue;
+        if (!ids[size_t(index)] || !seen.insert(index).second) continue;
         records.push_back({&object, ids[size_t(index)].value});
         push_all(child_or_null(object, "children"));
     }
@@ -129,6 +133,8 @@ void write_ids(GltfDocument& document) {
     write_ids_of(document, "materials", document.indices.materials);
     write_ids_of(document, "textures", document.indices.textures);
     write_ids_of(document, "cameras", document.indices.cameras);
+    write_ids_of(document, "skins", document.indices.skins);
+    write_ids_of(document, "animations", document.indices.clips);
     // The importer numbers the lights of all lists in one go.
     std::vector<Numbered> lights;
     for (const auto list : light_lists) {
@@ -164,10 +170,14 @@ void write_scene_extras(GltfDocument& document, const ImportedScene& read, const
     Environment environment = project.scene.environment;
     environment.image = read.scene.environment.image; // its pixels are its file's
     write_scene_member(scene, "environment", read.scene.environment, environment, to_json(environment));
+    write_scene_member(scene, "staging", read.scene.staging, project.scene.staging, staging_json(project.scene, document.indices));
     write_scene_member(scene, "mix", read.scene.mix, project.scene.mix, to_json(project.scene.mix));
     // Without a saved one the importer makes a view of what there is to see.
     Scene seen = read.scene;
     seen.meshes = project.scene.meshes;
+    seen.clips = project.scene.clips;
+    seen.skins = project.scene.skins;
+    seen.staging = project.scene.staging;
     write_scene_member(scene, "view", read.has_view ? read.scene.view : initial_view(seen), project.scene.view,
                        to_json(project.scene.view));
     write_scene_member(scene, "render", read.render.value_or(RenderSettings{}), project.render,

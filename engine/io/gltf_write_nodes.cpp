@@ -1,5 +1,7 @@
 #include "io/gltf_write.h"
 
+#include "io/scene_json.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -78,11 +80,28 @@ void write_light_reference(GltfDocument& document, Json& object, const Scene& sc
     }
 }
 
+// The node's own where its mesh does not say the same.
+void write_weights(GltfDocument& document, Json& object, const Node& node) {
+    const auto same = [&](const Json& weights) {
+        std::vector<float> now;
+        return read_json(weights, now) && now == node.morph_weights;
+    };
+    const auto mesh = document.indices.meshes.find(node.mesh);
+    const bool own = object.contains("weights");
+    const Json& says = own || mesh == document.indices.meshes.end() ? child_or_null(object, "weights")
+                                                                    : child_or_null(document.object("meshes", mesh->second), "weights");
+    if (same(says) || (node.morph_weights.empty() && says.is_null())) return;
+    erase(object, "weights");
+    for (const float weight : node.morph_weights) object["weights"].push_back(json_number(weight));
+}
+
 void write_attachments(GltfDocument& document, Json& object, const Scene& scene, const Node& node) {
     set_index(object, "mesh", index_of(document.indices.meshes, node.mesh));
     if (!node.mesh) {
         erase(object, "skin");
         erase(object, "weights");
+    } else {
+        write_weights(document, object, node);
     }
     set_index(object, "camera", index_of(document.indices.cameras, node.camera));
     write_light_reference(document, object, scene, node.light);
@@ -126,7 +145,15 @@ void write_tree(GltfDocument& document, const Scene& scene) {
         write_attachments(document, object, scene, node);
         if (is_bare(object) && !was_bare) blush_of(object);
     }
-    write_children(document, document.scene(), "nodes", children[Id<Node>{}]);
+    document.scene(); // there is one
+    Json& scenes = document.list("scenes");
+    for (size_t s = 0; s < scenes.size(); ++s) {
+        std::vector<int> roots;
+        for (const auto& [id, node] : scene.nodes)
+            if (!node.parent && (node.only_in_scenes.empty() || std::ranges::count(node.only_in_scenes, int32_t(s))))
+                roots.push_back(document.indices.nodes.at(id));
+        write_children(document, scenes[s], "nodes", roots);
+    }
 }
 
 } // namespace blush

@@ -1,5 +1,6 @@
 #include "io/gltf_write_payloads.h"
 
+#include "io/gltf_variants.h"
 #include "io/image_io.h"
 #include "scene/texture_slots.h"
 
@@ -11,7 +12,7 @@ namespace blush {
 namespace {
 
 constexpr int array_buffer = 34962, element_array_buffer = 34963;
-constexpr int float_component = 5126, uint_component = 5125;
+constexpr int float_component = 5126, uint_component = 5125, ushort_component = 5123;
 
 std::span<const uint8_t> bytes_of(const void* data, size_t size) { return {static_cast<const uint8_t*>(data), size}; }
 
@@ -21,16 +22,45 @@ template <class V> int append_vectors(GltfDocument& document, const std::vector<
     return append_floats(document, reinterpret_cast<const float*>(vectors.data()), vectors.size(), components, with_bounds);
 }
 
+void append_influences(GltfDocument& document, const Geometry& g, Json& attributes) {
+    const size_t vertices = g.positions.size(), per_vertex = g.influences.size() / std::max<size_t>(vertices, 1);
+    for (size_t set = 0; 4 * set < per_vertex; ++set) {
+        std::vector<uint16_t> joints;
+        std::vector<Vec4> weights;
+        for (size_t i = 0; i < vertices; ++i) {
+            const Influence* by = g.influences.data() + i * per_vertex + 4 * set;
+            weights.push_back({by[0].weight, by[1].weight, by[2].weight, by[3].weight});
+            for (size_t k = 0; k < 4; ++k) joints.push_back(by[k].joint);
+        }
+        const int view = document.append_view(bytes_of(joints.data(), joints.size() * sizeof(uint16_t)), array_buffer);
+        attributes[fmt::format("JOINTS_{}", set)] = document.append(
+            "accessors", {{"bufferView", view}, {"componentType", ushort_component}, {"count", vertices}, {"type", "VEC4"}});
+        attributes[fmt::format("WEIGHTS_{}", set)] = append_vectors(document, weights);
+    }
+}
+
 Json primitive_of(GltfDocument& document, const Geometry& g) {
     Json attributes{{"POSITION", append_vectors(document, g.positions, true)}};
     const auto add = [&](const std::string& name, const auto& vectors) {
         if (!vectors.empty()) attributes[name] = append_vectors(document, vectors);
     };
-    add("NORMAL", g.normals);
-    add("TANGENT", g.tangents);
+    // Normals that follow from the triangles are made anew by whoever bends them.
+    if (const bool bends = !g.targets.empty() || !g.influences.empty(); !(g.flat && bends)) {
+        add("NORMAL", g.normals);
+        add("TANGENT", g.tangents);
+    }
     for (size_t set = 0; set < g.uv.size(); ++set) add(fmt::format("TEXCOORD_{}", set), g.uv[set]);
     add("COLOR_0", g.colors);
-    return {{"attributes", std::move(attributes)}, {"indices", append_indices(document, g.indices)}};
+    append_influences(document, g, attributes);
+    Json primitive{{"attributes", std::move(attributes)}, {"indices", append_indices(document, g.indices)}};
+    for (const MorphTargetPtr& target : g.targets) {
+        Json offsets = Json::object();
+        if (!target->positions.empty()) offsets["POSITION"] = append_vectors(document, target->positions, true);
+        if (!target->normals.empty()) offsets["NORMAL"] = append_vectors(document, target->normals);
+        if (!target->tangents.empty()) offsets["TANGENT"] = append_vectors(document, target->tangents);
+        primitive["targets"].push_back(std::move(offsets));
+    }
+    return primitive;
 }
 
 // Parts that share triangles share accessors, as after the import of a file that is in the scene already.
@@ -46,6 +76,7 @@ void append_mesh(GltfDocument& document, Id<Mesh> id, const Mesh& mesh, Primitiv
         parts.push_back(int(object["primitives"].size()));
         object["primitives"].push_back(primitive->second);
     }
+    if (!mesh.target_names.empty()) object["extras"]["targetNames"] = mesh.target_names;
     document.indices.meshes[id] = document.append("meshes", std::move(object));
 }
 
@@ -108,6 +139,9 @@ void provide_uv_sets(GltfDocument& document, Json& primitive, int sets) {
     }
 }
 
+// The first without a variant.
+std::vector<Id<Material>> worn_by(const MeshPart& part) { return part.by_variant.empty() ? std::vector{part.material} : part.by_variant; }
+
 } // namespace
 
 UsedRecords used_records(const Scene& scene) {
@@ -119,7 +153,8 @@ UsedRecords used_records(const Scene& scene) {
     }
     for (const Id<Mesh> id : used.meshes)
         for (const MeshPart& part : scene.meshes.find(id)->parts)
-            if (scene.materials.contains(part.material)) used.materials.insert(part.material);
+            for (const Id<Material> material : worn_by(part))
+                if (scene.materials.contains(material)) used.materials.insert(material);
     for (const Id<Material> id : used.materials)
         for (const TextureSlot& slot : texture_slots)
             if (const Id<Texture> texture = (scene.materials.find(id)->*slot.ref).texture; scene.textures.contains(texture))
@@ -138,10 +173,13 @@ Result<void> write_payloads(GltfDocument& document, const GltfOrigin& has, const
         if (!has_triangles(document, has, id, mesh)) append_mesh(document, id, mesh, primitives);
         Json& object = document.object("meshes", document.indices.meshes.at(id));
         for (size_t part = 0; part < mesh.parts.size(); ++part) {
-            const auto material = document.indices.materials.find(mesh.parts[part].material);
+            const auto material = document.indices.materials.find(worn_by(mesh.parts[part]).front());
             Json& primitive = object["primitives"][size_t(document.indices.primitives.at(id)[part])];
             set_index(primitive, "material", material == document.indices.materials.end() ? -1 : material->second);
-            provide_uv_sets(document, primitive, uv_sets_of(scene, mesh.parts[part].material));
+            write_variants(primitive, mesh.parts[part], document.indices.materials);
+            int uv_sets = 0;
+            for (const Id<Material> worn : worn_by(mesh.parts[part])) uv_sets = std::max(uv_sets, uv_sets_of(scene, worn));
+            provide_uv_sets(document, primitive, uv_sets);
         }
     }
     return {};
@@ -149,11 +187,12 @@ Result<void> write_payloads(GltfDocument& document, const GltfOrigin& has, const
 
 int append_floats(GltfDocument& document, const float* values, size_t count, int components, bool with_bounds) {
     constexpr const char* types[] = {"", "SCALAR", "VEC2", "VEC3", "VEC4"};
+    const char* type = components == 16 ? "MAT4" : types[components];
     const size_t size = size_t(components);
     Json accessor{{"bufferView", document.append_view(bytes_of(values, count * size * sizeof(float)), array_buffer)},
                   {"componentType", float_component},
                   {"count", count},
-                  {"type", types[components]}};
+                  {"type", type}};
     for (size_t c = 0; c < size && with_bounds && count > 0; ++c) {
         float low = values[c], high = values[c];
         for (size_t i = 1; i < count; ++i) {

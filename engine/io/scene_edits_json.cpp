@@ -31,10 +31,17 @@ Json mesh_materials(const Mesh& mesh) {
     for (const MeshPart& part : mesh.parts) materials.push_back(to_json(part.material));
     return materials;
 }
+// By part, those of its variants.
+Json mesh_variants(const Mesh& mesh) {
+    Json variants = Json::array();
+    for (const MeshPart& part : mesh.parts) variants.push_back(to_json(part.by_variant));
+    return variants;
+}
 Json changed_fields(const Mesh& before, const Mesh& now) {
     Json changed = Json::object();
     if (before.name != now.name) changed["name"] = now.name;
     if (mesh_materials(before) != mesh_materials(now)) changed["materials"] = mesh_materials(now);
+    if (mesh_variants(before) != mesh_variants(now)) changed["variants"] = mesh_variants(now);
     return changed;
 }
 
@@ -74,6 +81,12 @@ Scene without_payloads(const Scene& imported, Scene now, Json& left_out) {
         left_out.push_back(fmt::format("texture \"{}\" has other pixels: pixels are not kept as text", texture.name));
         if (!old_texture) now.textures.remove(id);
     }
+    for (const Id<Clip> id : Table<Clip>::changed(imported.clips, now.clips))
+        if (const Clip* clip = now.clips.find(id))
+            left_out.push_back(fmt::format("animation \"{}\" leads other objects than the file's: keyframes are not kept as text", clip->name));
+    if (!imported.clips.contains(now.staging.clip)) now.staging.clip = {};
+    now.clips = imported.clips;
+    now.skins = imported.skins;
     const Table<Node> nodes = now.nodes;
     for (auto [id, node] : nodes) {
         if (!now.meshes.contains(node.mesh)) node.mesh = {};
@@ -81,6 +94,7 @@ Scene without_payloads(const Scene& imported, Scene now, Json& left_out) {
             left_out.push_back(fmt::format("node \"{}\" has copies of its mesh: their places are not kept as text", node.name));
             node.instances = nullptr;
         }
+        if (!now.skins.contains(node.skin)) node.skin = {};
         now.nodes.set(id, node);
     }
     const Table<Material> materials = now.materials;
@@ -137,6 +151,11 @@ bool set_fields(const Json& json, Mesh& mesh) {
     if (const auto it = json.find("materials"); it != json.end() && it->is_array() && it->size() == mesh.parts.size()) {
         bool read = true;
         for (size_t i = 0; i < mesh.parts.size(); ++i) read = read_json((*it)[i], mesh.parts[i].material) && read;
+        if (read) ++understood;
+    }
+    if (const auto it = json.find("variants"); it != json.end() && it->is_array() && it->size() == mesh.parts.size()) {
+        bool read = true;
+        for (size_t i = 0; i < mesh.parts.size(); ++i) read = read_json((*it)[i], mesh.parts[i].by_variant) && read;
         if (read) ++understood;
     }
     return json.is_object() && understood == json.size();
@@ -260,6 +279,7 @@ std::string edits_json(const Scene& imported, const Scene& edited) {
     add("cameras", table_edits(imported.cameras, now.cameras));
     add("environment", changed_fields(imported.environment, now.environment));
     add("mix", changed_fields(imported.mix, now.mix));
+    add("staging", changed_fields(imported.staging, now.staging));
     add("view", changed_fields(imported.view, now.view));
     add("left_out", std::move(left_out));
     return json_text(json);
@@ -287,6 +307,8 @@ Result<Scene> apply_edits_json(Scene scene, std::string_view text, const std::fi
     if (const auto ok = apply_environment(member(*json, "environment"), scene.environment, folder); !ok) return ok.error();
     if (const Json& mix = member(*json, "mix"); !mix.is_null() && !read_json(mix, scene.mix))
         return Error{"", "an unknown field, or a value of the wrong type", "mix"};
+    if (const Json& staging = member(*json, "staging"); !staging.is_null() && !read_json(staging, scene.staging))
+        return Error{"", "an unknown field, or a value of the wrong type", "staging"};
     if (const Json& view = member(*json, "view"); !view.is_null() && !read_json(view, scene.view))
         return Error{"", "an unknown field, or a value of the wrong type", "view"};
     if (const auto ok = validate(scene); !ok) return ok.error();

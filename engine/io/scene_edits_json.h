@@ -6,7 +6,7 @@
 //               "removed": [2]},
 //    "nodes": ..., "materials": ..., "cameras": ..., "textures": ...,
 //    "meshes": {"changed": [{"id": 4, "name": "Vase", "set": {"materials": [2, 0]}}]},
-//    "environment": {"rotation_degrees": 90.0}, "view": {"lens": {...}},
+//    "environment": {"rotation_degrees": 90.0}, "view": {"lens": {...}}, "staging": {"clip": 1, "seconds": 1.5},
 //    "left_out": ["mesh \"Chair\" was added: triangles are not kept as text"]}
 //
 // Ids are those of the import, which numbers a file's records the same each time; names are for people. Absent parts are

@@ -147,6 +147,16 @@ template <Is<Node> T, class V> void visit_fields(T& r, V&& visit) {
     visit("light", r.light);
     visit("camera", r.camera);
     visit("visible", r.visible);
+    visit("skin", r.skin);
+    visit("morph_weights", r.morph_weights);
+    visit("only_in_scenes", r.only_in_scenes);
+}
+
+template <Is<Staging> T, class V> void visit_fields(T& r, V&& visit) {
+    visit("clip", r.clip);
+    visit("seconds", r.seconds);
+    visit("scene", r.scene);
+    visit("variant", r.variant);
 }
 
 template <Is<Sky> T, class V> void visit_fields(T& r, V&& visit) {

@@ -91,6 +91,31 @@ void hash_mesh(Hasher& hash, const Mesh& mesh) {
         for (const std::vector<Vec2>& uv : g.uv) hash.array(uv);
         hash.array(g.colors);
         hash.array(g.indices);
+        for (const MorphTargetPtr& target : g.targets) {
+            hash.array(target->positions);
+            hash.array(target->normals);
+            hash.array(target->tangents);
+        }
+        for (const Influence& by : g.influences) {
+            hash.word(by.joint);
+            hash.word(std::bit_cast<uint32_t>(by.weight));
+        }
+    }
+}
+
+void hash_skin(Hasher& hash, const Skin& skin) {
+    for (const Id<Node> joint : skin.joints) hash.word(joint.value);
+    hash.array(skin.joint_from_mesh);
+}
+
+void hash_clip(Hasher& hash, const Clip& clip) {
+    hash.word(clip.channels.size());
+    for (const Channel& channel : clip.channels) {
+        hash.word(channel.node.value);
+        hash.word(uint64_t(channel.property));
+        hash.word(uint64_t(channel.keyframes->interpolation));
+        hash.array(channel.keyframes->times);
+        hash.array(channel.keyframes->values);
     }
 }
 
@@ -121,6 +146,9 @@ std::string scene_hash(const Scene& scene) {
         hash.word(id.value);
         hash_mesh(hash, mesh);
     }
+    for (const auto& [id, skin] : scene.skins) hash_skin(hash, skin);
+    for (const auto& [id, clip] : scene.clips) hash_clip(hash, clip);
+    visit_fields(scene.staging, hash);
     visit_fields(scene.environment, hash);
     if (scene.environment.kind == Environment::Kind::image) hash_image(hash, scene.environment.image);
     // Where the eye turns about is not seen; where it is and what it looks through are.

@@ -3,6 +3,7 @@
 #include "core/math.h"
 #include "render/light_groups.h"
 #include "scene/placements.h"
+#include "scene/staging.h"
 
 #include <algorithm>
 #include <map>
@@ -89,7 +90,7 @@ private:
     void give_own_mesh(Id<Node> node, Id<Material> from, Id<Material> to) {
         Mesh mesh = *out_.meshes.find(out_.nodes.find(node)->mesh);
         for (MeshPart& part : mesh.parts)
-            if (part.material == from) part.material = to;
+            if (part.material == from) wear(scene_, part, to);
         change(node, [&](Node& n) { n.mesh = out_.meshes.add(std::move(mesh)); });
     }
     template <class With> void change(Id<Node> id, const With& with) {

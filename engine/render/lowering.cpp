@@ -2,6 +2,7 @@
 
 #include "core/math.h"
 #include "scene/color_temperature.h"
+#include "scene/pose.h"
 #include "scene/shining.h"
 
 #include <cmath>
@@ -73,8 +74,10 @@ Vec3 light_emission(const Light& light) {
     return tint * light.intensity;
 }
 
-Scene lower_area_lights(const Scene& whole) {
-    const Scene scene = with_solo_applied(whole);
+Scene lower_area_lights(const Scene& whole, BentMeshes* known) {
+    Scene scene = with_solo_applied(with_pose_applied(whole));
+    BentMeshes none;
+    (known ? known : &none)->bend(scene);
     Scene lowered = scene;
     for (const auto& [id, node] : scene.nodes) {
         const Light* light = node.light ? scene.lights.find(node.light) : nullptr;

@@ -1,5 +1,6 @@
 #include "render/object_list.h"
 
+#include "render/bent_meshes.h"
 #include "scene/affine.h"
 #include "scene/placements.h"
 
@@ -40,7 +41,7 @@ std::vector<SceneObject> list_objects(const Scene& scene) {
     for (const auto& [id, node] : scene.nodes) {
         const Mesh* mesh = node.mesh ? scene.meshes.find(node.mesh) : nullptr;
         if (!mesh || !placements(id).visible) continue;
-        SceneObject object{id, {}, placements(id).world_from_node, false, node.instances};
+        SceneObject object{id, {}, world_from_mesh(scene, placements, id, node), false, node.instances};
         for (const MeshPart& part : mesh->parts)
             if (part.geometry && part.geometry->triangle_count() > 0) object.parts.push_back(part);
         if (object.parts.empty() || object.copies() == 0 || !is_finite(object.world_from_object)) continue;

@@ -1,5 +1,5 @@
 #include "scene/affine.h"
-#include "scene/placements.h"
+#include "scene/bend.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,21 +7,20 @@
 namespace blush {
 namespace {
 
-void include_mesh(const Scene& scene, const Node& node, const Affined& world_from_mesh, Bounds& bounds) {
-    const Mesh* mesh = scene.meshes.find(node.mesh);
-    if (!mesh) return;
-    for (const MeshPart& part : mesh->parts) {
+void include_parts(const std::vector<MeshPart>& parts, const Affined& world_from_mesh, Bounds& bounds) {
+    for (const MeshPart& part : parts) {
         if (!part.geometry) continue;
         for (const Vec3& p : part.geometry->positions) bounds.include(transform_point(world_from_mesh, to_double(p)));
     }
 }
 
 // Boxes around the mesh's box for copies, which are many.
-void include_node(const Scene& scene, const Node& node, const Affined& world_from_node, Bounds& bounds) {
-    if (!node.instances) return include_mesh(scene, node, world_from_node, bounds);
+void include_node(const Scene& scene, Placements& placements, Id<Node> id, const Node& node, Bounds& bounds) {
+    const PlacedMesh mesh = placed_mesh(scene, placements, id, node);
+    if (!node.instances) return include_parts(mesh.parts, mesh.world_from_mesh, bounds);
     Bounds box;
-    include_mesh(scene, node, Affined{}, box);
-    for (const Affine& place : node.instances->node_from_copy) bounds.include(box, world_from_node * to_double(place));
+    include_parts(mesh.parts, Affined{}, box);
+    for (const Affine& place : node.instances->node_from_copy) bounds.include(box, mesh.world_from_mesh * to_double(place));
 }
 
 } // namespace
@@ -49,7 +48,8 @@ double Bounds::radius() const { return 0.5 * length(high - low); }
 
 Bounds world_bounds(const Scene& scene, Id<Node> node) {
     Bounds bounds;
-    if (const Node* n = scene.nodes.find(node)) include_node(scene, *n, world_from_node(scene, node), bounds);
+    Placements placements(scene);
+    if (const Node* n = scene.nodes.find(node)) include_node(scene, placements, node, *n, bounds);
     return bounds;
 }
 
@@ -57,7 +57,7 @@ Bounds world_bounds(const Scene& scene) {
     Bounds bounds;
     Placements placements(scene);
     for (const auto& [id, node] : scene.nodes)
-        if (node.mesh && placements(id).visible) include_node(scene, node, placements(id).world_from_node, bounds);
+        if (node.mesh && placements(id).visible) include_node(scene, placements, id, node, bounds);
     return bounds;
 }
 

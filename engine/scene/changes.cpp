@@ -63,9 +63,18 @@ void diff_nodes(const Scene& before, const Scene& after, Changes& changes) {
         const bool moved_in_tree = a->parent != b->parent;
         if (moved_in_tree || a->local != b->local) changes.transforms.push_back(id);
         const bool shown_or_hidden = a->visible != b->visible || (moved_in_tree && is_visible(before, id) != is_visible(after, id));
-        if (shown_or_hidden || a->mesh != b->mesh || !same_payload(a->instances, b->instances) || a->light != b->light)
-            changes.structure.push_back(id);
+        const bool same_shape = a->mesh == b->mesh && a->skin == b->skin && a->morph_weights == b->morph_weights &&
+                                same_payload(a->instances, b->instances);
+        if (shown_or_hidden || !same_shape || a->light != b->light || a->only_in_scenes != b->only_in_scenes) changes.structure.push_back(id);
     }
+}
+
+bool same_moment(const Scene& a, const Scene& b) {
+    const Staging &before = a.staging, &after = b.staging;
+    if (before.scene != after.scene || before.clip != after.clip) return false;
+    if (!before.clip) return true;
+    const Clip *x = a.clips.find(before.clip), *y = b.clips.find(after.clip);
+    return before.seconds == after.seconds && x && y && x->channels == y->channels;
 }
 
 void diff_environment(const Environment& a, const Environment& b, Changes& changes) {
@@ -110,11 +119,11 @@ bool Changes::any() const { return stop_rules || affects_image(); }
 
 bool Changes::affects_image() const {
     return view || resolution || integrator || environment_parameters || environment_image || !transforms.empty() || !structure.empty() ||
-           !meshes.empty() || !materials.empty() || !textures.empty() || !lights.empty() || mix;
+           motion || !meshes.empty() || !materials.empty() || !textures.empty() || !lights.empty() || mix;
 }
 
 bool Changes::only_light() const {
-    return !view && !resolution && !integrator && !environment_image && transforms.empty() && structure.empty() && meshes.empty() &&
+    return !view && !resolution && !integrator && !environment_image && transforms.empty() && structure.empty() && !motion && meshes.empty() &&
            textures.empty();
 }
 
@@ -128,6 +137,7 @@ Changes diff(const Scene& before, const RenderSettings& before_settings, const S
     diff_environment(before.environment, after.environment, changes);
     diff_nodes(before, after, changes);
     diff_mix(before, after, changes);
+    changes.motion = !same_moment(before, after) || !(before.skins == after.skins);
     changes.meshes = seen_changes(before.meshes, after.meshes);
     changes.materials = seen_changes(before.materials, after.materials);
     changes.textures = seen_changes(before.textures, after.textures);

@@ -17,7 +17,8 @@ struct Changes {
     bool environment_parameters = false; // colour, intensity, rotation, visibility
     bool environment_image = false;      // kind or pixels
     std::vector<Id<Node>> transforms;    // local transform or parent changed
-    std::vector<Id<Node>> structure;     // node added, removed, shown, hidden, or given another mesh, other places for its copies or another light
+    std::vector<Id<Node>> structure;     // node added, removed, shown, hidden, or given another mesh, shape, light or other places for copies
+    bool motion = false;                 // clip, moment, which of the file's scenes is shown, or a skeleton
     std::vector<Id<Mesh>> meshes;        // geometry of a part changed, parts added or removed, material slot of a part changed
     std::vector<Id<Material>> materials;
     std::vector<Id<Texture>> textures;

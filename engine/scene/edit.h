@@ -29,6 +29,7 @@ struct SetEnvironment { Environment environment; };
 struct SetMix { LightMix mix; };
 struct BakeMix { Scene scene; };        // the same scene with the mix in its lights (render/bake_mix.h)
 struct SetLens { Lens lens; };          // of the view
+struct SetStaging { Staging staging; }; // a view through a camera that moves goes along
 struct SetRender { RenderSettings settings; };
 struct SetView { ViewSettings settings; };
 struct AddLight { Node node; Light light; }; // node.light is filled in by apply
@@ -39,7 +40,7 @@ struct LookThrough { Id<Node> camera_node; };
 struct Restore { Project project; std::string name; }; // all of it, as it was kept in the snapshot of that name
 
 using Edit = std::variant<SetNode, SetMaterial, SetLight, SetCamera, SetTexture, AssignMaterial, MakeEmissive, SetEnvironment, SetMix, BakeMix, SetLens,
-                          SetRender, SetView, AddLight, DuplicateNode, RemoveNode, Import, LookThrough, Restore>;
+                          SetStaging, SetRender, SetView, AddLight, DuplicateNode, RemoveNode, Import, LookThrough, Restore>;
 
 // "Change light Key", for the history menu.
 std::string label(const Edit& edit, const Project& project);

@@ -1,9 +1,12 @@
 #include "scene/edit_tree.h"
 
+#include "scene/pose.h"
 #include "scene/texture_slots.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -14,6 +17,8 @@ namespace {
 template <class T> class IdMap {
 public:
     void set(Id<T> from, Id<T> to) { to_[from.value] = to; }
+    auto begin() const { return to_.begin(); }
+    auto end() const { return to_.end(); }
     bool contains(Id<T> from) const { return to_.contains(from.value); }
     Id<T> operator()(Id<T> from) const {
         const auto it = to_.find(from.value);
@@ -21,7 +26,7 @@ public:
     }
 
 private:
-    std::unordered_map<uint32_t, Id<T>> to_;
+    std::map<uint32_t, Id<T>> to_; // in order, so that what is made of it is the same each time
 };
 
 template <class T, class Fix> IdMap<T> merge_table(Table<T>& table, const Table<T>& other, const Fix& fix) {
@@ -35,6 +40,18 @@ template <class T, class Fix> IdMap<T> merge_table(Table<T>& table, const Table<
 }
 
 constexpr auto unchanged = [](const auto&) {};
+
+// Without what other scenes of its file have.
+Scene shown_scene(Scene scene) {
+    if (scene.scene_names.empty()) return scene;
+    const Table<Node> nodes = scene.nodes;
+    for (auto [id, node] : nodes) {
+        if (is_of_other_scene(scene, node)) remove_subtree(scene, id);
+        node.only_in_scenes.clear();
+        scene.nodes.set(id, std::move(node));
+    }
+    return scene;
+}
 
 template <class T> Id<T> copy_record(Table<T>& table, Id<T> id) {
     const T* record = table.find(id);
@@ -50,6 +67,40 @@ std::string fresh_name(const Scene& scene, const std::string& name) {
     for (const auto& [id, node] : scene.nodes) taken.insert(node.name);
     for (int n = 2;; ++n)
         if (std::string candidate = fmt::format("{} {}", stem, n); !taken.contains(candidate)) return candidate;
+}
+
+// Copies of nodes that bring the joints of their skin along hang on those.
+void copy_skins(Scene& scene, const IdMap<Node>& copies) {
+    IdMap<Skin> skins;
+    for (const auto& [original, copy] : copies) {
+        Node node = *scene.nodes.find(copy);
+        const Skin* skin = scene.skins.find(node.skin);
+        if (!skin || std::ranges::none_of(skin->joints, [&](Id<Node> joint) { return copies.contains(joint); })) continue;
+        if (!skins.contains(node.skin)) {
+            Skin own = *skin;
+            for (Id<Node>& joint : own.joints)
+                if (copies.contains(joint)) joint = copies(joint);
+            skins.set(node.skin, scene.skins.add(std::move(own)));
+        }
+        node.skin = skins(node.skin);
+        scene.nodes.set(copy, std::move(node));
+    }
+}
+
+void sort_channels(Clip& clip) {
+    std::ranges::sort(clip.channels, {}, [](const Channel& c) { return std::pair(c.node, c.property); });
+}
+
+// Copies move as their originals do.
+void copy_channels(Scene& scene, const IdMap<Node>& copies) {
+    const Table<Clip> clips = scene.clips;
+    for (auto [id, clip] : clips) {
+        const std::vector<Channel> before = clip.channels;
+        for (const Channel& channel : before)
+            if (copies.contains(channel.node)) clip.channels.push_back({copies(channel.node), channel.property, channel.keyframes});
+        sort_channels(clip);
+        scene.clips.set(id, std::move(clip));
+    }
 }
 
 } // namespace
@@ -76,24 +127,32 @@ void duplicate_subtree(Scene& scene, Id<Node> root) {
         copy.camera = copy_record(scene.cameras, copy.camera);
         map.set(id, scene.nodes.add(std::move(copy)));
     }
+    copy_skins(scene, map);
+    copy_channels(scene, map);
 }
 
 void remove_subtree(Scene& scene, Id<Node> root) {
     for (const Id<Node> id : subtree(scene, root)) scene.nodes.remove(id);
 }
 
-void merge(Scene& scene, const Scene& other) {
+void merge(Scene& scene, const Scene& whole) {
+    const Scene other = shown_scene(whole);
     const IdMap<Texture> textures = merge_table(scene.textures, other.textures, unchanged);
     const IdMap<Material> materials = merge_table(scene.materials, other.materials, [&](Material& m) {
         for (const TextureSlot& slot : texture_slots) (m.*slot.ref).texture = textures((m.*slot.ref).texture);
     });
     const IdMap<Mesh> meshes = merge_table(scene.meshes, other.meshes, [&](Mesh& mesh) {
-        for (MeshPart& part : mesh.parts) part.material = materials(part.material);
+        for (MeshPart& part : mesh.parts) {
+            part.material = materials(part.material);
+            part.by_variant.clear(); // as it is dressed now: the scenes have their own lists of variants
+        }
     });
     const IdMap<Light> lights = merge_table(scene.lights, other.lights, unchanged);
     const IdMap<Camera> cameras = merge_table(scene.cameras, other.cameras, unchanged);
+    const IdMap<Skin> skins = merge_table(scene.skins, other.skins, unchanged);
     const IdMap<Node> nodes = merge_table(scene.nodes, other.nodes, [&](Node& node) {
         node.mesh = meshes(node.mesh);
+        node.skin = skins(node.skin);
         node.light = lights(node.light);
         node.camera = cameras(node.camera);
     });
@@ -103,6 +162,16 @@ void merge(Scene& scene, const Scene& other) {
         node.parent = nodes(old_node.parent);
         scene.nodes.set(nodes(old_id), std::move(node));
     }
+    for (const auto& [old_id, old_skin] : other.skins) {
+        Skin skin = old_skin;
+        for (Id<Node>& joint : skin.joints) joint = nodes(joint);
+        scene.skins.set(skins(old_id), std::move(skin));
+    }
+    merge_table(scene.clips, other.clips, [&](Clip& clip) {
+        for (Channel& channel : clip.channels) channel.node = nodes(channel.node);
+        std::erase_if(clip.channels, [](const Channel& channel) { return !channel.node; });
+        sort_channels(clip);
+    });
 }
 
 } // namespace blush

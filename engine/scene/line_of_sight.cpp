@@ -1,7 +1,7 @@
 #include "scene/line_of_sight.h"
 
 #include "scene/affine.h"
-#include "scene/placements.h"
+#include "scene/bend.h"
 
 #include <algorithm>
 #include <cmath>
@@ -37,7 +37,7 @@ bool lets_light_through(const Material* m) {
 }
 
 // The parts of a mesh that are in the way of light.
-std::vector<const Geometry*> solid_parts(const Scene& scene, const Mesh& mesh) {
+std::vector<const Geometry*> solid_parts(const Scene& scene, const PlacedMesh& mesh) {
     std::vector<const Geometry*> parts;
     for (const MeshPart& part : mesh.parts)
         if (part.geometry && !lets_light_through(scene.materials.find(part.material))) parts.push_back(part.geometry.get());
@@ -78,13 +78,12 @@ double nearest_in(const std::vector<const Geometry*>& parts, const Affined& worl
 }
 
 // The nearest in the mesh of a node, or in all copies of it.
-double nearest_in(const Scene& scene, const Node& node, const Mesh& mesh, const Affined& world_from_node, const Vec3d& from, const Vec3d& to,
-                  double nearest) {
+double nearest_in(const Scene& scene, const Node& node, const PlacedMesh& mesh, const Vec3d& from, const Vec3d& to, double nearest) {
     const std::vector<const Geometry*> parts = solid_parts(scene, mesh);
-    if (!node.instances) return nearest_in(parts, world_from_node, nullptr, from, to, nearest);
+    if (!node.instances) return nearest_in(parts, mesh.world_from_mesh, nullptr, from, to, nearest);
     const Bounds box = box_of(parts);
     for (const Affine& place : node.instances->node_from_copy)
-        nearest = nearest_in(parts, world_from_node * to_double(place), &box, from, to, nearest);
+        nearest = nearest_in(parts, mesh.world_from_mesh * to_double(place), &box, from, to, nearest);
     return nearest;
 }
 
@@ -95,10 +94,8 @@ std::optional<Id<Node>> first_between(const Scene& scene, const Vec3d& from, con
     double nearest = 1;
     std::optional<Id<Node>> first;
     for (const auto& [id, node] : scene.nodes) {
-        const Mesh* mesh = scene.meshes.find(node.mesh);
-        const Placement& placed = placements(id);
-        if (!mesh || !placed.visible || !counts(id)) continue;
-        const double t = nearest_in(scene, node, *mesh, placed.world_from_node, from, to, nearest);
+        if (!node.mesh || !placements(id).visible || !counts(id)) continue;
+        const double t = nearest_in(scene, node, placed_mesh(scene, placements, id, node), from, to, nearest);
         if (t < nearest) {
             nearest = t;
             first = id;

@@ -1,6 +1,7 @@
 #include "scene/placements.h"
 
 #include "core/math.h"
+#include "scene/pose.h"
 
 namespace blush {
 
@@ -22,9 +23,9 @@ const Placement& Placements::operator()(Id<Node> id) {
     }
     // Multiplied from the root down, whatever is known already: the product is the same to the last bit.
     for (auto link = unknown.rbegin(); link != unknown.rend(); ++link) {
-        const Affined local = to_affine(link->node->local);
-        const Placement here = above ? Placement{above->world_from_node * local, above->visible && link->node->visible}
-                                     : Placement{local, link->node->visible};
+        const Affined local = to_affine(posed_transform(scene_, Id<Node>{link->id}, *link->node));
+        const bool shown = link->node->visible && !is_of_other_scene(scene_, *link->node);
+        const Placement here = above ? Placement{above->world_from_node * local, above->visible && shown} : Placement{local, shown};
         above = &known_.insert_or_assign(link->id, here).first->second;
     }
     static const Placement nowhere;

@@ -21,12 +21,22 @@ Result<void> check_references(const Scene& scene, const Node& node) {
     if (auto known = none_or_known(scene.nodes, node.parent, "parent node", "node", node.name); !known) return known;
     if (auto known = none_or_known(scene.meshes, node.mesh, "mesh", "node", node.name); !known) return known;
     if (auto known = none_or_known(scene.lights, node.light, "light", "node", node.name); !known) return known;
+    if (auto known = none_or_known(scene.skins, node.skin, "skin", "node", node.name); !known) return known;
+    for (const int32_t s : node.only_in_scenes)
+        if (s < 0 || size_t(s) >= scene.scene_names.size())
+            return Error{.what = fmt::format("there is no scene {}", s), .where = fmt::format("node \"{}\"", node.name)};
     return none_or_known(scene.cameras, node.camera, "camera", "node", node.name);
 }
 
 Result<void> check_references(const Scene& scene, const Mesh& mesh) {
-    for (const MeshPart& part : mesh.parts)
+    for (const MeshPart& part : mesh.parts) {
         if (auto known = none_or_known(scene.materials, part.material, "material", "mesh", mesh.name); !known) return known;
+        for (const Id<Material> material : part.by_variant)
+            if (auto known = none_or_known(scene.materials, material, "material", "mesh", mesh.name); !known) return known;
+        if (!part.by_variant.empty() && part.by_variant.size() != scene.variants.size() + 1)
+            return Error{.what = fmt::format("{} materials for {} variants", part.by_variant.size() - 1, scene.variants.size()),
+                         .where = fmt::format("mesh \"{}\"", mesh.name)};
+    }
     return {};
 }
 

@@ -8,6 +8,7 @@
 
 #include "core/vec.h"
 #include "scene/cow.h"
+#include "scene/motion.h"
 
 #include <cstdint>
 #include <memory>
@@ -29,6 +30,9 @@ struct Geometry {
     std::vector<std::vector<Vec2>> uv; // uv[i] is TEXCOORD_i; (0, 0) is the top left corner of the image, as in glTF
     std::vector<Vec4> colors;   // linear RGBA, multiplies the base colour
     std::vector<uint32_t> indices; // 3 per triangle, all < positions.size()
+    bool flat = false;             // the normals are the triangles' own: they are made anew where something bends
+    std::vector<MorphTargetPtr> targets;
+    std::vector<Influence> influences; // empty, or as many for each vertex, their weights summing to 1
 
     size_t triangle_count() const { return indices.size() / 3; }
     bool has_uv_set(int set) const { return size_t(set) < uv.size() && !uv[size_t(set)].empty(); }
@@ -128,11 +132,13 @@ struct Material {
 struct MeshPart {
     GeometryPtr geometry;
     Id<Material> material; // none: glTF's default material
+    std::vector<Id<Material>> by_variant = {}; // empty: always the same; else the one without a variant, then each variant's, none for the first
     bool operator==(const MeshPart&) const = default;
 };
 struct Mesh {
     std::string name;
     std::vector<MeshPart> parts;
+    std::vector<std::string> target_names = {}; // of morph targets, as far as they have any
     bool operator==(const Mesh&) const = default;
 };
 
@@ -221,6 +227,9 @@ struct Node {
     Id<Light> light;
     Id<Camera> camera;
     bool visible = true; // false hides the node and all below it, light included
+    Id<Skin> skin;       // what the mesh hangs on
+    std::vector<float> morph_weights;    // of the mesh's targets; those that are missing are 0
+    std::vector<int32_t> only_in_scenes; // of a root: indices into Scene::scene_names; empty: all
     bool operator==(const Node&) const = default;
 };
 
@@ -288,6 +297,11 @@ struct Scene {
     Table<Texture> textures;
     Table<Light> lights;
     Table<Camera> cameras;
+    Table<Skin> skins;
+    Table<Clip> clips;
+    std::vector<std::string> scene_names; // of a file with several; empty: there is nothing to choose
+    std::vector<std::string> variants;
+    Staging staging;
     Environment environment;
     LightMix mix;
     View view;
@@ -300,13 +314,16 @@ struct Scene {
 Affined to_affine(const Transform& transform);
 // Best TRS for a matrix; keeps the matrix when no TRS reproduces it to 1e-5 relative.
 Transform to_transform(const Affined& matrix);
-// Product of the node's and its ancestors' transforms, composed in double. A parent cycle, which no import or
-// edit lets in, ends at the table's size.
+// Product of the node's and its ancestors' transforms, as the chosen clip has them, composed in double. A parent cycle, which no import
+// or edit lets in, ends at the table's size.
 Affined world_from_node(const Scene& scene, Id<Node> node);
-// The node and all its ancestors are visible.
+// The node and all its ancestors are visible, and are of the chosen scene.
 bool is_visible(const Scene& scene, Id<Node> node);
 // View that looks through a camera node.
 View view_through(const Scene& scene, Id<Node> camera_node);
+
+// The same but for what orbiting turns about: no geometry is looked at.
+View eye_of(const Scene& scene, Id<Node> camera_node);
 
 struct Bounds {
     Vec3d low{0, 0, 0}, high{0, 0, 0};

@@ -55,7 +55,7 @@ Transform to_transform(const Affined& matrix) {
     return relative_error(matrix, without_matrix) <= 1e-5 ? without_matrix : trs;
 }
 
-View view_through(const Scene& scene, Id<Node> camera_node) {
+View eye_of(const Scene& scene, Id<Node> camera_node) {
     const Node* node = scene.nodes.find(camera_node);
     const Camera* camera = node ? scene.cameras.find(node->camera) : nullptr;
     if (!camera) return scene.view;
@@ -64,10 +64,18 @@ View view_through(const Scene& scene, Id<Node> camera_node) {
     view.position = to_float(world_from_camera.t);
     view.rotation = to_quat(rotation_of(world_from_camera));
     view.lens = camera->lens;
+    return view;
+}
+
+View view_through(const Scene& scene, Id<Node> camera_node) {
+    const Node* node = scene.nodes.find(camera_node);
+    if (!node || !scene.cameras.contains(node->camera)) return scene.view;
+    const Vec3d eye = world_from_node(scene, camera_node).t;
+    View view = eye_of(scene, camera_node);
     // Orbiting turns about what is in the picture: the point of the axis beside the middle of the scene.
     const Bounds bounds = world_bounds(scene);
     const Vec3d forward = to_affine(view.rotation).z * -1;
-    const double to_middle = bounds.empty ? 0 : dot(bounds.center() - world_from_camera.t, forward);
+    const double to_middle = bounds.empty ? 0 : dot(bounds.center() - eye, forward);
     if (to_middle > 1e-3 * bounds.radius()) view.pivot_distance = float(to_middle);
     return view;
 }

@@ -76,6 +76,7 @@ Result<void> validate(const Node& node) {
     const double norm = std::sqrt(double(q.x) * q.x + double(q.y) * q.y + double(q.z) * q.z + double(q.w) * q.w);
     check.is(norm > 1e-6 && std::isfinite(norm), "rotation must be a quaternion of finite length above 0");
     check.is(!local.matrix || is_finite(to_double(*local.matrix)), "matrix must hold finite numbers");
+    for (const float weight : node.morph_weights) check.finite("morph weight", weight);
     return std::move(check).done();
 }
 

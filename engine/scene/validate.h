@@ -21,6 +21,8 @@ Result<void> validate(const RenderSettings& settings);
 Result<void> validate(const ViewSettings& settings);
 // Array sizes and indices; the numbers themselves are the renderer's business, which drops what it cannot use.
 Result<void> validate(const Mesh& mesh);
+Result<void> validate(const Skin& skin);
+Result<void> validate(const Clip& clip);
 // Every record, every id (references.h), and that nodes form a forest.
 Result<void> validate(const Scene& scene);
 

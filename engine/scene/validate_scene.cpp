@@ -1,9 +1,13 @@
+#include "scene/affine.h"
+#include "scene/keyframes.h"
 #include "scene/references.h"
+#include "scene/staging.h"
 #include "scene/validate.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <unordered_map>
 
 namespace blush {
@@ -27,7 +31,20 @@ bool is_whole(const Geometry& g) {
     const size_t n = g.positions.size();
     return array_fits(g.normals.size(), n) && array_fits(g.tangents.size(), n) && array_fits(g.colors.size(), n) &&
            std::ranges::all_of(g.uv, [n](const auto& uv) { return array_fits(uv.size(), n); }) && g.indices.size() % 3 == 0 &&
-           std::ranges::all_of(g.indices, [n](uint32_t i) { return i < n; });
+           std::ranges::all_of(g.indices, [n](uint32_t i) { return i < n; }) && (n == 0 || g.influences.size() % n == 0) &&
+           std::ranges::all_of(g.targets, [n](const MorphTargetPtr& t) {
+               return t && array_fits(t->positions.size(), n) && array_fits(t->normals.size(), n) && array_fits(t->tangents.size(), n);
+           });
+}
+
+bool is_whole(const Channel& channel) {
+    const Keyframes* k = channel.keyframes.get();
+    if (!k || k->times.empty() || k->values.size() % k->times.size() != 0 || !std::ranges::is_sorted(k->times)) return false;
+    const auto finite = [](float v) { return std::isfinite(v); };
+    if (!std::ranges::all_of(k->times, finite) || !std::ranges::all_of(k->values, finite)) return false;
+    using Property = Channel::Property;
+    if (channel.property == Property::morph_weights) return true;
+    return width_of(*k) == (channel.property == Property::rotation ? 4 : 3);
 }
 
 // A node that is its own ancestor, or none; all parents exist. No node is looked at twice.
@@ -51,6 +68,21 @@ Result<void> validate(const Mesh& mesh) {
     return {};
 }
 
+Result<void> validate(const Skin& skin) {
+    const bool good = skin.joints.size() == skin.joint_from_mesh.size() &&
+                      std::ranges::all_of(skin.joint_from_mesh, [](const Affine& m) { return is_finite(to_double(m)); });
+    if (good) return {};
+    return Error{.what = "each joint needs a matrix of finite numbers", .where = fmt::format("skin \"{}\"", skin.name)};
+}
+
+Result<void> validate(const Clip& clip) {
+    const auto order = [](const Channel& a, const Channel& b) { return std::pair(a.node, a.property) < std::pair(b.node, b.property); };
+    const bool good = clip.seconds >= 0 && std::isfinite(clip.seconds) && std::ranges::is_sorted(clip.channels, order) &&
+                      std::ranges::all_of(clip.channels, [](const Channel& channel) { return is_whole(channel); });
+    if (good) return {};
+    return Error{.what = "times, keyframes and channels do not fit together", .where = fmt::format("clip \"{}\"", clip.name)};
+}
+
 Result<void> validate(const Scene& scene) {
     if (auto valid = validate_records(scene.nodes); !valid) return valid;
     if (auto valid = validate_records(scene.meshes); !valid) return valid;
@@ -58,6 +90,9 @@ Result<void> validate(const Scene& scene) {
     if (auto valid = validate_records(scene.textures); !valid) return valid;
     if (auto valid = validate_records(scene.lights); !valid) return valid;
     if (auto valid = validate_records(scene.cameras); !valid) return valid;
+    if (auto valid = validate_records(scene.skins); !valid) return valid;
+    if (auto valid = validate_records(scene.clips); !valid) return valid;
+    if (auto valid = check_staging(scene, scene.staging); !valid) return valid;
     if (auto valid = validate(scene.environment); !valid) return valid;
     if (auto valid = validate(scene.mix); !valid) return valid;
     if (auto valid = validate(scene.view.lens); !valid) return valid;

@@ -2,6 +2,7 @@
 #include "core/math.h"
 #include "scene/affine.h"
 #include "scene/document.h"
+#include "scene/staging.h"
 #include "support/pictures.h"
 #include "session/rich_project.h"
 #include "support/random_edits.h"
@@ -105,6 +106,27 @@ TEST_P(RandomEdits, RenderAsIfTheSceneWereJustOpenedAndUndoToTheFirstImage) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomEdits, ::testing::Values(1u, 2u));
+
+// Moments of clips, forth and back: of nodes, of a skin and of a morph target.
+TEST(Renderer, FollowsAnimationsBitForBit) {
+    Project project = test::rich_project();
+    Updated updated(project);
+    const Frame first = updated.picture();
+    for (const auto& [id, clip] : Table<Clip>(project.scene.clips))
+        for (const float t : {0.f, 0.7f, 1.9f, 0.7f}) {
+            project.scene = staged(project.scene, {.clip = id, .seconds = t});
+            updated.follow(project);
+            EXPECT_TRUE(same_picture(updated.picture(), fresh_picture(project.scene, project.render, samples))) << clip.name << " at " << t;
+            EXPECT_EQ(same_picture(updated.picture(), first), t == 0 && clip.name == "Swing") << clip.name << " at " << t;
+        }
+    project.scene = staged(project.scene, {.scene = 1});
+    updated.follow(project);
+    EXPECT_TRUE(same_picture(updated.picture(), fresh_picture(project.scene, project.render, samples)));
+    EXPECT_FALSE(same_picture(updated.picture(), first)) << "the other scene looks the same";
+    project.scene = staged(project.scene, {});
+    updated.follow(project);
+    EXPECT_TRUE(same_picture(updated.picture(), first));
+}
 
 // Far from the origin a scene is rendered about another one: moving there and back leaves no trace, in tables that the edit itself did
 // not ask to be rewritten either.

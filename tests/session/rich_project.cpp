@@ -144,6 +144,59 @@ void add_lights(Builder& b) {
     b.light("Hidden ball", {-0.2f, 0.6f, 1.8f}, {}, [](Light& l) { l.kind = Light::Kind::sphere, l.radius = 0.15f, l.visible_to_camera = false; });
 }
 
+// A flag on two joints, whose tip a morph target lifts: the clip turns the upper joint and raises the weight. And a leaf that only the
+// other one of two scenes has.
+void add_motion(Builder& b) {
+    Scene& scene = b.project().scene;
+    auto g = std::make_shared<Geometry>();
+    auto lifted = std::make_shared<MorphTarget>();
+    for (int i = 0; i < 5; ++i)
+        for (int side = 0; side < 2; ++side) {
+            const float along = float(i) / 4;
+            g->positions.push_back({along, float(side) * 0.5f, 0});
+            g->normals.push_back({0, 0, 1});
+            g->influences.insert(g->influences.end(), {{0, 1 - along}, {1, along}});
+            lifted->positions.push_back({0, 0.4f * along, 0});
+        }
+    for (uint32_t i = 0; i < 8; i += 2) g->indices.insert(g->indices.end(), {i, i + 2, i + 3, i, i + 3, i + 1});
+    g->targets.push_back(std::move(lifted));
+    Material cloth;
+    cloth.metallic = 0;
+    cloth.base_color = {0.7f, 0.2f, 0.1f};
+    cloth.double_sided = true;
+    const Id<Material> material = scene.materials.add(cloth);
+
+    Node joint;
+    joint.name = "Pole";
+    joint.local.translation = {-1.4f, 0.9f, 0.5f};
+    const Id<Node> pole = scene.nodes.add(joint);
+    joint.name = "Tip";
+    joint.parent = pole;
+    joint.local.translation = {0.8f, 0, 0};
+    const Id<Node> tip = scene.nodes.add(joint);
+    Affine back;
+    back.t = {-0.8f, 0, 0};
+    const Id<Node> flag = b.place("Flag", scene.meshes.add({"Flag", {{std::move(g), material}}}), {5, 5, 5});
+    Node hung = *scene.nodes.find(flag);
+    hung.skin = scene.skins.add({"Pole and tip", {pole, tip}, {Affine{}, back}});
+    hung.morph_weights = {0.3f};
+    scene.nodes.set(flag, hung);
+    const auto keys = [](std::vector<float> values) {
+        return std::make_shared<const Keyframes>(Keyframes{Keyframes::Interpolation::linear, {0, 1, 2}, std::move(values)});
+    };
+    scene.clips.add({"Wave", 2,
+                     {{tip, Channel::Property::rotation, keys({0, 0, 0, 1, 0, 0.6f, 0, 0.8f, 0, -0.6f, 0, 0.8f})},
+                      {flag, Channel::Property::morph_weights, keys({0, 1, 0.5f})}}});
+
+    scene.scene_names = {"Summer", "Winter"};
+    Node evergreen = *scene.nodes.find(flag);
+    evergreen.name = "Evergreen";
+    evergreen.skin = {};
+    evergreen.local.translation = {0.2f, 0.7f, 1};
+    evergreen.only_in_scenes = {1};
+    scene.nodes.add(evergreen);
+}
+
 } // namespace
 
 GeometryPtr hill_geometry() {
@@ -168,6 +221,7 @@ Project rich_project() {
     Builder b;
     add_things(b);
     add_lights(b);
+    add_motion(b);
     b.project().scene.environment.kind = Environment::Kind::image;
     b.project().scene.environment.image = sky();
     b.project().render.width = 48;

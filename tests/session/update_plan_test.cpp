@@ -229,6 +229,12 @@ TEST_F(EditCost, SetEnvironment) {
 
 TEST_F(EditCost, SetLens) { EXPECT_EQ(cost_of(SetLens{{.aperture_radius = 0.1f}}), camera()); }
 
+TEST_F(EditCost, SetStaging) {
+    EXPECT_EQ(cost_of(SetStaging{{.seconds = 1}}), nothing()) << "of no clip";
+    EXPECT_EQ(cost_of(SetStaging{{.clip = sample.swing, .seconds = 1}}), moved());
+    EXPECT_EQ(cost_of(SetStaging{{.variant = 1}}), listed_anew()) << "another material";
+}
+
 TEST_F(EditCost, SetRender) {
     EXPECT_EQ(cost_of_render([](RenderSettings& r) { r.spp = 7, r.seconds = 8, r.error = 9; }), nothing());
     EXPECT_EQ(cost_of_render([](RenderSettings& r) { r.width = 7; }), film_size());

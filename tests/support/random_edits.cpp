@@ -122,12 +122,13 @@ std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<SetNode>
     const auto* entry = pick(rng, p.scene.nodes);
     if (!entry) return {};
     Node node = entry->value;
-    switch (whole(rng, 0, 4)) {
+    switch (whole(rng, 0, node.morph_weights.empty() ? 4 : 5)) {
     case 0: node.local.translation = place(rng); break;
     case 1: node.local.rotation = turn(rng); break;
     case 2: node.local.scale = {uniform(rng, 0.3f, 2), uniform(rng, 0.3f, 2), uniform(rng, -2, -0.3f)}; break;
     case 3: node.visible = !node.visible; break;
     case 4: node.parent = new_parent(rng, p.scene, entry->id); break;
+    case 5: node.morph_weights.front() = uniform(rng, -1, 2); break;
     }
     return SetNode{entry->id, node};
 }
@@ -215,6 +216,16 @@ std::optional<Edit> make(Rng&, const Project& p, std::type_identity<BakeMix>) {
     return bake_mix(p.scene);
 }
 std::optional<Edit> make(Rng& rng, const Project&, std::type_identity<SetLens>) { return SetLens{lens(rng)}; }
+std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<SetStaging>) {
+    Staging staging = p.scene.staging;
+    switch (whole(rng, 0, 3)) {
+    case 0: staging.clip = coin(rng) ? pick_id(rng, p.scene.clips) : Id<Clip>{}; break;
+    case 1: staging.seconds = uniform(rng, 0, 3); break;
+    case 2: staging.variant = whole(rng, -1, int(p.scene.variants.size()) - 1); break;
+    case 3: staging.scene = whole(rng, 0, std::max(0, int(p.scene.scene_names.size()) - 1)); break;
+    }
+    return SetStaging{staging};
+}
 std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<SetRender>) {
     RenderSettings r = p.render;
     switch (whole(rng, 0, 9)) {

@@ -50,7 +50,8 @@ Sample sample_project() {
     grey.metallic = 0;
     s.grey = scene.materials.add(grey);
 
-    s.quad = scene.meshes.add({"Quad", {{quad_geometry(), s.red}, {quad_geometry(), s.grey}}});
+    scene.variants = {"As it is", "All grey"};
+    s.quad = scene.meshes.add({"Quad", {{quad_geometry(), s.red, {s.red, {}, s.grey}}, {quad_geometry(), s.grey, {}}}, {}});
 
     Light lamp;
     lamp.name = "Lamp";
@@ -79,6 +80,13 @@ Sample sample_project() {
     change(s.table, [&](Node& n) { n.mesh = s.quad, n.local.scale = {4, 4, 4}; });
     change(s.lamp_node, [&](Node& n) { n.light = s.lamp; });
     change(s.camera_node, [&](Node& n) { n.camera = s.camera; });
+
+    const auto keys = [](std::vector<float> values) {
+        return std::make_shared<const Keyframes>(Keyframes{Keyframes::Interpolation::linear, {0, 2}, std::move(values)});
+    };
+    s.swing = scene.clips.add({"Swing", 2,
+                               {{s.mug, Channel::Property::rotation, keys({0, 0, 0, 1, 0, 0.70710678f, 0, 0.70710678f})},
+                                {s.lamp_node, Channel::Property::translation, keys({0, 0, 3, 2, 0, 3})}}});
 
     scene.environment.kind = Environment::Kind::constant;
     scene.environment.color = {0.1f, 0.1f, 0.2f};

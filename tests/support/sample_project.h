@@ -1,4 +1,4 @@
-// A small project with one of everything, for tests of the document and of what follows from editing it.
+// A small project with one of everything, a clip and two variants of the red material, for tests of the document and of what follows from editing it.
 #pragma once
 
 #include "scene/edit.h"
@@ -20,6 +20,7 @@ struct Sample {
     Id<Texture> checker;
     Id<Light> lamp;
     Id<Camera> camera;
+    Id<Clip> swing; // 2 s: the lamp goes 2 m to the right, the mug turns a quarter about Y
 };
 Sample sample_project();
 

@@ -21,6 +21,18 @@ TEST(Layout, RegionsCoverTheWindowWithoutGapOrOverlap) {
     }
 }
 
+TEST(Layout, ARowBelowThePictureTakesItsHeightFromIt) {
+    const Layout without = lay_out(1280, 801, 22, 27, 15, {}), with = lay_out(1280, 801, 22, 27, 15, {}, 30);
+    EXPECT_EQ(without.time.height, 0);
+    EXPECT_EQ(with.time.height, 30);
+    EXPECT_EQ(with.viewport.height, without.viewport.height - 30);
+    EXPECT_EQ(with.time.y, with.viewport.y + with.viewport.height);
+    EXPECT_EQ(with.time.y + with.time.height, with.status.y);
+    EXPECT_EQ(with.time.x, with.viewport.x);
+    EXPECT_EQ(with.time.width, with.viewport.width);
+    EXPECT_EQ(with.inspector, without.inspector);
+}
+
 TEST(Layout, TheViewportKeepsSomeRoom) {
     const Layout l = lay_out(480, 400, 22, 27, 15, {45, 45});
     EXPECT_GE(l.viewport.width, 15 * 16 - 2);

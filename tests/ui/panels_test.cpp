@@ -35,6 +35,7 @@ protected:
                 in_window([&] {
                     PanelContext c{document, ui, *color, frame, SessionStatus(), 640, 480};
                     draw_outliner(c);
+                    draw_time(c);
                     draw_status_bar(c);
                     draw_inspector(c);
                     draw_history(c);

@@ -74,6 +74,49 @@ TEST(Overrides, WithoutACameraTheSceneIsFramed) {
     EXPECT_EQ(apply_overrides({.camera = "A"}, scene, 1).error().text(), "there is no camera \"A\": the scene has none");
 }
 
+TEST(Overrides, AnimationsScenesAndVariantsGoByNameOrNumber) {
+    Sample s = sample_project();
+    s.project.scene.scene_names = {"Day", "Night"};
+    const auto staging = [&](const StagingChoice& choice) {
+        Scene scene = s.project.scene;
+        const Result<void> applied = apply_overrides({.staging = choice}, scene, 1);
+        EXPECT_TRUE(applied) << applied.error().text();
+        return scene.staging;
+    };
+    EXPECT_EQ(staging({}), Staging{});
+    EXPECT_EQ(staging({.animation = "Swing", .seconds = 1.5f}), (Staging{.clip = s.swing, .seconds = 1.5f}));
+    EXPECT_EQ(staging({.animation = "0"}), (Staging{.clip = s.swing}));
+    EXPECT_EQ(staging({.scene = "Night"}).scene, 1);
+    EXPECT_EQ(staging({.variant = "All grey"}).variant, 1);
+    s.project.scene.staging = {.clip = s.swing, .seconds = 1, .variant = 1};
+    EXPECT_EQ(staging({.seconds = 0.5f}), (Staging{.clip = s.swing, .seconds = 0.5f, .variant = 1})) << "of what the file chose";
+    EXPECT_EQ(staging({.animation = "none", .variant = "none"}), Staging{});
+}
+
+TEST(Overrides, WhatThereIsNotToChooseIsSaid) {
+    const auto error = [](const StagingChoice& choice) {
+        Scene scene = sample_project().project.scene;
+        const Result<void> applied = apply_overrides({.staging = choice}, scene, 1);
+        return applied ? "" : applied.error().text();
+    };
+    EXPECT_EQ(error({.animation = "Jump"}), "there is no animation \"Jump\" (there are \"Swing\")");
+    EXPECT_EQ(error({.scene = "1"}), "there is no scene \"1\" (the file has none)");
+    EXPECT_EQ(error({.variant = "Blue"}), "there is no variant of materials \"Blue\" (there are \"As it is\", \"All grey\")");
+    EXPECT_EQ(error({.seconds = 1.f}), "a time of which animation? --animation says");
+    EXPECT_FALSE(error({.animation = "Swing", .seconds = -1.f}).empty());
+}
+
+// The camera is where the animation has it.
+TEST(Overrides, ACameraIsChosenInThePose) {
+    Sample s = sample_project();
+    Clip clip = *s.project.scene.clips.find(s.swing);
+    clip.channels.push_back({s.camera_node, Channel::Property::translation, clip.channels.back().keyframes});
+    s.project.scene.clips.set(s.swing, clip);
+    Scene scene = s.project.scene;
+    ASSERT_TRUE(apply_overrides({.camera = "Camera", .staging = {.animation = "Swing", .seconds = 1.f}}, scene, 1));
+    EXPECT_EQ(scene.view.position, (Vec3{1, 0, 3}));
+}
+
 TEST(Overrides, LensAndEnvironment) {
     Scene scene = sample_project().project.scene;
     ASSERT_TRUE(

@@ -27,6 +27,7 @@ Scene with_imported_pixels(const Scene& imported, Scene now) {
         light.ies = nullptr;
         now.lights.set(id, light);
     }
+    now.clips = imported.clips;
     return now;
 }
 

@@ -112,16 +112,5 @@ TEST(GltfCoverage, ExtensionsAreReportedAsTheTableSays) {
     }
 }
 
-TEST(GltfCoverage, AnimationsAreReportedIgnored) {
-    GltfBuilder b;
-    b.add("nodes", Json::object());
-    const int times = b.accessor<float>({0, 1}, "SCALAR"), places = b.accessor<float>({0, 0, 0, 1, 0, 0}, "VEC3");
-    b.add("animations", {{"samplers", {{{"input", times}, {"output", places}}}},
-                         {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}}});
-    const auto imported = import_built(b);
-    ASSERT_TRUE(imported) << error_text(imported);
-    EXPECT_TRUE(reports(imported->report, "ignored: 1 animations"));
-}
-
 } // namespace
 } // namespace blush::test

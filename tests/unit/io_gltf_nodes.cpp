@@ -38,20 +38,6 @@ TEST(GltfNodes, MatricesAreColumnMajor) {
     EXPECT_EQ(nodes[1].value.local.matrix->y, (Vec3{1, 1, 0}));
 }
 
-TEST(GltfNodes, OnlyTheDefaultSceneIsShown) {
-    GltfBuilder b;
-    b.show({{"attributes", {{"POSITION", b.triangle_positions()}}}});
-    b.add("nodes", {{"name", "shown"}});
-    b.json["scenes"] = {{{"nodes", {0}}}, {{"nodes", {1}}}};
-    b.json["scene"] = 1;
-    const auto imported = import_built(b);
-    ASSERT_TRUE(imported) << error_text(imported);
-    ASSERT_EQ(imported->scene.nodes.size(), 1u);
-    EXPECT_EQ(imported->scene.nodes.begin()->value.name, "shown");
-    EXPECT_TRUE(imported->scene.meshes.empty());
-    EXPECT_TRUE(reports(imported->report, "1 nodes that belong to other scenes"));
-}
-
 TEST(GltfNodes, CyclesAndSecondParentsAreErrors) {
     GltfBuilder cycle;
     cycle.add("nodes", {{"children", {1}}});

@@ -1,15 +1,18 @@
 blush_test(test_scene
   SOURCES
+    scene_bend.cpp
     scene_changes.cpp
     scene_color_temperature.cpp
     scene_document.cpp
     scene_edit.cpp
+    scene_keyframes.cpp
     scene_light_meter.cpp
     scene_light_units.cpp
     scene_line_of_sight.cpp
     scene_render_settings.cpp
     scene_shining.cpp
     scene_sky.cpp
+    scene_staging.cpp
     scene_table.cpp
     scene_transform.cpp
     scene_validate.cpp

@@ -15,7 +15,7 @@ using test::sample_project;
 
 // A comparable copy: gtest prints which part differs.
 struct Seen {
-    bool view, resolution, integrator, stop_rules, environment_parameters, environment_image;
+    bool view, resolution, integrator, stop_rules, environment_parameters, environment_image, motion;
     std::vector<Id<Node>> transforms, structure;
     std::vector<Id<Mesh>> meshes;
     std::vector<Id<Material>> materials;
@@ -25,14 +25,14 @@ struct Seen {
 };
 
 Seen seen(const Changes& c) {
-    return {c.view,   c.resolution, c.integrator, c.stop_rules, c.environment_parameters, c.environment_image, c.transforms, c.structure,
-            c.meshes, c.materials,  c.textures,   c.lights};
+    return {c.view,   c.resolution, c.integrator, c.stop_rules, c.environment_parameters, c.environment_image, c.motion,
+            c.transforms, c.structure, c.meshes, c.materials,  c.textures,   c.lights};
 }
 
 void PrintTo(const Seen& s, std::ostream* out) {
     *out << (s.view ? "view " : "") << (s.resolution ? "resolution " : "") << (s.integrator ? "integrator " : "")
          << (s.stop_rules ? "stop_rules " : "") << (s.environment_parameters ? "environment_parameters " : "")
-         << (s.environment_image ? "environment_image " : "") << s.transforms.size() << " transforms " << s.structure.size()
+         << (s.environment_image ? "environment_image " : "") << (s.motion ? "motion " : "") << s.transforms.size() << " transforms " << s.structure.size()
          << " structure " << s.meshes.size() << " meshes " << s.materials.size() << " materials " << s.textures.size() << " textures "
          << s.lights.size() << " lights";
 }
@@ -81,6 +81,22 @@ TEST(Diff, NodeEdits) {
     EXPECT_EQ(of([](Node& n) { n.mesh = {}; }), structure);
     EXPECT_EQ(of([&](Node& n) { n.light = s.lamp; }), structure);
     EXPECT_EQ(of([&](Node& n) { n.camera = s.camera; }), nothing);
+    EXPECT_EQ(of([](Node& n) { n.morph_weights = {1}; }), structure);
+}
+
+TEST(Diff, StagingEdits) {
+    Sample s = sample_project();
+    const auto of = [&](const Staging& staging) { return seen(changes_of(s, SetStaging{staging})); };
+    const Seen motion = only([](Changes& c) { c.motion = true; });
+    EXPECT_EQ(of({.clip = s.swing}), motion);
+    EXPECT_EQ(of({.seconds = 1}), nothing) << "of no clip";
+    EXPECT_EQ(of({.variant = 0}), nothing) << "wears the same";
+    EXPECT_EQ(of({.variant = 1}), only([&](Changes& c) { c.meshes = {s.quad}; }));
+    s.project.scene.staging = {.clip = s.swing, .seconds = 1};
+    EXPECT_EQ(of({.clip = s.swing, .seconds = 1.5f}), motion);
+    EXPECT_EQ(of({}), motion);
+    EXPECT_EQ(of({.clip = s.swing, .seconds = 1}), nothing);
+    EXPECT_FALSE(changes_of(s, SetStaging{{}}).only_light());
 }
 
 TEST(Diff, HangingANodeBelowAHiddenOneHidesIt) {

@@ -1,4 +1,5 @@
 // Camera: how the view sees. Navigating it bypasses the history; its lens does not.
+#include "scene/pose.h"
 #include "ui/panels/panels.h"
 #include "ui/rotation.h"
 #include "ui/widgets.h"
@@ -15,13 +16,13 @@ void draw_scene_cameras(Fields& f, PanelContext& c) {
     std::vector<std::string> names{"Free view"};
     std::vector<Id<Node>> nodes{{}};
     for (const auto& [id, node] : c.scene().nodes) {
-        if (!node.camera) continue;
+        if (!node.camera || !is_in_chosen_scene(c.scene(), id)) continue;
         names.push_back(fmt::format("{}##{}", node.name.empty() ? "Camera" : node.name, id.value));
         nodes.push_back(id);
     }
     size_t current = 0;
     for (size_t i = 1; i < nodes.size(); ++i) {
-        const View through = view_through(c.scene(), nodes[i]);
+        const View through = eye_of(c.scene(), nodes[i]);
         if (through.position == c.scene().view.position && through.rotation == c.scene().view.rotation) current = i;
     }
     std::string name = names[current];

@@ -42,6 +42,7 @@ void draw_selection(PanelContext& c) {
     draw_light_links_panel(c, id);
     draw_camera_node_panel(c, id);
     draw_transform_panel(c, id);
+    draw_morph_weights_panel(c, id);
     draw_material_panel(c, id);
 }
 

@@ -1,4 +1,5 @@
 // The selected node: name, visibility, place in the world, and what it is made of.
+#include "scene/pose.h"
 #include "ui/panels/panels.h"
 #include "ui/rotation.h"
 #include "ui/theme.h"
@@ -76,6 +77,11 @@ void draw_transform_panel(PanelContext& c, Id<Node> id) {
     const Node* record = c.scene().nodes.find(id);
     if (!record || !section(c.ui, "Transform")) return;
     Node node = *record;
+    node.local = posed_transform(c.scene(), id, node);
+    const bool led = is_placed_by_clip(c.scene(), id);
+    if (led) quiet_text("Led by the animation. At rest it can be set by hand.");
+    if (node.skin) quiet_text("Hangs on joints, which say where it is: the node's own place does not move it.");
+    ImGui::BeginDisabled(led);
     Fields f(c.ui, "Transform");
     if (node.local.matrix) {
         quiet_text("This transform is a sheared matrix, which position, rotation and scale cannot express. Turning or scaling it here "
@@ -96,7 +102,8 @@ void draw_transform_panel(PanelContext& c, Id<Node> id) {
     }
     if (f.vector("Scale", node.local.scale, {1, 1, 1}, {.step = 0.005f, .tip = "Factors along the node's own axes."}))
         node.local.matrix.reset();
-    if (f.changed()) c.apply(SetNode{id, node}, f.gesture());
+    ImGui::EndDisabled();
+    if (f.changed() && !led) c.apply(SetNode{id, node}, f.gesture());
 }
 
 } // namespace blush

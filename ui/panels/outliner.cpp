@@ -7,8 +7,11 @@
 #include "ui/theme.h"
 #include "ui/widgets.h"
 
+#include "scene/pose.h"
 #include "scene/shining.h"
 
+#include <algorithm>
+#include <fmt/format.h>
 #include <imgui_stdlib.h>
 #include <map>
 
@@ -26,7 +29,8 @@ struct Rows {
 
 Children children_of(const Scene& scene) {
     Children children;
-    for (const auto& [id, node] : scene.nodes) children[node.parent].push_back(id);
+    for (const auto& [id, node] : scene.nodes)
+        if (!is_of_other_scene(scene, node)) children[node.parent].push_back(id);
     return children;
 }
 
@@ -118,6 +122,25 @@ void draw_node(PanelContext& c, Rows& rows, Id<Node> id, int depth) {
     ImGui::PopID();
 }
 
+// What a file offers to choose from, where it does.
+void draw_choices(PanelContext& c) {
+    const Scene& scene = c.scene();
+    Staging staging = scene.staging;
+    const auto choose = [&](const char* label, int32_t& index, std::vector<std::string> names, int32_t first, const char* tip) {
+        for (size_t i = 0; i < names.size(); ++i) names[i] += fmt::format("##{}", i); // two may be called alike
+        Fields f(c.ui, "Outliner");
+        std::string name = names.at(size_t(index - first));
+        if (f.choice(label, name, names, tip)) index = int32_t(std::ranges::find(names, name) - names.begin()) + first;
+    };
+    if (!scene.scene_names.empty()) choose("Scene", staging.scene, scene.scene_names, 0, "Which of the file's scenes shows.");
+    if (!scene.variants.empty()) {
+        std::vector<std::string> names{"As they are"};
+        names.insert(names.end(), scene.variants.begin(), scene.variants.end());
+        choose("Materials", staging.variant, std::move(names), -1, "Which of the file's variants of its materials is worn.");
+    }
+    if (staging != scene.staging) c.apply(SetStaging{staging});
+}
+
 void draw_add_light(PanelContext& c) {
     if (ImGui::Button("Add light", {-FLT_MIN, 0})) ImGui::OpenPopup("add light");
     c.ui.probe.record_last_item("Outliner/Add light");
@@ -133,6 +156,7 @@ void draw_add_light(PanelContext& c) {
 
 void draw_outliner(PanelContext& c) {
     draw_add_light(c);
+    draw_choices(c);
     ImGui::Spacing();
     ImGui::BeginChild("nodes");
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, 0});

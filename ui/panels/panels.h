@@ -14,10 +14,12 @@ void draw_menu_bar(PanelContext& c);
 void draw_outliner(PanelContext& c);
 void draw_inspector(PanelContext& c); // tabs, each made of the sections below
 void draw_status_bar(PanelContext& c);
+void draw_time(PanelContext& c); // of scenes that have animations
 
 // Sections of the inspector.
 void draw_object_panel(PanelContext& c, Id<Node> node);
 void draw_transform_panel(PanelContext& c, Id<Node> node);
+void draw_morph_weights_panel(PanelContext& c, Id<Node> node);
 void draw_light_panel(PanelContext& c, Id<Node> node);
 void draw_light_links_panel(PanelContext& c, Id<Node> node);
 void draw_material_panel(PanelContext& c, Id<Node> node);    // of the selected material, or of the node's mesh

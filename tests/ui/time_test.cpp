@@ -1,0 +1,88 @@
+// The row below the picture that says which moment of which animation is seen.
+#include "imgui_test.h"
+#include "support/sample_project.h"
+#include "ui/panels/panels.h"
+
+namespace blush {
+namespace {
+
+class Time : public test::ImGuiTest {
+protected:
+    void SetUp() override {
+        ImGuiTest::SetUp();
+        auto loaded = ColorManagement::load(BLUSH_ASSETS);
+        ASSERT_TRUE(loaded) << loaded.error().text();
+        color.emplace(*std::move(loaded));
+        document.reset(sample.project);
+        ASSERT_TRUE(document.apply(SetStaging{{.clip = sample.swing}}));
+        for (int i = 0; i < 3; ++i) frame();
+    }
+    void frame() {
+        in_window([&] {
+            ui.next_frame_in = 1;
+            PanelContext c{document, ui, *color, {}, SessionStatus(), 640, 480};
+            draw_time(c);
+        });
+    }
+    void mouse(float x, bool down) {
+        ImGui::GetIO().MousePos = {x, ImGui::GetStyle().WindowPadding.y + 8};
+        ImGui::GetIO().MouseDown[0] = down;
+        frame();
+    }
+    float seconds() const { return document.project().scene.staging.seconds; }
+
+    test::Sample sample = test::sample_project();
+    std::optional<ColorManagement> color;
+    Document document;
+    UiState ui;
+};
+
+TEST_F(Time, ADragOfTheSliderIsOneStep) {
+    const size_t steps = document.undo_labels().size();
+    mouse(220, false);
+    mouse(220, true);
+    float before = seconds();
+    for (const float x : {240.f, 260.f, 280.f}) {
+        mouse(x, true);
+        EXPECT_GT(seconds(), before) << x;
+        before = seconds();
+    }
+    mouse(280, false);
+    frame();
+    EXPECT_EQ(document.undo_labels().size(), steps + 1);
+    EXPECT_EQ(document.undo_label(), "Change time");
+    mouse(240, false);
+    mouse(240, true);
+    mouse(240, false);
+    frame();
+    EXPECT_LT(seconds(), before);
+    EXPECT_EQ(document.undo_labels().size(), steps + 2) << "another drag, another step";
+}
+
+TEST_F(Time, PlayingGoesRoundAndIsOneStep) {
+    const size_t steps = document.undo_labels().size();
+    ui.time = {.playing = true, .gesture = ui.gestures.begin()};
+    ui.gestures.end();
+    ImGui::GetIO().DeltaTime = 0.75f;
+    for (const float t : {0.75f, 1.5f, 0.25f}) {
+        frame();
+        EXPECT_FLOAT_EQ(seconds(), t) << "of 2 s";
+        EXPECT_LT(ui.next_frame_in, 0.1) << "the next moment comes by itself";
+    }
+    EXPECT_EQ(document.undo_labels().size(), steps + 1);
+    ui.time = {};
+    frame();
+    EXPECT_EQ(seconds(), 0.25f);
+    EXPECT_EQ(ui.next_frame_in, 1) << "nothing moves any more";
+}
+
+TEST_F(Time, AtRestThereIsNothingToPlay) {
+    ui.time.playing = true;
+    ASSERT_TRUE(document.apply(SetStaging{}));
+    frame();
+    EXPECT_FALSE(ui.time.playing);
+    EXPECT_EQ(ui.next_frame_in, 1);
+}
+
+} // namespace
+} // namespace blush

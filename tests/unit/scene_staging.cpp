@@ -1,0 +1,114 @@
+// Clips, scenes and variants as choices that are edits like any other.
+#include "scene/document.h"
+#include "scene/placements.h"
+#include "scene/pose.h"
+#include "scene/staging.h"
+#include "support/sample_project.h"
+
+#include <gtest/gtest.h>
+
+namespace blush {
+namespace {
+
+using test::Sample;
+using test::sample_project;
+
+Staging swing_at(const Sample& s, float seconds) { return {.clip = s.swing, .seconds = seconds}; }
+
+TEST(Staging, AClipMovesWhatItLeadsAndAllBelow) {
+    Sample s = sample_project();
+    Document document(s.project);
+    ASSERT_TRUE(document.apply(SetStaging{swing_at(s, 1)}));
+    const Scene& scene = document.project().scene;
+    // Half way from (0, 0, 3) to (2, 0, 3).
+    EXPECT_EQ(world_from_node(scene, s.lamp_node).t, (Vec3d{1, 0, 3}));
+    EXPECT_EQ(scene.nodes, s.project.scene.nodes) << "nodes keep their place at rest";
+    EXPECT_TRUE(is_led(scene, s.lamp_node, Channel::Property::translation));
+    EXPECT_FALSE(is_led(scene, s.lamp_node, Channel::Property::rotation));
+    EXPECT_FALSE(is_led(s.project.scene, s.lamp_node, Channel::Property::translation)) << "at rest";
+    EXPECT_EQ(world_from_node(scene, s.table), world_from_node(s.project.scene, s.table));
+
+    const Scene applied = with_pose_applied(scene);
+    EXPECT_EQ(applied.nodes.find(s.lamp_node)->local.translation, (Vec3{1, 0, 3}));
+    for (const auto& [id, node] : scene.nodes) EXPECT_EQ(world_from_node(applied, id), world_from_node(scene, id)) << node.name;
+}
+
+TEST(Staging, ADragOfTheTimeIsOneStepThatCanBeUndone) {
+    Sample s = sample_project();
+    Document document(s.project);
+    constexpr Gesture drag = 7;
+    for (const float t : {0.25f, 0.5f, 1.5f}) ASSERT_TRUE(document.apply(SetStaging{swing_at(s, t)}, drag));
+    EXPECT_EQ(document.undo_labels().size(), 1u);
+    EXPECT_EQ(document.project().scene.staging, swing_at(s, 1.5f));
+    ASSERT_TRUE(document.undo());
+    EXPECT_EQ(document.project(), s.project);
+    ASSERT_TRUE(document.redo());
+    EXPECT_EQ(document.project().scene.staging, swing_at(s, 1.5f));
+}
+
+TEST(Staging, WhatIsNotThereCannotBeChosen) {
+    const Sample s = sample_project();
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    for (const Staging& bad : {Staging{.clip = Id<Clip>{99}}, swing_at(s, -1), swing_at(s, nan), Staging{.scene = 1}, Staging{.scene = -1},
+                               Staging{.variant = 2}, Staging{.variant = -2}})
+        EXPECT_FALSE(blush::apply(s.project, SetStaging{bad}));
+}
+
+TEST(Staging, AViewThroughACameraGoesAlong) {
+    Sample s = sample_project();
+    Scene& scene = s.project.scene;
+    Clip clip = *scene.clips.find(s.swing);
+    clip.channels.push_back({s.camera_node, Channel::Property::translation, clip.channels.back().keyframes});
+    std::ranges::sort(clip.channels, {}, [](const Channel& c) { return std::pair(c.node, c.property); });
+    scene.clips.set(s.swing, clip);
+    scene.view = view_through(scene, s.camera_node);
+    const Scene moved = staged(scene, swing_at(s, 1));
+    EXPECT_EQ(moved.view.position, (Vec3{1, 0, 3}));
+    scene.view.position.x += 1; // a free view
+    EXPECT_EQ(staged(scene, swing_at(s, 1)).view, scene.view);
+}
+
+TEST(Staging, VariantsDressTheMeshesAndKeepTheirOwnMaterials) {
+    Sample s = sample_project();
+    Document document(s.project);
+    const auto worn = [&](size_t part) { return document.project().scene.meshes.find(s.quad)->parts[part].material; };
+    ASSERT_TRUE(document.apply(SetStaging{{.variant = 1}}));
+    EXPECT_EQ(worn(0), s.grey);
+    EXPECT_EQ(worn(1), s.grey) << "has no variants";
+    ASSERT_TRUE(document.apply(SetStaging{{.variant = 0}}));
+    EXPECT_EQ(worn(0), s.red) << "has none for this variant";
+
+    // What is assigned under a variant is the variant's where it has one of its own.
+    ASSERT_TRUE(document.apply(SetStaging{{.variant = 1}}));
+    const Id<Material> checker = document.project().scene.materials.begin()->id;
+    ASSERT_TRUE(document.apply(AssignMaterial{s.quad, 0, checker}));
+    ASSERT_TRUE(document.apply(SetStaging{}));
+    EXPECT_EQ(worn(0), s.red);
+    ASSERT_TRUE(document.apply(SetStaging{{.variant = 1}}));
+    EXPECT_EQ(worn(0), checker);
+    while (document.undo()) {}
+    EXPECT_EQ(document.project(), s.project);
+}
+
+TEST(Staging, OfSeveralScenesTheChosenOneShows) {
+    Sample s = sample_project();
+    Scene& scene = s.project.scene;
+    scene.scene_names = {"Day", "Night"};
+    Node root = *scene.nodes.find(s.root);
+    root.only_in_scenes = {1};
+    scene.nodes.set(s.root, root);
+    EXPECT_FALSE(is_visible(scene, s.root));
+    EXPECT_FALSE(is_visible(scene, s.mug)) << "hangs below it";
+    EXPECT_FALSE(is_in_chosen_scene(scene, s.mug));
+    EXPECT_TRUE(is_visible(scene, s.table)) << "in all of them";
+    const Scene night = staged(scene, {.scene = 1});
+    EXPECT_TRUE(is_visible(night, s.mug));
+    for (const Scene& whole : {scene, night})
+        for (const auto& [id, node] : whole.nodes) EXPECT_EQ(is_visible(with_pose_applied(whole), id), is_visible(whole, id)) << node.name;
+    // What is imported into another scene is what it shows.
+    const Project merged = *blush::apply(sample_project().project, Import{scene, "day"});
+    EXPECT_EQ(merged.scene.nodes.size(), 2 * scene.nodes.size() - 3) << "without root, mug and lamp";
+}
+
+} // namespace
+} // namespace blush

@@ -1,0 +1,105 @@
+// Time: which animation moves the scene, and to which moment. A row below the picture, for scenes that have any.
+#include "ui/icons.h"
+#include "ui/panels/panels.h"
+#include "ui/theme.h"
+#include "ui/widgets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace blush {
+namespace {
+
+constexpr double frames_per_second = 24;
+
+void stop(PanelContext& c) { c.ui.time = {}; }
+
+void set_staging(PanelContext& c, const Staging& staging, Gesture gesture = no_gesture) {
+    if (staging != c.scene().staging) c.apply(SetStaging{staging}, gesture);
+}
+
+void draw_clips(PanelContext& c) {
+    const Clip* chosen = c.scene().clips.find(c.scene().staging.clip);
+    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 10);
+    const bool open = ImGui::BeginCombo("##clip", chosen ? chosen->name.c_str() : "At rest");
+    c.ui.probe.record_last_item("Time/Animation");
+    if (!open) {
+        tip_for_last_item(c.ui, "Which of the file's animations moves the scene.");
+        return;
+    }
+    Staging staging = c.scene().staging;
+    const auto item = [&](Id<Clip> id, const std::string& name) {
+        ImGui::PushID(int(id.value));
+        const bool picked = ImGui::Selectable(name.c_str(), id == c.scene().staging.clip);
+        ImGui::PopID();
+        c.ui.probe.record_last_item("Time/Animation/" + name);
+        if (picked && id != staging.clip) {
+            staging.clip = id;
+            staging.seconds = 0;
+        }
+    };
+    item({}, "At rest");
+    for (const auto& [id, clip] : c.scene().clips) item(id, clip.name);
+    ImGui::EndCombo();
+    if (staging != c.scene().staging) stop(c);
+    set_staging(c, staging);
+}
+
+void draw_play(PanelContext& c) {
+    TimeView& time = c.ui.time;
+    if (icon_button("play", time.playing ? Icon::pause : Icon::play, tone::text)) {
+        const bool play = !time.playing;
+        stop(c);
+        if (play) time = {.playing = true, .gesture = c.ui.gestures.begin()};
+        c.ui.gestures.end();
+    }
+    c.ui.probe.record_last_item("Time/Play");
+    tip_for_last_item(c.ui,
+                      time.playing ? "Pause" : "Play, over and over. The picture is as rough as the time between two moments leaves it.");
+}
+
+void draw_slider(PanelContext& c, const Clip& clip) {
+    TimeView& time = c.ui.time;
+    Staging staging = c.scene().staging;
+    const std::string length = fmt::format("/ {:.2f} s", clip.seconds);
+    ImGui::SetNextItemWidth(-ImGui::CalcTextSize(length.c_str()).x - 2 * ImGui::GetStyle().ItemSpacing.x);
+    const bool moved = ImGui::SliderFloat("##time", &staging.seconds, 0, clip.seconds, "%.2f s", ImGuiSliderFlags_AlwaysClamp);
+    c.ui.probe.record_last_item("Time/Time");
+    if (ImGui::IsItemActivated()) time = {.gesture = c.ui.gestures.begin(), .dragged = true};
+    if (moved) set_staging(c, staging, time.gesture);
+    if (time.dragged && !ImGui::IsItemActive()) {
+        time = {};
+        c.ui.gestures.end();
+    }
+    if (!time.dragged) tip_for_last_item(c.ui, "The moment of the animation, in seconds. A drag is one step of the history.");
+    ImGui::SameLine();
+    ImGui::AlignTextToFramePadding();
+    quiet_text(length);
+}
+
+// Moves on by the time that has passed, and asks for the next frame.
+void play(PanelContext& c, const Clip& clip) {
+    if (!c.ui.time.playing) return;
+    Staging staging = c.scene().staging;
+    staging.seconds = clip.seconds > 0 ? std::fmod(staging.seconds + ImGui::GetIO().DeltaTime, clip.seconds) : 0;
+    set_staging(c, staging, c.ui.time.gesture);
+    c.ui.next_frame_in = std::min(c.ui.next_frame_in, 1 / frames_per_second);
+}
+
+} // namespace
+
+void draw_time(PanelContext& c) {
+    ImGui::AlignTextToFramePadding();
+    draw_clips(c);
+    const Clip* found = c.scene().clips.find(c.scene().staging.clip);
+    if (!found) return stop(c);
+    const Clip clip = *found; // edits may replace the table
+    play(c, clip);
+    ImGui::SameLine();
+    draw_play(c);
+    ImGui::SameLine();
+    draw_slider(c, clip);
+}
+
+} // namespace blush
