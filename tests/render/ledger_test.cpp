@@ -227,9 +227,9 @@ TEST(Ledger, BytesOfVertexAttributesAreThoseAllocated) {
         scene.nodes.add(node);
     }
     GeometryPool pool;
-    pool.build(list_objects(scene), {true, true, true, true}, {0, 0, 0});
+    pool.build(list_objects(scene), {.tangents = true, .colors = true, .uv_sets = {0, 1}}, {0, 0, 0});
     GeometryPool less;
-    less.build(list_objects(scene), {false, false, false, false}, {0, 0, 0});
+    less.build(list_objects(scene), {}, {0, 0, 0});
     EXPECT_EQ(pool.vertex_count(), less.vertex_count());
     EXPECT_EQ(int64_t(pool.memory_bytes() - less.memory_bytes()), pool.vertex_count() * (8 + 8 + 16 + 16));
 }
