@@ -14,7 +14,8 @@ namespace {
 class MaterialReader {
 public:
     MaterialReader(const GltfContext& context, const std::vector<Id<Texture>>& textures, const Table<Texture>& pixels, size_t index)
-        : context_(context), textures_(textures), pixels_(pixels), source_(context.model().materials[index]), where_(fmt::format("materials[{}]", index)) {
+        : context_(context), textures_(textures), pixels_(pixels), source_(context.model().materials[index]),
+          where_(fmt::format("materials[{}]", index)) {
         material_.name = source_.name.empty() ? fmt::format("Material {}", index) : source_.name;
     }
 

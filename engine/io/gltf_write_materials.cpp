@@ -143,7 +143,8 @@ private:
 
     void write_sheen() {
         const Vec3& c = m_.sheen_color;
-        const bool has_sheen = c != Vec3{0, 0, 0} || m_.sheen_roughness != 0 || m_.sheen_color_texture.texture || m_.sheen_roughness_texture.texture;
+        const bool has_sheen =
+            c != Vec3{0, 0, 0} || m_.sheen_roughness != 0 || m_.sheen_color_texture.texture || m_.sheen_roughness_texture.texture;
         if (Json* e = extension("KHR_materials_sheen", has_sheen)) {
             set_vector(*e, "sheenColorFactor", {c.x, c.y, c.z}, {0, 0, 0});
             set_number(*e, "sheenRoughnessFactor", m_.sheen_roughness, 0);

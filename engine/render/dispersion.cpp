@@ -12,7 +12,8 @@ constexpr double shortest = 380, longest = 730, grid = 0.25; // nanometres
 Spectrum make_spectrum() {
     std::vector<Vec3d> colors;
     Vec3d total{0, 0, 0};
-    for (double nm = shortest + grid / 2; nm < longest; nm += grid) total = total + colors.emplace_back(rec709_from_xyz(color_matching(nm)));
+    for (double nm = shortest + grid / 2; nm < longest; nm += grid)
+        total = total + colors.emplace_back(rec709_from_xyz(color_matching(nm)));
     // A wavelength is as probable as the mean of its channels, each of which adds up to 1: no colour is rarer than it is bright.
     for (Vec3d& c : colors) c = {c.x / total.x, c.y / total.y, c.z / total.z};
 

@@ -32,7 +32,8 @@ inline constexpr std::array layer_texture_slots{
     CompiledSlot<LayerRecord>{&Material::iridescence_texture, &LayerRecord::iridescence_texture, false, has_film},
     CompiledSlot<LayerRecord>{&Material::iridescence_thickness_texture, &LayerRecord::film_thickness_texture, false, has_film},
     CompiledSlot<LayerRecord>{&Material::diffuse_transmission_texture, &LayerRecord::diffuse_transmission_texture, false, is_translucent},
-    CompiledSlot<LayerRecord>{&Material::diffuse_transmission_color_texture, &LayerRecord::diffuse_transmission_color_texture, true, is_translucent},
+    CompiledSlot<LayerRecord>{&Material::diffuse_transmission_color_texture, &LayerRecord::diffuse_transmission_color_texture, true,
+                              is_translucent},
 };
 
 } // namespace blush

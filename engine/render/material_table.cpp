@@ -133,8 +133,8 @@ void choose_uv_sets(MaterialTable& table, const std::vector<const Material*>& wo
 }
 
 // The texture uses of one of a material's records, from `use` on.
-template <class Record, size_t N>
-void write_uses(MaterialTable& table, size_t use, const Material& material, const std::array<CompiledSlot<Record>, N>& slots, Record& record) {
+template <class Record, size_t N> void write_uses(MaterialTable& table, size_t use, const Material& material,
+                                                  const std::array<CompiledSlot<Record>, N>& slots, Record& record) {
     for (const CompiledSlot<Record>& slot : slots) {
         const TextureRef& ref = material.*slot.ref;
         const auto uv_set = std::ranges::find(table.uv_sets, int(ref.uv_set));

@@ -54,7 +54,8 @@ Scene grid(const std::vector<Material>& materials) {
     place(scene, floor_quad(6), lambert(0.5f));
     place(scene, ceiling_quad(1.5f, 4), coated(emitter(8), 0.3f));
     for (size_t i = 0; i < materials.size(); ++i)
-        place(scene, sphere(false), materials[i], at({float(i % 4) * 1.1f - 1.65f, 0.5f + 0.2f * float(i / 4), 1.2f - float(i / 4) * 1.1f}, 0.45f));
+        place(scene, sphere(false), materials[i],
+              at({float(i % 4) * 1.1f - 1.65f, 0.5f + 0.2f * float(i / 4), 1.2f - float(i / 4) * 1.1f}, 0.45f));
     constant_world(scene, 0.3f);
     scene.view = looking({0, 4, 5}, {0, 0.4f, 0}, 0.65f);
     return scene;
@@ -75,10 +76,18 @@ TEST(Layers, StrategiesAgreeOnAGrid) {
     }();
     Material wax = translucent(red, 0.6f);
     wax.thickness = 1;
-    const std::vector<Material> materials = {coated(red, 0.3f),           coated(metal(0.6f), 0.3f),      with_sheen(red, 0.2f),
-                                             with_sheen(red, 0.6f),       stretched(metal(0.3f), 0.6f),   under_film(metal(0.4f), 300),
-                                             under_film(red, 450),        translucent(red, 0.5f),         wax,
-                                             coated(with_sheen(red, 0.4f), 0.4f), dispersive(glass(0.4f, 1.5f), 2), coated(glass(0.5f, 1.3f), 0.4f)};
+    const std::vector<Material> materials = {coated(red, 0.3f),
+                                             coated(metal(0.6f), 0.3f),
+                                             with_sheen(red, 0.2f),
+                                             with_sheen(red, 0.6f),
+                                             stretched(metal(0.3f), 0.6f),
+                                             under_film(metal(0.4f), 300),
+                                             under_film(red, 450),
+                                             translucent(red, 0.5f),
+                                             wax,
+                                             coated(with_sheen(red, 0.4f), 0.4f),
+                                             dispersive(glass(0.4f, 1.5f), 2),
+                                             coated(glass(0.5f, 1.3f), 0.4f)};
     const Scene scene = grid(materials);
     const auto mis = blocks(scene, Strategy::mis, 64);
     EXPECT_TRUE(same_means(mis, blocks(scene, Strategy::light, 128), sidak(significance, 2))) << "light";

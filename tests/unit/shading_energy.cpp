@@ -95,7 +95,8 @@ TEST(Energy, CompensatedCoatsOnWhiteLoseNothing) {
             const double reflected = clearcoat_reflectance(1.f, cos);
             const double expected = 1 - reflected + reflected * scale * reference::mirror_albedo(reference::sqr(roughness), cos);
             EXPECT_NEAR(expected, 1, 2 * EnergyTable::relative_error);
-            EXPECT_TRUE(z_test(furnace(p, v, 10, &table), expected, sidak(significance, 30))) << "roughness " << roughness << ", " << v.degrees;
+            EXPECT_TRUE(z_test(furnace(p, v, 10, &table), expected, sidak(significance, 30)))
+                << "roughness " << roughness << ", " << v.degrees;
         }
 }
 

@@ -10,7 +10,9 @@ namespace {
 // From some viewers a lobe is narrower than the spacing of single-precision directions: alpha one way, alpha cos the other. Then only
 // its facets can be looked at: see FacetsFollowTheVisibleNormals.
 bool is_resolved(const Params& p, const Vec3& wo) {
-    const auto resolved = [&](float roughness) { return roughness < smooth_roughness || roughness * roughness * std::abs(wo.z) > 16 * 0x1p-24f; };
+    const auto resolved = [&](float roughness) {
+        return roughness < smooth_roughness || roughness * roughness * std::abs(wo.z) > 16 * 0x1p-24f;
+    };
     return resolved(p.roughness) && (p.layers.clearcoat == 0 || resolved(p.layers.clearcoat_roughness));
 }
 

@@ -42,8 +42,9 @@ void draw_film(Fields& f, Material& m) {
 
 void draw_translucency(Fields& f, Material& m) {
     f.number("Translucency", m.diffuse_transmission,
-             unit_interval(0, "Share of the light not reflected at the surface that comes out, scattered, on the other side: leaves, paper, "
-                              "lampshades, wax."));
+             unit_interval(0,
+                           "Share of the light not reflected at the surface that comes out, scattered, on the other side: leaves, paper, "
+                           "lampshades, wax."));
     f.color("Tint", m.diffuse_transmission_color, {1, 1, 1}, "Colour of the light that comes through.");
 }
 
