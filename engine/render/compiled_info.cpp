@@ -36,8 +36,7 @@ CompiledInfo RenderScene::info() const {
         for (size_t part = 0; part < geometry_.parts().size(); ++part) info.triangles += geometry_.triangle_count(part);
         if (const int64_t degenerate = geometry_.degenerate_count(); degenerate > 0) info.warnings.push_back(degenerate_triangles(degenerate));
     }
-    const size_t bytes = geometry_.memory_bytes() + accel_.memory_bytes() + materials_.textures.rgba8.capacity() * 4 +
-                         materials_.textures.rgba32f.capacity() * 4 + environment_.texels.capacity() * 4 +
+    const size_t bytes = geometry_.memory_bytes() + accel_.memory_bytes() + materials_.textures.memory_bytes() + environment_.texels.capacity() * 4 +
                          environment_.column_thresholds.capacity() * 4 + environment_.column_guides.capacity() * sizeof(environment_.column_guides[0]) +
                          lights_.records.capacity() * sizeof(LightRecord) + lights_.profiles.memory_bytes() + lights_.tree.memory_bytes();
     info.memory_mb = double(bytes) / 1e6;

@@ -9,6 +9,7 @@
 #include "render/light_sampling.h"
 #include "render/links.h"
 #include "render/path.h"
+#include "render/ray_cone.h"
 #include "render/shading_frame.h"
 #include "shading/bsdf.h"
 #include "shading/focus.h"
@@ -65,6 +66,8 @@ Path<F> begin_path(const SceneTables& scene, const EstimatorSettings& settings, 
     path.slot = slot;
     path.part = Int<F>(from_camera);
     path.dispersed = Int<F>(0);
+    path.cone = F(0.f);
+    if constexpr (S.has(Feature::textures)) path.cone = cone_at_camera<F>(scene.camera, settings);
     return path;
 }
 
@@ -107,7 +110,9 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
     }
 
     // The surface and its material.
-    const Surface<F> surface = surface_at<S, F>(scene, hit, found);
+    F cone = F(0.f);
+    if constexpr (S.has(Feature::textures)) cone = cone_width<F>(scene.camera, settings, path, hit.t);
+    const Surface<F> surface = surface_at<S, F>(scene, hit, found, cone);
     const MaterialPoint<F> material = material_at<S, F>(scene.materials, surface.material, surface.texture, surface.color, found);
     const Vec<F> wo_world = -path.ray.direction;
     const F outside = dot(surface.ng, wo_world);
@@ -294,6 +299,8 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
     out.next.slot = path.slot;
     if constexpr (S.has(Feature::links)) out.next.part = surface.part;
     if constexpr (S.has(Feature::dispersion)) out.next.dispersed = select(dispersed, Int<F>(1), Int<F>(0));
+    if constexpr (S.has(Feature::textures))
+        out.next.cone = scattered_cone<F>(cone, b.delta, ns.x == ng.x && ns.y == ng.y && ns.z == ng.z);
     return out;
 }
 

@@ -27,6 +27,7 @@ struct EstimatorSettings {
     const FilterTable* filter = nullptr;
     const EnergyTable* energy = nullptr; // null: no multiple-scattering compensation
     ReuseGroups reuse;                   // of one pixel: none
+    bool filter_textures = true;
     float width = 1, height = 1;         // of the film, pixels
 };
 

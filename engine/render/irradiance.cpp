@@ -48,6 +48,7 @@ Path<float> leave(const MeterPoint& receiver, const Sampler<float>& sampler, int
     path.key = sampler.key;
     path.index = sampler.index;
     path.slot = slot;
+    path.cone = 0;
     return path;
 }
 

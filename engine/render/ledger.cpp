@@ -85,7 +85,7 @@ void add_textures(Ledger& ledger, const TextureTable& table, const Scene& scene)
         unread_bytes += texel_bytes(*texture.image);
     }
     const bool used = !read.empty();
-    const int64_t bytes = int64_t(table.rgba8.size() * sizeof(uint32_t) + table.rgba32f.size() * sizeof(float));
+    const int64_t bytes = int64_t(table.memory_bytes());
     FeatureUse texels{
         "textures", "texels", used,
         used ? fmt::format("materials read {} image{}", read.size(), read.size() == 1 ? "" : "s") : "no material reads an image", bytes};

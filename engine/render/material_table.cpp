@@ -107,7 +107,7 @@ MaterialRecord factors_of(const Material& m) {
 
 // KHR_texture_transform: scaled, rotated counter-clockwise as seen with v downwards, moved. The listing in the
 // specification's text turns the other way; its words and every implementation turn this way (KhronosGroup/glTF issue 1563).
-TextureUse texture_use(const TextureRef& ref, int32_t texture, int32_t uv_set) {
+TextureUse texture_use(const TextureRef& ref, int32_t texture, float texels_per_unit, int32_t uv_set) {
     const double c = std::cos(double(ref.rotation_radians)), s = std::sin(double(ref.rotation_radians));
     TextureUse use{};
     use.texture = texture;
@@ -118,6 +118,7 @@ TextureUse texture_use(const TextureRef& ref, int32_t texture, int32_t uv_set) {
     use.v_from_u = float(-s * ref.scale.x);
     use.v_from_v = float(c * ref.scale.y);
     use.v_offset = ref.offset.y;
+    use.texels_per_uv = float(std::sqrt(std::abs(double(ref.scale.x) * ref.scale.y))) * texels_per_unit; // turning changes no area
     return use;
 }
 
@@ -140,7 +141,9 @@ template <class Record, size_t N> void write_uses(MaterialTable& table, size_t u
         const auto uv_set = std::ranges::find(table.uv_sets, int(ref.uv_set));
         const bool reads = slot.is_read(material) && uv_set != table.uv_sets.end();
         const int32_t texture = reads ? table.textures.index_of(ref.texture, slot.is_color) : -1;
-        table.uses[use] = texture < 0 ? TextureUse{} : texture_use(ref, texture, int32_t(uv_set - table.uv_sets.begin()));
+        table.uses[use] =
+            texture < 0 ? TextureUse{}
+                        : texture_use(ref, texture, table.textures.texels_per_unit(texture), int32_t(uv_set - table.uv_sets.begin()));
         if (texture >= 0) record.*slot.index = int32_t(use);
         ++use;
     }

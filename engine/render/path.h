@@ -12,6 +12,7 @@ template <class F> struct Path {
     Vec<F> normal;      // of the Receiver where the ray begins; only with Feature::light_tree
     UInt<F> key, index; // of the sampler
     Int<F> slot;        // which of the tile's samples it adds to
+    F cone;             // metres across where the ray begins (ray_cone.h); only with Feature::textures
     Int<F> part;        // that the ray left, -1: the camera; only where lights may be linked
     Int<F> dispersed;   // 1: carries the light of one wavelength, 0: of all; only with Feature::dispersion
 };

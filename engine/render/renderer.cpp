@@ -251,8 +251,8 @@ SharedErrors Renderer::shared_errors() const {
 }
 
 bool Renderer::State::render_run(TileJob job, const Run& run, int most_samples, unsigned worker, const Wanted& wanted) {
-    const KernelContext context{&scene.tables(), &scene.accel(), settings_for_kernels(settings, film.width(), film.height()),
-                                settings.seed};
+    KernelContext context{&scene.tables(), &scene.accel(), settings_for_kernels(settings, film.width(), film.height()), settings.seed};
+    context.settings.filter_textures = options.filter_textures;
     TileScratch& tile = scratch_of(worker);
     const Film::Diagnose diagnose = [&](int x, int y, int64_t sample) {
         if (!replays[worker]) replays[worker] = std::make_unique<TileScratch>();

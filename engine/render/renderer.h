@@ -36,6 +36,7 @@ struct RendererOptions {
     unsigned threads = 0; // 0: one per core
     bool low_priority = false;
     PlaneSet planes = {};
+    bool filter_textures = true; // false: for measuring what filtering does
 };
 
 // Of a light meter, in the world: light falls on it from the side of its normal.

@@ -75,8 +75,9 @@ template <Features S, class F> Int<F> part_of(const SceneTables& scene, const Hi
     return geometry;
 }
 
-// The attributes of `hit` in the lanes of `active`; elsewhere those of some valid triangle.
-template <Features S, class F> Surface<F> surface_at(const SceneTables& scene, const Hit<F>& hit, const Mask<F>& active) {
+// The attributes of `hit` in the lanes of `active`; elsewhere those of some valid triangle. Textures are looked at over `width` metres.
+template <Features S, class F>
+Surface<F> surface_at(const SceneTables& scene, const Hit<F>& hit, const Mask<F>& active, const F& width = F(0.f)) {
     Surface<F> s;
     s.part = part_of<S, F>(scene, hit, active);
     s.material = gather_field(scene.parts, &PartRecord::material, s.part);
@@ -95,7 +96,8 @@ template <Features S, class F> Surface<F> surface_at(const SceneTables& scene, c
     s.position = v.p0 * b0 + v.p1 * b1 + v.p2 * b2;
     const F extent = max(max_component(abs(v.p0)), max(max_component(abs(v.p1)), max_component(abs(v.p2))));
     s.error = splat<F>(1.f) * (extent * gamma_bound(8));
-    Vec<F> ng = cross(v.p1 - v.p0, v.p2 - v.p0);
+    Vec<F> edge1 = v.p1 - v.p0, edge2 = v.p2 - v.p0;
+    Vec<F> ng = cross(edge1, edge2);
     ng = select<F>(as_mask((flags & int32_t(part_mirrored)) != 0), -ng, ng);
 
     Vec<F> ns = ng;
@@ -137,13 +139,20 @@ template <Features S, class F> Surface<F> surface_at(const SceneTables& scene, c
             ng = select<F>(instanced, normal(ng), ng);
             ns = select<F>(instanced, normal(ns), ns);
             s.tangent = select<F>(instanced, through(s.tangent), s.tangent);
+            if constexpr (S.has(Feature::textures)) {
+                edge1 = select<F>(instanced, through(edge1), edge1);
+                edge2 = select<F>(instanced, through(edge2), edge2);
+            }
         }
     }
     s.ng = normalize(ng);
     s.ns = normalize(ns);
 
     s.color = {F(1.f), F(1.f), F(1.f), F(1.f)};
-    if constexpr (S.has(Feature::textures)) s.texture = texture_point<F>(scene, flags, {i0, i1, i2}, {b0, b1, b2}, active);
+    if constexpr (S.has(Feature::textures)) {
+        const Footprint<F> footprint{width, length(cross(edge1, edge2))};
+        s.texture = texture_point<F>(scene, flags, {i0, i1, i2}, {b0, b1, b2}, active, footprint);
+    }
     if constexpr (S.has(Feature::vertex_colors)) {
         const Mask<F> present = active && as_mask((flags & int32_t(part_colors)) != 0);
         if (any(present)) {

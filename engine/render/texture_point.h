@@ -6,22 +6,32 @@
 
 namespace blush::inline BLUSH_ISA {
 
-// Texture coordinates at the point of the triangle with these vertices that has these weights; (0, 0) on sets that the part does not
-// have and in lanes that are not active.
+// How much of a triangle is looked at.
+template <class F> struct Footprint {
+    F width = F(0.f);           // metres
+    F triangle_area = F(1.f);   // twice the area, square metres
+};
+
+// Texture coordinates at the point of the triangle with these vertices that has these weights, and the footprint's width in their units (the
+// mean of all directions); 0 on sets that the part does not have and in lanes that are not active.
 template <class F>
 TexturePoint<F> texture_point(const SceneTables& scene, const Int<F>& part_flags, const std::array<Int<F>, 3>& vertices,
-                              const std::array<F, 3>& weights, const Mask<F>& active) {
+                              const std::array<F, 3>& weights, const Mask<F>& active, const Footprint<F>& footprint = {}) {
     TexturePoint<F> at;
     for (int set = 0; set < scene.materials.textures.uv_sets; ++set) {
         at.uv[size_t(set)] = {F(0.f), F(0.f)};
+        at.width[size_t(set)] = F(0.f);
         const Mask<F> present = active && as_mask((part_flags & int32_t(part_uv << set)) != 0);
         if (!any(present)) continue;
         const float* uv = scene.uv[size_t(set)];
-        const auto mixed = [&](int c) {
-            return gather(uv + c, Int<F>(vertices[0] * 2)) * weights[0] + gather(uv + c, Int<F>(vertices[1] * 2)) * weights[1] +
-                   gather(uv + c, Int<F>(vertices[2] * 2)) * weights[2];
+        const auto corner = [&](size_t k) -> Vec2T<F> {
+            return {gather(uv, Int<F>(vertices[k] * 2)), gather(uv + 1, Int<F>(vertices[k] * 2))};
         };
-        at.uv[size_t(set)] = {select(present, mixed(0), F(0.f)), select(present, mixed(1), F(0.f))};
+        const Vec2T<F> a = corner(0), b = corner(1), c = corner(2);
+        const Vec2T<F> mixed = a * weights[0] + b * weights[1] + c * weights[2];
+        at.uv[size_t(set)] = {select(present, mixed.x, F(0.f)), select(present, mixed.y, F(0.f))};
+        const F uv_area = abs((b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y));
+        at.width[size_t(set)] = select(present, footprint.width * sqrt(uv_area / footprint.triangle_area), F(0.f));
     }
     return at;
 }

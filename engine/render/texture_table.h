@@ -25,24 +25,29 @@ struct TextureSource {
 struct TextureTable {
     std::vector<TextureSource> sources; // one per record
     std::vector<TextureRecord> records;
-    std::vector<uint32_t> rgba8;
+    std::vector<TextureLevel> levels;
+    std::vector<uint32_t> rgba8, rgba16f;
     std::vector<float> rgba32f;
     std::vector<Diagnostic> warnings;
     double seconds = 0; // that building it took
 
     // -1 if absent.
     int32_t index_of(Id<Texture> id, bool is_color) const;
+    // Texels per unit of the image's own coordinates: the geometric mean of width and height.
+    float texels_per_unit(int32_t texture) const;
     // Without uses. Valid until the table changes.
     TextureTables tables() const;
+    size_t memory_bytes() const;
 };
 
-// Memory of an image's texels in the pools.
+// Memory of an image's texels in the pools, smaller versions included.
 int64_t texel_bytes(const Image& image);
 
 // Sources are sorted by (id, is_color), without repetition. An image that several read is stored once. Grey images become
 // RGB, missing alpha is 1. Float images count as sRGB-encoded where they are read as colour and stay within [0, 1], as 16-bit
 // PNG does; a value above 1 marks linear data. With a warning: texels that are negative or not finite become 0, and images
-// that do not hold what they say, or are beyond the pool's limits, become a white texel.
+// that do not hold what they say, or are beyond the pool's limits, become a white texel. Smaller versions hold the means of what is
+// meant: of linear colour, in half precision where the image has 8 bits.
 TextureTable build_texture_table(std::vector<TextureSource> sources);
 
 } // namespace blush

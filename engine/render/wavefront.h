@@ -19,6 +19,8 @@ template <Features S, class F> Path<F> load_path(const PathQueue& q, int k) {
     p.pdf = load<F>(q.pdf + k);
     p.normal = splat<F>(0.f);
     if constexpr (S.has(Feature::light_tree)) p.normal = {load<F>(q.nx + k), load<F>(q.ny + k), load<F>(q.nz + k)};
+    p.cone = F(0.f);
+    if constexpr (S.has(Feature::textures)) p.cone = load<F>(q.cone + k);
     p.key = load<UInt<F>>(q.key + k);
     p.index = load<UInt<F>>(q.index + k);
     p.slot = load<Int<F>>(q.slot + k);
@@ -43,6 +45,7 @@ template <Features S, class F> void append(PathQueue& q, const Path<F>& p, const
         compress(q.ny + k, p.normal.y, b);
         compress(q.nz + k, p.normal.z, b);
     }
+    if constexpr (S.has(Feature::textures)) compress(q.cone + k, p.cone, b);
     compress(q.key + k, p.key, b);
     compress(q.index + k, p.index, b);
     compress(q.slot + k, p.slot, b);

@@ -63,7 +63,8 @@ template <class F> struct MaterialPoint {
     Mask<F> double_sided, unlit;
 };
 
-// Radiance in nits that the material emits at a point, front side. Zero in a kernel without emissive triangles.
+// Radiance in nits that the material emits at a point, front side; its texture is not filtered, as those who aim at it see points of it.
+// Zero in a kernel without emissive triangles.
 template <Features S, class F>
 Vec<F> emission_at(const MaterialTables& tables, const Int<F>& material, const TexturePoint<F>& at, const Mask<F>& active) {
     if constexpr (!S.has(Feature::emissive_triangles)) return splat<F>(0.f);
@@ -71,26 +72,26 @@ Vec<F> emission_at(const MaterialTables& tables, const Int<F>& material, const T
     const MaterialRecord* records = tables.materials;
     const Vec<F> emission = gather_field3<F>(records, &MaterialRecord::emission, m);
     if constexpr (!S.has(Feature::textures)) return emission;
-    return emission * rgb(lookup<F>(tables.textures, gather_field(records, &MaterialRecord::emissive_texture, m), at, active));
+    return emission * rgb(lookup<F>(tables.textures, gather_field(records, &MaterialRecord::emissive_texture, m), at, active, false));
 }
 
-// Share of the surface at a point that is coated.
+// Share of the surface at a point that is coated; not filtered, for it dims emission.
 template <Features S, class F>
 F clearcoat_at(const MaterialTables& tables, const Int<F>& material, const TexturePoint<F>& at, const Mask<F>& active) {
     const Int<F> m = select(active, material, Int<F>(0));
     return clearcoat_share<S, F>(tables.layers, m, [&](int32_t LayerRecord::*slot) {
-        return lookup<F>(tables.textures, gather_field(tables.layers, slot, m), at, active);
+        return lookup<F>(tables.textures, gather_field(tables.layers, slot, m), at, active, false);
     });
 }
 
-// (0, 0, 1) without a normal map.
+// (0, 0, 1) without a normal map. Not filtered: the mean of normals shines otherwise than they do.
 template <class F>
 Vec<F> tangent_normal_at(const MaterialTables& tables, const Int<F>& m, const TexturePoint<F>& at, const Mask<F>& active) {
     const Int<F> use = gather_field(tables.materials, &MaterialRecord::normal_texture, m);
     const Mask<F> mapped = active && as_mask(use >= 0);
     if (!any(mapped)) return {F(0.f), F(0.f), F(1.f)};
     const F scale = gather_field(tables.materials, &MaterialRecord::normal_scale, m);
-    return decode_normal<F>(rgb(lookup<F>(tables.textures, use, at, active)), scale, mapped);
+    return decode_normal<F>(rgb(lookup<F>(tables.textures, use, at, active, false)), scale, mapped);
 }
 
 // Everything the estimator wants to know about the material at a hit. Lanes that are not active get some legal material.
@@ -103,7 +104,9 @@ template <Features S, class F> MaterialPoint<F> material_at(const MaterialTables
         return lookup<F>(tables.textures, gather_field(records, slot, m), at, active);
     };
     const auto layer_texture = [&](int32_t LayerRecord::*slot) {
-        return lookup<F>(tables.textures, gather_field(tables.layers, slot, m), at, active);
+        const bool filtered = slot != &LayerRecord::clearcoat_texture && slot != &LayerRecord::clearcoat_normal_texture &&
+                              slot != &LayerRecord::anisotropy_texture; // coats as for those who aim at what glows below; directions
+        return lookup<F>(tables.textures, gather_field(tables.layers, slot, m), at, active, filtered);
     };
     const Int<F> flags = gather_field(records, &MaterialRecord::flags, m);
     const auto flag = [&](MaterialFlag f) { return Mask<F>(as_mask((flags & int32_t(f)) != 0)); };

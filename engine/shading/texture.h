@@ -1,8 +1,10 @@
-// Image textures: glTF's wrap modes and filters over tables that hold the texels of all images of a scene.
+// Image textures: glTF's wrap modes and filters over tables that hold the texels of all images of a scene, and for looks from far away
+// smaller versions of them (mipmaps).
 // Texels are made linear first and filtered then, as sRGB samplers of graphics hardware do; filtering encoded values would
 // darken every edge.
 #pragma once
 
+#include "core/half.h"
 #include "core/math.h"
 
 #include <array>
@@ -11,19 +13,26 @@ namespace blush {
 
 enum TextureWrap : int32_t { wrap_repeat, wrap_clamp, wrap_mirror };
 enum TextureFilter : int32_t { filter_linear, filter_nearest };
-// Where the texels of a texture are and what they mean. Alpha is always linear.
+// Where the texels of an image are and what they mean. Alpha is always linear.
 enum TextureEncoding : int32_t {
     encoding_srgb8,   // rgba8, colour sRGB-encoded
     encoding_linear8, // rgba8
+    encoding_half,    // rgba16f
     encoding_float32, // rgba32f
 };
 
-struct TextureRecord {
+// One of the versions of an image.
+struct TextureLevel {
     int32_t offset; // of the first texel, in texels, within its pool
     int32_t width, height;
+    int32_t encoding; // TextureEncoding
+};
+
+struct TextureRecord {
+    int32_t first_level;    // the image itself; smaller versions, each half as wide and high, follow
+    int32_t levels;         // at least 1
     int32_t wrap_u, wrap_v; // TextureWrap
     int32_t filter;         // TextureFilter
-    int32_t encoding;       // TextureEncoding
 };
 
 // So many different UV sets can the textures of one scene lie on.
@@ -35,13 +44,16 @@ struct TextureUse {
     int32_t uv_set;  // which of TexturePoint::uv
     float u_from_u, u_from_v, u_offset;
     float v_from_u, v_from_v, v_offset;
+    float texels_per_uv; // of the image itself, along a line in the UV set: the mean of all directions
 };
 
 // Pools hold four channels per texel, top row first; every value in them is finite.
 struct TextureTables {
     const TextureRecord* textures = nullptr;
+    const TextureLevel* levels = nullptr;
     const TextureUse* uses = nullptr;
     const uint32_t* rgba8 = nullptr;       // red in the lowest byte; below 2^31 texels
+    const uint32_t* rgba16f = nullptr;     // two per texel, red and blue in the lower bits; below 2^30 texels
     const float* rgba32f = nullptr;        // below 2^29 texels
     const float* srgb_to_linear = nullptr; // of the 256 byte values
     int32_t uv_sets = 0;                   // that the uses are laid out by
@@ -62,7 +74,9 @@ template <class F> Vec<F> rgb(const Vec4T<F>& c) { return {c.x, c.y, c.z}; }
 
 // Where a point of a surface lies on its textures.
 template <class F> struct TexturePoint {
-    std::array<Vec2T<F>, most_uv_sets> uv; // the first TextureTables::uv_sets of them
+    // The first TextureTables::uv_sets of each.
+    std::array<Vec2T<F>, most_uv_sets> uv;
+    std::array<F, most_uv_sets> width{}; // of the part of the surface that is looked at, in units of uv; 0: a point
 };
 
 // The two texels of one axis that a coordinate lies between, both in [0, size), and the weight of the second.
@@ -100,48 +114,42 @@ template <class F> Vec4T<F> decode_texel(const TextureTables& tables, const UInt
     return select(is_srgb, Vec4T<F>{gather(table, r), gather(table, g), gather(table, b), linear.w}, linear);
 }
 
-// Linear RGBA of a texture use at a point. `use` -1 and lanes that are not active read white,
-// the neutral element of glTF's "factor times texture". Coordinates may be anything: those that are not finite read as 0.
-// Out of line: a material reads up to seven textures, and kernels are flattened.
-template <class F> [[gnu::noinline]] Vec4T<F> lookup(const TextureTables& tables, const Int<F>& use, const TexturePoint<F>& at,
-                                                     const Mask<F>& active) {
-    const Vec4T<F> white{F(1.f), F(1.f), F(1.f), F(1.f)};
-    const Mask<F> reads = active && as_mask(use >= 0);
-    if (!any(reads)) return white;
+// Which versions of an image are mixed for a look at so many of its texels side by side: `finer` and, with this weight, the next. The weight
+// grows with the width from one power of two to the next. Up to one texel it is the image itself alone.
+template <class F> struct TextureBlend {
+    Int<F> finer;
+    F coarser_weight;
+};
+template <class F> TextureBlend<F> texture_blend(const F& texels, const Int<F>& levels) {
+    const F coarsest = float_from_bits(Int<F>((levels + 126) << 23)); // 2^(levels - 1)
+    const Int<F> bits = float_bits(F(min(max(texels, F(1.f)), coarsest)));
+    return {(bits >> 23) - 127, float_from_bits(Int<F>((bits & 0x7fffff) | 0x3f800000)) - 1.f};
+}
 
-    const Int<F> slot = select(reads, use, Int<F>(0));
-    const TextureUse* uses = tables.uses;
-    const Int<F> uv_set = gather_field(uses, &TextureUse::uv_set, slot);
-    F u = at.uv[0].x, v = at.uv[0].y;
-    for (int set = 1; set < tables.uv_sets; ++set) {
-        const Mask<F> on_set = as_mask(uv_set == set);
-        u = select(on_set, at.uv[size_t(set)].x, u);
-        v = select(on_set, at.uv[size_t(set)].y, v);
-    }
-    F s = gather_field(uses, &TextureUse::u_from_u, slot) * u + gather_field(uses, &TextureUse::u_from_v, slot) * v +
-          gather_field(uses, &TextureUse::u_offset, slot);
-    F t = gather_field(uses, &TextureUse::v_from_u, slot) * u + gather_field(uses, &TextureUse::v_from_v, slot) * v +
-          gather_field(uses, &TextureUse::v_offset, slot);
-    s = select(reads && is_finite(s), s, F(0.f));
-    t = select(reads && is_finite(t), t, F(0.f));
-
-    const Int<F> texture = gather_field(uses, &TextureUse::texture, slot);
-    const TextureRecord* records = tables.textures;
-    const Int<F> width = gather_field(records, &TextureRecord::width, texture);
-    const Int<F> height = gather_field(records, &TextureRecord::height, texture);
-    const Mask<F> nearest = as_mask(gather_field(records, &TextureRecord::filter, texture) == filter_nearest);
-    const TexturePair<F> x = texture_pair<F>(s, width, gather_field(records, &TextureRecord::wrap_u, texture), nearest);
-    const TexturePair<F> y = texture_pair<F>(t, height, gather_field(records, &TextureRecord::wrap_v, texture), nearest);
-
-    const Int<F> offset = gather_field(records, &TextureRecord::offset, texture);
-    const Int<F> encoding = gather_field(records, &TextureRecord::encoding, texture);
-    const Mask<F> is_float = reads && as_mask(encoding == encoding_float32), is_bytes = reads && !is_float;
-    const Mask<F> is_srgb = as_mask(encoding == encoding_srgb8);
+// Bilinear or nearest, of one version of an image in the lanes of `reads`. Out of line, as kernels are flattened.
+template <class F>
+[[gnu::noinline]] Vec4T<F> texture_level(const TextureTables& tables, const Int<F>& level, const F& s, const F& t, const Int<F>& wrap_u, const Int<F>& wrap_v,
+                       const Mask<F>& nearest, const Mask<F>& reads) {
+    const TextureLevel* levels = tables.levels;
+    const Int<F> width = gather_field(levels, &TextureLevel::width, level), height = gather_field(levels, &TextureLevel::height, level);
+    const TexturePair<F> x = texture_pair<F>(s, width, wrap_u, nearest);
+    const TexturePair<F> y = texture_pair<F>(t, height, wrap_v, nearest);
+    const Int<F> offset = gather_field(levels, &TextureLevel::offset, level);
+    const Int<F> encoding = gather_field(levels, &TextureLevel::encoding, level);
+    const Mask<F> is_float = reads && as_mask(encoding == encoding_float32), is_half = reads && as_mask(encoding == encoding_half);
+    const Mask<F> is_bytes = reads && !is_float && !is_half, is_srgb = as_mask(encoding == encoding_srgb8);
     const auto texel = [&](const Int<F>& column, const Int<F>& row) {
         const Int<F> place = offset + row * width + column;
-        Vec4T<F> c = white;
+        Vec4T<F> c{F(1.f), F(1.f), F(1.f), F(1.f)};
         if (any(is_bytes)) {
             c = select(is_bytes, decode_texel<F>(tables, gather(tables.rgba8, select(is_bytes, place, Int<F>(0))), is_srgb), c);
+        }
+        if (any(is_half)) {
+            const Int<F> i = select(is_half, place, Int<F>(0)) * 2;
+            const Int<F> rg = to_signed(gather(tables.rgba16f, i)), ba = to_signed(gather(tables.rgba16f + 1, i));
+            const auto low = [](const Int<F>& pair) { return half_value<F>(Int<F>(pair & 0x7fff)); };
+            const auto high = [](const Int<F>& pair) { return half_value<F>(Int<F>((pair >> 16) & 0x7fff)); };
+            c = select(is_half, Vec4T<F>{low(rg), high(rg), low(ba), high(ba)}, c);
         }
         if (any(is_float)) {
             const Int<F> i = select(is_float, place, Int<F>(0)) * 4;
@@ -153,6 +161,51 @@ template <class F> [[gnu::noinline]] Vec4T<F> lookup(const TextureTables& tables
     const Vec4T<F> top = lerp(texel(x.first, y.first), texel(x.second, y.first), x.weight);
     const Vec4T<F> bottom = lerp(texel(x.first, y.second), texel(x.second, y.second), x.weight);
     return lerp(top, bottom, y.weight);
+}
+
+// Linear RGBA of a texture use at a point: the mean over the width that is looked at, or, if not `filtered`, the point itself. `use` -1 and
+// lanes that are not active read white, the neutral element of glTF's "factor times texture". Coordinates and widths may be anything: those
+// that are not finite read as 0. Out of line: a material reads many textures.
+template <class F>
+[[gnu::noinline]] Vec4T<F> lookup(const TextureTables& tables, const Int<F>& use, const TexturePoint<F>& at, const Mask<F>& active,
+                                  bool filtered = true) {
+    const Vec4T<F> white{F(1.f), F(1.f), F(1.f), F(1.f)};
+    const Mask<F> reads = active && as_mask(use >= 0);
+    if (!any(reads)) return white;
+
+    const Int<F> slot = select(reads, use, Int<F>(0));
+    const TextureUse* uses = tables.uses;
+    const Int<F> uv_set = gather_field(uses, &TextureUse::uv_set, slot);
+    F u = at.uv[0].x, v = at.uv[0].y, looked_at = at.width[0];
+    for (int set = 1; set < tables.uv_sets; ++set) {
+        const Mask<F> on_set = as_mask(uv_set == set);
+        u = select(on_set, at.uv[size_t(set)].x, u);
+        v = select(on_set, at.uv[size_t(set)].y, v);
+        looked_at = select(on_set, at.width[size_t(set)], looked_at);
+    }
+    F s = gather_field(uses, &TextureUse::u_from_u, slot) * u + gather_field(uses, &TextureUse::u_from_v, slot) * v +
+          gather_field(uses, &TextureUse::u_offset, slot);
+    F t = gather_field(uses, &TextureUse::v_from_u, slot) * u + gather_field(uses, &TextureUse::v_from_v, slot) * v +
+          gather_field(uses, &TextureUse::v_offset, slot);
+    s = select(reads && is_finite(s), s, F(0.f));
+    t = select(reads && is_finite(t), t, F(0.f));
+
+    const Int<F> texture = gather_field(uses, &TextureUse::texture, slot);
+    const TextureRecord* records = tables.textures;
+    const Int<F> wrap_u = gather_field(records, &TextureRecord::wrap_u, texture), wrap_v = gather_field(records, &TextureRecord::wrap_v, texture);
+    const Mask<F> nearest = as_mask(gather_field(records, &TextureRecord::filter, texture) == filter_nearest);
+    const Int<F> first = gather_field(records, &TextureRecord::first_level, texture);
+    const F texels = looked_at * gather_field(uses, &TextureUse::texels_per_uv, slot);
+    TextureBlend<F> blend{Int<F>(0), F(0.f)};
+    if (filtered && any(reads && texels > F(1.f)))
+        blend = texture_blend<F>(texels, gather_field(records, &TextureRecord::levels, texture));
+    const Int<F> finer = first + blend.finer;
+    const Vec4T<F> fine = texture_level<F>(tables, finer, s, t, wrap_u, wrap_v, nearest && as_mask(blend.finer == 0), reads);
+    const Mask<F> mixes = reads && blend.coarser_weight > F(0.f);
+    if (!any(mixes)) return select(reads, fine, white);
+    const Int<F> coarser = finer + select(mixes, Int<F>(1), Int<F>(0));
+    const Vec4T<F> coarse = texture_level<F>(tables, coarser, s, t, wrap_u, wrap_v, Mask<F>(false), mixes);
+    return select(reads, select(mixes, lerp(fine, coarse, blend.coarser_weight), fine), white);
 }
 
 } // namespace blush::inline BLUSH_ISA

@@ -15,7 +15,7 @@ struct TablePoints {
     const MaterialTables* materials;
     const EnvironmentTables* environment;
     int count;
-    std::array<const float*, 12> numbers; // two UV sets, vertex colour, direction, u
+    std::array<const float*, 14> numbers; // two UV sets, vertex colour, direction, u, width on each UV set
     const int32_t* material;
     const uint32_t* bits;
     const int32_t* active;
@@ -30,7 +30,7 @@ template <class F> void evaluate_tables(const TablePoints& points, const std::ar
     for (int k = 0; k < points.count; k += width<F>) {
         const auto number = [&](size_t i) { return load<F>(points.numbers[i] + k); };
         const Mask<F> active = as_mask(load<Int<F>>(points.active + k) != 0);
-        const TexturePoint<F> at{.uv = {{{number(0), number(1)}, {number(2), number(3)}}}};
+        const TexturePoint<F> at{.uv = {{{number(0), number(1)}, {number(2), number(3)}}}, .width = {{number(12), number(13)}}};
         const Vec<F> direction{number(8), number(9), number(10)};
         const MaterialPoint<F> m = material_at<all_features, F>(*points.materials, load<Int<F>>(points.material + k), at,
                                                                 Vec4T<F>{number(4), number(5), number(6), number(7)}, active);

@@ -80,7 +80,7 @@ TEST(ShadingTables, EveryInstructionSetGivesTheSameBits) {
     const EnvironmentTables environment_tables = environment.tables();
 
     constexpr int count = 4096;
-    std::array<std::vector<float>, 12> numbers;
+    std::array<std::vector<float>, 14> numbers;
     std::vector<int32_t> material(count), active(count);
     std::vector<uint32_t> bits(count);
     TablePoints points{&material_tables, &environment_tables, count, {}, material.data(), bits.data(), active.data()};
@@ -95,6 +95,7 @@ TEST(ShadingTables, EveryInstructionSetGivesTheSameBits) {
         numbers[9][k] = direction.y;
         numbers[10][k] = direction.z;
         numbers[11][k] = random.unit();
+        for (size_t i = 12; i < 14; ++i) numbers[i][k] = random.coin() ? 0 : random.unit();
         bits[k] = random.bits();
         active[k] = random.below(8) != 0;
         material[k] = active[k] ? random.below(41) : int32_t(random.bits());

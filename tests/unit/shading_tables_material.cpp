@@ -456,6 +456,7 @@ TEST(MaterialTable, OneMaterialRewrittenEqualsAllBuiltAnew) {
         ASSERT_EQ(table.layers, fresh.layers);
         ASSERT_EQ(table.textures.sources, fresh.textures.sources);
         ASSERT_EQ(table.textures.rgba8, fresh.textures.rgba8);
+        ASSERT_EQ(table.textures.rgba16f, fresh.textures.rgba16f);
         ASSERT_EQ(std::memcmp(table.uses.data(), fresh.uses.data(), fresh.uses.size() * sizeof(TextureUse)), 0);
     }
     EXPECT_GT(rewritten, 0);

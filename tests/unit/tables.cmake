@@ -3,6 +3,7 @@ blush_test(test_tables
     shading_tables_environment.cpp
     shading_tables_lanes.cpp
     shading_tables_material.cpp
+    shading_tables_mips.cpp
     shading_tables_texture.cpp
   LIBS blush_render
   LABELS unit)

@@ -34,6 +34,7 @@ struct PathQueue {
     int size = 0;
     Column<float> ox, oy, oz, dx, dy, dz, beta_r, beta_g, beta_b, pdf;
     Column<float> nx, ny, nz; // with a light tree
+    Column<float> cone;       // with textures
     Column<uint32_t> key, index;
     Column<int32_t> slot;
     Column<int32_t> part; // that the ray left, -1: the camera; written only if lights may be linked

@@ -1,0 +1,147 @@
+// Textures: how long 64 of 2048 x 2048 pixels take to load and how much memory, and what filtering costs and is worth.
+#include "tests/bench/bench.h"
+#include "tests/bench/machine.h"
+
+#include "core/files.h"
+#include "io/gltf_import.h"
+#include "io/image_io.h"
+#include "measure/stability/picture.h"
+#include "measure/stability/scenes.h"
+#include "render/renderer.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <random>
+
+namespace blush::bench {
+namespace {
+
+constexpr int texture_count = 64, texture_side = 2048;
+
+// Shades with some noise, as photographs have; no two alike. Every other one is a JPEG.
+void write_texture(const std::filesystem::path& file, int index) {
+    std::mt19937 random{uint32_t(index)};
+    std::vector<float> rgb;
+    rgb.reserve(size_t(texture_side) * texture_side * 3);
+    for (int y = 0; y < texture_side; ++y)
+        for (int x = 0; x < texture_side; ++x)
+            for (int c = 0; c < 3; ++c) {
+                const float shade = 0.5f + 0.4f * std::sin(0.01f * float(x * (c + 1) + y * (index % 7 + 1)));
+                rgb.push_back(shade + 0.1f * float(random() % 256) / 256);
+            }
+    if (const auto ok = write_display_image(file, texture_side, texture_side, rgb); !ok) throw std::runtime_error(ok.error().text());
+}
+
+// One square after the other, each with a texture of its own.
+void write_scene(const std::filesystem::path& file) {
+    const std::vector<float> square{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, /* texture coordinates */ 0, 1, 1, 1, 0, 0, 1, 0};
+    const auto* bytes = reinterpret_cast<const uint8_t*>(square.data());
+    if (const auto ok = write_file(file.parent_path() / "square.bin", {bytes, square.size() * sizeof(float)}); !ok) throw std::runtime_error(ok.error().text());
+    Json gltf{{"asset", {{"version", "2.0"}}},
+              {"buffers", {{{"uri", "square.bin"}, {"byteLength", square.size() * sizeof(float)}}}},
+              {"bufferViews", {{{"buffer", 0}, {"byteLength", 48}}, {{"buffer", 0}, {"byteOffset", 48}, {"byteLength", 32}}}},
+              {"accessors",
+               {{{"bufferView", 0}, {"componentType", 5126}, {"count", 4}, {"type", "VEC3"}, {"min", {0, 0, 0}}, {"max", {1, 1, 0}}},
+                {{"bufferView", 1}, {"componentType", 5126}, {"count", 4}, {"type", "VEC2"}}}}};
+    for (int i = 0; i < texture_count; ++i) {
+        const std::string name = fmt::format("{}.{}", i, i % 2 ? "jpg" : "png");
+        write_texture(file.parent_path() / name, i);
+        gltf["images"].push_back({{"uri", name}});
+        gltf["textures"].push_back({{"source", i}});
+        gltf["materials"].push_back({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", i}}}}}});
+        const Json primitive{{"attributes", {{"POSITION", 0}, {"TEXCOORD_0", 1}}}, {"mode", 5}, {"material", i}};
+        gltf["meshes"].push_back({{"primitives", Json::array({primitive})}});
+        gltf["nodes"].push_back({{"mesh", i}, {"translation", {i % 8, i / 8, 0}}});
+    }
+    const std::string text = gltf.dump();
+    if (const auto ok = write_file(file, {reinterpret_cast<const uint8_t*>(text.data()), text.size()}); !ok)
+        throw std::runtime_error(ok.error().text());
+}
+
+Json measure_loading(const Options& options) {
+    const auto folder = std::filesystem::temp_directory_path() / fmt::format("blush_bench_textures_{}", Clock::now().time_since_epoch().count());
+    std::filesystem::create_directory(folder);
+    write_scene(folder / "scene.gltf");
+    std::vector<double> import_seconds, import_core_seconds, compile_seconds;
+    double peak_mb = 0, decoded_mb = 0, compiled_mb = 0;
+    for (int round = 0; round < std::min(options.rounds, 3); ++round) {
+        const MemoryGrowth memory;
+        std::optional<Result<ImportedScene>> imported;
+        const Cost cost = cost_of([&] { imported = import_gltf(folder / "scene.gltf"); });
+        if (!*imported) throw std::runtime_error((*imported).error().text());
+        import_seconds.push_back(cost.wall_seconds);
+        import_core_seconds.push_back(cost.core_seconds);
+        Renderer renderer({.threads = options.threads, .planes = {}});
+        compile_seconds.push_back(cost_of([&] { renderer.update((*imported)->scene, window_settings()); }).wall_seconds);
+        peak_mb = std::max(peak_mb, memory.peak_mb());
+        compiled_mb = renderer.info().memory_mb;
+        decoded_mb = 0;
+        for (const auto& [id, texture] : (*imported)->scene.textures) decoded_mb += double(texture.image->bytes.size()) / 1e6;
+    }
+    std::filesystem::remove_all(folder);
+    return {{"textures", texture_count},
+            {"side", texture_side},
+            {"import_seconds", rounded(median(import_seconds))},
+            {"import_core_seconds", rounded(median(import_core_seconds))},
+            {"compile_seconds", rounded(median(compile_seconds))},
+            {"decoded_mb", rounded(decoded_mb)},
+            {"compiled_mb", rounded(compiled_mb)},
+            {"peak_mb", rounded(peak_mb)}};
+}
+
+// A room whose six sides have squares of one metre on them, seen from inside.
+Scene textured_room(float half) {
+    Scene scene;
+    std::vector<Vec3> texels;
+    for (int i = 0; i < 64 * 64; ++i) texels.push_back((i / 8 + i / 512) % 2 ? Vec3{0.8f, 0.7f, 0.6f} : Vec3{0.1f, 0.2f, 0.3f});
+    Material material = stability::lambert(1);
+    material.base_color_texture.texture = stability::add_texture(scene, stability::float_picture(64, 64, texels), Texture::Filter::linear);
+    material.base_color_texture.scale = {half / 4, half / 4};
+    stability::place(scene, stability::cube(true), material, stability::at({0, 0, 0}, half));
+    Light bulb;
+    bulb.intensity = 1000 * half * half;
+    stability::shine(scene, bulb, stability::at({0.3f * half, 0.5f * half, 0}));
+    scene.view = stability::looking({-0.9f * half, -0.9f * half, 0}, {half, -half, 0}, 0.7f);
+    return scene;
+}
+
+double error_squared(const stability::Picture& picture) {
+    double sum = 0;
+    for (const Vec3d& e : picture.errors) sum += e.x * e.x + e.y * e.y + e.z * e.z;
+    return sum;
+}
+
+// Rounds with and without filtering alternate.
+Json measure_filtering(const char* name, const Scene& scene, const Options& options) {
+    RenderSettings settings = rate_settings();
+    settings.width = settings.height = 256;
+    settings.max_bounces = 4;
+    Renderer filtered({.threads = options.threads, .planes = {}, .filter_textures = true});
+    Renderer points({.threads = options.threads, .planes = {}, .filter_textures = false});
+    std::vector<double> ratios;
+    for (Renderer* renderer : {&filtered, &points}) renderer->update(scene, settings);
+    for (int round = 0; round < options.rounds; ++round) {
+        const auto seconds = [&](Renderer& renderer) { return cost_of([&] { renderer.render(8 * round, 8); }).core_seconds; };
+        const double with = seconds(filtered);
+        ratios.push_back(with / seconds(points));
+    }
+    const double variance_left = error_squared(stability::picture_of(filtered)) / error_squared(stability::picture_of(points));
+    return {{"scene", name},
+            {"time_over_unfiltered", rounded(median(ratios))},
+            {"time_quartiles", {rounded(quantile(ratios, 0.25)), rounded(quantile(ratios, 0.75))}},
+            {"variance_over_unfiltered", rounded(variance_left)}};
+}
+
+} // namespace
+
+Json run_textures(const Options& options) {
+    return {{"loading", measure_loading(options)},
+            {"filtering",
+             {measure_filtering("near: texels are magnified", textured_room(1), options),
+              measure_filtering("middle: a texel is a pixel", textured_room(30), options),
+              measure_filtering("far: hundreds of texels are a pixel", textured_room(10000), options)}}};
+}
+
+} // namespace blush::bench
