@@ -45,7 +45,7 @@ std::vector<float> interleaved(const Channels& channels) {
 // A display-encoded image becomes scene-linear: only there do means of light make sense.
 void linearise(LayeredImage& image) {
     for (LayeredImage::Channel& channel : image.channels)
-        if (channel.name != "A") std::ranges::transform(channel.values, channel.values.begin(), linear_from_srgb);
+        if (channel.name != "A") std::ranges::transform(channel.values, channel.values.begin(), linear_from_srgb<float>);
 }
 
 Result<LayeredImage> read_input(const DenoiseCommand& c) {
