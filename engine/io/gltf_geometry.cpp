@@ -190,6 +190,8 @@ void provide_tangents(const GltfContext& context, Geometry& g, int uv_set, const
     }
     append_bending(g, add_tangents(g, uv_set));
     context.note("tangents are missing: computed from texture coordinates as MikkTSpace does", where);
+    if (!g.targets.empty() || !g.influences.empty())
+        context.note("approximated: tangents that were computed bend with the shape, instead of being computed of each anew", where);
 }
 
 GeometryPtr solids(const GltfContext& context, const Geometry& vertices, const std::vector<uint32_t>& order, int mode, const std::string& where) {

@@ -110,8 +110,9 @@ GeometryPtr bent(const Geometry& rest, const Bend& bend) {
     for (size_t i = 0; i < positions.size(); ++i) {
         Affined map;
         if (!bend.joints.empty()) map = rest.influences.empty() ? bend.rigid : blended(rest, bend, i);
-        const Vec3 place = to_float(transform_point(map, positions[i]));
-        g.positions[i] = finite(place) ? place : to_float(transform_point(bend.rigid, to_double(rest.positions[i])));
+        Vec3 place = to_float(transform_point(map, positions[i]));
+        if (!finite(place)) place = to_float(transform_point(bend.rigid, to_double(rest.positions[i])));
+        g.positions[i] = finite(place) ? place : Vec3{0, 0, 0};
         if (!normals.empty()) {
             const double sign = determinant(map) < 0 ? -1 : 1;
             g.normals[i] = unit(transform_vector(cofactor(map), normals[i]) * sign, rest.normals[i]);

@@ -1,6 +1,8 @@
 #include "scene/pose.h"
 
+#include "scene/affine.h"
 #include "scene/keyframes.h"
+#include "scene/placements.h"
 
 #include <algorithm>
 
@@ -12,6 +14,16 @@ using Property = Channel::Property;
 Vec3 vector_at(const Channel& channel, float seconds) {
     const std::vector<float> v = value_at(*channel.keyframes, seconds);
     return {v[0], v[1], v[2]};
+}
+
+// Nodes that the clip leads to where no number is.
+std::vector<Id<Node>> carried_off(const Scene& scene) {
+    std::vector<Id<Node>> nodes;
+    const Clip* clip = scene.staging.clip ? scene.clips.find(scene.staging.clip) : nullptr;
+    Placements placements(scene);
+    for (size_t i = 0; clip && i < clip->channels.size(); ++i)
+        if (const Id<Node> id = clip->channels[i].node; scene.nodes.contains(id) && !is_finite(placements(id).world_from_node)) nodes.push_back(id);
+    return nodes;
 }
 
 } // namespace
@@ -73,6 +85,11 @@ Scene with_pose_applied(const Scene& scene) {
         now.visible = node.visible && !is_of_other_scene(scene, node);
         now.only_in_scenes.clear();
         posed.nodes.set(id, std::move(now));
+    }
+    for (const Id<Node> id : carried_off(scene)) {
+        Node hidden = *posed.nodes.find(id);
+        hidden.visible = false;
+        posed.nodes.set(id, std::move(hidden));
     }
     posed.staging = {};
     posed.clips = {};

@@ -25,7 +25,8 @@ bool is_of_other_scene(const Scene& scene, const Node& node);
 // Neither the node nor what it hangs below is.
 bool is_in_chosen_scene(const Scene& scene, Id<Node> node);
 
-// The scene with clip, moment and choice of scene spelled out in its nodes, and then forgotten: it looks the same.
+// The scene with clip, moment and choice of scene spelled out in its nodes, and then forgotten: it looks the same. Nodes that the clip carries
+// beyond all numbers are hidden.
 Scene with_pose_applied(const Scene& scene);
 
 } // namespace blush

@@ -46,6 +46,26 @@ TEST(Staging, ADragOfTheTimeIsOneStepThatCanBeUndone) {
     EXPECT_EQ(document.project().scene.staging, swing_at(s, 1.5f));
 }
 
+TEST(Staging, WhatAClipCarriesBeyondAllNumbersIsHidden) {
+    Sample s = sample_project();
+    Scene& scene = s.project.scene;
+    Clip clip = *scene.clips.find(s.swing);
+    const auto keys = std::make_shared<const Keyframes>(Keyframes{Keyframes::Interpolation::step, {0}, {3e38f, 3e38f, 3e38f}});
+    clip.channels = {{s.root, Channel::Property::scale, keys}, {s.mug, Channel::Property::scale, keys}};
+    for (const Id<Node> id : {s.root, s.mug, s.lamp_node}) { // the product of so many of them
+        Node node = *scene.nodes.find(id);
+        node.local.scale = {3e38f, 3e38f, 3e38f};
+        scene.nodes.set(id, node);
+    }
+    Node far = *scene.nodes.find(s.mug);
+    for (int i = 0; i < 8; ++i) far.parent = scene.nodes.add(far);
+    scene.nodes.set(s.mug, far);
+    scene.clips.set(s.swing, clip);
+    const Scene applied = with_pose_applied(staged(scene, swing_at(s, 0)));
+    EXPECT_FALSE(is_visible(applied, s.mug));
+    EXPECT_TRUE(is_visible(applied, s.table));
+}
+
 TEST(Staging, WhatIsNotThereCannotBeChosen) {
     const Sample s = sample_project();
     const float nan = std::numeric_limits<float>::quiet_NaN();
