@@ -51,6 +51,7 @@ Result<void> check_staging(const Scene& scene, const Staging& s) {
 Scene staged(const Scene& scene, const Staging& staging) {
     Scene next = scene;
     next.staging = staging;
+    if (!staging.clip) next.staging.seconds = 0;
     if (staging.variant != scene.staging.variant) dress(next);
     if (staging.clip == scene.staging.clip && staging.seconds == scene.staging.seconds) return next;
     if (const Id<Node> camera = camera_looked_through(scene)) {
