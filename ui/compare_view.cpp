@@ -1,5 +1,6 @@
 #include "ui/compare_view.h"
 
+#include "ui/texture_id.h"
 #include "ui/theme.h"
 
 #include <algorithm>

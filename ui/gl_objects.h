@@ -3,9 +3,7 @@
 
 #include "core/result.h"
 
-#include <cstdint>
 #include <epoxy/gl.h>
-#include <imgui.h>
 #include <string>
 #include <utility>
 
@@ -68,9 +66,6 @@ using GlProgram = GlObject<GlProgramKind>;
 // A program that fills the target with `fragment_source` (GLSL 3.30 without #version); its input is `in vec2 uv`, (0, 0) in
 // the first row of the target, and its output `out vec4 result`. The error holds the compiler's message.
 Result<GlProgram> make_fill_program(const std::string& fragment_source);
-
-// As ImGui and its OpenGL backend name a texture.
-inline ImTextureID texture_id(GLuint name) { return reinterpret_cast<ImTextureID>(uintptr_t(name)); }
 
 // GL_LINEAR or GL_NEAREST, for a 2D texture that is shown larger than it is.
 void set_filter(GLuint texture, GLint filter);

@@ -1,5 +1,6 @@
 #include "ui/snapshot_strip.h"
 
+#include "ui/texture_id.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
 

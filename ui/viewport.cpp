@@ -11,6 +11,7 @@
 #include "ui/picking.h"
 #include "ui/pixel_grid.h"
 #include "ui/selected_lights.h"
+#include "ui/texture_id.h"
 #include "ui/theme.h"
 #include "ui/view_tools.h"
 #include "ui/viewport_marks.h"

@@ -1,5 +1,7 @@
 #include "ui/waveform_sheet.h"
 
+#include "ui/texture_id.h"
+
 #include <algorithm>
 #include <cmath>
 

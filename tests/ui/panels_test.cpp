@@ -26,8 +26,12 @@ protected:
     void draw_all(Document& document, Id<Node> selected) {
         ui.selected = selected;
         ui.show_shortcuts = ui.show_history = ui.bounces.open = ui.health.open = ui.import_report.open = true;
-        ui.import_report.report = std::make_shared<const ImportReport>(
-            ImportReport{{"A", "B"}, {"A"}, {}, {"B"}, {{Diagnostic::Severity::warning, "ignored: B", "nodes[0]"}, {Diagnostic::Severity::note, "x", ""}}, 1});
+        ImportReport report;
+        report.extensions_used = {"A", "B", "C"};
+        report.extensions_honoured = {"A"};
+        report.extensions_ignored = {"B", "C"};
+        report.diagnostics = {{Diagnostic::Severity::warning, "ignored: B", "nodes[0]"}, {Diagnostic::Severity::note, "x", ""}};
+        ui.import_report.report = std::make_shared<const ImportReport>(std::move(report));
         ui.scopes.open = ui.meters.open = ui.convergence.open = ui.light_table.open = true;
         for (int tab = 0; tab <= int(InspectorTab::display); ++tab) {
             ui.tab = InspectorTab(tab);
