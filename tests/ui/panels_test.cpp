@@ -1,5 +1,6 @@
 // Every panel, for everything there is to select: drawing alone edits nothing, whatever the values are.
 #include "imgui_test.h"
+#include "io/gltf_import.h"
 #include "render/light_links.h"
 #include "support/sample_project.h"
 #include "ui/panels/panels.h"
