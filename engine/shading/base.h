@@ -273,7 +273,8 @@ template <Features S, class F> BsdfSample<F> sample_facets(const Bsdf<F>& b, con
         s.wi = select(reflects, s.wi, through);
         s.weight = select(reflects, s.weight, a.transmitted * b.radiance_scale);
         s.delta = s.delta || (b.straight && !reflects);
-        s.valid = select(reflects, s.valid, s.wi.z < F(0.f));
+        // Rounding may turn a facet at the rim of what is seen away from the viewer: what it refracts is not of unit length.
+        s.valid = select(reflects, s.valid, s.wi.z < F(0.f) && dot(wo, h) > F(0.f));
     }
     s.weight = s.weight / facet_probability<S>(a, reflects);
     return s;

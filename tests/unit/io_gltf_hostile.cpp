@@ -163,7 +163,7 @@ const Break breaks[] = {
      "not a valid glTF file"},
     {"Version1", [](Json& j) { j["asset"]["version"] = "1.0"; }, "glTF version 1.0"},
     {"NoAsset", [](Json& j) { j.erase("asset"); }, "no asset version"},
-    {"RequiredExtension", [](Json& j) { j["extensionsRequired"] = {"KHR_texture_basisu"}; }, "needs KHR_texture_basisu"},
+    {"RequiredExtension", [](Json& j) { j["extensionsRequired"] = {"KHR_animation_pointer"}; }, "needs KHR_animation_pointer"},
     {"NodesOfTheWrongKind",
      [](Json& j) {
          j["nodes"] = {1, 2, 3};
