@@ -263,6 +263,11 @@ TEST(HostileGltf, GlbWithFalseLengths) {
             std::memcpy(broken.data() + field, &value, sizeof value);
             EXPECT_FALSE(import_text(folder, broken)) << field << " " << value;
         }
+    // A file of no length whose chunk has all lengths that there are.
+    std::string both = whole;
+    std::fill_n(both.begin() + 8, 4, '\0');
+    std::fill_n(both.begin() + 12, 4, '\xff');
+    EXPECT_NE(error_text(import_text(folder, both)).find("fewer than a GLB header"), std::string::npos);
 }
 
 TEST(ResolveUri, KeepsToTheFolder) {
