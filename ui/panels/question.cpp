@@ -46,6 +46,7 @@ void draw_question(PanelContext& c) {
     ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
     if (!ImGui::BeginPopupModal(name, nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoTitleBar))
         return;
+    if (ImGui::IsWindowAppearing()) c.ui.next_frame_in = 0; // it is seen in the frame after the one that finds out how large it is
     draw_texts(*c.ui.question);
     draw_choices(c, *c.ui.question);
     if (c.ui.question->chosen) ImGui::CloseCurrentPopup();

@@ -65,6 +65,7 @@ void draw_toasts(PanelContext& c) {
         const std::chrono::duration<double> left = toast.since + lifetime(toast) - now;
         c.ui.next_frame_in = std::min(c.ui.next_frame_in, std::max(left.count(), 0.0));
         begin_card(("##toast" + std::to_string(i)).c_str(), right, bottom, edge_of(toast.kind));
+        if (ImGui::IsWindowAppearing()) c.ui.next_frame_in = 0; // it is seen in the frame after the one that finds out how large it is
         draw_texts(toast);
         if (toast.action && ImGui::Button(shortcut(*toast.action).name)) {
             c.ui.commands.push_back(*toast.action);
