@@ -122,7 +122,7 @@ click_menu() { click "Menu bar/$1" && click "Menu/$2"; }
 drag_from() {
     xdotool mousemove "$1" "$2" && sleep 0.3 && xdotool mousedown 1 && sleep 0.3
     xdotool mousemove $((($1 + $3) / 2)) $((($2 + $4) / 2)) && sleep 0.3 && xdotool mousemove "$3" "$4" && sleep 0.3
-    xdotool mouseup 1
+    xdotool mouseup 1 && sleep 0.3 # the last of it is taken up
 }
 # drag WIDGET FROM TO, in per cent of its width.
 drag() {
