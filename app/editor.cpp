@@ -6,7 +6,8 @@
 #include "app/editor_files.h"
 #include "app/editor_saving.h"
 #include "app/editor_snapshots.h"
-#include "scene/changes.h"
+#include "app/followed_mix.h"
+#include "app/submitted.h"
 #include "ui/automation.h"
 #include "ui/file_listing.h"
 #include "ui/frame_stats.h"
@@ -39,7 +40,6 @@ private:
     void panels();
     void submit();
     void latest();
-    void mix_lights();
     void draw();
 
     PanelContext context();
@@ -77,18 +77,11 @@ private:
     Pictures pictures_;
     PictureMix wanted_mix_;
     EditorConvergence convergence_;
-    std::optional<Mixing> mixing_; // of the frame's groups, for the scene as it is now
-    std::shared_ptr<const LightGroups> mixed_groups_; // and of which it is
-    uint64_t mixed_revision_ = 0;
+    FollowedMix mix_;
     std::string weights_problem_; // why the denoiser's weights are of no use; empty: they are there
     RenderSession session_;
 
-    // What the session was last given.
-    uint64_t revision_ = 0;  // the last one given out
-    uint64_t submitted_ = 0; // the one the window waits for; 0: nothing yet
-    Scene submitted_scene_;
-    RenderSettings submitted_settings_;
-    PlaneSet submitted_planes_;
+    Submitted submitted_;
     bool session_paused_ = false, session_denoises_ = false;
 
     bool remembered_follow_viewport_ = true; // what the settings said before the command line
@@ -155,7 +148,7 @@ void Editor::poll() {
     if (finished.opened || finished.saved) {
         window_->set_title(files_.scene_file().filename().string() + " - Blush");
         if (finished.opened) {
-            submitted_ = 0; // a new scene is submitted whatever it looks like
+            submitted_.forget(); // a new scene is submitted whatever it looks like
             list_kept_snapshots();
         }
         window_->request_frames(2);
@@ -189,7 +182,7 @@ PanelContext Editor::context() {
             pictures_.denoised,
             status.denoiser_failure.empty() ? weights_problem_ : status.denoiser_failure,
             &display_.ledger(),
-            mixing_ ? &*mixing_ : nullptr,
+            mix_.mixing(),
             display_.metered_ev()};
 }
 
@@ -201,7 +194,7 @@ void Editor::panels() {
     window_->begin_frame();
     ui_.next_frame_in = longest_sleep;
     ui_.probe.begin_frame();
-    mix_lights();
+    mix_.follow(pictures_.frame, document_);
     PanelContext c = context();
     draw_regions(c);
     draw_above(c);
@@ -348,8 +341,8 @@ void Editor::take_dropped(const std::filesystem::path& file) {
 
 void Editor::save_due_snapshot() {
     const FramePtr& frame = pictures_.frame;
-    if (snapshot_due_ == SnapshotDue::none || !frame || frame->revision != submitted_ || frame->divider != 1) return;
-    EditorSnapshots::Shown shown{submitted_, pictures_, ui_.denoise, document_.project(), submitted_settings_, files_.imported(), files_.scene_file()};
+    if (snapshot_due_ == SnapshotDue::none || !frame || frame->revision != submitted_.revision() || frame->divider != 1) return;
+    EditorSnapshots::Shown shown{submitted_.revision(), pictures_, ui_.denoise, document_.project(), submitted_.settings(), files_.imported(), files_.scene_file()};
     if (snapshot_due_ == SnapshotDue::keep)
         snapshots_.keep(std::move(shown), session_);
     else
@@ -376,8 +369,8 @@ void Editor::keep_size(const RenderSettings& kept) {
 
 // Not where the image on the screen is the same and further on.
 bool Editor::worth_restoring(const FilmState& film, const RenderSettings& r) const {
-    const bool same = submitted_ != 0 && !diff(submitted_scene_, submitted_settings_, document_.project().scene, r).affects_image();
-    return !same || !pictures_.frame || pictures_.frame->revision != submitted_ || pictures_.frame->samples < film.samples;
+    const bool same = submitted_.is_same_image(document_.project().scene, r);
+    return !same || !pictures_.frame || pictures_.frame->revision != submitted_.revision() || pictures_.frame->samples < film.samples;
 }
 
 // Hands the project over when something in it reaches the image.
@@ -389,25 +382,12 @@ void Editor::submit() {
     const Scene& scene = document_.project().scene;
     const PlaneSet planes = ui_.wanted_planes();
     const FilmStatePtr film = restored && restored->film && worth_restoring(*restored->film, r) ? restored->film : nullptr;
-    const bool changed = planes != submitted_planes_ || diff(submitted_scene_, submitted_settings_, scene, r).any();
-    if (!film && submitted_ != 0 && !changed) return;
-    const std::string opened = submitted_ == 0 ? files_.scene_file().filename().string() : "";
-    submitted_ = ++revision_;
-    submitted_scene_ = scene;
-    submitted_settings_ = r;
-    submitted_planes_ = planes;
-    const bool goes_on = session_.submit(submitted_, scene, r, planes, film);
-    convergence_.submit(ui_.convergence, {document_, r, planes, submitted_, goes_on}, opened);
-    stats_.submitted(submitted_, frame_begin_);
-}
-
-// The picture follows the document at once where gains are all it takes, whatever the session is at.
-void Editor::mix_lights() {
-    const auto groups = pictures_.frame ? pictures_.frame->light_groups : nullptr;
-    if (groups == mixed_groups_ && document_.revision() == mixed_revision_) return;
-    mixed_groups_ = groups;
-    mixed_revision_ = document_.revision();
-    mixing_ = groups ? mixing_of(*groups, document_.project().scene) : std::nullopt;
+    if (!film && !submitted_.is_new(scene, r, planes)) return;
+    const std::string opened = submitted_.revision() == 0 ? files_.scene_file().filename().string() : "";
+    const uint64_t revision = submitted_.note(scene, r, planes);
+    const bool goes_on = session_.submit(revision, scene, r, planes, film);
+    convergence_.submit(ui_.convergence, {document_, r, planes, revision, goes_on}, opened);
+    stats_.submitted(revision, frame_begin_);
 }
 
 void Editor::latest() {
@@ -426,7 +406,7 @@ void Editor::draw() {
     const Toasts& toasts = ui_.toasts;
     ProbeState state;
     state.image = {image_.x, image_.y, image_.width, image_.height};
-    state.revision = submitted_;
+    state.revision = submitted_.revision();
     if (!toasts.all().empty()) state.toast = toasts.all().back().text;
     const FramePtr& shown = viewport_.shown();
     if (shown) {
@@ -434,7 +414,7 @@ void Editor::draw() {
         state.height = shown->height;
         state.samples = shown->samples;
         state.complete = shown->complete;
-        state.up_to_date = shown->revision == submitted_ && !viewport_.is_thinned();
+        state.up_to_date = shown->revision == submitted_.revision() && !viewport_.is_thinned();
         state.look = shown_text(ui_.denoise, *shown, pictures_.denoised.get());
     }
     window_->end_frame();
@@ -442,8 +422,8 @@ void Editor::draw() {
     const FrameTimes took = pace_.end(now);
     // Loading and compiling shaders, before there is a picture, is not what smoothness is judged by.
     if (shown) stats_.add_frame(took);
-    const bool mixed = shown && mixing_ && shown->light_groups == mixed_groups_ && viewport_.shown_gains() == mixing_->gains;
-    if (shown) stats_.shown(mixed ? submitted_ : shown->revision, now);
+    const bool mixed = shown && mix_.is_shown_by(*shown, viewport_.shown_gains());
+    if (shown) stats_.shown(mixed ? submitted_.revision() : shown->revision, now);
     if (viewport_.shows(wanted_mix_)) stats_.look_shown(now);
     ui_.probe.end_frame(state);
 }
