@@ -1,11 +1,12 @@
 // Figures about the picture that is shown: region statistics and scopes against what one adds up by hand.
 #include "io/displayed.h"
+#include "our_colors.h"
 #include "render/coverage.h"
 #include "ui/meters_view.h"
 #include "ui/region_statistics.h"
 #include "ui/scopes_view.h"
-#include "ui/waveform_sheet.h"
 #include "ui/view_tools.h"
+#include "ui/waveform_sheet.h"
 
 #include <gtest/gtest.h>
 
@@ -17,11 +18,6 @@ namespace {
 
 class Figures : public testing::Test {
 protected:
-    void SetUp() override {
-        auto loaded = ColorManagement::load(BLUSH_ASSETS);
-        ASSERT_TRUE(loaded) << loaded.error().text();
-        color.emplace(*std::move(loaded));
-    }
     // 8 x 4 pixels whose red is their column, green their row, blue 0.25; the last one black.
     ShownPicture picture() {
         auto frame = std::make_shared<Frame>();
@@ -30,9 +26,9 @@ protected:
         for (int y = 0; y < 4; ++y)
             for (int x = 0; x < 8; ++x) frame->rgba.insert(frame->rgba.end(), {float(x), float(y), 0.25f, 1});
         std::fill_n(frame->rgba.end() - 4, 3, 0.f);
-        return {frame, nullptr, {}, {}, &*color};
+        return {frame, nullptr, {}, {}, &color};
     }
-    std::optional<ColorManagement> color;
+    const ColorManagement color = test::our_colors();
 };
 
 TEST_F(Figures, OfARegionAreThoseOfItsPixels) {
@@ -68,7 +64,7 @@ TEST_F(Figures, OfARegionAreThoseOfItsPixels) {
     EXPECT_NEAR(s.ev.mean, spread_of(ev).mean, 1e-5);
     EXPECT_NEAR(s.ev.high, spread_of(ev).high, 1e-5);
     EXPECT_NEAR(s.ev100.deviation, spread_of(ev100).deviation, 1e-5);
-    ASSERT_TRUE(color->apply_display({}, numbers, shown.data(), 6));
+    ASSERT_TRUE(color.apply_display({}, numbers, shown.data(), 6));
     for (size_t k = 0; k < 3; ++k) {
         double mean = 0;
         for (size_t i = 0; i < 6; ++i) mean += double(shown[3 * i + k]) / 6;
@@ -102,7 +98,7 @@ TEST_F(Figures, OfScopesOfALargePictureAreOfAGridOfItsPixels) {
     frame->width = 1280;
     frame->height = 720;
     frame->rgba.assign(size_t(1280) * 720 * 4, 0.18f);
-    const Scopes s = scopes_of({frame, nullptr, {}, {}, &*color});
+    const Scopes s = scopes_of({frame, nullptr, {}, {}, &color});
     EXPECT_EQ(s.step, 2);
     EXPECT_EQ(s.scene.pixels, 640 * 360);
     EXPECT_EQ(s.scene.counts[3][64], uint32_t(640 * 360)) << "middle grey is in the middle";

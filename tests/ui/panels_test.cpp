@@ -1,5 +1,6 @@
 // Every panel, for everything there is to select: drawing alone edits nothing, whatever the values are.
 #include "imgui_test.h"
+#include "our_colors.h"
 #include "io/gltf_import.h"
 #include "render/light_links.h"
 #include "support/sample_project.h"
@@ -16,13 +17,6 @@ namespace {
 
 class Panels : public test::ImGuiTest {
 protected:
-    void SetUp() override {
-        ImGuiTest::SetUp();
-        auto loaded = ColorManagement::load(BLUSH_ASSETS);
-        ASSERT_TRUE(loaded) << loaded.error().text();
-        color.emplace(*std::move(loaded));
-    }
-
     // A few frames of everything, with this selected.
     void draw_all(Document& document, Id<Node> selected) {
         ui.selected = selected;
@@ -38,7 +32,7 @@ protected:
             ui.tab = InspectorTab(tab);
             for (int i = 0; i < 3; ++i) {
                 in_window([&] {
-                    PanelContext c{document, ui, *color, frame, SessionStatus(), 640, 480};
+                    PanelContext c{document, ui, color, frame, SessionStatus(), 640, 480};
                     draw_outliner(c);
                     draw_time(c);
                     draw_status_bar(c);
@@ -59,7 +53,7 @@ protected:
         }
     }
 
-    std::optional<ColorManagement> color;
+    const ColorManagement color = test::our_colors();
     UiState ui;
     FramePtr frame;
 };
@@ -139,7 +133,7 @@ TEST_F(Panels, SayWhoseShadowsCannotBeLinked) {
         ui.probe = Probe(file);
         ui.select(selected);
         in_window([&] {
-            PanelContext c{document, ui, *color, frame, SessionStatus(), 640, 480};
+            PanelContext c{document, ui, color, frame, SessionStatus(), 640, 480};
             draw_light_links_panel(c, selected);
         });
         ui.probe.end_frame({});
@@ -190,7 +184,7 @@ TEST_F(Panels, EveryWayOfLookingAtADenoisedPicture) {
                 ui.denoise = {show, 0.5f};
                 ui.pixel = PixelProbe{0.9, 0.9};
                 in_window([&] {
-                    PanelContext c{document, ui, *color, raw, SessionStatus(), 2, 2, denoised, problem};
+                    PanelContext c{document, ui, color, raw, SessionStatus(), 2, 2, denoised, problem};
                     draw_inspector(c);
                     draw_status_bar(c);
                     draw_pixel_panel(c);
@@ -216,7 +210,7 @@ TEST_F(Panels, AnEmptySceneAndAFrameWithoutPlanes) {
     ui.pixel = PixelProbe{0.5, 0.5};
     for (int i = 0; i < 3; ++i) {
         in_window([&] {
-            PanelContext c{document, ui, *color, frame, SessionStatus(), 1, 1};
+            PanelContext c{document, ui, color, frame, SessionStatus(), 1, 1};
             draw_pixel_panel(c);
         });
     }
@@ -236,7 +230,7 @@ TEST_F(Panels, EachThingLeftOutHasItsLine) {
         for (int i = 0; i < 2; ++i) {
             in_window([&] {
                 const float top = ImGui::GetCursorPosY();
-                PanelContext c{document, ui, *color, frame, {}, 640, 480};
+                PanelContext c{document, ui, color, frame, {}, 640, 480};
                 draw_left_out_section(c);
                 height = ImGui::GetCursorPosY() - top;
             });
@@ -331,7 +325,7 @@ TEST_F(Panels, TheLightMixShowsItsGroups) {
         for (const Mixing* shown : {&*mixing, static_cast<const Mixing*>(nullptr)}) {
             ui.light_mix.unfolded = unfolded;
             in_window([&] {
-                PanelContext c{document, ui, *color, frame, {}, 64, 48};
+                PanelContext c{document, ui, color, frame, {}, 64, 48};
                 c.mixing = shown;
                 draw_light_mix_panel(c);
             });
@@ -343,7 +337,7 @@ TEST_F(Panels, TheRouletteLabMeasuresWhileItIsOpen) {
     Document document(test::sample_project().project);
     const auto draw = [&] {
         in_window([&] {
-            PanelContext c{document, ui, *color, frame, {}, 64, 48};
+            PanelContext c{document, ui, color, frame, {}, 64, 48};
             draw_roulette_panel(c);
         });
     };

@@ -2,6 +2,7 @@
 #include "ui/snapshots_view.h"
 
 #include "imgui_test.h"
+#include "our_colors.h"
 #include "support/sample_project.h"
 #include "ui/difference.h"
 #include "ui/panels/panels.h"
@@ -148,15 +149,9 @@ TEST(Differences, AreWhatTheySay) {
 
 class SnapshotPanels : public test::ImGuiTest {
 protected:
-    void SetUp() override {
-        ImGuiTest::SetUp();
-        auto loaded = ColorManagement::load(BLUSH_ASSETS);
-        ASSERT_TRUE(loaded) << loaded.error().text();
-        color.emplace(*std::move(loaded));
-    }
     void draw() {
         in_window([&] {
-            PanelContext c{document, ui, *color, frame, SessionStatus(), 640, 480};
+            PanelContext c{document, ui, color, frame, SessionStatus(), 640, 480};
             draw_snapshot_strip(c, {0, 400, 600, 400}, [](size_t) { return ThumbnailPart{}; });
             draw_comparison_panel(c);
             draw_snapshot_panel(c);
@@ -174,7 +169,7 @@ protected:
         draw();
     }
 
-    std::optional<ColorManagement> color;
+    const ColorManagement color = test::our_colors();
     Document document{test::sample_project().project};
     UiState ui;
     FramePtr frame = plain_frame(32, 20, 1);

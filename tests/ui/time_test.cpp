@@ -1,5 +1,6 @@
 // The row below the picture that says which moment of which animation is seen.
 #include "imgui_test.h"
+#include "our_colors.h"
 #include "support/sample_project.h"
 #include "ui/panels/panels.h"
 
@@ -10,9 +11,6 @@ class Time : public test::ImGuiTest {
 protected:
     void SetUp() override {
         ImGuiTest::SetUp();
-        auto loaded = ColorManagement::load(BLUSH_ASSETS);
-        ASSERT_TRUE(loaded) << loaded.error().text();
-        color.emplace(*std::move(loaded));
         document.reset(sample.project);
         ASSERT_TRUE(document.apply(SetStaging{{.clip = sample.swing}}));
         for (int i = 0; i < 3; ++i) frame();
@@ -20,7 +18,7 @@ protected:
     void frame() {
         in_window([&] {
             ui.next_frame_in = 1;
-            PanelContext c{document, ui, *color, {}, SessionStatus(), 640, 480};
+            PanelContext c{document, ui, color, {}, SessionStatus(), 640, 480};
             draw_time(c);
         });
     }
@@ -32,7 +30,7 @@ protected:
     float seconds() const { return document.project().scene.staging.seconds; }
 
     test::Sample sample = test::sample_project();
-    std::optional<ColorManagement> color;
+    const ColorManagement color = test::our_colors();
     Document document;
     UiState ui;
 };
