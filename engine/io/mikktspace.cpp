@@ -17,6 +17,9 @@ namespace {
 
 constexpr int none = -1;
 
+// Around a vertex with more triangles all of them count: comparing each with each would take for ever where a file joins a million.
+constexpr size_t most_compared = 64;
+
 bool not_zero(double x) { return std::abs(x) > double(FLT_MIN); }
 Vec3d unit_or_same(const Vec3d& v) {
     const double size = length(v);
@@ -28,7 +31,7 @@ struct Triangle {
     std::array<uint32_t, 3> vertices{};         // welded
     std::array<int, 3> neighbors{none, none, none}; // across the edge from corner k to k + 1
     std::array<int, 3> groups{none, none, none};    // of each corner
-    Vec3d along_u{0, 0, 0};                     // where u grows: unit length, or 0
+    Vec3d along_u{0, 0, 0}, along_v{0, 0, 0};   // where u and v grow: unit length, or 0
     bool keeps_orientation = false;             // else the texture is mirrored
     bool follows = false;                       // its UVs say nothing: it joins whom it meets
     bool degenerate = false;                    // two corners in one place
@@ -52,18 +55,16 @@ public:
     }
 
     std::vector<Vec4> corners() const {
-        std::vector<std::optional<Vec3d>> tangents;
-        for (const Group& group : groups_) tangents.push_back(tangent_of(group));
-        const std::vector<int> stand_ins = groups_by_vertex();
-        std::vector<Vec4> corners(g_.indices.size());
+        std::vector<std::optional<Vec4>> tangents(g_.indices.size());
+        for (const Group& group : groups_) mean(group, tangents);
+        const std::vector<int> stand_ins = corners_by_vertex();
+        std::vector<Vec4> corners(tangents.size());
         for (size_t i = 0; i < corners.size(); ++i) {
             const Triangle& triangle = triangles_[i / 3];
-            int group = triangle.groups[i % 3];
-            if (triangle.degenerate) group = stand_ins[triangle.vertices[i % 3]];
-            const Vec3d n = normal(triangle.vertices[i % 3]);
-            const Vec3d t = group != none && tangents[size_t(group)] ? *tangents[size_t(group)] : any_perpendicular(n);
-            const bool keeps = group != none && groups_[size_t(group)].keeps_orientation;
-            corners[i] = {float(t.x), float(t.y), float(t.z), keeps ? -1.0f : 1.0f};
+            const uint32_t vertex = triangle.vertices[i % 3];
+            const int from = triangle.degenerate ? stand_ins[vertex] : int(i);
+            const Vec3 any = to_float(any_perpendicular(normal(vertex)));
+            corners[i] = from == none ? Vec4{any.x, any.y, any.z, 1} : tangents[size_t(from)].value_or(Vec4{any.x, any.y, any.z, 1});
         }
         return corners;
     }
@@ -91,14 +92,16 @@ private:
         const auto [a, b, c] = triangle.vertices;
         const Vec3 &pa = g_.positions[a], &pb = g_.positions[b], &pc = g_.positions[c];
         triangle.degenerate = pa == pb || pa == pc || pb == pc;
-        const double u1 = double(uv_[b].x) - uv_[a].x, v1 = double(uv_[b].y) - uv_[a].y;
-        const double u2 = double(uv_[c].x) - uv_[a].x, v2 = double(uv_[c].y) - uv_[a].y;
-        const double area = u1 * v2 - u2 * v1;
+        // In single precision, so that what hardly has an area in the texture is mirrored or not as the makers of its map saw it.
+        const float u1 = uv_[b].x - uv_[a].x, v1 = uv_[b].y - uv_[a].y, u2 = uv_[c].x - uv_[a].x, v2 = uv_[c].y - uv_[a].y;
+        const float area = u1 * v2 - v1 * u2;
         triangle.keeps_orientation = area > 0;
         const Vec3d e1 = position(b) - position(a), e2 = position(c) - position(a);
-        const Vec3d along_u = e1 * v2 - e2 * v1, along_v = e2 * u1 - e1 * u2;
+        const Vec3d along_u = e1 * double(v2) - e2 * double(v1), along_v = e2 * double(u1) - e1 * double(u2);
         triangle.follows = !not_zero(area) || !not_zero(length(along_u)) || !not_zero(length(along_v));
-        if (not_zero(area)) triangle.along_u = unit_or_same(along_u) * (area > 0 ? 1.0 : -1.0);
+        if (!not_zero(area)) return;
+        triangle.along_u = unit_or_same(along_u) * (area > 0 ? 1.0 : -1.0);
+        triangle.along_v = unit_or_same(along_v) * (area > 0 ? 1.0 : -1.0);
     }
 
     // Each edge joins the two triangles that run along it in opposite directions; of more than two, those that come first.
@@ -165,29 +168,59 @@ private:
         std::ranges::sort(group.triangles);
     }
 
-    std::optional<Vec3d> tangent_of(const Group& group) const {
+    // One triangle of a group as it is seen along the vertex' normal.
+    struct Member {
+        size_t corner; // into the geometry's indices
+        bool follows;
+        Vec3d along_u, along_v;
+        double angle;
+
+        // Opposite directions have no mean.
+        bool mixes_with(const Member& other) const {
+            const auto opposite = [](const Vec3d& a, const Vec3d& b) { return float(dot(a, b)) <= -1; };
+            return follows || other.follows || (!opposite(along_u, other.along_u) && !opposite(along_v, other.along_v));
+        }
+    };
+
+    std::vector<Member> members(const Group& group) const {
         const Vec3d n = normal(group.vertex), at = position(group.vertex);
-        Vec3d sum{0, 0, 0};
+        std::vector<Member> members;
         for (const uint32_t t : group.triangles) {
             const Triangle& triangle = triangles_[t];
-            if (triangle.follows) continue;
             const size_t k = triangle.corner_of(group.vertex);
             const Vec3d before = in_plane(position(triangle.vertices[(k + 2) % 3]) - at, n);
             const Vec3d after = in_plane(position(triangle.vertices[(k + 1) % 3]) - at, n);
-            sum = sum + in_plane(triangle.along_u, n) * std::acos(std::clamp(dot(before, after), -1.0, 1.0));
+            members.push_back({3 * t + k, triangle.follows, in_plane(triangle.along_u, n), in_plane(triangle.along_v, n),
+                               std::acos(std::clamp(dot(before, after), -1.0, 1.0))});
         }
-        const double size = length(sum);
-        if (!not_zero(size) || !std::isfinite(size)) return std::nullopt;
-        return sum * (1 / size);
+        return members;
     }
 
-    // For triangles without area, which are seen by nobody but must not bend their neighbours' frames.
-    std::vector<int> groups_by_vertex() const {
-        std::vector<int> groups(g_.positions.size(), none);
-        for (const Triangle& triangle : triangles_)
-            for (size_t k = 0; k < 3; ++k)
-                if (int& group = groups[triangle.vertices[k]]; group == none) group = triangle.groups[k];
-        return groups;
+    // The tangents of the group's corners; of none whose directions cancel.
+    void mean(const Group& group, std::vector<std::optional<Vec4>>& tangents) const {
+        const std::vector<Member> all = members(group);
+        const auto of_those = [&](auto&& counts) -> std::optional<Vec4> {
+            Vec3d sum{0, 0, 0};
+            for (const Member& m : all)
+                if (!m.follows && counts(m)) sum = sum + m.along_u * m.angle;
+            const double size = length(sum);
+            if (!not_zero(size) || !std::isfinite(size)) return std::nullopt;
+            const Vec3 t = to_float(sum * (1 / size));
+            return Vec4{t.x, t.y, t.z, group.keeps_orientation ? -1.0f : 1.0f};
+        };
+        const std::optional<Vec4> shared = of_those([](const Member&) { return true; });
+        for (const Member& m : all) {
+            const auto mixes = [&](const Member& other) { return &other == &m || m.mixes_with(other); };
+            tangents[m.corner] = all.size() > most_compared || std::ranges::all_of(all, mixes) ? shared : of_those(mixes);
+        }
+    }
+
+    // By vertex, the first corner in a group. For triangles without area, which are seen by nobody but must not bend their neighbours' frames.
+    std::vector<int> corners_by_vertex() const {
+        std::vector<int> corners(g_.positions.size(), none);
+        for (size_t i = 0; i < g_.indices.size(); ++i)
+            if (int& corner = corners[triangles_[i / 3].vertices[i % 3]]; corner == none && triangles_[i / 3].groups[i % 3] != none) corner = int(i);
+        return corners;
     }
 
     const Geometry& g_;

@@ -1,5 +1,5 @@
 // Tangent frames as the makers of normal maps compute them: MikkTSpace (M. S. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008),
-// with the default angular threshold of 180 degrees.
+// with the default angular threshold of 180 degrees: all triangles but those that lie exactly opposite mix.
 #pragma once
 
 #include "scene/scene.h"
