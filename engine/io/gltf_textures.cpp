@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 
 #include <optional>
+#include <set>
+#include <string_view>
 
 namespace blush {
 namespace {
@@ -19,6 +21,34 @@ Texture::Wrap wrap_mode(const GltfContext& context, int mode, const std::string&
     case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT: return Texture::Wrap::mirrored_repeat;
     case TINYGLTF_TEXTURE_WRAP_REPEAT: return Texture::Wrap::repeat;
     default: context.warn(fmt::format("unknown wrap mode {}; repeat is used", mode), where); return Texture::Wrap::repeat;
+    }
+}
+
+// The name of a minification filter, or "" of what is none.
+std::string_view minification_name(int filter) {
+    switch (filter) {
+    case TINYGLTF_TEXTURE_FILTER_NEAREST: return "NEAREST";
+    case TINYGLTF_TEXTURE_FILTER_LINEAR: return "LINEAR";
+    case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST: return "NEAREST_MIPMAP_NEAREST";
+    case TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_NEAREST: return "LINEAR_MIPMAP_NEAREST";
+    case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR: return "NEAREST_MIPMAP_LINEAR";
+    case TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR: return "LINEAR_MIPMAP_LINEAR";
+    default: return "";
+    }
+}
+
+// Seen from afar, a texture is its mean over the path's cone, whatever the file asks for: what the others give is the same mean with noise,
+// once a pixel has many samples. Without a word in the file, the choice is ours.
+void report_filters(const GltfContext& context, const std::set<int>& samplers) {
+    for (const int index : samplers) {
+        const tinygltf::Sampler& sampler = context.model().samplers[size_t(index)];
+        const std::string where = fmt::format("samplers[{}]", index);
+        if (const std::string_view name = minification_name(sampler.minFilter); name.empty() && sampler.minFilter >= 0)
+            context.warn(fmt::format("unknown minification filter {}; LINEAR_MIPMAP_LINEAR is used", sampler.minFilter), where);
+        else if (!name.empty() && sampler.minFilter != TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR)
+            context.note(fmt::format("approximated: minification filter {}: LINEAR_MIPMAP_LINEAR is used, over all that a path sees of the texture", name), where);
+        if (sampler.magFilter >= 0 && sampler.magFilter != TINYGLTF_TEXTURE_FILTER_NEAREST && sampler.magFilter != TINYGLTF_TEXTURE_FILTER_LINEAR)
+            context.warn(fmt::format("unknown magnification filter {}; LINEAR is used", sampler.magFilter), where);
     }
 }
 
@@ -76,6 +106,7 @@ Result<std::vector<Id<Texture>>> import_textures(const GltfContext& context, Sce
     const Result<std::vector<ImagePtr>> images = context.known ? std::vector<ImagePtr>(model.images.size()) : decode_images(context, sources);
     if (!images) return images.error();
     std::vector<std::optional<Texture>> textures(model.textures.size());
+    std::set<int> samplers;
     std::vector<uint32_t> wanted(textures.size());
     const auto known = context.known ? ids_by_index(context.known->textures, textures.size()) : std::vector<Id<Texture>>(textures.size());
     for (size_t i = 0; i < textures.size(); ++i) {
@@ -84,8 +115,10 @@ Result<std::vector<Id<Texture>>> import_textures(const GltfContext& context, Sce
         if (*texture) (*texture)->image = (*images)[size_t(sources[i])];
         if (!*texture || (!(*texture)->image && !known[i])) continue;
         textures[i] = **std::move(texture);
+        if (model.textures[i].sampler >= 0) samplers.insert(model.textures[i].sampler);
         wanted[i] = wanted_id(gltf_item(context.json(), "textures", i));
     }
+    report_filters(context, samplers);
     return add_numbered(scene.textures, std::move(textures), wanted);
 }
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace blush::test {
@@ -76,6 +77,31 @@ TEST(GltfTextures, BesideTheSceneWithAnEscapedName) {
     EXPECT_EQ(texture.wrap_u, Texture::Wrap::clamp_to_edge);
     EXPECT_EQ(texture.wrap_v, Texture::Wrap::mirrored_repeat);
     EXPECT_EQ(texture.filter, Texture::Filter::nearest);
+}
+
+// Two textures by a sampler of these fields.
+Result<ImportedScene> with_sampler(const Json& sampler) {
+    GltfBuilder b = embedded_texture();
+    b.json["textures"] = Json::array({{{"source", 0}, {"sampler", 0}}, {{"source", 0}, {"sampler", 0}}});
+    b.add("samplers", sampler);
+    return import_built(b);
+}
+
+TEST(GltfTextures, OtherMinificationThanTheMeanIsReportedOnceASampler) {
+    const auto said = [](const Json& sampler, std::string_view part) {
+        const auto imported = with_sampler(sampler);
+        EXPECT_TRUE(imported) << error_text(imported);
+        return std::ranges::count_if(imported->report.diagnostics,
+                                     [&](const Diagnostic& d) { return d.what.find(part) != std::string::npos && d.where == "samplers[0]"; });
+    };
+    const std::pair<int, const char*> others[] = {
+        {9728, "NEAREST"}, {9729, "LINEAR"}, {9984, "NEAREST_MIPMAP_NEAREST"}, {9985, "LINEAR_MIPMAP_NEAREST"}, {9986, "NEAREST_MIPMAP_LINEAR"}};
+    for (const auto& [filter, name] : others)
+        EXPECT_EQ(said({{"minFilter", filter}}, fmt::format("approximated: minification filter {}:", name)), 1) << name;
+    EXPECT_EQ(said({{"minFilter", 9987}, {"magFilter", 9728}}, "filter"), 0) << "as it is done";
+    EXPECT_EQ(said({{"wrapS", 33071}}, "filter"), 0) << "left to us";
+    EXPECT_EQ(said({{"minFilter", 5}}, "unknown minification filter 5"), 1);
+    EXPECT_EQ(said({{"magFilter", 9987}}, "unknown magnification filter 9987"), 1);
 }
 
 TEST(GltfTextures, TransformAndTexCoordOverride) {
