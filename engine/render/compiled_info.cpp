@@ -26,6 +26,11 @@ CompiledInfo RenderScene::info() const {
                                  fmt::format("there are more than {} different sets of shadow casters: everything casts the shadows of {}", most_caster_sets,
                                              counted(casters_.left_out(), "light", "lights")),
                                  ""});
+    if (lights_.unaimed_triangles > 0)
+        info.warnings.push_back({Diagnostic::Severity::warning,
+                                 fmt::format("{} of {} triangles that glow are not aimed at, no more than {} are: light of copies without number is noisy",
+                                             lights_.unaimed_triangles, lights_.emissive_triangles, most_mesh_lights),
+                                 ""});
     info.environment = lights_.environment >= 0;
     info.emissive_triangles = lights_.emissive_triangles;
     info.point_lights = lights_.point_lights;

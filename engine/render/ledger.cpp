@@ -106,7 +106,8 @@ const char* why_no_map(const Environment& e) {
 constexpr const char* nobody_aims = "BSDF sampling alone aims at nothing that has a size";
 
 void add_light_table(Ledger& ledger, const LightTable& lights, Aim aim) {
-    const int64_t all = lights.emissive_triangles + lights.point_lights + lights.sphere_lights + lights.sun_lights + (lights.environment >= 0);
+    const int64_t triangles = lights.emissive_triangles - lights.unaimed_triangles;
+    const int64_t all = triangles + lights.point_lights + lights.sphere_lights + lights.sun_lights + (lights.environment >= 0);
     const bool used = lights.count > 0;
     ledger.push_back({"lights", "light table", used,
                       used      ? "the scene has lights"
@@ -115,6 +116,9 @@ void add_light_table(Ledger& ledger, const LightTable& lights, Aim aim) {
                       light_table_bytes(used && lights.tree.nodes.empty() ? lights.count : all)});
     if (!lights.tree.nodes.empty())
         ledger.push_back({"lights", "light tree", true, "the scene has many lights", int64_t(lights.tree.memory_bytes())});
+    if (lights.unaimed_triangles > 0)
+        ledger.push_back({"lights", "mesh lights without number", false, fmt::format("no more than {} triangles are aimed at", most_mesh_lights),
+                          light_table_bytes(lights.unaimed_triangles)});
     if (aim == Aim::at_points && used && all > lights.count)
         ledger.push_back({"lights", "lights with a size", false, nobody_aims, light_table_bytes(all - lights.count)});
 }

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 namespace blush {
@@ -84,20 +85,52 @@ int32_t panel_profile(Builder& b, const Scene& scene, Placements& placements, Id
     return light ? b.table.profiles.add(*light, placements(body).world_from_node).profile : -1;
 }
 
+bool glows(const MaterialRecord& material) { return material.flags & material_emissive && !(material.flags & material_unlit); }
+
+// By part: are its triangles aimed at, should it glow? Those of lamps are, and then of the objects that have the fewest, so that a meadow of
+// copies does not crowd out what else there is.
+std::vector<bool> aimed_at(const Scene& scene, const MaterialTable& materials, const GeometryPool& geometry) {
+    const std::vector<PartRecord>& parts = geometry.parts();
+    std::vector<bool> aimed(parts.size(), true);
+    std::map<int32_t, int64_t> triangles; // by object
+    std::vector<size_t> glowing;
+    int64_t total = 0;
+    for (size_t part = 0; part < parts.size(); ++part) {
+        if (!glows(materials.records[size_t(parts[part].material)]) || light_of_body(scene, Id<Node>{uint32_t(parts[part].object)})) continue;
+        glowing.push_back(part);
+        triangles[parts[part].object] += geometry.triangle_count(part);
+        total += geometry.triangle_count(part);
+    }
+    if (total <= most_mesh_lights) return aimed;
+    std::ranges::stable_sort(glowing, {}, [&](size_t part) { return std::pair(triangles[parts[part].object], parts[part].object); });
+    int64_t left = most_mesh_lights;
+    for (const size_t part : glowing) {
+        left -= geometry.triangle_count(part);
+        aimed[part] = left >= 0;
+    }
+    return aimed;
+}
+
 void add_triangles(Builder& b, const Scene& scene, const MaterialTable& materials, GeometryPool& geometry, const SceneTables& scene_tables) {
     Placements placements(scene);
     SceneTables tables = scene_tables;
+    const std::vector<bool> aimed = aimed_at(scene, materials, geometry);
     for (size_t part = 0; part < geometry.parts().size(); ++part) {
         PartRecord& record = geometry.parts()[part];
         const MaterialRecord& material = materials.records[size_t(record.material)];
         record.first_light = -1;
-        if (!(material.flags & material_emissive) || material.flags & material_unlit) continue;
+        if (!glows(material)) continue;
         const Light* panel = light_of_body(scene, Id<Node>{uint32_t(record.object)});
         b.luminaires += panel ? 1 : geometry.triangle_count(part);
         const int32_t profile = panel_profile(b, scene, placements, Id<Node>{uint32_t(record.object)});
         // Whoever finds a light reads its profile.
         if (b.aim == Aim::at_points && profile < 0) {
             b.table.emissive_triangles += geometry.triangle_count(part);
+            continue;
+        }
+        if (!aimed[part]) {
+            b.table.emissive_triangles += geometry.triangle_count(part);
+            b.table.unaimed_triangles += geometry.triangle_count(part);
             continue;
         }
         record.first_light = int32_t(b.table.records.size());

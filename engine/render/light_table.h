@@ -29,9 +29,14 @@ struct LightTable {
     LightTreeTable tree;              // empty: lights are drawn by power alone
     std::vector<int32_t> slot_lights; // with a tree
     int64_t emissive_triangles = 0, point_lights = 0, sphere_lights = 0, sun_lights = 0;
+    int64_t unaimed_triangles = 0;    // of those that emit: beyond most_mesh_lights
 
     void fill(LightTables& tables) const;
 };
+
+// Triangles that are aimed at: copies of a glowing mesh would otherwise multiply a small file. Beyond that, of objects that have the most of
+// them, light is found by those rays alone that happen to meet it, with its full weight: the picture is the same in the mean, with more noise.
+constexpr int64_t most_mesh_lights = int64_t(1) << 20;
 
 // Emissive triangles part by part (part records get their first_light), then spheres in their order, then other lights in node order, then
 // the sun of a sky, then the environment. Powers are luminous fluxes: pi A L for a triangle, 4 pi^2 r^2 L for a sphere, 4 pi I for a point, times the share that a

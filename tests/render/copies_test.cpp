@@ -5,7 +5,10 @@
 #include "scene/line_of_sight.h"
 #include "scenes.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 
 namespace blush::test {
 namespace {
@@ -70,6 +73,74 @@ TEST(Copies, ThatGlowAreSampled) {
     EXPECT_EQ(renderer.info().emissive_triangles, 3 * 12);
     EXPECT_EQ(renderer.info().instances, 3);
     EXPECT_EQ(renderer.info().triangles, int64_t(3 * (12 + sphere(false)->triangle_count()) + 2));
+}
+
+// A glowing ball of 128 x 128 quads, copied `count` times in a layer above a floor, and a lamp of two triangles.
+Scene glowing_layer(int count) {
+    constexpr uint32_t n = 128;
+    auto ball = std::make_shared<Geometry>();
+    for (uint32_t j = 0; j <= n; ++j)
+        for (uint32_t i = 0; i <= n; ++i) {
+            const float u = 2 * pi * float(i) / n, v = pi * (float(j) + 0.5f) / (n + 1);
+            ball->positions.push_back({std::sin(v) * std::cos(u), std::cos(v), std::sin(v) * std::sin(u)});
+        }
+    for (uint32_t j = 0; j < n; ++j)
+        for (uint32_t i = 0; i < n; ++i) {
+            const uint32_t a = j * (n + 1) + i, b = a + 1, c = b + n + 1, d = c - 1;
+            ball->indices.insert(ball->indices.end(), {a, b, c, a, c, d});
+        }
+    Scene scene;
+    place(scene, floor_quad(3, 0), lambert(0.5f));
+    place(scene, ceiling_quad(0.3f, 4), emitter(20));
+    Instances instances;
+    const int side = int(std::ceil(std::sqrt(double(count))));
+    for (int i = 0; i < count; ++i) {
+        const float step = 4.0f / float(side);
+        instances.node_from_copy.push_back(
+            to_float(to_affine(at({(float(i % side) + 0.5f) * step - 2, 1.5f, (float(i / side) + 0.5f) * step - 2}, 0.4f * step))));
+    }
+    Node node;
+    node.mesh = scene.meshes.add({"Ball", {{ball, scene.materials.add(emitter(1))}}});
+    node.instances = std::make_shared<const Instances>(std::move(instances));
+    scene.nodes.add(node);
+    scene.view = looking({0, 1, 0.01f}, {0, 0, 0}, 1.5f);
+    return scene;
+}
+
+// More triangles than are aimed at: the lamp and some of the balls are, the others are found, and nothing is counted twice or left out.
+TEST(Copies, ThatGlowBeyondNumberGiveTheSameLight) {
+    const Scene scene = glowing_layer(64);
+    RenderSettings settings = settings_for(16, 16, 256);
+    settings.max_bounces = 2;
+    Renderer renderer({.threads = 1, .planes = {}});
+    renderer.update(scene, settings);
+    ASSERT_EQ(renderer.info().emissive_triangles, 64 * 32768 + 2);
+    ASSERT_GT(renderer.info().emissive_triangles, most_mesh_lights);
+    const auto blocks = [&](Strategy strategy, uint32_t seed) {
+        settings.strategy = strategy;
+        settings.seed = seed;
+        return render(scene, settings).blocks(8, 8);
+    };
+    const auto found = blocks(Strategy::bsdf, 1);
+    EXPECT_TRUE(same_means(found, blocks(Strategy::mis, 2), statistics::sidak(statistics::significance, 2)));
+    EXPECT_TRUE(same_means(found, blocks(Strategy::light, 3), statistics::sidak(statistics::significance, 2)));
+}
+
+// Three thousand million triangles that glow, of a file of a few megabytes.
+TEST(Copies, ThatGlowAreBoundedInMemory) {
+    const Scene scene = glowing_layer(100'000);
+    Renderer renderer({.threads = 1, .planes = {}});
+    renderer.update(scene, settings_for(8, 8, 1));
+    const CompiledInfo& info = renderer.info();
+    EXPECT_EQ(info.emissive_triangles, int64_t(100'000) * 32768 + 2);
+    EXPECT_LT(info.memory_mb, 300);
+    const auto said = std::ranges::find_if(info.warnings, [](const Diagnostic& d) { return d.what.find("are not aimed at") != std::string::npos; });
+    ASSERT_NE(said, info.warnings.end());
+    EXPECT_TRUE(said->what.starts_with(fmt::format("{} of {} triangles", info.emissive_triangles - 31 * 32768 - 2, info.emissive_triangles)))
+        << said->what;
+    const auto left_out = std::ranges::find(info.features, "mesh lights without number", &FeatureUse::name);
+    ASSERT_NE(left_out, info.features.end());
+    EXPECT_FALSE(left_out->used);
 }
 
 TEST(Copies, ArePickedAsTheirNode) {
