@@ -26,6 +26,19 @@ bool finite(const std::vector<float>& values) {
     return std::ranges::all_of(values, [](float v) { return std::isfinite(v); });
 }
 
+// Quaternions among the values that are not of unit length, 0 where they are none. Those of a spline have their tangents beside.
+size_t odd_rotations(const Keyframes& k, int components) {
+    if (components != 4) return 0;
+    const size_t parts = k.interpolation == Interpolation::cubic_spline ? 3 : 1;
+    size_t odd = 0;
+    for (size_t i = 4 * (parts / 2); i + 4 <= k.values.size(); i += 4 * parts) {
+        const float* q = k.values.data() + i;
+        const double size = std::sqrt(double(q[0]) * q[0] + double(q[1]) * q[1] + double(q[2]) * q[2] + double(q[3]) * q[3]);
+        odd += !(std::abs(size - 1) <= 0.00769); // what 8 bits a number can be off
+    }
+    return odd;
+}
+
 size_t target_count(const tinygltf::Model& model, int node) {
     const int mesh = model.nodes[size_t(node)].mesh;
     if (mesh < 0 || size_t(mesh) >= model.meshes.size() || model.meshes[size_t(mesh)].primitives.empty()) return 0;
@@ -100,6 +113,9 @@ private:
         if (!finite(keyframes.times) || !finite(keyframes.values)) return error("keyframes that are not finite numbers");
         if (!std::ranges::is_sorted(keyframes.times) || keyframes.times.front() < 0)
             return error("times that are not in order, or below 0");
+        if (std::ranges::adjacent_find(keyframes.times) != keyframes.times.end())
+            context_.warn("several keyframes at one time: the last of them counts from there on", where);
+        if (const size_t odd = odd_rotations(keyframes, components)) context_.warn(fmt::format("{} rotations not of length 1 are scaled to it", odd), where);
         const size_t wanted = keyframes.times.size() * width * (keyframes.interpolation == Interpolation::cubic_spline ? 3 : 1);
         if (keyframes.values.size() != wanted)
             return error(

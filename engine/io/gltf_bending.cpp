@@ -2,6 +2,7 @@
 
 #include "io/gltf_accessors.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <set>
@@ -86,6 +87,8 @@ Result<void> read_influences(const GltfContext& context, const tinygltf::Primiti
         joints.push_back(*std::move(joint));
         weights.push_back(*std::move(weight));
     }
+    const size_t lone = size_t(std::ranges::count_if(primitive.attributes, [](const auto& a) { return is_influence(a.first); })) - 2 * joints.size();
+    if (lone > 0) context.warn(fmt::format("ignored: {} sets of joints or weights without the other", lone), where);
     const size_t per_vertex = 4 * joints.size();
     if (per_vertex == 0) return {};
     size_t bad = 0, unequal = 0;

@@ -183,6 +183,13 @@ void provide_tangents(const GltfContext& context, Geometry& g, int uv_set, const
     });
     if (!usable && !g.tangents.empty()) context.warn("tangents without a direction", where);
     if (!usable) g.tangents.clear();
+    size_t sides = 0;
+    for (Vec4& t : g.tangents) {
+        if (std::abs(t.w) == 1) continue;
+        t.w = t.w < 0 ? -1.0f : 1.0f;
+        ++sides;
+    }
+    if (sides) context.warn(fmt::format("{} tangents whose handedness is neither 1 nor -1; the one with its sign is used", sides), where);
     if (usable || uv_set < 0) return;
     if (!g.has_uv_set(uv_set)) {
         context.warn("a normal map, but no texture coordinates to place it: it has no effect", where);
@@ -210,9 +217,14 @@ void report_ignored(const GltfContext& context, const tinygltf::Primitive& primi
     const auto is_read = [&](const std::string& name) {
         return std::ranges::find(read, name) != read.end() || std::ranges::find(uv_sets, name, uv_attribute) != uv_sets.end();
     };
-    for (const auto& [name, accessor] : primitive.attributes)
-        if (!is_read(name) && !is_influence(name))
-            context.note("ignored: attribute " + name.substr(0, 100) + (name.starts_with("TEXCOORD_") ? ", which no texture uses" : ""), where);
+    for (const auto& [name, accessor] : primitive.attributes) {
+        if (is_read(name) || is_influence(name)) continue;
+        const std::string what = "ignored: attribute " + name.substr(0, 100) + (name.starts_with("TEXCOORD_") ? ", which no texture uses" : "");
+        if (name.starts_with("_") || name.starts_with("TEXCOORD_") || name.starts_with("COLOR_"))
+            context.note(what, where);
+        else
+            context.warn(what + ", which glTF does not know", where);
+    }
 }
 
 } // namespace

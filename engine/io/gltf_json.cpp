@@ -60,6 +60,10 @@ Result<void> check_version(const json& root) {
     if (!version.get_ref<const std::string&>().starts_with("2."))
         return Error{"", fmt::format("glTF version {} cannot be read, only 2.x", version.get_ref<const std::string&>().substr(0, 20)),
                      "asset.version"};
+    const json& least = member(member(root, "asset"), "minVersion");
+    if (least.is_string() && least != "2.0")
+        return Error{"", fmt::format("needs a reader of glTF version {}, only 2.0 is read", least.get_ref<const std::string&>().substr(0, 20)),
+                     "asset.minVersion"};
     return {};
 }
 

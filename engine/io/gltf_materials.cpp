@@ -108,6 +108,8 @@ private:
     }
 
     void read_emission(const GltfObject& extensions) {
+        if (std::ranges::any_of(source_.emissiveFactor, [](double v) { return v > 1; }))
+            context_.warn("more than 1, which KHR_materials_emissive_strength is for; it is taken as it is", where_ + ".emissiveFactor");
         material_.emissive = checked(context_, source_.emissiveFactor, {0, 0, 0}, 0, any_float, where_ + ".emissiveFactor");
         material_.emissive_texture = texture(source_.emissiveTexture, "emissiveTexture");
         material_.emissive_strength = extensions.object("KHR_materials_emissive_strength").number("emissiveStrength", 1, 0, any_float);
@@ -132,6 +134,8 @@ private:
         material_.thickness = volume.number("thicknessFactor", 0, 0, any_float);
         material_.attenuation_color = volume.vector3("attenuationColor", {1, 1, 1}, 0, 1);
         material_.attenuation_distance = volume.number("attenuationDistance", 0, 0, any_float);
+        if (volume.has("attenuationDistance") && material_.attenuation_distance == 0)
+            context_.warn("light that goes no distance: nothing is absorbed", volume.where() + ".attenuationDistance");
         if (volume.has("thicknessTexture")) context_.note("ignored: thickness texture; light travels through the mesh itself", where_);
     }
 

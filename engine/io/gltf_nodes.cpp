@@ -110,6 +110,7 @@ Result<Transform> read_transform(const GltfContext& context, int index) {
             local.rotation = {float(r[0] / size), float(r[1] / size), float(r[2] / size), float(r[3] / size)};
         else
             context.warn("a rotation of length zero is no rotation", node_where(index));
+        if (std::abs(size - 1) > 0.005 && size > 1e-6) context.warn(fmt::format("a rotation of length {:.3g} is scaled to 1", size), node_where(index));
     }
     return local;
 }

@@ -1,6 +1,7 @@
 #include "io/gltf_report.h"
 
 #include "io/gltf_extensions.h"
+#include "io/gltf_grammar.h"
 
 #include <fmt/format.h>
 #include <set>
@@ -37,6 +38,7 @@ void report_file(const GltfContext& context) {
     std::istringstream lines(context.source.parser_notes);
     for (std::string line; std::getline(lines, line);)
         if (!line.empty()) context.warn(line.substr(0, 200), "");
+    if (!context.known) report_grammar(context);
 }
 
 } // namespace blush

@@ -17,14 +17,17 @@ Result<std::vector<Affine>> read_inverse_binds(const GltfContext& context, const
     if (!array) return array.error();
     if (array->count() < matrices.size())
         context.warn(fmt::format("{} matrices for {} joints: the rest bind where they are", array->count(), matrices.size()), where);
-    size_t bad = 0;
+    size_t bad = 0, skewed = 0;
     for (size_t j = 0; j < std::min(matrices.size(), array->count()); ++j) {
-        const Affine m = column_major(array->values.data() + 16 * j);
+        const float* elements = array->values.data() + 16 * j;
+        const Affine m = column_major(elements);
+        skewed += elements[3] != 0 || elements[7] != 0 || elements[11] != 0 || elements[15] != 1;
         const bool good = is_finite(to_double(m));
         bad += !good;
         if (good) matrices[j] = m;
     }
     if (bad) context.warn(fmt::format("{} inverse bind matrices that are not finite are none", bad), where);
+    if (skewed) context.warn(fmt::format("{} inverse bind matrices are not affine; their last row is ignored", skewed), where);
     return matrices;
 }
 
@@ -45,6 +48,8 @@ void report_stray_vertices(const GltfContext& context, const Scene& scene) {
     for (const auto& [id, node] : scene.nodes) {
         const Skin* skin = node.skin ? scene.skins.find(node.skin) : nullptr;
         const auto joints = named.find(node.mesh);
+        if (skin && joints == named.end())
+            context.warn(fmt::format("hangs on skin '{}', but none of its vertices follows a joint", skin->name), fmt::format("node '{}'", node.name));
         if (skin && joints != named.end() && joints->second > skin->joints.size())
             context.warn(
                 fmt::format("vertices follow joints beyond the {} of skin '{}': they stay with the node", skin->joints.size(), skin->name),

@@ -19,7 +19,9 @@ constexpr double brightest_surface = 1e7;   // nits: a bulb's filament
 constexpr double largest_scene = 50'000, smallest_scene = 0.001; // metres across
 
 // Byte-sized normals are off by less.
-constexpr double unit_tolerance = 0.02;
+constexpr double unit_tolerance = 0.00674;
+
+bool is_unit(const Vec3d& v) { return std::abs(length(v) - 1) <= unit_tolerance; }
 
 void report_light(const GltfContext& context, const Light& light, const std::string& where) {
     if (light.ies || !light.enabled) return;
@@ -69,8 +71,11 @@ void report_geometry(const GltfContext& context, const Geometry& g, const std::s
         flat += !(dot(normal, normal) > 0);
     }
     if (flat > 0) context.warn(fmt::format("{} of {} triangles have no area and cannot be seen", flat, g.triangle_count()), where);
-    const auto odd = std::ranges::count_if(g.normals, [](const Vec3& n) { return !(std::abs(length(to_double(n)) - 1) <= unit_tolerance); });
-    if (odd > 0) context.note(fmt::format("{} of {} normals are not of unit length; they are where they are read", odd, g.normals.size()), where);
+    const auto odd = std::ranges::count_if(g.normals, [](const Vec3& n) { return !is_unit(to_double(n)); });
+    if (odd > 0) context.warn(fmt::format("{} of {} normals are not of unit length; they are where they are read", odd, g.normals.size()), where);
+    const auto stretched = std::ranges::count_if(g.tangents, [](const Vec4& t) { return !is_unit({t.x, t.y, t.z}); });
+    if (stretched > 0)
+        context.warn(fmt::format("{} of {} tangents are not of unit length; they are where they are read", stretched, g.tangents.size()), where);
 }
 
 } // namespace blush

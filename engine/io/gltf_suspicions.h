@@ -11,7 +11,7 @@ void report_units(const GltfContext& context, const Scene& scene, const GltfIndi
 // Images that are read as colour here and as data there, data in an image that is marked as sRGB, and normal maps that do not look like any.
 void report_textures(const GltfContext& context, const Scene& scene, const GltfIndices& indices);
 
-// Of one primitive, as it was read: triangles without area, and normals that are not of unit length.
+// Of one primitive, as it was read: triangles without area, normals and tangents that are not of unit length.
 void report_geometry(const GltfContext& context, const Geometry& geometry, const std::string& where);
 
 } // namespace blush

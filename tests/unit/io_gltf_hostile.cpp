@@ -38,6 +38,7 @@ GltfBuilder everything() {
     primitive["material"] = 0;
     primitive["attributes"]["NORMAL"] = b.accessor<float>({0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
     primitive["attributes"]["TEXCOORD_0"] = b.accessor<uint16_t>({0, 0, 65535, 0, 0, 65535}, "VEC2", true);
+    b.json["extensionsUsed"] = {"KHR_lights_punctual", "KHR_materials_ior", "KHR_texture_transform"};
     b.json["extensions"]["KHR_lights_punctual"]["lights"].push_back({{"type", "spot"}, {"spot", Json::object()}});
     b.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.1}}}});
     b.add("nodes", {{"camera", 0}, {"rotation", {0, 1, 0, 0}}, {"children", {2}}});

@@ -10,6 +10,8 @@ namespace {
 // The material of a file that has only that one.
 Material import_material(Json material, ImportReport* report = nullptr) {
     GltfBuilder b;
+    if (material.contains("extensions"))
+        for (const auto& [name, extension] : material["extensions"].items()) b.json["extensionsUsed"].push_back(name);
     b.add("materials", std::move(material));
     const auto imported = import_built(b);
     EXPECT_TRUE(imported) << error_text(imported);

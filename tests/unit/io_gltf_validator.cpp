@@ -1,33 +1,20 @@
 // What the Khronos validator says of saved files: nothing that it did not say of the original.
-#include "core/text.h"
 #include "io/gltf_save.h"
 #include "io_gltf_lit.h"
+#include "io_gltf_node.h"
 #include "io_gltf_saving.h"
 #include "support/process.h"
 #include "support/random_edits.h"
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
 namespace blush::test {
 namespace {
 
-std::string node_program() {
-    const char* path = std::getenv("PATH");
-    for (const std::string_view folder : split(path ? path : "", ':')) {
-        std::string program = std::string(folder) + "/node";
-        if (std::filesystem::exists(program)) return program;
-    }
-    return {};
-}
-
 TEST(GltfValidator, SavingAddsNoMessages) {
-    if (!std::filesystem::exists(BLUSH_VALIDATOR "/index.js")) GTEST_SKIP() << "no glTF validator: packaging/setup fetches it";
-    const std::string node = node_program();
-    if (node.empty()) GTEST_SKIP() << "no node to run the glTF validator with";
+    if (const std::string why = why_no_validator(); !why.empty()) GTEST_SKIP() << why;
     const TempFolder folder;
-    std::vector<std::string> command{node, BLUSH_VALIDATE_SCRIPT, BLUSH_VALIDATOR};
+    std::vector<std::string> command{node_program(), BLUSH_VALIDATE_SCRIPT, BLUSH_VALIDATOR};
     Rng rng(3);
     int number = 0;
     // With an extension that nobody knows, what loses its use would stay.

@@ -1,0 +1,16 @@
+// Small files of which each is broken in one way, and some that are not, for those who judge files.
+#pragma once
+
+#include "io_gltf_builder.h"
+
+#include <map>
+
+namespace blush::test {
+
+// By name: the text of a .gltf, or a .glb's bytes.
+using GltfFiles = std::map<std::string, std::string>;
+
+GltfFiles sound_files();
+GltfFiles broken_files();
+
+} // namespace blush::test

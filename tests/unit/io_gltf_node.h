@@ -1,0 +1,27 @@
+// The Khronos glTF validator, run by node.
+#pragma once
+
+#include "core/text.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+namespace blush::test {
+
+inline std::string node_program() {
+    const char* path = std::getenv("PATH");
+    for (const std::string_view folder : split(path ? path : "", ':')) {
+        std::string program = std::string(folder) + "/node";
+        if (std::filesystem::exists(program)) return program;
+    }
+    return {};
+}
+
+// Why the validator cannot be asked, or "".
+inline std::string why_no_validator() {
+    if (!std::filesystem::exists(BLUSH_VALIDATOR "/index.js")) return "no glTF validator: packaging/setup fetches it";
+    return node_program().empty() ? "no node to run the glTF validator with" : "";
+}
+
+} // namespace blush::test

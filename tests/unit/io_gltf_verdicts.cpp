@@ -1,0 +1,113 @@
+// The import report against the verdicts of the Khronos validator: what that calls an error is refused or warned about, and what it has
+// nothing to say of is read without a warning.
+#include "io_gltf_broken.h"
+#include "io_gltf_node.h"
+#include "support/process.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace blush::test {
+namespace {
+
+struct Exception {
+    const char *file, *why;
+};
+
+// Files with an error that nothing needs to be said of.
+constexpr Exception harmless[] = {
+    {"bounds that are not there.gltf", "bounds are computed from the vertices, not read"},
+    {"bounds that are others.gltf", "bounds are computed from the vertices, not read"},
+    {"children that are none.gltf", "an empty list says the same as none"},
+    {"far plane before the near one.gltf", "clipping planes do not clip"},
+    {"image without a kind.gltf", "its bytes tell"},
+    {"light of range zero.gltf", "ranges do not cut the light off"},
+    {"matrix that shears.gltf", "it is shown as it says"},
+    {"second texture coordinates without the first.gltf", "each set is read by its number"},
+    {"texture coordinates as plain bytes.gltf", "they are read as KHR_mesh_quantization says"},
+    {"view for corners that holds positions.gltf", "targets are a hint to graphics processors"},
+};
+
+// Files that the validator finds neither error nor warning in, of which something is to be said.
+constexpr Exception suspicious[] = {
+    {"extension that nobody knows is required.gltf", "it says that it cannot be read without"},
+    {"triangle without area.gltf", "it cannot be seen"},
+};
+
+enum Severity : int { error, warning, information, hint };
+
+struct Verdict {
+    bool wrong = false; // it has errors
+    bool clean = true;  // it has neither these nor warnings
+    std::string text;
+};
+
+// By name, of files that are written to the folder.
+std::map<std::string, Verdict> verdicts_of(const GltfFiles& files, const TempFolder& folder) {
+    std::vector<std::string> command{node_program(), BLUSH_JUDGE_SCRIPT, BLUSH_VALIDATOR};
+    for (const auto& [name, bytes] : files) {
+        write_bytes(folder / name, bytes);
+        command.push_back(folder / name);
+    }
+    const Finished judged = run(command);
+    EXPECT_EQ(judged.exit_code, 0) << judged.err;
+    std::map<std::string, Verdict> verdicts;
+    std::istringstream lines(judged.out);
+    for (const auto& [name, bytes] : files) {
+        std::string line;
+        EXPECT_TRUE(std::getline(lines, line)) << name;
+        Verdict& verdict = verdicts[name];
+        const Json messages = Json::parse(line, nullptr, false);
+        if (!messages.is_array()) continue;
+        for (const Json& message : messages) {
+            verdict.wrong = verdict.wrong || message[0] == error;
+            verdict.clean = verdict.clean && message[0] >= information;
+            if (message[0] <= warning) verdict.text += fmt::format("{} {} ", message[1].get<std::string>(), message[2].get<std::string>());
+        }
+    }
+    return verdicts;
+}
+
+// What the importer warns of or refuses, a line each.
+std::string complaints(const std::filesystem::path& file) {
+    const Result<ImportedScene> imported = import_gltf(file);
+    if (!imported) return imported.error().text() + "\n";
+    std::string all;
+    for (const Diagnostic& d : imported->report.diagnostics)
+        if (d.severity == Diagnostic::Severity::warning) all += fmt::format("{}, {}\n", d.what, d.where);
+    return all;
+}
+
+template <size_t N> bool is_among(const Exception (&exceptions)[N], const std::string& file) { return std::ranges::count(exceptions, file, &Exception::file) > 0; }
+
+TEST(GltfVerdicts, WhatTheValidatorCallsAnErrorIsRefusedOrReported) {
+    if (const std::string why = why_no_validator(); !why.empty()) GTEST_SKIP() << why;
+    const TempFolder folder;
+    size_t wrong = 0;
+    for (const auto& [name, verdict] : verdicts_of(broken_files(), folder)) {
+        if (!verdict.wrong) continue;
+        ++wrong;
+        EXPECT_EQ(complaints(folder / name).empty(), is_among(harmless, name)) << name << ": " << verdict.text;
+    }
+    EXPECT_GT(wrong, 100u);
+}
+
+TEST(GltfVerdicts, WhatTheValidatorHasNothingToSayOfIsReadWithoutAWarning) {
+    if (const std::string why = why_no_validator(); !why.empty()) GTEST_SKIP() << why;
+    const TempFolder folder;
+    const GltfFiles sound = sound_files();
+    GltfFiles all = sound;
+    all.merge(broken_files());
+    for (const auto& [name, verdict] : verdicts_of(all, folder)) {
+        EXPECT_TRUE(verdict.clean || !sound.contains(name)) << name << ": " << verdict.text;
+        if (!verdict.clean) continue;
+        const std::string said = complaints(folder / name);
+        EXPECT_EQ(!said.empty(), is_among(suspicious, name)) << name << ": " << said;
+    }
+}
+
+} // namespace
+} // namespace blush::test
