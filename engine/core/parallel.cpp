@@ -1,5 +1,7 @@
 #include "core/parallel.h"
 
+#include "core/hand_over.h"
+
 #include <atomic>
 #include <pmmintrin.h>
 #include <tbb/blocked_range.h>
@@ -8,9 +10,6 @@
 #include <tbb/task_scheduler_observer.h>
 #include <thread>
 
-#ifdef BLUSH_TSAN
-#include <sanitizer/tsan_interface.h>
-#endif
 #ifdef __linux__
 #include <sys/resource.h>
 #include <sys/syscall.h>
@@ -33,18 +32,6 @@ public:
 
 private:
     bool low_priority_;
-};
-
-// What was written before give() may be read after receive(). TBB sees to it; this tells ThreadSanitizer, which cannot look into TBB.
-class HandOver {
-public:
-#ifdef BLUSH_TSAN
-    void give() const { __tsan_release(const_cast<HandOver*>(this)); }
-    void receive() const { __tsan_acquire(const_cast<HandOver*>(this)); }
-#else
-    void give() const {}
-    void receive() const {}
-#endif
 };
 
 } // namespace

@@ -20,15 +20,15 @@ double bytes_of(const GltfContext& context, int index) {
     return 4.0 * double(accessor.count) * std::max(1, tinygltf::GetNumComponentsInType(uint32_t(accessor.type)));
 }
 
-double bytes_of(const GltfContext& context, const tinygltf::Primitive& primitive) {
+} // namespace
+
+double bytes_asked_by(const GltfContext& context, const tinygltf::Primitive& primitive) {
     double bytes = bytes_of(context, primitive.indices);
     for (const auto& [name, accessor] : primitive.attributes) bytes += bytes_of(context, accessor);
     for (const auto& target : primitive.targets)
         for (const auto& [name, accessor] : target) bytes += bytes_of(context, accessor);
     return bytes;
 }
-
-} // namespace
 
 Result<void> check_demand(const GltfContext& context, const std::vector<int>& nodes) {
     const tinygltf::Model& model = context.model();
@@ -38,7 +38,7 @@ Result<void> check_demand(const GltfContext& context, const std::vector<int>& no
         const int mesh = model.nodes[size_t(node)].mesh;
         if (mesh < 0 || size_t(mesh) >= counted.size() || counted[size_t(mesh)]) continue;
         counted[size_t(mesh)] = true;
-        for (const tinygltf::Primitive& primitive : model.meshes[size_t(mesh)].primitives) asked += bytes_of(context, primitive);
+        for (const tinygltf::Primitive& primitive : model.meshes[size_t(mesh)].primitives) asked += bytes_asked_by(context, primitive);
     }
     for (const tinygltf::Animation& animation : model.animations)
         for (const tinygltf::AnimationSampler& sampler : animation.samplers) asked += bytes_of(context, sampler.input) + bytes_of(context, sampler.output);

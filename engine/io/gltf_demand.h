@@ -11,4 +11,7 @@ namespace blush {
 // is. Errors: the meshes of `nodes`, animations and skins ask for more than an honest file of this one's size.
 Result<void> check_demand(const GltfContext& context, const std::vector<int>& nodes);
 
+// What the numbers of a primitive take, as floats, in bytes; 0 for those that cannot be read.
+double bytes_asked_by(const GltfContext& context, const tinygltf::Primitive& primitive);
+
 } // namespace blush

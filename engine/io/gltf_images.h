@@ -1,11 +1,10 @@
-// Internal to gltf_*.cpp: the pixels of a file's textures, decoded in parallel and within a limit of memory.
+// Internal to gltf_*.cpp: which images textures show, and where their bytes are.
 #pragma once
 
 #include "io/gltf_source.h"
 
 #include <span>
 #include <string>
-#include <vector>
 
 namespace blush {
 
@@ -16,10 +15,5 @@ Result<std::span<const uint8_t>> encoded_image(const GltfContext& context, size_
 int texture_image(const GltfContext& context, size_t texture);
 // What to call it in messages.
 std::string image_name(const GltfContext& context, size_t index);
-
-// By image those that are wanted, null where nothing can be shown, which is a warning; indices of no image are passed over. Files with the
-// same bytes become one image. Where all would exceed ImportOptions::texture_bytes, the largest are halved until they do not, with a warning each. Grey images
-// become RGB. Errors: a buffer view that is none, cancelled.
-Result<std::vector<ImagePtr>> decode_images(const GltfContext& context, std::span<const int> wanted);
 
 } // namespace blush

@@ -20,10 +20,12 @@
 #include "io/gltf_unpacked.h"
 #include "io/gltf_variants.h"
 #include "io/settings_json.h"
+#include "scene/untextured.h"
 
 #include <chrono>
 #include <exception>
 #include <new>
+#include <utility>
 
 namespace blush {
 namespace {
@@ -73,33 +75,24 @@ Result<void> import_scene_extras(const GltfContext& context, size_t index, Impor
     return {};
 }
 
-} // namespace
-
-Result<void> convert_gltf(const GltfContext& context, ImportedScene& imported) {
+// All but what comes from pixels.
+Result<void> convert(const GltfContext& context, const std::vector<int>& nodes, const TextureImport& textures, ImportedScene& imported) {
     Scene& scene = imported.scene;
     GltfIndices& indices = imported.origin.indices;
-    report_file(context);
-    const auto nodes = reachable_nodes(context);
-    if (!nodes) return nodes.error();
-    if (const auto ok = check_demand(context, *nodes); !ok) return ok.error();
-    context.progress(0.3, "textures");
-    const auto textures = import_textures(context, scene);
-    if (!textures) return textures.error();
-    const auto materials = import_materials(context, *textures, scene);
+    const std::vector<Id<Texture>> texture_ids = textures.add_to(scene);
+    const auto materials = import_materials(context, texture_ids, scene);
     if (!materials) return materials.error();
-    if (context.cancelled()) return context.cancel_error();
-    context.progress(0.6, "meshes");
     scene.variants = import_variants(context);
-    const auto meshes = import_meshes(context, *nodes, *materials, scene);
+    const auto meshes = import_meshes(context, nodes, *materials, scene);
     if (!meshes) return meshes.error();
-    const Result<LightIds> lights = import_lights(context, *nodes, scene);
+    const Result<LightIds> lights = import_lights(context, nodes, scene);
     if (!lights) return lights.error();
     const NodeTargets targets{meshes->ids, *lights, import_cameras(context, scene), number_skins(context)};
-    const auto node_ids = import_nodes(context, *nodes, targets, scene);
+    const auto node_ids = import_nodes(context, nodes, targets, scene);
     if (!node_ids) return node_ids.error();
 
-    for (size_t i = 0; i < node_ids->size(); ++i) indices.nodes[(*node_ids)[i]] = (*nodes)[i];
-    indices.textures = indices_of(*textures);
+    for (size_t i = 0; i < node_ids->size(); ++i) indices.nodes[(*node_ids)[i]] = nodes[i];
+    indices.textures = indices_of(texture_ids);
     indices.materials = indices_of(*materials);
     indices.meshes = indices_of(meshes->ids);
     indices.cameras = indices_of(targets.cameras);
@@ -110,17 +103,60 @@ Result<void> convert_gltf(const GltfContext& context, ImportedScene& imported) {
     indices.clips = indices_of(import_animations(context, indices, scene));
     limit_bending(context, scene);
 
-    if (!context.known) {
-        report_units(context, scene, indices);
-        report_textures(context, scene, indices);
-    }
+    if (!context.known) report_units(context, scene, indices);
     const auto shown = default_scene(context);
     import_scene_names(context, scene);
     if (shown) import_staging(context, *shown, indices, scene);
     scene.view = initial_view(scene);
-    if (const auto& index = shown)
-        if (const auto ok = import_scene_extras(context, *index, imported); !ok) return ok;
+    if (shown)
+        if (const auto ok = import_scene_extras(context, *shown, imported); !ok) return ok;
     if (context.cancelled()) return context.cancel_error();
+    return {};
+}
+
+// What is known once there are pixels, of a scene that has been converted without.
+Result<void> take_pixels(const GltfContext& context, const TextureImport& textures, ImportedScene& imported) {
+    Scene& scene = imported.scene;
+    scene.textures = {};
+    const std::vector<Id<Texture>> texture_ids = textures.add_to(scene);
+    if (!context.known) report_textures(context, scene, imported.origin.indices);
+    if (!depend_on_pixels(context)) return {};
+    ImportReport said_already;
+    scene.materials = {};
+    const auto materials = import_materials(context.reporting_to(said_already), texture_ids, scene);
+    return materials ? Result<void>() : materials.error();
+}
+
+} // namespace
+
+Result<void> convert_gltf(const GltfContext& context, ImportedScene& imported) {
+    report_file(context);
+    const auto nodes = reachable_nodes(context);
+    if (!nodes) return nodes.error();
+    if (const auto ok = check_demand(context, *nodes); !ok) return ok.error();
+    context.progress(0.3, "meshes");
+    Result<TextureImport> textures = TextureImport::begin(context);
+    if (!textures) return textures.error();
+
+    ImportedScene scene;
+    Result<void> converted = convert(context.reporting_to(scene.report), *nodes, *textures, scene);
+    if (converted && context.options.on_untextured && !textures->is_done()) {
+        ImportedScene shown = scene;
+        shown.scene = untextured(shown.scene);
+        context.options.on_untextured(shown);
+    }
+    if (const auto ok = textures->finish(context); !ok) return ok;
+    if (!textures->are_as_promised()) { // meshes have been made for some that cannot be decoded
+        ImportOptions silent = context.options; // it was said how far that is
+        silent.on_progress = {};
+        scene = {};
+        converted = convert({context.source, silent, scene.report, context.known}, *nodes, *textures, scene);
+    }
+    if (!converted) return converted;
+    context.add_all(scene.report.diagnostics);
+    if (const auto ok = take_pixels(context, *textures, scene); !ok) return ok;
+    std::swap(scene.report, imported.report);
+    imported = std::move(scene);
     context.progress(1, "done");
     return {};
 }

@@ -34,9 +34,14 @@ struct ImportedScene {
 };
 
 struct ImportOptions {
+    unsigned threads = 0; // that convert meshes and decode textures, this one included; 0: one per core; whatever it is, the result is the same
+
     std::function<void(double fraction, const std::string& what)> on_progress; // called on the importing thread
     const std::atomic<bool>* cancel = nullptr;                                 // true ends the import with the error "cancelled"
     int64_t texture_bytes = int64_t(4) << 30; // of all textures of the file as decoded; the largest are halved until they fit
+    // Called once, on the importing thread, if textures take longer than all else: with everything but those, as untextured.h shows it.
+    // They may still turn out to be unreadable, and the import may still be cancelled.
+    std::function<void(const ImportedScene&)> on_untextured = {};
 };
 
 // The file's default scene, the view that was saved with it or its first camera as the view (or one framed around the geometry), lights of

@@ -10,6 +10,8 @@
 namespace blush {
 namespace {
 
+constexpr const char* glossiness_extension = "KHR_materials_pbrSpecularGlossiness";
+
 // Reads one material; the first error is kept, so that the many texture references need no test each.
 class MaterialReader {
 public:
@@ -33,7 +35,7 @@ public:
         read_diffuse_transmission(extensions);
         material_.dispersion = extensions.object("KHR_materials_dispersion").number("dispersion", 0, 0, any_float);
         material_.unlit = extensions.has("KHR_materials_unlit");
-        if (const GltfObject glossiness = extensions.object("KHR_materials_pbrSpecularGlossiness")) read_specular_glossiness(glossiness);
+        if (const GltfObject glossiness = extensions.object(glossiness_extension)) read_specular_glossiness(glossiness);
         if (error_) return *error_;
         return std::move(material_);
     }
@@ -236,6 +238,10 @@ void report_back_faces(const GltfContext& context) {
 }
 
 } // namespace
+
+bool depend_on_pixels(const GltfContext& context) {
+    return std::ranges::any_of(context.model().materials, [](const tinygltf::Material& m) { return m.extensions.contains(glossiness_extension); });
+}
 
 Result<std::vector<Id<Material>>> import_materials(const GltfContext& context, const std::vector<Id<Texture>>& textures, Scene& scene) {
     std::vector<std::optional<Material>> materials(context.model().materials.size());

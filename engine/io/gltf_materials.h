@@ -7,8 +7,11 @@
 
 namespace blush {
 
-// Adds the file's materials to the scene; result[i] is the id of glTF material i. `textures` as import_textures returns it.
+// Adds the file's materials to the scene; result[i] is the id of glTF material i. `textures` as TextureImport::add_to returns them.
 // Values outside of their range are clamped with a warning. Errors: a texture index out of range.
 Result<std::vector<Id<Material>>> import_materials(const GltfContext& context, const std::vector<Id<Texture>>& textures, Scene& scene);
+
+// Do some need the texels of their textures, beside their numbers?
+bool depend_on_pixels(const GltfContext& context);
 
 } // namespace blush

@@ -1,5 +1,7 @@
 #include "io/gltf_meshes.h"
 
+#include "core/helping_threads.h"
+#include "io/gltf_demand.h"
 #include "io/gltf_extras.h"
 #include "io/gltf_geometry.h"
 #include "io/gltf_numbering.h"
@@ -7,7 +9,10 @@
 #include "scene/texture_slots.h"
 
 #include <algorithm>
+#include <atomic>
 #include <fmt/format.h>
+#include <optional>
+#include <thread>
 
 namespace blush {
 namespace {
@@ -27,30 +32,33 @@ struct MeshReader {
     std::vector<int> uv_sets; // that are kept
     std::vector<Id<Mesh>> known; // by index, for a document that is read without its triangles
 
-    // Its parts' primitives are added to `primitives`.
-    Result<Mesh> read(size_t index, std::vector<int>& primitives) const {
+    // None if there is nothing to show. Any thread may read any primitive.
+    Result<std::optional<MeshPart>> read(size_t index, size_t p, ImportReport& report) const {
+        const GltfContext own = context.reporting_to(report);
+        if (own.cancelled()) return own.cancel_error();
+        const tinygltf::Primitive& primitive = own.model().meshes[index].primitives[p];
+        const std::string where = fmt::format("meshes[{}].primitives[{}]", index, p);
+        if (primitive.material >= 0 && size_t(primitive.material) >= materials.size())
+            return own.error(fmt::format("material {} does not exist; there are {}", primitive.material, materials.size()), where);
+        const Id<Material> material = primitive.material >= 0 ? materials[size_t(primitive.material)] : Id<Material>();
+        Result<std::vector<Id<Material>>> worn = materials_by_variant(own, index, p, material, materials, scene.variants.size());
+        if (!worn) return worn.error();
+        Result<GeometryPtr> geometry = own.known ? GeometryPtr() : import_geometry(own, primitive, material, *worn, where);
+        if (!geometry) return geometry.error();
+        if (!*geometry && !is_known_part(index, p)) return std::optional<MeshPart>();
+        return std::optional(MeshPart{*std::move(geometry), material, *std::move(worn)});
+    }
+
+    // Without its parts.
+    Mesh named(size_t index) const {
         const tinygltf::Mesh& source = context.model().meshes[index];
         Mesh mesh;
         mesh.name = source.name.empty() ? fmt::format("Mesh {}", index) : source.name;
-        for (size_t p = 0; p < source.primitives.size(); ++p) {
-            if (context.cancelled()) return context.cancel_error();
-            const tinygltf::Primitive& primitive = source.primitives[p];
-            const std::string where = fmt::format("meshes[{}].primitives[{}]", index, p);
-            if (primitive.material >= 0 && size_t(primitive.material) >= materials.size())
-                return context.error(fmt::format("material {} does not exist; there are {}", primitive.material, materials.size()), where);
-            const Id<Material> material = primitive.material >= 0 ? materials[size_t(primitive.material)] : Id<Material>();
-            Result<std::vector<Id<Material>>> worn = materials_by_variant(context, index, p, material, materials, scene.variants.size());
-            if (!worn) return worn.error();
-            const Result<GeometryPtr> geometry = context.known ? GeometryPtr() : import_geometry(primitive, material, *worn, where);
-            if (!geometry) return geometry.error();
-            if (!*geometry && !is_known_part(index, p)) continue;
-            mesh.parts.push_back({*geometry, material, *std::move(worn)});
-            primitives.push_back(int(p));
-        }
         mesh.target_names = target_names(index);
         return mesh;
     }
 
+private:
     // Where everybody writes them.
     std::vector<std::string> target_names(size_t index) const {
         std::vector<std::string> names;
@@ -75,14 +83,14 @@ struct MeshReader {
         return -1;
     }
 
-    Result<GeometryPtr> import_geometry(const tinygltf::Primitive& primitive, Id<Material> material, const std::vector<Id<Material>>& by_variant,
-                                        const std::string& where) const {
+    Result<GeometryPtr> import_geometry(const GltfContext& own, const tinygltf::Primitive& primitive, Id<Material> material,
+                                        const std::vector<Id<Material>>& by_variant, const std::string& where) const {
         const Material* found = scene.materials.find(material);
-        Result<GeometryPtr> geometry = import_primitive(context, primitive, {uv_sets, normal_map_uv_set(material, by_variant)}, where);
+        Result<GeometryPtr> geometry = import_primitive(own, primitive, {uv_sets, normal_map_uv_set(material, by_variant)}, where);
         if (!geometry || !*geometry || !found) return geometry;
         for (const int set : uv_sets_read(*found))
             if (!(*geometry)->has_uv_set(set))
-                context.warn(fmt::format("textures on TEXCOORD_{}, which is not there: one texel covers all of the surface", set), where);
+                own.warn(fmt::format("textures on TEXCOORD_{}, which is not there: one texel covers all of the surface", set), where);
         return geometry;
     }
 };
@@ -101,6 +109,43 @@ std::vector<int> kept_uv_sets(const GltfContext& context, const Scene& scene) {
     return {sets.begin(), sets.end()};
 }
 
+// One primitive, and what became of it.
+struct Part {
+    size_t mesh = 0, primitive = 0;
+    std::vector<Diagnostic> findings = {};
+    std::optional<Result<std::optional<MeshPart>>> read = {};
+};
+
+std::vector<Part> parts_of(const GltfContext& context, const std::vector<bool>& used) {
+    std::vector<Part> parts;
+    for (size_t mesh = 0; mesh < used.size(); ++mesh)
+        for (size_t p = 0; used[mesh] && p < context.model().meshes[mesh].primitives.size(); ++p) parts.push_back({mesh, p});
+    return parts;
+}
+
+// Side by side. Those behind one that cannot be read may be left out.
+void read_parts(const MeshReader& reader, std::vector<Part>& parts) {
+    constexpr int64_t large = int64_t(1) << 26; // bytes: conversion needs as much again
+    const GltfContext& context = reader.context;
+    const std::thread::id reporter = std::this_thread::get_id();
+    std::atomic<size_t> done = 0, first_error = parts.size();
+    std::vector<int64_t> sizes;
+    for (const Part& part : parts) sizes.push_back(int64_t(bytes_asked_by(context, context.model().meshes[part.mesh].primitives[part.primitive])));
+    HelpingThreads helpers(context.known || parts.size() < 2 ? 1 : context.options.threads);
+    helpers.begin(sizes, large, [&](size_t i) {
+        if (i > first_error) return;
+        Part& part = parts[i];
+        ImportReport report;
+        part.read = reader.read(part.mesh, part.primitive, report);
+        part.findings = std::move(report.diagnostics);
+        if (!*part.read)
+            for (size_t first = first_error; i < first && !first_error.compare_exchange_weak(first, i);) {}
+        ++done;
+        if (std::this_thread::get_id() == reporter) context.progress(0.3 + 0.3 * double(done) / double(parts.size()), "meshes");
+    });
+    helpers.finish();
+}
+
 } // namespace
 
 Result<ImportedMeshes> import_meshes(const GltfContext& context, const std::vector<int>& nodes, const std::vector<Id<Material>>& materials,
@@ -111,21 +156,26 @@ Result<ImportedMeshes> import_meshes(const GltfContext& context, const std::vect
         const int mesh = context.model().nodes[size_t(node)].mesh;
         if (mesh >= 0 && size_t(mesh) < sources.size()) used[size_t(mesh)] = true; // out of range: an error when the node is read
     }
-    const auto total = std::max<std::ptrdiff_t>(1, std::count(used.begin(), used.end(), true));
     const auto known = context.known ? ids_by_index(context.known->meshes, sources.size()) : std::vector<Id<Mesh>>();
     const MeshReader reader{context, materials, scene, kept_uv_sets(context, scene), known};
+    std::vector<Part> parts = parts_of(context, used);
+    read_parts(reader, parts);
+
     ImportedMeshes imported;
     imported.primitives.resize(sources.size());
     std::vector<std::optional<Mesh>> meshes(sources.size());
     std::vector<uint32_t> wanted(sources.size());
-    std::ptrdiff_t done = 0;
     for (size_t i = 0; i < sources.size(); ++i) {
         if (!used[i]) continue;
-        Result<Mesh> mesh = reader.read(i, imported.primitives[i]);
-        if (!mesh) return mesh.error();
-        meshes[i] = *std::move(mesh);
+        meshes[i] = reader.named(i);
         wanted[i] = wanted_id(gltf_item(context.json(), "meshes", i));
-        context.progress(0.6 + 0.4 * double(++done) / double(total), "meshes");
+    }
+    for (Part& part : parts) {
+        context.add_all(part.findings);
+        if (!*part.read) return part.read->error();
+        if (!**part.read) continue;
+        meshes[part.mesh]->parts.push_back(**std::move(*part.read));
+        imported.primitives[part.mesh].push_back(int(part.primitive));
     }
     imported.ids = add_numbered(scene.meshes, std::move(meshes), wanted);
     return imported;

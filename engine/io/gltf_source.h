@@ -40,6 +40,11 @@ struct GltfContext {
     // Findings beyond a few hundred are dropped: one broken exporter repeats itself for every triangle.
     void warn(std::string what, std::string where) const { add(Diagnostic::Severity::warning, std::move(what), std::move(where)); }
     void note(std::string what, std::string where) const { add(Diagnostic::Severity::note, std::move(what), std::move(where)); }
+    // What another context of the same import had to say.
+    void add_all(const std::vector<Diagnostic>& findings) const {
+        for (const Diagnostic& d : findings) add(d.severity, d.what, d.where);
+    }
+    GltfContext reporting_to(ImportReport& other) const { return {source, options, other, known}; }
     bool cancelled() const { return options.cancel && options.cancel->load(std::memory_order_relaxed); }
     Error cancel_error() const { return error("cancelled", ""); }
     void progress(double fraction, const std::string& what) const {

@@ -100,26 +100,55 @@ Result<std::optional<Texture>> read_texture(const GltfContext& context, size_t i
 
 } // namespace
 
-Result<std::vector<Id<Texture>>> import_textures(const GltfContext& context, Scene& scene) {
-    const tinygltf::Model& model = context.model();
-    const std::vector<int> sources = texture_images(context);
-    const Result<std::vector<ImagePtr>> images = context.known ? std::vector<ImagePtr>(model.images.size()) : decode_images(context, sources);
-    if (!images) return images.error();
-    std::vector<std::optional<Texture>> textures(model.textures.size());
-    std::set<int> samplers;
-    std::vector<uint32_t> wanted(textures.size());
-    const auto known = context.known ? ids_by_index(context.known->textures, textures.size()) : std::vector<Id<Texture>>(textures.size());
-    for (size_t i = 0; i < textures.size(); ++i) {
-        Result<std::optional<Texture>> texture = read_texture(context, i);
+Result<TextureImport> TextureImport::begin(const GltfContext& context) {
+    const std::vector<int> images = texture_images(context);
+    if (context.known) return read(context, images, std::nullopt);
+    Result<ImageDecoding> decoding = ImageDecoding::begin(context, images);
+    if (!decoding) return decoding.error();
+    return read(context, images, *std::move(decoding));
+}
+
+Result<TextureImport> TextureImport::read(const GltfContext& context, std::vector<int> images, std::optional<ImageDecoding> decoding) {
+    TextureImport read(std::move(images), std::move(decoding));
+    const GltfContext own = context.reporting_to(read.report_);
+    for (size_t i = 0; i < read.images_.size(); ++i) {
+        Result<std::optional<Texture>> texture = read_texture(own, i);
         if (!texture) return texture.error();
-        if (*texture) (*texture)->image = (*images)[size_t(sources[i])];
-        if (!*texture || (!(*texture)->image && !known[i])) continue;
-        textures[i] = **std::move(texture);
-        if (model.textures[i].sampler >= 0) samplers.insert(model.textures[i].sampler);
-        wanted[i] = wanted_id(gltf_item(context.json(), "textures", i));
+        read.textures_.push_back(*std::move(texture));
+        read.wanted_.push_back(wanted_id(gltf_item(context.json(), "textures", i)));
     }
+    if (context.known) read.known_ = ids_by_index(context.known->textures, read.images_.size());
+    return read;
+}
+
+bool TextureImport::is_there(size_t index) const {
+    if (!textures_[index]) return false;
+    if (!decoding_) return bool(known_[index]);
+    return finished_ ? decoding_->image(images_[index]) != nullptr : decoding_->is_expected(images_[index]);
+}
+
+std::vector<Id<Texture>> TextureImport::add_to(Scene& scene) const {
+    std::vector<std::optional<Texture>> textures(textures_.size());
+    for (size_t i = 0; i < textures.size(); ++i) {
+        if (!is_there(i)) continue;
+        textures[i] = textures_[i];
+        if (decoding_) textures[i]->image = decoding_->image(images_[i]);
+    }
+    return add_numbered(scene.textures, std::move(textures), wanted_);
+}
+
+bool TextureImport::is_done() const { return !decoding_ || decoding_->is_done(); }
+
+Result<void> TextureImport::finish(const GltfContext& context) {
+    if (decoding_)
+        if (const auto ok = decoding_->finish(); !ok) return ok;
+    context.add_all(report_.diagnostics);
+    finished_ = true;
+    std::set<int> samplers;
+    for (size_t i = 0; i < textures_.size(); ++i)
+        if (is_there(i) && context.model().textures[i].sampler >= 0) samplers.insert(context.model().textures[i].sampler);
     report_filters(context, samplers);
-    return add_numbered(scene.textures, std::move(textures), wanted);
+    return {};
 }
 
 } // namespace blush

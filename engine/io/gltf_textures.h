@@ -1,14 +1,42 @@
 // Internal to gltf_*.cpp: textures with their samplers.
 #pragma once
 
+#include "io/gltf_decoding.h"
 #include "io/gltf_source.h"
 
+#include <optional>
 #include <vector>
 
 namespace blush {
 
-// Adds the file's textures to the scene; result[i] is the id of glTF texture i, or none if its image is missing or cannot
-// be decoded, which is a warning. Errors: an index out of range, cancelled.
-Result<std::vector<Id<Texture>>> import_textures(const GltfContext& context, Scene& scene);
+// A file's textures, whose pixels are decoded while the rest of the file is converted.
+class TextureImport {
+public:
+    // Begins with the headers. Errors: an index out of range.
+    static Result<TextureImport> begin(const GltfContext& context);
+
+    // Adds the textures to the scene; result[i] is the id of glTF texture i, or none if its image is missing or cannot be decoded. Before
+    // finish() they are without pixels, and what the headers promise is believed.
+    std::vector<Id<Texture>> add_to(Scene& scene) const;
+    bool is_done() const;
+    // Waits for the pixels; what is missing or cannot be decoded is a warning. Errors: cancelled.
+    Result<void> finish(const GltfContext& context);
+    // Once finished: headers promised no more than there is.
+    bool are_as_promised() const { return !decoding_ || decoding_->is_as_promised(); }
+
+private:
+    TextureImport(std::vector<int> images, std::optional<ImageDecoding> decoding)
+        : images_(std::move(images)), decoding_(std::move(decoding)) {}
+    static Result<TextureImport> read(const GltfContext& context, std::vector<int> images, std::optional<ImageDecoding> decoding);
+    bool is_there(size_t index) const;
+
+    std::vector<int> images_; // by texture, -1 for none
+    std::vector<std::optional<Texture>> textures_; // without their images; none if there is nothing that can be shown
+    std::vector<uint32_t> wanted_; // ids
+    std::vector<Id<Texture>> known_; // of a document that is read without its pixels
+    std::optional<ImageDecoding> decoding_; // none of such a document
+    ImportReport report_; // what comes after the images'
+    bool finished_ = false;
+};
 
 } // namespace blush

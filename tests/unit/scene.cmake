@@ -15,6 +15,7 @@ blush_test(test_scene
     scene_staging.cpp
     scene_table.cpp
     scene_transform.cpp
+    scene_untextured.cpp
     scene_validate.cpp
   LIBS blush_scene blush_test_support fmt::fmt
   LABELS unit)

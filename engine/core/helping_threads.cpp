@@ -1,0 +1,111 @@
+#include "core/helping_threads.h"
+
+#include "core/hand_over.h"
+
+#include <algorithm>
+#include <tbb/task_arena.h>
+#include <tbb/task_group.h>
+#include <tbb/task_scheduler_observer.h>
+#include <thread>
+#include <utility>
+
+#ifdef __linux__
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+#endif
+
+namespace blush {
+namespace {
+
+// On Linux a nice value belongs to a thread. That of a thread can be raised, but not lowered again.
+#ifdef __linux__
+int nice_of_this_thread() { return getpriority(PRIO_PROCESS, id_t(syscall(SYS_gettid))); }
+void raise_nice_of_this_thread(int nice) {
+    if (nice_of_this_thread() < nice) (void)setpriority(PRIO_PROCESS, id_t(syscall(SYS_gettid)), nice);
+}
+#else
+int nice_of_this_thread() { return 0; }
+void raise_nice_of_this_thread(int) {}
+#endif
+
+class SamePriority : public tbb::task_scheduler_observer {
+public:
+    explicit SamePriority(tbb::task_arena& arena) : tbb::task_scheduler_observer(arena), nice_(nice_of_this_thread()) { observe(true); }
+    ~SamePriority() override { observe(false); }
+
+    void on_scheduler_entry(bool is_worker) override {
+        if (is_worker) raise_nice_of_this_thread(nice_);
+    }
+
+private:
+    int nice_;
+};
+
+} // namespace
+
+struct HelpingThreads::State {
+    unsigned threads;
+    std::vector<std::function<void()>> waiting; // where nobody helps
+    tbb::task_arena arena;
+    SamePriority priority;
+    tbb::task_group group;
+    HandOver to_helpers, from_helpers;
+
+    explicit State(unsigned count) : threads(count), arena(int(count)), priority(arena) {
+        if (!alone()) arena.initialize(); // here and now: it keeps this thread's floating-point settings
+    }
+
+    bool alone() const { return threads == 1; }
+    void begin(std::function<void()> work) {
+        if (alone()) return waiting.push_back(std::move(work));
+        group.run([this, work = std::move(work)] {
+            to_helpers.receive();
+            work();
+            from_helpers.give();
+        });
+    }
+};
+
+HelpingThreads::HelpingThreads(unsigned threads)
+    : state_(std::make_unique<State>(threads ? threads : std::max(1u, std::thread::hardware_concurrency()))) {}
+
+HelpingThreads::~HelpingThreads() {
+    try {
+        finish();
+    } catch (...) {} // as promised
+}
+
+void HelpingThreads::begin(const std::vector<int64_t>& sizes, int64_t large, std::function<void(size_t)> task) {
+    const auto shared = std::make_shared<const std::function<void(size_t)>>(std::move(task));
+    std::vector<size_t> one_by_one, side_by_side;
+    for (size_t i = 0; i < sizes.size(); ++i) (sizes[i] > large ? one_by_one : side_by_side).push_back(i);
+    state_->to_helpers.give();
+    const auto begin_all = [&] {
+        if (!one_by_one.empty())
+            state_->begin([shared, one_by_one] {
+                for (const size_t i : one_by_one) (*shared)(i);
+            });
+        // Many pieces of work, so that threads come and go, but not millions.
+        const size_t piece = side_by_side.size() / (64 * size_t(state_->threads)) + 1;
+        for (size_t first = 0; first < side_by_side.size(); first += piece) {
+            const auto begin = side_by_side.begin() + std::ptrdiff_t(first), end = begin + std::ptrdiff_t(std::min(piece, side_by_side.size() - first));
+            state_->begin([shared, part = std::vector<size_t>(begin, end)] {
+                for (const size_t i : part) (*shared)(i);
+            });
+        }
+    };
+    if (state_->alone())
+        begin_all();
+    else
+        state_->arena.execute(begin_all);
+}
+
+void HelpingThreads::finish() {
+    for (const auto& work : std::exchange(state_->waiting, {})) work();
+    if (state_->alone()) return;
+    state_->arena.execute([this] { state_->group.wait(); });
+    state_->from_helpers.receive();
+}
+
+} // namespace blush

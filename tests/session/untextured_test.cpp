@@ -1,0 +1,42 @@
+// A scene is shown without its textures, then with them: the renderer that has seen both ends with the picture of one that never saw the first.
+#include "render/renderer.h"
+#include "scene/untextured.h"
+#include "support/pictures.h"
+#include "support/sample_project.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace blush {
+namespace {
+
+RenderSettings small() {
+    RenderSettings settings;
+    settings.width = 48;
+    settings.height = 32;
+    settings.spp = 4;
+    return settings;
+}
+
+TEST(Untextured, IsAPictureOfItsOwnThatGivesWayToTheWhole) {
+    const test::Sample sample = test::sample_project();
+    const Scene& whole = sample.project.scene;
+    Renderer renderer(test::all_planes());
+    renderer.update(untextured(whole), small());
+    renderer.render(0, 4);
+    const Frame early = renderer.resolve();
+    double light = 0;
+    for (const float v : early.rgba) {
+        ASSERT_TRUE(std::isfinite(v));
+        light += v;
+    }
+    EXPECT_GT(light, 0);
+    EXPECT_FALSE(test::same_picture(early, test::fresh_picture(whole, small(), 4)));
+    renderer.update(whole, small());
+    renderer.render(0, 4);
+    EXPECT_TRUE(test::same_picture(renderer.resolve(), test::fresh_picture(whole, small(), 4)));
+}
+
+} // namespace
+} // namespace blush
