@@ -45,6 +45,7 @@ private:
     PanelContext context();
     void draw_regions(PanelContext& c);
     void draw_above(PanelContext& c);
+    void draw_on_top(PanelContext& c);
     void obey(PanelContext& c);
     void run_own_command(Command command);
     void open_browser(FileRequest::Use use);
@@ -53,9 +54,12 @@ private:
     void save_due_snapshot();
     void list_kept_snapshots();
     void remember();
-    RenderSettings render_settings() const;
+    Document& document_shown();
+    RenderSettings render_settings();
     void keep_size(const RenderSettings& kept);
     bool worth_restoring(const FilmState& film, const RenderSettings& r) const;
+    void submit_preview(const Scene& scene);
+    bool shows_preview() const { return pictures_.frame && pictures_.frame->revision <= last_preview_; }
 
     Automation automation_;
     std::unique_ptr<Window> window_; // first to come, last to go: the session wakes it
@@ -82,6 +86,7 @@ private:
     RenderSession session_;
 
     Submitted submitted_;
+    uint64_t last_preview_ = 0; // revision of the last scene that was shown without its textures; 0: none was
     bool session_paused_ = false, session_denoises_ = false;
 
     bool remembered_follow_viewport_ = true; // what the settings said before the command line
@@ -169,10 +174,16 @@ void Editor::poll() {
     save_due_snapshot();
 }
 
+// What is in sight: the document, or the scene that is about to take its place.
+Document& Editor::document_shown() {
+    Document* preview = files_.preview();
+    return preview ? *preview : document_;
+}
+
 PanelContext Editor::context() {
     const RenderSettings r = render_settings();
     const SessionStatus status = session_.status();
-    return {document_,
+    return {document_shown(),
             ui_,
             color_,
             pictures_.frame,
@@ -187,17 +198,18 @@ PanelContext Editor::context() {
 }
 
 void Editor::panels() {
-    const ViewSettings& view = document_.project().view;
+    const ViewSettings view = document_shown().project().view;
     display_.update_shader(view, pictures_.frame, viewport_, thumbnails_, ui_.toasts);
     display_.update_ledger(session_.status());
     display_.meter(view.auto_exposure, pictures_.frame);
     window_->begin_frame();
     ui_.next_frame_in = longest_sleep;
     ui_.probe.begin_frame();
-    mix_.follow(pictures_.frame, document_);
+    mix_.follow(pictures_.frame, document_shown());
     PanelContext c = context();
     draw_regions(c);
     draw_above(c);
+    draw_on_top(c);
     obey(c);
 }
 
@@ -209,6 +221,7 @@ void Editor::draw_regions(PanelContext& c) {
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
     const Layout l = lay_out(screen.x, screen.y, ImGui::GetFrameHeight(), std::round(ImGui::GetFrameHeight() * 1.25f), ImGui::GetFontSize(),
                              ui_.settings.splitters, c.scene().clips.empty() ? 0 : std::round(ImGui::GetFrameHeight() * 1.5f));
+    ImGui::BeginDisabled(files_.preview() != nullptr); // what would be edited is about to be replaced
     begin_region("Outliner", l.outliner);
     draw_outliner(c);
     end_region();
@@ -216,7 +229,7 @@ void Editor::draw_regions(PanelContext& c) {
     viewport_width_ = int(l.viewport.width);
     viewport_height_ = int(l.viewport.height);
     pace_.begin_picture(Clock::now());
-    image_ = viewport_.draw(c, pace_);
+    image_ = files_.preview() ? viewport_.draw_alone(c, pace_, "Textures are still loading: plain colours stand in for them") : viewport_.draw(c, pace_);
     pace_.end_picture(Clock::now());
     end_region();
     if (l.time.height > 0) {
@@ -233,9 +246,11 @@ void Editor::draw_regions(PanelContext& c) {
     drag_splitters(ui_, l, screen.x);
     thumbnails_.update(ui_.snapshots.list, numbers_of(c.shown_view()));
     draw_snapshot_strip(c, l.viewport, [this](size_t i) { return thumbnails_.part(i); });
+    ImGui::EndDisabled();
 }
 
 void Editor::draw_above(PanelContext& c) {
+    ImGui::BeginDisabled(files_.preview() != nullptr);
     draw_comparison_panel(c);
     draw_snapshot_panel(c);
     draw_pixel_panel(c);
@@ -250,6 +265,10 @@ void Editor::draw_above(PanelContext& c) {
     draw_convergence_panel(c);
     draw_roulette_panel(c);
     draw_health_panel(c);
+    ImGui::EndDisabled();
+}
+
+void Editor::draw_on_top(PanelContext& c) {
     draw_import_report(c);
     draw_shortcut_sheet(c);
     draw_file_browser(c);
@@ -267,7 +286,11 @@ void Editor::draw_above(PanelContext& c) {
 // What panels, menus and keys asked for.
 void Editor::obey(PanelContext& c) {
     for (const Command command : std::exchange(ui_.commands, {})) {
-        if (!run_command(command, c)) run_own_command(command);
+        const bool needs_document = command != Command::open && command != Command::quit && command != Command::shortcuts;
+        if (needs_document && files_.preview())
+            ui_.toasts.note("Not before the textures are loaded");
+        else if (!run_command(command, c))
+            run_own_command(command);
     }
     for (const FileRequest& request : std::exchange(ui_.files, {})) take_file(request);
     saving_.hear_answer();
@@ -341,6 +364,7 @@ void Editor::take_dropped(const std::filesystem::path& file) {
 
 void Editor::save_due_snapshot() {
     const FramePtr& frame = pictures_.frame;
+    if (shows_preview()) return;
     if (snapshot_due_ == SnapshotDue::none || !frame || frame->revision != submitted_.revision() || frame->divider != 1) return;
     EditorSnapshots::Shown shown{submitted_.revision(), pictures_, ui_.denoise, document_.project(), submitted_.settings(), files_.imported(), files_.scene_file()};
     if (snapshot_due_ == SnapshotDue::keep)
@@ -350,8 +374,8 @@ void Editor::save_due_snapshot() {
     snapshot_due_ = SnapshotDue::none;
 }
 
-RenderSettings Editor::render_settings() const {
-    RenderSettings r = document_.project().render;
+RenderSettings Editor::render_settings() {
+    RenderSettings r = document_shown().project().render;
     if (ui_.settings.follow_viewport && viewport_width_ > 0) {
         r.width = viewport_width_;
         r.height = viewport_height_;
@@ -375,6 +399,7 @@ bool Editor::worth_restoring(const FilmState& film, const RenderSettings& r) con
 
 // Hands the project over when something in it reaches the image.
 void Editor::submit() {
+    if (const Document* preview = files_.preview()) return submit_preview(preview->project().scene);
     if (files_.scene_file().empty()) return; // nothing is open yet
     const std::optional<EditorSnapshots::Restored> restored = snapshots_.take_restored();
     if (restored) keep_size(restored->settings);
@@ -384,15 +409,25 @@ void Editor::submit() {
     const FilmStatePtr film = restored && restored->film && worth_restoring(*restored->film, r) ? restored->film : nullptr;
     if (!film && !submitted_.is_new(scene, r, planes)) return;
     const std::string opened = submitted_.revision() == 0 ? files_.scene_file().filename().string() : "";
+    const bool goes_back = opened.empty() && submitted_.revision() == last_preview_; // no other scene took the document's place
     const uint64_t revision = submitted_.note(scene, r, planes);
     const bool goes_on = session_.submit(revision, scene, r, planes, film);
     convergence_.submit(ui_.convergence, {document_, r, planes, revision, goes_on}, opened);
+    if (goes_back) convergence_.begin(ui_.convergence, "loading ended", revision, scene, r);
     stats_.submitted(revision, frame_begin_);
+}
+
+void Editor::submit_preview(const Scene& scene) {
+    const RenderSettings r = render_settings();
+    if (!submitted_.is_new(scene, r, {})) return;
+    last_preview_ = submitted_.note(scene, r, {});
+    session_.submit(last_preview_, scene, r);
 }
 
 void Editor::latest() {
     pictures_ = session_.pictures();
-    convergence_.look(ui_.convergence, pictures_);
+    if (shows_preview() && !files_.preview() && files_.scene_file().empty()) pictures_ = {}; // there is nothing to go back to
+    if (!shows_preview()) convergence_.look(ui_.convergence, pictures_);
     const SessionStatus status = session_.status();
     if (std::exchange(not_continued_, status.not_continued) != status.not_continued && !status.not_continued.empty())
         ui_.toasts.warn("The snapshot is rendered anew", status.not_continued);
@@ -415,7 +450,7 @@ void Editor::draw() {
         state.samples = shown->samples;
         state.complete = shown->complete;
         state.up_to_date = shown->revision == submitted_.revision() && !viewport_.is_thinned();
-        state.look = shown_text(ui_.denoise, *shown, pictures_.denoised.get());
+        state.look = shown->revision <= last_preview_ ? "without textures" : shown_text(ui_.denoise, *shown, pictures_.denoised.get());
     }
     window_->end_frame();
     const auto now = Clock::now();

@@ -63,8 +63,10 @@ bool FileWatch::changed() {
 }
 
 Result<EditorFiles::Opened> EditorFiles::import_file(const std::filesystem::path& file, const OpenOptions& open,
-                                                     const std::optional<Sidecar>& sidecar, JobProgress& progress) {
+                                                     const std::optional<Sidecar>& sidecar, JobProgress& progress,
+                                                     std::function<void(const ImportedScene&)> on_untextured) {
     ImportOptions options;
+    options.on_untextured = std::move(on_untextured);
     options.cancel = &progress.cancel;
     options.on_progress = [&progress](double fraction, const std::string& what) { progress.report(fraction, what); };
     if (open.overrides.texture_mib) options.texture_bytes = *open.overrides.texture_mib << 20;
@@ -90,9 +92,21 @@ void EditorFiles::start_import(const std::filesystem::path& file, Purpose purpos
     keep_settings_ = options.keep_settings;
     std::error_code error;
     importing_ = std::filesystem::absolute(file, error); // the recent list outlives the working directory
+    preview_.reset();
+    early_ = std::make_shared<EarlyScene>();
+    // What is merged, reloaded or recovered is not looked at before it is complete: what is open stays in sight.
+    std::function<void(const ImportedScene&)> on_untextured;
+    if (purpose == Purpose::open && !sidecar)
+        on_untextured = [options, early = early_, wake = wake_](const ImportedScene& imported) {
+            Opened opened{imported, imported.scene, {}};
+            if (!apply_overrides(options.overrides, opened.scene, options.aspect, imported.has_view)) return; // will be said of the whole
+            early->put(std::move(opened));
+            wake();
+        };
     import_job_ = std::make_unique<BackgroundJob<Result<Opened>>>(
         "Loading " + file.filename().string(),
-        [file, options, sidecar](JobProgress& progress) { return import_file(file, options, sidecar, progress); }, wake_);
+        [file, options, sidecar, on_untextured](JobProgress& progress) { return import_file(file, options, sidecar, progress, on_untextured); },
+        wake_);
 }
 
 void EditorFiles::save(const std::filesystem::path& file, const Project& project) {
@@ -125,9 +139,19 @@ void EditorFiles::load_ies(const std::filesystem::path& file, Document& document
     if (const auto done = document.apply(SetLight{node->light, light}); !done) ui.toasts.fail(done.error().text());
 }
 
+Project EditorFiles::opened_project(const Opened& opened, const Project& before) const {
+    Project project{opened.scene, before.render, before.view};
+    if (purpose_ == Purpose::open && !keep_settings_) {
+        project.render = opened.imported.render.value_or(project.render);
+        project.view = opened.imported.view.value_or(project.view);
+    }
+    return project;
+}
+
 EditorFiles::Finished EditorFiles::finish_import(Document& document, UiState& ui, Result<Opened> opened) {
     const bool cancelled = import_job_->cancelled();
     import_job_.reset();
+    preview_.reset();
     if (cancelled) return {};
     if (!opened) {
         ui.toasts.fail(opened.error().text());
@@ -139,7 +163,7 @@ EditorFiles::Finished EditorFiles::finish_import(Document& document, UiState& ui
         if (!done) ui.toasts.fail(done.error().text());
         return {};
     }
-    Project project{opened->scene, document.project().render, document.project().view};
+    Project project = opened_project(*opened, document.project());
     imported_ = opened->imported.scene;
     origin_ = opened->imported.origin;
     origin_.file = importing_;
@@ -150,10 +174,6 @@ EditorFiles::Finished EditorFiles::finish_import(Document& document, UiState& ui
         remember_scene(ui, scene_file_.string(), ui.settings);
         scene_file_ = importing_;
         remember_recent(ui.settings.recent, importing_.string());
-        if (!keep_settings_) {
-            project.render = opened->imported.render.value_or(project.render);
-            project.view = opened->imported.view.value_or(project.view);
-        }
     }
     ui.also_selected.clear();
     ui.selected_material = {};
@@ -220,6 +240,15 @@ void EditorFiles::look_at_scene_file(const Document& document, UiState& ui) {
 
 EditorFiles::Finished EditorFiles::poll(Document& document, UiState& ui) {
     Finished finished;
+    if (import_job_ && !import_job_->cancelled()) {
+        if (const auto early = early_->take()) {
+            // As it is there to be looked at for a moment, it takes no more time from the textures than a rough picture needs.
+            constexpr int64_t enough_samples = 8;
+            Project project = opened_project(*early, document.project());
+            project.render.spp = std::min(project.render.spp, project.render.first_sample + enough_samples);
+            preview_.emplace(std::move(project));
+        }
+    }
     if (import_job_) {
         if (auto result = import_job_->take()) finished = finish_import(document, ui, *std::move(result));
     }
@@ -238,7 +267,11 @@ std::optional<RunningJob> EditorFiles::running() const {
         const auto [fraction, what] = job->progress().read();
         return RunningJob{job->title(), what, fraction, can_cancel};
     };
-    if (import_job_) return show(import_job_, true);
+    if (import_job_) {
+        RunningJob job = show(import_job_, true);
+        if (preview_) job.what += "; the picture is still without them";
+        return job;
+    }
     if (environment_job_) return show(environment_job_, true);
     if (save_job_) return show(save_job_, false);
     return {};
@@ -246,6 +279,7 @@ std::optional<RunningJob> EditorFiles::running() const {
 
 void EditorFiles::cancel() {
     if (import_job_) import_job_->cancel();
+    preview_.reset();
     if (environment_job_) environment_job_->cancel();
 }
 

@@ -17,8 +17,10 @@
 #include <chrono>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace blush {
 
@@ -56,6 +58,8 @@ public:
     void reload() { start_import(scene_file_, Purpose::reload); }
     // The document as it is now; scene_file() is then the file.
     void save(const std::filesystem::path& file, const Project& project);
+    // The scene that is being opened, while its textures are still missing: a document of its own, to be looked at. Null: there is none.
+    Document* preview() { return preview_ ? &*preview_ : nullptr; }
     bool saving() const { return save_job_ != nullptr; }
     void load_environment(const std::filesystem::path& file);
     // Gives the selected light the distribution of a photometric file, at once.
@@ -80,10 +84,28 @@ private:
         Scene scene;
         std::optional<Project> recovered;
     };
+    // From the importing thread to this one.
+    class EarlyScene {
+    public:
+        void put(Opened opened) {
+            const std::lock_guard lock(mutex_);
+            opened_ = std::move(opened);
+        }
+        std::optional<Opened> take() {
+            const std::lock_guard lock(mutex_);
+            return std::exchange(opened_, std::nullopt);
+        }
+
+    private:
+        std::mutex mutex_;
+        std::optional<Opened> opened_;
+    };
     void start_import(const std::filesystem::path& file, Purpose purpose, const OpenOptions& options = {},
                       const std::optional<Sidecar>& sidecar = {});
     static Result<Opened> import_file(const std::filesystem::path& file, const OpenOptions& options, const std::optional<Sidecar>& sidecar,
-                                      JobProgress& progress);
+                                      JobProgress& progress, std::function<void(const ImportedScene&)> on_untextured);
+    // The settings that a document has once this is open.
+    Project opened_project(const Opened& opened, const Project& before) const;
     Finished finish_import(Document& document, UiState& ui, Result<Opened> opened);
     bool finish_save(Document& document, UiState& ui, Result<SavedGltf> saved);
     void finish_environment(Document& document, UiState& ui, Result<ImagePtr> image);
@@ -99,6 +121,8 @@ private:
     Purpose purpose_ = Purpose::open;
     std::filesystem::path importing_, environment_;
     bool keep_settings_ = false;
+    std::shared_ptr<EarlyScene> early_; // of the import that goes on
+    std::optional<Document> preview_;
     Project saving_; // as it was when the save began
     std::unique_ptr<BackgroundJob<Result<Opened>>> import_job_;
     std::unique_ptr<BackgroundJob<Result<SavedGltf>>> save_job_;

@@ -57,6 +57,16 @@ void draw_centred(const char* text) {
     ImGui::GetWindowDrawList()->AddText({at.x + (window.x - size.x) / 2, at.y + (window.y - size.y) / 2}, tone::dim_text, text);
 }
 
+// Words at the lower edge of the picture.
+void write_caption(const ImageRect& image, const char* text) {
+    const float em = ImGui::GetFontSize();
+    const ImVec2 size = ImGui::CalcTextSize(text), at{image.x + (image.width - size.x) / 2, image.y + image.height - size.y - em};
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    draw.AddRectFilled({at.x - em * 0.5f, at.y - em * 0.3f}, {at.x + size.x + em * 0.5f, at.y + size.y + em * 0.3f},
+                       IM_COL32(20, 20, 20, 220), em * 0.2f);
+    draw.AddText(at, tone::warning, text);
+}
+
 // A mask over node ids: the node and all below it.
 std::vector<uint8_t> with_descendants(const Scene& scene, Id<Node> root) {
     std::vector<uint8_t> selected(scene.nodes.empty() ? 1 : scene.nodes.entries().back().id.value + 1);
@@ -224,13 +234,12 @@ GLuint Viewport::outlined_picture(const PanelContext& c, const ImageRect& image)
     return outline_.empty() ? display_.texture() : outline_.texture();
 }
 
-void Viewport::draw_picture(PanelContext& c, const ImageRect& image) {
+void Viewport::draw_picture(PanelContext& c, const ImageRect& image, bool outlined) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     // The outline is drawn into a picture as large as what is on the screen: not of one that is far larger.
     const Region region = window_region();
     const bool fits = image.width <= region.width && image.height <= region.height;
-    const bool outlined = c.ui.settings.overlays && c.scene().nodes.contains(c.ui.selected) && fits;
-    const GLuint picture = outlined ? outlined_picture(c, image) : display_.texture();
+    const GLuint picture = outlined && fits ? outlined_picture(c, image) : display_.texture();
     if (picture == display_.texture())
         set_filter(picture, c.ui.zoom.scale >= 1 && shown_frame_->divider == 1 && shown_thinned_by_ == 1 ? GL_NEAREST : GL_LINEAR);
     // It is opaque: blending it would only cost time.
@@ -246,13 +255,7 @@ void Viewport::draw_picture(PanelContext& c, const ImageRect& image) {
 // What is shown instead of the picture, where it cannot be overlooked.
 void Viewport::draw_caption(const ImageRect& image) const {
     if (!is_special(*shown_frame_, uploaded_view_) || uploaded_view_.show == PictureView::Show::illuminance) return;
-    const std::string text = caption_of(*shown_frame_, uploaded_view_);
-    const float em = ImGui::GetFontSize();
-    const ImVec2 size = ImGui::CalcTextSize(text.c_str()), at{image.x + (image.width - size.x) / 2, image.y + image.height - size.y - em};
-    ImDrawList& draw = *ImGui::GetWindowDrawList();
-    draw.AddRectFilled({at.x - em * 0.5f, at.y - em * 0.3f}, {at.x + size.x + em * 0.5f, at.y + size.y + em * 0.3f},
-                       IM_COL32(20, 20, 20, 220), em * 0.2f);
-    draw.AddText(at, tone::warning, text.c_str());
+    write_caption(image, caption_of(*shown_frame_, uploaded_view_).c_str());
 }
 
 void Viewport::obey(PanelContext& c, const NavigationResult& wish, const Projection& projection, const ImageRect& image) {
@@ -293,12 +296,14 @@ ImageRect Viewport::draw(PanelContext& c, const FramePace& pace) {
     ImGui::InvisibleButton("picture", ImGui::GetWindowSize(),
                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
     const bool hovered = ImGui::IsItemHovered();
+    if (!c.frame) shown_frame_ = uploaded_frame_ = nullptr; // there is nothing to be seen any more
     if (!shown_frame_) {
-        const bool nothing_open = c.status.state == SessionStatus::State::idle && c.scene().nodes.empty();
+        using State = SessionStatus::State;
+        const bool nothing_open = (c.status.state == State::idle || c.status.state == State::complete) && c.scene().nodes.empty();
         draw_centred(nothing_open ? "Drop a glTF scene here, or press Ctrl+O" : "Preparing the first image");
         return image;
     }
-    draw_picture(c, image);
+    draw_picture(c, image, c.ui.settings.overlays && c.scene().nodes.contains(c.ui.selected));
     follow_looked_through(c);
     compare_.draw(c, image, visible_part(image), look_, pace);
     const View view = c.scene().view;
@@ -317,6 +322,18 @@ ImageRect Viewport::draw(PanelContext& c, const FramePace& pace) {
     }
     draw_caption(seen);
     navigate(c, projection, image, hovered, taken);
+    return image;
+}
+
+ImageRect Viewport::draw_alone(PanelContext& c, const FramePace& pace, const char* caption) {
+    take_frame(c, pace);
+    const ImageRect image = place_picture(c);
+    if (!shown_frame_) {
+        draw_centred("Preparing the first image");
+        return image;
+    }
+    draw_picture(c, image, false);
+    write_caption(visible_part(image), caption);
     return image;
 }
 

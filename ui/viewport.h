@@ -22,6 +22,8 @@ public:
 
     // Fills the current ImGui window. Returns where the picture lies. A new picture is worked at for as long as `pace` leaves time.
     ImageRect draw(PanelContext& c, const FramePace& pace);
+    // As draw(), but nothing in it can be touched and nothing is drawn into it, except for `caption`, which says why.
+    ImageRect draw_alone(PanelContext& c, const FramePace& pace, const char* caption);
     // The frame whose picture is on the screen; null before the first.
     const FramePtr& shown() const { return shown_frame_; }
     // The gains of its light groups that it is shown with; empty where there are none.
@@ -38,7 +40,7 @@ private:
     void upload_denoised(const DenoisedPtr& denoised, const Gains& gains);
     int step_in_time(const Frame& frame, double milliseconds) const;
     void upload_thinned(const PanelContext& c, const Gains& gains, bool denoised, int step);
-    void draw_picture(PanelContext& c, const ImageRect& image);
+    void draw_picture(PanelContext& c, const ImageRect& image, bool outlined);
     GLuint outlined_picture(const PanelContext& c, const ImageRect& image);
     void draw_caption(const ImageRect& image) const;
     bool draw_overlays(PanelContext& c, const Projection& projection, const ImageRect& image, bool hovered);

@@ -87,6 +87,7 @@ bool draw_progress(const PanelContext& c, const RunningJob& job) {
     if (job.can_cancel) {
         ImGui::SameLine();
         cancelled = ImGui::SmallButton("Cancel");
+        c.ui.probe.record_last_item("Job/Cancel");
     }
     if (!job.what.empty()) ImGui::TextDisabled("%s", job.what.c_str());
     end_card();
