@@ -116,10 +116,6 @@ template <class V> std::vector<V> picked(const std::vector<V>& values, const std
     return result;
 }
 
-template <class V> void append(std::vector<V>& values, const std::vector<V>& more) {
-    values.insert(values.end(), more.begin(), more.end());
-}
-
 } // namespace
 
 bool is_influence(const std::string& attribute) { return attribute.starts_with("JOINTS_") || attribute.starts_with("WEIGHTS_"); }
@@ -168,18 +164,6 @@ void unweld_bending(Geometry& g) {
         target = std::make_shared<const MorphTarget>(
             MorphTarget{picked(target->positions, g.indices), picked(target->normals, g.indices), picked(target->tangents, g.indices)});
     if (!g.influences.empty()) g.influences = picked(g.influences, g.indices, g.influences.size() / g.positions.size());
-}
-
-void append_bending(Geometry& g, const std::vector<uint32_t>& of) {
-    if (of.empty()) return;
-    for (MorphTargetPtr& target : g.targets) {
-        auto longer = std::make_shared<MorphTarget>(*target);
-        for (auto offsets : {&MorphTarget::positions, &MorphTarget::normals, &MorphTarget::tangents})
-            append((*longer).*offsets, picked((*target).*offsets, of));
-        target = std::move(longer);
-    }
-    // The copies have their places already.
-    append(g.influences, picked(g.influences, of, g.influences.size() / (g.positions.size() - of.size())));
 }
 
 } // namespace blush

@@ -20,7 +20,5 @@ void limit_bending(const GltfContext& context, Scene& scene);
 
 // For vertices that are about to be listed anew, one for each index.
 void unweld_bending(Geometry& geometry);
-// For vertices that are copies of these, behind all others.
-void append_bending(Geometry& geometry, const std::vector<uint32_t>& of);
 
 } // namespace blush

@@ -6,8 +6,8 @@
 #include "io/gltf_extras.h"
 #include "io/gltf_points_lines.h"
 #include "io/gltf_suspicions.h"
-#include "io/gltf_tangents.h"
 #include "scene/affine.h"
+#include "scene/tangents.h"
 
 #include <algorithm>
 #include <array>
@@ -195,7 +195,7 @@ void provide_tangents(const GltfContext& context, Geometry& g, int uv_set, const
         context.warn("a normal map, but no texture coordinates to place it: it has no effect", where);
         return;
     }
-    append_bending(g, add_tangents(g, uv_set));
+    add_tangents(g, uv_set);
     context.note("tangents are missing: computed from texture coordinates as MikkTSpace does", where);
     if (!g.targets.empty() || !g.influences.empty())
         context.note("approximated: tangents that were computed bend with the shape, instead of being computed of each anew", where);

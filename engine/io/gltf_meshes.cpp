@@ -6,6 +6,7 @@
 #include "io/gltf_geometry.h"
 #include "io/gltf_numbering.h"
 #include "io/gltf_variants.h"
+#include "scene/tangents.h"
 #include "scene/texture_slots.h"
 
 #include <algorithm>
@@ -16,14 +17,6 @@
 
 namespace blush {
 namespace {
-
-// By which texture coordinates a material's normal maps and stretched reflections are laid out, -1: it has none.
-int tangent_uv_set_of(const Material& m) {
-    if (m.normal_texture.texture) return m.normal_texture.uv_set;
-    if (m.clearcoat_normal_texture.texture) return m.clearcoat_normal_texture.uv_set;
-    if (m.anisotropy > 0) return m.anisotropy_texture.uv_set;
-    return -1;
-}
 
 struct MeshReader {
     const GltfContext& context;
@@ -74,19 +67,11 @@ private:
         return parts != context.known->primitives.end() && std::count(parts->second.begin(), parts->second.end(), int(primitive)) > 0;
     }
 
-    // Of its material, or else of the first that a variant puts in its place.
-    int normal_map_uv_set(Id<Material> material, const std::vector<Id<Material>>& by_variant) const {
-        std::vector<Id<Material>> worn{material};
-        worn.insert(worn.end(), by_variant.begin(), by_variant.end());
-        for (const Id<Material> id : worn)
-            if (const Material* m = scene.materials.find(id); m && tangent_uv_set_of(*m) >= 0) return tangent_uv_set_of(*m);
-        return -1;
-    }
-
     Result<GeometryPtr> import_geometry(const GltfContext& own, const tinygltf::Primitive& primitive, Id<Material> material,
                                         const std::vector<Id<Material>>& by_variant, const std::string& where) const {
         const Material* found = scene.materials.find(material);
-        Result<GeometryPtr> geometry = import_primitive(own, primitive, {uv_sets, normal_map_uv_set(material, by_variant)}, where);
+        const int tangents = tangent_uv_set(scene, {nullptr, material, by_variant});
+        Result<GeometryPtr> geometry = import_primitive(own, primitive, {uv_sets, tangents}, where);
         if (!geometry || !*geometry || !found) return geometry;
         for (const int set : uv_sets_read(*found))
             if (!(*geometry)->has_uv_set(set))

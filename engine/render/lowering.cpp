@@ -74,10 +74,12 @@ Vec3 light_emission(const Light& light) {
     return tint * light.intensity;
 }
 
-Scene lower_area_lights(const Scene& whole, BentMeshes* known) {
+Scene lower_area_lights(const Scene& whole, LoweredMeshes* known) {
     Scene scene = with_solo_applied(with_pose_applied(whole));
-    BentMeshes none;
-    (known ? known : &none)->bend(scene);
+    LoweredMeshes none;
+    LoweredMeshes& meshes = known ? *known : none;
+    meshes.tangents.provide(scene);
+    meshes.bent.bend(scene);
     Scene lowered = scene;
     for (const auto& [id, node] : scene.nodes) {
         const Light* light = node.light ? scene.lights.find(node.light) : nullptr;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/bent_meshes.h"
+#include "render/tangent_meshes.h"
 #include "scene/scene.h"
 
 namespace blush {
@@ -9,11 +10,18 @@ namespace blush {
 // Ids at or above this one are made by lowering; without the bit they are those of the light's node.
 constexpr uint32_t lowered_bit = 0x80000000u;
 
+// What lowering made of meshes last time.
+struct LoweredMeshes {
+    TangentMeshes tangents;
+    BentMeshes bent;
+};
+
 // The same scene with solo (scene/shining.h) and its pose (scene/pose.h) applied and every rectangle and disk that shines replaced by an emissive mesh below its node. A
 // disk becomes a polygon of 96 corners and the same area: sampling either by area is the same, its light differs from the circle's by less
 // than a millionth of the flux, and kernels need not know of it. Where lights are mixed, those that are off keep a body that is black.
-// Meshes that bend are bent (render/bent_meshes.h): those of `known` are not bent again if they are the same.
-Scene lower_area_lights(const Scene& scene, BentMeshes* known = nullptr);
+// Meshes that need tangents have them (render/tangent_meshes.h), and those that bend are bent (render/bent_meshes.h): what `known` has made
+// already is not made again.
+Scene lower_area_lights(const Scene& scene, LoweredMeshes* known = nullptr);
 // The light is one that lowering turns into a mesh.
 bool is_area_light(const Light& light);
 // The light whose body a node of the lowered scene is; nullptr: an ordinary node.

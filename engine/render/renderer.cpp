@@ -53,7 +53,7 @@ struct Renderer::State {
     std::vector<std::unique_ptr<TileScratch>> replays; // for samples that went wrong
     RenderScene scene;
     std::optional<Scene> lowered;
-    BentMeshes bent;
+    LoweredMeshes meshes;
     RenderSettings settings;
     std::shared_ptr<const LightGroups> groups; // null: nobody mixes
     Mixing mixing;                             // of the groups
@@ -174,7 +174,7 @@ bool Renderer::update(const Scene& scene, const RenderSettings& asked) {
     const RenderSettings settings = carried_out(asked);
     const auto begin = Clock::now();
     if (s.take_mix(scene, settings)) return false;
-    Scene lowered = lower_area_lights(scene, &s.bent);
+    Scene lowered = lower_area_lights(scene, &s.meshes);
     const UpdatePlan todo = s.lowered ? plan(diff(*s.lowered, s.settings, lowered, settings)) : full_plan();
     s.make_groups(scene);
     Film::require_memory({settings.width, settings.height, s.options.planes, false, settings.adaptive, int(s.mixing.gains.size())});

@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 
 namespace blush::test {
@@ -118,6 +119,67 @@ TEST(Saved, EveryKindOfLightRendersBitForBitAsItDid) {
         EXPECT_EQ(loaded->scene.lights.size(), 8u);
         EXPECT_TRUE(same_picture(picture(project), picture({loaded->scene, {}, {}}))) << file;
     }
+}
+
+// A ball with a texture that is mirrored in the middle, without tangents, as `save_gltf` writes it.
+std::string save_ball(const GltfOrigin& origin, const TemporaryFolder& folder) {
+    Geometry g;
+    constexpr uint32_t n = 12;
+    for (uint32_t j = 0; j <= n; ++j)
+        for (uint32_t i = 0; i <= n; ++i) {
+            const float u = 6.2831853f * float(i) / n, v = 3.1415927f * (float(j) + 0.5f) / (n + 1);
+            g.positions.push_back({std::sin(v) * std::cos(u), std::cos(v), std::sin(v) * std::sin(u)});
+        }
+    g.normals = g.positions;
+    g.uv.resize(1);
+    for (const Vec3& p : g.positions) g.uv[0].push_back({std::abs(p.x), p.y});
+    for (uint32_t j = 0; j < n; ++j)
+        for (uint32_t i = 0; i < n; ++i) {
+            const uint32_t a = j * (n + 1) + i, b = a + 1, c = b + n + 1, d = c - 1;
+            g.indices.insert(g.indices.end(), {a, b, c, a, c, d});
+        }
+    Scene scene;
+    Material steel;
+    steel.name = "steel";
+    steel.roughness = 0.4f;
+    Node ball;
+    ball.mesh = scene.meshes.add({"ball", {{std::make_shared<const Geometry>(std::move(g)), scene.materials.add(steel)}}});
+    scene.nodes.add(ball);
+    scene.environment.kind = Environment::Kind::image;
+    scene.environment.image = float_image(8, 4, 3, 0.3f);
+    scene.view.position = {0, 0, 4};
+    const std::string file = folder / "ball.gltf";
+    const auto saved = save_gltf(origin, {scene, {}, {}}, file);
+    EXPECT_TRUE(saved) << saved.error().text();
+    return file;
+}
+
+// What is stretched in the window looks as it does when the saved file is opened, whose import computes tangents.
+TEST(Saved, TangentsThatAnEditCallsForAreThoseOfTheReopenedFile) {
+    const TemporaryFolder folder;
+    std::ofstream(folder / "empty.gltf") << R"({"asset": {"version": "2.0"}})";
+    const auto empty = import_gltf(folder / "empty.gltf");
+    ASSERT_TRUE(empty) << empty.error().text();
+    const auto original = import_gltf(save_ball(empty->origin, folder));
+    ASSERT_TRUE(original) << original.error().text();
+    const auto geometry_of = [](const Scene& scene) { return scene.meshes.begin()->value.parts[0].geometry; };
+    Project project{original->scene, {}, {}};
+    EXPECT_TRUE(geometry_of(project.scene)->tangents.empty());
+    const Frame before = picture(project);
+    auto [id, material] = *project.scene.materials.begin();
+    material.anisotropy = 0.9f;
+    project = *blush::apply(project, SetMaterial{id, material});
+    EXPECT_FALSE(same_picture(picture(project), before));
+
+    const std::string file = folder / "stretched.gltf";
+    const auto saved = save_gltf(original->origin, project, file);
+    ASSERT_TRUE(saved) << saved.error().text();
+    const auto loaded = import_gltf(file);
+    ASSERT_TRUE(loaded) << loaded.error().text();
+    EXPECT_FALSE(geometry_of(loaded->scene)->tangents.empty());
+    const size_t vertices = geometry_of(project.scene)->positions.size();
+    EXPECT_GT(geometry_of(loaded->scene)->positions.size(), vertices) << "those on the mirror's line are several";
+    EXPECT_TRUE(same_picture(picture(project), picture({loaded->scene, {}, {}})));
 }
 
 } // namespace

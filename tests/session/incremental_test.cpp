@@ -3,6 +3,7 @@
 #include "scene/affine.h"
 #include "scene/document.h"
 #include "scene/staging.h"
+#include "scene/tangents.h"
 #include "support/pictures.h"
 #include "session/rich_project.h"
 #include "support/random_edits.h"
@@ -126,6 +127,69 @@ TEST(Renderer, FollowsAnimationsBitForBit) {
     project.scene = staged(project.scene, {});
     updated.follow(project);
     EXPECT_TRUE(same_picture(updated.picture(), first));
+}
+
+// By `change` of each geometry's copy.
+Scene with_geometries(const Scene& scene, auto&& change) {
+    Scene changed = scene;
+    for (auto [id, mesh] : Table<Mesh>(scene.meshes)) {
+        for (MeshPart& part : mesh.parts) {
+            auto copy = std::make_shared<Geometry>(*part.geometry);
+            copy->serial = next_payload_serial();
+            change(part, *copy);
+            part.geometry = std::move(copy);
+        }
+        changed.meshes.set(id, std::move(mesh));
+    }
+    return changed;
+}
+
+// Materials that are stretched, or coated with a normal map, on meshes that were imported without tangents: they are as they would be had
+// the meshes had them all along, and go again without a trace.
+TEST(Renderer, MakesTangentsWhenAMaterialComesToNeedThem) {
+    Project project = test::rich_project();
+    const Material bumpy = std::ranges::find_if(project.scene.materials, [](const auto& m) { return m.value.name == "Bumpy"; })->value;
+    const Table<Material> materials = project.scene.materials;
+    project.scene = with_geometries(project.scene, [](const MeshPart&, Geometry& g) { g.tangents.clear(); });
+    const auto restyle = [&](auto&& change) {
+        for (auto [id, material] : materials) {
+            material.normal_texture = {};
+            material.roughness = 0.3f;
+            material.metallic = 1;
+            change(material);
+            project.scene.materials.set(id, material);
+        }
+    };
+    restyle([](Material&) {});
+    Updated updated(project);
+    const Frame plain = updated.picture();
+    const auto expect_tangents = [&](const char* what) {
+        updated.follow(project);
+        EXPECT_TRUE(same_picture(updated.picture(), fresh_picture(project.scene, project.render, samples))) << what;
+        EXPECT_FALSE(same_picture(updated.picture(), plain)) << what;
+        size_t made = 0;
+        const Scene prepared = with_geometries(project.scene, [&](const MeshPart& part, Geometry& g) {
+            const int set = tangent_uv_set(project.scene, part);
+            if (set < 0 || g.normals.empty() || !g.has_uv_set(set)) return;
+            add_tangents(g, set);
+            ++made;
+        });
+        EXPECT_GT(made, 2u) << what;
+        EXPECT_TRUE(same_picture(updated.picture(), fresh_picture(prepared, project.render, samples))) << what;
+    };
+    restyle([](Material& m) { m.anisotropy = 0.8f; });
+    expect_tangents("stretched");
+    restyle([](Material& m) { m.anisotropy = 0.4f; });
+    expect_tangents("less");
+    restyle([&](Material& m) {
+        m.anisotropy = 0.4f;
+        m.clearcoat = 1;
+        m.clearcoat_normal_texture = {bumpy.normal_texture.texture, 1};
+    });
+    expect_tangents("coated, by the other UV set");
+    restyle([](Material&) {});
+    updated.follow(project);
+    EXPECT_TRUE(same_picture(updated.picture(), plain));
 }
 
 // Far from the origin a scene is rendered about another one: moving there and back leaves no trace, in tables that the edit itself did

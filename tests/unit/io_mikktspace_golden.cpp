@@ -3,7 +3,7 @@
 // Where the reference has no tangent it leaves its initial value, (1, 0, 0), whatever the normal, or a vector of no length. There we differ
 // on purpose, and have a perpendicular of the normal.
 #include "core/math.h"
-#include "io/mikktspace.h"
+#include "scene/mikktspace.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -104,7 +104,8 @@ new Mesh().grid(6, 6, sheet((x, y) => [x * x + 0.2 * y, y + 0.3 * Math.sin(4 * x
     for (const [k, turn] of [0.3, 1.1, 2.9].entries()) {
         const c = Math.cos(turn), s = Math.sin(turn), normal = [0, 0, 1];
         const at = (x, y, uv) => mesh.vertex([3 * k + c * x - s * y, s * x + c * y, 0], normal, uv);
-        const o = at(0, 0, [0, 0]), e = at(1, 0, [1, 0]), up = at(0, 1, [0, 1]), down = at(0, 1, [0, -1]), far = at(1, 2, [1, -2]), w = at(-1, 0.5, [-1, 0.5]);
+        const o = at(0, 0, [0, 0]), e = at(1, 0, [0, 1]), up = at(0, 1, [-1, 0]), down = at(0, 1, [1, 0]);
+        const far = at(1, 2, [2, 1]), w = at(-1, 0.5, [-0.5, -1]);
         mesh.indices.push(o, e, up, e, o, down, down, far, e, o, up, w);
     }
     mesh.write('folded');

@@ -1,4 +1,4 @@
-#include "io/mikktspace.h"
+#include "scene/mikktspace.h"
 
 #include "core/math.h"
 #include "scene/affine.h"

@@ -1,0 +1,74 @@
+#include "scene/tangents.h"
+
+#include "scene/mikktspace.h"
+
+#include <algorithm>
+
+namespace blush {
+namespace {
+
+template <class T> void append_copies(std::vector<T>& values, const std::vector<uint32_t>& of, size_t per_vertex = 1) {
+    if (values.empty()) return;
+    values.reserve(values.size() + of.size() * per_vertex);
+    for (const uint32_t i : of)
+        for (size_t k = 0; k < per_vertex; ++k) values.push_back(values[i * per_vertex + k]);
+}
+
+int uv_set_of(const Material* m) {
+    if (!m) return -1;
+    if (m->normal_texture.texture) return m->normal_texture.uv_set;
+    if (m->clearcoat_normal_texture.texture) return m->clearcoat_normal_texture.uv_set;
+    return m->anisotropy > 0 ? m->anisotropy_texture.uv_set : -1;
+}
+
+} // namespace
+
+int tangent_uv_set(const Scene& scene, const MeshPart& part) {
+    if (part.by_variant.empty()) return uv_set_of(scene.materials.find(part.material));
+    for (const Id<Material> worn : part.by_variant)
+        if (const int set = uv_set_of(scene.materials.find(worn)); set >= 0) return set;
+    return -1;
+}
+
+bool any_needs_tangents(const Scene& scene) {
+    return std::ranges::any_of(scene.materials, [](const auto& entry) { return uv_set_of(&entry.value) >= 0; });
+}
+
+std::vector<uint32_t> add_tangents(Geometry& g, int uv_set) {
+    const std::vector<Vec4> corners = mikktspace_tangents(g, g.uv[size_t(uv_set)]);
+    const auto count = uint32_t(g.positions.size());
+    constexpr uint32_t nobody = UINT32_MAX;
+    g.tangents.assign(count, Vec4{0, 0, 0, 0}); // a length of 0: not spoken for
+    std::vector<uint32_t> next(count, nobody);  // by vertex, another one that differs in its tangent alone
+    std::vector<uint32_t> copied;
+    for (size_t i = 0; i < corners.size(); ++i) {
+        const bool is_free = g.tangents[g.indices[i]] == Vec4{0, 0, 0, 0};
+        uint32_t vertex = g.indices[i];
+        if (is_free) g.tangents[vertex] = corners[i];
+        while (g.tangents[vertex] != corners[i] && next[vertex] != nobody) vertex = next[vertex];
+        if (g.tangents[vertex] != corners[i]) {
+            next[vertex] = count + uint32_t(copied.size());
+            vertex = next[vertex];
+            next.push_back(nobody);
+            copied.push_back(g.indices[i]);
+            g.tangents.push_back(corners[i]);
+        }
+        g.indices[i] = vertex;
+    }
+    for (Vec4& t : g.tangents)
+        if (t == Vec4{0, 0, 0, 0}) t = {1, 0, 0, 1}; // of vertices that no triangle uses
+    if (copied.empty()) return copied;
+    for (MorphTargetPtr& target : g.targets) {
+        auto longer = std::make_shared<MorphTarget>(*target);
+        for (const auto offsets : {&MorphTarget::positions, &MorphTarget::normals, &MorphTarget::tangents}) append_copies((*longer).*offsets, copied);
+        target = std::move(longer);
+    }
+    append_copies(g.influences, copied, g.influences.size() / count);
+    append_copies(g.positions, copied);
+    append_copies(g.normals, copied);
+    append_copies(g.colors, copied);
+    for (std::vector<Vec2>& uv : g.uv) append_copies(uv, copied);
+    return copied;
+}
+
+} // namespace blush
