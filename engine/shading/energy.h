@@ -4,7 +4,7 @@
 // 1 + F0 (1 / E - 1) where a bounce reflects F0. The scale depends on wo alone, so the compensated lobe is not reciprocal.
 #pragma once
 
-#include "core/math.h"
+#include "shading/bilinear.h"
 
 namespace blush {
 
@@ -28,12 +28,7 @@ template <class F> F directional_albedo(const EnergyTable& table, const F& rough
     constexpr float last = float(EnergyTable::size - 1);
     const F alpha = roughness * roughness;
     const F row = clamp01(roughness) * last, column = clamp01(F(cos * (1.f + alpha) / (cos + alpha))) * last;
-    const F row0 = min(floor(row), F(last - 1.f)), column0 = min(floor(column), F(last - 1.f));
-    const Int<F> at = to_int(row0) * EnergyTable::size + to_int(column0);
-    const F t = column - column0;
-    const F low = lerp(gather(table.albedo, at), gather(table.albedo + 1, at), t);
-    const F high = lerp(gather(table.albedo + EnergyTable::size, at), gather(table.albedo + EnergyTable::size + 1, at), t);
-    return lerp(low, high, F(row - row0));
+    return bilinear(table.albedo, EnergyTable::size, row, column);
 }
 
 } // namespace blush::inline BLUSH_ISA

@@ -4,6 +4,7 @@
 // the sheen is scaled back, again by the worse of both directions. So no light is gained, and the whole is reciprocal.
 #pragma once
 
+#include "shading/bilinear.h"
 #include "shading/bsdf_types.h"
 
 namespace blush {
@@ -58,13 +59,9 @@ template <class F> F charlie_f_cos(const F& alpha, const Vec<F>& wo, const Vec<F
 // E for a direction under this cosine >= 0.
 template <class F> F sheen_albedo(const SheenTable& table, const F& roughness, const F& cos) {
     constexpr float last = float(SheenTable::size - 1);
-    const F row = sqrt(clamp01(F((roughness - least_sheen_roughness) * (1.f / (1.f - least_sheen_roughness))))) * last, column = sqrt(sqrt(clamp01(cos))) * last;
-    const F row0 = min(floor(row), F(last - 1.f)), column0 = min(floor(column), F(last - 1.f));
-    const Int<F> at = to_int(row0) * SheenTable::size + to_int(column0);
-    const F t = column - column0;
-    const F low = lerp(gather(table.albedo, at), gather(table.albedo + 1, at), t);
-    const F high = lerp(gather(table.albedo + SheenTable::size, at), gather(table.albedo + SheenTable::size + 1, at), t);
-    return lerp(low, high, F(row - row0));
+    const F row = sqrt(clamp01(F((roughness - least_sheen_roughness) * (1.f / (1.f - least_sheen_roughness))))) * last;
+    const F column = sqrt(sqrt(clamp01(cos))) * last;
+    return bilinear(table.albedo, SheenTable::size, row, column);
 }
 
 template <class F> F charlie_albedo(const Sheen<F>& sheen, const F& cos) { return sheen_albedo(sheen_table(), sheen.roughness, cos); }
