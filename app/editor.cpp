@@ -456,7 +456,7 @@ void Editor::draw() {
     const auto now = Clock::now();
     const FrameTimes took = pace_.end(now);
     // Loading and compiling shaders, before there is a picture, is not what smoothness is judged by.
-    if (shown) stats_.add_frame(took);
+    if (shown) stats_.add_frame(took, now);
     const bool mixed = shown && mix_.is_shown_by(*shown, viewport_.shown_gains());
     if (shown) stats_.shown(mixed ? submitted_.revision() : shown->revision, now);
     if (viewport_.shows(wanted_mix_)) stats_.look_shown(now);

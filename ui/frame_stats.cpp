@@ -15,6 +15,13 @@ double percentile(std::vector<double> values, double fraction) {
     return *nth;
 }
 
+void FrameStats::add_frame(const FrameTimes& times, Clock::time_point when) {
+    constexpr size_t most_late = 100;
+    if (!first_frame_) first_frame_ = when;
+    keep(frames_, times.total());
+    if (times.total() > late && late_.size() < most_late) late_.push_back({when, times});
+}
+
 void FrameStats::submitted(uint64_t revision, Clock::time_point when) { unanswered_.push_back({revision, when}); }
 
 void FrameStats::shown(uint64_t revision, Clock::time_point when) {
@@ -31,15 +38,18 @@ void FrameStats::look_shown(Clock::time_point when) {
 }
 
 Result<void> FrameStats::write(const std::filesystem::path& file) const {
+    nlohmann::json late_frames = nlohmann::json::array();
+    for (const auto& [when, times] : late_)
+        late_frames.push_back({{"at_s", std::chrono::duration<double>(when - *first_frame_).count()},
+                               {"before_picture_ms", times.before_picture},
+                               {"picture_ms", times.picture},
+                               {"after_picture_ms", times.after_picture}});
     const nlohmann::json json{{"frames", frames_.size()},
                               {"p50_ms", percentile(frames_, 0.5)},
                               {"p95_ms", percentile(frames_, 0.95)},
                               {"max_ms", percentile(frames_, 1)},
                               {"late", std::ranges::count_if(frames_, [](double ms) { return ms > late; })},
-                              {"longest",
-                               {{"before_picture_ms", longest_.before_picture},
-                                {"picture_ms", longest_.picture},
-                                {"after_picture_ms", longest_.after_picture}}},
+                              {"late_frames", std::move(late_frames)},
                               {"edits", latencies_.size()},
                               {"latency_p50_ms", percentile(latencies_, 0.5)},
                               {"latency_p95_ms", percentile(latencies_, 0.95)},

@@ -27,10 +27,8 @@ public:
     using Clock = std::chrono::steady_clock;
     static constexpr double late = 33; // milliseconds: a frame that takes longer is felt
 
-    void add_frame(const FrameTimes& times) {
-        keep(frames_, times.total());
-        if (times.total() > longest_.total()) longest_ = times;
-    }
+    // A frame that was on the screen at `when`.
+    void add_frame(const FrameTimes& times, Clock::time_point when);
     // A revision was submitted, and later a picture of some revision was on the screen. One picture answers all revisions up to its own;
     // the wait is counted from the submit that it was made for.
     void submitted(uint64_t revision, Clock::time_point when);
@@ -43,7 +41,8 @@ public:
     const std::vector<double>& frames() const { return frames_; }
     const std::vector<double>& latencies() const { return latencies_; }
     const std::vector<double>& looks() const { return looks_; }
-    // {"frames": n, "p50_ms", "p95_ms", "max_ms", "late": n, "longest": {"before_picture_ms", "picture_ms", "after_picture_ms"}, "edits": n, "latency_p50_ms", "latency_p95_ms", "latency_max_ms",
+    // {"frames": n, "p50_ms", "p95_ms", "max_ms", "late": n, "late_frames": [{"at_s", "before_picture_ms", "picture_ms", "after_picture_ms"}, ...],
+    //  "edits": n, "latency_p50_ms", "latency_p95_ms", "latency_max_ms",
     //  "looks": n, "look_p50_ms", "look_max_ms"}
     Result<void> write(const std::filesystem::path& file) const;
 
@@ -57,7 +56,12 @@ private:
         if (values.size() < (1u << 20)) values.push_back(value);
     }
     std::vector<double> frames_, latencies_, looks_;
-    FrameTimes longest_;
+    struct Late {
+        Clock::time_point when;
+        FrameTimes times;
+    };
+    std::vector<Late> late_; // the first hundred
+    std::optional<Clock::time_point> first_frame_;
     std::optional<Clock::time_point> look_begun_;
     std::deque<Submit> unanswered_;
 };

@@ -3,6 +3,7 @@
 #include "core/hand_over.h"
 
 #include <atomic>
+#include <cstdint>
 #include <pmmintrin.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -11,6 +12,7 @@
 #include <thread>
 
 #ifdef __linux__
+#include <sched.h>
 #include <sys/resource.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -39,7 +41,23 @@ private:
 void lower_priority_of_this_thread() {
 #ifdef __linux__
     // On Linux a nice value belongs to a thread. Failure only costs smoothness.
-    (void)setpriority(PRIO_PROCESS, id_t(syscall(SYS_gettid)), 10);
+    constexpr int nice = 10;
+    (void)setpriority(PRIO_PROCESS, id_t(syscall(SYS_gettid)), nice);
+    // From 6.12 on, a thread that wakes up takes the processor at once from one that asked for longer slices than its own; else it may wait
+    // for a slice to end, several times a frame. Before, this changes nothing.
+    constexpr uint64_t slice_nanoseconds = 4'000'000; // the usual ones are up to 2.8 ms
+    // Linux' struct sched_attr in its first version, whose own header does not go together with glibc's.
+    struct {
+        uint32_t size = 48, policy = SCHED_OTHER;
+        uint64_t flags = 0;
+        int32_t nice = 0;
+        uint32_t priority = 0;
+        uint64_t runtime = 0, deadline = 0, period = 0;
+    } attributes;
+    static_assert(sizeof attributes == 48);
+    attributes.nice = nice;
+    attributes.runtime = slice_nanoseconds;
+    (void)syscall(SYS_sched_setattr, 0, &attributes, 0u);
 #endif
 }
 

@@ -124,11 +124,12 @@ TEST(FramePace, ThePictureGetsWhatTheRestOfAFrameLeaves) {
     EXPECT_LT(later, 19) << "but not at once";
 }
 
-TEST(FrameStats, SaysWhereTheLongestFrameWentAndHowManyWereLate) {
+TEST(FrameStats, SaysWhenFramesWereLateAndWhereTheirTimeWent) {
     FrameStats stats;
-    stats.add_frame({5, 6, 7});
-    stats.add_frame({10, 20, 9});
-    stats.add_frame({1, 30, 3});
+    const FrameStats::Clock::time_point start{};
+    stats.add_frame({5, 6, 7}, start + 20ms);
+    stats.add_frame({10, 20, 9}, start + 520ms);
+    stats.add_frame({1, 30, 3}, start + 600ms);
     const std::filesystem::path file = std::filesystem::temp_directory_path() / "blush_frame_stats.json";
     ASSERT_TRUE(stats.write(file));
     std::ifstream in(file);
@@ -137,7 +138,11 @@ TEST(FrameStats, SaysWhereTheLongestFrameWentAndHowManyWereLate) {
     EXPECT_EQ(json["frames"], 3);
     EXPECT_EQ(json["late"], 2);
     EXPECT_EQ(json["max_ms"], 39.0);
-    EXPECT_EQ(json["longest"]["picture_ms"], 20.0);
+    ASSERT_EQ(json["late_frames"].size(), 2u);
+    EXPECT_EQ(json["late_frames"][0]["at_s"], 0.5);
+    EXPECT_EQ(json["late_frames"][0]["before_picture_ms"], 10.0);
+    EXPECT_EQ(json["late_frames"][1]["picture_ms"], 30.0);
+    EXPECT_EQ(json["late_frames"][1]["after_picture_ms"], 3.0);
 }
 
 TEST(FrameStats, AnotherLookIsCountedOnceItIsShown) {
