@@ -8,18 +8,15 @@ namespace {
 
 // Outside the objects, as opaque as a ring of eight neighbours finds one of them within `thickness` screen pixels.
 const char* const source = R"(
-uniform sampler2D picture;
 uniform sampler2D mask;
-uniform vec2 ring; // thickness in uv; 0: the picture alone
+uniform vec2 ring; // thickness in uv
 float inside(vec2 at) { return texture(mask, at).r; }
 void main() {
-    result = vec4(texture(picture, uv).rgb, 1.0);
-    if (ring.x == 0.0) return;
     vec2 d = ring * 0.7071;
     float near = max(max(max(inside(uv + vec2(ring.x, 0.0)), inside(uv - vec2(ring.x, 0.0))),
                          max(inside(uv + vec2(0.0, ring.y)), inside(uv - vec2(0.0, ring.y)))),
                      max(max(inside(uv + d), inside(uv - d)), max(inside(uv + vec2(d.x, -d.y)), inside(uv + vec2(-d.x, d.y)))));
-    result.rgb = mix(result.rgb, vec3(1.0, 0.62, 0.2), 0.9 * near * (1.0 - inside(uv)));
+    result = vec4(1.0, 0.62, 0.2, 0.9 * near * (1.0 - inside(uv)));
 })";
 
 constexpr int cell = 16; // pixels along a side; wider than the line
@@ -48,7 +45,7 @@ std::vector<PixelRect> edges_of(const std::vector<uint8_t>& mask, int width, int
             if (!outside[index(x, y)] || !near(x, y)) continue;
             const int from = x;
             while (x + 1 < across && outside[index(x + 1, y)] && near(x + 1, y)) ++x;
-            edges.push_back({from * cell, y * cell, (x + 1) * cell, (y + 1) * cell});
+            edges.push_back({from * cell, y * cell, std::min((x + 1) * cell, width), std::min((y + 1) * cell, height)});
         }
     return edges;
 }
@@ -63,21 +60,21 @@ Result<void> OutlinePass::load() {
     mask_ = GlTexture::create();
     glUseProgram(program_.name());
     glUniform1i(glGetUniformLocation(program_.name(), "mask"), 0);
-    glUniform1i(glGetUniformLocation(program_.name(), "picture"), 1);
     return {};
 }
 
 void OutlinePass::upload(const Frame& frame, const std::vector<uint8_t>& selected) {
-    if (frame.object_id.empty()) {
-        edges_.clear();
-        return;
-    }
-    inside_.resize(frame.object_id.size());
-    std::ranges::transform(frame.object_id, inside_.begin(), [&](uint32_t id) { return id < selected.size() && selected[id] ? 255 : 0; });
-    edges_ = edges_of(inside_, frame.width, frame.height);
-    if (edges_.empty()) return;
+    coming_.resize(frame.object_id.size());
+    std::ranges::transform(frame.object_id, coming_.begin(), [&](uint32_t id) { return id < selected.size() && selected[id] ? 255 : 0; });
+    // Most frames show more samples of the same.
+    if (frame.width == width_ && frame.height == height_ && coming_ == inside_) return;
+    inside_.swap(coming_);
     width_ = frame.width;
     height_ = frame.height;
+    thickness_ = 0;
+    edges_.clear();
+    if (!inside_.empty()) edges_ = edges_of(inside_, width_, height_);
+    if (edges_.empty()) return;
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, mask_.name());
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
@@ -86,21 +83,19 @@ void OutlinePass::upload(const Frame& frame, const std::vector<uint8_t>& selecte
     for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T}) glTexParameteri(GL_TEXTURE_2D, wrap, GL_CLAMP_TO_EDGE);
 }
 
-void OutlinePass::draw(GLuint picture, int width, int height, float thickness) {
+void OutlinePass::draw(int width, int height, float thickness) {
+    if (edges_.empty() || (thickness == thickness_ && width == target_.width() && height == target_.height())) return;
+    thickness_ = thickness;
     target_.begin(width, height);
+    glClearColor(0, 0, 0, 0);
+    glClear(GL_COLOR_BUFFER_BIT);
     glUseProgram(program_.name());
-    glActiveTexture(GL_TEXTURE1);
-    glBindTexture(GL_TEXTURE_2D, picture);
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, mask_.name());
     glBindVertexArray(no_vertices_.name());
-    // The picture, and again with the line where that may be: to look for it everywhere would cost ten times as much.
-    const GLint ring = glGetUniformLocation(program_.name(), "ring");
-    glUniform2f(ring, 0, 0);
-    glDrawArrays(GL_TRIANGLES, 0, 3);
-    glUniform2f(ring, thickness / float(width), thickness / float(height));
+    glUniform2f(glGetUniformLocation(program_.name(), "ring"), thickness / float(width), thickness / float(height));
     const float across = float(width) / float(width_), down = float(height) / float(height_);
-    glEnable(GL_SCISSOR_TEST);
+    glEnable(GL_SCISSOR_TEST); // to look for the line everywhere would cost ten times as much
     for (const PixelRect& edge : edges_) {
         const int x0 = int(std::floor(float(edge.x0) * across)), y0 = int(std::floor(float(edge.y0) * down));
         glScissor(x0, y0, int(std::ceil(float(edge.x1) * across)) - x0, int(std::ceil(float(edge.y1) * down)) - y0);

@@ -21,6 +21,8 @@ namespace {
 
 // Milliseconds that a frame of the window may take while a picture is being drawn for it; where somebody waits for a look they asked for.
 constexpr double usual_frame = 16, asked_frame = 24;
+// Without another change, after which a mix is no longer being moved: a mouse that is dragged is not in every frame of the window further on.
+constexpr std::chrono::milliseconds mix_rests_after{120};
 
 Region window_region() {
     const ImVec2 at = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
@@ -154,12 +156,13 @@ int Viewport::step_in_time(const Frame& frame, double milliseconds) const {
 
 void Viewport::upload_thinned(const PanelContext& c, const Gains& gains, bool denoised, int step) {
     const Frame& frame = *c.frame;
-    const ThinnedMix raw = mix_thinned(planes_of(frame), gains, frame.width, frame.height, step, &workers_);
+    // By this thread alone: it is little, and workers may be at the session's work, whose priority is low.
+    const ThinnedMix raw = mix_thinned(planes_of(frame), gains, frame.width, frame.height, step);
     std::vector<float> rgba(raw.rgb.size() / 3 * 4, 1.f);
     for (size_t i = 0; i < raw.rgb.size(); ++i) rgba[i / 3 * 4 + i % 3] = raw.rgb[i];
     display_.upload(raw.width, raw.height, std::move(rgba));
     if (!denoised) return;
-    ThinnedMix mix = mix_thinned(planes_of(*c.denoised), gains, c.denoised->width, c.denoised->height, step, &workers_);
+    ThinnedMix mix = mix_thinned(planes_of(*c.denoised), gains, c.denoised->width, c.denoised->height, step);
     display_.upload_denoised(mix.width, mix.height, std::move(mix.rgb));
 }
 
@@ -175,12 +178,16 @@ void Viewport::take_frame(PanelContext& c, const FramePace& pace) {
     const bool new_gains = gains != uploaded_gains_, shows_denoised = look.mix.denoised_weight != 0;
     // A mix that is being moved is shown at once, of fewer pixels where there is no time for all of them; those follow when it rests.
     const bool moved = new_gains && can_be_mixed(c, gains, shows_denoised) && !special && !numbers.background_as_it_is;
-    const int step = moved ? step_in_time(*c.frame, pace.left(usual_frame, FramePace::Clock::now())) : 1;
-    const bool rests = thinned_by_ > 1 && !moved;
-    const bool new_frame = c.frame && c.frame->width > 0 &&
+    const auto now = FramePace::Clock::now();
+    if (moved) mix_moved_ = now;
+    const int step = moved ? step_in_time(*c.frame, pace.left(usual_frame, now)) : 1;
+    const bool thinned = thinned_by_ > 1 && !moved, rests = thinned && now >= mix_moved_ + mix_rests_after;
+    const bool waits = thinned && !rests; // for the mix to be moved further
+    if (waits) c.ui.next_frame_in = std::min(c.ui.next_frame_in, std::chrono::duration<double>(mix_moved_ + mix_rests_after - now).count());
+    const bool new_frame = c.frame && c.frame->width > 0 && !waits &&
                            (c.frame != uploaded_frame_ || view != uploaded_view_ || new_gains || rests ||
                             numbers.background_as_it_is != look_.numbers.background_as_it_is);
-    const bool new_denoised = shows_denoised && (c.denoised != uploaded_denoised_ || new_gains || rests);
+    const bool new_denoised = shows_denoised && !waits && (c.denoised != uploaded_denoised_ || new_gains || rests);
     // Raw or denoised, at once: what is being drawn is given up for it. Not for a slider, whose every step would start anew.
     const bool toggled =
         uploaded_frame_ && look.mix != look_.mix && (look.mix.raw_weight == 0 || look.mix.denoised_weight == 0) && !new_denoised;
@@ -206,13 +213,13 @@ void Viewport::take_frame(PanelContext& c, const FramePace& pace) {
         shader_changed_ = false;
     }
     drew_display_ = display_.busy();
-    // Whoever asked for another look is waiting: for the picture that is being drawn to end, and for theirs.
-    display_.advance(pace.left(look_ != look || answers_ ? asked_frame : usual_frame, FramePace::Clock::now()));
+    // Whoever asked for another look, or moves a mix, is waiting: for the picture that is being drawn to end, and for theirs.
+    const bool awaited = look_ != look || answers_ || thinned_by_ > 1;
+    display_.advance(pace.left(awaited ? asked_frame : usual_frame, FramePace::Clock::now()));
     if (display_.busy()) {
         c.ui.next_frame_in = 0;
     } else if (begun_) {
         begun_ = answers_ = false;
-        ++pictures_;
         shown_frame_ = uploaded_frame_;
         shown_gains_ = uploaded_gains_;
         shown_thinned_by_ = thinned_by_;
@@ -220,28 +227,29 @@ void Viewport::take_frame(PanelContext& c, const FramePace& pace) {
     }
 }
 
-// Draws into the outlined picture only when something in it differs.
-GLuint Viewport::outlined_picture(const PanelContext& c, const ImageRect& image) {
-    const Outlined wanted{shown_frame_, pictures_, c.ui.selected, int(image.width), int(image.height)};
+// Over the picture, where it may be alone: blending the rest of the layer would cost as much as the picture.
+void Viewport::draw_outline(const PanelContext& c, const ImageRect& image) {
+    const Outlined wanted{shown_frame_, c.ui.selected};
     // Not in the same frame of the window as the display pass: that has used up its time.
-    const bool later = drew_display_ && outlined_.frame && outlined_.selected == wanted.selected && !outline_.empty();
+    const bool later = drew_display_ && outlined_.frame && outlined_.selected == wanted.selected;
     if (outlined_ != wanted && !later) {
-        if (outlined_.frame != wanted.frame || outlined_.selected != wanted.selected)
-            outline_.upload(*shown_frame_, with_descendants(c.scene(), c.ui.selected));
-        if (!outline_.empty()) outline_.draw(display_.texture(), wanted.width, wanted.height, std::max(1.5f, ImGui::GetFontSize() / 8));
+        outline_.upload(*shown_frame_, with_descendants(c.scene(), c.ui.selected));
         outlined_ = wanted;
     }
-    return outline_.empty() ? display_.texture() : outline_.texture();
+    outline_.draw(int(image.width), int(image.height), std::max(1.5f, ImGui::GetFontSize() / 8));
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const float width = float(outline_.frame_width()), height = float(outline_.frame_height());
+    for (const PixelRect& edge : outline_.edges()) {
+        const ImVec2 low{float(edge.x0) / width, float(edge.y0) / height}, high{float(edge.x1) / width, float(edge.y1) / height};
+        const auto on_screen = [&](const ImVec2& uv) { return ImVec2{image.x + uv.x * image.width, image.y + uv.y * image.height}; };
+        draw.AddImage(texture_id(outline_.texture()), on_screen(low), on_screen(high), low, high);
+    }
 }
 
 void Viewport::draw_picture(PanelContext& c, const ImageRect& image, bool outlined) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
-    // The outline is drawn into a picture as large as what is on the screen: not of one that is far larger.
-    const Region region = window_region();
-    const bool fits = image.width <= region.width && image.height <= region.height;
-    const GLuint picture = outlined && fits ? outlined_picture(c, image) : display_.texture();
-    if (picture == display_.texture())
-        set_filter(picture, c.ui.zoom.scale >= 1 && shown_frame_->divider == 1 && shown_thinned_by_ == 1 ? GL_NEAREST : GL_LINEAR);
+    const GLuint picture = display_.texture();
+    set_filter(picture, c.ui.zoom.scale >= 1 && shown_frame_->divider == 1 && shown_thinned_by_ == 1 ? GL_NEAREST : GL_LINEAR);
     // It is opaque: blending it would only cost time.
     draw.AddCallback([](const ImDrawList*, const ImDrawCmd*) { glDisable(GL_BLEND); }, nullptr);
     // What is in the window of it alone: far beyond, coordinates lose their precision.
@@ -250,6 +258,10 @@ void Viewport::draw_picture(PanelContext& c, const ImageRect& image, bool outlin
     const auto uv = [&](const ImVec2& at) { return ImVec2{float(image.u(at.x)), float(image.v(at.y))}; };
     draw.AddImage(texture_id(picture), {seen.x, seen.y}, high, uv({seen.x, seen.y}), uv(high));
     draw.AddCallback(ImDrawCallback_ResetRenderState, nullptr);
+    // The line is drawn as large as the picture is on the screen: not where that is far larger than the window.
+    const Region region = window_region();
+    const bool fits = image.width <= region.width && image.height <= region.height;
+    if (outlined && fits) draw_outline(c, image);
 }
 
 // What is shown instead of the picture, where it cannot be overlooked.

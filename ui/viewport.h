@@ -41,7 +41,7 @@ private:
     int step_in_time(const Frame& frame, double milliseconds) const;
     void upload_thinned(const PanelContext& c, const Gains& gains, bool denoised, int step);
     void draw_picture(PanelContext& c, const ImageRect& image, bool outlined);
-    GLuint outlined_picture(const PanelContext& c, const ImageRect& image);
+    void draw_outline(const PanelContext& c, const ImageRect& image);
     void draw_caption(const ImageRect& image) const;
     bool draw_overlays(PanelContext& c, const Projection& projection, const ImageRect& image, bool hovered);
     void navigate(PanelContext& c, const Projection& projection, const ImageRect& image, bool hovered, bool on_handle);
@@ -62,18 +62,16 @@ private:
     DenoisedPtr uploaded_denoised_;
     Gains uploaded_gains_, shown_gains_; // of both
     int thinned_by_ = 1, shown_thinned_by_ = 1; // only every so many-th pixel of a row, and row, of both
+    FramePace::TimePoint mix_moved_{}; // last
     std::shared_ptr<std::vector<float>> mixed_; // the last picture that was mixed here, kept for its memory
     Workers workers_{0};   // mix planes
     DisplayLook look_;
     bool shader_changed_ = false, begun_ = false;
     bool answers_ = false; // the picture being drawn is the look that was asked for last
     bool drew_display_ = false; // in this frame of the window
-    uint64_t pictures_ = 0;     // finished by the display pass
     struct Outlined {
         FramePtr frame;
-        uint64_t picture = 0;
         Id<Node> selected;
-        int width = 0, height = 0;
         bool operator==(const Outlined&) const = default;
     } outlined_;
 };

@@ -87,12 +87,11 @@ void mix_rgb(std::span<const PlaneSpan> planes, std::span<const Vec3> gains, std
             [&](size_t first, size_t count, const Sums& sums) { std::copy_n(sums.begin(), 3 * count, &rgb[3 * first]); });
 }
 
-ThinnedMix mix_thinned(std::span<const PlaneSpan> planes, std::span<const Vec3> gains, int width, int height, int step,
-                       const Workers* workers) {
+ThinnedMix mix_thinned(std::span<const PlaneSpan> planes, std::span<const Vec3> gains, int width, int height, int step) {
     ThinnedMix thinned{std::max(width / step, 1), std::max(height / step, 1), {}};
     thinned.rgb.assign(3 * size_t(thinned.width) * size_t(thinned.height), 0.f);
     const int first_x = std::min(step / 2, width - 1), first_y = std::min(step / 2, height - 1);
-    const auto mix_row = [&](int row) {
+    for (int row = 0; row < thinned.height; ++row)
         for (size_t k = 0; k < planes.size(); ++k) {
             if (gains[k] == Vec3{0, 0, 0}) continue;
             const float* from = &planes[k][3 * (size_t(first_y + row * step) * size_t(width) + size_t(first_x))];
@@ -103,16 +102,6 @@ ThinnedMix mix_thinned(std::span<const PlaneSpan> planes, std::span<const Vec3> 
                 to[2] += gains[k].z * from[2];
             }
         }
-    };
-    constexpr int task = 16; // rows
-    const int tasks = (thinned.height + task - 1) / task;
-    const auto mix_rows = [&](int64_t i, unsigned) {
-        for (int row = int(i) * task; row < std::min((int(i) + 1) * task, thinned.height); ++row) mix_row(row);
-    };
-    if (workers)
-        workers->for_each(tasks, {}, mix_rows);
-    else
-        for (int i = 0; i < tasks; ++i) mix_rows(i, 0);
     return thinned;
 }
 

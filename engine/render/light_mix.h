@@ -25,8 +25,7 @@ struct ThinnedMix {
     int width = 0, height = 0;
     std::vector<float> rgb;
 };
-ThinnedMix mix_thinned(std::span<const PlaneSpan> planes, std::span<const Vec3> gains, int width, int height, int step,
-                       const Workers* workers = nullptr);
+ThinnedMix mix_thinned(std::span<const PlaneSpan> planes, std::span<const Vec3> gains, int width, int height, int step);
 // Those of a frame, into its rgba's layout; alpha as in the frame. `rgba` is made as large as it must be: who keeps it spares the system
 // the making of new memory, which takes as long as the mixing.
 void mix_rgba(const Frame& frame, std::span<const Vec3> gains, std::vector<float>& rgba, const Workers* workers = nullptr);
