@@ -39,7 +39,9 @@ template <class V> Result<std::vector<V>> read_attribute(const GltfContext& cont
         return std::vector<V>();
     const Result<FloatArray> array = read_floats(context, it->second, min_components, max_components, where + "." + name);
     if (!array) return array.error();
-    std::vector<V> vectors(array->count());
+    std::vector<V> vectors;
+    vectors.reserve(array->count() + 1); // positions with room behind them are shared with the ray tracer (AccelTriangles)
+    vectors.resize(array->count());
     for (size_t i = 0; i < vectors.size(); ++i) vectors[i] = element(*array, i, static_cast<V*>(nullptr));
     return vectors;
 }
@@ -85,8 +87,11 @@ Result<void> read_attributes(const GltfContext& context, const tinygltf::Primiti
 }
 
 // Three indices per triangle from the vertex order of a list, strip or fan (glTF 2.0, 3.7.2.1), front faces counter-clockwise.
-std::vector<uint32_t> triangulate(const std::vector<uint32_t>& order, int mode) {
-    if (mode == TINYGLTF_MODE_TRIANGLES) return {order.begin(), order.end() - std::ptrdiff_t(order.size() % 3)};
+std::vector<uint32_t> triangulate(std::vector<uint32_t> order, int mode) {
+    if (mode == TINYGLTF_MODE_TRIANGLES) {
+        order.resize(order.size() / 3 * 3);
+        return order;
+    }
     std::vector<uint32_t> triangles;
     for (size_t i = 0; i + 2 < order.size(); ++i) {
         if (mode == TINYGLTF_MODE_TRIANGLE_FAN)
@@ -114,17 +119,15 @@ Result<std::vector<uint32_t>> vertex_order(const GltfContext& context, const tin
 
 // Drops triangles with a non-finite corner, and makes the vertices that nobody uses any more harmless.
 Result<void> drop_non_finite_triangles(const GltfContext& context, Geometry& g, const std::string& where) {
-    std::vector<uint32_t> kept;
-    kept.reserve(g.indices.size());
-    for (size_t t = 0; t < g.triangle_count(); ++t) {
-        const uint32_t* corner = g.indices.data() + 3 * t;
+    if (std::ranges::all_of(g.positions, [](const Vec3& p) { return finite(p); })) return {};
+    auto kept = g.indices.begin();
+    for (auto corner = g.indices.begin(); corner != g.indices.end(); corner += 3)
         if (finite(g.positions[corner[0]]) && finite(g.positions[corner[1]]) && finite(g.positions[corner[2]]))
-            kept.insert(kept.end(), corner, corner + 3);
-    }
-    const size_t dropped = (g.indices.size() - kept.size()) / 3;
-    if (dropped && kept.empty()) return context.error("every triangle has a NaN or infinite position", where);
+            for (int k = 0; k < 3; ++k) *kept++ = corner[k];
+    const auto dropped = (g.indices.end() - kept) / 3;
+    if (kept == g.indices.begin()) return context.error("every triangle has a NaN or infinite position", where);
     if (dropped) context.warn(fmt::format("{} triangles with a NaN or infinite position left out", dropped), where);
-    g.indices = std::move(kept);
+    g.indices.erase(kept, g.indices.end());
     for (Vec3& p : g.positions)
         if (!finite(p)) p = {0, 0, 0};
     return {};
@@ -240,12 +243,12 @@ Result<GeometryPtr> import_primitive(const GltfContext& context, const tinygltf:
     Geometry& g = *geometry;
     if (const auto ok = read_attributes(context, primitive, needs.uv_sets, g, where); !ok) return ok.error();
     if (const auto ok = read_bending(context, primitive, g, where); !ok) return ok.error();
-    const auto order = vertex_order(context, primitive, g.positions.size(), where);
+    auto order = vertex_order(context, primitive, g.positions.size(), where);
     if (!order) return order.error();
     if (primitive.mode < TINYGLTF_MODE_TRIANGLES) return solids(context, g, *order, primitive.mode, where);
     if (primitive.mode == TINYGLTF_MODE_TRIANGLES && order->size() % 3 != 0)
         context.warn("the last triangle lacks a corner and is left out", where);
-    g.indices = triangulate(*order, primitive.mode);
+    g.indices = triangulate(*std::move(order), primitive.mode);
     if (g.indices.empty()) {
         context.warn("ignored: a primitive without triangles", where);
         return GeometryPtr();

@@ -45,6 +45,7 @@ constexpr size_t most_triangles_with_corners = size_t(1) << 20;
 struct SceneHandle {
     RTCScene scene = nullptr;
     std::vector<std::unique_ptr<AlphaPart>> alpha_parts;
+    std::vector<std::shared_ptr<const void>> owners;
 
     SceneHandle() = default;
     explicit SceneHandle(RTCDevice device, size_t triangles = 0) : scene(rtcNewScene(device)) {
@@ -53,10 +54,12 @@ struct SceneHandle {
         rtcSetSceneFlags(scene, RTCSceneFlags(triangles > most_triangles_with_corners ? robust | compact : robust));
         rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_MEDIUM);
     }
-    SceneHandle(SceneHandle&& other) noexcept : scene(std::exchange(other.scene, nullptr)), alpha_parts(std::move(other.alpha_parts)) {}
+    SceneHandle(SceneHandle&& other) noexcept
+        : scene(std::exchange(other.scene, nullptr)), alpha_parts(std::move(other.alpha_parts)), owners(std::move(other.owners)) {}
     SceneHandle& operator=(SceneHandle&& other) noexcept {
         std::swap(scene, other.scene);
         std::swap(alpha_parts, other.alpha_parts);
+        std::swap(owners, other.owners);
         return *this;
     }
     ~SceneHandle() {
@@ -65,13 +68,15 @@ struct SceneHandle {
 
     void add_triangles(RTCDevice device, const AccelTriangles& triangles, const SceneTables* tables) {
         RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-        void* positions =
-            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3), triangles.vertex_count);
-        void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(uint32_t),
-                                                triangles.triangle_count);
-        if (!positions || !indices) throw std::runtime_error("not enough memory for the scene's triangles");
-        std::memcpy(positions, triangles.positions, triangles.vertex_count * sizeof(Vec3));
-        std::memcpy(indices, triangles.indices, triangles.triangle_count * 3 * sizeof(uint32_t));
+        const auto set = [&](RTCBufferType type, RTCFormat format, const void* items, size_t size, size_t count) {
+            if (triangles.owner) return rtcSetSharedGeometryBuffer(geometry, type, 0, format, items, 0, size, count);
+            void* copy = rtcSetNewGeometryBuffer(geometry, type, 0, format, size, count);
+            if (!copy) throw std::runtime_error("not enough memory for the scene's triangles");
+            std::memcpy(copy, items, size * count);
+        };
+        set(RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, triangles.positions, sizeof(Vec3), triangles.vertex_count);
+        set(RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, triangles.indices, 3 * sizeof(uint32_t), triangles.triangle_count);
+        if (triangles.owner) owners.push_back(triangles.owner);
         if (triangles.alpha) {
             alpha_parts.push_back(std::make_unique<AlphaPart>(AlphaPart{tables, triangles.part}));
             rtcSetGeometryUserData(geometry, alpha_parts.back().get());

@@ -23,9 +23,11 @@ struct SceneTables;
 constexpr uint32_t camera_ray_mask = 1, other_ray_mask = 2;
 constexpr uint32_t seen_by_all = ~0u;
 
-// Triangles as the builder needs them. Arrays are copied.
+// Triangles as the builder needs them. Arrays that have an owner are shared, and kept as long as they are traced; the others are copied. Shared
+// positions must be readable for 16 bytes each, the last one too.
 struct AccelTriangles {
     uint64_t serial = 0;        // of the Geometry payload: names the bottom level it makes
+    std::shared_ptr<const void> owner = nullptr;
     const Vec3* positions = nullptr;
     size_t vertex_count = 0;
     const uint32_t* indices = nullptr; // 3 per triangle

@@ -86,6 +86,16 @@ Affined placed(const SceneObject& object, size_t copy, const Vec3d& origin) {
 // Parts of one object, at all its places.
 size_t placed_parts(const SceneObject& object) { return object.copies() * object.parts.size(); }
 
+// Can all of the last one be read as four floats?
+bool has_room_behind(const std::vector<Vec3>& positions) { return positions.capacity() > positions.size(); }
+
+// Lets the builder read the document's arrays, which do not move, in place of the pool's, which do.
+void share(const GeometryPtr& geometry, AccelTriangles& triangles) {
+    triangles.owner = geometry;
+    triangles.positions = geometry->positions.data();
+    triangles.indices = geometry->indices.data();
+}
+
 // Kernels find the fields of a record of 21 by a 32-bit index.
 constexpr size_t most_placed_parts = size_t(1) << 26;
 
@@ -274,9 +284,11 @@ AccelScene GeometryPool::accel_scene(const std::vector<SceneObject>& objects, co
             const PartRecord& record = parts_[part];
             const int32_t opaque_as =
                 object.instanced ? first_alike.try_emplace({p.geometry->serial, p.material}, int32_t(part)).first->second : int32_t(part);
-            triangles.push_back({p.geometry->serial, positions_.data() + record.first_vertex, size_t(part_vertices_[part]),
-                                 indices_.data() + record.first_index, size_t(part_triangles_[part]), opaque_as, alpha[part],
-                                 object.instanced ? seen_by_all : masks[i]});
+            AccelTriangles t{p.geometry->serial, nullptr, positions_.data() + record.first_vertex, size_t(part_vertices_[part]),
+                             indices_.data() + record.first_index, size_t(part_triangles_[part]), opaque_as, alpha[part],
+                             object.instanced ? seen_by_all : masks[i]};
+            if (object.instanced && has_room_behind(p.geometry->positions)) share(p.geometry, t);
+            triangles.push_back(std::move(t));
             ++part;
         }
         part += placed_parts(object) - object.parts.size(); // those of its other copies
