@@ -46,7 +46,8 @@ struct Glb {
                 indices.insert(indices.end(), {a, d, b, a, c, d});
             }
         const Json attributes{{"POSITION", accessor(positions, 3, "VEC3")}, {"NORMAL", accessor(normals, 3, "VEC3")}, {"TEXCOORD_0", accessor(uv, 2, "VEC2")}};
-        json["meshes"].push_back({{"primitives", {{{"attributes", attributes}, {"indices", accessor(indices, 1, "SCALAR")}}}}});
+        const Json primitive{{"attributes", attributes}, {"indices", accessor(indices, 1, "SCALAR")}};
+        json["meshes"].push_back({{"primitives", Json::array({primitive})}});
         return json["meshes"].size() - 1;
     }
     Result<void> write(const std::string& file) {
@@ -78,7 +79,8 @@ Json first_image(const std::string& file, size_t raw_bytes, const test::Temporar
 
 Json landscape(uint32_t n, const test::TemporaryFolder& folder, const Options& options) {
     Glb glb;
-    glb.json["nodes"].push_back({{"mesh", glb.landscape(n)}});
+    const size_t mesh = glb.landscape(n);
+    glb.json["nodes"].push_back({{"mesh", mesh}});
     const size_t raw = glb.bytes.size();
     const std::string file = folder / "landscape.glb";
     if (const auto written = glb.write(file); !written) return {{"failed", written.error().text()}};
