@@ -6,10 +6,10 @@
 #include "app/editor_files.h"
 #include "app/editor_saving.h"
 #include "app/editor_snapshots.h"
+#include "app/file_takers.h"
 #include "app/followed_mix.h"
 #include "app/submitted.h"
 #include "ui/automation.h"
-#include "ui/file_listing.h"
 #include "ui/frame_stats.h"
 #include "ui/regions.h"
 #include "ui/remembered.h"
@@ -48,9 +48,7 @@ private:
     void draw_on_top(PanelContext& c);
     void obey(PanelContext& c);
     void run_own_command(Command command);
-    void open_browser(FileRequest::Use use);
-    void take_file(const FileRequest& request);
-    void take_dropped(const std::filesystem::path& file);
+    FileTakers takers() { return {files_, saving_, snapshots_, convergence_, document_, ui_}; }
     void save_due_snapshot();
     void list_kept_snapshots();
     void remember();
@@ -164,7 +162,7 @@ void Editor::poll() {
         window_->request_frames(2);
         if (!ui_.question) saving_.before_losing_edits("closing the window", [this] { leaving_ = true; });
     }
-    for (const auto& file : window_->take_dropped_files()) take_dropped(file);
+    for (const auto& file : window_->take_dropped_files()) takers().take_dropped(file);
     // While text is typed or something is open on top, keys are meant for that.
     const bool taken = ImGui::GetIO().WantTextInput || ui_.browser || ui_.pixel || ui_.question;
     for (const KeyPress& press : window_->take_key_presses()) {
@@ -292,7 +290,7 @@ void Editor::obey(PanelContext& c) {
         else if (!run_command(command, c))
             run_own_command(command);
     }
-    for (const FileRequest& request : std::exchange(ui_.files, {})) take_file(request);
+    for (const FileRequest& request : std::exchange(ui_.files, {})) takers().take(request);
     saving_.hear_answer();
     convergence_.obey(ui_, ui_.settings.snapshot_folder, files_.scene_file());
     snapshots_.obey(document_, ui_, files_);
@@ -307,12 +305,12 @@ void Editor::obey(PanelContext& c) {
 
 void Editor::run_own_command(Command command) {
     switch (command) {
-    case Command::open: return open_browser(FileRequest::Use::open);
-    case Command::import_scene: return open_browser(FileRequest::Use::import_scene);
-    case Command::environment: return open_browser(FileRequest::Use::environment);
-    case Command::ies: return open_browser(FileRequest::Use::ies);
-    case Command::snapshot_folder: return open_browser(FileRequest::Use::snapshot_folder);
-    case Command::load_convergence: return open_browser(FileRequest::Use::convergence);
+    case Command::open: return takers().browse(FileRequest::Use::open);
+    case Command::import_scene: return takers().browse(FileRequest::Use::import_scene);
+    case Command::environment: return takers().browse(FileRequest::Use::environment);
+    case Command::ies: return takers().browse(FileRequest::Use::ies);
+    case Command::snapshot_folder: return takers().browse(FileRequest::Use::snapshot_folder);
+    case Command::load_convergence: return takers().browse(FileRequest::Use::convergence);
     case Command::reload: return saving_.before_losing_edits("reloading the file", [this] { files_.reload(); });
     case Command::save_scene: return saving_.save();
     case Command::save_scene_as: return saving_.ask_for_file();
@@ -321,45 +319,6 @@ void Editor::run_own_command(Command command) {
     case Command::quit: return window_->request_close();
     default: return;
     }
-}
-
-void Editor::open_browser(FileRequest::Use use) {
-    std::error_code error;
-    std::filesystem::path folder = use == FileRequest::Use::snapshot_folder ? ui_.settings.snapshot_folder : ui_.settings.browser_folder;
-    if (!std::filesystem::is_directory(folder, error)) folder = files_.scene_file().parent_path();
-    if (!std::filesystem::is_directory(folder, error)) folder = std::filesystem::current_path(error);
-    ui_.browser = FileBrowser{use, std::filesystem::absolute(folder, error), {}, {}, true};
-}
-
-void Editor::take_file(const FileRequest& request) {
-    switch (request.use) {
-    case FileRequest::Use::open:
-        return saving_.before_losing_edits("opening another scene", [this, path = request.path] { files_.open(path); });
-    case FileRequest::Use::save_scene: return saving_.save_as(request.path);
-    case FileRequest::Use::import_scene: return files_.import_scene(request.path);
-    case FileRequest::Use::environment: return files_.load_environment(request.path);
-    case FileRequest::Use::convergence: return convergence_.load(ui_, request.path);
-    case FileRequest::Use::ies: return files_.load_ies(request.path, document_, ui_);
-    case FileRequest::Use::snapshot_folder:
-        ui_.settings.snapshot_folder = request.path.string();
-        return ui_.toasts.note("Snapshots go to " + request.path.string());
-    }
-}
-
-void Editor::take_dropped(const std::filesystem::path& file) {
-    if (matches(scene_files, file))
-        take_file({FileRequest::Use::open, file});
-    else if (matches(snapshot_files, file))
-        snapshots_.open(file, files_.scene_file());
-    else if (matches(environment_files, file))
-        files_.load_environment(file);
-    else if (matches(table_files, file))
-        convergence_.load(ui_, file);
-    else if (matches(photometric_files, file))
-        files_.load_ies(file, document_, ui_);
-    else
-        ui_.toasts.fail(file.filename().string() + ": neither a glTF scene (.gltf, .glb), nor an environment image (.hdr, .exr), nor a snapshot "
-                                                   "(.exr), nor a photometric file (.ies), nor a convergence table (.csv)");
 }
 
 void Editor::save_due_snapshot() {

@@ -1,6 +1,7 @@
 #include "core/helping_threads.h"
 
 #include "core/hand_over.h"
+#include "core/parallel.h"
 
 #include <algorithm>
 #include <tbb/task_arena.h>
@@ -18,28 +19,26 @@
 namespace blush {
 namespace {
 
-// On Linux a nice value belongs to a thread. That of a thread can be raised, but not lowered again.
+// On Linux a nice value belongs to a thread.
+bool this_thread_has_low_priority() {
 #ifdef __linux__
-int nice_of_this_thread() { return getpriority(PRIO_PROCESS, id_t(syscall(SYS_gettid))); }
-void raise_nice_of_this_thread(int nice) {
-    if (nice_of_this_thread() < nice) (void)setpriority(PRIO_PROCESS, id_t(syscall(SYS_gettid)), nice);
-}
+    return getpriority(PRIO_PROCESS, id_t(syscall(SYS_gettid))) > 0;
 #else
-int nice_of_this_thread() { return 0; }
-void raise_nice_of_this_thread(int) {}
+    return false;
 #endif
+}
 
 class SamePriority : public tbb::task_scheduler_observer {
 public:
-    explicit SamePriority(tbb::task_arena& arena) : tbb::task_scheduler_observer(arena), nice_(nice_of_this_thread()) { observe(true); }
+    explicit SamePriority(tbb::task_arena& arena) : tbb::task_scheduler_observer(arena), low_(this_thread_has_low_priority()) { observe(true); }
     ~SamePriority() override { observe(false); }
 
     void on_scheduler_entry(bool is_worker) override {
-        if (is_worker) raise_nice_of_this_thread(nice_);
+        if (is_worker && low_) lower_priority_of_this_thread();
     }
 
 private:
-    int nice_;
+    bool low_;
 };
 
 } // namespace

@@ -9,6 +9,8 @@ blush_test(test_scene
     scene_light_meter.cpp
     scene_light_units.cpp
     scene_line_of_sight.cpp
+    scene_mikktspace.cpp
+    scene_mikktspace_golden.cpp
     scene_render_settings.cpp
     scene_shining.cpp
     scene_sky.cpp
@@ -17,5 +19,6 @@ blush_test(test_scene
     scene_transform.cpp
     scene_untextured.cpp
     scene_validate.cpp
-  LIBS blush_scene blush_test_support fmt::fmt
+  LIBS blush_scene blush_test_support nlohmann_json::nlohmann_json fmt::fmt
   LABELS unit)
+target_compile_definitions(test_scene PRIVATE BLUSH_TESTS="${CMAKE_SOURCE_DIR}/tests")

@@ -1,7 +1,7 @@
 // Tangents against what the definition of MikkTSpace says of small meshes.
 #include "core/math.h"
-#include "scene/tangents.h"
 #include "scene/mikktspace.h"
+#include "scene/tangents.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,46 @@
+#include "app/file_takers.h"
+
+#include "ui/file_listing.h"
+
+namespace blush {
+
+void FileTakers::browse(FileRequest::Use use) {
+    std::error_code error;
+    std::filesystem::path folder = use == FileRequest::Use::snapshot_folder ? ui.settings.snapshot_folder : ui.settings.browser_folder;
+    if (!std::filesystem::is_directory(folder, error)) folder = files.scene_file().parent_path();
+    if (!std::filesystem::is_directory(folder, error)) folder = std::filesystem::current_path(error);
+    ui.browser = FileBrowser{use, std::filesystem::absolute(folder, error), {}, {}, true};
+}
+
+void FileTakers::take(const FileRequest& request) {
+    switch (request.use) {
+    case FileRequest::Use::open:
+        return saving.before_losing_edits("opening another scene", [&files = files, path = request.path] { files.open(path); });
+    case FileRequest::Use::save_scene: return saving.save_as(request.path);
+    case FileRequest::Use::import_scene: return files.import_scene(request.path);
+    case FileRequest::Use::environment: return files.load_environment(request.path);
+    case FileRequest::Use::convergence: return convergence.load(ui, request.path);
+    case FileRequest::Use::ies: return files.load_ies(request.path, document, ui);
+    case FileRequest::Use::snapshot_folder:
+        ui.settings.snapshot_folder = request.path.string();
+        return ui.toasts.note("Snapshots go to " + request.path.string());
+    }
+}
+
+void FileTakers::take_dropped(const std::filesystem::path& file) {
+    if (matches(scene_files, file))
+        take({FileRequest::Use::open, file});
+    else if (matches(snapshot_files, file))
+        snapshots.open(file, files.scene_file());
+    else if (matches(environment_files, file))
+        files.load_environment(file);
+    else if (matches(table_files, file))
+        convergence.load(ui, file);
+    else if (matches(photometric_files, file))
+        files.load_ies(file, document, ui);
+    else
+        ui.toasts.fail(file.filename().string() + ": neither a glTF scene (.gltf, .glb), nor an environment image (.hdr, .exr), nor a snapshot "
+                                                   "(.exr), nor a photometric file (.ies), nor a convergence table (.csv)");
+}
+
+} // namespace blush
