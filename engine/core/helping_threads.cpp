@@ -58,10 +58,12 @@ struct HelpingThreads::State {
     bool alone() const { return threads == 1; }
     void begin(std::function<void()> work) {
         if (alone()) return waiting.push_back(std::move(work));
-        group.run([this, work = std::move(work)] {
+        to_helpers.give();
+        group.run([this, held = std::make_shared<std::function<void()>>(std::move(work))] {
             to_helpers.receive();
-            work();
+            (*held)();
             from_helpers.give();
+            *held = nullptr; // rather than when TBB ends the task, after which nobody knows in which order things go
         });
     }
 };
@@ -76,10 +78,12 @@ HelpingThreads::~HelpingThreads() {
 }
 
 void HelpingThreads::begin(const std::vector<int64_t>& sizes, int64_t large, std::function<void(size_t)> task) {
-    const auto shared = std::make_shared<const std::function<void(size_t)>>(std::move(task));
+    const std::shared_ptr<const std::function<void(size_t)>> shared(new std::function<void(size_t)>(std::move(task)), [state = state_.get()](const auto* done) {
+        state->from_helpers.receive();
+        delete done;
+    });
     std::vector<size_t> one_by_one, side_by_side;
     for (size_t i = 0; i < sizes.size(); ++i) (sizes[i] > large ? one_by_one : side_by_side).push_back(i);
-    state_->to_helpers.give();
     const auto begin_all = [&] {
         if (!one_by_one.empty())
             state_->begin([shared, one_by_one] {

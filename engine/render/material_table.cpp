@@ -177,12 +177,12 @@ MaterialTables MaterialTable::tables() const {
     return t;
 }
 
-void build_material_table(MaterialTable& table, const Scene& scene) {
+void build_material_table(MaterialTable& table, const Scene& scene, const Workers* workers) {
     const std::vector<const Material*> worn = worn_materials(scene);
     std::vector<TextureSource> sources = texture_sources(scene, worn);
     if (sources != table.textures.sources) {
         table.textures = {}; // frees the old texels before the new ones are there
-        table.textures = build_texture_table(std::move(sources));
+        table.textures = build_texture_table(std::move(sources), workers);
     }
     choose_uv_sets(table, worn);
     const size_t count = scene.materials.size() + 1;

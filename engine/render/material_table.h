@@ -28,8 +28,8 @@ struct MaterialTable {
 };
 
 // Brings the table up to date with the scene; texels are kept if the scene still reads the same textures. The result depends
-// on the scene alone. Only textures that materials of some mesh read are in it.
-void build_material_table(MaterialTable& table, const Scene& scene);
+// on the scene alone. Only textures that materials of some mesh read are in it. `workers`: share the work; null: none.
+void build_material_table(MaterialTable& table, const Scene& scene, const Workers* workers = nullptr);
 // Rewrites the record of one material. False, and nothing has changed, if the table must be built anew: the set of textures
 // that are read, of their UV sets, or of materials is another.
 bool update_material(MaterialTable& table, const Scene& scene, Id<Material> id);

@@ -67,11 +67,11 @@ CameraRecord camera_record(const View& view, float aspect, const Vec3d& origin) 
     return camera;
 }
 
-void RenderScene::update_materials(const Scene& scene, const UpdatePlan& plan) {
+void RenderScene::update_materials(const Scene& scene, const UpdatePlan& plan, const Workers& workers) {
     bool rebuild = plan.all_materials;
     for (const Id<Material> id : plan.materials)
         if (!rebuild && !update_material(materials_, scene, id)) rebuild = true;
-    if (rebuild) build_material_table(materials_, scene);
+    if (rebuild) build_material_table(materials_, scene, &workers);
     tables_.materials = materials_.tables();
 }
 
@@ -211,7 +211,7 @@ Features RenderScene::compute_features(const Scene& scene, const RenderSettings&
 void RenderScene::update(const Scene& scene, const RenderSettings& settings, const UpdatePlan& plan, const Workers& workers,
                          const LightGroups* groups) {
     const Vec3d origin_before = extent_.origin;
-    update_materials(scene, plan);
+    update_materials(scene, plan, workers);
     update_geometry(scene, plan, workers);
     update_lights(scene, settings, plan, groups);
     geometry_.fill(tables_);

@@ -46,7 +46,7 @@ public:
     Ledger ledger(const Scene& lowered, const FilmSize& film) const;
 
 private:
-    void update_materials(const Scene& scene, const UpdatePlan& plan);
+    void update_materials(const Scene& scene, const UpdatePlan& plan, const Workers& workers);
     void update_geometry(const Scene& scene, const UpdatePlan& plan, const Workers& workers);
     AccelScene accel_scene(const Scene& lowered) const;
     void update_lights(const Scene& scene, const RenderSettings& settings, const UpdatePlan& plan, const LightGroups* groups);

@@ -2,11 +2,11 @@
 
 #include "core/box_filter.h"
 #include "core/half.h"
+#include "core/parallel.h"
 #include "core/srgb.h"
 #include "render/texture_mips.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -69,12 +69,17 @@ class Builder {
 public:
     explicit Builder(std::vector<TextureSource> sources) { table_.sources = std::move(sources); }
 
-    TextureTable build() && {
+    TextureTable build(const Workers* workers) && {
         for (const TextureSource& source : table_.sources) table_.records.push_back(record(source));
         table_.rgba8.resize(bytes_);
         table_.rgba16f.resize(2 * halves_);
         table_.rgba32f.resize(4 * floats_);
-        tbb::parallel_for(size_t(0), placed_.size(), [&](size_t i) { fill(placed_[i]); }, tbb::simple_partitioner());
+        const auto fill_one = [&](int64_t i, unsigned) { fill(placed_[size_t(i)]); };
+        const auto count = int64_t(placed_.size());
+        if (workers)
+            workers->for_each(count, {}, fill_one);
+        else
+            for (int64_t i = 0; i < count; ++i) fill_one(i, 0);
         for (const Placed& placed : placed_)
             if (placed.replaced > 0) warn(*placed.source, fmt::format("{} values are negative or not finite: read as 0", placed.replaced));
         return std::move(table_);
@@ -230,9 +235,9 @@ int64_t texel_bytes(const Image& image) {
     return image.bytes.empty() ? (base + mips) * 16 : base * 4 + mips * 8;
 }
 
-TextureTable build_texture_table(std::vector<TextureSource> sources) {
+TextureTable build_texture_table(std::vector<TextureSource> sources, const Workers* workers) {
     const auto begin = std::chrono::steady_clock::now();
-    TextureTable table = Builder(std::move(sources)).build();
+    TextureTable table = Builder(std::move(sources)).build(workers);
     table.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return table;
 }

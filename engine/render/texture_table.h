@@ -11,6 +11,8 @@
 
 namespace blush {
 
+class Workers;
+
 // A texture as materials read it: one image may hold colour for one slot and data for another.
 struct TextureSource {
     Id<Texture> id;
@@ -47,7 +49,7 @@ int64_t texel_bytes(const Image& image);
 // RGB, missing alpha is 1. Float images count as sRGB-encoded where they are read as colour and stay within [0, 1], as 16-bit
 // PNG does; a value above 1 marks linear data. With a warning: texels that are negative or not finite become 0, and images
 // that do not hold what they say, or are beyond the pool's limits, become a white texel. Smaller versions hold the means of what is
-// meant: of linear colour, in half precision where the image has 8 bits.
-TextureTable build_texture_table(std::vector<TextureSource> sources);
+// meant: of linear colour, in half precision where the image has 8 bits. `workers`: share the work; null: none.
+TextureTable build_texture_table(std::vector<TextureSource> sources, const Workers* workers = nullptr);
 
 } // namespace blush
