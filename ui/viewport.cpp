@@ -20,7 +20,7 @@ namespace blush {
 namespace {
 
 // Milliseconds that a frame of the window may take while a picture is being drawn for it; where somebody waits for a look they asked for.
-constexpr double usual_frame = 16, asked_frame = 24;
+constexpr double usual_frame = 16, asked_frame = 20;
 // Without another change, after which a mix is no longer being moved: a mouse that is dragged is not in every frame of the window further on.
 constexpr std::chrono::milliseconds mix_rests_after{120};
 
