@@ -6,19 +6,12 @@
 // point to. Left out: that the validator cannot look into an extension, which says nothing of the file, and what is a matter of the artist's
 // own data: sides of images that are no powers of two, texture coordinates that wait for a texture.
 'use strict';
-const fs = require('fs');
 const path = require('path');
+const issuesOf = require('./gltf_issues.js');
 const [packageFolder, ...files] = process.argv.slice(2);
-const validator = require(path.resolve(packageFolder));
 
 async function messagesOf(file) {
-    const folder = path.dirname(file);
-    const report = await validator.validateBytes(new Uint8Array(fs.readFileSync(file)), {
-        uri: path.basename(file),
-        maxIssues: 0,
-        externalResourceFunction: async uri => new Uint8Array(fs.readFileSync(path.join(folder, decodeURIComponent(uri)))),
-    });
-    return report.issues.messages.filter(m => m.code !== 'UNSUPPORTED_EXTENSION' && m.code !== 'IMAGE_NPOT_DIMENSIONS' &&
+    return (await issuesOf(packageFolder, file)).filter(m => m.code !== 'UNSUPPORTED_EXTENSION' && m.code !== 'IMAGE_NPOT_DIMENSIONS' &&
         !(m.code === 'UNUSED_OBJECT' && /\/attributes\/TEXCOORD_\d$/.test(m.pointer)));
 }
 
