@@ -103,10 +103,15 @@ Scene desk() {
     return scene;
 }
 
+// A file with nothing in it, to save scenes of our own into.
+Result<ImportedScene> import_empty(const TemporaryFolder& folder) {
+    std::ofstream(folder / "empty.gltf") << R"({"asset": {"version": "2.0"}})";
+    return import_gltf(folder / "empty.gltf");
+}
+
 TEST(Saved, EveryKindOfLightRendersBitForBitAsItDid) {
     const TemporaryFolder folder;
-    std::ofstream(folder / "empty.gltf") << R"({"asset": {"version": "2.0"}})";
-    const auto original = import_gltf(folder / "empty.gltf");
+    const auto original = import_empty(folder);
     ASSERT_TRUE(original) << original.error().text();
     for (const char* extension : {"gltf", "glb"}) {
         const Project project{desk(), {}, {}};
@@ -157,8 +162,7 @@ std::string save_ball(const GltfOrigin& origin, const TemporaryFolder& folder) {
 // What is stretched in the window looks as it does when the saved file is opened, whose import computes tangents.
 TEST(Saved, TangentsThatAnEditCallsForAreThoseOfTheReopenedFile) {
     const TemporaryFolder folder;
-    std::ofstream(folder / "empty.gltf") << R"({"asset": {"version": "2.0"}})";
-    const auto empty = import_gltf(folder / "empty.gltf");
+    const auto empty = import_empty(folder);
     ASSERT_TRUE(empty) << empty.error().text();
     const auto original = import_gltf(save_ball(empty->origin, folder));
     ASSERT_TRUE(original) << original.error().text();
