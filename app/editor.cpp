@@ -227,7 +227,8 @@ void Editor::draw_regions(PanelContext& c) {
     viewport_width_ = int(l.viewport.width);
     viewport_height_ = int(l.viewport.height);
     pace_.begin_picture(Clock::now());
-    image_ = files_.preview() ? viewport_.draw_alone(c, pace_, "Textures are still loading: plain colours stand in for them") : viewport_.draw(c, pace_);
+    image_ = files_.preview() ? viewport_.draw_alone(c, pace_, "Textures are still loading: plain colours stand in for them")
+                              : viewport_.draw(c, pace_);
     pace_.end_picture(Clock::now());
     end_region();
     if (l.time.height > 0) {

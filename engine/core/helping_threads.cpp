@@ -78,10 +78,12 @@ HelpingThreads::~HelpingThreads() {
 }
 
 void HelpingThreads::begin(const std::vector<int64_t>& sizes, int64_t large, std::function<void(size_t)> task) {
-    const std::shared_ptr<const std::function<void(size_t)>> shared(new std::function<void(size_t)>(std::move(task)), [state = state_.get()](const auto* done) {
-        state->from_helpers.receive();
+    using Task = std::function<void(size_t)>;
+    const auto forget = [state = state_.get()](const Task* done) {
+        state->from_helpers.receive(); // whoever is the last to let go of it
         delete done;
-    });
+    };
+    const std::shared_ptr<const Task> shared(new Task(std::move(task)), forget);
     std::vector<size_t> one_by_one, side_by_side;
     for (size_t i = 0; i < sizes.size(); ++i) (sizes[i] > large ? one_by_one : side_by_side).push_back(i);
     const auto begin_all = [&] {

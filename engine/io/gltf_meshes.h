@@ -13,7 +13,8 @@ struct ImportedMeshes {
     std::vector<std::vector<int>> primitives;
 };
 
-// Adds the meshes that `nodes` use, converted side by side. Reports progress from 0.3 to 0.6. Errors: as import_primitive, a material out of range, cancelled.
+// Adds the meshes that `nodes` use, converted side by side. Reports progress from 0.3 to 0.6. Errors: as import_primitive, a material
+// out of range, cancelled.
 Result<ImportedMeshes> import_meshes(const GltfContext& context, const std::vector<int>& nodes, const std::vector<Id<Material>>& materials,
                                      Scene& scene);
 
