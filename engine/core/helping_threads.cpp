@@ -58,10 +58,16 @@ struct HelpingThreads::State {
     bool alone() const { return threads == 1; }
     void begin(std::function<void()> work) {
         if (alone()) return waiting.push_back(std::move(work));
+        auto held = std::make_shared<std::function<void()>>(std::move(work));
         to_helpers.give();
-        group.run([this, held = std::make_shared<std::function<void()>>(std::move(work))] {
+        group.run([this, held = std::move(held)] {
             to_helpers.receive();
-            (*held)();
+            try {
+                (*held)();
+            } catch (...) {
+                from_helpers.give(); // what is thrown, too
+                throw;
+            }
             from_helpers.give();
             *held = nullptr; // rather than when TBB ends the task, after which nobody knows in which order things go
         });
@@ -109,7 +115,12 @@ void HelpingThreads::begin(const std::vector<int64_t>& sizes, int64_t large, std
 void HelpingThreads::finish() {
     for (const auto& work : std::exchange(state_->waiting, {})) work();
     if (state_->alone()) return;
-    state_->arena.execute([this] { state_->group.wait(); });
+    try {
+        state_->arena.execute([this] { state_->group.wait(); });
+    } catch (...) {
+        state_->from_helpers.receive();
+        throw;
+    }
     state_->from_helpers.receive();
 }
 
