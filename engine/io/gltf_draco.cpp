@@ -3,7 +3,7 @@
 #include "io/gltf_accessors.h"
 #include "io/gltf_extras.h"
 #include "io/gltf_object.h"
-#include "io/gltf_unpacked.h"
+#include "io/gltf_side_by_side.h"
 
 #include <draco/compression/decode.h>
 
@@ -80,19 +80,76 @@ bool convert(const draco::PointAttribute& attribute, uint32_t points, int compon
     }
 }
 
-Result<std::unique_ptr<draco::Mesh>> decode(const GltfContext& context, int view, const std::string& where) {
-    const auto bytes = buffer_view_bytes(context, view, where);
-    if (!bytes) return bytes.error();
-    const auto faces = Header(*bytes).faces();
-    if (!faces) return context.error("not a Draco mesh of bitstream 2.2", where);
-    if (*faces > most_faces_per_byte * bytes->size())
-        return context.error(fmt::format("{} bytes cannot describe {} triangles", bytes->size(), *faces), where);
-    draco::DecoderBuffer buffer;
-    buffer.Init(reinterpret_cast<const char*>(bytes->data()), bytes->size());
-    auto mesh = draco::Decoder().DecodeMeshFromBuffer(&buffer);
-    if (!mesh.ok()) return context.error(fmt::format("not a valid Draco mesh: {}", mesh.status().error_msg_string()), where);
-    return std::move(mesh).value();
+struct Attribute {
+    std::string name;
+    int accessor = 0, id = 0; // the one that describes it; which of the Draco mesh
+    std::vector<uint8_t> unpacked = {};
+};
+
+// A primitive that has to be unpacked, and what became of it.
+struct Packed {
+    tinygltf::Primitive* primitive;
+    std::string where;
+    std::span<const uint8_t> bytes;
+    std::vector<Attribute> attributes = {};
+    std::vector<uint8_t> indices = {};
+    size_t points = 0;
+};
+
+const tinygltf::Accessor* accessor_at(const tinygltf::Model& model, int index) {
+    return index >= 0 && size_t(index) < model.accessors.size() ? &model.accessors[size_t(index)] : nullptr;
 }
+
+bool needs_unpacking(const tinygltf::Model& model, const tinygltf::Primitive& primitive) {
+    const auto has_bytes = [&](int index) {
+        const tinygltf::Accessor* const accessor = accessor_at(model, index);
+        return accessor && accessor->bufferView >= 0;
+    };
+    return !has_bytes(primitive.indices) ||
+           !std::ranges::all_of(primitive.attributes, [&](const auto& attribute) { return has_bytes(attribute.second); });
+}
+
+// How many bytes a vertex takes in an accessor; none if it is not one that a mesh may have.
+size_t element_bytes(const tinygltf::Accessor& accessor) {
+    const int components = tinygltf::GetNumComponentsInType(uint32_t(accessor.type));
+    const int size = tinygltf::GetComponentSizeInBytes(uint32_t(accessor.componentType));
+    return components < 1 || components > 4 || size < 1 ? 0 : size_t(components) * size_t(size);
+}
+
+// What the JSON and the first bytes say, before room is made for it.
+struct PackedMeshes {
+    const GltfContext& context;
+    UnpackingRoom& room;
+    std::vector<Packed> found = {};
+    std::vector<int64_t> sizes = {}; // unpacked, if there are as many vertices as triangles; the library allows three times as many
+
+    Result<void> add(tinygltf::Primitive& primitive, const std::string& where) {
+        const GltfObject extension = GltfObject(context, primitive.extensions, where + ".extensions").object(extension_name);
+        if (!extension || !needs_unpacking(context.model(), primitive)) return {};
+        const auto bytes = buffer_view_bytes(context, extension.integer("bufferView").value_or(-1), extension.where());
+        if (!bytes) return bytes.error();
+        const auto faces = Header(*bytes).faces();
+        if (!faces) return context.error("not a Draco mesh of bitstream 2.2", extension.where());
+        if (*faces > most_faces_per_byte * bytes->size())
+            return context.error(fmt::format("{} bytes cannot describe {} triangles", bytes->size(), *faces), extension.where());
+        Packed packed{&primitive, where, *bytes};
+        const GltfObject ids = extension.object("attributes");
+        size_t vertex = 0;
+        for (const auto& [name, index] : primitive.attributes) {
+            const auto id = ids.integer(name.c_str());
+            if (!id) continue;
+            const tinygltf::Accessor* const accessor = accessor_at(context.model(), index);
+            if (!accessor) return context.error(fmt::format("accessor {} does not exist", index), where + "." + name.substr(0, 100));
+            vertex += element_bytes(*accessor);
+            packed.attributes.push_back({name, index, *id});
+        }
+        const double size = double(*faces) * double(3 * sizeof(uint32_t) + vertex);
+        if (const auto ok = room.take(context, size, "meshes"); !ok) return ok;
+        found.push_back(std::move(packed));
+        sizes.push_back(int64_t(size));
+        return {};
+    }
+};
 
 std::vector<uint8_t> indices_of(const draco::Mesh& mesh) {
     std::vector<uint8_t> bytes(size_t(mesh.num_faces()) * 3 * sizeof(uint32_t));
@@ -104,80 +161,64 @@ std::vector<uint8_t> indices_of(const draco::Mesh& mesh) {
     return bytes;
 }
 
-struct Unpacker {
-    GltfSource& source;
-    const GltfContext& context;
-
-    bool has_bytes(int accessor) const {
-        return accessor >= 0 && size_t(accessor) < source.model.accessors.size() &&
-               source.model.accessors[size_t(accessor)].bufferView >= 0;
-    }
-
-    // An accessor of its own: primitives that share one need not have their vertices in the same order.
-    Result<int> attribute(const draco::Mesh& mesh, int described, int id, const std::string& where) {
-        if (described < 0 || size_t(described) >= source.model.accessors.size())
-            return context.error(fmt::format("accessor {} does not exist", described), where);
-        const draco::PointAttribute* const values = mesh.GetAttributeByUniqueId(uint32_t(id));
-        if (!values) return context.error(fmt::format("the Draco mesh has no attribute {}", id), where);
-        tinygltf::Accessor accessor = source.model.accessors[size_t(described)];
-        const int components = tinygltf::GetNumComponentsInType(uint32_t(accessor.type));
-        std::vector<uint8_t> bytes;
-        if (components < 1 || components > 4 || !convert(*values, mesh.num_points(), components, accessor.componentType, bytes))
+// Any thread may unpack any.
+Result<void> unpack(const GltfContext& context, Packed& packed) {
+    draco::DecoderBuffer buffer;
+    buffer.Init(reinterpret_cast<const char*>(packed.bytes.data()), packed.bytes.size());
+    const auto decoded = draco::Decoder().DecodeMeshFromBuffer(&buffer);
+    if (!decoded.ok())
+        return context.error(fmt::format("not a valid Draco mesh: {}", decoded.status().error_msg_string()),
+                             fmt::format("{}.extensions.{}", packed.where, extension_name));
+    const draco::Mesh& mesh = *decoded.value();
+    for (Attribute& attribute : packed.attributes) {
+        const std::string where = packed.where + "." + attribute.name.substr(0, 100);
+        const draco::PointAttribute* const values = mesh.GetAttributeByUniqueId(uint32_t(attribute.id));
+        if (!values) return context.error(fmt::format("the Draco mesh has no attribute {}", attribute.id), where);
+        const tinygltf::Accessor& described = *accessor_at(context.model(), attribute.accessor);
+        const int components = tinygltf::GetNumComponentsInType(uint32_t(described.type));
+        if (element_bytes(described) == 0 || !convert(*values, mesh.num_points(), components, described.componentType, attribute.unpacked))
             return context.error("the Draco attribute does not fit its accessor", where);
-        accessor.bufferView = add_unpacked_view(source, std::move(bytes));
-        accessor.byteOffset = 0;
-        accessor.count = mesh.num_points();
-        accessor.sparse.isSparse = false;
-        return add(std::move(accessor));
     }
+    packed.indices = indices_of(mesh);
+    packed.points = mesh.num_points();
+    return {};
+}
 
-    int indices(const draco::Mesh& mesh) {
-        tinygltf::Accessor accessor;
-        accessor.bufferView = add_unpacked_view(source, indices_of(mesh));
-        accessor.componentType = TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
-        accessor.type = TINYGLTF_TYPE_SCALAR;
-        accessor.count = size_t(mesh.num_faces()) * 3;
-        return add(std::move(accessor));
-    }
+int add(GltfSource& source, tinygltf::Accessor accessor, size_t count, std::vector<uint8_t> bytes) {
+    accessor.bufferView = add_unpacked_view(source, std::move(bytes));
+    accessor.byteOffset = 0;
+    accessor.count = count;
+    accessor.sparse.isSparse = false;
+    source.model.accessors.push_back(std::move(accessor));
+    return int(source.model.accessors.size()) - 1;
+}
 
-    int add(tinygltf::Accessor accessor) {
-        source.model.accessors.push_back(std::move(accessor));
-        return int(source.model.accessors.size()) - 1;
-    }
-
-    Result<void> primitive(tinygltf::Primitive& primitive, const std::string& where) {
-        const GltfObject extension = GltfObject(context, primitive.extensions, where + ".extensions").object(extension_name);
-        if (!extension) return {};
-        const bool uncompressed = has_bytes(primitive.indices) && std::ranges::all_of(primitive.attributes, [&](const auto& attribute) {
-                                      return has_bytes(attribute.second);
-                                  });
-        if (uncompressed) return {};
-        const auto mesh = decode(context, extension.integer("bufferView").value_or(-1), extension.where());
-        if (!mesh) return mesh.error();
-        const GltfObject ids = extension.object("attributes");
-        for (auto& [name, accessor] : primitive.attributes) {
-            const auto id = ids.integer(name.c_str());
-            if (!id) continue;
-            const Result<int> unpacked = attribute(**mesh, accessor, *id, where + "." + name.substr(0, 100));
-            if (!unpacked) return unpacked.error();
-            accessor = *unpacked;
-        }
-        primitive.indices = indices(**mesh);
-        primitive.mode = TINYGLTF_MODE_TRIANGLES;
-        return {};
-    }
-};
+// Accessors of its own: primitives that share one need not have their vertices in the same order.
+void take_unpacked(GltfSource& source, Packed& packed) {
+    for (Attribute& attribute : packed.attributes)
+        packed.primitive->attributes[attribute.name] =
+            add(source, *accessor_at(source.model, attribute.accessor), packed.points, std::move(attribute.unpacked));
+    tinygltf::Accessor indices;
+    indices.componentType = TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+    indices.type = TINYGLTF_TYPE_SCALAR;
+    const size_t corners = packed.indices.size() / sizeof(uint32_t);
+    packed.primitive->indices = add(source, std::move(indices), corners, std::move(packed.indices));
+    packed.primitive->mode = TINYGLTF_MODE_TRIANGLES;
+}
 
 } // namespace
 
-Result<void> unpack_draco(GltfSource& source, const GltfContext& context) {
-    Unpacker unpack{source, context};
+Result<void> unpack_draco(GltfSource& source, const GltfContext& context, UnpackingRoom& room) {
+    constexpr int64_t large = int64_t(1) << 26; // bytes: the decoder needs several times as much
+    PackedMeshes packed{context, room};
     for (size_t m = 0; m < source.model.meshes.size(); ++m)
-        for (size_t p = 0; p < source.model.meshes[m].primitives.size(); ++p) {
-            if (context.cancelled()) return context.cancel_error();
-            if (const auto ok = unpack.primitive(source.model.meshes[m].primitives[p], fmt::format("meshes[{}].primitives[{}]", m, p)); !ok)
+        for (size_t p = 0; p < source.model.meshes[m].primitives.size(); ++p)
+            if (const auto ok = packed.add(source.model.meshes[m].primitives[p], fmt::format("meshes[{}].primitives[{}]", m, p)); !ok)
                 return ok;
-        }
+    const auto read = read_side_by_side(context, {packed.sizes, large, "unpacking", 0.1, 0.3, context.options.threads},
+                                        [&](const GltfContext& own, size_t i) { return unpack(own, packed.found[i]); });
+    if (!read) return read;
+    for (Packed& each : packed.found) take_unpacked(source, each);
     return {};
 }
 

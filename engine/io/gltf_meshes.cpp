@@ -1,19 +1,17 @@
 #include "io/gltf_meshes.h"
 
-#include "core/helping_threads.h"
 #include "io/gltf_demand.h"
 #include "io/gltf_extras.h"
 #include "io/gltf_geometry.h"
 #include "io/gltf_numbering.h"
+#include "io/gltf_side_by_side.h"
 #include "io/gltf_variants.h"
 #include "scene/tangents.h"
 #include "scene/texture_slots.h"
 
 #include <algorithm>
-#include <atomic>
 #include <fmt/format.h>
 #include <optional>
-#include <thread>
 
 namespace blush {
 namespace {
@@ -26,9 +24,7 @@ struct MeshReader {
     std::vector<Id<Mesh>> known; // by index, for a document that is read without its triangles
 
     // None if there is nothing to show. Any thread may read any primitive.
-    Result<std::optional<MeshPart>> read(size_t index, size_t p, ImportReport& report) const {
-        const GltfContext own = context.reporting_to(report);
-        if (own.cancelled()) return own.cancel_error();
+    Result<std::optional<MeshPart>> read(const GltfContext& own, size_t index, size_t p) const {
         const tinygltf::Primitive& primitive = own.model().meshes[index].primitives[p];
         const std::string where = fmt::format("meshes[{}].primitives[{}]", index, p);
         if (primitive.material >= 0 && size_t(primitive.material) >= materials.size())
@@ -97,8 +93,7 @@ std::vector<int> kept_uv_sets(const GltfContext& context, const Scene& scene) {
 // One primitive, and what became of it.
 struct Part {
     size_t mesh = 0, primitive = 0;
-    std::vector<Diagnostic> findings = {};
-    std::optional<Result<std::optional<MeshPart>>> read = {};
+    std::optional<MeshPart> read = {};
 };
 
 std::vector<Part> parts_of(const GltfContext& context, const std::vector<bool>& used) {
@@ -108,27 +103,18 @@ std::vector<Part> parts_of(const GltfContext& context, const std::vector<bool>& 
     return parts;
 }
 
-// Side by side. Those behind one that cannot be read may be left out.
-void read_parts(const MeshReader& reader, std::vector<Part>& parts) {
+Result<void> read_parts(const MeshReader& reader, std::vector<Part>& parts) {
     constexpr int64_t large = int64_t(1) << 26; // bytes: conversion needs as much again
     const GltfContext& context = reader.context;
-    const std::thread::id reporter = std::this_thread::get_id();
-    std::atomic<size_t> done = 0, first_error = parts.size();
-    std::vector<int64_t> sizes;
-    for (const Part& part : parts) sizes.push_back(int64_t(bytes_asked_by(context, context.model().meshes[part.mesh].primitives[part.primitive])));
-    HelpingThreads helpers(context.known || parts.size() < 2 ? 1 : context.options.threads);
-    helpers.begin(sizes, large, [&](size_t i) {
-        if (i > first_error) return;
-        Part& part = parts[i];
-        ImportReport report;
-        part.read = reader.read(part.mesh, part.primitive, report);
-        part.findings = std::move(report.diagnostics);
-        if (!*part.read)
-            for (size_t first = first_error; i < first && !first_error.compare_exchange_weak(first, i);) {}
-        ++done;
-        if (std::this_thread::get_id() == reporter) context.progress(0.3 + 0.3 * double(done) / double(parts.size()), "meshes");
+    GltfPieces pieces{{}, large, "meshes", 0.3, 0.6, context.known ? 1 : context.options.threads};
+    for (const Part& part : parts)
+        pieces.sizes.push_back(int64_t(bytes_asked_by(context, context.model().meshes[part.mesh].primitives[part.primitive])));
+    return read_side_by_side(context, pieces, [&](const GltfContext& own, size_t i) -> Result<void> {
+        auto read = reader.read(own, parts[i].mesh, parts[i].primitive);
+        if (!read) return read.error();
+        parts[i].read = *std::move(read);
+        return {};
     });
-    helpers.finish();
 }
 
 } // namespace
@@ -144,7 +130,7 @@ Result<ImportedMeshes> import_meshes(const GltfContext& context, const std::vect
     const auto known = context.known ? ids_by_index(context.known->meshes, sources.size()) : std::vector<Id<Mesh>>();
     const MeshReader reader{context, materials, scene, kept_uv_sets(context, scene), known};
     std::vector<Part> parts = parts_of(context, used);
-    read_parts(reader, parts);
+    if (const auto ok = read_parts(reader, parts); !ok) return ok.error();
 
     ImportedMeshes imported;
     imported.primitives.resize(sources.size());
@@ -156,10 +142,8 @@ Result<ImportedMeshes> import_meshes(const GltfContext& context, const std::vect
         wanted[i] = wanted_id(gltf_item(context.json(), "meshes", i));
     }
     for (Part& part : parts) {
-        context.add_all(part.findings);
-        if (!*part.read) return part.read->error();
-        if (!**part.read) continue;
-        meshes[part.mesh]->parts.push_back(**std::move(*part.read));
+        if (!part.read) continue;
+        meshes[part.mesh]->parts.push_back(*std::move(part.read));
         imported.primitives[part.mesh].push_back(int(part.primitive));
     }
     imported.ids = add_numbered(scene.meshes, std::move(meshes), wanted);

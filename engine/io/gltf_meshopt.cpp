@@ -1,7 +1,7 @@
 #include "io/gltf_meshopt.h"
 
 #include "io/gltf_object.h"
-#include "io/gltf_unpacked.h"
+#include "io/gltf_side_by_side.h"
 
 #include <meshoptimizer.h>
 
@@ -17,10 +17,19 @@ constexpr const char* extension_name = "EXT_meshopt_compression";
 // The densest code is that of equal vertices: two bits for sixteen bytes. What claims to be denser is not made room for.
 constexpr uint64_t most_bytes_per_byte = 64;
 
+constexpr int64_t large = int64_t(1) << 28; // bytes: decoding needs hardly more
+
 struct Stream {
     std::span<const uint8_t> bytes;
     uint64_t count = 0, stride = 0;
     std::string mode, filter;
+    uint64_t unpacked_bytes() const { return count * stride; }
+};
+
+struct PackedView {
+    size_t index = 0;
+    Stream stream;
+    std::vector<uint8_t> unpacked;
 };
 
 // As the extension's specification has them ("Specifying compressed views").
@@ -64,30 +73,40 @@ Result<Stream> read_stream(const GltfContext& context, const GltfObject& extensi
         return context.error(fmt::format("{} elements of {} bytes, mode '{}', filter '{}' are not what the extension knows", count, stride,
                                          stream.mode.substr(0, 40), stream.filter.substr(0, 40)),
                              extension.where());
-    if (stream.count * stream.stride > most_bytes_per_byte * stream.bytes.size())
+    if (stream.unpacked_bytes() > most_bytes_per_byte * stream.bytes.size())
         return context.error(fmt::format("{} bytes cannot describe {} elements of {} bytes", length, count, stride), extension.where());
     return stream;
 }
 
 } // namespace
 
-Result<void> unpack_meshopt(GltfSource& source, const GltfContext& context) {
-    const size_t packed = source.model.bufferViews.size();
-    for (size_t i = 0; i < packed; ++i) {
+Result<void> unpack_meshopt(GltfSource& source, const GltfContext& context, UnpackingRoom& room) {
+    std::vector<PackedView> views;
+    GltfPieces pieces{{}, large, "unpacking", 0, 0.1, context.options.threads};
+    for (size_t i = 0; i < source.model.bufferViews.size(); ++i) {
         const std::string where = fmt::format("bufferViews[{}]", i);
         const GltfObject extension =
             GltfObject(context, source.model.bufferViews[i].extensions, where + ".extensions").object(extension_name);
         if (!extension) continue;
-        if (context.cancelled()) return context.cancel_error();
-        const Result<Stream> stream = read_stream(context, extension);
+        Result<Stream> stream = read_stream(context, extension);
         if (!stream) return stream.error();
-        std::vector<uint8_t> bytes(size_t(stream->count * stream->stride));
-        if (!decode(*stream, bytes)) return context.error("the compressed bytes cannot be decoded", where);
-        tinygltf::BufferView& view = source.model.bufferViews[i];
-        if (stream->mode == "ATTRIBUTES") view.byteStride = size_t(stream->stride);
-        view.byteLength = bytes.size();
+        if (const auto ok = room.take(context, double(stream->unpacked_bytes()), "bufferViews"); !ok) return ok;
+        pieces.sizes.push_back(int64_t(stream->unpacked_bytes()));
+        views.push_back({i, *std::move(stream), {}});
+    }
+    const auto read = read_side_by_side(context, pieces, [&](const GltfContext& own, size_t i) -> Result<void> {
+        PackedView& view = views[i];
+        view.unpacked.resize(size_t(view.stream.unpacked_bytes()));
+        if (decode(view.stream, view.unpacked)) return {};
+        return own.error("the compressed bytes cannot be decoded", fmt::format("bufferViews[{}]", view.index));
+    });
+    if (!read) return read;
+    for (PackedView& packed : views) {
+        tinygltf::BufferView& view = source.model.bufferViews[packed.index];
+        if (packed.stream.mode == "ATTRIBUTES") view.byteStride = size_t(packed.stream.stride);
+        view.byteLength = packed.unpacked.size();
         view.byteOffset = 0;
-        view.buffer = add_unpacked_buffer(source, std::move(bytes));
+        view.buffer = add_unpacked_buffer(source, std::move(packed.unpacked));
     }
     return {};
 }

@@ -4,6 +4,7 @@
 #include "io/gltf_extras.h"
 #include "io/gltf_meshopt.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace blush {
@@ -31,7 +32,8 @@ bool has_strange_data(const ParsedGltf& object) {
     if (!uri.is_string()) return false;
     const std::string_view text = uri.get_ref<const std::string&>();
     if (!text.starts_with(data_scheme) || text.find(data_encoding) == text.npos) return false;
-    return !text.starts_with("data:image/png;base64,") && !text.starts_with("data:image/jpeg;base64,") && !text.starts_with(data_of_no_kind);
+    return !text.starts_with("data:image/png;base64,") && !text.starts_with("data:image/jpeg;base64,") &&
+           !text.starts_with(data_of_no_kind);
 }
 
 // Calls visit(object) for each object of a list that is one.
@@ -73,8 +75,21 @@ std::optional<nlohmann::json> parsable(const nlohmann::json& root) {
 
 Result<void> unpack(GltfSource& source, const ImportOptions& options, ImportReport& report) {
     const GltfContext context{source, options, report};
-    if (const auto ok = unpack_meshopt(source, context); !ok) return ok;
-    return unpack_draco(source, context);
+    UnpackingRoom room(source.model);
+    if (const auto ok = unpack_meshopt(source, context, room); !ok) return ok;
+    return unpack_draco(source, context, room);
+}
+
+UnpackingRoom::UnpackingRoom(const tinygltf::Model& model) {
+    for (const tinygltf::Buffer& buffer : model.buffers) packed_ += double(buffer.data.size());
+}
+
+Result<void> UnpackingRoom::take(const GltfContext& context, double bytes, const char* where) {
+    constexpr double free_bytes = 512e6, most_per_byte = 128; // scans take one byte in forty, flat grids hardly any
+    taken_ += bytes;
+    if (taken_ <= free_bytes + most_per_byte * packed_) return {};
+    return context.error(
+        fmt::format("its compressed data would unpack to {:.0f} MB, but its buffers have {:.3g}", taken_ / 1e6, packed_ / 1e6), where);
 }
 
 int add_unpacked_buffer(GltfSource& source, std::vector<uint8_t> bytes) {

@@ -11,11 +11,25 @@
 namespace blush {
 
 // What the parser is given in place of a document that it would refuse for being compressed: buffers that stand for nothing but their
-// unpacked form have a byte, packed primitives no indices, and data URIs of images no kind that it does not know. None if it takes it as it is.
+// unpacked form have a byte, packed primitives no indices, and data URIs of images no kind that it does not know. None if it takes it as it
+// is.
 std::optional<nlohmann::json> parsable(const nlohmann::json& root);
 
 // KHR_draco_mesh_compression and EXT_meshopt_compression.
 Result<void> unpack(GltfSource& source, const ImportOptions& options, ImportReport& report);
+
+// What the packed bytes of a file may become. They may be named again and again, so that a small file could ask for all the memory there
+// is.
+class UnpackingRoom {
+public:
+    // Of a model of which nothing is unpacked yet.
+    explicit UnpackingRoom(const tinygltf::Model& model);
+    // Errors: more than is left.
+    Result<void> take(const GltfContext& context, double bytes, const char* where);
+
+private:
+    double packed_ = 0, taken_ = 0;
+};
 
 // Indices of what is added: a buffer, or a view of the whole of one.
 int add_unpacked_buffer(GltfSource& source, std::vector<uint8_t> bytes);
