@@ -85,7 +85,7 @@ private:
 
     Submitted submitted_;
     uint64_t last_preview_ = 0; // revision of the last scene that was shown without its textures; 0: none was
-    bool session_paused_ = false, session_denoises_ = false;
+    bool session_paused_ = false, session_denoises_ = false, session_aside_ = false;
 
     bool remembered_follow_viewport_ = true; // what the settings said before the command line
 
@@ -223,14 +223,6 @@ void Editor::draw_regions(PanelContext& c) {
     begin_region("Outliner", l.outliner);
     draw_outliner(c);
     end_region();
-    begin_region("Viewport", l.viewport, {.padded = false, .background = false});
-    viewport_width_ = int(l.viewport.width);
-    viewport_height_ = int(l.viewport.height);
-    pace_.begin_picture(Clock::now());
-    image_ = files_.preview() ? viewport_.draw_alone(c, pace_, "Textures are still loading: plain colours stand in for them")
-                              : viewport_.draw(c, pace_);
-    pace_.end_picture(Clock::now());
-    end_region();
     if (l.time.height > 0) {
         begin_region("Time", l.time);
         draw_time(c);
@@ -238,6 +230,19 @@ void Editor::draw_regions(PanelContext& c) {
     }
     begin_region("Inspector", l.inspector, {.padded = false});
     draw_inspector(c);
+    end_region();
+    draw_light_mix_panel(c);
+    draw_light_table(c);
+    // After all that changes lights: what they are changed to is in the picture of this very frame.
+    mix_.follow(pictures_.frame, document_shown());
+    c.mixing = mix_.mixing();
+    begin_region("Viewport", l.viewport, {.padded = false, .background = false});
+    viewport_width_ = int(l.viewport.width);
+    viewport_height_ = int(l.viewport.height);
+    pace_.begin_picture(Clock::now());
+    image_ = files_.preview() ? viewport_.draw_alone(c, pace_, "Textures are still loading: plain colours stand in for them")
+                              : viewport_.draw(c, pace_);
+    pace_.end_picture(Clock::now());
     end_region();
     begin_region("Status", l.status, {.padded = false});
     draw_status_bar(c);
@@ -258,9 +263,7 @@ void Editor::draw_above(PanelContext& c) {
     waveforms_.update(ui_.scopes);
     draw_scopes_panel(c, waveforms_.textures());
     draw_history(c);
-    draw_light_mix_panel(c);
     draw_bounces_panel(c);
-    draw_light_table(c);
     draw_convergence_panel(c);
     draw_roulette_panel(c);
     draw_health_panel(c);
@@ -297,6 +300,8 @@ void Editor::obey(PanelContext& c) {
     snapshots_.obey(document_, ui_, files_);
     const bool paused = ui_.paused || convergence_.renders_reference();
     if (session_paused_ != paused) session_.pause(session_paused_ = paused);
+    // Whoever moves a mix waits for it to be drawn, and for nothing else.
+    if (session_aside_ != viewport_.is_thinned()) session_.stand_aside(session_aside_ = viewport_.is_thinned());
     const bool denoises = ui_.denoise.wants_denoised() || ui_.convergence.wants_denoised();
     if (session_denoises_ != denoises) session_.want_denoised(session_denoises_ = denoises);
     const PictureMix mix = mix_of(ui_.denoise, pictures_.denoised != nullptr);
@@ -417,9 +422,11 @@ void Editor::draw() {
     const FrameTimes took = pace_.end(now);
     // Loading and compiling shaders, before there is a picture, is not what smoothness is judged by.
     if (shown) stats_.add_frame(took, now);
+    mix_.follow(pictures_.frame, document_shown());
     const bool mixed = shown && mix_.is_shown_by(*shown, viewport_.shown_gains());
     if (shown) stats_.shown(mixed ? submitted_.revision() : shown->revision, now);
     if (viewport_.shows(wanted_mix_)) stats_.look_shown(now);
+    stats_.end_frame();
     ui_.probe.end_frame(state);
 }
 

@@ -34,16 +34,18 @@ public:
     void upload(const DenoisedPtr& denoised) {
         upload_denoised(denoised->width, denoised->height, {denoised, denoised->denoised.rgb.data()});
     }
-    void upload_denoised(int width, int height, std::vector<float> rgb) { upload_denoised(width, height, kept(std::move(rgb))); }
+    void upload_denoised(int width, int height, const std::shared_ptr<const std::vector<float>>& rgb) {
+        upload_denoised(width, height, Values(rgb, rgb->data()));
+    }
     // Begins a new picture of the last uploads, at the frame's resolution; one that is being drawn is given up.
     void begin(const DisplayLook& look);
     // Goes on with it for so many milliseconds, or a little longer. A graphics card is done at once; where the processor stands in for
     // one, a large picture takes several of the window's frames, none of which it may hold up.
     void advance(double milliseconds);
     bool busy() const { return next_row_ < height_; }
-    // Milliseconds that so many pixels take to upload and to draw, if they go as the last ones did.
-    double expected_milliseconds(double pixels) const {
-        return pixels / uploading_.pixels_per_millisecond + pixels / drawing_.pixels_per_millisecond;
+    // Milliseconds that so many pixels of one or both pictures take to upload and to draw, if they go as the last ones did.
+    double expected_milliseconds(double pixels, int pictures) const {
+        return pixels * pictures / uploading_.pixels_per_millisecond + pixels / drawing_.pixels_per_millisecond;
     }
 
     // The last finished picture, first row on top.

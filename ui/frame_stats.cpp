@@ -22,13 +22,18 @@ void FrameStats::add_frame(const FrameTimes& times, Clock::time_point when) {
     if (times.total() > late && late_.size() < most_late) late_.push_back({when, times});
 }
 
-void FrameStats::submitted(uint64_t revision, Clock::time_point when) { unanswered_.push_back({revision, when}); }
+void FrameStats::submitted(uint64_t revision, Clock::time_point when) {
+    unanswered_.push_back({revision, when});
+    submitted_in_frame_ = revision;
+}
 
 void FrameStats::shown(uint64_t revision, Clock::time_point when) {
     while (!unanswered_.empty() && unanswered_.front().revision <= revision) {
         const Submit submit = unanswered_.front();
         unanswered_.pop_front();
-        if (submit.revision == revision) keep(latencies_, std::chrono::duration<double, std::milli>(when - submit.when).count());
+        if (submit.revision != revision) continue;
+        keep(latencies_, std::chrono::duration<double, std::milli>(when - submit.when).count());
+        at_once_ += revision == submitted_in_frame_;
     }
 }
 
@@ -51,6 +56,7 @@ Result<void> FrameStats::write(const std::filesystem::path& file) const {
                               {"late", std::ranges::count_if(frames_, [](double ms) { return ms > late; })},
                               {"late_frames", std::move(late_frames)},
                               {"edits", latencies_.size()},
+                              {"edits_at_once", at_once_},
                               {"latency_p50_ms", percentile(latencies_, 0.5)},
                               {"latency_p95_ms", percentile(latencies_, 0.95)},
                               {"latency_max_ms", percentile(latencies_, 1)},

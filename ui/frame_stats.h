@@ -29,10 +29,11 @@ public:
 
     // A frame that was on the screen at `when`.
     void add_frame(const FrameTimes& times, Clock::time_point when);
-    // A revision was submitted, and later a picture of some revision was on the screen. One picture answers all revisions up to its own;
-    // the wait is counted from the submit that it was made for.
+    // A revision was submitted in the frame that began then, and later a picture of some revision was on the screen. One picture answers all
+    // revisions up to its own; the wait is counted from the submit that it was made for.
     void submitted(uint64_t revision, Clock::time_point when);
     void shown(uint64_t revision, Clock::time_point when);
+    void end_frame() { submitted_in_frame_ = 0; }
 
     // Another way of looking at the picture was asked for, and later it was on the screen.
     void looked(Clock::time_point when) { look_begun_ = when; }
@@ -42,7 +43,7 @@ public:
     const std::vector<double>& latencies() const { return latencies_; }
     const std::vector<double>& looks() const { return looks_; }
     // {"frames": n, "p50_ms", "p95_ms", "max_ms", "late": n, "late_frames": [{"at_s", "before_picture_ms", "picture_ms", "after_picture_ms"}, ...],
-    //  "edits": n, "latency_p50_ms", "latency_p95_ms", "latency_max_ms",
+    //  "edits": n, "edits_at_once": n, "latency_p50_ms", "latency_p95_ms", "latency_max_ms",
     //  "looks": n, "look_p50_ms", "look_max_ms"}
     Result<void> write(const std::filesystem::path& file) const;
 
@@ -64,6 +65,8 @@ private:
     std::optional<Clock::time_point> first_frame_;
     std::optional<Clock::time_point> look_begun_;
     std::deque<Submit> unanswered_;
+    uint64_t submitted_in_frame_ = 0; // 0: nothing was
+    size_t at_once_ = 0;
 };
 
 } // namespace blush

@@ -19,8 +19,9 @@
 namespace blush {
 namespace {
 
-// Milliseconds that a frame of the window may take while a picture is being drawn for it; where somebody waits for a look they asked for.
-constexpr double usual_frame = 16, asked_frame = 20;
+// Milliseconds that a frame of the window may take while a picture is being drawn for it; where somebody waits for a look they asked for; and
+// with the mix that is being moved, which is to be there in that very frame.
+constexpr double usual_frame = 16, asked_frame = 20, moved_frame = 12;
 // Without another change, after which a mix is no longer being moved: a mouse that is dragged is not in every frame of the window further on.
 constexpr std::chrono::milliseconds mix_rests_after{120};
 
@@ -106,6 +107,12 @@ void turn_surroundings(PanelContext& c, double share) {
     c.apply(SetEnvironment{e}, c.ui.gestures.current());
 }
 
+// Memory for pixels that nobody reads any more: the picture before may still be being copied.
+std::vector<float>& room(std::shared_ptr<std::vector<float>>& values) {
+    if (!values || values.use_count() > 1) values = std::make_shared<std::vector<float>>();
+    return *values;
+}
+
 // Are there planes of groups for these gains, of the frame and of what is shown of it denoised?
 bool can_be_mixed(const PanelContext& c, const Gains& gains, bool denoised) {
     if (!c.frame || gains.empty() || c.frame->groups.size() != gains.size()) return false;
@@ -124,46 +131,32 @@ Result<void> Viewport::set_display_shader(const DisplayShader& shader) {
 void Viewport::upload_frame(const FramePtr& shown, const PictureView& view, const Gains& gains, bool background_as_it_is) {
     const Frame& frame = *shown;
     const bool special = is_special(frame, view), mixes = !gains.empty() && gains.size() == frame.groups.size() && gains != frame.gains;
-    if (mixes && !special && !background_as_it_is) return display_.upload(frame.width, frame.height, mixed(frame, gains));
+    if (mixes && !special && !background_as_it_is) {
+        mix_rgba(frame, gains, room(mixed_), &workers_);
+        return display_.upload(frame.width, frame.height, mixed_);
+    }
     if (frame.groups.empty()) mixed_.reset();
     if (special) return display_.upload(frame.width, frame.height, pixels_of(frame, view));
     if (!background_as_it_is) return display_.upload(shown);
     display_.upload(frame.width, frame.height, with_coverage(frame, mixes ? mixed_rgba(frame, gains) : frame.rgba));
 }
 
-std::shared_ptr<const std::vector<float>> Viewport::mixed(const Frame& frame, const Gains& gains) {
-    const bool still_read = mixed_.use_count() > 1; // the one before is being copied
-    if (!mixed_ || still_read) mixed_ = std::make_shared<std::vector<float>>();
-    mix_rgba(frame, gains, *mixed_, &workers_);
-    return mixed_;
-}
-
 void Viewport::upload_denoised(const DenoisedPtr& denoised, const Gains& gains) {
+    if (!denoised->groups) mixed_denoised_.reset();
     const bool mixes = denoised->groups && gains.size() == denoised->groups->planes.size() && gains != denoised->gains;
-    if (mixes)
-        display_.upload_denoised(denoised->width, denoised->height, mixed_rgb(*denoised, gains, &workers_));
-    else
-        display_.upload(denoised);
+    if (!mixes) return display_.upload(denoised);
+    std::vector<float>& rgb = room(mixed_denoised_);
+    rgb.resize(size_t(denoised->width) * size_t(denoised->height) * 3);
+    mix_rgb(planes_of(*denoised), gains, rgb, &workers_);
+    display_.upload_denoised(denoised->width, denoised->height, mixed_denoised_);
 }
 
-// Of which pixels a picture can be uploaded and drawn in that time.
-int Viewport::step_in_time(const Frame& frame, double milliseconds) const {
-    constexpr int coarsest = 8;
-    int step = 1;
-    while (step < coarsest && display_.expected_milliseconds(double(frame.width) * frame.height / (step * step)) > milliseconds) step *= 2;
-    return step;
-}
-
-void Viewport::upload_thinned(const PanelContext& c, const Gains& gains, bool denoised, int step) {
-    const Frame& frame = *c.frame;
-    // By this thread alone: it is little, and workers may be at the session's work, whose priority is low.
-    const ThinnedMix raw = mix_thinned(planes_of(frame), gains, frame.width, frame.height, step);
-    std::vector<float> rgba(raw.rgb.size() / 3 * 4, 1.f);
-    for (size_t i = 0; i < raw.rgb.size(); ++i) rgba[i / 3 * 4 + i % 3] = raw.rgb[i];
-    display_.upload(raw.width, raw.height, std::move(rgba));
-    if (!denoised) return;
-    ThinnedMix mix = mix_thinned(planes_of(*c.denoised), gains, c.denoised->width, c.denoised->height, step);
-    display_.upload_denoised(mix.width, mix.height, std::move(mix.rgb));
+void Viewport::upload_thinned(const MovedMix& moved, const Gains& gains, int step) {
+    const MixPreview::Picture raw = preview_.raw(moved, gains, step);
+    display_.upload(raw.width, raw.height, raw.values);
+    if (!moved.shows_denoised) return;
+    const MixPreview::Picture denoised = preview_.denoised(moved, gains, step);
+    display_.upload_denoised(denoised.width, denoised.height, denoised.values);
 }
 
 void Viewport::take_frame(PanelContext& c, const FramePace& pace) {
@@ -180,7 +173,9 @@ void Viewport::take_frame(PanelContext& c, const FramePace& pace) {
     const bool moved = new_gains && can_be_mixed(c, gains, shows_denoised) && !special && !numbers.background_as_it_is;
     const auto now = FramePace::Clock::now();
     if (moved) mix_moved_ = now;
-    const int step = moved ? step_in_time(*c.frame, pace.left(usual_frame, now)) : 1;
+    const MovedMix moving{c.frame, c.denoised, look.mix.raw_weight != 0, shows_denoised};
+    const auto drawing = [&](double pixels) { return display_.expected_milliseconds(pixels, shows_denoised ? 2 : 1); };
+    const int step = moved ? preview_.step_in_time(moving, pace.left(moved_frame, now), drawing) : 1;
     const bool thinned = thinned_by_ > 1 && !moved, rests = thinned && now >= mix_moved_ + mix_rests_after;
     const bool waits = thinned && !rests; // for the mix to be moved further
     if (waits) c.ui.next_frame_in = std::min(c.ui.next_frame_in, std::chrono::duration<double>(mix_moved_ + mix_rests_after - now).count());
@@ -199,11 +194,12 @@ void Viewport::take_frame(PanelContext& c, const FramePace& pace) {
     const bool free = !display_.busy() || (step > 1 && thinned_by_ == 1);
     if (free && (new_frame || (uploaded_frame_ && (new_denoised || shader_changed_ || look_ != look)))) {
         if (step > 1)
-            upload_thinned(c, gains, shows_denoised, step);
+            upload_thinned(moving, gains, step);
         else if (new_frame)
             upload_frame(c.frame, view, gains, numbers.background_as_it_is);
         if (new_denoised && step == 1) upload_denoised(c.denoised, gains);
         if (new_frame) uploaded_frame_ = c.frame, uploaded_view_ = view, thinned_by_ = step;
+        if (step == 1) preview_.forget();
         if (new_denoised) uploaded_denoised_ = c.denoised;
         uploaded_gains_ = gains;
         display_.begin(look);
@@ -223,7 +219,8 @@ void Viewport::take_frame(PanelContext& c, const FramePace& pace) {
         shown_frame_ = uploaded_frame_;
         shown_gains_ = uploaded_gains_;
         shown_thinned_by_ = thinned_by_;
-        c.ui.next_frame_in = 0; // perhaps the next one waits already
+        // Perhaps the next one waits already.
+        c.ui.next_frame_in = thinned_by_ == 1 ? 0 : std::min(c.ui.next_frame_in, std::chrono::duration<double>(mix_rests_after).count());
     }
 }
 

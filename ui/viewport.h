@@ -7,6 +7,7 @@
 #include "ui/display_pass.h"
 #include "ui/frame_pace.h"
 #include "ui/handles.h"
+#include "ui/mix_preview.h"
 #include "ui/navigation.h"
 #include "ui/outline_pass.h"
 #include "ui/panels/context.h"
@@ -36,10 +37,8 @@ public:
 private:
     void take_frame(PanelContext& c, const FramePace& pace);
     void upload_frame(const FramePtr& shown, const PictureView& view, const Gains& gains, bool background_as_it_is);
-    std::shared_ptr<const std::vector<float>> mixed(const Frame& frame, const Gains& gains);
     void upload_denoised(const DenoisedPtr& denoised, const Gains& gains);
-    int step_in_time(const Frame& frame, double milliseconds) const;
-    void upload_thinned(const PanelContext& c, const Gains& gains, bool denoised, int step);
+    void upload_thinned(const MovedMix& moved, const Gains& gains, int step);
     void draw_picture(PanelContext& c, const ImageRect& image, bool outlined);
     void draw_outline(const PanelContext& c, const ImageRect& image);
     void draw_caption(const ImageRect& image) const;
@@ -63,7 +62,8 @@ private:
     Gains uploaded_gains_, shown_gains_; // of both
     int thinned_by_ = 1, shown_thinned_by_ = 1; // only every so many-th pixel of a row, and row, of both
     FramePace::TimePoint mix_moved_{}; // last
-    std::shared_ptr<std::vector<float>> mixed_; // the last picture that was mixed here, kept for its memory
+    MixPreview preview_;
+    std::shared_ptr<std::vector<float>> mixed_, mixed_denoised_; // the last pictures that were mixed here, kept for their memory
     Workers workers_{0};   // mix planes
     DisplayLook look_;
     bool shader_changed_ = false, begun_ = false;

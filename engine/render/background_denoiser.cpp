@@ -33,8 +33,8 @@ DenoiserMaker denoiser_maker(std::filesystem::path weights, unsigned threads, bo
     };
 }
 
-BackgroundDenoiser::BackgroundDenoiser(DenoiserMaker maker, double grace_seconds, OnAnswer on_answer, OnRelease on_release)
-    : maker_(std::move(maker)), grace_seconds_(grace_seconds), on_answer_(std::move(on_answer)), on_release_(std::move(on_release)) {
+BackgroundDenoiser::BackgroundDenoiser(DenoiserMaker maker, double grace_seconds, Gate& gate, OnAnswer on_answer, OnRelease on_release)
+    : maker_(std::move(maker)), grace_seconds_(grace_seconds), gate_(gate), on_answer_(std::move(on_answer)), on_release_(std::move(on_release)) {
     if (maker_) thread_ = std::thread([this] { run(); });
 }
 
@@ -43,6 +43,7 @@ BackgroundDenoiser::~BackgroundDenoiser() {
         const std::lock_guard lock(mutex_);
         quit_ = true;
     }
+    gate_.look_again();
     wake_.notify_one();
     if (thread_.joinable()) thread_.join();
 }
@@ -53,6 +54,7 @@ void BackgroundDenoiser::want(bool wanted) {
         if (wanted_ && !wanted) unwanted_since_ = now();
         wanted_ = wanted;
     }
+    gate_.look_again();
     wake_.notify_one();
 }
 
@@ -65,6 +67,7 @@ bool BackgroundDenoiser::offer(uint64_t image, FramePtr frame) {
         newest_ = {image, std::move(frame), promised};
         newest_image_ = image;
     }
+    gate_.look_again();
     wake_.notify_one();
     return promised;
 }
@@ -75,6 +78,11 @@ std::string BackgroundDenoiser::failure() const {
 }
 
 bool BackgroundDenoiser::is_wanted(const Task& task) const { return !quit_ && wanted_ && (task.promised || newest_image_ == task.image); }
+
+bool BackgroundDenoiser::is_wanted_by_now(const Task& task) const {
+    gate_.pass([&] { return task.promised || !is_wanted(task); });
+    return is_wanted(task);
+}
 
 DenoiseOptions BackgroundDenoiser::options_for(const Task& task, DenoiseQuality quality, size_t group) const {
     DenoiseOptions options;
@@ -88,7 +96,7 @@ DenoiseOptions BackgroundDenoiser::options_for(const Task& task, DenoiseQuality 
 Result<std::vector<Denoised>> BackgroundDenoiser::denoise_all(const Task& task, DenoiseQuality quality) const {
     std::vector<Denoised> all;
     for (const DenoiseInput& input : denoise_inputs(*task.frame)) {
-        Result<std::optional<Denoised>> result = denoise_(input, options_for(task, quality, all.size()), [&] { return is_wanted(task); });
+        Result<std::optional<Denoised>> result = denoise_(input, options_for(task, quality, all.size()), [&] { return is_wanted_by_now(task); });
         if (!result) return result.error();
         if (!*result) return std::vector<Denoised>();
         all.push_back(**std::move(result));
@@ -142,9 +150,9 @@ void BackgroundDenoiser::run() {
         }
         const Task task = newest_;
         lock.unlock();
-        const double begun = now();
+        const double begun = now(), shut_before = gate_.shut_seconds();
         Outcome outcome = denoise(task, *decision.quality);
-        const double seconds = now() - begun;
+        const double seconds = now() - begun - (gate_.shut_seconds() - shut_before);
         lock.lock();
         cadence_.record(source_of(task.image, *task.frame), *decision.quality, begun, seconds, outcome.picture != nullptr);
         failure_ = std::move(outcome.failure);

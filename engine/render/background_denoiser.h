@@ -3,6 +3,7 @@
 
 #include "render/denoise_cadence.h"
 #include "render/denoised_picture.h"
+#include "render/gate.h"
 
 #include <atomic>
 #include <condition_variable>
@@ -30,7 +31,8 @@ public:
     using OnRelease = std::function<void()>;
     // An empty maker: nothing is ever denoised. Else it is called on the thread here, for the first picture and for the first one after a
     // release.
-    BackgroundDenoiser(DenoiserMaker maker, double grace_seconds, OnAnswer on_answer, OnRelease on_release);
+    // `gate`: where it waits between layers of the network while processors are left to others; somebody who waits for a picture hurries it.
+    BackgroundDenoiser(DenoiserMaker maker, double grace_seconds, Gate& gate, OnAnswer on_answer, OnRelease on_release);
     // Stops within a layer of the network, and joins.
     ~BackgroundDenoiser();
     BackgroundDenoiser(const BackgroundDenoiser&) = delete;
@@ -59,12 +61,14 @@ private:
     Result<std::vector<Denoised>> denoise_all(const Task& task, DenoiseQuality quality) const;
     Outcome denoise(const Task& task, DenoiseQuality quality);
     bool is_wanted(const Task& task) const;
+    bool is_wanted_by_now(const Task& task) const; // after waiting at the gate
 
     void release(std::unique_lock<std::mutex>& lock);
     double seconds_to_release() const;
 
     DenoiserMaker maker_;
     double grace_seconds_;
+    Gate& gate_;
     OnAnswer on_answer_;
     OnRelease on_release_;
 

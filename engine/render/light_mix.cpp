@@ -87,22 +87,18 @@ void mix_rgb(std::span<const PlaneSpan> planes, std::span<const Vec3> gains, std
             [&](size_t first, size_t count, const Sums& sums) { std::copy_n(sums.begin(), 3 * count, &rgb[3 * first]); });
 }
 
-ThinnedMix mix_thinned(std::span<const PlaneSpan> planes, std::span<const Vec3> gains, int width, int height, int step) {
-    ThinnedMix thinned{std::max(width / step, 1), std::max(height / step, 1), {}};
-    thinned.rgb.assign(3 * size_t(thinned.width) * size_t(thinned.height), 0.f);
+ThinnedPlanes thinned(std::span<const PlaneSpan> planes, int width, int height, int step) {
+    ThinnedPlanes thin{std::max(width / step, 1), std::max(height / step, 1), {}};
     const int first_x = std::min(step / 2, width - 1), first_y = std::min(step / 2, height - 1);
-    for (int row = 0; row < thinned.height; ++row)
-        for (size_t k = 0; k < planes.size(); ++k) {
-            if (gains[k] == Vec3{0, 0, 0}) continue;
-            const float* from = &planes[k][3 * (size_t(first_y + row * step) * size_t(width) + size_t(first_x))];
-            float* to = &thinned.rgb[3 * size_t(row) * size_t(thinned.width)];
-            for (int x = 0; x < thinned.width; ++x, from += 3 * step, to += 3) {
-                to[0] += gains[k].x * from[0];
-                to[1] += gains[k].y * from[1];
-                to[2] += gains[k].z * from[2];
-            }
+    for (const PlaneSpan& plane : planes) {
+        std::vector<float>& values = thin.planes.emplace_back(3 * size_t(thin.width) * size_t(thin.height));
+        float* to = values.data();
+        for (int row = 0; row < thin.height; ++row) {
+            const float* from = &plane[3 * (size_t(first_y + row * step) * size_t(width) + size_t(first_x))];
+            for (int x = 0; x < thin.width; ++x, from += 3 * step, to += 3) std::copy_n(from, 3, to);
         }
-    return thinned;
+    }
+    return thin;
 }
 
 void mix_rgba(const Frame& frame, std::span<const Vec3> gains, std::vector<float>& rgba, const Workers* workers) {

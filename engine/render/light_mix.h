@@ -19,13 +19,14 @@ std::vector<PlaneSpan> planes_of(const Frame& frame); // of its groups
 // The sum of all planes, each times its gain, width * height * 3 values. Bound by memory, not by arithmetic: 8 planes of 1280x720 take some
 // milliseconds. `workers`: shares the work; null: none.
 void mix_rgb(std::span<const PlaneSpan> planes, std::span<const Vec3> gains, std::span<float> rgb, const Workers* workers = nullptr);
-// Of every `step`-th pixel of every `step`-th row alone, from the middle of the first on: a picture of width / step by height / step
-// pixels, but at least one each way.
-struct ThinnedMix {
+// Every `step`-th pixel of every `step`-th row of some planes, from the middle of the first on: width / step by height / step pixels, but at
+// least one each way. They are mixed like whole planes, in a fraction of the time.
+struct ThinnedPlanes {
     int width = 0, height = 0;
-    std::vector<float> rgb;
+    std::vector<std::vector<float>> planes;
+    std::vector<PlaneSpan> spans() const { return {planes.begin(), planes.end()}; }
 };
-ThinnedMix mix_thinned(std::span<const PlaneSpan> planes, std::span<const Vec3> gains, int width, int height, int step);
+ThinnedPlanes thinned(std::span<const PlaneSpan> planes, int width, int height, int step);
 // Those of a frame, into its rgba's layout; alpha as in the frame. `rgba` is made as large as it must be: who keeps it spares the system
 // the making of new memory, which takes as long as the mixing.
 void mix_rgba(const Frame& frame, std::span<const Vec3> gains, std::vector<float>& rgba, const Workers* workers = nullptr);

@@ -2,6 +2,7 @@
 
 #include "render/error_cadence.h"
 #include "render/frame_pool.h"
+#include "render/gate.h"
 #include "render/renderer.h"
 #include "render/scheduler.h"
 #include "scene/changes.h"
@@ -96,6 +97,7 @@ struct RenderSession::State {
     std::atomic<uint64_t> wanted_image{0};
     std::atomic<bool> quit{false};
     std::atomic<bool> film_wanted{false}; // film_asked holds a value
+    Gate gate;                            // shut while processors are left to others
 
     // The render thread's own.
     std::optional<Renderer> renderer;
@@ -123,6 +125,7 @@ struct RenderSession::State {
     SessionStatus::State due_state() const;
     bool must_show() const { return has_scene && !has_first_image; }
     bool has_work() const { return due_state() == SessionStatus::State::rendering; }
+    bool stands_aside() const { return gate.is_shut() && has_first_image && !(pending && pending->image != current.image); }
 
     void run();
     void announce(std::optional<SessionStatus::State> passing = {});
@@ -145,7 +148,8 @@ SessionStatus::State RenderSession::State::due_state() const {
     if (!failure.empty()) return SessionStatus::State::failed;
     if (!has_scene) return SessionStatus::State::idle;
     if (scheduler.finished()) return SessionStatus::State::complete;
-    return paused && has_first_image ? SessionStatus::State::paused : SessionStatus::State::rendering;
+    if (paused && has_first_image) return SessionStatus::State::paused;
+    return stands_aside() ? SessionStatus::State::aside : SessionStatus::State::rendering;
 }
 
 // Tells the outside what state this is, or that it is passing through another one.
@@ -306,17 +310,23 @@ void RenderSession::State::work_once() {
     const Work work = scheduler.next();
     const uint64_t mine = current.image;
     const auto begin = Clock::now();
+    const double shut_before = gate.shut_seconds();
     if (current.groups && !aims_at_mix && seconds_between(current.when, begin) > rest_seconds) {
         renderer->aim_at_mix();
         aims_at_mix = true;
     }
     renderer->set_divider(work.divider);
     if (work.clear) renderer->clear();
+    const auto hurries = [&] {
+        return work.always_finish || quit.load(std::memory_order_relaxed) || film_wanted.load(std::memory_order_relaxed) ||
+               wanted_image.load(std::memory_order_relaxed) != mine;
+    };
     const bool done = renderer->render(work.first_sample, work.count, [&] {
+        gate.pass(hurries);
         return !quit.load(std::memory_order_relaxed) && (work.always_finish || film_wanted.load(std::memory_order_relaxed) || wanted_image.load(std::memory_order_relaxed) == mine);
     });
     if (!done) return;
-    const double seconds = seconds_between(begin, Clock::now());
+    const double seconds = seconds_between(begin, Clock::now()) - (gate.shut_seconds() - shut_before);
     samples_per_second = double(work.count) / (std::max(seconds, 1e-9) * work.divider * work.divider);
     scheduler.record_render(work, seconds);
     if (work.publish || scheduler.finished()) {
@@ -341,13 +351,13 @@ void RenderSession::State::run() {
         bool work = false;
         {
             std::unique_lock lock(mutex);
-            wake.wait(lock, [&] { return quit || pending || film_asked || has_work() || due_state() != status.state; });
+            wake.wait(lock, [&] { return quit || film_asked || (pending && !stands_aside()) || has_work() || due_state() != status.state; });
             if (quit) return;
             // Before the image goes that it is asked of.
             asked = std::exchange(film_asked, std::nullopt);
             film_wanted = false;
             // What was taken up is shown once before the next is looked at: else a drag faster than the updates would show nothing.
-            if (!asked && !must_show()) taken.swap(pending);
+            if (!asked && !must_show() && !stands_aside()) taken.swap(pending);
             work = has_work();
         }
         try {
@@ -369,7 +379,7 @@ RenderSession::RenderSession(const SessionOptions& options, std::function<void()
     state_->options = options;
     state_->on_frame = on_frame ? std::move(on_frame) : [] {};
     state_->denoiser = std::make_unique<BackgroundDenoiser>(
-        options.denoiser, options.denoiser_grace,
+        options.denoiser, options.denoiser_grace, state_->gate,
         [s = state_.get()](uint64_t image, const FramePtr& source, DenoisedPtr denoised) {
             s->take_denoised(image, source, std::move(denoised));
         },
@@ -382,6 +392,7 @@ RenderSession::~RenderSession() {
         const std::lock_guard lock(state_->mutex);
         state_->quit = true;
     }
+    state_->gate.look_again();
     state_->wake.notify_one();
     state_->thread.join();
 }
@@ -400,6 +411,7 @@ bool RenderSession::submit(uint64_t revision, const Scene& scene, const RenderSe
         next->film = std::move(film);
         s.pending.swap(next);
     }
+    s.gate.look_again();
     s.wake.notify_one();
     return goes_on;
 }
@@ -410,6 +422,7 @@ void RenderSession::keep_film(uint64_t revision) {
         state_->film_asked = revision;
         state_->film_wanted = true;
     }
+    state_->gate.look_again();
     state_->wake.notify_one();
 }
 
@@ -426,6 +439,15 @@ void RenderSession::pause(bool paused) {
     state_->wake.notify_one();
 }
 
+void RenderSession::stand_aside(bool aside) {
+    if (aside) return state_->gate.shut();
+    {
+        const std::lock_guard lock(state_->mutex); // the thread is not between asking and sleeping
+        state_->gate.open();
+    }
+    state_->wake.notify_one();
+}
+
 void RenderSession::want_denoised(bool wanted) {
     state_->denoiser->want(wanted);
     if (wanted) return;
@@ -437,7 +459,9 @@ Pictures RenderSession::pictures() const { return state_->look(); }
 
 SessionStatus RenderSession::status() const {
     const std::lock_guard lock(state_->mutex);
-    return state_->status;
+    SessionStatus status = state_->status;
+    if (status.state == SessionStatus::State::rendering && state_->gate.holds_anyone()) status.state = SessionStatus::State::aside;
+    return status;
 }
 
 } // namespace blush

@@ -26,7 +26,7 @@ struct SessionOptions {
 };
 
 struct SessionStatus {
-    enum class State { idle, updating, rendering, paused, complete, failed };
+    enum class State { idle, updating, rendering, aside, paused, complete, failed };
     State state = State::idle;
     uint64_t revision = 0;                               // the last one taken up
     double progress = 0;                                 // towards the nearest stop rule, 0 .. 1; 1 only when reached
@@ -69,6 +69,10 @@ public:
     std::optional<KeptFilm> take_kept_film();
     // A paused session still shows the first image of what is submitted, then waits.
     void pause(bool paused);
+    // While true, the processors are left to whoever asks: nothing is begun for an image that has been shown, and what was begun waits at the
+    // next tile, or layer of the denoiser's network. It goes on from there; that time does not count as spent rendering. What is submitted
+    // of the same image waits as well; another image, and films that are asked for, do not. Never blocks.
+    void stand_aside(bool aside);
     // Whether denoised pictures are made, beside the frames and at a tenth of their cost (denoise_cadence.h). Never blocks, and resets
     // nothing: those that there are stay when no more are wanted.
     void want_denoised(bool wanted);

@@ -124,6 +124,25 @@ TEST(FramePace, ThePictureGetsWhatTheRestOfAFrameLeaves) {
     EXPECT_LT(later, 19) << "but not at once";
 }
 
+TEST(FrameStats, CountsWhatIsShownInTheFrameThatItWasAskedForIn) {
+    FrameStats stats;
+    const FrameStats::Clock::time_point start{};
+    stats.submitted(1, start);
+    stats.shown(1, start + 10ms);
+    stats.end_frame();
+    stats.submitted(2, start + 20ms);
+    stats.end_frame();
+    stats.shown(2, start + 40ms);
+    stats.end_frame();
+    const std::filesystem::path file = std::filesystem::temp_directory_path() / "blush_frame_stats_at_once.json";
+    ASSERT_TRUE(stats.write(file));
+    std::ifstream in(file);
+    const auto json = nlohmann::json::parse(in);
+    std::filesystem::remove(file);
+    EXPECT_EQ(json["edits"], 2);
+    EXPECT_EQ(json["edits_at_once"], 1);
+}
+
 TEST(FrameStats, SaysWhenFramesWereLateAndWhereTheirTimeWent) {
     FrameStats stats;
     const FrameStats::Clock::time_point start{};

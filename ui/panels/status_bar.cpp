@@ -15,6 +15,7 @@ const char* state_name(SessionStatus::State state) {
     case SessionStatus::State::idle: return "Idle";
     case SessionStatus::State::updating: return "Updating";
     case SessionStatus::State::rendering: return "Rendering";
+    case SessionStatus::State::aside: return "Mixing";
     case SessionStatus::State::paused: return "Paused";
     case SessionStatus::State::complete: return "Complete";
     case SessionStatus::State::failed: return "Failed";
@@ -100,7 +101,7 @@ void draw_status_bar(PanelContext& c) {
     float x = ImGui::GetStyle().WindowPadding.x;
     ImGui::SetCursorPos({x, (ImGui::GetWindowHeight() - ImGui::GetTextLineHeight()) / 2});
     ImGui::Dummy({0, 0});
-    cell(c, x, 6, state_name(c.status.state), "What the render thread does. Complete, it sleeps.", failed ? tone::failure : tone::text);
+    cell(c, x, 6, state_name(c.status.state), "What the render thread does. Complete, it sleeps; while lights are being mixed it stands still.", failed ? tone::failure : tone::text);
     if (failed)
         cell(c, x, 30, c.status.message, "", tone::failure);
     else if (c.frame)

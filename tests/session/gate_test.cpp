@@ -1,0 +1,159 @@
+// Work that waits while the processors are left to whoever needs them, and a session that does.
+#include "render/gate.h"
+
+#include "session/watched_session.h"
+#include "support/pictures.h"
+#include "support/sample_project.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+namespace blush {
+namespace {
+
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+using State = SessionStatus::State;
+using test::Event;
+using test::WatchedSession;
+
+const auto at_leisure = [] { return false; };
+
+TEST(Gate, HoldsWhoeverComesUntilItOpens) {
+    Gate gate;
+    gate.pass(at_leisure);
+    gate.shut();
+    std::atomic<bool> opened{false}, early{false};
+    std::thread worker([&] {
+        gate.pass(at_leisure);
+        early = !opened;
+    });
+    while (!gate.holds_anyone()) std::this_thread::yield();
+    opened = true;
+    gate.open();
+    worker.join();
+    EXPECT_FALSE(early);
+    EXPECT_FALSE(gate.holds_anyone());
+}
+
+TEST(Gate, LetsThroughWhoeverHurries) {
+    Gate gate;
+    gate.shut();
+    gate.pass([] { return true; });
+    std::atomic<bool> hurries{false};
+    std::thread worker([&] { gate.pass([&] { return hurries.load(); }); });
+    while (!gate.holds_anyone()) std::this_thread::yield();
+    hurries = true;
+    gate.look_again();
+    worker.join();
+    EXPECT_TRUE(gate.is_shut());
+}
+
+TEST(Gate, KnowsHowLongItWasShut) {
+    Gate gate;
+    EXPECT_EQ(gate.shut_seconds(), 0);
+    gate.shut();
+    gate.shut();
+    std::this_thread::sleep_for(20ms);
+    EXPECT_GE(gate.shut_seconds(), 0.02);
+    gate.open();
+    gate.open();
+    const double shut = gate.shut_seconds();
+    std::this_thread::sleep_for(5ms);
+    EXPECT_EQ(gate.shut_seconds(), shut);
+}
+
+Project project_of(int width, int height, int64_t spp) {
+    Project project = test::sample_project().project;
+    project.render.width = width;
+    project.render.height = height;
+    project.render.spp = spp;
+    return project;
+}
+
+// Stands aside at the first picture of so many samples.
+auto aside_after(int64_t samples) {
+    return [samples, done = false](RenderSession& session, const Event& event) mutable {
+        if (done || !event.frame || event.frame->samples < samples) return;
+        done = true;
+        session.stand_aside(true);
+    };
+}
+
+TEST(StandingAside, GoesOnFromTheSameSamples) {
+    Project project = project_of(32, 24, 64);
+    WatchedSession session(2, aside_after(4));
+    session->submit(1, project.scene, project.render);
+    const Event aside = session.wait_for(1, State::aside);
+    ASSERT_TRUE(aside.frame);
+    EXPECT_LT(aside.frame->samples, 64);
+    // More of the same image waits as well.
+    project.render.spp = 80;
+    EXPECT_TRUE(session->submit(2, project.scene, project.render));
+    const size_t before = session.events().size();
+    EXPECT_EQ(session->status().state, State::aside);
+    session->stand_aside(false);
+    const Event done = session.wait_for(2, State::complete);
+    ASSERT_TRUE(done.frame);
+    EXPECT_EQ(done.frame->samples, 80);
+    EXPECT_EQ(done.frame->rgba, test::fresh_picture(project.scene, project.render, 80).rgba);
+    EXPECT_NE(session.events()[before].status.state, State::aside) << "nothing was announced until it went on";
+}
+
+TEST(StandingAside, IsNotForAnotherImage) {
+    Project project = project_of(32, 24, 8);
+    WatchedSession session(2, aside_after(1));
+    session->submit(1, project.scene, project.render);
+    session.wait_for(1, State::aside);
+    project.scene.view.position.x += 0.1f;
+    session->submit(2, project.scene, project.render);
+    const Event other = session.wait_for([](const Event& e) { return e.frame && e.frame->revision == 2; });
+    EXPECT_TRUE(other.frame) << "its first picture is there all the same";
+}
+
+TEST(StandingAside, KeepsFilmsAllTheSame) {
+    const Project project = project_of(32, 24, 64);
+    WatchedSession session(2, aside_after(4));
+    session->submit(1, project.scene, project.render);
+    session.wait_for(1, State::aside);
+    session->keep_film(1);
+    std::optional<KeptFilm> kept;
+    session.wait_for([&](const Event&) {
+        if (!kept) kept = session->take_kept_film();
+        return kept.has_value();
+    });
+    ASSERT_TRUE(kept);
+    EXPECT_TRUE(kept->film) << kept->why_none;
+}
+
+TEST(StandingAside, DoesNotCountAsRendering) {
+    const Project project = project_of(480, 360, 12);
+    WatchedSession session;
+    const auto begin = Clock::now();
+    session->submit(1, project.scene, project.render);
+    session.wait_for([](const Event& e) { return e.frame && e.frame->divider == 1; });
+    session->stand_aside(true);
+    const auto shut = Clock::now();
+    std::this_thread::sleep_for(1500ms);
+    const std::chrono::duration<double> aside = Clock::now() - shut;
+    session->stand_aside(false);
+    const Event done = session.wait_for(1, State::complete);
+    const std::chrono::duration<double> whole = Clock::now() - begin;
+    ASSERT_TRUE(done.frame);
+    EXPECT_LT(done.frame->seconds, whole.count() - aside.count());
+}
+
+TEST(StandingAside, EndsInTheMiddle) {
+    const Project project = project_of(480, 360, 1 << 20);
+    WatchedSession session;
+    session->submit(1, project.scene, project.render);
+    session.wait_for([](const Event& e) { return e.frame && e.frame->divider == 1; });
+    session->stand_aside(true);
+    while (session->status().state != State::aside) std::this_thread::yield();
+    session.shut_down();
+}
+
+} // namespace
+} // namespace blush
