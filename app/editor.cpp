@@ -274,14 +274,10 @@ void Editor::draw_on_top(PanelContext& c) {
     draw_import_report(c);
     draw_shortcut_sheet(c);
     draw_file_browser(c);
-    if (const auto job = files_.running()) {
-        ui_.next_frame_in = std::min(ui_.next_frame_in, 0.1);
-        if (draw_progress(c, *job)) files_.cancel();
-    } else if (const auto other = snapshots_.running()) {
-        ui_.next_frame_in = std::min(ui_.next_frame_in, 0.1);
-        draw_progress(c, *other);
-    }
-    draw_toasts(c);
+    const auto opening = files_.running(), other = snapshots_.running();
+    const RunningJob* const job = opening ? &*opening : other ? &*other : nullptr;
+    if (job) ui_.next_frame_in = std::min(ui_.next_frame_in, 0.1);
+    if (draw_cards(c, job) && opening) files_.cancel();
     draw_question(c);
 }
 

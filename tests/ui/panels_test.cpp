@@ -9,6 +9,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <imgui_internal.h>
 #include <iterator>
 #include <limits>
 
@@ -47,7 +48,7 @@ protected:
                     draw_scopes_panel(c, {});
                     draw_convergence_panel(c);
                     draw_shortcut_sheet(c);
-                    draw_toasts(c);
+                    draw_cards(c, nullptr);
                 });
             }
         }
@@ -57,6 +58,28 @@ protected:
     UiState ui;
     FramePtr frame;
 };
+
+// Some frames, until all cards know how large they are.
+TEST_F(Panels, CardsLieOneAboveTheOther) {
+    Document document;
+    ui.toasts.fail(std::string(200, 'w'), std::string(400, 'd'));
+    ui.toasts.note("short");
+    const RunningJob job{.title = "Opening a scene", .what = std::string(40, 'x'), .fraction = 0.5, .can_cancel = true};
+    for (int i = 0; i < 3; ++i)
+        in_window([&] {
+            PanelContext c{document, ui, color, frame, SessionStatus(), 640, 480};
+            EXPECT_FALSE(draw_cards(c, &job));
+        });
+    const ImGuiWindow* cards[] = {ImGui::FindWindowByName("##toast0"), ImGui::FindWindowByName("##toast1"), ImGui::FindWindowByName("##job")};
+    for (const ImGuiWindow* card : cards) {
+        ASSERT_TRUE(card);
+        EXPECT_GT(card->Size.y, 10);
+        EXPECT_GE(card->Pos.y, 0);
+        EXPECT_FLOAT_EQ(card->Pos.x + card->Size.x, cards[2]->Pos.x + cards[2]->Size.x);
+    }
+    EXPECT_LE(cards[0]->Pos.y + cards[0]->Size.y, cards[1]->Pos.y);
+    EXPECT_LE(cards[1]->Pos.y + cards[1]->Size.y, cards[2]->Pos.y);
+}
 
 // One of everything, twice: as it comes, and with values at the ends of what the panels' sliders reach and beyond.
 Project with_odd_values(Project project) {

@@ -48,7 +48,6 @@ void draw_roulette_panel(PanelContext& c);
 void draw_light_table(PanelContext& c);
 void draw_convergence_panel(PanelContext& c);
 void draw_question(PanelContext& c);
-void draw_toasts(PanelContext& c);
 
 // A job that goes on in the background.
 struct RunningJob {
@@ -56,7 +55,7 @@ struct RunningJob {
     double fraction = 0;
     bool can_cancel = false;
 };
-// True if the user presses Cancel.
-bool draw_progress(const PanelContext& c, const RunningJob& job);
+// Toasts, one above the other, and below them the job that goes on; null: none does. True if its Cancel is pressed.
+bool draw_cards(PanelContext& c, const RunningJob* job);
 
 } // namespace blush

@@ -50,37 +50,15 @@ void draw_texts(const Toast& toast) {
     ImGui::PopTextWrapPos();
 }
 
-} // namespace
-
-void draw_toasts(PanelContext& c) {
-    const auto now = std::chrono::steady_clock::now();
-    c.ui.toasts.expire(now);
-    const float em = ImGui::GetFontSize();
-    const float right = ImGui::GetIO().DisplaySize.x - c.ui.settings.splitters.inspector * em - em;
-    float bottom = cards_bottom(c);
-    std::optional<size_t> dismissed;
-    const std::vector<Toast>& toasts = c.ui.toasts.all();
-    for (size_t i = toasts.size(); i-- > 0;) {
-        const Toast& toast = toasts[i];
-        const std::chrono::duration<double> left = toast.since + lifetime(toast) - now;
-        c.ui.next_frame_in = std::min(c.ui.next_frame_in, std::max(left.count(), 0.0));
-        begin_card(("##toast" + std::to_string(i)).c_str(), right, bottom, edge_of(toast.kind));
-        if (ImGui::IsWindowAppearing()) c.ui.next_frame_in = 0; // it is seen in the frame after the one that finds out how large it is
-        draw_texts(toast);
-        if (toast.action && ImGui::Button(shortcut(*toast.action).name)) {
-            c.ui.commands.push_back(*toast.action);
-            dismissed = i;
-        }
-        if (ImGui::IsWindowHovered() && ImGui::IsMouseClicked(ImGuiMouseButton_Left) && !ImGui::IsAnyItemHovered()) dismissed = i;
-        bottom = end_card() - em / 2;
-    }
-    if (dismissed) c.ui.toasts.dismiss(*dismissed);
+// Where a card's right edge is: at the inspector.
+float cards_right(const PanelContext& c) {
+    return ImGui::GetIO().DisplaySize.x - (c.ui.settings.splitters.inspector + 1) * ImGui::GetFontSize();
 }
 
-bool draw_progress(const PanelContext& c, const RunningJob& job) {
+// Each draws cards from `bottom` upwards, and leaves there where the next one ends.
+bool draw_job(const PanelContext& c, const RunningJob& job, float& bottom) {
     const float em = ImGui::GetFontSize();
-    const ImVec2 screen = ImGui::GetIO().DisplaySize;
-    begin_card("##job", screen.x / 2 + em * 12, cards_bottom(c), IM_COL32(90, 90, 90, 255));
+    begin_card("##job", cards_right(c), bottom, IM_COL32(90, 90, 90, 255));
     ImGui::TextUnformatted(job.title.c_str());
     ImGui::ProgressBar(float(job.fraction), {em * 18, em / 2}, "");
     bool cancelled = false;
@@ -90,7 +68,38 @@ bool draw_progress(const PanelContext& c, const RunningJob& job) {
         c.ui.probe.record_last_item("Job/Cancel");
     }
     if (!job.what.empty()) ImGui::TextDisabled("%s", job.what.c_str());
-    end_card();
+    bottom = end_card() - em / 2;
+    return cancelled;
+}
+
+void draw_toasts(PanelContext& c, float& bottom) {
+    const auto now = std::chrono::steady_clock::now();
+    c.ui.toasts.expire(now);
+    std::optional<size_t> dismissed;
+    const std::vector<Toast>& toasts = c.ui.toasts.all();
+    for (size_t i = toasts.size(); i-- > 0;) {
+        const Toast& toast = toasts[i];
+        const std::chrono::duration<double> left = toast.since + lifetime(toast) - now;
+        c.ui.next_frame_in = std::min(c.ui.next_frame_in, std::max(left.count(), 0.0));
+        begin_card(("##toast" + std::to_string(i)).c_str(), cards_right(c), bottom, edge_of(toast.kind));
+        if (ImGui::IsWindowAppearing()) c.ui.next_frame_in = 0; // it is seen in the frame after the one that finds out how large it is
+        draw_texts(toast);
+        if (toast.action && ImGui::Button(shortcut(*toast.action).name)) {
+            c.ui.commands.push_back(*toast.action);
+            dismissed = i;
+        }
+        if (ImGui::IsWindowHovered() && ImGui::IsMouseClicked(ImGuiMouseButton_Left) && !ImGui::IsAnyItemHovered()) dismissed = i;
+        bottom = end_card() - ImGui::GetFontSize() / 2;
+    }
+    if (dismissed) c.ui.toasts.dismiss(*dismissed);
+}
+
+} // namespace
+
+bool draw_cards(PanelContext& c, const RunningJob* job) {
+    float bottom = cards_bottom(c);
+    const bool cancelled = job && draw_job(c, *job, bottom);
+    draw_toasts(c, bottom);
     return cancelled;
 }
 
