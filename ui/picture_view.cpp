@@ -113,10 +113,14 @@ std::vector<float> with_coverage(const Frame& frame, std::vector<float> rgba) {
     return rgba;
 }
 
+bool is_mixed(std::span<const Vec3> gains) {
+    return !std::ranges::all_of(gains, [](const Vec3& g) { return g == Vec3{1, 1, 1}; });
+}
+
 std::string caption_of(const Frame& frame, const PictureView& view) {
     const Range range = range_of(frame, view.show);
     switch (view.show) {
-    case Show::bounces: return bounces_caption(view.gains);
+    case Show::bounces: return bounces_caption(view.gains) + (is_mixed(frame.gains) ? ", in the light from before the light mix" : "");
     case Show::dropped:
         if (frame.health.dropped_map.empty()) return "Dropped samples: none";
         return fmt::format("Dropped samples: black 0, white {:.0f} in a pixel", range.high);

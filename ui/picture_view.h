@@ -4,6 +4,7 @@
 
 #include "render/frame.h"
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,8 @@ bool is_map(const PictureView& view);
 std::vector<float> pixels_of(const Frame& frame, const PictureView& view);
 // `rgba`, a picture of the frame's, its alpha the coverage by objects (coverage.h).
 std::vector<float> with_coverage(const Frame& frame, std::vector<float> rgba);
+// Are lights brighter or darker than the planes of bounces know, which are not mixed?
+bool is_mixed(std::span<const Vec3> gains);
 // Says what a special view shows and that it is not the picture, in one line.
 std::string caption_of(const Frame& frame, const PictureView& view);
 

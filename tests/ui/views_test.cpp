@@ -51,13 +51,17 @@ TEST(BouncesView, ShowsThePictureWhenAllOfItIsThere) {
 }
 
 TEST(BouncesView, SaysThatItIsNotThePicture) {
-    const Frame f = frame_with_bounces();
+    Frame f = frame_with_bounces();
     EXPECT_EQ(caption_of(f, picture_view(view_of(Mode::single, 1), 3)), "Bounce 1 alone: not the whole picture");
     EXPECT_EQ(caption_of(f, picture_view(view_of(Mode::indirect), 3)), "Bounce 2+ alone: not the whole picture");
     EXPECT_EQ(caption_of(f, picture_view(view_of(Mode::direct), 3)), "Bounces 0, 1 alone: not the whole picture");
     BouncesView gains = view_of(Mode::gains);
     gains.gains = {1, 1, 1.5f};
     EXPECT_EQ(caption_of(f, picture_view(gains, 3)), "Bounces with gains: not the picture");
+    f.gains = {{1, 1, 1}, {1, 1, 1}};
+    EXPECT_EQ(caption_of(f, picture_view(gains, 3)), "Bounces with gains: not the picture");
+    f.gains[1] = {1, 0, 1};
+    EXPECT_EQ(caption_of(f, picture_view(gains, 3)), "Bounces with gains: not the picture, in the light from before the light mix");
 }
 
 TEST(BouncesView, PlaysInSequenceAndStartsOver) {

@@ -50,7 +50,7 @@ void draw_energy(PanelContext& c, BouncesView& view, const std::vector<BounceEne
         view.bounce = clicked;
         view.playing = false;
     }
-    if (c.frame->gains != Gains(c.frame->gains.size(), Vec3{1, 1, 1}))
+    if (is_mixed(c.mixing ? c.mixing->gains : c.frame->gains))
         quiet_text("The bounces show the light as it was before the light mix.");
     quiet_text(fmt::format("Direct {:.1f} %, indirect {:.1f} % of the picture's light.", 100 * direct, 100 * (1 - direct)));
 }
