@@ -38,7 +38,12 @@ OrderedJson metrics_json(const Metrics& m) {
     json["relmse"] = m.relmse;
     json["mae"] = m.mae;
     json["psnr"] = m.psnr; // null for equal images
-    json["flip"] = m.flip;
+    json["flip"] = m.flip.mean;
+    json["flip_quartile_1"] = m.flip.first_quartile;
+    json["flip_median"] = m.flip.median;
+    json["flip_quartile_3"] = m.flip.third_quartile;
+    json["flip_max"] = m.flip.largest;
+    json["flip_above_0.1_percent"] = 100 * m.flip.share_noticeable;
     json["mean_a"] = m.mean_a;
     json["mean_b"] = m.mean_b;
     json["max_abs"] = m.max_abs;
@@ -57,7 +62,12 @@ void print_table(const Metrics& m) {
     row("relmse", m.relmse);
     row("mae", m.mae);
     row("psnr", m.psnr);
-    row("flip", m.flip);
+    row("flip", m.flip.mean);
+    row("  quartile_1", m.flip.first_quartile);
+    row("  median", m.flip.median);
+    row("  quartile_3", m.flip.third_quartile);
+    row("  max", m.flip.largest);
+    row("  % over 0.1", 100 * m.flip.share_noticeable);
     color("mean_a", m.mean_a);
     color("mean_b", m.mean_b);
     row("max_abs", m.max_abs);

@@ -127,7 +127,7 @@ std::string variant_row(const VariantResult& v, size_t index) {
                        "<td>{:.3g}</td><td>{}</td><td>{}</td><td>{}</td>{}</tr>\n",
                        plot_color(index), escaped_markup(v.variant.name), escaped_markup(v.variant.options), p.spp, p.seconds,
                        p.metrics.rmse, p.reference_clearly_better ? "" : "<small>no more than the reference's</small>", p.metrics.relmse,
-                       flip == v.points.rend() ? std::string("–") : fmt::format("{:.3g}", flip->metrics.flip),
+                       flip == v.points.rend() ? std::string("–") : fmt::format("{:.3g}", flip->metrics.flip.mean),
                        with_interval(v.over_seconds.slope), with_interval(v.efficiency), bias_cell(v));
 }
 

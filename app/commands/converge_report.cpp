@@ -19,7 +19,7 @@ OrderedJson point_json(const MeasuredPoint& p) {
             {"spp", p.spp},
             {"mse", p.metrics.mse},
             {"relmse", p.metrics.relmse},
-            {"flip", if_known(p.has_flip, p.metrics.flip)},
+            {"flip", if_known(p.has_flip, p.metrics.flip.mean)},
             {"mean", p.metrics.mean_a},
             {"reference_clearly_better", p.reference_clearly_better}};
 }
@@ -95,7 +95,7 @@ std::string converge_csv(const ConvergeReport& report) {
         for (const MeasuredPoint& p : v.points) {
             const Metrics& m = p.metrics;
             csv += fmt::format("{},{:.6g},{},{:.8g},{:.8g},{},{:.8g},{:.8g},{:.8g},{}\n", csv_field(v.variant.name), p.seconds, p.spp,
-                               m.mse, m.relmse, p.has_flip ? fmt::format("{:.6g}", m.flip) : std::string(), m.mean_a[0], m.mean_a[1],
+                               m.mse, m.relmse, p.has_flip ? fmt::format("{:.6g}", m.flip.mean) : std::string(), m.mean_a[0], m.mean_a[1],
                                m.mean_a[2], p.repeat);
         }
     }

@@ -228,4 +228,21 @@ std::vector<float> hdr_flip(const RgbImage& reference, const RgbImage& test) {
     return largest;
 }
 
+FlipNumbers flip_numbers(std::span<const float> map) {
+    FlipNumbers n;
+    if (map.empty()) return n;
+    std::vector<float> sorted(map.begin(), map.end());
+    std::ranges::sort(sorted);
+    const double sum = std::accumulate(sorted.begin(), sorted.end(), 0.0), count = double(sorted.size());
+    n.mean = sum / count;
+    n.largest = sorted.back();
+    n.share_noticeable = double(sorted.end() - std::ranges::upper_bound(sorted, FlipNumbers::noticeable)) / count;
+    double below = 0;
+    size_t next = 0;
+    double* const quartiles[] = {&n.first_quartile, &n.median, &n.third_quartile};
+    for (const float value : sorted)
+        for (below += value; next < 3 && value > 0 && below >= 0.25 * double(next + 1) * sum; ++next) *quartiles[next] = value;
+    return n;
+}
+
 } // namespace blush

@@ -7,6 +7,7 @@
 
 #include "measure/rgb_image.h"
 
+#include <span>
 #include <vector>
 
 namespace blush {
@@ -17,6 +18,17 @@ std::vector<float> ldr_flip(const RgbImage& reference, const RgbImage& test);
 // The largest LDR-FLIP over exposures from where the reference's brightest pixel is just below white to where its median is, a stop or less
 // apart, tone mapped by the ACES curve. Images of the same size, finite, scene-linear; negative values count as 0.
 std::vector<float> hdr_flip(const RgbImage& reference, const RgbImage& test);
+
+// A map in numbers, as the papers' own tool gives them: quartiles are weighted, each value by itself, so that the many pixels without a
+// difference do not hide the others.
+struct FlipNumbers {
+    static constexpr float noticeable = 0.1f;
+    double mean = 0;
+    double first_quartile = 0, median = 0, third_quartile = 0; // a quarter, half, three quarters of the map's sum is in values up to this one
+    double largest = 0;
+    double share_noticeable = 0; // of pixels above `noticeable`, 0 .. 1
+};
+FlipNumbers flip_numbers(std::span<const float> map);
 
 // The exposures that hdr_flip uses, in stops.
 struct ExposureRange {

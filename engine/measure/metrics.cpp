@@ -1,7 +1,6 @@
 #include "measure/metrics.h"
 
 #include "core/srgb.h"
-#include "measure/flip.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -78,16 +77,12 @@ Sums sum_rows(RgbImage& a, RgbImage& b, Encoding encoding, std::vector<uint8_t>&
     return sums;
 }
 
-double mean_flip(const RgbImage& a, const RgbImage& b, Encoding encoding, const std::vector<uint8_t>& left_out) {
-    const std::vector<float> map = encoding == Encoding::display ? ldr_flip(b, a) : hdr_flip(b, a);
-    double sum = 0;
-    int64_t count = 0;
-    for (size_t i = 0; i < map.size(); ++i) {
-        if (left_out[i]) continue;
-        sum += map[i];
-        ++count;
-    }
-    return sum / double(count);
+FlipNumbers measured_flip(const RgbImage& a, const RgbImage& b, Encoding encoding, const std::vector<uint8_t>& left_out) {
+    std::vector<float> map = encoding == Encoding::display ? ldr_flip(b, a) : hdr_flip(b, a);
+    size_t kept = 0;
+    for (size_t i = 0; i < map.size(); ++i)
+        if (!left_out[i]) map[kept++] = map[i];
+    return flip_numbers({map.data(), kept});
 }
 
 } // namespace
@@ -116,7 +111,7 @@ Result<Metrics> compare(const RgbImage& a, const RgbImage& b, Encoding encoding,
     }
     m.nonfinite_a = sums.nonfinite_a;
     m.nonfinite_b = sums.nonfinite_b;
-    if (with_flip) m.flip = mean_flip(clean_a, clean_b, encoding, left_out);
+    if (with_flip) m.flip = measured_flip(clean_a, clean_b, encoding, left_out);
     return m;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/result.h"
+#include "measure/flip.h"
 #include "measure/rgb_image.h"
 
 #include <array>
@@ -22,13 +23,13 @@ struct Metrics {
     double relmse = 0; // mean of (a - b)^2 / (b^2 + 0.01)
     double mae = 0;    // mean of |a - b|
     double psnr = 0;   // dB; infinite for equal images
-    double flip = 0;   // mean of the FLIP map, 0 .. 1 (flip.h)
+    FlipNumbers flip;  // of the FLIP map
     double max_abs = 0;
     std::array<double, 3> mean_a{}, mean_b{};
     int64_t nonfinite_a = 0, nonfinite_b = 0; // pixels
 };
 
-// `b` is the reference. FLIP takes far longer than the rest: without it, it stays 0. Errors: sizes differ, no pixel is finite in both.
+// `b` is the reference. FLIP takes far longer than the rest: without it, its numbers stay 0. Errors: sizes differ, no pixel is finite in both.
 Result<Metrics> compare(const RgbImage& a, const RgbImage& b, Encoding encoding, bool with_flip = true);
 
 } // namespace blush

@@ -138,9 +138,9 @@ TEST(Differences, AreWhatTheySay) {
     q.kind = DifferenceKind::flip;
     const Difference flip = difference_of(q);
     EXPECT_TRUE(flip.has_flip);
-    EXPECT_GT(flip.numbers.flip, 0.1);
+    EXPECT_GT(flip.numbers.flip.mean, 0.1);
     q.a = q.b;
-    EXPECT_EQ(difference_of(q).numbers.flip, 0);
+    EXPECT_EQ(difference_of(q).numbers.flip.mean, 0);
     q.kind = DifferenceKind::relative;
     EXPECT_EQ(difference_of(q).rgba[0], 0) << "black where they are equal";
     q.a = plain_frame(16, 8, 3);

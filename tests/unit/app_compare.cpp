@@ -23,9 +23,10 @@ TEST(CompareCommand, AnImageEqualsItself) {
     const TemporaryFolder folder;
     write_constant_exr(folder / "a.exr", 16, 8, {0.2f, 0.5f, 3});
     const Json json = blush_json({"compare", folder / "a.exr", folder / "a.exr"});
-    EXPECT_EQ(test::keys_of(json), (std::vector<std::string>{"flip", "mae", "max_abs", "mean_a", "mean_b", "mse", "nonfinite_a",
+    EXPECT_EQ(test::keys_of(json), (std::vector<std::string>{"flip", "flip_above_0.1_percent", "flip_max", "flip_median", "flip_quartile_1",
+                                                             "flip_quartile_3", "mae", "max_abs", "mean_a", "mean_b", "mse", "nonfinite_a",
                                                              "nonfinite_b", "psnr", "relmse", "rmse"}));
-    for (const char* key : {"mse", "rmse", "relmse", "mae", "flip", "max_abs"}) EXPECT_EQ(json[key], 0.0) << key;
+    for (const char* key : {"mse", "rmse", "relmse", "mae", "flip", "flip_median", "flip_max", "flip_above_0.1_percent", "max_abs"}) EXPECT_EQ(json[key], 0.0) << key;
     EXPECT_TRUE(json["psnr"].is_null()) << "infinite";
     EXPECT_NEAR(json["mean_a"][2].get<double>(), 3, 1e-6);
 }
@@ -41,6 +42,8 @@ TEST(CompareCommand, TheTableSaysTheSame) {
     EXPECT_EQ(json["mse"], 0.25);
     EXPECT_NEAR(json["relmse"].get<double>(), 0.25 / 0.26, 1e-12);
     EXPECT_GT(json["flip"], 0);
+    EXPECT_NEAR(json["flip_median"].get<double>(), json["flip"].get<double>(), 1e-6) << "it is the same everywhere";
+    EXPECT_EQ(json["flip_above_0.1_percent"], 100.0);
     EXPECT_EQ(test::blush({"compare", folder / "a.exr", folder / "b.exr", "--quiet"}).out, "");
 }
 

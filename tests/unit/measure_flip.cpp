@@ -265,5 +265,33 @@ TEST(HdrFlip, BlackPicturesAreNoTrouble) {
     EXPECT_TRUE(std::isfinite(mean(hdr_flip(black, mostly_black))));
 }
 
+TEST(FlipNumbers, QuartilesAreOfTheSumAndNotOfThePixels) {
+    // 90 pixels of nothing, 8 of 0.05, 1 of 0.25, 1 of 0.6: the sum is 1.25.
+    std::vector<float> map(90, 0.f);
+    map.insert(map.begin() + 40, 8, 0.05f);
+    map.insert(map.begin() + 3, 0.6f);
+    map.push_back(0.25f);
+    const FlipNumbers n = flip_numbers(map);
+    EXPECT_NEAR(n.mean, 0.0125, 1e-7);
+    EXPECT_FLOAT_EQ(float(n.first_quartile), 0.05f);
+    EXPECT_FLOAT_EQ(float(n.median), 0.25f) << "0.4 of 1.25 below, 0.65 of it up to this";
+    EXPECT_FLOAT_EQ(float(n.third_quartile), 0.6f);
+    EXPECT_FLOAT_EQ(float(n.largest), 0.6f);
+    EXPECT_NEAR(n.share_noticeable, 0.02, 1e-12);
+}
+
+TEST(FlipNumbers, OfNoDifferenceAreZero) {
+    for (const std::vector<float>& map : {std::vector<float>(), std::vector<float>(12, 0.f)}) {
+        const FlipNumbers n = flip_numbers(map);
+        for (const double value : {n.mean, n.first_quartile, n.median, n.third_quartile, n.largest, n.share_noticeable}) EXPECT_EQ(value, 0);
+    }
+}
+
+TEST(FlipNumbers, WhatIsTheSameEverywhereIsEveryQuartile) {
+    const FlipNumbers n = flip_numbers(std::vector<float>(1000, 0.3f));
+    for (const double value : {n.mean, n.first_quartile, n.median, n.third_quartile, n.largest}) EXPECT_NEAR(value, 0.3, 1e-6);
+    EXPECT_EQ(n.share_noticeable, 1);
+}
+
 } // namespace
 } // namespace blush

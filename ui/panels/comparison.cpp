@@ -39,7 +39,15 @@ void draw_numbers(PanelContext& c, Fields& f, const Difference& d) {
     f.info("PSNR", std::isfinite(m.psnr) ? fmt::format("{:.1f} dB", m.psnr) : "equal", "Of the sRGB encoding of values clamped to 0 .. 1.");
     f.info("A is brighter by", stops(m.mean_a, m.mean_b), "Ratio of the means of all channels, in stops.");
     c.ui.probe.record_last_item(std::string("Compare/Numbers/") + (d.has_flip ? "FLIP" : "difference"));
-    if (d.has_flip) f.info("FLIP", fmt::format("{:.4f}", m.flip), "Mean HDR-FLIP: 0 nobody sees a difference, 1 as far apart as can be.");
+    if (!d.has_flip) return;
+    const FlipNumbers& flip = m.flip;
+    f.info("FLIP", fmt::format("{:.4f}", flip.mean), "Mean HDR-FLIP: 0 nobody sees a difference, 1 as far apart as can be.");
+    f.info("Quartiles", fmt::format("{:.3f}  {:.3f}  {:.3f}", flip.first_quartile, flip.median, flip.third_quartile),
+           "A quarter, half (the weighted median) and three quarters of all that there is of FLIP lies in pixels of up to this much.");
+    f.info("Largest FLIP", fmt::format("{:.3f}", flip.largest), "Of the pixel that differs most.");
+    f.info(fmt::format("Above {:.1f}", FlipNumbers::noticeable).c_str(), fmt::format("{:.2f} % of pixels", 100 * flip.share_noticeable),
+           "How many pixels differ by more than that.");
+    c.ui.probe.record_last_item("Compare/Numbers/FLIP above");
 }
 
 } // namespace
