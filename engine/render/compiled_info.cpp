@@ -1,4 +1,5 @@
 // What a compiled scene is made of: for `blush info`.
+#include "render/lowering.h"
 #include "render/render_scene.h"
 
 #include <fmt/format.h>
@@ -30,6 +31,11 @@ CompiledInfo RenderScene::info() const {
         info.warnings.push_back({Diagnostic::Severity::warning,
                                  fmt::format("{} of {} triangles that glow are not aimed at, no more than {} are: light of copies without number is noisy",
                                              lights_.unaimed_triangles, lights_.emissive_triangles, most_mesh_lights),
+                                 ""});
+    if (lights_.fewer_disk_corners > 0)
+        info.warnings.push_back({Diagnostic::Severity::warning,
+                                 fmt::format("there are so many disks that shine that each is a polygon of {} corners, not of {}: their edges and reflections show it",
+                                             lights_.fewer_disk_corners, most_disk_corners),
                                  ""});
     info.environment = lights_.environment >= 0;
     info.emissive_triangles = lights_.emissive_triangles;

@@ -291,6 +291,7 @@ LightTable build_light_table(const Scene& scene, const MaterialTable& materials,
                              const std::vector<SphereLight>& spheres, const SkyLight& sky, const Extent& extent, Aim aim) {
     Builder b;
     b.aim = aim;
+    if (const int corners = disk_corners(scene); corners < most_disk_corners) b.table.fewer_disk_corners = corners;
     add_triangles(b, scene, materials, geometry, tables);
     add_spheres(b, scene, spheres, extent.origin);
     const double radius = extent.bounds.empty ? 1 : std::max(extent.bounds.radius(), 1e-30);

@@ -29,6 +29,7 @@ struct LightTable {
     LightTreeTable tree;              // empty: lights are drawn by power alone
     std::vector<int32_t> slot_lights; // with a tree
     int64_t emissive_triangles = 0, point_lights = 0, sphere_lights = 0, sun_lights = 0;
+    int fewer_disk_corners = 0;       // of the polygons that stand for disks, if those are so many that it is not what it should be
     int64_t unaimed_triangles = 0;    // of those that emit: beyond most_mesh_lights
 
     void fill(LightTables& tables) const;

@@ -1,10 +1,13 @@
 #include "render/lowering.h"
 
 #include "core/math.h"
+#include "render/light_table.h"
 #include "scene/color_temperature.h"
 #include "scene/pose.h"
 #include "scene/shining.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -23,20 +26,27 @@ GeometryPtr unit_rectangle() {
 }
 
 // A regular polygon in the XY plane, facing -Z, with the area of the unit disk.
-GeometryPtr unit_disk() {
-    static const GeometryPtr shared = [] {
-        constexpr uint32_t corners = 96;
-        constexpr double step = 2 * std::numbers::pi / corners;
-        const double radius = std::sqrt(step / std::sin(step));
-        auto g = std::make_shared<Geometry>();
-        g->positions.push_back({0, 0, 0});
-        for (uint32_t i = 0; i < corners; ++i) {
-            g->positions.push_back({float(radius * std::cos(i * step)), float(radius * std::sin(i * step)), 0});
-            g->indices.insert(g->indices.end(), {0, 1 + (i + 1) % corners, 1 + i});
-        }
-        return g;
+GeometryPtr make_unit_disk(uint32_t corners) {
+    const double step = 2 * std::numbers::pi / corners;
+    const double radius = std::sqrt(step / std::sin(step));
+    auto g = std::make_shared<Geometry>();
+    g->positions.push_back({0, 0, 0});
+    for (uint32_t i = 0; i < corners; ++i) {
+        g->positions.push_back({float(radius * std::cos(i * step)), float(radius * std::sin(i * step)), 0});
+        g->indices.insert(g->indices.end(), {0, 1 + (i + 1) % corners, 1 + i});
+    }
+    return g;
+}
+
+constexpr std::array disk_shapes{most_disk_corners, 48, 24, 12, 6};
+
+GeometryPtr unit_disk(int corners) {
+    static const auto shared = [] {
+        std::array<GeometryPtr, disk_shapes.size()> disks;
+        std::ranges::transform(disk_shapes, disks.begin(), make_unit_disk);
+        return disks;
     }();
-    return shared;
+    return shared[size_t(std::ranges::find(disk_shapes, corners) - disk_shapes.begin())];
 }
 
 Material emitter(const Light& light, const Vec3& nits) {
@@ -55,14 +65,23 @@ struct AreaShape {
     Vec3 scale;
 };
 
-AreaShape shape_of(const Light& light) {
+AreaShape shape_of(const Light& light, int corners) {
     if (light.kind == Light::Kind::rectangle) return {unit_rectangle(), {light.width, light.height, 1}};
-    return {unit_disk(), {light.radius, light.radius, 1}};
+    return {unit_disk(corners), {light.radius, light.radius, 1}};
 }
 
 } // namespace
 
 bool is_area_light(const Light& light) { return light.kind == Light::Kind::rectangle || light.kind == Light::Kind::disk; }
+
+int disk_corners(const Scene& scene) {
+    const auto disks = std::ranges::count_if(scene.nodes, [&](const auto& node) {
+        const Light* light = node.value.light ? scene.lights.find(node.value.light) : nullptr;
+        return light && light->kind == Light::Kind::disk;
+    });
+    const auto fits = std::ranges::find_if(disk_shapes, [&](int corners) { return disks * corners <= most_mesh_lights; });
+    return fits == disk_shapes.end() ? disk_shapes.back() : *fits;
+}
 
 const Light* light_of_body(const Scene& lowered, Id<Node> id) {
     const Node* node = id.value & lowered_bit ? lowered.nodes.find(Id<Node>{id.value & ~lowered_bit}) : nullptr;
@@ -81,12 +100,13 @@ Scene lower_area_lights(const Scene& whole, LoweredMeshes* known) {
     meshes.tangents.provide(scene);
     meshes.bent.bend(scene);
     Scene lowered = scene;
+    const int corners = disk_corners(scene);
     for (const auto& [id, node] : scene.nodes) {
         const Light* light = node.light ? scene.lights.find(node.light) : nullptr;
         if (!light || !is_area_light(*light)) continue;
         // Where lights are mixed their bodies stay when they are off: switching one then changes nothing but its own light.
         if (!light->enabled && scene.mix.grouping == LightMix::Grouping::none) continue;
-        const AreaShape shape = shape_of(*light);
+        const AreaShape shape = shape_of(*light, corners);
         const uint32_t key = lowered_bit | node.light.value;
         lowered.materials.insert(Id<Material>{key}, emitter(*light, light->enabled ? light_emission(*light) : Vec3{0, 0, 0}));
         lowered.meshes.insert(Id<Mesh>{key}, {light->name, {{shape.geometry, Id<Material>{key}}}});

@@ -17,11 +17,15 @@ struct LoweredMeshes {
 };
 
 // The same scene with solo (scene/shining.h) and its pose (scene/pose.h) applied and every rectangle and disk that shines replaced by an emissive mesh below its node. A
-// disk becomes a polygon of 96 corners and the same area: sampling either by area is the same, its light differs from the circle's by less
+// disk becomes a polygon of disk_corners() corners and the same area. With the most: sampling either by area is the same, its light differs from the circle's by less
 // than a millionth of the flux, and kernels need not know of it. Where lights are mixed, those that are off keep a body that is black.
 // Meshes that need tangents have them (render/tangent_meshes.h), and those that bend are bent (render/bent_meshes.h): what `known` has made
 // already is not made again.
 Scene lower_area_lights(const Scene& scene, LoweredMeshes* known = nullptr);
+// Corners of the polygons that stand for disks. A disk takes a hundred bytes of a file, but each corner a light of 250 bytes: of disks without number
+// they are fewer, so that all have no more than most_mesh_lights together, and six at least.
+constexpr int most_disk_corners = 96;
+int disk_corners(const Scene& scene);
 // The light is one that lowering turns into a mesh.
 bool is_area_light(const Light& light);
 // The light whose body a node of the lowered scene is; nullptr: an ordinary node.

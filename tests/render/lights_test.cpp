@@ -1,8 +1,10 @@
 // Each kind of light on a matte floor, against its closed form, from several places and angles.
 #include "core/math.h"
 #include "irradiance.h"
+#include "render/lowering.h"
 #include "scene/affine.h"
 
+#include <algorithm>
 #include <map>
 #include <numbers>
 
@@ -213,6 +215,42 @@ TEST(Lights, AddUp) {
     const auto corners = rectangle_corners(area, pose);
     const auto expected = [&](const Vec3d& x) { return of_point(x) + 0.25 * pi + (3 - 0.25) * polygon_irradiance(x, up, corners); };
     EXPECT_TRUE(shows_on_floor(with_area, expected, sidak(significance, 2)));
+}
+
+// Each takes a hundred bytes of a file. What stands for them keeps the area, and with it the lumens.
+TEST(DiskLight, WithoutNumberAreBoundedInMemory) {
+    const auto disks = [](int count) {
+        Scene scene;
+        Light light = light_of(Light::Kind::disk, 3);
+        light.radius = 0.4f;
+        Node node;
+        node.light = scene.lights.add(light);
+        for (int i = 0; i < count; ++i) {
+            node.local.translation = {float(i % 100), 0, float(i / 100)};
+            scene.nodes.add(node);
+        }
+        return scene;
+    };
+    for (const auto& [count, corners] : std::map<int, int>{{1, 96}, {10922, 96}, {10923, 48}, {43690, 24}, {200'000, 6}})
+        EXPECT_EQ(disk_corners(disks(count)), corners) << count;
+    constexpr int count = 90'000;
+    const Scene scene = disks(count);
+    const Scene lowered = lower_area_lights(scene);
+    const Geometry& shape = *lowered.meshes.begin()->value.parts[0].geometry;
+    ASSERT_EQ(shape.triangle_count(), 6u);
+    double area = 0;
+    for (size_t t = 0; t < 6; ++t) {
+        const Vec3d a = to_double(shape.positions[shape.indices[3 * t]]);
+        area += 0.5 * length(cross(to_double(shape.positions[shape.indices[3 * t + 1]]) - a,
+                                   to_double(shape.positions[shape.indices[3 * t + 2]]) - a));
+    }
+    EXPECT_NEAR(area, pi, 1e-6);
+    Renderer renderer({.threads = 1, .planes = {}});
+    renderer.update(scene, settings_for(8, 8, 1));
+    EXPECT_EQ(renderer.info().emissive_triangles, 6 * count);
+    EXPECT_LT(renderer.info().memory_mb, 300);
+    EXPECT_TRUE(std::ranges::any_of(renderer.info().warnings,
+                                    [](const Diagnostic& d) { return d.what.find("polygon of 6 corners") != d.what.npos; }));
 }
 
 } // namespace
