@@ -2,6 +2,7 @@
 
 #include "io/gltf_variants.h"
 #include "io/image_io.h"
+#include "scene/tangents.h"
 #include "scene/texture_slots.h"
 
 #include <fmt/format.h>
@@ -72,7 +73,7 @@ void append_mesh(GltfDocument& document, Id<Mesh> id, const Mesh& mesh, Primitiv
     parts.clear();
     for (const MeshPart& part : mesh.parts) {
         const auto [primitive, is_new] = primitives.try_emplace(part.geometry->serial);
-        if (is_new) primitive->second = primitive_of(document, *part.geometry);
+        if (is_new) primitive->second = primitive_of(document, *without_made_tangents(part.geometry)); // they are made anew
         parts.push_back(int(object["primitives"].size()));
         object["primitives"].push_back(primitive->second);
     }

@@ -2,6 +2,7 @@
 
 #include "io/scene_fields.h"
 #include "scene/ies_profile.h"
+#include "scene/tangents.h"
 
 #include <bit>
 #include <cstring>
@@ -83,7 +84,8 @@ void hash_mesh(Hasher& hash, const Mesh& mesh) {
         hash.word(part.material.value);
         hash.word(part.geometry != nullptr);
         if (!part.geometry) continue;
-        const Geometry& g = *part.geometry;
+        const GeometryPtr geometry = without_made_tangents(part.geometry); // they follow from the rest
+        const Geometry& g = *geometry;
         hash.array(g.positions);
         hash.array(g.normals);
         hash.array(g.tangents);

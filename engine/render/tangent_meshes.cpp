@@ -7,11 +7,21 @@
 namespace blush {
 namespace {
 
-GeometryPtr with_tangents(const Geometry& bare, int uv_set) {
-    auto made = std::make_shared<Geometry>(bare);
+// None that are made if there is nothing to make them of.
+GeometryPtr with_tangents(const GeometryPtr& geometry, int uv_set) {
+    const GeometryPtr bare = without_made_tangents(geometry);
+    if (!bare->has_uv_set(uv_set)) return bare;
+    auto made = std::make_shared<Geometry>(*bare);
     made->serial = next_payload_serial();
     add_tangents(*made, uv_set);
     return made;
+}
+
+// As it is, it is not as importing it for that UV set would have left it.
+bool is_to_change(const Geometry& g, int uv_set) {
+    if (uv_set < 0 || g.normals.empty()) return false;
+    if (g.tangents.empty()) return g.has_uv_set(uv_set);
+    return g.made_tangents && g.made_tangents->uv_set != uv_set;
 }
 
 } // namespace
@@ -23,13 +33,12 @@ void TangentMeshes::provide(Scene& scene) {
         for (const auto& [id, mesh] : meshes) {
             std::optional<Mesh> dressed;
             for (size_t p = 0; p < mesh.parts.size(); ++p) {
-                const Geometry* bare = mesh.parts[p].geometry.get();
-                if (!bare || !bare->tangents.empty() || bare->normals.empty()) continue;
+                const GeometryPtr& geometry = mesh.parts[p].geometry;
                 const int set = tangent_uv_set(scene, mesh.parts[p]);
-                if (set < 0 || !bare->has_uv_set(set)) continue;
-                GeometryPtr& made = used[{bare->serial, set}];
-                if (const auto before = known_.find({bare->serial, set}); !made && before != known_.end()) made = before->second;
-                if (!made) made = with_tangents(*bare, set);
+                if (!geometry || !is_to_change(*geometry, set)) continue;
+                GeometryPtr& made = used[{geometry->serial, set}];
+                if (const auto before = known_.find({geometry->serial, set}); !made && before != known_.end()) made = before->second;
+                if (!made) made = with_tangents(geometry, set);
                 if (!dressed) dressed = mesh;
                 dressed->parts[p].geometry = made;
             }

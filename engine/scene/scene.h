@@ -21,12 +21,19 @@ namespace blush {
 // A new serial number for a payload; never 0, never repeated in this process. Thread-safe.
 uint64_t next_payload_serial();
 
+// Tangents that did not come with a mesh but were computed (scene/tangents.h), and what has to be known to do without them again.
+struct MadeTangents {
+    int uv_set = -1;              // which they follow
+    std::vector<uint32_t> copies; // for each vertex that was added for them, behind all others, which one it is a copy of
+};
+
 // Triangles of one material. Immutable once shared. Optional arrays are empty or have positions.size() entries.
 struct Geometry {
     uint64_t serial = next_payload_serial();
     std::vector<Vec3> positions;
     std::vector<Vec3> normals;
     std::vector<Vec4> tangents; // xyz and the handedness w = +-1, as in glTF
+    std::optional<MadeTangents> made_tangents; // if they are no part of the mesh
     std::vector<std::vector<Vec2>> uv; // uv[i] is TEXCOORD_i; (0, 0) is the top left corner of the image, as in glTF
     std::vector<Vec4> colors;   // linear RGBA, multiplies the base colour
     std::vector<uint32_t> indices; // 3 per triangle, all < positions.size()

@@ -14,6 +14,10 @@ template <class T> void append_copies(std::vector<T>& values, const std::vector<
         for (size_t k = 0; k < per_vertex; ++k) values.push_back(values[i * per_vertex + k]);
 }
 
+template <class T> void drop_copies(std::vector<T>& values, size_t copies, size_t per_vertex = 1) {
+    if (!values.empty()) values.resize(values.size() - copies * per_vertex);
+}
+
 int uv_set_of(const Material* m) {
     if (!m) return -1;
     if (m->normal_texture.texture) return m->normal_texture.uv_set;
@@ -34,7 +38,7 @@ bool any_needs_tangents(const Scene& scene) {
     return std::ranges::any_of(scene.materials, [](const auto& entry) { return uv_set_of(&entry.value) >= 0; });
 }
 
-std::vector<uint32_t> add_tangents(Geometry& g, int uv_set) {
+void add_tangents(Geometry& g, int uv_set) {
     const std::vector<Vec4> corners = mikktspace_tangents(g, g.uv[size_t(uv_set)]);
     const auto count = uint32_t(g.positions.size());
     constexpr uint32_t nobody = UINT32_MAX;
@@ -57,10 +61,12 @@ std::vector<uint32_t> add_tangents(Geometry& g, int uv_set) {
     }
     for (Vec4& t : g.tangents)
         if (t == Vec4{0, 0, 0, 0}) t = {1, 0, 0, 1}; // of vertices that no triangle uses
-    if (copied.empty()) return copied;
+    g.made_tangents = MadeTangents{uv_set, copied};
+    if (copied.empty()) return;
     for (MorphTargetPtr& target : g.targets) {
         auto longer = std::make_shared<MorphTarget>(*target);
-        for (const auto offsets : {&MorphTarget::positions, &MorphTarget::normals, &MorphTarget::tangents}) append_copies((*longer).*offsets, copied);
+        for (const auto offsets : {&MorphTarget::positions, &MorphTarget::normals, &MorphTarget::tangents})
+            append_copies((*longer).*offsets, copied);
         target = std::move(longer);
     }
     append_copies(g.influences, copied, g.influences.size() / count);
@@ -68,7 +74,32 @@ std::vector<uint32_t> add_tangents(Geometry& g, int uv_set) {
     append_copies(g.normals, copied);
     append_copies(g.colors, copied);
     for (std::vector<Vec2>& uv : g.uv) append_copies(uv, copied);
-    return copied;
+}
+
+GeometryPtr without_made_tangents(const GeometryPtr& geometry) {
+    if (!geometry || !geometry->made_tangents) return geometry;
+    auto bare = std::make_shared<Geometry>(*geometry);
+    Geometry& g = *bare;
+    const std::vector<uint32_t> copies = std::move(g.made_tangents->copies);
+    const size_t vertices = g.positions.size() - copies.size();
+    g.serial = next_payload_serial();
+    g.made_tangents.reset();
+    g.tangents.clear();
+    if (copies.empty()) return bare;
+    for (uint32_t& i : g.indices)
+        if (i >= vertices) i = copies[i - vertices];
+    for (MorphTargetPtr& target : g.targets) {
+        auto shorter = std::make_shared<MorphTarget>(*target);
+        for (const auto offsets : {&MorphTarget::positions, &MorphTarget::normals, &MorphTarget::tangents})
+            drop_copies((*shorter).*offsets, copies.size());
+        target = std::move(shorter);
+    }
+    drop_copies(g.influences, copies.size(), g.influences.size() / g.positions.size());
+    drop_copies(g.positions, copies.size());
+    drop_copies(g.normals, copies.size());
+    drop_copies(g.colors, copies.size());
+    for (std::vector<Vec2>& uv : g.uv) drop_copies(uv, copies.size());
+    return bare;
 }
 
 } // namespace blush

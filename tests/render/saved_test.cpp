@@ -2,6 +2,7 @@
 #include "io/gltf_import.h"
 #include "io/gltf_save.h"
 #include "io/ies.h"
+#include "io/scene_hash.h"
 #include "scenes.h"
 #include "support/pictures.h"
 #include "support/process.h"
@@ -136,8 +137,11 @@ std::string save_ball(const GltfOrigin& origin, const TemporaryFolder& folder) {
             g.positions.push_back({std::sin(v) * std::cos(u), std::cos(v), std::sin(v) * std::sin(u)});
         }
     g.normals = g.positions;
-    g.uv.resize(1);
-    for (const Vec3& p : g.positions) g.uv[0].push_back({std::abs(p.x), p.y});
+    g.uv.resize(2);
+    for (const Vec3& p : g.positions) {
+        g.uv[0].push_back({std::abs(p.x), p.y});
+        g.uv[1].push_back({p.z + 0.5f * p.y, std::abs(p.y)});
+    }
     for (uint32_t j = 0; j < n; ++j)
         for (uint32_t i = 0; i < n; ++i) {
             const uint32_t a = j * (n + 1) + i, b = a + 1, c = b + n + 1, d = c - 1;
@@ -184,6 +188,50 @@ TEST(Saved, TangentsThatAnEditCallsForAreThoseOfTheReopenedFile) {
     const size_t vertices = geometry_of(project.scene)->positions.size();
     EXPECT_GT(geometry_of(loaded->scene)->positions.size(), vertices) << "those on the mirror's line are several";
     EXPECT_TRUE(same_picture(picture(project), picture({loaded->scene, {}, {}})));
+}
+
+ImagePtr slanted_normal_map() {
+    auto map = std::make_shared<Image>();
+    map->width = map->height = 1;
+    map->channels = 3;
+    map->bytes = {220, 150, 200};
+    return map;
+}
+
+// The tangents that importing has made are for the UV set that the normal map was on.
+TEST(Saved, TangentsFollowTheNormalMapToAnotherUvSetAsInTheReopenedFile) {
+    const TemporaryFolder folder;
+    const auto empty = import_empty(folder);
+    ASSERT_TRUE(empty) << empty.error().text();
+    const auto smooth = import_gltf(save_ball(empty->origin, folder));
+    ASSERT_TRUE(smooth) << smooth.error().text();
+    Project project{smooth->scene, {}, {}};
+    auto [id, material] = *project.scene.materials.begin();
+    material.normal_texture.texture = project.scene.textures.add({"slanted", "", slanted_normal_map()});
+    project.scene.materials.set(id, material);
+    ASSERT_TRUE(save_gltf(smooth->origin, project, folder / "bumpy.gltf"));
+    const auto bumpy = import_gltf(folder / "bumpy.gltf");
+    ASSERT_TRUE(bumpy) << bumpy.error().text();
+    const auto geometry_of = [](const Scene& scene) { return scene.meshes.begin()->value.parts[0].geometry; };
+    ASSERT_TRUE(geometry_of(bumpy->scene)->made_tangents);
+    EXPECT_EQ(scene_hash(bumpy->scene), scene_hash(project.scene)) << "what is made follows from the rest";
+    project.scene = bumpy->scene;
+    const Frame first = picture(project);
+    for (const int set : {1, 5, 0}) { // 5: which it does not have
+        material.normal_texture.uv_set = uint8_t(set);
+        project = *blush::apply(project, SetMaterial{id, material});
+        EXPECT_EQ(same_picture(picture(project), first), set == 0);
+        // Into the file it came from, and with meshes written anew, without tangents.
+        for (const GltfOrigin* origin : {&bumpy->origin, &empty->origin}) {
+            const std::string file = folder / (std::to_string(set) + (origin == &bumpy->origin ? "edited.gltf" : "written.gltf"));
+            const auto saved = save_gltf(*origin, project, file);
+            ASSERT_TRUE(saved) << saved.error().text();
+            const auto loaded = import_gltf(file);
+            ASSERT_TRUE(loaded) << loaded.error().text();
+            EXPECT_EQ(loaded->origin.json->find("TANGENT"), std::string::npos);
+            EXPECT_TRUE(same_picture(picture(project), picture({loaded->scene, {}, {}}))) << file;
+        }
+    }
 }
 
 } // namespace

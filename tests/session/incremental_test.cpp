@@ -187,6 +187,12 @@ TEST(Renderer, MakesTangentsWhenAMaterialComesToNeedThem) {
         m.clearcoat_normal_texture = {bumpy.normal_texture.texture, 1};
     });
     expect_tangents("coated, by the other UV set");
+    project.scene = with_geometries(project.scene, [&](const MeshPart&, Geometry& g) {
+        if (!g.normals.empty() && g.has_uv_set(0)) add_tangents(g, 0);
+    });
+    updated.follow(project);
+    EXPECT_TRUE(same_picture(updated.picture(), fresh_picture(project.scene, project.render, samples))) << "that were made for the first";
+    project.scene = with_geometries(project.scene, [](const MeshPart& part, Geometry& g) { g = *without_made_tangents(part.geometry); });
     restyle([](Material&) {});
     updated.follow(project);
     EXPECT_TRUE(same_picture(updated.picture(), plain));

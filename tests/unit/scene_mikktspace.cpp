@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -129,7 +130,8 @@ TEST(GltfTangents, VerticesWhoseTrianglesDisagreeAreSplit) {
     g.colors.assign(6, {1, 1, 1, 1});
     g.colors[0] = {0.5f, 1, 1, 1};
     const Geometry before = g;
-    EXPECT_EQ(add_tangents(g, 0), (std::vector<uint32_t>{0, 1}));
+    add_tangents(g, 0);
+    EXPECT_EQ(g.made_tangents->copies, (std::vector<uint32_t>{0, 1}));
     ASSERT_EQ(g.positions.size(), 8u);
     for (const size_t n : {g.normals.size(), g.colors.size(), g.uv[0].size(), g.tangents.size()}) EXPECT_EQ(n, 8u);
     EXPECT_EQ(g.colors[6], before.colors[0]);
@@ -140,7 +142,30 @@ TEST(GltfTangents, VerticesWhoseTrianglesDisagreeAreSplit) {
         expect_tangent(g.tangents[now], {i < 6 ? 1.f : -1.f, 0, 0}, i < 6 ? 1.f : -1.f);
     }
     Geometry regular = fan(1);
-    EXPECT_TRUE(add_tangents(regular, 0).empty()) << "nothing to split";
+    add_tangents(regular, 0);
+    EXPECT_TRUE(regular.made_tangents->copies.empty()) << "nothing to split";
+}
+
+TEST(GltfTangents, ThatWereMadeCanBeUnmade) {
+    Geometry before = mirrored();
+    before.colors.assign(6, {1, 0, 1, 1});
+    for (uint16_t i = 0; i < 12; ++i) before.influences.push_back({i, 0.5f});
+    const std::vector<Vec3> offsets(6, {1, 2, 3});
+    before.targets.push_back(std::make_shared<MorphTarget>(MorphTarget{offsets, {}, {}}));
+    Geometry g = before;
+    add_tangents(g, 0);
+    ASSERT_EQ(g.influences.size(), 16u);
+    const GeometryPtr made = std::make_shared<const Geometry>(g), bare = without_made_tangents(made);
+    EXPECT_NE(bare->serial, made->serial);
+    EXPECT_EQ(bare->indices, before.indices);
+    EXPECT_EQ(bare->positions, before.positions);
+    EXPECT_EQ(bare->normals, before.normals);
+    EXPECT_EQ(bare->uv, before.uv);
+    EXPECT_EQ(bare->colors, before.colors);
+    EXPECT_TRUE(std::ranges::equal(bare->influences, before.influences, {}, &Influence::joint, &Influence::joint));
+    EXPECT_EQ(bare->targets[0]->positions, offsets);
+    EXPECT_TRUE(bare->tangents.empty() && !bare->made_tangents);
+    EXPECT_EQ(without_made_tangents(bare), bare);
 }
 
 } // namespace
