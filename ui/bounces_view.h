@@ -5,6 +5,8 @@
 
 namespace blush {
 
+constexpr float most_bounce_gain = 4;
+
 struct BouncesView {
     enum class Mode { picture, single, cumulative, direct, indirect, gains };
     static constexpr const char* names[] = {"Picture", "One bounce", "Up to a bounce", "Direct light", "Indirect light", "Gains"};

@@ -7,6 +7,8 @@
 namespace blush {
 namespace {
 
+const std::string bounce_gain = "bounces.gain.";
+
 // visit("name", value, least, most) for each; a bool has no ends.
 template <class Ui, class V> void visit_panels(Ui& ui, const V& visit) {
     visit("tab", ui.tab, InspectorTab::selection, InspectorTab::display);
@@ -39,10 +41,19 @@ template <class Ui, class V> void visit_panels(Ui& ui, const V& visit) {
 } // namespace
 
 void remember_panels(const UiState& ui, WindowSettings& settings) {
+    std::erase_if(settings.panels, [](const auto& entry) { return entry.first.starts_with(bounce_gain); });
+    for (size_t k = 0; k < ui.bounces.gains.size(); ++k) settings.panels[bounce_gain + std::to_string(k)] = double(ui.bounces.gains[k]);
     visit_panels(ui, [&](const char* name, const auto& value, auto, auto) { settings.panels[name] = double(value); });
 }
 
 void recall_panels(const WindowSettings& settings, UiState& ui) {
+    std::vector<float> gains;
+    for (int k = 0; k < most_bounce_planes; ++k) {
+        const auto gain = settings.panels.find(bounce_gain + std::to_string(k));
+        if (gain == settings.panels.end() || !(gain->second >= 0 && gain->second <= double(most_bounce_gain))) break;
+        gains.push_back(float(gain->second));
+    }
+    if (!gains.empty()) ui.bounces.gains = std::move(gains);
     visit_panels(ui, [&](const char* name, auto& value, auto least, auto most) {
         using T = std::remove_reference_t<decltype(value)>;
         const auto found = settings.panels.find(name);
@@ -55,7 +66,9 @@ void recall_panels(const WindowSettings& settings, UiState& ui) {
 void remember_scene(const UiState& ui, const std::string& file, WindowSettings& settings) {
     if (file.empty()) return;
     std::erase_if(settings.scenes, [&](const SceneMemory& m) { return m.file == file; });
-    SceneMemory memory{file, ui.zoom.scale, ui.zoom.u, ui.zoom.v, {}, {}};
+    SceneMemory memory{.file = file, .zoom = ui.zoom.scale, .u = ui.zoom.u, .v = ui.zoom.v, .material = ui.selected_material.value};
+    memory.mix_group = ui.light_mix.unfolded;
+    for (const Id<Node> id : ui.turned) memory.turned.push_back(id.value);
     if (ui.selected) memory.selected.push_back(ui.selected.value);
     for (const Id<Node> id : ui.also_selected) memory.selected.push_back(id.value);
     for (const SnapshotPtr& s : ui.snapshots.list)
@@ -68,6 +81,9 @@ void recall_scene(const WindowSettings& settings, const std::string& file, const
     ui.zoom = {};
     ui.selected = {};
     ui.also_selected.clear();
+    ui.selected_material = {};
+    ui.turned.clear();
+    ui.light_mix.unfolded.clear();
     const auto found = std::ranges::find(settings.scenes, file, &SceneMemory::file);
     if (found == settings.scenes.end()) return;
     if (found->zoom > 0)
@@ -77,6 +93,10 @@ void recall_scene(const WindowSettings& settings, const std::string& file, const
         if (!ui.selected) ui.selected = {id};
         else ui.also_selected.push_back({id});
     }
+    if (scene.materials.contains({found->material})) ui.selected_material = {found->material};
+    for (const uint32_t id : found->turned)
+        if (scene.nodes.contains({id})) ui.turned.insert({id});
+    ui.light_mix.unfolded = found->mix_group;
 }
 
 } // namespace blush

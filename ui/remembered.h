@@ -10,10 +10,15 @@
 // |   snapshot settings                                         |                                            |                     |
 // | which panels are open, where, and what they are set to;     | window.json, written here                  | the same control    |
 // |   sections, tab, raw or denoised                            |                                            |                     |
-// | of a scene: zoom and pan, selection, which snapshots are in | window.json, for the last ten scenes       | zoom, select, "Put  |
-// |   the strip                                                 |                                            |   back"             |
+// | of a scene: zoom and pan, selection, folded rows of the     | window.json, for the last ten scenes       | zoom, select, "Put  |
+// |   outliner, unfolded group of the mix, which snapshots are  |                                            |   back"             |
+// |   in the strip                                              |                                            |                     |
+// | curves of convergence                                       | CSV, SVG or PNG, by its Export             | the panel's own     |
+// | import report, health, what the roulette lab and the meters | nothing: read again from the file, or      |                     |
+// |   measured                                                  |   measured again                           |                     |
 // | tool, drag, placing, looking through a light, questions,    | nothing: they are on their way to an edit  | Esc                 |
-// |   comparison, pause                                         |                                            |                     |
+// |   comparison, pause, playing, a name or path being typed,   |   or a look                                |                     |
+// |   pixel popup, sheet of shortcuts, toasts                   |                                            |                     |
 #pragma once
 
 #include "ui/ui_state.h"
@@ -26,7 +31,7 @@ namespace blush {
 void remember_panels(const UiState& ui, WindowSettings& settings);
 void recall_panels(const WindowSettings& settings, UiState& ui);
 
-// Zoom, pan, selection and the files of the strip's snapshots of the scene of a file. A file that is not known leaves the whole picture, and nothing selected.
+// What is kept of the scene of a file (above). A file that is not known leaves the whole picture, and nothing selected or unfolded.
 void remember_scene(const UiState& ui, const std::string& file, WindowSettings& settings);
 void recall_scene(const WindowSettings& settings, const std::string& file, const Scene& scene, UiState& ui);
 

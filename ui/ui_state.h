@@ -24,6 +24,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -97,6 +98,7 @@ struct UiState {
     Id<Node> selected;                   // what handles and inspector are for
     std::vector<Id<Node>> also_selected; // edited together with it
     Id<Material> selected_material;
+    std::set<Id<Node>> turned;       // the outliner's rows that are not folded as they are at first
     bool scroll_to_selected = false; // the outliner brings it into view
     InspectorTab tab = InspectorTab::selection;
     Id<Node> renaming;

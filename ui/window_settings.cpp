@@ -10,7 +10,7 @@
 namespace blush {
 namespace {
 
-constexpr size_t most_panel_settings = 1000, most_selected = 100000, most_floating_text = 1 << 16, most_snapshots = 64;
+constexpr size_t most_panel_settings = 1000, most_ids = 100000, most_floating_text = 1 << 16, most_snapshots = 64;
 
 // The entry if it is there and of the right type and range, else what `value` was.
 template <class T> void read(const nlohmann::json& json, const char* key, T& value, T low, T high) {
@@ -35,6 +35,13 @@ void read_strings(const nlohmann::json& json, const char* key, std::vector<std::
         if (entry.is_string() && strings.size() < most) strings.push_back(entry.get<std::string>());
 }
 
+void read_ids(const nlohmann::json& json, const char* key, std::vector<uint32_t>& ids) {
+    const auto list = json.find(key);
+    if (list == json.end() || !list->is_array()) return;
+    for (const auto& id : *list)
+        if (id.is_number_unsigned() && ids.size() < most_ids) ids.push_back(id.get<uint32_t>());
+}
+
 SceneMemory read_scene(const nlohmann::json& json) {
     SceneMemory m;
     if (!json.is_object()) return m;
@@ -42,9 +49,10 @@ SceneMemory read_scene(const nlohmann::json& json) {
     read(json, "zoom", m.zoom, 0., 1e3);
     read(json, "u", m.u, 0., 1.);
     read(json, "v", m.v, 0., 1.);
-    if (const auto ids = json.find("selected"); ids != json.end() && ids->is_array())
-        for (const auto& id : *ids)
-            if (id.is_number_unsigned() && m.selected.size() < most_selected) m.selected.push_back(id.get<uint32_t>());
+    read_ids(json, "selected", m.selected);
+    read(json, "material", m.material, 0u, UINT32_MAX);
+    read_ids(json, "turned", m.turned);
+    read(json, "mix_group", m.mix_group);
     read_strings(json, "snapshots", m.snapshots, most_snapshots);
     return m;
 }
@@ -58,7 +66,16 @@ void read_panels(const nlohmann::json& json, std::map<std::string, double>& pane
 
 nlohmann::json scenes_json(const std::vector<SceneMemory>& scenes) {
     nlohmann::json list = nlohmann::json::array();
-    for (const SceneMemory& m : scenes) list.push_back({{"file", m.file}, {"zoom", m.zoom}, {"u", m.u}, {"v", m.v}, {"selected", m.selected}, {"snapshots", m.snapshots}});
+    for (const SceneMemory& m : scenes)
+        list.push_back({{"file", m.file},
+                        {"zoom", m.zoom},
+                        {"u", m.u},
+                        {"v", m.v},
+                        {"selected", m.selected},
+                        {"material", m.material},
+                        {"turned", m.turned},
+                        {"mix_group", m.mix_group},
+                        {"snapshots", m.snapshots}});
     return list;
 }
 

@@ -17,6 +17,9 @@ struct SceneMemory {
     std::string file;
     double zoom = 0, u = 0.5, v = 0.5; // PictureZoom
     std::vector<uint32_t> selected;    // Id<Node>.value, the first to come first
+    uint32_t material = 0;             // Id<Material>.value of the one selected
+    std::vector<uint32_t> turned;      // Id<Node>.value of the outliner's rows that are not folded as they are at first
+    std::string mix_group;             // whose colour the light mix shows
     std::vector<std::string> snapshots; // files, oldest first
     bool operator==(const SceneMemory&) const = default;
 };

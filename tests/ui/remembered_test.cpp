@@ -15,6 +15,7 @@ TEST(Remembered, PanelsComeBackAsTheyWereSet) {
     ui.snapshots.compare.kind = DifferenceKind::flip;
     ui.bounces.mode = BouncesView::Mode::cumulative;
     ui.bounces.bounce = 3;
+    ui.bounces.gains = {1, 0, 2.5f};
     ui.convergence.targets = {0.5f, 0.01f};
     WindowSettings settings;
     settings.panels["section.Light"] = 0;
@@ -28,15 +29,22 @@ TEST(Remembered, PanelsComeBackAsTheyWereSet) {
     EXPECT_EQ(again.snapshots.compare.kind, DifferenceKind::flip);
     EXPECT_EQ(again.bounces.mode, BouncesView::Mode::cumulative);
     EXPECT_EQ(again.bounces.bounce, 3);
+    EXPECT_EQ(again.bounces.gains, ui.bounces.gains);
     EXPECT_EQ(again.convergence.targets, ui.convergence.targets);
     WindowSettings twice = settings;
     remember_panels(again, twice);
     EXPECT_EQ(twice, settings);
+    again.bounces.gains.pop_back();
+    remember_panels(again, twice);
+    UiState fewer;
+    recall_panels(twice, fewer);
+    EXPECT_EQ(fewer.bounces.gains, again.bounces.gains) << "of a gain that is gone nothing is left";
 }
 
 TEST(Remembered, WhatMakesNoSenseChangesNothing) {
     WindowSettings settings;
-    settings.panels = {{"tab", 99}, {"denoise", -1}, {"denoise.blend", 7}, {"bounces.bounce", 1e30}, {"scopes", 1e300}, {"nobody", 3}};
+    settings.panels = {{"tab", 99},           {"denoise", -1},   {"denoise.blend", 7}, {"bounces.bounce", 1e30},
+                       {"bounces.gain.0", 5}, {"scopes", 1e300}, {"nobody", 3}};
     UiState ui;
     recall_panels(settings, ui);
     WindowSettings now, defaults;
@@ -48,6 +56,7 @@ TEST(Remembered, WhatMakesNoSenseChangesNothing) {
 struct TwoNodes {
     Scene scene;
     Id<Node> first = scene.nodes.add(Node()), second = scene.nodes.add(Node());
+    Id<Material> material = scene.materials.add(Material());
 };
 
 TEST(Remembered, ASceneIsLookedAtAsItWasLeft) {
@@ -56,19 +65,27 @@ TEST(Remembered, ASceneIsLookedAtAsItWasLeft) {
     ui.zoom = {3, 0.25, 0.75};
     ui.toggle(s.first);
     ui.toggle(s.second);
+    ui.selected_material = s.material;
+    ui.turned = {s.first};
+    ui.light_mix.unfolded = "Sun";
     WindowSettings settings;
     remember_scene(ui, "/a.gltf", settings);
     ui.zoom = {};
     ui.select({});
+    ui.turned.clear();
+    ui.light_mix.unfolded.clear();
     remember_scene(ui, "/b.gltf", settings);
     recall_scene(settings, "/a.gltf", s.scene, ui);
     EXPECT_EQ(ui.zoom, (PictureZoom{3, 0.25, 0.75}));
     EXPECT_EQ(ui.selection(s.scene), (std::vector{s.second, s.first}));
+    EXPECT_EQ(ui.selected_material, s.material);
+    EXPECT_EQ(ui.turned, (std::set{s.first}));
+    EXPECT_EQ(ui.light_mix.unfolded, "Sun");
     recall_scene(settings, "/b.gltf", s.scene, ui);
     EXPECT_EQ(ui.zoom, PictureZoom());
-    EXPECT_FALSE(ui.selected);
+    EXPECT_TRUE(!ui.selected && !ui.selected_material && ui.turned.empty() && ui.light_mix.unfolded.empty());
     recall_scene(settings, "/a.gltf", Scene(), ui);
-    EXPECT_TRUE(!ui.selected && ui.also_selected.empty()) << "nodes that are gone";
+    EXPECT_TRUE(!ui.selected && ui.also_selected.empty() && !ui.selected_material && ui.turned.empty()) << "nodes that are gone";
     recall_scene(settings, "/never.gltf", s.scene, ui);
     EXPECT_EQ(ui.zoom, PictureZoom());
 }

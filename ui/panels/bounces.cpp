@@ -30,7 +30,7 @@ void draw_gains(Fields& f, BouncesView& view, const std::vector<BounceEnergy>& e
     view.gains.resize(energies.size(), 1.f);
     for (size_t k = 0; k < energies.size(); ++k)
         f.number(fmt::format("Bounce {}", energies[k].name).c_str(), view.gains[k],
-                 {.min = 0, .max = 4, .reset = 1, .unit = "×", .bar = true, .tip = "A demonstration: only 1 is true.", .format = "%.2f"});
+                 {.min = 0, .max = most_bounce_gain, .reset = 1, .unit = "×", .bar = true, .tip = "A demonstration: only 1 is true.", .format = "%.2f"});
     if (f.button("All 1", "Back to the true picture.")) view.gains.assign(energies.size(), 1.f);
 }
 

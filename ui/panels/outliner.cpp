@@ -80,10 +80,12 @@ void draw_node(PanelContext& c, Rows& rows, Id<Node> id, int depth) {
     ImGui::PushID(int(id.value));
     ImGuiTreeNodeFlags flags = ImGuiTreeNodeFlags_OpenOnArrow | ImGuiTreeNodeFlags_SpanFullWidth | ImGuiTreeNodeFlags_FramePadding |
                                ImGuiTreeNodeFlags_AllowItemOverlap;
-    if (depth < 2) flags |= ImGuiTreeNodeFlags_DefaultOpen;
     if (leaf) flags |= ImGuiTreeNodeFlags_Leaf;
     if (c.ui.is_selected(id)) flags |= ImGuiTreeNodeFlags_Selected;
+    const bool open_at_first = depth < 2;
+    ImGui::SetNextItemOpen(open_at_first != c.ui.turned.contains(id));
     const bool open = ImGui::TreeNodeEx("##node", flags);
+    if (ImGui::IsItemToggledOpen() && !c.ui.turned.erase(id)) c.ui.turned.insert(id);
     const std::string name = name_of(c.scene(), id, node);
     c.ui.probe.record_last_item("Outliner/" + name);
     if (c.scene().lights.contains(node.light)) {
