@@ -34,6 +34,7 @@ Json run_recorder(const Options& options);
 Json run_many_lights(const Options& options);
 Json run_mix(const Options& options);
 Json run_textures(const Options& options);
+Json run_time_slider(const Options& options);
 
 using Clock = std::chrono::steady_clock;
 inline double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }

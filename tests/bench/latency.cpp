@@ -3,7 +3,6 @@
 #include "tests/bench/edits.h"
 #include "tests/bench/latency_probe.h"
 
-#include <algorithm>
 #include <random>
 #include <thread>
 
@@ -13,19 +12,6 @@ namespace {
 // Lets the session refine for a while, never in step with it.
 void let_it_work(std::mt19937& random) {
     std::this_thread::sleep_for(std::chrono::milliseconds(std::uniform_int_distribution(20, 120)(random)));
-}
-
-Json figures_of(const std::vector<Response>& responses) {
-    std::vector<double> first, full;
-    int coarsest = 1;
-    for (const Response& r : responses) {
-        first.push_back(r.first_ms);
-        full.push_back(r.full_ms);
-        coarsest = std::max(coarsest, r.first_divider);
-    }
-    return {{"first_image_p50_ms", rounded(quantile(first, 0.5))}, {"first_image_p95_ms", rounded(quantile(first, 0.95))},
-            {"first_image_max_ms", rounded(quantile(first, 1))},   {"coarsest_divider", coarsest},
-            {"full_size_p50_ms", rounded(quantile(full, 0.5))},    {"full_size_p95_ms", rounded(quantile(full, 0.95))}};
 }
 
 Json measure(const BenchScene& scene, const Options& options) {

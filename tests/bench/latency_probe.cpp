@@ -1,5 +1,7 @@
 #include "tests/bench/latency_probe.h"
 
+#include <algorithm>
+
 namespace blush::bench {
 
 LatencyProbe::LatencyProbe(unsigned threads) : session_({.threads = threads, .low_priority = true}, [this] { on_frame(); }) {}
@@ -32,6 +34,19 @@ std::optional<Response> LatencyProbe::measure(const Scene& scene, const RenderSe
     seen_full_.wait(lock, [&] { return failed_ || response_.full_ms > 0; });
     if (failed_) return std::nullopt;
     return response_;
+}
+
+Json figures_of(const std::vector<Response>& responses) {
+    std::vector<double> first, full;
+    int coarsest = 1;
+    for (const Response& r : responses) {
+        first.push_back(r.first_ms);
+        full.push_back(r.full_ms);
+        coarsest = std::max(coarsest, r.first_divider);
+    }
+    return {{"first_image_p50_ms", rounded(quantile(first, 0.5))}, {"first_image_p95_ms", rounded(quantile(first, 0.95))},
+            {"first_image_max_ms", rounded(quantile(first, 1))},   {"coarsest_divider", coarsest},
+            {"full_size_p50_ms", rounded(quantile(full, 0.5))},    {"full_size_p95_ms", rounded(quantile(full, 0.95))}};
 }
 
 } // namespace blush::bench

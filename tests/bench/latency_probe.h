@@ -16,6 +16,9 @@ struct Response {
     double full_ms = 0;    // to the first one of full size
 };
 
+// Of several, which must not be none.
+Json figures_of(const std::vector<Response>& responses);
+
 class LatencyProbe {
 public:
     explicit LatencyProbe(unsigned threads);

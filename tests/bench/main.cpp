@@ -19,7 +19,7 @@ struct Case {
 constexpr Case cases[]{{"setup", run_setup},     {"startup", run_startup}, {"rate", run_rate},        {"kernels", run_kernels},
                        {"latency", run_latency}, {"denoise", run_denoise}, {"estimate", run_estimate},
                        {"coverage", run_error_coverage}, {"recorder", run_recorder},   {"lights", run_many_lights}, {"mix", run_mix},
-                       {"big", run_big_scenes}, {"textures", run_textures}};
+                       {"big", run_big_scenes}, {"textures", run_textures}, {"time", run_time_slider}};
 
 int fail(const Error& error) {
     fmt::print(stderr, "blush_bench: error: {}\n", error.text());
@@ -39,9 +39,9 @@ int run(int argc, char** argv) {
                  "estimated error's intervals hold the true one), "
                  "recorder (what it costs to know the error while rendering), lights (variance and cost of choosing among many), mix (of groups of lights: time, cost, memory), "
                  "big (to the first image of a million and ten million triangles and a million instances: time, memory), "
-                 "textures (loading 64 of them; what filtering costs and is worth)"};
+                 "textures (loading 64 of them; what filtering costs and is worth), time (from a step of the time slider to the first image)"};
     app.add_option("cases", names, "What to measure; default: everything")
-        ->check(CLI::IsMember({"setup", "startup", "rate", "kernels", "latency", "denoise", "estimate", "coverage", "recorder", "lights", "mix", "big", "textures"}));
+        ->check(CLI::IsMember({"setup", "startup", "rate", "kernels", "latency", "denoise", "estimate", "coverage", "recorder", "lights", "mix", "big", "textures", "time"}));
     app.add_option("--scenes", peers,
                    "Folder with the scenes that peers are measured on: cornell.glb, cornell_spheres.glb, dense_cornell.glb");
     app.add_option("--only", only, "Scenes whose file name contains this");

@@ -1,0 +1,125 @@
+// From a step of the time slider to the first image that shows it, in scenes of which little or much moves.
+#include "tests/bench/bench.h"
+#include "tests/bench/latency_probe.h"
+
+#include "scene/staging.h"
+
+#include <cmath>
+
+namespace blush::bench {
+namespace {
+
+// A net of n x n squares over [-1, 1]^2.
+Geometry net(uint32_t n) {
+    Geometry g;
+    for (uint32_t j = 0; j <= n; ++j)
+        for (uint32_t i = 0; i <= n; ++i) {
+            const float x = 2 * float(i) / float(n) - 1, z = 2 * float(j) / float(n) - 1, slope = 0.9f * std::cos(9 * x),
+                        size = std::hypot(slope, 1.f);
+            g.positions.push_back({x, 0.1f * std::sin(9 * x), z});
+            g.normals.push_back({-slope / size, 1 / size, 0});
+        }
+    for (uint32_t j = 0; j < n; ++j)
+        for (uint32_t i = 0; i < n; ++i) {
+            const uint32_t a = j * (n + 1) + i, b = a + 1, c = a + n + 1, d = c + 1;
+            g.indices.insert(g.indices.end(), {a, d, b, a, c, d});
+        }
+    return g;
+}
+
+struct Stage {
+    Scene scene;
+    Clip clip{"all", 10, {}};
+    Id<Material> material;
+
+    Stage() {
+        material = scene.materials.add(Material{});
+        Light light;
+        light.kind = Light::Kind::sun;
+        light.intensity = 3;
+        Node sun;
+        sun.light = scene.lights.add(light);
+        sun.local.rotation = {-0.5f, 0, 0, 0.8660254f};
+        scene.nodes.add(sun);
+        scene.view.position = {0, 2, 3};
+    }
+    Id<Mesh> mesh(Geometry geometry) {
+        return scene.meshes.add({"net", {{std::make_shared<const Geometry>(std::move(geometry)), material}}});
+    }
+    Id<Node> show(Id<Mesh> mesh, Vec3 place) {
+        Node node;
+        node.mesh = mesh;
+        node.local.translation = place;
+        return scene.nodes.add(node);
+    }
+    // Up and down again, from where it is.
+    void swing(Id<Node> node) {
+        const Vec3 at = scene.nodes.find(node)->local.translation;
+        const auto up = std::make_shared<Keyframes>();
+        up->times = {0, 5, 10};
+        up->values = {at.x, at.y, at.z, at.x, at.y + 0.5f, at.z, at.x, at.y, at.z};
+        clip.channels.push_back({node, Channel::Property::translation, up});
+    }
+    Scene finished() {
+        scene.clips.add(clip);
+        return scene;
+    }
+};
+
+Scene rigid_nodes(int count) {
+    Stage stage;
+    const Id<Mesh> mesh = stage.mesh(net(10));
+    const auto side = int(std::sqrt(count));
+    for (int i = 0; i < count; ++i) stage.swing(stage.show(mesh, {2.f * float(i % side - side / 2), 0, -2.f * float(i / side)}));
+    return stage.finished();
+}
+
+// Four joints a vertex, one of which moves.
+Scene skinned_net(uint32_t n) {
+    Stage stage;
+    Geometry g = net(n);
+    for (const Vec3& p : g.positions) {
+        const float w = 0.25f * (p.x + 1);
+        g.influences.insert(g.influences.end(), {{0, 1 - 2 * w}, {1, w}, {2, w}, {3, 0}});
+    }
+    const Id<Node> node = stage.show(stage.mesh(std::move(g)), {0, 0, 0});
+    Skin skin;
+    for (int j = 0; j < 4; ++j) skin.joints.push_back(stage.show({}, {0, 0, 0}));
+    skin.joint_from_mesh.resize(4);
+    stage.swing(skin.joints[1]);
+    Node hung = *stage.scene.nodes.find(node);
+    hung.skin = stage.scene.skins.add(skin);
+    stage.scene.nodes.set(node, hung);
+    return stage.finished();
+}
+
+Scene still_but_one(uint32_t n) {
+    Stage stage;
+    stage.show(stage.mesh(net(n)), {0, 0, 0});
+    stage.swing(stage.show(stage.mesh(net(10)), {0, 0.5f, 0}));
+    return stage.finished();
+}
+
+Json measure(const Scene& scene, const Options& options) {
+    LatencyProbe probe(options.threads);
+    const Id<Clip> clip = scene.clips.begin()->id;
+    std::vector<Response> responses;
+    for (int step = 0; step <= options.edits; ++step) {
+        const std::optional<Response> response =
+            probe.measure(staged(scene, {.clip = clip, .seconds = 0.01f * float(step)}), window_settings());
+        if (!response) return {{"failed", "the session gave no image"}};
+        if (step > 0) responses.push_back(*response); // the first opens the scene
+    }
+    return figures_of(responses);
+}
+
+} // namespace
+
+Json run_time_slider(const Options& options) {
+    return {{"rigid_nodes_1000", measure(rigid_nodes(1000), options)},
+            {"skinned_100k", measure(skinned_net(224), options)},
+            {"skinned_1m", measure(skinned_net(708), options)},
+            {"still_1m_and_one_node", measure(still_but_one(708), options)}};
+}
+
+} // namespace blush::bench
