@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <set>
+#include <span>
 
 namespace blush {
 namespace {
@@ -107,7 +108,7 @@ Result<void> read_influences(const GltfContext& context, const tinygltf::Primiti
 }
 
 // Values of the vertices `of`, which have so many each.
-template <class V> std::vector<V> picked(const std::vector<V>& values, const std::vector<uint32_t>& of, size_t per_vertex = 1) {
+template <class V> std::vector<V> picked(const std::vector<V>& values, std::span<const uint32_t> of, size_t per_vertex = 1) {
     std::vector<V> result;
     if (values.empty()) return result;
     result.reserve(of.size() * per_vertex);

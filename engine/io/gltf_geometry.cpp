@@ -7,6 +7,7 @@
 #include "io/gltf_points_lines.h"
 #include "io/gltf_suspicions.h"
 #include "scene/affine.h"
+#include "scene/placed_geometry.h"
 #include "scene/tangents.h"
 
 #include <algorithm>
@@ -32,14 +33,15 @@ Vec4 element(const FloatArray& a, size_t i, Vec4*) {
 }
 
 // One attribute as vectors, empty if the primitive has none.
-template <class V> Result<std::vector<V>> read_attribute(const GltfContext& context, const tinygltf::Primitive& primitive, const std::string& name,
-                                                         int min_components, int max_components, const std::string& where) {
+template <class V>
+Result<PlacedVector<V>> read_attribute(const GltfContext& context, const tinygltf::Primitive& primitive, const std::string& name, int min_components,
+                                       int max_components, const std::string& where) {
     const auto it = primitive.attributes.find(name);
     if (it == primitive.attributes.end() || is_fallback(gltf_item(context.json(), "accessors", size_t(it->second))))
-        return std::vector<V>();
+        return PlacedVector<V>();
     const Result<FloatArray> array = read_floats(context, it->second, min_components, max_components, where + "." + name);
     if (!array) return array.error();
-    std::vector<V> vectors;
+    PlacedVector<V> vectors;
     vectors.reserve(array->count() + 1); // positions with room behind them are shared with the ray tracer (AccelTriangles)
     vectors.resize(array->count());
     for (size_t i = 0; i < vectors.size(); ++i) vectors[i] = element(*array, i, static_cast<V*>(nullptr));
@@ -47,7 +49,7 @@ template <class V> Result<std::vector<V>> read_attribute(const GltfContext& cont
 }
 
 template <class V>
-void replace_non_finite(const GltfContext& context, std::vector<V>& values, V otherwise, const std::string& name, const std::string& where) {
+void replace_non_finite(const GltfContext& context, PlacedVector<V>& values, V otherwise, const std::string& name, const std::string& where) {
     size_t bad = 0;
     for (V& v : values) {
         if (finite(v)) continue;
@@ -63,7 +65,7 @@ Result<void> read_attributes(const GltfContext& context, const tinygltf::Primiti
                              const std::string& where) {
     const auto take = [&](auto& target, const std::string& name, int min_components, int max_components) -> Result<void> {
         using V = typename std::remove_reference_t<decltype(target)>::value_type;
-        Result<std::vector<V>> values = read_attribute<V>(context, primitive, name, min_components, max_components, where);
+        Result<PlacedVector<V>> values = read_attribute<V>(context, primitive, name, min_components, max_components, where);
         if (!values) return values.error();
         target = *std::move(values);
         if (!target.empty() && target.size() != g.positions.size())
@@ -75,7 +77,7 @@ Result<void> read_attributes(const GltfContext& context, const tinygltf::Primiti
     if (auto ok = take(g.tangents, "TANGENT", 4, 4); !ok) return ok;
     if (auto ok = take(g.colors, "COLOR_0", 3, 4); !ok) return ok;
     for (const int set : uv_sets) {
-        std::vector<Vec2> uv;
+        PlacedVector<Vec2> uv;
         if (auto ok = take(uv, uv_attribute(set), 2, 2); !ok) return ok;
         if (uv.empty()) continue;
         replace_non_finite(context, uv, Vec2{0, 0}, uv_attribute(set), where);
@@ -87,12 +89,9 @@ Result<void> read_attributes(const GltfContext& context, const tinygltf::Primiti
 }
 
 // Three indices per triangle from the vertex order of a list, strip or fan (glTF 2.0, 3.7.2.1), front faces counter-clockwise.
-std::vector<uint32_t> triangulate(std::vector<uint32_t> order, int mode) {
-    if (mode == TINYGLTF_MODE_TRIANGLES) {
-        order.resize(order.size() / 3 * 3);
-        return order;
-    }
-    std::vector<uint32_t> triangles;
+PlacedVector<uint32_t> triangulate(const std::vector<uint32_t>& order, int mode) {
+    if (mode == TINYGLTF_MODE_TRIANGLES) return {order.begin(), order.end() - std::ptrdiff_t(order.size() % 3)};
+    PlacedVector<uint32_t> triangles;
     for (size_t i = 0; i + 2 < order.size(); ++i) {
         if (mode == TINYGLTF_MODE_TRIANGLE_FAN)
             triangles.insert(triangles.end(), {order[i + 1], order[i + 2], order[0]});
@@ -154,7 +153,7 @@ void make_flat(Geometry& g) {
     };
     unweld_bending(g);
     unweld(g.positions);
-    for (std::vector<Vec2>& uv : g.uv) unweld(uv);
+    for (PlacedVector<Vec2>& uv : g.uv) unweld(uv);
     unweld(g.colors);
     g.tangents.clear(); // of normals that are not there: the specification says to ignore them
     std::iota(g.indices.begin(), g.indices.end(), 0u);
@@ -212,6 +211,7 @@ GeometryPtr solids(const GltfContext& context, const Geometry& vertices, const s
     context.note(fmt::format("approximated: {} {} as {} of radius {:.3g}: they have no surface of their own", made.shown, what,
                              mode == TINYGLTF_MODE_POINTS ? "balls" : "tubes", made.radius),
                  where);
+    place_arrays(made.geometry);
     return std::make_shared<const Geometry>(std::move(made.geometry));
 }
 
@@ -248,7 +248,7 @@ Result<GeometryPtr> import_primitive(const GltfContext& context, const tinygltf:
     if (primitive.mode < TINYGLTF_MODE_TRIANGLES) return solids(context, g, *order, primitive.mode, where);
     if (primitive.mode == TINYGLTF_MODE_TRIANGLES && order->size() % 3 != 0)
         context.warn("the last triangle lacks a corner and is left out", where);
-    g.indices = triangulate(*std::move(order), primitive.mode);
+    g.indices = triangulate(*order, primitive.mode);
     if (g.indices.empty()) {
         context.warn("ignored: a primitive without triangles", where);
         return GeometryPtr();
@@ -260,6 +260,7 @@ Result<GeometryPtr> import_primitive(const GltfContext& context, const tinygltf:
     else
         repair_normals(context, g, where);
     provide_tangents(context, g, needs.tangent_uv_set, where);
+    place_arrays(g);
     return GeometryPtr(std::move(geometry));
 }
 

@@ -19,7 +19,7 @@ struct Solids {
 };
 
 // A radius that shows at any size: 1/500 of the diagonal of the box around the positions; of a single place, 5 mm.
-float mark_radius(const std::vector<Vec3>& positions);
+float mark_radius(const PlacedVector<Vec3>& positions);
 
 // Balls of twenty triangles around the vertices that `order` names, or tubes with six sides along its segments; `mode` is glTF's: 0 points,
 // 1 lines, 2 a loop, 3 a strip. Indices are below the number of positions.

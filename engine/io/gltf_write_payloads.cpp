@@ -17,7 +17,8 @@ constexpr int float_component = 5126, uint_component = 5125, ushort_component = 
 
 std::span<const uint8_t> bytes_of(const void* data, size_t size) { return {static_cast<const uint8_t*>(data), size}; }
 
-template <class V> int append_vectors(GltfDocument& document, const std::vector<V>& vectors, bool with_bounds = false) {
+template <class Vectors> int append_vectors(GltfDocument& document, const Vectors& vectors, bool with_bounds = false) {
+    using V = Vectors::value_type;
     static_assert(sizeof(V) % sizeof(float) == 0);
     constexpr int components = int(sizeof(V) / sizeof(float));
     return append_floats(document, reinterpret_cast<const float*>(vectors.data()), vectors.size(), components, with_bounds);
@@ -206,7 +207,7 @@ int append_floats(GltfDocument& document, const float* values, size_t count, int
     return document.append("accessors", std::move(accessor));
 }
 
-int append_indices(GltfDocument& document, const std::vector<uint32_t>& indices) {
+int append_indices(GltfDocument& document, std::span<const uint32_t> indices) {
     const int view = document.append_view(bytes_of(indices.data(), indices.size() * sizeof(uint32_t)), element_array_buffer);
     return document.append("accessors",
                            {{"bufferView", view}, {"componentType", uint_component}, {"count", indices.size()}, {"type", "SCALAR"}});

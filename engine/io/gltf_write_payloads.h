@@ -5,6 +5,7 @@
 #include "io/gltf_document.h"
 
 #include <set>
+#include <span>
 
 namespace blush {
 
@@ -24,6 +25,6 @@ Result<void> write_payloads(GltfDocument& document, const GltfOrigin& has, const
 
 // Accessors of views of their own; `components` per element. Bounds are what positions must have.
 int append_floats(GltfDocument& document, const float* values, size_t count, int components, bool with_bounds);
-int append_indices(GltfDocument& document, const std::vector<uint32_t>& indices);
+int append_indices(GltfDocument& document, std::span<const uint32_t> indices);
 
 } // namespace blush

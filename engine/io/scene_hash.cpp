@@ -32,7 +32,7 @@ public:
         if (!data.empty()) std::memcpy(&rest, data.data(), data.size());
         word(rest);
     }
-    template <class T> void array(const std::vector<T>& values) { bytes(std::as_bytes(std::span(values))); }
+    template <class Values> void array(const Values& values) { bytes(std::as_bytes(std::span(values))); }
 
     // Fields, by type. Texts are names and origins; which camera node there is shows only in the view.
     void operator()(std::string_view, const std::string&) {}
@@ -90,7 +90,7 @@ void hash_mesh(Hasher& hash, const Mesh& mesh) {
         hash.array(g.normals);
         hash.array(g.tangents);
         hash.word(g.uv.size());
-        for (const std::vector<Vec2>& uv : g.uv) hash.array(uv);
+        for (const PlacedVector<Vec2>& uv : g.uv) hash.array(uv);
         hash.array(g.colors);
         hash.array(g.indices);
         for (const MorphTargetPtr& target : g.targets) {

@@ -1,6 +1,7 @@
 #include "render/accel.h"
 
 #include "core/sampler.h"
+#include "render/compact_tree.h"
 #include "render/opacity.h"
 #include "render/scene_tables.h"
 
@@ -37,10 +38,6 @@ void opacity_filter(const RTCFilterFunctionNArguments* args) {
         if (unit_float<float>(key) >= opacity) args->valid[i] = 0;
     }
 }
-
-// Leaves hold the corners of their triangles, or, in larger meshes, their indices alone: of ten million triangles that saves 50 bytes each while
-// the tree is built and a third of the time, and costs a tenth of the rays per second.
-constexpr size_t most_triangles_with_corners = size_t(1) << 20;
 
 struct SceneHandle {
     RTCScene scene = nullptr;

@@ -2,6 +2,7 @@
 
 #include "core/math.h"
 #include "scene/affine.h"
+#include "scene/placed_geometry.h"
 
 #include <algorithm>
 #include <map>
@@ -24,7 +25,7 @@ InstanceRecord make_instance(const Affined& m) {
     return {to_float(m), to_float(n.x), to_float(n.y), to_float(n.z)};
 }
 
-template <class T> void append_or_fill(std::vector<T>& pool, bool wanted, const std::vector<T>& values, size_t count, const T& filler) {
+template <class T> void append_or_fill(PlacedVector<T>& pool, bool wanted, const PlacedVector<T>& values, size_t count, const T& filler) {
     if (!wanted) return;
     if (values.size() == count)
         pool.insert(pool.end(), values.begin(), values.end());
@@ -33,8 +34,8 @@ template <class T> void append_or_fill(std::vector<T>& pool, bool wanted, const 
 }
 
 // Empty for one that the shape does not have.
-const std::vector<Vec2>& uv_set(const Geometry& g, int number) {
-    static const std::vector<Vec2> none;
+const PlacedVector<Vec2>& uv_set(const Geometry& g, int number) {
+    static const PlacedVector<Vec2> none;
     return number >= 0 && g.has_uv_set(number) ? g.uv[size_t(number)] : none;
 }
 
@@ -87,7 +88,22 @@ Affined placed(const SceneObject& object, size_t copy, const Vec3d& origin) {
 size_t placed_parts(const SceneObject& object) { return object.copies() * object.parts.size(); }
 
 // Can all of the last one be read as four floats?
-bool has_room_behind(const std::vector<Vec3>& positions) { return positions.capacity() > positions.size(); }
+bool has_room_behind(const Geometry& geometry) { return placed_at(geometry) || geometry.positions.capacity() > geometry.positions.size(); }
+
+// Where number 0 of an array is: without numbers it begins with the array.
+template <class T> const T* base_of(const PlacedVector<T>& own, bool numbered, Attribute attribute) {
+    return numbered ? attribute_base<T>(attribute) : own.data();
+}
+
+// An empty array with room for `count`, at its numbers if there are any.
+template <class T> PlacedVector<T> with_room(size_t count, const NumbersPtr& numbers, T* base) {
+    if (numbers && !base) throw std::runtime_error("the addresses for the scene's vertices cannot be reserved");
+    PlacedVector<T> room(numbers ? PlacedAllocator<T>(base + numbers->first(), count) : PlacedAllocator<T>());
+    room.reserve(count);
+    return room;
+}
+
+bool is_read_in_place(const SceneObject& object, const Geometry& geometry) { return object.instanced && placed_at(geometry); }
 
 // Lets the builder read the document's arrays, which do not move, in place of the pool's, which do.
 void share(const GeometryPtr& geometry, AccelTriangles& triangles) {
@@ -102,21 +118,32 @@ constexpr size_t most_placed_parts = size_t(1) << 26;
 } // namespace
 
 // Room for exactly what build() appends.
-void GeometryPool::reserve(const std::vector<SceneObject>& objects, bool normals) {
+void GeometryPool::reserve(const std::vector<SceneObject>& objects) {
     std::set<uint64_t> shared;
     size_t vertices = 0, indices = 0, parts = 0, instances = 0;
+    bool in_place = false;
     for (const SceneObject& object : objects) {
         parts += placed_parts(object);
         if (object.instanced) instances += object.copies();
         for (const MeshPart& part : object.parts) {
             const Geometry& g = *part.geometry;
             if (object.instanced && !shared.insert(g.serial).second) continue;
+            if (is_read_in_place(object, g)) {
+                in_place = true;
+                continue;
+            }
             vertices += g.positions.size();
             indices += g.indices.size();
         }
     }
-    if (vertices > size_t(INT32_MAX) / 4 || indices > size_t(INT32_MAX))
+    vertex_numbers_ = take_numbers(Numbering::vertices, vertices);
+    index_numbers_ = take_numbers(Numbering::indices, indices);
+    const bool numbered = vertex_numbers_ && index_numbers_;
+    if (vertices > size_t(most_numbers(Numbering::vertices)) || indices > size_t(most_numbers(Numbering::indices)) || (in_place && !numbered))
         throw std::runtime_error("the scene has more vertices than 32-bit indices reach");
+    if (!numbered) vertex_numbers_ = index_numbers_ = {};
+    first_vertex_ = numbered ? int32_t(vertex_numbers_->first()) : 0;
+    first_index_ = numbered ? int32_t(index_numbers_->first()) : 0;
     if (parts > most_placed_parts) throw std::runtime_error("the scene has more instances than 32-bit indices reach");
     parts_.reserve(parts);
     part_materials_.reserve(parts);
@@ -124,21 +151,25 @@ void GeometryPool::reserve(const std::vector<SceneObject>& objects, bool normals
     part_vertices_.reserve(parts);
     instances_.reserve(instances);
     instance_first_part_.reserve(instances);
-    indices_.reserve(indices);
-    positions_.reserve(vertices);
-    if (normals) normals_.reserve(vertices);
-    if (needs_.tangents) tangents_.reserve(vertices);
-    if (needs_.colors) colors_.reserve(vertices);
+    indices_ = with_room(indices, index_numbers_, index_base());
+    const auto make_room = [&](auto& array, Attribute attribute) {
+        using T = std::decay_t<decltype(array)>::value_type;
+        array = with_room(vertices, vertex_numbers_, attribute_base<T>(attribute));
+    };
+    make_room(positions_, Attribute::positions);
+    if (has_normals_) make_room(normals_, Attribute::normals);
+    if (needs_.tangents) make_room(tangents_, Attribute::tangents);
+    if (needs_.colors) make_room(colors_, Attribute::colors);
     for (size_t set = 0; set < needs_.uv_sets.size(); ++set)
-        if (needs_.uv_sets[set] >= 0) uv_[set].reserve(vertices);
+        if (needs_.uv_sets[set] >= 0) make_room(uv_[set], uv_attribute_of(needs_.uv_sets[set]));
 }
 
-GeometryPool::Span GeometryPool::append(const Geometry& g, bool normals) {
+GeometryPool::Span GeometryPool::append(const Geometry& g) {
     const size_t n = g.positions.size();
-    const Span span{int32_t(positions_.size()), int32_t(indices_.size())};
+    const Span span{first_vertex_ + int32_t(positions_.size()), first_index_ + int32_t(indices_.size())};
     indices_.insert(indices_.end(), g.indices.begin(), g.indices.end());
     positions_.insert(positions_.end(), g.positions.begin(), g.positions.end());
-    append_or_fill(normals_, normals, g.normals, n, Vec3{0, 0, 0});
+    append_or_fill(normals_, has_normals_, g.normals, n, Vec3{0, 0, 0});
     append_or_fill(tangents_, needs_.tangents, g.tangents, n, Vec4{1, 0, 0, 1});
     append_or_fill(colors_, needs_.colors, g.colors, n, Vec4{1, 1, 1, 1});
     for (size_t set = 0; set < needs_.uv_sets.size(); ++set)
@@ -146,11 +177,23 @@ GeometryPool::Span GeometryPool::append(const Geometry& g, bool normals) {
     return span;
 }
 
+GeometryPool::Span GeometryPool::find_or_append(const SceneObject& object, const GeometryPtr& geometry, std::map<uint64_t, Span>& shared) {
+    if (!object.instanced) return append(*geometry);
+    const auto [known, is_new] = shared.try_emplace(geometry->serial);
+    if (!is_new) return known->second;
+    if (const auto at = placed_at(*geometry)) {
+        read_in_place_.push_back(geometry);
+        known->second = {at->first_vertex, at->first_index};
+    } else
+        known->second = append(*geometry);
+    return known->second;
+}
+
 void GeometryPool::place(size_t part, const Geometry& g, const Affined& world_from_object) {
     PartRecord& record = parts_[part];
     const Affined normal = normal_matrix(world_from_object);
     record.flags = (record.flags & ~part_mirrored) | (determinant(world_from_object) < 0 ? part_mirrored : 0);
-    const size_t first = size_t(record.first_vertex);
+    const auto first = size_t(record.first_vertex - first_vertex_);
     for (size_t i = 0; i < g.positions.size(); ++i)
         positions_[first + i] = to_float(transform_point(world_from_object, to_double(g.positions[i])));
     if (record.flags & part_smooth)
@@ -169,16 +212,12 @@ void GeometryPool::build(const std::vector<SceneObject>& objects, const Attribut
     origin_ = origin;
     std::map<uint64_t, Span> shared; // instanced geometry by serial
     const std::map<uint64_t, bool> smooth = smooth_shapes(objects);
-    const bool normals = std::ranges::any_of(smooth, [](const auto& shape) { return shape.second; });
-    reserve(objects, normals);
+    has_normals_ = std::ranges::any_of(smooth, [](const auto& shape) { return shape.second; });
+    reserve(objects);
     for (const SceneObject& object : objects) {
         std::vector<Span> spans;
-        for (const MeshPart& part : object.parts) {
-            const Geometry& g = *part.geometry;
-            const auto known = object.instanced ? shared.find(g.serial) : shared.end();
-            spans.push_back(known != shared.end() ? known->second : append(g, normals));
-            if (object.instanced) shared[g.serial] = spans.back();
-        }
+        if (object.instanced) largest_instanced_mesh_ = std::max(largest_instanced_mesh_, object.triangle_count());
+        for (const MeshPart& part : object.parts) spans.push_back(find_or_append(object, part.geometry, shared));
         for (size_t copy = 0; copy < object.copies(); ++copy) {
             const Affined world_from_object = placed(object, copy, origin);
             if (object.instanced) {
@@ -215,19 +254,23 @@ void GeometryPool::move(const std::vector<SceneObject>& before, const std::vecto
     }
 }
 
+const Vec3* GeometryPool::all_positions() const { return base_of(positions_, vertex_numbers_ != nullptr, Attribute::positions); }
+const uint32_t* GeometryPool::all_indices() const { return index_numbers_ ? index_base() : indices_.data(); }
+
 void GeometryPool::corners(size_t part, int64_t triangle, Vec3 (&p)[3]) const {
     const PartRecord& record = parts_[part];
     for (int k = 0; k < 3; ++k) {
-        const size_t vertex = size_t(record.first_vertex) + indices_[size_t(record.first_index) + 3 * size_t(triangle) + size_t(k)];
-        p[k] = positions_[vertex];
+        const size_t vertex = size_t(record.first_vertex) + all_indices()[size_t(record.first_index) + 3 * size_t(triangle) + size_t(k)];
+        p[k] = all_positions()[vertex];
         if (record.transform >= 0) p[k] = transform_point(instances_[size_t(record.transform)].world_from_object, p[k]);
     }
 }
 
 int64_t GeometryPool::degenerate_in(size_t part) const {
     const PartRecord& record = parts_[part];
-    const uint32_t* corner = indices_.data() + record.first_index;
-    const auto position = [&](uint32_t i) { return to_double(positions_[size_t(record.first_vertex) + i]); };
+    const uint32_t* corner = all_indices() + record.first_index;
+    const Vec3* positions = all_positions() + record.first_vertex;
+    const auto position = [&](uint32_t i) { return to_double(positions[i]); };
     int64_t n = 0;
     for (int64_t t = 0; t < part_triangles_[part]; ++t, corner += 3) {
         const Vec3d a = position(corner[0]), normal = cross(position(corner[1]) - a, position(corner[2]) - a);
@@ -259,16 +302,21 @@ int64_t GeometryPool::degenerate_count() const {
 }
 
 void GeometryPool::fill(SceneTables& t) const {
-    const auto pointer = [](const auto& v) { return v.empty() ? nullptr : &v[0].x; };
+    const auto pointer = [&](const auto& own, Attribute attribute, bool used) {
+        const auto* base = used ? base_of(own, vertex_numbers_ != nullptr, attribute) : nullptr;
+        return base ? &base->x : nullptr;
+    };
     t.parts = parts_.data();
     t.instances = instances_.data();
     t.instance_first_part = instance_first_part_.data();
-    t.indices = indices_.data();
-    t.positions = pointer(positions_);
-    t.normals = pointer(normals_);
-    t.tangents = pointer(tangents_);
-    std::ranges::transform(uv_, t.uv.begin(), pointer);
-    t.colors = pointer(colors_);
+    t.indices = all_indices();
+    t.positions = pointer(positions_, Attribute::positions, true);
+    t.normals = pointer(normals_, Attribute::normals, has_normals_);
+    t.tangents = pointer(tangents_, Attribute::tangents, needs_.tangents);
+    t.uv = {};
+    for (size_t set = 0; set < needs_.uv_sets.size(); ++set)
+        t.uv[set] = pointer(uv_[set], uv_attribute_of(needs_.uv_sets[set]), needs_.uv_sets[set] >= 0);
+    t.colors = pointer(colors_, Attribute::colors, needs_.colors);
 }
 
 AccelScene GeometryPool::accel_scene(const std::vector<SceneObject>& objects, const std::vector<bool>& alpha,
@@ -284,10 +332,10 @@ AccelScene GeometryPool::accel_scene(const std::vector<SceneObject>& objects, co
             const PartRecord& record = parts_[part];
             const int32_t opaque_as =
                 object.instanced ? first_alike.try_emplace({p.geometry->serial, p.material}, int32_t(part)).first->second : int32_t(part);
-            AccelTriangles t{p.geometry->serial, nullptr, positions_.data() + record.first_vertex, size_t(part_vertices_[part]),
-                             indices_.data() + record.first_index, size_t(part_triangles_[part]), opaque_as, alpha[part],
+            AccelTriangles t{p.geometry->serial, nullptr, all_positions() + record.first_vertex, size_t(part_vertices_[part]),
+                             all_indices() + record.first_index, size_t(part_triangles_[part]), opaque_as, alpha[part],
                              object.instanced ? seen_by_all : masks[i]};
-            if (object.instanced && has_room_behind(p.geometry->positions)) share(p.geometry, t);
+            if (object.instanced && has_room_behind(*p.geometry)) share(p.geometry, t);
             triangles.push_back(std::move(t));
             ++part;
         }
@@ -305,7 +353,16 @@ size_t GeometryPool::memory_bytes() const {
     const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
     size_t sum = bytes(parts_) + bytes(part_materials_) + bytes(part_triangles_) + bytes(part_vertices_) + bytes(instances_) +
                  bytes(instance_first_part_) + bytes(indices_) + bytes(positions_) + bytes(normals_) + bytes(tangents_) + bytes(colors_);
-    for (const std::vector<Vec2>& uv : uv_) sum += bytes(uv);
+    for (const PlacedVector<Vec2>& uv : uv_) sum += bytes(uv);
+    return sum;
+}
+
+size_t GeometryPool::in_place_bytes() const {
+    const auto sets = std::ranges::count_if(needs_.uv_sets, [](int number) { return number >= 0; });
+    const size_t per_vertex = sizeof(Vec3) + (has_normals_ ? sizeof(Vec3) : 0) + (needs_.tangents ? sizeof(Vec4) : 0) +
+                              (needs_.colors ? sizeof(Vec4) : 0) + size_t(sets) * sizeof(Vec2);
+    size_t sum = 0;
+    for (const GeometryPtr& g : read_in_place_) sum += g->positions.size() * per_vertex + g->indices.size() * sizeof(uint32_t);
     return sum;
 }
 

@@ -1,4 +1,5 @@
-// All vertices and triangles that rays can hit, in arrays that run in parallel; attributes that no part has are not allocated.
+// All vertices and triangles that rays can hit, in arrays that run in parallel; attributes that no part has are not allocated. Large shapes that
+// are traced through instances are read where the document has them (scene/placed_geometry.h).
 #pragma once
 
 #include "render/accel.h"
@@ -8,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <vector>
 
 namespace blush {
@@ -43,18 +45,29 @@ public:
     AccelScene accel_scene(const std::vector<SceneObject>& objects, const std::vector<bool>& alpha,
                            const std::vector<uint32_t>& masks) const;
     int64_t instance_count() const { return int64_t(instances_.size()); }
-    int64_t vertex_count() const { return int64_t(positions_.size()); }
     // Some part has vertex normals that differ from its faces'.
-    bool has_normals() const { return !normals_.empty(); }
+    bool has_normals() const { return has_normals_; }
+    // Of its own: what is read in the document is not counted.
+    int64_t vertex_count() const { return int64_t(positions_.size()); }
     size_t memory_bytes() const;
+    size_t shapes_in_place() const { return read_in_place_.size(); }
+    // What copies of those would take.
+    size_t in_place_bytes() const;
+    // Triangles of the largest mesh that is traced through instances.
+    size_t largest_instanced_mesh() const { return largest_instanced_mesh_; }
 
 private:
     struct Span {
         int32_t first_vertex = 0, first_index = 0;
     };
-    void reserve(const std::vector<SceneObject>& objects, bool normals);
+    void reserve(const std::vector<SceneObject>& objects);
     int64_t degenerate_in(size_t part) const; // as it is stored
-    Span append(const Geometry& geometry, bool normals);
+    Span append(const Geometry& geometry);
+    // From number 0 on: its own and those it reads in place.
+    const Vec3* all_positions() const;
+    const uint32_t* all_indices() const;
+    // Where the shape is, here or in the document; what is not yet anywhere is appended. `shared`: instanced ones that are, by serial.
+    Span find_or_append(const SceneObject& object, const GeometryPtr& geometry, std::map<uint64_t, Span>& shared);
     void place(size_t part, const Geometry& geometry, const Affined& world_from_object);
 
     std::vector<PartRecord> parts_;
@@ -63,10 +76,16 @@ private:
     std::vector<int64_t> part_vertices_;
     std::vector<InstanceRecord> instances_;
     std::vector<int32_t> instance_first_part_;
-    std::vector<uint32_t> indices_;
-    std::vector<Vec3> positions_, normals_;
-    std::vector<Vec4> tangents_, colors_;
-    std::array<std::vector<Vec2>, most_uv_sets> uv_;
+    std::vector<GeometryPtr> read_in_place_;
+    size_t largest_instanced_mesh_ = 0;
+    bool has_normals_ = false;
+    // Its own arrays, and their first numbers. Without numbers, which may be refused, nothing is read in the document.
+    NumbersPtr vertex_numbers_, index_numbers_;
+    int32_t first_vertex_ = 0, first_index_ = 0;
+    PlacedVector<uint32_t> indices_;
+    PlacedVector<Vec3> positions_, normals_;
+    PlacedVector<Vec4> tangents_, colors_;
+    std::array<PlacedVector<Vec2>, most_uv_sets> uv_;
     AttributeNeeds needs_;
     Vec3d origin_{0, 0, 0};
 };

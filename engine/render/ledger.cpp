@@ -1,4 +1,5 @@
 // The lines of the ledger that a compiled scene writes.
+#include "render/compact_tree.h"
 #include "render/ledger.h"
 #include "render/render_scene.h"
 
@@ -74,6 +75,13 @@ void add_vertices(Ledger& ledger, const GeometryPool& geometry, const AttributeN
     };
     for (const Attribute& a : attributes)
         ledger.push_back({"geometry", a.name, a.used, a.used ? a.why_used : a.why_not, int64_t(a.bytes) * geometry.vertex_count()});
+    if (const size_t n = geometry.shapes_in_place(); n > 0)
+        ledger.push_back({"geometry", "copies of large shapes", false,
+                          n == 1 ? "it is read where the document has it" : fmt::format("{} are read where the document has them", n),
+                          int64_t(geometry.in_place_bytes())});
+    if (geometry.largest_instanced_mesh() > most_triangles_with_corners)
+        ledger.push_back({"geometry", "corners in the tree", false,
+                          fmt::format("a mesh has more than {} triangles: 27 bytes less for each, a quarter slower", most_triangles_with_corners)});
 }
 
 void add_textures(Ledger& ledger, const TextureTable& table, const Scene& scene) {

@@ -14,12 +14,6 @@ namespace {
 constexpr size_t largest_flat_mesh = 32768;
 constexpr size_t largest_flat_scene = 131072;
 
-size_t triangles_of(const SceneObject& object) {
-    size_t n = 0;
-    for (const MeshPart& part : object.parts) n += part.geometry->triangle_count();
-    return n;
-}
-
 } // namespace
 
 bool SceneObject::same_shape(const SceneObject& other) const {
@@ -28,6 +22,12 @@ bool SceneObject::same_shape(const SceneObject& other) const {
     };
     return node == other.node && instanced == other.instanced && instances == other.instances &&
            std::equal(parts.begin(), parts.end(), other.parts.begin(), other.parts.end(), same_part);
+}
+
+size_t SceneObject::triangle_count() const {
+    size_t n = 0;
+    for (const MeshPart& part : parts) n += part.geometry->triangle_count();
+    return n;
 }
 
 Affined SceneObject::world_from_copy(size_t copy) const {
@@ -50,7 +50,7 @@ std::vector<SceneObject> list_objects(const Scene& scene) {
     }
     size_t flat = 0;
     for (SceneObject& object : objects) {
-        const size_t n = triangles_of(object);
+        const size_t n = object.triangle_count();
         object.instanced =
             object.instances || uses[scene.nodes.find(object.node)->mesh] > 1 || n > largest_flat_mesh || flat + n > largest_flat_scene;
         if (!object.instanced) flat += n;

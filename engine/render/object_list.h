@@ -17,6 +17,7 @@ struct SceneObject {
 
     // Equal but for where it is.
     bool same_shape(const SceneObject& other) const;
+    size_t triangle_count() const; // once
     size_t copies() const { return instances ? instances->node_from_copy.size() : 1; }
     Affined world_from_copy(size_t copy) const;
 };

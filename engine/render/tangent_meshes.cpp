@@ -1,5 +1,6 @@
 #include "render/tangent_meshes.h"
 
+#include "scene/placed_geometry.h"
 #include "scene/tangents.h"
 
 #include <optional>
@@ -14,6 +15,7 @@ GeometryPtr with_tangents(const GeometryPtr& geometry, int uv_set) {
     auto made = std::make_shared<Geometry>(*bare);
     made->serial = next_payload_serial();
     add_tangents(*made, uv_set);
+    place_arrays(*made);
     return made;
 }
 

@@ -2,6 +2,7 @@
 
 #include "core/math.h"
 #include "scene/affine.h"
+#include "scene/placed_geometry.h"
 #include "scene/pose.h"
 
 #include <algorithm>
@@ -21,7 +22,7 @@ void morph(std::vector<Vec3d>& vectors, const Geometry& g, const std::vector<flo
     }
 }
 
-std::vector<Vec3d> in_double(const std::vector<Vec3>& vectors) {
+std::vector<Vec3d> in_double(const PlacedVector<Vec3>& vectors) {
     std::vector<Vec3d> result;
     result.reserve(vectors.size());
     for (const Vec3& v : vectors) result.push_back(to_double(v));
@@ -124,6 +125,7 @@ GeometryPtr bent(const Geometry& rest, const Bend& bend) {
         }
     }
     if (g.flat) face_normals(g);
+    place_arrays(g);
     return result;
 }
 

@@ -47,7 +47,7 @@ struct Group {
 
 class TangentSpace {
 public:
-    TangentSpace(const Geometry& g, const std::vector<Vec2>& uv) : g_(g), uv_(uv), triangles_(g.triangle_count()) {
+    TangentSpace(const Geometry& g, const PlacedVector<Vec2>& uv) : g_(g), uv_(uv), triangles_(g.triangle_count()) {
         weld();
         for (size_t t = 0; t < triangles_.size(); ++t) describe(t);
         connect();
@@ -224,13 +224,13 @@ private:
     }
 
     const Geometry& g_;
-    const std::vector<Vec2>& uv_;
+    const PlacedVector<Vec2>& uv_;
     std::vector<Triangle> triangles_;
     std::vector<Group> groups_;
 };
 
 } // namespace
 
-std::vector<Vec4> mikktspace_tangents(const Geometry& geometry, const std::vector<Vec2>& uv) { return TangentSpace(geometry, uv).corners(); }
+std::vector<Vec4> mikktspace_tangents(const Geometry& geometry, const PlacedVector<Vec2>& uv) { return TangentSpace(geometry, uv).corners(); }
 
 } // namespace blush

@@ -12,6 +12,6 @@ namespace blush {
 // equally mirrored or not share a tangent: the mean of where u grows, weighted by the triangles' angles at the vertex. Corners whose UVs
 // say nothing get some perpendicular of the normal.
 // `geometry` has unit normals and valid indices, `uv` one element per position.
-std::vector<Vec4> mikktspace_tangents(const Geometry& geometry, const std::vector<Vec2>& uv);
+std::vector<Vec4> mikktspace_tangents(const Geometry& geometry, const PlacedVector<Vec2>& uv);
 
 } // namespace blush

@@ -6,6 +6,7 @@
 // creation; two payloads are the same data if and only if their serials are equal.
 #pragma once
 
+#include "core/numbered_arrays.h"
 #include "core/vec.h"
 #include "scene/cow.h"
 #include "scene/motion.h"
@@ -30,13 +31,14 @@ struct MadeTangents {
 // Triangles of one material. Immutable once shared. Optional arrays are empty or have positions.size() entries.
 struct Geometry {
     uint64_t serial = next_payload_serial();
-    std::vector<Vec3> positions;
-    std::vector<Vec3> normals;
-    std::vector<Vec4> tangents; // xyz and the handedness w = +-1, as in glTF
+    NumbersPtr vertex_numbers, index_numbers; // of the arrays of a large one (placed_geometry.h); they end after them
+    PlacedVector<Vec3> positions;
+    PlacedVector<Vec3> normals;
+    PlacedVector<Vec4> tangents; // xyz and the handedness w = +-1, as in glTF
     std::optional<MadeTangents> made_tangents; // if they are no part of the mesh
-    std::vector<std::vector<Vec2>> uv; // uv[i] is TEXCOORD_i; (0, 0) is the top left corner of the image, as in glTF
-    std::vector<Vec4> colors;   // linear RGBA, multiplies the base colour
-    std::vector<uint32_t> indices; // 3 per triangle, all < positions.size()
+    std::vector<PlacedVector<Vec2>> uv; // uv[i] is TEXCOORD_i; (0, 0) is the top left corner of the image, as in glTF
+    PlacedVector<Vec4> colors;   // linear RGBA, multiplies the base colour
+    PlacedVector<uint32_t> indices; // 3 per triangle, all < positions.size()
     bool flat = false;             // the normals are the triangles' own: they are made anew where something bends
     std::vector<MorphTargetPtr> targets;
     std::vector<Influence> influences; // empty, or as many for each vertex, their weights summing to 1

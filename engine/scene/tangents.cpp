@@ -7,14 +7,14 @@
 namespace blush {
 namespace {
 
-template <class T> void append_copies(std::vector<T>& values, const std::vector<uint32_t>& of, size_t per_vertex = 1) {
+template <class Values> void append_copies(Values& values, const std::vector<uint32_t>& of, size_t per_vertex = 1) {
     if (values.empty()) return;
     values.reserve(values.size() + of.size() * per_vertex);
     for (const uint32_t i : of)
         for (size_t k = 0; k < per_vertex; ++k) values.push_back(values[i * per_vertex + k]);
 }
 
-template <class T> void drop_copies(std::vector<T>& values, size_t copies, size_t per_vertex = 1) {
+template <class Values> void drop_copies(Values& values, size_t copies, size_t per_vertex = 1) {
     if (!values.empty()) values.resize(values.size() - copies * per_vertex);
 }
 
@@ -73,7 +73,7 @@ void add_tangents(Geometry& g, int uv_set) {
     append_copies(g.positions, copied);
     append_copies(g.normals, copied);
     append_copies(g.colors, copied);
-    for (std::vector<Vec2>& uv : g.uv) append_copies(uv, copied);
+    for (PlacedVector<Vec2>& uv : g.uv) append_copies(uv, copied);
 }
 
 GeometryPtr without_made_tangents(const GeometryPtr& geometry) {
@@ -98,7 +98,7 @@ GeometryPtr without_made_tangents(const GeometryPtr& geometry) {
     drop_copies(g.positions, copies.size());
     drop_copies(g.normals, copies.size());
     drop_copies(g.colors, copies.size());
-    for (std::vector<Vec2>& uv : g.uv) drop_copies(uv, copies.size());
+    for (PlacedVector<Vec2>& uv : g.uv) drop_copies(uv, copies.size());
     return bare;
 }
 

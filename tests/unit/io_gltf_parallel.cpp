@@ -78,8 +78,8 @@ bool same_numbers(const Vec4& a, const Vec4& b) { return std::memcmp(&a, &b, siz
 bool same_numbers(const Vec2& a, const Vec2& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
 // Bit for bit.
-template <class V> bool same_numbers(const std::vector<V>& a, const std::vector<V>& b) {
-    return std::ranges::equal(a, b, [](const V& x, const V& y) { return same_numbers(x, y); });
+template <class Values> bool same_numbers(const Values& a, const Values& b) {
+    return std::ranges::equal(a, b, [](const auto& x, const auto& y) { return same_numbers(x, y); });
 }
 bool same_vertices(const Geometry& a, const Geometry& b) {
     return same_numbers(a.positions, b.positions) && same_numbers(a.normals, b.normals) && same_numbers(a.tangents, b.tangents) &&

@@ -20,7 +20,7 @@ struct Corner {
 };
 
 // In the plane z = 0, facing +Z.
-Geometry flat(const std::vector<Corner>& corners, std::vector<uint32_t> indices) {
+Geometry flat(const std::vector<Corner>& corners, const std::vector<uint32_t>& indices) {
     Geometry g;
     g.uv.resize(1);
     for (const Corner& c : corners) {
@@ -28,7 +28,7 @@ Geometry flat(const std::vector<Corner>& corners, std::vector<uint32_t> indices)
         g.uv[0].push_back(c.uv);
     }
     g.normals.assign(corners.size(), {0, 0, 1});
-    g.indices = std::move(indices);
+    g.indices.assign(indices.begin(), indices.end());
     return g;
 }
 

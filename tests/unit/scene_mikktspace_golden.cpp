@@ -20,10 +20,10 @@ struct Golden {
     std::vector<Vec4> tangents; // by corner, w as in glTF
 };
 
-template <class V> std::vector<V> vectors(const nlohmann::json& numbers) {
+template <class V> PlacedVector<V> vectors(const nlohmann::json& numbers) {
     static_assert(sizeof(V) % sizeof(float) == 0);
     const auto flat = numbers.get<std::vector<float>>();
-    std::vector<V> values(flat.size() * sizeof(float) / sizeof(V));
+    PlacedVector<V> values(flat.size() * sizeof(float) / sizeof(V));
     std::memcpy(values.data(), flat.data(), values.size() * sizeof(V));
     return values;
 }
@@ -35,8 +35,10 @@ Golden golden(const std::string& name) {
     made.geometry.positions = vectors<Vec3>(json["positions"]);
     made.geometry.normals = vectors<Vec3>(json["normals"]);
     made.geometry.uv = {vectors<Vec2>(json["uvs"])};
-    made.geometry.indices = json["indices"].get<std::vector<uint32_t>>();
-    made.tangents = vectors<Vec4>(json["tangents"]);
+    const auto indices = json["indices"].get<std::vector<uint32_t>>();
+    made.geometry.indices.assign(indices.begin(), indices.end());
+    const PlacedVector<Vec4> tangents = vectors<Vec4>(json["tangents"]);
+    made.tangents.assign(tangents.begin(), tangents.end());
     for (Vec4& t : made.tangents) t.w = -t.w; // there v points down
     return made;
 }

@@ -1,0 +1,49 @@
+#include "scene/placed_geometry.h"
+
+namespace blush {
+namespace {
+
+// Calls visit(array, attribute) for each attribute that the shape has; false as soon as one of them is.
+template <class G, class Visit> bool all_attributes(G& g, const Visit& visit) {
+    const auto absent_or = [&](auto& array, Attribute attribute) { return array.empty() || visit(array, attribute); };
+    bool good = absent_or(g.positions, Attribute::positions) && absent_or(g.normals, Attribute::normals) &&
+                absent_or(g.tangents, Attribute::tangents) && absent_or(g.colors, Attribute::colors);
+    for (size_t set = 0; good && set < g.uv.size(); ++set) good = absent_or(g.uv[set], uv_attribute_of(int(set)));
+    return good;
+}
+
+template <class T> void move_to(PlacedVector<T>& array, T* base, int64_t first) {
+    PlacedVector<T> placed(PlacedAllocator<T>(base + first, array.size()));
+    placed.reserve(array.size());
+    placed.assign(array.begin(), array.end());
+    array = std::move(placed);
+}
+
+template <class T> T* base_of(const PlacedVector<T>&, Attribute attribute) { return attribute_base<T>(attribute); }
+
+} // namespace
+
+void place_arrays(Geometry& g) {
+    if (g.positions.size() < fewest_placed_vertices) return;
+    if (!all_attributes(g, [](const auto& array, Attribute attribute) { return base_of(array, attribute) != nullptr; })) return;
+    NumbersPtr vertices = take_numbers(Numbering::vertices, g.positions.size()), indices = take_numbers(Numbering::indices, g.indices.size());
+    if (!vertices || !indices) return;
+    all_attributes(g, [&](auto& array, Attribute attribute) {
+        move_to(array, base_of(array, attribute), vertices->first());
+        return true;
+    });
+    move_to(g.indices, index_base(), indices->first());
+    g.vertex_numbers = std::move(vertices);
+    g.index_numbers = std::move(indices);
+}
+
+std::optional<PlacedAt> placed_at(const Geometry& g) {
+    if (!g.vertex_numbers || !g.index_numbers) return {};
+    const PlacedAt at{int32_t(g.vertex_numbers->first()), int32_t(g.index_numbers->first())};
+    const bool placed = g.indices.data() == index_base() + at.first_index && all_attributes(g, [&](const auto& array, Attribute attribute) {
+                            return array.data() == base_of(array, attribute) + at.first_vertex;
+                        });
+    return placed ? std::optional(at) : std::nullopt;
+}
+
+} // namespace blush

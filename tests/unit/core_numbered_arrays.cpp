@@ -1,0 +1,93 @@
+// Numbers of vertices and indices are given out once, and the memory behind them is taken and given back with what is written there.
+#include "core/numbered_arrays.h"
+
+#include "core/vec.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace blush {
+namespace {
+
+using Floats = PlacedVector<float>;
+constexpr auto attribute = Attribute(200); // whose elements here are single floats
+
+TEST(NumberedArrays, RangesDoNotOverlapAndComeBack) {
+    std::vector<std::pair<int64_t, NumbersPtr>> taken;
+    for (const size_t count : {1, 5000, 1024, 70000}) taken.emplace_back(int64_t(count), take_numbers(Numbering::vertices, count));
+    for (const auto& [count, numbers] : taken) {
+        ASSERT_TRUE(numbers);
+        EXPECT_EQ(numbers->first() % 1024, 0);
+        for (const auto& [other_count, other] : taken)
+            EXPECT_TRUE(other == numbers || numbers->first() + count <= other->first() || other->first() + other_count <= numbers->first());
+    }
+    const int64_t first = taken[1].second->first();
+    taken[1].second.reset();
+    EXPECT_EQ(take_numbers(Numbering::vertices, 5000)->first(), first) << "a hole is filled again";
+}
+
+TEST(NumberedArrays, NeighboursThatComeBackAreOneHole) {
+    for (const std::array<int, 3>& order : {std::array{0, 1, 2}, {2, 1, 0}, {0, 2, 1}, {1, 0, 2}}) {
+        std::array<NumbersPtr, 3> three;
+        for (NumbersPtr& numbers : three) numbers = take_numbers(Numbering::indices, 4096);
+        const NumbersPtr behind = take_numbers(Numbering::indices, 1);
+        const int64_t first = three[0]->first();
+        for (const int i : order) three[size_t(i)].reset();
+        EXPECT_EQ(take_numbers(Numbering::indices, 3 * 4096)->first(), first);
+    }
+}
+
+TEST(NumberedArrays, MoreThanThereAreAreRefused) {
+    EXPECT_FALSE(take_numbers(Numbering::vertices, size_t(most_numbers(Numbering::vertices)) + 1));
+    EXPECT_FALSE(take_numbers(Numbering::indices, SIZE_MAX));
+    const NumbersPtr all_but_few = take_numbers(Numbering::vertices, size_t(most_numbers(Numbering::vertices)) - (1 << 20));
+    ASSERT_TRUE(all_but_few);
+    EXPECT_FALSE(take_numbers(Numbering::vertices, 1 << 20 | 1));
+}
+
+TEST(NumberedArrays, WhatIsGivenBackIsZeroAgain) {
+    float* base = attribute_base<float>(attribute);
+    ASSERT_TRUE(base);
+    NumbersPtr numbers = take_numbers(Numbering::vertices, 3000);
+    const int64_t first = numbers->first();
+    EXPECT_EQ(base[first], 0) << "read before it is written";
+    std::fill_n(base + first, 3000, 7.f);
+    numbers.reset();
+    EXPECT_TRUE(std::all_of(base + first, base + first + 3000, [](float f) { return f == 0; }));
+}
+
+TEST(NumberedArrays, TheLastNumberHasAnAddress) {
+    const auto last = most_numbers(Numbering::vertices) - 1;
+    EXPECT_EQ(attribute_base<float>(attribute)[last], 0);
+    EXPECT_EQ(index_base()[most_numbers(Numbering::indices) - 1], 0u);
+}
+
+TEST(NumberedArrays, AVectorTakesItsPlaceOnlyForAsManyAsWereAskedFor) {
+    const NumbersPtr numbers = take_numbers(Numbering::vertices, 100);
+    float* place = attribute_base<float>(attribute) + numbers->first();
+    Floats placed{PlacedAllocator<float>(place, 100)};
+    placed.reserve(100);
+    placed.resize(100);
+    std::iota(placed.begin(), placed.end(), 1.f);
+    EXPECT_EQ(placed.data(), place);
+
+    const Floats copy = placed;
+    EXPECT_NE(copy.data(), place) << "a copy is on the heap";
+    EXPECT_EQ(copy, placed);
+
+    Floats moved = std::move(placed);
+    EXPECT_EQ(moved.data(), place);
+    Floats assigned;
+    assigned = std::move(moved);
+    EXPECT_EQ(assigned.data(), place);
+
+    assigned.push_back(0);
+    EXPECT_NE(assigned.data(), place) << "one that grows leaves";
+    assigned.pop_back();
+    EXPECT_EQ(assigned, copy);
+}
+
+} // namespace
+} // namespace blush
