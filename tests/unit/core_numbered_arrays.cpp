@@ -6,7 +6,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdlib>
 #include <numeric>
+#include <sys/resource.h>
 
 namespace blush {
 namespace {
@@ -88,6 +91,20 @@ TEST(NumberedArrays, AVectorTakesItsPlaceOnlyForAsManyAsWereAskedFor) {
     assigned.pop_back();
     EXPECT_EQ(assigned, copy);
 }
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) // which need more addresses than that for themselves
+TEST(NumberedArraysDeathTest, WhereAddressesAreFewThereAreNoNumbers) {
+    GTEST_FLAG_SET(death_test_style, "threadsafe"); // a process of its own, in which none are reserved yet
+    const auto with_few_addresses = [] {
+        rlimit few{};
+        few.rlim_cur = few.rlim_max = rlim_t(1) << 30;
+        setrlimit(RLIMIT_AS, &few);
+        const bool taken = take_numbers(Numbering::vertices, 1) || take_numbers(Numbering::indices, 1);
+        std::exit(taken || attribute_base<float>(attribute) ? 1 : 0);
+    };
+    EXPECT_EXIT(with_few_addresses(), testing::ExitedWithCode(0), "");
+}
+#endif
 
 } // namespace
 } // namespace blush
