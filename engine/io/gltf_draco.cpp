@@ -69,6 +69,7 @@ template <class T> bool convert(const draco::PointAttribute& attribute, uint32_t
 }
 
 bool convert(const draco::PointAttribute& attribute, uint32_t points, int components, int component_type, std::vector<uint8_t>& out) {
+    if (attribute.data_type() == draco::DT_BOOL) return false; // glTF has none, and Draco reads whatever byte is there as one
     switch (component_type) {
     case TINYGLTF_COMPONENT_TYPE_BYTE: return convert<int8_t>(attribute, points, components, out);
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return convert<uint8_t>(attribute, points, components, out);
