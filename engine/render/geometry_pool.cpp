@@ -157,6 +157,8 @@ void GeometryPool::reserve(const std::vector<SceneObject>& objects) {
         array = with_room(vertices, vertex_numbers_, attribute_base<T>(attribute));
     };
     make_room(positions_, Attribute::positions);
+    all_positions_ = base_of(positions_, numbered, Attribute::positions);
+    all_indices_ = numbered ? index_base() : indices_.data();
     if (has_normals_) make_room(normals_, Attribute::normals);
     if (needs_.tangents) make_room(tangents_, Attribute::tangents);
     if (needs_.colors) make_room(colors_, Attribute::colors);
@@ -254,22 +256,19 @@ void GeometryPool::move(const std::vector<SceneObject>& before, const std::vecto
     }
 }
 
-const Vec3* GeometryPool::all_positions() const { return base_of(positions_, vertex_numbers_ != nullptr, Attribute::positions); }
-const uint32_t* GeometryPool::all_indices() const { return index_numbers_ ? index_base() : indices_.data(); }
-
 void GeometryPool::corners(size_t part, int64_t triangle, Vec3 (&p)[3]) const {
     const PartRecord& record = parts_[part];
     for (int k = 0; k < 3; ++k) {
-        const size_t vertex = size_t(record.first_vertex) + all_indices()[size_t(record.first_index) + 3 * size_t(triangle) + size_t(k)];
-        p[k] = all_positions()[vertex];
+        const size_t vertex = size_t(record.first_vertex) + all_indices_[size_t(record.first_index) + 3 * size_t(triangle) + size_t(k)];
+        p[k] = all_positions_[vertex];
         if (record.transform >= 0) p[k] = transform_point(instances_[size_t(record.transform)].world_from_object, p[k]);
     }
 }
 
 int64_t GeometryPool::degenerate_in(size_t part) const {
     const PartRecord& record = parts_[part];
-    const uint32_t* corner = all_indices() + record.first_index;
-    const Vec3* positions = all_positions() + record.first_vertex;
+    const uint32_t* corner = all_indices_ + record.first_index;
+    const Vec3* positions = all_positions_ + record.first_vertex;
     const auto position = [&](uint32_t i) { return to_double(positions[i]); };
     int64_t n = 0;
     for (int64_t t = 0; t < part_triangles_[part]; ++t, corner += 3) {
@@ -309,7 +308,7 @@ void GeometryPool::fill(SceneTables& t) const {
     t.parts = parts_.data();
     t.instances = instances_.data();
     t.instance_first_part = instance_first_part_.data();
-    t.indices = all_indices();
+    t.indices = all_indices_;
     t.positions = pointer(positions_, Attribute::positions, true);
     t.normals = pointer(normals_, Attribute::normals, has_normals_);
     t.tangents = pointer(tangents_, Attribute::tangents, needs_.tangents);
@@ -332,8 +331,8 @@ AccelScene GeometryPool::accel_scene(const std::vector<SceneObject>& objects, co
             const PartRecord& record = parts_[part];
             const int32_t opaque_as =
                 object.instanced ? first_alike.try_emplace({p.geometry->serial, p.material}, int32_t(part)).first->second : int32_t(part);
-            AccelTriangles t{p.geometry->serial, nullptr, all_positions() + record.first_vertex, size_t(part_vertices_[part]),
-                             all_indices() + record.first_index, size_t(part_triangles_[part]), opaque_as, alpha[part],
+            AccelTriangles t{p.geometry->serial, nullptr, all_positions_ + record.first_vertex, size_t(part_vertices_[part]),
+                             all_indices_ + record.first_index, size_t(part_triangles_[part]), opaque_as, alpha[part],
                              object.instanced ? seen_by_all : masks[i]};
             if (object.instanced && has_room_behind(*p.geometry)) share(p.geometry, t);
             triangles.push_back(std::move(t));

@@ -63,9 +63,6 @@ private:
     void reserve(const std::vector<SceneObject>& objects);
     int64_t degenerate_in(size_t part) const; // as it is stored
     Span append(const Geometry& geometry);
-    // From number 0 on: its own and those it reads in place.
-    const Vec3* all_positions() const;
-    const uint32_t* all_indices() const;
     // Where the shape is, here or in the document; what is not yet anywhere is appended. `shared`: instanced ones that are, by serial.
     Span find_or_append(const SceneObject& object, const GeometryPtr& geometry, std::map<uint64_t, Span>& shared);
     void place(size_t part, const Geometry& geometry, const Affined& world_from_object);
@@ -82,6 +79,9 @@ private:
     // Its own arrays, and their first numbers. Without numbers, which may be refused, nothing is read in the document.
     NumbersPtr vertex_numbers_, index_numbers_;
     int32_t first_vertex_ = 0, first_index_ = 0;
+    // From number 0 on: its own and those it reads in place.
+    const Vec3* all_positions_ = nullptr;
+    const uint32_t* all_indices_ = nullptr;
     PlacedVector<uint32_t> indices_;
     PlacedVector<Vec3> positions_, normals_;
     PlacedVector<Vec4> tangents_, colors_;
