@@ -317,7 +317,7 @@ void RenderSession::State::work_once() {
     }
     renderer->set_divider(work.divider);
     if (work.clear) renderer->clear();
-    const auto hurries = [&] {
+    const std::function<bool()> hurries = [&] {
         return work.always_finish || quit.load(std::memory_order_relaxed) || film_wanted.load(std::memory_order_relaxed) ||
                wanted_image.load(std::memory_order_relaxed) != mine;
     };
