@@ -1,5 +1,7 @@
 #include "ui/mix_preview.h"
 
+#include "ui/unread_pixels.h"
+
 #include <algorithm>
 #include <chrono>
 
@@ -12,10 +14,10 @@ double per_millisecond(double pixels, Clock::time_point begin) {
     return pixels / std::max(std::chrono::duration<double, std::milli>(Clock::now() - begin).count(), 1e-3);
 }
 
-// For `size` values that nobody reads.
-std::vector<float>& room(std::shared_ptr<std::vector<float>>& values, size_t size, float value) {
-    if (!values || values.use_count() > 1 || values->size() != size) values = std::make_shared<std::vector<float>>(size, value);
-    return *values;
+std::vector<float>& room(std::shared_ptr<std::vector<float>>& pixels, size_t size, float value) {
+    std::vector<float>& room = unread(pixels);
+    if (room.size() != size) room.assign(size, value);
+    return room;
 }
 
 } // namespace

@@ -13,6 +13,7 @@
 #include "ui/selected_lights.h"
 #include "ui/texture_id.h"
 #include "ui/theme.h"
+#include "ui/unread_pixels.h"
 #include "ui/view_tools.h"
 #include "ui/viewport_marks.h"
 
@@ -107,12 +108,6 @@ void turn_surroundings(PanelContext& c, double share) {
     c.apply(SetEnvironment{e}, c.ui.gestures.current());
 }
 
-// Memory for pixels that nobody reads any more: the picture before may still be being copied.
-std::vector<float>& room(std::shared_ptr<std::vector<float>>& values) {
-    if (!values || values.use_count() > 1) values = std::make_shared<std::vector<float>>();
-    return *values;
-}
-
 // Are there planes of groups for these gains, of the frame and of what is shown of it denoised?
 bool can_be_mixed(const PanelContext& c, const Gains& gains, bool denoised) {
     if (!c.frame || gains.empty() || c.frame->groups.size() != gains.size()) return false;
@@ -132,7 +127,7 @@ void Viewport::upload_frame(const FramePtr& shown, const PictureView& view, cons
     const Frame& frame = *shown;
     const bool special = is_special(frame, view), mixes = !gains.empty() && gains.size() == frame.groups.size() && gains != frame.gains;
     if (mixes && !special && !background_as_it_is) {
-        mix_rgba(frame, gains, room(mixed_), &workers_);
+        mix_rgba(frame, gains, unread(mixed_), &workers_);
         return display_.upload(frame.width, frame.height, mixed_);
     }
     if (frame.groups.empty()) mixed_.reset();
@@ -145,7 +140,7 @@ void Viewport::upload_denoised(const DenoisedPtr& denoised, const Gains& gains) 
     if (!denoised->groups) mixed_denoised_.reset();
     const bool mixes = denoised->groups && gains.size() == denoised->groups->planes.size() && gains != denoised->gains;
     if (!mixes) return display_.upload(denoised);
-    std::vector<float>& rgb = room(mixed_denoised_);
+    std::vector<float>& rgb = unread(mixed_denoised_);
     rgb.resize(size_t(denoised->width) * size_t(denoised->height) * 3);
     mix_rgb(planes_of(*denoised), gains, rgb, &workers_);
     display_.upload_denoised(denoised->width, denoised->height, mixed_denoised_);
