@@ -33,9 +33,10 @@ template <class F> struct IncidentLight {
 template <class F> struct LightSurface {
     Int<F> material;
     TexturePoint<F> at;
+    F vertex_alpha; // 1 without vertex colours
 };
 // The point edge1 * along.x + edge2 * along.y.
-template <class F>
+template <Features S, class F>
 LightSurface<F> light_surface(const SceneTables& scene, const Int<F>& light, const Vec2T<F>& along, const Mask<F>& active) {
     const LightRecord* lights = scene.lights.lights;
     const Mask<F> swapped = as_mask((gather_field(lights, &LightRecord::flags, light) & int32_t(light_mirrored)) != 0);
@@ -47,15 +48,27 @@ LightSurface<F> light_surface(const SceneTables& scene, const Int<F>& light, con
     const Int<F> at = gather_field(scene.parts, &PartRecord::first_index, part) + select(active, triangle, Int<F>(0)) * 3;
     const auto vertex = [&](int k) { return Int<F>(first_vertex + to_signed(gather(scene.indices + k, at))); };
     const std::array<F, 3> weights{1.f - b.x - b.y, b.x, b.y};
+    F vertex_alpha = F(1.f);
+    if constexpr (S.has(Feature::vertex_colors)) {
+        const Mask<F> colored = active && as_mask((flags & int32_t(part_colors)) != 0);
+        if (any(colored)) {
+            F mixed = F(0.f);
+            for (int k = 0; k < 3; ++k)
+                mixed = mixed + gather(scene.colors + 3, select(colored, Int<F>(vertex(k) * 4), Int<F>(0))) * weights[size_t(k)];
+            vertex_alpha = select(colored, mixed, F(1.f));
+        }
+    }
     return {gather_field(scene.parts, &PartRecord::material, part),
-            texture_point<F>(scene, flags, {vertex(0), vertex(1), vertex(2)}, weights, active)};
+            texture_point<F>(scene, flags, {vertex(0), vertex(1), vertex(2)}, weights, active), vertex_alpha};
 }
 
-// Emission of a textured triangle light at the point edge1 * along.x + edge2 * along.y.
+// Mean radiance of a triangle light whose emission or alpha varies, at the point edge1 * along.x + edge2 * along.y: stochastic opacity lets rays
+// meet it as often as it is opaque there.
 template <Features S, class F>
-Vec<F> textured_emission(const SceneTables& scene, const Int<F>& light, const Vec2T<F>& along, const Mask<F>& active) {
-    const LightSurface<F> surface = light_surface<F>(scene, light, along, active);
-    return emission_at<S, F>(scene.materials, surface.material, surface.at, active);
+Vec<F> varying_emission(const SceneTables& scene, const Int<F>& light, const Vec2T<F>& along, const Mask<F>& active) {
+    const LightSurface<F> surface = light_surface<S, F>(scene, light, along, active);
+    return emission_at<S, F>(scene.materials, surface.material, surface.at, active) *
+           opacity_at<S, F>(scene.materials, surface.material, surface.at, surface.vertex_alpha, active);
 }
 
 // Draws a light for a receiver, and a point of it.
@@ -94,12 +107,12 @@ LightPoint<F> sample_light_point(const SceneTables& scene, const Pair<F>& random
             p.error = select<F>(triangle, error, p.error);
             p.normal = select<F>(triangle, normalize(cross(e1, e2)), p.normal);
             p.density = select(triangle, gather_field(lights, &LightRecord::inverse_area, pick.index), p.density);
-            if constexpr (S.has(Feature::textures)) {
-                const Mask<F> textured = triangle && as_mask((flags & int32_t(light_textured)) != 0);
-                if (any(textured)) p.emission = select<F>(textured, textured_emission<S, F>(scene, pick.index, b, textured), p.emission);
+            if constexpr (S.has(Feature::textures) || S.has(Feature::vertex_colors)) {
+                const Mask<F> varying = triangle && as_mask((flags & int32_t(light_varying)) != 0);
+                if (any(varying)) p.emission = select<F>(varying, varying_emission<S, F>(scene, pick.index, b, varying), p.emission);
             }
             if constexpr (S.has(Feature::clearcoat)) {
-                const LightSurface<F> surface = light_surface<F>(scene, pick.index, b, triangle);
+                const LightSurface<F> surface = light_surface<S, F>(scene, pick.index, b, triangle);
                 p.clearcoat = select(triangle, clearcoat_at<S, F>(scene.materials, surface.material, surface.at, triangle), p.clearcoat);
             }
             p.position = select<F>(triangle, on, p.position);

@@ -38,14 +38,14 @@ struct Builder {
     }
 };
 
-// Mean emission of a textured triangle over a 4 x 4 grid, and never quite nothing where the material may emit: what the
+// Mean radiance of a varying triangle light over a 4 x 4 grid, and never quite nothing where the material may emit: what the
 // grid misses must keep a chance.
-double mean_textured_luminance(const SceneTables& tables, size_t light, const Vec3& factor) {
+double mean_varying_luminance(const SceneTables& tables, size_t light, const Vec3& factor) {
     double sum = 0;
     for (int i = 0; i < 4; ++i)
         for (int j = 0; j < 4; ++j) {
             const Vec2 b = sample_triangle((float(i) + 0.5f) / 4, (float(j) + 0.5f) / 4);
-            sum += luminance_of(textured_emission<all_features, float>(tables, int32_t(light), b, true));
+            sum += luminance_of(varying_emission<all_features, float>(tables, int32_t(light), b, true));
         }
     return std::max(sum / 16, 0.01 * luminance_of(factor));
 }
@@ -134,7 +134,11 @@ void add_triangles(Builder& b, const Scene& scene, const MaterialTable& material
             continue;
         }
         record.first_light = int32_t(b.table.records.size());
-        const bool two_sided = material.flags & material_double_sided, textured = material.emissive_texture >= 0;
+        const bool two_sided = material.flags & material_double_sided, translucent = material.alpha != alpha_opaque;
+        const bool varying = material.emissive_texture >= 0 ||
+                             (translucent && (material.base_color_texture >= 0 || (record.flags & part_colors) != 0));
+        // Alpha that is the same everywhere dims the whole light.
+        const float opacity = varying ? 1.f : opacity_at<all_features, float>(scene_tables.materials, record.material, {}, 1.f, true);
         // The stored corners wind as in the mesh; under a mirroring transform the other side of their plane is the outside.
         const bool mirrored = record.transform >= 0 ? determinant(scene_tables.instances[record.transform].world_from_object) < 0
                                                     : (record.flags & part_mirrored) != 0;
@@ -143,7 +147,7 @@ void add_triangles(Builder& b, const Scene& scene, const MaterialTable& material
             geometry.corners(part, t, p);
             LightRecord light{};
             light.kind = int32_t(LightKind::triangle);
-            light.flags = (two_sided ? light_two_sided : 0) | (textured ? light_textured : 0) | (mirrored ? light_mirrored : 0);
+            light.flags = (two_sided ? light_two_sided : 0) | (varying ? light_varying : 0) | (mirrored ? light_mirrored : 0);
             light.part = int32_t(part);
             light.triangle = int32_t(t);
             light.profile = profile;
@@ -151,13 +155,13 @@ void add_triangles(Builder& b, const Scene& scene, const MaterialTable& material
             light.edge1 = p[1] - p[0];
             light.edge2 = p[2] - p[0];
             if (mirrored) std::swap(light.edge1, light.edge2);
-            light.emission = material.emission;
+            light.emission = material.emission * opacity;
             const double area = 0.5 * double(length(cross(light.edge1, light.edge2)));
             light.inverse_area = area > 0 && std::isfinite(1 / area) ? float(1 / area) : 0.f;
-            double nits = luminance_of(material.emission);
-            if (textured) {
+            double nits = luminance_of(light.emission);
+            if (varying) {
                 tables.lights.lights = &light;
-                nits = mean_textured_luminance(tables, 0, material.emission);
+                nits = mean_varying_luminance(tables, 0, material.emission);
             }
             const double power = pi_d * area * nits * (two_sided ? 2 : 1);
             const bool aimed_at = b.aim == Aim::at_all && light.inverse_area > 0;

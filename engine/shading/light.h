@@ -21,21 +21,21 @@ enum class LightKind : int32_t { triangle, point, sphere, sun, environment };
 struct LightRecord {
     int32_t kind;        // LightKind
     int32_t flags;       // LightFlag
-    int32_t part;        // triangle: whose material and texture coordinates a textured emission reads
+    int32_t part;        // triangle: whose material and vertices a varying emission reads
     int32_t triangle;
     int32_t profile;     // of a ProfileRecord that scales the emission by direction, -1: none
     int32_t object;      // sphere: Id<Node>.value of its node
     int32_t slot;        // with a tree: through which it is drawn; 0 is the tree's
     Vec3 position;       // triangle: vertex 0; point: itself; sphere: its centre; sun: unit direction towards it
     Vec3 edge1, edge2;   // triangle: vertices 1 and 2 minus vertex 0
-    Vec3 emission;       // triangle without texture, sphere: nits; point: candela; sun: nits of its disk, or lux if parallel
+    Vec3 emission;       // triangle that does not vary, sphere: nits, times the opacity; point: candela; sun: nits of its disk, or lux if parallel
     float inverse_area;  // triangle: 1 / m^2
     float radius;        // sphere: metres
     float cone_height;   // sun: 1 - cos of its angular radius; 0 is a parallel beam
 };
 enum LightFlag : int32_t {
     light_two_sided = 1,
-    light_textured = 2,
+    light_varying = 2,  // emission or alpha differ from point to point
     light_mirrored = 4, // edge1 leads to vertex 2 and edge2 to vertex 1, so that their cross product still points outwards
     light_hidden = 8,   // sun: the camera does not see its disk
 };

@@ -13,6 +13,7 @@ enum MaterialFlag : int32_t {
     material_unlit = 2,    // base_color is what is seen; scatters nothing
     material_thin = 4,     // transmits through a sheet without inside
     material_emissive = 8, // emission is not black
+    material_pane = 16,    // thin, and may be smooth: light may pass it straight on (render/thin_transmission.h)
 };
 enum MaterialAlpha : int32_t { alpha_opaque, alpha_mask, alpha_blend };
 
@@ -60,7 +61,7 @@ template <class F> struct MaterialPoint {
     AnisotropyPoint<F> anisotropy;
     F dispersion; // 20 / Abbe number
     Vec<F> sigma_a;        // 1/m, on the inner side of a solid
-    Mask<F> double_sided, unlit;
+    Mask<F> double_sided, unlit, pane;
 };
 
 // Radiance in nits that the material emits at a point, front side; its texture is not filtered, as those who aim at it see points of it.
@@ -143,13 +144,14 @@ template <Features S, class F> MaterialPoint<F> material_at(const MaterialTables
     }
 
     p.bsdf.transmission = F(0.f);
-    p.bsdf.thin = Mask<F>(false);
+    p.bsdf.thin = p.pane = Mask<F>(false);
     if constexpr (S.has(Feature::transmission)) {
         p.bsdf.transmission = gather_field(records, &MaterialRecord::transmission, m);
         if constexpr (S.has(Feature::textures)) {
             p.bsdf.transmission = clamp01(F(p.bsdf.transmission * texture(&MaterialRecord::transmission_texture).x));
         }
         p.bsdf.thin = flag(material_thin);
+        p.pane = flag(material_pane);
     }
     p.sigma_a = splat<F>(0.f);
     if constexpr (S.has(Feature::absorption)) p.sigma_a = gather_field3<F>(records, &MaterialRecord::sigma_a, m);
@@ -166,13 +168,21 @@ template <Features S, class F> MaterialPoint<F> material_at(const MaterialTables
     return p;
 }
 
-// Part of the light that meets the surface at all, [0, 1], glTF 2.0 section 3.9.4: 1 if opaque, 0 or 1 if masked, else alpha of
-// factor, texture and vertex colour. One ray at a time, as ray filters ask.
-inline float opacity_at(const MaterialTables& tables, int32_t material, const TexturePoint<float>& at, float vertex_alpha) {
-    const MaterialRecord& m = tables.materials[material];
-    if (m.alpha == alpha_opaque) return 1;
-    const float alpha = clamp01(m.opacity * lookup<float>(tables.textures, m.base_color_texture, at, true).w * vertex_alpha);
-    return m.alpha == alpha_mask ? float(alpha >= m.alpha_cutoff) : alpha;
+// Share of the light that meets the surface at all, in [0, 1], glTF 2.0 section 3.9.4: 1 if opaque, 0 or 1 if masked, else the alpha of
+// factor, texture and vertex colour. Ray filters and light sampling read it at points, of no width.
+template <Features S, class F>
+F opacity_at(const MaterialTables& tables, const Int<F>& material, const TexturePoint<F>& at, const F& vertex_alpha, const Mask<F>& active) {
+    const Int<F> m = select(active, material, Int<F>(0));
+    const MaterialRecord* records = tables.materials;
+    const Int<F> mode = gather_field(records, &MaterialRecord::alpha, m);
+    const Mask<F> translucent = active && as_mask(mode != int32_t(alpha_opaque));
+    if (!any(translucent)) return F(1.f);
+    F alpha = gather_field(records, &MaterialRecord::opacity, m);
+    if constexpr (S.has(Feature::textures))
+        alpha = alpha * lookup<F>(tables.textures, gather_field(records, &MaterialRecord::base_color_texture, m), at, translucent).w;
+    alpha = clamp01(F(alpha * vertex_alpha));
+    const F masked = select(alpha >= gather_field(records, &MaterialRecord::alpha_cutoff, m), F(1.f), F(0.f));
+    return select(translucent, select(as_mask(mode == int32_t(alpha_mask)), masked, alpha), F(1.f));
 }
 
 } // namespace blush::inline BLUSH_ISA

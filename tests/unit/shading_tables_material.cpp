@@ -39,7 +39,7 @@ float opacity_of(const Material& material, float vertex_alpha = 1, Vec2 uv = {0,
     add_worn_material(scene, textured);
     MaterialTable table;
     build_material_table(table, scene);
-    return opacity_at(table.tables(), 1, {{{uv, uv}}}, vertex_alpha);
+    return opacity_at<all_features, float>(table.tables(), 1, {{{uv, uv}}}, vertex_alpha, true);
 }
 
 // Every field of a point, for comparisons of bits.
@@ -165,7 +165,7 @@ TEST(MaterialTable, ParametersAreMadeLegal) {
         for (const float c : {p.bsdf.specular_color.x, p.bsdf.specular_color.y, p.bsdf.specular_color.z})
             ASSERT_TRUE(within(c, 0, 1.1e30f)) << c;
         ASSERT_TRUE(p.bsdf.ior == 0 || within(p.bsdf.ior, 1, 1000)) << p.bsdf.ior;
-        ASSERT_TRUE(within(opacity_at(table.tables(), 1, {}, number()), 0, 1));
+        ASSERT_TRUE(within(opacity_at<all_features, float>(table.tables(), 1, {}, number(), true), 0, 1));
     }
 }
 
