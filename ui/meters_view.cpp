@@ -1,7 +1,9 @@
 #include "ui/meters_view.h"
 
 #include "core/math.h"
+#include "render/extent.h"
 #include "scene/affine.h"
+#include "scene/line_of_sight.h"
 #include "ui/picking.h"
 #include "ui/theme.h"
 
@@ -12,20 +14,31 @@
 namespace blush {
 namespace {
 
-constexpr double clearance_share = 1e-4; // of the distance from the eye: planes hold that in single precision
+// Metres that keep a meter off its surface in the renderer's single precision, of which surfaces are off by at most 2^-21 of the
+// coordinates that they are computed from (render/surface.h); four times that.
+double clearance_of(const Scene& scene, const RayHit& hit) {
+    const Vec3d origin = render_origin(world_bounds(scene));
+    double largest = hit.largest_term;
+    for (const Vec3d& corner : hit.corners) {
+        const Vec3d p = corner - origin;
+        largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    }
+    return largest * 0x1p-19;
+}
 
 } // namespace
 
 std::optional<LightMeter> meter_at(const Frame& frame, const Scene& scene, const Projection& projection, double u, double v,
                                    std::string name) {
-    const Picked picked = pick(frame, u, v);
-    const auto point = seen_point(frame, projection, u, v);
-    if (!point || frame.normal.empty()) return {};
-    const int x = std::min(int(u * frame.width), frame.width - 1), y = std::min(int(v * frame.height), frame.height - 1);
-    const Vec3d normal = to_double(frame.normal[size_t(y) * size_t(frame.width) + size_t(x)]);
-    if (!(length(normal) > 0)) return {};
-    LightMeter meter = meter_on(scene, picked.node, *point, normalize(normal), std::move(name));
-    meter.clearance = float(clearance_share * *picked.depth);
+    const ViewRay ray = projection.ray(u, v);
+    // The object that the pixel shows, which may be seen through holes of others; at an edge the click's own ray may miss it.
+    const Id<Node> shown = pick(frame, u, v).node;
+    std::optional<RayHit> hit;
+    if (shown) hit = cast_ray(scene, ray.origin, ray.direction, [&](Id<Node> id) { return id == shown; });
+    if (!hit) hit = cast_ray(scene, ray.origin, ray.direction, [](Id<Node>) { return true; });
+    if (!hit) return {};
+    LightMeter meter = meter_on(scene, hit->node, hit->position, hit->normal, std::move(name));
+    meter.clearance = float(clearance_of(scene, *hit));
     return meter;
 }
 
@@ -47,7 +60,7 @@ std::vector<MeterPlace> places_of(const Scene& scene, const std::vector<LightMet
 
 std::string reading_text(const MeterReading& reading) {
     const Interval& lux = reading.lux;
-    if (!lux.known) return "...";
+    if (!lux.known) return reading.rounds > 1 ? "no light found yet" : "...";
     const double half = (lux.high - lux.low) / 2;
     // As many decimals as the interval has something to say about.
     const int decimals = half > 0 ? std::clamp(1 - int(std::floor(std::log10(half))), 0, 6) : 3;

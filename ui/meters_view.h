@@ -25,7 +25,7 @@ std::optional<LightMeter> meter_at(const Frame& frame, const Scene& scene, const
 std::string new_meter_name(const std::vector<LightMeter>& meters);
 std::vector<MeterPlace> places_of(const Scene& scene, const std::vector<LightMeter>& meters);
 
-// "342 ± 4 lx"; "..." before there is an interval.
+// "342 ± 4 lx"; "..." before there is an interval; "no light found yet" where all estimates are 0 in a scene that gives light.
 std::string reading_text(const MeterReading& reading);
 void draw_meters(ImDrawList& draw, const ImageRect& image, const Projection& projection, const Scene& scene, const ViewSettings& view,
                  const MetersView& meters);

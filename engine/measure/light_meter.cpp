@@ -9,6 +9,7 @@ namespace blush {
 struct LightMeters::State {
     explicit State(const RendererOptions& options) : renderer(options) {}
     Renderer renderer;
+    bool gives_light = false; // something in the scene shines
     std::vector<MeterPlace> places;
     std::vector<std::vector<double>> lux; // of each place, a value a round
     std::vector<MeterReading> readings;
@@ -22,6 +23,7 @@ void LightMeters::begin(const Scene& scene, const RenderSettings& settings, std:
     alone.width = alone.height = 1; // there is no picture
     alone.region = {};
     state_->renderer.update(scene, alone);
+    state_->gives_light = state_->renderer.has_light();
     state_->places.assign(places.begin(), places.end());
     state_->lux.assign(places.size(), {});
     state_->readings.assign(places.size(), {});
@@ -40,6 +42,8 @@ bool LightMeters::round(int samples, const std::function<bool()>& wanted) {
         r.rgb = (r.rgb * double(r.rounds) + irradiance[i]) / double(r.rounds + 1);
         ++r.rounds;
         r.lux = mean_interval(s.lux[i]);
+        // Estimates that have all found nothing do not say how much there is.
+        if (r.lux.value == 0 && s.gives_light) r.lux.known = false;
     }
     return true;
 }

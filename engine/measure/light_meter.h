@@ -13,7 +13,8 @@ namespace blush {
 
 struct MeterReading {
     int64_t rounds = 0; // independent estimates so far
-    Interval lux;       // illuminance: the luminance of the irradiance; its interval is Student's, of the rounds
+    Interval lux;       // illuminance: the luminance of the irradiance; its interval is Student's, of the rounds; not known while a scene that
+                        // gives light has shown none here
     Vec3d rgb{0, 0, 0}; // irradiance, linear Rec.709
 };
 

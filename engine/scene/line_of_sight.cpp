@@ -5,29 +5,45 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace blush {
 namespace {
 
 constexpr double left_out = 1e-4;
 
-// Share of the way from `origin` along `way` at which a triangle is met, 0 .. 1: Möller and Trumbore 1997.
-std::optional<double> meet(const Vec3d& origin, const Vec3d& way, const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+// A straight line, in multiples t of its way: what it meets counts for begin < t < end.
+struct Line {
+    Vec3d origin, way;
+    double begin, end;
+};
+struct TriangleHit {
+    double t;
+    const Geometry* geometry = nullptr; // null: nothing was hit
+    size_t first_index = 0;             // of the triangle, into geometry->indices
+    Affined world_from_mesh{};
+    Id<Node> node = {};
+};
+
+// Where it meets a triangle: Möller and Trumbore 1997.
+std::optional<double> meet(const Line& line, const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+    const auto& [origin, way, begin, end] = line;
     const Vec3d e = b - a, f = c - a, p = cross(way, f);
     const double determinant = dot(e, p);
     if (determinant == 0) return {};
     const Vec3d s = origin - a, q = cross(s, e);
     const double u = dot(s, p) / determinant, v = dot(way, q) / determinant, t = dot(f, q) / determinant;
-    if (!(u >= 0 && v >= 0 && u + v <= 1 && t > left_out && t < 1 - left_out)) return {};
+    if (!(u >= 0 && v >= 0 && u + v <= 1 && t > begin && t < end)) return {};
     return t;
 }
 
-// The nearest in one part that is nearer than `nearest`, in the part's own space.
-double nearest_in(const Geometry& g, const Vec3d& origin, const Vec3d& way, double nearest) {
+// Replaces `nearest` by what the line, in the part's own space, meets before it.
+void look_in(const Geometry& g, Line line, TriangleHit& nearest) {
     const auto corner = [&](size_t i) { return to_double(g.positions[g.indices[i]]); };
-    for (size_t i = 0; i + 2 < g.indices.size(); i += 3)
-        if (const auto t = meet(origin, way, corner(i), corner(i + 1), corner(i + 2)); t && *t < nearest) nearest = *t;
-    return nearest;
+    for (size_t i = 0; i + 2 < g.indices.size(); i += 3) {
+        line.end = std::min(line.end, nearest.t);
+        if (const auto t = meet(line, corner(i), corner(i + 1), corner(i + 2))) nearest = {*t, &g, i};
+    }
 }
 
 // Glass, and what is partly or in places not there: whether its textures let this very line through is not asked.
@@ -36,11 +52,11 @@ bool lets_light_through(const Material* m) {
                  (m->alpha == Material::Alpha::blend && (m->opacity < 1 || m->base_color_texture.texture)));
 }
 
-// The parts of a mesh that are in the way of light.
-std::vector<const Geometry*> solid_parts(const Scene& scene, const PlacedMesh& mesh) {
+// The parts of a mesh, or those that are in the way of light.
+std::vector<const Geometry*> parts_of(const Scene& scene, const PlacedMesh& mesh, bool opaque_only) {
     std::vector<const Geometry*> parts;
     for (const MeshPart& part : mesh.parts)
-        if (part.geometry && !lets_light_through(scene.materials.find(part.material))) parts.push_back(part.geometry.get());
+        if (part.geometry && !(opaque_only && lets_light_through(scene.materials.find(part.material)))) parts.push_back(part.geometry.get());
     return parts;
 }
 
@@ -51,11 +67,11 @@ Bounds box_of(const std::vector<const Geometry*>& parts) {
     return box;
 }
 
-// The straight line from `origin` along `way` to its end meets the box.
-bool meets(const Bounds& box, const Vec3d& origin, const Vec3d& way) {
+bool meets(const Bounds& box, const Line& line) {
+    const Vec3d &origin = line.origin, &way = line.way;
     const double from[3] = {origin.x, origin.y, origin.z}, along[3] = {way.x, way.y, way.z};
     const double low[3] = {box.low.x, box.low.y, box.low.z}, high[3] = {box.high.x, box.high.y, box.high.z};
-    double begin = 0, end = 1;
+    double begin = 0, end = line.end;
     for (int k = 0; k < 3; ++k) {
         if (along[k] == 0 && (from[k] < low[k] || from[k] > high[k])) return false;
         if (along[k] == 0) continue;
@@ -66,42 +82,61 @@ bool meets(const Bounds& box, const Vec3d& origin, const Vec3d& way) {
     return begin <= end * (1 + 1e-12);
 }
 
-// The nearest in parts that lie somewhere, `box` around them in their own space; null: not worth looking at.
-double nearest_in(const std::vector<const Geometry*>& parts, const Affined& world_from_parts, const Bounds* box, const Vec3d& from, const Vec3d& to,
-                  double nearest) {
-    if (!(std::abs(determinant(world_from_parts)) > 0)) return nearest;
+// The same for parts that lie somewhere, `box` around them in their own space; null: not worth looking at.
+void look_in(const std::vector<const Geometry*>& parts, const Affined& world_from_parts, const Bounds* box, const Line& line, TriangleHit& nearest) {
+    if (!(std::abs(determinant(world_from_parts)) > 0)) return;
     const Affined parts_from_world = inverse(world_from_parts);
-    const Vec3d origin = transform_point(parts_from_world, from), way = transform_point(parts_from_world, to) - origin;
-    if (box && !meets(*box, origin, way)) return nearest;
-    for (const Geometry* g : parts) nearest = nearest_in(*g, origin, way, nearest);
-    return nearest;
+    const Vec3d origin = transform_point(parts_from_world, line.origin);
+    const Line own{origin, transform_point(parts_from_world, line.origin + line.way) - origin, line.begin, line.end};
+    if (box && !meets(*box, own)) return;
+    const double before = nearest.t;
+    for (const Geometry* g : parts) look_in(*g, own, nearest);
+    if (nearest.t < before) nearest.world_from_mesh = world_from_parts;
 }
 
-// The nearest in the mesh of a node, or in all copies of it.
-double nearest_in(const Scene& scene, const Node& node, const PlacedMesh& mesh, const Vec3d& from, const Vec3d& to, double nearest) {
-    const std::vector<const Geometry*> parts = solid_parts(scene, mesh);
-    if (!node.instances) return nearest_in(parts, mesh.world_from_mesh, nullptr, from, to, nearest);
-    const Bounds box = box_of(parts);
-    for (const Affine& place : node.instances->node_from_copy)
-        nearest = nearest_in(parts, mesh.world_from_mesh * to_double(place), &box, from, to, nearest);
+// In the meshes of all visible nodes that count, and all copies of them.
+TriangleHit nearest_hit(const Scene& scene, const Line& line, bool opaque_only, const std::function<bool(Id<Node>)>& counts) {
+    Placements placements(scene);
+    TriangleHit nearest{line.end};
+    for (const auto& [id, node] : scene.nodes) {
+        if (!node.mesh || !placements(id).visible || !counts(id)) continue;
+        const PlacedMesh mesh = placed_mesh(scene, placements, id, node);
+        const std::vector<const Geometry*> parts = parts_of(scene, mesh, opaque_only);
+        const double before = nearest.t;
+        if (!node.instances) look_in(parts, mesh.world_from_mesh, nullptr, line, nearest);
+        else {
+            const Bounds box = box_of(parts);
+            for (const Affine& place : node.instances->node_from_copy)
+                look_in(parts, mesh.world_from_mesh * to_double(place), &box, line, nearest);
+        }
+        if (nearest.t < before) nearest.node = id;
+    }
     return nearest;
 }
 
 } // namespace
 
 std::optional<Id<Node>> first_between(const Scene& scene, const Vec3d& from, const Vec3d& to, const std::function<bool(Id<Node>)>& counts) {
-    Placements placements(scene);
-    double nearest = 1;
-    std::optional<Id<Node>> first;
-    for (const auto& [id, node] : scene.nodes) {
-        if (!node.mesh || !placements(id).visible || !counts(id)) continue;
-        const double t = nearest_in(scene, node, placed_mesh(scene, placements, id, node), from, to, nearest);
-        if (t < nearest) {
-            nearest = t;
-            first = id;
-        }
+    const TriangleHit hit = nearest_hit(scene, {from, to - from, left_out, 1 - left_out}, true, counts);
+    return hit.geometry ? std::optional(hit.node) : std::nullopt;
+}
+
+std::optional<RayHit> cast_ray(const Scene& scene, const Vec3d& origin, const Vec3d& direction, const std::function<bool(Id<Node>)>& counts) {
+    const TriangleHit hit = nearest_hit(scene, {origin, direction, 0, std::numeric_limits<double>::infinity()}, false, counts);
+    if (!hit.geometry) return {};
+    std::array<Vec3d, 3> corners;
+    double largest = 0;
+    for (size_t k = 0; k < 3; ++k) {
+        const Vec3d p = to_double(hit.geometry->positions[hit.geometry->indices[hit.first_index + k]]);
+        const Affined& m = hit.world_from_mesh;
+        corners[k] = transform_point(m, p);
+        for (const Vec3d& term : {m.x * p.x, m.y * p.y, m.z * p.z})
+            largest = std::max({largest, std::abs(term.x), std::abs(term.y), std::abs(term.z)});
     }
-    return first;
+    const Vec3d normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
+    if (!(dot(normal, normal) > 0)) return {};
+    const Vec3d unit_normal = normalize(normal) * (dot(normal, direction) > 0 ? -1.0 : 1.0);
+    return RayHit{hit.node, origin + direction * hit.t, unit_normal, corners, largest};
 }
 
 } // namespace blush

@@ -1,8 +1,9 @@
-// What stands between two points: one question at a time, for whoever has no rays.
+// Rays in double precision, one at a time, without a BVH: what stands between two points, and the surface under a click.
 #pragma once
 
 #include "scene/scene.h"
 
+#include <array>
 #include <functional>
 #include <optional>
 
@@ -13,5 +14,15 @@ namespace blush {
 // ten-thousandth of the line at either end is left out, which is where the surfaces are that it begins and ends on. Looks at every triangle of
 // what the line may meet: milliseconds for a million.
 std::optional<Id<Node>> first_between(const Scene& scene, const Vec3d& from, const Vec3d& to, const std::function<bool(Id<Node>)>& counts);
+
+// Where a ray meets the surface of a visible object among those that `counts`: whatever its material, seen from either side.
+struct RayHit {
+    Id<Node> node;
+    Vec3d position;
+    Vec3d normal;    // of the plane, unit length, towards the ray's origin
+    std::array<Vec3d, 3> corners; // of the triangle, in the world
+    double largest_term; // metres: of the products that place its corners about their node
+};
+std::optional<RayHit> cast_ray(const Scene& scene, const Vec3d& origin, const Vec3d& direction, const std::function<bool(Id<Node>)>& counts);
 
 } // namespace blush
