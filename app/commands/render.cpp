@@ -134,7 +134,7 @@ OrderedJson result_json(const RenderCommand& c, const RenderSettings& settings, 
     const RayCounts& rays = r.frame.rays;
     const double paths = double(rays.camera), seconds = std::max(r.seconds, 1e-9);
     const ErrorEstimate& error = r.frame.error;
-    const auto if_known = [](bool known, double value) { return known ? OrderedJson(value) : OrderedJson(); };
+    const auto if_known = [](bool known, const auto& value) { return known ? OrderedJson(value) : OrderedJson(); };
     OrderedJson json;
     json["scene"] = c.scene;
     json["width"] = r.frame.width;
@@ -151,7 +151,8 @@ OrderedJson result_json(const RenderCommand& c, const RenderSettings& settings, 
                      {"high", if_known(error.known, error.high)},
                      {"rmse", if_known(error.rmse_known, error.rmse)},
                      {"rmse_low", if_known(error.rmse_known, error.rmse_low)},
-                     {"rmse_high", if_known(error.rmse_known, error.rmse_high)}};
+                     {"rmse_high", if_known(error.rmse_known, error.rmse_high)},
+                     {"missing_light", if_known(!r.frame.missing_light.empty(), r.frame.missing_light)}};
     json["health"] = health_json(r.frame.health);
     if (!r.frame.bounces.empty()) json["bounces"] = bounces_json(r.frame);
     if (!r.frame.groups.empty()) json["groups"] = groups_json(r.frame);
@@ -174,6 +175,7 @@ void print_summary(const RenderCommand& c, const Rendered& rendered) {
     const ErrorEstimate& e = r.frame.error;
     if (e.known) fmt::print(", estimated relMSE {:.2g} ({:.2g} to {:.2g})", e.relmse, e.low, e.high);
     if (e.rmse_known) fmt::print(", RMSE {:.2g} ({:.2g} to {:.2g})", e.rmse, e.rmse_low, e.rmse_high);
+    if (!r.frame.missing_light.empty()) fmt::print(", some light cannot be found");
     if (rendered.denoised) fmt::print(", {}", denoised_summary(*rendered.denoised));
     fmt::print("{}\n", r.complete ? "" : ", partial");
     if (r.frame.clamp.samples > 0)

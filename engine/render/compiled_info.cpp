@@ -37,6 +37,7 @@ CompiledInfo RenderScene::info() const {
                                  fmt::format("there are so many disks that shine that each is a polygon of {} corners, not of {}: their edges and reflections show it",
                                              lights_.fewer_disk_corners, most_disk_corners),
                                  ""});
+    if (!missing_light_.empty()) info.warnings.push_back({Diagnostic::Severity::warning, missing_light_, ""});
     info.environment = lights_.environment >= 0;
     info.emissive_triangles = lights_.emissive_triangles;
     info.point_lights = lights_.point_lights;

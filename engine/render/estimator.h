@@ -27,6 +27,10 @@ template <class F> F light_sample_weight(Strategy strategy, const F& light_pdf, 
     return select(delta, F(1.f), power_heuristic(light_pdf, bsdf_pdf));
 }
 
+// Metres across which panes' textures are looked at. Where a pane's transmittance is weighed against that which shadow rays find, textures are
+// not filtered.
+template <class F> F pane_width(const F& cone, int bounce) { return bounce == 0 ? cone : F(0.f); }
+
 // Not black; what is no number counts, so that it reaches the film and is not lost in silence.
 template <class F> Mask<F> has_light(const Vec<F>& v) { return !(v.x <= F(0.f) && v.y <= F(0.f) && v.z <= F(0.f)); }
 
@@ -112,7 +116,10 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
     // The surface and its material.
     F cone = F(0.f);
     if constexpr (S.has(Feature::textures)) cone = cone_width<F>(scene.camera, settings, path, hit.t);
-    const Surface<F> surface = surface_at<S, F>(scene, hit, found, cone);
+    F width = cone;
+    if constexpr (S.has(Feature::transmission) && S.has(Feature::textures))
+        if (scene.panes) width = select(is_pane<S, F>(scene, hit, found), pane_width<F>(cone, bounce), cone);
+    const Surface<F> surface = surface_at<S, F>(scene, hit, found, width);
     const MaterialPoint<F> material = material_at<S, F>(scene.materials, surface.material, surface.texture, surface.color, found);
     const Vec<F> wo_world = -path.ray.direction;
     const F outside = dot(surface.ng, wo_world);
@@ -136,14 +143,11 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
     if constexpr (S.has(Feature::emissive_triangles)) {
         const Mask<F> emitting = found && max_component(material.emission) > F(0.f) && (front || material.double_sided);
         if (any(emitting)) {
-            const Int<F> light = light_of_triangle<F>(scene, surface.part, select(found, hit.triangle, Int<F>(0)));
-            const F unlinked = surface_emission_weight<S, F>(scene, settings.strategy, path, light, hit.t, abs(outside), emitting);
-            const F weight = if_linked<S, F>(scene, unlinked, light, path, emitting);
             Vec<F> emission = material.emission;
             if constexpr (S.has(Feature::clearcoat)) emission = emission * through_clearcoat(material.bsdf.layers.clearcoat, F(abs(outside)));
-            if constexpr (S.has(Feature::light_profiles)) emission = emission * emission_profile<F>(scene, light, wo_world, emitting);
-            out.emitted = select<F>(emitting, beta * emission * weight, out.emitted);
-            out.weights.emission = select(emitting, weight, out.weights.emission);
+            const EmissionHit<F> light = emission_hit<S, F>(scene, settings.strategy, path, surface.part, hit, abs(outside), emission, emitting);
+            out.emitted = select<F>(emitting, beta * light.radiance * light.weight, out.emitted);
+            out.weights.emission = select(emitting, light.weight, out.weights.emission);
             out.emits = out.emits || emitting;
         }
     }
@@ -155,19 +159,10 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
         scatters = scatters && !unlit;
     }
 
-    // The shading frame: turned towards the viewer unless the surface bounds a solid.
-    const Vec<F> ng = select<F>(front || solid, surface.ng, -surface.ng);
-    const Vec<F> bent = shading_normal<S, F>(surface, ng, material.tangent_normal);
-    // A viewer who would look at the back of a normal gets the plane's own, unless there is an inside to look from.
-    const Mask<F> behind = !solid && dot(bent, wo_world) < F(least_facing);
-    const Vec<F> ns = select<F>(behind, ng, bent);
-    const Basis<F> frame = shading_frame<S, F>(surface, ns, material);
-    const Vec<F> wo = frame.to_local(wo_world);
-    BsdfParams<F> params = material.bsdf;
-    // A coat covers the relief of what lies below it.
-    if constexpr (S.has(Feature::clearcoat))
-        params.layers.clearcoat_normal = frame.to_local(shading_normal<S, F>(surface, ng, material.clearcoat_tangent_normal));
-    if constexpr (S.has(Feature::anisotropy)) params.layers.anisotropy = select(surface.has_tangents, material.anisotropy.strength, F(0.f));
+    const ShadingFrame<F> shading = shading_frame_at<S, F>(surface, material, wo_world, front, solid);
+    const Vec<F>&ng = shading.ng, &ns = shading.ns, &wo = shading.wo;
+    const Basis<F>& frame = shading.frame;
+    BsdfParams<F> params = shading.params;
     Mask<F> dispersed = Mask<F>(false);
     if constexpr (S.has(Feature::dispersion)) {
         dispersed = as_mask(path.dispersed != 0);
@@ -190,7 +185,7 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
         out.first.material = select(found, surface.material, Int<F>(-1));
     }
     if (bounce <= 1) {
-        out.junction.lambertian = matte && !behind;
+        out.junction.lambertian = matte && !shading.behind;
         out.junction.position = surface.position;
         out.junction.clearance = clearance(ng, surface.error);
         out.junction.ng = ng;
@@ -198,6 +193,11 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
         out.junction.reflectance = bsdf.diffuse;
     }
     if (bounce >= settings.max_bounces) return out;
+
+    // Paths that pass a pane straight on never get here (thin_transmission.h): this is the share that does not.
+    F stays = F(1.f);
+    if constexpr (S.has(Feature::transmission))
+        if (scene.panes) stays = select(material.pane, 1.f - straight_transmission<S, F>(bsdf, wo).probability, F(1.f));
 
     const Sampler<F> sampler{path.key, path.index};
     const uint32_t dimension = first_scatter_dimension + dimensions_per_scatter * uint32_t(bounce);
@@ -238,6 +238,8 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
         const F found_pdf = aims ? focused_pdf<F>(scene.focus, focus, wi_world, f.pdf) : f.pdf;
         const F weight = light_sample_weight(settings.strategy, in.pdf, found_pdf, only_sampled);
         out.direct = beta * f.f_cos * in.radiance * (weight / in.pdf);
+        if constexpr (S.has(Feature::transmission))
+            if (scene.panes) out.direct = out.direct * (1.f / max(stays, F(0x1p-24f)));
         out.light = light.light;
         out.weights.light = weight;
         out.weights.light_pdf = in.pdf;
@@ -252,7 +254,12 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
     // Onwards: sample the BSDF or, from a matte surface, what focuses light; then roulette.
     const Pair<F> choice = sampler.pair(dimension + choice_dimension);
     const Pair<F> direction = sampler.pair(dimension + bsdf_dimension);
-    BsdfSample<F> b = sample<S, F>(bsdf, wo, direction.x(), direction.y(), choice.x());
+    F lobe = choice.x();
+    if constexpr (S.has(Feature::transmission))
+        if (scene.panes) lobe = lobe * stays; // of the lobes before the straight one, each as often as without panes
+    BsdfSample<F> b = sample<S, F>(bsdf, wo, direction.x(), direction.y(), lobe);
+    if constexpr (S.has(Feature::transmission))
+        if (scene.panes) b.valid = b.valid && !(material.pane && b.delta && (b.wi.z > F(0.f)) != (wo.z > F(0.f))); // rounding chose the straight lobe
     Vec<F> wi = frame.to_world(b.wi);
     F rarer = F(1.f); // than without aiming is the direction that was drawn
     if (aims && any(focus.share > F(0.f))) {

@@ -26,7 +26,8 @@ double largest_scale(const Affined& a) {
 
 bool focuses(const Material& m) {
     const bool narrow = m.roughness <= focusing_roughness && !m.unlit && m.alpha == Material::Alpha::opaque;
-    return narrow && std::max(m.metallic, m.transmission) >= least_focused_part;
+    const float refracts = m.thickness > 0 ? m.transmission : 0; // light passes thin walls straight on (thin_transmission.h)
+    return narrow && std::max(m.metallic, refracts) >= least_focused_part;
 }
 
 PayloadBall ball_around(const Geometry& geometry) {

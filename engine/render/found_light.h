@@ -106,6 +106,21 @@ F surface_emission_weight(const SceneTables& scene, Strategy strategy, const Pat
     return found_emission_weight(strategy, path.pdf, pdf);
 }
 
+// Radiance of a triangle light that the path's ray has met, and its MIS weight. `emission`: of the material; facing: cosine between ray and plane.
+template <class F> struct EmissionHit {
+    Vec<F> radiance;
+    F weight;
+};
+template <Features S, class F>
+EmissionHit<F> emission_hit(const SceneTables& scene, Strategy strategy, const Path<F>& path, const Int<F>& part, const Hit<F>& hit, const F& facing,
+                            const Vec<F>& emission, const Mask<F>& emitting) {
+    const Int<F> light = light_of_triangle<F>(scene, part, select(emitting, hit.triangle, Int<F>(0)));
+    const F unlinked = surface_emission_weight<S, F>(scene, strategy, path, light, hit.t, facing, emitting);
+    EmissionHit<F> found{emission, if_linked<S, F>(scene, unlinked, light, path, emitting)};
+    if constexpr (S.has(Feature::light_profiles)) found.radiance = found.radiance * emission_profile<F>(scene, light, -path.ray.direction, emitting);
+    return found;
+}
+
 // Light of a sphere that the path's ray has met, times its MIS weight, and that weight. From within, it is dark.
 template <class F> struct FoundSphere {
     Vec<F> radiance;

@@ -77,6 +77,7 @@ struct Frame {
     ErrorEstimate error;
     int64_t error_samples = 0;
     double error_at = 0;
+    std::string missing_light; // a sentence; empty where all light can be found (missing_light.h)
     Health health;
     ClampReport clamp;
     RayCounts rays;

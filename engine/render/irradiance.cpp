@@ -77,11 +77,11 @@ Vec3d estimate_irradiance(KernelContext context, const MeterPoint& receiver, uin
         scratch.shadows.mask[scratch.shadows.size] = step.shadow_mask;
         append<float>(scratch.shadows, step, i, true);
     }
-    connect_paths<float>(context, scratch, 0);
+    connect_paths<features, float>(context, scratch, 0);
     for (int bounce = 1; now->size > 0 && bounce <= longest_path; ++bounce) {
-        trace_paths<float>(context, scratch, *now, bounce);
+        trace_paths<features, float>(context, scratch, *now, *next, bounce);
         shade_paths<features, float>(context, scratch, *now, *next, bounce);
-        connect_paths<float>(context, scratch, bounce);
+        connect_paths<features, float>(context, scratch, bounce);
         std::swap(now, next);
     }
     Vec3d sum{0, 0, 0};

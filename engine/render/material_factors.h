@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scene/scene.h"
+#include "shading/microfacet.h"
 
 #include <algorithm>
 
@@ -20,6 +21,10 @@ inline bool is_thin(const Material& m) { return !(m.thickness > 0); }
 
 // Light travels inside of it.
 inline bool is_solid(const Material& m) { return (transmits(m) || is_translucent(m)) && !is_thin(m); }
+// A thin wall that is smooth, or may be where its texture says so: light may pass it straight on.
+inline bool may_pass_straight(const Material& m) {
+    return transmits(m) && is_thin(m) && (unit(m.roughness) < smooth_roughness || m.metallic_roughness_texture.texture);
+}
 
 // A place of Material that holds a texture, and that of a compiled record which tells where to read it.
 template <class Record> struct CompiledSlot {

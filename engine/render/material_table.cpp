@@ -97,6 +97,7 @@ MaterialRecord factors_of(const Material& m) {
     if (!is_black(r.emission)) r.flags |= material_emissive;
     if (m.double_sided) r.flags |= material_double_sided;
     if (m.unlit) r.flags |= material_unlit;
+    if (may_pass_straight(m)) r.flags |= material_pane;
     if (m.alpha != Material::Alpha::opaque) {
         r.alpha = m.alpha == Material::Alpha::mask ? alpha_mask : alpha_blend;
         r.opacity = unit(m.opacity);

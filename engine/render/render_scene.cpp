@@ -2,6 +2,8 @@
 
 #include "core/math.h"
 #include "render/lowering.h"
+#include "render/material_factors.h"
+#include "render/missing_light.h"
 #include "scene/affine.h"
 
 #include <algorithm>
@@ -106,11 +108,13 @@ void RenderScene::update_geometry(const Scene& scene, const UpdatePlan& plan, co
     }
 
     std::vector<bool> alpha;
+    tables_.panes = false;
     for (size_t part = 0; part < geometry_.parts().size(); ++part) {
         const Id<Material> id = geometry_.part_materials()[part];
         geometry_.parts()[part].material = materials_.index_of(id);
         const Material* material = scene.materials.find(id);
         alpha.push_back(material && material->alpha != Material::Alpha::opaque);
+        tables_.panes |= material && may_pass_straight(*material);
     }
     casters_ = CasterSets(scene);
     std::vector<uint32_t> masks = masks_of(scene, objects_, casters_);
@@ -178,6 +182,7 @@ void RenderScene::update_lights(const Scene& scene, const RenderSettings& settin
     if (groups) update_groups(*groups);
     links_ = build_light_links(scene, lights_, geometry_, casters_);
     tables_.links = links_.empty() ? LinkTables{} : links_.tables();
+    missing_light_ = blush::missing_light(scene, geometry_.part_materials());
     tables_.groups = {group_of_light_.data(), group_of_part_.data(), groups ? groups->of_environment() : 0};
 }
 

@@ -40,6 +40,10 @@ public:
     Id<Material> material_id(int32_t index) const;
     // And back; 0 for one that it does not have.
     int32_t material_index(Id<Material> id) const { return materials_.index_of(id); }
+    // Some light samples or rays can find light.
+    bool has_light() const { return lights_.count > 0 || lights_.emissive_triangles > 0 || lights_.environment >= 0; }
+    // missing_light.h
+    const std::string& missing_light() const { return missing_light_; }
     // All but the kernel and the ledger.
     CompiledInfo info() const;
     // `lowered` as last given; the film that it is rendered to.
@@ -74,6 +78,7 @@ private:
     Features features_;
     bool has_geometry_ = false, has_environment_map_ = false;
     Aim aim_ = Aim::at_all; // at lights, as last told
+    std::string missing_light_;
 };
 
 // The view as kernels read it, at the given aspect = width / height, its position about `origin`.

@@ -269,6 +269,8 @@ bool Renderer::State::render_run(TileJob job, const Run& run, int most_samples, 
     return true;
 }
 
+bool Renderer::has_light() const { return state_->scene.has_light(); }
+
 Vec3d Renderer::irradiance(const MeterPlace& place, uint32_t replicate, int samples) const {
     State& s = *state_;
     const KernelContext context{&s.scene.tables(), &s.scene.accel(), settings_for_kernels(s.settings, 1, 1), s.settings.seed};
@@ -374,6 +376,7 @@ void Renderer::resolve(Frame& frame) const {
     frame.health.truncated = s.truncated;
     frame.kernel = s.kernel_name;
     frame.ledger = ledger();
+    frame.missing_light = s.scene.missing_light();
 }
 
 Frame Renderer::resolve() const {
@@ -387,7 +390,13 @@ Frame Renderer::resolve() const {
 ErrorEstimate Renderer::estimate_error() const {
     State& s = *state_;
     s.wipe_stale_film();
-    return blush::estimate_error(s.film, s.settings.reuse, s.workers);
+    ErrorEstimate error = blush::estimate_error(s.film, s.settings.reuse, s.workers);
+    // Two halves that miss the same light agree, and prove nothing.
+    if (!s.scene.missing_light().empty()) {
+        error.known = error.known && error.high > 0;
+        error.rmse_known = error.rmse_known && error.rmse_high > 0;
+    }
+    return error;
 }
 
 Result<FilmState> Renderer::save_film(int64_t first) const {

@@ -110,6 +110,8 @@ public:
     // What a light meter at a place of the scene last taken up reads: one of many independent estimates (irradiance.h), RGB in lux. The
     // film is not touched.
     Vec3d irradiance(const MeterPlace& place, uint32_t replicate, int samples) const;
+    // Whether anything in the scene last taken up gives light.
+    bool has_light() const;
 
     // Of the scene last taken up. Not for the path of an edit: looks at every triangle the first time it is asked.
     const CompiledInfo& info() const;

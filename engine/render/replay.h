@@ -28,7 +28,7 @@ Vec3 replay_sample(KernelContext context, int x, int y, int64_t sample, int long
     PathQueue *now = &scratch.paths[0], *next = &scratch.paths[1];
     generate_paths<s, float>(context, {x, y, 1, 1, sample, 1}, scratch);
     for (int bounce = 0; now->size > 0 && bounce < longest; ++bounce) {
-        trace_paths<float>(context, scratch, *now, bounce);
+        trace_paths<s, float>(context, scratch, *now, *next, bounce);
         Path<float> path = load_path<s, float>(*now, 0);
         path.part = now->part[0];
         path.dispersed = now->dispersed[0];
@@ -36,7 +36,7 @@ Vec3 replay_sample(KernelContext context, int x, int y, int64_t sample, int long
         vertex.step = scatter<s, float>(*context.scene, context.settings, vertex.path, vertex.hit, bounce, true);
         shade_paths<s, float>(context, scratch, *now, *next, bounce);
         const Vec3d before = radiance();
-        connect_paths<float>(context, scratch, bounce);
+        connect_paths<s, float>(context, scratch, bounce);
         vertex.arrived = to_float(radiance() - before);
         if (!visit(vertex)) break;
         std::swap(now, next);

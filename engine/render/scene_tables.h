@@ -76,6 +76,7 @@ struct SceneTables {
     FocusTables focus;  // none: nobody aims at anything but lights
     GroupTables groups; // null: nobody mixes
     LinkTables links;
+    bool panes = false; // some part is a wall that may transmit straight on (thin_transmission.h)
     CameraRecord camera{};
 };
 

@@ -44,4 +44,31 @@ template <Features S, class F> Basis<F> shading_frame(const Surface<F>& s, const
     }
 }
 
+// A surface point as its BSDF wants it.
+template <class F> struct ShadingFrame {
+    Vec<F> ng, ns;        // unit, world: turned towards the viewer unless the surface bounds a solid
+    Mask<F> behind;       // the viewer would look at the back of the interpolated or mapped normal: ns is the plane's own
+    Basis<F> frame;
+    Vec<F> wo;            // in that frame
+    BsdfParams<F> params; // with what depends on the frame
+};
+template <Features S, class F>
+ShadingFrame<F> shading_frame_at(const Surface<F>& surface, const MaterialPoint<F>& material, const Vec<F>& wo_world, const Mask<F>& front,
+                                 const Mask<F>& solid) {
+    ShadingFrame<F> s;
+    s.ng = select<F>(front || solid, surface.ng, -surface.ng);
+    const Vec<F> bent = shading_normal<S, F>(surface, s.ng, material.tangent_normal);
+    // A viewer who would look at the back of a normal gets the plane's own, unless there is an inside to look from.
+    s.behind = !solid && dot(bent, wo_world) < F(least_facing);
+    s.ns = select<F>(s.behind, s.ng, bent);
+    s.frame = shading_frame<S, F>(surface, s.ns, material);
+    s.wo = s.frame.to_local(wo_world);
+    s.params = material.bsdf;
+    // A coat covers the relief of what lies below it.
+    if constexpr (S.has(Feature::clearcoat))
+        s.params.layers.clearcoat_normal = s.frame.to_local(shading_normal<S, F>(surface, s.ng, material.clearcoat_tangent_normal));
+    if constexpr (S.has(Feature::anisotropy)) s.params.layers.anisotropy = select(surface.has_tangents, material.anisotropy.strength, F(0.f));
+    return s;
+}
+
 } // namespace blush::inline BLUSH_ISA

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/math.h"
+#include "render/accel.h"
 #include "render/scene_tables.h"
 #include "render/texture_point.h"
 #include "shading/features.h"
@@ -73,6 +74,14 @@ template <Features S, class F> Int<F> part_of(const SceneTables& scene, const Hi
         }
     }
     return geometry;
+}
+
+// Lanes of `active` whose hit is on a wall that may transmit straight on (thin_transmission.h).
+template <Features S, class F> Mask<F> is_pane(const SceneTables& scene, const Hit<F>& hit, const Mask<F>& active) {
+    const Mask<F> surface = active && as_mask(hit.geometry >= 0) && !as_mask(hit.instance == sphere_instance);
+    if (!any(surface)) return surface;
+    const Int<F> material = gather_field(scene.parts, &PartRecord::material, part_of<S, F>(scene, hit, surface));
+    return surface && as_mask((gather_field(scene.materials.materials, &MaterialRecord::flags, material) & int32_t(material_pane)) != 0);
 }
 
 // The attributes of `hit` in the lanes of `active`; elsewhere those of some valid triangle. Textures are looked at over `width` metres.

@@ -4,83 +4,30 @@
 #include "render/estimator.h"
 #include "render/group_sums.h"
 #include "render/kernels/kernel.h"
+#include "render/path_queues.h"
 #include "render/path_reuse.h"
+#include "render/thin_transmission.h"
 
 #include <algorithm>
 #include <utility>
 
 namespace blush::inline BLUSH_ISA {
 
-template <Features S, class F> Path<F> load_path(const PathQueue& q, int k) {
-    Path<F> p;
-    p.ray.origin = {load<F>(q.ox + k), load<F>(q.oy + k), load<F>(q.oz + k)};
-    p.ray.direction = {load<F>(q.dx + k), load<F>(q.dy + k), load<F>(q.dz + k)};
-    p.beta = {load<F>(q.beta_r + k), load<F>(q.beta_g + k), load<F>(q.beta_b + k)};
-    p.pdf = load<F>(q.pdf + k);
-    p.normal = splat<F>(0.f);
-    if constexpr (S.has(Feature::light_tree)) p.normal = {load<F>(q.nx + k), load<F>(q.ny + k), load<F>(q.nz + k)};
-    p.cone = F(0.f);
-    if constexpr (S.has(Feature::textures)) p.cone = load<F>(q.cone + k);
-    p.key = load<UInt<F>>(q.key + k);
-    p.index = load<UInt<F>>(q.index + k);
-    p.slot = load<Int<F>>(q.slot + k);
-    return p;
-}
-
-template <Features S, class F> void append(PathQueue& q, const Path<F>& p, const Mask<F>& lanes) {
-    const unsigned b = bits(lanes);
-    const int k = q.size;
-    compress(q.ox + k, p.ray.origin.x, b);
-    compress(q.oy + k, p.ray.origin.y, b);
-    compress(q.oz + k, p.ray.origin.z, b);
-    compress(q.dx + k, p.ray.direction.x, b);
-    compress(q.dy + k, p.ray.direction.y, b);
-    compress(q.dz + k, p.ray.direction.z, b);
-    compress(q.beta_r + k, p.beta.x, b);
-    compress(q.beta_g + k, p.beta.y, b);
-    compress(q.beta_b + k, p.beta.z, b);
-    compress(q.pdf + k, p.pdf, b);
-    if constexpr (S.has(Feature::light_tree)) {
-        compress(q.nx + k, p.normal.x, b);
-        compress(q.ny + k, p.normal.y, b);
-        compress(q.nz + k, p.normal.z, b);
-    }
-    if constexpr (S.has(Feature::textures)) compress(q.cone + k, p.cone, b);
-    compress(q.key + k, p.key, b);
-    compress(q.index + k, p.index, b);
-    compress(q.slot + k, p.slot, b);
-    q.size += count(lanes);
-}
-
-template <class F> void append(ShadowQueue& q, const Step<F>& s, const Int<F>& slot, const Mask<F>& lanes) {
-    const unsigned b = bits(lanes);
-    const int k = q.size;
-    compress(q.ox + k, s.shadow.origin.x, b);
-    compress(q.oy + k, s.shadow.origin.y, b);
-    compress(q.oz + k, s.shadow.origin.z, b);
-    compress(q.dx + k, s.shadow.direction.x, b);
-    compress(q.dy + k, s.shadow.direction.y, b);
-    compress(q.dz + k, s.shadow.direction.z, b);
-    compress(q.distance + k, s.shadow_distance, b);
-    compress(q.r + k, s.direct.x, b);
-    compress(q.g + k, s.direct.y, b);
-    compress(q.b + k, s.direct.z, b);
-    compress(q.slot + k, slot, b);
-    q.size += count(lanes);
-}
-
-// The random number of a ray for stochastic opacity; salt tells the rays of one path apart: 2 * bounce, and 2 * bounce + 1 of its shadow ray.
-template <class F> UInt<F> opacity_random(const UInt<F>& key, const UInt<F>& index, uint32_t salt) {
-    return key ^ pcg_hash(UInt<F>(index + salt * 0x9e3779b9u));
-}
-
-template <class F> Hit<F> load_hit(const HitColumns& h, int k) {
-    return {load<F>(h.t + k),           load<F>(h.u + k),          load<F>(h.v + k), load<Int<F>>(h.geometry + k), load<Int<F>>(h.instance + k),
-            load<Int<F>>(h.triangle + k)};
-}
-
-template <class F> void store_first_hit(FirstHitColumns& c, int k, const FirstHit<F>& first) {
+// Of the lanes of `straight`; the other paths have stored the first pane that they passed.
+template <class F> void store_first_hit(FirstHitColumns& c, int k, FirstHit<F> first, const Mask<F>& straight) {
     // At bounce 0 nothing has been compacted: the k-th path is slot k.
+    if (!all(straight)) {
+        const auto keep = [&](F& value, const float* column) { value = select(straight, value, load<F>(column + k)); };
+        keep(first.albedo.x, c.albedo_r);
+        keep(first.albedo.y, c.albedo_g);
+        keep(first.albedo.z, c.albedo_b);
+        keep(first.normal.x, c.normal_x);
+        keep(first.normal.y, c.normal_y);
+        keep(first.normal.z, c.normal_z);
+        keep(first.depth, c.depth);
+        first.object = select(straight, first.object, load<Int<F>>(c.object + k));
+        first.material = select(straight, first.material, load<Int<F>>(c.material + k));
+    }
     store(c.albedo_r + k, first.albedo.x);
     store(c.albedo_g + k, first.albedo.y);
     store(c.albedo_b + k, first.albedo.z);
@@ -155,15 +102,11 @@ template <Features S, class F> [[gnu::flatten]] void generate_paths(const Kernel
     std::fill_n(scratch.roulette->survival.data, n, 0.f);
 }
 
-template <class F> void trace_paths(const KernelContext& context, TileScratch& scratch, const PathQueue& q, int bounce) {
-    const bool alpha = context.accel->has_alpha();
-    if (alpha)
-        for (int k = 0; k < q.size; k += width<F>)
-            store(scratch.random + k, opacity_random<F>(load<UInt<F>>(q.key + k), load<UInt<F>>(q.index + k), uint32_t(2 * bounce)));
-    const RayArrays rays{q.ox, q.oy, q.oz, q.dx, q.dy, q.dz, nullptr, alpha ? scratch.random.data : nullptr,
-                         bounce == 0 ? camera_ray_mask : other_ray_mask};
-    HitColumns& h = scratch.hits;
-    context.accel->intersect(rays, q.size, bounce == 0, {h.t, h.u, h.v, h.geometry, h.instance, h.triangle});
+// Finds what the path rays of `now` hit. In scenes with panes `rest` is overwritten, and paths that pass some have their throughput changed.
+template <Features S, class F> void trace_paths(const KernelContext& context, TileScratch& scratch, PathQueue& now, PathQueue& rest, int bounce) {
+    trace_rays<F>(context, scratch.random, now, bounce, scratch.hits);
+    if constexpr (S.has(Feature::transmission))
+        if (context.scene->panes) trace_through_panes<S, F>(context, scratch, now, rest, bounce);
 }
 
 template <Features S, class F>
@@ -177,8 +120,16 @@ template <Features S, class F>
         if constexpr (S.has(Feature::dispersion)) path.dispersed = load<Int<F>>(now.dispersed + k);
         const Mask<F> active = as_mask(iota<F>() + k < now.size);
         const Step<F> step = scatter<S, F>(*context.scene, context.settings, path, load_hit<F>(scratch.hits, k), bounce, active);
-        if (bounce == 0 && scratch.first) store_first_hit<F>(*scratch.first, k, step.first);
-        if (bounce <= 1 && context.settings.reuse.size() > 1) store_junction<F>(*scratch.reuse, now, k, bounce, path, step.junction);
+        Mask<F> straight = Mask<F>(true); // the path's ray has passed no pane
+        if constexpr (S.has(Feature::transmission))
+            if (context.scene->panes) straight = as_mask(load<Int<F>>(scratch.panes->passed + k) == 0);
+        if (bounce == 0 && scratch.first) store_first_hit<F>(*scratch.first, k, step.first, straight);
+        if (bounce <= 1 && context.settings.reuse.size() > 1) {
+            // Connections to other pixels do not pass panes, so a segment that does is not shared either.
+            Junction<F> junction = step.junction;
+            if (bounce == 1) junction.lambertian = junction.lambertian && straight;
+            store_junction<F>(*scratch.reuse, now, k, bounce, path, junction);
+        }
         if (scratch.roulette) note_roulette<F>(*scratch.roulette, now.slot + k, step, active, bounce);
         if (any(step.emits)) add_light<F>(scratch, now.slot + k, step.emitted, step.emits);
         if (scratch.groups && any(step.emits)) add_found_by_group<S, F>(context, *scratch.groups, scratch.hits, k, path, step, bounce);
@@ -203,20 +154,13 @@ template <Features S, class F>
 }
 
 // Adds the light of all shadow rays that reach their light.
-template <class F> void connect_paths(const KernelContext& context, TileScratch& scratch, int bounce) {
+template <Features S, class F> void connect_paths(const KernelContext& context, TileScratch& scratch, int bounce) {
+    if constexpr (S.has(Feature::transmission))
+        if (context.scene->panes) return connect_through_panes<S, F>(context, scratch, bounce);
     const ShadowQueue& q = scratch.shadows;
-    const bool alpha = context.accel->has_alpha();
-    const RayArrays rays{q.ox, q.oy, q.oz, q.dx, q.dy, q.dz, q.distance, alpha ? q.random.data : nullptr, other_ray_mask,
-                         context.scene->links.lit_sets ? q.mask.data : nullptr};
-    context.accel->occluded(rays, q.size, bounce == 0, scratch.blocked);
-    for (int k = 0; k < q.size; ++k) {
-        if (scratch.blocked[k]) continue;
-        const int slot = q.slot[k];
-        scratch.r[slot] += double(q.r[k]);
-        scratch.g[slot] += double(q.g[k]);
-        scratch.b[slot] += double(q.b[k]);
-        if (scratch.groups) scratch.groups->add(q.group[k], slot, double(q.r[k]), double(q.g[k]), double(q.b[k]));
-    }
+    context.accel->occluded(shadow_rays_of(context, q), q.size, bounce == 0, scratch.blocked);
+    for (int k = 0; k < q.size; ++k)
+        if (!scratch.blocked[k]) add_shadow_light(scratch, q, k);
 }
 
 // What the paths have gathered so far, when everything that took at most `bounce` scatterings is in it: light that was aimed at after one
@@ -242,7 +186,7 @@ template <Features S, class F> void render_tile(const KernelContext& context, co
             break;
         }
         (bounce > 0 ? scratch.bounce_rays : scratch.camera_rays) += now->size;
-        trace_paths<F>(context, scratch, *now, bounce);
+        trace_paths<S, F>(context, scratch, *now, *next, bounce);
         shade_paths<S, F>(context, scratch, *now, *next, bounce);
         if (scratch.bounces) record_bounce(scratch, job.paths(), bounce);
         if (scratch.groups && bounce == 1) scratch.groups->note_direct(job.paths());
@@ -251,7 +195,7 @@ template <Features S, class F> void render_tile(const KernelContext& context, co
             set_own_radiance_aside(*scratch.reuse, scratch, job.paths());
             own_is_aside = true;
         }
-        if (scratch.shadows.size > 0) connect_paths<F>(context, scratch, bounce);
+        if (scratch.shadows.size > 0) connect_paths<S, F>(context, scratch, bounce);
         std::swap(now, next);
     }
     if (own_is_aside) share_paths<F>(context, job, scratch);

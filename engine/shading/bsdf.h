@@ -136,6 +136,26 @@ template <Features S, class F> BsdfSample<F> sample(const Bsdf<F>& b, const Vec<
     return s;
 }
 
+// The delta lobe that goes on straight, to -wo: of thin, smooth, transmitting walls. 0 everywhere else.
+template <class F> struct StraightTransmission {
+    Vec<F> value;  // share of the light that passes
+    F probability; // of sample() choosing it; it is the last of the lobes, from choice = 1 - probability on
+};
+template <Features S, class F> StraightTransmission<F> straight_transmission(const Bsdf<F>& b, const Vec<F>& wo) {
+    if constexpr (!S.has(Feature::transmission)) return {splat<F>(0.f), F(0.f)};
+    else {
+        const FacetAlbedo<F> a = facet_albedo<S>(b, b.cos);
+        const Mask<F> passes = b.smooth && !b.solid && max_component(a.transmitted) > F(0.f);
+        F probability = (1.f - b.p_diffuse) * facet_probability<S>(a, Mask<F>(false));
+        Vec<F> value = a.transmitted;
+        if constexpr (has_layers(S)) {
+            probability = probability * b.p_base;
+            value = value * left_for_base<S>(b, -wo);
+        }
+        return {select<F>(passes, value, splat<F>(0.f)), select(passes, probability, F(0.f))};
+    }
+}
+
 // Roughly how much of a uniform light comes back or through, in [0, 1]: the denoiser's guide.
 template <Features S, class F> Vec<F> albedo(const Bsdf<F>& b, const Vec<F>&) {
     Vec<F> sum = albedo_of_base<S>(b);

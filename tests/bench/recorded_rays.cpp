@@ -38,14 +38,14 @@ RecordedRays record_tile(const KernelContext& context, const TileJob& job, TileS
     PathQueue* now = &scratch.paths[0];
     PathQueue* next = &scratch.paths[1];
     for (int bounce = 0; now->size > 0 && bounce <= longest_path; ++bounce) {
-        trace_paths<float>(context, scratch, *now, bounce);
+        trace_paths<all_features, float>(context, scratch, *now, *next, bounce);
         of_kind(rays, bounce == 0 ? RayKind::camera : RayKind::bounce).push_back(batch_of(*now, scratch, *context.accel, bounce));
         shade_paths<all_features, float>(context, scratch, *now, *next, bounce);
         if (const ShadowQueue& shadows = scratch.shadows; shadows.size > 0) {
-            connect_paths<float>(context, scratch, bounce);
             RayBatch batch = batch_of(shadows, scratch, *context.accel, bounce);
             batch.far_distance = copied<float>(shadows.distance, shadows.size);
             of_kind(rays, RayKind::shadow).push_back(std::move(batch));
+            connect_paths<all_features, float>(context, scratch, bounce);
         }
         std::swap(now, next);
     }

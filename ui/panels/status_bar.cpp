@@ -81,6 +81,8 @@ void draw_frame_cells(PanelContext& c, float& x, const Frame& frame) {
         cell(c, x, 9, "error follows", "The mix of lights shows at once; its error is estimated with the next picture of the session.", tone::dim_text);
     else
         draw_error_cell(c, x, frame);
+    if (!frame.missing_light.empty())
+        cell(c, x, 14, "some light cannot be found", (frame.missing_light + ". It is not in the estimated error.").c_str(), tone::warning);
     draw_denoised_cells(c, x, frame);
     cell(c, x, 6, elapsed_text(frame.seconds), "Time spent rendering since the last edit.");
     cell(c, x, 8.5f,

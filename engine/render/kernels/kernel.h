@@ -72,6 +72,12 @@ struct RouletteColumns {
     PathCounts counts[most_counted_bounces]; // counted up
 };
 
+// Where panes are passed (thin_transmission.h).
+struct PaneColumns {
+    Column<int32_t> passed; // by path of the queue: how many panes its ray has passed
+    HitColumns hits;        // of the rays behind them
+};
+
 // A worker's memory for tiles, and what a tile leaves in it. Results are by slot: slot = pixel * samples + sample, pixels by rows.
 struct TileScratch {
     PathQueue paths[2];
@@ -86,6 +92,7 @@ struct TileScratch {
     std::unique_ptr<GroupColumns> groups;   // null: nobody mixes
     std::unique_ptr<ReuseColumns> reuse;       // made by the first kernel that is told to
     std::unique_ptr<RouletteColumns> roulette; // null: nobody reads it
+    std::unique_ptr<PaneColumns> panes;        // made by the first kernel whose scene has some
     int64_t camera_rays = 0, bounce_rays = 0, shadow_rays = 0, truncated_paths = 0; // counted up
 };
 
