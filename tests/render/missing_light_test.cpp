@@ -1,4 +1,5 @@
 // Light that no strategy can find is named, and two halves that both miss it do not count as proof that nothing is wrong.
+#include "picture.h"
 #include "render/missing_light.h"
 #include "render/renderer.h"
 #include "scenes.h"

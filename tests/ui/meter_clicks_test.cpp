@@ -113,11 +113,11 @@ private:
     double power_ = 0;
 };
 
-class MeterClicks : public testing::TestWithParam<const char*> {};
+class MeterClicks : public testing::TestWithParam<std::string> {};
 
 TEST_P(MeterClicks, ReadWhatFallsOnTheClickedPoint) {
     auto imported = import_gltf(std::string(BLUSH_ASSETS) + "/scenes/" + GetParam() + ".gltf");
-    ASSERT_TRUE(imported) << imported.error().message;
+    ASSERT_TRUE(imported) << imported.error().what;
     const Scene& scene = imported->scene;
     RenderSettings settings;
     settings.width = width;
@@ -130,7 +130,7 @@ TEST_P(MeterClicks, ReadWhatFallsOnTheClickedPoint) {
     const Projection projection(scene.view, double(width) / height);
     const DirectLight truth(scene);
 
-    std::mt19937_64 random(uint64_t(GetParam()[0]) + 1);
+    std::mt19937_64 random(uint64_t(GetParam().size()));
     std::uniform_real_distribution<double> uniform;
     constexpr int clicks = 40;
     int lit = 0;
@@ -161,7 +161,9 @@ TEST_P(MeterClicks, ReadWhatFallsOnTheClickedPoint) {
                                           statistics::sidak(statistics::significance, 5 * clicks)))
             << GetParam() << " at " << u << ", " << v;
     }
-    EXPECT_GT(lit, clicks / 2) << "most of a shipped scene is lit";
+    // All that is seen of the corridor is lit from round the corner.
+    if (GetParam() != "corridor") EXPECT_GT(lit, clicks / 2) << "most of a shipped scene is lit";
+    else EXPECT_EQ(lit, 0);
 }
 INSTANTIATE_TEST_SUITE_P(Shipped, MeterClicks, testing::Values("card-and-mug", "cornell", "corridor", "furnace", "veach-mis"));
 
