@@ -222,7 +222,7 @@ TEST(Render, JsonHasTheKeysOfTheContract) {
                             "path_length_mean", "error", "health", "kernel", "peak_memory_mb", "output", "partial"})
         EXPECT_TRUE(json.contains(key)) << key;
     EXPECT_EQ(test::keys_of(json["rays"]), (std::vector<std::string>{"bounce", "camera", "shadow"}));
-    EXPECT_EQ(test::keys_of(json["error"]), (std::vector<std::string>{"high", "low", "relmse", "rmse", "rmse_high", "rmse_low"}));
+    EXPECT_EQ(test::keys_of(json["error"]), (std::vector<std::string>{"high", "low", "missing_light", "relmse", "rmse", "rmse_high", "rmse_low"}));
     EXPECT_EQ(test::keys_of(json["health"]), (std::vector<std::string>{"faults", "fireflies", "first", "inf", "nan", "negative", "truncated"}));
     EXPECT_EQ(test::keys_of(json["kernel"]), (std::vector<std::string>{"features", "left_out", "made", "name"}));
     EXPECT_EQ(json["width"], 24);
