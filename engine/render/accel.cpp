@@ -1,12 +1,15 @@
 #include "render/accel.h"
 
+#include "core/math.h"
 #include "core/sampler.h"
 #include "render/compact_tree.h"
 #include "render/opacity.h"
 #include "render/scene_tables.h"
+#include "scene/affine.h"
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstring>
 #include <embree3/rtcore.h>
 #include <limits>
@@ -162,25 +165,36 @@ template <int N, class Ray> void load_rays(Ray& ray, const RayArrays& rays, int 
     std::fill_n(ray.flags, N, 0u);
 }
 
+// Largest coordinate of a ray that Embree takes, in the world and in the space of each instance.
+constexpr float embree_range = 1.8e18f;
+
+// Of a world-space ray: the sum of all coordinates that keeps it within that range inside an instance, too. 0 for a transform without inverse.
+float reach_through(const Affine& world_from_object) {
+    const Affined m = to_double(world_from_object), c = cofactor(m);
+    const double norm = std::sqrt(dot(c.x, c.x) + dot(c.y, c.y) + dot(c.z, c.z)) / std::abs(determinant(m)); // of the inverse
+    const double reach = 0.99 * embree_range / norm - length(m.t);
+    return reach > 0 ? float(std::min(reach, double(embree_range))) : 0.f;
+}
+
 // The first `count` lanes, but for rays that Embree does not take: it wants every number within its range, and a build of it with
 // assertions ends the process over one that is not. Such a ray meets nothing, and its sample's own numbers tell the film.
-template <int N, class Rays> void sound_lanes(int* valid, const Rays& q, int count) {
-    constexpr float embree_range = 1.8e18f;
+template <int N, class Rays> void sound_lanes(int* valid, const Rays& q, int count, float reach) {
     for (int i = 0; i < N; ++i) {
         const float size = std::abs(q.org_x[i]) + std::abs(q.org_y[i]) + std::abs(q.org_z[i]) + std::abs(q.dir_x[i]) + std::abs(q.dir_y[i]) +
                            std::abs(q.dir_z[i]);
-        valid[i] = -(int(i < count) & int(size <= embree_range) & int(q.tfar[i] >= 0)); // no branches: every ray comes by here
+        valid[i] = -(int(i < count) & int(size <= reach) & int(q.tfar[i] >= 0)); // no branches: every ray comes by here
     }
 }
 
-template <int N> void intersect_packets(RTCScene scene, RTCIntersectContext& context, const RayArrays& rays, int count, const HitArrays& hits) {
+template <int N> void intersect_packets(RTCScene scene, RTCIntersectContext& context, const RayArrays& rays, int count, float reach,
+                                                const HitArrays& hits) {
     alignas(64) int valid[N];
     alignas(64) typename Packet<N>::RayHit q;
     for (int k = 0; k < count; k += N) {
         load_rays<N>(q.ray, rays, k);
         std::fill_n(q.hit.geomID, N, RTC_INVALID_GEOMETRY_ID);
         std::fill_n(q.hit.instID[0], N, RTC_INVALID_GEOMETRY_ID);
-        sound_lanes<N>(valid, q.ray, count - k);
+        sound_lanes<N>(valid, q.ray, count - k, reach);
         Packet<N>::intersect(valid, scene, &context, &q);
         const auto copy = [&](auto* to, const auto* from) { std::memcpy(to + k, from, N * sizeof(float)); };
         copy(hits.t, q.ray.tfar);
@@ -192,12 +206,12 @@ template <int N> void intersect_packets(RTCScene scene, RTCIntersectContext& con
     }
 }
 
-template <int N> void occluded_packets(RTCScene scene, RTCIntersectContext& context, const RayArrays& rays, int count, uint8_t* blocked) {
+template <int N> void occluded_packets(RTCScene scene, RTCIntersectContext& context, const RayArrays& rays, int count, float reach, uint8_t* blocked) {
     alignas(64) int valid[N];
     alignas(64) typename Packet<N>::Ray q;
     for (int k = 0; k < count; k += N) {
         load_rays<N>(q, rays, k);
-        sound_lanes<N>(valid, q, count - k);
+        sound_lanes<N>(valid, q, count - k, reach);
         Packet<N>::occluded(valid, scene, &context, &q);
         const int n = std::min(N, count - k);
         for (int i = 0; i < n; ++i) blocked[k + i] = q.tfar[i] < 0;
@@ -221,6 +235,7 @@ struct Accel::State {
     uint32_t first_sphere = 0;   // and of the first geometry of spheres after them
     std::vector<int32_t> sphere_indices; // of the first sphere of each
     bool alpha = false;
+    float reach = embree_range; // sum of the coordinates of a ray that may be traced
 
     State() : device(rtcNewDevice("start_threads=0,set_affinity=0")) {
         if (!device) throw std::runtime_error("Embree cannot start on this processor");
@@ -242,6 +257,7 @@ void Accel::commit(const AccelScene& scene, const SceneTables* tables, const Wor
     State& s = *state_;
     std::map<BottomKey, SceneHandle> kept;
     s.alpha = false;
+    float reach = embree_range;
 
     SceneHandle top(s.device);
     for (const AccelTriangles& triangles : scene.flat) {
@@ -264,7 +280,10 @@ void Accel::commit(const AccelScene& scene, const SceneTables* tables, const Wor
             it = kept.emplace(key, std::move(bottom)).first;
         }
         for (const AccelTriangles& triangles : instances.geometries) s.alpha |= triangles.alpha;
-        for (const InstanceRecord& place : instances.places) top.add_instance(s.device, it->second.scene, place.world_from_object, instances.mask);
+        for (const InstanceRecord& place : instances.places) {
+            top.add_instance(s.device, it->second.scene, place.world_from_object, instances.mask);
+            reach = std::min(reach, reach_through(place.world_from_object));
+        }
         instance_count += uint32_t(instances.places.size());
     }
     s.first_sphere = s.first_instance + instance_count;
@@ -280,6 +299,7 @@ void Accel::commit(const AccelScene& scene, const SceneTables* tables, const Wor
         throw std::runtime_error(error == RTC_ERROR_OUT_OF_MEMORY ? "not enough memory to build the scene" : "Embree could not build the scene");
     s.top = std::move(top);
     s.bottoms = std::move(kept);
+    s.reach = reach;
 }
 
 bool Accel::has_alpha() const { return state_->alpha; }
@@ -299,9 +319,9 @@ RTCIntersectContext make_context(bool coherent, bool instances) {
 void Accel::intersect(const RayArrays& rays, int count, bool coherent, const HitArrays& hits) const {
     RTCIntersectContext context = make_context(coherent, !state_->bottoms.empty());
     switch (state_->packet) {
-    case 16: intersect_packets<16>(state_->top.scene, context, rays, count, hits); break;
-    case 8: intersect_packets<8>(state_->top.scene, context, rays, count, hits); break;
-    default: intersect_packets<4>(state_->top.scene, context, rays, count, hits); break;
+    case 16: intersect_packets<16>(state_->top.scene, context, rays, count, state_->reach, hits); break;
+    case 8: intersect_packets<8>(state_->top.scene, context, rays, count, state_->reach, hits); break;
+    default: intersect_packets<4>(state_->top.scene, context, rays, count, state_->reach, hits); break;
     }
     // Embree numbers instances after the flat geometries,
     const int32_t first_instance = int32_t(state_->first_instance), first_sphere = int32_t(state_->first_sphere);
@@ -320,9 +340,9 @@ void Accel::intersect(const RayArrays& rays, int count, bool coherent, const Hit
 void Accel::occluded(const RayArrays& rays, int count, bool coherent, uint8_t* blocked) const {
     RTCIntersectContext context = make_context(coherent, !state_->bottoms.empty());
     switch (state_->packet) {
-    case 16: occluded_packets<16>(state_->top.scene, context, rays, count, blocked); break;
-    case 8: occluded_packets<8>(state_->top.scene, context, rays, count, blocked); break;
-    default: occluded_packets<4>(state_->top.scene, context, rays, count, blocked); break;
+    case 16: occluded_packets<16>(state_->top.scene, context, rays, count, state_->reach, blocked); break;
+    case 8: occluded_packets<8>(state_->top.scene, context, rays, count, state_->reach, blocked); break;
+    default: occluded_packets<4>(state_->top.scene, context, rays, count, state_->reach, blocked); break;
     }
 }
 

@@ -38,7 +38,7 @@ struct AccelTriangles {
 };
 struct AccelInstances {
     std::vector<AccelTriangles> geometries; // one mesh
-    std::span<const InstanceRecord> places; // an instance at each
+    std::span<const InstanceRecord> places; // an instance at each; every transform has an inverse (baked_transforms.h)
     uint32_t mask = seen_by_all;
 };
 struct AccelSphere {

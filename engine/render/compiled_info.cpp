@@ -22,6 +22,7 @@ CompiledInfo RenderScene::info() const {
     info.warnings = materials_.textures.warnings;
     info.warnings.insert(info.warnings.end(), materials_.warnings.begin(), materials_.warnings.end());
     info.warnings.insert(info.warnings.end(), environment_.warnings.begin(), environment_.warnings.end());
+    info.warnings.insert(info.warnings.end(), left_out_.begin(), left_out_.end());
     if (casters_.left_out() > 0)
         info.warnings.push_back({Diagnostic::Severity::warning,
                                  fmt::format("there are more than {} different sets of shadow casters: everything casts the shadows of {}", most_caster_sets,

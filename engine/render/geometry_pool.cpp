@@ -246,7 +246,7 @@ void GeometryPool::move(const std::vector<SceneObject>& before, const std::vecto
     size_t part = 0, instance = 0;
     for (size_t i = 0; i < objects.size(); ++i) {
         const SceneObject& object = objects[i];
-        const bool moved = all_moved || before[i].world_from_object != object.world_from_object;
+        const bool moved = all_moved || !before[i].same_place(object);
         if (moved && object.instanced)
             for (size_t copy = 0; copy < object.copies(); ++copy) instances_[instance + copy] = make_instance(placed(object, copy, origin));
         if (moved && !object.instanced)
@@ -285,12 +285,6 @@ int64_t GeometryPool::degenerate_count() const {
         const PartRecord& record = parts_[part];
         if (record.transform < 0) {
             n += degenerate_in(part);
-            continue;
-        }
-        const InstanceRecord& instance = instances_[size_t(record.transform)];
-        // What a place flattens has no area there, whatever it has elsewhere.
-        if (!(std::abs(determinant(to_double(instance.world_from_object))) > 0)) {
-            n += part_triangles_[part];
             continue;
         }
         const auto [known, is_new] = in_object_space.try_emplace(record.first_index, 0);

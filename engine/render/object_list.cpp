@@ -5,6 +5,7 @@
 #include "scene/placements.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <map>
 
 namespace blush {
@@ -20,7 +21,7 @@ bool SceneObject::same_shape(const SceneObject& other) const {
     const auto same_part = [](const MeshPart& a, const MeshPart& b) {
         return a.geometry->serial == b.geometry->serial && a.material == b.material;
     };
-    return node == other.node && instanced == other.instanced && instances == other.instances &&
+    return node == other.node && instanced == other.instanced && instances == other.instances && places.size() == other.places.size() &&
            std::equal(parts.begin(), parts.end(), other.parts.begin(), other.parts.end(), same_part);
 }
 
@@ -31,10 +32,16 @@ size_t SceneObject::triangle_count() const {
 }
 
 Affined SceneObject::world_from_copy(size_t copy) const {
+    if (!places.empty()) return places[copy];
     return instances ? world_from_object * to_double(instances->node_from_copy[copy]) : world_from_object;
 }
 
-std::vector<SceneObject> list_objects(const Scene& scene) {
+std::string node_label(const Scene& scene, Id<Node> id) {
+    const Node* node = scene.nodes.find(id);
+    return node && !node->name.empty() ? fmt::format("node \"{}\"", node->name) : fmt::format("node {}", id.value);
+}
+
+std::vector<SceneObject> list_objects(const Scene& scene, std::vector<Diagnostic>* left_out) {
     std::vector<SceneObject> objects;
     std::map<Id<Mesh>, int> uses;
     Placements placements(scene);
@@ -44,7 +51,11 @@ std::vector<SceneObject> list_objects(const Scene& scene) {
         SceneObject object{id, {}, world_from_mesh(scene, placements, id, node), false, node.instances};
         for (const MeshPart& part : mesh->parts)
             if (part.geometry && part.geometry->triangle_count() > 0) object.parts.push_back(part);
-        if (object.parts.empty() || object.copies() == 0 || !is_finite(object.world_from_object)) continue;
+        if (object.parts.empty() || object.copies() == 0) continue;
+        if (!is_finite(object.world_from_object)) {
+            if (left_out) left_out->push_back({Diagnostic::Severity::warning, "an object is left out, its transform is not finite", node_label(scene, id)});
+            continue;
+        }
         ++uses[node.mesh];
         objects.push_back(std::move(object));
     }

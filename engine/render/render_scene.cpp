@@ -86,7 +86,9 @@ void RenderScene::update_geometry(const Scene& scene, const UpdatePlan& plan, co
     spheres_ = std::move(spheres);
     bool rebuild = plan.objects, commit = plan.objects;
     if (plan.objects || plan.transforms || spheres_changed) {
-        std::vector<SceneObject> objects = list_objects(scene);
+        left_out_.clear();
+        std::vector<SceneObject> objects = list_objects(scene, &left_out_);
+        baked_.bake(scene, objects, left_out_);
         has_geometry_ = !objects.empty();
         if (objects.empty()) objects = placeholder_objects();
         const auto same = [](const SceneObject& a, const SceneObject& b) { return a.same_shape(b); };

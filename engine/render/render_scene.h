@@ -3,6 +3,7 @@
 
 #include "core/parallel.h"
 #include "render/accel.h"
+#include "render/baked_transforms.h"
 #include "render/environment_table.h"
 #include "render/extent.h"
 #include "render/film.h"
@@ -60,6 +61,8 @@ private:
 
     MaterialTable materials_;
     std::vector<SceneObject> objects_;
+    BakedTransforms baked_;
+    std::vector<Diagnostic> left_out_; // objects, and copies of them
     std::vector<SphereLight> spheres_;
     AttributeNeeds needs_;
     ExtentCache extents_;

@@ -37,13 +37,25 @@ std::optional<double> meet(const Line& line, const Vec3d& a, const Vec3d& b, con
     return t;
 }
 
-// Replaces `nearest` by what the line, in the part's own space, meets before it.
-void look_in(const Geometry& g, Line line, TriangleHit& nearest) {
-    const auto corner = [&](size_t i) { return to_double(g.positions[g.indices[i]]); };
+// Replaces `nearest` by what the line meets before it; corner(i) is that of the part's i-th index in the line's space.
+template <class Corner> void look_in(const Geometry& g, const Corner& corner, Line line, TriangleHit& nearest) {
     for (size_t i = 0; i + 2 < g.indices.size(); i += 3) {
         line.end = std::min(line.end, nearest.t);
         if (const auto t = meet(line, corner(i), corner(i + 1), corner(i + 2))) nearest = {*t, &g, i};
     }
+}
+
+// The same in the part's own space.
+void look_in(const Geometry& g, const Line& line, TriangleHit& nearest) {
+    look_in(g, [&](size_t i) { return to_double(g.positions[g.indices[i]]); }, line, nearest);
+}
+
+// Of parts that their transform flattens: it has no inverse, so the triangles are taken into the world.
+void look_in_flattened(const std::vector<const Geometry*>& parts, const Affined& world_from_parts, const Line& line, TriangleHit& nearest) {
+    const double before = nearest.t;
+    for (const Geometry* g : parts)
+        look_in(*g, [&](size_t i) { return transform_point(world_from_parts, to_double(g->positions[g->indices[i]])); }, line, nearest);
+    if (nearest.t < before) nearest.world_from_mesh = world_from_parts;
 }
 
 // Glass, and what is partly or in places not there: whether its textures let this very line through is not asked.
@@ -84,7 +96,7 @@ bool meets(const Bounds& box, const Line& line) {
 
 // The same for parts that lie somewhere, `box` around them in their own space; null: not worth looking at.
 void look_in(const std::vector<const Geometry*>& parts, const Affined& world_from_parts, const Bounds* box, const Line& line, TriangleHit& nearest) {
-    if (!(std::abs(determinant(world_from_parts)) > 0)) return;
+    if (!(std::abs(determinant(world_from_parts)) > 0)) return look_in_flattened(parts, world_from_parts, line, nearest);
     const Affined parts_from_world = inverse(world_from_parts);
     const Vec3d origin = transform_point(parts_from_world, line.origin);
     const Line own{origin, transform_point(parts_from_world, line.origin + line.way) - origin, line.begin, line.end};
@@ -119,6 +131,11 @@ TriangleHit nearest_hit(const Scene& scene, const Line& line, bool opaque_only, 
 std::optional<Id<Node>> first_between(const Scene& scene, const Vec3d& from, const Vec3d& to, const std::function<bool(Id<Node>)>& counts) {
     const TriangleHit hit = nearest_hit(scene, {from, to - from, left_out, 1 - left_out}, true, counts);
     return hit.geometry ? std::optional(hit.node) : std::nullopt;
+}
+
+double free_share(const Scene& scene, const Vec3d& from, const Vec3d& to, const std::function<bool(Id<Node>)>& counts) {
+    const TriangleHit hit = nearest_hit(scene, {from, to - from, left_out, 1 - left_out}, true, counts);
+    return hit.geometry ? hit.t : 1;
 }
 
 std::optional<RayHit> cast_ray(const Scene& scene, const Vec3d& origin, const Vec3d& direction, const std::function<bool(Id<Node>)>& counts) {

@@ -14,6 +14,8 @@ namespace blush {
 // ten-thousandth of the line at either end is left out, which is where the surfaces are that it begins and ends on. Looks at every triangle of
 // what the line may meet: milliseconds for a million.
 std::optional<Id<Node>> first_between(const Scene& scene, const Vec3d& from, const Vec3d& to, const std::function<bool(Id<Node>)>& counts);
+// The share of the line from `from` to `to` that is free of all of those: 1 where it meets nothing.
+double free_share(const Scene& scene, const Vec3d& from, const Vec3d& to, const std::function<bool(Id<Node>)>& counts);
 
 // Where a ray meets the surface of a visible object among those that `counts`: whatever its material, seen from either side.
 struct RayHit {
