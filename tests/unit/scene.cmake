@@ -7,6 +7,7 @@ blush_test(test_scene
     scene_edit.cpp
     scene_keyframes.cpp
     scene_light_meter.cpp
+    scene_light_rig.cpp
     scene_light_units.cpp
     scene_line_of_sight.cpp
     scene_mikktspace.cpp
