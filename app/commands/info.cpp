@@ -159,7 +159,7 @@ void print_info(const InfoCommand& c, const LoadedScene& loaded, const Findings&
 
 int run_info(const InfoCommand& c) {
     const InterruptGuard guard;
-    const RenderSettings settings;
+    const RenderSettings settings = recommended_settings();
     Result<LoadedScene> loaded = [&] {
         Progress progress(c.common.quiet);
         return load_scene(c.scene, c.overrides, float(settings.width) / float(settings.height), progress, guard.interrupted());

@@ -27,6 +27,21 @@ TEST(InfoCommand, JsonHasTheKeysOfTheContract) {
     for (const Json& left_out : json["kernel"]["left_out"]) EXPECT_FALSE(left_out["why"].get<std::string>().empty()) << left_out;
 }
 
+// The ledger is that of a render with the same options, which are none.
+TEST(InfoCommand, HasTheDefaultsOfRender) {
+    const test::TemporaryFolder folder;
+    const Json info = blush_json({"info", scene_file("furnace")})["kernel"];
+    const Json render = blush_json({"render", scene_file("furnace"), "-o", folder / "furnace.exr", "--spp", "1", "--quiet"})["kernel"];
+    const auto reuse = [](const Json& kernel) {
+        for (const char* list : {"made", "left_out"})
+            for (const Json& line : kernel[list])
+                if (line["name"] == "path reuse") return std::string(list) + ": " + line["why"].get<std::string>();
+        return std::string("not there");
+    };
+    EXPECT_EQ(reuse(info), reuse(render));
+    EXPECT_EQ(reuse(info), "made: groups of 8 pixels");
+}
+
 TEST(InfoCommand, SaysWhatASceneNeeds) {
     const Finished finished = test::blush({"info", scene_file("furnace")});
     EXPECT_EQ(finished.exit_code, 0) << finished.err;
