@@ -10,6 +10,7 @@
 #include "app/commands/render.h"
 #include "app/commands/render_options.h"
 #include "app/editor.h"
+#include "app/process_setup.h"
 
 #include <CLI/CLI.hpp>
 
@@ -78,6 +79,7 @@ int run_command_line(int argc, char** argv) {
 } // namespace blush
 
 int main(int argc, char** argv) {
+    blush::set_up_process();
     try {
         return blush::run_command_line(argc, argv);
     } catch (const std::exception& error) { return blush::failed({.what = error.what()}); }

@@ -1,7 +1,10 @@
 #include "core/files.h"
 
+#include "core/text.h"
+
 #include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -37,6 +40,44 @@ std::filesystem::path temporary_beside(const std::filesystem::path& file) {
     return file.parent_path() / fmt::format(".{}.{}-{}.tmp", file.filename().string(), ::getpid(), counter++);
 }
 
+// The file that a name stands for: where a chain of symbolic links ends, which need not exist. Loops end like any name that cannot be opened.
+std::filesystem::path behind_links(std::filesystem::path file) {
+    constexpr int max_links = 40; // as the kernel follows
+    std::error_code code;
+    for (int i = 0; i < max_links && std::filesystem::is_symlink(file, code); ++i) {
+        const std::filesystem::path target = std::filesystem::read_symlink(file, code);
+        if (code) return file;
+        file = target.is_absolute() ? target : file.parent_path() / target;
+    }
+    return file;
+}
+
+bool is_running(pid_t pid) { return ::kill(pid, 0) == 0 || errno != ESRCH; }
+
+// The process that a temporary file of write_file() is of, by a name like ".NAME.PID-NUMBER.tmp"; 0: it is no such file.
+pid_t writer_of(const std::string& name, const std::string& target) {
+    const std::string begin = "." + target + ".", end = ".tmp";
+    if (name.size() <= begin.size() + end.size() || !name.starts_with(begin) || !name.ends_with(end)) return 0;
+    const std::vector<std::string_view> parts =
+        split(std::string_view(name).substr(begin.size(), name.size() - begin.size() - end.size()), '-');
+    pid_t pid = 0;
+    unsigned number = 0;
+    return parts.size() == 2 && parse_number(parts[0], pid) && parse_number(parts[1], number) && pid > 0 ? pid : 0;
+}
+
+// Removes what earlier writes of this file left behind when their process was killed.
+void sweep_temporaries(const std::filesystem::path& file) {
+    std::error_code code;
+    const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+    const std::string target = file.filename().string();
+    for (std::filesystem::directory_iterator at(folder, code), end; !code && at != end; at.increment(code)) {
+        const pid_t pid = writer_of(at->path().filename().string(), target);
+        std::error_code ignored;
+        if (pid == 0 || pid == ::getpid() || is_running(pid) || !at->is_regular_file(ignored)) continue;
+        std::filesystem::remove(at->path(), ignored);
+    }
+}
+
 bool write_all(int fd, std::span<const uint8_t> bytes) {
     while (!bytes.empty()) {
         const ssize_t written = ::write(fd, bytes.data(), bytes.size());
@@ -70,9 +111,11 @@ Result<std::vector<uint8_t>> read_file(const std::filesystem::path& file, uint64
     return bytes;
 }
 
-Result<void> write_file(const std::filesystem::path& file, std::span<const uint8_t> bytes) {
+Result<void> write_file(const std::filesystem::path& name, std::span<const uint8_t> bytes) {
+    const std::filesystem::path file = behind_links(name);
     struct stat status {};
     if (::stat(file.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) return Error{file.string(), "cannot write: not a regular file", ""};
+    sweep_temporaries(file);
     const std::filesystem::path temporary = temporary_beside(file);
     Descriptor sink(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
     if (sink.fd < 0) return system_error(file, "write");

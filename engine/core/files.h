@@ -15,7 +15,8 @@ namespace blush {
 Result<std::vector<uint8_t>> read_file(const std::filesystem::path& file, uint64_t max_bytes);
 
 // Writes to a temporary name beside the target, syncs, renames: whoever looks sees the old file or the new one, never a
-// part. The temporary is removed upon failure. Errors: unwritable folder, disk full, the target is not a regular file.
+// part. Through a symbolic link it writes the file that the link names. The temporary is removed upon failure; those that killed processes left
+// behind for the same target are removed. Errors: unwritable folder, disk full, the target is not a regular file.
 Result<void> write_file(const std::filesystem::path& file, std::span<const uint8_t> bytes);
 Result<void> write_file(const std::filesystem::path& file, std::string_view text);
 

@@ -2,6 +2,7 @@
 
 #include "core/hand_over.h"
 #include "core/parallel.h"
+#include "core/startable_threads.h"
 
 #include <algorithm>
 #include <tbb/task_arena.h>
@@ -75,7 +76,7 @@ struct HelpingThreads::State {
 };
 
 HelpingThreads::HelpingThreads(unsigned threads)
-    : state_(std::make_unique<State>(threads ? threads : std::max(1u, std::thread::hardware_concurrency()))) {}
+    : state_(std::make_unique<State>(startable_threads(threads ? threads : std::max(1u, std::thread::hardware_concurrency())))) {}
 
 HelpingThreads::~HelpingThreads() {
     try {

@@ -1,6 +1,7 @@
 #include "core/parallel.h"
 
 #include "core/hand_over.h"
+#include "core/startable_threads.h"
 
 #include <atomic>
 #include <cstdint>
@@ -68,7 +69,7 @@ struct Workers::State {
 };
 
 Workers::Workers(unsigned threads, bool low_priority)
-    : threads_(threads ? threads : std::max(1u, std::thread::hardware_concurrency())), state_(std::make_unique<State>(threads_, low_priority)) {
+    : threads_(startable_threads(threads ? threads : std::max(1u, std::thread::hardware_concurrency()))), state_(std::make_unique<State>(threads_, low_priority)) {
     if (low_priority) lower_priority_of_this_thread();
 }
 

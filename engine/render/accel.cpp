@@ -1,6 +1,7 @@
 #include "render/accel.h"
 
 #include "core/math.h"
+#include "core/memory_room.h"
 #include "core/sampler.h"
 #include "render/compact_tree.h"
 #include "render/opacity.h"
@@ -12,6 +13,7 @@
 #include <cmath>
 #include <cstring>
 #include <embree3/rtcore.h>
+#include <fmt/format.h>
 #include <limits>
 #include <map>
 #include <stdexcept>
@@ -218,9 +220,25 @@ template <int N> void occluded_packets(RTCScene scene, RTCIntersectContext& cont
     }
 }
 
+// What a device and its first thread take, with room to spare.
+constexpr uint64_t min_memory_of_embree = uint64_t(128) << 20;
+
 bool count_memory(void* user, ssize_t bytes, bool) {
     static_cast<std::atomic<int64_t>*>(user)->fetch_add(bytes, std::memory_order_relaxed);
     return true;
+}
+
+std::string why_no_device(RTCError error) {
+    if (error == RTC_ERROR_UNSUPPORTED_CPU) return "Embree cannot start on this processor";
+    const MemoryRoom room = memory_room();
+    if (error == RTC_ERROR_OUT_OF_MEMORY || room.left < min_memory_of_embree)
+        return fmt::format("Embree needs {} MB of memory to start: {}", min_memory_of_embree >> 20, room.text());
+    return fmt::format("Embree cannot start (its error {})", int(error));
+}
+
+std::string why_not_built(RTCError error, int64_t held) {
+    if (error != RTC_ERROR_OUT_OF_MEMORY) return "Embree could not build the scene";
+    return fmt::format("not enough memory to build the scene's trees, which held {:.2g} GB so far: {}", double(held) / 1e9, memory_room().text());
 }
 
 } // namespace
@@ -238,7 +256,7 @@ struct Accel::State {
     float reach = embree_range; // sum of the coordinates of a ray that may be traced
 
     State() : device(rtcNewDevice("start_threads=0,set_affinity=0")) {
-        if (!device) throw std::runtime_error("Embree cannot start on this processor");
+        if (!device) throw std::runtime_error(why_no_device(rtcGetDeviceError(nullptr)));
         rtcSetDeviceMemoryMonitorFunction(device, count_memory, &memory);
         if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED)) packet = 16;
         else if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED)) packet = 8;
@@ -296,7 +314,7 @@ void Accel::commit(const AccelScene& scene, const SceneTables* tables, const Wor
     }
     top.commit(workers);
     if (const RTCError error = rtcGetDeviceError(s.device); error != RTC_ERROR_NONE)
-        throw std::runtime_error(error == RTC_ERROR_OUT_OF_MEMORY ? "not enough memory to build the scene" : "Embree could not build the scene");
+        throw std::runtime_error(why_not_built(error, s.memory));
     s.top = std::move(top);
     s.bottoms = std::move(kept);
     s.reach = reach;

@@ -1,6 +1,7 @@
 #include "render/film.h"
 
 #include "core/math.h"
+#include "core/memory_room.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +9,6 @@
 #include <limits>
 #include <optional>
 #include <stdexcept>
-#include <unistd.h>
 
 namespace blush {
 namespace {
@@ -66,10 +66,10 @@ void Film::require_memory(const FilmSize& size) {
     for (const PlaneUse& plane : plane_uses(size))
         if (plane.used) per_pixel += double(plane.bytes_per_pixel);
     const double needed = per_pixel * double(size.width) * double(size.height);
-    const double present = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGE_SIZE));
-    if (needed > 0.8 * present)
-        throw std::runtime_error(fmt::format("an image of {} x {} pixels needs {:.0f} GB of memory, this machine has {:.0f}", size.width,
-                                             size.height, needed / 1e9, present / 1e9));
+    const MemoryRoom room = memory_room();
+    if (needed > 0.8 * double(room.limit))
+        throw std::runtime_error(
+            fmt::format("an image of {} x {} pixels needs {:.2g} GB of memory: {}", size.width, size.height, needed / 1e9, room.text()));
 }
 
 void Film::reset(const FilmSize& size, const Clamp& clamp) {

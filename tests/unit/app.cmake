@@ -16,3 +16,7 @@ blush_test(test_app
   LIBS blush_commands blush_test_support CLI11::CLI11 nlohmann_json::nlohmann_json fmt::fmt
   LABELS unit)
 add_dependencies(test_app blush)
+
+# Apart, since it needs the program alone.
+blush_test(test_limits SOURCES app_limits.cpp LIBS blush_io blush_test_support nlohmann_json::nlohmann_json LABELS unit)
+add_dependencies(test_limits blush)

@@ -2,6 +2,8 @@
 #include "io_gltf_builder.h"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 namespace blush::test {
 namespace {
@@ -42,6 +44,40 @@ TEST(Files, FailedWritesNameTheFileAndLeaveNothing) {
         EXPECT_NE(written.error().what.find("cannot write"), std::string::npos);
     }
     EXPECT_EQ(folder.entries(), 1u);
+}
+
+TEST(Files, ThroughALinkTheTargetIsWritten) {
+    const TempFolder folder;
+    std::filesystem::create_directory(folder / "deep");
+    write_bytes(folder / "deep/target", "old");
+    std::filesystem::create_symlink("deep/target", folder / "link");
+    std::filesystem::create_symlink(folder / "link", folder / "second");
+    for (const char* name : {"link", "second"}) {
+        ASSERT_TRUE(write_file(folder / name, name));
+        EXPECT_TRUE(std::filesystem::is_symlink(folder / name)) << "it stays a link";
+        EXPECT_EQ(text_of(folder / "deep/target"), name);
+    }
+    std::filesystem::create_symlink("deep/new", folder / "dangling");
+    ASSERT_TRUE(write_file(folder / "dangling", "made"));
+    EXPECT_EQ(text_of(folder / "deep/new"), "made");
+    std::filesystem::create_symlink("loop", folder / "loop");
+    EXPECT_FALSE(write_file(folder / "loop", "text"));
+}
+
+// A killed process leaves its temporary file; the next to write the same target removes it, and nothing else.
+TEST(Files, TemporariesOfKilledProcessesAreSwept) {
+    const TempFolder folder;
+    const pid_t dead = fork();
+    if (dead == 0) _exit(0);
+    ASSERT_EQ(waitpid(dead, nullptr, 0), dead);
+    const std::string stale = "." + std::string("a.exr.") + std::to_string(dead) + "-3.tmp";
+    const std::vector<std::string> kept{".a.exr.1-0.tmp", ".a.exr." + std::to_string(getpid()) + "-99999.tmp", ".a.exr.x-1.tmp", ".a.exr.tmp",
+                                        ".b.exr." + std::to_string(dead) + "-3.tmp"};
+    write_bytes(folder / stale, "part");
+    for (const std::string& name : kept) write_bytes(folder / name, "part");
+    ASSERT_TRUE(write_file(folder / "a.exr", "whole"));
+    EXPECT_FALSE(std::filesystem::exists(folder / stale));
+    for (const std::string& name : kept) EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
 }
 
 } // namespace

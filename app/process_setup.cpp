@@ -1,0 +1,57 @@
+#include "app/process_setup.h"
+
+#include "core/startable_threads.h"
+
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <initializer_list>
+#include <tbb/global_control.h>
+#include <unistd.h>
+
+namespace blush {
+namespace {
+
+// No allocation: memory may be what is missing.
+[[noreturn]] void end_with_a_line() {
+    const char* what = "it cannot go on";
+    try {
+        if (const std::exception_ptr current = std::current_exception()) std::rethrow_exception(current);
+    } catch (const std::exception& e) { what = e.what(); } catch (...) {}
+    char line[400];
+    const int length = std::snprintf(line, sizeof line, "blush: error: not enough threads or memory: %s\n", what);
+    if (length > 0) (void)!::write(STDERR_FILENO, line, std::strlen(line));
+    ::_exit(1);
+}
+
+// libgomp reads these while it is loaded, before main, and speaks on stderr of what it does not like. It is used with one thread
+// at a time (render/denoise/convolution.cpp), so that none of them changes anything but its chatter; TBB_VERSION makes TBB print its own.
+bool is_chatty(const char* variable) {
+    for (const char* name : {"OMP_", "GOMP_", "TBB_VERSION="})
+        if (std::strncmp(variable, name, std::strlen(name)) == 0) return true;
+    return false;
+}
+
+// Before shared libraries' constructors, some of which start threads.
+void begin_process(int, char**, char** environment) {
+    std::set_terminate(end_with_a_line);
+    char** kept = environment;
+    for (char** at = environment; *at; ++at)
+        if (!is_chatty(*at)) *kept++ = *at;
+    *kept = nullptr;
+}
+
+[[gnu::section(".preinit_array"), gnu::used]] void (*const run_first)(int, char**, char**) = begin_process;
+
+} // namespace
+
+void set_up_process() {
+    std::signal(SIGXFSZ, SIG_IGN);
+    // TBB starts no more workers than there are cores, and says so on stderr, unless it is told before it starts. Never destroyed: its threads
+    // may run until the end.
+    static const auto* const control = new tbb::global_control(tbb::global_control::max_allowed_parallelism, startable_threads_limit());
+    (void)control;
+}
+
+} // namespace blush
