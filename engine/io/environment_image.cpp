@@ -2,7 +2,6 @@
 
 #include "io/image_channels.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace blush {
@@ -25,15 +24,12 @@ std::vector<float> linear_floats(const Image& image) {
 Result<ImagePtr> as_environment(const Result<ImagePtr>& read) {
     if (!read) return read.error();
     const ImagePtr colored = with_color_channels(*read);
-    if (!colored->floats.empty() &&
-        std::all_of(colored->floats.begin(), colored->floats.end(), [](float v) { return v >= 0 && std::isfinite(v); }))
-        return colored;
+    if (!colored->floats.empty()) return colored;
     auto image = std::make_shared<Image>();
     image->width = colored->width;
     image->height = colored->height;
     image->channels = colored->channels;
     image->floats = linear_floats(*colored);
-    for (float& v : image->floats) v = v >= 0 && std::isfinite(v) ? v : 0.0f;
     return ImagePtr(std::move(image));
 }
 

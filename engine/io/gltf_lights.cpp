@@ -21,7 +21,12 @@ constexpr float smallest_side = 1e-6f; // metres: a rectangle without area canno
 
 void read_cone(const GltfContext& context, const tinygltf::SpotLight& spot, Light& light, const std::string& where) {
     light.outer_cone_radians = checked(context, spot.outerConeAngle, light.outer_cone_radians, 0, pi / 2, where + ".spot.outerConeAngle");
-    light.inner_cone_radians = checked(context, spot.innerConeAngle, 0, 0, light.outer_cone_radians, where + ".spot.innerConeAngle");
+    light.inner_cone_radians = checked(context, spot.innerConeAngle, 0, 0, pi / 2, where + ".spot.innerConeAngle");
+    if (light.inner_cone_radians <= light.outer_cone_radians) return;
+    context.warn(fmt::format("the inner cone, {:.4g} rad, is wider than the outer one, {:.4g} rad: both end at the outer one",
+                             light.inner_cone_radians, light.outer_cone_radians),
+                 where + ".spot");
+    light.inner_cone_radians = light.outer_cone_radians;
 }
 
 void read_legacy_extras(const GltfObject& blush, Light& light) {

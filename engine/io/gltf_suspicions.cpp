@@ -43,6 +43,18 @@ void report_light(const GltfContext& context, const Light& light, const std::str
                      where);
 }
 
+// A camera's scale changes nothing, but an axis of length 0 has no direction.
+void report_cameras(const GltfContext& context, const Scene& scene) {
+    for (const auto& [id, node] : scene.nodes) {
+        if (!node.camera) continue;
+        const Affined m = world_from_node(scene, id);
+        const double size = length(m.x) * length(m.y) * length(m.z);
+        if (!is_finite(m)) context.warn("a camera is at no finite place: it sees nothing", "camera node \"" + node.name + "\"");
+        else if (!(std::abs(determinant(m)) > 1e-12 * size) || !(size > 0))
+            context.warn("the transform of a camera flattens an axis: its direction follows from the others", "camera node \"" + node.name + "\"");
+    }
+}
+
 } // namespace
 
 void report_units(const GltfContext& context, const Scene& scene, const GltfIndices& indices) {
@@ -55,6 +67,7 @@ void report_units(const GltfContext& context, const Scene& scene, const GltfIndi
         const double nits = double(std::max({m->emissive.x, m->emissive.y, m->emissive.z})) * double(m->emissive_strength);
         if (nits > brightest_surface) context.warn(fmt::format("{:.4g} nits is brighter than a bulb's filament", nits), fmt::format("materials[{}]", index));
     }
+    report_cameras(context, scene);
     const Bounds bounds = world_bounds(scene);
     const double across = 2 * bounds.radius();
     if (!bounds.empty && across > largest_scene)

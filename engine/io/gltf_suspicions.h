@@ -5,7 +5,7 @@
 
 namespace blush {
 
-// Strengths that no lamp has, as of watts taken for candela; a scene as large as a country or smaller than a pinhead.
+// Strengths that no lamp has, as of watts taken for candela; cameras whose transform flattens an axis; a scene as large as a country or smaller than a pinhead.
 void report_units(const GltfContext& context, const Scene& scene, const GltfIndices& indices);
 
 // Images that are read as colour here and as data there, data in an image that is marked as sRGB, and normal maps that do not look like any.

@@ -4,8 +4,10 @@
 #include "io/gltf_extras.h"
 #include "io/gltf_meshopt.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 namespace blush {
 namespace {
@@ -14,8 +16,41 @@ const ParsedGltf& extension(const ParsedGltf& object, std::string_view name) {
     return gltf_member(gltf_member(object, "extensions"), name);
 }
 
-bool stands_for_nothing(const ParsedGltf& buffer) {
-    return gltf_member(buffer, "uri").is_null() && gltf_member(extension(buffer, "EXT_meshopt_compression"), "fallback") == true;
+constexpr std::string_view meshopt_extension = "EXT_meshopt_compression";
+
+// Calls visit(object) for each object of a list that is one.
+template <class Root, class Visit> void each(Root& object, const char* list, const Visit& visit) {
+    if (!object.is_object()) return;
+    const auto found = object.find(list);
+    if (found == object.end() || !found->is_array()) return;
+    for (auto& element : *found) visit(element);
+}
+
+// Which buffers have no bytes: those that say so, and those without a URI that only compressed views name, as placeholders.
+std::vector<bool> placeholder_buffers(const ParsedGltf& root) {
+    const ParsedGltf& buffers = gltf_member(root, "buffers");
+    std::vector<bool> compressed_use(buffers.size()), own_use(buffers.size());
+    const auto note = [&](std::vector<bool>& uses, const ParsedGltf& index) {
+        if (index.is_number_unsigned() && index.get<size_t>() < uses.size()) uses[index.get<size_t>()] = true;
+    };
+    each(root, "bufferViews", [&](const ParsedGltf& view) {
+        const ParsedGltf& packed = extension(view, meshopt_extension);
+        note(packed.is_object() ? compressed_use : own_use, gltf_member(view, "buffer"));
+        note(own_use, gltf_member(packed, "buffer"));
+    });
+    std::vector<bool> placeholders(buffers.size());
+    for (size_t i = 0; i < buffers.size(); ++i) {
+        const bool says_so = gltf_member(extension(gltf_item(root, "buffers", i), meshopt_extension), "fallback") == true;
+        placeholders[i] = gltf_member(gltf_item(root, "buffers", i), "uri").is_null() && (says_so || (compressed_use[i] && !own_use[i]));
+    }
+    return placeholders;
+}
+
+// A compressed view that names no buffer of the file. The parser wants one; unpacking gives it another.
+bool lacks_buffer(const ParsedGltf& root, const ParsedGltf& view) {
+    const ParsedGltf& buffer = gltf_member(view, "buffer");
+    return extension(view, meshopt_extension).is_object() &&
+           !(buffer.is_number_unsigned() && buffer.get<size_t>() < gltf_member(root, "buffers").size());
 }
 
 // The parser wants the indices' accessor to have bytes. Unpacking gives new ones.
@@ -36,29 +71,27 @@ bool has_strange_data(const ParsedGltf& object) {
            !text.starts_with(data_of_no_kind);
 }
 
-// Calls visit(object) for each object of a list that is one.
-template <class Root, class Visit> void each(Root& object, const char* list, const Visit& visit) {
-    if (!object.is_object()) return;
-    const auto found = object.find(list);
-    if (found == object.end() || !found->is_array()) return;
-    for (auto& element : *found) visit(element);
-}
-
 } // namespace
 
 std::optional<nlohmann::json> parsable(const nlohmann::json& root) {
     bool refused = false;
-    each(root, "buffers", [&](const ParsedGltf& buffer) { refused = refused || stands_for_nothing(buffer); });
+    const std::vector<bool> placeholders = placeholder_buffers(root);
+    refused = std::ranges::count(placeholders, true) > 0;
+    each(root, "bufferViews", [&](const ParsedGltf& view) { refused = refused || lacks_buffer(root, view); });
     each(root, "images", [&](const ParsedGltf& image) { refused = refused || has_strange_data(image); });
     each(root, "meshes", [&](const ParsedGltf& mesh) {
         each(mesh, "primitives", [&](const ParsedGltf& primitive) { refused = refused || has_packed_indices(root, primitive); });
     });
     if (!refused) return {};
     nlohmann::json changed = root;
-    each(changed, "buffers", [](ParsedGltf& buffer) {
-        if (!stands_for_nothing(buffer)) return;
+    for (size_t i = 0; i < placeholders.size(); ++i) {
+        if (!placeholders[i]) continue;
+        ParsedGltf& buffer = changed["buffers"][i];
         buffer["uri"] = "data:application/octet-stream;base64,AA==";
         buffer["byteLength"] = 1;
+    }
+    each(changed, "bufferViews", [&](ParsedGltf& view) {
+        if (lacks_buffer(root, view)) view["buffer"] = gltf_member(extension(view, meshopt_extension), "buffer");
     });
     each(changed, "images", [](ParsedGltf& image) {
         if (!has_strange_data(image)) return;

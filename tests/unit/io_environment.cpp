@@ -20,14 +20,21 @@ TEST(EnvironmentImage, EightBitFilesBecomeLinear) {
     EXPECT_NEAR((*image)->floats[2], std::pow((188 / 255.0 + 0.055) / 1.055, 2.4), 1e-6);
 }
 
-TEST(EnvironmentImage, GreyIsSpreadAndNonsenseIsBlack) {
+// What is no radiance stays, so that the renderer, which reads it as black, can say how much there is.
+TEST(EnvironmentImage, GreyIsSpreadAndNonsenseStays) {
     const TempFolder folder;
     const float nan = std::numeric_limits<float>::quiet_NaN();
     ASSERT_TRUE(write_exr(folder / "a.exr", LayeredImage{3, 1, {{"Y", {0.5f, nan, -1}}}, {}}));
     const auto image = read_environment_image(folder / "a.exr");
     ASSERT_TRUE(image) << error_text(image);
     EXPECT_EQ((*image)->channels, 3);
-    EXPECT_EQ((*image)->floats, (std::vector<float>{0.5f, 0.5f, 0.5f, 0, 0, 0, 0, 0, 0}));
+    const std::vector<float>& floats = (*image)->floats;
+    ASSERT_EQ(floats.size(), 9u);
+    for (int c = 0; c < 3; ++c) {
+        EXPECT_EQ(floats[size_t(c)], 0.5f);
+        EXPECT_TRUE(std::isnan(floats[size_t(3 + c)]));
+        EXPECT_EQ(floats[size_t(6 + c)], -1);
+    }
 }
 
 TEST(EnvironmentImage, MissingFilesAreErrors) { EXPECT_FALSE(read_environment_image("none.exr")); }

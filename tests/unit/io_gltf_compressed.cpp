@@ -117,6 +117,20 @@ TEST(MeshoptViews, AreReadToTheBit) {
             expect_read(packed_by_meshopt(sheet, packed_indices(sheet, sequence, stride)), sheet);
 }
 
+// Some writers leave the placeholder unmarked, or name a buffer that is not there.
+TEST(MeshoptViews, NeedNoFallback) {
+    const Sheet sheet(11);
+    GltfBuilder unmarked = packed_by_meshopt(sheet, packed_indices(sheet, false, 4));
+    unmarked.further_buffers[0].erase("extensions");
+    expect_read(unmarked, sheet);
+    GltfBuilder missing = packed_by_meshopt(sheet, packed_indices(sheet, false, 4));
+    missing.further_buffers.clear();
+    expect_read(missing, sheet);
+    for (Json& view : missing.json["bufferViews"])
+        if (view.contains("extensions")) view.erase("buffer");
+    expect_read(missing, sheet);
+}
+
 // Unit vectors as octahedra of 8 bits with a stride of 4, positions as exponents and mantissas of 24 bits.
 TEST(MeshoptViews, OfFilteredNumbersAreReadAsTheEncoderRoundedThem) {
     const Sheet sheet(11);

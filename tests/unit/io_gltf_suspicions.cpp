@@ -39,6 +39,25 @@ TEST(GltfSuspicions, LampsThatShineAsNoLampDoes) {
     EXPECT_EQ(place_of(import_built(b), "filament"), "materials[0]");
 }
 
+TEST(GltfSuspicions, ConesTheWrongWayRound) {
+    const auto wrong = with_light({{"type", "spot"}, {"spot", {{"innerConeAngle", 0.9}, {"outerConeAngle", 0.5}}}});
+    EXPECT_EQ(place_of(wrong, "the inner cone, 0.9 rad, is wider than the outer one, 0.5 rad"), "extensions.KHR_lights_punctual.lights[0].spot");
+    EXPECT_EQ(wrong->scene.lights.begin()->value.inner_cone_radians, 0.5f);
+    EXPECT_EQ(place_of(with_light({{"type", "spot"}, {"spot", {{"innerConeAngle", 0.5}, {"outerConeAngle", 0.5}}}}), "cone"), "none");
+}
+
+TEST(GltfSuspicions, CamerasWithoutADirection) {
+    const auto scaled = [](const std::vector<double>& by) {
+        GltfBuilder b;
+        b.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 0.8}, {"znear", 0.1}}}});
+        b.add("nodes", {{"camera", 0}, {"name", "eye"}, {"scale", by}});
+        return import_built(b);
+    };
+    EXPECT_EQ(place_of(scaled({1, 1, 0}), "flattens an axis"), "camera node \"eye\"");
+    EXPECT_EQ(place_of(scaled({0, 0, 0}), "flattens an axis"), "camera node \"eye\"");
+    EXPECT_EQ(place_of(scaled({-1, 2, 1e-3}), "camera"), "none");
+}
+
 TEST(GltfSuspicions, ScenesOfTheWrongSize) {
     const auto scaled = [](float by) {
         GltfBuilder b;
