@@ -1,5 +1,6 @@
 #include "app/scene_overrides.h"
 
+#include "app/assets_dir.h"
 #include "core/text.h"
 #include "io/environment_image.h"
 #include "scene/pose.h"
@@ -83,7 +84,35 @@ Result<Environment> make_environment(const EnvironmentChoice& choice) {
     return environment;
 }
 
+Result<void> light_up(std::optional<LightRig> light, Scene& scene, std::vector<Diagnostic>* warnings) {
+    const auto warn = [&](std::string what) {
+        if (warnings) warnings->push_back({Diagnostic::Severity::warning, std::move(what), ""});
+    };
+    const bool asked = light && *light != LightRig::none;
+    if (has_light(scene)) {
+        if (asked) warn(fmt::format("--light {} is not used: the scene has light of its own", to_string(*light)));
+        return {};
+    }
+    if (!light) warn("no light in this file: the picture is black (--light studio or --light sky adds some)");
+    if (!asked) return {};
+    Result<Scene> lit = with_light_rig(scene, *light, studio_map());
+    if (!lit) return lit.error();
+    scene = *std::move(lit);
+    return {};
+}
+
 } // namespace
+
+Environment studio_map() {
+    Environment map;
+    const std::filesystem::path file = assets_dir() / "environments" / "studio.hdr";
+    if (Result<ImagePtr> image = read_environment_image(file)) {
+        map.kind = Environment::Kind::image;
+        map.file = file.string();
+        map.image = *std::move(image);
+    }
+    return map;
+}
 
 Result<EnvironmentChoice> parse_environment(std::string_view text) {
     EnvironmentChoice choice;
@@ -123,7 +152,13 @@ Result<std::optional<LightMix::Grouping>> parse_grouping(std::string_view text) 
     return Error{.what = fmt::format("must be off, by-light, by-object, by-material or by-hand, not \"{}\"", text)};
 }
 
-Result<void> apply_overrides(const SceneOverrides& overrides, Scene& scene, float aspect, bool has_view) {
+Result<std::optional<LightRig>> parse_light(std::string_view text) {
+    const Result<LightRig> rig = parse_light_rig(text);
+    if (!rig) return rig.error();
+    return std::optional(*rig);
+}
+
+Result<void> apply_overrides(const SceneOverrides& overrides, Scene& scene, float aspect, bool has_view, std::vector<Diagnostic>* warnings) {
     const Result<Staging> staging = find_staging(overrides.staging, scene);
     if (!staging) return staging.error();
     const bool other_scene = staging->scene != scene.staging.scene;
@@ -145,6 +180,7 @@ Result<void> apply_overrides(const SceneOverrides& overrides, Scene& scene, floa
         if (!environment) return environment.error();
         scene.environment = *std::move(environment);
     }
+    if (const Result<void> lit = light_up(overrides.light, scene, warnings); !lit) return lit.error();
     if (overrides.groups) scene.mix.grouping = *overrides.groups;
     return validate(scene.view.lens);
 }

@@ -75,11 +75,20 @@ void print_table(const Metrics& m) {
     row("nonfinite_b", double(m.nonfinite_b));
 }
 
+// Even under --quiet: figures of other pixels than those asked for are no matter of taste.
+void warn_of_non_finite(const std::string& file, int64_t pixels) {
+    if (pixels > 0)
+        print_warnings(file, {{Diagnostic::Severity::warning, fmt::format("{} pixel{} not finite: the figures leave {} out", pixels,
+                                                                          pixels == 1 ? " is" : "s are", pixels == 1 ? "it" : "them"), ""}});
+}
+
 int run_compare(const CompareCommand& c) {
     std::optional<tbb::global_control> limit;
     if (c.common.threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, c.common.threads);
     const Result<Metrics> metrics = compare_files(c);
     if (!metrics) return failed(metrics.error());
+    warn_of_non_finite(c.a, metrics->nonfinite_a);
+    warn_of_non_finite(c.b, metrics->nonfinite_b);
     if (const Result<void> written = write_json(c.common.json, metrics_json(*metrics)); !written) return failed(written.error());
     if (!c.common.quiet && c.common.json != "-") print_table(*metrics);
     return exit_done;

@@ -14,7 +14,8 @@ Result<LoadedScene> load_scene(const std::filesystem::path& file, const SceneOve
     Result<ImportedScene> imported = import_gltf(file, options);
     if (!imported) return in_file(imported.error(), file.string());
     LoadedScene loaded{imported->scene, std::move(imported->scene), std::move(imported->report)};
-    if (Result<void> applied = apply_overrides(overrides, loaded.scene, aspect, imported->has_view); !applied)
+    if (Result<void> applied = apply_overrides(overrides, loaded.scene, aspect, imported->has_view, &loaded.report.diagnostics);
+        !applied)
         return in_file(applied.error(), file.string());
     return loaded;
 }

@@ -24,6 +24,8 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include <algorithm>
+#include <iterator>
 #include <memory>
 #include <utility>
 
@@ -66,6 +68,7 @@ struct Rendered {
     LoopResult loop;
     CompiledInfo info;
     std::optional<Denoised> denoised;
+    std::vector<Diagnostic> warnings; // of the file, the compiled scene and the picture
     std::vector<Vec3> error;       // if that layer is wanted
     std::optional<FilmState> film; // and that one
 };
@@ -92,8 +95,28 @@ Result<Plan> plan_of(const RenderCommand& c) {
     const Result<PictureFormat> format = picture_format(c.output);
     if (!format) return format.error();
     plan.format = *format;
+    if (const std::string extension = lower_extension(c.output); extension == ".jpg" || extension == ".jpeg")
+        if (const Result<void> fits = expect_jpeg_size(c.output, plan.settings.width, plan.settings.height); !fits) return fits.error();
     if (plan.layers.any() && plan.format != PictureFormat::exr) return Error{.what = "--layers needs an .exr output"};
     return plan;
+}
+
+bool is_warning(const Diagnostic& d) { return d.severity == Diagnostic::Severity::warning; }
+
+// No camera ray meets a surface. A picture whose rays went on or looked for lights has met some; else, as of surfaces that only glow, a small
+// picture of distances tells.
+bool sees_nothing(const Scene& scene, const RenderSettings& settings, const RayCounts& rays, unsigned threads) {
+    if (rays.bounce > 0 || rays.shadow > 0) return false;
+    RenderSettings small;
+    small.width = std::min(settings.width, 128);
+    small.height = std::max(1, int(int64_t(small.width) * settings.height / settings.width));
+    small.height = std::min(small.height, 512);
+    small.region = settings.region;
+    Renderer renderer({.threads = threads, .planes = {.depth = true}});
+    renderer.update(scene, small);
+    renderer.render(0, 4);
+    const Frame frame = renderer.resolve();
+    return std::ranges::none_of(frame.depth, [](float depth) { return depth > 0; });
 }
 
 double peak_memory_mb() {
@@ -154,6 +177,8 @@ OrderedJson result_json(const RenderCommand& c, const RenderSettings& settings, 
                      {"rmse_high", if_known(error.rmse_known, error.rmse_high)},
                      {"missing_light", if_known(!r.frame.missing_light.empty(), r.frame.missing_light)}};
     json["health"] = health_json(r.frame.health);
+    json["warnings"] = OrderedJson::array();
+    for (const Diagnostic& d : rendered.warnings) json["warnings"].push_back(Error{{}, d.what, d.where}.text());
     if (!r.frame.bounces.empty()) json["bounces"] = bounces_json(r.frame);
     if (!r.frame.groups.empty()) json["groups"] = groups_json(r.frame);
     if (settings.clamp.limit > 0) json["clamp"] = clamp_json(settings.clamp, r.frame.clamp);
@@ -224,12 +249,19 @@ Result<Rendered> render_picture(const RenderCommand& c, const Plan& plan, const 
     Rendered rendered;
     rendered.info = renderer.info();
     if (!c.common.quiet) print_warnings(c.scene, rendered.info.warnings);
+    std::ranges::copy_if(loaded.report.diagnostics, std::back_inserter(rendered.warnings), is_warning);
+    std::ranges::copy_if(rendered.info.warnings, std::back_inserter(rendered.warnings), is_warning);
     {
         Progress progress(c.common.quiet);
         rendered.loop = run_render_loop(renderer, plan.settings, interrupted,
                                         [&](const LoopProgress& p) { progress.update(p.fraction, loop_note(p)); }, begin);
     }
     if (rendered.loop.samples == 0) return Error{.file = c.scene, .what = "interrupted before the first sample"};
+    if (sees_nothing(loaded.scene, plan.settings, rendered.loop.frame.rays, c.common.threads)) {
+        const Diagnostic nothing{Diagnostic::Severity::warning, "the camera sees nothing of the scene: the picture shows what lies behind it", ""};
+        if (!c.common.quiet) print_warnings(c.scene, {nothing});
+        rendered.warnings.push_back(nothing);
+    }
     Result<void> denoised;
     if (c.options.denoise) {
         // The Ctrl-C that ended the samples does not end this as well; a first one that comes now does.

@@ -110,6 +110,9 @@ void add_picture_options(CLI::App& app, RenderOptions& o) {
 }
 
 void add_light_options(CLI::App& app, RenderOptions& o) {
+    add_parsed(app, "--light", o.overrides.light, parse_light,
+               "Light for a scene without any: three softboxes and a studio map, or a sky, both for exposure 0 [none, with a warning]")
+        ->type_name("studio|sky|none");
     add_parsed(app, "--groups", o.overrides.groups, parse_grouping,
                "Which lights share a plane of the layer \"groups\" and a gain of the light mix [the scene's; by-light for that layer]")
         ->type_name("off|by-light|by-object|by-material|by-hand");

@@ -2,6 +2,7 @@
 
 #include "core/box_filter.h"
 #include "core/files.h"
+#include "core/memory_room.h"
 #include "io/image_end.h"
 #include "io/image_shrinker.h"
 
@@ -376,6 +377,16 @@ Result<std::map<std::string, std::string>> read_metadata(const std::filesystem::
     });
 }
 
+Result<void> expect_jpeg_size(const std::filesystem::path& file, int width, int height) {
+    if (std::max(width, height) > max_jpeg_side)
+        return Error{file.string(), fmt::format("a JPEG has at most {} pixels a side, not {} x {}", max_jpeg_side, width, height), ""};
+    // What the encoder and the file need, at worst: it ends the process where it gets none.
+    const double needed = 8e6 + 16.0 * width * height;
+    if (const MemoryRoom room = memory_room(); needed > double(room.left))
+        return Error{file.string(), fmt::format("a JPEG of {} x {} pixels needs {:.2g} GB of memory: {}", width, height, needed / 1e9, room.text()), ""};
+    return {};
+}
+
 Result<void> write_exr(const std::filesystem::path& file, const LayeredImage& image) {
     return guarded(file.string(), [&]() -> Result<void> {
         const size_t pixels = size_t(std::max(image.width, 0)) * size_t(std::max(image.height, 0));
@@ -402,10 +413,13 @@ Result<void> write_display_image(const std::filesystem::path& file, int width, i
         const char* format = display_format(file);
         if (!format) return Error{file.string(), "not a .png or .jpg name", ""};
         if (!is_rgb_of(rgb, width, height)) return Error{file.string(), "an image without pixels or of the wrong size cannot be written", ""};
+        const bool is_jpeg = format == std::string_view("jpeg");
+        if (is_jpeg)
+            if (const Result<void> fits = expect_jpeg_size(file, width, height); !fits) return fits.error();
         const std::vector<uint8_t> bytes = display_bytes(rgb);
-        OIIO::ImageSpec spec = display_spec(width, height, std::string_view(format) == "jpeg" ? "jpeg:95" : "zip");
+        OIIO::ImageSpec spec = display_spec(width, height, is_jpeg ? "jpeg:95" : "zip");
         spec.attribute("jpeg:subsampling", "4:4:4"); // saturated edges keep their colour
-        set_metadata(spec, metadata);
+        if (!is_jpeg) set_metadata(spec, metadata); // segments of a JPEG hold 64 KB, and its encoder ends the process over more
         return encode_to_file(file, format, spec, OIIO::TypeDesc::UINT8, bytes.data());
     });
 }

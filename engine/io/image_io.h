@@ -47,6 +47,9 @@ Result<ImagePtr> read_smaller_image(std::span<const uint8_t> bytes, const std::s
 // What a file says of itself besides pixels and text: its windows, numbers, matrices.
 struct ImageHeader;
 
+// Longest side of a JPEG that can be written, in pixels: the encoder's limit.
+constexpr int max_jpeg_side = 65500;
+
 // Named channels of one size, as in an EXR: "R", "albedo.R", "id.object", ... and string metadata ("blush:spp").
 struct LayeredImage {
     struct Channel {
@@ -77,6 +80,9 @@ constexpr float largest_half = 65504;
 // Written to a temporary name beside the target and renamed: the file is whole or not there. EXR: float32 but for what is said to be uint or
 // half, ZIP.
 Result<void> write_exr(const std::filesystem::path& file, const LayeredImage& image);
+// Can a JPEG of that size be written? libjpeg ends the process over one that cannot, so this is asked before. Errors: sides above max_jpeg_side,
+// not enough memory.
+Result<void> expect_jpeg_size(const std::filesystem::path& file, int width, int height);
 // Display-encoded RGB in [0, 1], width * height * 3; .png or .jpg by extension; text metadata survive in .png only. Atomic too.
 Result<void> write_display_image(const std::filesystem::path& file, int width, int height, std::span<const float> rgb,
                                  const std::map<std::string, std::string>& metadata = {});

@@ -219,7 +219,7 @@ TEST(Render, JsonHasTheKeysOfTheContract) {
     const Json json = blush_json(with(tiny("cornell", folder / "out.exr"), {"--quiet"}));
     ASSERT_TRUE(json.is_object());
     for (const char* key : {"scene", "width", "height", "spp", "seconds", "seconds_setup", "rays", "mrays_per_s", "mpaths_per_s",
-                            "path_length_mean", "error", "health", "kernel", "peak_memory_mb", "output", "partial"})
+                            "path_length_mean", "error", "health", "warnings", "kernel", "peak_memory_mb", "output", "partial"})
         EXPECT_TRUE(json.contains(key)) << key;
     EXPECT_EQ(test::keys_of(json["rays"]), (std::vector<std::string>{"bounce", "camera", "shadow"}));
     EXPECT_EQ(test::keys_of(json["error"]), (std::vector<std::string>{"high", "low", "missing_light", "relmse", "rmse", "rmse_high", "rmse_low"}));
