@@ -1,12 +1,15 @@
 // The stability battery, group by group; that it would notice a wrong answer; and that its list of limits is honest.
 #include "measure/intervals.h"
 #include "measure/stability/battery.h"
+#include "measure/stability/groups.h"
 #include "measure/stability/hot_spots.h"
 #include "statistics.h"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+#include <numbers>
 #include <random>
 #include <set>
 #include <stdexcept>
@@ -129,6 +132,39 @@ TEST(KnownLimits, AreLimits) {
         EXPECT_FALSE(r.pass) << r.name << " holds: give it a place in the battery";
         EXPECT_TRUE(r.error.empty()) << r.name << ": " << r.error;
     }
+}
+
+// What appendix B's layering of a smooth reflection over white gives back of a uniform world, by quadrature: the mirror's share F(v.n), and
+// of the base the integral of (1 - F(v.h)) cos / pi, F being Schlick's with 0.04 at normal incidence.
+double layered_albedo(double degrees) {
+    const double angle = degrees * std::numbers::pi / 180;
+    const auto reflectance = [](double c) { return 0.04 + 0.96 * std::pow(1 - c, 5); };
+    const double vx = std::sin(angle), vz = std::cos(angle);
+    constexpr int n = 1000;
+    double base = 0;
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) {
+            // Cosine-weighted directions by the square's midpoints.
+            const double r = std::sqrt((i + 0.5) / n), phi = 2 * std::numbers::pi * (j + 0.5) / n;
+            const double x = r * std::cos(phi), y = r * std::sin(phi), z = std::sqrt(1 - r * r);
+            const double hx = vx + x, hy = y, hz = vz + z;
+            base += 1 - reflectance((vx * hx + vz * hz) / std::sqrt(hx * hx + hy * hy + hz * hz));
+        }
+    return reflectance(vz) + base / (double(n) * n);
+}
+
+TEST(KnownLimits, TheGainAtGrazingAnglesIsThatOfTheSpecification) {
+    for (const StabilityCase& c : limit_cases()) {
+        if (c.name != grazing_gain_case) continue;
+        const Finding finding = run_case("limits", c, 1).finding;
+        const double expected = layered_albedo(75);
+        EXPECT_NEAR(expected, 1.20, 0.005) << "the figure that the README names";
+        EXPECT_GT(finding.sigma, 0);
+        EXPECT_LT(finding.sigma, 0.01);
+        EXPECT_NEAR(finding.measured, expected, normal_quantile_two_sided(statistics::significance) * finding.sigma + 1e-4);
+        return;
+    }
+    FAIL() << "the case is gone";
 }
 
 TEST(RunBattery, StopsWhenAsked) {

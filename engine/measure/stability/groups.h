@@ -3,6 +3,7 @@
 
 #include "measure/stability/battery.h"
 
+#include <string_view>
 #include <vector>
 
 namespace blush::stability {
@@ -17,6 +18,8 @@ std::vector<StabilityCase> grazing_cases();
 std::vector<StabilityCase> health_cases();
 std::vector<StabilityCase> light_cases();
 std::vector<StabilityCase> limit_cases();
+// Of those, the one whose figure a test holds to a quadrature.
+constexpr std::string_view grazing_gain_case = "white smooth dielectric in a furnace, seen at 75 degrees";
 std::vector<StabilityCase> microfacet_cases();
 std::vector<StabilityCase> mirror_cases();
 std::vector<StabilityCase> scale_cases();

@@ -143,10 +143,25 @@ Findings back_of_a_surface() {
     return whole(render(scene, settings_for(8, 8, 16)), 1);
 }
 
+// glTF's layering of a reflection over a matte base, seen at that angle in a white furnace: it gives back more than it gets.
+Findings white_dielectric(double degrees) {
+    Scene scene;
+    place(scene, floor_quad(1000), plastic(0));
+    constant_world(scene, 1);
+    const double angle = degrees * pi_d / 180;
+    scene.view = looking({float(10 * std::sin(angle)), float(10 * std::cos(angle)), 0}, {0, 0, 0}, 1);
+    scene.view.lens.orthographic = true;
+    scene.view.lens.ymag = 0.1f;
+    return whole(render(scene, settings_for(16, 16, 64)), 1);
+}
+
 } // namespace
 
 std::vector<StabilityCase> limit_cases() {
     return {
+        {std::string(grazing_gain_case), 5, [] { return white_dielectric(75); },
+         "appendix B of the glTF specification weighs the matte base by 1 - F at the half vector, which lies nearer to the viewer than the "
+         "normal: at grazing angles base and reflection together exceed 1"},
         {"closed room of rho 0.9999 without roulette: all bounces", 15, longest_path,
          "paths end after 100000 scattering events, which is counted and reported; with roulette the sum is complete"},
         {"rough glass of ior 1.001 in a furnace", 7, rough_glass_towards_vacuum,
