@@ -40,7 +40,7 @@ std::filesystem::path temporary_beside(const std::filesystem::path& file) {
     return file.parent_path() / fmt::format(".{}.{}-{}.tmp", file.filename().string(), ::getpid(), counter++);
 }
 
-// The file that a name stands for: where a chain of symbolic links ends, which need not exist. Loops end like any name that cannot be opened.
+// The file that a name stands for: where a chain of symbolic links ends, which need not exist; one of the links if there is no end.
 std::filesystem::path behind_links(std::filesystem::path file) {
     constexpr int max_links = 40; // as the kernel follows
     std::error_code code;
@@ -113,6 +113,10 @@ Result<std::vector<uint8_t>> read_file(const std::filesystem::path& file, uint64
 
 Result<void> write_file(const std::filesystem::path& name, std::span<const uint8_t> bytes) {
     const std::filesystem::path file = behind_links(name);
+    if (std::error_code code; std::filesystem::is_symlink(file, code)) {
+        errno = ELOOP;
+        return system_error(name, "write");
+    }
     struct stat status {};
     if (::stat(file.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) return Error{file.string(), "cannot write: not a regular file", ""};
     sweep_temporaries(file);

@@ -55,7 +55,7 @@ TEST(GltfSuspicions, CamerasWithoutADirection) {
     };
     EXPECT_EQ(place_of(scaled({1, 1, 0}), "flattens an axis"), "camera node \"eye\"");
     EXPECT_EQ(place_of(scaled({0, 0, 0}), "flattens an axis"), "camera node \"eye\"");
-    EXPECT_EQ(place_of(scaled({-1, 2, 1e-3}), "camera"), "none");
+    EXPECT_EQ(place_of(scaled({-1, 2, 1e-3}), "a camera"), "none");
 }
 
 TEST(GltfSuspicions, ScenesOfTheWrongSize) {
