@@ -48,20 +48,22 @@ struct SceneHandle {
     RTCScene scene = nullptr;
     std::vector<std::unique_ptr<AlphaPart>> alpha_parts;
     std::vector<std::shared_ptr<const void>> owners;
+    size_t compact_triangles = 0; // all of them, or 0: leaves hold corners
 
     SceneHandle() = default;
-    explicit SceneHandle(RTCDevice device, size_t triangles = 0) : scene(rtcNewScene(device)) {
+    explicit SceneHandle(RTCDevice device, size_t compact = 0) : scene(rtcNewScene(device)), compact_triangles(compact) {
         // Watertight at shared edges: a leak of one ray in 1e5 would show in closed rooms.
-        constexpr unsigned robust = RTC_SCENE_FLAG_ROBUST, compact = RTC_SCENE_FLAG_COMPACT;
-        rtcSetSceneFlags(scene, RTCSceneFlags(triangles > most_triangles_with_corners ? robust | compact : robust));
+        rtcSetSceneFlags(scene, compact > 0 ? RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_COMPACT) : RTC_SCENE_FLAG_ROBUST);
         rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_MEDIUM);
     }
     SceneHandle(SceneHandle&& other) noexcept
-        : scene(std::exchange(other.scene, nullptr)), alpha_parts(std::move(other.alpha_parts)), owners(std::move(other.owners)) {}
+        : scene(std::exchange(other.scene, nullptr)), alpha_parts(std::move(other.alpha_parts)), owners(std::move(other.owners)),
+          compact_triangles(other.compact_triangles) {}
     SceneHandle& operator=(SceneHandle&& other) noexcept {
         std::swap(scene, other.scene);
         std::swap(alpha_parts, other.alpha_parts);
         std::swap(owners, other.owners);
+        std::swap(compact_triangles, other.compact_triangles);
         return *this;
     }
     ~SceneHandle() {
@@ -126,6 +128,13 @@ size_t triangle_count(const AccelInstances& instances) {
     size_t n = 0;
     for (const AccelTriangles& g : instances.geometries) n += g.triangle_count;
     return n;
+}
+
+// Asking the system takes longer than building the tree of a small mesh.
+bool is_short_of_memory(size_t triangles, uint64_t memory_left) {
+    constexpr size_t fewest_asked_for = size_t(1) << 16;
+    if (memory_left == 0 && triangles < fewest_asked_for) return false;
+    return needs_compact_tree(triangles, memory_left ? memory_left : memory_room().left);
 }
 
 template <int N> struct Packet;
@@ -291,7 +300,8 @@ void Accel::commit(const AccelScene& scene, const SceneTables* tables, const Wor
             SceneHandle bottom;
             if (const auto old = s.bottoms.find(key); old != s.bottoms.end()) bottom = std::move(old->second);
             if (!bottom.scene) {
-                bottom = SceneHandle(s.device, triangle_count(instances));
+                const size_t triangles = triangle_count(instances);
+                bottom = SceneHandle(s.device, is_short_of_memory(triangles, scene.memory_left) ? triangles : 0);
                 for (const AccelTriangles& triangles : instances.geometries) bottom.add_triangles(s.device, triangles, tables);
                 bottom.commit(workers);
             }
@@ -321,6 +331,11 @@ void Accel::commit(const AccelScene& scene, const SceneTables* tables, const Wor
 }
 
 bool Accel::has_alpha() const { return state_->alpha; }
+size_t Accel::compact_triangles() const {
+    size_t n = 0;
+    for (const auto& [key, bottom] : state_->bottoms) n += bottom.compact_triangles;
+    return n;
+}
 size_t Accel::memory_bytes() const { return size_t(std::max<int64_t>(0, state_->memory)); }
 
 namespace {

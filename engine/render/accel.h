@@ -50,6 +50,7 @@ struct AccelScene {
     std::vector<AccelTriangles> flat; // world space; Embree's geometry id is the index
     std::vector<AccelInstances> instances; // numbered through
     std::vector<AccelSphere> spheres; // world space
+    uint64_t memory_left = 0; // bytes, for tests; 0: what the system says
 };
 
 // In place of an instance, of a hit on a sphere: its index is then the triangle.
@@ -82,6 +83,8 @@ public:
     void commit(const AccelScene& scene, const SceneTables* tables, const Workers& workers);
 
     bool has_alpha() const;
+    // Of meshes whose trees hold indices for want of memory (compact_tree.h), each once.
+    size_t compact_triangles() const;
     size_t memory_bytes() const;
 
     // Closest hits and any-hits in packets of the widest kind this machine has. `coherent`: rays share an origin region and direction.
