@@ -300,8 +300,8 @@ void Accel::commit(const AccelScene& scene, const SceneTables* tables, const Wor
             SceneHandle bottom;
             if (const auto old = s.bottoms.find(key); old != s.bottoms.end()) bottom = std::move(old->second);
             if (!bottom.scene) {
-                const size_t triangles = triangle_count(instances);
-                bottom = SceneHandle(s.device, is_short_of_memory(triangles, scene.memory_left) ? triangles : 0);
+                const size_t count = triangle_count(instances);
+                bottom = SceneHandle(s.device, is_short_of_memory(count, scene.memory_left) ? count : 0);
                 for (const AccelTriangles& triangles : instances.geometries) bottom.add_triangles(s.device, triangles, tables);
                 bottom.commit(workers);
             }
