@@ -196,13 +196,9 @@ void distribute(const ReuseColumns& reuse, ReuseBatch& batch, int group_size, co
     }
 }
 
-// Slot in the tile of member (column, row) of the group whose place in the first cell is (x, y), in the block of cells whose first pixel is
-// (block_x, block_y) of the tile; -1 if that is beyond the film.
-inline int slot_of_member(const TileJob& job, int block_x, int block_y, int column, int row, int x, int y, int sample) {
-    constexpr int cell = ReuseGroups::cell;
-    const int cell_x = block_x + column * cell, cell_y = block_y + row * cell;
-    const uint32_t shuffle = pcg_hash(uint32_t(job.x + cell_x) << 16 ^ uint32_t(job.y + cell_y));
-    const int px = cell_x + (x ^ int(shuffle % cell)), py = cell_y + (y ^ int(shuffle / cell % cell));
+// Slot in the tile of a pixel of the block whose first pixel is (x, y) of the tile; -1 if that is beyond the film.
+inline int slot_in_block(const TileJob& job, int x, int y, const BlockGroups::Pixel& pixel, int sample) {
+    const int px = x + pixel.x, py = y + pixel.y;
     return px < job.width && py < job.height ? (py * job.width + px) * job.samples + sample : -1;
 }
 
@@ -264,21 +260,20 @@ template <class F> [[gnu::flatten]] void share_batch(const KernelContext& contex
 // After all paths of the tile have ended and their own radiance was set aside: connects, shares, and puts it back.
 template <class F> void share_paths(const KernelContext& context, const TileJob& job, TileScratch& scratch) {
     const ReuseGroups& groups = context.settings.reuse;
-    constexpr int cell = ReuseGroups::cell;
     ReuseColumns& reuse = *scratch.reuse;
     ReuseBatch& batch = reuse.batch;
     const int most_groups = tile_capacity / (groups.size() * groups.size());
-    for (int block_y = 0; block_y < job.height; block_y += groups.rows * cell)
-        for (int block_x = 0; block_x < job.width; block_x += groups.columns * cell)
-            for (int in_cell = 0; in_cell < cell * cell; ++in_cell)
-                for (int sample = 0; sample < job.samples; ++sample) {
+    for (int y = 0; y < job.height; y += groups.block_height)
+        for (int x = 0; x < job.width; x += groups.block_width)
+            for (int sample = 0; sample < job.samples; ++sample) {
+                const BlockGroups in_block(groups, job.x + x, job.y + y, job.sample(sample));
+                for (int group = 0; group < groups.per_block(); ++group) {
                     int slots[ReuseGroups::largest];
-                    for (int m = 0; m < groups.size(); ++m)
-                        slots[m] = slot_of_member(job, block_x, block_y, m % groups.columns, m / groups.columns, in_cell % cell,
-                                                  in_cell / cell, sample);
+                    for (int m = 0; m < groups.size(); ++m) slots[m] = slot_in_block(job, x, y, in_block.pixel(group, m), sample);
                     seat_group(reuse, scratch, batch, slots, groups.size());
                     if (batch.groups == most_groups) share_batch<F>(context, scratch, batch);
                 }
+            }
     share_batch<F>(context, scratch, batch);
 
     const auto add_own = [&](const RadianceColumns& own, const SharedRadiance& to) {

@@ -32,7 +32,7 @@ bool hides_environment(const Environment& e) { return e.kind != Environment::Kin
 bool in_mid_pilot(int64_t samples) { return samples >= SamplePlan::pilot_samples / 2 && samples < SamplePlan::pilot_samples; }
 
 // About two thousand paths in a tile: enough to fill packets, few enough for the cache. Of a small film, as a drag shows it first,
-// fewer: the last tile of a worker is what all others wait for. Sides are multiples of ReuseGroups::block, or tiles would cut groups.
+// fewer: the last tile of a worker is what all others wait for.
 struct TileShape {
     int width, height, samples;
 };
@@ -43,6 +43,11 @@ TileShape tile_shape(int64_t count, int64_t pixels_per_worker) {
     if (count >= 2) return {32, 32, 2};
     return {64, 32, 1};
 }
+
+// With path reuse a tile is a block, or it would cut groups.
+TileShape tile_shape(const ReuseGroups& groups) { return {groups.block_width, groups.block_height, 1}; }
+// Tiles of a sample plan have different numbers of samples: no group reaches out of one.
+ReuseGroups reuse_groups_of_plan(int size) { return reuse_groups(size, SamplePlan::tile_size, SamplePlan::tile_size); }
 
 } // namespace
 
@@ -123,10 +128,11 @@ struct Renderer::State {
         sample_plan.reset(film_width(), film_height());
         film_is_stale = false;
     }
-    // Samples first, first + stride, ... of a pixel.
+    // Samples first, first + stride, ... of a pixel, shared in these groups.
     struct Run {
         int64_t first, count;
         int stride;
+        ReuseGroups groups;
     };
     using Wanted = std::function<bool()>;
     using TileTask = std::function<bool(int tile, const TileJob& rectangle, unsigned worker)>;
@@ -253,6 +259,7 @@ SharedErrors Renderer::shared_errors() const {
 bool Renderer::State::render_run(TileJob job, const Run& run, int most_samples, unsigned worker, const Wanted& wanted) {
     KernelContext context{&scene.tables(), &scene.accel(), settings_for_kernels(settings, film.width(), film.height()), settings.seed};
     context.settings.filter_textures = options.filter_textures;
+    context.settings.reuse = run.groups;
     TileScratch& tile = scratch_of(worker);
     const Film::Diagnose diagnose = [&](int x, int y, int64_t sample) {
         if (!replays[worker]) replays[worker] = std::make_unique<TileScratch>();
@@ -286,9 +293,11 @@ Vec3d Renderer::irradiance(const MeterPlace& place, uint32_t replicate, int samp
 PixelRect Renderer::State::rendered_pixels() const {
     PixelRect r = pixels_of(settings.region, film.width(), film.height());
     if (settings.reuse <= 1) return r;
-    constexpr int block = ReuseGroups::block;
-    const auto up = [](int x) { return (x + block - 1) / block * block; };
-    return {r.x0 / block * block, r.y0 / block * block, std::min(up(r.x1), film.width()), std::min(up(r.y1), film.height())};
+    const ReuseGroups groups = reuse_groups(settings.reuse);
+    const auto down = [](int x, int block) { return x / block * block; };
+    const auto up = [](int x, int block) { return (x + block - 1) / block * block; };
+    return {down(r.x0, groups.block_width), down(r.y0, groups.block_height), std::min(up(r.x1, groups.block_width), film.width()),
+            std::min(up(r.y1, groups.block_height), film.height())};
 }
 
 bool Renderer::State::for_each_tile(const TileShape& shape, const Wanted& wanted, const TileTask& task) {
@@ -319,19 +328,22 @@ bool Renderer::State::for_each_tile(const TileShape& shape, const Wanted& wanted
 // The same samples of every pixel.
 bool Renderer::State::render_evenly(int64_t first, int64_t count, const Wanted& wanted) {
     const PixelRect pixels = rendered_pixels();
-    const TileShape shape = tile_shape(count, int64_t(pixels.x1 - pixels.x0) * (pixels.y1 - pixels.y0) / workers.threads());
+    const ReuseGroups groups = reuse_groups(settings.reuse);
+    const int64_t pixels_per_worker = int64_t(pixels.x1 - pixels.x0) * (pixels.y1 - pixels.y0) / workers.threads();
+    const TileShape shape = groups.size() > 1 ? tile_shape(groups) : tile_shape(count, pixels_per_worker);
     return for_each_tile(shape, wanted, [&](int, const TileJob& job, unsigned worker) {
-        return render_run(job, {first, count, 1}, shape.samples, worker, wanted);
+        return render_run(job, {first, count, 1, groups}, shape.samples, worker, wanted);
     });
 }
 
 // Of each half of each tile what the plan says.
 bool Renderer::State::render_by_plan(int64_t first, int64_t count, const Wanted& wanted) {
     constexpr TileShape shape{SamplePlan::tile_size, SamplePlan::tile_size, 8};
+    const ReuseGroups groups = reuse_groups_of_plan(settings.reuse);
     return for_each_tile(shape, wanted, [&](int tile, const TileJob& job, unsigned worker) {
         for (int half = 0; half < 2; ++half) {
             const int64_t from = sample_plan.samples(tile, half, first), to = sample_plan.samples(tile, half, first + count);
-            if (!render_run(job, {2 * from + half, to - from, 2}, shape.samples, worker, wanted)) return false;
+            if (!render_run(job, {2 * from + half, to - from, 2, groups}, shape.samples, worker, wanted)) return false;
         }
         return true;
     });

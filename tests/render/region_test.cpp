@@ -46,7 +46,7 @@ TEST(RenderRegion, GrowsToWholeGroupsWherePathsAreShared) {
     settings.reuse = 16;
     const Frame whole = render(scene, settings);
     settings.region = {20 / 80.f, 17 / 48.f, 10 / 80.f, 10 / 48.f};
-    expect_crop(render(scene, settings), whole, {16, 16, 32, 32});
+    expect_crop(render(scene, settings), whole, {0, 0, 64, 32});
 }
 
 TEST(RenderRegion, IsSampledEvenly) {

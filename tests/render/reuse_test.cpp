@@ -3,7 +3,12 @@
 #include "render/error_estimate.h"
 #include "scenes.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <set>
+#include <utility>
+#include <vector>
 
 namespace blush::test {
 namespace {
@@ -160,11 +165,113 @@ TEST(PathReuse, KnowsTheFilmsBorder) {
     }
 }
 
+// ---- who shares with whom
+
+// As they are sampled evenly, and by a plan.
+std::vector<ReuseGroups> groupings() {
+    std::vector<ReuseGroups> all;
+    for (const int size : {4, 8, 16}) all.insert(all.end(), {reuse_groups(size), reuse_groups(size, 16, 16)});
+    return all;
+}
+
+TEST(ReuseGroups, HaveEveryPixelOnceAndOneOfEachCell) {
+    for (const ReuseGroups& groups : groupings()) {
+        const int pixels = groups.block_width * groups.block_height;
+        ASSERT_EQ(groups.size() * groups.per_block(), pixels);
+        for (const int64_t sample : {int64_t(0), int64_t(1), int64_t(7), (int64_t(1) << 40) + 3}) {
+            const BlockGroups in_block(groups, 64, 96, sample);
+            std::set<int> seen;
+            for (int group = 0; group < groups.per_block(); ++group)
+                for (int member = 0; member < groups.size(); ++member) {
+                    const auto [x, y] = in_block.pixel(group, member);
+                    ASSERT_TRUE(x >= 0 && y >= 0 && x < groups.block_width && y < groups.block_height);
+                    EXPECT_EQ(y / groups.cell_height() * groups.columns + x / groups.cell_width(), member);
+                    seen.insert(y * groups.block_width + x);
+                }
+            EXPECT_EQ(seen.size(), size_t(pixels));
+        }
+    }
+}
+
+// How often one pixel shares with each of the others, over many samples: all of other cells alike.
+TEST(ReuseGroups, DrawPartnersAnewForEverySample) {
+    for (const ReuseGroups& groups : groupings()) {
+        constexpr int64_t samples = 20000;
+        const int width = groups.block_width, pixels = width * groups.block_height;
+        std::vector<int64_t> met(static_cast<size_t>(pixels));
+        for (int64_t sample = 0; sample < samples; ++sample) {
+            const BlockGroups in_block(groups, 64, 96, sample);
+            for (int group = 0; group < groups.per_block(); ++group) {
+                const auto [x, y] = in_block.pixel(group, 0);
+                if (x != 1 || y != 2) continue;
+                for (int member = 1; member < groups.size(); ++member) {
+                    const auto [px, py] = in_block.pixel(group, member);
+                    ++met[size_t(py * width + px)];
+                }
+            }
+        }
+        // Chi-squared over the pixels of other cells, by its normal approximation: there are hundreds.
+        const double expected = double(samples) / groups.per_block(), others = pixels - groups.per_block();
+        double chi_squared = 0;
+        for (int i = 0; i < pixels; ++i) {
+            const double count = double(met[size_t(i)]);
+            if (i % width < groups.cell_width() && i / width < groups.cell_height())
+                EXPECT_EQ(count, 0);
+            else
+                chi_squared += (count - expected) * (count - expected) / expected;
+        }
+        EXPECT_GT(statistics::normal_p((chi_squared - others) / std::sqrt(2 * others)), significance) << groups.size() << " of " << pixels;
+    }
+}
+
+// The means of squares of 4 x 4 pixels, as the difference of two independent renders has them.
+constexpr int wide = 64, high = 32, square = 4;
+std::vector<double> noise_of_squares(Renderer& renderer, const Scene& scene, RenderSettings settings) {
+    std::vector<double> means(size_t(wide / square * high / square));
+    for (const double sign : {1.0, -1.0}) {
+        ++settings.seed;
+        renderer.update(scene, settings);
+        renderer.render(0, settings.spp);
+        const Frame frame = renderer.resolve();
+        for (int y = 0; y < high; ++y)
+            for (int x = 0; x < wide; ++x)
+                means[size_t(y / square * (wide / square) + x / square)] += sign * double(frame.rgba[4 * size_t(y * wide + x) + 1]);
+    }
+    return means;
+}
+
+// Groups that had a pixel of each of the 4 x 4 squares within 16 pixels gave all these squares the same mean error, and their neighbours
+// another one: masonry. Neighbouring squares must have no more in common within 16 pixels than on both sides of such a border.
+TEST(PathReuse, LaysNoBricks) {
+    const Scene scene = shipped_scene("corridor");
+    for (const int group_size : {8, 16}) {
+        RenderSettings settings = settings_for(wide, high, 8);
+        settings.reuse = group_size;
+        Renderer renderer({.threads = 1, .planes = {}});
+        Moments within, across;
+        for (uint32_t pair = 0; pair < 48; ++pair) {
+            settings.seed = 2 * pair;
+            const std::vector<double> noise = noise_of_squares(renderer, scene, settings);
+            double squares = 0, in = 0, out = 0;
+            for (size_t i = 0; i < noise.size(); ++i) {
+                const size_t column = i % (wide / square);
+                squares += noise[i] * noise[i];
+                if (column > 0) (column % 4 == 0 ? out : in) += noise[i - 1] * noise[i];
+            }
+            // Of 16 columns, 12 have their left neighbour within 16 pixels, 3 across a border.
+            within.add(in / 12 / (squares / 16));
+            across.add(out / 3 / (squares / 16));
+        }
+        EXPECT_TRUE(statistics::same_mean(within, across, sidak(significance, 2))) << group_size;
+    }
+}
+
 // By how much the mean of a picture scatters over seeds, against what its
 // pixels' errors say and how far they say that they are shared.
 TEST(PathReuse, SaysHowFarErrorsAreShared) {
     const Scene scene = shipped_scene("corridor");
-    RenderSettings settings = settings_for(size, size, 8);
+    constexpr int width = 128, height = 64; // four blocks
+    RenderSettings settings = settings_for(width, height, 8);
     settings.reuse = 16;
     Renderer renderer({.threads = 1, .planes = {}});
     Moments means, told;
@@ -178,7 +285,7 @@ TEST(PathReuse, SaysHowFarErrorsAreShared) {
         double sum = 0, squares = 0;
         for (size_t i = 0; i < frame.rgba.size(); i += 4) sum += double(frame.rgba[i + 1]);
         for (const Vec3& e : renderer.resolve_error()) squares += double(e.y) * double(e.y);
-        constexpr double pixels = size * size;
+        constexpr double pixels = width * height;
         means.add(sum / pixels);
         told.add(squares / (pixels * pixels) * renderer.shared_errors().means);
         shared += renderer.shared_errors().means / seeds;
