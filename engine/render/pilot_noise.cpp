@@ -7,7 +7,7 @@ namespace blush {
 namespace {
 
 constexpr double per_half = double(SamplePlan::pilot_samples) / 2;
-constexpr double dark = 0.1; // brightness below which noise does not show; that of relmse (cli.md)
+constexpr double dark = 0.1; // brightness below which noise does not show; that of relmse
 
 // Each number and its neighbours along one axis of a grid, 1 : 4 : 1; past the edge the last one stands again.
 TileNoise smooth(const TileNoise& values, int across, int down, int dx, int dy) {
@@ -29,7 +29,7 @@ double PilotNoise::of_pixel(const Film& film, size_t pixel, int half) const {
     const Vec3d first = marked_[2 * pixel + size_t(half)], both = film.sum(pixel, half);
     const auto channel = [](double first_sum, double sum) {
         const double difference = (sum - 2 * first_sum) / per_half, mean = sum / per_half;
-        return difference * difference / std::hypot(mean, dark);
+        return difference * difference / (mean * mean + dark * dark);
     };
     return channel(first.x, both.x) + channel(first.y, both.y) + channel(first.z, both.z);
 }

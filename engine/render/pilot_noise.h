@@ -12,10 +12,10 @@
 namespace blush {
 
 // The noise of a pixel is judged by how much its mean over the first part of the pilot differs from that over the second, so that what the
-// sampler's stratification takes away does not count. Its square is divided by the brightness: half-way between the squared error, which
-// is that of the brightest pixels alone, and the relative one, which looks for noise where there is hardly light. A firefly makes its
-// pixel bright too, so it counts for its size and not for its square. A tile's noise is the root of the mean over its pixels, smoothed over
-// the tiles around, for what made a firefly here can make one there.
+// sampler's stratification takes away does not count. Its square is divided as relmse divides: the error that is reported is the one that
+// samples are spent on. Divided by less, dark parts of a picture get too few samples, and their relative error grows by more than bright
+// parts gain. A firefly makes its pixel bright too, so one pixel never counts for more than a few. A tile's noise is the root of the mean
+// over its pixels, smoothed over the tiles around, for what made a firefly here can make one there.
 class PilotNoise {
 public:
     // When the film holds half of the pilot: remembers its sums.

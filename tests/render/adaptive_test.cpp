@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <numbers>
 #include <random>
 
 namespace blush::test {
@@ -26,7 +27,7 @@ using Draw = float (*)(std::mt19937_64& bits, int tile);
 constexpr double firefly = 1000, firefly_chance = 1e-4, firefly_mean = 1 + firefly * firefly_chance;
 float with_fireflies(std::mt19937_64& bits, int) {
     const uint64_t b = bits();
-    const float calm = 0.5f + float(b >> 40) * 0x1p-24f;
+    const float calm = 0.95f + 0.1f * float(b >> 40) * 0x1p-24f;
     return calm + (double(uint32_t(b)) * 0x1p-32 < firefly_chance ? float(firefly) : 0.f);
 }
 // Exponential, with a mean of 1: noisy only in the last tile.
@@ -129,6 +130,37 @@ TEST(Adaptive, CountsItsSamplesPixelByPixel) {
     }
     EXPECT_NEAR(sum, 64, double(SamplePlan::granularity));
     EXPECT_GT(frame.pixel_samples.back(), 2 * frame.pixel_samples.front());
+}
+
+// Two tiles far apart, one of brightness 0.03, one of brightness 1, both with a noise of a tenth of it: the measured noise must be that of
+// relmse, or dark parts of a picture get too few samples.
+TEST(Adaptive, MeasuresTheNoiseThatRelmseMeasures) {
+    constexpr int tiles = 9; // smoothing reaches one tile far
+    constexpr float dark = 0.03f, bright = 1;
+    Film film;
+    film.reset({tiles * tile_size, tile_size, {}, false, true});
+    PilotNoise noise;
+    const auto scratch = std::make_unique<TileScratch>();
+    std::mt19937_64 bits(1);
+    const auto add = [&](int first, int count) {
+        for (int tile = 0; tile < tiles; ++tile)
+            for (int half = 0; half < 2; ++half) {
+                const TileJob job{tile * tile_size, 0, tile_size, tile_size, 2 * first + half, count, 2};
+                for (int slot = 0; slot < job.paths(); ++slot) {
+                    const float value = (tile < tiles / 2 ? dark : bright) * (0.9f + 0.2f * float(bits() >> 40) * 0x1p-24f);
+                    scratch->r[slot] = scratch->g[slot] = scratch->b[slot] = value;
+                }
+                film.add(job, *scratch, 0);
+            }
+    };
+    add(0, SamplePlan::pilot_samples / 4);
+    noise.mark(film);
+    add(SamplePlan::pilot_samples / 4, SamplePlan::pilot_samples / 4);
+    const std::array<TileNoise, 2> measured = noise.measure(film);
+    const double expected = (dark / std::hypot(dark, 0.1f)) / (bright / std::hypot(bright, 0.1f));
+    // The variance of 256 pixels has a relative standard error of sqrt(2 / 256), its root half of that, and there are two of them.
+    const double error = expected * std::sqrt(2.0 / (tile_size * tile_size)) / 2 * std::numbers::sqrt2;
+    for (const TileNoise& half : measured) EXPECT_NEAR(half.front() / half.back(), expected, 4 * error);
 }
 
 // ---- with one
