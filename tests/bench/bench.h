@@ -19,6 +19,9 @@ struct Options {
     int rounds = 9;               // of each interleaved comparison; medians are reported
     int edits = 40;               // of each kind
     int reference_samples = 4096; // of the pictures that errors are measured against
+    std::filesystem::path cache;  // folder for those pictures, so that they are rendered once; empty: they are not kept
+    std::string variant;          // of path reuse and adaptive sampling, the only one; empty: all of them
+    int64_t most_samples = 64;    // per pixel, of a series
 };
 
 Json run_rate(const Options& options);
@@ -35,6 +38,7 @@ Json run_many_lights(const Options& options);
 Json run_mix(const Options& options);
 Json run_textures(const Options& options);
 Json run_time_slider(const Options& options);
+Json run_shown_pictures(const Options& options);
 
 using Clock = std::chrono::steady_clock;
 inline double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }

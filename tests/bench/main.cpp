@@ -19,7 +19,8 @@ struct Case {
 constexpr Case cases[]{{"setup", run_setup},     {"startup", run_startup}, {"rate", run_rate},        {"kernels", run_kernels},
                        {"latency", run_latency}, {"denoise", run_denoise}, {"estimate", run_estimate},
                        {"coverage", run_error_coverage}, {"recorder", run_recorder},   {"lights", run_many_lights}, {"mix", run_mix},
-                       {"big", run_big_scenes}, {"textures", run_textures}, {"time", run_time_slider}};
+                       {"big", run_big_scenes}, {"textures", run_textures}, {"time", run_time_slider},
+                       {"pictures", run_shown_pictures}};
 
 int fail(const Error& error) {
     fmt::print(stderr, "blush_bench: error: {}\n", error.text());
@@ -39,13 +40,22 @@ int run(int argc, char** argv) {
                  "estimated error's intervals hold the true one), "
                  "recorder (what it costs to know the error while rendering), lights (variance and cost of choosing among many), mix (of groups of lights: time, cost, memory), "
                  "big (to the first image of a million and ten million triangles and a million instances: time, memory), "
-                 "textures (loading 64 of them; what filtering costs and is worth), time (from a step of the time slider to the first image)"};
+                 "textures (loading 64 of them; what filtering costs and is worth), time (from a step of the time slider to the first image), "
+                 "pictures (FLIP and relMSE of raw and denoised pictures, with and without path reuse and adaptive sampling)"};
     app.add_option("cases", names, "What to measure; default: everything")
-        ->check(CLI::IsMember({"setup", "startup", "rate", "kernels", "latency", "denoise", "estimate", "coverage", "recorder", "lights", "mix", "big", "textures", "time"}));
+        ->check(CLI::IsMember({"setup", "startup", "rate", "kernels", "latency", "denoise", "estimate", "coverage", "recorder", "lights", "mix", "big", "textures", "time", "pictures"}));
     app.add_option("--scenes", peers,
                    "Folder with the scenes that peers are measured on: cornell.glb, cornell_spheres.glb, dense_cornell.glb");
     app.add_option("--only", only, "Scenes whose file name contains this");
     app.add_option("--threads", options.threads, "Largest number of threads")->check(CLI::Range(1, 1024))->capture_default_str();
+    app.add_option("--seeds", options.rounds, "Seeds of each series of pictures, rounds of other comparisons")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    app.add_option("--spp", options.most_samples, "Largest number of samples per pixel in a series of pictures")->capture_default_str();
+    app.add_option("--variant", options.variant, "Of the case \"pictures\": plain, reuse, adaptive or \"reuse and adaptive\" alone");
+    app.add_option("--reference-spp", options.reference_samples, "Samples per pixel of pictures that errors are measured against")
+        ->capture_default_str();
+    app.add_option("--cache", options.cache, "Folder that keeps the reference pictures of the case \"pictures\"");
     app.add_flag("--quick", quick, "Few rounds: shows that it works, proves no figure");
     try {
         app.parse(argc, argv);
