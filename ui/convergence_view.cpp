@@ -8,8 +8,8 @@
 namespace blush {
 namespace {
 
-// Fixed digits with a true minus sign.
-std::string signed_text(double value) { return fmt::format("{}{:.2f}", value < 0 ? "−" : "", std::abs(value)); }
+// Fixed digits with a true minus sign; a slope that rounds to nothing has none.
+std::string signed_text(double value) { return fmt::format("{}{:.2f}", value <= -0.005 ? "−" : "", std::abs(value)); }
 
 const char* kind_text(ConvergencePoint::Kind kind) {
     switch (kind) {

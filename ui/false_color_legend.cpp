@@ -1,5 +1,6 @@
 #include "ui/false_color_legend.h"
 
+#include "core/text.h"
 #include "io/displayed.h"
 #include "ui/theme.h"
 
@@ -22,7 +23,7 @@ const char* title_of(FalseColor::Of of) {
 
 std::string edge_text(const FalseColor& f, const FalseColorScale& scale, int band) {
     const float edge = false_color_edge(band, scale);
-    if (f.of == FalseColor::Of::stops) return fmt::format("{:+.1f}", edge - std::log2(0.18f));
+    if (f.of == FalseColor::Of::stops) return signed_number(edge - std::log2(0.18f), 1);
     const float value = std::exp2(edge);
     return value >= 999.5f ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value);
 }

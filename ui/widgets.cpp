@@ -1,5 +1,6 @@
 #include "ui/widgets.h"
 
+#include "core/text.h"
 #include "ui/theme.h"
 
 #include <algorithm>
@@ -21,6 +22,14 @@ std::string format_with_unit(const NumberStyle& style) {
     if (*style.unit) format += ' ';
     for (const char* c = style.unit; *c; ++c) format += *c == '%' ? "%%" : std::string(1, *c);
     return format;
+}
+
+// The value, or 0 where the format would show it as zero with a minus sign.
+float shown_value(float value, const char* format) {
+    if (!(value < 0)) return value + 0.f; // no -0
+    char text[64];
+    std::snprintf(text, sizeof text, format, double(value));
+    return text[0] == '-' && without_sign_of_zero(text)[0] != '-' ? 0.f : value;
 }
 
 bool double_clicked_here(float width) {
@@ -74,7 +83,7 @@ bool Fields::number_field(const char* id, float& value, const NumberStyle& style
     const bool resetting = double_clicked_here(width);
     const ImGuiSliderFlags flags = ImGuiSliderFlags_AlwaysClamp | (resetting ? ImGuiSliderFlags_NoInput : 0);
     const std::string format = format_with_unit(style);
-    float edited = value;
+    float edited = shown_value(value, style.format);
     bool changed = false;
     if (style.bar) {
         draw_bar((value - style.min) / (style.max - style.min), width);

@@ -8,6 +8,7 @@
 #include "app/commands/progress.h"
 #include "app/commands/reference_cache.h"
 #include "core/files.h"
+#include "core/text.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -123,7 +124,7 @@ void print_summary(const ConvergeCommand& c, const ConvergeReport& report) {
         const MeasuredPoint& last = v.points.back();
         fmt::print("{:<32} {:>7} spp  RMSE {:.3g}  efficiency {:.3g}  {}", v.variant.name, last.spp, last.metrics.rmse, v.efficiency.value,
                    v.bias.verdict());
-        if (v.bias.biased) fmt::print(", {:+.2f} %", v.bias.whole.percent());
+        if (v.bias.biased) fmt::print(", {} %", signed_number(v.bias.whole.percent(), 2));
         if (const std::string where = bias_by_bounce_text(v); !where.empty()) fmt::print(" ({})", where);
         fmt::print("{}\n", last.reference_clearly_better ? "" : "  (the reference is not clearly better)");
     }

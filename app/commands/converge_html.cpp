@@ -1,6 +1,7 @@
 // The report to hand around: one HTML file that needs nothing else.
 #include "app/commands/converge_report.h"
 
+#include "core/text.h"
 #include "io/displayed.h"
 #include "io/image_io.h"
 #include "measure/convergence.h"
@@ -105,16 +106,16 @@ std::string bias_cell(const VariantResult& v) {
     const RegionBias &w = b.worst, &p = b.pooled;
     const bool whole_is_worst = w.width == b.whole.width && w.height == b.whole.height;
     const std::string region = whole_is_worst ? std::string()
-                                              : fmt::format("<small>most in {}×{} at {},{}: {:+.3g} %, z {:+.1f}</small>", w.width,
-                                                            w.height, w.x, w.y, w.percent(), w.z());
+                                              : fmt::format("<small>most in {}×{} at {},{}: {:+.3g} %, z {}</small>", w.width,
+                                                            w.height, w.x, w.y, w.percent(), signed_number(w.z(), 1));
     const std::string pooled = std::abs(p.z()) <= std::abs(b.whole.z())
                                    ? std::string()
-                                   : fmt::format("<small>weighted by what noise lets tell {:+.3g} % ± {:.2g}, z {:+.1f}</small>", p.percent(),
-                                                 1.96 * p.percent_error(), p.z());
+                                   : fmt::format("<small>weighted by what noise lets tell {:+.3g} % ± {:.2g}, z {}</small>", p.percent(),
+                                                 1.96 * p.percent_error(), signed_number(p.z(), 1));
     std::string bounces = bias_by_bounce_text(v);
     if (!bounces.empty()) bounces = fmt::format("<small>{}</small>", bounces);
-    return fmt::format("<td{}>{}<small>whole picture {:+.3g} % ± {:.2g}, z {:+.1f}</small>{}{}{}</td>",
-                       b.biased ? " class='biased'" : "", b.verdict(), b.whole.percent(), 1.96 * b.whole.percent_error(), b.whole.z(), pooled,
+    return fmt::format("<td{}>{}<small>whole picture {:+.3g} % ± {:.2g}, z {}</small>{}{}{}</td>",
+                       b.biased ? " class='biased'" : "", b.verdict(), b.whole.percent(), 1.96 * b.whole.percent_error(), signed_number(b.whole.z(), 1), pooled,
                        region, bounces);
 }
 

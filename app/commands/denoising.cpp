@@ -1,5 +1,6 @@
 #include "app/commands/denoising.h"
 
+#include "core/text.h"
 #include "app/commands/progress.h"
 #include "render/denoised_picture.h"
 
@@ -54,8 +55,8 @@ OrderedJson denoised_json(const Denoised& denoised) {
 std::string denoised_by(const Denoised& denoised) { return denoised.network + ", " + denoised.precision; }
 
 std::string denoised_summary(const Denoised& denoised) {
-    std::string text = fmt::format("denoised by {} in {:.2f} s, mean energy {:+.2f} %", denoised_by(denoised), denoised.seconds,
-                                   energy_change_percent(denoised));
+    std::string text = fmt::format("denoised by {} in {:.2f} s, mean energy {} %", denoised_by(denoised), denoised.seconds,
+                                   signed_number(energy_change_percent(denoised), 2));
     if (denoised.sanitised > 0) text += fmt::format(", {} pixels sanitised", denoised.sanitised);
     return text;
 }

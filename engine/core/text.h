@@ -1,7 +1,10 @@
-// Small readers for text that people type: the same whatever the locale, and never half of a word.
+// Small readers for text that people type, the same whatever the locale and never half of a word; and numbers as people read them.
 #pragma once
 
+#include <algorithm>
 #include <charconv>
+#include <cstdio>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -25,6 +28,22 @@ inline std::vector<std::string_view> split(std::string_view text, char separator
         if (end == text.npos) return parts;
         text.remove_prefix(end + 1);
     }
+}
+
+// A number of which only zeros are shown has no sign: "-0.00 %" becomes "0.00 %".
+inline std::string without_sign_of_zero(std::string text) {
+    const size_t sign = text.find_first_not_of(' ');
+    if (sign == text.npos || (text[sign] != '-' && text[sign] != '+')) return text;
+    const size_t end = std::min(text.find_first_not_of("0123456789.", sign + 1), text.size());
+    if (text.find_first_of("123456789", sign) < end || end == sign + 1 || (end < text.size() && (text[end] == 'e' || text[end] == 'n'))) return text;
+    return text.erase(sign, 1);
+}
+
+// With that many decimals and its sign: "+0.25", "-1.00", "0.00".
+inline std::string signed_number(double value, int decimals) {
+    char text[400]; // the largest double has 309 digits before its point
+    std::snprintf(text, sizeof text, "%+.*f", decimals, value);
+    return without_sign_of_zero(text);
 }
 
 } // namespace blush

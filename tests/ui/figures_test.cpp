@@ -1,4 +1,5 @@
 // Figures about the picture that is shown: region statistics and scopes against what one adds up by hand.
+#include "core/text.h"
 #include "io/displayed.h"
 #include "our_colors.h"
 #include "render/coverage.h"
@@ -15,6 +16,19 @@
 
 namespace blush {
 namespace {
+
+TEST(Numbers, ZeroHasNoSign) {
+    EXPECT_EQ(signed_number(-0.001, 2), "0.00");
+    EXPECT_EQ(signed_number(0.001, 2), "0.00");
+    EXPECT_EQ(signed_number(-0.006, 2), "-0.01");
+    EXPECT_EQ(signed_number(12.345, 1), "+12.3");
+    EXPECT_EQ(without_sign_of_zero("-0.00 %"), "0.00 %");
+    EXPECT_EQ(without_sign_of_zero("-0.0"), "0.0");
+    EXPECT_EQ(without_sign_of_zero("-0.10 %"), "-0.10 %");
+    EXPECT_EQ(without_sign_of_zero("-0.000e+00"), "-0.000e+00");
+    EXPECT_EQ(without_sign_of_zero("-inf"), "-inf");
+    EXPECT_EQ(without_sign_of_zero("-"), "-");
+}
 
 class Figures : public testing::Test {
 protected:

@@ -1,4 +1,5 @@
 // Comparison: which two pictures are compared, how, and by how much they differ.
+#include "core/text.h"
 #include "ui/difference.h"
 #include "ui/panels/panels.h"
 #include "ui/theme.h"
@@ -27,7 +28,7 @@ void draw_side(PanelContext& c, Fields& f, const char* label, uint64_t& side) {
 
 std::string stops(const std::array<double, 3>& a, const std::array<double, 3>& b) {
     const double ratio = (a[0] + a[1] + a[2]) / (b[0] + b[1] + b[2]);
-    return std::isfinite(ratio) && ratio > 0 ? fmt::format("{:+.2f} EV", std::log2(ratio)) : "";
+    return std::isfinite(ratio) && ratio > 0 ? signed_number(std::log2(ratio), 2) + " EV" : "";
 }
 
 void draw_numbers(PanelContext& c, Fields& f, const Difference& d) {

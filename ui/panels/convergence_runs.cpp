@@ -67,7 +67,7 @@ void draw_figures(const ConvergenceView& view, const ConvergenceRun& run) {
     const double error = any ? points.back().error(view.metric).value : 0;
     const Interval slope = fit(run.record, kind, view.metric, view.axis).slope;
     figure(error > 0 ? fmt::format("{:.3g}", error) : "");
-    figure(slope.known ? fmt::format("{}{:.2f}", slope.value < 0 ? "−" : "", std::abs(slope.value)) : "");
+    figure(slope.known ? fmt::format("{}{:.2f}", slope.value <= -0.005 ? "−" : "", std::abs(slope.value)) : "");
     figure(any ? fmt::format("{} spp", points.back().spp) : "");
     figure(any ? elapsed_text(points.back().seconds) : "");
 }

@@ -1,4 +1,5 @@
 // Display: how the finished image is looked at. Nothing here restarts the render.
+#include "core/text.h"
 #include "ui/panels/panels.h"
 #include "ui/picture_view.h"
 #include "ui/widgets.h"
@@ -14,7 +15,7 @@ void draw_denoised_figures(Fields& f, const DenoisedPicture& picture) {
     f.info("Network", fmt::format("{}, {}", d.network, d.precision), "What denoised the picture, and with which arithmetic.");
     f.info("Took", fmt::format("{:.0f} ms", 1000 * d.seconds),
            "Denoising goes on beside the rendering and takes a tenth of the time at most, but for the first picture and the last.");
-    f.info("Mean energy", fmt::format("{:+.2f} %", energy_change_percent(d)),
+    f.info("Mean energy", signed_number(energy_change_percent(d), 2) + " %",
            "By how much the denoiser changed the mean luminance. The estimated error is always that of the raw image.");
     if (d.sanitised > 0)
         f.info("Sanitised", fmt::format("{} pixels", d.sanitised),
@@ -81,7 +82,7 @@ void draw_exposure_fields(PanelContext& c, Fields& f, ViewSettings& v) {
         if (by_hand || rule == int(AutoExposure::off)) v.exposure_ev = rule == int(AutoExposure::off) ? c.shown_view().exposure_ev : 0;
         v.auto_exposure = AutoExposure(rule);
     }
-    if (v.auto_exposure != AutoExposure::off) f.info("Exposure", fmt::format("{:+.2f} EV", c.shown_view().exposure_ev));
+    if (v.auto_exposure != AutoExposure::off) f.info("Exposure", signed_number(c.shown_view().exposure_ev, 2) + " EV");
     if (f.button("Meter once", "Sets the exposure by the mean of the picture as it is now, and leaves it."))
         c.ui.commands.push_back(Command::exposure_meter);
     f.number("Gamma", v.gamma,

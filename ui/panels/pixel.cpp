@@ -1,6 +1,7 @@
 // What one pixel holds: scene-linear and displayed colour, luminance, and what the camera hit there.
 #include "color/illuminance.h"
 #include "core/math.h"
+#include "core/text.h"
 #include "render/coverage.h"
 #include "ui/panels/panels.h"
 #include "ui/theme.h"
@@ -46,8 +47,8 @@ void draw_values(const PanelContext& c, const Frame& f, int x, int y) {
     row("Luminance", fmt::format("{:.4g} nits", nits));
     if (nits > 0)
         row("EV from grey",
-            fmt::format("{:+.2f}   at ISO 100 {:+.2f}", stops_from_grey(numbers_of(c.shown_view()), {rgba[0], rgba[1], rgba[2]}),
-                        std::log2(nits / 0.125f)));
+            fmt::format("{}   at ISO 100 {}", signed_number(stops_from_grey(numbers_of(c.shown_view()), {rgba[0], rgba[1], rgba[2]}), 2),
+                        signed_number(std::log2(nits / 0.125f), 2)));
     if (!f.albedo.empty() && luminance(f.albedo[i]) >= 0.01f) {
         float lux[3] = {rgba[0], rgba[1], rgba[2]};
         to_illuminance(lux, {&f.albedo[i], 1});
@@ -57,7 +58,7 @@ void draw_values(const PanelContext& c, const Frame& f, int x, int y) {
     const Vec3 shown = mixed_pixel(f, c.denoised.get(), mix_of(c.ui.denoise, c.denoised != nullptr), x, y);
     row("Displayed", displayed(c, shown, f.albedo.empty() ? Vec3{0, 0, 0} : f.albedo[i], coverage_of_pixel(f, i)));
     if (!f.albedo.empty()) row("Albedo", triple(f.albedo[i]));
-    if (!f.normal.empty()) row("Normal", triple(f.normal[i], "{:+.3f}  {:+.3f}  {:+.3f}"));
+    if (!f.normal.empty()) row("Normal", fmt::format("{}  {}  {}", signed_number(f.normal[i].x, 3), signed_number(f.normal[i].y, 3), signed_number(f.normal[i].z, 3)));
     if (!f.depth.empty()) row("Distance", f.depth[i] > 0 ? fmt::format("{:.4g} m", f.depth[i]) : "nothing hit");
     if (!f.object_id.empty()) {
         const Node* node = c.scene().nodes.find({f.object_id[i]});

@@ -1,4 +1,5 @@
 // Region: mean, ends and deviation of the measured rectangle, in scene-linear values, nits, stops and display values.
+#include "core/text.h"
 #include "ui/panels/panels.h"
 #include "ui/region_statistics.h"
 #include "ui/theme.h"
@@ -17,7 +18,7 @@ void row(const char* name, const Spread& s, const char* format) {
     ImGui::PopStyleColor();
     for (const double value : {s.mean, s.low, s.high, s.deviation}) {
         ImGui::TableNextColumn();
-        ImGui::TextUnformatted(s.count > 0 ? fmt::format(fmt::runtime(format), value).c_str() : "-");
+        ImGui::TextUnformatted(s.count > 0 ? without_sign_of_zero(fmt::format(fmt::runtime(format), value)).c_str() : "-");
     }
 }
 

@@ -1,4 +1,5 @@
 // Roulette lab: the rule with its numbers, what it does to paths, whether it pays, and whether it is honest.
+#include "core/text.h"
 #include "render/estimator_settings.h"
 #include "ui/bars.h"
 #include "ui/panels/panels.h"
@@ -82,7 +83,7 @@ void draw_survival(PanelContext& c, const RouletteReport& r) {
 void draw_bias(const RouletteReport& r) {
     if (r.bias.empty() || r.rounds < 8) return quiet_text("Too few rounds yet.");
     const RouletteBias& whole = r.bias.front();
-    const std::string size = fmt::format("{:+.3f} ± {:.3f} %", 100 * whole.difference, 200 * whole.error);
+    const std::string size = fmt::format("{} ± {:.3f} %", signed_number(100 * whole.difference, 3), 200 * whole.error);
     ImGui::PushStyleColor(ImGuiCol_Text, r.biased() ? tone::failure : tone::text);
     ImGui::PushTextWrapPos(0);
     ImGui::TextUnformatted(r.biased() ? fmt::format("Biased: the picture is off by {}.", size).c_str()

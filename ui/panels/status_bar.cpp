@@ -1,4 +1,5 @@
 // Status bar: how far the picture is, how fast it gets there, and what makes it.
+#include "core/text.h"
 #include "ui/time_text.h"
 #include "ui/panels/panels.h"
 #include "ui/theme.h"
@@ -53,7 +54,7 @@ void draw_denoised_cells(PanelContext& c, float& x, const Frame& frame) {
     const DenoisedPicture* denoised = c.denoised.get();
     cell(c, x, 19, shown_text(view, frame, denoised), "What is shown, and by how much the denoised picture is older than the raw one.");
     if (!denoised) return;
-    cell(c, x, 9, fmt::format("energy {:+.2f} %", energy_change_percent(denoised->denoised)),
+    cell(c, x, 9, fmt::format("energy {} %", signed_number(energy_change_percent(denoised->denoised), 2)),
          "By how much the denoiser changed the mean luminance of the picture. The estimated error is that of the raw image.");
 }
 
@@ -114,7 +115,7 @@ void draw_status_bar(PanelContext& c) {
     const float exposure = c.shown_view().exposure_ev;
     const bool metered = c.project().view.auto_exposure != AutoExposure::off;
     if (exposure != 0 || metered) {
-        const std::string text = fmt::format("{}{:+.2f} EV", metered ? "auto " : "", exposure);
+        const std::string text = fmt::format("{}{} EV", metered ? "auto " : "", signed_number(exposure, 2));
         x = std::max(x, ImGui::GetWindowWidth() - ImGui::CalcTextSize(text.c_str()).x - ImGui::GetStyle().WindowPadding.x);
         cell(c, x, 0, text, "Exposure of the display.", tone::dim_text);
     }
