@@ -1,6 +1,5 @@
 #include "ui/light_tools.h"
 
-#include "ui/orbit_camera.h"
 #include "ui/rotation.h"
 
 namespace blush {
@@ -14,11 +13,11 @@ double candela(const Light& light, double distance) {
     return light.kind == Light::Kind::sun ? light.intensity * distance * distance : in_unit(light, Light::Unit::candela);
 }
 
-double intensity_for(const Light& light, double candela, double distance) {
-    return light.kind == Light::Kind::sun ? candela / (distance * distance) : double(intensity_of(light, Light::Unit::candela, candela));
-}
-
 } // namespace
+
+float intensity_towards(const Light& light, double candela, double distance) {
+    return light.kind == Light::Kind::sun ? float(candela / (distance * distance)) : intensity_of(light, Light::Unit::candela, candela);
+}
 
 const char* kind_name(Light::Kind kind) {
     switch (kind) {
@@ -39,29 +38,8 @@ Light converted(const Light& light, Light::Kind kind, double distance) {
     Light next = light;
     next.kind = kind;
     if (is_per_area(kind) && next.radius <= 0) next.radius = 0.1f; // a disk and a sphere need one
-    next.intensity = float(intensity_for(next, candela(light, distance), distance));
+    next.intensity = intensity_towards(next, candela(light, distance), distance);
     return next;
-}
-
-AddLight new_light(Light::Kind kind, const View& view, float exposure_ev) {
-    // Within the picture: measured by what the view shows at the pivot.
-    const double reach = view.lens.orthographic ? 2.0 * view.lens.ymag : 2 * view.pivot_distance * std::tan(view.lens.yfov_radians / 2.0);
-    const Vec3d target = pivot(view), right = rotate(view.rotation, {1, 0, 0}), back = rotate(view.rotation, {0, 0, 1});
-    const Vec3d position = target + Vec3d{0, 1, 0} * (0.35 * reach) + right * (0.2 * reach) + back * (0.1 * reach);
-    AddLight add;
-    add.light.name = add.node.name = kind_name(kind);
-    add.light.kind = kind;
-    add.light.width = add.light.height = float(0.2 * reach);
-    if (is_per_area(kind)) add.light.radius = float(0.1 * reach);
-    add.light.outer_cone_radians = 0.5f;
-    add.light.inner_cone_radians = 0.4f;
-    add.light.angle_radians = kind == Light::Kind::sun ? 0.00925f : 0;
-    // White is reflectance x illuminance / pi = 1 at exposure 0.
-    const double illuminance = pi_d * std::exp2(-exposure_ev), distance = length(target - position);
-    add.light.intensity = float(intensity_for(add.light, illuminance * distance * distance, distance));
-    add.node.local.translation = to_float(position);
-    add.node.local.rotation = looking_along(target - position);
-    return add;
 }
 
 float turned_rotation(float rotation_degrees, double share, const Lens& lens) {
@@ -78,6 +56,22 @@ Heading heading_of(const Vec3d& direction) {
 Vec3d direction_of(const Heading& h) {
     const double heading = h.heading / degrees, tilt = h.tilt / degrees;
     return {std::sin(heading) * std::cos(tilt), std::sin(tilt), -std::cos(heading) * std::cos(tilt)};
+}
+
+Heading heading_of(const Quat& rotation) {
+    const Vec3d forward = rotate(rotation, {0, 0, -1});
+    Heading heading = heading_of(forward);
+    constexpr double nearly_vertical = 1e-4; // horizontal part of a unit vector whose direction single precision does not hold
+    if (std::hypot(forward.x, forward.z) < nearly_vertical) heading.heading = heading_of(rotate(rotation, {0, forward.y < 0 ? 1.0 : -1.0, 0})).heading;
+    return heading;
+}
+
+Quat with_heading(const Quat& rotation, const Heading& heading) {
+    const Heading now = heading_of(rotation);
+    const double turn = (heading.heading - now.heading) / degrees, across = heading.heading / degrees;
+    const Vec3d right{std::cos(across), 0, std::sin(across)};
+    const Quat turned = multiply(axis_angle({0, 1, 0}, -turn), rotation);
+    return normalized(multiply(axis_angle(right, (heading.tilt - now.tilt) / degrees), turned));
 }
 
 Quat turned_to(const Quat& rotation, const Vec3d& forward) {

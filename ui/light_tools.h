@@ -13,8 +13,9 @@ bool has_direction(Light::Kind kind);
 // `light` as another kind that lights a surface `distance` metres away, facing it, as brightly as before.
 Light converted(const Light& light, Light::Kind kind, double distance);
 
-// A new light beside the view's pivot and aimed at it, bright enough to show a white surface there as white at this exposure.
-AddLight new_light(Light::Kind kind, const View& view, float exposure_ev);
+// The intensity, in its own unit, of a light that sends so many candela towards a surface `distance` metres away that it faces. A sun, which has
+// no candela, gives the same illuminance there.
+float intensity_towards(const Light& light, double candela, double distance);
 
 // The rotation of surroundings, in -180 .. 180 degrees, that were dragged to the right by a share of the image's height: what was under the
 // mouse in the middle of the picture goes along.
@@ -26,6 +27,11 @@ struct Heading {
 };
 Heading heading_of(const Vec3d& direction);
 Vec3d direction_of(const Heading& heading);
+
+// Where the -Z of a rotation points. Straight up or down, its +Y tells the heading.
+Heading heading_of(const Quat& rotation);
+// The rotation turned about the vertical to another heading, and about the horizontal axis across that heading to another tilt: it does not roll.
+Quat with_heading(const Quat& rotation, const Heading& heading);
 
 // The rotation turned the shortest way so that its -Z looks along `forward`.
 Quat turned_to(const Quat& rotation, const Vec3d& forward);

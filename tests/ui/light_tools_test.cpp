@@ -1,6 +1,7 @@
 // Units and new lights: equal illuminance where a light changes its kind, angles there and back.
 #include "scene/light_units.h"
 #include "ui/light_tools.h"
+#include "ui/new_light.h"
 #include "ui/orbit_camera.h"
 #include "ui/rotation.h"
 
@@ -60,7 +61,7 @@ TEST(NewLight, ShowsAWhiteSurfaceAtThePivotAsWhite) {
     view.pivot_distance = 6;
     for (const Light::Kind kind : kinds) {
         for (const float exposure : {0.f, -3.f, 5.f}) {
-            const AddLight add = new_light(kind, view, exposure);
+            const AddLight add = new_light(kind, view, spot_round_subject({}, view, {}), exposure);
             const Vec3d towards = pivot(view) - to_double(add.node.local.translation);
             const double luminance = illuminance(add.light, length(towards)) / pi_d;
             EXPECT_NEAR(luminance * std::exp2(exposure), 1, 1e-4);
@@ -68,6 +69,51 @@ TEST(NewLight, ShowsAWhiteSurfaceAtThePivotAsWhite) {
             EXPECT_NEAR(dot(forward, normalize(towards)), 1, 1e-6) << "aimed at the pivot";
         }
     }
+}
+
+// A camera's view of a sphere of radius 1 at the origin.
+View view_of_subject() {
+    View view;
+    view.position = {0, 1, 5};
+    view.rotation = looking_along({0, -1, -5});
+    view.pivot_distance = float(std::hypot(1.0, 5.0));
+    return view;
+}
+
+TEST(NewLight, KeyFillAndRimGoRoundTheSubjectInTurnAndNeverIntoEachOther) {
+    Bounds subject;
+    subject.include({-1, -1, -1});
+    subject.include({1, 1, 1});
+    Project project;
+    project.scene.view = view_of_subject();
+    std::vector<LightSpot> spots;
+    for (int i = 0; i < 12; ++i) {
+        const LightSpot spot = spot_round_subject(project.scene, project.scene.view, subject);
+        const double outside = std::max({std::abs(spot.position.x), std::abs(spot.position.y), std::abs(spot.position.z)});
+        EXPECT_GT(outside, 1) << "in the subject";
+        const AddLight add = new_light(Light::Kind::rectangle, project.scene.view, spot, 0);
+        for (const LightSpot& other : spots)
+            EXPECT_GT(length(spot.position - other.position), std::hypot(add.light.width, add.light.height)) << "the squares may overlap";
+        spots.push_back(spot);
+        const auto next = apply(project, Edit{add});
+        ASSERT_TRUE(next);
+        project = *next;
+    }
+    EXPECT_GT(spots[0].position.x, 0.3) << "the key from the right";
+    EXPECT_GT(spots[0].position.z, 0.3) << "and the viewer's side";
+    EXPECT_LT(spots[1].position.x, -0.3) << "the fill from the left";
+    EXPECT_LT(spots[1].strength, spots[0].strength);
+    EXPECT_LT(spots[2].position.z, -0.3) << "the rim from behind";
+}
+
+TEST(NewLight, LightsTheSurfaceUnderTheCursorFromTheViewersSide) {
+    const View view = view_of_subject();
+    const SurfaceSpot surface{{0.2, 1, 0}, {0, 1, 0}, {}};
+    const LightSpot spot = spot_over_surface({}, view, surface);
+    EXPECT_GT(dot(spot.position - surface.position, surface.normal), 0.1);
+    EXPECT_EQ(spot.target, surface.position);
+    const LightSpot behind = spot_over_surface({}, view, {surface.position, {0, -1, 0}, {}});
+    EXPECT_GT(behind.position.y, surface.position.y) << "a back face is lit on the side that is seen";
 }
 
 TEST(Heading, KnownDirections) {
@@ -81,6 +127,32 @@ TEST(Heading, ThereAndBack) {
         const Vec3d back = direction_of(heading_of(d));
         EXPECT_NEAR(dot(back, normalize(d)), 1, 1e-6);
     }
+}
+
+// The roll is told by how far the light's X axis is from level.
+TEST(Heading, TurnsAboutTheVerticalWithoutRoll) {
+    for (const Vec3d& euler : {Vec3d{0, 0, 0}, Vec3d{-40, 25, 0}, Vec3d{10, 40, 25}, Vec3d{-90, 0, 0}, Vec3d{-90, 0, 70}, Vec3d{89.5, 10, 0}}) {
+        const Quat start = from_euler_degrees(euler);
+        Quat rotation = start;
+        const Heading first = heading_of(start);
+        for (int step = 1; step <= 72; ++step) {
+            Heading wanted = heading_of(rotation);
+            wanted.heading += 5;
+            rotation = with_heading(rotation, wanted);
+            EXPECT_NEAR(heading_of(rotation).tilt, first.tilt, 1e-2);
+            EXPECT_NEAR(rotate(rotation, {1, 0, 0}).y, rotate(start, {1, 0, 0}).y, 1e-4) << "it rolls";
+        }
+        const Vec3d back = rotate(rotation, {1, 0, 0}), was = rotate(start, {1, 0, 0});
+        EXPECT_NEAR(dot(back, was), 1, 1e-4) << "a full turn is none";
+    }
+}
+
+TEST(Heading, TiltGoesThroughStraightDownAndBack) {
+    const Quat start = with_heading({}, {120, -30});
+    const Quat down = with_heading(start, {120, -90});
+    EXPECT_NEAR(heading_of(down).heading, 120, 1e-2);
+    const Quat back = with_heading(down, {heading_of(down).heading, -30});
+    for (const Vec3d& axis : {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}}) EXPECT_NEAR(dot(rotate(back, axis), rotate(start, axis)), 1, 1e-5);
 }
 
 TEST(TurnedTo, LooksThereAndKeepsTheRoll) {

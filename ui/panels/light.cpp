@@ -35,7 +35,7 @@ double area_scale(const Affined& world, Light::Kind kind) {
 
 void draw_direction(Fields& f, PanelContext& c, Id<Node> id, const Light& light) {
     const Quat rotation = world_rotation(c.scene(), id);
-    Heading heading = heading_of(rotate(rotation, {0, 0, -1}));
+    Heading heading = heading_of(rotation);
     f.number("Heading", heading.heading,
              {.min = -360,
               .max = 360,
@@ -56,7 +56,7 @@ void draw_direction(Fields& f, PanelContext& c, Id<Node> id, const Light& light)
                      "tilt of -30."});
     if (!f.changed()) return;
     Node node = *c.scene().nodes.find(id);
-    node.local = rotated_to(c.scene(), id, turned_to(rotation, direction_of(heading)));
+    node.local = rotated_to(c.scene(), id, with_heading(rotation, heading));
     c.apply(SetNode{id, node}, f.gesture());
 }
 
