@@ -76,6 +76,21 @@ void Document::navigate(const View& view) {
     ++revision_;
 }
 
+void Document::meter(float exposure_ev, bool from_opening) {
+    const float before = project_.view.exposure_ev;
+    if (exposure_ev == before) return;
+    const auto follow = [&](Project& p) {
+        if (p.view.exposure_ev == before) p.view.exposure_ev = exposure_ev;
+    };
+    if (from_opening) {
+        for (Step& step : past_) follow(step.project);
+        for (Step& step : future_) follow(step.project);
+        follow(saved_);
+    }
+    project_.view.exposure_ev = exposure_ev;
+    ++revision_;
+}
+
 std::string Document::undo_label() const { return past_.empty() ? std::string() : past_.back().label; }
 std::string Document::redo_label() const { return future_.empty() ? std::string() : future_.back().label; }
 

@@ -41,6 +41,11 @@ public:
     // undo leaves it where it is.
     void navigate(const View& view);
 
+    // The exposure that a picture was metered to: no step of the history. `from_opening`: as if the file had been opened with it, so that
+    // earlier and later steps, and what counts as saved, have it where they had the project's own; else the project alone, so that undoing
+    // the last step takes the exposure back with it.
+    void meter(float exposure_ev, bool from_opening);
+
     bool can_undo() const { return !past_.empty(); }
     bool can_redo() const { return !future_.empty(); }
     // The label of the step that undo (redo) would take back (repeat); empty if none.

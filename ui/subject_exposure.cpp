@@ -1,0 +1,127 @@
+#include "ui/subject_exposure.h"
+
+#include "core/math.h"
+#include "io/displayed.h"
+#include "render/coverage.h"
+#include "scene/affine.h"
+#include "scene/edit_tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace blush {
+namespace {
+
+constexpr int cells_across = 40, cells_down = 24;
+constexpr double enough_of_picture = 0.005;  // for the selection, or what is in focus, to be the subject
+constexpr double sharp_blur = 0.01;          // diameter of the circle of confusion over the height of the picture
+constexpr double darkest = 1.0 / 256;        // of the mean: darker cells count as this
+constexpr double most_clipped = 0.03;        // of the subject, and of the picture
+constexpr float most_lowered = 6, most_lowered_for_backdrop = 1.5f, step = 0.25f; // stops
+constexpr float display_white = 0.995f;
+
+struct Cell {
+    Vec3d sum{0, 0, 0};
+    double pixels = 0;
+};
+
+// Means of the pixels that `belongs` picks, cell by cell; cells without any are left out.
+struct Cells {
+    std::vector<Vec3> means;
+    std::vector<double> shares; // of the picture's pixels
+    double share = 0;
+};
+
+template <class Belongs> Cells cells_of(const Frame& f, const Belongs& belongs) {
+    std::vector<Cell> cells(cells_across * cells_down);
+    for (int y = 0; y < f.height; ++y)
+        for (int x = 0; x < f.width; ++x) {
+            const size_t i = size_t(y) * size_t(f.width) + size_t(x);
+            const Vec3d rgb{f.rgba[4 * i], f.rgba[4 * i + 1], f.rgba[4 * i + 2]};
+            if (!std::isfinite(rgb.x + rgb.y + rgb.z) || !belongs(i)) continue;
+            Cell& cell = cells[size_t(y * cells_down / f.height * cells_across + x * cells_across / f.width)];
+            cell.sum = cell.sum + rgb;
+            ++cell.pixels;
+        }
+    Cells found;
+    const double all = double(f.width) * f.height;
+    for (const Cell& cell : cells) {
+        if (cell.pixels == 0) continue;
+        found.means.push_back(to_float(cell.sum / cell.pixels));
+        found.shares.push_back(cell.pixels / all);
+        found.share += cell.pixels / all;
+    }
+    return found;
+}
+
+// Blur of a point `depth` metres away, as a share of the picture's height (thin lens).
+double blur(const Lens& lens, double depth) {
+    return lens.aperture_radius * std::abs(depth - lens.focus_distance) / (depth * lens.focus_distance * std::tan(lens.yfov_radians / 2));
+}
+
+Cells subject_of(const Frame& f, const Scene& scene, std::span<const Id<Node>> selected) {
+    const std::vector<float> covered = coverage_of(f);
+    const auto is_object = [&](size_t i) { return covered[i] > 0.5f; };
+    if (!selected.empty() && !f.object_id.empty()) {
+        std::vector<uint32_t> ids;
+        for (const Id<Node> root : selected)
+            for (const Id<Node> id : subtree(scene, root))
+                if (scene.nodes.find(id)->mesh) ids.push_back(id.value); // a lamp's own glow is not what it lights
+        std::ranges::sort(ids);
+        Cells cells = cells_of(f, [&](size_t i) { return is_object(i) && std::ranges::binary_search(ids, f.object_id[i]); });
+        if (cells.share >= enough_of_picture) return cells;
+    }
+    const Lens& lens = scene.view.lens;
+    if (lens.aperture_radius > 0 && !lens.orthographic && !f.depth.empty()) {
+        Cells cells = cells_of(f, [&](size_t i) { return is_object(i) && f.depth[i] > 0 && blur(lens, double(f.depth[i])) < sharp_blur; });
+        if (cells.share >= enough_of_picture) return cells;
+    }
+    return cells_of(f, is_object);
+}
+
+// log2 of the geometric mean of luminance; nothing where all is black.
+std::optional<double> log_average(const Cells& cells) {
+    double mean = 0;
+    for (size_t i = 0; i < cells.means.size(); ++i) mean += cells.shares[i] * std::max(0.0, double(luminance(cells.means[i])));
+    if (!(mean > 0)) return {};
+    const double floor = darkest * mean / cells.share;
+    double stops = 0;
+    for (size_t i = 0; i < cells.means.size(); ++i) stops += cells.shares[i] * std::log2(std::max(floor, double(luminance(cells.means[i]))));
+    return stops / cells.share;
+}
+
+// Share of these cells in which a channel is at the white of the display.
+double clipped(const Cells& cells, const ViewSettings& view, const ColorManagement& color) {
+    std::vector<float> shown;
+    shown.reserve(3 * cells.means.size());
+    for (const Vec3& mean : cells.means) shown.insert(shown.end(), {mean.x, mean.y, mean.z});
+    if (!show(color, view, shown)) return 0;
+    double share = 0;
+    for (size_t i = 0; i < cells.means.size(); ++i)
+        if (std::max({shown[3 * i], shown[3 * i + 1], shown[3 * i + 2]}) >= display_white) share += cells.shares[i];
+    return share / cells.share;
+}
+
+} // namespace
+
+std::optional<float> subject_exposure(const Frame& frame, const Scene& scene, std::span<const Id<Node>> selected, const ViewSettings& view,
+                                      const ColorManagement& color) {
+    if (frame.width <= 0) return {};
+    const Cells subject = subject_of(frame, scene, selected);
+    const std::optional<double> average = log_average(subject);
+    if (!average) return {};
+    ViewSettings shown = view;
+    shown.auto_exposure = AutoExposure::off;
+    shown.false_color = {};
+    const float wanted = std::clamp(float(std::log2(0.18) - *average), -20.f, 20.f);
+    const auto lowered = [&](const Cells& cells, float from, float most) {
+        for (shown.exposure_ev = from; shown.exposure_ev > from - most && clipped(cells, shown, color) > most_clipped;) shown.exposure_ev -= step;
+        return shown.exposure_ev;
+    };
+    const float for_subject = lowered(subject, wanted, most_lowered);
+    const float for_picture = lowered(cells_of(frame, [](size_t) { return true; }), for_subject, most_lowered_for_backdrop);
+    return std::clamp(for_picture, -20.f, 20.f);
+}
+
+} // namespace blush
