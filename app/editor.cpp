@@ -8,11 +8,14 @@
 #include "app/editor_snapshots.h"
 #include "app/file_takers.h"
 #include "app/followed_mix.h"
+#include "app/metering_once.h"
+#include "app/output_folder.h"
 #include "app/submitted.h"
 #include "ui/automation.h"
 #include "ui/frame_stats.h"
 #include "ui/regions.h"
 #include "ui/remembered.h"
+#include "ui/popups.h"
 #include "ui/snapshot_strip.h"
 #include "ui/viewport.h"
 #include "ui/window.h"
@@ -44,6 +47,7 @@ private:
 
     PanelContext context();
     void draw_regions(PanelContext& c);
+    void draw_side_panels(PanelContext& c, const Layout& layout);
     void draw_above(PanelContext& c);
     void draw_on_top(PanelContext& c);
     void obey(PanelContext& c);
@@ -70,7 +74,7 @@ private:
     EditorFiles files_{&Window::wake};
     EditorSaving saving_;
     bool leaving_ = false;
-    EditorSnapshots snapshots_{&Window::wake,
+    EditorSnapshots snapshots_{&Window::wake, options_.assets,
                                [this](std::function<void()> go_on) { saving_.before_losing_edits("opening another scene", std::move(go_on)); }};
     ThumbnailSheet thumbnails_;
     WaveformSheet waveforms_;
@@ -80,6 +84,7 @@ private:
     PictureMix wanted_mix_;
     EditorConvergence convergence_;
     FollowedMix mix_;
+    MeteringOnce metering_;
     std::string weights_problem_; // why the denoiser's weights are of no use; empty: they are there
     RenderSession session_;
 
@@ -121,7 +126,7 @@ Editor::Editor(const EditorOptions& options, std::unique_ptr<Window> window, Col
     document_.reset(Project{{}, options.render, options.view});
     if (const auto loaded = viewport_.load(); !loaded) ui_.toasts.fail(loaded.error().text());
     files_.open(options.scene.empty() ? options.assets / "scenes" / "card-and-mug.gltf" : options.scene,
-                {options.overrides, float(options.render.width) / float(options.render.height), options.settings_given});
+                {options.overrides, float(options.render.width) / float(options.render.height), options.settings_given, options.view_given});
     saving_.offer_recovery(options.scene);
 }
 
@@ -152,6 +157,8 @@ void Editor::poll() {
         window_->set_title(files_.scene_file().filename().string() + " - Blush");
         if (finished.opened) {
             submitted_.forget(); // a new scene is submitted whatever it looks like
+            metering_.forget();
+            if (!finished.stored_exposure && !std::exchange(options_.exposure_given, false)) metering_.want(document_.project(), true);
             list_kept_snapshots();
         }
         window_->request_frames(2);
@@ -163,11 +170,11 @@ void Editor::poll() {
         if (!ui_.question) saving_.before_losing_edits("closing the window", [this] { leaving_ = true; });
     }
     for (const auto& file : window_->take_dropped_files()) takers().take_dropped(file);
-    // While text is typed or something is open on top, keys are meant for that.
-    const bool taken = ImGui::GetIO().WantTextInput || ui_.browser || ui_.pixel || ui_.question;
+    // While text is typed or something is open on top, keys are meant for that. Esc closes menus and lists of choices; dialogs hear it themselves.
+    const bool taken = ImGui::GetIO().WantTextInput || ui_.browser || ui_.pixel || ui_.question, menu = any_popup_open();
     for (const KeyPress& press : window_->take_key_presses()) {
         const Shortcut* s = find_shortcut(press);
-        if (s && !taken) ui_.commands.push_back(s->command);
+        if (s && !taken && (!menu || s->command == Command::clear_selection)) ui_.commands.push_back(s->command);
     }
     save_due_snapshot();
 }
@@ -217,22 +224,12 @@ void Editor::draw_regions(PanelContext& c) {
         ImGui::EndMainMenuBar();
     }
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    const bool panels = !ui_.panels_hidden;
+    const float time_height = c.scene().clips.empty() || !panels ? 0 : std::round(ImGui::GetFrameHeight() * 1.5f);
     const Layout l = lay_out(screen.x, screen.y, ImGui::GetFrameHeight(), std::round(ImGui::GetFrameHeight() * 1.25f), ImGui::GetFontSize(),
-                             ui_.settings.splitters, c.scene().clips.empty() ? 0 : std::round(ImGui::GetFrameHeight() * 1.5f));
+                             panels ? ui_.settings.splitters : no_side_panels, time_height);
     ImGui::BeginDisabled(files_.preview() != nullptr); // what would be edited is about to be replaced
-    begin_region("Outliner", l.outliner);
-    draw_outliner(c);
-    end_region();
-    if (l.time.height > 0) {
-        begin_region("Time", l.time);
-        draw_time(c);
-        end_region();
-    }
-    begin_region("Inspector", l.inspector, {.padded = false});
-    draw_inspector(c);
-    end_region();
-    draw_light_mix_panel(c);
-    draw_light_table(c);
+    if (panels) draw_side_panels(c, l);
     // After all that changes lights: what they are changed to is in the picture of this very frame.
     mix_.follow(pictures_.frame, document_shown());
     c.mixing = mix_.mixing();
@@ -247,13 +244,32 @@ void Editor::draw_regions(PanelContext& c) {
     begin_region("Status", l.status, {.padded = false});
     draw_status_bar(c);
     end_region();
-    drag_splitters(ui_, l, screen.x);
     thumbnails_.update(ui_.snapshots.list, numbers_of(c.shown_view()));
-    draw_snapshot_strip(c, l.viewport, [this](size_t i) { return thumbnails_.part(i); });
+    if (panels) {
+        drag_splitters(ui_, l, screen.x);
+        draw_snapshot_strip(c, l.viewport, [this](size_t i) { return thumbnails_.part(i); });
+    }
     ImGui::EndDisabled();
 }
 
+void Editor::draw_side_panels(PanelContext& c, const Layout& l) {
+    begin_region("Outliner", l.outliner);
+    draw_outliner(c);
+    end_region();
+    if (l.time.height > 0) {
+        begin_region("Time", l.time);
+        draw_time(c);
+        end_region();
+    }
+    begin_region("Inspector", l.inspector, {.padded = false});
+    draw_inspector(c);
+    end_region();
+    draw_light_mix_panel(c);
+    draw_light_table(c);
+}
+
 void Editor::draw_above(PanelContext& c) {
+    if (ui_.panels_hidden) return;
     ImGui::BeginDisabled(files_.preview() != nullptr);
     draw_comparison_panel(c);
     draw_snapshot_panel(c);
@@ -271,6 +287,7 @@ void Editor::draw_above(PanelContext& c) {
 }
 
 void Editor::draw_on_top(PanelContext& c) {
+    draw_no_light_banner(c, {image_.x, image_.y, image_.width, image_.height});
     draw_import_report(c);
     draw_shortcut_sheet(c);
     draw_file_browser(c);
@@ -291,8 +308,9 @@ void Editor::obey(PanelContext& c) {
             run_own_command(command);
     }
     for (const FileRequest& request : std::exchange(ui_.files, {})) takers().take(request);
+    if (std::exchange(ui_.meter_exposure, false)) metering_.want(document_.project(), false);
     saving_.hear_answer();
-    convergence_.obey(ui_, ui_.settings.snapshot_folder, files_.scene_file());
+    convergence_.obey(ui_, output_folder(ui_.settings.snapshot_folder, files_.scene_file(), options_.assets), files_.scene_file());
     snapshots_.obey(document_, ui_, files_);
     const bool paused = ui_.paused || convergence_.renders_reference();
     if (session_paused_ != paused) session_.pause(session_paused_ = paused);
@@ -319,6 +337,7 @@ void Editor::run_own_command(Command command) {
     case Command::snapshot_exr: snapshot_due_ = SnapshotDue::keep; return save_due_snapshot();
     case Command::snapshot_png: snapshot_due_ = SnapshotDue::png; return save_due_snapshot();
     case Command::quit: return window_->request_close();
+    case Command::full_screen: return window_->toggle_full_screen();
     default: return;
     }
 }
@@ -389,6 +408,7 @@ void Editor::latest() {
     pictures_ = session_.pictures();
     if (shows_preview() && !files_.preview() && files_.scene_file().empty()) pictures_ = {}; // there is nothing to go back to
     if (!shows_preview()) convergence_.look(ui_.convergence, pictures_);
+    if (pictures_.frame && pictures_.frame->revision == submitted_.revision() && !files_.preview()) metering_.look(document_, pictures_.frame, ui_, color_);
     const SessionStatus status = session_.status();
     if (std::exchange(not_continued_, status.not_continued) != status.not_continued && !status.not_continued.empty())
         ui_.toasts.warn("The snapshot is rendered anew", status.not_continued);
@@ -442,7 +462,7 @@ void Editor::remember() {
     // `--size` holds for this time only.
     if (!options_.follow_viewport && !s.follow_viewport) s.follow_viewport = remembered_follow_viewport_;
     s.maximized = window_->maximized();
-    if (!s.maximized) {
+    if (!s.maximized && !window_->full_screen()) {
         s.width = window_->size().width;
         s.height = window_->size().height;
     }

@@ -17,7 +17,9 @@ struct EditorOptions {
     SceneOverrides overrides;          // of the scene given here, not of those opened later
     RenderSettings render;
     ViewSettings view;
-    bool settings_given = false; // the two are the command line's, and win over those that were saved with the scene
+    // Named on the command line, they win over those that were saved with the scene.
+    bool settings_given = false, view_given = false;
+    bool exposure_given = false; // by the command line: the picture is not metered when it opens
     bool denoise = false;        // begin with the denoised picture
     bool follow_viewport = true; // the image has the viewport's size; false: render.width x render.height, as `--size` asks
     unsigned threads = 0;        // 0: one per core

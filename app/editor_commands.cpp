@@ -3,7 +3,8 @@
 #include "app/light_commands.h"
 #include "scene/edit_tree.h"
 #include "ui/edit_together.h"
-#include "ui/light_tools.h"
+#include "ui/new_light.h"
+#include "ui/popups.h"
 #include "ui/view_tools.h"
 
 #include <algorithm>
@@ -14,6 +15,19 @@ namespace blush {
 namespace {
 
 Id<Node> last_node(const Scene& scene) { return scene.nodes.empty() ? Id<Node>{} : scene.nodes.entries().back().id; }
+
+// Of the nodes and all below them.
+Bounds bounds_of_meshes(const Scene& scene, const std::vector<Id<Node>>& roots) {
+    Bounds all;
+    for (const Id<Node> root : roots)
+        for (const Id<Node> id : subtree(scene, root)) {
+            const Bounds b = scene.nodes.find(id)->mesh ? world_bounds(scene, id) : Bounds{};
+            if (b.empty) continue;
+            all.include(b.low);
+            all.include(b.high);
+        }
+    return all;
+}
 
 // Selects what an edit has added: the new nodes that hang below none of each other.
 void select_all_after(PanelContext& c, Id<Node> last) {
@@ -33,9 +47,20 @@ template <class BranchEdit> bool apply_to_selection(PanelContext& c, const std::
     return c.apply(edits, name);
 }
 
+// Where the cursor points, if it is over an object in the picture; else round the subject.
+LightSpot spot_for_new_light(PanelContext& c) {
+    const View& view = c.scene().view;
+    if (const auto& cursor = c.ui.cursor; cursor && c.frame && c.frame->width > 0) {
+        const Projection projection(view, double(c.frame->width) / c.frame->height);
+        if (const auto surface = seen_surface(*c.frame, projection, cursor->u, cursor->v)) return spot_over_surface(c.scene(), view, *surface);
+    }
+    const Bounds selected = bounds_of_meshes(c.scene(), c.ui.selection(c.scene()));
+    return spot_round_subject(c.scene(), view, selected.empty ? world_bounds(c.scene()) : selected);
+}
+
 void add_light(PanelContext& c, Light::Kind kind) {
     const Id<Node> last = last_node(c.scene());
-    if (c.apply(new_light(kind, c.scene().view, c.shown_view().exposure_ev))) select_all_after(c, last);
+    if (c.apply(new_light(kind, c.scene().view, spot_for_new_light(c), c.shown_view().exposure_ev))) select_all_after(c, last);
 }
 
 void duplicate(PanelContext& c) {
@@ -57,14 +82,7 @@ void begin_rename(PanelContext& c) {
 
 // The meshes of a node and all below it; where there are none (a light, a camera), a little room around its origin.
 Bounds bounds_of(const Scene& scene, Id<Node> root) {
-    Bounds all;
-    for (const Id<Node> id : subtree(scene, root)) {
-        if (!scene.nodes.find(id)->mesh) continue;
-        const Bounds b = world_bounds(scene, id);
-        if (b.empty) continue;
-        all.include(b.low);
-        all.include(b.high);
-    }
+    Bounds all = bounds_of_meshes(scene, {{root}});
     if (!all.empty) return all;
     const Vec3d origin = world_from_node(scene, root).t;
     const Bounds everything = world_bounds(scene);
@@ -87,6 +105,15 @@ Bounds bounds_of_selection(PanelContext& c) {
 void frame(PanelContext& c, const Bounds& bounds) {
     if (bounds.empty) return;
     c.document.navigate(framed(c.scene().view, bounds, float(c.render_width) / float(std::max(c.render_height, 1))));
+}
+
+// Back to the camera, with the whole picture in sight.
+void go_home(PanelContext& c) {
+    c.ui.looked_through.reset();
+    c.ui.zoom = {};
+    const View view = home_view(c.scene(), c.ui.home);
+    if (view.lens != c.scene().view.lens && c.scene().nodes.contains(c.ui.home.camera)) c.apply(LookThrough{c.ui.home.camera});
+    c.document.navigate(view);
 }
 
 // Keeps what is at the pivot at its size.
@@ -130,7 +157,7 @@ void reset_white(PanelContext& c) {
 }
 
 void compare(PanelContext& c, Comparison::Mode mode) {
-    if (!c.ui.snapshots.toggle(mode)) c.ui.toasts.note("There is no snapshot to compare with", "Ctrl+S keeps the image on the screen.");
+    if (!c.ui.snapshots.toggle(mode)) c.ui.toasts.note("There is no snapshot to compare with", keys_of(shortcut(Command::snapshot_exr)) + " keeps the image on the screen.");
 }
 
 void toggle_denoise(PanelContext& c) {
@@ -138,8 +165,13 @@ void toggle_denoise(PanelContext& c) {
     c.ui.toasts.warn("The image cannot be denoised", c.denoiser_problem);
 }
 
-// Ends what was begun last: a tool, placing, looking through a light, a selection.
+// Closes what is on top, or ends what was begun last: a menu, the shortcut sheet, a tool, placing, looking through a light, a selection.
 void escape(PanelContext& c) {
+    if (close_top_popup()) return;
+    if (c.ui.show_shortcuts) {
+        c.ui.show_shortcuts = false;
+        return;
+    }
     if (c.ui.tool != ViewTool::none) {
         c.ui.tool = ViewTool::none;
         return c.ui.tool_start.reset();
@@ -161,8 +193,7 @@ void escape(PanelContext& c) {
 bool run_command(Command command, PanelContext& c) {
     switch (command) {
     case Command::undo: c.document.undo(); return true;
-    case Command::redo:
-    case Command::redo_again: c.document.redo(); return true;
+    case Command::redo: c.document.redo(); return true;
     case Command::duplicate: duplicate(c); return true;
     case Command::remove: remove(c); return true;
     case Command::rename: begin_rename(c); return true;
@@ -173,6 +204,7 @@ bool run_command(Command command, PanelContext& c) {
     case Command::add_rectangle: add_light(c, Light::Kind::rectangle); return true;
     case Command::add_disk: add_light(c, Light::Kind::disk); return true;
     case Command::add_sphere: add_light(c, Light::Kind::sphere); return true;
+    case Command::light_by_sky: light_by_sky(c); return true;
     case Command::mute: toggle_mute(c); return true;
     case Command::solo: toggle_solo(c); return true;
     case Command::group_lights: group_lights(c); return true;
@@ -182,8 +214,10 @@ bool run_command(Command command, PanelContext& c) {
     case Command::light_table: c.ui.light_table.open = !c.ui.light_table.open; return true;
     case Command::frame_selection: frame(c, bounds_of_selection(c)); return true;
     case Command::frame_all: frame(c, world_bounds(c.scene())); return true;
+    case Command::camera_view: go_home(c); return true;
     case Command::toggle_projection: toggle_projection(c); return true;
     case Command::toggle_overlays: c.ui.settings.overlays = !c.ui.settings.overlays; return true;
+    case Command::toggle_panels: c.ui.panels_hidden = !c.ui.panels_hidden; return true;
     case Command::toggle_zoom: c.ui.zoom = toggled(c.ui.zoom); return true;
     case Command::exposure_up: change_exposure(c, c.project().view.exposure_ev + 0.5f); return true;
     case Command::exposure_down: change_exposure(c, c.project().view.exposure_ev - 0.5f); return true;
@@ -226,6 +260,7 @@ bool run_command(Command command, PanelContext& c) {
     case Command::snapshot_png:
     case Command::snapshot_folder:
     case Command::load_convergence:
+    case Command::full_screen:
     case Command::quit: return false;
     }
     return false;

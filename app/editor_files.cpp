@@ -36,6 +36,8 @@ void report(UiState& ui, const std::filesystem::path& file, const ImportReport& 
         ui.toasts.note(text);
 }
 
+bool has_our_settings(const ImportedScene& imported) { return imported.has_view || imported.render || imported.view; }
+
 // The node of another scene that is called the same: ids do not outlive a reload, names mostly do.
 Id<Node> same_node(const Scene& before, Id<Node> id, const Scene& after) {
     const Node* old = before.nodes.find(id);
@@ -90,6 +92,7 @@ void EditorFiles::start_import(const std::filesystem::path& file, Purpose purpos
     if (file.empty()) return;
     purpose_ = purpose;
     keep_settings_ = options.keep_settings;
+    keep_view_ = options.keep_view;
     std::error_code error;
     importing_ = std::filesystem::absolute(file, error); // the recent list outlives the working directory
     preview_.reset();
@@ -141,10 +144,9 @@ void EditorFiles::load_ies(const std::filesystem::path& file, Document& document
 
 Project EditorFiles::opened_project(const Opened& opened, const Project& before) const {
     Project project{opened.scene, before.render, before.view};
-    if (purpose_ == Purpose::open && !keep_settings_) {
-        project.render = opened.imported.render.value_or(project.render);
-        project.view = opened.imported.view.value_or(project.view);
-    }
+    if (purpose_ != Purpose::open) return project;
+    if (!keep_settings_) project.render = opened.imported.render.value_or(project.render);
+    if (!keep_view_) project.view = opened.imported.view.value_or(project.view);
     return project;
 }
 
@@ -167,6 +169,7 @@ EditorFiles::Finished EditorFiles::finish_import(Document& document, UiState& ui
     imported_ = opened->imported.scene;
     origin_ = opened->imported.origin;
     origin_.file = importing_;
+    written_by_blush_ = has_our_settings(opened->imported);
     if (purpose_ == Purpose::reload) {
         project.scene.view = document.project().scene.view;
         ui.selected = same_node(document.project().scene, ui.selected, project.scene);
@@ -182,9 +185,11 @@ EditorFiles::Finished EditorFiles::finish_import(Document& document, UiState& ui
     ui.light_table.renaming = {};
     watch_.watch(scene_file_);
     document.reset(std::move(project));
+    if (purpose_ == Purpose::open) ui.home = home_at_opening(document.project().scene);
     if (purpose_ == Purpose::open) recall_scene(ui.settings, scene_file_.string(), document.project().scene, ui);
     if (opened->recovered) document.replace(*std::move(opened->recovered), "Recover unsaved edits");
-    return {.opened = true, .recovered = opened->recovered.has_value()};
+    const bool stored = purpose_ != Purpose::open || (opened->imported.view && !keep_view_) || opened->recovered;
+    return {.opened = true, .recovered = opened->recovered.has_value(), .stored_exposure = stored};
 }
 
 bool EditorFiles::finish_save(Document& document, UiState& ui, Result<SavedGltf> saved) {
@@ -196,6 +201,7 @@ bool EditorFiles::finish_save(Document& document, UiState& ui, Result<SavedGltf>
     std::error_code error;
     origin_ = std::move(saved->origin);
     imported_ = std::move(saved->scene);
+    written_by_blush_ = true;
     scene_file_ = std::filesystem::absolute(origin_.file, error);
     remember_recent(ui.settings.recent, scene_file_.string());
     watch_.watch(scene_file_);
@@ -225,6 +231,7 @@ void EditorFiles::finish_environment(Document& document, UiState& ui, Result<Ima
     e.image = *image;
     const auto done = document.apply(SetEnvironment{e});
     if (!done) return ui.toasts.fail(done.error().text());
+    ui.meter_exposure = true;
     ui.tab = InspectorTab::environment;
 }
 

@@ -39,7 +39,7 @@ private:
 struct OpenOptions {
     SceneOverrides overrides = {};
     float aspect = 1.6f;        // frames a scene without a camera
-    bool keep_settings = false; // rather than take those that were saved with the scene
+    bool keep_settings = false, keep_view = false; // rather than take those that were saved with the scene
 };
 
 class EditorFiles {
@@ -49,6 +49,8 @@ public:
     const std::filesystem::path& scene_file() const { return scene_file_; }
     const Scene& imported() const { return imported_; } // as it is in the file
     const GltfOrigin& origin() const { return origin_; }
+    // The scene file holds settings that Blush writes, or has been saved by this window.
+    bool written_by_blush() const { return written_by_blush_; }
 
     // Each starts a job and returns; a newer one of the same sort cancels the older.
     void open(const std::filesystem::path& file, const OpenOptions& options = {}) { start_import(file, Purpose::open, options); }
@@ -69,6 +71,7 @@ public:
     // loaded again, or, when there are edits to lose, a toast offers it.
     struct Finished {
         bool opened = false, recovered = false, saved = false;
+        bool stored_exposure = true; // what was opened says how it is exposed
     };
     Finished poll(Document& document, UiState& ui);
 
@@ -115,12 +118,13 @@ private:
     std::filesystem::path scene_file_;
     Scene imported_; // as it came from the file: what snapshots list the edits against
     GltfOrigin origin_;
+    bool written_by_blush_ = false;
     FileWatch watch_;
     std::chrono::steady_clock::time_point next_look_{};
 
     Purpose purpose_ = Purpose::open;
     std::filesystem::path importing_, environment_;
-    bool keep_settings_ = false;
+    bool keep_settings_ = false, keep_view_ = false;
     std::shared_ptr<EarlyScene> early_; // of the import that goes on
     std::optional<Document> preview_;
     Project saving_; // as it was when the save began

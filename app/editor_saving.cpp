@@ -1,5 +1,7 @@
 #include "app/editor_saving.h"
 
+#include "app/output_folder.h"
+
 #include <algorithm>
 #include <chrono>
 #include <ctime>
@@ -21,12 +23,6 @@ std::string time_text(std::filesystem::file_time_type time) {
     return fmt::format("{:%Y-%m-%d %H:%M:%S}", fmt::localtime(seconds));
 }
 
-bool is_in(const std::filesystem::path& file, const std::filesystem::path& folder) {
-    std::error_code error;
-    const auto f = std::filesystem::weakly_canonical(file, error), g = std::filesystem::weakly_canonical(folder, error);
-    return std::mismatch(g.begin(), g.end(), f.begin(), f.end()).first == g.end();
-}
-
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
     std::error_code missing;
     return std::filesystem::equivalent(a, b, missing);
@@ -40,17 +36,43 @@ EditorSaving::EditorSaving(EditorFiles& files, Document& document, UiState& ui, 
 
 void EditorSaving::save() {
     if (files_.saving() || files_.scene_file().empty()) return;
-    if (is_in(files_.scene_file(), assets_)) return ask_for_file();
+    if (is_below(files_.scene_file(), assets_)) return ask_for_file();
+    if (!files_.written_by_blush()) return ask_about_foreign_file();
     files_.save(files_.scene_file(), document_.project());
 }
 
-void EditorSaving::ask_for_file() {
+// NAME.blush.gltf beside NAME.gltf.
+std::filesystem::path EditorSaving::name_beside_original() const {
     const std::filesystem::path scene = files_.scene_file();
+    return scene.parent_path() / (scene.stem().string() + ".blush" + scene.extension().string());
+}
+
+void EditorSaving::ask_about_foreign_file() {
+    const std::filesystem::path own = name_beside_original();
+    const std::string name = files_.scene_file().filename().string();
+    ask({fmt::format("Save over {}?", name),
+         fmt::format("Blush did not write this file. A copy named {} leaves it as it is.", own.filename().string()),
+         {fmt::format("Save as {}", own.filename().string()), fmt::format("Overwrite {}", name), "Cancel"}},
+        [this, own](size_t choice) {
+            if (choice == 0) {
+                std::error_code unreadable;
+                if (std::filesystem::exists(own, unreadable)) return ask_for_file(own); // it is replaced there, or another name is typed
+                save_as(own);
+            } else if (choice == 1) {
+                save_as(files_.scene_file());
+            } else {
+                go_on_ = {};
+            }
+        });
+}
+
+void EditorSaving::ask_for_file(const std::filesystem::path& proposed) {
+    const std::filesystem::path scene = proposed.empty() ? files_.scene_file() : proposed;
     if (scene.empty()) return;
     std::error_code error;
     std::filesystem::path folder = scene.parent_path();
-    if (is_in(scene, assets_)) folder = ui_.settings.browser_folder;
-    if (!std::filesystem::is_directory(folder, error) || is_in(folder, assets_)) folder = std::filesystem::current_path(error);
+    if (is_below(scene, assets_)) folder = ui_.settings.browser_folder;
+    if (!std::filesystem::is_directory(folder, error) || is_below(folder, assets_)) folder = home_folder();
     ui_.browser = FileBrowser{FileRequest::Use::save_scene, folder, (folder / scene.filename()).string(), {}, true};
 }
 
@@ -95,7 +117,7 @@ void EditorSaving::poll(const EditorFiles::Finished& finished) {
     if (finished.opened) recovering_.reset();
     if (finished.saved && go_on_) std::exchange(go_on_, {})();
     // The save has failed, or no file was chosen for it.
-    if (go_on_ && !files_.saving() && !ui_.browser && ui_.files.empty()) go_on_ = {};
+    if (go_on_ && !files_.saving() && !ui_.browser && !ui_.question && ui_.files.empty()) go_on_ = {};
     if (const auto failed = autosave_.poll(document_, files_.imported(), files_.origin())) ui_.toasts.warn(failed->text());
 }
 

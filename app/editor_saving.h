@@ -14,9 +14,10 @@ public:
     // `assets`: scenes in there are shipped; saving them asks for another place. `interval`: of autosaves, in seconds; 0: the usual one.
     EditorSaving(EditorFiles& files, Document& document, UiState& ui, std::filesystem::path assets, double interval);
 
-    // To the scene's own file, or to one that the user is asked for.
+    // To the scene's own file, or to one that the user is asked for: before the first save over a file that Blush did not write.
     void save();
-    void ask_for_file();
+    // Opens the browser, with `proposed` as the name; empty: the scene's own.
+    void ask_for_file(const std::filesystem::path& proposed = {});
     // The browser's answer.
     void save_as(const std::filesystem::path& file);
     // `go_on` runs at once if everything is saved, else when the user has saved or discarded; not at all if they cancel.
@@ -33,6 +34,8 @@ public:
 
 private:
     void ask(Question question, std::function<void(size_t)> answer);
+    void ask_about_foreign_file();
+    std::filesystem::path name_beside_original() const;
 
     EditorFiles& files_;
     Document& document_;

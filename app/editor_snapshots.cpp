@@ -2,6 +2,7 @@
 
 #include "app/commands/common.h"
 #include "app/guarded.h"
+#include "app/output_folder.h"
 
 #include <algorithm>
 #include <ctime>
@@ -66,7 +67,7 @@ void EditorSnapshots::finish_keeping(UiState& ui, RenderSession& session) {
 
 void EditorSnapshots::write(const SnapshotPtr& snapshot, const UiState& ui, Why why) {
     const WindowSettings& w = ui.settings;
-    SnapshotJob job{*snapshot, {}, w.snapshot_folder, {}, {}, w.snapshot_half, w.snapshot_film};
+    SnapshotJob job{*snapshot, {}, output_folder(w.snapshot_folder, snapshot->scene_file, assets_), {}, {}, w.snapshot_half, w.snapshot_film};
     if (why == Why::renamed) {
         job.file = snapshot->file;
         job.film = snapshot->film_in_file;
@@ -77,7 +78,7 @@ void EditorSnapshots::write(const SnapshotPtr& snapshot, const UiState& ui, Why 
 }
 
 void EditorSnapshots::save_png(const Shown& shown, const ColorManagement& color, const UiState& ui) {
-    const SnapshotJob job{snapshot_of(shown), shown.view, ui.settings.snapshot_folder};
+    const SnapshotJob job{snapshot_of(shown), shown.view, output_folder(ui.settings.snapshot_folder, shown.scene_file, assets_)};
     to_write_.push_back({0, false, [job, &color] { return write_snapshot_png(job, color); }});
 }
 

@@ -20,8 +20,9 @@ namespace blush {
 class EditorSnapshots {
 public:
     // `before_leaving`: runs what it is given when no edits of the open scene are lost by it, or never.
-    EditorSnapshots(std::function<void()> wake, std::function<void(std::function<void()>)> before_leaving)
-        : wake_(wake), before_leaving_(std::move(before_leaving)), store_(std::move(wake)) {}
+    // `assets`: the folder of shipped scenes, beside which nothing is written.
+    EditorSnapshots(std::function<void()> wake, std::filesystem::path assets, std::function<void(std::function<void()>)> before_leaving)
+        : wake_(wake), assets_(std::move(assets)), before_leaving_(std::move(before_leaving)), store_(std::move(wake)) {}
 
     // All that makes the image on the screen, when it is one of full resolution.
     struct Shown {
@@ -76,6 +77,7 @@ private:
     void go_back(const Snapshot& snapshot, Document& document, UiState& ui);
 
     std::function<void()> wake_;
+    std::filesystem::path assets_;
     std::function<void(std::function<void()>)> before_leaving_;
     SnapshotStore store_;
     std::optional<Shown> keeping_;

@@ -4,9 +4,8 @@
 
 namespace blush {
 
-Result<std::filesystem::path> free_name(const std::filesystem::path& wanted, const std::string& stem, const std::string& extension) {
+Result<std::filesystem::path> free_name(const std::filesystem::path& folder, const std::string& stem, const std::string& extension) {
     std::error_code error;
-    const std::filesystem::path folder = wanted.empty() ? std::filesystem::current_path(error) : wanted;
     std::filesystem::create_directories(folder, error);
     if (error) return Error{folder.string(), "cannot make the folder: " + error.message(), ""};
     for (int number = 1; number < 100000; ++number) {

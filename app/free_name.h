@@ -8,8 +8,8 @@
 
 namespace blush {
 
-// FOLDER/STEM-0001EXTENSION with the first number that is free; the folder is made if it is not there, and empty means the working
-// directory. Errors: the folder cannot be made, is full.
+// FOLDER/STEM-0001EXTENSION with the first number that is free; the folder is made if it is not there.
+// Errors: the folder cannot be made, is full.
 Result<std::filesystem::path> free_name(const std::filesystem::path& folder, const std::string& stem, const std::string& extension);
 
 } // namespace blush

@@ -51,6 +51,16 @@ const Light* light_of(PanelContext& c, Id<Node> id) {
 
 } // namespace
 
+void light_by_sky(PanelContext& c) {
+    Environment sky = c.scene().environment;
+    sky.kind = Environment::Kind::sky;
+    sky.intensity = 1;
+    sky.color = {1, 1, 1};
+    sky.lights_scene = true;
+    const Edit edit = SetEnvironment{sky};
+    if (c.apply({&edit, 1}, "Light by a sky")) c.ui.meter_exposure = true;
+}
+
 void toggle_mute(PanelContext& c) {
     const auto rows = selected_rows(c);
     const bool some_on = std::ranges::any_of(rows, &LightRow::on);

@@ -1,9 +1,12 @@
-// What the window's commands do to the selected lights.
+// What the window's commands do to lights, mostly to the selected ones.
 #pragma once
 
 #include "ui/panels/context.h"
 
 namespace blush {
+
+// Replaces the environment by a clear sky, and meters the exposure for it.
+void light_by_sky(PanelContext& c);
 
 // Off if any of them is on, else on.
 void toggle_mute(PanelContext& c);

@@ -24,6 +24,7 @@ struct EditorCommand {
     std::string scene;
     RenderOptions options;
     CommonOptions common;
+    bool exposure_given = false;
 };
 
 int edit(const EditorCommand& c) {
@@ -31,7 +32,9 @@ int edit(const EditorCommand& c) {
     if (!settings) return bad_usage(settings.error().text());
     EditorOptions editor;
     editor.assets = assets_dir();
-    editor.settings_given = *settings != *settings_of(RenderOptions{}) || c.options.view != ViewSettings{};
+    editor.settings_given = *settings != *settings_of(RenderOptions{});
+    editor.view_given = c.exposure_given || c.options.view != ViewSettings{};
+    editor.exposure_given = c.exposure_given;
     editor.weights = weights_dir();
     editor.scene = c.scene;
     editor.render = *settings;
@@ -51,7 +54,10 @@ void add_editor(CLI::App& app, std::function<int()>& run) {
     app.add_option("scene", command->scene, "Scene to open in the editor (.gltf, .glb) [card-and-mug]")->type_name("SCENE");
     add_render_options(app, command->options);
     add_common_options(app, command->common);
-    run = [command] { return edit(*command); };
+    run = [command, &app] {
+        command->exposure_given = app.count("--exposure") + app.count("--auto-exposure") > 0;
+        return edit(*command);
+    };
 }
 
 int run_command_line(int argc, char** argv) {

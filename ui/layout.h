@@ -15,6 +15,8 @@ struct Splitters {
     bool operator==(const Splitters&) const = default;
 };
 
+constexpr Splitters no_side_panels{0, 0};
+
 struct Layout {
     Region outliner, viewport, inspector, status;
     Region time; // below the viewport; of no height if there is none

@@ -20,16 +20,15 @@ constexpr Shortcut table[] = {
     {Command::ies, "File", "IES file for the light...", in_menu_only},
     {Command::reload, "File", "Reload from disk", ctrl('R')},
     {Command::import_report, "File", "Import report", in_menu_only},
-    {Command::save_scene, "File", "Save scene", ctrl_shift('S')},
-    {Command::save_scene_as, "File", "Save scene as...", in_menu_only},
-    {Command::snapshot_exr, "File", "Keep snapshot", ctrl('S')},
+    {Command::save_scene, "File", "Save scene", ctrl('S')},
+    {Command::save_scene_as, "File", "Save scene as...", ctrl_shift('S')},
+    {Command::snapshot_exr, "File", "Take snapshot", plain(key::f1 + 11), ctrl(key::enter)},
     {Command::snapshot_png, "File", "Save snapshot (PNG)", ctrl_alt('S')},
     {Command::snapshot_folder, "File", "Snapshot folder...", in_menu_only},
     {Command::load_convergence, "File", "Load convergence table...", in_menu_only},
     {Command::quit, "File", "Quit", ctrl('Q')},
     {Command::undo, "Edit", "Undo", ctrl('Z')},
-    {Command::redo, "Edit", "Redo", ctrl_shift('Z')},
-    {Command::redo_again, "Edit", "Redo", ctrl('Y')},
+    {Command::redo, "Edit", "Redo", ctrl_shift('Z'), ctrl('Y')},
     {Command::duplicate, "Edit", "Duplicate", ctrl('D')},
     {Command::remove, "Edit", "Delete", plain(key::remove)},
     {Command::rename, "Edit", "Rename", plain(key::f1 + 1)},
@@ -41,6 +40,7 @@ constexpr Shortcut table[] = {
     {Command::add_rectangle, "Add light", "Rectangle", shift('A')},
     {Command::add_disk, "Add light", "Disk", in_menu_only},
     {Command::add_sphere, "Add light", "Sphere", in_menu_only},
+    {Command::light_by_sky, "Lights", "Light by a sky", in_menu_only},
     {Command::mute, "Lights", "Mute", shift('M')},
     {Command::solo, "Lights", "Solo", plain('O')},
     {Command::group_lights, "Lights", "Group", ctrl('G')},
@@ -49,9 +49,12 @@ constexpr Shortcut table[] = {
     {Command::look_through_light, "Lights", "Look through", plain('L')},
     {Command::light_table, "Lights", "Light table", ctrl('L')},
     {Command::frame_selection, "View", "Frame selection", plain('F')},
-    {Command::frame_all, "View", "Frame all", plain(key::home)},
+    {Command::frame_all, "View", "Frame all", shift('F')},
+    {Command::camera_view, "View", "Camera's view", plain(key::zero), plain(key::home)},
     {Command::toggle_projection, "View", "Perspective / orthographic", plain('P')},
     {Command::toggle_overlays, "View", "Overlays", plain('H')},
+    {Command::toggle_panels, "View", "Hide the panels", plain(key::tab)},
+    {Command::full_screen, "View", "Full screen", plain(key::f1 + 10)},
     {Command::render_region, "View", "Render a region alone", plain('B')},
     {Command::render_all, "View", "Render the whole picture", shift('B')},
     {Command::pause, "View", "Pause rendering", plain(key::space)},
@@ -68,7 +71,7 @@ constexpr Shortcut table[] = {
     {Command::toggle_zoom, "Look", "Zoom 1:1", plain('Z')},
     {Command::exposure_up, "Look", "Brighter by 1/2 EV", plain(']')},
     {Command::exposure_down, "Look", "Darker by 1/2 EV", plain('[')},
-    {Command::exposure_reset, "Look", "Exposure 0", plain(key::zero)},
+    {Command::exposure_reset, "Look", "Exposure 0", shift(key::zero)},
     {Command::exposure_meter, "Look", "Meter the exposure", plain('X')},
     {Command::exposure_auto, "Look", "Auto exposure", shift('X')},
     {Command::pick_white, "Look", "Pick white", plain('I')},
@@ -113,7 +116,7 @@ const Shortcut& shortcut(Command command) {
 
 const Shortcut* find_shortcut(const KeyPress& press) {
     if (press.key == key::none) return nullptr;
-    const auto it = std::ranges::find(table, press, &Shortcut::press);
+    const auto it = std::ranges::find_if(table, [&](const Shortcut& s) { return s.press == press || s.also == press; });
     return it == std::end(table) ? nullptr : &*it;
 }
 
@@ -125,6 +128,8 @@ std::string to_string(const KeyPress& press) {
     if (press.alt) text += "Alt+";
     switch (press.key) {
     case key::space: return text + "Space";
+    case key::enter: return text + "Enter";
+    case key::tab: return text + "Tab";
     case key::escape: return text + "Esc";
     case key::remove: return text + "Del";
     case key::home: return text + "Home";
@@ -132,6 +137,11 @@ std::string to_string(const KeyPress& press) {
     }
     if (press.key >= key::f1) return text + "F" + std::to_string(press.key - key::f1 + 1);
     return text + char(press.key);
+}
+
+std::string keys_of(const Shortcut& shortcut) {
+    const std::string first = to_string(shortcut.press), second = to_string(shortcut.also);
+    return second.empty() ? first : first + " or " + second;
 }
 
 std::span<const MouseHint> mouse_hints() { return hints; }

@@ -8,7 +8,7 @@ namespace blush {
 
 // Key codes as GLFW gives them; letters are their ASCII capitals.
 namespace key {
-constexpr int none = 0, space = 32, zero = 48, escape = 256, enter = 257, remove = 261, home = 268, f1 = 290;
+constexpr int none = 0, space = 32, zero = 48, escape = 256, enter = 257, tab = 258, remove = 261, home = 268, f1 = 290;
 }
 
 struct KeyPress {
@@ -37,7 +37,6 @@ enum class Command {
     quit,
     undo,
     redo,
-    redo_again,
     duplicate,
     remove,
     rename,
@@ -47,6 +46,7 @@ enum class Command {
     add_rectangle,
     add_disk,
     add_sphere,
+    light_by_sky,
     mute,
     solo,
     group_lights,
@@ -56,8 +56,11 @@ enum class Command {
     light_table,
     frame_selection,
     frame_all,
+    camera_view,
     toggle_projection,
     toggle_overlays,
+    toggle_panels,
+    full_screen,
     toggle_zoom,
     exposure_up,
     exposure_down,
@@ -87,8 +90,9 @@ enum class Command {
 struct Shortcut {
     Command command;
     const char* group;
-    const char* name; // as in the menu; commands with a second key are listed once
-    KeyPress press;   // key::none: in the menu only
+    const char* name;   // as in the menu
+    KeyPress press;     // key::none: in the menu only
+    KeyPress also = {}; // a second key for the same command
 };
 
 std::span<const Shortcut> shortcuts();
@@ -97,6 +101,8 @@ const Shortcut& shortcut(Command command);
 const Shortcut* find_shortcut(const KeyPress& press);
 // "Ctrl+Shift+Z"; empty without a key.
 std::string to_string(const KeyPress& press);
+// Both keys of a command: "F12 or Ctrl+Enter".
+std::string keys_of(const Shortcut& shortcut);
 
 // What the mouse does in the viewport, for the sheet.
 struct MouseHint {

@@ -7,8 +7,10 @@
 #include "ui/denoise_view.h"
 #include "ui/gestures.h"
 #include "ui/health_view.h"
+#include "ui/home_view.h"
 #include "ui/import_report_view.h"
 #include "ui/light_mix_view.h"
+#include "ui/light_presence.h"
 #include "ui/meters_view.h"
 #include "ui/picture_zoom.h"
 #include "ui/probe.h"
@@ -94,6 +96,11 @@ struct LightTableView {
     bool just_begun = false;
 };
 
+// A place in the picture, (0, 0) top left.
+struct PicturePoint {
+    double u = 0, v = 0;
+};
+
 struct UiState {
     Id<Node> selected;                   // what handles and inspector are for
     std::vector<Id<Node>> also_selected; // edited together with it
@@ -105,6 +112,7 @@ struct UiState {
     std::string rename_text;
 
     PictureZoom zoom;
+    std::optional<PicturePoint> cursor; // while it is over the picture and nothing lies between
     ViewTool tool = ViewTool::none;
     std::optional<ToolStart> tool_start; // while it drags
     DenoiseView denoise; // a way of looking, not of rendering: apart from the document and its history
@@ -114,6 +122,8 @@ struct UiState {
     std::optional<LookedThrough> looked_through;
     LightTableView light_table;
     bool show_shortcuts = false;
+    bool panels_hidden = false; // all but menu, picture and status bar
+    HomeView home;              // where `Camera's view` goes back to
     bool show_history = false;
     LightMixView light_mix;
     BouncesView bounces;
@@ -130,6 +140,7 @@ struct UiState {
     std::optional<Question> question; // asked by the editor, which also hears the answer
     std::optional<PixelProbe> pixel;
     EulerFields euler;
+    LightPresence light_presence;
     TimeView time;
 
     WindowSettings settings; // remembered between starts
@@ -140,6 +151,7 @@ struct UiState {
     // Done by the editor after the panels are drawn.
     std::vector<Command> commands;
     std::vector<FileRequest> files;
+    bool meter_exposure = false; // once, of the picture that answers the last edit: its surroundings are other ones
 
     // What the viewport shows instead of the picture, if some panel asks for it.
     PictureView picture_view(int bounce_planes) const {

@@ -300,6 +300,9 @@ ImageRect Viewport::draw(PanelContext& c, const FramePace& pace) {
     ImGui::InvisibleButton("picture", ImGui::GetWindowSize(),
                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
     const bool hovered = ImGui::IsItemHovered();
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    c.ui.cursor.reset();
+    if (hovered && image.contains(mouse.x, mouse.y)) c.ui.cursor = PicturePoint{image.u(mouse.x), image.v(mouse.y)};
     if (!c.frame) shown_frame_ = uploaded_frame_ = nullptr; // there is nothing to be seen any more
     if (!shown_frame_) {
         using State = SessionStatus::State;

@@ -14,8 +14,8 @@
 namespace blush {
 namespace {
 
-static_assert(key::space == GLFW_KEY_SPACE && key::zero == GLFW_KEY_0 && key::escape == GLFW_KEY_ESCAPE && key::remove == GLFW_KEY_DELETE &&
-              key::home == GLFW_KEY_HOME && key::f1 == GLFW_KEY_F1);
+static_assert(key::space == GLFW_KEY_SPACE && key::zero == GLFW_KEY_0 && key::escape == GLFW_KEY_ESCAPE && key::enter == GLFW_KEY_ENTER && key::tab == GLFW_KEY_TAB &&
+              key::remove == GLFW_KEY_DELETE && key::home == GLFW_KEY_HOME && key::f1 == GLFW_KEY_F1);
 
 constexpr int frames_after_input = 3;
 
@@ -23,6 +23,28 @@ std::atomic<bool> woken = false;
 std::string glfw_error; // GLFW reports on the thread that calls it: ours
 
 Window& owner(GLFWwindow* window) { return *static_cast<Window*>(glfwGetWindowUserPointer(window)); }
+
+// The monitor that shows most of the window; null: there is none.
+GLFWmonitor* monitor_of(GLFWwindow* window) {
+    int x = 0, y = 0, width = 0, height = 0, count = 0;
+    glfwGetWindowPos(window, &x, &y);
+    glfwGetWindowSize(window, &width, &height);
+    GLFWmonitor* const* const monitors = glfwGetMonitors(&count);
+    GLFWmonitor* best = glfwGetPrimaryMonitor();
+    int64_t largest = 0;
+    for (int i = 0; i < count; ++i) {
+        int left = 0, top = 0;
+        glfwGetMonitorPos(monitors[i], &left, &top);
+        const GLFWvidmode* const mode = glfwGetVideoMode(monitors[i]);
+        if (!mode) continue;
+        const int64_t across = std::max(0, std::min(x + width, left + mode->width) - std::max(x, left));
+        const int64_t down = std::max(0, std::min(y + height, top + mode->height) - std::max(y, top));
+        if (across * down <= largest) continue;
+        largest = across * down;
+        best = monitors[i];
+    }
+    return best;
+}
 
 } // namespace
 
@@ -138,6 +160,19 @@ void Window::request_close() { glfwSetWindowShouldClose(window_, GLFW_TRUE); }
 void Window::cancel_close() { glfwSetWindowShouldClose(window_, GLFW_FALSE); }
 void Window::set_title(const std::string& title) { glfwSetWindowTitle(window_, title.c_str()); }
 bool Window::maximized() const { return glfwGetWindowAttrib(window_, GLFW_MAXIMIZED); }
+
+bool Window::full_screen() const { return glfwGetWindowMonitor(window_) != nullptr; }
+
+void Window::toggle_full_screen() {
+    request_frames(frames_after_input);
+    if (full_screen()) return glfwSetWindowMonitor(window_, nullptr, windowed_x_, windowed_y_, windowed_.width, windowed_.height, GLFW_DONT_CARE);
+    GLFWmonitor* const monitor = monitor_of(window_);
+    const GLFWvidmode* const mode = monitor ? glfwGetVideoMode(monitor) : nullptr;
+    if (!mode) return;
+    windowed_ = size();
+    glfwGetWindowPos(window_, &windowed_x_, &windowed_y_);
+    glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+}
 
 Window::Size Window::size() const {
     Size s{};

@@ -51,6 +51,9 @@ public:
     };
     Size size() const; // screen coordinates
     bool maximized() const;
+    // On the monitor that most of the window is on; back to the size and place before.
+    void toggle_full_screen();
+    bool full_screen() const;
 
     // What was pressed and dropped since the last call, in order. A key that was pressed and released between two frames counts.
     std::vector<KeyPress> take_key_presses() { return std::exchange(key_presses_, {}); }
@@ -63,6 +66,8 @@ private:
 
     GLFWwindow* window_ = nullptr;
     bool imgui_ = false;
+    Size windowed_{};                  // before it filled the screen
+    int windowed_x_ = 0, windowed_y_ = 0;
     float scale_ = 1; // fonts and spacing are this many times their size at 96 dpi
     int frames_due_ = 3;
     std::vector<KeyPress> key_presses_;

@@ -19,8 +19,11 @@ using namespace std::chrono_literals;
 
 TEST(Shortcuts, NoKeyMeansTwoThings) {
     for (const Shortcut& a : shortcuts()) {
-        if (a.press.key == key::none) continue;
-        EXPECT_EQ(std::ranges::count(shortcuts(), a.press, &Shortcut::press), 1) << a.name;
+        for (const KeyPress& press : {a.press, a.also}) {
+            if (press.key == key::none) continue;
+            EXPECT_EQ(std::ranges::count(shortcuts(), press, &Shortcut::press) + std::ranges::count(shortcuts(), press, &Shortcut::also), 1)
+                << to_string(press);
+        }
     }
 }
 
@@ -33,6 +36,10 @@ TEST(Shortcuts, AreFoundByTheirKeysAndNoOthers) {
     ASSERT_TRUE(undo);
     EXPECT_EQ(undo->command, Command::undo);
     EXPECT_EQ(find_shortcut({'Z', true, true, false})->command, Command::redo);
+    EXPECT_EQ(find_shortcut({'Y', true, false, false})->command, Command::redo);
+    EXPECT_EQ(find_shortcut({'S', true, false, false})->command, Command::save_scene);
+    EXPECT_EQ(find_shortcut({'S', true, true, false})->command, Command::save_scene_as);
+    EXPECT_EQ(find_shortcut({key::enter, true, false, false})->command, Command::snapshot_exr);
     EXPECT_EQ(find_shortcut({'Y', false, false, false}), nullptr);
     EXPECT_EQ(find_shortcut({}), nullptr);
 }
@@ -42,6 +49,8 @@ TEST(Shortcuts, ReadAsPeopleWriteThem) {
     EXPECT_EQ(to_string({key::f1, false, false, false}), "F1");
     EXPECT_EQ(to_string({key::remove, false, false, false}), "Del");
     EXPECT_EQ(to_string(KeyPress{}), "");
+    EXPECT_EQ(keys_of(shortcut(Command::snapshot_exr)), "F12 or Ctrl+Enter");
+    EXPECT_EQ(keys_of(shortcut(Command::full_screen)), "F11");
 }
 
 // What Fields does for a widget that is grabbed, dragged and let go.

@@ -6,7 +6,7 @@ assets=$2
 test_name=$(basename "$0")
 work=$(mktemp -d)
 probe=$work/probe.json
-export LIBGL_ALWAYS_SOFTWARE=1 XDG_CONFIG_HOME=$work/config XDG_STATE_HOME=$work/state BLUSH_ASSETS=$assets
+export LIBGL_ALWAYS_SOFTWARE=1 XDG_CONFIG_HOME=$work/config XDG_STATE_HOME=$work/state XDG_PICTURES_DIR=$work BLUSH_ASSETS=$assets
 export BLUSH_UI_PROBE=$probe BLUSH_UI_STATS=$work/stats.json BLUSH_UI_SIZE=900x560 BLUSH_UI_SCALE=1
 unset OCIO WAYLAND_DISPLAY
 size=320x240

@@ -20,15 +20,11 @@ void draw_scene_cameras(Fields& f, PanelContext& c) {
         names.push_back(fmt::format("{}##{}", node.name.empty() ? "Camera" : node.name, id.value));
         nodes.push_back(id);
     }
-    size_t current = 0;
-    for (size_t i = 1; i < nodes.size(); ++i) {
-        const View through = eye_of(c.scene(), nodes[i]);
-        if (through.position == c.scene().view.position && through.rotation == c.scene().view.rotation) current = i;
-    }
-    std::string name = names[current];
+    const auto current = std::ranges::find(nodes, camera_of_view(c.scene()));
+    std::string name = names[size_t(current - nodes.begin())];
     if (!f.choice("Look through", name, names, "Put the view where one of the scene's cameras is, with its lens.")) return;
     const auto at = size_t(std::ranges::find(names, name) - names.begin());
-    if (nodes[at]) c.apply(LookThrough{nodes[at]});
+    if (nodes[at] && c.apply(LookThrough{nodes[at]})) c.ui.home.camera = nodes[at];
 }
 
 void draw_projection(Fields& f, Lens& lens) {

@@ -91,6 +91,7 @@ void draw_environment_panel(PanelContext& c) {
             c.ui.commands.push_back(Command::environment);
         else
             e.kind = Environment::Kind(kind);
+        c.ui.meter_exposure |= e.kind != c.scene().environment.kind && (e.kind == Environment::Kind::image || e.kind == Environment::Kind::sky);
     }
     if (e.kind == Environment::Kind::image) draw_image(f, c, e);
     if (e.kind == Environment::Kind::sky) draw_sky(f, e.sky);

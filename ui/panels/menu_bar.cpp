@@ -68,6 +68,7 @@ void draw_lights_menu(PanelContext& c) {
                                       Command::add_sphere}) item(c, command);
         ImGui::EndMenu();
     }
+    item(c, Command::light_by_sky);
     ImGui::Separator();
     const Node* node = c.scene().nodes.find(c.ui.selected);
     const bool light = node && c.scene().lights.contains(node->light);
@@ -85,9 +86,12 @@ void draw_lights_menu(PanelContext& c) {
 void draw_view_menu(PanelContext& c) {
     item(c, Command::frame_selection, c.scene().nodes.contains(c.ui.selected));
     item(c, Command::frame_all);
+    item(c, Command::camera_view);
     item(c, Command::toggle_projection, true, nullptr, c.scene().view.lens.orthographic);
     item(c, Command::toggle_overlays, true, nullptr, c.ui.settings.overlays);
     item(c, Command::toggle_zoom, true, nullptr, c.ui.zoom.scale > 0);
+    item(c, Command::toggle_panels, true, nullptr, c.ui.panels_hidden);
+    item(c, Command::full_screen);
     ImGui::Separator();
     item(c, Command::exposure_up);
     item(c, Command::exposure_down);

@@ -48,6 +48,8 @@ void draw_roulette_panel(PanelContext& c);
 void draw_light_table(PanelContext& c);
 void draw_convergence_panel(PanelContext& c);
 void draw_question(PanelContext& c);
+// Over the middle of the picture, while the scene has no light at all.
+void draw_no_light_banner(PanelContext& c, const Region& picture);
 
 // A job that goes on in the background.
 struct RunningJob {

@@ -22,14 +22,12 @@ void line(const char* what, const char* how, float column) {
     ImGui::TextUnformatted(how);
 }
 
-// The commands of one group that have a key; a second key for the same command stands beside the first.
+// The commands of one group that have a key.
 void draw_group(const char* group, float column) {
     heading(group);
     for (const Shortcut& s : shortcuts()) {
-        if (std::strcmp(s.group, group) != 0 || s.press.key == key::none || s.command == Command::redo_again) continue;
-        std::string keys = to_string(s.press);
-        if (s.command == Command::redo) keys += " or " + to_string(shortcut(Command::redo_again).press);
-        line(s.name, keys.c_str(), column);
+        if (std::strcmp(s.group, group) != 0 || s.press.key == key::none) continue;
+        line(s.name, keys_of(s).c_str(), column);
     }
 }
 
