@@ -1,0 +1,12 @@
+// A floor to stand a model on.
+#pragma once
+
+#include "scene/scene.h"
+
+namespace blush {
+
+// A scene of one node with a large matte grey square: level, just below the lowest point of `box` (world metres) and centred under it, ten times
+// its radius to each side. To be merged with Import.
+Scene ground_plane_under(const Bounds& box);
+
+} // namespace blush
