@@ -44,9 +44,9 @@ void EditorConvergence::submit(ConvergenceView& view, const Submission& s, const
         else if (changes.affects_image())
             begin(view, name, s.revision, scene, s.settings);
         else if (!planes_.covers(s.planes))
-            begin(view, "other film planes", s.revision, scene, s.settings);
+            begin(view, "Other layers", s.revision, scene, s.settings);
         else if (changes.stop_rules)
-            view.runs.mark("stop rules");
+            view.runs.mark("Stop rules");
     }
     scene_ = scene;
     settings_ = s.settings;

@@ -22,15 +22,15 @@ std::string settings_difference(const RenderSettings& before, const RenderSettin
         if (differs) text += fmt::format("{}{}", text.empty() ? "" : ", ", what);
     };
     const auto on_off = [](const char* name, bool on) { return fmt::format("{} {}", name, on ? "on" : "off"); };
-    add(before.max_bounces != after.max_bounces, "bounces " + max_bounces_text(after.max_bounces));
-    add(before.roulette != after.roulette, "roulette " + to_string(after.roulette));
-    add(before.strategy != after.strategy, fmt::format("strategy {}", to_string(after.strategy)));
-    add(before.filter != after.filter, fmt::format("filter {}", to_string(after.filter)));
-    add(before.adaptive != after.adaptive, on_off("adaptive", after.adaptive));
-    add(before.reuse != after.reuse, fmt::format("reuse {}", reuse_text(after.reuse)));
-    add(before.clamp != after.clamp, "clamp " + to_string(after.clamp));
-    add(before.energy_compensation != after.energy_compensation, on_off("multiscatter", after.energy_compensation));
-    add(before.seed != after.seed, fmt::format("seed {}", after.seed));
+    add(before.max_bounces != after.max_bounces, "Bounces " + max_bounces_text(after.max_bounces));
+    add(before.roulette != after.roulette, "Roulette " + to_string(after.roulette));
+    add(before.strategy != after.strategy, fmt::format("Strategy {}", to_string(after.strategy)));
+    add(before.filter != after.filter, fmt::format("Filter {}", to_string(after.filter)));
+    add(before.adaptive != after.adaptive, on_off("Adaptive sampling", after.adaptive));
+    add(before.reuse != after.reuse, fmt::format("Path reuse {}", reuse_text(after.reuse)));
+    add(before.clamp != after.clamp, "Clamp " + to_string(after.clamp));
+    add(before.energy_compensation != after.energy_compensation, on_off("Energy compensation", after.energy_compensation));
+    add(before.seed != after.seed, fmt::format("Seed {}", after.seed));
     return text;
 }
 
@@ -39,10 +39,10 @@ std::string run_name(const Submitted& before, const Submitted& after, const Docu
     if (changes.integrator) {
         if (std::string text = settings_difference(before.settings, after.settings); !text.empty()) return text;
     }
-    if (changes.resolution) return fmt::format("{} × {}", after.settings.width, after.settings.height);
-    if (is_navigation(before.scene, after.scene, changes)) return "view";
+    if (changes.resolution) return fmt::format("Size {} × {}", after.settings.width, after.settings.height);
+    if (is_navigation(before.scene, after.scene, changes)) return "Camera moved";
     const std::string step = undone ? document.redo_label() : document.undo_label();
-    if (step.empty()) return "edit";
+    if (step.empty()) return "Edit";
     return undone ? "Undo: " + step : step;
 }
 

@@ -8,7 +8,7 @@
 
 namespace blush {
 
-// The settings in which the second differs from the first, as they are given on the command line: "reuse 8, adaptive on". Empty if it is
+// The settings in which the second differs from the first: "Path reuse 8, Adaptive sampling on". Empty if it is
 // only stop rules and sizes.
 std::string settings_difference(const RenderSettings& before, const RenderSettings& after);
 

@@ -7,6 +7,7 @@ namespace blush {
 
 struct LightMixView {
     bool open = false;
+    bool stays_off = false; // the user has turned grouping off in this scene
     std::string unfolded; // the group whose colour is shown
 };
 

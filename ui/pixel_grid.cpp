@@ -33,7 +33,7 @@ void draw_values(ImDrawList& draw, const ImVec2& at, float height, const float* 
 
 void draw_pixel_grid(ImDrawList& draw, const ImageRect& image, const Region& region, const Frame& frame) {
     const float width = image.width / float(frame.width), height = image.height / float(frame.height);
-    if (width < room_for_lines) return;
+    if (width < room_for_lines || frame.divider > 1) return; // the pixels of a coarse preview are not those of the picture
     const Span columns = seen(image.x, width, frame.width, region.x, region.width),
                rows = seen(image.y, height, frame.height, region.y, region.height);
     const float top = std::max(image.y, region.y), bottom = std::min(image.y + image.height, region.y + region.height);

@@ -14,6 +14,8 @@ template <class Ui, class V> void visit_panels(Ui& ui, const V& visit) {
     visit("tab", ui.tab, InspectorTab::selection, InspectorTab::display);
     visit("denoise", ui.denoise.show, DenoiseView::Show::raw, DenoiseView::Show::difference);
     visit("denoise.blend", ui.denoise.blend, 0.f, 1.f);
+    visit("exposure.f_number", ui.triangle.f_number, 0.1f, 1000.f);
+    visit("exposure.iso", ui.triangle.iso, 1.f, 1e7f);
     visit("history", ui.show_history, false, true);
     visit("light_table", ui.light_table.open, false, true);
     visit("light_mix", ui.light_mix.open, false, true);
@@ -84,6 +86,7 @@ void recall_scene(const WindowSettings& settings, const std::string& file, const
     ui.selected_material = {};
     ui.turned.clear();
     ui.light_mix.unfolded.clear();
+    ui.light_mix.stays_off = false;
     const auto found = std::ranges::find(settings.scenes, file, &SceneMemory::file);
     if (found == settings.scenes.end()) return;
     if (found->zoom > 0)

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <imgui_internal.h> // for how long the mouse has rested on an item, and arrows
+#include <imgui_internal.h> // for arrows
 #include <imgui_stdlib.h>
 
 namespace blush {
@@ -308,22 +308,43 @@ bool section(UiState& ui, const char* name, bool open_at_first) {
     return open;
 }
 
+namespace {
+
+// Beside the window of the widget, where there is room, else above or below the widget: never over the row below it.
+ImVec2 place_tip(const ImVec2& low, const ImVec2& high, const ImVec2& size) {
+    const ImVec2 screen = ImGui::GetIO().DisplaySize, at = ImGui::GetWindowPos();
+    const float gap = ImGui::GetFontSize() / 3, left = at.x - gap - size.x, right = at.x + ImGui::GetWindowWidth() + gap;
+    const auto inside = [&](float y) { return std::clamp(y, 0.f, std::max(0.f, screen.y - size.y)); };
+    if (left >= 0) return {left, inside(low.y)};
+    if (right + size.x <= screen.x) return {right, inside(low.y)};
+    const float x = std::clamp(low.x, 0.f, std::max(0.f, screen.x - size.x)), above = low.y - gap - size.y;
+    return {x, above >= 0 ? above : high.y + gap};
+}
+
+} // namespace
+
 void tip_for_last_item(UiState& ui, const char* tip) {
-    if (!*tip || !ImGui::IsItemHovered() || ImGui::IsMouseDown(ImGuiMouseButton_Left)) return;
-    // Labels have no id and so no timer: they tell at once.
-    const ImGuiContext& g = *ImGui::GetCurrentContext();
-    const ImGuiID item = ImGui::GetItemID();
-    const double rested = item && g.HoveredId == item ? g.HoveredIdTimer : tip_delay;
+    if (!*tip || !ImGui::IsItemHovered() || ImGui::IsAnyMouseDown()) return;
+    const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+    const Region item{low.x, low.y, high.x - low.x, high.y - low.y};
+    const int frame = ImGui::GetFrameCount();
+    if (ui.tip.item != item || frame > ui.tip.frame + 1) ui.tip = {item, ImGui::GetTime(), frame};
+    ui.tip.frame = frame;
+    const double rested = ImGui::GetTime() - ui.tip.since;
     if (rested < tip_delay) {
         ui.next_frame_in = std::min(ui.next_frame_in, tip_delay - rested);
         return;
     }
+    const float wrap = ImGui::GetFontSize() * 24;
+    const ImVec2 text = ImGui::CalcTextSize(tip, nullptr, false, wrap), padding = ImGui::GetStyle().WindowPadding;
+    ImGui::SetNextWindowPos(place_tip(low, high, {text.x + 2 * padding.x, text.y + 2 * padding.y}));
     ImGui::BeginTooltip();
     // ImGui hides a new window for the one frame in which it measures it; over a mouse at rest nothing else asks for the next.
     if (ImGui::IsWindowAppearing()) ui.next_frame_in = 0;
-    ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24);
+    ImGui::PushTextWrapPos(wrap);
     ImGui::TextUnformatted(tip);
     ImGui::PopTextWrapPos();
+    ui.probe.record("Tooltip", {ImGui::GetWindowPos().x, ImGui::GetWindowPos().y, ImGui::GetWindowWidth(), ImGui::GetWindowHeight()});
     ImGui::EndTooltip();
 }
 

@@ -132,6 +132,8 @@ Changes diff(const Scene& before, const RenderSettings& before_settings, const S
     // The pivot is what orbiting turns about: no ray knows it.
     View view = before.view;
     view.pivot_distance = after.view.pivot_distance;
+    // Through a pinhole everything is in focus.
+    if (view.lens.aperture_radius == 0 && after.view.lens.aperture_radius == 0) view.lens.focus_distance = after.view.lens.focus_distance;
     changes.view = view != after.view;
     diff_settings(before_settings, after_settings, changes);
     diff_environment(before.environment, after.environment, changes);

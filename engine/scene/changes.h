@@ -9,7 +9,7 @@
 namespace blush {
 
 struct Changes {
-    bool view = false;        // pose or lens; the pivot is not seen
+    bool view = false;        // pose or lens; neither the pivot nor the focus of a pinhole is seen
     bool resolution = false;
     bool integrator = false;  // bounces, roulette, strategy, filter, seed, first sample, energy compensation
     bool aiming = false;      // lights are sampled now and were not, or the other way round: Strategy::bsdf

@@ -15,4 +15,12 @@ constexpr float min_kelvin = 1000, max_kelvin = 40000;
 // below towards magenta; -0.05 .. 0.05 is what can still be called white.
 Vec3 black_body_color(float kelvin, float green_tint = 0);
 
+// The temperature of the black body whose colour is nearest in CIE 1960 uv (correlated colour temperature, CIE 15:2004), and the distance from
+// it as black_body_color takes it. Temperatures beyond 1000 .. 40000 K end there. `rgb` is linear Rec.709; the answer is that of D65 where it is
+// no colour.
+struct ColorTemperature {
+    float kelvin = 6504, green_tint = 0.0032f;
+};
+ColorTemperature temperature_of(const Vec3& rgb);
+
 } // namespace blush

@@ -138,7 +138,7 @@ TEST_F(Convergence, AnotherImageIsAnotherRunAndOtherStopRulesAreAMark) {
     submit();
     std::vector<std::string> names;
     for (const ConvergenceRun& r : view.runs.all()) names.push_back(r.record.name);
-    EXPECT_EQ(names, (std::vector<std::string>{"cornell.gltf", "seed 9", "other film planes", "Change lens", "Undo: Change lens"}));
+    EXPECT_EQ(names, (std::vector<std::string>{"cornell.gltf", "Seed 9", "Other layers", "Change lens", "Undo: Change lens"}));
     submit("furnace.gltf");
     EXPECT_EQ(view.runs.all().size(), 1u) << "another scene has other errors";
 }
@@ -252,13 +252,13 @@ TEST(RunName, SaysWhatWasChanged) {
     after.reuse = 8;
     after.strategy = Strategy::light;
     after.width = 99;
-    EXPECT_EQ(name(sample.project.scene, after), "strategy light, reuse 8");
+    EXPECT_EQ(name(sample.project.scene, after), "Strategy light, Path reuse 8");
     after = before;
     after.width = 99;
-    EXPECT_EQ(name(sample.project.scene, after), "99 × 720");
+    EXPECT_EQ(name(sample.project.scene, after), "Size 99 × 720");
     Scene scene = sample.project.scene;
     scene.view.position.x += 1;
-    EXPECT_EQ(name(scene, before), "view");
+    EXPECT_EQ(name(scene, before), "Camera moved");
     ASSERT_TRUE(document.apply(SetLens{{.yfov_radians = 1}}));
     EXPECT_EQ(name(document.project().scene, before), "Change lens");
     document.undo();

@@ -76,5 +76,18 @@ TEST(BlackBody, ClampsWhatNoLampReaches) {
     EXPECT_EQ(black_body_color(1e9f), black_body_color(max_kelvin));
 }
 
+TEST(TemperatureOf, ComesBackFromTheColour) {
+    for (const float kelvin : {2000.f, 2856.f, 4000.f, 6504.f, 12000.f, 25000.f})
+        for (const float tint : {-0.01f, 0.f, 0.01f}) {
+            const ColorTemperature found = temperature_of(black_body_color(kelvin, tint));
+            EXPECT_NEAR(found.kelvin / kelvin, 1, 0.01) << kelvin << ' ' << tint;
+            EXPECT_NEAR(found.green_tint, tint, 2e-4) << kelvin << ' ' << tint;
+        }
+    const ColorTemperature white = temperature_of({1, 1, 1}); // D65: 6504 K, Duv 0.0032
+    EXPECT_NEAR(white.kelvin, 6504, 15);
+    EXPECT_NEAR(white.green_tint, 0.0032, 2e-4);
+    EXPECT_EQ(temperature_of({0, 0, 0}).kelvin, ColorTemperature{}.kelvin);
+}
+
 } // namespace
 } // namespace blush

@@ -1,9 +1,12 @@
 // Display: how the finished image is looked at. Nothing here restarts the render.
+#include "core/math.h"
 #include "core/text.h"
+#include "scene/color_temperature.h"
 #include "ui/panels/panels.h"
 #include "ui/picture_view.h"
 #include "ui/widgets.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -94,7 +97,36 @@ void draw_exposure_fields(PanelContext& c, Fields& f, ViewSettings& v) {
               .format = "%.2f"});
 }
 
+void draw_white_temperature(PanelContext& c, Fields& f, ViewSettings& v) {
+    WhiteFields& white = c.ui.white;
+    if (white.color != v.white) {
+        const ColorTemperature t = temperature_of(v.white);
+        white = {v.white, t.kelvin, t.green_tint};
+    }
+    bool changed = f.number("Temperature", white.kelvin,
+                            {.min = min_kelvin,
+                             .max = max_kelvin,
+                             .reset = ColorTemperature{}.kelvin,
+                             .unit = "K",
+                             .step = 10,
+                             .tip = "Of the light that is to look white: bulbs 2700 K, noon sun 5500 K, shade 8000 K. 6504 K leaves the picture as rendered.",
+                             .format = "%.0f"});
+    changed |= f.number("Green tint", white.green_tint,
+                        {.min = -0.05f,
+                         .max = 0.05f,
+                         .reset = ColorTemperature{}.green_tint,
+                         .step = 0.0002f,
+                         .tip = "Distance of that light from the colours of black bodies in CIE 1960 uv (Duv); 0.0032 is daylight's.",
+                         .format = "%+.4f"});
+    if (!changed) return;
+    const ColorTemperature neutral;
+    const bool as_rendered = white.kelvin == neutral.kelvin && white.green_tint == neutral.green_tint;
+    const Vec3 color = black_body_color(white.kelvin, white.green_tint);
+    v.white = white.color = as_rendered ? Vec3{1, 1, 1} : Vec3{std::max(color.x, 0.f), std::max(color.y, 0.f), std::max(color.z, 0.f)};
+}
+
 void draw_white_fields(PanelContext& c, Fields& f, ViewSettings& v) {
+    draw_white_temperature(c, f, v);
     f.color("White", v.white, {1, 1, 1},
             "The colour that is shown as neutral, as eyes see it that have adapted to it. EXR files never change.");
     if (v.white.x + v.white.y + v.white.z <= 0) v.white = {1, 1, 1};

@@ -49,6 +49,7 @@ void draw_grouping(PanelContext& c) {
     if (f.choice("Groups", grouping, groupings,
                  "What shares a gain. By hand: lights that name the same group; glowing surfaces go by their material's name.")) {
         mix.grouping = LightMix::Grouping(grouping);
+        c.ui.light_mix.stays_off = mix.grouping == LightMix::Grouping::none;
         c.apply(SetMix{mix});
     }
 }
