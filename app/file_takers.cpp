@@ -2,6 +2,8 @@
 
 #include "ui/file_listing.h"
 
+#include <utility>
+
 namespace blush {
 
 void FileTakers::browse(FileRequest::Use use) {
@@ -9,7 +11,23 @@ void FileTakers::browse(FileRequest::Use use) {
     std::filesystem::path folder = use == FileRequest::Use::snapshot_folder ? ui.settings.snapshot_folder : ui.settings.browser_folder;
     if (!std::filesystem::is_directory(folder, error)) folder = files.scene_file().parent_path();
     if (!std::filesystem::is_directory(folder, error)) folder = std::filesystem::current_path(error);
-    ui.browser = FileBrowser{use, std::filesystem::absolute(folder, error), {}, {}, true};
+    ui.browser = FileBrowser{use, std::filesystem::absolute(folder, error), {}, {}, true, files.scene_file().parent_path()};
+}
+
+bool FileTakers::browse_for(Command command) {
+    using Use = FileRequest::Use;
+    constexpr std::pair<Command, Use> asking[] = {{Command::open, Use::open},
+                                                  {Command::import_scene, Use::import_scene},
+                                                  {Command::environment, Use::environment},
+                                                  {Command::ies, Use::ies},
+                                                  {Command::snapshot_folder, Use::snapshot_folder},
+                                                  {Command::load_convergence, Use::convergence}};
+    for (const auto& [asked, use] : asking) {
+        if (command != asked) continue;
+        browse(use);
+        return true;
+    }
+    return false;
 }
 
 void FileTakers::take(const FileRequest& request) {

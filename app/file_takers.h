@@ -22,6 +22,8 @@ struct FileTakers {
 
     // Opens the browser in the folder where such files were last.
     void browse(FileRequest::Use use);
+    // The same for a command that asks for a file; false for any other.
+    bool browse_for(Command command);
     void take(const FileRequest& request);
     // By its extension; one that nobody takes is said.
     void take_dropped(const std::filesystem::path& file);

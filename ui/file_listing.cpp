@@ -23,11 +23,12 @@ bool matches(const ExtensionFilter& filter, const std::filesystem::path& file) {
     return std::ranges::find(filter, lower(file.extension().string())) != filter.end();
 }
 
-Result<std::vector<FileEntry>> list_folder(const std::filesystem::path& folder, const ExtensionFilter& filter) {
+Result<FolderListing> list_folder(const std::filesystem::path& folder, const ExtensionFilter& filter) {
     std::error_code error;
     std::filesystem::directory_iterator entries(folder, std::filesystem::directory_options::skip_permission_denied, error);
     if (error) return Error{folder.string(), "cannot read the folder: " + error.message(), ""};
-    std::vector<FileEntry> list;
+    FolderListing listing;
+    std::vector<FileEntry>& list = listing.entries;
     for (const std::filesystem::directory_iterator end; entries != end; entries.increment(error)) {
         if (error) break;
         FileEntry entry;
@@ -35,7 +36,11 @@ Result<std::vector<FileEntry>> list_folder(const std::filesystem::path& folder, 
         if (entry.name.starts_with('.')) continue;
         std::error_code unreadable; // a dangling link is neither a folder nor a file
         entry.folder = entries->is_directory(unreadable);
-        if (!entry.folder && !(entries->is_regular_file(unreadable) && matches(filter, entries->path()))) continue;
+        if (!entry.folder && !entries->is_regular_file(unreadable)) continue;
+        if (!entry.folder && !matches(filter, entries->path())) {
+            ++listing.left_out;
+            continue;
+        }
         if (!entry.folder) {
             const uintmax_t bytes = entries->file_size(unreadable);
             entry.bytes = unreadable ? 0 : bytes;
@@ -45,7 +50,26 @@ Result<std::vector<FileEntry>> list_folder(const std::filesystem::path& folder, 
     std::ranges::sort(list, [](const FileEntry& a, const FileEntry& b) {
         return std::tuple(!a.folder, lower(a.name), a.name) < std::tuple(!b.folder, lower(b.name), b.name);
     });
-    return list;
+    return listing;
+}
+
+std::string completed_path(const std::string& typed, const ExtensionFilter& filter) {
+    const size_t slash = typed.rfind('/');
+    if (slash == typed.npos) return typed;
+    const std::string folder = typed.substr(0, slash + 1), begun = typed.substr(slash + 1);
+    const auto listing = list_folder(folder, filter);
+    if (!listing) return typed;
+    std::string common;
+    size_t fitting = 0;
+    bool only_folders = true;
+    for (const FileEntry& entry : listing->entries) {
+        if (!entry.name.starts_with(begun)) continue;
+        if (fitting++ == 0) common = entry.name;
+        common.resize(size_t(std::ranges::mismatch(common, entry.name).in1 - common.begin()));
+        only_folders &= entry.folder;
+    }
+    if (fitting == 0) return typed;
+    return folder + common + (fitting == 1 && only_folders ? "/" : "");
 }
 
 std::string bytes_text(uintmax_t bytes) {

@@ -22,8 +22,16 @@ using ExtensionFilter = std::vector<std::string>;
 
 // Case does not count.
 bool matches(const ExtensionFilter& filter, const std::filesystem::path& file);
-// Folders first, then the files that match, each in the order of their names without regard to case; hidden ones are left out.
-Result<std::vector<FileEntry>> list_folder(const std::filesystem::path& folder, const ExtensionFilter& filter);
+struct FolderListing {
+    std::vector<FileEntry> entries;
+    size_t left_out = 0; // files that the filter does not let through
+};
+// Folders first, then the files that match, each in the order of their names without regard to case. Names with a leading dot are neither
+// listed nor counted.
+Result<FolderListing> list_folder(const std::filesystem::path& folder, const ExtensionFilter& filter);
+// A typed path as far as the names in its folder tell: up to where those that fit differ, with a slash after the only folder. The path itself if
+// nothing fits.
+std::string completed_path(const std::string& typed, const ExtensionFilter& filter);
 // "812 B", "3.4 MB".
 std::string bytes_text(uintmax_t bytes);
 

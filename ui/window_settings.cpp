@@ -10,7 +10,7 @@
 namespace blush {
 namespace {
 
-constexpr size_t most_panel_settings = 1000, most_ids = 100000, most_floating_text = 1 << 16, most_snapshots = 64;
+constexpr size_t most_panel_settings = 1000, most_ids = 100000, most_floating_text = 1 << 16, most_snapshots = 64, most_bookmarks = 64;
 
 // The entry if it is there and of the right type and range, else what `value` was.
 template <class T> void read(const nlohmann::json& json, const char* key, T& value, T low, T high) {
@@ -111,6 +111,7 @@ WindowSettings read_window_settings(const std::filesystem::path& file) {
         for (const auto& entry : *scenes)
             if (settings.scenes.size() < remembered_files) settings.scenes.push_back(read_scene(entry));
     }
+    read_strings(json, "bookmarks", settings.bookmarks, most_bookmarks);
     read_strings(json, "recent", settings.recent, remembered_files);
     return settings;
 }
@@ -124,6 +125,7 @@ Result<void> write_window_settings(const std::filesystem::path& file, const Wind
                               {"follow_viewport", settings.follow_viewport},
                               {"overlays", settings.overlays},
                               {"recent", settings.recent},
+                              {"bookmarks", settings.bookmarks},
                               {"snapshot_folder", settings.snapshot_folder},
                               {"snapshot_files", settings.snapshot_files},
                               {"snapshot_half", settings.snapshot_half},

@@ -103,13 +103,27 @@ TEST_F(Files, ListsFoldersFirstThenWhatFits) {
     write("Zoo/x.glb", "");
     const auto list = list_folder(folder, scene_files);
     ASSERT_TRUE(list);
-    ASSERT_EQ(list->size(), 3u);
-    EXPECT_EQ((*list)[0], (FileEntry{"Zoo", true, 0}));
-    EXPECT_EQ((*list)[1], (FileEntry{"a.gltf", false, 0}));
-    EXPECT_EQ((*list)[2], (FileEntry{"b.GLB", false, 5}));
+    ASSERT_EQ(list->entries.size(), 3u);
+    EXPECT_EQ(list->entries[0], (FileEntry{"Zoo", true, 0}));
+    EXPECT_EQ(list->entries[1], (FileEntry{"a.gltf", false, 0}));
+    EXPECT_EQ(list->entries[2], (FileEntry{"b.GLB", false, 5}));
     const auto folders = list_folder(folder, {});
     ASSERT_TRUE(folders);
-    EXPECT_EQ(folders->size(), 1u);
+    EXPECT_EQ(folders->entries.size(), 1u);
+    EXPECT_GT(folders->left_out, 0u);
+    EXPECT_GT(folders->left_out, list->left_out) << "files of the kind do not count as left out";
+}
+
+TEST_F(Files, APathIsCompletedAsFarAsItsFolderTells) {
+    const std::filesystem::path place = folder / "complete";
+    std::filesystem::create_directories(place / "scenes");
+    for (const char* name : {"helmet.gltf", "helmet2.gltf", "notes.txt"}) std::ofstream(place / name) << "x";
+    const std::string base = place.string() + "/";
+    EXPECT_EQ(completed_path(base + "he", scene_files), base + "helmet");
+    EXPECT_EQ(completed_path(base + "helmet2", scene_files), base + "helmet2.gltf");
+    EXPECT_EQ(completed_path(base + "sc", scene_files), base + "scenes/");
+    EXPECT_EQ(completed_path(base + "no", scene_files), base + "no") << "not of the kind";
+    EXPECT_EQ(completed_path("nowhere/x", scene_files), "nowhere/x");
 }
 
 TEST_F(Files, AFolderThatIsNotThereIsAnError) { EXPECT_FALSE(list_folder(folder / "none", scene_files)); }

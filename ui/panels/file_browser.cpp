@@ -1,10 +1,15 @@
 // The file browser: folders and the files that fit the purpose, by click, by keyboard or by typing a path.
 #include "ui/file_listing.h"
+#include "ui/file_places.h"
 #include "ui/icons.h"
 #include "ui/panels/panels.h"
 #include "ui/theme.h"
+#include "ui/widgets.h"
 
+#include <algorithm>
+#include <fmt/format.h>
 #include <imgui_stdlib.h>
+#include <optional>
 
 namespace blush {
 namespace {
@@ -68,6 +73,15 @@ void take_typed(PanelContext& c) {
         c.ui.toasts.fail("There is no file " + b.typed);
 }
 
+// Tab.
+int complete(ImGuiInputTextCallbackData* data) {
+    const FileBrowser& b = *static_cast<const FileBrowser*>(data->UserData);
+    const std::string completed = completed_path(std::string(data->Buf, size_t(data->BufTextLen)), filter(b.use));
+    data->DeleteChars(0, data->BufTextLen);
+    data->InsertChars(0, completed.c_str());
+    return 0;
+}
+
 void draw_path_row(PanelContext& c) {
     FileBrowser& b = *c.ui.browser;
     if (icon_button("up", Icon::arrow_up, tone::dim_text) && b.folder.has_parent_path()) enter(b, b.folder.parent_path());
@@ -75,7 +89,38 @@ void draw_path_row(PanelContext& c) {
     ImGui::SetNextItemWidth(-FLT_MIN);
     if (b.just_opened) ImGui::SetKeyboardFocusHere();
     b.just_opened = false;
-    if (ImGui::InputText("##path", &b.typed, ImGuiInputTextFlags_EnterReturnsTrue)) take_typed(c);
+    constexpr ImGuiInputTextFlags flags = ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackCompletion;
+    if (ImGui::InputText("##path", &b.typed, flags, complete, &b)) take_typed(c);
+    if (c.ui.browser) c.ui.probe.record_last_item("Browser/Path");
+}
+
+void draw_bookmark_button(PanelContext& c) {
+    const std::string folder = c.ui.browser->folder.string();
+    std::vector<std::string>& bookmarks = c.ui.settings.bookmarks;
+    const bool kept = std::ranges::count(bookmarks, folder) > 0;
+    if (ImGui::Button(kept ? "Remove bookmark" : "Bookmark", {-FLT_MIN, 0})) {
+        if (kept) std::erase(bookmarks, folder);
+        else bookmarks.push_back(folder);
+    }
+    c.ui.probe.record_last_item("Browser/Bookmark");
+    tip_for_last_item(c.ui, "Keeps this folder among the places.");
+}
+
+void draw_places(PanelContext& c, float width, float height) {
+    ImGui::BeginChild("places", {width, height}, true);
+    std::optional<std::filesystem::path> entered;
+    int id = 0;
+    for (const FilePlace& place : file_places(c.ui.settings, c.ui.browser->scene_folder)) {
+        ImGui::PushID(id++);
+        if (ImGui::Selectable(place.name.c_str(), place.folder == c.ui.browser->folder, ImGuiSelectableFlags_DontClosePopups)) entered = place.folder;
+        c.ui.probe.record_last_item("Browser/Place/" + place.name);
+        tip_for_last_item(c.ui, place.folder.string().c_str());
+        ImGui::PopID();
+    }
+    ImGui::Spacing();
+    draw_bookmark_button(c);
+    ImGui::EndChild();
+    if (entered) enter(*c.ui.browser, *entered);
 }
 
 void draw_entry(PanelContext& c, const FileEntry& entry) {
@@ -106,15 +151,19 @@ void draw_list(PanelContext& c, float height) {
     ImGui::BeginChild("list", {0, height}, true);
     if (!list)
         ImGui::TextWrapped("%s", list.error().text().c_str());
-    else if (list->empty())
+    else if (list->entries.empty())
         ImGui::TextDisabled("Nothing here that fits.");
     else if (ImGui::BeginTable("entries", 2, ImGuiTableFlags_RowBg)) {
         ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
         ImGui::TableSetupColumn("size", ImGuiTableColumnFlags_WidthFixed, ImGui::GetFontSize() * 5);
-        for (const FileEntry& entry : *list) {
+        for (const FileEntry& entry : list->entries) {
             if (c.ui.browser) draw_entry(c, entry); // until one was taken
         }
         ImGui::EndTable();
+    }
+    if (list && list->left_out > 0) {
+        ImGui::TextDisabled("%s", fmt::format("{} {} of other kinds", list->left_out, list->left_out == 1 ? "file" : "files").c_str());
+        if (c.ui.browser) c.ui.probe.record_last_item("Browser/Left out");
     }
     ImGui::EndChild();
 }
@@ -158,7 +207,10 @@ void draw_file_browser(PanelContext& c) {
     if (ImGui::BeginPopupModal(name, &open, ImGuiWindowFlags_NoCollapse)) {
         draw_path_row(c);
         const float below = ImGui::GetFrameHeightWithSpacing() + ImGui::GetStyle().ItemSpacing.y;
-        if (c.ui.browser) draw_list(c, ImGui::GetContentRegionAvail().y - below);
+        const float height = ImGui::GetContentRegionAvail().y - below;
+        if (c.ui.browser) draw_places(c, em * 9, height);
+        ImGui::SameLine();
+        if (c.ui.browser) draw_list(c, height);
         if (c.ui.browser) draw_buttons(c);
         if (c.ui.browser && ImGui::IsKeyPressed(key::escape)) {
             c.ui.browser.reset();
