@@ -1,5 +1,6 @@
 #include "app/editor.h"
 
+#include "app/commands/common.h"
 #include "app/editor_commands.h"
 #include "app/editor_convergence.h"
 #include "app/editor_display.h"
@@ -9,6 +10,7 @@
 #include "app/file_takers.h"
 #include "app/followed_mix.h"
 #include "app/metering_once.h"
+#include "app/opening_page.h"
 #include "app/output_folder.h"
 #include "app/submitted.h"
 #include "ui/automation.h"
@@ -54,7 +56,6 @@ private:
     void run_own_command(Command command);
     FileTakers takers() { return {files_, saving_, snapshots_, convergence_, document_, ui_}; }
     void save_due_snapshot();
-    void list_kept_snapshots();
     void remember();
     Document& document_shown();
     RenderSettings render_settings();
@@ -85,6 +86,7 @@ private:
     EditorConvergence convergence_;
     FollowedMix mix_;
     MeteringOnce metering_;
+    OpeningPage opening_page_{options_.assets};
     std::string weights_problem_; // why the denoiser's weights are of no use; empty: they are there
     RenderSession session_;
 
@@ -127,6 +129,8 @@ Editor::Editor(const EditorOptions& options, std::unique_ptr<Window> window, Col
     if (const auto loaded = viewport_.load(); !loaded) ui_.toasts.fail(loaded.error().text());
     files_.open(options.scene.empty() ? options.assets / "scenes" / "card-and-mug.gltf" : options.scene,
                 {options.overrides, float(options.render.width) / float(options.render.height), options.settings_given, options.view_given});
+    ui_.demos = opening_page_.demos();
+    ui_.opening_page = options.scene.empty();
     saving_.offer_recovery(options.scene);
 }
 
@@ -144,6 +148,7 @@ void Editor::run() {
         submit();
         draw();
     }
+    if (!shows_preview()) opening_page_.keep_thumbnail(files_.scene_file(), pictures_.frame, document_.project().view, color_, true);
     saving_.end();
     snapshots_.finish_all();
     remember();
@@ -157,9 +162,8 @@ void Editor::poll() {
         window_->set_title(files_.scene_file().filename().string() + " - Blush");
         if (finished.opened) {
             submitted_.forget(); // a new scene is submitted whatever it looks like
-            metering_.forget();
-            if (!finished.stored_exposure && !std::exchange(options_.exposure_given, false)) metering_.want(document_.project(), true);
-            list_kept_snapshots();
+            metering_.opened(finished.stored_exposure || std::exchange(options_.exposure_given, false), document_.project());
+            snapshots_.list_kept(ui_, files_.scene_file());
         }
         window_->request_frames(2);
     }
@@ -288,6 +292,7 @@ void Editor::draw_above(PanelContext& c) {
 
 void Editor::draw_on_top(PanelContext& c) {
     draw_no_light_banner(c, {image_.x, image_.y, image_.width, image_.height});
+    opening_page_.draw(c);
     draw_import_report(c);
     draw_shortcut_sheet(c);
     draw_file_browser(c);
@@ -324,13 +329,8 @@ void Editor::obey(PanelContext& c) {
 }
 
 void Editor::run_own_command(Command command) {
+    if (takers().browse_for(command)) return;
     switch (command) {
-    case Command::open: return takers().browse(FileRequest::Use::open);
-    case Command::import_scene: return takers().browse(FileRequest::Use::import_scene);
-    case Command::environment: return takers().browse(FileRequest::Use::environment);
-    case Command::ies: return takers().browse(FileRequest::Use::ies);
-    case Command::snapshot_folder: return takers().browse(FileRequest::Use::snapshot_folder);
-    case Command::load_convergence: return takers().browse(FileRequest::Use::convergence);
     case Command::reload: return saving_.before_losing_edits("reloading the file", [this] { files_.reload(); });
     case Command::save_scene: return saving_.save();
     case Command::save_scene_as: return saving_.ask_for_file();
@@ -357,8 +357,9 @@ void Editor::save_due_snapshot() {
 RenderSettings Editor::render_settings() {
     RenderSettings r = document_shown().project().render;
     if (ui_.settings.follow_viewport && viewport_width_ > 0) {
-        r.width = viewport_width_;
-        r.height = viewport_height_;
+        const PictureSize size = picture_size(ui_.frame, viewport_width_, viewport_height_);
+        r.width = size.width;
+        r.height = size.height;
     }
     return carried_out(r);
 }
@@ -393,7 +394,7 @@ void Editor::submit() {
     const uint64_t revision = submitted_.note(scene, r, planes);
     const bool goes_on = session_.submit(revision, scene, r, planes, film);
     convergence_.submit(ui_.convergence, {document_, r, planes, revision, goes_on}, opened);
-    if (goes_back) convergence_.begin(ui_.convergence, "loading ended", revision, scene, r);
+    if (goes_back) convergence_.begin(ui_.convergence, "Textures loaded", revision, scene, r);
     stats_.submitted(revision, frame_begin_);
 }
 
@@ -408,7 +409,10 @@ void Editor::latest() {
     pictures_ = session_.pictures();
     if (shows_preview() && !files_.preview() && files_.scene_file().empty()) pictures_ = {}; // there is nothing to go back to
     if (!shows_preview()) convergence_.look(ui_.convergence, pictures_);
-    if (pictures_.frame && pictures_.frame->revision == submitted_.revision() && !files_.preview()) metering_.look(document_, pictures_.frame, ui_, color_);
+    if (pictures_.frame && pictures_.frame->revision == submitted_.revision() && !files_.preview()) {
+        metering_.look(document_, pictures_.frame, ui_, color_);
+        opening_page_.keep_thumbnail(files_.scene_file(), pictures_.frame, document_.project().view, color_);
+    }
     const SessionStatus status = session_.status();
     if (std::exchange(not_continued_, status.not_continued) != status.not_continued && !status.not_continued.empty())
         ui_.toasts.warn("The snapshot is rendered anew", status.not_continued);
@@ -446,14 +450,6 @@ void Editor::draw() {
     ui_.probe.end_frame(state);
 }
 
-// Those that were in the strip when the scene was last left.
-void Editor::list_kept_snapshots() {
-    const std::string file = files_.scene_file().string();
-    const auto known = std::ranges::find(ui_.settings.scenes, file, &SceneMemory::file);
-    const bool listed = std::ranges::any_of(ui_.snapshots.list, [&](const SnapshotPtr& s) { return s->scene_file == file; });
-    if (known != ui_.settings.scenes.end() && !listed) snapshots_.list_files(known->snapshots);
-}
-
 void Editor::remember() {
     WindowSettings& s = ui_.settings;
     remember_panels(ui_, s);
@@ -475,11 +471,6 @@ void Editor::remember() {
         fmt::print(stderr, "blush: warning: {}\n", written.error().text());
 }
 
-int fail(const Error& error) {
-    fmt::print(stderr, "blush: error: {}\n", error.text());
-    return 1;
-}
-
 } // namespace
 
 int run_editor(const EditorOptions& options) {
@@ -496,9 +487,9 @@ int run_editor(const EditorOptions& options) {
                                 .maximized = settings.maximized,
                                 .scale = automation.scale,
                                 .assets = options.assets});
-    if (!window) return fail({"", window.error().what + "; without one, use `blush render SCENE -o OUT.exr`", ""});
+    if (!window) return failed({"", window.error().what + "; without one, use `blush render SCENE -o OUT.exr`", ""});
     auto color = ColorManagement::load(options.assets, options.ocio_config);
-    if (!color) return fail(color.error());
+    if (!color) return failed(color.error());
     Editor(options, *std::move(window), *std::move(color), automation, std::move(settings)).run();
     return 0;
 }

@@ -2,6 +2,7 @@
 
 #include "app/light_commands.h"
 #include "scene/edit_tree.h"
+#include "scene/ground_plane.h"
 #include "ui/edit_together.h"
 #include "ui/new_light.h"
 #include "ui/popups.h"
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <utility>
 
 namespace blush {
 namespace {
@@ -61,6 +63,12 @@ LightSpot spot_for_new_light(PanelContext& c) {
 void add_light(PanelContext& c, Light::Kind kind) {
     const Id<Node> last = last_node(c.scene());
     if (c.apply(new_light(kind, c.scene().view, spot_for_new_light(c), c.shown_view().exposure_ev))) select_all_after(c, last);
+}
+
+void add_ground(PanelContext& c) {
+    const Id<Node> last = last_node(c.scene());
+    const Edit edit = Import{ground_plane_under(world_bounds(c.scene())), "Ground"};
+    if (c.apply({&edit, 1}, "Add ground plane")) select_all_after(c, last);
 }
 
 void duplicate(PanelContext& c) {
@@ -168,10 +176,8 @@ void toggle_denoise(PanelContext& c) {
 // Closes what is on top, or ends what was begun last: a menu, the shortcut sheet, a tool, placing, looking through a light, a selection.
 void escape(PanelContext& c) {
     if (close_top_popup()) return;
-    if (c.ui.show_shortcuts) {
-        c.ui.show_shortcuts = false;
-        return;
-    }
+    for (bool* open : {&c.ui.show_shortcuts, &c.ui.opening_page})
+        if (std::exchange(*open, false)) return;
     if (c.ui.tool != ViewTool::none) {
         c.ui.tool = ViewTool::none;
         return c.ui.tool_start.reset();
@@ -196,6 +202,7 @@ bool run_command(Command command, PanelContext& c) {
     case Command::redo: c.document.redo(); return true;
     case Command::duplicate: duplicate(c); return true;
     case Command::remove: remove(c); return true;
+    case Command::add_ground: add_ground(c); return true;
     case Command::rename: begin_rename(c); return true;
     case Command::clear_selection: escape(c); return true;
     case Command::add_point: add_light(c, Light::Kind::point); return true;
@@ -204,7 +211,8 @@ bool run_command(Command command, PanelContext& c) {
     case Command::add_rectangle: add_light(c, Light::Kind::rectangle); return true;
     case Command::add_disk: add_light(c, Light::Kind::disk); return true;
     case Command::add_sphere: add_light(c, Light::Kind::sphere); return true;
-    case Command::light_by_sky: light_by_sky(c); return true;
+    case Command::light_by_studio: add_light_rig(c, LightRig::studio); return true;
+    case Command::light_by_sky: add_light_rig(c, LightRig::sky); return true;
     case Command::mute: toggle_mute(c); return true;
     case Command::solo: toggle_solo(c); return true;
     case Command::group_lights: group_lights(c); return true;
@@ -235,7 +243,7 @@ bool run_command(Command command, PanelContext& c) {
     case Command::compare_difference: compare(c, Comparison::Mode::difference); return true;
     case Command::shortcuts: c.ui.show_shortcuts = !c.ui.show_shortcuts; return true;
     case Command::history: c.ui.show_history = !c.ui.show_history; return true;
-    case Command::light_mix: c.ui.light_mix.open = !c.ui.light_mix.open; return true;
+    case Command::light_mix: toggle_light_mix(c); return true;
     case Command::bounces: c.ui.bounces.open = !c.ui.bounces.open; return true;
     case Command::import_report: c.ui.import_report.open = !c.ui.import_report.open; return true;
     case Command::health: c.ui.health.open = !c.ui.health.open; return true;

@@ -2,6 +2,7 @@
 
 #include "app/commands/common.h"
 #include "io/environment_image.h"
+#include "io/gltf_camera_aspects.h"
 #include "io/ies.h"
 #include "io/scene_edits_json.h"
 #include "ui/remembered.h"
@@ -34,6 +35,13 @@ void report(UiState& ui, const std::filesystem::path& file, const ImportReport& 
         ui.toasts.warn(text, details);
     else
         ui.toasts.note(text);
+}
+
+// The camera that the scene is composed for, and its frame.
+void begin_at_camera(UiState& ui, const Scene& scene, std::map<Id<Camera>, float> aspects) {
+    ui.home = home_at_opening(scene);
+    ui.frame = {.fit = ui.frame.fit, .from_file = std::move(aspects)};
+    ui.frame.aspect = aspect_in_file(ui.frame, scene, ui.home.camera);
 }
 
 bool has_our_settings(const ImportedScene& imported) { return imported.has_view || imported.render || imported.view; }
@@ -74,8 +82,9 @@ Result<EditorFiles::Opened> EditorFiles::import_file(const std::filesystem::path
     if (open.overrides.texture_mib) options.texture_bytes = *open.overrides.texture_mib << 20;
     Result<ImportedScene> imported = import_gltf(file, options);
     if (!imported) return in_file(imported.error(), file.string());
-    Opened opened{*std::move(imported), {}, {}};
+    Opened opened{*std::move(imported), {}, {}, {}};
     opened.scene = opened.imported.scene;
+    opened.camera_aspects = camera_aspects(opened.imported.origin);
     if (const auto applied = apply_overrides(open.overrides, opened.scene, open.aspect, opened.imported.has_view); !applied)
         return in_file(applied.error(), file.string());
     if (!sidecar) return opened;
@@ -101,7 +110,7 @@ void EditorFiles::start_import(const std::filesystem::path& file, Purpose purpos
     std::function<void(const ImportedScene&)> on_untextured;
     if (purpose == Purpose::open && !sidecar)
         on_untextured = [options, early = early_, wake = wake_](const ImportedScene& imported) {
-            Opened opened{imported, imported.scene, {}};
+            Opened opened{imported, imported.scene, {}, {}};
             if (!apply_overrides(options.overrides, opened.scene, options.aspect, imported.has_view)) return; // will be said of the whole
             early->put(std::move(opened));
             wake();
@@ -185,7 +194,7 @@ EditorFiles::Finished EditorFiles::finish_import(Document& document, UiState& ui
     ui.light_table.renaming = {};
     watch_.watch(scene_file_);
     document.reset(std::move(project));
-    if (purpose_ == Purpose::open) ui.home = home_at_opening(document.project().scene);
+    if (purpose_ == Purpose::open) begin_at_camera(ui, document.project().scene, std::move(opened->camera_aspects));
     if (purpose_ == Purpose::open) recall_scene(ui.settings, scene_file_.string(), document.project().scene, ui);
     if (opened->recovered) document.replace(*std::move(opened->recovered), "Recover unsaved edits");
     const bool stored = purpose_ != Purpose::open || (opened->imported.view && !keep_view_) || opened->recovered;

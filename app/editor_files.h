@@ -16,6 +16,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -86,6 +87,7 @@ private:
         ImportedScene imported;
         Scene scene;
         std::optional<Project> recovered;
+        std::map<Id<Camera>, float> camera_aspects;
     };
     // From the importing thread to this one.
     class EarlyScene {

@@ -133,8 +133,11 @@ void EditorSnapshots::open(const std::filesystem::path& file, const std::filesys
     read_next(open_scene);
 }
 
-void EditorSnapshots::list_files(const std::vector<std::string>& files) {
-    for (const std::string& file : files) to_read_.push_back({file, false});
+void EditorSnapshots::list_kept(const UiState& ui, const std::filesystem::path& scene_file) {
+    const auto known = std::ranges::find(ui.settings.scenes, scene_file.string(), &SceneMemory::file);
+    const bool listed = std::ranges::any_of(ui.snapshots.list, [&](const SnapshotPtr& s) { return s->scene_file == scene_file; });
+    if (known == ui.settings.scenes.end() || listed) return;
+    for (const std::string& file : known->snapshots) to_read_.push_back({file, false});
 }
 
 void EditorSnapshots::read_next(const std::filesystem::path& open_scene) {

@@ -38,8 +38,8 @@ public:
     void keep(Shown shown, RenderSession& session);
     // Writes it as a PNG.
     void save_png(const Shown& shown, const ColorManagement& color, const UiState& ui);
-    // Files that are to be in the strip again, read one after the other; those that cannot be read are not.
-    void list_files(const std::vector<std::string>& files);
+    // Reads the files that were in the strip when the scene was last left, one after the other; those that cannot be read are not listed.
+    void list_kept(const UiState& ui, const std::filesystem::path& scene_file);
     // A file that was dropped: a snapshot comes into the strip and its state into the document, any other picture becomes the environment.
     void open(const std::filesystem::path& file, const std::filesystem::path& open_scene);
     // Does what panels asked for.

@@ -1,5 +1,7 @@
 #include "app/light_commands.h"
 
+#include "app/assets_dir.h"
+#include "io/environment_image.h"
 #include "ui/edit_together.h"
 #include "ui/light_groups.h"
 #include "ui/light_rows.h"
@@ -51,14 +53,16 @@ const Light* light_of(PanelContext& c, Id<Node> id) {
 
 } // namespace
 
-void light_by_sky(PanelContext& c) {
-    Environment sky = c.scene().environment;
-    sky.kind = Environment::Kind::sky;
-    sky.intensity = 1;
-    sky.color = {1, 1, 1};
-    sky.lights_scene = true;
-    const Edit edit = SetEnvironment{sky};
-    if (c.apply({&edit, 1}, "Light by a sky")) c.ui.meter_exposure = true;
+void add_light_rig(PanelContext& c, LightRig rig) {
+    Environment studio;
+    if (rig == LightRig::studio) {
+        studio.kind = Environment::Kind::image;
+        studio.file = (assets_dir() / "environments" / "studio.hdr").string();
+        const Result<ImagePtr> image = read_environment_image(studio.file);
+        if (!image) return c.ui.toasts.fail(image.error().text());
+        studio.image = *image;
+    }
+    if (c.apply(light_rig_edits(c.scene(), rig, studio), rig == LightRig::studio ? "Light with a studio" : "Light by a sky")) c.ui.meter_exposure = true;
 }
 
 void toggle_mute(PanelContext& c) {
@@ -77,6 +81,15 @@ void group_lights(PanelContext& c) {
     const auto lights = selected_lights(c);
     const std::string group = unused_group_name(c.scene());
     c.apply(change_lights(c.scene(), lights, [&](Light& light) { light.group = group; }), label_for("Group", c.scene(), lights));
+}
+
+void toggle_light_mix(PanelContext& c) {
+    c.ui.light_mix.open = !c.ui.light_mix.open;
+    LightMix mix = c.scene().mix;
+    if (!c.ui.light_mix.open || c.ui.light_mix.stays_off || mix.grouping != LightMix::Grouping::none) return;
+    mix.grouping = LightMix::Grouping::by_light;
+    const Edit edit = SetMix{mix};
+    c.apply({&edit, 1}, "Group lights for the mix");
 }
 
 void toggle_placing(PanelContext& c, PlacingBy by) {

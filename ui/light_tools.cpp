@@ -58,7 +58,7 @@ Vec3d direction_of(const Heading& h) {
     return {std::sin(heading) * std::cos(tilt), std::sin(tilt), -std::cos(heading) * std::cos(tilt)};
 }
 
-Heading heading_of(const Quat& rotation) {
+Heading heading_of_rotation(const Quat& rotation) {
     const Vec3d forward = rotate(rotation, {0, 0, -1});
     Heading heading = heading_of(forward);
     constexpr double nearly_vertical = 1e-4; // horizontal part of a unit vector whose direction single precision does not hold
@@ -67,7 +67,7 @@ Heading heading_of(const Quat& rotation) {
 }
 
 Quat with_heading(const Quat& rotation, const Heading& heading) {
-    const Heading now = heading_of(rotation);
+    const Heading now = heading_of_rotation(rotation);
     const double turn = (heading.heading - now.heading) / degrees, across = heading.heading / degrees;
     const Vec3d right{std::cos(across), 0, std::sin(across)};
     const Quat turned = multiply(axis_angle({0, 1, 0}, -turn), rotation);

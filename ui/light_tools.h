@@ -29,7 +29,7 @@ Heading heading_of(const Vec3d& direction);
 Vec3d direction_of(const Heading& heading);
 
 // Where the -Z of a rotation points. Straight up or down, its +Y tells the heading.
-Heading heading_of(const Quat& rotation);
+Heading heading_of_rotation(const Quat& rotation);
 // The rotation turned about the vertical to another heading, and about the horizontal axis across that heading to another tilt: it does not roll.
 Quat with_heading(const Quat& rotation, const Heading& heading);
 

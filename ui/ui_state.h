@@ -3,6 +3,7 @@
 
 #include "scene/scene.h"
 #include "ui/bounces_view.h"
+#include "ui/camera_frame.h"
 #include "ui/convergence_view.h"
 #include "ui/denoise_view.h"
 #include "ui/gestures.h"
@@ -64,6 +65,7 @@ struct FileBrowser {
     std::string typed; // the path field
     std::string chosen;
     bool just_opened = true;
+    std::filesystem::path scene_folder = {}; // of the open scene
 };
 
 // A pixel whose values are shown.
@@ -77,6 +79,17 @@ struct EulerFields {
     Id<Node> node;
     Quat rotation;
     Vec3d degrees{0, 0, 0};
+};
+
+// The temperature of a white as the user typed it, kept while that white stays.
+struct WhiteFields {
+    Vec3 color{0, 0, 0};
+    float kelvin = 0, green_tint = 0;
+};
+
+// A camera's exposure, of which only the stops are the document's.
+struct ExposureTriangle {
+    float f_number = 8, iso = 100; // f_number: where the lens is a pinhole
 };
 
 // What a click into the picture decides about the selected light.
@@ -101,6 +114,13 @@ struct PicturePoint {
     double u = 0, v = 0;
 };
 
+// How long the mouse has rested on a widget.
+struct TipTimer {
+    Region item;
+    double since = 0; // seconds of ImGui's clock
+    int frame = -1;   // in which it was last hovered
+};
+
 struct UiState {
     Id<Node> selected;                   // what handles and inspector are for
     std::vector<Id<Node>> also_selected; // edited together with it
@@ -122,8 +142,11 @@ struct UiState {
     std::optional<LookedThrough> looked_through;
     LightTableView light_table;
     bool show_shortcuts = false;
+    bool opening_page = false;       // of a start without a scene
+    std::vector<std::string> demos;  // scene files that come with the program
     bool panels_hidden = false; // all but menu, picture and status bar
     HomeView home;              // where `Camera's view` goes back to
+    CameraFrame frame;          // of that camera
     bool show_history = false;
     LightMixView light_mix;
     BouncesView bounces;
@@ -140,11 +163,14 @@ struct UiState {
     std::optional<Question> question; // asked by the editor, which also hears the answer
     std::optional<PixelProbe> pixel;
     EulerFields euler;
+    WhiteFields white;
+    ExposureTriangle triangle;
     LightPresence light_presence;
     TimeView time;
 
     WindowSettings settings; // remembered between starts
     GestureTracker gestures;
+    TipTimer tip;
     Probe probe;
     Toasts toasts;
 

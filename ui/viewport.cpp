@@ -2,6 +2,7 @@
 
 #include "render/light_mix.h"
 #include "scene/edit_tree.h"
+#include "ui/camera_frame_overlay.h"
 #include "ui/environment_dial.h"
 #include "ui/false_color_legend.h"
 #include "ui/light_glyphs.h"
@@ -264,8 +265,10 @@ void Viewport::draw_caption(const ImageRect& image) const {
 
 void Viewport::obey(PanelContext& c, const NavigationResult& wish, const Projection& projection, const ImageRect& image) {
     if (wish.view) {
+        const bool was_home = is_at_home(c.scene(), c.ui.home);
         c.document.navigate(*wish.view);
         carry_light_along(c);
+        if (was_home) carry_camera_along(c);
     }
     if (wish.begins_exposure) {
         exposure_gesture_ = c.ui.gestures.begin();
@@ -318,6 +321,7 @@ ImageRect Viewport::draw(PanelContext& c, const FramePace& pace) {
     const ImageRect seen = visible_part(image);
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     draw_rendered_region(draw, image, c.project().render.region);
+    draw_camera_frame(c, draw, image, seen);
     bool taken = use_tool(c, projection, image, seen, hovered && !navigation_.busy());
     if (c.ui.tool == ViewTool::none) taken |= draw_overlays(c, projection, image, hovered && !navigation_.busy());
     draw_pixel_grid(draw, image, window_region(), *shown_frame_);

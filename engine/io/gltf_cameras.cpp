@@ -53,7 +53,7 @@ std::vector<Id<Camera>> import_cameras(const GltfContext& context, Scene& scene)
         wanted.push_back(wanted_id(object));
     }
     const std::vector<Id<Camera>> ids = add_numbered(scene.cameras, std::move(cameras), wanted);
-    if (!ids.empty()) context.note("ignored: clipping planes and aspect ratio of cameras; the picture's size decides", "cameras");
+    if (!ids.empty()) context.note("ignored: clipping planes of cameras; their aspect ratio is a frame in the window, and the size of the picture decides what is rendered", "cameras");
     return ids;
 }
 

@@ -42,22 +42,6 @@ bool any_solo(const Scene& scene) {
            });
 }
 
-bool has_light(const Scene& scene) {
-    const auto bright = [](const Vec3& color) { return color.x > 0 || color.y > 0 || color.z > 0; };
-    const Environment& e = scene.environment;
-    if (e.kind != Environment::Kind::none && e.lights_scene && e.intensity > 0 && bright(e.color)) return true;
-    const auto glows = [&](const MeshPart& part) {
-        const Material* m = scene.materials.find(part.material);
-        return m && (m->unlit || (has_glow(*m) && m->emissive_strength > 0));
-    };
-    return std::ranges::any_of(scene.nodes, [&](const auto& entry) {
-        const Light* light = scene.lights.find(entry.value.light);
-        const Mesh* mesh = scene.meshes.find(entry.value.mesh);
-        const bool shines = (light && light->intensity > 0 && bright(light->color)) || (mesh && std::ranges::any_of(mesh->parts, glows));
-        return shines && is_visible(scene, entry.id);
-    });
-}
-
 Scene with_solo_applied(const Scene& scene) {
     const bool some_solo = any_solo(scene);
     if (!some_solo && !some_glow_is_muted(scene)) return scene;

@@ -18,10 +18,6 @@ inline bool shines(const Environment& e, bool some_solo) {
     return e.kind != Environment::Kind::none && e.lights_scene && (e.solo || !some_solo);
 }
 
-// Some light, surface or environment could shine or be seen without light (an unlit material), were nothing muted or solo. Lights without
-// brightness or on hidden nodes do not count; what textures make of a glow is not looked at.
-bool has_light(const Scene& scene);
-
 // The scene with mute and solo spelled out: lights that do not shine are off, emission that does not is black, and so is the environment where
 // something else is solo. It renders as `scene` does, and asks of whoever lowers it further only whether a light is on.
 Scene with_solo_applied(const Scene& scene);

@@ -95,7 +95,7 @@ TEST(NewLight, KeyFillAndRimGoRoundTheSubjectInTurnAndNeverIntoEachOther) {
         for (const LightSpot& other : spots)
             EXPECT_GT(length(spot.position - other.position), std::hypot(add.light.width, add.light.height)) << "the squares may overlap";
         spots.push_back(spot);
-        const auto next = apply(project, Edit{add});
+        const auto next = blush::apply(project, Edit{add});
         ASSERT_TRUE(next);
         project = *next;
     }
@@ -134,12 +134,12 @@ TEST(Heading, TurnsAboutTheVerticalWithoutRoll) {
     for (const Vec3d& euler : {Vec3d{0, 0, 0}, Vec3d{-40, 25, 0}, Vec3d{10, 40, 25}, Vec3d{-90, 0, 0}, Vec3d{-90, 0, 70}, Vec3d{89.5, 10, 0}}) {
         const Quat start = from_euler_degrees(euler);
         Quat rotation = start;
-        const Heading first = heading_of(start);
+        const Heading first = heading_of_rotation(start);
         for (int step = 1; step <= 72; ++step) {
-            Heading wanted = heading_of(rotation);
+            Heading wanted = heading_of_rotation(rotation);
             wanted.heading += 5;
             rotation = with_heading(rotation, wanted);
-            EXPECT_NEAR(heading_of(rotation).tilt, first.tilt, 1e-2);
+            EXPECT_NEAR(heading_of_rotation(rotation).tilt, first.tilt, 1e-2);
             EXPECT_NEAR(rotate(rotation, {1, 0, 0}).y, rotate(start, {1, 0, 0}).y, 1e-4) << "it rolls";
         }
         const Vec3d back = rotate(rotation, {1, 0, 0}), was = rotate(start, {1, 0, 0});
@@ -150,8 +150,8 @@ TEST(Heading, TurnsAboutTheVerticalWithoutRoll) {
 TEST(Heading, TiltGoesThroughStraightDownAndBack) {
     const Quat start = with_heading({}, {120, -30});
     const Quat down = with_heading(start, {120, -90});
-    EXPECT_NEAR(heading_of(down).heading, 120, 1e-2);
-    const Quat back = with_heading(down, {heading_of(down).heading, -30});
+    EXPECT_NEAR(heading_of_rotation(down).heading, 120, 1e-2);
+    const Quat back = with_heading(down, {heading_of_rotation(down).heading, -30});
     for (const Vec3d& axis : {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}}) EXPECT_NEAR(dot(rotate(back, axis), rotate(start, axis)), 1, 1e-5);
 }
 

@@ -4,6 +4,7 @@
 #include "ui/rotation.h"
 #include "ui/widgets.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -11,6 +12,10 @@ namespace blush {
 namespace {
 
 constexpr float full_frame_height = 0.024f; // metres, of 36 x 24 mm film
+
+float focal_length(const Lens& lens) { return full_frame_height / 2 / std::tan(lens.yfov_radians / 2); } // metres
+// 0: a pinhole.
+float f_number_of(const Lens& lens) { return lens.aperture_radius > 0 ? focal_length(lens) / (2 * lens.aperture_radius) : 0; }
 
 void draw_scene_cameras(Fields& f, PanelContext& c) {
     std::vector<std::string> names{"Free view"};
@@ -24,7 +29,10 @@ void draw_scene_cameras(Fields& f, PanelContext& c) {
     std::string name = names[size_t(current - nodes.begin())];
     if (!f.choice("Look through", name, names, "Put the view where one of the scene's cameras is, with its lens.")) return;
     const auto at = size_t(std::ranges::find(names, name) - names.begin());
-    if (nodes[at] && c.apply(LookThrough{nodes[at]})) c.ui.home.camera = nodes[at];
+    if (nodes[at] && c.apply(LookThrough{nodes[at]})) {
+        c.ui.home.camera = nodes[at];
+        c.ui.frame.aspect = aspect_in_file(c.ui.frame, c.scene(), nodes[at]);
+    }
 }
 
 void draw_projection(Fields& f, Lens& lens) {
@@ -41,8 +49,10 @@ void draw_projection(Fields& f, Lens& lens) {
     }
     f.angle("Field of view", lens.yfov_radians,
             {.min = 1, .max = 170, .reset = 39.6f, .bar = true, .tip = "Vertical angle of the picture."});
-    const float focal = full_frame_height / 2 / std::tan(lens.yfov_radians / 2);
-    f.info("", fmt::format("{:.0f} mm on full frame", focal * 1000), "The lens that gives this angle on film of 36 x 24 mm.");
+    float millimetres = focal_length(lens) * 1000;
+    if (f.number("Focal length", millimetres,
+                 {.min = 0.14f, .max = 1375, .reset = 33.3f, .unit = "mm", .step = 0.1f, .tip = "Of the lens that gives this angle on film of 36 x 24 mm."}))
+        lens.yfov_radians = 2 * std::atan(full_frame_height / 2 * 1000 / millimetres);
 }
 
 void draw_focus(Fields& f, Lens& lens) {
@@ -55,9 +65,11 @@ void draw_focus(Fields& f, Lens& lens) {
                   .step = 0.05f,
                   .tip = "Radius of the lens opening. 0 is a pinhole, sharp everywhere; wider blurs what is not in focus."}))
         lens.aperture_radius = millimetres / 1000;
-    if (lens.aperture_radius > 0 && !lens.orthographic) {
-        const float focal = full_frame_height / 2 / std::tan(lens.yfov_radians / 2);
-        f.info("", fmt::format("f/{:.2g} on full frame", focal / (2 * lens.aperture_radius)));
+    if (!lens.orthographic) {
+        float f_number = f_number_of(lens);
+        if (f.number("f-number", f_number,
+                     {.min = 0, .max = 1e6f, .reset = 0, .step = 0.05f, .tip = "Focal length over the diameter of the opening, on full frame. 0 is a pinhole.", .format = "f/%.3g"}))
+            lens.aperture_radius = f_number > 0 ? focal_length(lens) / (2 * f_number) : 0;
     }
     f.number("Focus", lens.focus_distance,
              {.min = 1e-3f,
@@ -65,6 +77,58 @@ void draw_focus(Fields& f, Lens& lens) {
               .reset = 1,
               .unit = "m",
               .tip = "Distance along the view axis to what is sharp. Ctrl+click in the picture sets it."});
+}
+
+struct AspectPreset {
+    const char* name;
+    float aspect;
+};
+constexpr AspectPreset presets[] = {{"As the window", 0}, {"16:9", 16.f / 9}, {"3:2", 1.5f}, {"4:3", 4.f / 3}, {"1:1", 1},
+                                    {"4:5", 0.8f}, {"9:16", 9.f / 16}, {"1.85:1", 1.85f}, {"2.39:1", 2.39f}};
+
+void draw_frame(PanelContext& c) {
+    Fields f(c.ui, "Frame");
+    CameraFrame& frame = c.ui.frame;
+    std::vector<std::string> names;
+    std::vector<float> aspects;
+    const float own = aspect_in_file(frame, c.scene(), c.ui.home.camera);
+    if (own > 0) names.push_back(fmt::format("Camera ({:.3g}:1)", own)), aspects.push_back(own);
+    for (const AspectPreset& preset : presets) names.push_back(preset.name), aspects.push_back(preset.aspect);
+    const auto chosen = std::ranges::find_if(aspects, [&](float a) { return std::abs(a - frame.aspect) < 1e-4f; });
+    std::string name = chosen == aspects.end() ? fmt::format("{:.3g}:1", frame.aspect) : names[size_t(chosen - aspects.begin())];
+    if (f.choice("Aspect", name, names, "Width over height of the camera's frame. What lies beside it is dimmed while the camera is looked through."))
+        frame.aspect = aspects[size_t(std::ranges::find(names, name) - names.begin())];
+    ImGui::BeginDisabled(frame.aspect <= 0);
+    f.checkbox("Fit camera", frame.fit, "Render the frame alone, as large as fits into the window.");
+    ImGui::EndDisabled();
+    ImGui::BeginDisabled(!c.scene().nodes.contains(c.ui.home.camera));
+    f.checkbox("Lock to view", frame.lock, "Lock camera to view: orbiting, panning and flying move the camera that is looked through, as one step of the history.");
+    ImGui::EndDisabled();
+}
+
+// The stops of a camera's settings: middle grey, 0.18, is what a reflected-light meter with K = 12.5 cd/m2 s shows as medium (ISO 2720:1974).
+float exposure_of(float f_number, float seconds, float iso) {
+    constexpr float grey = 0.18f, metered = 0.125f; // nits at EV 0
+    return std::log2(grey / metered) - std::log2(f_number * f_number / seconds) + std::log2(iso / 100);
+}
+
+// f-number, shutter and ISO are another way to say the exposure; the shutter follows it when it is changed elsewhere.
+void draw_camera_exposure(PanelContext& c, Fields& f, ViewSettings& settings) {
+    ExposureTriangle& t = c.ui.triangle;
+    const float lens_f_number = f_number_of(c.scene().view.lens);
+    float f_number = lens_f_number > 0 ? lens_f_number : t.f_number, iso = t.iso;
+    float per_second = std::exp2(exposure_of(f_number, 1, iso) - settings.exposure_ev);
+    bool changed = false;
+    ImGui::BeginDisabled(lens_f_number > 0);
+    changed |= f.number("f-number", f_number,
+                        {.min = 0.1f, .max = 1000, .reset = 8, .step = 0.05f, .tip = "Of the exposure alone while the lens is a pinhole; else that of the lens.", .format = "f/%.3g"});
+    ImGui::EndDisabled();
+    changed |= f.number("Shutter", per_second, {.min = 1e-6f, .max = 1e9f, .reset = 125, .unit = "s", .tip = "Fraction of a second: 125 is 1/125 s.", .format = "1/%.4g"});
+    changed |= f.number("ISO", iso, {.min = 1, .max = 1e7f, .reset = 100, .tip = "Sensitivity of the film.", .format = "%.0f"});
+    if (!changed) return;
+    if (lens_f_number <= 0) t.f_number = f_number;
+    t.iso = iso;
+    settings.exposure_ev = std::clamp(exposure_of(f_number, 1 / per_second, iso), -20.f, 20.f);
 }
 
 void draw_pose(PanelContext& c) {
@@ -105,6 +169,7 @@ void draw_camera_panel(PanelContext& c) {
         draw_focus(f, lens);
         if (f.changed() && lens != c.scene().view.lens) c.apply(SetLens{lens}, f.gesture());
     }
+    if (section(c.ui, "Frame")) draw_frame(c);
     if (section(c.ui, "View")) draw_pose(c);
     if (section(c.ui, "Exposure")) {
         ViewSettings settings = c.project().view;
@@ -117,6 +182,7 @@ void draw_camera_panel(PanelContext& c) {
                   .step = 0.02f,
                   .tip = "Each EV doubles the brightness of the picture as shown. The render is not touched.",
                   .format = "%+.2f"});
+        if (c.project().view.auto_exposure == AutoExposure::off) draw_camera_exposure(c, f, settings);
         if (f.changed()) c.apply(SetView{settings}, f.gesture());
     }
 }

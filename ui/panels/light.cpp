@@ -35,7 +35,7 @@ double area_scale(const Affined& world, Light::Kind kind) {
 
 void draw_direction(Fields& f, PanelContext& c, Id<Node> id, const Light& light) {
     const Quat rotation = world_rotation(c.scene(), id);
-    Heading heading = heading_of(rotation);
+    Heading heading = heading_of_rotation(rotation);
     f.number("Heading", heading.heading,
              {.min = -360,
               .max = 360,

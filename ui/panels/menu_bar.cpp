@@ -1,6 +1,7 @@
 // The menu bar: every command that has a place in a menu, with its key.
 #include "ui/panels/panels.h"
 
+#include <filesystem>
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -21,6 +22,16 @@ void draw_recent(PanelContext& c) {
     ImGui::EndMenu();
 }
 
+void draw_demos(PanelContext& c) {
+    if (!ImGui::BeginMenu("Demos", !c.ui.demos.empty())) return;
+    for (const std::string& file : c.ui.demos) {
+        const std::string name = std::filesystem::path(file).stem().string();
+        if (ImGui::MenuItem(name.c_str())) c.ui.files.push_back({FileRequest::Use::open, file});
+        c.ui.probe.record_last_item("Menu/Demos/" + name);
+    }
+    ImGui::EndMenu();
+}
+
 bool begin_menu(PanelContext& c, const char* name) {
     const ImVec2 at = ImGui::GetCursorScreenPos(), size = ImGui::CalcTextSize(name);
     c.ui.probe.record(std::string("Menu bar/") + name, {at.x, at.y, size.x, ImGui::GetFrameHeight()});
@@ -30,6 +41,8 @@ bool begin_menu(PanelContext& c, const char* name) {
 void draw_file_menu(PanelContext& c) {
     item(c, Command::open);
     draw_recent(c);
+    draw_demos(c);
+    c.ui.probe.record_last_item("Menu/Demos");
     item(c, Command::import_scene);
     item(c, Command::environment);
     const Node* node = c.scene().nodes.find(c.ui.selected);
@@ -60,6 +73,8 @@ void draw_edit_menu(PanelContext& c) {
     item(c, Command::rename, selected);
     item(c, Command::remove, selected);
     item(c, Command::clear_selection, selected);
+    ImGui::Separator();
+    item(c, Command::add_ground);
 }
 
 void draw_lights_menu(PanelContext& c) {
@@ -68,6 +83,7 @@ void draw_lights_menu(PanelContext& c) {
                                       Command::add_sphere}) item(c, command);
         ImGui::EndMenu();
     }
+    item(c, Command::light_by_studio);
     item(c, Command::light_by_sky);
     ImGui::Separator();
     const Node* node = c.scene().nodes.find(c.ui.selected);

@@ -29,6 +29,7 @@ void draw_no_light_banner(PanelContext& c, const Region& picture) {
         if (ImGui::IsWindowAppearing()) c.ui.next_frame_in = 0; // it is seen in the frame after the one that measures it
         ImGui::AlignTextToFramePadding();
         ImGui::TextUnformatted("No light in this file");
+        draw_button(c, "Studio", Command::light_by_studio, "Three softboxes and the panorama of a studio light the scene.");
         draw_button(c, "Sky", Command::light_by_sky, "A clear sky with its sun lights the scene.");
         draw_button(c, "Environment...", Command::environment, "A panorama (.hdr, .exr) lights the scene as the place where it was taken.");
         draw_button(c, "Add light", Command::add_rectangle, "A rectangle light beside the subject.");

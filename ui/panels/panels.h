@@ -4,6 +4,9 @@
 #include "ui/panels/context.h"
 #include "ui/waveform_sheet.h"
 
+#include <imgui.h>
+
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -48,6 +51,8 @@ void draw_roulette_panel(PanelContext& c);
 void draw_light_table(PanelContext& c);
 void draw_convergence_panel(PanelContext& c);
 void draw_question(PanelContext& c);
+// `picture(file)` is a scene's thumbnail; 0: none.
+void draw_opening_page(PanelContext& c, const std::function<ImTextureID(const std::string&)>& picture);
 // Over the middle of the picture, while the scene has no light at all.
 void draw_no_light_banner(PanelContext& c, const Region& picture);
 

@@ -1,0 +1,198 @@
+// What a file looks like when it opens: the exposure that its subject is metered to, the camera that it is composed for, and its frame.
+#include "our_colors.h"
+#include "scene/document.h"
+#include "scene/ground_plane.h"
+#include "support/sample_project.h"
+#include "ui/camera_frame.h"
+#include "ui/file_places.h"
+#include "ui/home_view.h"
+#include "ui/light_presence.h"
+#include "ui/subject_exposure.h"
+
+#include "io/displayed.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <unistd.h>
+
+namespace blush {
+namespace {
+
+// Objects on the left half, backdrop on the right; each half of one grey.
+Frame halves(float object, float backdrop) {
+    Frame f;
+    f.width = 80;
+    f.height = 48;
+    for (int i = 0; i < f.width * f.height; ++i) {
+        const bool is_object = i % f.width < f.width / 2;
+        const float grey = is_object ? object : backdrop;
+        f.rgba.insert(f.rgba.end(), {grey, grey, grey, 1});
+        f.object_id.push_back(is_object ? 1 : 0);
+        f.depth.push_back(is_object ? 2.f : 0.f);
+    }
+    return f;
+}
+
+class SubjectExposure : public testing::Test {
+protected:
+    ColorManagement color = test::our_colors();
+    Scene scene;
+    std::optional<float> metered(const Frame& f, std::vector<Id<Node>> selected = {}) { return subject_exposure(f, scene, selected, {}, color); }
+    // Mean of the encoded picture.
+    double shown_mean(const Frame& f, float exposure_ev) {
+        std::vector<float> rgb;
+        for (size_t i = 0; i < f.rgba.size(); i += 4) rgb.insert(rgb.end(), {f.rgba[i], f.rgba[i + 1], f.rgba[i + 2]});
+        ViewSettings view;
+        view.exposure_ev = exposure_ev;
+        EXPECT_TRUE(show(color, view, rgb));
+        double sum = 0;
+        for (const float x : rgb) sum += x;
+        return sum / double(rgb.size());
+    }
+};
+
+TEST_F(SubjectExposure, BringsObjectsToMiddleGreyWhateverTheBackdrop) {
+    for (const float grey : {1e-4f, 0.18f, 3000.f}) {
+        const Frame black = halves(grey, 0), same = halves(grey, grey);
+        ASSERT_TRUE(metered(black));
+        EXPECT_NEAR(*metered(black), std::log2(0.18f / grey), 1e-3);
+        EXPECT_NEAR(*metered(same), std::log2(0.18f / grey), 1e-3);
+        const double mean = shown_mean(same, *metered(same));
+        EXPECT_GT(mean, 0.1);
+        EXPECT_LT(mean, 0.6);
+    }
+    EXPECT_FALSE(metered(halves(0, 1))) << "a black object says nothing";
+}
+
+TEST_F(SubjectExposure, ABrightBackdropLowersItByOneAndAHalfStopsAtMost) {
+    const float alone = *metered(halves(0.18f, 0)), beside = *metered(halves(0.18f, 1000));
+    EXPECT_NEAR(beside, alone - 1.5f, 1e-3);
+}
+
+TEST_F(SubjectExposure, LooksAtWhatIsSelected) {
+    Node node;
+    node.mesh = scene.meshes.add({});
+    const Id<Node> first = scene.nodes.add(node), second = scene.nodes.add(node);
+    Frame f = halves(0.5f, 0.001f);
+    for (size_t i = 0; i < f.object_id.size(); ++i) f.object_id[i] = f.object_id[i] ? first.value : second.value;
+    EXPECT_NEAR(*metered(f, {first}), std::log2(0.18f / 0.5f), 1e-3);
+    // The first would be clipped; the whole picture may take one and a half stops of that back.
+    EXPECT_LE(*metered(f, {second}), std::log2(0.18f / 0.001f) + 1e-3);
+    EXPECT_GE(*metered(f, {second}), std::log2(0.18f / 0.001f) - 1.5f - 1e-3);
+}
+
+TEST_F(SubjectExposure, LooksAtWhatIsInFocus) {
+    Frame f = halves(0.02f, 0.3f);
+    for (size_t i = 0; i < f.object_id.size(); ++i) {
+        if (f.object_id[i] == 0) f.depth[i] = 50;
+        f.object_id[i] = 1;
+    }
+    scene.view.lens.aperture_radius = 0.05f;
+    scene.view.lens.focus_distance = 50;
+    EXPECT_NEAR(*metered(f), std::log2(0.18f / 0.3f), 1e-3);
+    scene.view.lens.focus_distance = 2;
+    EXPECT_NEAR(*metered(f), std::log2(0.18f / 0.02f), 1.5f + 1e-3);
+}
+
+TEST(DocumentMeter, IsNoStepOfTheHistory) {
+    const test::Sample s = test::sample_project();
+    Document document(s.project);
+    document.meter(3, true);
+    EXPECT_FALSE(document.can_undo());
+    EXPECT_FALSE(document.modified());
+    EXPECT_EQ(document.project().view.exposure_ev, 3);
+    Environment sky = s.project.scene.environment;
+    sky.kind = Environment::Kind::sky;
+    ASSERT_TRUE(document.apply(SetEnvironment{sky}));
+    document.meter(-9, false);
+    document.undo();
+    EXPECT_EQ(document.project().view.exposure_ev, 3) << "taken back with the edit that it belongs to";
+    document.redo();
+    EXPECT_EQ(document.project().view.exposure_ev, -9);
+}
+
+TEST(CameraFrame, PictureAndFrameHaveTheAspect) {
+    CameraFrame frame;
+    EXPECT_EQ(picture_size(frame, 900, 600).width, 900);
+    frame.aspect = 1;
+    EXPECT_EQ(picture_size(frame, 900, 600).width, 900) << "goes on beside the frame";
+    const ImageRect inside = frame_in_picture(frame, {10, 20, 900, 600});
+    EXPECT_EQ(inside.width, 600);
+    EXPECT_EQ(inside.x, 160);
+    frame.fit = true;
+    EXPECT_EQ(picture_size(frame, 900, 600).width, 600);
+    EXPECT_EQ(picture_size(frame, 900, 600).height, 600);
+    frame = {.aspect = 2};
+    EXPECT_EQ(picture_size(frame, 900, 600).height, 450) << "wider than the window: all of it shows";
+    EXPECT_EQ(frame_in_picture(frame, {0, 0, 900, 450}).width, 900);
+}
+
+TEST(HomeView, IsTheCameraThatTheViewLooksThrough) {
+    Scene scene;
+    const Id<Camera> camera = scene.cameras.add({"camera", {}});
+    Node node;
+    node.camera = camera;
+    node.local.translation = {0, 0, 3};
+    const Id<Node> first = scene.nodes.add(node);
+    node.local.translation = {4, 0, 3};
+    const Id<Node> second = scene.nodes.add(node);
+    scene.view = view_through(scene, second);
+    const HomeView home = home_at_opening(scene);
+    EXPECT_EQ(home.camera, second);
+    EXPECT_TRUE(is_at_home(scene, home));
+    scene.view.position.x += 1;
+    EXPECT_FALSE(is_at_home(scene, home));
+    EXPECT_EQ(home_view(scene, home).position.x, 4);
+    EXPECT_EQ(home_at_opening(scene).camera, first) << "a free view: the first camera";
+    scene.nodes.remove(second);
+    EXPECT_TRUE(is_at_home(scene, home)) << "the camera is gone";
+}
+
+TEST(LightPresence, MutedLightsAreThere) {
+    Scene scene;
+    LightPresence presence;
+    Node node;
+    node.mesh = scene.meshes.add({});
+    scene.nodes.add(node);
+    EXPECT_FALSE(presence.in(scene));
+    Light lamp;
+    lamp.enabled = false;
+    Node holder;
+    holder.light = scene.lights.add(lamp);
+    scene.nodes.add(holder);
+    EXPECT_TRUE(presence.in(scene));
+}
+
+TEST(GroundPlane, LiesJustBelowTheModel) {
+    Bounds box;
+    box.include({-1, 2, -1});
+    box.include({3, 4, 1});
+    const Scene ground = ground_plane_under(box);
+    const Bounds plane = world_bounds(ground);
+    EXPECT_LT(plane.high.y, 2);
+    EXPECT_GT(plane.high.y, 1.99);
+    EXPECT_LT(plane.low.x, -10);
+    EXPECT_NEAR(plane.center().x, 1, 1e-5);
+}
+
+TEST(FilePlaces, EachFolderOnceAndOnlyThoseThatAreThere) {
+    const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("blush-places-" + std::to_string(getpid()));
+    std::filesystem::create_directories(folder / "scenes");
+    WindowSettings settings;
+    settings.recent = {(folder / "scenes" / "a.gltf").string(), (folder / "scenes" / "b.gltf").string(), (folder / "gone" / "c.gltf").string()};
+    settings.bookmarks = {folder.string()};
+    size_t scenes = 0, gone = 0, bookmarks = 0;
+    for (const FilePlace& place : file_places(settings, folder / "scenes")) {
+        scenes += place.folder == folder / "scenes";
+        gone += place.folder == folder / "gone";
+        bookmarks += place.bookmark;
+    }
+    EXPECT_EQ(scenes, 1u);
+    EXPECT_EQ(gone, 0u);
+    EXPECT_EQ(bookmarks, 1u);
+    std::filesystem::remove_all(folder);
+}
+
+} // namespace
+} // namespace blush
