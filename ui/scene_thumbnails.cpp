@@ -32,7 +32,7 @@ GlTexture uploaded(const Image& image) {
 
 std::filesystem::path thumbnail_file(const std::filesystem::path& scene, const std::filesystem::path& assets) {
     std::error_code error;
-    if (std::filesystem::equivalent(scene.parent_path(), assets / "scenes", error)) return assets / "scenes" / "thumbnails" / (scene.stem().string() + ".png");
+    if (std::filesystem::equivalent(scene.parent_path(), assets / "scenes", error)) return assets / "thumbnails" / (scene.stem().string() + ".png");
     const std::filesystem::path cache = user_folder("XDG_CACHE_HOME", ".cache");
     return cache.empty() ? cache : cache / "blush" / "thumbnails" / fmt::format("{:016x}.png", hash_of(scene.string()));
 }

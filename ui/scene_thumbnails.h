@@ -15,7 +15,7 @@
 
 namespace blush {
 
-// assets/scenes/thumbnails/NAME.png for a scene in assets/scenes; else a file in the user's cache, named after a hash of the scene's path. Empty
+// assets/thumbnails/NAME.png for a scene in assets/scenes; else a file in the user's cache, named after a hash of the scene's path. Empty
 // if the user has no cache.
 std::filesystem::path thumbnail_file(const std::filesystem::path& scene, const std::filesystem::path& assets);
 

@@ -68,7 +68,7 @@ void draw_focus(Fields& f, Lens& lens) {
     if (!lens.orthographic) {
         float f_number = f_number_of(lens);
         if (f.number("f-number", f_number,
-                     {.min = 0, .max = 1e6f, .reset = 0, .step = 0.05f, .tip = "Focal length over the diameter of the opening, on full frame. 0 is a pinhole.", .format = "f/%.3g"}))
+                     {.min = 0, .max = 1e6f, .reset = 0, .step = 0.05f, .tip = "Focal length over the diameter of the opening, on full frame. 0 is a pinhole.", .format = f_number > 0 ? "f/%.3g" : "pinhole (%.0f)"}))
             lens.aperture_radius = f_number > 0 ? focal_length(lens) / (2 * f_number) : 0;
     }
     f.number("Focus", lens.focus_distance,
@@ -112,6 +112,17 @@ float exposure_of(float f_number, float seconds, float iso) {
     return std::log2(grey / metered) - std::log2(f_number * f_number / seconds) + std::log2(iso / 100);
 }
 
+// As cameras show it: fractions of a second below one, seconds above.
+bool draw_shutter(Fields& f, float& per_second) {
+    constexpr float shortest = 1e-9f, longest = 1e9f;
+    constexpr const char* tip = "How long the film is exposed. Below a second the number is that below the fraction: 125 is 1/125 s.";
+    if (per_second > 1) return f.number("Shutter", per_second, {.min = 1, .max = 1 / shortest, .reset = 125, .unit = "s", .tip = tip, .format = "1/%.4g"});
+    float seconds = 1 / per_second;
+    if (!f.number("Shutter", seconds, {.min = shortest, .max = longest, .reset = 1 / 125.f, .unit = "s", .tip = tip})) return false;
+    per_second = 1 / seconds;
+    return true;
+}
+
 // f-number, shutter and ISO are another way to say the exposure; the shutter follows it when it is changed elsewhere.
 void draw_camera_exposure(PanelContext& c, Fields& f, ViewSettings& settings) {
     ExposureTriangle& t = c.ui.triangle;
@@ -123,7 +134,7 @@ void draw_camera_exposure(PanelContext& c, Fields& f, ViewSettings& settings) {
     changed |= f.number("f-number", f_number,
                         {.min = 0.1f, .max = 1000, .reset = 8, .step = 0.05f, .tip = "Of the exposure alone while the lens is a pinhole; else that of the lens.", .format = "f/%.3g"});
     ImGui::EndDisabled();
-    changed |= f.number("Shutter", per_second, {.min = 1e-6f, .max = 1e9f, .reset = 125, .unit = "s", .tip = "Fraction of a second: 125 is 1/125 s.", .format = "1/%.4g"});
+    changed |= draw_shutter(f, per_second);
     changed |= f.number("ISO", iso, {.min = 1, .max = 1e7f, .reset = 100, .tip = "Sensitivity of the film.", .format = "%.0f"});
     if (!changed) return;
     if (lens_f_number <= 0) t.f_number = f_number;

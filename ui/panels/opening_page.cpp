@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 
 namespace blush {
 namespace {
@@ -54,7 +55,9 @@ void draw_opening_page(PanelContext& c, const std::function<ImTextureID(const st
     ImGui::Begin("##opening", nullptr, flags);
     if (ImGui::IsWindowAppearing()) c.ui.next_frame_in = 0; // it is seen in the frame after the one that measures it
     draw_row(c, "Demos", c.ui.demos, picture);
-    draw_row(c, "Recent", c.ui.settings.recent, picture);
+    std::vector<std::string> recent;
+    std::ranges::copy_if(c.ui.settings.recent, std::back_inserter(recent), [&](const std::string& file) { return std::ranges::count(c.ui.demos, file) == 0; });
+    draw_row(c, "Recent", recent, picture);
     if (ImGui::Button("Open...")) c.ui.commands.push_back(Command::open);
     c.ui.probe.record_last_item("Opening/Open...");
     ImGui::SameLine();
