@@ -1,5 +1,5 @@
 blush_test(test_io
-  SOURCES io_edits.cpp io_environment.cpp io_files.cpp io_gltf_broken.cpp io_gltf_choices.cpp io_gltf_compressed.cpp io_gltf_coverage.cpp io_gltf_geometry.cpp
+  SOURCES io_edits.cpp io_merge_edits.cpp io_environment.cpp io_files.cpp io_gltf_broken.cpp io_gltf_choices.cpp io_gltf_compressed.cpp io_gltf_coverage.cpp io_gltf_geometry.cpp
     io_gltf_hostile.cpp io_gltf_images.cpp io_gltf_instancing.cpp io_gltf_light_extensions.cpp io_gltf_lights.cpp
     io_gltf_materials.cpp io_gltf_motion.cpp io_gltf_nodes.cpp io_gltf_parallel.cpp io_gltf_points_lines.cpp io_gltf_save.cpp io_gltf_suspicions.cpp
     io_gltf_textures.cpp io_gltf_unpacking.cpp io_gltf_validator.cpp io_gltf_verdicts.cpp io_ies.cpp io_image.cpp io_settings.cpp io_sidecar.cpp
