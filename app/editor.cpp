@@ -331,7 +331,7 @@ void Editor::obey(PanelContext& c) {
 void Editor::run_own_command(Command command) {
     if (takers().browse_for(command)) return;
     switch (command) {
-    case Command::reload: return saving_.before_losing_edits("reloading the file", [this] { files_.reload(); });
+    case Command::reload: return saving_.before_reloading([this](bool keep_edits) { files_.reload(keep_edits); });
     case Command::save_scene: return saving_.save();
     case Command::save_scene_as: return saving_.ask_for_file();
     case Command::snapshot_exr: snapshot_due_ = SnapshotDue::keep; return save_due_snapshot();

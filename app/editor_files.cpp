@@ -4,6 +4,7 @@
 #include "io/environment_image.h"
 #include "io/gltf_camera_aspects.h"
 #include "io/ies.h"
+#include "io/merge_edits.h"
 #include "io/scene_edits_json.h"
 #include "ui/remembered.h"
 
@@ -168,6 +169,13 @@ EditorFiles::Finished EditorFiles::finish_import(Document& document, UiState& ui
         ui.toasts.fail(opened.error().text());
         return {};
     }
+    // The scene that was opened is what the edits were made to.
+    std::optional<MergedEdits> merged;
+    if (purpose_ == Purpose::reload && keep_edits_) {
+        merged = merge_edits(imported_, document.project().scene, opened->imported.scene);
+        for (const std::string& conflict : merged->conflicts)
+            opened->imported.report.diagnostics.insert(opened->imported.report.diagnostics.begin(), {Diagnostic::Severity::warning, conflict, ""});
+    }
     report(ui, importing_, opened->imported.report);
     if (purpose_ == Purpose::merge) {
         const auto done = document.apply(Import{opened->scene, importing_.stem().string()});
@@ -181,7 +189,7 @@ EditorFiles::Finished EditorFiles::finish_import(Document& document, UiState& ui
     written_by_blush_ = has_our_settings(opened->imported);
     if (purpose_ == Purpose::reload) {
         project.scene.view = document.project().scene.view;
-        ui.selected = same_node(document.project().scene, ui.selected, project.scene);
+        ui.selected = same_node(document.project().scene, ui.selected, merged ? merged->scene : project.scene);
     } else {
         remember_scene(ui, scene_file_.string(), ui.settings);
         scene_file_ = importing_;
@@ -196,6 +204,12 @@ EditorFiles::Finished EditorFiles::finish_import(Document& document, UiState& ui
     document.reset(std::move(project));
     if (purpose_ == Purpose::open) begin_at_camera(ui, document.project().scene, std::move(opened->camera_aspects));
     if (purpose_ == Purpose::open) recall_scene(ui.settings, scene_file_.string(), document.project().scene, ui);
+    if (merged) {
+        // Undo leads to the file as it is.
+        Project edited = document.project();
+        edited.scene = std::move(merged->scene);
+        document.replace(std::move(edited), "Reload with my edits");
+    }
     if (opened->recovered) document.replace(*std::move(opened->recovered), "Recover unsaved edits");
     const bool stored = purpose_ != Purpose::open || (opened->imported.view && !keep_view_) || opened->recovered;
     return {.opened = true, .recovered = opened->recovered.has_value(), .stored_exposure = stored};
@@ -249,9 +263,9 @@ void EditorFiles::look_at_scene_file(const Document& document, UiState& ui) {
     if (now < next_look_) return;
     next_look_ = now + std::chrono::seconds(1);
     if (import_job_ || save_job_ || !watch_.changed()) return;
-    if (!document.modified()) return reload();
+    if (!document.modified()) return reload(false);
     ui.toasts.add({Toast::Kind::warning, scene_file_.filename().string() + " has changed on disk",
-                   "Reloading it discards the edits made here.", Command::reload});
+                   "Reload it to take up the changes; your edits can be kept.", Command::reload});
 }
 
 EditorFiles::Finished EditorFiles::poll(Document& document, UiState& ui) {

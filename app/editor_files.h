@@ -58,7 +58,11 @@ public:
     // Opens the scene of a sidecar with its edits. Refuses when the file is not the one that was edited.
     void recover(const Sidecar& sidecar) { start_import(sidecar.scene, Purpose::open, {}, sidecar); }
     void import_scene(const std::filesystem::path& file) { start_import(file, Purpose::merge); }
-    void reload() { start_import(scene_file_, Purpose::reload); }
+    // Takes up the file as it is now; `keep_edits`: with the edits that were made to it here, as one step that can be undone.
+    void reload(bool keep_edits) {
+        keep_edits_ = keep_edits;
+        start_import(scene_file_, Purpose::reload);
+    }
     // The document as it is now; scene_file() is then the file.
     void save(const std::filesystem::path& file, const Project& project);
     // The scene that is being opened, while its textures are still missing: a document of its own, to be looked at. Null: there is none.
@@ -127,6 +131,7 @@ private:
     Purpose purpose_ = Purpose::open;
     std::filesystem::path importing_, environment_;
     bool keep_settings_ = false, keep_view_ = false;
+    bool keep_edits_ = false; // of a reload
     std::shared_ptr<EarlyScene> early_; // of the import that goes on
     std::optional<Document> preview_;
     Project saving_; // as it was when the save began

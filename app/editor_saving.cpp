@@ -95,6 +95,17 @@ void EditorSaving::before_losing_edits(const std::string& doing, std::function<v
         });
 }
 
+void EditorSaving::before_reloading(std::function<void(bool keep_edits)> go_on) {
+    if (!document_.modified()) return go_on(false);
+    ask({fmt::format("Reload {} and keep your edits?", files_.scene_file().filename().string()),
+         "Edits are made again to the objects, materials and lights that are called the same. Where the file changed the same thing, yours is kept and the "
+         "import report lists it. Undo shows the file as it is.",
+         {"Keep edits", "Take file's", "Cancel"}},
+        [go_on = std::move(go_on)](size_t choice) {
+            if (choice < 2) go_on(choice == 0);
+        });
+}
+
 void EditorSaving::offer_recovery(const std::filesystem::path& scene) {
     const std::vector<Leftover> leftovers = find_leftovers(recovery_folder());
     const auto wanted =

@@ -23,6 +23,8 @@ public:
     // `go_on` runs at once if everything is saved, else when the user has saved or discarded; not at all if they cancel.
     // `doing`: "closing the window".
     void before_losing_edits(const std::string& doing, std::function<void()> go_on);
+    // Asks whether edits are kept, if there are any, and goes on unless the user cancels.
+    void before_reloading(std::function<void(bool keep_edits)> go_on);
     // Offers the edits that a crash has left of this scene, or, with an empty path, of any.
     void offer_recovery(const std::filesystem::path& scene);
 
