@@ -155,6 +155,25 @@ Findings white_dielectric(double degrees) {
     return whole(render(scene, settings_for(16, 16, 64)), 1);
 }
 
+// A floor under a plate of solid glass and a parallel sun: what the sun sends through both faces, reflections between them included, is
+// (1 - F) / (1 + F) with F = 0.04. No strategy finds it.
+Findings sun_through_solid_glass() {
+    constexpr double reflectance = 0.04, passes = (1 - reflectance) / (1 + reflectance);
+    Scene scene;
+    place(scene, floor_quad(50), lambert(0.5f));
+    Transform plate = at({0, 1.1f, 0});
+    plate.scale = {50, 0.1f, 50};
+    place(scene, cube(false), glass(0, 1.5f), plate);
+    Light sun;
+    sun.kind = Light::Kind::sun;
+    sun.intensity = float(pi_d);
+    shine(scene, sun, aimed({0, 5, 0}, {0, -1, 0}));
+    scene.view = looking_down(0.5f, 0.5f);
+    RenderSettings settings = settings_for(16, 16, 4);
+    settings.max_bounces = 3; // direct light through the plate
+    return whole(render_anything(scene, settings), 0.5 * passes);
+}
+
 } // namespace
 
 std::vector<StabilityCase> limit_cases() {
@@ -184,6 +203,9 @@ std::vector<StabilityCase> limit_cases() {
         {"closed ball of radius 1e12 m", 3, [] { return closed_ball(1e12f); }, "as for the ball of 1e-10 m"},
         {"camera 0.3 m beside the metres at 1e7 m", 2, camera_between_floats,
          "nodes and the camera are placed in single precision; hang them from a node that is far away"},
+        {"floor under solid glass and a parallel sun", 4, sun_through_solid_glass,
+         "a unidirectional path tracer finds lights without size neither by sampling nor by rays through delta lobes; thin panes pass them, and "
+         "an angle of the sun lets rays find it"},
         {"back of a surface that is not double-sided", 20, back_of_a_surface,
          "both sides of a surface reflect, as light on its way through a room needs it; glTF's culling of backs is for rasterisers"},
     };
