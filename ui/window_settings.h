@@ -32,7 +32,7 @@ struct WindowSettings {
     bool follow_viewport = true;     // render at the viewport's size
     bool overlays = true;            // light glyphs, handles, outlines
     std::vector<std::string> recent; // scene files, newest first
-    std::string snapshot_folder;     // empty: the working directory
+    std::string snapshot_folder;     // empty: that of the scene
     bool snapshot_files = true;      // each snapshot is written to a file,
     bool snapshot_half = false;      // its colours in 16 bits,
     bool snapshot_film = true;       // with the samples to go on from

@@ -106,8 +106,6 @@ void draw_view_menu(PanelContext& c) {
     item(c, Command::toggle_projection, true, nullptr, c.scene().view.lens.orthographic);
     item(c, Command::toggle_overlays, true, nullptr, c.ui.settings.overlays);
     item(c, Command::toggle_zoom, true, nullptr, c.ui.zoom.scale > 0);
-    item(c, Command::toggle_panels, true, nullptr, c.ui.panels_hidden);
-    item(c, Command::full_screen);
     ImGui::Separator();
     item(c, Command::exposure_up);
     item(c, Command::exposure_down);
@@ -122,7 +120,6 @@ void draw_view_menu(PanelContext& c) {
     item(c, Command::render_all, c.project().render.region != PictureRegion{});
     item(c, Command::pause, true, nullptr, c.ui.paused);
     ImGui::Separator();
-    item(c, Command::snapshot_strip, true, nullptr, c.ui.snapshots.open);
     item(c, Command::undelete_snapshot, c.ui.snapshots.can_put_back());
     const Comparison::Mode mode = c.ui.snapshots.compare.mode;
     const bool any = !c.ui.snapshots.list.empty();
@@ -157,6 +154,12 @@ void draw_menu_bar(PanelContext& c) {
     }
     if (begin_menu(c, "View")) {
         draw_view_menu(c);
+        ImGui::EndMenu();
+    }
+    if (begin_menu(c, "Window")) {
+        item(c, Command::toggle_panels, true, nullptr, c.ui.panels_hidden);
+        item(c, Command::full_screen);
+        item(c, Command::snapshot_strip, true, nullptr, c.ui.snapshots.open);
         ImGui::EndMenu();
     }
     if (begin_menu(c, "Help")) {
