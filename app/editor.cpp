@@ -273,11 +273,11 @@ void Editor::draw_side_panels(PanelContext& c, const Layout& l) {
 }
 
 void Editor::draw_above(PanelContext& c) {
+    draw_pixel_panel(c); // a popup: it is open whatever is hidden
     if (ui_.panels_hidden) return;
     ImGui::BeginDisabled(files_.preview() != nullptr);
     draw_comparison_panel(c);
     draw_snapshot_panel(c);
-    draw_pixel_panel(c);
     draw_region_panel(c);
     draw_meters_panel(c);
     waveforms_.update(ui_.scopes);
