@@ -1,7 +1,6 @@
 #include "app/light_commands.h"
 
-#include "app/assets_dir.h"
-#include "io/environment_image.h"
+#include "app/scene_overrides.h"
 #include "ui/edit_together.h"
 #include "ui/light_groups.h"
 #include "ui/light_rows.h"
@@ -54,14 +53,7 @@ const Light* light_of(PanelContext& c, Id<Node> id) {
 } // namespace
 
 void add_light_rig(PanelContext& c, LightRig rig) {
-    Environment studio;
-    if (rig == LightRig::studio) {
-        studio.kind = Environment::Kind::image;
-        studio.file = (assets_dir() / "environments" / "studio.hdr").string();
-        const Result<ImagePtr> image = read_environment_image(studio.file);
-        if (!image) return c.ui.toasts.fail(image.error().text());
-        studio.image = *image;
-    }
+    const Environment studio = rig == LightRig::studio ? studio_map() : Environment{};
     if (c.apply(light_rig_edits(c.scene(), rig, studio), rig == LightRig::studio ? "Light with a studio" : "Light by a sky")) c.ui.meter_exposure = true;
 }
 

@@ -1,12 +1,14 @@
 #include "ui/new_light.h"
 
 #include "scene/affine.h"
+#include "scene/line_of_sight.h"
 #include "ui/light_tools.h"
 #include "ui/orbit_camera.h"
 #include "ui/rotation.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace blush {
@@ -14,6 +16,7 @@ namespace {
 
 constexpr double pi_d = 3.14159265358979323846;
 constexpr double size_of_reach = 0.2, distance_of_reach = 0.45, farthest_of_reach = 1.5;
+constexpr double share_of_room = 0.6; // of the way to a wall
 
 // Metres that the picture is high at a distance along the view axis.
 double reach_at(const View& view, double distance) {
@@ -65,6 +68,22 @@ double way_out(const Bounds& box, const Vec3d& from, const Vec3d& direction) {
     return out;
 }
 
+// Distance from a point inside to the wall of a room around it: a surface that faces the point. The shell of an object that the point lies in faces
+// away, and is passed. Infinite in the open.
+double wall_of_room(const Scene& scene, const Vec3d& from, const Vec3d& direction) {
+    constexpr int most_shells = 16;
+    Vec3d origin = from;
+    for (int i = 0; i < most_shells; ++i) {
+        const auto hit = cast_ray(scene, origin, direction, [](Id<Node>) { return true; });
+        if (!hit) break;
+        const double distance = length(hit->position - from);
+        const Vec3d outside = cross(hit->corners[1] - hit->corners[0], hit->corners[2] - hit->corners[0]);
+        if (dot(outside, direction) < 0) return distance;
+        origin = from + direction * (distance * (1 + 1e-9) + 1e-12);
+    }
+    return std::numeric_limits<double>::infinity();
+}
+
 // Degrees about the vertical, from the viewer's side to the right, and above the horizon.
 struct Direction {
     double around, above, strength;
@@ -82,7 +101,8 @@ LightSpot spot_over_surface(const Scene& scene, const View& view, const SurfaceS
     std::vector<LightSpot> spots;
     for (const double aside : {0.0, 0.7, -0.7, 1.4, -1.4, 2.8, -2.8}) {
         const Vec3d direction = normalize(normal + to_eye * 0.3 + Vec3d{0, 0.3, 0} + right * aside);
-        spots.push_back({surface.position + direction * distance, surface.position, 1});
+        const double free = free_share(scene, surface.position, surface.position + direction * distance, [](Id<Node>) { return true; });
+        spots.push_back({surface.position + direction * (distance * (free < 1 ? share_of_room * free : 1)), surface.position, 1});
     }
     return first_free(scene, spots, size_of_reach * reach);
 }
@@ -91,15 +111,21 @@ LightSpot spot_round_subject(const Scene& scene, const View& view, const Bounds&
     const Vec3d target = pivot(view), back = rotate(view.rotation, {0, 0, 1});
     const double reach = reach_at(view, view.pivot_distance), to_viewer = std::atan2(back.x, back.z);
     const bool in_room = !subject.empty && contains(subject, to_double(view.position));
+    std::vector<Vec3d> directions;
+    std::vector<double> farthest;
+    for (const Direction& d : in_turn) {
+        const double around = to_viewer + d.around * pi_d / 180, above = d.above * pi_d / 180;
+        directions.push_back({std::sin(around) * std::cos(above), std::sin(above), std::cos(around) * std::cos(above)});
+        farthest.push_back(share_of_room * wall_of_room(scene, target, directions.back()));
+    }
     std::vector<LightSpot> spots;
     for (const double farther : {1.0, 1.4, 2.0})
-        for (const Direction& d : in_turn) {
-            const double around = to_viewer + d.around * pi_d / 180, above = d.above * pi_d / 180;
-            const Vec3d direction{std::sin(around) * std::cos(above), std::sin(above), std::cos(around) * std::cos(above)};
+        for (size_t i = 0; i < directions.size(); ++i) {
+            const Vec3d& direction = directions[i];
             double distance = distance_of_reach * reach;
             // A floor that goes on beyond the picture is nothing to be outside of.
             if (const double out = in_room ? 0 : 1.1 * way_out(subject, target, direction); out < farthest_of_reach * reach) distance = std::max(distance, out);
-            spots.push_back({target + direction * (distance * farther), target, d.strength});
+            spots.push_back({target + direction * std::min(distance * farther, farthest[i]), target, in_turn[i].strength});
         }
     return first_free(scene, spots, size_of_reach * reach);
 }

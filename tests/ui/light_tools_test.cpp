@@ -106,6 +106,38 @@ TEST(NewLight, KeyFillAndRimGoRoundTheSubjectInTurnAndNeverIntoEachOther) {
     EXPECT_LT(spots[2].position.z, -0.3) << "the rim from behind";
 }
 
+// A box open towards the viewer, whose walls face inwards, with a ball's shell around the pivot.
+TEST(NewLight, StaysInARoomThatIsSeenFromOutside) {
+    const auto quad = [](Scene& scene, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+        Geometry g;
+        g.positions = {a, b, c, d};
+        g.indices = {0, 1, 2, 0, 2, 3};
+        Node node;
+        node.mesh = scene.meshes.add({"Wall", {{std::make_shared<const Geometry>(g), {}}}});
+        scene.nodes.add(node);
+    };
+    Project project;
+    Scene& scene = project.scene;
+    quad(scene, {-1, -1, 1}, {1, -1, 1}, {1, -1, -1}, {-1, -1, -1}); // floor, facing up
+    quad(scene, {-1, 1, -1}, {1, 1, -1}, {1, 1, 1}, {-1, 1, 1});     // ceiling
+    quad(scene, {-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}); // back
+    quad(scene, {-1, -1, 1}, {-1, -1, -1}, {-1, 1, -1}, {-1, 1, 1}); // left
+    quad(scene, {1, -1, -1}, {1, -1, 1}, {1, 1, 1}, {1, 1, -1});     // right
+    for (const float z : {-0.1f, 0.1f}) // a plate about the pivot, facing outwards
+        z > 0 ? quad(scene, {-0.1f, -0.1f, z}, {0.1f, -0.1f, z}, {0.1f, 0.1f, z}, {-0.1f, 0.1f, z})
+              : quad(scene, {-0.1f, 0.1f, z}, {0.1f, 0.1f, z}, {0.1f, -0.1f, z}, {-0.1f, -0.1f, z});
+    scene.view = view_of_subject();
+    for (int i = 0; i < 9; ++i) {
+        const LightSpot spot = spot_round_subject(scene, scene.view, world_bounds(scene));
+        EXPECT_LT(std::max({std::abs(spot.position.x), std::abs(spot.position.y), -spot.position.z}), 1) << "light " << i << " is behind a wall";
+        const auto next = blush::apply(project, Edit{new_light(Light::Kind::point, scene.view, spot, 0)});
+        ASSERT_TRUE(next);
+        project = *next;
+    }
+    const LightSpot low = spot_over_surface(scene, scene.view, {{0.5, 0.9, 0}, {0, 1, 0}, {}});
+    EXPECT_LT(low.position.y, 1) << "under the ceiling";
+}
+
 TEST(NewLight, LightsTheSurfaceUnderTheCursorFromTheViewersSide) {
     const View view = view_of_subject();
     const SurfaceSpot surface{{0.2, 1, 0}, {0, 1, 0}, {}};
