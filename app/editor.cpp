@@ -292,7 +292,7 @@ void Editor::draw_above(PanelContext& c) {
 
 void Editor::draw_on_top(PanelContext& c) {
     draw_no_light_banner(c, {image_.x, image_.y, image_.width, image_.height});
-    opening_page_.draw(c);
+    opening_page_.draw(c, {image_.x, image_.y, image_.width, image_.height});
     draw_import_report(c);
     draw_shortcut_sheet(c);
     draw_file_browser(c);

@@ -15,8 +15,8 @@ std::vector<std::string> OpeningPage::demos() const {
     return files;
 }
 
-void OpeningPage::draw(PanelContext& c) {
-    draw_opening_page(c, [this](const std::string& scene) { return thumbnails_.of(scene); });
+void OpeningPage::draw(PanelContext& c, const Region& viewport) {
+    draw_opening_page(c, viewport, [this](const std::string& scene) { return thumbnails_.of(scene); });
 }
 
 void OpeningPage::keep_thumbnail(const std::filesystem::path& scene, const FramePtr& frame, const ViewSettings& view, const ColorManagement& color,

@@ -14,7 +14,7 @@ public:
     explicit OpeningPage(std::filesystem::path assets) : assets_(std::move(assets)), thumbnails_(assets_) {}
     // The shipped scenes, by name.
     std::vector<std::string> demos() const;
-    void draw(PanelContext& c);
+    void draw(PanelContext& c, const Region& viewport);
     // Writes a thumbnail of the scene once its picture is good enough, and, with `leaving`, as it was last seen. Failing is silent: it is a cache.
     void keep_thumbnail(const std::filesystem::path& scene, const FramePtr& frame, const ViewSettings& view, const ColorManagement& color, bool leaving = false);
 

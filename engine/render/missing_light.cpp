@@ -32,7 +32,7 @@ bool is_smooth(const Material& m) { return reflects(m) && unit(m.roughness) < sm
 } // namespace
 
 std::string missing_light(const Scene& scene, const std::vector<Id<Material>>& used) {
-    bool glass = false, mirror = false; // whatever is smooth mirrors a part
+    bool glass = false, mirror = false; // every smooth surface reflects a part
     for (const Id<Material> id : used) {
         const Material* m = scene.materials.find(id);
         if (!m || !is_smooth(*m)) continue;

@@ -10,7 +10,7 @@
 namespace blush {
 namespace {
 
-constexpr size_t cards_in_row = 5;
+constexpr size_t max_cards = 5;
 constexpr float card_width = 10, card_height = 6.25f; // ems
 
 // A picture with the file's name below; true if it is clicked.
@@ -32,13 +32,14 @@ bool draw_card(PanelContext& c, const std::string& file, ImTextureID picture) {
     return clicked;
 }
 
-void draw_row(PanelContext& c, const char* title, const std::vector<std::string>& files, const std::function<ImTextureID(const std::string&)>& picture) {
+void draw_cards(PanelContext& c, const char* title, const std::vector<std::string>& files, size_t in_row,
+                const std::function<ImTextureID(const std::string&)>& picture) {
     if (files.empty()) return;
     ImGui::PushFont(heading_font());
     ImGui::TextUnformatted(title);
     ImGui::PopFont();
-    for (size_t i = 0; i < std::min(files.size(), cards_in_row); ++i) {
-        if (i > 0) ImGui::SameLine();
+    for (size_t i = 0; i < std::min(files.size(), max_cards); ++i) {
+        if (i % in_row > 0) ImGui::SameLine();
         if (draw_card(c, files[i], picture(files[i]))) c.ui.files.push_back({FileRequest::Use::open, files[i]});
     }
     ImGui::Spacing();
@@ -46,18 +47,21 @@ void draw_row(PanelContext& c, const char* title, const std::vector<std::string>
 
 } // namespace
 
-void draw_opening_page(PanelContext& c, const std::function<ImTextureID(const std::string&)>& picture) {
+void draw_opening_page(PanelContext& c, const Region& viewport, const std::function<ImTextureID(const std::string&)>& picture) {
     if (!c.ui.opening_page || c.ui.question) return;
-    const ImVec2 screen = ImGui::GetIO().DisplaySize;
-    ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+    // Over the picture alone: panels stay as they are. As many cards side by side as fit.
+    ImGui::SetNextWindowPos({viewport.x + viewport.width / 2, viewport.y + viewport.height / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float card = card_width * ImGui::GetFontSize() + style.ItemSpacing.x;
+    const size_t in_row = size_t(std::clamp((viewport.width - 2 * style.WindowPadding.x) / card, 1.f, float(max_cards)));
     constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                                        ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
     ImGui::Begin("##opening", nullptr, flags);
     if (ImGui::IsWindowAppearing()) c.ui.next_frame_in = 0; // it is seen in the frame after the one that measures it
-    draw_row(c, "Demos", c.ui.demos, picture);
+    draw_cards(c, "Demos", c.ui.demos, in_row, picture);
     std::vector<std::string> recent;
     std::ranges::copy_if(c.ui.settings.recent, std::back_inserter(recent), [&](const std::string& file) { return std::ranges::count(c.ui.demos, file) == 0; });
-    draw_row(c, "Recent", recent, picture);
+    draw_cards(c, "Recent", recent, in_row, picture);
     if (ImGui::Button("Open...")) c.ui.commands.push_back(Command::open);
     c.ui.probe.record_last_item("Opening/Open...");
     ImGui::SameLine();

@@ -52,7 +52,7 @@ void draw_light_table(PanelContext& c);
 void draw_convergence_panel(PanelContext& c);
 void draw_question(PanelContext& c);
 // `picture(file)` is a scene's thumbnail; 0: none.
-void draw_opening_page(PanelContext& c, const std::function<ImTextureID(const std::string&)>& picture);
+void draw_opening_page(PanelContext& c, const Region& viewport, const std::function<ImTextureID(const std::string&)>& picture);
 // Over the middle of the picture, while the scene has no light at all.
 void draw_no_light_banner(PanelContext& c, const Region& picture);
 
