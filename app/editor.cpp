@@ -141,7 +141,9 @@ void Editor::run() {
         const bool moves_by_itself = ui_.next_frame_in < longest_sleep;
         frame_begin_ = Clock::now();
         pace_.begin(frame_begin_);
+        const uint64_t toasts = ui_.toasts.added();
         poll();
+        if (ui_.toasts.added() != toasts) window_->request_frames(2);
         if (!asked && !moves_by_itself && !window_->wait(0)) continue;
         latest();
         panels();

@@ -11,6 +11,7 @@ std::chrono::milliseconds lifetime(const Toast& toast) {
 }
 
 void Toasts::add(Toast toast) {
+    ++added_;
     std::erase_if(toasts_, [&](const Toast& t) { return t.text == toast.text; });
     toasts_.push_back(std::move(toast));
     if (toasts_.size() > most_toasts) toasts_.erase(toasts_.begin());

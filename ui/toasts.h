@@ -4,6 +4,7 @@
 #include "ui/shortcuts.h"
 
 #include <chrono>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,9 +31,12 @@ public:
     // Forgets those whose time is over.
     void expire(std::chrono::steady_clock::time_point now);
     const std::vector<Toast>& all() const { return toasts_; }
+    // How many were ever added: a sleeping window has something new to show when it grows.
+    uint64_t added() const { return added_; }
 
 private:
     std::vector<Toast> toasts_;
+    uint64_t added_ = 0;
 };
 
 // How long a toast stays: failures and those that offer something longer than mere notes.
