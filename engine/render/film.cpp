@@ -66,6 +66,9 @@ void Film::require_memory(const FilmSize& size) {
     for (const PlaneUse& plane : plane_uses(size))
         if (plane.used) per_pixel += double(plane.bytes_per_pixel);
     const double needed = per_pixel * double(size.width) * double(size.height);
+    // To ask what room there is reads several files, at every edit; for what is this small the allocator's own failure says it as well.
+    constexpr double never_asked_about = 256e6;
+    if (needed <= never_asked_about) return;
     const MemoryRoom room = memory_room();
     if (needed > 0.8 * double(room.limit))
         throw std::runtime_error(

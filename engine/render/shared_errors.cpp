@@ -9,29 +9,42 @@
 namespace blush {
 namespace {
 
-constexpr int max_pixels = 1 << 18; // that are looked at: in blocks all over the film, and not for long
+constexpr int max_pixels = 1 << 17; // that are looked at: in blocks all over the film, and not for long
 
 Vec3d half_difference(const PixelHalves& p) {
     if (!p.known) return {0, 0, 0};
     return (p.a - p.b) * std::sqrt(p.weight_a * (1 - p.weight_a));
 }
 
-// Of blocks of so many pixels: the mean square of the sum of their half differences over the sum of the squares, 1 if pixels err alone.
-double ratio_of_blocks(const Film& film, int width, int height) {
+// The mean square of the sum of the half differences in a block over the sum of the squares, 1 if pixels err alone: of the blocks of groups, and of
+// the tiles of a sample plan within them, in one pass.
+struct BlockRatios {
+    double blocks = 1, tiles = 1;
+};
+BlockRatios ratios_of_blocks(const Film& film, const ReuseGroups& groups) {
+    constexpr int side = SamplePlan::tile_size;
+    const int width = groups.block_width, height = groups.block_height;
     const int across = (film.width() + width - 1) / width, blocks = across * ((film.height() + height - 1) / height);
-    double together = 0, apart = 0;
+    double of_blocks = 0, of_tiles = 0, apart = 0;
     for (int block = 0; block < blocks; block += 1 + int(int64_t(blocks) * width * height / max_pixels)) {
         const int left = block % across * width, top = block / across * height;
+        const int right = std::min(left + width, film.width()), bottom = std::min(top + height, film.height());
         Vec3d sum{0, 0, 0};
-        for (int y = top; y < std::min(top + height, film.height()); ++y)
-            for (int x = left; x < std::min(left + width, film.width()); ++x) {
-                const Vec3d d = half_difference(film.halves(size_t(y) * size_t(film.width()) + size_t(x)));
-                sum = sum + d;
-                apart += dot(d, d);
+        for (int tile_y = top; tile_y < bottom; tile_y += side)
+            for (int tile_x = left; tile_x < right; tile_x += side) {
+                Vec3d tile{0, 0, 0};
+                for (int y = tile_y; y < std::min(tile_y + side, bottom); ++y)
+                    for (int x = tile_x; x < std::min(tile_x + side, right); ++x) {
+                        const Vec3d d = half_difference(film.halves(size_t(y) * size_t(film.width()) + size_t(x)));
+                        tile = tile + d;
+                        apart += dot(d, d);
+                    }
+                sum = sum + tile;
+                of_tiles += dot(tile, tile);
             }
-        together += dot(sum, sum);
+        of_blocks += dot(sum, sum);
     }
-    return apart > 0 ? together / apart : 1;
+    return apart > 0 ? BlockRatios{of_blocks / apart, of_tiles / apart} : BlockRatios{};
 }
 
 } // namespace
@@ -40,8 +53,9 @@ SharedErrors measure_shared_errors(const Film& film, const ReuseGroups& groups) 
     constexpr int near_side = SamplePlan::tile_size;
     const double most = groups.size();
     SharedErrors shared;
-    shared.means = std::clamp(ratio_of_blocks(film, groups.block_width, groups.block_height), 1.0, most);
-    const double near = std::clamp(ratio_of_blocks(film, near_side, near_side), 1.0, shared.means);
+    const BlockRatios ratios = ratios_of_blocks(film, groups);
+    shared.means = std::clamp(ratios.blocks, 1.0, most);
+    const double near = std::clamp(ratios.tiles, 1.0, shared.means);
     const auto of_products = [](double ratio, double partners) { return ratio * ratio / partners; };
     shared.products = 1 + of_products(near - 1, near_side * near_side * (1 - 1 / most)) +
                       of_products(shared.means - near, groups.block_width * groups.block_height - near_side * near_side);
