@@ -275,7 +275,7 @@ void Editor::draw_side_panels(PanelContext& c, const Layout& l) {
 }
 
 void Editor::draw_above(PanelContext& c) {
-    draw_pixel_panel(c); // a popup: it is open whatever is hidden
+    draw_pixel_panel(c); // a popup: it stays open while panels are hidden
     if (ui_.panels_hidden) return;
     ImGui::BeginDisabled(files_.preview() != nullptr);
     draw_comparison_panel(c);

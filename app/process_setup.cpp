@@ -7,6 +7,8 @@
 #include <cstring>
 #include <exception>
 #include <initializer_list>
+#include <new>
+#include <system_error>
 #include <tbb/global_control.h>
 #include <unistd.h>
 
@@ -15,12 +17,18 @@ namespace {
 
 // No allocation: memory may be what is missing.
 [[noreturn]] void end_with_a_line() {
-    const char* what = "it cannot go on";
+    const char *cause = "an error that nothing handles", *what = "the program cannot go on";
     try {
         if (const std::exception_ptr current = std::current_exception()) std::rethrow_exception(current);
+    } catch (const std::bad_alloc& e) {
+        cause = "not enough memory";
+        what = e.what();
+    } catch (const std::system_error& e) { // what starting a thread throws
+        cause = "not enough threads or memory";
+        what = e.what();
     } catch (const std::exception& e) { what = e.what(); } catch (...) {}
     char line[400];
-    const int length = std::snprintf(line, sizeof line, "blush: error: not enough threads or memory: %s\n", what);
+    const int length = std::snprintf(line, sizeof line, "blush: error: %s: %s\n", cause, what);
     if (length > 0) (void)!::write(STDERR_FILENO, line, std::strlen(line));
     ::_exit(1);
 }

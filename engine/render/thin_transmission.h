@@ -212,7 +212,7 @@ void move_shadow_rays(const KernelContext& context, TileScratch& scratch, int k,
     append<F>(q, s, slot, goes_on);
 }
 
-// Adds the light of all shadow rays that reach their light, through whatever panes. Empties the queue.
+// Adds the light of all shadow rays that reach their light, through any number of panes. Empties the queue.
 template <Features S, class F> void connect_through_panes(const KernelContext& context, TileScratch& scratch, int bounce) {
     ShadowQueue& q = scratch.shadows;
     HitColumns& h = scratch.hits;

@@ -17,7 +17,7 @@ std::optional<Id<Node>> first_between(const Scene& scene, const Vec3d& from, con
 // The share of the line from `from` to `to` that is free of all of those: 1 where it meets nothing.
 double free_share(const Scene& scene, const Vec3d& from, const Vec3d& to, const std::function<bool(Id<Node>)>& counts);
 
-// Where a ray meets the surface of a visible object among those that `counts`: whatever its material, seen from either side.
+// Where a ray meets the surface of a visible object among those that `counts`, of any material, seen from either side.
 struct RayHit {
     Id<Node> node;
     Vec3d position;

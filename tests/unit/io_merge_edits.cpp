@@ -70,7 +70,7 @@ Table<Clip> clips_that_move_something(const Scene& scene) {
     return clips;
 }
 
-// A file that is as it was gives back what was edited, whatever that was.
+// Merging into an unchanged file gives back every edit.
 TEST(MergeEdits, OfAnUnchangedFileAreTheEdits) {
     const Project imported = sample_project().project;
     Rng rng(5);
