@@ -5,6 +5,7 @@
 #include "app/editor_convergence.h"
 #include "app/editor_display.h"
 #include "app/editor_files.h"
+#include "app/editor_panels.h"
 #include "app/editor_saving.h"
 #include "app/editor_snapshots.h"
 #include "app/file_takers.h"
@@ -34,6 +35,15 @@ using Clock = FrameStats::Clock;
 
 constexpr double longest_sleep = 1; // seconds: how often the scene file is looked at
 
+// What the window leaves behind. A failure is a warning: the window has gone.
+void write_at_end(const WindowSettings& settings, const FrameStats& stats, const std::filesystem::path& stats_file) {
+    const auto warn = [](const Result<void>& written) {
+        if (!written) fmt::print(stderr, "blush: warning: {}\n", written.error().text());
+    };
+    if (const auto file = window_settings_file(); !file.empty()) warn(write_window_settings(file, settings));
+    if (!stats_file.empty()) warn(stats.write(stats_file));
+}
+
 class Editor {
 public:
     Editor(const EditorOptions& options, std::unique_ptr<Window> window, ColorManagement color, const Automation& automation,
@@ -49,7 +59,6 @@ private:
 
     PanelContext context();
     void draw_regions(PanelContext& c);
-    void draw_side_panels(PanelContext& c, const Layout& layout);
     void draw_above(PanelContext& c);
     void draw_on_top(PanelContext& c);
     void obey(PanelContext& c);
@@ -78,7 +87,7 @@ private:
     EditorSnapshots snapshots_{&Window::wake, options_.assets,
                                [this](std::function<void()> go_on) { saving_.before_losing_edits("opening another scene", std::move(go_on)); }};
     ThumbnailSheet thumbnails_;
-    WaveformSheet waveforms_;
+    InstrumentPanels instruments_;
     FrameStats stats_;
     FramePace pace_;
     Pictures pictures_;
@@ -258,37 +267,11 @@ void Editor::draw_regions(PanelContext& c) {
     ImGui::EndDisabled();
 }
 
-void Editor::draw_side_panels(PanelContext& c, const Layout& l) {
-    begin_region("Outliner", l.outliner);
-    draw_outliner(c);
-    end_region();
-    if (l.time.height > 0) {
-        begin_region("Time", l.time);
-        draw_time(c);
-        end_region();
-    }
-    begin_region("Inspector", l.inspector, {.padded = false});
-    draw_inspector(c);
-    end_region();
-    draw_light_mix_panel(c);
-    draw_light_table(c);
-}
-
 void Editor::draw_above(PanelContext& c) {
     draw_pixel_panel(c); // a popup: it stays open while panels are hidden
     if (ui_.panels_hidden) return;
     ImGui::BeginDisabled(files_.preview() != nullptr);
-    draw_comparison_panel(c);
-    draw_snapshot_panel(c);
-    draw_region_panel(c);
-    draw_meters_panel(c);
-    waveforms_.update(ui_.scopes);
-    draw_scopes_panel(c, waveforms_.textures());
-    draw_history(c);
-    draw_bounces_panel(c);
-    draw_convergence_panel(c);
-    draw_roulette_panel(c);
-    draw_health_panel(c);
+    instruments_.draw(c);
     ImGui::EndDisabled();
 }
 
@@ -464,13 +447,7 @@ void Editor::remember() {
         s.width = window_->size().width;
         s.height = window_->size().height;
     }
-    if (const auto file = window_settings_file(); !file.empty()) {
-        if (const auto written = write_window_settings(file, s); !written)
-            fmt::print(stderr, "blush: warning: {}\n", written.error().text());
-    }
-    if (automation_.stats_file.empty()) return;
-    if (const auto written = stats_.write(automation_.stats_file); !written)
-        fmt::print(stderr, "blush: warning: {}\n", written.error().text());
+    write_at_end(s, stats_, automation_.stats_file);
 }
 
 } // namespace
