@@ -105,8 +105,7 @@ std::optional<Error> Autosave::poll(const Document& document, const Scene& impor
     job_ = std::make_unique<BackgroundJob<Result<void>>>(
         "Keeping unsaved edits",
         [file = file_, project = document.project(), imported, origin](JobProgress&) -> Result<void> {
-            const Sidecar sidecar{origin.file, hash_text(*origin.json), edits_json(imported, project.scene), project.render, project.view};
-            return write_file(file, sidecar_json(sidecar));
+            return write_file(file, sidecar_json(sidecar_of(origin.file, *origin.json, imported, project)));
         },
         [] {});
     return failure;

@@ -5,7 +5,6 @@
 #include "io/gltf_camera_aspects.h"
 #include "io/ies.h"
 #include "io/merge_edits.h"
-#include "io/scene_edits_json.h"
 #include "ui/remembered.h"
 
 #include <algorithm>
@@ -43,6 +42,14 @@ void begin_at_camera(UiState& ui, const Scene& scene, std::map<Id<Camera>, float
     ui.home = home_at_opening(scene);
     ui.frame = {.fit = ui.frame.fit, .from_file = std::move(aspects)};
     ui.frame.aspect = aspect_in_file(ui.frame, scene, ui.home.camera);
+}
+
+// In front of what the import says itself.
+void list_conflicts(const std::vector<std::string>& conflicts, const std::string& heading, ImportReport& report) {
+    std::vector<Diagnostic> all;
+    if (!heading.empty()) all.push_back({Diagnostic::Severity::warning, heading, ""});
+    for (const std::string& conflict : conflicts) all.push_back({Diagnostic::Severity::warning, conflict, ""});
+    report.diagnostics.insert(report.diagnostics.begin(), all.begin(), all.end());
 }
 
 bool has_our_settings(const ImportedScene& imported) { return imported.has_view || imported.render || imported.view; }
@@ -89,11 +96,10 @@ Result<EditorFiles::Opened> EditorFiles::import_file(const std::filesystem::path
     if (const auto applied = apply_overrides(open.overrides, opened.scene, open.aspect, opened.imported.has_view); !applied)
         return in_file(applied.error(), file.string());
     if (!sidecar) return opened;
-    if (hash_text(*opened.imported.origin.json) != sidecar->document_hash)
-        return Error{file.string(), "has changed since: the unsaved edits belong to another version of it", ""};
-    Result<Scene> edited = apply_edits_json(opened.imported.scene, sidecar->edits, file.parent_path());
-    if (!edited) return in_file(edited.error(), file.string());
-    opened.recovered = Project{*std::move(edited), sidecar->render, sidecar->view};
+    Result<RecoveredEdits> recovered = recover_edits(*sidecar, opened.imported.scene, *opened.imported.origin.json);
+    if (!recovered) return in_file(recovered.error(), file.string());
+    opened.recovered = std::move(recovered->project);
+    if (recovered->file_changed) list_conflicts(recovered->conflicts, "The file changed after these edits: they are made again by name", opened.imported.report);
     return opened;
 }
 
@@ -173,8 +179,7 @@ EditorFiles::Finished EditorFiles::finish_import(Document& document, UiState& ui
     std::optional<MergedEdits> merged;
     if (purpose_ == Purpose::reload && keep_edits_) {
         merged = merge_edits(imported_, document.project().scene, opened->imported.scene);
-        for (const std::string& conflict : merged->conflicts)
-            opened->imported.report.diagnostics.insert(opened->imported.report.diagnostics.begin(), {Diagnostic::Severity::warning, conflict, ""});
+        list_conflicts(merged->conflicts, {}, opened->imported.report);
     }
     report(ui, importing_, opened->imported.report);
     if (purpose_ == Purpose::merge) {

@@ -55,7 +55,7 @@ public:
 
     // Each starts a job and returns; a newer one of the same sort cancels the older.
     void open(const std::filesystem::path& file, const OpenOptions& options = {}) { start_import(file, Purpose::open, options); }
-    // Opens the scene of a sidecar with its edits. Refuses when the file is not the one that was edited.
+    // Opens the scene of a sidecar with its edits. If the file changed since, edits are made again by name, and the import report lists conflicts.
     void recover(const Sidecar& sidecar) { start_import(sidecar.scene, Purpose::open, {}, sidecar); }
     void import_scene(const std::filesystem::path& file) { start_import(file, Purpose::merge); }
     // Takes up the file as it is now; `keep_edits`: with the edits that were made to it here, as one step that can be undone.

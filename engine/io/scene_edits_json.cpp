@@ -16,15 +16,6 @@ constexpr int format_version = 1;
 
 // --- differences -------------------------------------------------------------------------------------------------
 
-// The fields of `now` that differ from `before`.
-template <Fielded T> Json changed_fields(const T& before, const T& now) {
-    const Json old_fields = to_json(before), new_fields = to_json(now);
-    Json changed = Json::object();
-    for (const auto& [name, value] : new_fields.items())
-        if (old_fields.at(name) != value) changed[name] = value;
-    return changed;
-}
-
 // A mesh's materials are the only part of it that an edit changes and text can keep.
 Json mesh_materials(const Mesh& mesh) {
     Json materials = Json::array();

@@ -38,6 +38,15 @@ template <class T> Json to_json(const std::vector<T>& list) {
     return json;
 }
 
+// The fields of `now` that differ from `before`.
+template <Fielded T> Json changed_fields(const T& before, const T& now) {
+    const Json old_fields = to_json(before), new_fields = to_json(now);
+    Json changed = Json::object();
+    for (const auto& [name, value] : new_fields.items())
+        if (old_fields.at(name) != value) changed[name] = value;
+    return changed;
+}
+
 // --- JSON to values: false if the JSON does not fit, the value is then unspecified -----------------------------
 
 template <class E>
