@@ -1,6 +1,7 @@
 #include "app/editor.h"
 
 #include "app/commands/common.h"
+#include "app/desktop_file_dialog.h"
 #include "app/editor_commands.h"
 #include "app/editor_convergence.h"
 #include "app/editor_display.h"
@@ -83,6 +84,7 @@ private:
     EditorDisplay display_;
     EditorFiles files_{&Window::wake};
     EditorSaving saving_;
+    DesktopFileDialog desktop_file_dialog_{&Window::wake};
     bool leaving_ = false;
     EditorSnapshots snapshots_{&Window::wake, options_.assets,
                                [this](std::function<void()> go_on) { saving_.before_losing_edits("opening another scene", std::move(go_on)); }};
@@ -95,7 +97,7 @@ private:
     EditorConvergence convergence_;
     FollowedMix mix_;
     MeteringOnce metering_;
-    OpeningPage opening_page_{options_.assets};
+    OpeningPage opening_page_{options_.assets, &Window::wake};
     std::string weights_problem_; // why the denoiser's weights are of no use; empty: they are there
     RenderSession session_;
 
@@ -280,7 +282,7 @@ void Editor::draw_on_top(PanelContext& c) {
     opening_page_.draw(c, {image_.x, image_.y, image_.width, image_.height});
     draw_import_report(c);
     draw_shortcut_sheet(c);
-    draw_file_browser(c);
+    draw_file_browser(c, [this](const std::string& file) { return opening_page_.thumbnails().of(file); });
     const auto opening = files_.running(), other = snapshots_.running();
     const RunningJob* const job = opening ? &*opening : other ? &*other : nullptr;
     if (job) ui_.next_frame_in = std::min(ui_.next_frame_in, 0.1);
@@ -297,6 +299,7 @@ void Editor::obey(PanelContext& c) {
         else if (!run_command(command, c))
             run_own_command(command);
     }
+    desktop_file_dialog_.poll(ui_);
     for (const FileRequest& request : std::exchange(ui_.files, {})) takers().take(request);
     if (std::exchange(ui_.meter_exposure, false)) metering_.want(document_.project(), false);
     saving_.hear_answer();

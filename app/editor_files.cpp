@@ -5,6 +5,7 @@
 #include "io/gltf_camera_aspects.h"
 #include "io/ies.h"
 #include "io/merge_edits.h"
+#include "scene/light_rig.h"
 #include "ui/remembered.h"
 
 #include <algorithm>
@@ -54,6 +55,14 @@ void list_conflicts(const std::vector<std::string>& conflicts, const std::string
 
 bool has_our_settings(const ImportedScene& imported) { return imported.has_view || imported.render || imported.view; }
 
+// A file that Blush did not write and that has no light is shown in the studio rig, rather than as a black picture. `--light` and `--environment` decide themselves.
+std::optional<Scene> lit_at_opening(const ImportedScene& imported, const Scene& scene, const SceneOverrides& overrides) {
+    if (overrides.light || overrides.environment || has_our_settings(imported) || world_bounds(scene).empty || has_light(scene)) return {};
+    Result<Scene> lit = with_light_rig(scene, LightRig::studio, studio_map());
+    if (!lit) return {};
+    return *std::move(lit);
+}
+
 // The node of another scene that is called the same: ids do not outlive a reload, names mostly do.
 Id<Node> same_node(const Scene& before, Id<Node> id, const Scene& after) {
     const Node* old = before.nodes.find(id);
@@ -90,12 +99,15 @@ Result<EditorFiles::Opened> EditorFiles::import_file(const std::filesystem::path
     if (open.overrides.texture_mib) options.texture_bytes = *open.overrides.texture_mib << 20;
     Result<ImportedScene> imported = import_gltf(file, options);
     if (!imported) return in_file(imported.error(), file.string());
-    Opened opened{*std::move(imported), {}, {}, {}};
+    Opened opened{*std::move(imported), {}, {}, {}, {}};
     opened.scene = opened.imported.scene;
     opened.camera_aspects = camera_aspects(opened.imported.origin);
     if (const auto applied = apply_overrides(open.overrides, opened.scene, open.aspect, opened.imported.has_view); !applied)
         return in_file(applied.error(), file.string());
-    if (!sidecar) return opened;
+    if (!sidecar) {
+        opened.lit = lit_at_opening(opened.imported, opened.scene, open.overrides);
+        return opened;
+    }
     Result<RecoveredEdits> recovered = recover_edits(*sidecar, opened.imported.scene, *opened.imported.origin.json);
     if (!recovered) return in_file(recovered.error(), file.string());
     opened.recovered = std::move(recovered->project);
@@ -117,8 +129,9 @@ void EditorFiles::start_import(const std::filesystem::path& file, Purpose purpos
     std::function<void(const ImportedScene&)> on_untextured;
     if (purpose == Purpose::open && !sidecar)
         on_untextured = [options, early = early_, wake = wake_](const ImportedScene& imported) {
-            Opened opened{imported, imported.scene, {}, {}};
+            Opened opened{imported, imported.scene, {}, {}, {}};
             if (!apply_overrides(options.overrides, opened.scene, options.aspect, imported.has_view)) return; // will be said of the whole
+            opened.lit = lit_at_opening(imported, opened.scene, options.overrides);
             early->put(std::move(opened));
             wake();
         };
@@ -166,6 +179,16 @@ Project EditorFiles::opened_project(const Opened& opened, const Project& before)
     return project;
 }
 
+void EditorFiles::reset_document(Document& document, UiState& ui, Project project, std::optional<Scene> lit) const {
+    document.reset(std::move(project));
+    ui.studio_at_opening = lit.has_value();
+    if (!lit) return;
+    Project shown = document.project();
+    shown.scene = *std::move(lit);
+    document.replace(std::move(shown), "Light with a studio");
+    document.mark_saved(); // nothing that the user did
+}
+
 EditorFiles::Finished EditorFiles::finish_import(Document& document, UiState& ui, Result<Opened> opened) {
     const bool cancelled = import_job_->cancelled();
     import_job_.reset();
@@ -206,7 +229,7 @@ EditorFiles::Finished EditorFiles::finish_import(Document& document, UiState& ui
     ui.placing_by = PlacingBy::hand;
     ui.light_table.renaming = {};
     watch_.watch(scene_file_);
-    document.reset(std::move(project));
+    reset_document(document, ui, std::move(project), purpose_ == Purpose::open ? std::move(opened->lit) : std::nullopt);
     if (purpose_ == Purpose::open) begin_at_camera(ui, document.project().scene, std::move(opened->camera_aspects));
     if (purpose_ == Purpose::open) recall_scene(ui.settings, scene_file_.string(), document.project().scene, ui);
     if (merged) {
@@ -280,6 +303,7 @@ EditorFiles::Finished EditorFiles::poll(Document& document, UiState& ui) {
             // As it is there to be looked at for a moment, it takes no more time from the textures than a rough picture needs.
             constexpr int64_t enough_samples = 8;
             Project project = opened_project(*early, document.project());
+            if (early->lit) project.scene = *early->lit;
             project.render.spp = std::min(project.render.spp, project.render.first_sample + enough_samples);
             preview_.emplace(std::move(project));
         }

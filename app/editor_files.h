@@ -90,6 +90,7 @@ private:
     struct Opened {
         ImportedScene imported;
         Scene scene;
+        std::optional<Scene> lit; // with the studio rig, where nothing in the file gives light
         std::optional<Project> recovered;
         std::map<Id<Camera>, float> camera_aspects;
     };
@@ -115,6 +116,8 @@ private:
                                       JobProgress& progress, std::function<void(const ImportedScene&)> on_untextured);
     // The settings that a document has once this is open.
     Project opened_project(const Opened& opened, const Project& before) const;
+    // Takes the scene up as the document, with the studio rig as a step of its own if the file has no light.
+    void reset_document(Document& document, UiState& ui, Project project, std::optional<Scene> lit) const;
     Finished finish_import(Document& document, UiState& ui, Result<Opened> opened);
     bool finish_save(Document& document, UiState& ui, Result<SavedGltf> saved);
     void finish_environment(Document& document, UiState& ui, Result<ImagePtr> image);

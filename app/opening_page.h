@@ -3,7 +3,7 @@
 
 #include "render/frame.h"
 #include "ui/panels/context.h"
-#include "ui/scene_thumbnails.h"
+#include "ui/file_thumbnails.h"
 
 #include <filesystem>
 
@@ -11,16 +11,17 @@ namespace blush {
 
 class OpeningPage {
 public:
-    explicit OpeningPage(std::filesystem::path assets) : assets_(std::move(assets)), thumbnails_(assets_) {}
+    OpeningPage(std::filesystem::path assets, std::function<void()> wake) : assets_(std::move(assets)), thumbnails_(assets_, std::move(wake)) {}
     // The shipped scenes, by name.
     std::vector<std::string> demos() const;
     void draw(PanelContext& c, const Region& viewport);
+    FileThumbnails& thumbnails() { return thumbnails_; }
     // Writes a thumbnail of the scene once its picture is good enough, and, with `leaving`, as it was last seen. Failing is silent: it is a cache.
     void keep_thumbnail(const std::filesystem::path& scene, const FramePtr& frame, const ViewSettings& view, const ColorManagement& color, bool leaving = false);
 
 private:
     std::filesystem::path assets_, kept_; // kept_: the scene that has its thumbnail
-    SceneThumbnails thumbnails_;
+    FileThumbnails thumbnails_;
 };
 
 } // namespace blush

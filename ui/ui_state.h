@@ -6,6 +6,7 @@
 #include "ui/camera_frame.h"
 #include "ui/convergence_view.h"
 #include "ui/denoise_view.h"
+#include "ui/file_request.h"
 #include "ui/gestures.h"
 #include "ui/health_view.h"
 #include "ui/home_view.h"
@@ -51,14 +52,7 @@ struct ToolStart {
     double u = 0, v = 0;
 };
 
-// What a file the user chose is for.
-struct FileRequest {
-    enum class Use { open, import_scene, environment, ies, snapshot_folder, convergence, save_scene };
-    Use use = Use::open;
-    std::filesystem::path path;
-};
-
-// The file browser, while it is open.
+// The file dialog, while it is open.
 struct FileBrowser {
     FileRequest::Use use = FileRequest::Use::open;
     std::filesystem::path folder;
@@ -66,6 +60,7 @@ struct FileBrowser {
     std::string chosen;
     bool just_opened = true;
     std::filesystem::path scene_folder = {}; // of the open scene
+    bool on_desktop = false; // the desktop's own dialog asks: ours is not drawn
 };
 
 // A pixel whose values are shown.
@@ -142,6 +137,7 @@ struct UiState {
     std::optional<LookedThrough> looked_through;
     LightTableView light_table;
     bool show_shortcuts = false;
+    bool studio_at_opening = false;  // the file has no light; it was opened in the studio rig, and the banner still says so
     bool opening_page = false;       // of a start without a scene
     std::vector<std::string> demos;  // scene files that come with the program
     bool panels_hidden = false; // all but menu, picture and status bar

@@ -103,6 +103,7 @@ WindowSettings read_window_settings(const std::filesystem::path& file) {
     read(json, "snapshot_half", settings.snapshot_half);
     read(json, "snapshot_film", settings.snapshot_film);
     read(json, "snapshot_memory", settings.snapshot_memory, int64_t(1), int64_t(1) << 30);
+    read(json, "desktop_file_dialog", settings.desktop_file_dialog);
     read(json, "browser_folder", settings.browser_folder);
     read(json, "floating", settings.floating);
     if (settings.floating.size() > most_floating_text) settings.floating.clear();
@@ -131,6 +132,7 @@ Result<void> write_window_settings(const std::filesystem::path& file, const Wind
                               {"snapshot_half", settings.snapshot_half},
                               {"snapshot_film", settings.snapshot_film},
                               {"snapshot_memory", settings.snapshot_memory},
+                              {"desktop_file_dialog", settings.desktop_file_dialog},
                               {"browser_folder", settings.browser_folder},
                               {"panels", settings.panels},
                               {"floating", settings.floating},

@@ -38,6 +38,7 @@ struct WindowSettings {
     bool snapshot_film = true;       // with the samples to go on from
     int64_t snapshot_memory = 2048;  // MiB that the strip's snapshots may take before the oldest live in their files alone
     std::vector<std::string> bookmarks; // folders of the file browser
+    bool desktop_file_dialog = true; // files are asked for by the desktop's own dialog, where there is one
     std::string browser_folder;      // where the file browser was last
     std::map<std::string, double> panels; // which are open and what they are set to (remembered.h), and sections of the inspector
     std::string floating;            // where panels lie: ImGui's text

@@ -9,6 +9,7 @@ probe=$work/probe.json
 export LIBGL_ALWAYS_SOFTWARE=1 XDG_CONFIG_HOME=$work/config XDG_STATE_HOME=$work/state XDG_PICTURES_DIR=$work BLUSH_ASSETS=$assets
 export BLUSH_UI_PROBE=$probe BLUSH_UI_STATS=$work/stats.json BLUSH_UI_SIZE=900x560 BLUSH_UI_SCALE=1
 unset OCIO WAYLAND_DISPLAY
+export DBUS_SESSION_BUS_ADDRESS= # no desktop: the window asks for files itself
 size=320x240
 spp=16
 settings= # JSON of what the window remembers; empty: it begins as if it were the first

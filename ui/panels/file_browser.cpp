@@ -3,6 +3,7 @@
 #include "ui/file_places.h"
 #include "ui/icons.h"
 #include "ui/panels/panels.h"
+#include "ui/snapshots_view.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
 
@@ -15,33 +16,6 @@ namespace blush {
 namespace {
 
 using Use = FileRequest::Use;
-
-const char* title(Use use) {
-    switch (use) {
-    case Use::open: return "Open a scene###browser";
-    case Use::import_scene: return "Import into the scene###browser";
-    case Use::environment: return "Choose an environment image###browser";
-    case Use::ies: return "Choose a photometric file###browser";
-    case Use::snapshot_folder: return "Choose the folder for snapshots###browser";
-    case Use::convergence: return "Load a convergence table###browser";
-    case Use::save_scene: return "Save the scene as###browser";
-    }
-    return "";
-}
-
-const ExtensionFilter& filter(Use use) {
-    static const ExtensionFilter none;
-    switch (use) {
-    case Use::open:
-    case Use::import_scene:
-    case Use::save_scene: return scene_files;
-    case Use::environment: return environment_files;
-    case Use::ies: return photometric_files;
-    case Use::convergence: return table_files;
-    case Use::snapshot_folder: break;
-    }
-    return none;
-}
 
 // A name to save under goes along from folder to folder.
 void enter(FileBrowser& b, const std::filesystem::path& folder) {
@@ -76,7 +50,7 @@ void take_typed(PanelContext& c) {
 // Tab.
 int complete(ImGuiInputTextCallbackData* data) {
     const FileBrowser& b = *static_cast<const FileBrowser*>(data->UserData);
-    const std::string completed = completed_path(std::string(data->Buf, size_t(data->BufTextLen)), filter(b.use));
+    const std::string completed = completed_path(std::string(data->Buf, size_t(data->BufTextLen)), filter_of(b.use));
     data->DeleteChars(0, data->BufTextLen);
     data->InsertChars(0, completed.c_str());
     return 0;
@@ -123,15 +97,38 @@ void draw_places(PanelContext& c, float width, float height) {
     if (entered) enter(*c.ui.browser, *entered);
 }
 
-void draw_entry(PanelContext& c, const FileEntry& entry) {
+using Thumbnails = std::function<ImTextureID(const std::string&)>;
+
+// A thumbnail for a file in sight that has one, else an icon.
+void draw_entry_picture(PanelContext& c, const FileEntry& entry, float height, const Thumbnails& thumbnail) {
+    const float width = height * Thumbnail::width / Thumbnail::height;
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImTextureID picture = {};
+    if (!entry.folder && ImGui::IsRectVisible({width, height})) picture = thumbnail((c.ui.browser->folder / entry.name).string());
+    if (picture) {
+        ImGui::Image(picture, {width, height});
+        c.ui.probe.record_last_item("Browser/Thumbnail/" + entry.name);
+        return;
+    }
+    ImGui::Dummy({width, height});
+    const float size = ImGui::GetTextLineHeight();
+    draw_icon(*ImGui::GetWindowDrawList(), entry.folder ? Icon::folder : Icon::file, {at.x + width / 2, at.y + height / 2}, size, tone::dim_text);
+}
+
+void draw_entry(PanelContext& c, const FileEntry& entry, const Thumbnails& thumbnail) {
     FileBrowser& b = *c.ui.browser;
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    icon_item(entry.folder ? Icon::folder : Icon::file, tone::dim_text, ImGui::GetTextLineHeight());
+    const bool pictured = filter_of(b.use) == scene_files || filter_of(b.use) == environment_files;
+    const float height = ImGui::GetTextLineHeight() * (pictured && !entry.folder ? 2.4f : 1.f);
+    draw_entry_picture(c, entry, height, thumbnail);
     ImGui::SameLine();
+    ImGui::PushStyleVar(ImGuiStyleVar_SelectableTextAlign, {0, 0.5f});
     const bool clicked = ImGui::Selectable(entry.name.c_str(), b.chosen == entry.name,
                                            ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowDoubleClick |
-                                               ImGuiSelectableFlags_DontClosePopups);
+                                               ImGuiSelectableFlags_DontClosePopups,
+                                           {0, height});
+    ImGui::PopStyleVar();
     c.ui.probe.record_last_item("Browser/" + entry.name);
     const bool twice = clicked && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
     if (clicked && !entry.folder) {
@@ -146,8 +143,8 @@ void draw_entry(PanelContext& c, const FileEntry& entry) {
         finish(c, b.folder / entry.name);
 }
 
-void draw_list(PanelContext& c, float height) {
-    const auto list = list_folder(c.ui.browser->folder, filter(c.ui.browser->use));
+void draw_list(PanelContext& c, float height, const Thumbnails& thumbnail) {
+    const auto list = list_folder(c.ui.browser->folder, filter_of(c.ui.browser->use));
     ImGui::BeginChild("list", {0, height}, true);
     if (!list)
         ImGui::TextWrapped("%s", list.error().text().c_str());
@@ -157,7 +154,7 @@ void draw_list(PanelContext& c, float height) {
         ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
         ImGui::TableSetupColumn("size", ImGuiTableColumnFlags_WidthFixed, ImGui::GetFontSize() * 5);
         for (const FileEntry& entry : list->entries) {
-            if (c.ui.browser) draw_entry(c, entry); // until one was taken
+            if (c.ui.browser) draw_entry(c, entry, thumbnail); // until one was taken
         }
         ImGui::EndTable();
     }
@@ -192,9 +189,10 @@ void draw_buttons(PanelContext& c) {
 
 } // namespace
 
-void draw_file_browser(PanelContext& c) {
-    if (!c.ui.browser) return;
-    const char* const name = title(c.ui.browser->use);
+void draw_file_browser(PanelContext& c, const std::function<ImTextureID(const std::string&)>& thumbnail) {
+    if (!c.ui.browser || c.ui.browser->on_desktop) return;
+    const std::string title = std::string(title_of(c.ui.browser->use)) + "###browser";
+    const char* const name = title.c_str();
     if (c.ui.browser->just_opened) {
         if (c.ui.browser->typed.empty()) enter(*c.ui.browser, c.ui.browser->folder);
         ImGui::OpenPopup(name);
@@ -210,7 +208,7 @@ void draw_file_browser(PanelContext& c) {
         const float height = ImGui::GetContentRegionAvail().y - below;
         if (c.ui.browser) draw_places(c, em * 9, height);
         ImGui::SameLine();
-        if (c.ui.browser) draw_list(c, height);
+        if (c.ui.browser) draw_list(c, height, thumbnail);
         if (c.ui.browser) draw_buttons(c);
         if (c.ui.browser && ImGui::IsKeyPressed(key::escape)) {
             c.ui.browser.reset();

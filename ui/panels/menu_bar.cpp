@@ -1,5 +1,6 @@
 // The menu bar: every command that has a place in a menu, with its key.
 #include "ui/panels/panels.h"
+#include "ui/widgets.h"
 
 #include <filesystem>
 #include <fmt/format.h>
@@ -160,6 +161,9 @@ void draw_menu_bar(PanelContext& c) {
         item(c, Command::toggle_panels, true, nullptr, c.ui.panels_hidden);
         item(c, Command::full_screen);
         item(c, Command::snapshot_strip, true, nullptr, c.ui.snapshots.open);
+        ImGui::Separator();
+        ImGui::MenuItem("Desktop's file dialog", nullptr, &c.ui.settings.desktop_file_dialog);
+        tip_for_last_item(c.ui, "Files are asked for by the desktop's own dialog, where there is one, in place of Blush's.");
         ImGui::EndMenu();
     }
     if (begin_menu(c, "Help")) {

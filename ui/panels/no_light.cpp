@@ -1,7 +1,9 @@
-// What a scene without any light offers in place of a black picture: ways to light it, each one edit.
+// A file without any light is shown in a studio; this banner says so and offers other light. A scene that has lost its light gets it, too.
 #include "ui/panels/panels.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
+
+#include <initializer_list>
 
 namespace blush {
 namespace {
@@ -9,30 +11,57 @@ namespace {
 constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                                    ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_AlwaysAutoResize;
 
-void draw_button(PanelContext& c, const char* name, Command command, const char* tip) {
+void draw_button(PanelContext& c, const char* name, std::initializer_list<Command> commands, const char* tip) {
     ImGui::SameLine();
-    if (ImGui::Button(name)) c.ui.commands.push_back(command);
+    if (ImGui::Button(name)) {
+        c.ui.studio_at_opening = false;
+        c.ui.commands.insert(c.ui.commands.end(), commands);
+    }
     c.ui.probe.record_last_item(std::string("No light/") + name);
     tip_for_last_item(c.ui, tip);
+}
+
+constexpr const char* sky_tip = "A clear sky with its sun lights the scene.";
+constexpr const char* environment_tip = "A panorama (.hdr, .exr) lights the scene as the place where it was taken.";
+constexpr const char* lamp_tip = "A rectangle light beside the subject.";
+
+void draw_choices(PanelContext& c) {
+    ImGui::TextUnformatted("No light in this file");
+    draw_button(c, "Studio", {Command::light_by_studio}, "Three softboxes and the panorama of a studio light the scene.");
+    draw_button(c, "Sky", {Command::light_by_sky}, sky_tip);
+    draw_button(c, "Environment...", {Command::environment}, environment_tip);
+    draw_button(c, "Add light", {Command::add_rectangle}, lamp_tip);
+}
+
+// Other light comes in place of the studio: the step that added it is undone first.
+void draw_choices_in_studio(PanelContext& c) {
+    ImGui::TextUnformatted("No light in this file: it is shown in a studio");
+    draw_button(c, "Keep", {}, "The three softboxes and the panorama are lights of the scene; saving the scene saves them.");
+    draw_button(c, "Sky", {Command::undo, Command::light_by_sky}, sky_tip);
+    draw_button(c, "Environment...", {Command::undo, Command::environment}, environment_tip);
+    draw_button(c, "Add light", {Command::undo, Command::add_rectangle}, lamp_tip);
+    draw_button(c, "No light", {Command::undo}, "The scene as it is in the file: black.");
 }
 
 } // namespace
 
 void draw_no_light_banner(PanelContext& c, const Region& picture) {
-    if (c.scene().nodes.empty() || c.ui.light_presence.in(c.scene())) return;
+    if (c.scene().nodes.empty()) return;
+    // The first edit keeps the studio.
+    if (c.document.undo_labels().size() != 1 || c.document.can_redo()) c.ui.studio_at_opening = false;
+    const bool dark = !c.ui.light_presence.in(c.scene());
+    if (!dark && !c.ui.studio_at_opening) return;
     const float em = ImGui::GetFontSize();
-    ImGui::SetNextWindowPos({picture.x + picture.width / 2, picture.y + picture.height / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+    // A black picture has nothing to hide.
+    const ImVec2 at = dark ? ImVec2(picture.x + picture.width / 2, picture.y + picture.height / 2) : ImVec2(picture.x + picture.width / 2, picture.y + em / 2);
+    ImGui::SetNextWindowPos(at, ImGuiCond_Always, {0.5f, dark ? 0.5f : 0.f});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, em / 4);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {em, em * 0.7f});
     ImGui::SetNextWindowBgAlpha(0.92f);
-    if (ImGui::Begin("##no light", nullptr, flags)) {
+    if (ImGui::Begin(dark ? "##no light" : "##no light in the file", nullptr, flags)) {
         if (ImGui::IsWindowAppearing()) c.ui.next_frame_in = 0; // it is seen in the frame after the one that measures it
         ImGui::AlignTextToFramePadding();
-        ImGui::TextUnformatted("No light in this file");
-        draw_button(c, "Studio", Command::light_by_studio, "Three softboxes and the panorama of a studio light the scene.");
-        draw_button(c, "Sky", Command::light_by_sky, "A clear sky with its sun lights the scene.");
-        draw_button(c, "Environment...", Command::environment, "A panorama (.hdr, .exr) lights the scene as the place where it was taken.");
-        draw_button(c, "Add light", Command::add_rectangle, "A rectangle light beside the subject.");
+        dark ? draw_choices(c) : draw_choices_in_studio(c);
         c.ui.probe.record("No light", {ImGui::GetWindowPos().x, ImGui::GetWindowPos().y, ImGui::GetWindowWidth(), ImGui::GetWindowHeight()});
     }
     ImGui::End();

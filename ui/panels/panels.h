@@ -34,7 +34,8 @@ void draw_left_out_section(PanelContext& c); // of the render panel
 void draw_display_panel(PanelContext& c);
 
 // Above everything else, each in a window of its own while it is open.
-void draw_file_browser(PanelContext& c);
+// `thumbnail(file)`: 0 where there is none.
+void draw_file_browser(PanelContext& c, const std::function<ImTextureID(const std::string&)>& thumbnail);
 void draw_shortcut_sheet(PanelContext& c);
 void draw_history(PanelContext& c);
 void draw_comparison_panel(PanelContext& c);

@@ -1,0 +1,34 @@
+#include "ui/file_request.h"
+
+namespace blush {
+
+const char* title_of(FileRequest::Use use) {
+    using Use = FileRequest::Use;
+    switch (use) {
+    case Use::open: return "Open a scene";
+    case Use::import_scene: return "Import into the scene";
+    case Use::environment: return "Choose an environment image";
+    case Use::ies: return "Choose a photometric file";
+    case Use::snapshot_folder: return "Choose the folder for snapshots";
+    case Use::convergence: return "Load a convergence table";
+    case Use::save_scene: return "Save the scene as";
+    }
+    return "";
+}
+
+const ExtensionFilter& filter_of(FileRequest::Use use) {
+    using Use = FileRequest::Use;
+    static const ExtensionFilter none;
+    switch (use) {
+    case Use::open:
+    case Use::import_scene:
+    case Use::save_scene: return scene_files;
+    case Use::environment: return environment_files;
+    case Use::ies: return photometric_files;
+    case Use::convergence: return table_files;
+    case Use::snapshot_folder: break;
+    }
+    return none;
+}
+
+} // namespace blush
