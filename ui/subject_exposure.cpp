@@ -18,6 +18,7 @@ constexpr double enough_of_picture = 0.005;  // for the selection, or what is in
 constexpr double sharp_blur = 0.01;          // diameter of the circle of confusion over the height of the picture
 constexpr double darkest = 1.0 / 256;        // of the mean: darker cells count as this
 constexpr double most_clipped = 0.03;        // of the subject, and of the picture
+constexpr double brightest_picture = 0.55;   // mean display luminance
 constexpr float most_lowered = 6, most_lowered_for_backdrop = 1.5f, step = 0.25f; // stops
 constexpr float display_white = 0.995f;
 
@@ -91,16 +92,22 @@ std::optional<double> log_average(const Cells& cells) {
     return stops / cells.share;
 }
 
-// Share of these cells in which a channel is at the white of the display.
-double clipped(const Cells& cells, const ViewSettings& view, const ColorManagement& color) {
+struct Shown {
+    double clipped = 0; // share of the cells in which a channel is at the white of the display
+    double mean = 0;    // display luminance
+};
+Shown shown_as(const Cells& cells, const ViewSettings& view, const ColorManagement& color) {
     std::vector<float> shown;
     shown.reserve(3 * cells.means.size());
     for (const Vec3& mean : cells.means) shown.insert(shown.end(), {mean.x, mean.y, mean.z});
-    if (!show(color, view, shown)) return 0;
-    double share = 0;
-    for (size_t i = 0; i < cells.means.size(); ++i)
-        if (std::max({shown[3 * i], shown[3 * i + 1], shown[3 * i + 2]}) >= display_white) share += cells.shares[i];
-    return share / cells.share;
+    Shown s;
+    if (!show(color, view, shown)) return s;
+    for (size_t i = 0; i < cells.means.size(); ++i) {
+        const Vec3 rgb{shown[3 * i], shown[3 * i + 1], shown[3 * i + 2]};
+        if (std::max({rgb.x, rgb.y, rgb.z}) >= display_white) s.clipped += cells.shares[i] / cells.share;
+        s.mean += double(luminance(rgb)) * cells.shares[i] / cells.share;
+    }
+    return s;
 }
 
 } // namespace
@@ -115,12 +122,16 @@ std::optional<float> subject_exposure(const Frame& frame, const Scene& scene, st
     shown.auto_exposure = AutoExposure::off;
     shown.false_color = {};
     const float wanted = std::clamp(float(std::log2(0.18) - *average), -20.f, 20.f);
-    const auto lowered = [&](const Cells& cells, float from, float most) {
-        for (shown.exposure_ev = from; shown.exposure_ev > from - most && clipped(cells, shown, color) > most_clipped;) shown.exposure_ev -= step;
+    const auto lowered = [&](const Cells& cells, float from, float most, double brightest_mean) {
+        for (shown.exposure_ev = from; shown.exposure_ev > from - most; shown.exposure_ev -= step) {
+            const Shown s = shown_as(cells, shown, color);
+            if (s.clipped <= most_clipped && s.mean <= brightest_mean) break;
+        }
         return shown.exposure_ev;
     };
-    const float for_subject = lowered(subject, wanted, most_lowered);
-    const float for_picture = lowered(cells_of(frame, [](size_t) { return true; }), for_subject, most_lowered_for_backdrop);
+    const float for_subject = lowered(subject, wanted, most_lowered, 1);
+    // A dark subject before a bright backdrop: the picture as a whole does not glare.
+    const float for_picture = lowered(cells_of(frame, [](size_t) { return true; }), for_subject, most_lowered_for_backdrop, brightest_picture);
     return std::clamp(for_picture, -20.f, 20.f);
 }
 

@@ -17,7 +17,7 @@ constexpr int64_t paths_to_meter = 1 << 16;
 // Stops for `view`, whose own exposure is left out. The subject is the selected nodes with all below them, where they take up enough of the
 // picture; else what is in focus, where the lens has an aperture; else all objects. The backdrop is never part of it. The log-average
 // luminance of the subject becomes middle grey (exposure_meter.h), lower where more than a few per cent of it would be clipped by the view
-// transform, or, by at most 1.5 stops, of the whole picture. Means of cells stand for pixels, so that noise does not count as highlights.
+// transform, or, by at most 1.5 stops, of the whole picture, or where its mean display luminance would be above 0.55. Means of cells stand for pixels, so that noise does not count as highlights.
 // Nothing where the subject is black or there is no object.
 std::optional<float> subject_exposure(const Frame& frame, const Scene& scene, std::span<const Id<Node>> selected, const ViewSettings& view,
                                       const ColorManagement& color);

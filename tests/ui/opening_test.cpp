@@ -70,6 +70,13 @@ TEST_F(SubjectExposure, ABrightBackdropLowersItByOneAndAHalfStopsAtMost) {
     EXPECT_NEAR(beside, alone - 1.5f, 1e-3);
 }
 
+TEST_F(SubjectExposure, ADarkSubjectBeforeABrightBackdropDoesNotGlare) {
+    const Frame f = halves(0.02f, 0.3f); // the backdrop comes near the display's white, and is not clipped
+    EXPECT_GT(shown_mean(f, *metered(halves(0.02f, 0))), 0.6);
+    EXPECT_LE(shown_mean(f, *metered(f)), 0.56);
+    EXPECT_GT(shown_mean(f, *metered(f)), 0.45);
+}
+
 TEST_F(SubjectExposure, LooksAtWhatIsSelected) {
     Node node;
     node.mesh = scene.meshes.add({});
