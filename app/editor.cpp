@@ -19,6 +19,7 @@
 #include "ui/frame_stats.h"
 #include "ui/regions.h"
 #include "ui/remembered.h"
+#include "ui/panels/instruments.h"
 #include "ui/popups.h"
 #include "ui/snapshot_strip.h"
 #include "ui/viewport.h"
@@ -60,7 +61,6 @@ private:
 
     PanelContext context();
     void draw_regions(PanelContext& c);
-    void draw_above(PanelContext& c);
     void draw_on_top(PanelContext& c);
     void obey(PanelContext& c);
     void run_own_command(Command command);
@@ -89,7 +89,7 @@ private:
     EditorSnapshots snapshots_{&Window::wake, options_.assets,
                                [this](std::function<void()> go_on) { saving_.before_losing_edits("opening another scene", std::move(go_on)); }};
     ThumbnailSheet thumbnails_;
-    InstrumentPanels instruments_;
+    WaveformSheet waveforms_;
     FrameStats stats_;
     FramePace pace_;
     Pictures pictures_;
@@ -107,7 +107,8 @@ private:
 
     bool remembered_follow_viewport_ = true; // what the settings said before the command line
 
-    int viewport_width_ = 0, viewport_height_ = 0; // pixels, as last laid out
+    Layout layout_; // of the last frame of the window
+    bool instruments_recalled_ = false;
     ImageRect image_;
     enum class SnapshotDue { none, keep, png } snapshot_due_ = SnapshotDue::none; // waits for a picture in full resolution
     std::string not_continued_; // as was last said
@@ -177,6 +178,7 @@ void Editor::poll() {
             submitted_.forget(); // a new scene is submitted whatever it looks like
             metering_.opened(finished.stored_exposure || std::exchange(options_.exposure_given, false), document_.project());
             snapshots_.list_kept(ui_, files_.scene_file());
+            if (!std::exchange(instruments_recalled_, true)) recall_instruments(context(), files_.scene_file().string());
         }
         window_->request_frames(2);
     }
@@ -188,7 +190,7 @@ void Editor::poll() {
     }
     for (const auto& file : window_->take_dropped_files()) takers().take_dropped(file);
     // While text is typed or something is open on top, keys are meant for that. Esc closes menus and lists of choices; dialogs hear it themselves.
-    const bool taken = ImGui::GetIO().WantTextInput || ui_.browser || ui_.pixel || ui_.question, menu = any_popup_open();
+    const bool taken = ImGui::GetIO().WantTextInput || ui_.browser || ui_.question, menu = any_popup_open();
     for (const KeyPress& press : window_->take_key_presses()) {
         const Shortcut* s = find_shortcut(press);
         if (s && !taken && (!menu || s->command == Command::clear_selection)) ui_.commands.push_back(s->command);
@@ -224,13 +226,13 @@ void Editor::panels() {
     display_.update_shader(view, pictures_.frame, viewport_, thumbnails_, ui_.toasts);
     display_.update_ledger(session_.status());
     display_.meter(view.auto_exposure, pictures_.frame);
+    window_->set_text_size(ui_.settings.text_size);
     window_->begin_frame();
     ui_.next_frame_in = longest_sleep;
     ui_.probe.begin_frame();
     mix_.follow(pictures_.frame, document_shown());
     PanelContext c = context();
     draw_regions(c);
-    draw_above(c);
     draw_on_top(c);
     obey(c);
 }
@@ -242,17 +244,17 @@ void Editor::draw_regions(PanelContext& c) {
     }
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
     const bool panels = !ui_.panels_hidden;
-    const float time_height = c.scene().clips.empty() || !panels ? 0 : std::round(ImGui::GetFrameHeight() * 1.5f);
-    const Layout l = lay_out(screen.x, screen.y, ImGui::GetFrameHeight(), std::round(ImGui::GetFrameHeight() * 1.25f), ImGui::GetFontSize(),
-                             panels ? ui_.settings.splitters : no_side_panels, time_height);
+    follow_meters(c);
+    waveforms_.update(ui_.scopes);
+    c.waveforms = waveforms_.textures();
+    c.file_thumbnail = [this](const std::string& file) { return opening_page_.thumbnail(file); };
+    const Layout l = layout_ = window_layout(c, screen.x, screen.y);
     ImGui::BeginDisabled(files_.preview() != nullptr); // what would be edited is about to be replaced
     if (panels) draw_side_panels(c, l);
     // After all that changes lights: what they are changed to is in the picture of this very frame.
     mix_.follow(pictures_.frame, document_shown());
     c.mixing = mix_.mixing();
     begin_region("Viewport", l.viewport, {.padded = false, .background = false});
-    viewport_width_ = int(l.viewport.width);
-    viewport_height_ = int(l.viewport.height);
     pace_.begin_picture(Clock::now());
     image_ = files_.preview() ? viewport_.draw_alone(c, pace_, "Textures are still loading: plain colours stand in for them")
                               : viewport_.draw(c, pace_);
@@ -264,29 +266,20 @@ void Editor::draw_regions(PanelContext& c) {
     thumbnails_.update(ui_.snapshots.list, numbers_of(c.shown_view()));
     if (panels) {
         drag_splitters(ui_, l, screen.x);
-        draw_snapshot_strip(c, l.viewport, [this](size_t i) { return thumbnails_.part(i); });
+        draw_snapshot_strip(c, l.strip, [this](size_t i) { return thumbnails_.part(i); });
     }
     ImGui::EndDisabled();
 }
 
-void Editor::draw_above(PanelContext& c) {
-    draw_pixel_panel(c); // a popup: it stays open while panels are hidden
-    if (ui_.panels_hidden) return;
-    ImGui::BeginDisabled(files_.preview() != nullptr);
-    instruments_.draw(c);
-    ImGui::EndDisabled();
-}
-
 void Editor::draw_on_top(PanelContext& c) {
-    draw_no_light_banner(c, {image_.x, image_.y, image_.width, image_.height});
-    opening_page_.draw(c, {image_.x, image_.y, image_.width, image_.height});
-    draw_import_report(c);
+    if (ui_.panels_hidden) draw_pixel_popup(c);
+    draw_no_light_banner(c, layout_.viewport);
     draw_shortcut_sheet(c);
-    draw_file_browser(c, [this](const std::string& file) { return opening_page_.thumbnails().of(file); });
+    draw_file_browser(c);
     const auto opening = files_.running(), other = snapshots_.running();
     const RunningJob* const job = opening ? &*opening : other ? &*other : nullptr;
     if (job) ui_.next_frame_in = std::min(ui_.next_frame_in, 0.1);
-    if (draw_cards(c, job) && opening) files_.cancel();
+    if (draw_cards(c, layout_.viewport, job) && opening) files_.cancel();
     draw_question(c);
 }
 
@@ -344,8 +337,8 @@ void Editor::save_due_snapshot() {
 
 RenderSettings Editor::render_settings() {
     RenderSettings r = document_shown().project().render;
-    if (ui_.settings.follow_viewport && viewport_width_ > 0) {
-        const PictureSize size = picture_size(ui_.frame, viewport_width_, viewport_height_);
+    if (ui_.settings.follow_viewport && layout_.room.width > 0) {
+        const PictureSize size = picture_size(ui_.frame, int(layout_.room.width), int(layout_.room.height));
         r.width = size.width;
         r.height = size.height;
     }

@@ -5,6 +5,7 @@
 #include "scene/ground_plane.h"
 #include "ui/edit_together.h"
 #include "ui/new_light.h"
+#include "ui/docks.h"
 #include "ui/popups.h"
 #include "ui/view_tools.h"
 
@@ -186,6 +187,7 @@ void escape(PanelContext& c) {
         c.ui.placing_by = PlacingBy::hand;
         return;
     }
+    if (c.ui.pixel) return c.ui.pixel.reset();
     if (c.ui.looked_through) return toggle_look_through(c);
     if (Comparison& compare = c.ui.snapshots.compare; compare.mode != Comparison::Mode::off) {
         compare.mode = Comparison::Mode::off;
@@ -219,7 +221,7 @@ bool run_command(Command command, PanelContext& c) {
     case Command::place_highlight: toggle_placing(c, PlacingBy::highlight); return true;
     case Command::place_shadow: toggle_placing(c, PlacingBy::shadow); return true;
     case Command::look_through_light: toggle_look_through(c); return true;
-    case Command::light_table: c.ui.light_table.open = !c.ui.light_table.open; return true;
+    case Command::light_table: toggle_instrument(c, "light_table"); return true;
     case Command::frame_selection: frame(c, bounds_of_selection(c)); return true;
     case Command::frame_all: frame(c, world_bounds(c.scene())); return true;
     case Command::camera_view: go_home(c); return true;
@@ -237,26 +239,27 @@ bool run_command(Command command, PanelContext& c) {
     case Command::toggle_denoise: toggle_denoise(c); return true;
     case Command::pause: c.ui.paused = !c.ui.paused; return true;
     case Command::snapshot_strip: c.ui.snapshots.open = !c.ui.snapshots.open; return true;
+    case Command::dock_all: dock_all(c.ui.settings.dock); return true;
     case Command::undelete_snapshot: c.ui.snapshots.put_back(); return true;
     case Command::compare_wipe: compare(c, Comparison::Mode::wipe); return true;
     case Command::compare_flicker: compare(c, Comparison::Mode::flicker); return true;
     case Command::compare_difference: compare(c, Comparison::Mode::difference); return true;
     case Command::shortcuts: c.ui.show_shortcuts = !c.ui.show_shortcuts; return true;
-    case Command::history: c.ui.show_history = !c.ui.show_history; return true;
+    case Command::history: toggle_instrument(c, "history"); return true;
     case Command::light_mix: toggle_light_mix(c); return true;
-    case Command::bounces: c.ui.bounces.open = !c.ui.bounces.open; return true;
-    case Command::import_report: c.ui.import_report.open = !c.ui.import_report.open; return true;
-    case Command::health: c.ui.health.open = !c.ui.health.open; return true;
+    case Command::bounces: toggle_instrument(c, "bounces"); return true;
+    case Command::import_report: toggle_instrument(c, "import_report"); return true;
+    case Command::health: toggle_instrument(c, "health"); return true;
     case Command::render_region: c.ui.tool = ViewTool::region; return true;
     case Command::render_all: render_region(c, {}); return true;
     case Command::measure: c.ui.tool = ViewTool::measure; return true;
     case Command::meters:
-        c.ui.meters.open = !c.ui.meters.open;
+        toggle_instrument(c, "meters");
         if (c.ui.meters.open && c.project().view.meters.empty()) c.ui.tool = ViewTool::meter;
         return true;
-    case Command::scopes: c.ui.scopes.open = !c.ui.scopes.open; return true;
-    case Command::roulette: c.ui.roulette.open = !c.ui.roulette.open; return true;
-    case Command::convergence: c.ui.convergence.open = !c.ui.convergence.open; return true;
+    case Command::scopes: toggle_instrument(c, "scopes"); return true;
+    case Command::roulette: toggle_instrument(c, "roulette"); return true;
+    case Command::convergence: toggle_instrument(c, "convergence"); return true;
     case Command::open:
     case Command::import_scene:
     case Command::environment:

@@ -1,9 +1,24 @@
 #include "app/editor_panels.h"
 
+#include "ui/docks.h"
 #include "ui/panels/panels.h"
 #include "ui/regions.h"
+#include "ui/snapshot_strip.h"
+
+#include <cmath>
 
 namespace blush {
+
+Layout window_layout(PanelContext& c, float width, float height) {
+    const float row = ImGui::GetFrameHeight(), em = ImGui::GetFontSize(), status = std::round(row * 1.25f);
+    if (c.ui.panels_hidden) return lay_out(width, height, row, status, em, no_side_panels);
+    const Splitters& splitters = c.ui.settings.splitters;
+    const float time = c.scene().clips.empty() ? 0 : std::round(row * 1.5f);
+    Beside beside = docks_beside(c, lay_out(width, height, row, status, em, splitters).room);
+    beside.strip = snapshot_strip_height(c.ui.snapshots);
+    beside.time = time;
+    return lay_out(width, height, row, status, em, splitters, beside);
+}
 
 void draw_side_panels(PanelContext& c, const Layout& l) {
     begin_region("Outliner", l.outliner);
@@ -17,22 +32,7 @@ void draw_side_panels(PanelContext& c, const Layout& l) {
     begin_region("Inspector", l.inspector, {.padded = false});
     draw_inspector(c);
     end_region();
-    draw_light_mix_panel(c);
-    draw_light_table(c);
-}
-
-void InstrumentPanels::draw(PanelContext& c) {
-    draw_comparison_panel(c);
-    draw_snapshot_panel(c);
-    draw_region_panel(c);
-    draw_meters_panel(c);
-    waveforms_.update(c.ui.scopes);
-    draw_scopes_panel(c, waveforms_.textures());
-    draw_history(c);
-    draw_bounces_panel(c);
-    draw_convergence_panel(c);
-    draw_roulette_panel(c);
-    draw_health_panel(c);
+    draw_docks(c, l);
 }
 
 } // namespace blush

@@ -5,6 +5,7 @@
 #include "ui/light_groups.h"
 #include "ui/light_rows.h"
 #include "ui/light_view.h"
+#include "ui/panels/instruments.h"
 
 #include <algorithm>
 #include <iterator>
@@ -76,7 +77,7 @@ void group_lights(PanelContext& c) {
 }
 
 void toggle_light_mix(PanelContext& c) {
-    c.ui.light_mix.open = !c.ui.light_mix.open;
+    toggle_instrument(c, "light_mix");
     LightMix mix = c.scene().mix;
     if (!c.ui.light_mix.open || c.ui.light_mix.stays_off || mix.grouping != LightMix::Grouping::none) return;
     mix.grouping = LightMix::Grouping::by_light;

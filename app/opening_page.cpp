@@ -2,7 +2,6 @@
 
 #include "app/output_folder.h"
 #include "ui/file_listing.h"
-#include "ui/panels/panels.h"
 
 namespace blush {
 
@@ -13,10 +12,6 @@ std::vector<std::string> OpeningPage::demos() const {
         for (const FileEntry& entry : listing->entries)
             if (!entry.folder) files.push_back(std::filesystem::absolute(folder / entry.name).string());
     return files;
-}
-
-void OpeningPage::draw(PanelContext& c, const Region& viewport) {
-    draw_opening_page(c, viewport, [this](const std::string& scene) { return thumbnails_.of(scene); });
 }
 
 void OpeningPage::keep_thumbnail(const std::filesystem::path& scene, const FramePtr& frame, const ViewSettings& view, const ColorManagement& color,

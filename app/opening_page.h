@@ -14,8 +14,8 @@ public:
     OpeningPage(std::filesystem::path assets, std::function<void()> wake) : assets_(std::move(assets)), thumbnails_(assets_, std::move(wake)) {}
     // The shipped scenes, by name.
     std::vector<std::string> demos() const;
-    void draw(PanelContext& c, const Region& viewport);
-    FileThumbnails& thumbnails() { return thumbnails_; }
+    // Of a scene or image file; 0: it has none, or none yet.
+    ImTextureID thumbnail(const std::string& file) { return thumbnails_.of(file); }
     // Writes a thumbnail of the scene once its picture is good enough, and, with `leaving`, as it was last seen. Failing is silent: it is a cache.
     void keep_thumbnail(const std::filesystem::path& scene, const FramePtr& frame, const ViewSettings& view, const ColorManagement& color, bool leaving = false);
 

@@ -7,30 +7,52 @@
 namespace blush {
 namespace {
 
-// A bar at x, over the edge of two regions. True while it is dragged or was double-clicked.
-bool draw_splitter(UiState& ui, const char* id, float x, const Region& beside, bool& reset) {
+// A bar over the edge of two regions: `edge` has no width (it is dragged sideways) or no height. True while it is dragged.
+bool draw_splitter(UiState& ui, const char* id, const Region& edge, bool& reset) {
+    const bool upright = edge.width <= 0;
     const float grab = std::max(6.f, ImGui::GetFontSize() * 0.5f);
-    ImGui::SetNextWindowPos({x - grab / 2, beside.y});
-    ImGui::SetNextWindowSize({grab, beside.height});
+    const Region bar = upright ? Region{edge.x - grab / 2, edge.y, grab, edge.height} : Region{edge.x, edge.y - grab / 2, edge.width, grab};
+    ImGui::SetNextWindowPos({bar.x, bar.y});
+    ImGui::SetNextWindowSize({bar.width, bar.height});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
     ImGui::Begin(id, nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoBackground |
                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav);
-    ImGui::InvisibleButton("bar", {grab, beside.height});
+    ImGui::InvisibleButton("bar", {bar.width, bar.height});
     ui.probe.record_last_item(std::string("Splitter/") + id);
     const bool active = ImGui::IsItemActive();
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
     if (active || ImGui::IsItemHovered()) {
-        ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
-        ImGui::GetWindowDrawList()->AddRectFilled({x - 1, beside.y}, {x + 1, beside.y + beside.height},
-                                                  active ? tone::text : tone::dim_text);
+        ImGui::SetMouseCursor(upright ? ImGuiMouseCursor_ResizeEW : ImGuiMouseCursor_ResizeNS);
+        const float half_x = upright ? 1.f : 0.f, half_y = upright ? 0.f : 1.f;
+        draw.AddRectFilled({edge.x - half_x, edge.y - half_y}, {edge.x + edge.width + half_x, edge.y + edge.height + half_y},
+                           active ? tone::text : tone::dim_text);
     } else {
-        ImGui::GetWindowDrawList()->AddLine({x, beside.y}, {x, beside.y + beside.height}, tone::line);
+        draw.AddLine({edge.x, edge.y}, {edge.x + edge.width, edge.y + edge.height}, tone::line);
     }
     reset = ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
     ImGui::End();
     ImGui::PopStyleVar(2);
     return active;
+}
+
+Region left_edge(const Region& r) { return {r.x, r.y, 0, r.height}; }
+Region upper_edge(const Region& r) { return {r.x, r.y, r.width, 0}; }
+
+void drag_dock_splitters(UiState& ui, const Layout& l) {
+    DockSizes& sizes = ui.settings.dock.sizes;
+    const float em = ImGui::GetFontSize();
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    bool reset = false;
+    if (l.right_dock.width > 0) {
+        if (draw_splitter(ui, "right dock", left_edge(l.right_dock), reset)) sizes = drag_right_dock(sizes, mouse.x, l, em);
+        if (reset) sizes.right = DockSizes{}.right;
+    }
+    if (l.bottom_dock.height > 0) {
+        if (draw_splitter(ui, "bottom dock", upper_edge(l.bottom_dock), reset)) sizes = drag_bottom_dock(sizes, mouse.y, l, em);
+        if (reset) sizes.bottom = DockSizes{}.bottom;
+    }
 }
 
 } // namespace
@@ -53,10 +75,11 @@ void drag_splitters(UiState& ui, const Layout& layout, float window_width) {
     Splitters& s = ui.settings.splitters;
     const float em = ImGui::GetFontSize(), mouse = ImGui::GetIO().MousePos.x;
     bool reset = false;
-    if (draw_splitter(ui, "outliner", layout.viewport.x, layout.viewport, reset)) s = drag_outliner(s, mouse, em);
+    if (draw_splitter(ui, "outliner", {layout.outliner.width, layout.outliner.y, 0, layout.outliner.height}, reset)) s = drag_outliner(s, mouse, em);
     if (reset) s.outliner = Splitters{}.outliner;
-    if (draw_splitter(ui, "inspector", layout.inspector.x, layout.viewport, reset)) s = drag_inspector(s, mouse, window_width, em);
+    if (draw_splitter(ui, "inspector", left_edge(layout.inspector), reset)) s = drag_inspector(s, mouse, window_width, em);
     if (reset) s.inspector = Splitters{}.inspector;
+    drag_dock_splitters(ui, layout);
 }
 
 } // namespace blush

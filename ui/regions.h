@@ -13,7 +13,7 @@ struct RegionStyle {
 void begin_region(const char* name, const Region& region, const RegionStyle& style = {});
 void end_region();
 
-// Lets the mouse drag the bars beside outliner and inspector; double-click puts them back.
+// Lets the mouse drag the bars beside outliner, inspector and docks; double-click puts them back.
 void drag_splitters(UiState& ui, const Layout& layout, float window_width);
 
 } // namespace blush

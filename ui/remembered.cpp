@@ -16,22 +16,13 @@ template <class Ui, class V> void visit_panels(Ui& ui, const V& visit) {
     visit("denoise.blend", ui.denoise.blend, 0.f, 1.f);
     visit("exposure.f_number", ui.triangle.f_number, 0.1f, 1000.f);
     visit("exposure.iso", ui.triangle.iso, 1.f, 1e7f);
-    visit("history", ui.show_history, false, true);
-    visit("light_table", ui.light_table.open, false, true);
-    visit("light_mix", ui.light_mix.open, false, true);
-    visit("bounces", ui.bounces.open, false, true);
     visit("bounces.mode", ui.bounces.mode, BouncesView::Mode::picture, BouncesView::Mode::gains);
     visit("bounces.bounce", ui.bounces.bounce, 0, usual_bounce_planes);
-    visit("health", ui.health.open, false, true);
     visit("health.map", ui.health.map, false, true);
-    visit("roulette", ui.roulette.open, false, true);
     visit("roulette.map", ui.roulette.map, RouletteView::Map::none, RouletteView::Map::survival);
     visit("snapshots", ui.snapshots.open, false, true);
     visit("compare.wipe", ui.snapshots.compare.wipe, 0.f, 1.f);
     visit("compare.kind", ui.snapshots.compare.kind, DifferenceKind::absolute, DifferenceKind::flip);
-    visit("scopes", ui.scopes.open, false, true);
-    visit("meters", ui.meters.open, false, true);
-    visit("convergence", ui.convergence.open, false, true);
     visit("convergence.metric", ui.convergence.metric, ErrorMetric::rmse, ErrorMetric::relmse);
     visit("convergence.axis", ui.convergence.axis, ProgressAxis::seconds, ProgressAxis::spp);
     visit("convergence.target.0", ui.convergence.targets[0], 0.f, 1e9f);
@@ -68,8 +59,14 @@ void recall_panels(const WindowSettings& settings, UiState& ui) {
 void remember_scene(const UiState& ui, const std::string& file, WindowSettings& settings) {
     if (file.empty()) return;
     std::erase_if(settings.scenes, [&](const SceneMemory& m) { return m.file == file; });
-    SceneMemory memory{.file = file, .zoom = ui.zoom.scale, .u = ui.zoom.u, .v = ui.zoom.v, .material = ui.selected_material.value};
+    SceneMemory memory;
+    memory.file = file;
+    memory.zoom = ui.zoom.scale;
+    memory.u = ui.zoom.u;
+    memory.v = ui.zoom.v;
+    memory.material = ui.selected_material.value;
     memory.mix_group = ui.light_mix.unfolded;
+    memory.instruments = ui.docks.open;
     for (const Id<Node> id : ui.turned) memory.turned.push_back(id.value);
     if (ui.selected) memory.selected.push_back(ui.selected.value);
     for (const Id<Node> id : ui.also_selected) memory.selected.push_back(id.value);

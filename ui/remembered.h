@@ -6,13 +6,13 @@
 // |   measured and rendered region, links, groups, mute, solo   |   recovery sidecar, every snapshot         |                     |
 // | camera pose                                                 | the same; no step of the history           | moving, frame, look |
 // | snapshots: picture, state, samples, name, note              | layered EXR in the snapshot folder         | restoring is undone |
-// | size and splitters, folder, recent files, overlays,         | window.json                                | the same control    |
-// |   snapshot settings                                         |                                            |                     |
-// | which panels are open, where, and what they are set to;     | window.json, written here                  | the same control    |
+// | size, splitters and docks, text size, folder, recent files, | window.json                                | the same control    |
+// |   overlays, snapshot settings                               |                                            |                     |
+// | what panels are set to, where those that are torn off lie;  | window.json, written here                  | the same control    |
 // |   sections, tab, raw or denoised                            |                                            |                     |
 // | of a scene: zoom and pan, selection, folded rows of the     | window.json, for the last ten scenes       | zoom, select, "Put  |
 // |   outliner, unfolded group of the mix, which snapshots are  |                                            |   back"             |
-// |   in the strip                                              |                                            |                     |
+// |   in the strip, which instruments are open                  |                                            |                     |
 // | curves of convergence                                       | CSV, SVG or PNG, by its Export             | the panel's own     |
 // | import report, health, what the roulette lab and the meters | nothing: read again from the file, or      |                     |
 // |   measured                                                  |   measured again                           |                     |

@@ -57,6 +57,7 @@ constexpr Shortcut table[] = {
     {Command::toggle_overlays, "View", "Overlays", plain('H')},
     {Command::toggle_panels, "View", "Hide the panels", plain(key::tab)},
     {Command::full_screen, "View", "Full screen", plain(key::f1 + 10)},
+    {Command::dock_all, "View", "Dock all instruments", in_menu_only},
     {Command::render_region, "View", "Render a region alone", plain('B')},
     {Command::render_all, "View", "Render the whole picture", shift('B')},
     {Command::pause, "View", "Pause rendering", plain(key::space)},

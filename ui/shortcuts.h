@@ -30,6 +30,7 @@ enum class Command {
     snapshot_png,
     snapshot_folder,
     snapshot_strip,
+    dock_all,
     undelete_snapshot,
     compare_wipe,
     compare_flicker,

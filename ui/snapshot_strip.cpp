@@ -1,5 +1,6 @@
 #include "ui/snapshot_strip.h"
 
+#include "ui/fitting_text.h"
 #include "ui/texture_id.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
@@ -12,7 +13,6 @@ namespace blush {
 namespace {
 
 constexpr float card_width = 9, card_gap = 0.6f; // ems
-constexpr ImU32 strip_ground = IM_COL32(32, 32, 32, 225);
 
 // A letter that says, and chooses, which side a snapshot is on.
 void side_button(PanelContext& c, const Snapshot& s, uint64_t& side, const char* letter, const ImVec2& at) {
@@ -48,17 +48,18 @@ void draw_menu(PanelContext& c, const Snapshot& s) {
         v.compare.b = live_image;
         v.compare.mode = Comparison::Mode::wipe;
     }
-    if (menu_item(c, "Name, note, file...")) v.details = s.id;
+    if (menu_item(c, "Name, note, file...")) {
+        v.details = s.id;
+        c.ui.docks.to_front.insert("snapshot");
+    }
     if (menu_item(c, "Save as EXR")) v.requests.push_back({SnapshotRequest::What::save, s.id});
     ImGui::Separator();
     if (menu_item(c, "Delete")) delete_snapshot(c, s);
     ImGui::EndPopup();
 }
 
-void clipped_text(const std::string& text, const ImVec2& at, float width, ImU32 color) {
-    ImDrawList& draw = *ImGui::GetWindowDrawList();
-    const ImVec4 clip{at.x, at.y, at.x + width, at.y + ImGui::GetFontSize() * 1.5f};
-    draw.AddText(ImGui::GetFont(), ImGui::GetFontSize(), at, color, text.c_str(), nullptr, 0, &clip);
+void draw_fitting(const std::string& text, const ImVec2& at, float width, ImU32 color) {
+    ImGui::GetWindowDrawList()->AddText(at, color, elided(text, width).c_str());
 }
 
 // Where its picture and samples are, if that is not here; empty: here.
@@ -74,7 +75,7 @@ void draw_place(PanelContext& c, const Snapshot& s, const ImVec2& low, float wid
     const float em = ImGui::GetFontSize();
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     draw.AddRectFilled({low.x + 1, bottom - em * 1.3f}, {low.x + width - 1, bottom - 1}, IM_COL32(20, 20, 20, 170));
-    clipped_text(text, {low.x + em * 0.3f, bottom - em * 1.2f}, width - em * 0.6f, tone::dim_text);
+    draw_fitting(text, {low.x + em * 0.3f, bottom - em * 1.2f}, width - em * 0.6f, tone::dim_text);
     c.ui.probe.record(fmt::format("Snapshot/{}/{}", s.id, text), {low.x, bottom - em, width, em});
 }
 
@@ -98,8 +99,8 @@ void draw_card(PanelContext& c, const SnapshotPtr& snapshot, const ThumbnailPart
     if (part.texture) draw.AddImage(part.texture, at, high, {0, part.v0}, {1, part.v1});
     draw_place(c, s, at, width, high.y);
     draw.AddRect(at, high, hovered ? tone::text : tone::line);
-    clipped_text(s.name, {at.x, high.y + em * 0.15f}, width, tone::text);
-    clipped_text(s.figures(), {at.x, high.y + em * 1.35f}, width, tone::dim_text);
+    draw_fitting(s.name, {at.x, high.y + em * 0.15f}, width, tone::text);
+    draw_fitting(s.figures(), {at.x, high.y + em * 1.35f}, width, tone::dim_text);
     const ImVec2 after = ImGui::GetCursorScreenPos();
     side_button(c, s, c.ui.snapshots.compare.a, "A", {at.x + em * 0.2f, at.y + em * 0.2f});
     side_button(c, s, c.ui.snapshots.compare.b, "B", {at.x + em * 1.6f, at.y + em * 0.2f});
@@ -120,19 +121,17 @@ void delete_snapshot(PanelContext& c, const Snapshot& s) {
     c.ui.toasts.add({Toast::Kind::note, name + " is deleted", "", Command::undelete_snapshot});
 }
 
-void draw_snapshot_strip(PanelContext& c, const Region& viewport, const std::function<ThumbnailPart(size_t)>& part) {
-    SnapshotsView& v = c.ui.snapshots;
-    const float height = snapshot_strip_height(v);
-    if (height <= 0) return;
-    const std::vector<SnapshotPtr> list = v.list; // a menu may delete one
+void draw_snapshot_strip(PanelContext& c, const Region& region, const std::function<ThumbnailPart(size_t)>& part) {
+    if (region.height <= 0) return;
+    const std::vector<SnapshotPtr> list = c.ui.snapshots.list; // a menu may delete one
     const float em = ImGui::GetFontSize(), width = em * card_width, gap = em * card_gap;
-    ImGui::SetNextWindowPos({viewport.x, viewport.y + viewport.height - height});
-    ImGui::SetNextWindowSize({viewport.width, height});
+    ImGui::SetNextWindowPos({region.x, region.y});
+    ImGui::SetNextWindowSize({region.width, region.height});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {gap, gap});
-    ImGui::PushStyleColor(ImGuiCol_WindowBg, strip_ground);
     ImGui::Begin("Snapshots", nullptr,
                  ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-                     ImGuiWindowFlags_NoNav | ImGuiWindowFlags_HorizontalScrollbar | ImGuiWindowFlags_NoFocusOnAppearing);
+                     ImGuiWindowFlags_NoNav | ImGuiWindowFlags_HorizontalScrollbar | ImGuiWindowFlags_NoFocusOnAppearing |
+                     ImGuiWindowFlags_NoBringToFrontOnFocus);
     for (size_t i = 0; i < list.size(); ++i) {
         if (i > 0) ImGui::SameLine(0, gap);
         ImGui::BeginGroup();
@@ -143,7 +142,6 @@ void draw_snapshot_strip(PanelContext& c, const Region& viewport, const std::fun
     if (shown < int(list.size())) ImGui::SetScrollHereX(1); // a new one comes into view
     shown = int(list.size());
     ImGui::End();
-    ImGui::PopStyleColor();
     ImGui::PopStyleVar();
 }
 

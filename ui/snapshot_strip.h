@@ -1,4 +1,4 @@
-// The history strip: snapshots along the bottom of the viewport, over its picture, whose size it leaves alone.
+// The history strip: snapshots in a row below the picture.
 #pragma once
 
 #include "ui/display_pass.h"
@@ -19,10 +19,10 @@ struct ThumbnailPart {
     float v0 = 0, v1 = 1;
 };
 
-// The strip's own window; `part(index)` says where the thumbnail of list[index] is.
-void draw_snapshot_strip(PanelContext& c, const Region& viewport, const std::function<ThumbnailPart(size_t)>& part);
+// The strip in its region; `part(index)` says where the thumbnail of list[index] is.
+void draw_snapshot_strip(PanelContext& c, const Region& region, const std::function<ThumbnailPart(size_t)>& part);
 
-// Pixels; 0 while there is none to be seen.
+// The height that it wants, in pixels; 0 while there is none to be seen.
 float snapshot_strip_height(const SnapshotsView& view);
 
 // Takes it out of the strip; a message offers to put it back.

@@ -94,6 +94,9 @@ void apply_theme(float scale) {
     c[ImGuiCol_Header] = grey(0.30f);
     c[ImGuiCol_HeaderHovered] = grey(0.26f);
     c[ImGuiCol_HeaderActive] = grey(0.34f);
+    c[ImGuiCol_Tab] = c[ImGuiCol_TabUnfocused] = grey(0.13f);
+    c[ImGuiCol_TabHovered] = grey(0.3f);
+    c[ImGuiCol_TabActive] = c[ImGuiCol_TabUnfocusedActive] = grey(0.25f);
     c[ImGuiCol_Separator] = grey(0.11f);
     c[ImGuiCol_SeparatorHovered] = grey(0.4f);
     c[ImGuiCol_SeparatorActive] = grey(0.5f);

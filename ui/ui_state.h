@@ -6,6 +6,7 @@
 #include "ui/camera_frame.h"
 #include "ui/convergence_view.h"
 #include "ui/denoise_view.h"
+#include "ui/dock.h"
 #include "ui/file_request.h"
 #include "ui/gestures.h"
 #include "ui/health_view.h"
@@ -167,6 +168,7 @@ struct UiState {
     WindowSettings settings; // remembered between starts
     GestureTracker gestures;
     TipTimer tip;
+    DockView docks;
     Probe probe;
     Toasts toasts;
 

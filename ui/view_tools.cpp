@@ -46,6 +46,7 @@ void place_meter(PanelContext& c, const Projection& projection, double u, double
     if (!meter) return c.ui.toasts.note("There is no surface there");
     view.meters.push_back(*meter);
     c.ui.meters.open = true;
+    c.ui.docks.to_front.insert("meters");
     c.apply(SetView{view});
 }
 
@@ -63,6 +64,7 @@ void take_region(PanelContext& c, const PictureRegion& region) {
     if (tool == ViewTool::region) return render_region(c, region);
     ViewSettings v = c.project().view;
     v.measured = region;
+    c.ui.docks.to_front.insert("region");
     c.apply(SetView{v});
 }
 

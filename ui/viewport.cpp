@@ -109,6 +109,11 @@ void turn_surroundings(PanelContext& c, double share) {
     c.apply(SetEnvironment{e}, c.ui.gestures.current());
 }
 
+void inspect(PanelContext& c, double u, double v) {
+    c.ui.pixel = PixelProbe{u, v};
+    c.ui.docks.to_front.insert("pixel");
+}
+
 // Are there planes of groups for these gains, of the frame and of what is shown of it denoised?
 bool can_be_mixed(const PanelContext& c, const Gains& gains, bool denoised) {
     if (!c.frame || gains.empty() || c.frame->groups.size() != gains.size()) return false;
@@ -280,7 +285,7 @@ void Viewport::obey(PanelContext& c, const NavigationResult& wish, const Project
     if (wish.flying) c.ui.next_frame_in = 0;
     if (wish.focus) focus_at(c, projection, image.u(wish.focus->x), image.v(wish.focus->y));
     if (wish.inspect && image.contains(wish.inspect->x, wish.inspect->y))
-        c.ui.pixel = PixelProbe{image.u(wish.inspect->x), image.v(wish.inspect->y)};
+        inspect(c, image.u(wish.inspect->x), image.v(wish.inspect->y));
     if (wish.select) {
         const Picked picked = picked_at(c, projection, image, *wish.select);
         c.ui.select(picked.node, picked.material);
@@ -331,6 +336,7 @@ ImageRect Viewport::draw(PanelContext& c, const FramePace& pace) {
         draw_measured_region(draw, image, c.project().view);
         draw_meters(draw, image, projection, c.scene(), c.project().view, c.ui.meters);
     }
+    if (c.ui.pixel) draw_read_pixel(draw, image, c.ui.pixel->u, c.ui.pixel->v);
     draw_caption(seen);
     navigate(c, projection, image, hovered, taken);
     return image;

@@ -35,6 +35,13 @@ void WorldPen::cross(const Vec3d& centre, double half) const {
     line(centre - b, centre + b);
 }
 
+void draw_read_pixel(ImDrawList& draw, const ImageRect& image, double u, double v) {
+    const ImVec2 at{image.x + float(u) * image.width, image.y + float(v) * image.height};
+    const float radius = ImGui::GetFontSize() * 0.4f;
+    draw.AddCircle(at, radius, IM_COL32(0, 0, 0, 160), 0, 3);
+    draw.AddCircle(at, radius, tone::text);
+}
+
 void draw_hint(ImDrawList& draw, const std::string& text) {
     const ImVec2 low = draw.GetClipRectMin(), high = draw.GetClipRectMax();
     const float em = ImGui::GetFontSize(), wrap = std::max(high.x - low.x - 3 * em, em);

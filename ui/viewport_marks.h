@@ -23,6 +23,9 @@ struct WorldPen {
     void cross(const Vec3d& centre, double half) const;
 };
 
+// A ring round the pixel whose values are read; (u, v) of the picture.
+void draw_read_pixel(ImDrawList& draw, const ImageRect& image, double u, double v);
+
 // What the mouse does now, at the upper edge of what is drawn into.
 void draw_hint(ImDrawList& draw, const std::string& text);
 

@@ -65,9 +65,10 @@ Result<std::unique_ptr<Window>> Window::open(const WindowOptions& options) {
     glfwSetWindowSizeLimits(window->window_, 480, 320, GLFW_DONT_CARE, GLFW_DONT_CARE);
     float scale_x = 1, scale_y = 1;
     glfwGetWindowContentScale(window->window_, &scale_x, &scale_y);
-    window->scale_ = std::clamp(options.scale > 0 ? options.scale : std::max(scale_x, scale_y), 0.5f, 4.f);
+    window->display_scale_ = window->scale_ = std::clamp(options.scale > 0 ? options.scale : std::max(scale_x, scale_y), 0.5f, 4.f);
+    window->assets_ = options.assets;
     window->install_callbacks();
-    window->begin_imgui(options);
+    window->begin_imgui();
     return window;
 }
 
@@ -107,16 +108,31 @@ void Window::install_callbacks() {
     glfwSetWindowCloseCallback(window_, [](GLFWwindow* w) { owner(w).request_frames(1); });
 }
 
-void Window::begin_imgui(const WindowOptions& options) {
+void Window::begin_imgui() {
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;              // the layout is ours to remember
     ImGui::GetIO().ConfigInputTextCursorBlink = false; // a blinking cursor would keep the window from sleeping
-    load_fonts(options.assets, scale_);
-    apply_theme(scale_);
+    apply_scale();
     ImGui_ImplGlfw_InitForOpenGL(window_, true);
     ImGui_ImplOpenGL3_Init("#version 330 core");
     imgui_ = true;
+}
+
+// Glyphs are drawn anew for each size: stretched ones would be blurred.
+void Window::apply_scale() {
+    ImGui::GetIO().Fonts->Clear();
+    load_fonts(assets_, scale_);
+    apply_theme(scale_);
+}
+
+void Window::set_text_size(int per_cent) {
+    if (std::exchange(text_size_, per_cent) == per_cent) return;
+    scale_ = display_scale_ * float(per_cent) / 100;
+    apply_scale();
+    ImGui_ImplOpenGL3_DestroyFontsTexture();
+    ImGui_ImplOpenGL3_CreateFontsTexture();
+    request_frames(frames_after_input);
 }
 
 bool Window::wait(double timeout_seconds) {

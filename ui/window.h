@@ -38,6 +38,8 @@ public:
     // Makes wait() return with a frame due. Callable from any thread while a window is open.
     static void wake();
 
+    // Per cent of the size that the display asks for, of text and all that goes by it. Not within a frame.
+    void set_text_size(int per_cent);
     void begin_frame();
     // Draws ImGui's picture over a cleared window and shows it.
     void end_frame();
@@ -62,13 +64,16 @@ public:
 private:
     Window() = default;
     void install_callbacks();
-    void begin_imgui(const WindowOptions& options);
+    void begin_imgui();
+    void apply_scale();
 
     GLFWwindow* window_ = nullptr;
     bool imgui_ = false;
     Size windowed_{};                  // before it filled the screen
     int windowed_x_ = 0, windowed_y_ = 0;
-    float scale_ = 1; // fonts and spacing are this many times their size at 96 dpi
+    float display_scale_ = 1, scale_ = 1; // of the display; of fonts and spacing: that many times their size at 96 dpi
+    int text_size_ = 100;                 // per cent
+    std::filesystem::path assets_;
     int frames_due_ = 3;
     std::vector<KeyPress> key_presses_;
     std::vector<std::filesystem::path> dropped_files_;

@@ -10,7 +10,7 @@
 namespace blush {
 namespace {
 
-constexpr size_t most_panel_settings = 1000, most_ids = 100000, most_floating_text = 1 << 16, most_snapshots = 64, most_bookmarks = 64;
+constexpr size_t most_panel_settings = 1000, most_ids = 100000, most_floating_text = 1 << 16, most_snapshots = 64, most_bookmarks = 64, most_instruments = 64;
 
 // The entry if it is there and of the right type and range, else what `value` was.
 template <class T> void read(const nlohmann::json& json, const char* key, T& value, T low, T high) {
@@ -54,7 +54,36 @@ SceneMemory read_scene(const nlohmann::json& json) {
     read_ids(json, "turned", m.turned);
     read(json, "mix_group", m.mix_group);
     read_strings(json, "snapshots", m.snapshots, most_snapshots);
+    read_strings(json, "instruments", m.instruments, most_instruments);
     return m;
+}
+
+void read_dock(const nlohmann::json& json, Dock& dock) {
+    const auto found = json.find("dock");
+    if (found == json.end() || !found->is_object()) return;
+    read(*found, "right", dock.sizes.right, 1.f, 200.f);
+    read(*found, "bottom", dock.sizes.bottom, 1.f, 200.f);
+    read(*found, "front_right", dock.front[0]);
+    read(*found, "front_bottom", dock.front[1]);
+    const auto tabs = found->find("tabs");
+    if (tabs == found->end() || !tabs->is_array()) return;
+    for (const auto& entry : *tabs) {
+        DockTab tab;
+        bool bottom = false;
+        if (!entry.is_object()) continue;
+        read(entry, "id", tab.id);
+        read(entry, "bottom", bottom);
+        read(entry, "floats", tab.floats);
+        tab.side = bottom ? DockSide::bottom : DockSide::right;
+        const bool known = std::ranges::count(dock.tabs, tab.id, &DockTab::id) > 0;
+        if (!tab.id.empty() && !known && dock.tabs.size() < most_instruments) dock.tabs.push_back(std::move(tab));
+    }
+}
+
+nlohmann::json dock_json(const Dock& dock) {
+    nlohmann::json tabs = nlohmann::json::array();
+    for (const DockTab& tab : dock.tabs) tabs.push_back({{"id", tab.id}, {"bottom", tab.side == DockSide::bottom}, {"floats", tab.floats}});
+    return {{"right", dock.sizes.right}, {"bottom", dock.sizes.bottom}, {"front_right", dock.front[0]}, {"front_bottom", dock.front[1]}, {"tabs", tabs}};
 }
 
 void read_panels(const nlohmann::json& json, std::map<std::string, double>& panels) {
@@ -75,7 +104,8 @@ nlohmann::json scenes_json(const std::vector<SceneMemory>& scenes) {
                         {"material", m.material},
                         {"turned", m.turned},
                         {"mix_group", m.mix_group},
-                        {"snapshots", m.snapshots}});
+                        {"snapshots", m.snapshots},
+                        {"instruments", m.instruments}});
     return list;
 }
 
@@ -96,6 +126,8 @@ WindowSettings read_window_settings(const std::filesystem::path& file) {
     read(json, "maximized", settings.maximized);
     read(json, "outliner", settings.splitters.outliner, 1.f, 100.f);
     read(json, "inspector", settings.splitters.inspector, 1.f, 100.f);
+    read_dock(json, settings.dock);
+    read(json, "text_size", settings.text_size, least_text_size, most_text_size);
     read(json, "follow_viewport", settings.follow_viewport);
     read(json, "overlays", settings.overlays);
     read(json, "snapshot_folder", settings.snapshot_folder);
@@ -123,6 +155,8 @@ Result<void> write_window_settings(const std::filesystem::path& file, const Wind
                               {"maximized", settings.maximized},
                               {"outliner", settings.splitters.outliner},
                               {"inspector", settings.splitters.inspector},
+                              {"dock", dock_json(settings.dock)},
+                              {"text_size", settings.text_size},
                               {"follow_viewport", settings.follow_viewport},
                               {"overlays", settings.overlays},
                               {"recent", settings.recent},

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/result.h"
-#include "ui/layout.h"
+#include "ui/dock.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -21,14 +21,18 @@ struct SceneMemory {
     std::vector<uint32_t> turned;      // Id<Node>.value of the outliner's rows that are not folded as they are at first
     std::string mix_group;             // whose colour the light mix shows
     std::vector<std::string> snapshots; // files, oldest first
+    std::vector<std::string> instruments; // ids of those that were open
     bool operator==(const SceneMemory&) const = default;
 };
 constexpr size_t remembered_files = 10;
+constexpr int least_text_size = 80, most_text_size = 200; // per cent
 
 struct WindowSettings {
     int width = 1280, height = 800; // of the window, in screen coordinates
     bool maximized = false;
     Splitters splitters;
+    Dock dock;                       // of the instruments
+    int text_size = 100;             // per cent of what the display asks for
     bool follow_viewport = true;     // render at the viewport's size
     bool overlays = true;            // light glyphs, handles, outlines
     std::vector<std::string> recent; // scene files, newest first

@@ -32,13 +32,15 @@ TEST_F(Files, SettingsComeBack) {
     s.width = 1600;
     s.maximized = true;
     s.splitters = {11.5f, 33};
+    s.dock = {{30, 20}, {{"scopes", DockSide::bottom, false}, {"history", DockSide::right, true}}, {"history", "scopes"}};
+    s.text_size = 125;
     s.follow_viewport = false;
     s.recent = {"/a/b.gltf", "/c \"d\".glb"};
     s.snapshot_folder = "/somewhere";
     s.snapshot_memory = 77;
     s.panels = {{"scopes", 1}, {"denoise.blend", 0.25}};
     s.floating = "[Window][Scopes]\nPos=1,2\n";
-    s.scenes = {{"/a/b.gltf", 3, 0.25, 0.75, {7, 4711}, 12, {5, 4294967295u}, "Key", {"/a/b-0001.exr"}}, {"/c.glb", 0, 0.5, 0.5, {}, 0, {}, "", {}}};
+    s.scenes = {{"/a/b.gltf", 3, 0.25, 0.75, {7, 4711}, 12, {5, 4294967295u}, "Key", {"/a/b-0001.exr"}, {"scopes"}}, {"/c.glb", 0, 0.5, 0.5, {}, 0, {}, "", {}, {}}};
     const auto file = folder / "deep" / "window.json";
     ASSERT_TRUE(write_window_settings(file, s));
     EXPECT_EQ(read_window_settings(file), s);
@@ -54,12 +56,16 @@ TEST_F(Files, ADamagedEntryGivesItsDefaultAndLeavesTheOthers) {
     const auto file =
         write("odd.json",
               R"({"width": "wide", "height": 1e300, "outliner": -5, "maximized": 1, "recent": [1, "ok.glb", null], "inspector": 30,
-                  "panels": {"a": "b", "c": 1}, "scenes": [3, {"file": "x", "zoom": -4, "selected": [-1, "2", 5]}]})");
+                  "panels": {"a": "b", "c": 1}, "text_size": 1000, "dock": {"right": -3, "tabs": [4, {"id": 7}, {"id": "a"}, {"id": "a", "floats": true}]},
+                  "scenes": [3, {"file": "x", "zoom": -4, "selected": [-1, "2", 5]}]})");
     const WindowSettings s = read_window_settings(file), defaults;
     EXPECT_EQ(s.width, defaults.width);
     EXPECT_EQ(s.maximized, defaults.maximized);
     EXPECT_LE(s.height, 16384);
     EXPECT_GE(s.splitters.outliner, 1);
+    EXPECT_EQ(s.text_size, most_text_size);
+    EXPECT_GE(s.dock.sizes.right, 1);
+    EXPECT_EQ(s.dock.tabs, (std::vector<DockTab>{{"a", DockSide::right, false}}));
     EXPECT_EQ(s.splitters.inspector, 30);
     EXPECT_EQ(s.recent, std::vector<std::string>{"ok.glb"});
     EXPECT_EQ(s.panels, (std::map<std::string, double>{{"c", 1}}));

@@ -4,6 +4,7 @@
 #include "io/gltf_import.h"
 #include "render/light_links.h"
 #include "support/sample_project.h"
+#include "ui/panels/instruments.h"
 #include "ui/panels/panels.h"
 
 #include <cmath>
@@ -21,14 +22,13 @@ protected:
     // A few frames of everything, with this selected.
     void draw_all(Document& document, Id<Node> selected) {
         ui.selected = selected;
-        ui.show_shortcuts = ui.show_history = ui.bounces.open = ui.health.open = ui.import_report.open = true;
+        ui.show_shortcuts = true;
         ImportReport report;
         report.extensions_used = {"A", "B", "C"};
         report.extensions_honoured = {"A"};
         report.extensions_ignored = {"B", "C"};
         report.diagnostics = {{Diagnostic::Severity::warning, "ignored: B", "nodes[0]"}, {Diagnostic::Severity::note, "x", ""}};
         ui.import_report.report = std::make_shared<const ImportReport>(std::move(report));
-        ui.scopes.open = ui.meters.open = ui.convergence.open = ui.light_table.open = true;
         for (int tab = 0; tab <= int(InspectorTab::display); ++tab) {
             ui.tab = InspectorTab(tab);
             for (int i = 0; i < 3; ++i) {
@@ -45,15 +45,16 @@ protected:
                     draw_import_report(c);
                     draw_region_panel(c);
                     draw_meters_panel(c);
-                    draw_scopes_panel(c, {});
+                    draw_scopes_panel(c);
                     draw_convergence_panel(c);
                     draw_shortcut_sheet(c);
-                    draw_cards(c, nullptr);
+                    draw_cards(c, viewport, nullptr);
                 });
             }
         }
     }
 
+    static constexpr Region viewport{200, 20, 800, 1900};
     const ColorManagement color = test::our_colors();
     UiState ui;
     FramePtr frame;
@@ -68,7 +69,7 @@ TEST_F(Panels, CardsLieOneAboveTheOther) {
     for (int i = 0; i < 3; ++i)
         in_window([&] {
             PanelContext c{document, ui, color, frame, SessionStatus(), 640, 480};
-            EXPECT_FALSE(draw_cards(c, &job));
+            EXPECT_FALSE(draw_cards(c, viewport, &job));
         });
     const ImGuiWindow* cards[] = {ImGui::FindWindowByName("##toast0"), ImGui::FindWindowByName("##toast1"), ImGui::FindWindowByName("##job")};
     for (const ImGuiWindow* card : cards) {
@@ -343,7 +344,6 @@ TEST_F(Panels, TheLightMixShowsItsGroups) {
     frame = picture;
     const std::optional<Mixing> mixing = mixing_of(*picture->light_groups, sample.project.scene);
     ASSERT_TRUE(mixing);
-    ui.light_mix.open = true;
     for (const char* unfolded : {"", "Lamp"})
         for (const Mixing* shown : {&*mixing, static_cast<const Mixing*>(nullptr)}) {
             ui.light_mix.unfolded = unfolded;
@@ -364,16 +364,14 @@ TEST_F(Panels, TheRouletteLabMeasuresWhileItIsOpen) {
             draw_roulette_panel(c);
         });
     };
-    draw();
     EXPECT_FALSE(ui.roulette.runner);
-    ui.roulette.open = true;
     draw();
     ASSERT_TRUE(ui.roulette.runner);
     while (ui.roulette.runner->state().answer.rounds < 20) draw();
     draw();
     EXPECT_FALSE(document.can_undo()) << "looking edits nothing";
-    ui.roulette.open = false;
-    draw();
+    PanelContext c{document, ui, color, frame, {}, 64, 48};
+    find_instrument("roulette")->set_open(c, false);
     EXPECT_FALSE(ui.roulette.runner);
 }
 

@@ -10,7 +10,6 @@ TEST(Remembered, PanelsComeBackAsTheyWereSet) {
     UiState ui;
     ui.tab = InspectorTab::render;
     ui.denoise = {DenoiseView::Show::blend, 0.25f};
-    ui.light_table.open = ui.scopes.open = true;
     ui.snapshots.open = false;
     ui.snapshots.compare.kind = DifferenceKind::flip;
     ui.bounces.mode = BouncesView::Mode::cumulative;
@@ -24,8 +23,7 @@ TEST(Remembered, PanelsComeBackAsTheyWereSet) {
     recall_panels(settings, again);
     EXPECT_EQ(again.tab, InspectorTab::render);
     EXPECT_EQ(again.denoise, ui.denoise);
-    EXPECT_TRUE(again.light_table.open && again.scopes.open);
-    EXPECT_FALSE(again.light_mix.open || again.snapshots.open);
+    EXPECT_FALSE(again.snapshots.open);
     EXPECT_EQ(again.snapshots.compare.kind, DifferenceKind::flip);
     EXPECT_EQ(again.bounces.mode, BouncesView::Mode::cumulative);
     EXPECT_EQ(again.bounces.bounce, 3);
@@ -44,7 +42,7 @@ TEST(Remembered, PanelsComeBackAsTheyWereSet) {
 TEST(Remembered, WhatMakesNoSenseChangesNothing) {
     WindowSettings settings;
     settings.panels = {{"tab", 99},           {"denoise", -1},   {"denoise.blend", 7}, {"bounces.bounce", 1e30},
-                       {"bounces.gain.0", 5}, {"scopes", 1e300}, {"nobody", 3}};
+                       {"bounces.gain.0", 5}, {"denoise", 1e300}, {"nobody", 3}};
     UiState ui;
     recall_panels(settings, ui);
     WindowSettings now, defaults;
@@ -68,8 +66,10 @@ TEST(Remembered, ASceneIsLookedAtAsItWasLeft) {
     ui.selected_material = s.material;
     ui.turned = {s.first};
     ui.light_mix.unfolded = "Sun";
+    ui.docks.open = {"scopes"};
     WindowSettings settings;
     remember_scene(ui, "/a.gltf", settings);
+    EXPECT_EQ(settings.scenes[0].instruments, (std::vector<std::string>{"scopes"}));
     ui.zoom = {};
     ui.select({});
     ui.turned.clear();

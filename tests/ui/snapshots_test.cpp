@@ -152,7 +152,7 @@ protected:
     void draw() {
         in_window([&] {
             PanelContext c{document, ui, color, frame, SessionStatus(), 640, 480};
-            draw_snapshot_strip(c, {0, 400, 600, 400}, [](size_t) { return ThumbnailPart{}; });
+            draw_snapshot_strip(c, {450, 400, 600, snapshot_strip_height(ui.snapshots)}, [](size_t) { return ThumbnailPart{}; });
             draw_comparison_panel(c);
             draw_snapshot_panel(c);
         });
@@ -160,7 +160,7 @@ protected:
     // Where a card of the strip is, its letters apart.
     void click_first_card() {
         ImGuiIO& io = ImGui::GetIO();
-        io.MousePos = {60, 770};
+        io.MousePos = {550, 450};
         draw();
         draw();
         io.MouseDown[0] = true;

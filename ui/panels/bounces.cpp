@@ -55,7 +55,9 @@ void draw_energy(PanelContext& c, BouncesView& view, const std::vector<BounceEne
     quiet_text(fmt::format("Direct {:.1f} %, indirect {:.1f} % of the picture's light.", 100 * direct, 100 * (1 - direct)));
 }
 
-void draw_contents(PanelContext& c) {
+} // namespace
+
+void draw_bounces_panel(PanelContext& c) {
     BouncesView& view = c.ui.bounces;
     const std::vector<BounceEnergy> energies = c.frame ? bounce_energy(*c.frame) : std::vector<BounceEnergy>();
     if (energies.empty()) return quiet_text("Waiting for a picture with bounces in it.");
@@ -70,17 +72,6 @@ void draw_contents(PanelContext& c) {
     if (view.mode == Mode::gains) draw_gains(f, view, energies);
     ImGui::Dummy({0, ImGui::GetFontSize() * 0.4f});
     draw_energy(c, view, energies);
-}
-
-} // namespace
-
-void draw_bounces_panel(PanelContext& c) {
-    if (!c.ui.bounces.open) return;
-    const float em = ImGui::GetFontSize();
-    ImGui::SetNextWindowPos({em * 16, em * 4}, ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowSize({em * 24, em * 24}, ImGuiCond_FirstUseEver);
-    if (ImGui::Begin("Bounces", &c.ui.bounces.open, ImGuiWindowFlags_NoCollapse)) draw_contents(c);
-    ImGui::End();
 }
 
 } // namespace blush

@@ -55,38 +55,29 @@ void draw_numbers(PanelContext& c, Fields& f, const Difference& d) {
 
 void draw_comparison_panel(PanelContext& c) {
     Comparison& compare = c.ui.snapshots.compare;
-    if (compare.mode == Mode::off) return;
-    const float em = ImGui::GetFontSize();
-    ImGui::SetNextWindowPos({em * 15, em * 4}, ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowSize({em * 20, 0});
-    bool open = true;
-    if (ImGui::Begin("Comparison", &open, ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing)) {
-        Fields f(c.ui, "Compare");
-        draw_side(c, f, "A", compare.a);
-        draw_side(c, f, "B", compare.b);
-        constexpr const char* modes[] = {"Wipe", "Flicker", "Difference"};
-        int mode = int(compare.mode) - 1;
-        if (f.choice("Show", mode, modes, "Side by side with a bar between them, one after the other, or what is different.")) compare.mode = Mode(mode + 1);
-        if (compare.mode == Mode::flicker) {
-            if (f.button(compare.shows_b ? "Show A" : "Show B", "So does the key J.")) compare.shows_b = !compare.shows_b;
-        } else if (compare.mode == Mode::difference) {
-            constexpr const char* kinds[] = {"Absolute", "Relative", "FLIP"};
-            int kind = int(compare.kind);
-            if (f.choice("Kind", kind, kinds, "|A - B| as light; relative to B as a map; or FLIP, what a viewer would notice, as a map. B is the reference."))
-                compare.kind = DifferenceKind(kind);
-            const Difference* d = c.ui.difference.get();
-            if (compare.a == compare.b)
-                quiet_text("Both are the same picture.");
-            else if (!d || d->kind != compare.kind)
-                quiet_text("Comparing...");
-            else if (!d->problem.empty())
-                quiet_text(d->problem);
-            else
-                draw_numbers(c, f, *d);
-        }
+    Fields f(c.ui, "Compare");
+    draw_side(c, f, "A", compare.a);
+    draw_side(c, f, "B", compare.b);
+    constexpr const char* modes[] = {"Wipe", "Flicker", "Difference"};
+    int mode = int(compare.mode) - 1;
+    if (f.choice("Show", mode, modes, "Side by side with a bar between them, one after the other, or what is different.")) compare.mode = Mode(mode + 1);
+    if (compare.mode == Mode::flicker) {
+        if (f.button(compare.shows_b ? "Show A" : "Show B", "So does the key J.")) compare.shows_b = !compare.shows_b;
+    } else if (compare.mode == Mode::difference) {
+        constexpr const char* kinds[] = {"Absolute", "Relative", "FLIP"};
+        int kind = int(compare.kind);
+        if (f.choice("Kind", kind, kinds, "|A - B| as light; relative to B as a map; or FLIP, what a viewer would notice, as a map. B is the reference."))
+            compare.kind = DifferenceKind(kind);
+        const Difference* d = c.ui.difference.get();
+        if (compare.a == compare.b)
+            quiet_text("Both are the same picture.");
+        else if (!d || d->kind != compare.kind)
+            quiet_text("Comparing...");
+        else if (!d->problem.empty())
+            quiet_text(d->problem);
+        else
+            draw_numbers(c, f, *d);
     }
-    ImGui::End();
-    if (!open) compare.mode = Mode::off;
 }
 
 } // namespace blush

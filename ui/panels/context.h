@@ -9,6 +9,9 @@
 #include "scene/document.h"
 #include "ui/shown_picture.h"
 #include "ui/ui_state.h"
+#include "ui/waveform_sheet.h"
+
+#include <functional>
 
 namespace blush {
 
@@ -26,6 +29,8 @@ struct PanelContext {
     const Mixing* mixing = nullptr;        // what makes the frame's groups the picture of the scene as it is now; null: nothing does
 
     float metered_ev = 0; // of the frame, by the auto exposure; 0 without
+    WaveformTextures waveforms = {};                                         // of the scopes
+    std::function<ImTextureID(const std::string& file)> file_thumbnail = {}; // a texture; 0: there is none of this scene
 
     // How the picture is looked at, with auto exposure settled.
     ViewSettings shown_view() const { return settled(project().view, metered_ev); }

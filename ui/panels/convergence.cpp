@@ -1,4 +1,5 @@
 // Convergence: error against run time, of this run and others, with what it says about the time that is left.
+#include "ui/fitting_text.h"
 #include "ui/panels/convergence_runs.h"
 #include "ui/panels/panels.h"
 #include "ui/plot_drawing.h"
@@ -35,7 +36,7 @@ int segments(PanelContext& c, const char* scope, std::initializer_list<const cha
 }
 
 void toggle(PanelContext& c, const char* name, bool& value, const char* tip) {
-    ImGui::SameLine(0, ImGui::GetFontSize());
+    same_line_if_fits(ImGui::GetFrameHeightWithSpacing() + ImGui::CalcTextSize(name).x, ImGui::GetFontSize());
     ImGui::Checkbox(name, &value);
     c.ui.probe.record_last_item(fmt::format("Convergence/{}", name));
     tip_for_last_item(c.ui, tip);
@@ -47,9 +48,9 @@ void draw_settings(PanelContext& c, ConvergenceView& view) {
         ErrorMetric(segments(c, "Error", {"RMSE", "relMSE"}, int(view.metric),
                              "RMSE: root of the mean squared error, in the picture's units. relMSE: mean of the squared error over the "
                              "squared value, so that dark parts count as much as bright ones."));
-    ImGui::SameLine(0, em);
+    same_line_if_fits(em * 10, em);
     view.axis = ProgressAxis(segments(c, "Over", {"Seconds", "Samples"}, int(view.axis), "What the error is shown against."));
-    ImGui::SameLine(0, em);
+    same_line_if_fits(em * 9, em);
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted("Target");
     ImGui::SameLine();
@@ -97,12 +98,9 @@ void draw_reference(PanelContext& c, ConvergenceView& view) {
         break;
     }
     if (!news.problem.empty()) text += " " + news.problem;
-    ImGui::AlignTextToFramePadding();
-    ImGui::PushStyleColor(ImGuiCol_Text, tone::dim_text);
-    ImGui::TextUnformatted(text.c_str());
-    ImGui::PopStyleColor();
+    quiet_text(text);
     if (!button) return;
-    ImGui::SameLine();
+    same_line_if_fits(ImGui::CalcTextSize(button).x + 2 * ImGui::GetStyle().FramePadding.x);
     if (ImGui::SmallButton(button))
         view.wanted_reference =
             news.state == State::rendering ? ConvergenceView::ReferenceRequest::stop : ConvergenceView::ReferenceRequest::render;
@@ -168,8 +166,8 @@ void draw_chart(PanelContext& c, const ConvergenceView& view, float height) {
     if (ImGui::IsItemHovered()) draw_readout(view, p, l, origin);
     if (!l.curves.empty()) return;
     const char* const text = "The error is estimated once both halves of the samples hold some.";
-    const float width = ImGui::CalcTextSize(text).x;
-    ImGui::GetWindowDrawList()->AddText({origin.x + (size.x - width) / 2, origin.y + size.y / 2 - em}, tone::dim_text, text);
+    const float width = std::min(ImGui::CalcTextSize(text).x, size.x - 4 * em), from = origin.x + (size.x - width) / 2;
+    ImGui::GetWindowDrawList()->AddText(&font, em, {from, origin.y + size.y / 2 - 2 * em}, tone::dim_text, text, nullptr, width + 1);
 }
 
 // The live run in words.
@@ -181,7 +179,7 @@ void draw_summary(const ConvergenceView& view) {
                                    points.empty() ? "not known yet" : error_text(points.back().error(view.metric)));
     text += ",  " + slope_text(fit(live->record, Kind::estimated, view.metric, view.axis).slope);
     if (view.target() > 0) text += ",  " + time_left_text(time_left(live->record, Kind::estimated, view.metric, view.target()));
-    ImGui::TextUnformatted(text.c_str());
+    ImGui::TextWrapped("%s", text.c_str());
     if (view.denoised && view.waiting > 0)
         quiet_text(fmt::format("{} denoised {} until the raw picture{} good enough to tell how far off {}.", view.waiting,
                                view.waiting == 1 ? "picture waits" : "pictures wait", view.reference ? ", or the reference, is" : " is",
@@ -193,8 +191,8 @@ void draw_files(PanelContext& c, ConvergenceView& view) {
     c.ui.probe.record_last_item("Convergence/Load");
     tip_for_last_item(c.ui, "A table exported here, or the convergence.csv of `blush converge`, beside the runs of this session.");
     for (const auto format : {ConvergenceView::Export::csv, ConvergenceView::Export::svg, ConvergenceView::Export::png}) {
-        ImGui::SameLine();
         const std::string name = fmt::format("Save {}", ConvergenceView::export_names[int(format)]);
+        same_line_if_fits(ImGui::CalcTextSize(name.c_str()).x + 2 * ImGui::GetStyle().FramePadding.x);
         if (ImGui::Button(name.c_str())) view.wanted_export = format;
         c.ui.probe.record_last_item(fmt::format("Convergence/{}", name));
         tip_for_last_item(c.ui, format == ConvergenceView::Export::csv
@@ -205,9 +203,8 @@ void draw_files(PanelContext& c, ConvergenceView& view) {
     if (!(cost.rendering > 0)) return;
     const std::string text =
         fmt::format("recorder {}, estimate {} of the time", share_text(cost.recorder_share()), share_text(cost.estimate_share()));
-    ImGui::SameLine();
-    ImGui::SetCursorPosX(std::max(ImGui::GetCursorPosX(), ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(text.c_str()).x));
-    ImGui::TextDisabled("%s", text.c_str());
+    same_line_if_fits(ImGui::CalcTextSize(text.c_str()).x, ImGui::GetFontSize());
+    quiet_text(text);
     const std::string tip =
         fmt::format("Of {:.1f} s of rendering this run, {:.3g} ms went into recording errors and {:.3g} ms into measuring them against other "
                     "pictures; {:.3g} ms into estimating them, which the status bar and the stop rules need in any case. Both are made as often as fits "
@@ -216,27 +213,37 @@ void draw_files(PanelContext& c, ConvergenceView& view) {
     tip_for_last_item(c.ui, tip.c_str());
 }
 
+void draw_one_above_the_other(PanelContext& c, ConvergenceView& view) {
+    const float em = ImGui::GetFontSize(), line = ImGui::GetFrameHeightWithSpacing();
+    draw_settings(c, view);
+    draw_reference(c, view);
+    const float rows = float(std::min<size_t>(view.runs.all().size(), 6));
+    const float below = (rows + 1.5f) * line + (view.denoised ? 2 : 1) * ImGui::GetTextLineHeightWithSpacing() + 2 * line;
+    draw_chart(c, view, std::max(ImGui::GetContentRegionAvail().y - below, em * 10));
+    draw_summary(view);
+    draw_convergence_runs(c, view, std::max(ImGui::GetContentRegionAvail().y - 2 * line, em * 4));
+    draw_files(c, view);
+}
+
 } // namespace
 
 void draw_convergence_panel(PanelContext& c) {
     ConvergenceView& view = c.ui.convergence;
-    if (!view.open) return;
-    const float em = ImGui::GetFontSize();
-    const ImVec2 screen = ImGui::GetIO().DisplaySize;
-    ImGui::SetNextWindowPos({em * 14, em * 3}, ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowSize({std::min(em * 50, screen.x - em * 15), std::min(em * 40, screen.y - em * 5)}, ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowSizeConstraints({em * 24, em * 20}, {FLT_MAX, FLT_MAX});
-    if (ImGui::Begin("Convergence", &view.open, ImGuiWindowFlags_NoCollapse)) {
-        draw_settings(c, view);
-        draw_reference(c, view);
-        const float line = ImGui::GetFrameHeightWithSpacing(), rows = float(std::min<size_t>(view.runs.all().size(), 6));
-        const float below = (rows + 1.5f) * line + (view.denoised ? 2 : 1) * ImGui::GetTextLineHeightWithSpacing() + line;
-        draw_chart(c, view, std::max(ImGui::GetContentRegionAvail().y - below, em * 8));
-        draw_summary(view);
-        draw_convergence_runs(c, view, ImGui::GetContentRegionAvail().y - line);
-        draw_files(c, view);
-    }
-    ImGui::End();
+    const float em = ImGui::GetFontSize(), gap = ImGui::GetStyle().ItemSpacing.x;
+    const ImVec2 room = ImGui::GetContentRegionAvail();
+    if (room.x < 2 * room.y || room.x < 44 * em) return draw_one_above_the_other(c, view);
+    // Where it is flat, the chart has its whole height.
+    ImGui::BeginChild("chart", {std::floor(room.x * 0.52f), 0});
+    draw_chart(c, view, std::max(ImGui::GetContentRegionAvail().y, em * 8));
+    ImGui::EndChild();
+    ImGui::SameLine(0, 2 * gap);
+    ImGui::BeginChild("runs", {0, 0});
+    draw_settings(c, view);
+    draw_reference(c, view);
+    draw_summary(view);
+    draw_convergence_runs(c, view, std::max(ImGui::GetContentRegionAvail().y - 2 * ImGui::GetFrameHeightWithSpacing(), em * 4));
+    draw_files(c, view);
+    ImGui::EndChild();
 }
 
 } // namespace blush

@@ -1,5 +1,6 @@
 #include "ui/panels/convergence_runs.h"
 
+#include "ui/fitting_text.h"
 #include "ui/plot_drawing.h"
 #include "ui/theme.h"
 #include "ui/time_text.h"
@@ -41,9 +42,7 @@ void draw_name(PanelContext& c, ConvergenceView& view, ConvergenceRun& run) {
         view.renaming = 0;
         return;
     }
-    ImGui::PushStyleColor(ImGuiCol_Text, run.shown ? tone::text : tone::dim_text);
-    ImGui::TextUnformatted(run.record.name.c_str());
-    ImGui::PopStyleColor();
+    fitting_text(c.ui, run.record.name, run.shown ? tone::text : tone::dim_text);
     c.ui.probe.record_last_item(fmt::format("Convergence/{}", run.record.name));
     if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
         view.renaming = run.id;

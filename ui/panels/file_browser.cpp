@@ -97,14 +97,12 @@ void draw_places(PanelContext& c, float width, float height) {
     if (entered) enter(*c.ui.browser, *entered);
 }
 
-using Thumbnails = std::function<ImTextureID(const std::string&)>;
-
 // A thumbnail for a file in sight that has one, else an icon.
-void draw_entry_picture(PanelContext& c, const FileEntry& entry, float height, const Thumbnails& thumbnail) {
+void draw_entry_picture(PanelContext& c, const FileEntry& entry, float height) {
     const float width = height * Thumbnail::width / Thumbnail::height;
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImTextureID picture = {};
-    if (!entry.folder && ImGui::IsRectVisible({width, height})) picture = thumbnail((c.ui.browser->folder / entry.name).string());
+    if (!entry.folder && c.file_thumbnail && ImGui::IsRectVisible({width, height})) picture = c.file_thumbnail((c.ui.browser->folder / entry.name).string());
     if (picture) {
         ImGui::Image(picture, {width, height});
         c.ui.probe.record_last_item("Browser/Thumbnail/" + entry.name);
@@ -115,13 +113,13 @@ void draw_entry_picture(PanelContext& c, const FileEntry& entry, float height, c
     draw_icon(*ImGui::GetWindowDrawList(), entry.folder ? Icon::folder : Icon::file, {at.x + width / 2, at.y + height / 2}, size, tone::dim_text);
 }
 
-void draw_entry(PanelContext& c, const FileEntry& entry, const Thumbnails& thumbnail) {
+void draw_entry(PanelContext& c, const FileEntry& entry) {
     FileBrowser& b = *c.ui.browser;
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     const bool pictured = filter_of(b.use) == scene_files || filter_of(b.use) == environment_files;
     const float height = ImGui::GetTextLineHeight() * (pictured && !entry.folder ? 2.4f : 1.f);
-    draw_entry_picture(c, entry, height, thumbnail);
+    draw_entry_picture(c, entry, height);
     ImGui::SameLine();
     ImGui::PushStyleVar(ImGuiStyleVar_SelectableTextAlign, {0, 0.5f});
     const bool clicked = ImGui::Selectable(entry.name.c_str(), b.chosen == entry.name,
@@ -143,7 +141,7 @@ void draw_entry(PanelContext& c, const FileEntry& entry, const Thumbnails& thumb
         finish(c, b.folder / entry.name);
 }
 
-void draw_list(PanelContext& c, float height, const Thumbnails& thumbnail) {
+void draw_list(PanelContext& c, float height) {
     const auto list = list_folder(c.ui.browser->folder, filter_of(c.ui.browser->use));
     ImGui::BeginChild("list", {0, height}, true);
     if (!list)
@@ -154,7 +152,7 @@ void draw_list(PanelContext& c, float height, const Thumbnails& thumbnail) {
         ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
         ImGui::TableSetupColumn("size", ImGuiTableColumnFlags_WidthFixed, ImGui::GetFontSize() * 5);
         for (const FileEntry& entry : list->entries) {
-            if (c.ui.browser) draw_entry(c, entry, thumbnail); // until one was taken
+            if (c.ui.browser) draw_entry(c, entry); // until one was taken
         }
         ImGui::EndTable();
     }
@@ -189,7 +187,7 @@ void draw_buttons(PanelContext& c) {
 
 } // namespace
 
-void draw_file_browser(PanelContext& c, const std::function<ImTextureID(const std::string&)>& thumbnail) {
+void draw_file_browser(PanelContext& c) {
     if (!c.ui.browser || c.ui.browser->on_desktop) return;
     const std::string title = std::string(title_of(c.ui.browser->use)) + "###browser";
     const char* const name = title.c_str();
@@ -208,7 +206,7 @@ void draw_file_browser(PanelContext& c, const std::function<ImTextureID(const st
         const float height = ImGui::GetContentRegionAvail().y - below;
         if (c.ui.browser) draw_places(c, em * 9, height);
         ImGui::SameLine();
-        if (c.ui.browser) draw_list(c, height, thumbnail);
+        if (c.ui.browser) draw_list(c, height);
         if (c.ui.browser) draw_buttons(c);
         if (c.ui.browser && ImGui::IsKeyPressed(key::escape)) {
             c.ui.browser.reset();

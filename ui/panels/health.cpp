@@ -141,22 +141,11 @@ void draw_replay(PanelContext& c) {
 } // namespace
 
 void draw_health_panel(PanelContext& c) {
-    HealthView& view = c.ui.health;
-    if (!view.open) return;
-    const float em = ImGui::GetFontSize();
-    ImGui::SetNextWindowPos({em * 18, em * 5}, ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowSize({em * 34, em * 34}, ImGuiCond_FirstUseEver);
-    if (ImGui::Begin("Health", &view.open, ImGuiWindowFlags_NoCollapse)) {
-        if (!c.frame) {
-            quiet_text("Waiting for the first picture.");
-        } else {
-            if (section(c.ui, "Dropped samples")) draw_dropped(c, c.frame->health);
-            if (section(c.ui, "Fireflies")) draw_fireflies(c, c.frame->health);
-            if (section(c.ui, "Clamping")) draw_clamping(c);
-            draw_replay(c);
-        }
-    }
-    ImGui::End();
+    if (!c.frame) return quiet_text("Waiting for the first picture.");
+    if (section(c.ui, "Dropped samples")) draw_dropped(c, c.frame->health);
+    if (section(c.ui, "Fireflies")) draw_fireflies(c, c.frame->health);
+    if (section(c.ui, "Clamping")) draw_clamping(c);
+    draw_replay(c);
 }
 
 } // namespace blush

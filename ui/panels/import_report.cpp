@@ -14,7 +14,10 @@ namespace {
 void draw_extensions(const char* verdict, const std::vector<std::string>& names) {
     if (names.empty()) return;
     ImGui::TextUnformatted(verdict);
-    for (const std::string& name : names) ImGui::BulletText("%s", name.c_str());
+    for (const std::string& name : names) {
+        ImGui::Bullet();
+        ImGui::TextWrapped("%s", name.c_str());
+    }
 }
 
 // What on one line, where below.
@@ -42,18 +45,8 @@ void draw_report(PanelContext& c, const ImportReport& report) {
 } // namespace
 
 void draw_import_report(PanelContext& c) {
-    ImportReportView& view = c.ui.import_report;
-    if (!view.open) return;
-    const float em = ImGui::GetFontSize();
-    ImGui::SetNextWindowPos({em * 18, em * 5}, ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowSize({em * 34, em * 30}, ImGuiCond_FirstUseEver);
-    if (ImGui::Begin("Import report", &view.open, ImGuiWindowFlags_NoCollapse)) {
-        if (view.report)
-            draw_report(c, *view.report);
-        else
-            quiet_text("No file was opened yet.");
-    }
-    ImGui::End();
+    if (!c.ui.import_report.report) return quiet_text("No file was opened yet.");
+    draw_report(c, *c.ui.import_report.report);
 }
 
 } // namespace blush

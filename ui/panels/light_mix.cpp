@@ -1,6 +1,7 @@
 // Light mix: a gain for each group of lights, on the picture that there is.
 #include "render/bake_mix.h"
 #include "render/light_mix.h"
+#include "ui/fitting_text.h"
 #include "ui/panels/panels.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
@@ -72,18 +73,22 @@ void draw_heading(PanelContext& c, const GroupReport& report, LightMix& mix, boo
     c.ui.probe.record_last_item("Light mix/" + group + "/Solo");
     tip_for_last_item(c.ui, "Solo: this group alone; all groups again if it is alone.");
     ImGui::SameLine();
-    const std::string figures = fmt::format("{:.1f} % light  {:.1f} % noise", 100 * report.energy, 100 * report.noise);
-    const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(figures.c_str()).x - ImGui::GetFontSize();
+    const float em = ImGui::GetFontSize();
+    const bool narrow = ImGui::GetContentRegionAvail().x < 16 * em; // the noise is in the tooltip as well
+    const std::string light = fmt::format("{:.1f} % light", 100 * report.energy), noise = fmt::format("{:.1f} % noise", 100 * report.noise);
+    const std::string figures = narrow ? light : light + "  " + noise;
+    const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(figures.c_str()).x - em;
     bool unfolded = c.ui.light_mix.unfolded == group;
     ImGui::AlignTextToFramePadding();
-    if (ImGui::Selectable(group.c_str(), unfolded, 0, {std::max(ImGui::GetFontSize() * 4, room), 0})) c.ui.light_mix.unfolded = unfolded ? "" : group;
+    const std::string shown = elided(group, std::max(em * 4, room));
+    if (ImGui::Selectable((shown + "##name").c_str(), unfolded, 0, {std::max(em * 4, room), 0})) c.ui.light_mix.unfolded = unfolded ? "" : group;
     c.ui.probe.record_last_item("Light mix/" + group);
-    tip_for_last_item(c.ui, "A click unfolds its colour.");
+    tip_for_last_item(c.ui, (shown == group ? std::string() : group + "\n").append("A click unfolds its colour.").c_str());
     ImGui::SameLine();
     ImGui::PushStyleColor(ImGuiCol_Text, tone::dim_text);
     ImGui::TextUnformatted(figures.c_str());
     ImGui::PopStyleColor();
-    tip_for_last_item(c.ui, "Its shares of the image's luminance and of the variance of its noise, in this mix.");
+    tip_for_last_item(c.ui, (light + ", " + noise + ": its shares of the image's luminance and of the variance of its noise, in this mix.").c_str());
 }
 
 void draw_colour(Fields& f, MixChannel& channel) {
@@ -154,7 +159,9 @@ void draw_bake(PanelContext& c) {
     tip_for_last_item(c.ui, "Writes the mix into the lights, materials and the environment as one step; the image stays as it is.");
 }
 
-void draw_contents(PanelContext& c) {
+} // namespace
+
+void draw_light_mix_panel(PanelContext& c) {
     draw_grouping(c);
     if (c.scene().mix.grouping == LightMix::Grouping::none)
         return quiet_text("With groups, the brightness and colour of lights act on the picture that there is: nothing is rendered again.");
@@ -166,17 +173,6 @@ void draw_contents(PanelContext& c) {
     }
     ImGui::EndChild();
     draw_bake(c);
-}
-
-} // namespace
-
-void draw_light_mix_panel(PanelContext& c) {
-    if (!c.ui.light_mix.open) return;
-    const float em = ImGui::GetFontSize();
-    ImGui::SetNextWindowPos({em * 16, em * 4}, ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowSize({em * 28, em * 30}, ImGuiCond_FirstUseEver);
-    if (ImGui::Begin("Light mix", &c.ui.light_mix.open, ImGuiWindowFlags_NoCollapse)) draw_contents(c);
-    ImGui::End();
 }
 
 } // namespace blush

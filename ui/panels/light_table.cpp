@@ -5,6 +5,7 @@
 #include "ui/light_rows.h"
 #include "ui/light_tools.h"
 #include "ui/panels/light_drag.h"
+#include "ui/fitting_text.h"
 #include "ui/panels/panels.h"
 #include "ui/row_clicks.h"
 #include "ui/selected_lights.h"
@@ -143,7 +144,7 @@ void draw_name(PanelContext& c, RowClicks& clicks, const LightRow& row, const st
     icon_item(icon_of(c, row), row.shines ? tone::light : tone::dim_text, height);
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted(row.name.c_str());
+    fitting_text(c.ui, row.name, row.shines ? tone::text : tone::dim_text);
 }
 
 // In brackets where it is that of a whole group.
@@ -162,17 +163,17 @@ void draw_row(PanelContext& c, RowClicks& clicks, const LightRow& row, const std
     ImGui::TableNextColumn();
     ImGui::PushStyleColor(ImGuiCol_Text, row.shines ? tone::text : tone::dim_text);
     draw_name(c, clicks, row, group, scope);
-    ImGui::TableNextColumn();
-    ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted(row.type.c_str());
+    if (ImGui::TableNextColumn()) {
+        ImGui::AlignTextToFramePadding();
+        ImGui::TextUnformatted(row.type.c_str());
+    }
     ImGui::TableNextColumn();
     draw_intensity(c, row, scope);
     ImGui::TableNextColumn();
     draw_switches(c, row, scope);
     const std::optional<RowShare> share = reports.empty() ? std::nullopt : share_of(row, *c.frame->light_groups, reports);
     for (double RowShare::*figure : {&RowShare::energy, &RowShare::noise}) {
-        ImGui::TableNextColumn();
-        draw_share(c, share, figure);
+        if (ImGui::TableNextColumn()) draw_share(c, share, figure);
     }
     ImGui::PopStyleColor();
 }
@@ -190,10 +191,12 @@ void draw_group(PanelContext& c, const std::string& group) {
     }
     ImGui::PushFont(heading_font());
     ImGui::PushStyleVar(ImGuiStyleVar_SelectableTextAlign, {0, 0.5f});
-    ImGui::Selectable(group.empty() ? "No group" : group.c_str(), false, ImGuiSelectableFlags_SpanAllColumns, {0, ImGui::GetFrameHeight()});
+    const std::string shown = elided(group.empty() ? "No group" : group, ImGui::GetContentRegionAvail().x);
+    ImGui::Selectable((shown + "##group").c_str(), false, ImGuiSelectableFlags_SpanAllColumns, {0, ImGui::GetFrameHeight()});
     ImGui::PopStyleVar();
     ImGui::PopFont();
     c.ui.probe.record_last_item("Light table/Group/" + group);
+    if (shown != group && !group.empty()) tip_for_last_item(c.ui, group.c_str());
     if (!group.empty() && ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
         begin_renaming(view, {}, group, group);
     if (const auto dropped = light_dropped_here()) put_dropped_into_group(c, *dropped, group);
@@ -206,11 +209,13 @@ void draw_rows(PanelContext& c, const std::vector<LightRows>& all) {
     if (!ImGui::BeginTable("lights", 6, flags, {0, -ImGui::GetFrameHeightWithSpacing() - em * 0.3f})) return;
     ImGui::TableSetupScrollFreeze(0, 1);
     ImGui::TableSetupColumn("Name", ImGuiTableColumnFlags_WidthStretch, 1.6f);
-    ImGui::TableSetupColumn("Type", ImGuiTableColumnFlags_WidthFixed, em * 5);
+    // A narrow dock has no room for all; what the icon and the light mix say as well gives way.
+    const ImGuiTableColumnFlags extra = ImGuiTableColumnFlags_WidthFixed | (ImGui::GetContentRegionAvail().x < 34 * em ? ImGuiTableColumnFlags_Disabled : 0);
+    ImGui::TableSetupColumn("Type", extra, em * 5);
     ImGui::TableSetupColumn("Intensity", ImGuiTableColumnFlags_WidthStretch, 1);
     ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, ImGui::GetFrameHeight() * 2);
-    ImGui::TableSetupColumn("Energy", ImGuiTableColumnFlags_WidthFixed, em * 4);
-    ImGui::TableSetupColumn("Noise", ImGuiTableColumnFlags_WidthFixed, em * 4);
+    ImGui::TableSetupColumn("Energy", extra, em * 4);
+    ImGui::TableSetupColumn("Noise", extra, em * 4);
     ImGui::TableHeadersRow();
     RowClicks clicks;
     const std::vector<GroupReport> reports = reports_of(c);
@@ -232,7 +237,8 @@ void draw_rows(PanelContext& c, const std::vector<LightRows>& all) {
 
 void draw_new_group(PanelContext& c) {
     const float width = ImGui::GetContentRegionAvail().x;
-    if (ImGui::Button("New group of the selected, or drop a light here", {width, 0})) c.ui.commands.push_back(Command::group_lights);
+    const std::string label = elided("New group of the selected, or drop a light here", width - 2 * ImGui::GetStyle().FramePadding.x);
+    if (ImGui::Button((label + "##new").c_str(), {width, 0})) c.ui.commands.push_back(Command::group_lights);
     c.ui.probe.record_last_item("Light table/New group");
     if (const auto dropped = light_dropped_here()) put_dropped_into_group(c, *dropped, unused_group_name(c.scene()));
 }
@@ -240,23 +246,10 @@ void draw_new_group(PanelContext& c) {
 } // namespace
 
 void draw_light_table(PanelContext& c) {
-    if (!c.ui.light_table.open) return;
-    const float em = ImGui::GetFontSize();
-    const ImVec2 screen = ImGui::GetIO().DisplaySize;
-    ImGui::SetNextWindowPos({em * 14, screen.y - em * 22}, ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowSize({em * 44, em * 19}, ImGuiCond_FirstUseEver);
-    if (ImGui::Begin("Light table", &c.ui.light_table.open, ImGuiWindowFlags_NoCollapse)) {
-        const ImVec2 at = ImGui::GetWindowPos();
-        c.ui.probe.record("Light table title", {at.x, at.y, ImGui::GetWindowWidth(), ImGui::GetFrameHeight()});
-        const std::vector<LightRows> rows = light_rows(c.scene());
-        if (rows.empty())
-            quiet_text("Nothing shines in this scene. Add a light, or an environment.");
-        else {
-            draw_rows(c, rows);
-            draw_new_group(c);
-        }
-    }
-    ImGui::End();
+    const std::vector<LightRows> rows = light_rows(c.scene());
+    if (rows.empty()) return quiet_text("Nothing shines in this scene. Add a light, or an environment.");
+    draw_rows(c, rows);
+    draw_new_group(c);
 }
 
 } // namespace blush

@@ -2,6 +2,7 @@
 #include "ui/panels/panels.h"
 #include "ui/widgets.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
 #include <imgui.h>
@@ -100,6 +101,18 @@ void draw_lights_menu(PanelContext& c) {
     item(c, Command::light_table, true, nullptr, c.ui.light_table.open);
 }
 
+void draw_text_size(PanelContext& c) {
+    const bool open = ImGui::BeginMenu("Text size");
+    c.ui.probe.record_last_item("Menu/Text size");
+    if (!open) return;
+    for (const int size : {80, 90, 100, 110, 125, 150, 175, 200}) {
+        const std::string name = fmt::format("{} %", size);
+        if (ImGui::MenuItem(name.c_str(), nullptr, c.ui.settings.text_size == size)) c.ui.settings.text_size = size;
+        c.ui.probe.record_last_item("Menu/Text size/" + name);
+    }
+    ImGui::EndMenu();
+}
+
 void draw_view_menu(PanelContext& c) {
     item(c, Command::frame_selection, c.scene().nodes.contains(c.ui.selected));
     item(c, Command::frame_all);
@@ -107,6 +120,7 @@ void draw_view_menu(PanelContext& c) {
     item(c, Command::toggle_projection, true, nullptr, c.scene().view.lens.orthographic);
     item(c, Command::toggle_overlays, true, nullptr, c.ui.settings.overlays);
     item(c, Command::toggle_zoom, true, nullptr, c.ui.zoom.scale > 0);
+    draw_text_size(c);
     ImGui::Separator();
     item(c, Command::exposure_up);
     item(c, Command::exposure_down);
@@ -161,6 +175,7 @@ void draw_menu_bar(PanelContext& c) {
         item(c, Command::toggle_panels, true, nullptr, c.ui.panels_hidden);
         item(c, Command::full_screen);
         item(c, Command::snapshot_strip, true, nullptr, c.ui.snapshots.open);
+        item(c, Command::dock_all, std::ranges::any_of(c.ui.settings.dock.tabs, &DockTab::floats));
         ImGui::Separator();
         ImGui::MenuItem("Desktop's file dialog", nullptr, &c.ui.settings.desktop_file_dialog);
         tip_for_last_item(c.ui, "Files are asked for by the desktop's own dialog, where there is one, in place of Blush's.");

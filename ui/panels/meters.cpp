@@ -1,28 +1,13 @@
 // Light meters: illuminance in lux at places on surfaces, with 95 % intervals, refreshed by every edit that light depends on.
+#include "ui/fitting_text.h"
 #include "ui/panels/panels.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
 
 #include <fmt/format.h>
-#include <imgui_stdlib.h>
 
 namespace blush {
 namespace {
-
-// Asks again for whatever differs, and takes what there is.
-void follow(PanelContext& c) {
-    MetersView& view = c.ui.meters;
-    const auto& meters = c.project().view.meters;
-    if (meters.empty()) {
-        view.runner.reset();
-        view.state = {};
-        return;
-    }
-    if (!view.runner) view.runner = std::make_shared<MeterRunner>();
-    view.runner->measure({c.scene(), c.project().render, places_of(c.scene(), meters)});
-    view.state = view.runner->state();
-    if (!view.state.rests && view.state.failure.empty()) c.ui.next_frame_in = std::min(c.ui.next_frame_in, 0.2);
-}
 
 // The meters as the table leaves them: one renamed, or one gone.
 std::vector<LightMeter> draw_table(PanelContext& c) {
@@ -31,9 +16,9 @@ std::vector<LightMeter> draw_table(PanelContext& c) {
     size_t gone = meters.size();
     if (!ImGui::BeginTable("meters", 4, ImGuiTableFlags_SizingFixedFit)) return meters;
     const float em = ImGui::GetFontSize();
-    ImGui::TableSetupColumn("Name", ImGuiTableColumnFlags_WidthFixed, em * 9);
-    ImGui::TableSetupColumn("Illuminance", ImGuiTableColumnFlags_WidthFixed, em * 10);
-    ImGui::TableSetupColumn("R : G : B", ImGuiTableColumnFlags_WidthFixed, em * 9);
+    ImGui::TableSetupColumn("Name", ImGuiTableColumnFlags_WidthStretch);
+    ImGui::TableSetupColumn("Illuminance", ImGuiTableColumnFlags_WidthFixed, em * (ImGui::GetContentRegionAvail().x < 20 * em ? 5 : 10));
+    ImGui::TableSetupColumn("R : G : B", ImGuiTableColumnFlags_WidthFixed | (ImGui::GetContentRegionAvail().x < 34 * em ? ImGuiTableColumnFlags_Disabled : 0), em * 9);
     ImGui::TableSetupColumn("");
     ImGui::TableHeadersRow();
     for (size_t i = 0; i < meters.size(); ++i) {
@@ -42,14 +27,13 @@ std::vector<LightMeter> draw_table(PanelContext& c) {
         const std::string scope = "Meters/" + meters[i].name;
         std::string name = meters[i].name;
         ImGui::SetNextItemWidth(-FLT_MIN);
-        ImGui::InputText("##name", &name, ImGuiInputTextFlags_AutoSelectAll);
+        fitting_input(c.ui, "##name", name, ImGuiInputTextFlags_AutoSelectAll);
         if (ImGui::IsItemDeactivatedAfterEdit() && !name.empty()) meters[i].name = name;
         c.ui.probe.record_last_item(scope);
         ImGui::TableNextColumn();
-        ImGui::TextUnformatted(i < readings.size() ? reading_text(readings[i]).c_str() : "...");
+        fitting_text(c.ui, i < readings.size() ? reading_text(readings[i]) : "...", tone::text);
         c.ui.probe.record_last_item(scope + "/Reading");
-        ImGui::TableNextColumn();
-        if (i < readings.size() && readings[i].rgb.y > 0) {
+        if (ImGui::TableNextColumn() && i < readings.size() && readings[i].rgb.y > 0) {
             const Vec3d& e = readings[i].rgb;
             ImGui::TextUnformatted(fmt::format("{:.2f} : 1 : {:.2f}", e.x / e.y, e.z / e.y).c_str());
         }
@@ -64,23 +48,30 @@ std::vector<LightMeter> draw_table(PanelContext& c) {
 
 } // namespace
 
-void draw_meters_panel(PanelContext& c) {
-    follow(c);
+void follow_meters(PanelContext& c) {
     MetersView& view = c.ui.meters;
-    if (!view.open) return;
-    const float em = ImGui::GetFontSize();
-    ImGui::SetNextWindowPos({em * 16, em * 30}, ImGuiCond_FirstUseEver);
-    if (ImGui::Begin("Light meters", &view.open, ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_AlwaysAutoResize)) {
-        ViewSettings v = c.project().view;
-        if (v.meters.empty()) quiet_text("Place a meter on a surface to read how much light falls on it.");
-        else v.meters = draw_table(c);
-        if (!view.state.failure.empty()) quiet_text(view.state.failure);
-        if (ImGui::Button("Place a meter")) c.ui.tool = ViewTool::meter;
-        c.ui.probe.record_last_item("Meters/Place a meter");
-        tip_for_last_item(c.ui, "Click a surface. The meter moves with the object, and reads what falls on the side that is seen.");
-        if (v != c.project().view) c.apply(SetView{v});
+    const auto& meters = c.project().view.meters;
+    if (meters.empty()) {
+        view.runner.reset();
+        view.state = {};
+        return;
     }
-    ImGui::End();
+    if (!view.runner) view.runner = std::make_shared<MeterRunner>();
+    view.runner->measure({c.scene(), c.project().render, places_of(c.scene(), meters)});
+    view.state = view.runner->state();
+    if (!view.state.rests && view.state.failure.empty()) c.ui.next_frame_in = std::min(c.ui.next_frame_in, 0.2);
+}
+
+void draw_meters_panel(PanelContext& c) {
+    const MetersView& view = c.ui.meters;
+    ViewSettings v = c.project().view;
+    if (v.meters.empty()) quiet_text("Place a meter on a surface to read how much light falls on it.");
+    else v.meters = draw_table(c);
+    if (!view.state.failure.empty()) quiet_text(view.state.failure);
+    if (ImGui::Button("Place a meter")) c.ui.tool = ViewTool::meter;
+    c.ui.probe.record_last_item("Meters/Place a meter");
+    tip_for_last_item(c.ui, "Click a surface. The meter moves with the object, and reads what falls on the side that is seen.");
+    if (v != c.project().view) c.apply(SetView{v});
 }
 
 } // namespace blush

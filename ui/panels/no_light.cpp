@@ -45,16 +45,14 @@ void draw_choices_in_studio(PanelContext& c) {
 
 } // namespace
 
-void draw_no_light_banner(PanelContext& c, const Region& picture) {
+void draw_no_light_banner(PanelContext& c, const Region& viewport) {
     if (c.scene().nodes.empty()) return;
     // The first edit keeps the studio.
     if (c.document.undo_labels().size() != 1 || c.document.can_redo()) c.ui.studio_at_opening = false;
     const bool dark = !c.ui.light_presence.in(c.scene());
     if (!dark && !c.ui.studio_at_opening) return;
     const float em = ImGui::GetFontSize();
-    // A black picture has nothing to hide.
-    const ImVec2 at = dark ? ImVec2(picture.x + picture.width / 2, picture.y + picture.height / 2) : ImVec2(picture.x + picture.width / 2, picture.y + em / 2);
-    ImGui::SetNextWindowPos(at, ImGuiCond_Always, {0.5f, dark ? 0.5f : 0.f});
+    ImGui::SetNextWindowPos({viewport.x + viewport.width / 2, viewport.y + em}, ImGuiCond_Always, {0.5f, 0});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, em / 4);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {em, em * 0.7f});
     ImGui::SetNextWindowBgAlpha(0.92f);

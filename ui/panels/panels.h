@@ -2,11 +2,9 @@
 #pragma once
 
 #include "ui/panels/context.h"
-#include "ui/waveform_sheet.h"
 
 #include <imgui.h>
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -33,17 +31,14 @@ void draw_render_panel(PanelContext& c);
 void draw_left_out_section(PanelContext& c); // of the render panel
 void draw_display_panel(PanelContext& c);
 
-// Above everything else, each in a window of its own while it is open.
-// `thumbnail(file)`: 0 where there is none.
-void draw_file_browser(PanelContext& c, const std::function<ImTextureID(const std::string&)>& thumbnail);
-void draw_shortcut_sheet(PanelContext& c);
+// Instruments (instruments.h), each into the current ImGui window.
 void draw_history(PanelContext& c);
 void draw_comparison_panel(PanelContext& c);
 void draw_snapshot_panel(PanelContext& c); // name, note and file of one of them
 void draw_pixel_panel(PanelContext& c);
 void draw_meters_panel(PanelContext& c);
 void draw_region_panel(PanelContext& c);
-void draw_scopes_panel(PanelContext& c, const WaveformTextures& waveforms);
+void draw_scopes_panel(PanelContext& c);
 void draw_bounces_panel(PanelContext& c);
 void draw_light_mix_panel(PanelContext& c);
 void draw_health_panel(PanelContext& c);
@@ -51,11 +46,17 @@ void draw_import_report(PanelContext& c);
 void draw_roulette_panel(PanelContext& c);
 void draw_light_table(PanelContext& c);
 void draw_convergence_panel(PanelContext& c);
+// The meters measure, whether their panel is in sight or not: the picture shows what they read.
+void follow_meters(PanelContext& c);
+
+// Above everything else, each in a window of its own while it is open.
+void draw_file_browser(PanelContext& c);
+void draw_shortcut_sheet(PanelContext& c);
+void draw_pixel_popup(PanelContext& c); // in place of the panel while panels are hidden
 void draw_question(PanelContext& c);
-// `picture(file)` is a scene's thumbnail; 0: none.
-void draw_opening_page(PanelContext& c, const Region& viewport, const std::function<ImTextureID(const std::string&)>& picture);
-// Over the middle of the picture, while the scene has no light at all.
-void draw_no_light_banner(PanelContext& c, const Region& picture);
+void draw_opening_page(PanelContext& c); // an instrument, too
+// At the upper edge of the viewport, while the scene has no light at all.
+void draw_no_light_banner(PanelContext& c, const Region& viewport);
 
 // A job that goes on in the background.
 struct RunningJob {
@@ -63,7 +64,8 @@ struct RunningJob {
     double fraction = 0;
     bool can_cancel = false;
 };
-// Toasts, one above the other, and below them the job that goes on; null: none does. True if its Cancel is pressed.
-bool draw_cards(PanelContext& c, const RunningJob* job);
+// In the lower right corner of the viewport: toasts, one above the other, and below them the job that goes on; null: none does. True if its
+// Cancel is pressed.
+bool draw_cards(PanelContext& c, const Region& viewport, const RunningJob* job);
 
 } // namespace blush

@@ -3,6 +3,7 @@
 #include "core/math.h"
 #include "core/text.h"
 #include "render/coverage.h"
+#include "ui/fitting_text.h"
 #include "ui/panels/panels.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
@@ -15,14 +16,14 @@
 namespace blush {
 namespace {
 
-void row(const char* name, const std::string& value) {
+void row(const PanelContext& c, const char* name, const std::string& value) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     ImGui::PushStyleColor(ImGuiCol_Text, tone::dim_text);
     ImGui::TextUnformatted(name);
     ImGui::PopStyleColor();
     ImGui::TableNextColumn();
-    ImGui::TextUnformatted(value.c_str());
+    fitting_text(c.ui, value, tone::text);
 }
 
 std::string triple(const Vec3& v, const char* format = "{:.4g}  {:.4g}  {:.4g}") {
@@ -41,38 +42,49 @@ std::string displayed(const PanelContext& c, const Vec3& rgb, const Vec3& albedo
 void draw_values(const PanelContext& c, const Frame& f, int x, int y) {
     const size_t i = size_t(y) * size_t(f.width) + size_t(x);
     const float* rgba = &f.rgba[4 * i];
-    row("Pixel", f.divider > 1 ? fmt::format("{}, {}  at 1/{} size", x, y, f.divider) : fmt::format("{}, {}", x, y));
-    row("Linear RGB", triple({rgba[0], rgba[1], rgba[2]}));
+    row(c, "Pixel", f.divider > 1 ? fmt::format("{}, {}  at 1/{} size", x, y, f.divider) : fmt::format("{}, {}", x, y));
+    row(c, "Linear RGB", triple({rgba[0], rgba[1], rgba[2]}));
     const float nits = luminance(Vec3{rgba[0], rgba[1], rgba[2]});
-    row("Luminance", fmt::format("{:.4g} nits", nits));
+    row(c, "Luminance", fmt::format("{:.4g} nits", nits));
     if (nits > 0)
-        row("EV from grey",
+        row(c, "EV from grey",
             fmt::format("{}   at ISO 100 {}", signed_number(stops_from_grey(numbers_of(c.shown_view()), {rgba[0], rgba[1], rgba[2]}), 2),
                         signed_number(std::log2(nits / 0.125f), 2)));
     if (!f.albedo.empty() && luminance(f.albedo[i]) >= 0.01f) {
         float lux[3] = {rgba[0], rgba[1], rgba[2]};
         to_illuminance(lux, {&f.albedo[i], 1});
-        row("Illuminance", fmt::format("{:.4g} lx, if matte", lux[0]));
+        row(c, "Illuminance", fmt::format("{:.4g} lx, if matte", lux[0]));
     }
-    if (c.denoised) row("Denoised RGB", triple(denoised_pixel(f, *c.denoised, x, y)));
+    if (c.denoised) row(c, "Denoised RGB", triple(denoised_pixel(f, *c.denoised, x, y)));
     const Vec3 shown = mixed_pixel(f, c.denoised.get(), mix_of(c.ui.denoise, c.denoised != nullptr), x, y);
-    row("Displayed", displayed(c, shown, f.albedo.empty() ? Vec3{0, 0, 0} : f.albedo[i], coverage_of_pixel(f, i)));
-    if (!f.albedo.empty()) row("Albedo", triple(f.albedo[i]));
-    if (!f.normal.empty()) row("Normal", fmt::format("{}  {}  {}", signed_number(f.normal[i].x, 3), signed_number(f.normal[i].y, 3), signed_number(f.normal[i].z, 3)));
-    if (!f.depth.empty()) row("Distance", f.depth[i] > 0 ? fmt::format("{:.4g} m", f.depth[i]) : "nothing hit");
+    row(c, "Displayed", displayed(c, shown, f.albedo.empty() ? Vec3{0, 0, 0} : f.albedo[i], coverage_of_pixel(f, i)));
+    if (!f.albedo.empty()) row(c, "Albedo", triple(f.albedo[i]));
+    if (!f.normal.empty()) row(c, "Normal", fmt::format("{}  {}  {}", signed_number(f.normal[i].x, 3), signed_number(f.normal[i].y, 3), signed_number(f.normal[i].z, 3)));
+    if (!f.depth.empty()) row(c, "Distance", f.depth[i] > 0 ? fmt::format("{:.4g} m", f.depth[i]) : "nothing hit");
     if (!f.object_id.empty()) {
         const Node* node = c.scene().nodes.find({f.object_id[i]});
-        row("Object", node ? node->name.empty() ? fmt::format("Node {}", f.object_id[i]) : node->name : "none");
+        row(c, "Object", node ? node->name.empty() ? fmt::format("Node {}", f.object_id[i]) : node->name : "none");
     }
     if (!f.material_id.empty()) {
         const Material* material = c.scene().materials.find({f.material_id[i]});
-        row("Material", material ? material->name.empty() ? fmt::format("Material {}", f.material_id[i]) : material->name : "none");
+        row(c, "Material", material ? material->name.empty() ? fmt::format("Material {}", f.material_id[i]) : material->name : "none");
     }
 }
 
 } // namespace
 
 void draw_pixel_panel(PanelContext& c) {
+    if (!c.has_picture()) return quiet_text("Waiting for the first picture.");
+    if (!c.ui.pixel || !ImGui::BeginTable("values", 2)) return;
+    ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed);
+    ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch);
+    const Frame& f = *c.frame;
+    draw_values(c, f, std::clamp(int(c.ui.pixel->u * f.width), 0, f.width - 1), std::clamp(int(c.ui.pixel->v * f.height), 0, f.height - 1));
+    ImGui::EndTable();
+    c.ui.probe.record_last_item("Pixel");
+}
+
+void draw_pixel_popup(PanelContext& c) {
     if (!c.ui.pixel) return;
     if (c.ui.pixel->just_opened) ImGui::OpenPopup("pixel");
     c.ui.pixel->just_opened = false;
@@ -80,13 +92,8 @@ void draw_pixel_panel(PanelContext& c) {
         c.ui.pixel.reset();
         return;
     }
-    if (c.frame && c.frame->width > 0 && ImGui::BeginTable("values", 2, ImGuiTableFlags_SizingFixedFit)) {
-        const Frame& f = *c.frame;
-        draw_values(c, f, std::clamp(int(c.ui.pixel->u * f.width), 0, f.width - 1),
-                    std::clamp(int(c.ui.pixel->v * f.height), 0, f.height - 1));
-        ImGui::EndTable();
-        c.ui.probe.record_last_item("Pixel");
-    }
+    ImGui::Dummy({ImGui::GetFontSize() * 26, 0}); // values as wide as the popup would make it as narrow as can be
+    draw_pixel_panel(c);
     if (ImGui::IsKeyPressed(key::escape)) ImGui::CloseCurrentPopup();
     ImGui::EndPopup();
 }

@@ -17,17 +17,17 @@ void row(const char* name, const Spread& s, const char* format) {
     ImGui::TextUnformatted(name);
     ImGui::PopStyleColor();
     for (const double value : {s.mean, s.low, s.high, s.deviation}) {
-        ImGui::TableNextColumn();
+        if (!ImGui::TableNextColumn()) continue;
         ImGui::TextUnformatted(s.count > 0 ? without_sign_of_zero(fmt::format(fmt::runtime(format), value)).c_str() : "-");
     }
 }
 
 void draw_table(const RegionStatistics& s) {
-    if (!ImGui::BeginTable("statistics", 5, ImGuiTableFlags_SizingFixedFit)) return;
-    const float em = ImGui::GetFontSize();
-    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, em * 9);
+    if (!ImGui::BeginTable("statistics", 5, ImGuiTableFlags_SizingStretchSame)) return;
+    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, ImGui::CalcTextSize("Luminance, nits").x);
+    const bool narrow = ImGui::GetContentRegionAvail().x < 22 * ImGui::GetFontSize();
     for (const char* column : {"Mean", "Least", "Most", "Deviation"})
-        ImGui::TableSetupColumn(column, ImGuiTableColumnFlags_WidthFixed, em * 5);
+        ImGui::TableSetupColumn(column, narrow && column[0] != 'M' ? ImGuiTableColumnFlags_Disabled : ImGuiTableColumnFlags_None);
     ImGui::TableHeadersRow();
     constexpr const char* linear[] = {"Linear R", "Linear G", "Linear B"};
     constexpr const char* displayed[] = {"Displayed R", "Displayed G", "Displayed B"};
@@ -50,20 +50,10 @@ void draw_statistics(PanelContext& c, const RegionStatistics& s) {
 } // namespace
 
 void draw_region_panel(PanelContext& c) {
-    const auto& region = c.project().view.measured;
-    if (!region) return;
-    const float em = ImGui::GetFontSize();
-    ImGui::SetNextWindowPos({em * 16, em * 4}, ImGuiCond_FirstUseEver);
-    bool open = true;
-    if (ImGui::Begin("Region", &open, ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_AlwaysAutoResize) && c.has_picture()) {
-        if (c.ui.region.ask(c.shown_picture(), region_statistics)) c.ui.next_frame_in = std::min(c.ui.next_frame_in, 0.05);
-        if (const RegionStatistics* s = c.ui.region.answer()) draw_statistics(c, *s);
-    }
-    ImGui::End();
-    if (open) return;
-    ViewSettings v = c.project().view;
-    v.measured.reset();
-    c.apply(SetView{v});
+    if (!c.project().view.measured) return;
+    if (!c.has_picture()) return quiet_text("Waiting for the first picture.");
+    if (c.ui.region.ask(c.shown_picture(), region_statistics)) c.ui.next_frame_in = std::min(c.ui.next_frame_in, 0.05);
+    if (const RegionStatistics* s = c.ui.region.answer()) draw_statistics(c, *s);
 }
 
 } // namespace blush

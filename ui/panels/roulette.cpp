@@ -127,24 +127,17 @@ void draw_measured(PanelContext& c, RouletteView& view) {
 
 void draw_roulette_panel(PanelContext& c) {
     RouletteView& view = c.ui.roulette;
-    if (!view.open) return view.runner.reset();
-    const float em = ImGui::GetFontSize();
-    ImGui::SetNextWindowPos({em * 17, em * 3}, ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowSize({em * 28, em * 44}, ImGuiCond_FirstUseEver);
-    if (ImGui::Begin("Roulette lab", &view.open, ImGuiWindowFlags_NoCollapse)) {
-        RenderSettings r = c.project().render;
-        Fields f(c.ui, "Roulette");
-        draw_bounce_limit_fields(f, r);
-        draw_roulette_fields(f, r.roulette);
-        quiet_text(formula(r.roulette));
-        int map = int(view.map);
-        if (f.choice("Viewport", map, RouletteView::map_names, "The picture, or a map of what roulette does in it."))
-            view.map = RouletteView::Map(map);
-        else if (f.changed())
-            c.apply(SetRender{r}, f.gesture());
-        draw_measured(c, view);
-    }
-    ImGui::End();
+    RenderSettings r = c.project().render;
+    Fields f(c.ui, "Roulette");
+    draw_bounce_limit_fields(f, r);
+    draw_roulette_fields(f, r.roulette);
+    quiet_text(formula(r.roulette));
+    int map = int(view.map);
+    if (f.choice("Viewport", map, RouletteView::map_names, "The picture, or a map of what roulette does in it."))
+        view.map = RouletteView::Map(map);
+    else if (f.changed())
+        c.apply(SetRender{r}, f.gesture());
+    draw_measured(c, view);
 }
 
 } // namespace blush

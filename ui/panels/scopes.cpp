@@ -35,6 +35,7 @@ std::string mark_text(const ScopeAxis& axis, float value) {
 void draw_marks(ImDrawList& draw, const Box& box, const ScopeAxis& axis, bool upright) {
     const Marks marks = marks_of(axis);
     const float em = ImGui::GetFontSize();
+    float last_top = box.high.y + em;
     for (float value = marks.first; value <= axis.high; value += marks.step) {
         const float t = (value - axis.low) / (axis.high - axis.low);
         const std::string text = mark_text(axis, value);
@@ -46,7 +47,10 @@ void draw_marks(ImDrawList& draw, const Box& box, const ScopeAxis& axis, bool up
         } else {
             const float y = std::round(box.high.y - 1 - t * (box.height() - 1));
             draw.AddLine({box.low.x, y}, {box.high.x, y}, grid);
-            draw.AddText({box.low.x + em * 0.2f, std::clamp(y - em * 1.05f, box.low.y, box.high.y - em)}, tone::dim_text, text.c_str());
+            const float top = std::clamp(y - em * 1.05f, box.low.y, box.high.y - em);
+            if (last_top - top < em) continue; // no room between the lines for a label at each
+            last_top = top;
+            draw.AddText({box.low.x + em * 0.2f, top}, tone::dim_text, text.c_str());
         }
     }
 }
@@ -89,49 +93,49 @@ Box plot_box(float width, float height) {
 }
 
 void draw_column(PanelContext& c, const char* title, const char* tip, const Histogram& h, const ScopeAxis& axis, ImTextureID waveform,
-                 float height) {
+                 float height, bool flat) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
-    const float width = std::floor(ImGui::GetContentRegionAvail().x);
+    const float gap = ImGui::GetFontSize() * 0.6f, all = std::floor(ImGui::GetContentRegionAvail().x);
+    const float width = flat ? std::floor((all - gap) / 2) : all;
     ImGui::PushFont(heading_font());
     ImGui::TextUnformatted(title);
     ImGui::PopFont();
     tip_for_last_item(c.ui, tip);
     const Box histogram_box = plot_box(width, height);
     c.ui.probe.record_last_item(std::string("Scopes/") + title);
+    if (flat) ImGui::SameLine(0, gap);
     const Box wave_box = plot_box(width, height);
+    const float label_room = ImGui::CalcTextSize("grey ").x; // at its left: a waveform would cover them
     if (h.pixels == 0) return;
     draw_marks(draw, histogram_box, h.axis, true);
     draw_histogram(draw, histogram_box, h);
     draw_marks(draw, wave_box, axis, false);
-    if (waveform) draw.AddImage(waveform, wave_box.low, wave_box.high);
+    if (waveform) draw.AddImage(waveform, {wave_box.low.x + label_room, wave_box.low.y}, wave_box.high);
     quiet_text(ends_text(h));
 }
 
 } // namespace
 
-void draw_scopes_panel(PanelContext& c, const WaveformTextures& waveforms) {
+void draw_scopes_panel(PanelContext& c) {
     ScopesView& view = c.ui.scopes;
-    if (!view.open) return;
     const float em = ImGui::GetFontSize();
-    ImGui::SetNextWindowPos({em * 15, em * 20}, ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowSize({em * 42, em * 26}, ImGuiCond_FirstUseEver);
-    if (ImGui::Begin("Scopes", &view.open, ImGuiWindowFlags_NoCollapse)) {
-        if (c.has_picture() && view.scopes.ask(c.shown_picture(), scopes_of)) c.ui.next_frame_in = std::min(c.ui.next_frame_in, 0.05);
-        static const Scopes nothing;
-        const Scopes& scopes = view.scopes.answer() ? *view.scopes.answer() : nothing;
-        const float height = std::max(4 * em, std::floor((ImGui::GetContentRegionAvail().y - 6.2f * em) / 2));
-        if (ImGui::BeginTable("scopes", 2)) {
-            ImGui::TableNextColumn();
-            draw_column(c, "Light", "As rendered, in stops from middle grey. Looking changes nothing here.", scopes.scene,
-                        scopes.scene_wave.axis, waveforms.scene, height);
-            ImGui::TableNextColumn();
-            draw_column(c, "Displayed", "What the display is given: exposure, white balance, look, view and gamma included.",
-                        scopes.displayed, scopes.displayed_wave.axis, waveforms.displayed, height);
-            ImGui::EndTable();
-        }
-        if (scopes.step > 1) quiet_text(fmt::format("One pixel of {} is read.", scopes.step * scopes.step));
+    if (c.has_picture() && view.scopes.ask(c.shown_picture(), scopes_of)) c.ui.next_frame_in = std::min(c.ui.next_frame_in, 0.05);
+    static const Scopes nothing;
+    const Scopes& scopes = view.scopes.answer() ? *view.scopes.answer() : nothing;
+    const ImVec2 room = ImGui::GetContentRegionAvail();
+    const bool flat = room.x > 2.5f * room.y; // all four side by side
+    const float labels = (scopes.step > 1 ? 1.4f : 0) * em;
+    const float height = std::max(4 * em, std::floor(flat ? room.y - 4.8f * em - labels : (room.y - 6.2f * em - labels) / 2));
+    if (ImGui::BeginTable("scopes", 2)) {
+        ImGui::TableNextColumn();
+        draw_column(c, "Light", "As rendered, in stops from middle grey. Looking changes nothing here.", scopes.scene,
+                    scopes.scene_wave.axis, c.waveforms.scene, height, flat);
+        ImGui::TableNextColumn();
+        draw_column(c, "Displayed", "What the display is given: exposure, white balance, look, view and gamma included.",
+                    scopes.displayed, scopes.displayed_wave.axis, c.waveforms.displayed, height, flat);
+        ImGui::EndTable();
     }
-    ImGui::End();
+    if (scopes.step > 1) quiet_text(fmt::format("One pixel of {} is read.", scopes.step * scopes.step));
 }
 
 } // namespace blush

@@ -38,28 +38,19 @@ void draw_snapshot_panel(PanelContext& c) {
     SnapshotsView& v = c.ui.snapshots;
     const SnapshotPtr s = v.find(v.details);
     if (!s) return;
-    const ImVec2 screen = ImGui::GetIO().DisplaySize;
-    const float em = ImGui::GetFontSize();
-    ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Appearing, {0.5f, 0.5f});
-    ImGui::SetNextWindowSize({em * 24, 0});
-    bool open = true;
-    if (ImGui::Begin("Snapshot", &open, ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings)) {
-        Fields f(c.ui, "Snapshot");
-        bool renamed = f.text("Name", s->name, "As it is called in the strip.");
-        renamed |= f.text("Note", s->note, "For you: what it was kept for. It goes into the file as well.");
-        if (renamed && !s->file.empty()) v.requests.push_back({SnapshotRequest::What::renamed, s->id});
-        draw_facts(f, *s);
-        if (!s->no_state.empty()) quiet_text(s->no_state);
-        f.checkbox("16 bits", c.ui.settings.snapshot_half, "Colours, albedo, normals and errors as half floats: smaller, with three digits.");
-        f.checkbox("With samples", c.ui.settings.snapshot_film, "The file holds the exact sums, so that rendering can go on from them. Larger.");
-        f.checkbox("Save each", c.ui.settings.snapshot_files, "Every new snapshot is written to a file at once; otherwise it ends with this window.");
-        draw_memory(c, f, *s);
-        if (f.button("Save as EXR", "Beauty, denoised, albedo, normal, depth, error, ids, light groups, and all that restores the state."))
-            v.requests.push_back({SnapshotRequest::What::save, s->id});
-        if (f.button("Delete", "From the strip; its file stays.")) delete_snapshot(c, *s);
-    }
-    ImGui::End();
-    if (!open) v.details = 0;
+    Fields f(c.ui, "Snapshot");
+    bool renamed = f.text("Name", s->name, "As it is called in the strip.");
+    renamed |= f.text("Note", s->note, "For you: what it was kept for. It goes into the file as well.");
+    if (renamed && !s->file.empty()) v.requests.push_back({SnapshotRequest::What::renamed, s->id});
+    draw_facts(f, *s);
+    if (!s->no_state.empty()) quiet_text(s->no_state);
+    f.checkbox("16 bits", c.ui.settings.snapshot_half, "Colours, albedo, normals and errors as half floats: smaller, with three digits.");
+    f.checkbox("With samples", c.ui.settings.snapshot_film, "The file holds the exact sums, so that rendering can go on from them. Larger.");
+    f.checkbox("Save each", c.ui.settings.snapshot_files, "Every new snapshot is written to a file at once; otherwise it ends with this window.");
+    draw_memory(c, f, *s);
+    if (f.button("Save as EXR", "Beauty, denoised, albedo, normal, depth, error, ids, light groups, and all that restores the state."))
+        v.requests.push_back({SnapshotRequest::What::save, s->id});
+    if (f.button("Delete", "From the strip; its file stays.")) delete_snapshot(c, *s);
 }
 
 } // namespace blush

@@ -1,6 +1,5 @@
 // Toasts and background jobs: small cards above the status bar, out of the way of the work.
 #include "ui/panels/panels.h"
-#include "ui/snapshot_strip.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
 
@@ -11,11 +10,6 @@ namespace {
 
 constexpr ImGuiWindowFlags card_flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                                         ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_AlwaysAutoResize;
-
-// Where the lowest card ends: above the status bar and the strip of snapshots.
-float cards_bottom(const PanelContext& c) {
-    return ImGui::GetIO().DisplaySize.y - ImGui::GetFontSize() * 3 - snapshot_strip_height(c.ui.snapshots);
-}
 
 void begin_card(const char* id, float right, float bottom, ImU32 edge) {
     ImGui::SetNextWindowPos({right, bottom}, ImGuiCond_Always, {1, 1});
@@ -50,15 +44,10 @@ void draw_texts(const Toast& toast) {
     ImGui::PopTextWrapPos();
 }
 
-// Where a card's right edge is: at the inspector.
-float cards_right(const PanelContext& c) {
-    return ImGui::GetIO().DisplaySize.x - (c.ui.settings.splitters.inspector + 1) * ImGui::GetFontSize();
-}
-
 // Each draws cards from `bottom` upwards, and leaves there where the next one ends.
-bool draw_job(const PanelContext& c, const RunningJob& job, float& bottom) {
+bool draw_job(const PanelContext& c, const RunningJob& job, float right, float& bottom) {
     const float em = ImGui::GetFontSize();
-    begin_card("##job", cards_right(c), bottom, IM_COL32(90, 90, 90, 255));
+    begin_card("##job", right, bottom, IM_COL32(90, 90, 90, 255));
     ImGui::TextUnformatted(job.title.c_str());
     ImGui::ProgressBar(float(job.fraction), {em * 18, em / 2}, "");
     bool cancelled = false;
@@ -72,7 +61,7 @@ bool draw_job(const PanelContext& c, const RunningJob& job, float& bottom) {
     return cancelled;
 }
 
-void draw_toasts(PanelContext& c, float& bottom) {
+void draw_toasts(PanelContext& c, float right, float& bottom) {
     const auto now = std::chrono::steady_clock::now();
     c.ui.toasts.expire(now);
     std::optional<size_t> dismissed;
@@ -81,7 +70,7 @@ void draw_toasts(PanelContext& c, float& bottom) {
         const Toast& toast = toasts[i];
         const std::chrono::duration<double> left = toast.since + lifetime(toast) - now;
         c.ui.next_frame_in = std::min(c.ui.next_frame_in, std::max(left.count(), 0.0));
-        begin_card(("##toast" + std::to_string(i)).c_str(), cards_right(c), bottom, edge_of(toast.kind));
+        begin_card(("##toast" + std::to_string(i)).c_str(), right, bottom, edge_of(toast.kind));
         if (ImGui::IsWindowAppearing()) c.ui.next_frame_in = 0; // it is seen in the frame after the one that finds out how large it is
         draw_texts(toast);
         if (toast.action && ImGui::Button(shortcut(*toast.action).name)) {
@@ -96,10 +85,11 @@ void draw_toasts(PanelContext& c, float& bottom) {
 
 } // namespace
 
-bool draw_cards(PanelContext& c, const RunningJob* job) {
-    float bottom = cards_bottom(c);
-    const bool cancelled = job && draw_job(c, *job, bottom);
-    draw_toasts(c, bottom);
+bool draw_cards(PanelContext& c, const Region& viewport, const RunningJob* job) {
+    const float em = ImGui::GetFontSize(), right = viewport.x + viewport.width - em;
+    float bottom = viewport.y + viewport.height - em;
+    const bool cancelled = job && draw_job(c, *job, right, bottom);
+    draw_toasts(c, right, bottom);
     return cancelled;
 }
 

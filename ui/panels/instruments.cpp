@@ -1,0 +1,101 @@
+#include "ui/panels/instruments.h"
+
+#include "ui/panels/panels.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace blush {
+namespace {
+
+// An instrument that a flag of the window's state opens.
+template <auto flag> constexpr bool is_set(const PanelContext& c) { return *flag(c.ui); }
+template <auto flag> constexpr void set(PanelContext& c, bool open) { *flag(c.ui) = open; }
+
+template <auto flag> constexpr Instrument by_flag(const char* id, const char* title, DockSide side, float width, float height, void (*draw)(PanelContext&), bool remembered = true) {
+    return {id, title, side, width, height, remembered, is_set<flag>, set<flag>, draw};
+}
+
+using Ui = UiState;
+
+void close_region(PanelContext& c, bool open) {
+    if (open) return;
+    ViewSettings v = c.project().view;
+    v.measured.reset();
+    c.apply(SetView{v});
+}
+
+void open_roulette(PanelContext& c, bool open) {
+    c.ui.roulette.open = open;
+    if (!open) c.ui.roulette.runner.reset(); // it measures for as long as somebody may look
+}
+
+constexpr DockSide right = DockSide::right, bottom = DockSide::bottom;
+
+const Instrument table[] = {
+    by_flag<[](auto& ui) { return &ui.scopes.open; }>("scopes", "Scopes", bottom, 42, 26, draw_scopes_panel),
+    by_flag<[](auto& ui) { return &ui.light_table.open; }>("light_table", "Light table", bottom, 44, 19, draw_light_table),
+    by_flag<[](auto& ui) { return &ui.convergence.open; }>("convergence", "Convergence", bottom, 50, 40, draw_convergence_panel),
+    by_flag<[](auto& ui) { return &ui.light_mix.open; }>("light_mix", "Light mix", right, 28, 30, draw_light_mix_panel),
+    by_flag<[](auto& ui) { return &ui.bounces.open; }>("bounces", "Bounces", right, 24, 24, draw_bounces_panel),
+    {"roulette", "Roulette lab", right, 28, 44, true, [](const PanelContext& c) { return c.ui.roulette.open; }, open_roulette, draw_roulette_panel},
+    by_flag<[](auto& ui) { return &ui.health.open; }>("health", "Health", right, 34, 34, draw_health_panel),
+    by_flag<[](auto& ui) { return &ui.meters.open; }>("meters", "Light meters", bottom, 36, 16, draw_meters_panel),
+    by_flag<[](auto& ui) { return &ui.show_history; }>("history", "History", right, 18, 22, draw_history),
+    by_flag<[](auto& ui) { return &ui.import_report.open; }>("import_report", "Import report", right, 34, 30, draw_import_report, false),
+    {"comparison", "Comparison", right, 24, 24, false, [](const PanelContext& c) { return c.ui.snapshots.compare.mode != Comparison::Mode::off; },
+     [](PanelContext& c, bool open) {
+         if (!open) c.ui.snapshots.compare.mode = Comparison::Mode::off;
+     },
+     draw_comparison_panel},
+    {"snapshot", "Snapshot", right, 26, 26, false, [](const PanelContext& c) { return c.ui.snapshots.find(c.ui.snapshots.details) != nullptr; },
+     [](PanelContext& c, bool open) {
+         if (!open) c.ui.snapshots.details = 0;
+     },
+     draw_snapshot_panel},
+    {"region", "Region", bottom, 34, 18, false, [](const PanelContext& c) { return c.project().view.measured.has_value(); }, close_region, draw_region_panel},
+    {"opening_page", "Start", bottom, 50, 20, false, [](const PanelContext& c) { return c.ui.opening_page; }, [](PanelContext& c, bool open) { c.ui.opening_page = open; },
+     draw_opening_page},
+    {"pixel", "Pixel", right, 26, 22, false, [](const PanelContext& c) { return c.ui.pixel.has_value(); },
+     [](PanelContext& c, bool open) {
+         if (!open) c.ui.pixel.reset();
+     },
+     draw_pixel_panel},
+};
+
+} // namespace
+
+std::span<const Instrument> instruments() { return table; }
+
+const Instrument* find_instrument(const std::string& id) {
+    const auto found = std::ranges::find_if(table, [&](const Instrument& i) { return i.id == id; });
+    return found == std::end(table) ? nullptr : found;
+}
+
+void toggle_instrument(PanelContext& c, const std::string& id) {
+    const Instrument* i = find_instrument(id);
+    if (!i) return;
+    if (!i->is_open(c)) return i->set_open(c, true);
+    if (c.ui.docks.in_sight.contains(id) || c.ui.panels_hidden) return i->set_open(c, false);
+    c.ui.docks.to_front.insert(id);
+}
+
+std::vector<std::string> open_instruments(const PanelContext& c) {
+    std::vector<std::string> open;
+    for (const Instrument& i : table)
+        if (i.is_open(c)) open.emplace_back(i.id);
+    return open;
+}
+
+void recall_instruments(PanelContext c, const std::string& file) {
+    const auto found = std::ranges::find(c.ui.settings.scenes, file, &SceneMemory::file);
+    if (found == c.ui.settings.scenes.end()) return;
+    for (const std::string& id : found->instruments)
+        if (const Instrument* i = find_instrument(id); i && i->remembered) {
+            i->set_open(c, true);
+            c.ui.docks.open.push_back(id); // none comes to the front for being new
+        }
+    for (const std::string& id : c.ui.settings.dock.front) c.ui.docks.to_front.insert(id);
+}
+
+} // namespace blush
