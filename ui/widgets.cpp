@@ -1,12 +1,12 @@
 #include "ui/widgets.h"
 
 #include "core/text.h"
+#include "ui/fitting_text.h"
 #include "ui/theme.h"
 
 #include <algorithm>
 #include <cmath>
 #include <imgui_internal.h> // for arrows
-#include <imgui_stdlib.h>
 
 namespace blush {
 namespace {
@@ -215,9 +215,12 @@ bool Fields::choice(const char* label, int& index, std::span<const char* const> 
     ImGui::PushID(label);
     begin_row(label, tip);
     bool changed = false;
-    const bool open = ImGui::BeginCombo("##value", index >= 0 && size_t(index) < names.size() ? names[size_t(index)] : "");
+    const std::string chosen = index >= 0 && size_t(index) < names.size() ? names[size_t(index)] : "";
+    const float room = ImGui::CalcItemWidth() - ImGui::GetFrameHeight() - 2 * ImGui::GetStyle().FramePadding.x;
+    const std::string shown = elided(chosen, room);
+    const bool open = ImGui::BeginCombo("##value", shown.c_str());
     ui_.probe.record_last_item(std::string(scope_) + "/" + label);
-    if (!open) tip_for_last_item(ui_, tip);
+    if (!open) tip_for_last_item(ui_, (shown == chosen ? std::string(tip) : chosen.substr(0, chosen.find("##")) + "\n" + tip).c_str());
     if (open) {
         for (int i = 0; i < int(names.size()); ++i) {
             const bool picked = ImGui::Selectable(names[size_t(i)], i == index);
@@ -250,7 +253,7 @@ bool Fields::text(const char* label, std::string& value, const char* tip) {
     ImGui::PushID(label);
     begin_row(label, tip);
     std::string edited = value;
-    ImGui::InputText("##value", &edited, ImGuiInputTextFlags_AutoSelectAll);
+    fitting_input(ui_, "##value", edited, ImGuiInputTextFlags_AutoSelectAll);
     const bool changed = ImGui::IsItemDeactivatedAfterEdit() && edited != value;
     if (changed) value = edited;
     ImGui::PopID();
@@ -260,10 +263,11 @@ bool Fields::text(const char* label, std::string& value, const char* tip) {
 void Fields::info(const char* label, const std::string& text, const char* tip) {
     begin_row(label, tip);
     ImGui::AlignTextToFramePadding();
+    const std::string shown = elided(text, ImGui::GetContentRegionAvail().x);
     ImGui::PushStyleColor(ImGuiCol_Text, tone::dim_text);
-    ImGui::TextUnformatted(text.c_str());
+    ImGui::TextUnformatted(shown.c_str());
     ImGui::PopStyleColor();
-    tip_for_last_item(ui_, tip);
+    tip_for_last_item(ui_, (shown == text || *tip ? std::string(tip) : text).c_str());
 }
 
 bool Fields::removable(const std::string& name) {
@@ -271,7 +275,7 @@ bool Fields::removable(const std::string& name) {
     const float right = ImGui::GetWindowContentRegionMax().x;
     ImGui::SetCursorPosX(label_width() + ImGui::GetStyle().FramePadding.x);
     ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted(name.c_str());
+    fitting_text(ui_, name, tone::text, ImGui::GetContentRegionAvail().x - ImGui::GetFrameHeight() - ImGui::GetStyle().ItemSpacing.x);
     ImGui::SameLine(right - ImGui::GetFrameHeight());
     const bool pressed = ImGui::Button("×", {ImGui::GetFrameHeight(), 0});
     ui_.probe.record_last_item(std::string(scope_) + "/Remove " + name);
@@ -310,15 +314,19 @@ bool section(UiState& ui, const char* name, bool open_at_first) {
 
 namespace {
 
-// Beside the window of the widget, where there is room, else above or below the widget: never over the row below it.
+// Beside the window of the widget where that is near, else above the widget or beside it: never over the row below it.
 ImVec2 place_tip(const ImVec2& low, const ImVec2& high, const ImVec2& size) {
     const ImVec2 screen = ImGui::GetIO().DisplaySize, at = ImGui::GetWindowPos();
-    const float gap = ImGui::GetFontSize() / 3, left = at.x - gap - size.x, right = at.x + ImGui::GetWindowWidth() + gap;
+    const float em = ImGui::GetFontSize(), gap = em / 3, near = em * 14, edge = at.x + ImGui::GetWindowWidth();
     const auto inside = [&](float y) { return std::clamp(y, 0.f, std::max(0.f, screen.y - size.y)); };
-    if (left >= 0) return {left, inside(low.y)};
-    if (right + size.x <= screen.x) return {right, inside(low.y)};
+    const auto fits = [&](float x) { return x >= 0 && x + size.x <= screen.x; };
+    if (const float x = at.x - gap - size.x; low.x - at.x < near && fits(x)) return {x, inside(low.y)};
+    if (const float x = edge + gap; edge - high.x < near && fits(x)) return {x, inside(low.y)};
     const float x = std::clamp(low.x, 0.f, std::max(0.f, screen.x - size.x)), above = low.y - gap - size.y;
-    return {x, above >= 0 ? above : high.y + gap};
+    if (above >= 0) return {x, above};
+    for (const float beside : {high.x + gap, low.x - gap - size.x})
+        if (fits(beside)) return {beside, inside(low.y)};
+    return {x, high.y + gap};
 }
 
 } // namespace

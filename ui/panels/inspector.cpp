@@ -3,23 +3,28 @@
 #include "ui/theme.h"
 #include "ui/widgets.h"
 
+#include <algorithm>
+
 namespace blush {
 namespace {
 
 constexpr const char* tab_names[] = {"Selection", "Camera", "World", "Render", "Display"};
 
-// A row of equal tabs, as quiet as the rest.
+// A row of tabs as wide as their names and equal shares of the rest, as quiet as all else.
 void draw_tabs(PanelContext& c) {
-    const float width = ImGui::GetContentRegionAvail().x / float(std::size(tab_names)), height = ImGui::GetFrameHeight() * 1.15f;
+    float rest = ImGui::GetContentRegionAvail().x;
+    for (const char* name : tab_names) rest -= ImGui::CalcTextSize(name).x;
+    const float gap = rest / float(std::size(tab_names)), height = ImGui::GetFrameHeight() * 1.15f;
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     for (int i = 0; i < int(std::size(tab_names)); ++i) {
         if (i) ImGui::SameLine(0, 0);
-        const ImVec2 low = ImGui::GetCursorScreenPos(), high{low.x + width, low.y + height};
+        const ImVec2 low = ImGui::GetCursorScreenPos(), size = ImGui::CalcTextSize(tab_names[i]);
+        const float width = std::max(size.x + gap, 1.f);
+        const ImVec2 high{low.x + width, low.y + height};
         const bool current = int(c.ui.tab) == i;
         if (ImGui::InvisibleButton(tab_names[i], {width, height})) c.ui.tab = InspectorTab(i);
         c.ui.probe.record_last_item(std::string("Tab/") + tab_names[i]);
         const ImU32 color = current || ImGui::IsItemHovered() ? tone::text : tone::dim_text;
-        const ImVec2 size = ImGui::CalcTextSize(tab_names[i]);
         draw.AddText({low.x + (width - size.x) / 2, low.y + (height - size.y) / 2}, color, tab_names[i]);
         const float line = std::max(1.f, ImGui::GetFontSize() / 8);
         if (current)

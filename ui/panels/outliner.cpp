@@ -1,4 +1,5 @@
 // Outliner: the scene's nodes as a tree, with what each carries and whether it shows.
+#include "ui/fitting_text.h"
 #include "ui/icons.h"
 #include "ui/light_tools.h"
 #include "ui/panels/light_drag.h"
@@ -110,9 +111,7 @@ void draw_node(PanelContext& c, Rows& rows, Id<Node> id, int depth) {
     if (c.ui.renaming == id)
         draw_rename(c, id, node);
     else {
-        ImGui::PushStyleColor(ImGuiCol_Text, quiet ? tone::dim_text : tone::text);
-        ImGui::TextUnformatted(name.c_str());
-        ImGui::PopStyleColor();
+        fitting_text(c.ui, name, quiet ? tone::dim_text : tone::text, ImGui::GetContentRegionAvail().x - ImGui::GetFrameHeight() - ImGui::GetStyle().ItemSpacing.x);
     }
     draw_eye(c, id, node);
     if (open) {

@@ -2,7 +2,9 @@
 #include "ui/panels/panels.h"
 #include "ui/theme.h"
 
+#include <algorithm>
 #include <cstring>
+#include <initializer_list>
 
 namespace blush {
 namespace {
@@ -22,13 +24,25 @@ void line(const char* what, const char* how, float column) {
     ImGui::TextUnformatted(how);
 }
 
-// The commands of one group that have a key.
-void draw_group(const char* group, float column) {
-    heading(group);
-    for (const Shortcut& s : shortcuts()) {
-        if (std::strcmp(s.group, group) != 0 || s.press.key == key::none) continue;
-        line(s.name, keys_of(s).c_str(), column);
+// Names of one column, the commands of some groups that have a key; the keys stand where the longest name ends.
+void draw_groups(std::initializer_list<const char*> groups) {
+    const auto in = [](const Shortcut& s, const char* group) { return std::strcmp(s.group, group) == 0 && s.press.key != key::none; };
+    float widest = 0;
+    for (const Shortcut& s : shortcuts())
+        for (const char* group : groups)
+            if (in(s, group)) widest = std::max(widest, ImGui::CalcTextSize(s.name).x);
+    for (const char* group : groups) {
+        heading(group);
+        for (const Shortcut& s : shortcuts())
+            if (in(s, group)) line(s.name, keys_of(s).c_str(), widest + ImGui::GetFontSize());
     }
+}
+
+void draw_mouse() {
+    float widest = 0;
+    for (const MouseHint& hint : mouse_hints()) widest = std::max(widest, ImGui::CalcTextSize(hint.action).x);
+    heading("Mouse");
+    for (const MouseHint& hint : mouse_hints()) line(hint.action, hint.gesture, widest + ImGui::GetFontSize());
 }
 
 } // namespace
@@ -36,25 +50,22 @@ void draw_group(const char* group, float column) {
 void draw_shortcut_sheet(PanelContext& c) {
     if (!c.ui.show_shortcuts) return;
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
-    const float em = ImGui::GetFontSize();
-    ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Appearing, {0.5f, 0.5f});
-    ImGui::SetNextWindowSize({std::min(em * 80, screen.x * 0.95f), 0});
+    ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::SetNextWindowSizeConstraints({0, 0}, {screen.x * 0.95f, screen.y * 0.95f});
     if (ImGui::Begin("Shortcuts", &c.ui.show_shortcuts,
-                     ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoSavedSettings)) {
-        const float width = ImGui::GetContentRegionAvail().x;
-        if (ImGui::BeginTable("columns", 3)) {
-            ImGui::TableSetupColumn("files", ImGuiTableColumnFlags_WidthStretch, 0.3f);
-            ImGui::TableSetupColumn("lights", ImGuiTableColumnFlags_WidthStretch, 0.26f);
-            ImGui::TableSetupColumn("mouse", ImGuiTableColumnFlags_WidthStretch, 0.44f);
+                     ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_HorizontalScrollbar | ImGuiWindowFlags_NoSavedSettings)) {
+        if (ImGui::IsWindowAppearing()) c.ui.next_frame_in = 0; // it is seen in the frame after the one that measures it
+        ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {ImGui::GetFontSize(), 0});
+        if (ImGui::BeginTable("columns", screen.x > 80 * ImGui::GetFontSize() ? 3 : 1, ImGuiTableFlags_SizingFixedFit)) {
             ImGui::TableNextColumn();
-            for (const char* group : {"File", "Edit", "View"}) draw_group(group, width * 0.15f);
+            draw_groups({"File", "Edit", "View"});
             ImGui::TableNextColumn();
-            for (const char* group : {"Add light", "Lights", "Look", "Help"}) draw_group(group, width * 0.15f);
+            draw_groups({"Add light", "Lights", "Look", "Help"});
             ImGui::TableNextColumn();
-            heading("Mouse");
-            for (const MouseHint& hint : mouse_hints()) line(hint.action, hint.gesture, width * 0.17f);
+            draw_mouse();
             ImGui::EndTable();
         }
+        ImGui::PopStyleVar();
         ImGui::Spacing();
     }
     ImGui::End();

@@ -1,10 +1,12 @@
 // Status bar: how far the picture is, how fast it gets there, and what makes it.
 #include "core/text.h"
+#include "ui/fitting_text.h"
 #include "ui/time_text.h"
 #include "ui/panels/panels.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -30,14 +32,40 @@ std::string rate_text(double rate) {
                         : fmt::format("{:.2f} spp/s", rate);
 }
 
-// Each cell keeps its place while its number changes.
-void cell(PanelContext& c, float& x, float width, const std::string& text, const char* tip, ImU32 color = tone::text) {
-    ImGui::SameLine(x);
-    ImGui::PushStyleColor(ImGuiCol_Text, color);
-    ImGui::TextUnformatted(text.c_str());
-    ImGui::PopStyleColor();
-    tip_for_last_item(c.ui, tip);
-    x += width * ImGui::GetFontSize();
+// Keeps its place while its number changes. Where the bar is too narrow for all, those of the least weight are left out.
+struct Cell {
+    float width; // font sizes, at least
+    std::string text, tip;
+    ImU32 color = tone::text;
+    int weight = 5;
+};
+using Cells = std::vector<Cell>;
+
+float width_of(const Cell& cell) {
+    const float em = ImGui::GetFontSize();
+    return std::max(cell.width * em, ImGui::CalcTextSize(cell.text.c_str()).x + em);
+}
+
+// Of those that fit into the width: the heavier ones.
+Cells fitting(Cells cells, float width) {
+    const auto total = [&] {
+        float sum = 0;
+        for (const Cell& cell : cells) sum += width_of(cell);
+        return sum;
+    };
+    while (cells.size() > 1 && total() > width) cells.erase(std::ranges::min_element(cells, {}, &Cell::weight));
+    return cells;
+}
+
+void draw(PanelContext& c, const Cells& cells, float x) {
+    for (const Cell& cell : cells) {
+        ImGui::SameLine(x);
+        ImGui::PushStyleColor(ImGuiCol_Text, cell.color);
+        ImGui::TextUnformatted(cell.text.c_str());
+        ImGui::PopStyleColor();
+        tip_for_last_item(c.ui, cell.tip.c_str());
+        x += width_of(cell);
+    }
 }
 
 // Along the upper edge: the way to the nearest stop rule. Full only when it is reached.
@@ -48,52 +76,61 @@ void draw_progress_line(double progress) {
 }
 
 // Which picture is looked at. The error before it is the raw one's in any case; what the denoiser did to the picture stands beside it.
-void draw_denoised_cells(PanelContext& c, float& x, const Frame& frame) {
+void add_denoised_cells(const PanelContext& c, Cells& cells, const Frame& frame) {
     const DenoiseView& view = c.ui.denoise;
-    if (!view.wants_denoised()) return cell(c, x, 4, "raw", "The image is shown as it was traced.", tone::dim_text);
+    if (!view.wants_denoised()) return cells.push_back({4, "raw", "The image is shown as it was traced.", tone::dim_text, 6});
     const DenoisedPicture* denoised = c.denoised.get();
-    cell(c, x, 19, shown_text(view, frame, denoised), "What is shown, and by how much the denoised picture is older than the raw one.");
+    cells.push_back({19, shown_text(view, frame, denoised), "What is shown, and by how much the denoised picture is older than the raw one.", tone::text, 7});
     if (!denoised) return;
-    cell(c, x, 9, fmt::format("energy {} %", signed_number(energy_change_percent(denoised->denoised), 2)),
-         "By how much the denoiser changed the mean luminance of the picture. The estimated error is that of the raw image.");
+    cells.push_back({9, fmt::format("energy {} %", signed_number(energy_change_percent(denoised->denoised), 2)),
+                     "By how much the denoiser changed the mean luminance of the picture. The estimated error is that of the raw image.", tone::text, 3});
 }
 
-void draw_error_cell(PanelContext& c, float& x, const Frame& frame) {
+Cell error_cell(const Frame& frame) {
     const ErrorEstimate& e = frame.error;
     if (!e.known)
-        return cell(c, x, 9, "error not known yet", "The error is estimated from two independent halves of the samples, now and then, so that this takes "
-                                                    "hardly any time. The samples so far do not tell.");
+        return {9, "error not known yet",
+                "The error is estimated from two independent halves of the samples, now and then, so that this takes hardly any time. The samples so far do "
+                "not tell.",
+                tone::text, 8};
     const bool older = frame.error_samples < frame.samples;
     const std::string of = older ? fmt::format("the picture as it was after {} samples per pixel", frame.error_samples) : "the picture";
-    cell(c, x, older ? 14 : 9, fmt::format("error {:.3g} %", 100 * std::sqrt(e.relmse)) + (older ? fmt::format(" at {} spp", frame.error_samples) : ""),
-         fmt::format("Estimated relative error (root of relMSE) of {}, from two independent halves of the samples. relMSE {:.3g}, 95 % interval "
-                     "{:.3g} to {:.3g}.",
-                     of, e.relmse, e.low, e.high)
-             .c_str());
+    return {older ? 14.f : 9.f, fmt::format("error {:.3g} %", 100 * std::sqrt(e.relmse)) + (older ? fmt::format(" at {} spp", frame.error_samples) : ""),
+            fmt::format("Estimated relative error (root of relMSE) of {}, from two independent halves of the samples. relMSE {:.3g}, 95 % interval "
+                        "{:.3g} to {:.3g}.",
+                        of, e.relmse, e.low, e.high),
+            tone::text, 8};
 }
 
-void draw_frame_cells(PanelContext& c, float& x, const Frame& frame) {
+void add_frame_cells(const PanelContext& c, Cells& cells, const Frame& frame) {
     const int64_t target = c.project().render.spp;
-    cell(c, x, 9, target > 0 ? fmt::format("{} / {} spp", frame.samples, target) : fmt::format("{} spp", frame.samples),
-         "Samples, that is paths, per pixel so far and in the end.");
-    cell(c, x, 6.5f, rate_text(frame.samples_per_second), "Samples per pixel and second, over the last batch.");
+    cells.push_back({9, target > 0 ? fmt::format("{} / {} spp", frame.samples, target) : fmt::format("{} spp", frame.samples),
+                     "Samples, that is paths, per pixel so far and in the end.", tone::text, 9});
+    cells.push_back({6.5f, rate_text(frame.samples_per_second), "Samples per pixel and second, over the last batch.", tone::text, 4});
     const bool mix_is_new = c.mixing && c.mixing->gains != frame.gains;
     if (mix_is_new)
-        cell(c, x, 9, "error follows", "The mix of lights shows at once; its error is estimated with the next picture of the session.", tone::dim_text);
+        cells.push_back({9, "error follows", "The mix of lights shows at once; its error is estimated with the next picture of the session.", tone::dim_text, 8});
     else
-        draw_error_cell(c, x, frame);
+        cells.push_back(error_cell(frame));
     if (!frame.missing_light.empty())
-        cell(c, x, 14, "some light cannot be found", (frame.missing_light + ". It is not in the estimated error.").c_str(), tone::warning);
-    draw_denoised_cells(c, x, frame);
-    cell(c, x, 6, elapsed_text(frame.seconds), "Time spent rendering since the last edit.");
-    cell(c, x, 8.5f,
-         frame.divider > 1 ? fmt::format("{} × {}  1/{}", frame.width, frame.height, frame.divider)
-                           : fmt::format("{} × {}", frame.width, frame.height),
-         "Pixels rendered. Right after an edit they are fewer, so that the picture comes at once.");
-    cell(c, x, 9, frame.kernel, "Which of the compiled kernels renders: instruction set / what the scene needs.", tone::dim_text);
+        cells.push_back({14, "some light cannot be found", frame.missing_light + ". It is not in the estimated error.", tone::warning, 8});
+    add_denoised_cells(c, cells, frame);
+    cells.push_back({6, elapsed_text(frame.seconds), "Time spent rendering since the last edit.", tone::text, 4});
+    cells.push_back({8.5f,
+                     frame.divider > 1 ? fmt::format("{} × {}  1/{}", frame.width, frame.height, frame.divider)
+                                       : fmt::format("{} × {}", frame.width, frame.height),
+                     "Pixels rendered. Right after an edit they are fewer, so that the picture comes at once.", tone::text, 3});
+    cells.push_back({9, frame.kernel, "Which of the compiled kernels renders: instruction set / what the scene needs.", tone::dim_text, 1});
     if (frame.health.dropped() > 0)
-        cell(c, x, 12, fmt::format("{} bad samples dropped", frame.health.dropped()),
-             "Samples that were not a number, infinite or negative. They are left out of the picture and counted.", tone::warning);
+        cells.push_back({12, fmt::format("{} bad samples dropped", frame.health.dropped()),
+                         "Samples that were not a number, infinite or negative. They are left out of the picture and counted.", tone::warning, 7});
+}
+
+// Empty: the display is as the light is.
+std::string exposure_text(const PanelContext& c) {
+    const float exposure = c.shown_view().exposure_ev;
+    const bool metered = c.project().view.auto_exposure != AutoExposure::off;
+    return exposure == 0 && !metered ? "" : fmt::format("{}{} EV", metered ? "auto " : "", signed_number(exposure, 2));
 }
 
 } // namespace
@@ -101,24 +138,20 @@ void draw_frame_cells(PanelContext& c, float& x, const Frame& frame) {
 void draw_status_bar(PanelContext& c) {
     draw_progress_line(c.status.progress);
     const bool failed = c.status.state == SessionStatus::State::failed;
-    float x = ImGui::GetStyle().WindowPadding.x;
-    ImGui::SetCursorPos({x, (ImGui::GetWindowHeight() - ImGui::GetTextLineHeight()) / 2});
+    const float left = ImGui::GetStyle().WindowPadding.x, width = ImGui::GetWindowWidth();
+    ImGui::SetCursorPos({left, (ImGui::GetWindowHeight() - ImGui::GetTextLineHeight()) / 2});
     ImGui::Dummy({0, 0});
-    cell(c, x, 6, state_name(c.status.state), "What the render thread does. Complete, it sleeps; while lights are being mixed it stands still.", failed ? tone::failure : tone::text);
-    if (failed)
-        cell(c, x, 30, c.status.message, "", tone::failure);
-    else if (c.frame)
-        draw_frame_cells(c, x, *c.frame);
+    Cells cells{{6, state_name(c.status.state), "What the render thread does. Complete, it sleeps; while lights are being mixed it stands still.",
+                 failed ? tone::failure : tone::text, 10}};
+    if (!failed && c.frame) add_frame_cells(c, cells, *c.frame);
     if (c.ui.zoom.scale > 0)
-        cell(c, x, 5, fmt::format("{:.0f} %", 100 * c.ui.zoom.scale),
-             "Pixels of the screen for one of the picture. Z shows all of it again.", tone::dim_text);
-    const float exposure = c.shown_view().exposure_ev;
-    const bool metered = c.project().view.auto_exposure != AutoExposure::off;
-    if (exposure != 0 || metered) {
-        const std::string text = fmt::format("{}{} EV", metered ? "auto " : "", signed_number(exposure, 2));
-        x = std::max(x, ImGui::GetWindowWidth() - ImGui::CalcTextSize(text.c_str()).x - ImGui::GetStyle().WindowPadding.x);
-        cell(c, x, 0, text, "Exposure of the display.", tone::dim_text);
-    }
+        cells.push_back({5, fmt::format("{:.0f} %", 100 * c.ui.zoom.scale), "Pixels of the screen for one of the picture. Z shows all of it again.",
+                         tone::dim_text, 5});
+    const std::string exposure = exposure_text(c);
+    const float right = width - left - ImGui::CalcTextSize(exposure.c_str()).x;
+    if (failed) cells.push_back({30, elided(c.status.message, right - left - 8 * ImGui::GetFontSize()), c.status.message, tone::failure, 9});
+    draw(c, fitting(std::move(cells), right - left), left);
+    if (!exposure.empty()) draw(c, {{0, exposure, "Exposure of the display.", tone::dim_text, 0}}, right);
 }
 
 } // namespace blush
