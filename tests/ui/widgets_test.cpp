@@ -72,6 +72,33 @@ TEST_F(Widgets, ATipAppearsOverAMouseAtRest) {
     EXPECT_TRUE(tip->WasActive && !tip->Hidden);
 }
 
+TEST_F(Widgets, ATipWaitsForHalfASecondOfRest) {
+    style.tip = "Stops of exposure.";
+    const auto tip_shown = [] {
+        const ImGuiWindow* tip = ImGui::FindWindowByName("##Tooltip_00");
+        return tip && tip->WasActive && !tip->Hidden;
+    };
+    ImGui::GetIO().DeltaTime = 0.1f;
+    move(middle());
+    for (int i = 0; i < 4; ++i) {
+        frame();
+        EXPECT_FALSE(tip_shown()) << "after " << i + 1 << " tenths of a second";
+    }
+    for (int i = 0; i < 4; ++i) frame();
+    EXPECT_TRUE(tip_shown());
+    // The row below can be read and clicked.
+    const ImGuiWindow* tip = ImGui::FindWindowByName("##Tooltip_00");
+    const float row = high.y - low.y;
+    EXPECT_TRUE(tip->Pos.x >= 400 || tip->Pos.y >= high.y + 2 * row || tip->Pos.y + tip->Size.y <= high.y) << tip->Pos.x << ", " << tip->Pos.y;
+    press(true);
+    for (int i = 0; i < 20; ++i) move(middle() + float(i % 3));
+    for (int i = 0; i < 20; ++i) frame();
+    EXPECT_FALSE(tip_shown()) << "while a drag goes on";
+    press(false);
+    frame();
+    EXPECT_FALSE(tip_shown()) << "right after it";
+}
+
 TEST_F(Widgets, ADragIsOneStepAndTheNextDragAnother) {
     drag(60);
     const float first = value();

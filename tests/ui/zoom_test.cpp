@@ -1,5 +1,7 @@
 // Where the zoomed picture lies.
+#include "imgui_test.h"
 #include "ui/picture_zoom.h"
+#include "ui/pixel_grid.h"
 
 #include <gtest/gtest.h>
 
@@ -53,6 +55,30 @@ TEST(PictureZoom, IsDraggedAndItsMiddleStaysWithinThePicture) {
     EXPECT_EQ(after.y, before.y + 90);
     EXPECT_EQ(shifted(one, region, 1600, 900, -1e6, 1e6), (PictureZoom{1, 1, 0}));
     EXPECT_EQ(shifted({}, region, 1600, 900, 50, 50), PictureZoom{}) << "what fits stays";
+}
+
+// Pixels of a coarse preview are not those of the picture.
+class PixelGrid : public test::ImGuiTest {
+protected:
+    int lines_over(int divider) {
+        Frame frame;
+        frame.width = frame.height = 4;
+        frame.divider = divider;
+        frame.rgba.assign(64, 0.5f);
+        int drawn = 0;
+        in_window([&] {
+            ImDrawList& draw = *ImGui::GetWindowDrawList();
+            const int before = draw.VtxBuffer.Size;
+            draw_pixel_grid(draw, {0, 0, 320, 320}, {0, 0, 400, 400}, frame);
+            drawn = draw.VtxBuffer.Size - before;
+        });
+        return drawn;
+    }
+};
+
+TEST_F(PixelGrid, LiesOverFullResolutionAlone) {
+    EXPECT_GT(lines_over(1), 40);
+    for (const int divider : {2, 4, 8}) EXPECT_EQ(lines_over(divider), 0);
 }
 
 } // namespace

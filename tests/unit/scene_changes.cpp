@@ -192,6 +192,15 @@ TEST(Diff, ViewAndSettings) {
     moved.scene.view.position.x += 1;
     EXPECT_EQ(seen(diff(s.project, moved)), only([](Changes& c) { c.view = true; }));
 
+    // Through a pinhole everything is in focus.
+    for (const float aperture : {0.f, 0.01f}) {
+        Project near = s.project;
+        near.scene.view.lens.aperture_radius = aperture;
+        Project far = near;
+        far.scene.view.lens.focus_distance += 1;
+        EXPECT_EQ(seen(diff(near, far)), aperture > 0 ? only([](Changes& c) { c.view = true; }) : nothing) << aperture;
+    }
+
     const auto of = [&](auto&& with) {
         RenderSettings r = s.project.render;
         with(r);
