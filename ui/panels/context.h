@@ -30,7 +30,7 @@ struct PanelContext {
 
     float metered_ev = 0; // of the frame, by the auto exposure; 0 without
     WaveformTextures waveforms = {};                                         // of the scopes
-    std::function<ImTextureID(const std::string& file)> file_thumbnail = {}; // a texture; 0: there is none of this scene
+    std::function<ImTextureID(const std::string& file)> file_thumbnail = {}; // a texture; 0: there is none
 
     // How the picture is looked at, with auto exposure settled.
     ViewSettings shown_view() const { return settled(project().view, metered_ev); }

@@ -25,7 +25,7 @@ bool draw_card(PanelContext& c, const std::string& file) {
     tip_for_last_item(c.ui, file.c_str());
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     draw.AddRectFilled(low, high, tone::surround);
-    if (const ImTextureID picture = c.file_thumbnail ? c.scene_thumbnail(file) : ImTextureID{}) draw.AddImage(picture, low, high);
+    if (const ImTextureID picture = c.file_thumbnail ? c.file_thumbnail(file) : ImTextureID{}) draw.AddImage(picture, low, high);
     if (ImGui::IsItemHovered()) draw.AddRect(low, high, tone::text);
     draw.AddText({low.x, high.y + 0.2f * em}, tone::text, elided(name, width).c_str());
     ImGui::PopID();
