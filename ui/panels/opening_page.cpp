@@ -32,16 +32,19 @@ bool draw_card(PanelContext& c, const std::string& file) {
     return clicked;
 }
 
-// A row: as many as fit, the menus have the others.
-void draw_row(PanelContext& c, const char* title, const std::vector<std::string>& files) {
+// So many rows, as many in each as fit; the menus have the others.
+void draw_rows(PanelContext& c, const char* title, const std::vector<std::string>& files, size_t rows) {
     if (files.empty()) return;
     const float em = ImGui::GetFontSize(), left = ImGui::GetCursorPosX();
     ImGui::TextUnformatted(title);
     ImGui::SameLine(left + title_width * em);
     const float card = card_width * em + ImGui::GetStyle().ItemSpacing.x;
     const size_t fitting = size_t(std::clamp(ImGui::GetContentRegionAvail().x / card, 1.f, float(max_cards)));
-    for (size_t i = 0; i < std::min(files.size(), fitting); ++i) {
-        if (i > 0) ImGui::SameLine();
+    for (size_t i = 0; i < std::min(files.size(), rows * fitting); ++i) {
+        if (i % fitting > 0)
+            ImGui::SameLine();
+        else if (i > 0)
+            ImGui::SetCursorPosX(left + title_width * em);
         if (draw_card(c, files[i])) c.ui.files.push_back({FileRequest::Use::open, files[i]});
     }
 }
@@ -54,10 +57,11 @@ void draw_opening_page(PanelContext& c) {
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
     quiet_text("or drop a file. Esc closes this page.");
-        std::vector<std::string> recent;
-    std::ranges::copy_if(c.ui.settings.recent, std::back_inserter(recent), [&](const std::string& file) { return std::ranges::count(c.ui.demos, file) == 0; });
-    draw_row(c, "Recent", recent);
-    draw_row(c, "Demos", c.ui.demos);
+    std::vector<std::string> recent;
+    std::ranges::copy_if(c.ui.settings.recent, std::back_inserter(recent),
+                         [&](const std::string& file) { return std::ranges::count(c.ui.demos, file) == 0; });
+    draw_rows(c, "Recent", recent, 1);
+    draw_rows(c, "Demos", c.ui.demos, recent.empty() ? 2 : 1);
     if (!c.ui.files.empty()) c.ui.opening_page = false;
 }
 
