@@ -17,6 +17,7 @@
 #include "app/submitted.h"
 #include "ui/automation.h"
 #include "ui/frame_stats.h"
+#include "ui/map_thumbnails.h"
 #include "ui/regions.h"
 #include "ui/remembered.h"
 #include "ui/panels/instruments.h"
@@ -126,6 +127,7 @@ Editor::Editor(const EditorOptions& options, std::unique_ptr<Window> window, Col
                 .denoiser = denoiser_maker(options.weights, options.threads, true)},
                &Window::wake) {
     ui_.settings = std::move(settings);
+    ui_.maps.thumbnails = std::make_shared<MapThumbnails>();
     recall_panels(ui_.settings, ui_);
     ImGui::LoadIniSettingsFromMemory(ui_.settings.floating.c_str(), ui_.settings.floating.size());
     if (const auto found = find_denoiser_weights(options.weights); !found)
@@ -191,9 +193,15 @@ void Editor::poll() {
     for (const auto& file : window_->take_dropped_files()) takers().take_dropped(file);
     // While text is typed or something is open on top, keys are meant for that. Esc closes menus and lists of choices; dialogs hear it themselves.
     const bool taken = ImGui::GetIO().WantTextInput || ui_.browser || ui_.question, menu = any_popup_open();
+    const bool flying = ImGui::IsMouseDown(ImGuiMouseButton_Right); // by letters that stand for commands otherwise
     for (const KeyPress& press : window_->take_key_presses()) {
+        if (ui_.transform.takes_keys()) {
+            ui_.transform.keys.push_back(press);
+            continue;
+        }
         const Shortcut* s = find_shortcut(press);
-        if (s && !taken && (!menu || s->command == Command::clear_selection)) ui_.commands.push_back(s->command);
+        if (!s || taken || flying || (menu && s->command != Command::clear_selection)) continue;
+        if (files_.preview() || ui_.tool != ViewTool::none || !ui_.transform.begin(s->command)) ui_.commands.push_back(s->command);
     }
     save_due_snapshot();
 }
@@ -273,6 +281,7 @@ void Editor::draw_regions(PanelContext& c) {
 
 void Editor::draw_on_top(PanelContext& c) {
     if (ui_.panels_hidden) draw_pixel_popup(c);
+    draw_gizmo_bar(c, {image_.x, image_.y, image_.width, image_.height});
     draw_no_light_banner(c, layout_.viewport);
     draw_shortcut_sheet(c);
     draw_file_browser(c);

@@ -7,6 +7,7 @@
 #include "ui/new_light.h"
 #include "ui/docks.h"
 #include "ui/popups.h"
+#include "ui/value_menu.h"
 #include "ui/view_tools.h"
 
 #include <algorithm>
@@ -202,6 +203,9 @@ bool run_command(Command command, PanelContext& c) {
     switch (command) {
     case Command::undo: c.document.undo(); return true;
     case Command::redo: c.document.redo(); return true;
+    case Command::copy_value: wish_of_value(c.ui, ValueWish::copy); return true;
+    case Command::paste_value: wish_of_value(c.ui, ValueWish::paste); return true;
+    case Command::reset_value: wish_of_value(c.ui, ValueWish::reset); return true;
     case Command::duplicate: duplicate(c); return true;
     case Command::remove: remove(c); return true;
     case Command::add_ground: add_ground(c); return true;
@@ -222,6 +226,11 @@ bool run_command(Command command, PanelContext& c) {
     case Command::place_shadow: toggle_placing(c, PlacingBy::shadow); return true;
     case Command::look_through_light: toggle_look_through(c); return true;
     case Command::light_table: toggle_instrument(c, "light_table"); return true;
+    case Command::grab:
+    case Command::rotate:
+    case Command::scale: return c.ui.transform.begin(command);
+    case Command::next_gizmo: c.ui.transform.gizmo = TransformMode((int(c.ui.transform.gizmo) + 1) % 3); return true;
+    case Command::local_axes: c.ui.transform.local = !c.ui.transform.local; return true;
     case Command::frame_selection: frame(c, bounds_of_selection(c)); return true;
     case Command::frame_all: frame(c, world_bounds(c.scene())); return true;
     case Command::camera_view: go_home(c); return true;
@@ -264,6 +273,7 @@ bool run_command(Command command, PanelContext& c) {
     case Command::import_scene:
     case Command::environment:
     case Command::ies:
+    case Command::map:
     case Command::reload:
     case Command::save_scene:
     case Command::save_scene_as:

@@ -4,8 +4,10 @@
 #include "io/environment_image.h"
 #include "io/gltf_camera_aspects.h"
 #include "io/ies.h"
+#include "io/image_io.h"
 #include "io/merge_edits.h"
 #include "scene/light_rig.h"
+#include "ui/material_maps.h"
 #include "ui/remembered.h"
 
 #include <algorithm>
@@ -154,6 +156,13 @@ void EditorFiles::load_environment(const std::filesystem::path& file) {
         "Loading " + file.filename().string(), [file](JobProgress&) { return read_environment_image(file); }, wake_);
 }
 
+void EditorFiles::load_map(const std::filesystem::path& file, UiState& ui) {
+    map_ = ui.maps;
+    map_file_ = file;
+    map_job_ = std::make_unique<BackgroundJob<Result<ImagePtr>>>(
+        "Loading " + file.filename().string(), [file](JobProgress&) { return read_image(file); }, wake_);
+}
+
 void EditorFiles::load_ies(const std::filesystem::path& file, Document& document, UiState& ui) const {
     const Scene& scene = document.project().scene;
     const Node* node = scene.nodes.find(ui.selected);
@@ -286,6 +295,19 @@ void EditorFiles::finish_environment(Document& document, UiState& ui, Result<Ima
     ui.tab = InspectorTab::environment;
 }
 
+void EditorFiles::finish_map(Document& document, UiState& ui, Result<ImagePtr> image) {
+    const bool cancelled = map_job_->cancelled();
+    map_job_.reset();
+    if (cancelled) return;
+    if (!image) return ui.toasts.fail(image.error().text());
+    const Result<void> done = set_map(document, map_.material, map_.slot, map_.label, {.name = map_file_.stem().string(), .source = "embedded", .image = *image},
+                                      ui.gestures.begin());
+    ui.gestures.end();
+    if (!done) return ui.toasts.fail(done.error().text());
+    if (!has_texture_coordinates(document.project().scene, map_.material))
+        ui.toasts.warn("The map does not show yet", "No mesh with this material has texture coordinates (UV), which say where an image lies.");
+}
+
 void EditorFiles::look_at_scene_file(const Document& document, UiState& ui) {
     const auto now = std::chrono::steady_clock::now();
     if (now < next_look_) return;
@@ -317,6 +339,9 @@ EditorFiles::Finished EditorFiles::poll(Document& document, UiState& ui) {
     if (environment_job_) {
         if (auto result = environment_job_->take()) finish_environment(document, ui, *std::move(result));
     }
+    if (map_job_) {
+        if (auto result = map_job_->take()) finish_map(document, ui, *std::move(result));
+    }
     look_at_scene_file(document, ui);
     return finished;
 }
@@ -332,6 +357,7 @@ std::optional<RunningJob> EditorFiles::running() const {
         return job;
     }
     if (environment_job_) return show(environment_job_, true);
+    if (map_job_) return show(map_job_, true);
     if (save_job_) return show(save_job_, false);
     return {};
 }
@@ -340,6 +366,7 @@ void EditorFiles::cancel() {
     if (import_job_) import_job_->cancel();
     preview_.reset();
     if (environment_job_) environment_job_->cancel();
+    if (map_job_) map_job_->cancel();
 }
 
 } // namespace blush

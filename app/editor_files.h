@@ -69,6 +69,8 @@ public:
     Document* preview() { return preview_ ? &*preview_ : nullptr; }
     bool saving() const { return save_job_ != nullptr; }
     void load_environment(const std::filesystem::path& file);
+    // Reads an image for the map that the window's state says, in the background.
+    void load_map(const std::filesystem::path& file, UiState& ui);
     // Gives the selected light the distribution of a photometric file, at once.
     void load_ies(const std::filesystem::path& file, Document& document, UiState& ui) const;
 
@@ -121,6 +123,7 @@ private:
     Finished finish_import(Document& document, UiState& ui, Result<Opened> opened);
     bool finish_save(Document& document, UiState& ui, Result<SavedGltf> saved);
     void finish_environment(Document& document, UiState& ui, Result<ImagePtr> image);
+    void finish_map(Document& document, UiState& ui, Result<ImagePtr> image);
     void look_at_scene_file(const Document& document, UiState& ui);
 
     std::function<void()> wake_;
@@ -132,7 +135,7 @@ private:
     std::chrono::steady_clock::time_point next_look_{};
 
     Purpose purpose_ = Purpose::open;
-    std::filesystem::path importing_, environment_;
+    std::filesystem::path importing_, environment_, map_file_;
     bool keep_settings_ = false, keep_view_ = false;
     bool keep_edits_ = false; // of a reload
     std::shared_ptr<EarlyScene> early_; // of the import that goes on
@@ -140,7 +143,8 @@ private:
     Project saving_; // as it was when the save began
     std::unique_ptr<BackgroundJob<Result<Opened>>> import_job_;
     std::unique_ptr<BackgroundJob<Result<SavedGltf>>> save_job_;
-    std::unique_ptr<BackgroundJob<Result<ImagePtr>>> environment_job_;
+    MapView map_; // that the image is for
+    std::unique_ptr<BackgroundJob<Result<ImagePtr>>> environment_job_, map_job_;
 };
 
 } // namespace blush

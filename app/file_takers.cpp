@@ -20,6 +20,7 @@ bool FileTakers::browse_for(Command command) {
                                                   {Command::import_scene, Use::import_scene},
                                                   {Command::environment, Use::environment},
                                                   {Command::ies, Use::ies},
+                                                  {Command::map, Use::map},
                                                   {Command::snapshot_folder, Use::snapshot_folder},
                                                   {Command::load_convergence, Use::convergence}};
     for (const auto& [asked, use] : asking) {
@@ -39,6 +40,7 @@ void FileTakers::take(const FileRequest& request) {
     case FileRequest::Use::environment: return files.load_environment(request.path);
     case FileRequest::Use::convergence: return convergence.load(ui, request.path);
     case FileRequest::Use::ies: return files.load_ies(request.path, document, ui);
+    case FileRequest::Use::map: return files.load_map(request.path, ui);
     case FileRequest::Use::snapshot_folder:
         ui.settings.snapshot_folder = request.path.string();
         return ui.toasts.note("Snapshots go to " + request.path.string());

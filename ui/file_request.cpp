@@ -11,6 +11,7 @@ const char* title_of(FileRequest::Use use) {
     case Use::ies: return "Choose a photometric file";
     case Use::snapshot_folder: return "Choose the folder for snapshots";
     case Use::convergence: return "Load a convergence table";
+    case Use::map: return "Choose an image for the material";
     case Use::save_scene: return "Save the scene as";
     }
     return "";
@@ -26,6 +27,7 @@ const ExtensionFilter& filter_of(FileRequest::Use use) {
     case Use::environment: return environment_files;
     case Use::ies: return photometric_files;
     case Use::convergence: return table_files;
+    case Use::map: return image_files;
     case Use::snapshot_folder: break;
     }
     return none;

@@ -9,7 +9,7 @@ namespace blush {
 
 // A file that the user has chosen.
 struct FileRequest {
-    enum class Use { open, import_scene, environment, ies, snapshot_folder, convergence, save_scene };
+    enum class Use { open, import_scene, environment, ies, snapshot_folder, convergence, save_scene, map };
     Use use = Use::open;
     std::filesystem::path path;
 };

@@ -2,6 +2,9 @@
 
 #include "ui/rotation.h"
 
+#include <cfloat>
+#include <numbers>
+
 namespace blush {
 namespace {
 
@@ -13,26 +16,87 @@ float distance_to_segment(ScreenPoint p, ScreenPoint a, ScreenPoint b) {
     return distance(p, {a.x + t * dx, a.y + t * dy});
 }
 
+float distance_to_line(ScreenPoint p, const std::vector<ScreenPoint>& line) {
+    float nearest = FLT_MAX;
+    for (size_t i = 1; i < line.size(); ++i) nearest = std::min(nearest, distance_to_segment(p, line[i - 1], line[i]));
+    return nearest;
+}
+
 Affined world_from_parent(const Scene& scene, const Node& node) { return node.parent ? world_from_node(scene, node.parent) : Affined{}; }
 
 // A parent scaled to nothing has no inverse; its children then cannot be placed in the world and stay as they are.
 bool invertible(const Affined& m) { return std::abs(determinant(m)) > 1e-300; }
 
+// Unit length.
+Vec3d towards_eye(const Projection& projection, const Vec3d& from) {
+    if (projection.height_at(1) == projection.height_at(2)) return -projection.forward(); // orthographic
+    const Vec3d to = projection.eye() - from;
+    return length(to) > 0 ? normalize(to) : -projection.forward();
+}
+
+// The part of a ring that faces the eye, from end to end.
+std::vector<ScreenPoint> seen_ring(const Projection& projection, const ImageRect& image, const Vec3d& centre, const Vec3d& axis, double radius) {
+    constexpr int steps = 96;
+    const Vec3d towards = towards_eye(projection, centre);
+    const Vec3d across = towards - axis * dot(axis, towards);
+    const double slant = length(across);
+    const Vec3d x = slant > 1e-6 ? across / slant : any_perpendicular(axis), y = cross(axis, x);
+    std::vector<ScreenPoint> points;
+    for (int i = -steps / 2; i <= steps / 2; ++i) {
+        const double a = 2 * std::numbers::pi * i / steps;
+        if (std::cos(a) * slant < -0.05) continue;
+        if (const auto seen = projection.project(centre + (x * std::cos(a) + y * std::sin(a)) * radius)) points.push_back(image.at(*seen));
+    }
+    return points;
+}
+
+HandleShape ring_shape(Handle handle, ScreenPoint from, std::vector<ScreenPoint> ring) {
+    const ScreenPoint grip = ring[ring.size() / 4]; // aside: near sides of several rings may lie in one place
+    return {handle, from, grip, std::move(ring)};
+}
+
+Handle handle_of(TransformMode mode, int axis) {
+    const Handle first = mode == TransformMode::grab ? Handle::move : mode == TransformMode::rotate ? Handle::rotate : Handle::scale;
+    return Handle(int(first) + 1 + axis);
+}
+
 } // namespace
 
-std::vector<HandleShape> handle_shapes(const Projection& projection, const ImageRect& image, const Vec3d& position,
-                                       const std::optional<Vec3d>& aim_at, float size) {
+bool is_of_gizmo(Handle handle, TransformMode mode) {
+    const int first = int(handle_of(mode, -1));
+    return int(handle) >= first && int(handle) <= first + 3;
+}
+
+int axis_of(Handle handle) {
+    for (const TransformMode mode : {TransformMode::grab, TransformMode::rotate, TransformMode::scale})
+        if (is_of_gizmo(handle, mode)) return int(handle) - int(handle_of(mode, 0));
+    return -1;
+}
+
+std::vector<HandleShape> handle_shapes(const Projection& projection, const ImageRect& image, const GizmoPlace& place,
+                                       const std::optional<Vec3d>& aim_at) {
     std::vector<HandleShape> shapes;
-    const auto centre = projection.project(position);
+    const auto centre = projection.project(place.position);
     if (!centre) return shapes;
     const ScreenPoint from = image.at(*centre);
-    const double world_size = projection.height_at(centre->distance) * size / image.height;
-    shapes.push_back({Handle::move, from, from});
-    for (const Handle handle : {Handle::move_x, Handle::move_y, Handle::move_z}) {
-        const auto end = projection.project(position + axis_of(handle) * world_size);
+    const double world_size = projection.height_at(centre->distance) * place.size / image.height;
+    if (place.mode == TransformMode::rotate) {
+        auto round = seen_ring(projection, image, place.position, -towards_eye(projection, place.position), world_size * 1.25);
+        if (round.size() > 4) shapes.push_back(ring_shape(Handle::rotate, from, std::move(round)));
+    } else {
+        shapes.push_back({handle_of(place.mode, -1), from, from});
+    }
+    for (int i = 0; i < 3 && place.along_axes; ++i) {
+        const Vec3d axis = place.axes[size_t(i)];
+        if (place.mode == TransformMode::rotate) {
+            auto ring = seen_ring(projection, image, place.position, axis, world_size);
+            if (ring.size() > 4) shapes.push_back(ring_shape(handle_of(place.mode, i), from, std::move(ring)));
+            continue;
+        }
+        const auto end = projection.project(place.position + axis * world_size);
         if (!end) continue;
         const ScreenPoint grip = image.at(*end);
-        if (distance(from, grip) > size / 5) shapes.push_back({handle, from, grip});
+        if (distance(from, grip) > place.size / 5) shapes.push_back({handle_of(place.mode, i), from, grip});
     }
     if (aim_at) {
         if (const auto target = projection.project(*aim_at)) shapes.push_back({Handle::aim, from, image.at(*target)});
@@ -45,7 +109,7 @@ Handle handle_under(const std::vector<HandleShape>& shapes, ScreenPoint mouse, f
     float best = reach;
     for (const HandleShape& shape : shapes) {
         const float d = distance(mouse, shape.grip);
-        if (d < best) {
+        if (d < best && shape.ring.empty()) {
             best = d;
             nearest = shape.handle;
         }
@@ -54,21 +118,13 @@ Handle handle_under(const std::vector<HandleShape>& shapes, ScreenPoint mouse, f
     best = reach / 2;
     for (const HandleShape& shape : shapes) {
         if (shape.handle == Handle::aim || is_size(shape.handle)) continue; // their lines cross the picture; only grips are to be grabbed
-        const float d = distance_to_segment(mouse, shape.from, shape.grip);
+        const float d = shape.ring.empty() ? distance_to_segment(mouse, shape.from, shape.grip) : distance_to_line(mouse, shape.ring);
         if (d < best) {
             best = d;
             nearest = shape.handle;
         }
     }
     return nearest;
-}
-
-Vec3d axis_of(Handle handle) {
-    switch (handle) {
-    case Handle::move_x: return {1, 0, 0};
-    case Handle::move_y: return {0, 1, 0};
-    default: return {0, 0, 1};
-    }
 }
 
 std::optional<Vec3d> meet_plane(const ViewRay& ray, const Vec3d& point, const Vec3d& normal) {
@@ -86,13 +142,20 @@ std::optional<double> nearest_on_axis(const ViewRay& ray, const Vec3d& origin, c
     return (b * dot(ray.direction, w) - dot(axis, w)) / denominator;
 }
 
-Vec3d dragged_position(Handle handle, const Projection& projection, const ViewRay& start, const ViewRay& now, const Vec3d& position) {
-    if (handle == Handle::move) {
-        const auto a = meet_plane(start, position, projection.forward()), b = meet_plane(now, position, projection.forward());
-        return a && b ? position + (*b - *a) : position;
-    }
-    const auto a = nearest_on_axis(start, position, axis_of(handle)), b = nearest_on_axis(now, position, axis_of(handle));
-    return a && b ? position + axis_of(handle) * (*b - *a) : position;
+std::optional<double> ring_angle(const ViewRay& ray, const Vec3d& centre, const Vec3d& axis) {
+    constexpr double edge_on = 0.15; // cosine between ray and axis
+    if (std::abs(dot(ray.direction, axis)) < edge_on) return {};
+    const auto met = meet_plane(ray, centre, axis);
+    if (!met) return {};
+    const Vec3d x = any_perpendicular(axis), y = cross(axis, x), to = *met - centre;
+    return std::atan2(dot(to, y), dot(to, x));
+}
+
+double pulled_angle(const Projection& projection, const Vec3d& centre, const Vec3d& axis, ScreenPoint from, ScreenPoint to, float radius) {
+    // Turning right-handed, the near side goes this way.
+    const Vec3d way = cross(axis, towards_eye(projection, centre));
+    const double x = dot(way, projection.right()), y = -dot(way, projection.up()), n = std::hypot(x, y);
+    return n > 0 ? ((to.x - from.x) * x + (to.y - from.y) * y) / (n * radius) : 0;
 }
 
 Transform moved_to(const Scene& scene, Id<Node> id, const Vec3d& world_position) {

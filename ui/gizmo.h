@@ -1,10 +1,11 @@
-// Handles in the viewport that move and aim the selected node: the maths, without drawing. World units are metres;
+// Handles in the viewport that move, rotate, scale and aim the selected node: the maths, without drawing. World units are metres;
 // the screen is the viewport in pixels, y down.
 #pragma once
 
 #include "scene/scene.h"
 #include "ui/projection.h"
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -25,33 +26,55 @@ struct ImageRect {
     }
 };
 
-enum class Handle { none, move, move_x, move_y, move_z, aim, width, height, radius, outer_cone, inner_cone, spread, sun_angle };
+// What is done to the selection; also which gizmo is shown.
+enum class TransformMode { grab, rotate, scale };
+
+enum class Handle {
+    none, move, move_x, move_y, move_z, aim,
+    rotate, rotate_x, rotate_y, rotate_z, // rotate: about the line of sight
+    scale, scale_x, scale_y, scale_z,     // scale: in all directions
+    width, height, radius, outer_cone, inner_cone, spread, sun_angle
+};
 
 // It changes a light's size or cone.
 constexpr bool is_size(Handle handle) { return handle >= Handle::width; }
+// It belongs to the gizmo of that mode.
+bool is_of_gizmo(Handle handle, TransformMode mode);
+// 0, 1, 2 for a gizmo's handle of X, Y, Z; -1: it is of none.
+int axis_of(Handle handle);
 
-// A handle as it lies on the screen: a line from the centre to its grip.
+// A handle as it lies on the screen: a line from the centre to its grip, or the part of a ring that faces the eye.
 struct HandleShape {
     Handle handle = Handle::none;
     ScreenPoint from, grip;
+    std::vector<ScreenPoint> ring = {};
 };
 
-// The handles of a node at `position`; `aim_at` is given for what has a direction. Axis handles are `size` pixels long on the
-// screen at most. Handles behind the eye, or axes that point at it, are left out.
-std::vector<HandleShape> handle_shapes(const Projection& projection, const ImageRect& image, const Vec3d& position,
-                                       const std::optional<Vec3d>& aim_at, float size);
+// Which gizmo, where and how large.
+struct GizmoPlace {
+    TransformMode mode = TransformMode::grab;
+    Vec3d position;
+    std::array<Vec3d, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}; // orthonormal
+    float size = 80;            // pixels: of axes and rings; the ring about the line of sight is larger
+    bool along_axes = true;     // false: the one handle that knows no axis alone
+};
+
+// The handles of a gizmo, and one to aim with, where `aim_at` is given. Axis handles are `size` pixels long on the screen at most. Handles
+// behind the eye, or axes that point at it, are left out.
+std::vector<HandleShape> handle_shapes(const Projection& projection, const ImageRect& image, const GizmoPlace& place,
+                                       const std::optional<Vec3d>& aim_at);
 // The handle under the mouse, within `reach` pixels; grips win over lines.
 Handle handle_under(const std::vector<HandleShape>& shapes, ScreenPoint mouse, float reach);
 
-// Unit axis of an axis handle.
-Vec3d axis_of(Handle handle);
 // Where the ray meets the plane through `point`; nothing when parallel or behind.
 std::optional<Vec3d> meet_plane(const ViewRay& ray, const Vec3d& point, const Vec3d& normal);
 // Parameter t of the point origin + t * axis that is nearest to the ray; nothing when they are parallel.
 std::optional<double> nearest_on_axis(const ViewRay& ray, const Vec3d& origin, const Vec3d& axis);
-
-// The new world position of a node dragged by a move handle from where the mouse went down to where it is now.
-Vec3d dragged_position(Handle handle, const Projection& projection, const ViewRay& start, const ViewRay& now, const Vec3d& position);
+// Radians, right-handed about the unit axis, of the place where the ray meets the plane of a ring around `centre`, from some fixed start;
+// nothing where the ring is seen edge-on or the ray misses its plane.
+std::optional<double> ring_angle(const ViewRay& ray, const Vec3d& centre, const Vec3d& axis);
+// Radians that a ring seen edge-on is turned by pulling its near side over the screen, `radius` pixels being its radius.
+double pulled_angle(const Projection& projection, const Vec3d& centre, const Vec3d& axis, ScreenPoint from, ScreenPoint to, float radius);
 
 // The node's transform after moving its origin to a world position, its rotation and scale untouched.
 Transform moved_to(const Scene& scene, Id<Node> node, const Vec3d& world_position);

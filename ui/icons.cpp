@@ -61,6 +61,36 @@ void draw_file(const Pen& p) {
     p.line(0.6f, 0.85f, -0.6f, 0.85f), p.line(-0.6f, 0.85f, -0.6f, -0.85f);
 }
 
+void draw_move(const Pen& p) {
+    for (const float s : {-1.f, 1.f}) {
+        p.line(0, 0, 0, 0.9f * s), p.line(0, 0.9f * s, -0.28f, 0.6f * s), p.line(0, 0.9f * s, 0.28f, 0.6f * s);
+        p.line(0, 0, 0.9f * s, 0), p.line(0.9f * s, 0, 0.6f * s, -0.28f), p.line(0.9f * s, 0, 0.6f * s, 0.28f);
+    }
+}
+
+void draw_rotate(const Pen& p) {
+    p.draw.PathArcTo(p.centre, 0.75f * p.half, -0.6f, 4.4f);
+    p.draw.PathStroke(p.color, 0, p.width);
+    p.line(0.62f, -0.42f, 0.98f, -0.3f), p.line(0.62f, -0.42f, 0.58f, -0.85f);
+}
+
+void draw_scale(const Pen& p) {
+    p.box(-0.85f, 0, 0, 0.85f);
+    p.line(-0.1f, 0.1f, 0.85f, -0.85f), p.line(0.85f, -0.85f, 0.35f, -0.85f), p.line(0.85f, -0.85f, 0.85f, -0.35f);
+}
+
+void draw_globe(const Pen& p) {
+    p.circle(0, 0, 0.85f), p.line(-0.85f, 0, 0.85f, 0);
+    p.draw.AddBezierQuadratic(p.at(0, -0.85f), p.at(0.85f, 0), p.at(0, 0.85f), p.color, p.width);
+    p.draw.AddBezierQuadratic(p.at(0, -0.85f), p.at(-0.85f, 0), p.at(0, 0.85f), p.color, p.width);
+}
+
+// A tilted cross of axes on a small body.
+void draw_local_axes(const Pen& p) {
+    p.box(-0.3f, -0.3f, 0.3f, 0.3f);
+    p.line(0.3f, -0.3f, 0.85f, -0.85f), p.line(-0.3f, -0.3f, -0.85f, -0.85f), p.line(0, 0.3f, 0, 0.95f);
+}
+
 } // namespace
 
 Icon icon_of(Light::Kind kind) {
@@ -100,6 +130,11 @@ void draw_icon(ImDrawList& draw, Icon icon, ImVec2 centre, float size, ImU32 col
         draw.AddRectFilled(p.at(-0.6f, -0.65f), p.at(-0.15f, 0.65f), color);
         draw.AddRectFilled(p.at(0.15f, -0.65f), p.at(0.6f, 0.65f), color);
         break;
+    case Icon::move: draw_move(p); break;
+    case Icon::rotate: draw_rotate(p); break;
+    case Icon::scale: draw_scale(p); break;
+    case Icon::world_axes: draw_globe(p); break;
+    case Icon::local_axes: draw_local_axes(p); break;
     case Icon::arrow_up: p.line(0, 0.8f, 0, -0.8f), p.line(0, -0.8f, -0.55f, -0.2f), p.line(0, -0.8f, 0.55f, -0.2f); break;
     }
 }

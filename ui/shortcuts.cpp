@@ -18,6 +18,7 @@ constexpr Shortcut table[] = {
     {Command::import_scene, "File", "Import into the scene...", ctrl('I')},
     {Command::environment, "File", "Environment image...", ctrl('E')},
     {Command::ies, "File", "IES file for the light...", in_menu_only},
+    {Command::map, "File", "Image for the material...", in_menu_only},
     {Command::reload, "File", "Reload from disk", ctrl('R')},
     {Command::import_report, "File", "Import report", in_menu_only},
     {Command::save_scene, "File", "Save scene", ctrl('S')},
@@ -29,8 +30,16 @@ constexpr Shortcut table[] = {
     {Command::quit, "File", "Quit", ctrl('Q')},
     {Command::undo, "Edit", "Undo", ctrl('Z')},
     {Command::redo, "Edit", "Redo", ctrl_shift('Z'), ctrl('Y')},
+    {Command::copy_value, "Edit", "Copy the value under the mouse", ctrl('C')},
+    {Command::paste_value, "Edit", "Paste into the value under the mouse", ctrl('V')},
+    {Command::reset_value, "Edit", "Reset the value under the mouse", plain(key::backspace)},
     {Command::duplicate, "Edit", "Duplicate", ctrl('D')},
     {Command::remove, "Edit", "Delete", plain(key::remove)},
+    {Command::grab, "Edit", "Move", plain('G')},
+    {Command::rotate, "Edit", "Rotate", plain('R')},
+    {Command::scale, "Edit", "Scale", plain('S')},
+    {Command::next_gizmo, "Edit", "Next gizmo", plain('W')},
+    {Command::local_axes, "Edit", "Local axes", plain('Q')},
     {Command::add_ground, "Edit", "Add ground plane", in_menu_only},
     {Command::rename, "Edit", "Rename", plain(key::f1 + 1)},
     {Command::clear_selection, "Edit", "Select nothing", plain(key::escape)},
@@ -46,8 +55,8 @@ constexpr Shortcut table[] = {
     {Command::mute, "Lights", "Mute", shift('M')},
     {Command::solo, "Lights", "Solo", plain('O')},
     {Command::group_lights, "Lights", "Group", ctrl('G')},
-    {Command::place_highlight, "Lights", "Place by highlight", plain('R')},
-    {Command::place_shadow, "Lights", "Place by shadow", shift('R')},
+    {Command::place_highlight, "Lights", "Place by highlight", plain('T')},
+    {Command::place_shadow, "Lights", "Place by shadow", shift('T')},
     {Command::look_through_light, "Lights", "Look through", plain('L')},
     {Command::light_table, "Lights", "Light table", ctrl('L')},
     {Command::frame_selection, "View", "Frame selection", plain('F')},
@@ -82,7 +91,7 @@ constexpr Shortcut table[] = {
     {Command::toggle_denoise, "Look", "Raw / denoised", plain('N')},
     {Command::measure, "Look", "Measure a region", plain('M')},
     {Command::meters, "Look", "Light meters", shift('L')},
-    {Command::scopes, "Look", "Scopes", plain('G')},
+    {Command::scopes, "Look", "Scopes", shift('S')},
     {Command::shortcuts, "Help", "Shortcuts", plain(key::f1)},
 };
 
@@ -99,12 +108,15 @@ constexpr MouseHint hints[] = {
     {"Focus there", "Ctrl+click"},
     {"Read a pixel's values", "Right-click"},
     {"Move, aim, resize", "Drag the handles of what is selected"},
+    {"Move, rotate, scale (G R S)", "X Y Z: axis, twice: local, Shift+: plane"},
+    {"", "Digits: amount; Shift: finely; Ctrl: snap"},
+    {"", "Enter or click: done; Esc or right-click: back"},
     {"Go back to a snapshot", "Click its card; right-click for more"},
     {"Link light and object", "Shift+click the object, light selected"},
     {"Link shadow and object", "Alt+Shift+click the object"},
-    {"Reset a value", "Double-click"},
-    {"Type a value", "Ctrl+click"},
-    {"Change a value finely", "Alt+drag"},
+    {"Type a value", "Double-click or Ctrl+click; Tab: the next"},
+    {"Change a value finely", "Shift+drag"},
+    {"Copy, paste, reset a value", "Right-click it"},
 };
 
 } // namespace
@@ -135,6 +147,7 @@ std::string to_string(const KeyPress& press) {
     case key::tab: return text + "Tab";
     case key::escape: return text + "Esc";
     case key::remove: return text + "Del";
+    case key::backspace: return text + "Backspace";
     case key::home: return text + "Home";
     default: break;
     }

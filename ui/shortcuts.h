@@ -8,13 +8,16 @@ namespace blush {
 
 // Key codes as GLFW gives them; letters are their ASCII capitals.
 namespace key {
-constexpr int none = 0, space = 32, zero = 48, escape = 256, enter = 257, tab = 258, remove = 261, home = 268, f1 = 290;
+constexpr int none = 0, space = 32, zero = 48, escape = 256, enter = 257, tab = 258, backspace = 259, remove = 261, home = 268, f1 = 290;
+constexpr int pad_zero = 320, pad_point = 330, pad_minus = 333, pad_enter = 335; // of the number pad
 }
 
 struct KeyPress {
     int key = key::none;
     bool ctrl = false, shift = false, alt = false;
-    bool operator==(const KeyPress&) const = default;
+    char32_t typed = 0; // the character that the keyboard's layout gives it; 0: none, or not known
+    // The same key: what it types does not count.
+    bool operator==(const KeyPress& o) const { return key == o.key && ctrl == o.ctrl && shift == o.shift && alt == o.alt; }
 };
 
 enum class Command {
@@ -24,6 +27,7 @@ enum class Command {
     ies,
     reload,
     import_report,
+    map,
     save_scene,
     save_scene_as,
     snapshot_exr,
@@ -38,6 +42,9 @@ enum class Command {
     quit,
     undo,
     redo,
+    copy_value,
+    paste_value,
+    reset_value,
     duplicate,
     remove,
     add_ground,
@@ -57,6 +64,11 @@ enum class Command {
     place_shadow,
     look_through_light,
     light_table,
+    grab,
+    rotate,
+    scale,
+    next_gizmo,
+    local_axes,
     frame_selection,
     frame_all,
     camera_view,

@@ -14,6 +14,7 @@
 #include "ui/import_report_view.h"
 #include "ui/light_mix_view.h"
 #include "ui/light_presence.h"
+#include "ui/map_view.h"
 #include "ui/meters_view.h"
 #include "ui/picture_zoom.h"
 #include "ui/probe.h"
@@ -25,6 +26,8 @@
 #include "ui/snapshots_view.h"
 #include "ui/time_view.h"
 #include "ui/toasts.h"
+#include "ui/transform_view.h"
+#include "ui/value_editing.h"
 #include "ui/window_settings.h"
 
 #include <filesystem>
@@ -45,6 +48,7 @@ enum class ViewTool {
     none,
     pick_white, // a click says what is to look neutral
     measure,    // a drag says which rectangle has its statistics shown
+    pick_color, // a click says which colour a field becomes
     region,     // a drag says which rectangle is rendered
     meter,      // a click puts a light meter on a surface
 };
@@ -144,6 +148,7 @@ struct UiState {
     bool panels_hidden = false; // all but menu, picture and status bar
     HomeView home;              // where `Camera's view` goes back to
     CameraFrame frame;          // of that camera
+    TransformView transform;    // of the selection, by gizmo or keys
     bool show_history = false;
     LightMixView light_mix;
     BouncesView bounces;
@@ -163,6 +168,8 @@ struct UiState {
     WhiteFields white;
     ExposureTriangle triangle;
     LightPresence light_presence;
+    ValueEditing values;
+    MapView maps;
     TimeView time;
 
     WindowSettings settings; // remembered between starts

@@ -15,6 +15,7 @@ const char* hint_of(ViewTool tool) {
     switch (tool) {
     case ViewTool::none: return "";
     case ViewTool::pick_white: return "Click what is to look white.  Esc: nothing";
+    case ViewTool::pick_color: return "Click the colour to take: scene-linear, as rendered.  Esc: nothing";
     case ViewTool::meter: return "Click a surface to put a light meter on it.  Esc: nothing";
     case ViewTool::region: return "Drag a rectangle to render alone.  Esc: nothing";
     case ViewTool::measure: return "Drag a rectangle to measure.  Esc: nothing";
@@ -38,6 +39,14 @@ void pick_white(PanelContext& c, double u, double v) {
     ViewSettings view = c.project().view;
     view.white = {std::max(white.x / y, 0.f), std::max(white.y / y, 0.f), std::max(white.z / y, 0.f)};
     c.apply(SetView{view});
+}
+
+// For the field whose eyedropper it is, of the one pixel.
+void pick_color(PanelContext& c, double u, double v) {
+    const Vec3 color = picked_color(*c.frame, c.denoised.get(), mix_of(c.ui.denoise, c.denoised != nullptr), u, v, 0);
+    if (!is_finite(color)) return c.ui.toasts.note("The pixel there has no colour that is a number");
+    c.ui.values.picked = color;
+    c.ui.next_frame_in = 0;
 }
 
 void place_meter(PanelContext& c, const Projection& projection, double u, double v) {
@@ -118,6 +127,7 @@ bool use_tool(PanelContext& c, const Projection& projection, const ImageRect& im
         switch (c.ui.tool) {
         case ViewTool::none: break;
         case ViewTool::pick_white: pick_white(c, u, v); break;
+        case ViewTool::pick_color: pick_color(c, u, v); break;
         case ViewTool::meter: place_meter(c, projection, u, v); break;
         case ViewTool::measure:
         case ViewTool::region: c.ui.tool_start = ToolStart{u, v}; break;

@@ -313,6 +313,7 @@ ImageRect Viewport::draw(PanelContext& c, const FramePace& pace) {
     if (hovered && image.contains(mouse.x, mouse.y)) c.ui.cursor = PicturePoint{image.u(mouse.x), image.v(mouse.y)};
     if (!c.frame) shown_frame_ = uploaded_frame_ = nullptr; // there is nothing to be seen any more
     if (!shown_frame_) {
+        transformer_.abandon(c);
         using State = SessionStatus::State;
         const bool nothing_open = (c.status.state == State::idle || c.status.state == State::complete) && c.scene().nodes.empty();
         draw_centred(nothing_open ? "Drop a glTF scene here, or press Ctrl+O" : "Preparing the first image");
@@ -343,6 +344,7 @@ ImageRect Viewport::draw(PanelContext& c, const FramePace& pace) {
 }
 
 ImageRect Viewport::draw_alone(PanelContext& c, const FramePace& pace, const char* caption) {
+    transformer_.abandon(c);
     take_frame(c, pace);
     const ImageRect image = place_picture(c);
     if (!shown_frame_) {
@@ -369,6 +371,7 @@ bool Viewport::draw_overlays(PanelContext& c, const Projection& projection, cons
     if (const Light* light = looked_through_light(c); light && c.ui.placing_by == PlacingBy::hand)
         draw_hint(draw, "Looking through " + light->name + ": moving the view moves the light.  L or Esc goes back");
     taken |= place_tool_.update(c, draw, projection, image, hovered);
+    taken |= transformer_.update(c, draw, projection, image);
     draw.PopClipRect();
     return taken;
 }

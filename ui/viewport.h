@@ -12,6 +12,7 @@
 #include "ui/outline_pass.h"
 #include "ui/panels/context.h"
 #include "ui/place_tool.h"
+#include "ui/transformer.h"
 
 namespace blush {
 
@@ -52,6 +53,7 @@ private:
     Navigation navigation_;
     bool navigating_ = false; // as of the last frame: what it edits is one step of the history
     Handles handles_;
+    Transformer transformer_;
     Gesture exposure_gesture_ = no_gesture;
     PlaceTool place_tool_;
 

@@ -3,6 +3,8 @@
 #include "core/text.h"
 #include "ui/fitting_text.h"
 #include "ui/theme.h"
+#include "ui/value_menu.h"
+#include "ui/value_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -32,10 +34,8 @@ float shown_value(float value, const char* format) {
     return text[0] == '-' && without_sign_of_zero(text)[0] != '-' ? 0.f : value;
 }
 
-bool double_clicked_here(float width) {
-    const ImVec2 low = ImGui::GetCursorScreenPos(), high{low.x + width, low.y + ImGui::GetFrameHeight()};
-    return ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left) && ImGui::IsWindowHovered() && ImGui::IsMouseHoveringRect(low, high);
-}
+// ImGui makes drags with Shift ten times as fast; here they are a tenth.
+float drag_speed(float speed) { return ImGui::GetIO().KeyShift ? speed / 100 : speed; }
 
 void draw_bar(float fraction, float width) {
     const ImVec2 low = ImGui::GetCursorScreenPos(), high{low.x + width, low.y + ImGui::GetFrameHeight()};
@@ -46,10 +46,6 @@ void draw_bar(float fraction, float width) {
     const float filled = std::round(width * std::clamp(fraction, 0.f, 1.f));
     if (filled >= 1) draw.AddRectFilled(low, {low.x + filled, high.y}, tone::field_filled, rounding);
 }
-
-// The sRGB transfer functions: swatches and pickers show display-encoded colours, fields hold linear ones.
-float encode(float x) { return x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1 / 2.4f) - 0.055f; }
-float decode(float x) { return x <= 0.04045f ? x / 12.92f : std::pow((x + 0.055f) / 1.055f, 2.4f); }
 
 } // namespace
 
@@ -67,21 +63,50 @@ void Fields::begin_row(const char* label, const char* tip) {
 }
 
 bool Fields::finish(const char* label, const char* tip, bool changed) {
-    if (ImGui::IsItemActivated()) ui_.gestures.begin();
+    // By Tab the next field is begun in the frame that ends the last one: each ends its own gesture alone.
+    const unsigned id = ImGui::GetItemID();
+    if (ImGui::IsItemActivated()) {
+        ui_.gestures.begin();
+        ui_.values.in_hand = id;
+    }
     if (changed) {
         changed_ = true;
         gesture_ = ui_.gestures.current();
     }
-    if (ImGui::IsItemDeactivated()) ui_.gestures.end();
+    if (ImGui::IsItemDeactivated() && ui_.values.in_hand == id) ui_.gestures.end();
     if (!ImGui::IsItemActive()) tip_for_last_item(ui_, tip);
     ui_.probe.record_last_item(std::string(scope_) + "/" + label);
     return changed;
 }
 
-bool Fields::number_field(const char* id, float& value, const NumberStyle& style, float reset) {
+bool Fields::obey_wish(const std::string& name, float& value, const NumberStyle& style, float reset, Vec3* all, bool color) {
+    const std::string path = std::string(scope_) + "/" + name;
+    switch (value_wish(ui_, path, false, all != nullptr)) {
+    case ValueWish::copy: copy_text(ui_, number_text(value)); return false;
+    case ValueWish::copy_all: copy_text(ui_, triple_text(*all)); return false;
+    case ValueWish::reset: return std::exchange(value, reset) != reset;
+    case ValueWish::paste: {
+        const std::string text = pasted_text();
+        if (const auto number = pasted_number(text, style.unit)) {
+            const float wanted = float(std::clamp(*number, double(style.min), double(style.max)));
+            return std::exchange(value, wanted) != wanted;
+        }
+        const auto three = !all ? std::nullopt : color ? pasted_color(text) : pasted_triple(text);
+        if (!three) {
+            refuse_pasted(ui_, name, all ? "It takes a number, or three of them." : "It takes a number.");
+            return false;
+        }
+        const auto clamped = [&](float x) { return std::clamp(x, style.min, style.max); };
+        *all = {clamped(three->x), clamped(three->y), clamped(three->z)};
+        return true;
+    }
+    default: return false;
+    }
+}
+
+bool Fields::number_field(const char* id, float& value, const NumberStyle& style) {
     const float width = ImGui::CalcItemWidth();
-    const bool resetting = double_clicked_here(width);
-    const ImGuiSliderFlags flags = ImGuiSliderFlags_AlwaysClamp | (resetting ? ImGuiSliderFlags_NoInput : 0);
+    const ImGuiSliderFlags flags = ImGuiSliderFlags_AlwaysClamp;
     const std::string format = format_with_unit(style);
     float edited = shown_value(value, style.format);
     bool changed = false;
@@ -90,15 +115,11 @@ bool Fields::number_field(const char* id, float& value, const NumberStyle& style
         // Dragged like a field, its end following the mouse: a click alone then changes nothing.
         for (const ImGuiCol c : {ImGuiCol_FrameBg, ImGuiCol_FrameBgHovered, ImGuiCol_FrameBgActive})
             ImGui::PushStyleColor(c, ImVec4(0, 0, 0, 0));
-        changed = ImGui::DragFloat(id, &edited, (style.max - style.min) / width, style.min, style.max, format.c_str(), flags);
+        changed = ImGui::DragFloat(id, &edited, drag_speed((style.max - style.min) / width), style.min, style.max, format.c_str(), flags);
         ImGui::PopStyleColor(3);
     } else {
         const float speed = style.step > 0 ? style.step : std::max(std::abs(value) * 0.005f, 1e-4f);
-        changed = ImGui::DragFloat(id, &edited, speed, style.min, style.max, format.c_str(), flags);
-    }
-    if (resetting) {
-        changed = value != reset;
-        edited = reset;
+        changed = ImGui::DragFloat(id, &edited, drag_speed(speed), style.min, style.max, format.c_str(), flags);
     }
     if (changed && std::isfinite(edited)) value = std::clamp(edited, style.min, style.max);
     return changed && std::isfinite(edited);
@@ -107,7 +128,8 @@ bool Fields::number_field(const char* id, float& value, const NumberStyle& style
 bool Fields::number(const char* label, float& value, const NumberStyle& style) {
     ImGui::PushID(label);
     begin_row(label, style.tip);
-    const bool changed = number_field("##value", value, style, style.reset);
+    bool changed = number_field("##value", value, style);
+    changed |= obey_wish(label, value, style, style.reset, nullptr, false);
     ImGui::PopID();
     return finish(label, style.tip, changed);
 }
@@ -126,16 +148,23 @@ bool Fields::angle(const char* label, float& radians, const NumberStyle& style) 
 bool Fields::integer(const char* label, int64_t& value, int64_t min, int64_t max, int64_t reset, const char* tip) {
     ImGui::PushID(label);
     begin_row(label, tip);
-    const bool resetting = double_clicked_here(ImGui::CalcItemWidth());
     const float speed = std::max(0.1f, float(std::abs(value)) * 0.01f);
-    const ImGuiSliderFlags flags = ImGuiSliderFlags_AlwaysClamp | (resetting ? ImGuiSliderFlags_NoInput : 0);
     int64_t edited = value;
-    bool changed = ImGui::DragScalar("##value", ImGuiDataType_S64, &edited, speed, &min, &max, "%lld", flags);
-    if (resetting) {
-        changed = value != reset;
-        edited = reset;
+    bool changed = ImGui::DragScalar("##value", ImGuiDataType_S64, &edited, drag_speed(speed), &min, &max, "%lld", ImGuiSliderFlags_AlwaysClamp);
+    switch (value_wish(ui_, std::string(scope_) + "/" + label, false, false)) {
+    case ValueWish::copy: copy_text(ui_, std::to_string(value)); break;
+    case ValueWish::reset: edited = reset; break;
+    case ValueWish::paste:
+        if (const auto number = pasted_number(pasted_text()))
+            edited = int64_t(std::clamp(std::round(*number), -9e18, 9e18));
+        else
+            refuse_pasted(ui_, label, "It takes a number.");
+        break;
+    default: break;
     }
-    if (changed) value = std::clamp(edited, min, max);
+    edited = std::clamp(edited, min, max);
+    changed |= edited != value;
+    if (changed) value = edited;
     ImGui::PopID();
     return finish(label, tip, changed);
 }
@@ -153,51 +182,12 @@ bool Fields::vector(const char* label, Vec3& value, const Vec3& reset, const Num
         if (i) ImGui::SameLine(0, gap);
         ImGui::SetNextItemWidth(std::floor((total - 2 * gap) / 3));
         const ImVec2 low = ImGui::GetCursorScreenPos();
-        const bool edited = number_field(ids[i], *components[i], style, resets[i]);
+        const std::string name = std::string(label) + " " + (ids[i] + 2);
+        bool edited = number_field(ids[i], *components[i], style);
+        edited |= obey_wish(name, *components[i], style, resets[i], &value, false);
         const ImVec2 high{low.x + std::max(2.f, ImGui::GetFontSize() / 7), low.y + ImGui::GetFrameHeight()};
         ImGui::GetWindowDrawList()->AddRectFilled(low, high, axis_tones[i], ImGui::GetStyle().FrameRounding, ImDrawFlags_RoundCornersLeft);
-        changed |= finish((std::string(label) + " " + (ids[i] + 2)).c_str(), style.tip, edited);
-    }
-    ImGui::PopID();
-    return changed;
-}
-
-bool Fields::color(const char* label, Vec3& value, const Vec3& reset, const char* tip) {
-    ImGui::PushID(label);
-    begin_row(label, tip);
-    const float gap = ImGui::GetStyle().ItemInnerSpacing.x * 0.6f, total = ImGui::GetContentRegionAvail().x;
-    const float swatch = ImGui::GetFrameHeight() * 1.3f, field = std::floor((total - swatch - 3 * gap) / 3);
-    float encoded[3] = {encode(value.x), encode(value.y), encode(value.z)};
-    const ImVec4 shown{encoded[0], encoded[1], encoded[2], 1};
-    const bool resetting = double_clicked_here(swatch);
-    if (ImGui::ColorButton("##swatch", shown, ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoDragDrop, {swatch, 0}) && !resetting)
-        ImGui::OpenPopup("picker");
-    ui_.probe.record_last_item(std::string(scope_) + "/" + label);
-    tip_for_last_item(ui_, tip);
-    bool changed = false;
-    if (resetting) {
-        changed = value != reset;
-        value = reset;
-        changed_ |= changed;
-    }
-    if (ImGui::BeginPopup("picker")) {
-        ImGui::SetNextItemWidth(ImGui::GetFontSize() * 14);
-        if (ImGui::ColorPicker3("##picker", encoded,
-                                ImGuiColorEditFlags_NoSidePreview | ImGuiColorEditFlags_DisplayHSV | ImGuiColorEditFlags_Float)) {
-            value = {decode(encoded[0]), decode(encoded[1]), decode(encoded[2])};
-            changed = true;
-        }
-        finish(label, "", changed);
-        ImGui::EndPopup();
-    }
-    static constexpr const char* ids[] = {"##R", "##G", "##B"};
-    float* const components[] = {&value.x, &value.y, &value.z};
-    const float resets[] = {reset.x, reset.y, reset.z};
-    for (int i = 0; i < 3; ++i) {
-        ImGui::SameLine(0, gap);
-        ImGui::SetNextItemWidth(field);
-        const bool edited = number_field(ids[i], *components[i], {.min = 0, .max = 1e6f, .step = 0.002f, .format = "%.3f"}, resets[i]);
-        changed |= finish((std::string(label) + " " + (ids[i] + 2)).c_str(), tip, edited);
+        changed |= finish(name.c_str(), style.tip, edited);
     }
     ImGui::PopID();
     return changed;
@@ -331,21 +321,25 @@ ImVec2 place_tip(const ImVec2& low, const ImVec2& high, const ImVec2& size) {
 
 } // namespace
 
-void tip_for_last_item(UiState& ui, const char* tip) {
-    if (!*tip || !ImGui::IsItemHovered() || ImGui::IsAnyMouseDown()) return;
+bool tip_is_due(UiState& ui) {
+    if (!ImGui::IsItemHovered() || ImGui::IsAnyMouseDown()) return false;
     const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
     const Region item{low.x, low.y, high.x - low.x, high.y - low.y};
     const int frame = ImGui::GetFrameCount();
     if (ui.tip.item != item || frame > ui.tip.frame + 1) ui.tip = {item, ImGui::GetTime(), frame};
     ui.tip.frame = frame;
     const double rested = ImGui::GetTime() - ui.tip.since;
-    if (rested < tip_delay) {
-        ui.next_frame_in = std::min(ui.next_frame_in, tip_delay - rested);
-        return;
-    }
+    if (rested < tip_delay) ui.next_frame_in = std::min(ui.next_frame_in, tip_delay - rested);
+    return rested >= tip_delay;
+}
+
+void place_next_tip(const ImVec2& size) { ImGui::SetNextWindowPos(place_tip(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(), size)); }
+
+void tip_for_last_item(UiState& ui, const char* tip) {
+    if (!*tip || !tip_is_due(ui)) return;
     const float wrap = ImGui::GetFontSize() * 24;
     const ImVec2 text = ImGui::CalcTextSize(tip, nullptr, false, wrap), padding = ImGui::GetStyle().WindowPadding;
-    ImGui::SetNextWindowPos(place_tip(low, high, {text.x + 2 * padding.x, text.y + 2 * padding.y}));
+    place_next_tip({text.x + 2 * padding.x, text.y + 2 * padding.y});
     ImGui::BeginTooltip();
     // ImGui hides a new window for the one frame in which it measures it; over a mouse at rest nothing else asks for the next.
     if (ImGui::IsWindowAppearing()) ui.next_frame_in = 0;

@@ -1,5 +1,6 @@
 // Value editors in rows of label and field. They report "changed" and which gesture the change belongs to, so that a
-// panel applies one edit per frame and a drag becomes one step of the history.
+// panel applies one edit per frame and a drag becomes one step of the history. Every number is dragged, finely with Shift, and typed after a
+// double-click; Tab goes on to the next. Its menu copies, pastes and resets it.
 #pragma once
 
 #include "core/vec.h"
@@ -7,6 +8,7 @@
 
 #include <cfloat>
 #include <cstdint>
+#include <imgui.h>
 #include <span>
 #include <string>
 
@@ -15,7 +17,7 @@ namespace blush {
 // How a number is shown and dragged. Limits hold for typed values too.
 struct NumberStyle {
     float min = -FLT_MAX, max = FLT_MAX;
-    float reset = 0; // what a double-click gives
+    float reset = 0; // the default
     const char* unit = "";
     float step = 0;              // per pixel of a drag; 0: half a per cent of the value, for what spans magnitudes
     bool bar = false;            // a filled bar from min to max in place of a field that is dragged
@@ -49,6 +51,8 @@ public:
     // A button in the field's column.
     bool button(const char* label, const char* tip = "");
 
+    // The label of a row whose field the caller draws; it is as wide as the rest of the row unless another width is set.
+    void begin_row(const char* label, const char* tip);
     // A button's press has changed the record: one step of the history.
     void note_change() { changed_ = true; }
 
@@ -57,8 +61,11 @@ public:
     Gesture gesture() const { return gesture_; }
 
 private:
-    bool number_field(const char* id, float& value, const NumberStyle& style, float reset);
-    void begin_row(const char* label, const char* tip);
+    bool number_field(const char* id, float& value, const NumberStyle& style);
+    // Of the number drawn last: copies, pastes, resets. `all`: the three that it is one of; null: it stands alone.
+    bool obey_wish(const std::string& name, float& value, const NumberStyle& style, float reset, Vec3* all, bool color);
+    bool obey_color_wish(const char* label, Vec3& value, const Vec3& reset);
+    bool draw_picker(const char* label, Vec3& value);
     bool finish(const char* label, const char* tip, bool changed);
 
     UiState& ui_;
@@ -71,6 +78,10 @@ private:
 bool section(UiState& ui, const char* name, bool open_at_first = true);
 // A tooltip for the last item, once the mouse has rested on it.
 void tip_for_last_item(UiState& ui, const char* tip);
+// The mouse has rested on the last item for as long as a tooltip waits; asks for the frame in which that is so.
+bool tip_is_due(UiState& ui);
+// A tooltip of that size goes beside the window of the last item, never over the row below it.
+void place_next_tip(const ImVec2& size);
 // A wrapped paragraph in the quiet colour.
 void quiet_text(const std::string& text);
 

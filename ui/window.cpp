@@ -15,6 +15,8 @@ namespace blush {
 namespace {
 
 static_assert(key::space == GLFW_KEY_SPACE && key::zero == GLFW_KEY_0 && key::escape == GLFW_KEY_ESCAPE && key::enter == GLFW_KEY_ENTER && key::tab == GLFW_KEY_TAB &&
+              key::backspace == GLFW_KEY_BACKSPACE && key::pad_zero == GLFW_KEY_KP_0 && key::pad_point == GLFW_KEY_KP_DECIMAL &&
+              key::pad_minus == GLFW_KEY_KP_SUBTRACT && key::pad_enter == GLFW_KEY_KP_ENTER &&
               key::remove == GLFW_KEY_DELETE && key::home == GLFW_KEY_HOME && key::f1 == GLFW_KEY_F1);
 
 constexpr int frames_after_input = 3;
@@ -100,7 +102,11 @@ void Window::install_callbacks() {
     glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int, int, int) { owner(w).request_frames(frames_after_input); });
     glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double, double) { owner(w).request_frames(1); });
     glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double) { owner(w).request_frames(frames_after_input); });
-    glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned) { owner(w).request_frames(frames_after_input); });
+    // It follows the press of the key that types it.
+    glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned character) {
+        owner(w).request_frames(frames_after_input);
+        if (!owner(w).key_presses_.empty()) owner(w).key_presses_.back().typed = character;
+    });
     glfwSetCursorEnterCallback(window_, [](GLFWwindow* w, int) { owner(w).request_frames(frames_after_input); });
     glfwSetWindowFocusCallback(window_, [](GLFWwindow* w, int) { owner(w).request_frames(frames_after_input); });
     glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* w, int, int) { owner(w).request_frames(frames_after_input); });

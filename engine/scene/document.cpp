@@ -52,6 +52,13 @@ void Document::step_to(Project next, std::string label, Gesture gesture) {
     ++revision_;
 }
 
+void Document::withdraw(Gesture gesture) {
+    if (gesture == no_gesture || past_.empty() || past_.back().gesture != gesture) return;
+    project_ = std::move(past_.back().project);
+    past_.pop_back();
+    ++revision_;
+}
+
 void Document::replace(Project project, std::string label) { step_to(std::move(project), std::move(label), no_gesture); }
 
 void Document::forget_oldest() {

@@ -37,6 +37,8 @@ public:
     Result<void> apply(const Edit& edit, Gesture gesture = no_gesture);
     // Several edits as one step under one label; all of them, or none where one of them is refused.
     Result<void> apply(std::span<const Edit> edits, const std::string& label, Gesture gesture = no_gesture);
+    // Takes back the step that a gesture has begun, if it is the last one: it leaves nothing to redo.
+    void withdraw(Gesture gesture);
     // Camera navigation: changes the view's pose (position, rotation, pivot, orthographic height), not the history, and is no modification;
     // undo leaves it where it is.
     void navigate(const View& view);

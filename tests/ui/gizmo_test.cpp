@@ -26,6 +26,8 @@ struct Setting {
     ViewRay ray_at(ScreenPoint p) const { return projection().ray(image.u(p.x), image.v(p.y)); }
 };
 
+GizmoPlace at(const Vec3d& position, TransformMode mode = TransformMode::grab) { return {.mode = mode, .position = position}; }
+
 const HandleShape* shape_of(const std::vector<HandleShape>& shapes, Handle handle) {
     for (const HandleShape& s : shapes)
         if (s.handle == handle) return &s;
@@ -34,7 +36,7 @@ const HandleShape* shape_of(const std::vector<HandleShape>& shapes, Handle handl
 
 TEST(Handles, LieOnTheAxesAndLeaveOutTheOneThatPointsAtTheEye) {
     const Setting s;
-    const auto shapes = handle_shapes(s.projection(), s.image, {0, 0, 0}, {}, 80);
+    const auto shapes = handle_shapes(s.projection(), s.image, at({0, 0, 0}), {});
     const HandleShape *x = shape_of(shapes, Handle::move_x), *y = shape_of(shapes, Handle::move_y);
     ASSERT_TRUE(x && y);
     EXPECT_NEAR(x->from.x, 500, 0.1);
@@ -47,12 +49,12 @@ TEST(Handles, LieOnTheAxesAndLeaveOutTheOneThatPointsAtTheEye) {
 
 TEST(Handles, NoneForWhatIsBehindTheEye) {
     const Setting s;
-    EXPECT_TRUE(handle_shapes(s.projection(), s.image, {0, 0, 11}, Vec3d{0, 0, 0}, 80).empty());
+    EXPECT_TRUE(handle_shapes(s.projection(), s.image, at({0, 0, 11}), Vec3d{0, 0, 0}).empty());
 }
 
 TEST(Handles, GripsWinOverLines) {
     const Setting s;
-    const auto shapes = handle_shapes(s.projection(), s.image, {0, 0, 0}, Vec3d{2, 2, 0}, 80);
+    const auto shapes = handle_shapes(s.projection(), s.image, at({0, 0, 0}), Vec3d{2, 2, 0});
     EXPECT_EQ(handle_under(shapes, {500, 350}, 12), Handle::move);
     EXPECT_EQ(handle_under(shapes, {580, 350}, 12), Handle::move_x);
     EXPECT_EQ(handle_under(shapes, {545, 352}, 12), Handle::move_x);
@@ -62,34 +64,63 @@ TEST(Handles, GripsWinOverLines) {
     EXPECT_EQ(handle_under(shapes, aim->grip, 12), Handle::aim);
 }
 
-TEST(Drag, InThePlaneOfTheScreenTheNodeFollowsTheMouse) {
-    const Setting s;
-    const Vec3d start{1, 1, -3};
-    const auto from = s.projection().project(start);
-    ASSERT_TRUE(from);
-    const ScreenPoint down = s.image.at(*from), up{down.x + 120, down.y - 40};
-    const Vec3d moved = dragged_position(Handle::move, s.projection(), s.ray_at(down), s.ray_at(up), start);
-    const auto to = s.projection().project(moved);
-    ASSERT_TRUE(to);
-    EXPECT_NEAR(s.image.at(*to).x, up.x, 0.01);
-    EXPECT_NEAR(s.image.at(*to).y, up.y, 0.01);
-    EXPECT_NEAR(moved.z, start.z, close);
+TEST(Rings, ShowTheirNearHalvesAndAreGrabbedOnTheirLines) {
+    Setting s;
+    s.view.position = {6, 5, 7};
+    s.view.rotation = looking_along({-6, -5, -7});
+    const auto shapes = handle_shapes(s.projection(), s.image, at({0, 0, 0}, TransformMode::rotate), {});
+    for (const Handle handle : {Handle::rotate_x, Handle::rotate_y, Handle::rotate_z}) {
+        const HandleShape* ring = shape_of(shapes, handle);
+        ASSERT_TRUE(ring);
+        EXPECT_LT(ring->ring.size(), 60u); // of 97 points
+        EXPECT_GT(ring->ring.size(), 40u);
+        // Between two others' crossings it is its own; the middle is none's.
+        EXPECT_EQ(handle_under(shapes, ring->ring[ring->ring.size() / 2], 12), handle);
+    }
+    EXPECT_EQ(handle_under(shapes, {500, 350}, 12), Handle::none);
+    const HandleShape* round = shape_of(shapes, Handle::rotate);
+    ASSERT_TRUE(round);
+    for (const ScreenPoint p : round->ring) EXPECT_NEAR(std::hypot(p.x - 500, p.y - 350), 100, 3);
+    EXPECT_FALSE(shape_of(shapes, Handle::move_x));
 }
 
-TEST(Drag, AlongAnAxisNothingElseMoves) {
-    const Setting s;
-    const Vec3d start{1, 1, -3};
-    const Vec3d moved = dragged_position(Handle::move_x, s.projection(), s.ray_at({500, 300}), s.ray_at({620, 380}), start);
-    EXPECT_GT(moved.x, start.x + 0.5);
-    EXPECT_EQ(moved.y, start.y);
-    EXPECT_EQ(moved.z, start.z);
+TEST(Rings, TheAngleUnderTheMouseIsRightHandedAboutTheAxis) {
+    Setting s;
+    s.view.position = {6, 5, 7};
+    s.view.rotation = looking_along({-6, -5, -7});
+    const Vec3d centre{0.5, -0.2, 0.3};
+    for (int i = 0; i < 3; ++i) {
+        const Vec3d axis = std::array<Vec3d, 3>{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}[size_t(i)];
+        const Vec3d x = any_perpendicular(axis), y = cross(axis, x);
+        const auto angle_at = [&](double a) {
+            const auto seen = s.projection().project(centre + x * std::cos(a) + y * std::sin(a));
+            return ring_angle(s.projection().ray(seen->u, seen->v), centre, axis);
+        };
+        const auto from = angle_at(0.3), to = angle_at(1.1);
+        ASSERT_TRUE(from && to);
+        EXPECT_NEAR(*to - *from, 0.8, 1e-6);
+    }
+    EXPECT_FALSE(ring_angle({{0, 0, 10}, {0, 0, -1}}, {0, 0, 0}, {1, 0, 0})) << "edge-on";
 }
 
-TEST(Drag, GrabbedBesideTheGripItDoesNotJump) {
+TEST(Rings, SeenEdgeOnTheNearSideIsPulled) {
     const Setting s;
-    const Vec3d start{1, 1, -3};
-    for (const Handle h : {Handle::move, Handle::move_x, Handle::move_y})
-        expect_near(dragged_position(h, s.projection(), s.ray_at({511, 333}), s.ray_at({511, 333}), start), start);
+    // About +Y, seen from +Z: the near side goes to the right.
+    EXPECT_NEAR(pulled_angle(s.projection(), {0, 0, 0}, {0, 1, 0}, {500, 350}, {540, 300}, 80), 0.5, 1e-6);
+    EXPECT_NEAR(pulled_angle(s.projection(), {0, 0, 0}, {1, 0, 0}, {500, 350}, {540, 390}, 80), 0.5, 1e-6) << "about +X it goes down";
+}
+
+TEST(ScaleBoxes, HaveAUniformMiddleAndAxesWhereTheyMeanSomething) {
+    Setting s;
+    GizmoPlace place = at({0, 0, 0}, TransformMode::scale);
+    place.axes = {{{0, 1, 0}, {-1, 0, 0}, {0, 0, 1}}}; // turned by 90 degrees
+    const auto shapes = handle_shapes(s.projection(), s.image, place, {});
+    EXPECT_TRUE(shape_of(shapes, Handle::scale));
+    const HandleShape* x = shape_of(shapes, Handle::scale_x);
+    ASSERT_TRUE(x);
+    EXPECT_NEAR(x->grip.y, 270, 0.5);
+    place.along_axes = false;
+    EXPECT_EQ(handle_shapes(s.projection(), s.image, place, {}).size(), 1u);
 }
 
 TEST(MeetPlane, NothingBehindOrParallel) {

@@ -1,5 +1,6 @@
 // Value editors driven by a simulated mouse and keyboard, without a window: ImGui needs neither.
 #include "imgui_test.h"
+#include "ui/value_menu.h"
 #include "ui/widgets.h"
 
 #include <imgui_internal.h>
@@ -23,6 +24,7 @@ protected:
             f.number("Exposure", v.exposure_ev, style);
             low = ImGui::GetItemRectMin();
             high = ImGui::GetItemRectMax();
+            if (second) f.number("Gamma", v.gamma, style);
             if (f.changed()) { EXPECT_TRUE(document.apply(SetView{v}, f.gesture())); }
         });
     }
@@ -32,6 +34,24 @@ protected:
     }
     void press(bool down) {
         ImGui::GetIO().MouseDown[0] = down;
+        frame();
+    }
+    void type(const std::string& text) {
+        frame();
+        for (const char c : text) ImGui::GetIO().AddInputCharacter(unsigned(c));
+        frame();
+    }
+    void enter() {
+        constexpr int key = 257;
+        ImGuiIO& io = ImGui::GetIO();
+        io.KeyMap[ImGuiKey_Enter] = key;
+        io.KeysDown[key] = true;
+        frame();
+        io.KeysDown[key] = false;
+        frame();
+    }
+    void wish(ValueWish what) {
+        wish_of_value(ui, what);
         frame();
     }
     float middle() const { return (low.x + high.x) / 2; }
@@ -53,7 +73,83 @@ protected:
     UiState ui;
     NumberStyle style{.min = -10, .max = 10, .reset = 2.5f, .step = 0.01f};
     ImVec2 low, high;
+    bool second = false; // field below the first
 };
+
+class ColorField : public test::ImGuiTest {
+protected:
+    void SetUp() override {
+        ImGuiTest::SetUp();
+        for (int i = 0; i < 3; ++i) frame();
+        ImGui::GetIO().MousePos = {swatch.x, swatch.y};
+        frame();
+    }
+    void frame() {
+        in_window([&] {
+            Fields f(ui, "Panel");
+            const ImVec2 at = ImGui::GetCursorScreenPos();
+            f.color("Tint", value, {1, 1, 1}, "");
+            swatch = {at.x + 400 * 0.4f + 12, at.y + ImGui::GetFrameHeight() / 2};
+            changed |= f.changed();
+        });
+    }
+    void wish(ValueWish what) {
+        changed = false;
+        wish_of_value(ui, what);
+        frame();
+    }
+    void paste(const char* text) {
+        ImGui::SetClipboardText(text);
+        wish(ValueWish::paste);
+    }
+
+    UiState ui;
+    Vec3 value{0.25f, 0.5f, 0.0625f};
+    ImVec2 swatch;
+    bool changed = false;
+};
+
+TEST_F(ColorField, TakesEachOfTheWaysToWriteAColour) {
+    wish(ValueWish::copy_hex);
+    EXPECT_STREQ(ImGui::GetClipboardText(), "#89bc47");
+    paste("#ff0080");
+    EXPECT_TRUE(changed);
+    EXPECT_NEAR(value.x, 1, 1e-6);
+    EXPECT_EQ(value.y, 0);
+    EXPECT_NEAR(value.z, 0.2158605f, 1e-5);
+    value = {0.25f, 0.5f, 0.0625f};
+    wish(ValueWish::copy);
+    EXPECT_STREQ(ImGui::GetClipboardText(), "0.25, 0.5, 0.0625");
+    wish(ValueWish::copy_srgb);
+    value = {0, 0, 0};
+    wish(ValueWish::paste);
+    EXPECT_NEAR(value.x, 0.25, 1e-5);
+    EXPECT_NEAR(value.z, 0.0625, 1e-5);
+}
+
+TEST_F(ColorField, RefusesWhatIsNone) {
+    const Vec3 before = value;
+    for (const char* text : {"", "#12345", "#gggggg", "red", "1, 2", "1, 2, 3, 4", "-1, 0, 0", "nan, 0, 0", "1e30, 0, 0", "srgb(", "(((1,1,1)))"}) {
+        const auto said = ui.toasts.added();
+        paste(text);
+        EXPECT_EQ(value, before) << text;
+        EXPECT_FALSE(changed) << text;
+        EXPECT_GT(ui.toasts.added(), said) << text;
+    }
+}
+
+TEST_F(ColorField, TheEyedropperPutsIntoItWhatWasPicked) {
+    wish(ValueWish::pick);
+    EXPECT_EQ(ui.tool, ViewTool::pick_color);
+    ui.values.picked = Vec3{0.1f, 7.f, -0.5f};
+    changed = false;
+    frame();
+    EXPECT_TRUE(changed);
+    EXPECT_EQ(value, (Vec3{0.1f, 7.f, 0.f})) << "scene-linear, not negative";
+    changed = false;
+    frame();
+    EXPECT_FALSE(changed) << "once";
+}
 
 // The window draws only the frames that somebody asks for.
 TEST_F(Widgets, ATipAppearsOverAMouseAtRest) {
@@ -124,16 +220,86 @@ TEST_F(Widgets, TheEndOfABarFollowsTheMouse) {
     EXPECT_NEAR(value(), 5, 0.5); // a quarter of 20, less the threshold that tells a drag from a click
 }
 
-TEST_F(Widgets, ADoubleClickResets) {
+TEST_F(Widgets, ShiftDragsATenthAsFar) {
     for (const bool bar : {false, true}) {
         style.bar = bar;
-        drag(40);
-        ASSERT_NE(value(), style.reset);
+        ASSERT_TRUE(document.apply(SetView{}));
+        const float before = value();
+        drag(60);
+        const float full = value() - before;
+        ImGui::GetIO().KeyShift = true;
+        drag(60);
+        ImGui::GetIO().KeyShift = false;
+        EXPECT_NEAR(value() - before - full, full / 10, std::abs(full) / 50);
+    }
+}
+
+TEST_F(Widgets, ADoubleClickTypes) {
+    for (const bool bar : {false, true}) {
+        style.bar = bar;
         rest();
         move(middle());
         for (const bool down : {true, false, true, false}) press(down);
-        EXPECT_EQ(value(), style.reset);
+        type(bar ? "3.5" : "2.25");
+        enter();
+        EXPECT_EQ(value(), bar ? 3.5f : 2.25f);
     }
+    EXPECT_EQ(document.undo_labels().size(), 2u);
+}
+
+TEST_F(Widgets, TabGoesToTheNextFieldAndEachIsOneStep) {
+    constexpr int tab = 258;
+    ImGui::GetIO().KeyMap[ImGuiKey_Tab] = tab;
+    second = true;
+    frame();
+    move(middle());
+    for (const bool down : {true, false, true, false}) press(down);
+    type("1.5");
+    ImGui::GetIO().KeysDown[tab] = true;
+    frame();
+    ImGui::GetIO().KeysDown[tab] = false;
+    for (int i = 0; i < 4; ++i) frame();
+    type("2.5");
+    enter();
+    EXPECT_EQ(value(), 1.5f);
+    EXPECT_EQ(document.project().view.gamma, 2.5f);
+    EXPECT_EQ(document.undo_labels().size(), 2u);
+}
+
+TEST_F(Widgets, KeysOverAFieldCopyPasteAndReset) {
+    ASSERT_TRUE(document.apply(SetView{{.exposure_ev = 1.2345678f}}));
+    move(middle());
+    wish(ValueWish::copy);
+    EXPECT_STREQ(ImGui::GetClipboardText(), "1.2345678");
+    wish(ValueWish::reset);
+    EXPECT_EQ(value(), 2.5f);
+    wish(ValueWish::paste);
+    EXPECT_EQ(value(), 1.2345678f);
+    ImGui::SetClipboardText(" -1e30\n");
+    wish(ValueWish::paste);
+    EXPECT_EQ(value(), -10) << "within the limits";
+    EXPECT_EQ(document.undo_labels().size(), 4u) << "each is a step of its own";
+    rest();
+    move(-100);
+    ImGui::SetClipboardText("3");
+    wish(ValueWish::paste);
+    EXPECT_EQ(value(), -10) << "the mouse is elsewhere";
+}
+
+TEST_F(Widgets, WhatIsNoNumberIsRefusedWithAMessage) {
+    move(middle());
+    const std::string huge(100000, '9');
+    for (const char* text : {"", "nan", "inf", "1e999", "two", "1 2", "#ff0000", "%s%n%s%n", "\x01\x02\xff", "--1", huge.c_str()}) {
+        ImGui::SetClipboardText(text);
+        const float before = value();
+        const auto said = ui.toasts.added();
+        wish(ValueWish::paste);
+        EXPECT_EQ(value(), before) << text;
+        EXPECT_GT(ui.toasts.added(), said) << text;
+        for (const char c : ui.toasts.all().back().text) EXPECT_TRUE(c >= ' ' && c < 127) << text;
+        EXPECT_LT(ui.toasts.all().back().text.size(), 120u);
+    }
+    EXPECT_FALSE(document.can_undo());
 }
 
 TEST_F(Widgets, LimitsHold) {
@@ -146,20 +312,13 @@ TEST_F(Widgets, LimitsHold) {
 
 TEST_F(Widgets, TypedValuesAreTakenAndKeptWithinTheLimits) {
     ImGuiIO& io = ImGui::GetIO();
-    constexpr int enter = 257;
-    io.KeyMap[ImGuiKey_Enter] = enter;
     move(middle());
     io.KeyCtrl = true;
     press(true);
     press(false);
     io.KeyCtrl = false;
-    frame();
-    for (const char c : std::string("99")) io.AddInputCharacter(unsigned(c));
-    frame();
-    io.KeysDown[enter] = true;
-    frame();
-    io.KeysDown[enter] = false;
-    frame();
+    type("99");
+    enter();
     EXPECT_EQ(value(), 10);
     EXPECT_EQ(document.undo_labels().size(), 1u);
 }

@@ -1,5 +1,6 @@
 // Material: glTF's metallic-roughness model with its extensions, and the textures that modulate it.
 #include "ui/panels/material_layers.h"
+#include "ui/panels/material_maps.h"
 #include "ui/panels/panels.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
@@ -78,54 +79,6 @@ void draw_opacity(Fields& f, Material& m) {
         f.number("Cut-off", m.alpha_cutoff, unit_interval(0.5f, "Below this alpha the surface is not there."));
 }
 
-std::string texture_name(const Scene& scene, Id<Texture> id) {
-    const Texture* t = scene.textures.find(id);
-    if (!t) return "none";
-    const std::string& name = t->name.empty() ? t->source : t->name;
-    return t->image ? fmt::format("{}  {} × {}", name, t->image->width, t->image->height) : name;
-}
-
-void draw_texture(Fields& f, PanelContext& c, const char* label, TextureRef& ref, const char* tip) {
-    const Scene& scene = c.scene();
-    std::vector<std::string> names{"none"};
-    for (const auto& [id, texture] : scene.textures) names.push_back(fmt::format("{}##{}", texture_name(scene, id), id.value));
-    std::string current = ref.texture ? fmt::format("{}##{}", texture_name(scene, ref.texture), ref.texture.value) : names[0];
-    if (f.choice(label, current, names, tip)) {
-        const auto at = std::ranges::find(names, current) - names.begin();
-        ref.texture = at == 0 ? Id<Texture>{} : scene.textures.entries()[size_t(at - 1)].id;
-    }
-    if (!ref.texture) return;
-    ImGui::PushID(label);
-    if (ImGui::TreeNodeEx("Placement", ImGuiTreeNodeFlags_NoTreePushOnOpen)) {
-        int64_t uv_set = ref.uv_set;
-        f.number("Offset U", ref.offset.x, {.reset = 0, .step = 0.002f, .tip = "Moves the image along U, in widths of the image."});
-        f.number("Offset V", ref.offset.y, {.reset = 0, .step = 0.002f, .tip = "Moves the image along V, in heights of the image."});
-        f.number("Scale U", ref.scale.x, {.reset = 1, .step = 0.005f, .tip = "How many times the image repeats over one unit of U."});
-        f.number("Scale V", ref.scale.y, {.reset = 1, .step = 0.005f, .tip = "How many times the image repeats over one unit of V."});
-        f.angle("Turn", ref.rotation_radians,
-                {.min = -360, .max = 360, .reset = 0, .step = 0.25f, .tip = "Turns the image counter-clockwise about its corner."});
-        if (f.integer("UV set", uv_set, 0, most_uv_set, 0, "Which texture coordinates of the mesh are used.")) ref.uv_set = uint8_t(uv_set);
-    }
-    ImGui::PopID();
-}
-
-void draw_textures(Fields& f, PanelContext& c, Material& m) {
-    draw_texture(f, c, "Base colour map", m.base_color_texture, "Multiplies the base colour; its alpha multiplies the opacity.");
-    draw_texture(f, c, "Metal-rough map", m.metallic_roughness_texture, "Green multiplies roughness, blue multiplies metallic.");
-    draw_texture(f, c, "Normal map", m.normal_texture, "Tilts the surface's normal: fine relief without geometry.");
-    if (m.normal_texture.texture)
-        f.number("Normal strength", m.normal_scale,
-                 {.min = -10, .max = 10, .reset = 1, .step = 0.005f, .tip = "Scales the tilt of the normal map."});
-    draw_texture(f, c, "Emission map", m.emissive_texture, "Multiplies the emission.");
-    draw_texture(f, c, "Reflectivity map", m.specular_texture, "Its alpha multiplies the reflectivity.");
-    draw_texture(f, c, "Tint map", m.specular_color_texture, "Multiplies the reflection tint.");
-    draw_texture(f, c, "Transmission map", m.transmission_texture, "Red multiplies the transmission.");
-    for (const LayerTexture& t : layer_textures) draw_texture(f, c, t.label, m.*t.ref, t.tip);
-    if (m.clearcoat_normal_texture.texture)
-        f.number("Coat normal strength", m.clearcoat_normal_scale,
-                 {.min = -10, .max = 10, .reset = 1, .step = 0.005f, .tip = "Scales the tilt of the coat's normal map."});
-}
-
 std::string material_name(const Scene& scene, Id<Material> id) {
     const Material* m = scene.materials.find(id);
     return fmt::format("{}##{}", !m ? "glTF's default" : m->name.empty() ? fmt::format("Material {}", id.value) : m->name, id.value);
@@ -176,7 +129,7 @@ void draw_material_panel(PanelContext& c, Id<Node> node_id) {
     if (section(c.ui, "Transmission", m.transmission > 0)) draw_transmission(f, m);
     draw_material_layers(f, c.ui, m);
     if (section(c.ui, "Opacity", m.alpha != Material::Alpha::opaque)) draw_opacity(f, m);
-    if (!c.scene().textures.empty() && section(c.ui, "Textures", false)) draw_textures(f, c, m);
+    draw_material_maps(f, c, id, m);
     if (f.changed()) c.apply(SetMaterial{id, m}, f.gesture());
 }
 

@@ -57,6 +57,8 @@ void draw_question(PanelContext& c);
 void draw_opening_page(PanelContext& c); // an instrument, too
 // At the upper edge of the viewport, while the scene has no light at all.
 void draw_no_light_banner(PanelContext& c, const Region& viewport);
+// At the left of the picture: which gizmo is shown, and whose axes it has.
+void draw_gizmo_bar(PanelContext& c, const Region& picture);
 
 // A job that goes on in the background.
 struct RunningJob {
