@@ -125,11 +125,11 @@ void draw_material_panel(PanelContext& c, Id<Node> node_id) {
     Fields f(c.ui, "Material");
     f.text("Name", m.name, "Used in the history and in saved files.");
     draw_surface(f, m);
+    draw_material_maps(f, c, id, m);
     if (section(c.ui, "Emission", m.emissive != Vec3{0, 0, 0})) draw_emission(f, m);
     if (section(c.ui, "Transmission", m.transmission > 0)) draw_transmission(f, m);
     draw_material_layers(f, c.ui, m);
     if (section(c.ui, "Opacity", m.alpha != Material::Alpha::opaque)) draw_opacity(f, m);
-    draw_material_maps(f, c, id, m);
     if (f.changed()) c.apply(SetMaterial{id, m}, f.gesture());
 }
 

@@ -102,6 +102,10 @@ bool choose_image(PanelContext& c, const Slot& slot, TextureRef& ref) {
 
 void draw_image_row(Fields& f, PanelContext& c, Id<Material> id, const Slot& slot, TextureRef& ref, const Texture& texture) {
     const float gap = ImGui::GetStyle().ItemInnerSpacing.x, line = ImGui::GetFrameHeight(), side = 2 * line + ImGui::GetStyle().ItemSpacing.y;
+    // The size below the label.
+    const ImVec2 row = ImGui::GetCursorScreenPos();
+    const float left = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMin().x;
+    ImGui::GetWindowDrawList()->AddText({left, row.y + side - line + ImGui::GetStyle().FramePadding.y}, tone::dim_text, size_of(texture).c_str());
     draw_thumbnail(c, texture, slot.label, name_of(texture, ref.texture), side);
     ImGui::SameLine(0, gap);
     ImGui::BeginGroup();
