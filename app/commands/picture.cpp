@@ -74,8 +74,9 @@ Result<int64_t> write_exr_picture(const std::filesystem::path& file, const Frame
     const std::vector<std::vector<Vec3>> groups = layers.groups ? mixed_groups(frame) : std::vector<std::vector<Vec3>>();
     input.groups = groups;
     input.group_names = frame.group_names;
-    const Result<LayeredImage> image = make_snapshot(input);
+    Result<LayeredImage> image = make_snapshot(input);
     if (!image) return image.error();
+    image->display_window = extra.display_window;
     if (const Result<void> written = write_exr(file, *image); !written) return written.error();
     return beyond_half(*image);
 }
@@ -89,9 +90,13 @@ std::vector<float> beauty_rgb(const Frame& frame) {
 
 Result<void> write_display_picture(const std::filesystem::path& file, int width, int height, std::vector<float> rgb,
                                    const ColorManagement& color, const ViewSettings& view,
-                                   const std::map<std::string, std::string>& metadata, const ShownWith& with) {
+                                   const std::map<std::string, std::string>& metadata, const ShownWith& with, std::span<const float> opacity) {
+    const std::string extension = lower_extension(file);
+    if (extension == ".png")
+        for (size_t i = 0; i < opacity.size(); ++i)
+            for (size_t c = 0; c < 3 && opacity[i] > 0; ++c) rgb[3 * i + c] /= opacity[i];
     if (Result<void> shown = show(color, view, rgb, with); !shown) return shown;
-    return write_display_image(file, width, height, rgb, metadata);
+    return write_display_image(file, width, height, rgb, metadata, opacity);
 }
 
 std::string error_text(const ErrorEstimate& error) {

@@ -38,6 +38,7 @@ struct ExtraLayers {
     std::span<const Vec3> error = {};      // Renderer::resolve_error's answer
     std::span<const ExactPlane> film = {}; // planes_in_file()'s; metadata.film is the rest of it
     bool half = false;                     // as SnapshotInput has it
+    std::optional<PixelRect> display_window = {}; // what of it is the picture; empty: all of it
 };
 // Returns how many values 16 bits could not hold, if they were to.
 Result<int64_t> write_exr_picture(const std::filesystem::path& file, const Frame& frame, const ExtraLayers& extra, const Layers& layers,
@@ -45,10 +46,12 @@ Result<int64_t> write_exr_picture(const std::filesystem::path& file, const Frame
 
 // width * height * 3, scene-linear: red, green and blue without alpha.
 std::vector<float> beauty_rgb(const Frame& frame);
-// Scene-linear `rgb` as the display shows it.
+// Scene-linear `rgb` as the display shows it. `opacity`: of a picture that is to be laid over others, whose colours are multiplied by it
+// (opacity_of()); a PNG gets it as its alpha, with straight colours, a JPEG shows the picture over black. Empty: opaque.
 Result<void> write_display_picture(const std::filesystem::path& file, int width, int height, std::vector<float> rgb,
                                    const ColorManagement& color, const ViewSettings& view,
-                                   const std::map<std::string, std::string>& metadata, const ShownWith& with = {});
+                                   const std::map<std::string, std::string>& metadata, const ShownWith& with = {},
+                                   std::span<const float> opacity = {});
 // "0.0012 (0.0010 to 0.0014)": the estimated relative error as metadata have it; empty if not known.
 std::string error_text(const ErrorEstimate& error);
 // What of a render's metadata a display picture carries.

@@ -83,6 +83,7 @@ struct Decoder {
     std::unique_ptr<OIIO::ImageInput> input;
     std::string name;
     std::string_view format; // as format_of has it
+    int part = 0;            // of a file of several images
 
     const OIIO::ImageSpec& spec() const { return input->spec(); }
     Error error() const { return {name, "cannot decode: " + one_line(input->geterror()), ""}; }
@@ -90,10 +91,24 @@ struct Decoder {
     // Channels [begin, end) of every pixel in `type`, tightly packed.
     template <class T> Result<std::vector<T>> read(int begin, int end, OIIO::TypeDesc type) {
         std::vector<T> values(size_t(spec().width) * size_t(spec().height) * size_t(end - begin));
-        if (!input->read_image(0, 0, begin, end, type, values.data())) return error();
+        if (!input->read_image(part, 0, begin, end, type, values.data())) return error();
         return values;
     }
 };
+
+// Of the image that the decoder is at.
+Result<void> within_limits(const Decoder& decoder, size_t bytes, const ImageLimits& limits) {
+    const OIIO::ImageSpec& spec = decoder.spec();
+    if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1 || spec.nchannels > max_channels || spec.deep)
+        return Error{decoder.name, "not a flat image with at least one pixel",
+                     fmt::format("{} x {}, {} channels", spec.width, spec.height, spec.nchannels)};
+    if (spec.width > limits.max_side || spec.height > limits.max_side || int64_t(spec.width) * spec.height > limits.max_pixels)
+        return Error{decoder.name, "larger than the limit", fmt::format("{} x {} pixels", spec.width, spec.height)};
+    const uint64_t decoded = uint64_t(spec.width) * uint64_t(spec.height) * uint64_t(spec.nchannels) * spec.format.size();
+    if (decoded > always_decoded && decoded / most_compression > bytes)
+        return Error{decoder.name, "more pixels than its bytes can hold", fmt::format("{} x {} pixels in {} bytes", spec.width, spec.height, bytes)};
+    return {};
+}
 
 Result<Decoder> open_decoder(std::span<const uint8_t> bytes, const std::string& name, const ImageLimits& limits) {
     lower_library_limits();
@@ -112,14 +127,7 @@ Result<Decoder> open_decoder(std::span<const uint8_t> bytes, const std::string& 
     OIIO::ImageSpec config, spec;
     config.attribute("oiio:UnassociatedAlpha", 1);
     if (!decoder.input->open(name, spec, config)) return decoder.error();
-    if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1 || spec.nchannels > max_channels || spec.deep)
-        return Error{name, "not a flat image with at least one pixel",
-                     fmt::format("{} x {}, {} channels", spec.width, spec.height, spec.nchannels)};
-    if (spec.width > limits.max_side || spec.height > limits.max_side || int64_t(spec.width) * spec.height > limits.max_pixels)
-        return Error{name, "larger than the limit", fmt::format("{} x {} pixels", spec.width, spec.height)};
-    const uint64_t decoded = uint64_t(spec.width) * uint64_t(spec.height) * uint64_t(spec.nchannels) * spec.format.size();
-    if (decoded > always_decoded && decoded / most_compression > bytes.size())
-        return Error{name, "more pixels than its bytes can hold", fmt::format("{} x {} pixels in {} bytes", spec.width, spec.height, bytes.size())};
+    if (const Result<void> sound = within_limits(decoder, bytes.size(), limits); !sound) return sound.error();
     return decoder;
 }
 
@@ -180,24 +188,33 @@ std::map<std::string, std::string> text_metadata(const OIIO::ImageSpec& spec) {
     return texts;
 }
 
+std::optional<PixelRect> display_window_of(const OIIO::ImageSpec& spec) {
+    const PixelRect all{0, 0, spec.width, spec.height};
+    const int x = spec.full_x - spec.x, y = spec.full_y - spec.y;
+    const PixelRect window{x, y, x + spec.full_width, y + spec.full_height};
+    return window == all ? std::nullopt : std::optional(window);
+}
+
 bool is_uint_channel(const OIIO::ImageSpec& spec, int channel) { return spec.channelformat(channel) == OIIO::TypeDesc::UINT32; }
 
 // Channels of one kind that stand side by side are decoded in one go. Read as float, 32-bit integers would be scaled to [0, 1].
-Result<LayeredImage> decode_layers(std::span<const uint8_t> bytes, const std::string& name, const ImageLimits& limits) {
-    Result<Decoder> decoder = open_decoder(bytes, name, limits);
-    if (!decoder) return decoder.error();
-    const OIIO::ImageSpec spec = decoder->spec();
+// `taken`: bytes of parts that were decoded before.
+Result<LayeredImage> decode_part(Decoder& decoder, uint64_t& taken) {
+    const OIIO::ImageSpec spec = decoder.spec();
     const size_t pixels = size_t(spec.width) * size_t(spec.height);
-    if (pixels * uint64_t(spec.nchannels) * sizeof(float) > max_layers_bytes)
-        return Error{name, "larger than the limit", fmt::format("{} x {} pixels, {} channels", spec.width, spec.height, spec.nchannels)};
+    taken += pixels * uint64_t(spec.nchannels) * sizeof(float);
+    if (taken > max_layers_bytes)
+        return Error{decoder.name, "larger than the limit", fmt::format("{} x {} pixels, {} channels", spec.width, spec.height, spec.nchannels)};
     LayeredImage image{spec.width, spec.height, {}, text_metadata(spec)};
-    if (decoder->format == "openexr") image.header = std::make_shared<ImageHeader>(spec);
+    image.part = spec.get_string_attribute("oiio:subimagename");
+    image.display_window = display_window_of(spec);
+    if (decoder.format == "openexr") image.header = std::make_shared<ImageHeader>(spec);
     for (int begin = 0, end = 0; begin < spec.nchannels; begin = end) {
         const bool is_uint = is_uint_channel(spec, begin);
         while (end < spec.nchannels && is_uint_channel(spec, end) == is_uint) ++end;
         // Both kinds are four bytes wide: one buffer serves, reinterpreted per value.
         Result<std::vector<uint32_t>> values =
-            decoder->read<uint32_t>(begin, end, is_uint ? OIIO::TypeDesc::UINT32 : OIIO::TypeDesc::FLOAT);
+            decoder.read<uint32_t>(begin, end, is_uint ? OIIO::TypeDesc::UINT32 : OIIO::TypeDesc::FLOAT);
         if (!values) return values.error();
         const size_t stride = size_t(end - begin);
         for (int c = begin; c < end; ++c) {
@@ -211,8 +228,33 @@ Result<LayeredImage> decode_layers(std::span<const uint8_t> bytes, const std::st
             image.channels.push_back(std::move(channel));
         }
     }
-    image.more_parts = decoder->input->seek_subimage(1, 0);
     return image;
+}
+
+Result<LayeredImage> decode_layers(std::span<const uint8_t> bytes, const std::string& name, const ImageLimits& limits) {
+    Result<Decoder> decoder = open_decoder(bytes, name, limits);
+    if (!decoder) return decoder.error();
+    uint64_t taken = 0;
+    Result<LayeredImage> image = decode_part(*decoder, taken);
+    if (image) image->more_parts = decoder->input->seek_subimage(1, 0);
+    return image;
+}
+
+Result<std::vector<LayeredImage>> decode_parts(std::span<const uint8_t> bytes, const std::string& name, const ImageLimits& limits) {
+    constexpr int most_parts = 1024;
+    Result<Decoder> decoder = open_decoder(bytes, name, limits);
+    if (!decoder) return decoder.error();
+    std::vector<LayeredImage> parts;
+    uint64_t taken = 0;
+    do {
+        if (const Result<void> sound = within_limits(*decoder, bytes.size(), limits); !sound) return sound.error();
+        Result<LayeredImage> part = decode_part(*decoder, taken);
+        if (!part) return part.error();
+        parts.push_back(*std::move(part));
+        ++decoder->part;
+    } while (decoder->part < most_parts && decoder->input->seek_subimage(decoder->part, 0));
+    for (LayeredImage& part : parts) part.more_parts = parts.size() > 1;
+    return parts;
 }
 
 // Encodes into memory, so that a full disk or an unwritable folder is met by write_file alone, the same for every format. `name` is for messages.
@@ -239,6 +281,16 @@ std::vector<uint8_t> display_bytes(std::span<const float> rgb) {
     std::vector<uint8_t> bytes(rgb.size());
     std::transform(rgb.begin(), rgb.end(), bytes.begin(), [](float v) { return v > 0 ? uint8_t(std::min(v, 1.0f) * 255 + 0.5f) : uint8_t(0); });
     return bytes;
+}
+
+// Pixels of three and of one channel, as pixels of four.
+std::vector<uint8_t> with_alpha(const std::vector<uint8_t>& rgb, const std::vector<uint8_t>& alpha) {
+    std::vector<uint8_t> rgba(4 * alpha.size());
+    for (size_t i = 0; i < alpha.size(); ++i) {
+        std::copy_n(&rgb[3 * i], 3, &rgba[4 * i]);
+        rgba[4 * i + 3] = alpha[i];
+    }
+    return rgba;
 }
 
 OIIO::TypeDesc stored_as(const LayeredImage::Channel& channel) {
@@ -297,6 +349,14 @@ void keep_header(OIIO::ImageSpec& spec, const OIIO::ImageSpec& read) {
     }
 }
 
+// Relative to the first pixel.
+void set_display_window(OIIO::ImageSpec& spec, const PixelRect& window) {
+    spec.full_x = spec.x + window.x0;
+    spec.full_y = spec.y + window.y0;
+    spec.full_width = window.x1 - window.x0;
+    spec.full_height = window.y1 - window.y0;
+}
+
 void set_metadata(OIIO::ImageSpec& spec, const std::map<std::string, std::string>& metadata) {
     for (const auto& [key, value] : metadata) spec.attribute(key, value);
 }
@@ -309,31 +369,6 @@ const char* display_format(const std::filesystem::path& file) {
 }
 
 } // namespace
-
-const LayeredImage::Channel* LayeredImage::find(std::string_view name) const {
-    const auto it = std::find_if(channels.begin(), channels.end(), [&](const Channel& c) { return c.name == name; });
-    return it == channels.end() ? nullptr : &*it;
-}
-
-std::array<const LayeredImage::Channel*, 3> LayeredImage::find_color(std::string_view layer) const {
-    const auto named = [&](const char* letter) { return find(layer.empty() ? letter : fmt::format("{}.{}", layer, letter)); };
-    const std::array<const Channel*, 3> rgb{named("R"), named("G"), named("B")};
-    if (rgb[0] && rgb[1] && rgb[2]) return rgb;
-    const Channel* grey = named("Y");
-    return {grey, grey, grey};
-}
-
-void LayeredImage::set(Channel channel, std::string_view behind) {
-    const auto named = [&](std::string_view name) {
-        return std::find_if(channels.begin(), channels.end(), [&](const Channel& c) { return c.name == name; });
-    };
-    if (const auto there = named(channel.name); there != channels.end()) {
-        *there = std::move(channel);
-        return;
-    }
-    const auto before = named(behind);
-    channels.insert(before == channels.end() ? before : before + 1, std::move(channel));
-}
 
 Result<ImagePtr> read_image(const std::filesystem::path& file, const ImageLimits& limits) {
     const Result<std::vector<uint8_t>> bytes = read_file(file, max_file_bytes);
@@ -365,6 +400,12 @@ Result<LayeredImage> read_layers(const std::filesystem::path& file, const ImageL
     const Result<std::vector<uint8_t>> bytes = read_file(file, max_file_bytes);
     if (!bytes) return bytes.error();
     return guarded(file.string(), [&] { return decode_layers(*bytes, file.string(), limits); });
+}
+
+Result<std::vector<LayeredImage>> read_parts(const std::filesystem::path& file, const ImageLimits& limits) {
+    const Result<std::vector<uint8_t>> bytes = read_file(file, max_file_bytes);
+    if (!bytes) return bytes.error();
+    return guarded(file.string(), [&] { return decode_parts(*bytes, file.string(), limits); });
 }
 
 Result<std::map<std::string, std::string>> read_metadata(const std::filesystem::path& file, const ImageLimits& limits) {
@@ -400,6 +441,7 @@ Result<void> write_exr(const std::filesystem::path& file, const LayeredImage& im
             spec.channelformats.push_back(stored_as(channel));
         }
         if (image.header) keep_header(spec, image.header->spec);
+        if (image.display_window) set_display_window(spec, *image.display_window);
         set_metadata(spec, image.metadata);
         spec.attribute("compression", "zip");
         const std::vector<uint8_t> packed = in_native_layout(image, spec, pixels);
@@ -408,7 +450,7 @@ Result<void> write_exr(const std::filesystem::path& file, const LayeredImage& im
 }
 
 Result<void> write_display_image(const std::filesystem::path& file, int width, int height, std::span<const float> rgb,
-                                 const std::map<std::string, std::string>& metadata) {
+                                 const std::map<std::string, std::string>& metadata, std::span<const float> alpha) {
     return guarded(file.string(), [&]() -> Result<void> {
         const char* format = display_format(file);
         if (!format) return Error{file.string(), "not a .png or .jpg name", ""};
@@ -416,8 +458,15 @@ Result<void> write_display_image(const std::filesystem::path& file, int width, i
         const bool is_jpeg = format == std::string_view("jpeg");
         if (is_jpeg)
             if (const Result<void> fits = expect_jpeg_size(file, width, height); !fits) return fits.error();
-        const std::vector<uint8_t> bytes = display_bytes(rgb);
+        std::vector<uint8_t> bytes = display_bytes(rgb);
         OIIO::ImageSpec spec = display_spec(width, height, is_jpeg ? "jpeg:95" : "zip");
+        if (!is_jpeg && !alpha.empty()) {
+            if (alpha.size() != rgb.size() / 3) return Error{file.string(), "an alpha of the wrong size cannot be written", ""};
+            bytes = with_alpha(bytes, display_bytes(alpha));
+            spec.nchannels = 4;
+            spec.default_channel_names();
+            spec.attribute("oiio:UnassociatedAlpha", 1);
+        }
         spec.attribute("jpeg:subsampling", "4:4:4"); // saturated edges keep their colour
         if (!is_jpeg) set_metadata(spec, metadata); // segments of a JPEG hold 64 KB, and its encoder ends the process over more
         return encode_to_file(file, format, spec, OIIO::TypeDesc::UINT8, bytes.data());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/result.h"
+#include "scene/picture_region.h"
 #include "scene/scene.h"
 
 #include <array>
@@ -9,6 +10,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -64,6 +66,8 @@ struct LayeredImage {
     std::map<std::string, std::string> metadata;
     std::shared_ptr<const ImageHeader> header = {}; // of an EXR that was read; write_exr keeps it
     bool more_parts = false;                        // the file holds other images, which were not read
+    std::string part = {};                          // the name of the image in a file of several
+    std::optional<PixelRect> display_window = {};   // of an EXR: what of it, or around it, is the picture; empty: all of it
 
     const Channel* find(std::string_view name) const;
     // The three channels of a layer ("denoised"; "" is the beauty), or its Y three times; nullptr thrice if there are none.
@@ -74,6 +78,8 @@ struct LayeredImage {
 
 // Every channel of the file under its own name, as float, and its text metadata. Errors as in read_image.
 Result<LayeredImage> read_layers(const std::filesystem::path& file, const ImageLimits& limits = {});
+// Every image of a file of several parts. Errors as above; all parts together may not be larger than one may.
+Result<std::vector<LayeredImage>> read_parts(const std::filesystem::path& file, const ImageLimits& limits = {});
 // Its text metadata alone: nothing is decoded.
 Result<std::map<std::string, std::string>> read_metadata(const std::filesystem::path& file, const ImageLimits& limits = {});
 constexpr float largest_half = 65504;
@@ -84,8 +90,9 @@ Result<void> write_exr(const std::filesystem::path& file, const LayeredImage& im
 // not enough memory.
 Result<void> expect_jpeg_size(const std::filesystem::path& file, int width, int height);
 // Display-encoded RGB in [0, 1], width * height * 3; .png or .jpg by extension; text metadata survive in .png only. Atomic too.
+// `alpha`: width * height, of colours that are not multiplied by it (straight), as PNG has it; empty: opaque. A JPEG has none.
 Result<void> write_display_image(const std::filesystem::path& file, int width, int height, std::span<const float> rgb,
-                                 const std::map<std::string, std::string>& metadata = {});
+                                 const std::map<std::string, std::string>& metadata = {}, std::span<const float> alpha = {});
 
 // The same as the bytes of a .png, for documents that carry their pictures with them.
 Result<std::vector<uint8_t>> encode_png(int width, int height, std::span<const float> rgb);

@@ -150,6 +150,7 @@ template <Is<Node> T, class V> void visit_fields(T& r, V&& visit) {
     visit("skin", r.skin);
     visit("morph_weights", r.morph_weights);
     visit("only_in_scenes", r.only_in_scenes);
+    visit("shadow_catcher", r.shadow_catcher);
 }
 
 template <Is<Staging> T, class V> void visit_fields(T& r, V&& visit) {

@@ -138,6 +138,8 @@ std::string view_settings_json(const ViewSettings& s) {
                                   {"position", {m.position.x, m.position.y, m.position.z}},
                                   {"normal", {m.normal.x, m.normal.y, m.normal.z}},
                                   {"clearance", m.clearance}});
+    if (s.frame_aspect) json["frame_aspect"] = *s.frame_aspect;
+    if (s.lock_camera) json["lock_camera"] = true;
     if (s.measured) json["measured"] = {s.measured->x, s.measured->y, s.measured->width, s.measured->height};
     return json_text(json);
 }
@@ -197,6 +199,14 @@ Result<ParsedSettings<ViewSettings>> parse_view_settings(std::string_view text, 
         {"false_color", word(s.false_color, parse_false_color)},
         {"background_as_it_is", plain(s.background_as_it_is)},
         {"meters", [&s](const Json& json) { return read_meters(json, s.meters); }},
+        {"frame_aspect",
+         [&s](const Json& json) {
+             float aspect = 0;
+             const Result<void> ok = plain(aspect)(json);
+             if (ok) s.frame_aspect = aspect;
+             return ok;
+         }},
+        {"lock_camera", plain(s.lock_camera)},
         {"measured", numbers<4>([&s](const auto& n) {
              s.measured = {n[0], n[1], n[2], n[3]};
          })},

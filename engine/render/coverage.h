@@ -11,6 +11,8 @@ namespace blush {
 // those of pixels; where the environment is hidden from the camera it is the frame's alpha, which is exact. Without ids everything is
 // object.
 std::vector<float> coverage_of(const Frame& frame);
+// The opacity of each pixel of a picture that is to be laid over others (Frame::transparent); empty for any other.
+std::vector<float> opacity_of(const Frame& frame);
 float coverage_of_pixel(const Frame& frame, size_t pixel);
 
 } // namespace blush

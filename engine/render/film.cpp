@@ -49,6 +49,7 @@ std::vector<PlaneUse> Film::plane_uses(const FilmSize& size) {
          places * BouncePlanes::bytes_per_pixel(bounces)},
         {"light groups", size.groups > 0, size.groups > 0 ? "lights are mixed" : "nobody mixes lights",
          GroupPlanes::bytes_per_pixel(std::max(1, size.groups))},
+        {"caught shadows", size.catches, size.catches ? "there is a shadow catcher" : "there is no shadow catcher", places * sizeof(CaughtSums)},
         {"path statistics", planes.roulette, planes.roulette ? "roulette is being looked at" : "nobody looks at roulette",
          places * sizeof(Vec3d)},
     };
@@ -56,7 +57,7 @@ std::vector<PlaneUse> Film::plane_uses(const FilmSize& size) {
 
 size_t Film::memory_bytes() const {
     const auto bytes = [](const auto& plane) { return plane.capacity() * sizeof(plane[0]); };
-    return bytes(halves_) + bytes(features_) + bytes(covered_) + bytes(depth_) + bytes(object_id_) + bytes(material_) +
+    return bytes(halves_) + bytes(features_) + bytes(covered_) + bytes(caught_) + bytes(depth_) + bytes(object_id_) + bytes(material_) +
            bytes(paths_) + bounces_.memory_bytes() + groups_.memory_bytes();
 }
 
@@ -82,6 +83,7 @@ void Film::reset(const FilmSize& size, const Clamp& clamp) {
     planes_ = size.planes;
     transparent_ = size.transparent;
     adaptive_ = size.adaptive;
+    catches_ = size.catches;
     clamping_ = clamp;
     group_count_ = size.groups;
     if (gains_.size() != size_t(size.groups)) set_gains(std::vector<Vec3>(size_t(size.groups), Vec3{1, 1, 1}));
@@ -99,6 +101,7 @@ void Film::clear() {
     features_.assign(planes_.albedo || planes_.normal ? n : 0, {});
     const size_t places = adaptive_ ? 2 * n : n;
     covered_.assign(transparent_ ? places : 0, 0);
+    caught_.assign(catches_ ? places : 0, {});
     depth_.assign(planes_.depth ? n : 0, 0.f);
     object_id_.assign(planes_.ids ? n : 0, 0u);
     material_.assign(planes_.ids ? n : 0, -1);
@@ -181,7 +184,8 @@ void Film::add_planes(size_t pixel, int half, const TileScratch& tile, int slot,
     }
 }
 
-void Film::add_notable(size_t pixel, const SampleName& at, const TileScratch& tile, int slot, const Diagnose& diagnose, Findings& findings) {
+void Film::add_notable(size_t pixel, const SampleName& at, const TileScratch& tile, int slot, const Diagnose& diagnose, Findings& findings,
+                       const CatcherColumns* caught) {
     const Vec3d radiance{tile.r[slot], tile.g[slot], tile.b[slot]};
     if (const auto cause = fault_of(radiance.x, radiance.y, radiance.z)) {
         const Fault fault = diagnose ? diagnose(at.x, at.y, at.sample) : Fault{};
@@ -191,6 +195,7 @@ void Film::add_notable(size_t pixel, const SampleName& at, const TileScratch& ti
     const size_t place = place_of(pixel, at.sample);
     const ClampLedger::Left left = clamp_.clamp(place, tile, slot);
     if (has_planes()) add_planes(pixel, int(at.sample & 1), tile, slot, left);
+    if (caught) add_caught(place, tile, *caught, slot, left.radiance);
     halves_[2 * pixel + size_t(at.sample & 1)].add(left.radiance);
     const double mean = luminance(sum_of(pixel)) / double(halves_[2 * pixel].count + halves_[2 * pixel + 1].count);
     const double bright = luminance(radiance);
@@ -198,7 +203,7 @@ void Film::add_notable(size_t pixel, const SampleName& at, const TileScratch& ti
     if (excess >= health_.least_excess()) findings.fireflies.push_back({excess, float(bright), at.x, at.y, at.sample, at.seed});
 }
 
-void Film::add(const TileJob& job, const TileScratch& tile, uint32_t seed, const Diagnose& diagnose) {
+void Film::add(const TileJob& job, const TileScratch& tile, uint32_t seed, const Diagnose& diagnose, const CatcherColumns* caught) {
     const bool planes = has_planes();
     Findings findings;
     int slot = 0;
@@ -212,15 +217,47 @@ void Film::add(const TileJob& job, const TileScratch& tile, uint32_t seed, const
                 // One comparison for the many that are sound and ordinary; the slow questions only for the rest.
                 if (r >= 0 && g >= 0 && b >= 0 && r + g + b <= notable) {
                     if (planes) add_planes(pixel, int(sample & 1), tile, slot, {});
+                    if (caught) add_caught(place_of(pixel, sample), tile, *caught, slot, {r, g, b});
                     halves_[2 * pixel + size_t(sample & 1)].add({r, g, b});
                 } else {
-                    add_notable(pixel, {x, y, sample, seed}, tile, slot, diagnose, findings);
+                    add_notable(pixel, {x, y, sample, seed}, tile, slot, diagnose, findings, caught);
                 }
             }
         }
     }
     if (!findings.dropped.empty()) health_.add_dropped(findings.dropped, size_t(width_), size_t(width_) * size_t(height_));
     if (!findings.fireflies.empty()) health_.add_fireflies(findings.fireflies);
+}
+
+void Film::add_caught(size_t place, const TileScratch& tile, const CatcherColumns& caught, int slot, const Vec3d& radiance) {
+    if (!caught.caught[slot]) return;
+    CaughtSums& sums = caught_[place];
+    sums.unoccluded += double(caught.unoccluded[slot]);
+    sums.arriving += double(caught.arriving[slot]);
+    sums.r += radiance.x;
+    sums.g += radiance.y;
+    sums.b += radiance.z;
+    if (transparent_) sums.open += tile.first->material[slot] < 0;
+}
+
+// Lays the shadow over what is seen behind the catcher.
+void Film::resolve_caught(float* rgba, size_t pixel, const Weights& w) const {
+    const auto mean = [&](auto member) { return mean_of(pixel, w, [&](size_t place) { return caught_[place].*member; }); };
+    const double shadow = shadow_alpha(mean(&CaughtSums::unoccluded), mean(&CaughtSums::arriving));
+    if (shadow == 0) return;
+    rgba[0] -= float(shadow * mean(&CaughtSums::r));
+    rgba[1] -= float(shadow * mean(&CaughtSums::g));
+    rgba[2] -= float(shadow * mean(&CaughtSums::b));
+    for (int c = 0; c < 3; ++c) rgba[c] = std::max(rgba[c], 0.f); // what is left of equal sums, rounded
+    if (transparent_) rgba[3] = std::min(rgba[3] + float(shadow * mean(&CaughtSums::open)), 1.f);
+}
+
+double Film::shadow_variance(size_t pixel) const {
+    if (caught_.empty() || !adaptive_) return 0;
+    const CaughtSums &a = caught_[2 * pixel], &b = caught_[2 * pixel + 1];
+    if (!(a.unoccluded > 0) || !(b.unoccluded > 0)) return 0;
+    const double difference = shadow_alpha(a.unoccluded, a.arriving) - shadow_alpha(b.unoccluded, b.arriving);
+    return difference * difference / 2;
 }
 
 void Film::Totals::merge(const Totals& other) {
@@ -259,6 +296,7 @@ void Film::resolve_rows(Frame& frame, int first, int last, Totals& totals) const
         rgba[1] = float(sum_a.y * w.a + sum_b.y * w.b);
         rgba[2] = float(sum_a.z * w.a + sum_b.z * w.b);
         rgba[3] = transparent_ ? float(mean_of(i, w, [&](size_t place) { return double(covered_[place]); })) : count > 0 ? 1.f : 0.f;
+        if (catches_) resolve_caught(rgba, i, w);
         if (adaptive_) frame.pixel_samples[i] = float(count);
         // Guides for denoising, where it does no harm that all samples count alike.
         const double inverse = 1 / double(std::max<int64_t>(1, count));
@@ -356,6 +394,7 @@ void Film::resolve(Frame& frame, const Workers& workers) const {
     const size_t n = size_t(width_) * size_t(height_);
     frame.width = width_;
     frame.height = height_;
+    frame.transparent = catches_ && transparent_;
     frame.rgba.resize(4 * n);
     frame.pixel_samples.resize(adaptive_ ? n : 0);
     frame.albedo.resize(planes_.albedo ? n : 0);
@@ -370,6 +409,7 @@ void Film::resolve(Frame& frame, const Workers& workers) const {
     frame.gains = gains_;
     frame.path_length.resize(planes_.roulette ? n : 0);
     frame.survival.resize(planes_.roulette ? n : 0);
+    frame.standard_error = planes_.error ? standard_error() : std::vector<Vec3>();
     frame.health = health_.health();
     frame.error = {};
 

@@ -10,6 +10,7 @@
 #include "render/health_recorder.h"
 #include "render/kernels/kernel.h"
 #include "render/renderer.h"
+#include "render/shadow_catcher.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -26,6 +27,7 @@ struct FilmSize {
     bool transparent = false; // alpha is coverage
     bool adaptive = false;
     int groups = 0; // of lights, each with its plane
+    bool catches = false; // shadows (shadow_catcher.h)
 };
 
 // A pixel as its two halves have it. Unknown until both hold samples.
@@ -75,7 +77,8 @@ public:
     using Diagnose = std::function<Fault(int x, int y, int64_t sample)>;
     // Adds a tile sample by sample in order, so that sums do not depend on how samples are split into tiles. A sample that is
     // not finite or negative is dropped, counted and remembered with its diagnosis. Tiles in flight must not share pixels. Thread-safe.
-    void add(const TileJob& job, const TileScratch& tile, uint32_t seed, const Diagnose& diagnose = {});
+    // `caught`: of a film that catches shadows.
+    void add(const TileJob& job, const TileScratch& tile, uint32_t seed, const Diagnose& diagnose = {}, const CatcherColumns* caught = nullptr);
 
     // Sum of the samples of half `half` of a pixel, as the groups' gains have it.
     Vec3d sum(size_t pixel, int half) const {
@@ -92,6 +95,9 @@ public:
     // Goes on from what another film has found (film_state.h).
     void restore_health(const Health& health) { health_.restore(health); }
     PixelHalves halves(size_t pixel) const;
+    // Of an adaptive film: the variance of a caught shadow's opacity in half of the pixel's samples, as their two halves differ; 0 where nothing
+    // catches shadows, or a half has none.
+    double shadow_variance(size_t pixel) const;
     // Everything the film knows but the error: pixels, planes, health. Reuses the frame's memory. Material ids are left as table indices + 1.
     void resolve(Frame& frame, const Workers& workers) const;
     // `sharing`: see shared_errors.h.
@@ -142,7 +148,10 @@ private:
     bool has_planes() const { return needs_first_hits() || planes_.bounces > 0 || planes_.roulette || needs_groups() > 0; }
     // All that a sample adds to but the beauty, before it is added to that.
     void add_planes(size_t pixel, int half, const TileScratch& tile, int slot, const ClampLedger::Left& left);
-    void add_notable(size_t pixel, const SampleName& at, const TileScratch& tile, int slot, const Diagnose& diagnose, Findings& findings);
+    void add_notable(size_t pixel, const SampleName& at, const TileScratch& tile, int slot, const Diagnose& diagnose, Findings& findings,
+                     const CatcherColumns* caught);
+    void add_caught(size_t place, const TileScratch& tile, const CatcherColumns& caught, int slot, const Vec3d& radiance);
+    void resolve_caught(float* rgba, size_t pixel, const Weights& w) const;
     void add_first_hit(size_t pixel, size_t place, const FirstHitColumns& first, int slot, bool first_of_pixel);
     // What bands of rows add up to.
     struct Totals {
@@ -161,7 +170,7 @@ private:
 
     int width_ = 0, height_ = 0;
     PlaneSet planes_;
-    bool transparent_ = false, adaptive_ = false;
+    bool transparent_ = false, adaptive_ = false, catches_ = false;
     Clamp clamping_;
     int group_count_ = 0;
     std::vector<Half> halves_; // two per pixel: even and odd samples, two randomisations of the sampler
@@ -175,6 +184,7 @@ private:
     GroupPlanes groups_;
     std::vector<Vec3> gains_; // of the groups
     bool mixed_ = false;      // some gain is not 1
+    std::vector<CaughtSums> caught_; // only where shadows are caught
     ClampLedger clamp_;
     HealthRecorder health_;
 };

@@ -32,6 +32,14 @@ struct FilmPlanes {
         if (!film.material_.empty()) visit("material", Combine::first, [&film](size_t i) -> auto& { return film.material_[i]; });
 
         if (!film.covered_.empty()) visit_places(film, visit, "covered", [&film](size_t place) -> auto& { return film.covered_[place]; });
+        if (!film.caught_.empty()) {
+            visit_places(film, visit, "caught.unoccluded", [&film](size_t place) -> auto& { return film.caught_[place].unoccluded; });
+            visit_places(film, visit, "caught.arriving", [&film](size_t place) -> auto& { return film.caught_[place].arriving; });
+            visit_places(film, visit, "caught.open", [&film](size_t place) -> auto& { return film.caught_[place].open; });
+            visit_places(film, visit, "caught.R", [&film](size_t place) -> auto& { return film.caught_[place].r; });
+            visit_places(film, visit, "caught.G", [&film](size_t place) -> auto& { return film.caught_[place].g; });
+            visit_places(film, visit, "caught.B", [&film](size_t place) -> auto& { return film.caught_[place].b; });
+        }
         for (size_t k = 0; k < size_t(film.bounces_.planes()); ++k)
             visit_vectors(film, visit, fmt::format("bounce.{}", k), [&film, k](size_t place) -> auto& { return film.bounces_.sum(place, k); });
         for (size_t k = 0; k < size_t(film.groups_.groups()); ++k)

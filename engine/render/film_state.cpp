@@ -121,6 +121,7 @@ FilmSize film_size(const FilmState& state) {
     while (size.planes.bounces < most_bounce_planes && has(fmt::format("bounce.{}.R", size.planes.bounces))) ++size.planes.bounces;
     while (size.groups < most_light_groups && has(FilmPlanes::group_name(size_t(size.groups), 0) + ".R")) ++size.groups;
     size.transparent = has("covered");
+    size.catches = has("caught.unoccluded");
     return size;
 }
 

@@ -47,6 +47,8 @@ struct Frame {
     int divider = 1;           // full resolution / this one
     int64_t samples = 0;       // per pixel, on average
     bool complete = false;     // a stop rule is reached
+    bool whole = true;         // false: a region alone was rendered
+    bool transparent = false;  // it has a shadow catcher and nothing behind: alpha is for who puts it over something else
 
     std::vector<float> rgba; // width * height * 4, scene-linear, top row first; alpha is 1, or coverage where an environment is hidden from
                              // the camera; 0 where nothing is rendered
@@ -72,6 +74,9 @@ struct Frame {
     // Empty unless read, as are the counts.
     std::vector<float> path_length, survival;
     std::vector<PathCounts> path_counts; // by bounce
+
+    // Standard error of each pixel's mean, RGB, from the two halves. Empty unless read, and before both hold samples.
+    std::vector<Vec3> standard_error;
 
     // The newest estimate of this image's error: of the picture that it was with so many samples per pixel, after so many seconds.
     ErrorEstimate error;

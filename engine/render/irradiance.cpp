@@ -10,8 +10,24 @@ namespace {
 
 constexpr Features features = all_features;
 
-// A shadow ray to a point on a light, worth the radiance that a white matte surface would send on.
-Step<float> aim_at_light(const KernelContext& context, const MeterPoint& receiver, const Sampler<float>& sampler) {
+Path<float> leave(const MeterPoint& receiver, const Sampler<float>& sampler, int slot) {
+    const Pair<float> u = sampler.pair(first_scatter_dimension + bsdf_dimension);
+    const Vec3 local = sample_cosine_hemisphere<float>(u.x(), u.y());
+    Path<float> path;
+    path.ray = {receiver.position, normalize(basis_around(receiver.normal).to_world(local))};
+    path.beta = {1, 1, 1};
+    path.pdf = cosine_hemisphere_pdf<float>(local.z);
+    path.normal = receiver.normal;
+    path.key = sampler.key;
+    path.index = sampler.index;
+    path.slot = slot;
+    path.cone = 0;
+    return path;
+}
+
+} // namespace
+
+Step<float> aim_at_light(const KernelContext& context, const MeterPoint& receiver, const Sampler<float>& sampler, int32_t part) {
     const SceneTables& scene = *context.scene;
     Step<float> step{};
     const LightPoint<float> light =
@@ -29,30 +45,14 @@ Step<float> aim_at_light(const KernelContext& context, const MeterPoint& receive
         only_sampled = only_sampled || has_own_shadows<float>(scene.links, light.light, true);
         step.shadow_mask = shadow_mask<float>(scene.links, light.light);
     }
+    const bool lit = !scene.links.lit_sets || !light.valid || is_lit<float>(scene.links, light.light, part, true);
     const float weight = light_sample_weight<float>(context.settings.strategy, in.pdf, cosine_hemisphere_pdf<float>(cosine), only_sampled);
     step.direct = in.radiance * (cosine * inv_pi * weight / in.pdf);
-    step.connects = light.valid && cosine > 0 && has_light<float>(step.direct);
+    step.connects = light.valid && lit && cosine > 0 && has_light<float>(step.direct);
     step.shadow = {receiver.position, wi};
     step.shadow_distance = light.infinite ? infinity : distance * (1.f - 4e-7f);
     return step;
 }
-
-Path<float> leave(const MeterPoint& receiver, const Sampler<float>& sampler, int slot) {
-    const Pair<float> u = sampler.pair(first_scatter_dimension + bsdf_dimension);
-    const Vec3 local = sample_cosine_hemisphere<float>(u.x(), u.y());
-    Path<float> path;
-    path.ray = {receiver.position, normalize(basis_around(receiver.normal).to_world(local))};
-    path.beta = {1, 1, 1};
-    path.pdf = cosine_hemisphere_pdf<float>(local.z);
-    path.normal = receiver.normal;
-    path.key = sampler.key;
-    path.index = sampler.index;
-    path.slot = slot;
-    path.cone = 0;
-    return path;
-}
-
-} // namespace
 
 Vec3d estimate_irradiance(KernelContext context, const MeterPoint& receiver, uint32_t replicate, int samples, TileScratch& scratch) {
     context.settings.reuse = {};
@@ -71,7 +71,7 @@ Vec3d estimate_irradiance(KernelContext context, const MeterPoint& receiver, uin
         now->dispersed[now->size] = 0;
         append<features, float>(*now, leave(receiver, sampler, i), true);
         if (context.scene->lights.count == 0) continue;
-        const Step<float> step = aim_at_light(context, receiver, sampler);
+        const Step<float> step = aim_at_light(context, receiver, sampler, from_meter);
         if (!step.connects) continue;
         if (alpha) scratch.shadows.random[scratch.shadows.size] = opacity_random<float>(key, uint32_t(i), 1);
         scratch.shadows.mask[scratch.shadows.size] = step.shadow_mask;

@@ -2,7 +2,9 @@
 #pragma once
 
 #include "core/vec.h"
+#include "core/sampler.h"
 #include "render/kernels/kernel.h"
+#include "render/path.h"
 
 #include <cstdint>
 
@@ -13,6 +15,10 @@ struct MeterPoint {
     Vec3 position; // about the scene's origin (RenderScene::origin), off any surface
     Vec3 normal;   // unit length
 };
+
+// A shadow ray from the receiver to a point on a light, worth the radiance that a white matte surface there would send on, by the sampler's
+// numbers for the first scattering of a path. `part`: of the scene that the receiver lies on, which lights may leave out; or from_meter (links.h).
+Step<float> aim_at_light(const KernelContext& context, const MeterPoint& receiver, const Sampler<float>& sampler, int32_t part);
 
 constexpr int most_irradiance_samples = 1024; // of one call
 

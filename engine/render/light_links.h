@@ -22,8 +22,8 @@ bool leaves_out(const ObjectSet& set, const Scene& scene);
 // Some light leaves somebody out, of what it lights or of what casts its shadows.
 bool has_links(const Scene& scene);
 
-// Embree's rays carry 32 bits: one of the camera's, one of all others, and one for each set of objects that cast the shadows of some light.
-constexpr int most_caster_sets = 30;
+// Embree's rays carry 32 bits: one of the camera's, one of all others, one of shadow catchers (shadow_catcher.h), and one for each set of objects that cast the shadows of some light.
+constexpr int most_caster_sets = 29;
 
 // The distinct sets of shadow casters of a scene's lights.
 class CasterSets {

@@ -31,7 +31,8 @@ double PilotNoise::of_pixel(const Film& film, size_t pixel, int half) const {
         const double difference = (sum - 2 * first_sum) / per_half, mean = sum / per_half;
         return difference * difference / (mean * mean + dark * dark);
     };
-    return channel(first.x, both.x) + channel(first.y, both.y) + channel(first.z, both.z);
+    // A shadow is seen over something white.
+    return channel(first.x, both.x) + channel(first.y, both.y) + channel(first.z, both.z) + 3 * film.shadow_variance(pixel);
 }
 
 std::array<TileNoise, 2> PilotNoise::measure(const Film& film) {

@@ -4,6 +4,7 @@
 #include "render/lowering.h"
 #include "render/material_factors.h"
 #include "render/missing_light.h"
+#include "render/shadow_catcher.h"
 #include "scene/affine.h"
 
 #include <algorithm>
@@ -42,12 +43,19 @@ AttributeNeeds needs_of(const Scene& scene, const std::vector<SceneObject>& obje
 
 uint32_t ray_mask(bool visible_to_camera) { return other_ray_mask | (visible_to_camera ? camera_ray_mask : 0); }
 
-// Which rays meet each object: the bodies of lights may be hidden from the camera.
+bool has_catchers(const Scene& scene) {
+    return std::ranges::any_of(scene.nodes, [](const auto& entry) { return entry.value.shadow_catcher; });
+}
+
+// Which rays meet each object: the bodies of lights may be hidden from the camera, and shadow catchers are.
 std::vector<uint32_t> masks_of(const Scene& lowered, const std::vector<SceneObject>& objects, const CasterSets& casters) {
     std::vector<uint32_t> masks;
+    const bool any_catches = has_catchers(lowered);
     for (const SceneObject& object : objects) {
         const Light* light = light_of_body(lowered, object.node);
-        masks.push_back(ray_mask(!light || light->visible_to_camera) | casters.mask_of(lowered, object.node));
+        const bool catches = any_catches && is_shadow_catcher(lowered, object.node);
+        const bool seen = !catches && (!light || light->visible_to_camera);
+        masks.push_back(ray_mask(seen) | (catches ? catcher_ray_mask : 0) | casters.mask_of(lowered, object.node));
     }
     return masks;
 }
@@ -110,6 +118,7 @@ void RenderScene::update_geometry(const Scene& scene, const UpdatePlan& plan, co
     }
 
     std::vector<bool> alpha;
+    catchers_.clear();
     tables_.panes = false;
     for (size_t part = 0; part < geometry_.parts().size(); ++part) {
         const Id<Material> id = geometry_.part_materials()[part];
@@ -118,6 +127,9 @@ void RenderScene::update_geometry(const Scene& scene, const UpdatePlan& plan, co
         alpha.push_back(material && material->alpha != Material::Alpha::opaque);
         tables_.panes |= material && may_pass_straight(*material);
     }
+    if (has_catchers(scene))
+        for (const PartRecord& part : geometry_.parts()) catchers_.push_back(is_shadow_catcher(scene, Id<Node>{uint32_t(part.object)}));
+    if (std::ranges::find(catchers_, 1) == catchers_.end()) catchers_.clear();
     casters_ = CasterSets(scene);
     std::vector<uint32_t> masks = masks_of(scene, objects_, casters_);
     commit |= alpha != alpha_ || masks != masks_;

@@ -41,6 +41,8 @@ public:
     Id<Material> material_id(int32_t index) const;
     // And back; 0 for one that it does not have.
     int32_t material_index(Id<Material> id) const { return materials_.index_of(id); }
+    // By part, 1 if the part catches shadows (shadow_catcher.h); empty: none does.
+    const std::vector<uint8_t>& catchers() const { return catchers_; }
     // Some light samples or rays can find light.
     bool has_light() const { return lights_.count > 0 || lights_.emissive_triangles > 0 || lights_.environment >= 0; }
     // missing_light.h
@@ -71,6 +73,7 @@ private:
     std::vector<bool> alpha_; // by part
     CasterSets casters_;
     std::vector<uint32_t> masks_; // by object
+    std::vector<uint8_t> catchers_; // by part; empty: none
     LightLinks links_;
     LightTable lights_;
     std::vector<int32_t> group_of_light_, group_of_part_; // empty: nobody mixes

@@ -11,6 +11,7 @@
 #include "render/reuse_groups.h"
 #include "render/sample_plan.h"
 #include "render/settings_for_kernels.h"
+#include "render/shadow_catcher.h"
 
 #include <algorithm>
 #include <atomic>
@@ -56,6 +57,7 @@ struct Renderer::State {
     Workers workers;
     std::vector<std::unique_ptr<TileScratch>> scratch;
     std::vector<std::unique_ptr<TileScratch>> replays; // for samples that went wrong
+    std::vector<std::unique_ptr<CatcherScratch>> catching;
     RenderScene scene;
     std::optional<Scene> lowered;
     LoweredMeshes meshes;
@@ -79,13 +81,13 @@ struct Renderer::State {
     int64_t truncated = 0;
 
     explicit State(const RendererOptions& o) : options(o), workers(o.threads, o.low_priority), scratch(workers.threads()),
-                                               replays(workers.threads()) {}
+                                               replays(workers.threads()), catching(workers.threads()) {}
 
     int film_width() const { return std::max(1, settings.width / divider); }
     int film_height() const { return std::max(1, settings.height / divider); }
 
     FilmSize full_film() const {
-        return {settings.width, settings.height, options.planes, transparent(), settings.adaptive, int(mixing.gains.size())};
+        return {settings.width, settings.height, options.planes, transparent(), settings.adaptive, int(mixing.gains.size()), catches()};
     }
     // Is the scene what the film holds but for the mix of lights? Then takes over that.
     bool take_mix(const Scene& whole, const RenderSettings& now) {
@@ -105,7 +107,11 @@ struct Renderer::State {
         mixing = mixing_of(*groups, whole).value();
     }
 
-    bool transparent() const { return lowered && hides_environment(lowered->environment); }
+    bool catches() const { return !scene.catchers().empty(); }
+    // A caught shadow needs something that it is laid over: without an environment that is up to who looks at the picture.
+    bool transparent() const {
+        return lowered && (hides_environment(lowered->environment) || (catches() && lowered->environment.kind == Environment::Kind::none));
+    }
 
     void clear() {
         film_is_stale = true;
@@ -138,6 +144,7 @@ struct Renderer::State {
     using TileTask = std::function<bool(int tile, const TileJob& rectangle, unsigned worker)>;
     PixelRect rendered_pixels() const;
     // False if stopped before the end, as all that follow.
+    const CatcherColumns* shadows_of(const KernelContext& context, const TileJob& job, unsigned worker);
     bool render_run(TileJob rectangle, const Run& run, int most_samples, unsigned worker, const Wanted& wanted);
     bool for_each_tile(const TileShape& shape, const Wanted& wanted, const TileTask& task);
     bool render_evenly(int64_t first, int64_t count, const Wanted& wanted);
@@ -271,9 +278,17 @@ bool Renderer::State::render_run(TileJob job, const Run& run, int most_samples, 
         job.first_sample = run.first + done * run.stride;
         job.samples = int(std::min<int64_t>(most_samples, run.count - done));
         kernel->render(context, job, tile);
-        film.add(job, tile, settings.seed, diagnose);
+        film.add(job, tile, settings.seed, diagnose, shadows_of(context, job, worker));
     }
     return true;
+}
+
+// Of the tile's samples; null where nothing catches them.
+const CatcherColumns* Renderer::State::shadows_of(const KernelContext& context, const TileJob& job, unsigned worker) {
+    if (!catches()) return nullptr;
+    if (!catching[worker]) catching[worker] = std::make_unique<CatcherScratch>();
+    catch_shadows(context, scene.catchers(), job, *catching[worker]);
+    return &catching[worker]->columns;
 }
 
 bool Renderer::has_light() const { return state_->scene.has_light(); }
@@ -314,6 +329,8 @@ bool Renderer::State::for_each_tile(const TileShape& shape, const Wanted& wanted
         if (job.width <= 0 || job.height <= 0) return;
         if (!task(int(tile), job, worker)) cut_short = true;
     });
+    for (const auto& used : catching)
+        if (used) rays.shadow += std::exchange(used->tile.shadow_rays, 0);
     for (const auto& used : scratch) {
         if (!used) continue;
         rays.bounce += std::exchange(used->bounce_rays, 0);
@@ -382,6 +399,7 @@ void Renderer::resolve(Frame& frame) const {
     frame.light_groups = s.groups;
     frame.group_names = s.mixing.names;
     frame.divider = s.divider;
+    frame.whole = s.settings.region == PictureRegion{};
     frame.samples = s.samples;
     frame.rays = s.rays;
     frame.path_counts = s.options.planes.roulette ? s.path_counts : std::vector<PathCounts>();

@@ -24,6 +24,7 @@ struct PlaneSet {
     bool albedo = false, normal = false, depth = false, ids = false;
     int bounces = 0; // radiance by the number of scatterings: 0, 1, ..., bounces - 1 and all further ones; 0: none, else 2 .. most_bounce_planes
     bool roulette = false; // path length and survival probability of each pixel, paths by bounce
+    bool error = false;    // standard error of each pixel's mean: worked out of the two halves, it takes no plane of its own
     bool operator==(const PlaneSet&) const = default;
     // Has all that `other` has.
     bool covers(const PlaneSet& other) const {

@@ -65,7 +65,7 @@ void diff_nodes(const Scene& before, const Scene& after, Changes& changes) {
         const bool shown_or_hidden = a->visible != b->visible || (moved_in_tree && is_visible(before, id) != is_visible(after, id));
         const bool same_shape = a->mesh == b->mesh && a->skin == b->skin && a->morph_weights == b->morph_weights &&
                                 same_payload(a->instances, b->instances);
-        if (shown_or_hidden || !same_shape || a->light != b->light || a->only_in_scenes != b->only_in_scenes) changes.structure.push_back(id);
+        if (shown_or_hidden || !same_shape || a->light != b->light || a->only_in_scenes != b->only_in_scenes || a->shadow_catcher != b->shadow_catcher) changes.structure.push_back(id);
     }
 }
 

@@ -6,7 +6,7 @@
 
 namespace blush {
 
-Scene ground_plane_under(const Bounds& box) {
+Scene ground_plane_under(const Bounds& box, bool catches_shadows) {
     constexpr double sides = 10, gap = 1e-4; // of the radius: what stands on it must not share its plane
     constexpr float grey = 0.5f;
     const double radius = box.empty ? 1 : std::max(box.radius(), 1e-3);
@@ -18,15 +18,17 @@ Scene ground_plane_under(const Bounds& box) {
     square.indices = {0, 1, 2, 0, 2, 3};
     Scene scene;
     Material matte;
-    matte.name = "Ground";
+    const char* const name = catches_shadows ? "Shadow catcher" : "Ground";
+    matte.name = name;
     matte.base_color = {grey, grey, grey};
     matte.metallic = 0;
     matte.roughness = 1;
     matte.specular = 0;
     const Id<Material> material = scene.materials.add(matte);
-    const Id<Mesh> mesh = scene.meshes.add({"Ground", {{std::make_shared<const Geometry>(std::move(square)), material}}});
+    const Id<Mesh> mesh = scene.meshes.add({name, {{std::make_shared<const Geometry>(std::move(square)), material}}});
     Node node;
-    node.name = "Ground";
+    node.name = name;
+    node.shadow_catcher = catches_shadows;
     node.mesh = mesh;
     const Vec3d centre = box.empty ? Vec3d{0, 0, 0} : box.center();
     node.local.translation = to_float(Vec3d{centre.x, (box.empty ? 0 : box.low.y) - gap * radius, centre.z});

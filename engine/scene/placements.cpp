@@ -34,6 +34,13 @@ const Placement& Placements::operator()(Id<Node> id) {
 
 Affined world_from_node(const Scene& scene, Id<Node> node) { return Placements(scene)(node).world_from_node; }
 
+bool is_shadow_catcher(const Scene& scene, Id<Node> node) {
+    size_t steps = 0; // no more than a tree has
+    for (const Node* n = scene.nodes.find(node); n && steps <= scene.nodes.size(); n = scene.nodes.find(n->parent), ++steps)
+        if (n->shadow_catcher) return true;
+    return false;
+}
+
 bool is_visible(const Scene& scene, Id<Node> node) { return Placements(scene)(node).visible; }
 
 } // namespace blush

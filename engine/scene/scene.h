@@ -239,6 +239,7 @@ struct Node {
     Id<Skin> skin;       // what the mesh hangs on
     std::vector<float> morph_weights;    // of the mesh's targets; those that are missing are 0
     std::vector<int32_t> only_in_scenes; // of a root: indices into Scene::scene_names; empty: all
+    bool shadow_catcher = false; // of the camera's rays, all meshes here and below catch shadows alone (render/shadow_catcher.h)
     bool operator==(const Node&) const = default;
 };
 
@@ -328,6 +329,8 @@ Transform to_transform(const Affined& matrix);
 Affined world_from_node(const Scene& scene, Id<Node> node);
 // The node and all its ancestors are visible, and are of the chosen scene.
 bool is_visible(const Scene& scene, Id<Node> node);
+// The node or an ancestor is a shadow catcher.
+bool is_shadow_catcher(const Scene& scene, Id<Node> node);
 // View that looks through a camera node.
 View view_through(const Scene& scene, Id<Node> camera_node);
 

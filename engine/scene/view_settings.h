@@ -46,6 +46,8 @@ struct ViewSettings {
     bool background_as_it_is = false; // the environment as the camera sees it is only encoded: no exposure, white balance, look or view
     std::optional<PictureRegion> measured = {}; // whose statistics are shown
     std::vector<LightMeter> meters = {};
+    std::optional<float> frame_aspect = {}; // width over height of the camera's frame, 0: no frame; empty: what the camera has of itself
+    bool lock_camera = false;               // navigating moves the camera that is looked through
     bool operator==(const ViewSettings&) const = default;
 };
 

@@ -207,12 +207,15 @@ TEST(Ledger, BytesOfTheFilmAreThoseAllocated) {
     for (const PlaneSet& planes : {PlaneSet{}, PlaneSet{.albedo = true}, PlaneSet{.depth = true}, PlaneSet{.ids = true},
                                    PlaneSet{.bounces = 5}, PlaneSet{true, true, true, true, usual_bounce_planes}})
         for (const auto& [transparent, adaptive] : {std::pair{false, false}, {true, false}, {true, true}}) {
-            Film film;
-            film.reset({width, height, planes, transparent, adaptive});
-            size_t bytes = 0;
-            for (const PlaneUse& plane : Film::plane_uses({width, height, planes, transparent, adaptive}))
-                if (plane.used) bytes += plane.bytes_per_pixel * width * height;
-            EXPECT_EQ(film.memory_bytes(), bytes);
+            for (const bool catches : {false, true}) {
+                const FilmSize size{width, height, planes, transparent, adaptive, 0, catches};
+                Film film;
+                film.reset(size);
+                size_t bytes = 0;
+                for (const PlaneUse& plane : Film::plane_uses(size))
+                    if (plane.used) bytes += plane.bytes_per_pixel * width * height;
+                EXPECT_EQ(film.memory_bytes(), bytes);
+            }
         }
 }
 

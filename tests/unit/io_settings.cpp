@@ -45,6 +45,8 @@ TEST(SettingsJson, ViewSettingsComeBack) {
     unusual.background_as_it_is = true;
     unusual.meters = {{"Desk", {7}, {1, 2, 3}, {0, 0, 1}, 0.001f}, {"\"Floor\"", {}, {-1, 0, 5}, {0, 1, 0}, 0}};
     unusual.measured = {0.25f, 0.5f, 0.125f, 0.25f};
+    unusual.frame_aspect = 2.39f;
+    unusual.lock_camera = true;
     for (const ViewSettings& s : {ViewSettings{}, unusual}) {
         const auto parsed = parse_view_settings(view_settings_json(s));
         ASSERT_TRUE(parsed) << error_text(parsed);
