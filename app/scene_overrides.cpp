@@ -101,6 +101,16 @@ Result<void> light_up(std::optional<LightRig> light, Scene& scene, std::vector<D
     return {};
 }
 
+// The camera node whose place the view has; none: a free view.
+Id<Node> looked_through(const Scene& scene) {
+    for (const Id<Node> id : camera_nodes(scene)) {
+        View seen = view_through(scene, id);
+        seen.lens = scene.view.lens;
+        if (seen == scene.view) return id;
+    }
+    return {};
+}
+
 } // namespace
 
 Environment studio_map() {
@@ -185,13 +195,16 @@ Result<void> apply_overrides(const SceneOverrides& overrides, Scene& scene, floa
     return validate(scene.view.lens);
 }
 
+float aspect_of_camera(const std::map<Id<Camera>, float>& aspects, const Scene& scene) {
+    if (aspects.empty()) return 0;
+    const Id<Node> node = looked_through(scene);
+    const auto found = node ? aspects.find(scene.nodes.find(node)->camera) : aspects.end();
+    return found == aspects.end() ? 0 : found->second;
+}
+
 std::string camera_name(const Scene& scene) {
-    for (const Id<Node> id : camera_nodes(scene)) {
-        View seen = view_through(scene, id);
-        seen.lens = scene.view.lens;
-        if (seen == scene.view) return name_of_camera(scene, id);
-    }
-    return {};
+    const Id<Node> node = looked_through(scene);
+    return node ? name_of_camera(scene, node) : std::string();
 }
 
 } // namespace blush

@@ -8,6 +8,7 @@
 #include "scene/scene.h"
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -51,6 +52,9 @@ struct SceneOverrides {
 // `has_view`: the scene was saved with a view, which is then kept.
 Result<void> apply_overrides(const SceneOverrides& overrides, Scene& scene, float aspect, bool has_view = false,
                              std::vector<Diagnostic>* warnings = nullptr);
+
+// The aspect of the camera that the view looks through; 0: a free view, or the camera says none.
+float aspect_of_camera(const std::map<Id<Camera>, float>& aspects, const Scene& scene);
 
 // Of the camera node that the view looks through; empty for a free view.
 std::string camera_name(const Scene& scene);

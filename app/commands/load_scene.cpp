@@ -2,6 +2,7 @@
 
 #include "app/commands/common.h"
 #include "app/commands/progress.h"
+#include "io/gltf_camera_aspects.h"
 
 namespace blush {
 
@@ -17,6 +18,8 @@ Result<LoadedScene> load_scene(const std::filesystem::path& file, const SceneOve
     if (Result<void> applied = apply_overrides(overrides, loaded.scene, aspect, imported->has_view, &loaded.report.diagnostics);
         !applied)
         return in_file(applied.error(), file.string());
+    const float own = aspect_of_camera(camera_aspects(imported->origin), loaded.scene);
+    loaded.camera_aspect = imported->view && imported->view->frame_aspect ? *imported->view->frame_aspect : own;
     return loaded;
 }
 

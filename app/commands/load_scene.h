@@ -15,6 +15,8 @@ struct LoadedScene {
     Scene imported; // as it is in the file
     Scene scene;    // with the overrides
     ImportReport report;
+    // Width over height of the camera's frame: that which was saved with the scene, else that of the camera that is looked through; 0: not known.
+    float camera_aspect = 0;
 };
 
 // Errors name the file.

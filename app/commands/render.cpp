@@ -25,6 +25,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <memory>
 #include <utility>
@@ -231,7 +232,7 @@ Result<void> write_picture(const RenderCommand& c, const Plan& plan, const Rende
     std::vector<float> rgb = rendered.denoised ? rendered.denoised->rgb : beauty_rgb(frame);
     const std::vector<float> coverage = coverage_of(frame);
     return write_display_picture(c.output, frame.width, frame.height, std::move(rgb), *color, c.options.view, display_metadata(metadata),
-                                 {frame.albedo, coverage});
+                                 {frame.albedo, coverage}, opacity_of(frame));
 }
 
 // Renders, denoises if that is asked for, and writes. What was rendered is written even if it then cannot be denoised.
@@ -299,7 +300,24 @@ Result<void> go_on_with(const std::string& file, Plan& plan) {
     return {};
 }
 
-int run_render(const RenderCommand& c) {
+// What is not said of the size follows the camera; an explicit size that gives the picture another frame is said.
+Result<void> fit_size(RenderCommand& c, Plan& plan, float camera_aspect) {
+    if (!(camera_aspect > 0) || plan.begun) return {};
+    const RenderSettings& s = plan.settings;
+    if (c.options.width_given && c.options.height_given) {
+        const float aspect = float(s.width) / float(s.height);
+        if (!c.common.quiet && std::abs(aspect / camera_aspect - 1) > 0.02f)
+            fmt::print(stderr, "blush: note: {}x{} is {:.3g}:1, the camera's frame is {:.3g}:1: the height of the view is the camera's\n", s.width, s.height, aspect, camera_aspect);
+        return {};
+    }
+    follow_aspect(c.options, camera_aspect);
+    Result<Plan> fitted = plan_of(c);
+    if (!fitted) return fitted.error();
+    plan = *std::move(fitted);
+    return {};
+}
+
+int run_render(RenderCommand c) {
     Result<Plan> plan = plan_of(c);
     if (!plan) return bad_usage(plan.error().text());
     if (!c.begun.empty())
@@ -321,6 +339,7 @@ int run_render(const RenderCommand& c) {
     }();
     if (loaded && plan->begun) loaded = as_begun(*std::move(loaded), c.scene, *plan->begun, c.begun);
     if (!loaded) return failed(loaded.error());
+    if (const Result<void> fits = fit_size(c, *plan, loaded->camera_aspect); !fits) return bad_usage(fits.error().text());
     if (!c.common.quiet) print_warnings(c.scene, loaded->report.diagnostics);
     if (plan->layers.groups && loaded->scene.mix.grouping == LightMix::Grouping::none) loaded->scene.mix.grouping = LightMix::Grouping::by_light;
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <string>
 
@@ -28,6 +29,9 @@ template <class T> CLI::Option* add_parsed(CLI::App& app, const std::string& nam
         description);
 }
 
+constexpr float usual_aspect = 16.f / 9; // of the size without --size
+
+// A side that is not said is 0.
 struct Size {
     int width = 0, height = 0;
 };
@@ -35,8 +39,10 @@ struct Size {
 Result<Size> parse_size(std::string_view text) {
     Size size;
     const std::vector<std::string_view> sides = split(text, 'x');
-    if (sides.size() == 2 && parse_number(sides[0], size.width) && parse_number(sides[1], size.height)) return size;
-    return Error{.what = fmt::format("a size must be WIDTHxHEIGHT, not \"{}\"", text)};
+    const auto side = [](std::string_view digits, int& pixels) { return digits.empty() || (parse_number(digits, pixels) && pixels != 0); };
+    const bool known = sides.size() <= 2 && side(sides[0], size.width) && (sides.size() == 1 || side(sides[1], size.height));
+    if (known && (size.width != 0 || size.height != 0)) return size;
+    return Error{.what = fmt::format("a size must be WIDTHxHEIGHT, WIDTHx or xHEIGHT, not \"{}\"", text)};
 }
 
 struct SampleRange {
@@ -82,11 +88,14 @@ void add_picture_options(CLI::App& app, RenderOptions& o) {
            [&o](const std::string& text) {
                const Result<Size> size = parse_size(text);
                if (!size) throw CLI::ValidationError("--size", size.error().text());
-               o.settings.width = size->width;
-               o.settings.height = size->height;
+               o.width_given = size->width != 0;
+               o.height_given = size->height != 0;
                o.size_given = true;
+               if (o.width_given) o.settings.width = size->width;
+               if (o.height_given) o.settings.height = size->height;
+               if (!o.width_given || !o.height_given) follow_aspect(o, usual_aspect);
            },
-           "Pixels [1280x720]")
+           "Pixels; of Wx and xH the other side follows the camera's aspect [1280 wide]")
         ->type_name("WxH");
     add_parsed(app, "--region", o.region, parse_region, "Render these pixels of the picture alone; the rest stays empty [all]")
         ->type_name("X,Y,W,H");
@@ -198,6 +207,17 @@ void add_render_options(CLI::App& app, RenderOptions& options) {
     add_parsed(app, "--denoise", options.denoise, parse_denoise,
                "Denoise in the end: a layer \"denoised\" beside the beauty of an EXR, the picture shown in a PNG or JPEG [off]")
         ->type_name("off|fast|high");
+}
+
+void follow_aspect(RenderOptions& options, float aspect) {
+    if (!(aspect > 0) || (options.width_given && options.height_given)) return;
+    static constexpr double most = 1e6; // which validate() refuses
+    const auto pixels = [](double side) { return int(std::lround(std::clamp(side, 1.0, most))); };
+    RenderSettings& s = options.settings;
+    if (options.height_given)
+        s.width = pixels(double(s.height) * double(aspect));
+    else
+        s.height = pixels(double(s.width) / double(aspect));
 }
 
 Result<RenderSettings> settings_of(const RenderOptions& options) {

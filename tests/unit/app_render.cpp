@@ -202,6 +202,65 @@ TEST(Render, SampleRangesAverageToTheWhole) {
     EXPECT_EQ(metadata.last_sample, 8);
 }
 
+// The camera of the Cornell box is square.
+TEST(Render, TheHeightFollowsTheCamera) {
+    const TemporaryFolder folder;
+    const auto size_of = [&](const std::vector<std::string>& size, std::string& err) {
+        const Finished finished = test::blush(with({"render", scene_file("cornell"), "-o", folder / "out.exr", "--spp", "1"}, size));
+        EXPECT_EQ(finished.exit_code, 0) << finished.err;
+        err = finished.err;
+        const Result<LayeredImage> image = read_layers(folder / "out.exr");
+        return image ? std::pair(image->width, image->height) : std::pair(0, 0);
+    };
+    std::string err;
+    EXPECT_EQ(size_of({"--size", "48x"}, err), std::pair(48, 48));
+    EXPECT_EQ(err.find("note"), std::string::npos);
+    EXPECT_EQ(size_of({"--size", "x32"}, err), std::pair(32, 32));
+    EXPECT_EQ(size_of({"--size", "48x24"}, err), std::pair(48, 24));
+    EXPECT_NE(err.find("48x24 is 2:1, the camera's frame is 1:1"), std::string::npos) << err;
+    EXPECT_EQ(size_of({"--size", "48x24", "--quiet"}, err), std::pair(48, 24));
+    EXPECT_EQ(err, "");
+}
+
+// A ground that catches shadows: the picture is what is to be laid over another.
+TEST(Render, ShadowCatchersGivePngsAnAlpha) {
+    const TemporaryFolder folder;
+    const std::string scene = folder / "caught.gltf";
+    std::ifstream in(scene_file("card-and-mug"));
+    nlohmann::json json = nlohmann::json::parse(in);
+    for (nlohmann::json& node : json["nodes"])
+        if (node.contains("mesh")) {
+            node["extras"]["blush"]["fields"]["shadow_catcher"] = true;
+            break;
+        }
+    json["scenes"][0].erase("extras");
+    std::ofstream(scene) << json;
+    for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(scene_file("cornell")).parent_path()))
+        if (entry.path().filename().string().starts_with("card-and-mug.") && entry.path().extension() != ".gltf")
+            std::filesystem::copy_file(entry.path(), std::filesystem::path(folder / entry.path().filename().string()));
+    for (const char* name : {"out.png", "out.exr"}) {
+        const Finished finished = test::blush({"render", scene, "-o", folder / name, "--size", "48x32", "--spp", "4"});
+        ASSERT_EQ(finished.exit_code, 0) << finished.err;
+    }
+    const Result<ImagePtr> png = read_image(folder / "out.png");
+    ASSERT_TRUE(png);
+    ASSERT_EQ((*png)->channels, 4);
+    const Result<LayeredImage> exr = read_layers(folder / "out.exr");
+    ASSERT_TRUE(exr);
+    const auto* alpha = exr->find("A");
+    ASSERT_TRUE(alpha);
+    int opaque = 0, shadow = 0, clear = 0;
+    for (size_t i = 0; i < alpha->values.size(); ++i) {
+        EXPECT_NEAR(alpha->values[i] * 255, float((*png)->bytes[4 * i + 3]), 0.6f);
+        opaque += alpha->values[i] == 1;
+        clear += alpha->values[i] == 0;
+        shadow += alpha->values[i] > 0 && alpha->values[i] < 1;
+    }
+    EXPECT_GT(opaque, 20);
+    EXPECT_GT(shadow + clear, 20);
+    EXPECT_GT(shadow, 0);
+}
+
 TEST(Render, TheEnvironmentCanBeReplaced) {
     const TemporaryFolder folder;
     // Nothing emits in the furnace but its world: without it the picture is black, with another it has another colour.

@@ -116,6 +116,21 @@ TEST(RenderOptions, EachOptionSetsItsField) {
     EXPECT_EQ(options.overrides.camera, "Top");
 }
 
+TEST(RenderOptions, ASideThatIsNotSaidFollowsTheAspect) {
+    const auto size_for = [](std::vector<std::string> arguments, float aspect) {
+        RenderOptions options = parsed(arguments);
+        follow_aspect(options, aspect);
+        return std::pair(options.settings.width, options.settings.height);
+    };
+    EXPECT_EQ(size_for({}, 1), std::pair(1280, 1280));
+    EXPECT_EQ(size_for({}, 0), std::pair(1280, 720)) << "not known";
+    EXPECT_EQ(size_for({"--size", "600x"}, 1.5f), std::pair(600, 400));
+    EXPECT_EQ(size_for({"--size", "600"}, 0), std::pair(600, 338));
+    EXPECT_EQ(size_for({"--size", "x300"}, 2), std::pair(600, 300));
+    EXPECT_EQ(size_for({"--size", "600x300"}, 1), std::pair(600, 300)) << "what is said wins";
+    for (const char* wrong : {"x", "", "0x5", "5x0", "600x400x3", "wide", "600xh"}) EXPECT_ANY_THROW(parsed({"--size", wrong})) << wrong;
+}
+
 TEST(RenderOptions, ARegionIsPixelsOfThePicture) {
     const RenderSettings settings = *settings_of(parsed({"--size", "640x480", "--region", "160,120,320,60"}));
     EXPECT_EQ(settings.region, (PictureRegion{0.25f, 0.25f, 0.5f, 0.125f}));
