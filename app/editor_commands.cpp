@@ -3,6 +3,7 @@
 #include "app/light_commands.h"
 #include "scene/edit_tree.h"
 #include "scene/ground_plane.h"
+#include "ui/aov_bar.h"
 #include "ui/edit_together.h"
 #include "ui/new_light.h"
 #include "ui/docks.h"
@@ -67,10 +68,10 @@ void add_light(PanelContext& c, Light::Kind kind) {
     if (c.apply(new_light(kind, c.scene().view, spot_for_new_light(c), c.shown_view().exposure_ev))) select_all_after(c, last);
 }
 
-void add_ground(PanelContext& c) {
+void add_ground(PanelContext& c, bool catches_shadows) {
     const Id<Node> last = last_node(c.scene());
-    const Edit edit = Import{ground_plane_under(world_bounds(c.scene())), "Ground"};
-    if (c.apply({&edit, 1}, "Add ground plane")) select_all_after(c, last);
+    const Edit edit = Import{ground_plane_under(world_bounds(c.scene()), catches_shadows), catches_shadows ? "Shadow catcher" : "Ground"};
+    if (c.apply({&edit, 1}, catches_shadows ? "Add shadow catcher" : "Add ground plane")) select_all_after(c, last);
 }
 
 void duplicate(PanelContext& c) {
@@ -208,7 +209,8 @@ bool run_command(Command command, PanelContext& c) {
     case Command::reset_value: wish_of_value(c.ui, ValueWish::reset); return true;
     case Command::duplicate: duplicate(c); return true;
     case Command::remove: remove(c); return true;
-    case Command::add_ground: add_ground(c); return true;
+    case Command::add_ground: add_ground(c, false); return true;
+    case Command::add_catcher: add_ground(c, true); return true;
     case Command::rename: begin_rename(c); return true;
     case Command::clear_selection: escape(c); return true;
     case Command::add_point: add_light(c, Light::Kind::point); return true;
@@ -259,6 +261,8 @@ bool run_command(Command command, PanelContext& c) {
     case Command::bounces: toggle_instrument(c, "bounces"); return true;
     case Command::import_report: toggle_instrument(c, "import_report"); return true;
     case Command::health: toggle_instrument(c, "health"); return true;
+    case Command::next_pass: show_aov(c, stepped(c.ui.aov, c.frame.get(), 1)); return true;
+    case Command::previous_pass: show_aov(c, stepped(c.ui.aov, c.frame.get(), -1)); return true;
     case Command::render_region: c.ui.tool = ViewTool::region; return true;
     case Command::render_all: render_region(c, {}); return true;
     case Command::measure: c.ui.tool = ViewTool::measure; return true;

@@ -27,6 +27,7 @@ Snapshot snapshot_of(EditorSnapshots::Shown shown) {
     s.settings = shown.settings;
     s.imported = std::move(shown.imported);
     s.scene_file = std::move(shown.scene_file);
+    s.frame = shown.frame;
     return s;
 }
 
@@ -128,8 +129,8 @@ void EditorSnapshots::finish_writing(UiState& ui) {
         "Saving the snapshot", [write = std::move(next.write)](JobProgress&) { return guarded<SavedSnapshot>(write); }, wake_);
 }
 
-void EditorSnapshots::open(const std::filesystem::path& file, const std::filesystem::path& open_scene) {
-    to_read_.push_front({file, true});
+void EditorSnapshots::open(const std::filesystem::path& file, const std::filesystem::path& open_scene, bool panoramas_light) {
+    to_read_.push_front({file, true, panoramas_light});
     read_next(open_scene);
 }
 
@@ -148,14 +149,18 @@ void EditorSnapshots::read_next(const std::filesystem::path& open_scene) {
     restores_opened_ = next.to_restore;
     opening_ = std::make_unique<BackgroundJob<Result<OpenAnswer>>>(
         "Opening " + file.filename().string(),
-        [file = next.file, open_scene](JobProgress&) {
+        [next, open_scene](JobProgress&) {
             return guarded<OpenAnswer>([&]() -> Result<OpenAnswer> {
-                const auto metadata = read_metadata(file);
+                const auto metadata = read_metadata(next.file);
                 if (!metadata) return metadata.error();
-                if (!is_snapshot(*metadata)) return OpenAnswer();
-                Result<OpenedSnapshot> opened = open_snapshot(file, open_scene);
+                if (!is_snapshot(*metadata)) {
+                    Result<std::shared_ptr<PictureLayers>> picture = open_picture_layers(next.file);
+                    if (!picture) return picture.error();
+                    return next.panoramas_light && is_panorama(**picture) ? OpenAnswer() : OpenAnswer{{}, *std::move(picture)};
+                }
+                Result<OpenedSnapshot> opened = open_snapshot(next.file, open_scene);
                 if (!opened) return opened.error();
-                return OpenAnswer(*std::move(opened));
+                return OpenAnswer{*std::move(opened)};
             });
         },
         wake_);
@@ -168,15 +173,32 @@ void EditorSnapshots::finish_opening(Document& document, UiState& ui, EditorFile
     if (!result) return;
     opening_.reset();
     if (!restores_opened_) {
-        if (*result && **result) add_to_strip(*std::move(**result), ui)->let_go();
+        if (*result && (**result).snapshot) add_to_strip(*std::move((**result).snapshot), ui)->let_go();
         return;
     }
     if (!*result) return ui.toasts.fail(result->error().text());
-    if (!**result) return files.load_environment(opening_file_);
-    const SnapshotPtr snapshot = add_to_strip(*std::move(**result), ui);
+    if ((**result).picture) return show_picture(std::move((**result).picture), ui);
+    if (!(**result).snapshot) return files.load_environment(opening_file_);
+    const SnapshotPtr snapshot = add_to_strip(*std::move((**result).snapshot), ui);
     ui.snapshots.open = true;
     if (!snapshot->no_state.empty()) return ui.toasts.warn(snapshot->name + " is in the strip, without its state", snapshot->no_state);
     restore(snapshot, document, ui, files);
+}
+
+// Into the strip, and at once in the comparison's place, alone.
+void EditorSnapshots::show_picture(std::shared_ptr<PictureLayers> layers, UiState& ui) {
+    Snapshot s;
+    s.name = layers->file.filename().string();
+    s.time = time_of_day();
+    s.no_state = "It is a picture of another program: there is no scene to go back to.";
+    s.pinned = true;
+    const size_t count = layers->layers.size();
+    s.layers = std::move(layers);
+    s.choose_layer(0);
+    ui.toasts.note(s.name, fmt::format("{} layer{}, to be chosen in the Comparison panel. J goes back and forth to the live image.", count, count == 1 ? "" : "s"));
+    ui.snapshots.open = true;
+    Comparison& compare = ui.snapshots.compare;
+    compare = {.mode = Comparison::Mode::flicker, .a = ui.snapshots.add(std::move(s)), .b = live_image, .kind = compare.kind};
 }
 
 SnapshotPtr EditorSnapshots::add_to_strip(OpenedSnapshot opened, UiState& ui) {

@@ -33,6 +33,7 @@ public:
         RenderSettings settings;
         Scene imported;
         std::filesystem::path scene_file;
+        std::optional<PixelRect> frame = {}; // of the camera, in a picture that goes on beside it
     };
     // Keeps it in the strip, when the session has answered, and in a file if the settings say so.
     void keep(Shown shown, RenderSession& session);
@@ -40,8 +41,9 @@ public:
     void save_png(const Shown& shown, const ColorManagement& color, const UiState& ui);
     // Reads the files that were in the strip when the scene was last left, one after the other; those that cannot be read are not listed.
     void list_kept(const UiState& ui, const std::filesystem::path& scene_file);
-    // A file that was dropped: a snapshot comes into the strip and its state into the document, any other picture becomes the environment.
-    void open(const std::filesystem::path& file, const std::filesystem::path& open_scene);
+    // An EXR: a snapshot comes into the strip and its state into the document; a picture of another program comes into the strip with its layers and
+    // is looked at in the comparison's place. `panoramas_light`: unless it is a panorama, which then becomes the environment.
+    void open(const std::filesystem::path& file, const std::filesystem::path& open_scene, bool panoramas_light);
     // Does what panels asked for.
     void obey(Document& document, UiState& ui, EditorFiles& files);
 
@@ -59,8 +61,12 @@ public:
     void finish_all();
 
 private:
-    // A picture of somebody else's is none of ours to open.
-    using OpenAnswer = std::optional<OpenedSnapshot>;
+    // One of the two; neither is an environment.
+    struct OpenAnswer {
+        std::optional<OpenedSnapshot> snapshot = {};
+        std::shared_ptr<PictureLayers> picture = {};
+    };
+    void show_picture(std::shared_ptr<PictureLayers> layers, UiState& ui);
     void finish_keeping(UiState& ui, RenderSession& session);
     void finish_opening(Document& document, UiState& ui, EditorFiles& files);
     void finish_state(Document& document, UiState& ui);
@@ -89,6 +95,7 @@ private:
     struct ToRead {
         std::filesystem::path file;
         bool to_restore = false; // rather than only be in the strip
+        bool panoramas_light = false;
     };
     std::deque<ToRead> to_read_;
     // Of those whose state has not been worked out yet.

@@ -34,6 +34,7 @@ bool FileTakers::browse_for(Command command) {
 void FileTakers::take(const FileRequest& request) {
     switch (request.use) {
     case FileRequest::Use::open:
+        if (matches(snapshot_files, request.path)) return snapshots.open(request.path, files.scene_file(), false);
         return saving.before_losing_edits("opening another scene", [&files = files, path = request.path] { files.open(path); });
     case FileRequest::Use::save_scene: return saving.save_as(request.path);
     case FileRequest::Use::import_scene: return files.import_scene(request.path);
@@ -51,7 +52,7 @@ void FileTakers::take_dropped(const std::filesystem::path& file) {
     if (matches(scene_files, file))
         take({FileRequest::Use::open, file});
     else if (matches(snapshot_files, file))
-        snapshots.open(file, files.scene_file());
+        snapshots.open(file, files.scene_file(), true);
     else if (matches(environment_files, file))
         files.load_environment(file);
     else if (matches(table_files, file))
@@ -59,7 +60,7 @@ void FileTakers::take_dropped(const std::filesystem::path& file) {
     else if (matches(photometric_files, file))
         files.load_ies(file, document, ui);
     else
-        ui.toasts.fail(file.filename().string() + ": neither a glTF scene (.gltf, .glb), nor an environment image (.hdr, .exr), nor a snapshot "
+        ui.toasts.fail(file.filename().string() + ": neither a glTF scene (.gltf, .glb), nor an environment image (.hdr, .exr), nor a picture "
                                                    "(.exr), nor a photometric file (.ies), nor a convergence table (.csv)");
 }
 

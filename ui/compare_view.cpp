@@ -1,5 +1,6 @@
 #include "ui/compare_view.h"
 
+#include "ui/layout.h"
 #include "ui/texture_id.h"
 #include "ui/theme.h"
 
@@ -102,6 +103,7 @@ void CompareView::upload_sides(const PanelContext& c, const ComparedSide& a, con
                 to[3] = f.rgba[4 * (size_t(y) * size_t(f.width) + size_t(x)) + 3];
             }
         parts_[i].u = float(f.width) / float(width);
+        parts_[i].aspect = float(f.width) / float(f.height);
         parts_[i].v0 = float(top) / float(height);
         parts_[i].v1 = float(top + f.height) / float(height);
         top += f.height;
@@ -148,9 +150,16 @@ void CompareView::update(PanelContext& c, const ComparedSide& a, const ComparedS
     }
 }
 
-void CompareView::draw_part(const Part& part, const ImageRect& image, const ImageRect& clip) const {
+// A picture of another shape than the live one keeps its own.
+void CompareView::draw_part(const Part& part, const ImageRect& whole, const ImageRect& clip) const {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     draw.PushClipRect({clip.x, clip.y}, {clip.x + clip.width, clip.y + clip.height}, true);
+    ImageRect image = whole;
+    if (part.aspect > 0 && std::abs(part.aspect * whole.height / whole.width - 1) > 0.01f) {
+        draw.AddRectFilled({whole.x, whole.y}, {whole.x + whole.width, whole.y + whole.height}, tone::surround);
+        const Region fitted = fit_aspect({whole.x, whole.y, whole.width, whole.height}, part.aspect);
+        image = {fitted.x, fitted.y, fitted.width, fitted.height};
+    }
     draw.AddCallback([](const ImDrawList*, const ImDrawCmd*) { glDisable(GL_BLEND); }, nullptr);
     draw.AddImage(texture_id(part.texture), {image.x, image.y}, {image.x + image.width, image.y + image.height},
                   {0, part.v0}, {part.u, part.v1});
@@ -188,7 +197,7 @@ void CompareView::draw(PanelContext& c, const ImageRect& image, const ImageRect&
         return label(compare.shows_b ? "B" : "A", side.label, {seen.x + em, seen.y + em}, false);
     }
     if (compare.mode != Mode::difference || !answer_ || !answer_->problem.empty() || !drawn_) return;
-    draw_part({pass_.texture(), 1, 0, 1}, image, seen);
+    draw_part({pass_.texture()}, image, seen);
     label("A - B", caption_of(compare.kind), {seen.x + em, seen.y + em}, false);
 }
 

@@ -33,6 +33,7 @@ private:
     struct Part {
         GLuint texture = 0;
         float u = 1, v0 = 0, v1 = 1;
+        float aspect = 0; // of the picture; 0: that of the live one
     };
     void ask_difference(PanelContext& c, const ComparedSide& a, const ComparedSide& b);
     void update(PanelContext& c, const ComparedSide& a, const ComparedSide& b, const DisplayLook& look, const FramePace& pace);

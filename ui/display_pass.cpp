@@ -12,11 +12,17 @@ const char* const main_source = R"(
 uniform sampler2D image, denoised;
 uniform float raw_weight, denoised_weight;
 uniform vec2 denoised_scale;
+uniform bool over_checker;
+vec3 over_squares(vec3 color, float alpha) {
+    ivec2 square = ivec2(gl_FragCoord.xy) / 8;
+    vec3 ground = vec3((square.x + square.y) % 2 == 0 ? 0.40 : 0.52);
+    return alpha > 0.0 ? mix(ground, display_color(vec4(color / alpha, 1.0)).rgb, min(alpha, 1.0)) : ground;
+}
 void main() {
     vec4 pixel = texelFetch(image, ivec2(gl_FragCoord.xy), 0);
     vec3 color = raw_weight * pixel.rgb;
     if (denoised_weight != 0.0) color += denoised_weight * texelFetch(denoised, ivec2(gl_FragCoord.xy * denoised_scale), 0).rgb;
-    result = vec4(display_color(vec4(abs(color), pixel.a)).rgb, 1.0);
+    result = over_checker ? vec4(over_squares(abs(color), pixel.a), 1.0) : vec4(display_color(vec4(abs(color), pixel.a)).rgb, 1.0);
 })";
 
 // Milliseconds after which the clock is looked at: what a step takes is known from the one before alone, and other threads may come between.
@@ -139,6 +145,7 @@ void DisplayPass::draw_rows(int first, int count) {
     set_numbers(program_.name(), look_.numbers);
     set(program_.name(), "raw_weight", look_.mix.raw_weight);
     set(program_.name(), "denoised_weight", look_.mix.denoised_weight);
+    set(program_.name(), "over_checker", int(look_.over_checker));
     glUniform2f(glGetUniformLocation(program_.name(), "denoised_scale"), float(denoised_.width) / float(width_),
                 float(denoised_.height) / float(height_));
     glActiveTexture(GL_TEXTURE0 + image_unit);

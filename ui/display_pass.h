@@ -15,6 +15,7 @@ namespace blush {
 struct DisplayLook {
     DisplayNumbers numbers;
     PictureMix mix;
+    bool over_checker = false; // alpha is opacity, of premultiplied colours: a checker shows through
     bool operator==(const DisplayLook&) const = default;
 };
 

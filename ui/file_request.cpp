@@ -5,7 +5,7 @@ namespace blush {
 const char* title_of(FileRequest::Use use) {
     using Use = FileRequest::Use;
     switch (use) {
-    case Use::open: return "Open a scene";
+    case Use::open: return "Open a scene or a picture";
     case Use::import_scene: return "Import into the scene";
     case Use::environment: return "Choose an environment image";
     case Use::ies: return "Choose a photometric file";
@@ -19,9 +19,9 @@ const char* title_of(FileRequest::Use use) {
 
 const ExtensionFilter& filter_of(FileRequest::Use use) {
     using Use = FileRequest::Use;
-    static const ExtensionFilter none;
+    static const ExtensionFilter none, openable{".gltf", ".glb", ".exr"};
     switch (use) {
-    case Use::open:
+    case Use::open: return openable;
     case Use::import_scene:
     case Use::save_scene: return scene_files;
     case Use::environment: return environment_files;

@@ -3,6 +3,7 @@
 #include "color/illuminance.h"
 #include "core/math.h"
 #include "render/coverage.h"
+#include "ui/aov_pixels.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -87,19 +88,44 @@ bool is_special(const Frame& frame, const PictureView& view) {
     case Show::dropped: return true;
     case Show::path_length: return !frame.path_length.empty();
     case Show::survival: return !frame.survival.empty();
-    case Show::illuminance: return !frame.albedo.empty();
+    case Show::illuminance:
+    case Show::albedo: return !frame.albedo.empty();
+    case Show::normal: return !frame.normal.empty();
+    case Show::depth: return !frame.depth.empty();
+    case Show::object_id: return !frame.object_id.empty();
+    case Show::material_id: return !frame.material_id.empty();
+    case Show::error: return !frame.standard_error.empty();
+    case Show::samples: return frame.samples > 0;
+    case Show::group: return view.group >= 0 && size_t(view.group) < frame.groups.size();
     }
     return false;
 }
 
-bool is_map(const PictureView& view) { return view.show == Show::dropped || view.show == Show::path_length || view.show == Show::survival; }
+bool is_map(const PictureView& view) {
+    return view.show == Show::dropped || view.show == Show::path_length || view.show == Show::survival || is_data(view);
+}
+
+bool is_data(const PictureView& view) {
+    switch (view.show) {
+    case Show::albedo:
+    case Show::normal:
+    case Show::depth:
+    case Show::object_id:
+    case Show::material_id:
+    case Show::error:
+    case Show::samples: return true;
+    default: return false;
+    }
+}
 
 std::vector<float> pixels_of(const Frame& frame, const PictureView& view) {
     if (view.show == Show::illuminance) return illuminance_of(frame);
+    if (is_data(view)) return aov_pixels(frame, view.show);
     std::vector<float> rgba(frame.rgba.size(), 1.f);
     const Range range = range_of(frame, view.show);
     for (size_t i = 0; i < rgba.size() / 4; ++i) {
         const Vec3 c = view.show == Show::bounces ? mixed(frame, view.gains, i)
+                       : view.show == Show::group ? group_pixel(frame, size_t(view.group), i)
                                                   : heat((value_at(frame, view.show, i) - range.low) / (range.high - range.low));
         rgba[4 * i] = c.x;
         rgba[4 * i + 1] = c.y;
@@ -126,7 +152,8 @@ std::string caption_of(const Frame& frame, const PictureView& view) {
         return fmt::format("Dropped samples: black 0, white {:.0f} in a pixel", range.high);
     case Show::path_length: return fmt::format("Path length: black {:.0f}, white {:.1f} vertices on average", range.low, range.high);
     case Show::survival: return "Survival: black 0, white 1, the mean chance that roulette gave";
-    default: return {};
+    case Show::group: return fmt::format("Light group {} alone: not the whole picture", frame.group_names[size_t(view.group)]);
+    default: return is_data(view) ? aov_caption(frame, view.show) : std::string();
     }
 }
 

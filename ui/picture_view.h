@@ -18,9 +18,18 @@ struct PictureView {
         path_length, // mean number of vertices
         survival,    // mean probability that roulette gave
         illuminance, // lux, if surfaces are matte: what false colours of lux are made of
+        albedo,      // of first hits, as are the next four
+        normal,
+        depth,
+        object_id,
+        material_id,
+        error,       // standard error of each pixel's mean, of its value
+        samples,     // of each pixel
+        group,       // of lights, as the light mix has it
     };
     Show show = Show::beauty;
     std::vector<float> gains = {}; // of bounces
+    int group = 0;                 // of the frame's groups of lights
     bool operator==(const PictureView&) const = default;
 };
 
@@ -31,6 +40,8 @@ Vec3 heat(float t);
 bool is_special(const Frame& frame, const PictureView& view);
 // Its colours stand for numbers that are no light.
 bool is_map(const PictureView& view);
+// Its colours are those of the screen: no exposure, no view transform.
+bool is_data(const PictureView& view);
 // width * height * 4 scene-linear values of a special view. Maps run from black over blue, red and yellow to white.
 std::vector<float> pixels_of(const Frame& frame, const PictureView& view);
 // `rgba`, a picture of the frame's, its alpha the coverage by objects (coverage.h).

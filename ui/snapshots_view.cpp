@@ -28,7 +28,14 @@ Thumbnail thumbnail_of(const Frame& frame) {
     return t;
 }
 
+void Snapshot::choose_layer(size_t index) {
+    layers->chosen = index;
+    pictures.frame = frame_of(*layers);
+    thumbnail = thumbnail_of(*pictures.frame);
+}
+
 std::string Snapshot::figures() const {
+    if (layers) return fmt::format("{}, {} layer{}", time, layers->layers.size(), layers->layers.size() == 1 ? "" : "s");
     if (!pictures.frame) return last_figures_.empty() ? time : last_figures_;
     const Frame& f = *pictures.frame;
     const std::string relative_error = f.error.known ? fmt::format(", {:.3g} %", 100 * std::sqrt(f.error.relmse)) : std::string();

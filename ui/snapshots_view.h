@@ -4,10 +4,12 @@
 #include "render/film_state.h"
 #include "render/showcase.h"
 #include "scene/edit.h"
+#include "ui/picture_layers.h"
 
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +30,7 @@ struct Snapshot {
     std::vector<Vec3> error; // standard error of each pixel's mean, RGB; may be empty
     FilmStatePtr film;       // what rendering goes on from; null: it begins anew
     Thumbnail thumbnail;
+    std::optional<PixelRect> frame; // of the camera, in a picture that goes on beside it: what is kept to be seen
 
     // The state. Without a scene file there is none to go back to, only the picture.
     Project project;
@@ -39,11 +42,15 @@ struct Snapshot {
     std::filesystem::path file; // that it is saved in; empty: none
     bool film_in_file = false;  // its samples too
 
+    std::shared_ptr<PictureLayers> layers; // of a picture that another program made, which has neither state nor samples nor a file of ours; null
+
     // In memory (snapshot_memory.h).
     bool pinned = false;                          // stays there
     uint64_t last_used = 0;
     enum class Place { memory, file, lost } place = Place::memory; // of pictures and samples; lost: the file is gone or broken
 
+    // Shows another of its layers; it must have some.
+    void choose_layer(size_t index);
     std::string figures() const; // "64 spp, 1.2 %, 14:32"
     // From now on its pictures and samples are those of its file.
     void let_go();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scene/scene.h"
+#include "ui/aov_view.h"
 #include "ui/bounces_view.h"
 #include "ui/camera_frame.h"
 #include "ui/convergence_view.h"
@@ -152,6 +153,7 @@ struct UiState {
     bool show_history = false;
     LightMixView light_mix;
     BouncesView bounces;
+    AovView aov; // what the bar of the viewport shows
     HealthView health;
     ImportReportView import_report;
     RouletteView roulette;
@@ -189,11 +191,15 @@ struct UiState {
         if (health.open && health.map) return {PictureView::Show::dropped};
         if (roulette.open && roulette.map == RouletteView::Map::path_length) return {PictureView::Show::path_length};
         if (roulette.open && roulette.map == RouletteView::Map::survival) return {PictureView::Show::survival};
-        return blush::picture_view(bounces, bounce_planes);
+        const PictureView by_panel = blush::picture_view(bounces, bounce_planes);
+        return by_panel.show == PictureView::Show::beauty ? blush::picture_view(aov, bounce_planes) : by_panel;
     }
     // Film planes that open panels read, beside those that every frame has.
     PlaneSet wanted_planes() const {
-        return {.bounces = bounces.open ? usual_bounce_planes : 0, .roulette = roulette.open && roulette.map != RouletteView::Map::none};
+        PlaneSet planes = planes_of(aov);
+        if (bounces.open) planes.bounces = usual_bounce_planes;
+        planes.roulette = roulette.open && roulette.map != RouletteView::Map::none;
+        return planes;
     }
 
     void select(Id<Node> node, Id<Material> material = {}) {

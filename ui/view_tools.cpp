@@ -1,6 +1,7 @@
 #include "ui/view_tools.h"
 
 #include "core/math.h"
+#include "ui/region_surroundings.h"
 #include "ui/theme.h"
 
 #include <algorithm>
@@ -99,16 +100,13 @@ void draw_measured_region(ImDrawList& draw, const ImageRect& image, const ViewSe
     if (view.measured) draw_rectangle(draw, image, *view.measured);
 }
 
-void draw_rendered_region(ImDrawList& draw, const ImageRect& image, const PictureRegion& r) {
+void draw_rendered_region(ImDrawList& draw, const ImageRect& image, const PictureRegion& r, bool covers) {
     if (r == PictureRegion{}) return;
-    const float left = image.x + r.x * image.width, top = image.y + r.y * image.height;
-    const float right = left + r.width * image.width, bottom = top + r.height * image.height, end_x = image.x + image.width,
-                end_y = image.y + image.height;
-    draw.AddRectFilled({image.x, image.y}, {end_x, top}, tone::surround);
-    draw.AddRectFilled({image.x, bottom}, {end_x, end_y}, tone::surround);
-    draw.AddRectFilled({image.x, top}, {left, bottom}, tone::surround);
-    draw.AddRectFilled({right, top}, {end_x, bottom}, tone::surround);
-    draw.AddRect({left - 1, top - 1}, {right + 1, bottom + 1}, tone::field_filled);
+    const auto at = [&](float x, float y) { return ImVec2{image.x + x * image.width, image.y + y * image.height}; };
+    for (const PictureRegion& part : around(r))
+        if (covers) draw.AddRectFilled(at(part.x, part.y), at(part.x + part.width, part.y + part.height), tone::surround);
+    const ImVec2 low = at(r.x, r.y), high = at(r.x + r.width, r.y + r.height);
+    draw.AddRect({low.x - 1, low.y - 1}, {high.x + 1, high.y + 1}, tone::field_filled);
 }
 
 void render_region(PanelContext& c, const PictureRegion& region) {

@@ -13,8 +13,8 @@ PictureRegion region_between(double u0, double v0, double u1, double v1);
 
 // The measured region's frame, over the picture.
 void draw_measured_region(ImDrawList& draw, const ImageRect& image, const ViewSettings& view);
-// Covers what is not rendered.
-void draw_rendered_region(ImDrawList& draw, const ImageRect& image, const PictureRegion& region);
+// The frame of the region that is rendered alone; covers the rest, unless something of it is shown (region_surroundings.h).
+void draw_rendered_region(ImDrawList& draw, const ImageRect& image, const PictureRegion& region, bool covers);
 
 // From now on this alone is rendered.
 void render_region(PanelContext& c, const PictureRegion& region);

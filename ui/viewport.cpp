@@ -2,6 +2,7 @@
 
 #include "render/light_mix.h"
 #include "scene/edit_tree.h"
+#include "ui/aov_bar.h"
 #include "ui/camera_frame_overlay.h"
 #include "ui/environment_dial.h"
 #include "ui/false_color_legend.h"
@@ -125,6 +126,7 @@ bool can_be_mixed(const PanelContext& c, const Gains& gains, bool denoised) {
 Result<void> Viewport::set_display_shader(const DisplayShader& shader) {
     shader_changed_ = true;
     compare_.set_shader(shader);
+    surroundings_.set_shader(shader);
     return display_.set_shader(shader);
 }
 
@@ -167,7 +169,8 @@ void Viewport::take_frame(PanelContext& c, const FramePace& pace) {
     const bool special = c.frame && is_special(*c.frame, view);
     DisplayNumbers numbers = numbers_of(v);
     if (special && is_map(view)) numbers.false_color = {}; // it has colours of its own
-    const DisplayLook look{numbers, special ? PictureMix{} : mix_of(c.ui.denoise, c.denoised != nullptr)};
+    if (special && is_data(view)) numbers.background_as_it_is = true; // and that alone: its pixels are all background
+    const DisplayLook look{numbers, special ? PictureMix{} : mix_of(c.ui.denoise, c.denoised != nullptr), !special && c.frame && c.frame->transparent};
     const Gains gains = c.mixing ? c.mixing->gains : Gains();
     const bool new_gains = gains != uploaded_gains_, shows_denoised = look.mix.denoised_weight != 0;
     // A mix that is being moved is shown at once, of fewer pixels where there is no time for all of them; those follow when it rests.
@@ -225,6 +228,17 @@ void Viewport::take_frame(PanelContext& c, const FramePace& pace) {
     }
 }
 
+// Of a region that is rendered alone.
+void Viewport::draw_surroundings(PanelContext& c, const ImageRect& image, const FramePace& pace) {
+    const PictureRegion& region = c.project().render.region;
+    if (shown_frame_->whole) surroundings_.remember(shown_frame_, uploaded_denoised_);
+    if (region == PictureRegion{}) return;
+    if (!surroundings_.update(look_, uploaded_view_, pace)) c.ui.next_frame_in = 0;
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    if (surroundings_.ready()) surroundings_.draw(draw, image, region);
+    draw_rendered_region(draw, image, region, !surroundings_.ready());
+}
+
 // Over the picture, where it may be alone: blending the rest of the layer would cost as much as the picture.
 void Viewport::draw_outline(const PanelContext& c, const ImageRect& image) {
     const Outlined wanted{shown_frame_, c.ui.selected};
@@ -263,8 +277,15 @@ void Viewport::draw_picture(PanelContext& c, const ImageRect& image, bool outlin
 }
 
 // What is shown instead of the picture, where it cannot be overlooked.
-void Viewport::draw_caption(const ImageRect& image) const {
-    if (!is_special(*shown_frame_, uploaded_view_) || uploaded_view_.show == PictureView::Show::illuminance) return;
+void Viewport::draw_caption(const PanelContext& c, const ImageRect& image) const {
+    if (!is_special(*shown_frame_, uploaded_view_)) {
+        // Frames of before it was asked for do not have the plane.
+        const AovView& wanted = c.ui.aov;
+        const bool lacks = wanted.show != PictureView::Show::beauty && uploaded_view_ == picture_view(wanted, int(shown_frame_->bounces.size()));
+        if (lacks) write_caption(image, (name_of(wanted, shown_frame_.get()) + " is not in this picture yet").c_str());
+        return;
+    }
+    if (uploaded_view_.show == PictureView::Show::illuminance) return;
     write_caption(image, caption_of(*shown_frame_, uploaded_view_).c_str());
 }
 
@@ -311,7 +332,10 @@ ImageRect Viewport::draw(PanelContext& c, const FramePace& pace) {
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     c.ui.cursor.reset();
     if (hovered && image.contains(mouse.x, mouse.y)) c.ui.cursor = PicturePoint{image.u(mouse.x), image.v(mouse.y)};
-    if (!c.frame) shown_frame_ = uploaded_frame_ = nullptr; // there is nothing to be seen any more
+    if (!c.frame) {
+        shown_frame_ = uploaded_frame_ = nullptr; // there is nothing to be seen any more
+        surroundings_.forget();
+    }
     if (!shown_frame_) {
         transformer_.abandon(c);
         using State = SessionStatus::State;
@@ -326,19 +350,21 @@ ImageRect Viewport::draw(PanelContext& c, const FramePace& pace) {
     const Projection projection(view, double(image.width) / image.height);
     const ImageRect seen = visible_part(image);
     ImDrawList& draw = *ImGui::GetWindowDrawList();
-    draw_rendered_region(draw, image, c.project().render.region);
+    draw_surroundings(c, image, pace);
     draw_camera_frame(c, draw, image, seen);
     bool taken = use_tool(c, projection, image, seen, hovered && !navigation_.busy());
     if (c.ui.tool == ViewTool::none) taken |= draw_overlays(c, projection, image, hovered && !navigation_.busy());
-    draw_pixel_grid(draw, image, window_region(), *shown_frame_);
-    const bool map = is_special(*shown_frame_, uploaded_view_) && is_map(uploaded_view_);
+    const bool special = is_special(*shown_frame_, uploaded_view_), map = special && is_map(uploaded_view_);
+    if (!special) draw_pixel_grid(draw, image, window_region(), *shown_frame_); // its numbers are the beauty's
     draw_false_color_legend(draw, seen, map ? ViewSettings{} : c.project().view);
     if (c.ui.settings.overlays) {
         draw_measured_region(draw, image, c.project().view);
         draw_meters(draw, image, projection, c.scene(), c.project().view, c.ui.meters);
     }
     if (c.ui.pixel) draw_read_pixel(draw, image, c.ui.pixel->u, c.ui.pixel->v);
-    draw_caption(seen);
+    draw_map_scale(draw, seen, *shown_frame_, uploaded_view_);
+    draw_caption(c, seen);
+    if (c.ui.settings.overlays) draw_aov_bar(c, seen);
     navigate(c, projection, image, hovered, taken);
     return image;
 }
@@ -351,6 +377,7 @@ ImageRect Viewport::draw_alone(PanelContext& c, const FramePace& pace, const cha
         draw_centred("Preparing the first image");
         return image;
     }
+    surroundings_.forget(); // they belong to the scene that goes
     draw_picture(c, image, false);
     write_caption(visible_part(image), caption);
     return image;

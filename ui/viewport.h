@@ -12,6 +12,7 @@
 #include "ui/outline_pass.h"
 #include "ui/panels/context.h"
 #include "ui/place_tool.h"
+#include "ui/region_surroundings.h"
 #include "ui/transformer.h"
 
 namespace blush {
@@ -41,8 +42,9 @@ private:
     void upload_denoised(const DenoisedPtr& denoised, const Gains& gains);
     void upload_thinned(const MovedMix& moved, const Gains& gains, int step);
     void draw_picture(PanelContext& c, const ImageRect& image, bool outlined);
+    void draw_surroundings(PanelContext& c, const ImageRect& image, const FramePace& pace);
     void draw_outline(const PanelContext& c, const ImageRect& image);
-    void draw_caption(const ImageRect& image) const;
+    void draw_caption(const PanelContext& c, const ImageRect& image) const;
     bool draw_overlays(PanelContext& c, const Projection& projection, const ImageRect& image, bool hovered);
     void navigate(PanelContext& c, const Projection& projection, const ImageRect& image, bool hovered, bool on_handle);
     void obey(PanelContext& c, const NavigationResult& wish, const Projection& projection, const ImageRect& image);
@@ -50,6 +52,7 @@ private:
     DisplayPass display_;
     OutlinePass outline_;
     CompareView compare_;
+    RegionSurroundings surroundings_;
     Navigation navigation_;
     bool navigating_ = false; // as of the last frame: what it edits is one step of the history
     Handles handles_;

@@ -128,14 +128,14 @@ TEST_F(PortalDialog, AnswersWithTheChosenFile) {
     EXPECT_EQ(answer.outcome, Outcome::chosen);
     EXPECT_EQ(answer.path, "/scenes/red mug.glb");
     EXPECT_EQ(portal.method, "OpenFile");
-    EXPECT_EQ(portal.title, "Open a scene");
+    EXPECT_EQ(portal.title, "Open a scene or a picture");
     const auto folder = portal.options.at("current_folder").get<std::vector<uint8_t>>();
     EXPECT_EQ(std::string(folder.begin(), folder.end()), std::string("/scenes\0", 8));
     using Filter = sdbus::Struct<std::string, std::vector<sdbus::Struct<uint32_t, std::string>>>;
     const auto filters = portal.options.at("filters").get<std::vector<Filter>>();
     ASSERT_EQ(filters.size(), 1u);
-    EXPECT_EQ(filters[0].get<0>(), "*.gltf, *.glb");
-    ASSERT_EQ(filters[0].get<1>().size(), 2u);
+    EXPECT_EQ(filters[0].get<0>(), "*.gltf, *.glb, *.exr");
+    ASSERT_EQ(filters[0].get<1>().size(), 3u);
     EXPECT_EQ(filters[0].get<1>()[1].get<1>(), "*.[gG][lL][bB]");
 }
 

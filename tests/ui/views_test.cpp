@@ -1,6 +1,10 @@
 // Ways of looking at a frame: what they make of its planes, and that they say so.
+#include "core/srgb.h"
+#include "ui/aov_pixels.h"
+#include "ui/aov_view.h"
 #include "ui/bounces_view.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 
 namespace blush {
@@ -91,6 +95,103 @@ TEST(Maps, RunFromDarkToBright) {
     // Nothing dropped is a black map, not none.
     EXPECT_TRUE(is_special(frame_with_bounces(), {Show::dropped}));
     EXPECT_EQ(pixels_of(frame_with_bounces(), {Show::dropped})[4], 0);
+}
+
+// ---- planes of the film
+
+Frame frame_with_planes() {
+    Frame f;
+    f.width = 4;
+    f.height = 1;
+    f.samples = 16;
+    f.rgba = {1, 1, 1, 1, 2, 2, 2, 1, 0, 0, 0, 1, 4, 4, 4, 1};
+    f.albedo = {{0.2f, 0.4f, 0.6f}, {1, 1, 1}, {0, 0, 0}, {0.5f, 0.5f, 0.5f}};
+    f.normal = {{1, 0, 0}, {0, 0, -1}, {0, 0, 0}, {0, 1, 0}};
+    f.depth = {2, 4, 0, 3};
+    f.object_id = {7, 7, 0, 8};
+    f.material_id = {1, 2, 0, 1};
+    f.standard_error = {{0.1f, 0.1f, 0.1f}, {0, 0, 0}, {0.001f, 0.001f, 0.001f}, {8, 8, 8}};
+    f.pixel_samples = {8, 8, 16, 32};
+    f.group_names = {"Key", "Fill"};
+    f.groups = {{{1, 1, 1}, {0, 0, 0}, {0, 0, 0}, {4, 4, 4}}, {{0, 0, 0}, {2, 2, 2}, {0, 0, 0}, {0, 0, 0}}};
+    f.gains = {{1, 1, 1}, {0.5f, 0.5f, 0.5f}};
+    return f;
+}
+Vec3 shown_at(const Frame& f, const PictureView& view, size_t pixel) {
+    const std::vector<float> p = pixels_of(f, view);
+    return {p[4 * pixel], p[4 * pixel + 1], p[4 * pixel + 2]};
+}
+float encoded(float linear) { return srgb_from_linear(linear); }
+
+TEST(AovView, ShowsPlanesAsColoursOfTheScreen) {
+    const Frame f = frame_with_planes();
+    EXPECT_EQ(shown_at(f, {Show::albedo}, 0), (Vec3{0.2f, 0.4f, 0.6f}));
+    const Vec3 normal = shown_at(f, {Show::normal}, 1);
+    EXPECT_NEAR(double(encoded(normal.x)), 0.5, 1e-4);
+    EXPECT_NEAR(double(encoded(normal.z)), 0, 1e-4);
+    EXPECT_EQ(shown_at(f, {Show::normal}, 2), (Vec3{0, 0, 0})) << "nothing is hit";
+    EXPECT_NEAR(double(encoded(shown_at(f, {Show::depth}, 0).x)), 0, 1e-4) << "the nearest";
+    EXPECT_NEAR(double(encoded(shown_at(f, {Show::depth}, 3).x)), 0.5, 1e-4);
+    EXPECT_NEAR(double(encoded(shown_at(f, {Show::depth}, 1).x)), 1, 1e-4) << "the furthest";
+    EXPECT_GT(shown_at(f, {Show::depth}, 2).z, shown_at(f, {Show::depth}, 2).x) << "nothing hit is no depth";
+    for (const Show show : {Show::albedo, Show::normal, Show::depth, Show::object_id, Show::material_id, Show::error, Show::samples}) {
+        EXPECT_TRUE(is_special(f, {show}));
+        EXPECT_TRUE(is_data({show}));
+        EXPECT_EQ(pixels_of(f, {show})[3], 0) << "all of it is encoded alone";
+        EXPECT_FALSE(caption_of(f, {show}).empty());
+    }
+    EXPECT_FALSE(is_special(Frame{}, {Show::depth}));
+    EXPECT_FALSE(is_data({Show::group}));
+}
+
+TEST(AovView, GivesEachIdAColourThatStays) {
+    Frame f = frame_with_planes();
+    const Vec3 seven = shown_at(f, {Show::object_id}, 0), eight = shown_at(f, {Show::object_id}, 3);
+    EXPECT_EQ(shown_at(f, {Show::object_id}, 1), seven);
+    EXPECT_NE(seven, eight);
+    EXPECT_EQ(shown_at(f, {Show::object_id}, 2), (Vec3{0, 0, 0}));
+    f.object_id = {8, 1, 2, 7};
+    EXPECT_EQ(shown_at(f, {Show::object_id}, 3), seven);
+    for (uint32_t a = 1; a < 64; ++a)
+        for (uint32_t b = 1; b < a; ++b) EXPECT_NE(id_color(a), id_color(b)) << a << ' ' << b;
+}
+
+TEST(AovView, MapsErrorAndSamplesWithAScale) {
+    const Frame f = frame_with_planes();
+    EXPECT_EQ(shown_at(f, {Show::error}, 1), heat(0)) << "no error";
+    EXPECT_EQ(shown_at(f, {Show::error}, 3), heat(1)) << "larger than the value";
+    EXPECT_NEAR(double(relative_error(f, 2)), 0.01, 1e-4) << "of black, as relMSE weighs it";
+    EXPECT_EQ(shown_at(f, {Show::samples}, 3), heat(1));
+    EXPECT_EQ(shown_at(f, {Show::samples}, 0), heat(0.25f));
+    EXPECT_EQ(map_scale(f, Show::depth)->low, "2 m");
+    EXPECT_EQ(map_scale(f, Show::depth)->high, "4 m");
+    EXPECT_EQ(map_scale(f, Show::samples)->high, "32");
+    EXPECT_TRUE(map_scale(f, Show::error));
+    EXPECT_FALSE(map_scale(f, Show::albedo));
+}
+
+TEST(AovView, ListsWhatThereIsAndSaysWhatThereIsNot) {
+    const Frame f = frame_with_planes();
+    const auto find = [](const std::vector<AovEntry>& list, const AovView& v) { return *std::ranges::find(list, v, &AovEntry::view); };
+    const Frame bounced = frame_with_bounces();
+    const std::vector<AovEntry> list = aov_list(&f);
+    EXPECT_EQ(find(list, {Show::group, 1}).name, "Group Fill");
+    EXPECT_EQ(shown_at(f, picture_view(AovView{Show::group, 1}, 0), 1), (Vec3{1, 1, 1})) << "as the mix has it";
+    EXPECT_FALSE(find(list, {Show::bounces, 2}).needs.empty());
+    EXPECT_FALSE(find(aov_list(nullptr), {Show::group}).possible);
+    EXPECT_TRUE(find(aov_list(&bounced), {Show::bounces, 2}).needs.empty());
+
+    EXPECT_EQ(planes_of(AovView{}), PlaneSet{}) << "nothing is paid for the beauty";
+    EXPECT_EQ(planes_of(AovView{Show::depth}), PlaneSet{});
+    EXPECT_EQ(planes_of(AovView{Show::bounces, 3}).bounces, usual_bounce_planes);
+    EXPECT_TRUE(planes_of(AovView{Show::error}).error);
+    EXPECT_TRUE(PlaneSet{}.covers(planes_of(AovView{Show::error}))) << "the error needs no new image";
+
+    AovView at;
+    for (size_t i = 0; i < list.size(); ++i) at = stepped(at, &f, 1);
+    EXPECT_EQ(at, AovView{}) << "round its end";
+    EXPECT_EQ(stepped(AovView{}, &f, -1), list.back().view);
+    for (size_t i = 0; i < 100; ++i) EXPECT_NE(at = stepped(at, nullptr, 1), (AovView{Show::group, 0})) << "there are none to step to";
 }
 
 } // namespace

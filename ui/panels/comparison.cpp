@@ -24,6 +24,7 @@ void draw_side(PanelContext& c, Fields& f, const char* label, uint64_t& side) {
     for (const std::string& name : names) texts.push_back(name.c_str());
     int index = int(std::ranges::find(ids, side) - ids.begin());
     if (f.choice(label, index, texts, "Any snapshot, or the image as it is now.")) side = ids[size_t(index)];
+    if (const SnapshotPtr s = c.ui.snapshots.find(side)) draw_layer_choice(f, *s, fmt::format("Layer of {}", label).c_str());
 }
 
 std::string stops(const std::array<double, 3>& a, const std::array<double, 3>& b) {
@@ -52,6 +53,17 @@ void draw_numbers(PanelContext& c, Fields& f, const Difference& d) {
 }
 
 } // namespace
+
+void draw_layer_choice(Fields& f, Snapshot& picture, const char* label) {
+    if (!picture.layers) return;
+    const PictureLayers& layers = *picture.layers;
+    std::vector<const char*> names;
+    for (const PictureLayer& layer : layers.layers) names.push_back(layer.name.c_str());
+    int index = int(layers.chosen);
+    const std::string tip = fmt::format("Channels {} of {}.", layers.layers[layers.chosen].channels, layers.file.filename().string());
+    if (f.choice(label, index, names, tip.c_str())) picture.choose_layer(size_t(index));
+    if (const std::string range = range_text(layers); !range.empty()) f.info("Black to white", range);
+}
 
 void draw_comparison_panel(PanelContext& c) {
     Comparison& compare = c.ui.snapshots.compare;

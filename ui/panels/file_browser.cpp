@@ -117,7 +117,8 @@ void draw_entry(PanelContext& c, const FileEntry& entry) {
     FileBrowser& b = *c.ui.browser;
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    const bool pictured = filter_of(b.use) == scene_files || filter_of(b.use) == environment_files;
+    const ExtensionFilter& filter = filter_of(b.use);
+    const bool pictured = filter != table_files && filter != photometric_files;
     const float height = ImGui::GetTextLineHeight() * (pictured && !entry.folder ? 2.4f : 1.f);
     draw_entry_picture(c, entry, height);
     ImGui::SameLine();

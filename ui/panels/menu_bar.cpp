@@ -77,6 +77,7 @@ void draw_edit_menu(PanelContext& c) {
     item(c, Command::clear_selection, selected);
     ImGui::Separator();
     item(c, Command::add_ground);
+    item(c, Command::add_catcher);
 }
 
 void draw_lights_menu(PanelContext& c) {

@@ -57,6 +57,8 @@ void draw_object_panel(PanelContext& c, Id<Node> id) {
     Fields f(c.ui, "Object");
     f.text("Name", node.name, "Used in the outliner, in the history and in saved files.");
     f.checkbox("Visible", node.visible, "Hidden, the node and all below it neither show nor cast shadows nor give light.");
+    f.checkbox("Shadow catcher", node.shadow_catcher,
+               "The camera sees nothing of it but the shadows that lie on it, in the picture's alpha; all other light meets it as it is. Holds for all below, too.");
     if (const Mesh* mesh = c.scene().meshes.find(node.mesh)) {
         f.info("Mesh", fmt::format("{} triangles{}", grouped(triangle_count(*mesh)),
                                    mesh->parts.size() > 1 ? fmt::format(", {} parts", mesh->parts.size()) : ""));

@@ -10,6 +10,8 @@
 
 namespace blush {
 
+class Fields;
+
 // Regions of the layout, drawn into the current ImGui window.
 void draw_menu_bar(PanelContext& c);
 void draw_outliner(PanelContext& c);
@@ -33,6 +35,8 @@ void draw_display_panel(PanelContext& c);
 
 // Instruments (instruments.h), each into the current ImGui window.
 void draw_history(PanelContext& c);
+// Which layer of a picture of another program is shown; nothing for a snapshot.
+void draw_layer_choice(Fields& f, Snapshot& picture, const char* label);
 void draw_comparison_panel(PanelContext& c);
 void draw_snapshot_panel(PanelContext& c); // name, note and file of one of them
 void draw_pixel_panel(PanelContext& c);

@@ -3,6 +3,7 @@
 #include "core/math.h"
 #include "core/text.h"
 #include "render/coverage.h"
+#include "ui/aov_pixels.h"
 #include "ui/fitting_text.h"
 #include "ui/panels/panels.h"
 #include "ui/theme.h"
@@ -39,6 +40,14 @@ std::string displayed(const PanelContext& c, const Vec3& rgb, const Vec3& albedo
                        byte(shown[2]));
 }
 
+// Of the group or bounce that is looked at.
+void draw_planes(const PanelContext& c, const Frame& f, size_t pixel) {
+    const AovView& view = c.ui.aov;
+    const size_t k = size_t(view.index);
+    if (view.show == PictureView::Show::group && k < f.groups.size()) row(name_of(view, &f).c_str(), triple(group_pixel(f, k, pixel)));
+    if (view.show == PictureView::Show::bounces && k < f.bounces.size()) row(c, fmt::format("Bounce {}", k).c_str(), triple(f.bounces[k][pixel]));
+}
+
 void draw_values(const PanelContext& c, const Frame& f, int x, int y) {
     const size_t i = size_t(y) * size_t(f.width) + size_t(x);
     const float* rgba = &f.rgba[4 * i];
@@ -60,6 +69,10 @@ void draw_values(const PanelContext& c, const Frame& f, int x, int y) {
     row(c, "Displayed", displayed(c, shown, f.albedo.empty() ? Vec3{0, 0, 0} : f.albedo[i], coverage_of_pixel(f, i)));
     if (!f.albedo.empty()) row(c, "Albedo", triple(f.albedo[i]));
     if (!f.normal.empty()) row(c, "Normal", fmt::format("{}  {}  {}", signed_number(f.normal[i].x, 3), signed_number(f.normal[i].y, 3), signed_number(f.normal[i].z, 3)));
+    if (!f.standard_error.empty()) row(c, "Standard error", triple(f.standard_error[i]));
+    if (!f.pixel_samples.empty()) row(c, "Samples", fmt::format("{:.0f}", f.pixel_samples[i]));
+    if (c.ui.aov.show == PictureView::Show::samples && f.pixel_samples.empty()) row(c, "Samples", fmt::format("{}", f.samples));
+    draw_planes(c, f, i);
     if (!f.depth.empty()) row(c, "Distance", f.depth[i] > 0 ? fmt::format("{:.4g} m", f.depth[i]) : "nothing hit");
     if (!f.object_id.empty()) {
         const Node* node = c.scene().nodes.find({f.object_id[i]});

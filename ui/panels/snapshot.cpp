@@ -39,17 +39,25 @@ void draw_snapshot_panel(PanelContext& c) {
     const SnapshotPtr s = v.find(v.details);
     if (!s) return;
     Fields f(c.ui, "Snapshot");
+    draw_layer_choice(f, *s, "Layer");
     bool renamed = f.text("Name", s->name, "As it is called in the strip.");
     renamed |= f.text("Note", s->note, "For you: what it was kept for. It goes into the file as well.");
     if (renamed && !s->file.empty()) v.requests.push_back({SnapshotRequest::What::renamed, s->id});
-    draw_facts(f, *s);
+    if (s->layers) {
+        f.info("File", s->layers->file.filename().string(), s->layers->file.string().c_str());
+        f.info("Size", fmt::format("{} × {}", s->pictures.frame->width, s->pictures.frame->height));
+    } else {
+        draw_facts(f, *s);
+    }
     if (!s->no_state.empty()) quiet_text(s->no_state);
+    ImGui::BeginDisabled(s->layers != nullptr); // the file is another program's
     f.checkbox("16 bits", c.ui.settings.snapshot_half, "Colours, albedo, normals and errors as half floats: smaller, with three digits.");
     f.checkbox("With samples", c.ui.settings.snapshot_film, "The file holds the exact sums, so that rendering can go on from them. Larger.");
     f.checkbox("Save each", c.ui.settings.snapshot_files, "Every new snapshot is written to a file at once; otherwise it ends with this window.");
     draw_memory(c, f, *s);
     if (f.button("Save as EXR", "Beauty, denoised, albedo, normal, depth, error, ids, light groups, and all that restores the state."))
         v.requests.push_back({SnapshotRequest::What::save, s->id});
+    ImGui::EndDisabled();
     if (f.button("Delete", "From the strip; its file stays.")) delete_snapshot(c, *s);
 }
 
