@@ -16,6 +16,7 @@
 #include "app/output_folder.h"
 #include "app/submitted.h"
 #include "ui/automation.h"
+#include "ui/camera_frame_overlay.h"
 #include "ui/frame_stats.h"
 #include "ui/map_thumbnails.h"
 #include "ui/regions.h"
@@ -231,6 +232,7 @@ PanelContext Editor::context() {
 
 void Editor::panels() {
     const ViewSettings view = document_shown().project().view;
+    settle(ui_.frame, view, document_shown().project().scene, ui_.home.camera);
     display_.update_shader(view, pictures_.frame, viewport_, thumbnails_, ui_.toasts);
     display_.update_ledger(session_.status());
     display_.meter(view.auto_exposure, pictures_.frame);
@@ -336,7 +338,7 @@ void Editor::save_due_snapshot() {
     const FramePtr& frame = pictures_.frame;
     if (shows_preview()) return;
     if (snapshot_due_ == SnapshotDue::none || !frame || frame->revision != submitted_.revision() || frame->divider != 1) return;
-    EditorSnapshots::Shown shown{submitted_.revision(), pictures_, ui_.denoise, document_.project(), submitted_.settings(), files_.imported(), files_.scene_file()};
+    EditorSnapshots::Shown shown{submitted_.revision(), pictures_, ui_.denoise, document_.project(), submitted_.settings(), files_.imported(), files_.scene_file(), camera_frame_of(ui_, document_.project().scene, *frame)};
     if (snapshot_due_ == SnapshotDue::keep)
         snapshots_.keep(std::move(shown), session_);
     else

@@ -41,10 +41,10 @@ void report(UiState& ui, const std::filesystem::path& file, const ImportReport& 
 }
 
 // The camera that the scene is composed for, and its frame.
-void begin_at_camera(UiState& ui, const Scene& scene, std::map<Id<Camera>, float> aspects) {
-    ui.home = home_at_opening(scene);
+void begin_at_camera(UiState& ui, const Project& project, std::map<Id<Camera>, float> aspects) {
+    ui.home = home_at_opening(project.scene);
     ui.frame = {.fit = ui.frame.fit, .from_file = std::move(aspects)};
-    ui.frame.aspect = aspect_in_file(ui.frame, scene, ui.home.camera);
+    settle(ui.frame, project.view, project.scene, ui.home.camera);
 }
 
 // In front of what the import says itself.
@@ -239,7 +239,7 @@ EditorFiles::Finished EditorFiles::finish_import(Document& document, UiState& ui
     ui.light_table.renaming = {};
     watch_.watch(scene_file_);
     reset_document(document, ui, std::move(project), purpose_ == Purpose::open ? std::move(opened->lit) : std::nullopt);
-    if (purpose_ == Purpose::open) begin_at_camera(ui, document.project().scene, std::move(opened->camera_aspects));
+    if (purpose_ == Purpose::open) begin_at_camera(ui, document.project(), std::move(opened->camera_aspects));
     if (purpose_ == Purpose::open) recall_scene(ui.settings, scene_file_.string(), document.project().scene, ui);
     if (merged) {
         // Undo leads to the file as it is.

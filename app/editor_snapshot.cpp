@@ -9,6 +9,7 @@
 #include "io/scene_edits_json.h"
 #include "io/scene_hash.h"
 #include "render/coverage.h"
+#include "render/cropped.h"
 
 #include <fmt/format.h>
 
@@ -56,9 +57,25 @@ SnapshotMetadata metadata_of(const SnapshotJob& job, const std::filesystem::path
     return m;
 }
 
+// The camera's frame alone, without the samples, which are those of other pixels than an image of its size has.
+SnapshotJob cut_out(SnapshotJob job) {
+    Snapshot& s = job.snapshot;
+    const Frame& whole = *s.pictures.frame;
+    s.error = cropped(s.error, whole.width, *s.frame);
+    s.pictures.denoised = cropped(s.pictures.denoised, *s.frame);
+    s.pictures.frame = std::make_shared<const Frame>(cropped(whole, *s.frame));
+    s.film = nullptr;
+    s.settings.width = s.pictures.frame->width;
+    s.settings.height = s.pictures.frame->height;
+    s.frame.reset();
+    return job;
+}
+
 } // namespace
 
 Result<SavedSnapshot> write_snapshot_exr(const SnapshotJob& job) {
+    // With samples to go on from, all pixels are kept, and what lies beside the frame is overscan.
+    if (job.snapshot.frame && !(job.film && job.snapshot.film)) return write_snapshot_exr(cut_out(job));
     const Result<std::filesystem::path> file = job.file.empty() ? free_name(job.folder, job.snapshot.scene_file.stem().string(), ".exr") : job.file;
     if (!file) return file.error();
     const Snapshot& s = job.snapshot;
@@ -67,6 +84,7 @@ Result<SavedSnapshot> write_snapshot_exr(const SnapshotJob& job) {
     SnapshotMetadata metadata = metadata_of(job, *file, denoised);
     ExtraLayers extra{.error = s.error};
     extra.half = job.half;
+    extra.display_window = s.frame;
     if (denoised) extra.denoised = denoised->denoised.rgb;
     std::vector<ExactPlane> film;
     if (job.film && s.film) {
@@ -80,6 +98,7 @@ Result<SavedSnapshot> write_snapshot_exr(const SnapshotJob& job) {
 }
 
 Result<SavedSnapshot> write_snapshot_png(const SnapshotJob& job, const ColorManagement& color) {
+    if (job.snapshot.frame) return write_snapshot_png(cut_out(job), color);
     const auto file = free_name(job.folder, job.snapshot.scene_file.stem().string(), ".png");
     if (!file) return file.error();
     const Frame& frame = *job.snapshot.pictures.frame;
@@ -89,7 +108,8 @@ Result<SavedSnapshot> write_snapshot_png(const SnapshotJob& job, const ColorMana
     const std::vector<float> coverage = coverage_of(frame);
     const ViewSettings as_shown = settled(view, metered_exposure(view.auto_exposure, frame.rgba, 4));
     const auto written = write_display_picture(*file, frame.width, frame.height, std::move(shown), color, as_shown,
-                                               display_metadata(metadata_of(job, *file, denoised)), {frame.albedo, coverage});
+                                               display_metadata(metadata_of(job, *file, denoised)), {frame.albedo, coverage},
+                                               opacity_of(frame));
     if (!written) return written.error();
     return SavedSnapshot{*file, 0};
 }

@@ -27,6 +27,9 @@ struct SavedSnapshot {
     int64_t beyond_half = 0; // values that 16 bits could not hold
 };
 
+// Of a picture that goes on beside the camera's frame, the frame alone is the picture: a PNG holds no more, an EXR has it as its display window if
+// it holds samples to go on from, which are those of all pixels, and else holds no more either.
+//
 // The layered EXR of cli.md: the raw beauty always, the denoised picture as a layer beside it, and all that brings the state back. The file
 // is named after the scene and numbered so that none is overwritten.
 Result<SavedSnapshot> write_snapshot_exr(const SnapshotJob& job);

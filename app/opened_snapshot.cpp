@@ -83,6 +83,9 @@ Result<OpenedSnapshot> open_snapshot(const std::filesystem::path& file, const st
     s.note = metadata->note;
     s.settings = metadata->settings;
     s.file = file;
+    if (const auto& frame = image->display_window)
+        if (frame->x0 >= 0 && frame->y0 >= 0 && frame->x0 < frame->x1 && frame->y0 < frame->y1 && frame->x1 <= image->width && frame->y1 <= image->height)
+            s.frame = frame;
     s.scene_file = find_scene(file, *metadata, open_scene);
     Result<Frame> frame = frame_from_layers(*image, *metadata);
     if (Result<FilmState> film = film_in_file(*image, *metadata); film) {

@@ -11,6 +11,11 @@ float aspect_in_file(const CameraFrame& frame, const Scene& scene, Id<Node> came
     return found == frame.from_file.end() ? 0 : found->second;
 }
 
+void settle(CameraFrame& frame, const ViewSettings& view, const Scene& scene, Id<Node> camera_node) {
+    frame.aspect = view.frame_aspect ? *view.frame_aspect : aspect_in_file(frame, scene, camera_node);
+    frame.lock = view.lock_camera;
+}
+
 PictureSize picture_size(const CameraFrame& frame, int viewport_width, int viewport_height) {
     const PictureSize viewport{std::max(viewport_width, 1), std::max(viewport_height, 1)};
     if (frame.aspect <= 0) return viewport;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scene/scene.h"
+#include "scene/view_settings.h"
 #include "ui/gizmo.h"
 #include "ui/layout.h"
 
@@ -10,14 +11,17 @@
 namespace blush {
 
 struct CameraFrame {
-    float aspect = 0;  // width over height; 0: the frame is the picture
+    float aspect = 0;  // width over height; 0: the frame is the picture; settle() says it
     bool fit = false;  // the picture is the frame; else it goes on beside it
-    bool lock = false; // navigating moves the camera
+    bool lock = false; // navigating moves the camera; settle() says it
     std::map<Id<Camera>, float> from_file; // aspects of the file's cameras
 };
 
 // The aspect that the file gives the camera; 0: none.
 float aspect_in_file(const CameraFrame& frame, const Scene& scene, Id<Node> camera_node);
+
+// Takes aspect and lock from the settings that are saved with the scene; where they say no aspect it is that of the camera in the file.
+void settle(CameraFrame& frame, const ViewSettings& view, const Scene& scene, Id<Node> camera_node);
 
 struct PictureSize {
     int width = 1, height = 1;

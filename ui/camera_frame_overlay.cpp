@@ -38,14 +38,27 @@ void draw_camera_frame(PanelContext& c, ImDrawList& draw, const ImageRect& pictu
     c.ui.probe.record("Free view", {at.x, at.y, size.x, size.y});
 }
 
+std::optional<PixelRect> camera_frame_of(const UiState& ui, const Scene& scene, const Frame& picture) {
+    if (ui.looked_through || !is_at_home(scene, ui.home)) return {};
+    const ImageRect frame = frame_in_picture(ui.frame, {0, 0, float(picture.width), float(picture.height)});
+    if (int(frame.width) >= picture.width) return {};
+    return PixelRect{int(frame.x), 0, int(frame.x) + std::max(int(frame.width), 1), picture.height};
+}
+
 void carry_camera_along(PanelContext& c) {
     const Id<Node> id = c.ui.home.camera;
     const Node* record = c.scene().nodes.find(id);
     if (!c.ui.frame.lock || c.ui.looked_through || !record || !record->camera || is_placed_by_clip(c.scene(), id)) return;
     Node node = *record;
-    const View& view = c.scene().view;
+    const View view = c.scene().view;
     node.local = placed_at(c.scene(), id, to_double(view.position), view.rotation);
-    c.apply(SetNode{id, node}, c.ui.gestures.current());
+    if (!c.apply(SetNode{id, node}, c.ui.gestures.current())) return;
+    // To the last bit where the camera is, which its transform rounds: else the view would count as a free one.
+    View seen = view;
+    const View eye = eye_of(c.scene(), id);
+    seen.position = eye.position;
+    seen.rotation = eye.rotation;
+    c.document.navigate(seen);
 }
 
 } // namespace blush

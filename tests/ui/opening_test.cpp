@@ -3,7 +3,9 @@
 #include "scene/document.h"
 #include "scene/ground_plane.h"
 #include "support/sample_project.h"
+#include "render/cropped.h"
 #include "ui/camera_frame.h"
+#include "ui/region_surroundings.h"
 #include "ui/file_places.h"
 #include "ui/home_view.h"
 #include "ui/light_presence.h"
@@ -133,6 +135,63 @@ TEST(CameraFrame, PictureAndFrameHaveTheAspect) {
     frame = {.aspect = 2};
     EXPECT_EQ(picture_size(frame, 900, 600).height, 450) << "wider than the window: all of it shows";
     EXPECT_EQ(frame_in_picture(frame, {0, 0, 900, 450}).width, 900);
+}
+
+TEST(CameraFrame, IsThatOfTheSettingsElseThatOfTheFile) {
+    Scene scene;
+    Node node;
+    node.camera = scene.cameras.add({"camera", {}});
+    const Id<Node> id = scene.nodes.add(node);
+    CameraFrame frame{.from_file = {{node.camera, 1.5f}}};
+    ViewSettings view;
+    settle(frame, view, scene, id);
+    EXPECT_EQ(frame.aspect, 1.5f);
+    EXPECT_FALSE(frame.lock);
+    view.frame_aspect = 2.f;
+    view.lock_camera = true;
+    settle(frame, view, scene, id);
+    EXPECT_EQ(frame.aspect, 2);
+    EXPECT_TRUE(frame.lock);
+    view.frame_aspect = 0.f;
+    settle(frame, view, scene, id);
+    EXPECT_EQ(frame.aspect, 0) << "no frame, whatever the file says";
+}
+
+// Pixels of planes that hold their own number.
+Frame numbered_frame(int width, int height) {
+    Frame f;
+    f.width = width;
+    f.height = height;
+    for (int i = 0; i < width * height; ++i) {
+        for (int c = 0; c < 4; ++c) f.rgba.push_back(float(i));
+        f.albedo.push_back({float(i), 0, 0});
+        f.depth.push_back(float(i));
+        f.object_id.push_back(uint32_t(i));
+    }
+    f.bounces = {f.albedo};
+    f.error.known = true;
+    return f;
+}
+
+TEST(CameraFrame, IsCutOutOfAllPlanes) {
+    const Frame part = cropped(numbered_frame(5, 3), {1, 0, 4, 3});
+    EXPECT_EQ(part.width, 3);
+    EXPECT_EQ(part.height, 3);
+    EXPECT_EQ(part.depth, (std::vector<float>{1, 2, 3, 6, 7, 8, 11, 12, 13}));
+    EXPECT_EQ(part.rgba.size(), 36u);
+    EXPECT_EQ(part.rgba[4 * 4], 7);
+    EXPECT_EQ(part.object_id[8], 13u);
+    EXPECT_EQ(part.bounces[0][3].x, 6);
+    EXPECT_TRUE(part.normal.empty());
+    EXPECT_FALSE(part.error.known) << "it is that of the whole picture";
+    EXPECT_EQ(cropped(DenoisedPtr(), {0, 0, 1, 1}), nullptr);
+}
+
+TEST(RegionSurroundings, LieAroundTheRegion) {
+    float area = 0;
+    for (const PictureRegion& part : around({0.25f, 0.5f, 0.5f, 0.25f})) area += part.width * part.height;
+    EXPECT_FLOAT_EQ(area, 1 - 0.5f * 0.25f);
+    for (const PictureRegion& part : around({})) EXPECT_EQ(part.width * part.height, 0);
 }
 
 TEST(HomeView, IsTheCameraThatTheViewLooksThrough) {

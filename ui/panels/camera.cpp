@@ -29,10 +29,7 @@ void draw_scene_cameras(Fields& f, PanelContext& c) {
     std::string name = names[size_t(current - nodes.begin())];
     if (!f.choice("Look through", name, names, "Put the view where one of the scene's cameras is, with its lens.")) return;
     const auto at = size_t(std::ranges::find(names, name) - names.begin());
-    if (nodes[at] && c.apply(LookThrough{nodes[at]})) {
-        c.ui.home.camera = nodes[at];
-        c.ui.frame.aspect = aspect_in_file(c.ui.frame, c.scene(), nodes[at]);
-    }
+    if (nodes[at] && c.apply(LookThrough{nodes[at]})) c.ui.home.camera = nodes[at];
 }
 
 void draw_projection(Fields& f, Lens& lens) {
@@ -89,6 +86,7 @@ constexpr AspectPreset presets[] = {{"As the window", 0}, {"16:9", 16.f / 9}, {"
 void draw_frame(PanelContext& c) {
     Fields f(c.ui, "Frame");
     CameraFrame& frame = c.ui.frame;
+    ViewSettings settings = c.project().view;
     std::vector<std::string> names;
     std::vector<float> aspects;
     const float own = aspect_in_file(frame, c.scene(), c.ui.home.camera);
@@ -96,14 +94,18 @@ void draw_frame(PanelContext& c) {
     for (const AspectPreset& preset : presets) names.push_back(preset.name), aspects.push_back(preset.aspect);
     const auto chosen = std::ranges::find_if(aspects, [&](float a) { return std::abs(a - frame.aspect) < 1e-4f; });
     std::string name = chosen == aspects.end() ? fmt::format("{:.3g}:1", frame.aspect) : names[size_t(chosen - aspects.begin())];
-    if (f.choice("Aspect", name, names, "Width over height of the camera's frame. What lies beside it is dimmed while the camera is looked through."))
-        frame.aspect = aspects[size_t(std::ranges::find(names, name) - names.begin())];
+    if (f.choice("Aspect", name, names, "Width over height of the camera's frame. What lies beside it is dimmed while the camera is looked through. Saved with the scene.")) {
+        const auto at = size_t(std::ranges::find(names, name) - names.begin());
+        settings.frame_aspect.reset();
+        if (own <= 0 || at > 0) settings.frame_aspect = aspects[at]; // the first is the camera's own
+    }
     ImGui::BeginDisabled(frame.aspect <= 0);
     f.checkbox("Fit camera", frame.fit, "Render the frame alone, as large as fits into the window.");
     ImGui::EndDisabled();
     ImGui::BeginDisabled(!c.scene().nodes.contains(c.ui.home.camera));
-    f.checkbox("Lock to view", frame.lock, "Lock camera to view: orbiting, panning and flying move the camera that is looked through, as one step of the history.");
+    f.checkbox("Lock to view", settings.lock_camera, "Lock camera to view: orbiting, panning and flying move the camera that is looked through, as one step of the history.");
     ImGui::EndDisabled();
+    if (settings != c.project().view) c.apply(SetView{settings});
 }
 
 // The stops of a camera's settings: middle grey, 0.18, is what a reflected-light meter with K = 12.5 cd/m2 s shows as medium (ISO 2720:1974).

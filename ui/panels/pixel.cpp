@@ -44,7 +44,7 @@ std::string displayed(const PanelContext& c, const Vec3& rgb, const Vec3& albedo
 void draw_planes(const PanelContext& c, const Frame& f, size_t pixel) {
     const AovView& view = c.ui.aov;
     const size_t k = size_t(view.index);
-    if (view.show == PictureView::Show::group && k < f.groups.size()) row(name_of(view, &f).c_str(), triple(group_pixel(f, k, pixel)));
+    if (view.show == PictureView::Show::group && k < f.groups.size()) row(c, name_of(view, &f).c_str(), triple(group_pixel(f, k, pixel)));
     if (view.show == PictureView::Show::bounces && k < f.bounces.size()) row(c, fmt::format("Bounce {}", k).c_str(), triple(f.bounces[k][pixel]));
 }
 
