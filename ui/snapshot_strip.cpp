@@ -66,7 +66,7 @@ void draw_fitting(const std::string& text, const ImVec2& at, float width, ImU32 
 const char* place_of(const Snapshot& s) {
     if (s.place == Snapshot::Place::lost) return "lost its file";
     if (s.place == Snapshot::Place::file) return s.film_in_file ? "in its file" : "in its file, begins anew";
-    return s.film ? "" : "begins anew";
+    return s.film || s.layers ? "" : "begins anew";
 }
 
 void draw_place(PanelContext& c, const Snapshot& s, const ImVec2& low, float width, float bottom) {
