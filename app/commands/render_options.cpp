@@ -40,7 +40,7 @@ Result<Size> parse_size(std::string_view text) {
     Size size;
     const std::vector<std::string_view> sides = split(text, 'x');
     const auto side = [](std::string_view digits, int& pixels) { return digits.empty() || (parse_number(digits, pixels) && pixels != 0); };
-    const bool known = sides.size() <= 2 && side(sides[0], size.width) && (sides.size() == 1 || side(sides[1], size.height));
+    const bool known = sides.size() == 2 && side(sides[0], size.width) && side(sides[1], size.height);
     if (known && (size.width != 0 || size.height != 0)) return size;
     return Error{.what = fmt::format("a size must be WIDTHxHEIGHT, WIDTHx or xHEIGHT, not \"{}\"", text)};
 }

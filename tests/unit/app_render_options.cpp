@@ -125,10 +125,10 @@ TEST(RenderOptions, ASideThatIsNotSaidFollowsTheAspect) {
     EXPECT_EQ(size_for({}, 1), std::pair(1280, 1280));
     EXPECT_EQ(size_for({}, 0), std::pair(1280, 720)) << "not known";
     EXPECT_EQ(size_for({"--size", "600x"}, 1.5f), std::pair(600, 400));
-    EXPECT_EQ(size_for({"--size", "600"}, 0), std::pair(600, 338));
+    EXPECT_EQ(size_for({"--size", "640x"}, 0), std::pair(640, 360));
     EXPECT_EQ(size_for({"--size", "x300"}, 2), std::pair(600, 300));
     EXPECT_EQ(size_for({"--size", "600x300"}, 1), std::pair(600, 300)) << "what is said wins";
-    for (const char* wrong : {"x", "", "0x5", "5x0", "600x400x3", "wide", "600xh"}) EXPECT_ANY_THROW(parsed({"--size", wrong})) << wrong;
+    for (const char* wrong : {"x", "", "0x5", "5x0", "600x400x3", "wide", "600", "600xh"}) EXPECT_ANY_THROW(parsed({"--size", wrong})) << wrong;
 }
 
 TEST(RenderOptions, ARegionIsPixelsOfThePicture) {
