@@ -22,8 +22,8 @@ struct DockTab {
 // What is remembered of the docks, for all scenes.
 struct Dock {
     DockSizes sizes;
-    std::vector<DockTab> tabs;         // in their order; of instruments that were never opened there is none
-    std::array<std::string, 2> front;  // by side: the id of the tab that is shown
+    std::vector<DockTab> tabs;        // in their order; of instruments that were never opened there is none
+    std::array<std::string, 2> front; // by side: the id of the tab that is shown
     bool operator==(const Dock&) const = default;
 };
 
@@ -39,11 +39,11 @@ void reorder(Dock& dock, std::span<const std::string> shown);
 
 // The docks as they are on the screen; not remembered.
 struct DockView {
-    std::vector<std::string> open;   // in the last frame
-    std::set<std::string> in_sight;  // those of them that are not behind another tab
-    std::set<std::string> to_front;  // asked for
-    std::string torn_off;            // just now: the mouse goes on moving it
-    std::string moved;               // the floating window that the mouse moves
+    std::vector<std::string> open;  // in the last frame
+    std::set<std::string> in_sight; // those of them that are not behind another tab
+    std::set<std::string> to_front; // asked for
+    std::string torn_off;           // just now: the mouse goes on moving it
+    std::string moved;              // the floating window that the mouse moves
 };
 
 } // namespace blush

@@ -13,8 +13,6 @@ namespace {
 
 using Ids = std::vector<std::string>;
 
-constexpr const char* side_names[] = {"right", "bottom"};
-
 Ids docked(const PanelContext& c, DockSide side, bool right_dock) { return tabs_on(c.ui.settings.dock, side, c.ui.docks.open, right_dock); }
 
 DockTab& place_of(PanelContext& c, const Instrument& i) { return place_of(c.ui.settings.dock, i.id, i.side); }
@@ -176,12 +174,14 @@ Beside docks_beside(PanelContext& c, const Region& room) {
     view.in_sight.clear();
     std::erase_if(view.to_front, [&](const std::string& id) { return std::ranges::count(open, id) == 0; });
     const bool right_dock = has_right_dock(room, ImGui::GetFontSize());
-    return {.right = !docked(c, DockSide::right, right_dock).empty(), .bottom = !docked(c, DockSide::bottom, right_dock).empty(), .docks = dock.sizes};
+    const bool right = !docked(c, DockSide::right, right_dock).empty(), bottom = !docked(c, DockSide::bottom, right_dock).empty();
+    return {.right = right, .bottom = bottom, .docks = dock.sizes};
 }
 
 void draw_docks(PanelContext& c, const Layout& layout) {
     const bool right_dock = has_right_dock(layout.room, ImGui::GetFontSize());
-    const Ids right = docked(c, DockSide::right, right_dock), bottom = docked(c, DockSide::bottom, right_dock), torn_off = floating(c.ui.settings.dock, c.ui.docks.open);
+    const Ids right = docked(c, DockSide::right, right_dock), bottom = docked(c, DockSide::bottom, right_dock);
+    const Ids torn_off = floating(c.ui.settings.dock, c.ui.docks.open); // what is torn off below floats from the next frame on
     draw_dock(c, DockSide::right, layout.right_dock, right);
     draw_dock(c, DockSide::bottom, layout.bottom_dock, bottom);
     for (const std::string& id : torn_off) draw_floating(c, *find_instrument(id), layout);

@@ -9,7 +9,9 @@ namespace {
 // Font sizes.
 constexpr float narrowest_panel = 10, widest_panel = 45, narrowest_viewport = 16, lowest_viewport = 9, narrowest_dock = 15, lowest_dock = 6;
 
-float widest_dock(const Region& room, float font_size) { return std::max(room.width - narrowest_viewport * font_size, narrowest_dock * font_size); }
+float widest_dock(const Region& room, float font_size) {
+    return std::max(room.width - narrowest_viewport * font_size, narrowest_dock * font_size);
+}
 
 float right_dock_width(const Region& room, float font_size, const Beside& beside) {
     if (!beside.right || !has_right_dock(room, font_size)) return 0;

@@ -1,4 +1,4 @@
-// Where the window's regions lie: outliner left, viewport centre, inspector right, menu above, status below; docks beside and below the viewport.
+// Where the regions of the window lie: menu above, status below, side panels, and docks beside and below the viewport.
 #pragma once
 
 #include <optional>

@@ -75,7 +75,8 @@ void drag_splitters(UiState& ui, const Layout& layout, float window_width) {
     Splitters& s = ui.settings.splitters;
     const float em = ImGui::GetFontSize(), mouse = ImGui::GetIO().MousePos.x;
     bool reset = false;
-    if (draw_splitter(ui, "outliner", {layout.outliner.width, layout.outliner.y, 0, layout.outliner.height}, reset)) s = drag_outliner(s, mouse, em);
+    if (draw_splitter(ui, "outliner", {layout.outliner.width, layout.outliner.y, 0, layout.outliner.height}, reset))
+        s = drag_outliner(s, mouse, em);
     if (reset) s.outliner = Splitters{}.outliner;
     if (draw_splitter(ui, "inspector", left_edge(layout.inspector), reset)) s = drag_inspector(s, mouse, window_width, em);
     if (reset) s.inspector = Splitters{}.inspector;

@@ -305,8 +305,7 @@ void Viewport::obey(PanelContext& c, const NavigationResult& wish, const Project
     if (wish.turned != 0) turn_surroundings(c, wish.turned);
     if (wish.flying) c.ui.next_frame_in = 0;
     if (wish.focus) focus_at(c, projection, image.u(wish.focus->x), image.v(wish.focus->y));
-    if (wish.inspect && image.contains(wish.inspect->x, wish.inspect->y))
-        inspect(c, image.u(wish.inspect->x), image.v(wish.inspect->y));
+    if (wish.inspect && image.contains(wish.inspect->x, wish.inspect->y)) inspect(c, image.u(wish.inspect->x), image.v(wish.inspect->y));
     if (wish.select) {
         const Picked picked = picked_at(c, projection, image, *wish.select);
         c.ui.select(picked.node, picked.material);

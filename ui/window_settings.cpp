@@ -10,7 +10,8 @@
 namespace blush {
 namespace {
 
-constexpr size_t most_panel_settings = 1000, most_ids = 100000, most_floating_text = 1 << 16, most_snapshots = 64, most_bookmarks = 64, most_instruments = 64;
+constexpr size_t most_panel_settings = 1000, most_ids = 100000, most_floating_text = 1 << 16;
+constexpr size_t most_snapshots = 64, most_bookmarks = 64, most_instruments = 64;
 
 // The entry if it is there and of the right type and range, else what `value` was.
 template <class T> void read(const nlohmann::json& json, const char* key, T& value, T low, T high) {
@@ -83,7 +84,11 @@ void read_dock(const nlohmann::json& json, Dock& dock) {
 nlohmann::json dock_json(const Dock& dock) {
     nlohmann::json tabs = nlohmann::json::array();
     for (const DockTab& tab : dock.tabs) tabs.push_back({{"id", tab.id}, {"bottom", tab.side == DockSide::bottom}, {"floats", tab.floats}});
-    return {{"right", dock.sizes.right}, {"bottom", dock.sizes.bottom}, {"front_right", dock.front[0]}, {"front_bottom", dock.front[1]}, {"tabs", tabs}};
+    return {{"right", dock.sizes.right},
+            {"bottom", dock.sizes.bottom},
+            {"front_right", dock.front[0]},
+            {"front_bottom", dock.front[1]},
+            {"tabs", tabs}};
 }
 
 void read_panels(const nlohmann::json& json, std::map<std::string, double>& panels) {

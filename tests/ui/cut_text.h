@@ -37,7 +37,9 @@ public:
                     i += 3;
                     continue;
                 }
-                if (const auto glyph = drawn_glyph(list.VtxBuffer[int(cmd.VtxOffset + idx[0])], list.VtxBuffer[int(cmd.VtxOffset + idx[2])], cmd.ClipRect); glyph.code)
+                if (const auto glyph =
+                        drawn_glyph(list.VtxBuffer[int(cmd.VtxOffset + idx[0])], list.VtxBuffer[int(cmd.VtxOffset + idx[2])], cmd.ClipRect);
+                    glyph.code)
                     drawn.push_back(glyph);
                 i += 6;
             }

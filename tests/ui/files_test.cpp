@@ -40,7 +40,8 @@ TEST_F(Files, SettingsComeBack) {
     s.snapshot_memory = 77;
     s.panels = {{"scopes", 1}, {"denoise.blend", 0.25}};
     s.floating = "[Window][Scopes]\nPos=1,2\n";
-    s.scenes = {{"/a/b.gltf", 3, 0.25, 0.75, {7, 4711}, 12, {5, 4294967295u}, "Key", {"/a/b-0001.exr"}, {"scopes"}}, {"/c.glb", 0, 0.5, 0.5, {}, 0, {}, "", {}, {}}};
+    s.scenes = {{"/a/b.gltf", 3, 0.25, 0.75, {7, 4711}, 12, {5, 4294967295u}, "Key", {"/a/b-0001.exr"}, {"scopes"}},
+                {"/c.glb", 0, 0.5, 0.5, {}, 0, {}, "", {}, {}}};
     const auto file = folder / "deep" / "window.json";
     ASSERT_TRUE(write_window_settings(file, s));
     EXPECT_EQ(read_window_settings(file), s);

@@ -63,11 +63,13 @@ TEST(Layout, DocksAndStripTakeTheirPlacesFromThePicture) {
                     for (const Region& a : all) {
                         EXPECT_GE(a.width, 0);
                         EXPECT_GE(a.height, 0);
-                        for (const Region& b : all) EXPECT_TRUE(&a == &b || !overlap(a, b)) << width << " x " << height << " font " << font << " open " << open;
+                        for (const Region& b : all)
+                            EXPECT_TRUE(&a == &b || !overlap(a, b)) << width << " x " << height << " font " << font << " open " << open;
                     }
                     // Nothing between them is left over.
                     const float body = l.room.width * (l.status.y - l.room.y);
-                    EXPECT_NEAR(area(l.viewport) + area(l.strip) + area(l.time) + area(l.right_dock) + area(l.bottom_dock), body, 1e-3f * body);
+                    EXPECT_NEAR(area(l.viewport) + area(l.strip) + area(l.time) + area(l.right_dock) + area(l.bottom_dock), body,
+                                1e-3f * body);
                     EXPECT_GE(l.viewport.height, std::min(9 * font, 0.3f * (l.status.y - l.room.y)) - 1) << "the picture can be seen";
                 }
 }

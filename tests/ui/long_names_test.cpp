@@ -1,8 +1,9 @@
 // No text is cut off, whatever things are called: every panel with names of sixty letters and more, at scales 1 and 2.
+#include "app/editor_panels.h"
 #include "cut_text.h"
 #include "imgui_test.h"
+#include "io/gltf_import.h"
 #include "our_colors.h"
-#include "app/editor_panels.h"
 #include "render/light_groups.h"
 #include "render/light_mix.h"
 #include "support/sample_project.h"
@@ -12,7 +13,6 @@
 #include "ui/snapshot_strip.h"
 #include "ui/theme.h"
 #include "ui/window_settings.h"
-#include "io/gltf_import.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -188,7 +188,8 @@ TEST_F(LongNames, EveryInstrumentInEitherDock) {
     ImportReport report;
     report.extensions_used = {"KHR_" + long_name("extension")};
     report.extensions_honoured = report.extensions_used;
-    report.diagnostics = {{Diagnostic::Severity::warning, "ignored: " + long_name("what"), "nodes[0].mesh.primitives[0]." + long_name("where")}};
+    report.diagnostics = {
+        {Diagnostic::Severity::warning, "ignored: " + long_name("what"), "nodes[0].mesh.primitives[0]." + long_name("where")}};
     ui.import_report.report = std::make_shared<const ImportReport>(std::move(report));
     ui.import_report.file = long_name("Import") + ".gltf";
     ui.convergence.runs.begin(long_name("Run"));
@@ -233,7 +234,9 @@ TEST_F(LongNames, WhatLiesOnTop) {
         extra = [](PanelContext& c, const Layout&) { draw_shortcut_sheet(c); };
         expect_readable("shortcuts");
         ui.show_shortcuts = false;
-        ui.question = Question{.text = "Save " + long_name("File") + " before it is closed?", .details = long_name("Details"), .choices = {"Save", "Discard", "Cancel"}};
+        ui.question = Question{.text = "Save " + long_name("File") + " before it is closed?",
+                               .details = long_name("Details"),
+                               .choices = {"Save", "Discard", "Cancel"}};
         extra = [](PanelContext& c, const Layout&) { draw_question(c); };
         expect_readable("question");
         ui.question.reset();

@@ -1,7 +1,7 @@
 // Every panel, for everything there is to select: drawing alone edits nothing, whatever the values are.
 #include "imgui_test.h"
-#include "our_colors.h"
 #include "io/gltf_import.h"
+#include "our_colors.h"
 #include "render/light_links.h"
 #include "support/sample_project.h"
 #include "ui/panels/instruments.h"

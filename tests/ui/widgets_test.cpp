@@ -185,7 +185,8 @@ TEST_F(Widgets, ATipWaitsForHalfASecondOfRest) {
     // The row below can be read and clicked.
     const ImGuiWindow* tip = ImGui::FindWindowByName("##Tooltip_00");
     const float row = high.y - low.y;
-    EXPECT_TRUE(tip->Pos.x >= 400 || tip->Pos.y >= high.y + 2 * row || tip->Pos.y + tip->Size.y <= high.y) << tip->Pos.x << ", " << tip->Pos.y;
+    EXPECT_TRUE(tip->Pos.x >= 400 || tip->Pos.y >= high.y + 2 * row || tip->Pos.y + tip->Size.y <= high.y)
+        << tip->Pos.x << ", " << tip->Pos.y;
     press(true);
     for (int i = 0; i < 20; ++i) move(middle() + float(i % 3));
     for (int i = 0; i < 20; ++i) frame();

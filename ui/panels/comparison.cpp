@@ -72,13 +72,15 @@ void draw_comparison_panel(PanelContext& c) {
     draw_side(c, f, "B", compare.b);
     constexpr const char* modes[] = {"Wipe", "Flicker", "Difference"};
     int mode = int(compare.mode) - 1;
-    if (f.choice("Show", mode, modes, "Side by side with a bar between them, one after the other, or what is different.")) compare.mode = Mode(mode + 1);
+    if (f.choice("Show", mode, modes, "Side by side with a bar between them, one after the other, or what is different."))
+        compare.mode = Mode(mode + 1);
     if (compare.mode == Mode::flicker) {
         if (f.button(compare.shows_b ? "Show A" : "Show B", "So does the key J.")) compare.shows_b = !compare.shows_b;
     } else if (compare.mode == Mode::difference) {
         constexpr const char* kinds[] = {"Absolute", "Relative", "FLIP"};
         int kind = int(compare.kind);
-        if (f.choice("Kind", kind, kinds, "|A - B| as light; relative to B as a map; or FLIP, what a viewer would notice, as a map. B is the reference."))
+        if (f.choice("Kind", kind, kinds,
+                     "|A - B| as light; relative to B as a map; or FLIP, what a viewer would notice, as a map. B is the reference."))
             compare.kind = DifferenceKind(kind);
         const Difference* d = c.ui.difference.get();
         if (compare.a == compare.b)

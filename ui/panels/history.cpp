@@ -21,8 +21,7 @@ void draw_history(PanelContext& c) {
     if (step("As opened", past.empty(), "opened")) steps = -ptrdiff_t(past.size());
     for (size_t i = 0; i < past.size(); ++i) {
         const bool current = i + 1 == past.size();
-        if (step(past[i], current, fmt::format("past{}", i)))
-            steps = ptrdiff_t(i + 1) - ptrdiff_t(past.size());
+        if (step(past[i], current, fmt::format("past{}", i))) steps = ptrdiff_t(i + 1) - ptrdiff_t(past.size());
         if (current && ImGui::IsWindowAppearing()) ImGui::SetScrollHereY();
     }
     ImGui::PushStyleColor(ImGuiCol_Text, tone::dim_text);

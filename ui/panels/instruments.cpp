@@ -12,11 +12,10 @@ namespace {
 template <auto flag> constexpr bool is_set(const PanelContext& c) { return *flag(c.ui); }
 template <auto flag> constexpr void set(PanelContext& c, bool open) { *flag(c.ui) = open; }
 
-template <auto flag> constexpr Instrument by_flag(const char* id, const char* title, DockSide side, float width, float height, void (*draw)(PanelContext&), bool remembered = true) {
+template <auto flag> constexpr Instrument by_flag(const char* id, const char* title, DockSide side, float width, float height,
+                                                  void (*draw)(PanelContext&), bool remembered = true) {
     return {id, title, side, width, height, remembered, is_set<flag>, set<flag>, draw};
 }
-
-using Ui = UiState;
 
 void close_region(PanelContext& c, bool open) {
     if (open) return;
@@ -38,24 +37,28 @@ const Instrument table[] = {
     by_flag<[](auto& ui) { return &ui.convergence.open; }>("convergence", "Convergence", bottom, 50, 40, draw_convergence_panel),
     by_flag<[](auto& ui) { return &ui.light_mix.open; }>("light_mix", "Light mix", right, 28, 30, draw_light_mix_panel),
     by_flag<[](auto& ui) { return &ui.bounces.open; }>("bounces", "Bounces", right, 24, 24, draw_bounces_panel),
-    {"roulette", "Roulette lab", right, 28, 44, true, [](const PanelContext& c) { return c.ui.roulette.open; }, open_roulette, draw_roulette_panel},
+    {"roulette", "Roulette lab", right, 28, 44, true, [](const PanelContext& c) { return c.ui.roulette.open; }, open_roulette,
+     draw_roulette_panel},
     by_flag<[](auto& ui) { return &ui.health.open; }>("health", "Health", right, 34, 34, draw_health_panel),
     by_flag<[](auto& ui) { return &ui.meters.open; }>("meters", "Light meters", bottom, 36, 16, draw_meters_panel),
     by_flag<[](auto& ui) { return &ui.show_history; }>("history", "History", right, 18, 22, draw_history),
     by_flag<[](auto& ui) { return &ui.import_report.open; }>("import_report", "Import report", right, 34, 30, draw_import_report, false),
-    {"comparison", "Comparison", right, 24, 24, false, [](const PanelContext& c) { return c.ui.snapshots.compare.mode != Comparison::Mode::off; },
+    {"comparison", "Comparison", right, 24, 24, false,
+     [](const PanelContext& c) { return c.ui.snapshots.compare.mode != Comparison::Mode::off; },
      [](PanelContext& c, bool open) {
          if (!open) c.ui.snapshots.compare.mode = Comparison::Mode::off;
      },
      draw_comparison_panel},
-    {"snapshot", "Snapshot", right, 26, 26, false, [](const PanelContext& c) { return c.ui.snapshots.find(c.ui.snapshots.details) != nullptr; },
+    {"snapshot", "Snapshot", right, 26, 26, false,
+     [](const PanelContext& c) { return c.ui.snapshots.find(c.ui.snapshots.details) != nullptr; },
      [](PanelContext& c, bool open) {
          if (!open) c.ui.snapshots.details = 0;
      },
      draw_snapshot_panel},
-    {"region", "Region", bottom, 34, 18, false, [](const PanelContext& c) { return c.project().view.measured.has_value(); }, close_region, draw_region_panel},
-    {"opening_page", "Start", bottom, 50, 20, false, [](const PanelContext& c) { return c.ui.opening_page; }, [](PanelContext& c, bool open) { c.ui.opening_page = open; },
-     draw_opening_page},
+    {"region", "Region", bottom, 34, 18, false, [](const PanelContext& c) { return c.project().view.measured.has_value(); }, close_region,
+     draw_region_panel},
+    {"opening_page", "Start", bottom, 50, 20, false, [](const PanelContext& c) { return c.ui.opening_page; },
+     [](PanelContext& c, bool open) { c.ui.opening_page = open; }, draw_opening_page},
     {"pixel", "Pixel", right, 26, 22, false, [](const PanelContext& c) { return c.ui.pixel.has_value(); },
      [](PanelContext& c, bool open) {
          if (!open) c.ui.pixel.reset();

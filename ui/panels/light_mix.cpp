@@ -1,6 +1,6 @@
 // Light mix: a gain for each group of lights, on the picture that there is.
-#include "render/bake_mix.h"
 #include "render/light_mix.h"
+#include "render/bake_mix.h"
 #include "ui/fitting_text.h"
 #include "ui/panels/panels.h"
 #include "ui/theme.h"
@@ -81,14 +81,16 @@ void draw_heading(PanelContext& c, const GroupReport& report, LightMix& mix, boo
     bool unfolded = c.ui.light_mix.unfolded == group;
     ImGui::AlignTextToFramePadding();
     const std::string shown = elided(group, std::max(em * 4, room));
-    if (ImGui::Selectable((shown + "##name").c_str(), unfolded, 0, {std::max(em * 4, room), 0})) c.ui.light_mix.unfolded = unfolded ? "" : group;
+    if (ImGui::Selectable((shown + "##name").c_str(), unfolded, 0, {std::max(em * 4, room), 0}))
+        c.ui.light_mix.unfolded = unfolded ? "" : group;
     c.ui.probe.record_last_item("Light mix/" + group);
     tip_for_last_item(c.ui, (shown == group ? std::string() : group + "\n").append("A click unfolds its colour.").c_str());
     ImGui::SameLine();
     ImGui::PushStyleColor(ImGuiCol_Text, tone::dim_text);
     ImGui::TextUnformatted(figures.c_str());
     ImGui::PopStyleColor();
-    tip_for_last_item(c.ui, (light + ", " + noise + ": its shares of the image's luminance and of the variance of its noise, in this mix.").c_str());
+    const std::string tip = light + ", " + noise + ": its shares of the image's luminance and of the variance of its noise, in this mix.";
+    tip_for_last_item(c.ui, tip.c_str());
 }
 
 void draw_colour(Fields& f, MixChannel& channel) {

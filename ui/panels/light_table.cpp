@@ -1,11 +1,11 @@
 // The light table: everything that shines, by its group, with what it gives to the picture. Rows are dragged from group to group.
 #include "ui/edit_together.h"
+#include "ui/fitting_text.h"
 #include "ui/icons.h"
 #include "ui/light_groups.h"
 #include "ui/light_rows.h"
 #include "ui/light_tools.h"
 #include "ui/panels/light_drag.h"
-#include "ui/fitting_text.h"
 #include "ui/panels/panels.h"
 #include "ui/row_clicks.h"
 #include "ui/selected_lights.h"
@@ -210,7 +210,8 @@ void draw_rows(PanelContext& c, const std::vector<LightRows>& all) {
     ImGui::TableSetupScrollFreeze(0, 1);
     ImGui::TableSetupColumn("Name", ImGuiTableColumnFlags_WidthStretch, 1.6f);
     // A narrow dock has no room for all; what the icon and the light mix say as well gives way.
-    const ImGuiTableColumnFlags extra = ImGuiTableColumnFlags_WidthFixed | (ImGui::GetContentRegionAvail().x < 34 * em ? ImGuiTableColumnFlags_Disabled : 0);
+    const bool narrow = ImGui::GetContentRegionAvail().x < 34 * em;
+    const ImGuiTableColumnFlags extra = ImGuiTableColumnFlags_WidthFixed | (narrow ? ImGuiTableColumnFlags_Disabled : 0);
     ImGui::TableSetupColumn("Type", extra, em * 5);
     ImGui::TableSetupColumn("Intensity", ImGuiTableColumnFlags_WidthStretch, 1);
     ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, ImGui::GetFrameHeight() * 2);

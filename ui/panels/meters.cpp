@@ -18,7 +18,8 @@ std::vector<LightMeter> draw_table(PanelContext& c) {
     const float em = ImGui::GetFontSize();
     ImGui::TableSetupColumn("Name", ImGuiTableColumnFlags_WidthStretch);
     ImGui::TableSetupColumn("Illuminance", ImGuiTableColumnFlags_WidthFixed, em * (ImGui::GetContentRegionAvail().x < 20 * em ? 5 : 10));
-    ImGui::TableSetupColumn("R : G : B", ImGuiTableColumnFlags_WidthFixed | (ImGui::GetContentRegionAvail().x < 34 * em ? ImGuiTableColumnFlags_Disabled : 0), em * 9);
+    const bool narrow = ImGui::GetContentRegionAvail().x < 34 * em;
+    ImGui::TableSetupColumn("R : G : B", ImGuiTableColumnFlags_WidthFixed | (narrow ? ImGuiTableColumnFlags_Disabled : 0), em * 9);
     ImGui::TableSetupColumn("");
     ImGui::TableHeadersRow();
     for (size_t i = 0; i < meters.size(); ++i) {
@@ -65,8 +66,10 @@ void follow_meters(PanelContext& c) {
 void draw_meters_panel(PanelContext& c) {
     const MetersView& view = c.ui.meters;
     ViewSettings v = c.project().view;
-    if (v.meters.empty()) quiet_text("Place a meter on a surface to read how much light falls on it.");
-    else v.meters = draw_table(c);
+    if (v.meters.empty())
+        quiet_text("Place a meter on a surface to read how much light falls on it.");
+    else
+        v.meters = draw_table(c);
     if (!view.state.failure.empty()) quiet_text(view.state.failure);
     if (ImGui::Button("Place a meter")) c.ui.tool = ViewTool::meter;
     c.ui.probe.record_last_item("Meters/Place a meter");

@@ -111,7 +111,8 @@ void draw_node(PanelContext& c, Rows& rows, Id<Node> id, int depth) {
     if (c.ui.renaming == id)
         draw_rename(c, id, node);
     else {
-        fitting_text(c.ui, name, quiet ? tone::dim_text : tone::text, ImGui::GetContentRegionAvail().x - ImGui::GetFrameHeight() - ImGui::GetStyle().ItemSpacing.x);
+        const float before_eye = ImGui::GetContentRegionAvail().x - ImGui::GetFrameHeight() - ImGui::GetStyle().ItemSpacing.x;
+        fitting_text(c.ui, name, quiet ? tone::dim_text : tone::text, before_eye);
     }
     draw_eye(c, id, node);
     if (open) {

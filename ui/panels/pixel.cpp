@@ -68,7 +68,9 @@ void draw_values(const PanelContext& c, const Frame& f, int x, int y) {
     const Vec3 shown = mixed_pixel(f, c.denoised.get(), mix_of(c.ui.denoise, c.denoised != nullptr), x, y);
     row(c, "Displayed", displayed(c, shown, f.albedo.empty() ? Vec3{0, 0, 0} : f.albedo[i], coverage_of_pixel(f, i)));
     if (!f.albedo.empty()) row(c, "Albedo", triple(f.albedo[i]));
-    if (!f.normal.empty()) row(c, "Normal", fmt::format("{}  {}  {}", signed_number(f.normal[i].x, 3), signed_number(f.normal[i].y, 3), signed_number(f.normal[i].z, 3)));
+    if (!f.normal.empty())
+        row(c, "Normal",
+            fmt::format("{}  {}  {}", signed_number(f.normal[i].x, 3), signed_number(f.normal[i].y, 3), signed_number(f.normal[i].z, 3)));
     if (!f.standard_error.empty()) row(c, "Standard error", triple(f.standard_error[i]));
     if (!f.pixel_samples.empty()) row(c, "Samples", fmt::format("{:.0f}", f.pixel_samples[i]));
     if (c.ui.aov.show == PictureView::Show::samples && f.pixel_samples.empty()) row(c, "Samples", fmt::format("{}", f.samples));

@@ -131,8 +131,8 @@ void draw_scopes_panel(PanelContext& c) {
         draw_column(c, "Light", "As rendered, in stops from middle grey. Looking changes nothing here.", scopes.scene,
                     scopes.scene_wave.axis, c.waveforms.scene, height, flat);
         ImGui::TableNextColumn();
-        draw_column(c, "Displayed", "What the display is given: exposure, white balance, look, view and gamma included.",
-                    scopes.displayed, scopes.displayed_wave.axis, c.waveforms.displayed, height, flat);
+        draw_column(c, "Displayed", "What the display is given: exposure, white balance, look, view and gamma included.", scopes.displayed,
+                    scopes.displayed_wave.axis, c.waveforms.displayed, height, flat);
         ImGui::EndTable();
     }
     if (scopes.step > 1) quiet_text(fmt::format("One pixel of {} is read.", scopes.step * scopes.step));

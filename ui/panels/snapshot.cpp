@@ -52,8 +52,10 @@ void draw_snapshot_panel(PanelContext& c) {
     if (!s->no_state.empty()) quiet_text(s->no_state);
     ImGui::BeginDisabled(s->layers != nullptr); // the file is another program's
     f.checkbox("16 bits", c.ui.settings.snapshot_half, "Colours, albedo, normals and errors as half floats: smaller, with three digits.");
-    f.checkbox("With samples", c.ui.settings.snapshot_film, "The file holds the exact sums, so that rendering can go on from them. Larger.");
-    f.checkbox("Save each", c.ui.settings.snapshot_files, "Every new snapshot is written to a file at once; otherwise it ends with this window.");
+    f.checkbox("With samples", c.ui.settings.snapshot_film,
+               "The file holds the exact sums, so that rendering can go on from them. Larger.");
+    f.checkbox("Save each", c.ui.settings.snapshot_files,
+               "Every new snapshot is written to a file at once; otherwise it ends with this window.");
     draw_memory(c, f, *s);
     if (f.button("Save as EXR", "Beauty, denoised, albedo, normal, depth, error, ids, light groups, and all that restores the state."))
         v.requests.push_back({SnapshotRequest::What::save, s->id});

@@ -1,9 +1,9 @@
 // Status bar: how far the picture is, how fast it gets there, and what makes it.
 #include "core/text.h"
 #include "ui/fitting_text.h"
-#include "ui/time_text.h"
 #include "ui/panels/panels.h"
 #include "ui/theme.h"
+#include "ui/time_text.h"
 #include "ui/widgets.h"
 
 #include <algorithm>
@@ -80,25 +80,30 @@ void add_denoised_cells(const PanelContext& c, Cells& cells, const Frame& frame)
     const DenoiseView& view = c.ui.denoise;
     if (!view.wants_denoised()) return cells.push_back({4, "raw", "The image is shown as it was traced.", tone::dim_text, 6});
     const DenoisedPicture* denoised = c.denoised.get();
-    cells.push_back({19, shown_text(view, frame, denoised), "What is shown, and by how much the denoised picture is older than the raw one.", tone::text, 7});
+    cells.push_back({19, shown_text(view, frame, denoised),
+                     "What is shown, and by how much the denoised picture is older than the raw one.", tone::text, 7});
     if (!denoised) return;
     cells.push_back({9, fmt::format("energy {} %", signed_number(energy_change_percent(denoised->denoised), 2)),
-                     "By how much the denoiser changed the mean luminance of the picture. The estimated error is that of the raw image.", tone::text, 3});
+                     "By how much the denoiser changed the mean luminance of the picture. The estimated error is that of the raw image.",
+                     tone::text, 3});
 }
 
 Cell error_cell(const Frame& frame) {
     const ErrorEstimate& e = frame.error;
     if (!e.known)
         return {9, "error not known yet",
-                "The error is estimated from two independent halves of the samples, now and then, so that this takes hardly any time. The samples so far do "
+                "The error is estimated from two independent halves of the samples, now and then, so that this takes hardly any time. The "
+                "samples so far do "
                 "not tell.",
                 tone::text, 8};
     const bool older = frame.error_samples < frame.samples;
     const std::string of = older ? fmt::format("the picture as it was after {} samples per pixel", frame.error_samples) : "the picture";
-    return {older ? 14.f : 9.f, fmt::format("error {:.3g} %", 100 * std::sqrt(e.relmse)) + (older ? fmt::format(" at {} spp", frame.error_samples) : ""),
-            fmt::format("Estimated relative error (root of relMSE) of {}, from two independent halves of the samples. relMSE {:.3g}, 95 % interval "
-                        "{:.3g} to {:.3g}.",
-                        of, e.relmse, e.low, e.high),
+    return {older ? 14.f : 9.f,
+            fmt::format("error {:.3g} %", 100 * std::sqrt(e.relmse)) + (older ? fmt::format(" at {} spp", frame.error_samples) : ""),
+            fmt::format(
+                "Estimated relative error (root of relMSE) of {}, from two independent halves of the samples. relMSE {:.3g}, 95 % interval "
+                "{:.3g} to {:.3g}.",
+                of, e.relmse, e.low, e.high),
             tone::text, 8};
 }
 
@@ -109,7 +114,9 @@ void add_frame_cells(const PanelContext& c, Cells& cells, const Frame& frame) {
     cells.push_back({6.5f, rate_text(frame.samples_per_second), "Samples per pixel and second, over the last batch.", tone::text, 4});
     const bool mix_is_new = c.mixing && c.mixing->gains != frame.gains;
     if (mix_is_new)
-        cells.push_back({9, "error follows", "The mix of lights shows at once; its error is estimated with the next picture of the session.", tone::dim_text, 8});
+        cells.push_back({9, "error follows",
+                         "The mix of lights shows at once; its error is estimated with the next picture of the session.", tone::dim_text,
+                         8});
     else
         cells.push_back(error_cell(frame));
     if (!frame.missing_light.empty())
@@ -123,7 +130,8 @@ void add_frame_cells(const PanelContext& c, Cells& cells, const Frame& frame) {
     cells.push_back({9, frame.kernel, "Which of the compiled kernels renders: instruction set / what the scene needs.", tone::dim_text, 1});
     if (frame.health.dropped() > 0)
         cells.push_back({12, fmt::format("{} bad samples dropped", frame.health.dropped()),
-                         "Samples that were not a number, infinite or negative. They are left out of the picture and counted.", tone::warning, 7});
+                         "Samples that were not a number, infinite or negative. They are left out of the picture and counted.",
+                         tone::warning, 7});
 }
 
 // Empty: the display is as the light is.
@@ -141,15 +149,17 @@ void draw_status_bar(PanelContext& c) {
     const float left = ImGui::GetStyle().WindowPadding.x, width = ImGui::GetWindowWidth();
     ImGui::SetCursorPos({left, (ImGui::GetWindowHeight() - ImGui::GetTextLineHeight()) / 2});
     ImGui::Dummy({0, 0});
-    Cells cells{{6, state_name(c.status.state), "What the render thread does. Complete, it sleeps; while lights are being mixed it stands still.",
+    Cells cells{{6, state_name(c.status.state),
+                 "What the render thread does. Complete, it sleeps; while lights are being mixed it stands still.",
                  failed ? tone::failure : tone::text, 10}};
     if (!failed && c.frame) add_frame_cells(c, cells, *c.frame);
     if (c.ui.zoom.scale > 0)
-        cells.push_back({5, fmt::format("{:.0f} %", 100 * c.ui.zoom.scale), "Pixels of the screen for one of the picture. Z shows all of it again.",
-                         tone::dim_text, 5});
+        cells.push_back({5, fmt::format("{:.0f} %", 100 * c.ui.zoom.scale),
+                         "Pixels of the screen for one of the picture. Z shows all of it again.", tone::dim_text, 5});
     const std::string exposure = exposure_text(c);
     const float right = width - left - ImGui::CalcTextSize(exposure.c_str()).x;
-    if (failed) cells.push_back({30, elided(c.status.message, right - left - 8 * ImGui::GetFontSize()), c.status.message, tone::failure, 9});
+    if (failed)
+        cells.push_back({30, elided(c.status.message, right - left - 8 * ImGui::GetFontSize()), c.status.message, tone::failure, 9});
     draw(c, fitting(std::move(cells), right - left), left);
     if (!exposure.empty()) draw(c, {{0, exposure, "Exposure of the display.", tone::dim_text, 0}}, right);
 }

@@ -1,4 +1,5 @@
 // Toasts and background jobs: small cards above the status bar, out of the way of the work.
+#include "ui/fitting_text.h"
 #include "ui/panels/panels.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
@@ -33,8 +34,14 @@ ImU32 edge_of(Toast::Kind kind) {
     return kind == Toast::Kind::failure ? tone::failure : kind == Toast::Kind::warning ? tone::warning : IM_COL32(90, 90, 90, 255);
 }
 
-void draw_texts(const Toast& toast) {
-    ImGui::PushTextWrapPos(ImGui::GetFontSize() * 28);
+// As wide as a card may be: not over all of a small picture.
+float text_width(const Region& viewport) {
+    const float em = ImGui::GetFontSize();
+    return std::clamp(viewport.width - 4 * em, 12 * em, 28 * em);
+}
+
+void draw_texts(const Toast& toast, float width) {
+    ImGui::PushTextWrapPos(width);
     ImGui::TextUnformatted(toast.text.c_str());
     if (!toast.details.empty()) {
         ImGui::PushStyleColor(ImGuiCol_Text, tone::dim_text);
@@ -45,23 +52,23 @@ void draw_texts(const Toast& toast) {
 }
 
 // Each draws cards from `bottom` upwards, and leaves there where the next one ends.
-bool draw_job(const PanelContext& c, const RunningJob& job, float right, float& bottom) {
+bool draw_job(const PanelContext& c, const RunningJob& job, float right, float width, float& bottom) {
     const float em = ImGui::GetFontSize();
     begin_card("##job", right, bottom, IM_COL32(90, 90, 90, 255));
-    ImGui::TextUnformatted(job.title.c_str());
-    ImGui::ProgressBar(float(job.fraction), {em * 18, em / 2}, "");
+    fitting_text(c.ui, job.title, tone::text, width);
+    ImGui::ProgressBar(float(job.fraction), {std::min(em * 18, width - em * 5), em / 2}, "");
     bool cancelled = false;
     if (job.can_cancel) {
         ImGui::SameLine();
         cancelled = ImGui::SmallButton("Cancel");
         c.ui.probe.record_last_item("Job/Cancel");
     }
-    if (!job.what.empty()) ImGui::TextDisabled("%s", job.what.c_str());
+    if (!job.what.empty()) fitting_text(c.ui, job.what, tone::dim_text, width);
     bottom = end_card() - em / 2;
     return cancelled;
 }
 
-void draw_toasts(PanelContext& c, float right, float& bottom) {
+void draw_toasts(PanelContext& c, float right, float width, float& bottom) {
     const auto now = std::chrono::steady_clock::now();
     c.ui.toasts.expire(now);
     std::optional<size_t> dismissed;
@@ -72,7 +79,7 @@ void draw_toasts(PanelContext& c, float right, float& bottom) {
         c.ui.next_frame_in = std::min(c.ui.next_frame_in, std::max(left.count(), 0.0));
         begin_card(("##toast" + std::to_string(i)).c_str(), right, bottom, edge_of(toast.kind));
         if (ImGui::IsWindowAppearing()) c.ui.next_frame_in = 0; // it is seen in the frame after the one that finds out how large it is
-        draw_texts(toast);
+        draw_texts(toast, width);
         if (toast.action && ImGui::Button(shortcut(*toast.action).name)) {
             c.ui.commands.push_back(*toast.action);
             dismissed = i;
@@ -88,8 +95,8 @@ void draw_toasts(PanelContext& c, float right, float& bottom) {
 bool draw_cards(PanelContext& c, const Region& viewport, const RunningJob* job) {
     const float em = ImGui::GetFontSize(), right = viewport.x + viewport.width - em;
     float bottom = viewport.y + viewport.height - em;
-    const bool cancelled = job && draw_job(c, *job, right, bottom);
-    draw_toasts(c, right, bottom);
+    const bool cancelled = job && draw_job(c, *job, right, text_width(viewport), bottom);
+    draw_toasts(c, right, text_width(viewport), bottom);
     return cancelled;
 }
 
