@@ -274,10 +274,7 @@ void Editor::draw_regions(PanelContext& c) {
     draw_status_bar(c);
     end_region();
     thumbnails_.update(ui_.snapshots.list, numbers_of(c.shown_view()));
-    if (panels) {
-        drag_splitters(ui_, l, screen.x);
-        draw_snapshot_strip(c, l.strip, [this](size_t i) { return thumbnails_.part(i); });
-    }
+    if (panels) draw_snapshot_strip(c, l.strip, [this](size_t i) { return thumbnails_.part(i); });
     ImGui::EndDisabled();
 }
 

@@ -21,6 +21,7 @@ Layout window_layout(PanelContext& c, float width, float height) {
 }
 
 void draw_side_panels(PanelContext& c, const Layout& l) {
+    drag_splitters(c.ui, l, ImGui::GetIO().DisplaySize.x);
     begin_region("Outliner", l.outliner);
     draw_outliner(c);
     end_region();

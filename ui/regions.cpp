@@ -18,7 +18,7 @@ bool draw_splitter(UiState& ui, const char* id, const Region& edge, bool& reset)
     ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
     ImGui::Begin(id, nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoBackground |
-                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav);
+                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoBringToFrontOnFocus);
     ImGui::InvisibleButton("bar", {bar.width, bar.height});
     ui.probe.record_last_item(std::string("Splitter/") + id);
     const bool active = ImGui::IsItemActive();
@@ -45,14 +45,14 @@ void drag_dock_splitters(UiState& ui, const Layout& l) {
     const float em = ImGui::GetFontSize();
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     bool reset = false;
-    if (l.right_dock.width > 0) {
-        if (draw_splitter(ui, "right dock", left_edge(l.right_dock), reset)) sizes = drag_right_dock(sizes, mouse.x, l, em);
-        if (reset) sizes.right = DockSizes{}.right;
-    }
-    if (l.bottom_dock.height > 0) {
-        if (draw_splitter(ui, "bottom dock", upper_edge(l.bottom_dock), reset)) sizes = drag_bottom_dock(sizes, mouse.y, l, em);
-        if (reset) sizes.bottom = DockSizes{}.bottom;
-    }
+    // Out of the window where there is no dock: see drag_splitters.
+    constexpr Region beside{-99, -99, 0, 1}, above{-99, -99, 1, 0};
+    if (draw_splitter(ui, "right dock", l.right_dock.width > 0 ? left_edge(l.right_dock) : beside, reset))
+        sizes = drag_right_dock(sizes, mouse.x, l, em);
+    if (reset) sizes.right = DockSizes{}.right;
+    if (draw_splitter(ui, "bottom dock", l.bottom_dock.height > 0 ? upper_edge(l.bottom_dock) : above, reset))
+        sizes = drag_bottom_dock(sizes, mouse.y, l, em);
+    if (reset) sizes.bottom = DockSizes{}.bottom;
 }
 
 } // namespace

@@ -13,7 +13,8 @@ struct RegionStyle {
 void begin_region(const char* name, const Region& region, const RegionStyle& style = {});
 void end_region();
 
-// Lets the mouse drag the bars beside outliner, inspector and docks; double-click puts them back.
+// Lets the mouse drag the bars beside outliner, inspector and docks; double-click puts them back. To be called before the regions are begun, in
+// every frame: of windows that stay behind others, those that were made first lie in front. So the bars lie over the regions and under all else.
 void drag_splitters(UiState& ui, const Layout& layout, float window_width);
 
 } // namespace blush
