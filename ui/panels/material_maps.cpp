@@ -1,5 +1,6 @@
 #include "ui/panels/material_maps.h"
 
+#include "ui/fitting_text.h"
 #include "ui/map_thumbnails.h"
 #include "ui/panels/material_layers.h"
 #include "ui/theme.h"
@@ -47,7 +48,7 @@ void draw_preview(PanelContext& c, const Texture& texture, const MapThumbnails::
     ImGui::BeginTooltip();
     if (ImGui::IsWindowAppearing()) c.ui.next_frame_in = 0;
     if (picture.texture) ImGui::Image(picture.texture, size);
-    ImGui::TextUnformatted(name.c_str());
+    ImGui::TextUnformatted(elided(name, side).c_str());
     ImGui::TextDisabled("%s%s", size_of(texture).c_str(), texture.image && texture.image->bytes.empty() ? ", more than 8 bits" : "");
     c.ui.probe.record("Map preview", {ImGui::GetWindowPos().x, ImGui::GetWindowPos().y, ImGui::GetWindowWidth(), ImGui::GetWindowHeight()});
     ImGui::EndTooltip();
@@ -87,7 +88,8 @@ bool choose_image(PanelContext& c, const Slot& slot, TextureRef& ref) {
     const Scene& scene = c.scene();
     const Texture* current = scene.textures.find(ref.texture);
     const Id<Texture> before = ref.texture;
-    const std::string shown = current ? name_of(*current, ref.texture) : "none";
+    const std::string chosen = current ? name_of(*current, ref.texture) : "none";
+    const std::string shown = elided(chosen, ImGui::CalcItemWidth() - ImGui::GetFrameHeight() - 2 * ImGui::GetStyle().FramePadding.x);
     if (ImGui::BeginCombo("##image", shown.c_str())) {
         if (ImGui::Selectable("none", !current)) ref = {};
         for (const auto& [id, texture] : scene.textures)
@@ -95,7 +97,7 @@ bool choose_image(PanelContext& c, const Slot& slot, TextureRef& ref) {
         ImGui::EndCombo();
     } else {
         c.ui.probe.record_last_item(std::string("Material/") + slot.label);
-        tip_for_last_item(c.ui, slot.tip);
+        tip_for_last_item(c.ui, (shown == chosen ? std::string(slot.tip) : chosen + "\n" + slot.tip).c_str());
     }
     return ref.texture != before;
 }

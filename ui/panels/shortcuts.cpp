@@ -59,11 +59,12 @@ void draw_shortcut_sheet(PanelContext& c) {
         ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {ImGui::GetFontSize(), 0});
         if (ImGui::BeginTable("columns", screen.x > 80 * ImGui::GetFontSize() ? 3 : 1, ImGuiTableFlags_SizingFixedFit)) {
             ImGui::TableNextColumn();
-            draw_groups({"File", "Edit", "View"});
+            draw_groups({"File", "Edit", "Add light", "Help"});
             ImGui::TableNextColumn();
-            draw_groups({"Add light", "Lights", "Look", "Help"});
+            draw_groups({"Look", "View"});
             ImGui::TableNextColumn();
             draw_mouse();
+            draw_groups({"Lights"});
             ImGui::EndTable();
         }
         ImGui::PopStyleVar();
