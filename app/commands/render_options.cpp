@@ -39,8 +39,15 @@ struct Size {
 Result<Size> parse_size(std::string_view text) {
     Size size;
     const std::vector<std::string_view> sides = split(text, 'x');
-    const auto side = [](std::string_view digits, int& pixels) { return digits.empty() || (parse_number(digits, pixels) && pixels != 0); };
+    bool zero = false; // said, where it would mean that it is not
+    const auto side = [&](std::string_view digits, int& pixels) {
+        if (digits.empty()) return true;
+        const bool read = parse_number(digits, pixels);
+        zero |= read && pixels == 0;
+        return read;
+    };
     const bool known = sides.size() == 2 && side(sides[0], size.width) && side(sides[1], size.height);
+    if (known && zero) return Error{.what = fmt::format("width and height must be from 1 to 65536, not \"{}\"", text)};
     if (known && (size.width != 0 || size.height != 0)) return size;
     return Error{.what = fmt::format("a size must be WIDTHxHEIGHT, WIDTHx or xHEIGHT, not \"{}\"", text)};
 }

@@ -43,7 +43,7 @@ TEST(Usage, BadUsageIsTwo) {
     EXPECT_TRUE(refused(2, {"render", scene, "-o", "x.tga"}, "must end in .exr, .png or .jpg"));
     EXPECT_TRUE(refused(2, {"render", scene, "-o", "x.exr", "--roulette", "often"}, "unknown roulette rule"));
     EXPECT_TRUE(refused(2, {"render", scene, "-o", "x.exr", "--size", "640"}, "WIDTHxHEIGHT"));
-    EXPECT_TRUE(refused(2, {"render", scene, "-o", "x.exr", "--size", "0x10"}, "width must be from 1 to 65536"));
+    EXPECT_TRUE(refused(2, {"render", scene, "-o", "x.exr", "--size", "0x10"}, "width and height must be from 1 to 65536"));
     EXPECT_TRUE(refused(2, {"render", scene, "-o", "x.exr", "--spp", "many"}, "--spp"));
     EXPECT_TRUE(refused(2, {"render", scene, "-o", "x.exr", "--spp", "4", "--samples", "0:4"}, "--samples"));
     EXPECT_TRUE(refused(2, {"render", scene, "-o", "x.exr", "--samples", "4:4"}, "0 <= A < B"));

@@ -58,7 +58,7 @@ void figure(const std::string& text) {
     ImGui::PopStyleColor();
 }
 
-void draw_figures(const ConvergenceView& view, const ConvergenceRun& run) {
+void draw_figures(const ConvergenceView& view, const ConvergenceRun& run, bool all) {
     auto points = run.record.points(Kind::estimated);
     const Kind kind = points.empty() ? Kind::measured : Kind::estimated;
     if (points.empty()) points = run.record.points(kind);
@@ -66,9 +66,9 @@ void draw_figures(const ConvergenceView& view, const ConvergenceRun& run) {
     const double error = any ? points.back().error(view.metric).value : 0;
     const Interval slope = fit(run.record, kind, view.metric, view.axis).slope;
     figure(error > 0 ? fmt::format("{:.3g}", error) : "");
-    figure(slope.known ? fmt::format("{}{:.2f}", slope.value <= -0.005 ? "−" : "", std::abs(slope.value)) : "");
+    if (all) figure(slope.known ? fmt::format("{}{:.2f}", slope.value <= -0.005 ? "−" : "", std::abs(slope.value)) : "");
     figure(any ? fmt::format("{} spp", points.back().spp) : "");
-    figure(any ? elapsed_text(points.back().seconds) : "");
+    if (all) figure(any ? elapsed_text(points.back().seconds) : "");
 }
 
 // True if the run is to be removed.
@@ -90,12 +90,20 @@ bool draw_buttons(PanelContext& c, ConvergenceRun& run) {
 } // namespace
 
 void draw_convergence_runs(PanelContext& c, ConvergenceView& view, float height) {
-    if (!ImGui::BeginTable("runs", 8, ImGuiTableFlags_ScrollY | ImGuiTableFlags_SizingFixedFit, {0, std::max(height, 1.f)})) return;
+    // Where all figures would leave no room for names, slope and time are left out.
+    const bool all = ImGui::GetContentRegionAvail().x > ImGui::GetFontSize() * 30;
+    if (!ImGui::BeginTable(all ? "runs" : "runs, narrow", all ? 8 : 6, ImGuiTableFlags_ScrollY | ImGuiTableFlags_SizingFixedFit, {0, std::max(height, 1.f)})) return;
+    int& shown = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("shown"), int(view.runs.all().size()));
+    const bool grown = int(view.runs.all().size()) > shown;
+    shown = int(view.runs.all().size());
     ImGui::TableSetupScrollFreeze(0, 1);
     ImGui::TableSetupColumn("");
     ImGui::TableSetupColumn("Run", ImGuiTableColumnFlags_WidthStretch);
-    for (const char* column : {view.metric == ErrorMetric::rmse ? "RMSE" : "relMSE", "Slope", "Samples", "Time", "", ""})
-        ImGui::TableSetupColumn(column);
+    ImGui::TableSetupColumn(view.metric == ErrorMetric::rmse ? "RMSE" : "relMSE");
+    if (all) ImGui::TableSetupColumn("Slope");
+    ImGui::TableSetupColumn("Samples");
+    if (all) ImGui::TableSetupColumn("Time");
+    for (int button = 0; button < 2; ++button) ImGui::TableSetupColumn("");
     ImGui::TableHeadersRow();
     int removed = 0;
     for (const ConvergenceRun& listed : view.runs.all()) {
@@ -106,10 +114,11 @@ void draw_convergence_runs(PanelContext& c, ConvergenceView& view, float height)
         draw_swatch(c, run);
         ImGui::TableNextColumn();
         draw_name(c, view, run);
-        draw_figures(view, run);
+        draw_figures(view, run, all);
         if (draw_buttons(c, run)) removed = run.id;
         ImGui::PopID();
     }
+    if (grown) ImGui::SetScrollHereY(1); // to the newest
     ImGui::EndTable();
     if (removed) view.runs.remove(removed);
 }
