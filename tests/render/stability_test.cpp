@@ -158,7 +158,7 @@ TEST(KnownLimits, TheGainAtGrazingAnglesIsThatOfTheSpecification) {
         if (c.name != grazing_gain_case) continue;
         const Finding finding = run_case("limits", c, 1).finding;
         const double expected = layered_albedo(75);
-        EXPECT_NEAR(expected, 1.20, 0.005) << "the figure that the README names";
+        EXPECT_NEAR(expected, 1.20, 0.005) << "the figure in docs/science/limits.md";
         EXPECT_GT(finding.sigma, 0);
         EXPECT_LT(finding.sigma, 0.01);
         EXPECT_NEAR(finding.measured, expected, normal_quantile_two_sided(statistics::significance) * finding.sigma + 1e-4);
