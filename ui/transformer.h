@@ -15,6 +15,7 @@ public:
     bool update(PanelContext& c, ImDrawList& draw, const Projection& projection, const ImageRect& image);
     // Nothing is asked for any more, and what was under way is taken back.
     void abandon(PanelContext& c);
+    bool under_way() const { return tool_.has_value(); }
 
 private:
     void begin(PanelContext& c, const TransformRequest& request, const Projection& projection, const ImageRect& image);

@@ -363,7 +363,8 @@ ImageRect Viewport::draw(PanelContext& c, const FramePace& pace) {
     if (c.ui.pixel) draw_read_pixel(draw, image, c.ui.pixel->u, c.ui.pixel->v);
     draw_map_scale(draw, seen, *shown_frame_, uploaded_view_);
     draw_caption(c, seen);
-    if (c.ui.settings.overlays) draw_aov_bar(c, seen);
+    // The line that says what a transform does lies where the bar is.
+    if (c.ui.settings.overlays && !transformer_.under_way()) draw_aov_bar(c, seen);
     navigate(c, projection, image, hovered, taken);
     return image;
 }
