@@ -231,6 +231,8 @@ template <int N> void occluded_packets(RTCScene scene, RTCIntersectContext& cont
 
 // What a device and its first thread take, with room to spare.
 constexpr uint64_t min_memory_of_embree = uint64_t(128) << 20;
+// What has to be left then: TBB, with which Embree builds its trees, does not survive an allocation that fails in one of its threads.
+constexpr uint64_t min_memory_to_build = uint64_t(128) << 20;
 
 bool count_memory(void* user, ssize_t bytes, bool) {
     static_cast<std::atomic<int64_t>*>(user)->fetch_add(bytes, std::memory_order_relaxed);
@@ -266,6 +268,10 @@ struct Accel::State {
 
     State() : device(rtcNewDevice("start_threads=0,set_affinity=0")) {
         if (!device) throw std::runtime_error(why_no_device(rtcGetDeviceError(nullptr)));
+        if (const MemoryRoom room = memory_room(); room.left < min_memory_to_build) {
+            rtcReleaseDevice(device);
+            throw std::runtime_error(fmt::format("Embree needs {} MB of memory to build trees: {}", min_memory_to_build >> 20, room.text()));
+        }
         rtcSetDeviceMemoryMonitorFunction(device, count_memory, &memory);
         if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED)) packet = 16;
         else if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED)) packet = 8;
