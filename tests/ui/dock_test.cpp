@@ -41,7 +41,7 @@ TEST(Dock, TabsTakeTheOrderTheyAreDraggedTo) {
     reorder(dock, Ids{"c", "a"});
     EXPECT_EQ(tabs_on(dock, DockSide::right, Ids{"a", "b", "c"}, true), (Ids{"c", "a"}));
     EXPECT_EQ(dock.tabs[1].id, "b") << "others keep their places";
-    reorder(dock, Ids{"nobody"});
+    reorder(dock, Ids{"unknown"});
     EXPECT_EQ(dock.tabs.size(), 3u);
 }
 
@@ -52,7 +52,7 @@ TEST(Instruments, HaveNamesOfTheirOwn) {
             EXPECT_STRNE(a.id, b.id);
             EXPECT_STRNE(a.title, b.title);
         }
-    EXPECT_EQ(find_instrument("nobody"), nullptr);
+    EXPECT_EQ(find_instrument("unknown"), nullptr);
 }
 
 // The docks in a window of 1720 x 960 pixels.

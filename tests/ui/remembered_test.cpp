@@ -42,7 +42,7 @@ TEST(Remembered, PanelsComeBackAsTheyWereSet) {
 TEST(Remembered, WhatMakesNoSenseChangesNothing) {
     WindowSettings settings;
     settings.panels = {{"tab", 99},           {"denoise", -1},    {"denoise.blend", 7}, {"bounces.bounce", 1e30},
-                       {"bounces.gain.0", 5}, {"denoise", 1e300}, {"nobody", 3}};
+                       {"bounces.gain.0", 5}, {"denoise", 1e300}, {"unknown", 3}};
     UiState ui;
     recall_panels(settings, ui);
     WindowSettings now, defaults;

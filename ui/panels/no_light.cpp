@@ -48,7 +48,7 @@ void draw_choices_in_studio(PanelContext& c) {
 void draw_no_light_banner(PanelContext& c, const Region& viewport) {
     if (c.scene().nodes.empty()) return;
     // The first edit keeps the studio.
-    if (c.document.undo_labels().size() != 1 || c.document.can_redo()) c.ui.studio_at_opening = false;
+    if (c.ui.studio_at_opening && (c.document.undo_labels().size() != 1 || c.document.can_redo())) c.ui.studio_at_opening = false;
     const bool dark = !c.ui.light_presence.in(c.scene());
     if (!dark && !c.ui.studio_at_opening) return;
     const float em = ImGui::GetFontSize();
