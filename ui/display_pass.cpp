@@ -13,16 +13,19 @@ uniform sampler2D image, denoised;
 uniform float raw_weight, denoised_weight;
 uniform vec2 denoised_scale;
 uniform bool over_checker;
-vec3 over_squares(vec3 color, float alpha) {
+float squares() {
     ivec2 square = ivec2(gl_FragCoord.xy) / 8;
-    vec3 ground = vec3((square.x + square.y) % 2 == 0 ? 0.40 : 0.52);
-    return alpha > 0.0 ? mix(ground, display_color(vec4(color / alpha, 1.0)).rgb, min(alpha, 1.0)) : ground;
+    return (square.x + square.y) % 2 == 0 ? 0.40 : 0.52;
 }
+// display_color is the costly part, and software OpenGL computes both sides of a condition: it is called once.
 void main() {
     vec4 pixel = texelFetch(image, ivec2(gl_FragCoord.xy), 0);
     vec3 color = raw_weight * pixel.rgb;
     if (denoised_weight != 0.0) color += denoised_weight * texelFetch(denoised, ivec2(gl_FragCoord.xy * denoised_scale), 0).rgb;
-    result = over_checker ? vec4(over_squares(abs(color), pixel.a), 1.0) : vec4(display_color(vec4(abs(color), pixel.a)).rgb, 1.0);
+    float coverage = clamp(pixel.a, 0.0, 1.0);
+    float unpremultiply = over_checker && pixel.a > 0.0 ? 1.0 / pixel.a : 1.0;
+    vec3 shown = display_color(vec4(abs(color) * unpremultiply, over_checker ? 1.0 : pixel.a)).rgb;
+    result = vec4(over_checker ? mix(vec3(squares()), shown, coverage) : shown, 1.0);
 })";
 
 // Milliseconds after which the clock is looked at: what a step takes is known from the one before alone, and other threads may come between.

@@ -12,6 +12,7 @@ unset OCIO WAYLAND_DISPLAY
 export DBUS_SESSION_BUS_ADDRESS= # no desktop: the window asks for files itself
 size=320x240
 spp=16
+screen=1280x800 # of the virtual display
 settings= # JSON of what the window remembers; empty: it begins as if it were the first
 rest="890 550" # where the mouse is out of the picture's way: the end of the status bar
 xvfb= editor=
@@ -46,7 +47,7 @@ start_display() {
     local tool
     for tool in Xvfb xdotool import compare; do command -v $tool >/dev/null || fail "$tool is not installed"; done
     exec 3<>"$work/display"
-    Xvfb -displayfd 3 -screen 0 1280x800x24 -nolisten tcp >/dev/null 2>&1 &
+    Xvfb -displayfd 3 -screen 0 "$screen"x24 -nolisten tcp >/dev/null 2>&1 &
     xvfb=$!
     until_true 30 test -s "$work/display" || fail "Xvfb does not start"
     export DISPLAY=:$(head -n 1 "$work/display")
