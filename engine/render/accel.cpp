@@ -21,14 +21,14 @@
 namespace blush {
 namespace {
 
-// Which triangles an opacity test belongs to; Embree keeps a pointer to it with the geometry.
+// User data of a geometry's opacity filter: the part that its triangles belong to. Embree keeps a pointer to it.
 struct AlphaPart {
     const SceneTables* tables;
     int32_t part;
 };
 
-// Stochastic opacity: a hit counts with the probability `opacity`, decided by a hash of the ray's random number, the triangle and the instance
-// it is met in, so the answer does not depend on how often or in which order Embree asks.
+// Stochastic opacity: a hit counts with probability `opacity`, decided by a hash of the ray's random number, the triangle and the
+// instance, so the result does not depend on how often or in which order Embree calls the filter.
 void opacity_filter(const RTCFilterFunctionNArguments* args) {
     const AlphaPart& alpha = *static_cast<const AlphaPart*>(args->geometryUserPtr);
     for (unsigned i = 0; i < args->N; ++i) {
@@ -48,7 +48,7 @@ struct SceneHandle {
     RTCScene scene = nullptr;
     std::vector<std::unique_ptr<AlphaPart>> alpha_parts;
     std::vector<std::shared_ptr<const void>> owners;
-    size_t compact_triangles = 0; // all of them, or 0: leaves hold corners
+    size_t compact_triangles = 0; // all of them if the leaves store indices; 0 if the leaves store vertices
 
     SceneHandle() = default;
     explicit SceneHandle(RTCDevice device, size_t compact = 0) : scene(rtcNewScene(device)), compact_triangles(compact) {
@@ -115,7 +115,7 @@ struct SceneHandle {
     }
 };
 
-// What a bottom level is made of: equal keys may share it.
+// Key of a bottom-level BVH: instances with equal keys share one.
 using BottomKey = std::vector<std::pair<uint64_t, int32_t>>;
 
 BottomKey key_of(const AccelInstances& instances) {
@@ -130,7 +130,7 @@ size_t triangle_count(const AccelInstances& instances) {
     return n;
 }
 
-// Asking the system takes longer than building the tree of a small mesh.
+// For small meshes, reading the free memory takes longer than building the BVH.
 bool is_short_of_memory(size_t triangles, uint64_t memory_left) {
     constexpr size_t fewest_asked_for = size_t(1) << 16;
     if (memory_left == 0 && triangles < fewest_asked_for) return false;
@@ -168,7 +168,8 @@ template <int N, class Ray> void load_rays(Ray& ray, const RayArrays& rays, int 
     if (rays.far_distance) copy(ray.tfar, rays.far_distance);
     else std::fill_n(ray.tfar, N, infinity);
     if (rays.random) std::memcpy(ray.id, rays.random + first, N * sizeof(uint32_t));
-    // A ray does not meet the surface that it starts on, as one from an eye that lies in it would: above 0, which the watertight test includes.
+    // tnear is just above 0, because the watertight test includes 0: a ray must not hit the surface that it starts on, for
+    // example when the camera lies in it.
     std::fill_n(ray.tnear, N, std::numeric_limits<float>::min());
     std::fill_n(ray.time, N, 0.f);
     if (rays.masks) std::memcpy(ray.mask, rays.masks + first, N * sizeof(uint32_t));
@@ -176,10 +177,11 @@ template <int N, class Ray> void load_rays(Ray& ray, const RayArrays& rays, int 
     std::fill_n(ray.flags, N, 0u);
 }
 
-// Largest coordinate of a ray that Embree takes, in the world and in the space of each instance.
+// Largest ray coordinate that Embree accepts, in world space and in the space of each instance.
 constexpr float embree_range = 1.8e18f;
 
-// Of a world-space ray: the sum of all coordinates that keeps it within that range inside an instance, too. 0 for a transform without inverse.
+// Largest sum of coordinates of a world-space ray that also keeps it within embree_range inside the instance; 0 if the transform
+// is not invertible.
 float reach_through(const Affine& world_from_object) {
     const Affined m = to_double(world_from_object), c = cofactor(m);
     const double norm = std::sqrt(dot(c.x, c.x) + dot(c.y, c.y) + dot(c.z, c.z)) / std::abs(determinant(m)); // of the inverse
@@ -187,13 +189,13 @@ float reach_through(const Affine& world_from_object) {
     return reach > 0 ? float(std::min(reach, double(embree_range))) : 0.f;
 }
 
-// The first `count` lanes, but for rays that Embree does not take: it wants every number within its range, and a build of it with
-// assertions ends the process over one that is not. Such a ray meets nothing, and its sample's own numbers tell the film.
+// Marks the first `count` lanes as valid, except rays outside the range that Embree accepts (an Embree built with assertions
+// aborts on them). Such a ray misses everything; its non-finite or huge sample is reported by the film.
 template <int N, class Rays> void sound_lanes(int* valid, const Rays& q, int count, float reach) {
     for (int i = 0; i < N; ++i) {
         const float size = std::abs(q.org_x[i]) + std::abs(q.org_y[i]) + std::abs(q.org_z[i]) + std::abs(q.dir_x[i]) + std::abs(q.dir_y[i]) +
                            std::abs(q.dir_z[i]);
-        valid[i] = -(int(i < count) & int(size <= reach) & int(q.tfar[i] >= 0)); // no branches: every ray comes by here
+        valid[i] = -(int(i < count) & int(size <= reach) & int(q.tfar[i] >= 0)); // branchless: runs for every ray
     }
 }
 
@@ -229,9 +231,10 @@ template <int N> void occluded_packets(RTCScene scene, RTCIntersectContext& cont
     }
 }
 
-// What a device and its first thread take, with room to spare.
+// Memory of an Embree device and its first thread, with a margin.
 constexpr uint64_t min_memory_of_embree = uint64_t(128) << 20;
-// What has to be left then: TBB, with which Embree builds its trees, does not survive an allocation that fails in one of its threads.
+// Memory that must be left after that: TBB, which Embree uses to build BVHs, crashes if an allocation fails in one of its
+// threads.
 constexpr uint64_t min_memory_to_build = uint64_t(128) << 20;
 
 bool count_memory(void* user, ssize_t bytes, bool) {
@@ -244,12 +247,13 @@ std::string why_no_device(RTCError error) {
     const MemoryRoom room = memory_room();
     if (error == RTC_ERROR_OUT_OF_MEMORY || room.left < min_memory_of_embree)
         return fmt::format("Embree needs {} MB of memory to start: {}", min_memory_of_embree >> 20, room.text());
-    return fmt::format("Embree cannot start (its error {})", int(error));
+    return fmt::format("Embree cannot start (error code {})", int(error));
 }
 
 std::string why_not_built(RTCError error, int64_t held) {
     if (error != RTC_ERROR_OUT_OF_MEMORY) return "Embree could not build the scene";
-    return fmt::format("not enough memory to build the scene's trees, which held {:.2g} GB so far: {}", double(held) / 1e9, memory_room().text());
+    return fmt::format("not enough memory to build the scene's BVHs, which used {:.2g} GB so far: {}", double(held) / 1e9,
+                       memory_room().text());
 }
 
 } // namespace
@@ -261,16 +265,16 @@ struct Accel::State {
     std::map<BottomKey, SceneHandle> bottoms;
     SceneHandle top;
     uint32_t first_instance = 0; // Embree id of the first instance in the top level
-    uint32_t first_sphere = 0;   // and of the first geometry of spheres after them
-    std::vector<int32_t> sphere_indices; // of the first sphere of each
+    uint32_t first_sphere = 0;   // Embree id of the first sphere geometry, after the instances
+    std::vector<int32_t> sphere_indices; // index of the first sphere of each sphere geometry
     bool alpha = false;
-    float reach = embree_range; // sum of the coordinates of a ray that may be traced
+    float reach = embree_range; // largest sum of coordinates of a ray that is traced
 
     State() : device(rtcNewDevice("start_threads=0,set_affinity=0")) {
         if (!device) throw std::runtime_error(why_no_device(rtcGetDeviceError(nullptr)));
         if (const MemoryRoom room = memory_room(); room.left < min_memory_to_build) {
             rtcReleaseDevice(device);
-            throw std::runtime_error(fmt::format("Embree needs {} MB of memory to build trees: {}", min_memory_to_build >> 20, room.text()));
+            throw std::runtime_error(fmt::format("Embree needs {} MB of memory to build BVHs: {}", min_memory_to_build >> 20, room.text()));
         }
         rtcSetDeviceMemoryMonitorFunction(device, count_memory, &memory);
         if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED)) packet = 16;
@@ -322,7 +326,7 @@ void Accel::commit(const AccelScene& scene, const SceneTables* tables, const Wor
     }
     s.first_sphere = s.first_instance + instance_count;
     s.sphere_indices.clear();
-    // Embree's masks are those of whole geometries: spheres of equal mask that follow each other share one.
+    // Embree masks apply to whole geometries: consecutive spheres with equal masks share one.
     for (size_t begin = 0, end = 0; begin < scene.spheres.size(); begin = end) {
         while (end < scene.spheres.size() && scene.spheres[end].mask == scene.spheres[begin].mask) ++end;
         top.add_spheres(s.device, std::span(scene.spheres).subspan(begin, end - begin));
@@ -345,8 +349,8 @@ size_t Accel::compact_triangles() const {
 size_t Accel::memory_bytes() const { return size_t(std::max<int64_t>(0, state_->memory)); }
 
 namespace {
-// Embree 3.13's traversal for coherent packets is a thousand times slower through instances: a mesh of a million
-// triangles, 16 rays a packet. Without instances it is worth a factor of two on camera rays.
+// Embree 3.13's traversal of coherent packets is a thousand times slower through instances (a mesh of a million triangles,
+// packets of 16 rays). Without instances it is twice as fast for camera rays.
 RTCIntersectContext make_context(bool coherent, bool instances) {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
@@ -362,12 +366,12 @@ void Accel::intersect(const RayArrays& rays, int count, bool coherent, const Hit
     case 8: intersect_packets<8>(state_->top.scene, context, rays, count, state_->reach, hits); break;
     default: intersect_packets<4>(state_->top.scene, context, rays, count, state_->reach, hits); break;
     }
-    // Embree numbers instances after the flat geometries,
+    // Embree numbers instances after the flat geometries
     const int32_t first_instance = int32_t(state_->first_instance), first_sphere = int32_t(state_->first_sphere);
     if (first_instance > 0)
         for (int i = 0; i < count; ++i)
             if (hits.instance[i] >= 0) hits.instance[i] -= first_instance;
-    // and spheres after those.
+    // and spheres after the instances.
     if (!state_->sphere_indices.empty())
         for (int i = 0; i < count; ++i)
             if (hits.instance[i] < 0 && hits.geometry[i] >= first_sphere) {

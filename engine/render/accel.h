@@ -1,6 +1,6 @@
-// Embree behind arrays: the only room that knows it. Two levels: meshes that are shared or large are traced through
-// instances, all else lies flattened in the top level, where it is traced fastest (an instance costs 3-5 % on
-// every ray, a second level of small boxes 40 %) and is cheap to rebuild.
+// The BVH: wraps Embree behind arrays; no other file includes it. Two levels: shared or large meshes are instanced, all other
+// geometry is flattened into the top level, where it is traced fastest (an instance costs 3-5 % on every ray, a second level of
+// small boxes 40 %) and is cheap to rebuild.
 #pragma once
 
 #include "core/parallel.h"
@@ -18,27 +18,27 @@ namespace blush {
 struct InstanceRecord;
 struct SceneTables;
 
-// A ray meets what has a bit of its mask in common with the ray's.
-// The other bits are those of shadow rays that only some objects stop (light_links.h).
+// A ray can hit an object if their masks share a bit. The other bits are for shadow rays of lights with linked shadow casters
+// (light_links.h).
 constexpr uint32_t camera_ray_mask = 1, other_ray_mask = 2;
 constexpr uint32_t seen_by_all = ~0u;
 
-// Triangles as the builder needs them. Arrays that have an owner are shared, and kept as long as they are traced; the others are copied. Shared
-// positions must be readable for 16 bytes each, the last one too.
+// Triangles as input of the BVH builder. Arrays that have an owner are shared, and kept alive while they are traced; others are
+// copied. Shared positions must be readable for 16 bytes each, including the last one.
 struct AccelTriangles {
-    uint64_t serial = 0;        // of the Geometry payload: names the bottom level it makes
+    uint64_t serial = 0;        // of the Geometry payload: key of the bottom-level BVH
     std::shared_ptr<const void> owner = nullptr;
     const Vec3* positions = nullptr;
     size_t vertex_count = 0;
     const uint32_t* indices = nullptr; // 3 per triangle
     size_t triangle_count = 0;
-    int32_t part = 0;           // a part whose material and attributes decide opacity
+    int32_t part = 0;           // the part whose material and attributes give the opacity
     bool alpha = false;         // hits are tested against the material's opacity
-    uint32_t mask = seen_by_all; // of flat ones
+    uint32_t mask = seen_by_all; // used for flat geometry only
 };
 struct AccelInstances {
     std::vector<AccelTriangles> geometries; // one mesh
-    std::span<const InstanceRecord> places; // an instance at each; every transform has an inverse (baked_transforms.h)
+    std::span<const InstanceRecord> places; // one instance at each; all transforms are invertible (baked_transforms.h)
     uint32_t mask = seen_by_all;
 };
 struct AccelSphere {
@@ -48,12 +48,12 @@ struct AccelSphere {
 };
 struct AccelScene {
     std::vector<AccelTriangles> flat; // world space; Embree's geometry id is the index
-    std::vector<AccelInstances> instances; // numbered through
+    std::vector<AccelInstances> instances; // numbered consecutively
     std::vector<AccelSphere> spheres; // world space
-    uint64_t memory_left = 0; // bytes, for tests; 0: what the system says
+    uint64_t memory_left = 0; // bytes, for tests; 0: read from the system
 };
 
-// In place of an instance, of a hit on a sphere: its index is then the triangle.
+// Instance index of a hit on a sphere; the sphere's index is stored as the triangle index.
 constexpr int32_t sphere_instance = -2;
 
 // Rays and hits as arrays of `count`; arrays are readable up to the next multiple of 16.
@@ -62,7 +62,7 @@ struct RayArrays {
     const float* far_distance;   // null: infinite
     const uint32_t* random;      // per-ray random number for stochastic opacity; read only if has_alpha()
     uint32_t mask = other_ray_mask;
-    const uint32_t* masks = nullptr; // of each ray, in place of that
+    const uint32_t* masks = nullptr; // per ray; replaces `mask` if set
 };
 struct HitArrays {
     float *t, *u, *v;            // t in units of the direction's length; u, v: weights of vertices 1 and 2
@@ -78,16 +78,17 @@ public:
     Accel(const Accel&) = delete;
     Accel& operator=(const Accel&) = delete;
 
-    // Builds the top level for `scene`, and those bottom levels that are not there yet; forgets those no longer used. `tables` is
-    // read by the opacity test while tracing. Throws std::runtime_error if Embree cannot (out of memory).
+    // Builds the top level for `scene` and the missing bottom levels; frees unused ones. `tables` is read by the opacity test
+    // while tracing. Throws std::runtime_error if Embree fails (out of memory).
     void commit(const AccelScene& scene, const SceneTables* tables, const Workers& workers);
 
     bool has_alpha() const;
-    // Of meshes whose trees hold indices for want of memory (compact_tree.h), each once.
+    // Number of triangles in meshes whose BVH stores indices to save memory (compact_tree.h); each mesh counts once.
     size_t compact_triangles() const;
     size_t memory_bytes() const;
 
-    // Closest hits and any-hits in packets of the widest kind this machine has. `coherent`: rays share an origin region and direction.
+    // Closest hits and any-hits, in the widest packets that this machine supports. `coherent`: rays share an origin region and
+    // direction.
     void intersect(const RayArrays& rays, int count, bool coherent, const HitArrays& hits) const;
     // blocked[i] = 1 if anything lies within far_distance of ray i.
     void occluded(const RayArrays& rays, int count, bool coherent, uint8_t* blocked) const;

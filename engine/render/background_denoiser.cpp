@@ -11,13 +11,14 @@
 namespace blush {
 namespace {
 
-// A third of a stop: an edit that changes less keeps the exposure scale, so that a drag does not pump.
+// A third of a stop: an edit that changes the exposure scale by less keeps it, so that brightness does not flicker while
+// dragging.
 constexpr float scale_tolerance = 1.26f;
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 DenoiseCadence::Source source_of(uint64_t image, const Frame& frame) {
-    // Each group of lights is denoised by itself.
+    // Each light group is denoised separately.
     const double pictures = double(std::max<size_t>(1, frame.groups.size()));
     return {image, frame.samples, frame.divider, frame.complete, pictures * double(frame.width) * double(frame.height) * 1e-6};
 }
@@ -92,7 +93,7 @@ DenoiseOptions BackgroundDenoiser::options_for(const Task& task, DenoiseQuality 
     return options;
 }
 
-// The picture as a whole, or each group of its lights.
+// One input for the whole image, or one for each light group.
 Result<std::vector<Denoised>> BackgroundDenoiser::denoise_all(const Task& task, DenoiseQuality quality) const {
     std::vector<Denoised> all;
     for (const DenoiseInput& input : denoise_inputs(*task.frame)) {
@@ -119,7 +120,7 @@ BackgroundDenoiser::Outcome BackgroundDenoiser::denoise(const Task& task, Denois
     }
 }
 
-// Infinite while it is wanted or there is nothing to free.
+// Infinite while denoised images are wanted, or if there is nothing to free.
 double BackgroundDenoiser::seconds_to_release() const {
     if (wanted_ || !denoise_) return std::numeric_limits<double>::infinity();
     return std::max(0.0, unwanted_since_ + grace_seconds_ - now());

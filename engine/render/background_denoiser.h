@@ -1,4 +1,4 @@
-// A thread that denoises what the session renders, when DenoiseCadence says so: beside the rendering, never in its way.
+// Denoises frames of a session on a thread of its own, when DenoiseCadence schedules it, without delaying rendering.
 #pragma once
 
 #include "render/denoise_cadence.h"
@@ -15,41 +15,42 @@
 
 namespace blush {
 
-// What a Denoiser does, as a value: tests put another one in its place.
+// The denoise function as a value; tests substitute their own.
 using DenoiseFunction =
     std::function<Result<std::optional<Denoised>>(const DenoiseInput&, const DenoiseOptions&, const std::function<bool()>&)>;
-// Makes one. What that holds, weights and memory, is gone with it.
+// Creates one. Its weights and memory are freed with it.
 using DenoiserMaker = std::function<DenoiseFunction()>;
-// Of Denoisers (see there for the arguments).
+// Creates functions that call Denoiser (see there for the arguments).
 DenoiserMaker denoiser_maker(std::filesystem::path weights, unsigned threads, bool low_priority);
 
 class BackgroundDenoiser {
 public:
-    // Called on the thread here: what became of a frame that was offered. Null: it was no longer wanted, or could not be denoised.
+    // Called on the denoiser thread with the result for a submitted frame. Null: no longer wanted, or it failed.
     using OnAnswer = std::function<void(uint64_t image, const FramePtr& source, DenoisedPtr denoised)>;
-    // Called on the thread here: denoised pictures have not been wanted for `grace_seconds`, and all that they took is freed.
+    // Called on the denoiser thread after denoised images were not wanted for `grace_seconds` and all memory was freed.
     using OnRelease = std::function<void()>;
-    // An empty maker: nothing is ever denoised. Else it is called on the thread here, for the first picture and for the first one after a
-    // release.
-    // `gate`: where it waits between layers of the network while processors are left to others; somebody who waits for a picture hurries it.
+    // Empty maker: nothing is denoised. Otherwise called on the denoiser thread, for the first image and for the first one after
+    // a release. `gate`: the thread pauses there between network layers while the window needs the processor; waiting for a
+    // promised image interrupts the pause.
     BackgroundDenoiser(DenoiserMaker maker, double grace_seconds, Gate& gate, OnAnswer on_answer, OnRelease on_release);
-    // Stops within a layer of the network, and joins.
+    // Stops within one layer of the network, and joins.
     ~BackgroundDenoiser();
     BackgroundDenoiser(const BackgroundDenoiser&) = delete;
     BackgroundDenoiser& operator=(const BackgroundDenoiser&) = delete;
 
-    // Not wanted, nothing is denoised or loaded. Never blocks.
+    // If not wanted, nothing is denoised or loaded. Never blocks.
     void want(bool wanted);
-    // The newest frame; `image` counts images. True if an answer comes within a frame of the window and is worth waiting for. Never blocks.
+    // Submits the newest frame; `image` counts images. True if the result is expected within one frame of the window and is worth
+    // waiting for. Never blocks.
     bool offer(uint64_t image, FramePtr frame);
-    // Why it denoises no more: weights that are absent or damaged, for one. Empty: it can.
+    // Why denoising stopped, for example missing or damaged weights. Empty: it works.
     std::string failure() const;
 
 private:
     struct Task {
         uint64_t image = 0;
         FramePtr frame;
-        bool promised = false; // somebody waits for it: finished even if it is no longer the newest
+        bool promised = false; // the session waits for it: finished even if a newer frame arrives
     };
     struct Outcome {
         DenoisedPtr picture;
@@ -61,7 +62,7 @@ private:
     Result<std::vector<Denoised>> denoise_all(const Task& task, DenoiseQuality quality) const;
     Outcome denoise(const Task& task, DenoiseQuality quality);
     bool is_wanted(const Task& task) const;
-    bool is_wanted_by_now(const Task& task) const; // after waiting at the gate
+    bool is_wanted_by_now(const Task& task) const; // after the pause gate
 
     void release(std::unique_lock<std::mutex>& lock);
     double seconds_to_release() const;
@@ -72,7 +73,7 @@ private:
     OnAnswer on_answer_;
     OnRelease on_release_;
 
-    // What is asked between layers: no lock.
+    // Read between layers without a lock.
     std::atomic<bool> wanted_{false}, quit_{false};
     std::atomic<uint64_t> newest_image_{0};
 
@@ -83,8 +84,8 @@ private:
     std::string failure_;
     double unwanted_since_ = 0;
 
-    // The thread's own: what denoises, while it is there; the exposure scales of the last picture, one for each group of lights if those are
-    // mixed, and its image.
+    // Used only by the denoiser thread: the denoiser while it exists, the exposure scales of the last image (one per light group
+    // if groups are mixed) and that image.
     DenoiseFunction denoise_;
     std::vector<float> scales_;
     uint64_t scale_image_ = 0;

@@ -12,8 +12,8 @@
 namespace blush {
 namespace {
 
-// A light's, a material's or the environment's colour and strength, so that their product is `gain` times what it was: colours get no
-// brighter.
+// Scales colour and strength of a light, a material or the environment so that their product changes by `gain`, without raising
+// colour components above their maximum.
 void scale(Vec3& color, float& strength, const Vec3& gain) {
     const float brightest = max_component(gain);
     color = brightest > 0 ? color * (gain / brightest) : color;
@@ -21,14 +21,14 @@ void scale(Vec3& color, float& strength, const Vec3& gain) {
 }
 
 void scale(Light& light, const Vec3& gain) {
-    // Switched off it keeps what it was.
+    // A light that is switched off keeps its values.
     if (gain == Vec3{0, 0, 0}) light.enabled = false;
     else scale(light.color, light.intensity, gain);
 }
 void scale(Material& material, const Vec3& gain) { scale(material.emissive, material.emissive_strength, gain); }
 void scale(Environment& environment, const Vec3& gain) { scale(environment.color, environment.intensity, gain); }
 
-// Records under their ids, each with the nodes that use it by the gain that they want.
+// Node lists by record id, then by index of the gain.
 template <class T> using Uses = std::map<Id<T>, std::map<int, std::vector<Id<Node>>>>;
 
 class Baker {
@@ -38,7 +38,7 @@ public:
     }
 
     Scene baked() {
-        // Without groups, channels mean nothing.
+        // Without groups, channels have no effect.
         if (scene_.mix.grouping == LightMix::Grouping::none || groups_.groups.empty()) return cleared();
         Placements placements(scene_);
         Uses<Light> lights;
@@ -63,7 +63,7 @@ private:
         out_.mix.channels.clear();
         return std::move(out_);
     }
-    // Groups with the same gain need not be told apart.
+    // Index of the first group with the same gain.
     int first_alike(int group) const {
         return int(std::ranges::find(gains_, gains_[size_t(group)]) - gains_.begin());
     }
@@ -71,7 +71,7 @@ private:
         return std::ranges::any_of(groups_.groups, [&](const LightGroup& g) { return std::ranges::find(g.materials, id) != g.materials.end(); });
     }
 
-    // The first gain is the record's own; every other gets a copy, which its nodes are given.
+    // The record itself gets the first gain; for each further gain it is copied, and the copy is assigned to that gain's nodes.
     template <class T, class Give>
     void bake(Table<T>& records, Id<T> id, const std::map<int, std::vector<Id<Node>>>& uses, const Give& give) {
         const T before = *records.find(id);

@@ -1,12 +1,12 @@
-// The light mix written into the lights themselves.
+// Bakes the light mix into the lights themselves.
 #pragma once
 
 #include "scene/edit.h"
 
 namespace blush {
 
-// One edit after which lights, materials and environment shine as the channels of the mix have it, and there are no channels any more: the
-// image stays as it is. Lights and materials that several groups share with different gains become one for each.
+// Returns one edit that scales lights, materials and the environment by the channels of the mix and removes the channels; the
+// image does not change. Lights and materials that several groups share with different gains are split into one for each gain.
 BakeMix bake_mix(const Scene& scene);
 
 } // namespace blush

@@ -12,7 +12,7 @@
 namespace blush {
 namespace {
 
-// A singular value below this share of the largest is rounding of a product that is exactly singular.
+// A singular value below this fraction of the largest is rounding error of an exactly singular product.
 constexpr double zero_share = 1e-13;
 
 double least_scale(double largest, const Vec3d& translation) {
@@ -21,7 +21,7 @@ double least_scale(double largest, const Vec3d& translation) {
 
 bool fits_float(const Affined& m) { return is_finite(to_double(to_float(m))); }
 
-// Bounds the least singular value from below by determinant / norm^2: true for all but a few transforms, at the cost of a few products.
+// Lower bound of the smallest singular value, determinant / norm^2: sufficient for nearly all transforms, and cheap.
 bool is_clearly_invertible(const Affined& m) {
     const double norm_squared = dot(m.x, m.x) + dot(m.y, m.y) + dot(m.z, m.z);
     return norm_squared > 0 && std::abs(determinant(m)) >= norm_squared * least_scale(std::sqrt(norm_squared), m.t);
@@ -114,7 +114,8 @@ void warn(const Scene& scene, const SceneObject& object, size_t count, const cha
     if (count == 0) return;
     const size_t all = object.copies();
     left_out.push_back({Diagnostic::Severity::warning,
-                        all == 1 ? fmt::format("an object is left out, it has {}", why) : fmt::format("{} of {} copies are left out, they have {}", count, all, why),
+                        all == 1 ? fmt::format("an object is not rendered: {}", why)
+                                 : fmt::format("{} of {} instances are not rendered: {}", count, all, why),
                         node_label(scene, object.node)});
 }
 
@@ -135,7 +136,7 @@ PlaceSplit split_place(const Affined& m) {
     const double least = least_scale(largest, m.t);
     const bool some_stay = largest >= least;
     const double base = some_stay ? largest : std::max(1.0, min_scale_by_distance * length(m.t));
-    // Axes that stay are left as they are, bit for bit, so that places which are flat alike have the same stretch.
+    // Axes that do not change are kept bit for bit, so that transforms flattened in the same way have the same stretch.
     constexpr Vec3d zero{0, 0, 0};
     split.place = some_stay ? m : Affined{zero, zero, zero, m.t};
     if (!some_stay) split.stretch = {zero, zero, zero, zero};
@@ -143,7 +144,7 @@ PlaceSplit split_place(const Affined& m) {
         if (scale[i] >= least) continue;
         split.invertible = false;
         const bool is_zero = !(scale[i] > zero_share * largest);
-        // The two others are not zero: the third axis is at right angles to them.
+        // The two others are not zero: the third axis is perpendicular to both.
         const Vec3d direction = is_zero ? normalize(cross(c.w[(i + 1) % 3] * (1 / largest), c.w[(i + 2) % 3] * (1 / largest))) : c.w[i] / scale[i];
         add_outer(split.place, some_stay ? direction * base - c.w[i] : direction * base, c.v[i]);
         add_outer(split.stretch, c.v[i] * ((is_zero ? 0 : scale[i] / base) - (some_stay ? 1 : 0)), c.v[i]);
@@ -200,8 +201,8 @@ void BakedTransforms::bake(const Scene& scene, std::vector<SceneObject>& objects
             }
             result.push_back(std::move(baked_object));
         }
-        warn(scene, object, sorted.without_area, "no area: the transform flattens them to a line or a point, or is not finite", left_out);
-        warn(scene, object, over_budget, "no room: flattened shapes would have too many triangles", left_out);
+        warn(scene, object, sorted.without_area, "no area; the transform flattens it to a line or a point, or is not finite", left_out);
+        warn(scene, object, over_budget, "too many triangles in flattened shapes", left_out);
     }
     objects = std::move(result);
     known_ = std::move(used);

@@ -1,4 +1,4 @@
-// Meshes that morph targets and joints bend, as rays meet them.
+// Meshes deformed by morph targets and skinning, as they are traced.
 #pragma once
 
 #include "scene/bend.h"
@@ -8,10 +8,10 @@
 
 namespace blush {
 
-// What was bent last time, so that what bends the same again is the same geometry and need not be built anew.
+// Cache of the last deformed meshes, so that an unchanged deformation keeps its geometry and BVH.
 class BentMeshes {
 public:
-    // Gives each node whose mesh bends a mesh of its own. `posed`: a scene with its pose applied (scene/pose.h).
+    // Gives each node with a deformed mesh its own mesh. `posed`: a scene with its pose applied (scene/pose.h).
     void bend(Scene& posed);
 
 private:
@@ -23,10 +23,10 @@ private:
     std::map<Id<Node>, Entry> known_;
 };
 
-// Ids of those meshes: with this bit, and that of their node.
+// Ids of those meshes: this bit plus the id of their node.
 constexpr uint32_t bent_bit = 0x40000000u;
 
-// Where the mesh of a node of such a scene is: what hangs on a skin is about its first joint (scene/bend.h).
+// World transform of a node's mesh in such a scene; skinned meshes are relative to their first joint (scene/bend.h).
 Affined world_from_mesh(const Scene& lowered, Placements& placements, Id<Node> id, const Node& node);
 
 } // namespace blush

@@ -20,7 +20,7 @@ void BouncePlanes::add(size_t place, const TileScratch& tile, int slot, int firs
         sums[k] = sums[k] + (now - before) * (k < first_scaled ? 1 : scale);
         before = now;
     };
-    // Clamping may have asked for more columns than there are planes.
+    // Clamping may need more columns than there are planes.
     const int noted = std::min(columns.recorded, planes_ - 1);
     for (int k = 0; k < noted; ++k) add_difference(k, columns.after[size_t(k)]);
     add_difference(noted, tile);

@@ -1,5 +1,5 @@
-// The beauty taken apart by the number of scattering events behind each contribution, as --max-bounces counts them: plane 0 holds what
-// glows in view, 1 direct light, 2 the first colour bleeding, ..., the last one everything from there on.
+// Splits the beauty by the number of scattering events, as --max-bounces counts them: plane 0 holds directly visible emission, 1
+// direct light, 2 the first indirect bounce, ..., the last one all further bounces.
 #pragma once
 
 #include "core/vec.h"
@@ -10,19 +10,19 @@
 
 namespace blush {
 
-// Sums in double precision. What a plane gets of a sample is the difference of what the path had gathered after k and after k - 1
-// scatterings, so that the planes of a sample sum to exactly what the beauty gets of it, the kernel's rounding included.
+// Sums in double precision. A sample's contribution to plane k is the difference of its radiance after k and k - 1 scatterings,
+// so the planes of a sample sum to exactly its contribution to the beauty, including the kernel's rounding.
 class BouncePlanes {
 public:
     static size_t bytes_per_pixel(int planes) { return size_t(planes) * sizeof(Vec3d); }
 
     size_t memory_bytes() const { return sums_.capacity() * sizeof(Vec3d); }
 
-    // Cleared planes with so many places, one or two for each pixel; 0 planes: none.
+    // Clears the planes. `places`: one or two per pixel. 0 planes: none.
     void reset(size_t places, int planes);
-    // Columns that the kernels must fill for that: all but the last plane's, which is the final radiance.
+    // Columns that the kernels must fill: all but the last plane's, which is the final radiance.
     int columns() const { return planes_ > 0 ? planes_ - 1 : 0; }
-    // One sample: a tile's slot; light of `first_scaled` scatterings and more times `scale`, which is what clamping does.
+    // Adds one sample, a slot of the tile. Light after `first_scaled` or more scatterings is multiplied by `scale` (clamping).
     void add(size_t place, const TileScratch& tile, int slot, int first_scaled, double scale);
     int planes() const { return planes_; }
     Vec3d& sum(size_t place, size_t plane) { return sums_[place * size_t(planes_) + plane]; }
@@ -30,7 +30,7 @@ public:
 
 private:
     int planes_ = 0;
-    std::vector<Vec3d> sums_; // the planes of one place side by side
+    std::vector<Vec3d> sums_; // the planes of one place are adjacent
 };
 
 } // namespace blush

@@ -5,7 +5,7 @@
 namespace blush {
 namespace {
 
-// Inverts the running integral of `weight` over [-radius, radius] (pixels) at equal steps of probability.
+// Inverts the integral of `weight` over [-radius, radius] (pixels) at equal steps of probability.
 template <class Weight> FilterTable invert(double radius, Weight weight) {
     constexpr int fine = 16384;
     std::array<double, fine + 1> cdf{};

@@ -9,8 +9,8 @@
 
 namespace blush {
 
-// Inverse distribution of a one-dimensional pixel filter at `size` equal steps of probability: a sample's position is looked up
-// and its weight is 1 (Ernst, Stamminger, Greiner 2006), so no pixel is written by two threads.
+// Inverse CDF of a one-dimensional pixel filter, tabulated at `size` equal steps of probability. Sample positions are looked up
+// and have weight 1 (Ernst, Stamminger, Greiner 2006), so no two threads write the same pixel.
 struct FilterTable {
     static constexpr int size = 256;
     std::array<float, size + 1> offset; // pixels from the centre

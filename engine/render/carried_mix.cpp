@@ -10,7 +10,7 @@
 namespace blush {
 namespace {
 
-// Nothing that groups are made of or called by; asked of every step of a drag.
+// True if nothing changed that groups are made from or named after. Runs at every step of a drag.
 bool same_groups(const Scene& before, const Scene& after) {
     const auto same = [](const auto& a, const auto& b, const auto& same_record) {
         return std::ranges::all_of(std::decay_t<decltype(a)>::changed(a, b), [&](auto id) {
@@ -31,8 +31,8 @@ bool same_groups(const Scene& before, const Scene& after) {
 
 LightGroups all_groups(const Scene& scene) { return make_light_groups(scene, std::numeric_limits<int>::max()); }
 
-// What the group `index` is called by now: as before, if something of it still goes by that name, else as what it has become part of. Empty:
-// it is gone.
+// New name of group `index`: unchanged if one of its members still has a group of that name, else the name of the group that its
+// members are in now. Empty: the group is gone.
 std::string name_now(const LightGroups& was, int index, const LightGroups& is) {
     const std::string& before = was.groups[size_t(index)].name;
     std::string name;
@@ -70,7 +70,7 @@ std::optional<LightMix> carried_mix(const Project& before, std::span<const Edit>
 
     const LightGroups was = all_groups(before.scene), is = all_groups(after.scene);
     LightMix carried{mix.grouping, {}};
-    std::vector<MixChannel> left; // of what is hidden, perhaps, or gone
+    std::vector<MixChannel> left; // channels of groups that do not exist now (hidden or deleted)
     for (MixChannel channel : mix.channels) {
         const auto group = std::ranges::find(was.groups, channel.group, &LightGroup::name);
         const std::string now = group == was.groups.end() ? "" : name_now(was, int(group - was.groups.begin()), is);

@@ -1,4 +1,4 @@
-// Channels of the light mix go by the names of groups: an edit that changes what groups are called takes them along.
+// Keeps channels of the light mix attached to their groups when an edit renames groups.
 #pragma once
 
 #include "scene/edit.h"
@@ -8,8 +8,8 @@
 
 namespace blush {
 
-// What the mix must be after the edits so that each channel still scales the light that it scaled before: under the group's new name, or not
-// there, if its lights are gone and others have taken over its name. Nothing if it is fine as it is, or if the edits are refused.
+// Returns the mix after the edits, such that each channel still scales the same light: under the group's new name, or removed if
+// its lights are gone and other lights now use the name. Empty if no change is needed or if the edits are rejected.
 std::optional<LightMix> carried_mix(const Project& before, std::span<const Edit> edits);
 
 } // namespace blush

@@ -1,4 +1,4 @@
-// Clamping of samples, and an exact account of the light it takes away.
+// Clamping of samples, with exact statistics of the removed light.
 #pragma once
 
 #include "core/vec.h"
@@ -12,28 +12,29 @@
 
 namespace blush {
 
-// A sample limited to `limit` in its largest component, hue kept: of all its light, or of what was scattered more than once.
+// Limits a sample's largest component to `limit` and keeps its hue. Applies to all light, or only to light scattered more than
+// once.
 class ClampLedger {
 public:
-    // An account for each place, one or two for each pixel.
+    // Statistics for each place; one or two places per pixel.
     void reset(size_t places, const Clamp& clamp);
     bool on() const { return clamp_.limit > 0; }
-    // Columns that the kernels must fill for that.
+    // Columns that the kernels must fill for this.
     int columns() const { return on() && !clamp_.all ? 2 : 0; }
-    // No sample whose components sum to less than this is touched.
+    // Samples whose components sum to less than this are never clamped.
     float least_sum() const;
 
-    // What is left of the sound sample in a tile's slot. `first_scaled` and `scale`: light of so many scatterings and more was multiplied
-    // by that.
+    // Clamps a valid sample in a slot of the tile. `first_scaled` and `scale`: light after that many or more scatterings was
+    // multiplied by `scale`.
     struct Left {
         Vec3d radiance{0, 0, 0};
         int first_scaled = 0;
         double scale = 1;
     };
-    // Notes the rest in the place's account.
+    // Adds the removed light to the statistics of the place.
     Left clamp(size_t place, const TileScratch& tile, int slot);
 
-    // Light taken from a place, and the number of samples that it was taken from. Only while on.
+    // Light removed at a place, and the number of samples it was removed from. Only while clamping is on.
     struct Account {
         Vec3d removed{0, 0, 0};
         int64_t samples = 0;
@@ -43,7 +44,7 @@ public:
 
 private:
     Clamp clamp_;
-    std::vector<Account> accounts_; // empty while off
+    std::vector<Account> accounts_; // empty while clamping is off
 };
 
 } // namespace blush

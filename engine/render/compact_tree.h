@@ -1,4 +1,4 @@
-// How large meshes are traced.
+// Decides which large meshes get a compact BVH.
 #pragma once
 
 #include <cstddef>
@@ -6,13 +6,13 @@
 
 namespace blush {
 
-// Leaves of the ray tracer's trees hold the corners of their triangles. Where memory is short they hold indices alone: that saves 27 bytes a
-// triangle, 50 while the tree is built, and a picture takes 1.24 times as long (a closed room of a million triangles).
+// By default, BVH leaves store triangle vertices. If memory is short they store indices instead: this saves 27 bytes per
+// triangle, 50 during the build, and rendering takes 1.24 times as long (closed room of a million triangles).
 
-// Bytes a triangle that building a tree with corners takes at most: the peak of the process with a mesh of a million triangles over that with two
-// hundred, 164 bytes, without the 28 of the file's own.
+// Peak bytes per triangle while building a BVH with vertices: peak of the process for a mesh of a million triangles minus the
+// peak for two hundred triangles, 164 bytes, minus 28 for the file data.
 constexpr uint64_t tree_bytes_per_triangle = 136;
-// Of the memory that the process may still have; the rest is for films, frames and what else is made later.
+// Fraction of the free memory that BVHs may use; the rest is for films, frames and later allocations.
 constexpr double max_tree_share = 0.5;
 
 constexpr bool needs_compact_tree(size_t triangles, uint64_t memory_left) {

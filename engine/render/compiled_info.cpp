@@ -1,4 +1,4 @@
-// What a compiled scene is made of: for `blush info`.
+// Statistics of a compiled scene, for `blush info`.
 #include "render/lowering.h"
 #include "render/render_scene.h"
 
@@ -25,17 +25,19 @@ CompiledInfo RenderScene::info() const {
     info.warnings.insert(info.warnings.end(), left_out_.begin(), left_out_.end());
     if (casters_.left_out() > 0)
         info.warnings.push_back({Diagnostic::Severity::warning,
-                                 fmt::format("there are more than {} different sets of shadow casters: everything casts the shadows of {}", most_caster_sets,
-                                             counted(casters_.left_out(), "light", "lights")),
+                                 fmt::format("more than {} different sets of shadow casters: shadow linking is ignored for {}",
+                                             most_caster_sets, counted(casters_.left_out(), "light", "lights")),
                                  ""});
     if (lights_.unaimed_triangles > 0)
         info.warnings.push_back({Diagnostic::Severity::warning,
-                                 fmt::format("{} of {} triangles that glow are not aimed at, no more than {} are: light of copies without number is noisy",
+                                 fmt::format("{} of {} emissive triangles exceed the light-sampling limit of {}: their light is found by BSDF "
+                                             "sampling only and will be noisy",
                                              lights_.unaimed_triangles, lights_.emissive_triangles, most_mesh_lights),
                                  ""});
     if (lights_.fewer_disk_corners > 0)
         info.warnings.push_back({Diagnostic::Severity::warning,
-                                 fmt::format("there are so many disks that shine that each is a polygon of {} corners, not of {}: their edges and reflections show it",
+                                 fmt::format("many disk lights: each is a polygon of {} corners instead of {}, which is visible at their "
+                                             "edges and in reflections",
                                              lights_.fewer_disk_corners, most_disk_corners),
                                  ""});
     if (!missing_light_.empty()) info.warnings.push_back({Diagnostic::Severity::warning, missing_light_, ""});

@@ -1,4 +1,4 @@
-// Which part of a picture is object and which is background.
+// Coverage of an image: object or background.
 #pragma once
 
 #include "render/frame.h"
@@ -7,11 +7,11 @@
 
 namespace blush {
 
-// A value a pixel: 1 where an object is, 0 where the camera sees past all of them. Of the first sample of each pixel, so that edges are
-// those of pixels; where the environment is hidden from the camera it is the frame's alpha, which is exact. Without ids everything is
-// object.
+// One value per pixel: 1 for objects, 0 for the background. Uses the first sample of each pixel, so edges are not antialiased; if
+// the environment is hidden from the camera it is the frame's alpha, which is exact. Without object ids, all pixels count as
+// objects.
 std::vector<float> coverage_of(const Frame& frame);
-// The opacity of each pixel of a picture that is to be laid over others (Frame::transparent); empty for any other.
+// The opacity of each pixel of an image for compositing (Frame::transparent); empty for other images.
 std::vector<float> opacity_of(const Frame& frame);
 float coverage_of_pixel(const Frame& frame, size_t pixel);
 

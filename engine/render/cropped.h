@@ -1,4 +1,4 @@
-// A rectangle of a picture as a picture of its own.
+// Crops a frame to a rectangle.
 #pragma once
 
 #include "render/denoised_picture.h"
@@ -9,12 +9,12 @@
 
 namespace blush {
 
-// All planes of the frame within `rect`, which lies in it. What is known of the picture as a whole is not known of a part: its error, and the
+// All planes of the frame within `rect`, which must lie inside it. Statistics of the whole image are dropped: the error, and the
 // shares of its light groups.
 Frame cropped(const Frame& frame, const PixelRect& rect);
-// Of the same size as the frame; null stays null. It is no longer known by groups of lights.
+// Same size as the frame; null stays null. The light groups are dropped.
 DenoisedPtr cropped(const DenoisedPtr& picture, const PixelRect& rect);
-// `values_per_pixel` numbers for each pixel of a picture of `width`; empty stays empty.
+// `values_per_pixel` numbers for each pixel of an image of the given `width`; empty stays empty.
 template <class T> std::vector<T> cropped(const std::vector<T>& plane, int width, const PixelRect& rect, size_t values_per_pixel = 1) {
     std::vector<T> part;
     if (plane.empty()) return part;

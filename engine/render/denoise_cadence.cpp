@@ -5,7 +5,7 @@
 namespace blush {
 namespace {
 
-// What the qualities cost in units of the small network: 124 GFLOP a megapixel, then 251, and that three times.
+// Cost of the qualities relative to the small network: 124 GFLOP per megapixel, then 251, then three times 251.
 constexpr std::array<double, 3> relative_cost{1, 2, 6};
 
 } // namespace
@@ -60,8 +60,8 @@ void DenoiseCadence::record(const Source& source, DenoiseQuality quality, double
     const bool same_image = newest_ && newest_->image == source.image;
     if (same_image) spent_ += seconds;
     if (!finished) return;
-    // The first run of a network makes it, and rendering takes its share of the processor: the fastest run tells what can be, slower ones
-    // only by and by that it can no longer.
+    // The first run of a network includes building it and competes with rendering for the processor. So take the fastest run, and
+    // let slower runs raise the estimate only gradually.
     double& speed = seconds_per_megapixel_[size_t(quality)];
     const double measured = seconds / std::max(source.megapixels, 1e-6);
     speed = speed == 0 || measured < speed ? measured : 0.75 * speed + 0.25 * measured;

@@ -1,4 +1,4 @@
-// When to denoise, and how well: a pure object, told what there is and how long it took. Tested without denoising.
+// Decides when to denoise and at which quality, from the state and timings it is given. Testable without denoising.
 #pragma once
 
 #include "render/denoiser.h"
@@ -10,42 +10,44 @@
 
 namespace blush {
 
-// An image's first picture in full resolution is denoised at once. After that there is at most one a second, and all of them together
-// take at most a tenth of the time that the image has been rendered for. Once nobody has edited for a while the large network is used,
-// and the picture with which rendering ends gets the best there is. A coarse picture is denoised if that fits into a frame of the window.
-// Times are seconds of any clock that does not jump.
+// An image's first full-resolution frame is denoised at once. After that at most one per second, and all together at most a tenth
+// of the image's render time. After a while without edits the large network is used, and the final frame gets the best quality. A
+// low-resolution frame is denoised if that fits into one frame of the window.
+// Times are seconds of any monotonic clock.
 class DenoiseCadence {
 public:
-    static constexpr double least_interval = 1;       // seconds from the beginning of one to the beginning of the next
-    static constexpr double time_share = 0.1;         // of the image's life
+    static constexpr double least_interval = 1;       // seconds from the start of one run to the start of the next
+    static constexpr double time_share = 0.1;         // of the image's render time
     static constexpr double rest_seconds = 2;         // without an edit
-    static constexpr double frame_seconds = 1.0 / 30; // for a picture that the window waits for
+    static constexpr double frame_seconds = 1.0 / 30; // for an image that the window waits for
 
-    // A frame, as far as it matters here.
+    // The properties of a frame that matter here.
     struct Source {
-        uint64_t image = 0; // another one after each edit that shows
+        uint64_t image = 0; // changes after each edit that affects the image
         int64_t samples = 0;
         int divider = 1;
-        bool complete = false; // rendering has ended with it
+        bool complete = false; // rendering ended with it
         double megapixels = 0;
     };
     struct Decision {
         std::optional<DenoiseQuality> quality;                 // denoise the newest frame now
-        double wait = std::numeric_limits<double>::infinity(); // else: ask again after so many seconds, or when there is something new
+        double wait = std::numeric_limits<double>::infinity(); // else: ask again after so many seconds, or when something changes
     };
 
     // The newest frame.
     void offer(const Source& source, double now);
-    // Is it the first of its image, and will its picture be there within a frame of the window? Then it is worth waiting for.
+    // True if it is the first of its image and its denoised image is expected within one frame of the window, so that waiting is
+    // worthwhile.
     bool answers_within_a_frame() const;
     Decision next(double now) const;
-    // What next() asked for, of a frame that was the newest at `begun`, ended after `seconds`; `finished`: with a picture.
+    // Records that the run requested by next(), of the newest frame at time `begun`, took `seconds`; `finished`: it produced an
+    // image.
     void record(const Source& source, DenoiseQuality quality, double begun, double seconds, bool finished);
 
 private:
     bool is_done(DenoiseQuality quality) const;
     bool fits_a_frame() const;
-    // Seconds for the newest frame; 0 if nothing was denoised yet.
+    // Estimated seconds for the newest frame; 0 if nothing was denoised yet.
     double predicted(DenoiseQuality quality) const;
 
     std::optional<Source> newest_;
@@ -60,7 +62,7 @@ private:
         DenoiseQuality quality = DenoiseQuality::fast;
         double begun = 0;
     };
-    std::optional<Done> done_; // the last picture
+    std::optional<Done> done_; // the last denoised image
 };
 
 } // namespace blush

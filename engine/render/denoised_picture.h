@@ -1,4 +1,4 @@
-// A denoised picture: made from a frame, kept beside it, never in its place.
+// A denoised image: made from a frame and kept in addition to it.
 #pragma once
 
 #include "render/denoiser.h"
@@ -14,7 +14,7 @@ namespace blush {
 
 class Workers;
 
-// The planes of a frame's light groups, each denoised by itself, so that they can be mixed anew: width * height * 3 values each.
+// The planes of a frame's light groups, each denoised separately, so that they can be remixed: width * height * 3 values each.
 struct DenoisedGroups {
     std::shared_ptr<const LightGroups> of;
     std::vector<std::vector<float>> planes;
@@ -29,26 +29,26 @@ struct DenoisedPicture {
     double rendered_seconds = 0;
 
     DenoiseQuality quality = DenoiseQuality::fast;
-    Denoised denoised; // of the whole picture; of groups, the sum of what they were denoised to, each times its gain
-    std::shared_ptr<const DenoisedGroups> groups; // null: it was denoised as a whole
+    Denoised denoised; // of the whole image; with groups, the sum of the denoised groups, each times its gain
+    std::shared_ptr<const DenoisedGroups> groups; // null: denoised as a whole
     Gains gains;                                  // of the groups
 };
 using DenoisedPtr = std::shared_ptr<const DenoisedPicture>;
 
-// The frame's planes as the denoiser reads them: of the whole picture, or, if there are groups of lights, of each of them before its gain.
-// They point into the frame.
+// The frame's planes as denoiser input: one of the whole image, or one for each light group before its gain. They point into the
+// frame.
 std::vector<DenoiseInput> denoise_inputs(const Frame& frame);
 
-// Of what denoise_inputs() were denoised to; groups are mixed with the frame's gains.
+// Combines the results for denoise_inputs(); groups are mixed with the frame's gains.
 DenoisedPtr denoised_picture(const Frame& source, DenoiseQuality quality, std::vector<Denoised> denoised);
-// The same with other gains.
+// The same image with other gains.
 DenoisedPtr remixed(const DenoisedPicture& picture, const Gains& gains);
-// Its groups, each denoised alone; it must have some.
+// The groups, each denoised separately; it must have groups.
 std::vector<std::span<const float>> planes_of(const DenoisedPicture& picture);
-// Its pixels with other gains, width * height * 3; it must have groups.
+// The pixels with other gains, width * height * 3; it must have groups.
 std::vector<float> mixed_rgb(const DenoisedPicture& picture, std::span<const Vec3> gains, const Workers* workers = nullptr);
 
-// By how many per cent the denoiser changed the mean luminance; 0 where there was none.
+// Relative change of the mean luminance by the denoiser, in per cent; 0 if the mean was 0.
 double energy_change_percent(const Denoised& denoised);
 
 std::string_view to_string(DenoiseQuality quality); // "fast", "base", "high"

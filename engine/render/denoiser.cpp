@@ -27,7 +27,7 @@ constexpr int largest_side = 65536;
 Result<void> check_plane(const PixelView& plane, const DenoiseInput& input, const char* name) {
     const size_t pixels = size_t(input.width) * input.height;
     if (plane.stride < 3 || plane.values.size() < (pixels - 1) * plane.stride + 3)
-        return Error{.what = fmt::format("the {} to denoise is smaller than {}x{} pixels", name, input.width, input.height)};
+        return Error{.what = fmt::format("the {} plane to denoise has fewer than {}x{} pixels", name, input.width, input.height)};
     return {};
 }
 
@@ -40,8 +40,9 @@ Result<void> check(const DenoiseInput& input, const DenoiseOptions& options) {
     if (!input.normal.values.empty())
         if (auto good = check_plane(input.normal, input, "normal"); !good) return good;
     if (options.exposure_scale && !(*options.exposure_scale >= smallest_scale && *options.exposure_scale <= largest_scale))
-        return Error{.what = fmt::format("an exposure scale of {} for the denoiser", *options.exposure_scale)};
-    if (options.precision == DenoisePrecision::bfloat16 && !has_bfloat16()) return Error{.what = "this processor has no bfloat16"};
+        return Error{.what = fmt::format("invalid exposure scale of {} for the denoiser", *options.exposure_scale)};
+    if (options.precision == DenoisePrecision::bfloat16 && !has_bfloat16())
+        return Error{.what = "this processor does not support bfloat16"};
     return {};
 }
 
@@ -52,7 +53,7 @@ Element element_for(DenoisePrecision precision) {
 
 const float* at(const PixelView& plane, int width, int x, int y) { return &plane.values[(size_t(y) * width + x) * plane.stride]; }
 
-// One image on its way through its networks.
+// One image and the networks that it passes through.
 class Passage {
 public:
     Passage(const DenoiseInput& input, const DenoiseOptions& options, Networks& networks, const Workers& workers,
@@ -61,7 +62,7 @@ public:
           features_(!input.albedo.values.empty() && !input.normal.values.empty()),
           prefilter_(features_ && options.quality == DenoiseQuality::high), element_(element_for(options.precision)) {}
 
-    // False: no longer wanted.
+    // False: cancelled.
     Result<bool> run(Denoised& made) {
         made.exposure_scale = exposure_scale();
         const Inspection before = inspect(input_.color, input_.width, input_.height, largest_radiance / made.exposure_scale, workers_);
@@ -114,7 +115,7 @@ private:
                 .progress = tell};
     }
 
-    // Albedo, or normals as the network sees them, on their own through their own network.
+    // Denoises albedo or normals (in the network's encoding) with their own network.
     Result<bool> prefilter(bool normal) {
         std::vector<float>& clean = normal ? clean_normal_ : clean_albedo_;
         clean.resize(size_t(input_.width) * input_.height * 3);
@@ -148,11 +149,11 @@ private:
     const Workers& workers_;
     const std::function<bool()>& wanted_;
     const std::function<void(double)>& progress_;
-    bool features_;  // albedo and normal are there
-    bool prefilter_; // and are denoised first
+    bool features_;  // albedo and normal are present
+    bool prefilter_; // and are prefiltered
     Element element_;
-    int networks_run_ = 0;                           // three of about the same size, or one
-    std::vector<float> clean_albedo_, clean_normal_; // prefiltered, coded as the network sees them
+    int networks_run_ = 0;                           // of three (about the same size) or one
+    std::vector<float> clean_albedo_, clean_normal_; // prefiltered, in the network's encoding
 };
 
 } // namespace
@@ -187,13 +188,13 @@ Result<void> find_denoiser_weights(const std::filesystem::path& weights) {
     for (const char* name : network_names) {
         const std::filesystem::path file = weights / (std::string(name) + ".tza");
         std::error_code code;
-        if (!std::filesystem::is_regular_file(file, code)) return Error{file.string(), "the denoiser's weights are not there"};
+        if (!std::filesystem::is_regular_file(file, code)) return Error{file.string(), "the denoiser weights are missing"};
     }
     return {};
 }
 
 Ledger denoiser_ledger(const std::filesystem::path& weights, const std::array<bool, denoise_qualities>& loaded) {
-    // With albedo and normal, as every picture of ours has them.
+    // With albedo and normal, which all our frames have.
     struct Networks {
         DenoiseQuality quality;
         const char* name;
@@ -205,7 +206,7 @@ Ledger denoiser_ledger(const std::filesystem::path& weights, const std::array<bo
     Ledger ledger;
     for (const Networks& n : networks) {
         const bool used = loaded[size_t(n.quality)];
-        FeatureUse use{"denoiser", n.name, used, used ? "denoised pictures are wanted" : "no denoised picture wants it"};
+        FeatureUse use{"denoiser", n.name, used, used ? "denoising is on" : "no denoising at this quality"};
         int64_t bytes = 0;
         bool all_there = true;
         for (const char* name : n.files) {

@@ -14,14 +14,14 @@ Spectrum make_spectrum() {
     Vec3d total{0, 0, 0};
     for (double nm = shortest + grid / 2; nm < longest; nm += grid)
         total = total + colors.emplace_back(rec709_from_xyz(color_matching(nm)));
-    // A wavelength is as probable as the mean of its channels, each of which adds up to 1: no colour is rarer than it is bright.
+    // Each channel is normalised to 1, and a wavelength's probability is the mean of its channels.
     for (Vec3d& c : colors) c = {c.x / total.x, c.y / total.y, c.z / total.z};
 
     Spectrum spectrum;
     Vec3d sum{0, 0, 0};
     std::vector<Vec3d> rgb;
     size_t at = 0;
-    double below = 0; // probability of all wavelengths before `at`
+    double below = 0; // cumulative probability of all wavelengths before `at`
     for (int step = 0; step < Spectrum::steps; ++step) {
         const double wanted = (step + 0.5) / Spectrum::steps;
         const auto probability = [&] { return (colors[at].x + colors[at].y + colors[at].z) / 3; };

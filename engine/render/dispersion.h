@@ -1,5 +1,5 @@
-// KHR_materials_dispersion. A path that meets glass of that kind carries light of one wavelength from there on: its index of refraction
-// is that wavelength's, its throughput is multiplied with the wavelength's colour once. White light comes out white in the mean.
+// KHR_materials_dispersion. From the first dispersive surface on, a path carries light of a single wavelength: it uses that
+// wavelength's index of refraction, and its throughput is multiplied once by the wavelength's colour. The mean stays white.
 #pragma once
 
 #include "core/sampler.h"
@@ -10,17 +10,17 @@ namespace blush {
 struct Spectrum {
     static constexpr int steps = 256;
     float nanometres[steps];
-    float rgb[3 * steps]; // linear Rec.709 over the step's probability: the mean of all is exactly white; what that cannot show is cut
+    float rgb[3 * steps]; // linear Rec.709 over the step's probability; averages exactly to white; out-of-gamut values are cut
 };
 
-// Computed when first asked for; deterministic. Thread-safe.
+// Computed on first use; deterministic. Thread-safe.
 const Spectrum& visible_spectrum();
 
 } // namespace blush
 
 namespace blush::inline BLUSH_ISA {
 
-// Beyond any that scattering uses: a path has one wavelength, whatever it meets first.
+// Sampler dimension outside of those used for scattering: a path has one wavelength, independent of what it hits first.
 constexpr uint32_t wavelength_dimension = ~0u;
 
 template <class F> struct Wavelength {
@@ -33,7 +33,7 @@ template <class F> Wavelength<F> wavelength_of(const Sampler<F>& sampler) {
     return {gather(spectrum.nanometres, step), gather3<F>(spectrum.rgb, step)};
 }
 
-// Cauchy's equation through the index `ior` at 587.6 nm, as the specification has it; `dispersion` is 20 over the Abbe number. At least 1.
+// Cauchy's equation from the index `ior` at 587.6 nm, as in the specification; `dispersion` is 20 / Abbe number. At least 1.
 template <class F> F dispersed_ior(const F& ior, const F& dispersion, const F& nanometres) {
     return max(F(ior + (ior - 1.f) * (dispersion * 0.05f) * (523655.f / (nanometres * nanometres) - 1.5168f)), F(1.f));
 }

@@ -18,7 +18,7 @@ namespace {
 
 using std::numbers::pi;
 
-// Texel and cell numbers are 32-bit indices into three floats each; a row is one distribution of at most 2^24.
+// Texels and cells are addressed by 32-bit indices, three floats each; a row is one distribution of at most 2^24 entries.
 constexpr int64_t max_texels = (int64_t(1) << 31) / 3 - 1;
 constexpr int64_t max_side = (1 << 24) - 1;
 
@@ -63,9 +63,9 @@ double row_end(int row, int height) { return row == height ? pi : pi * (row + 0.
 
 struct RowBorders {
     double begin, end; // polar angles
-    // Solid angle of one of `width` cells between them.
+    // Solid angle of one of `width` cells of the row.
     double cell_solid_angle(int width) const { return 4 * pi / width * std::sin((end - begin) / 2) * std::sin((end + begin) / 2); }
-    // Mean over the solid angle of the weight that filtering gives to the lower texels, which is linear in the angle.
+    // Mean weight that filtering gives to the lower texels, over the solid angle; the weight is linear in the angle.
     double lower_share() const {
         const double height = end - begin;
         return (std::sin(end) - std::sin(begin) - height * std::cos(end)) / (height * (std::cos(begin) - std::cos(end)));
@@ -83,10 +83,10 @@ EnvironmentRow row_record(const RowBorders& borders, int width) {
             float(1 / borders.cell_solid_angle(width))};
 }
 
-// About four columns for each entry: one cache line of either is touched, where bisection of a row touches ten.
+// About four columns per guide entry: one cache line of each is read, where bisection of a row reads ten.
 int guide_bits_for(size_t width) { return std::max(1, int(std::bit_width(unsigned(width))) - 2); }
 
-// A cell weighs what the filtered map shines over it.
+// A cell's weight is the integral of the filtered map over it.
 void build_importance(EnvironmentTable& table) {
     const size_t width = size_t(table.width), row_count = size_t(table.height) + 1;
     table.rows.reserve(row_count);
@@ -105,7 +105,7 @@ void build_importance(EnvironmentTable& table) {
             const float *a = upper + 3 * i, *b = lower + 3 * i;
             const Vec3d c{upper_share * a[0] + lower_share * b[0], upper_share * a[1] + lower_share * b[1],
                           upper_share * a[2] + lower_share * b[2]};
-            border_weights[i] = 0.212671 * c.x + 0.715160 * c.y + 0.072169 * c.z; // luminance: 0 only where all is
+            border_weights[i] = 0.212671 * c.x + 0.715160 * c.y + 0.072169 * c.z; // luminance: 0 only if all components are
             sum = sum + c;
         }
         for (size_t i = 0; i < width; ++i) cell_weights[i] = border_weights[i == 0 ? width - 1 : i - 1] + border_weights[i];

@@ -1,4 +1,4 @@
-// When to estimate the error of a picture that is being rendered: a pure object, told what there is and how long it took. Tested without
+// Decides when to estimate the error of an image during rendering, from the state and timings it is given. Testable without
 // rendering.
 #pragma once
 
@@ -8,28 +8,27 @@
 
 namespace blush {
 
-// Whenever the samples have grown by a tenth, which is what a log-log plot and a slope can use, if all estimates of an image together take
-// at most half a hundredth of the time that it has been rendered for; so the first comes the later, the larger the picture. The picture
-// with which rendering ends is always looked at. So is one that a stop rule waits for, and one whose lights were mixed anew: its error is
-// another one.
+// Estimates whenever the samples have grown by a tenth, the resolution that a log-log plot and a slope need, while all estimates
+// of an image together take at most 0.5 % of its render time; so the first one comes later for larger images. Always estimates
+// the final image, an image that a stop rule waits for, and one with a changed light mix, because the mix changes the error.
 class ErrorCadence {
 public:
     static constexpr double time_share = 0.005; // of rendering
     static constexpr double growth = 1.1;       // of the samples, from one estimate to the next
 
     struct Picture {
-        int64_t samples = 0; // per pixel; with fewer than two there is nothing to compare
+        int64_t samples = 0; // per pixel; an estimate needs at least two
         double pixels = 0;
         double seconds = 0;  // of rendering
-        bool wanted = false; // whatever it costs
+        bool wanted = false; // estimate at any cost
     };
 
-    // Another image.
+    // Starts a new image.
     void restart();
     bool due(const Picture& picture) const;
-    // It was estimated, in so many seconds.
+    // Records an estimate that took so many seconds.
     void record(const Picture& picture, double seconds);
-    // On estimates of this image so far, seconds.
+    // Seconds spent on estimates of this image.
     double spent() const { return budget_.spent(); }
 
 private:

@@ -7,30 +7,30 @@ namespace blush {
 namespace {
 
 constexpr int64_t fewest_pixels = 64;
-constexpr double fewest_degrees = 20;   // of freedom, by normal errors
-constexpr double widest = 10;           // of relmse's interval: high over low
-constexpr double brightest_share = 0.3; // of the squared error, that one sample of the brightest pixel may be
-// Of the logarithm of relmse with the darkest surroundings over that with the usual ones: how far the truth is on average, and one standard
-// deviation of that.
+constexpr double fewest_degrees = 20;   // degrees of freedom, for normal errors
+constexpr double widest = 10;           // ratio high / low of relmse's interval
+constexpr double brightest_share = 0.3; // of the squared error, for one sample of the brightest pixel
+// Bias correction and its standard deviation, as fractions of the logarithm of (relmse with the darkest neighbourhood / relmse
+// with the default one).
 constexpr double way_to_darkest = 0.15, share_of_choice = 0.25;
-// The half with one sample more has less variance than its share if points are well distributed; one standard deviation of what that is
-// worth, per difference of the halves' weights. At most 1 for points whose variance falls with the square of their number.
+// The half with one sample more has less variance than its share if points are well distributed. One standard deviation of this
+// effect, per difference of the halves' weights. At most 1, for points whose variance falls with the square of their number.
 constexpr double share_of_inequality = 0.6;
 
-// Half width of a 95 % interval of the logarithm of F with n degrees of freedom twice, whose variance is about v = 4 / n: within 1 % for n
-// >= 2 of tabulated quantiles.
+// Half width of the 95 % interval of the logarithm of F with (n, n) degrees of freedom, whose variance is about v = 4 / n: within
+// 1 % of tabulated quantiles for n >= 2.
 double log_interval(double v) { return 1.96 * std::sqrt(v) * (1 + 0.16 * v); }
 
 double squared(double x) { return x * x; }
 
-// Of the logarithm of true error over estimate, relative variances being small.
+// Variance of log(true error / estimate), for small relative variances.
 double log_variance(const ErrorSums& all, const ErrorSums::Weighted& sums) {
     const double neighbours = all.pairs > 0 ? sums.neighbour_products * double(all.pixels) / double(all.pairs) : 0;
     const auto [less, more] = std::minmax(neighbours, sums.own_products);
     return (more + less / 2) / squared(sums.squares);
 }
 
-// Few pixels tell nothing of how large their sum may be.
+// True if enough pixels carry the error for a meaningful interval.
 bool carried_by_many(const ErrorSums::Weighted& s) { return normal_product(1.0) * s.fourths <= 4 / fewest_degrees * squared(s.squares); }
 
 } // namespace
@@ -40,7 +40,7 @@ ErrorEstimate estimate_error(const ErrorSums& sums, double sharing) {
     ErrorEstimate e;
     if (sums.pixels < fewest_pixels) return e;
     e.known = e.rmse_known = true;
-    if (absolute.squares == 0) return e; // no noise at all
+    if (absolute.squares == 0) return e; // no noise
 
     const double values = 3 * double(sums.pixels);
     const double inequality = squared(share_of_inequality * sums.unequal / absolute.squares);

@@ -8,21 +8,21 @@
 namespace blush {
 namespace {
 
-// Of a pixel in the mean around it, whose other pixels are 24.
+// Weight of a pixel in its own neighbourhood mean, which has 24 other pixels.
 constexpr float own_share = 0.2f / 24.2f;
-// Values whose fourth powers single precision can hold, and those of values a thousand times as small.
+// Values whose fourth powers (also of values a thousand times smaller) fit into single precision.
 constexpr double largest_value = 0x1p28, smallest_value = 0x1p-16;
 constexpr double usual_value = 0x1p16;
 
 double total(const Four& v) { return double(v[0] + v[1]) + double(v[2] + v[3]); }
 double largest_of(const Four& v) { return double(std::max(std::max(v[0], v[1]), std::max(v[2], v[3]))); }
 
-// What relmse divides a squared difference of scaled values by, scaled such that neither of its two parts overflows.
+// The divisor of relmse for scaled values, scaled so that neither of its two parts overflows.
 struct Divisor {
     float of_square, constant;
     double factor; // of a sum of quotients
 
-    // value^2 + 0.01, of values that are `scale` times as large.
+    // value^2 + 0.01, for values multiplied by `scale`.
     explicit Divisor(double scale) {
         const double floor = 0.01 * scale * scale, most = std::max(1.0, floor);
         of_square = float(1 / most);
@@ -32,14 +32,14 @@ struct Divisor {
     Four weight(const Four& value) const { return 1 / (squared(value) * of_square + constant); }
 };
 
-// Half differences of a row, as they are and over what relmse divides by.
+// Half differences of a row: absolute, and divided by the divisor of relmse.
 struct Differences {
     ChannelRows absolute, relative;
     PixelRow known;
     explicit Differences(int width) : known(width) { absolute.fill(known), relative.fill(known); }
 };
 
-// Of each pixel of a row, over its channels.
+// Sums over channels for each pixel of a row.
 struct PixelSums {
     PixelRow squares, relative, products, relative_products, high, dark;
     explicit PixelSums(int width) : squares(width), relative(width), products(width), relative_products(width), high(width), dark(width) {}
@@ -48,7 +48,7 @@ struct PixelSums {
     }
 };
 
-// Of a row, in single precision.
+// Sums of a row in single precision.
 struct RowSums {
     struct Weighted {
         Four squares{}, fourths{}, own_products{}, neighbour_products{};
@@ -71,7 +71,7 @@ public:
     }
 
     ErrorSums sum(int first, int last) {
-        const int lead_in = std::max(0, first - 1); // its differences are neighbours of the first row's
+        const int lead_in = std::max(0, first - 1); // its differences are the upper neighbours of the first row
         loaded_ = std::max(0, lead_in - 2);
         for (int y = lead_in; y < last; ++y) {
             for (; loaded_ < std::min(picture_.height, y + 3); ++loaded_) load(loaded_);
@@ -87,7 +87,7 @@ public:
     }
 
 private:
-    static constexpr int kept = 4; // rows: that of the pixels and two below
+    static constexpr int kept = 4; // rows: the current one and two below
 
     HalfRow& row_at(int y) { return rows_[size_t(y % kept)]; }
 
@@ -139,7 +139,7 @@ private:
         for (int x = 0; x < picture_.width; x += PixelRow::step) {
             const Four a = load_four(from_a + x), b = load_four(from_b + x), own = load_four(from_own + x), mean = load_four(means + x);
             const Four root = load_four(roots + x), difference = (a - b) * root, square = squared(difference);
-            // What relmse divides by: shrinkage as by James and Stein (1961); and the least that it may be.
+            // `usual`: divisor of relmse by James-Stein shrinkage (1961); `least`: its lower bound.
             const Four near = mean + (own - mean) * own_share, off = squared(own - near);
             const Four usual = near + (own - near) * max(splat(0), 1 - 2 * square / max(off, splat(1e-36f)));
             const Four least = min(usual, max(min(own, load_four(darkest + x)), min(a, b)));
@@ -162,7 +162,7 @@ private:
         if (has_above) add_pairs(above_, 0, sums);
     }
 
-    // Of each pixel and that of `other` which is `left` pixels to the left.
+    // Adds products of each pixel with the pixel of `other` that is `left` pixels to the left.
     void add_pairs(const Differences& other, int left, RowSums& sums) const {
         const auto products = [&](const ChannelRows& u, const ChannelRows& v) {
             const float *const r = u[0].pixels() - left, *const g = u[1].pixels() - left, *const b = u[2].pixels() - left;
@@ -179,7 +179,7 @@ private:
         for (int x = 0; x < picture_.width; x += PixelRow::step) sums.pairs += load_four(known + x) * load_four(known_here + x);
     }
 
-    // In double precision, of values as they are.
+    // In double precision, in original units.
     void take(const RowSums& row) {
         const double square = 1 / (scale_ * scale_), fourth = square * square;
         const auto add = [](ErrorSums::Weighted& to, const RowSums::Weighted& w, double to_square, double to_fourth) {
@@ -235,7 +235,7 @@ void ErrorSums::merge(const ErrorSums& o) {
 ErrorSums sum_errors(const HalvesOfPicture& picture, int first, int last) {
     const ErrorSums sums = BandSummer(picture, 1).sum(first, last);
     if (sums.largest == 0 || (sums.largest <= largest_value && sums.largest >= smallest_value)) return sums;
-    // A picture for which single precision is too narrow is brought into the middle of it, by a power of two.
+    // If values do not fit single precision, scales the image by a power of two into the middle of the range.
     return BandSummer(picture, std::exp2(std::round(std::log2(usual_value / sums.largest)))).sum(first, last);
 }
 

@@ -20,21 +20,21 @@ namespace blush::inline BLUSH_ISA {
 constexpr uint32_t first_scatter_dimension = 2;
 enum ScatterDimension : uint32_t { light_dimension, bsdf_dimension, choice_dimension, dimensions_per_scatter };
 
-// MIS weight of a light sample; delta lights can be found in no other way, whatever the strategy.
+// MIS weight of NEE; delta lights cannot be hit, so their weight is always 1.
 template <class F> F light_sample_weight(Strategy strategy, const F& light_pdf, const F& bsdf_pdf, const Mask<F>& delta) {
     if (strategy == Strategy::bsdf) return select(delta, F(1.f), F(0.f));
     if (strategy == Strategy::light) return F(1.f);
     return select(delta, F(1.f), power_heuristic(light_pdf, bsdf_pdf));
 }
 
-// Metres across which panes' textures are looked at. Where a pane's transmittance is weighed against that which shadow rays find, textures are
-// not filtered.
+// Texture footprint (metres) at panes. Only camera rays filter: elsewhere a pane's transmittance is compared with that seen by
+// shadow rays, which do not filter textures.
 template <class F> F pane_width(const F& cone, int bounce) { return bounce == 0 ? cone : F(0.f); }
 
-// Not black; what is no number counts, so that it reaches the film and is not lost in silence.
+// True if not black; NaN counts as light, so that it reaches the film and is reported.
 template <class F> Mask<F> has_light(const Vec<F>& v) { return !(v.x <= F(0.f) && v.y <= F(0.f) && v.z <= F(0.f)); }
 
-// Probability of going on with throughput beta (render_settings.h has the rules); biased_cut gives 0 or 1.
+// Survival probability of a path with throughput beta (render_settings.h has the rules); biased_cut gives 0 or 1.
 template <class F> F survival_probability(const Roulette& r, const Vec<F>& beta) {
     F q = F(1.f);
     switch (r.rule) {
@@ -45,7 +45,7 @@ template <class F> F survival_probability(const Roulette& r, const Vec<F>& beta)
     case Roulette::Rule::constant: q = F(r.probability); break;
     case Roulette::Rule::biased_cut: return select(max_component(beta) < F(r.threshold), F(0.f), F(1.f));
     }
-    return min(F(min(r.cap, 1.f)), max(F(r.floor), q)); // in this order what is no number stays so
+    return min(F(min(r.cap, 1.f)), max(F(r.floor), q)); // this order propagates NaN
 }
 
 template <Features S, class F>
@@ -75,7 +75,7 @@ Path<F> begin_path(const SceneTables& scene, const EstimatorSettings& settings, 
     return path;
 }
 
-// One vertex of the path: `hit` is what path.ray found. Lanes outside `active` are ignored.
+// Shades one vertex of the path: `hit` is the hit of path.ray. Lanes outside `active` are ignored.
 template <Features S, class F>
 Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, const Path<F>& path, const Hit<F>& hit, int bounce, const Mask<F>& active) {
     Step<F> out;
@@ -85,10 +85,10 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
     out.weights = {F(1.f), F(1.f), F(0.f), F(0.f), F(1.f), Mask<F>(false), path.beta};
     const Mask<F> met = active && as_mask(hit.geometry >= 0);
     const Mask<F> escaped = active && !met;
-    Mask<F> found = met; // a surface of some material
+    Mask<F> found = met; // hit a surface with a material
     Vec<F> beta = path.beta;
 
-    // Nothing there: the environment and the suns.
+    // The ray escaped: environment and suns.
     if constexpr (S.has(Feature::environment) || S.has(Feature::suns)) {
         if (any(escaped)) {
             const EscapedLight<F> light = escaped_light<S, F>(scene, settings, path, bounce, escaped);
@@ -98,7 +98,7 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
     }
     out.emits = escaped;
 
-    // A sphere that shines: it reflects nothing, and the path ends.
+    // Sphere lights reflect nothing: the path ends.
     Mask<F> on_sphere = Mask<F>(false);
     Int<F> sphere_object = Int<F>(0);
     if constexpr (S.has(Feature::sphere_lights)) {
@@ -138,7 +138,7 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
         }
     }
 
-    // Emission that the ray found.
+    // Emission at the hit.
     Mask<F> scatters = found;
     if constexpr (S.has(Feature::emissive_triangles)) {
         const Mask<F> emitting = found && max_component(material.emission) > F(0.f) && (front || material.double_sided);
@@ -152,7 +152,7 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
         }
     }
     if constexpr (S.has(Feature::unlit)) {
-        // Unlit is a look, not a material: its colour is what any ray sees, and it neither scatters nor lights by sampling.
+        // Unlit: every ray sees the surface's colour; it neither scatters nor is sampled as a light.
         const Mask<F> unlit = found && material.unlit;
         out.emitted = select<F>(unlit, beta * material.bsdf.base_color, out.emitted);
         out.emits = out.emits || unlit;
@@ -194,7 +194,7 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
     }
     if (bounce >= settings.max_bounces) return out;
 
-    // Paths that pass a pane straight on never get here (thin_transmission.h): this is the share that does not.
+    // Share of paths that do not pass the pane straight through (those that pass are handled in thin_transmission.h).
     F stays = F(1.f);
     if constexpr (S.has(Feature::transmission))
         if (scene.panes) stays = select(material.pane, 1.f - straight_transmission<S, F>(bsdf, wo).probability, F(1.f));
@@ -202,13 +202,13 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
     const Sampler<F> sampler{path.key, path.index};
     const uint32_t dimension = first_scatter_dimension + dimensions_per_scatter * uint32_t(bounce);
 
-    // Kernels without mirrors and glass have no code for it.
+    // Kernels without specular lobes contain no code for caustic guiding.
     constexpr bool may_aim = S.has(Feature::specular) || S.has(Feature::transmission);
     const bool aims = may_aim && scene.focus.count > 0;
     Focus<F> focus{};
     if (aims) focus = focus_at<F>(scene.focus, surface.position, ns, matte);
 
-    // Next event: a point on a light, unless every lobe is smooth.
+    // Next-event estimation, unless all lobes are delta lobes.
     const Mask<F> wants_light = scatters && !is_delta_only<F>(bsdf);
     Receiver<F> receiver{surface.position, ns};
     if constexpr (S.has(Feature::transmission)) receiver.normal = select<F>(material.bsdf.transmission > F(0.f), splat<F>(0.f), receiver.normal);
@@ -218,7 +218,7 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
         const LightPoint<F> light = sample_light_point<S, F>(scene, sampler.pair(dimension + light_dimension), receiver, wants_light);
         const Vec<F> rough_to = select<F>(light.infinite, light.position, light.position - surface.position);
         const Vec<F> from = offset_origin(surface.position, surface.error, ng, dot(rough_to, ng) > F(0.f));
-        // Ends on this side of the light's own plane, so that the light cannot shadow itself.
+        // Ends on this side of the light's plane, so that the light does not shadow itself.
         const Vec<F> end = offset_origin(light.position, light.error, light.normal, dot(rough_to, light.normal) < F(0.f));
         const Vec<F> to = select<F>(light.infinite, light.position, end - from);
         const F distance_squared = dot(to, to), distance = sqrt(distance_squared);
@@ -244,24 +244,25 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
         out.weights.light = weight;
         out.weights.light_pdf = in.pdf;
         out.weights.light_bsdf_pdf = found_pdf;
-        // A shading normal must not carry light through the surface.
+        // Light leaks: reject directions where the shading and the geometric normal disagree.
         const Mask<F> same_side = (wi.z > F(0.f)) == (dot(wi_world, ng) > F(0.f));
         out.connects = light.valid && lit && same_side && has_light(out.direct);
         out.shadow = {from, wi_world};
         out.shadow_distance = select(light.infinite, F(infinity), distance * (1.f - 4e-7f));
     }
 
-    // Onwards: sample the BSDF or, from a matte surface, what focuses light; then roulette.
+    // Sample the BSDF or, on diffuse surfaces, a caustic caster; then Russian roulette.
     const Pair<F> choice = sampler.pair(dimension + choice_dimension);
     const Pair<F> direction = sampler.pair(dimension + bsdf_dimension);
     F lobe = choice.x();
     if constexpr (S.has(Feature::transmission))
-        if (scene.panes) lobe = lobe * stays; // of the lobes before the straight one, each as often as without panes
+        if (scene.panes) lobe = lobe * stays; // lobes other than the straight one keep the frequency that they have without panes
     BsdfSample<F> b = sample<S, F>(bsdf, wo, direction.x(), direction.y(), lobe);
     if constexpr (S.has(Feature::transmission))
-        if (scene.panes) b.valid = b.valid && !(material.pane && b.delta && (b.wi.z > F(0.f)) != (wo.z > F(0.f))); // rounding chose the straight lobe
+        // rounding selected the straight lobe
+        if (scene.panes) b.valid = b.valid && !(material.pane && b.delta && (b.wi.z > F(0.f)) != (wo.z > F(0.f)));
     Vec<F> wi = frame.to_world(b.wi);
-    F rarer = F(1.f); // than without aiming is the direction that was drawn
+    F rarer = F(1.f); // cosine pdf / mixture pdf
     if (aims && any(focus.share > F(0.f))) {
         const Mask<F> mixes = focus.share > F(0.f), aimed = mixes && choice.x() < focus.share;
         if (any(aimed)) {
@@ -280,14 +281,15 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
     Vec<F> next_beta = beta * b.weight;
     out.continues = scatters && b.valid && same_side && has_light(next_beta);
     if (bounce + 1 >= settings.roulette.start && settings.roulette.rule != Roulette::Rule::off) {
-        // That many paths were aimed at the same place is not a reason to end this one before it is there.
+        // Undo the caustic guiding pdf: oversampled paths towards casters must not be ended for their low weight.
         Vec<F> judged = beta * b.weight * (1.f / rarer);
         if constexpr (S.has(Feature::transmission)) {
-            // Refraction into a solid scaled beta by 1 / ior^2, which the way out undoes: not a reason to end the path within.
+            // Refraction into a solid scales beta by 1 / ior^2, which is undone on exit: undo it here too.
             const F squeezed = params.ior * params.ior;
             judged = select<F>(solid && !leaves_outside && params.ior > F(0.f), judged * squeezed, judged);
         }
-        // Mirrors and glass take little, and a path that ends there has found nothing yet; in vain for ever only where there is nothing else.
+        // Do not apply Russian roulette at delta lobes before bounce 17: such paths are likely caustic paths. A cap is needed for
+        // scenes with delta lobes only.
         const Mask<F> asked = !b.delta || Mask<F>(bounce + 1 >= first_asked_at_smooth);
         const F q = select(asked, survival_probability(settings.roulette, judged), F(1.f));
         out.weights.survival = q;

@@ -11,12 +11,11 @@ namespace blush {
 struct FilterTable;
 struct EnergyTable;
 
-// No path is longer than this whatever the settings say. Reaching it is counted and reported, not hidden: it takes
-// a closed room of albedo 1 with roulette off.
+// Absolute limit of path length, whatever the settings. Paths that reach it are counted and reported; this takes a closed room of
+// albedo 1 with roulette off.
 constexpr int longest_path = 100000;
 
-// Before this bounce roulette leaves paths alone that a smooth mirror or smooth glass sends on, whatever its rule: they have lost next to
-// nothing there.
+// Russian roulette skips delta lobes before this bounce, whatever its rule: they lose almost no energy there.
 constexpr int first_asked_at_smooth = 17;
 
 struct EstimatorSettings {
@@ -26,7 +25,7 @@ struct EstimatorSettings {
     SampleNumbers sampler = SampleNumbers::sobol;
     const FilterTable* filter = nullptr;
     const EnergyTable* energy = nullptr; // null: no multiple-scattering compensation
-    ReuseGroups reuse;                   // of one pixel: none
+    ReuseGroups reuse;                   // group of one pixel: off
     bool filter_textures = true;
     float width = 1, height = 1;         // of the film, pixels
 };

@@ -20,7 +20,7 @@ Vec3d render_origin(const Bounds& bounds) {
     const double radius = bounds.empty ? 0 : bounds.radius();
     if (!(radius > 0) || !std::isfinite(radius)) return {0, 0, 0};
     int exponent = 0;
-    std::frexp(radius, &exponent); // 2^exponent is above the radius, by a factor of two at most
+    std::frexp(radius, &exponent); // 2^exponent is above the radius, by at most a factor of two
     const double step = std::ldexp(1.0, exponent + 2);
     const auto rounded = [&](double x) { return std::round(x / step) * step; };
     const Vec3d c = bounds.center();

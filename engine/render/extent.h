@@ -1,7 +1,7 @@
-// Where a scene lies, and the origin about which it is rendered.
+// World bounds of a scene, and the origin relative to which it is rendered.
 //
-// Single precision steps by 0.06 at a million metres, and rays of a room built there would leak through its corners. So the
-// tables hold positions relative to an origin near the geometry, subtracted in double precision before they are rounded.
+// Single precision has steps of 0.06 at a million metres; rays of a room there would leak through its corners. So the tables
+// store positions relative to an origin near the geometry, subtracted in double precision before rounding.
 #pragma once
 
 #include "render/object_list.h"
@@ -15,16 +15,16 @@
 namespace blush {
 
 struct Extent {
-    Bounds bounds;         // world space: boxes around the boxes of the objects' parts, and the lights that are spheres
-    Vec3d origin{0, 0, 0}; // what the tables call world space is the world's minus this
+    Bounds bounds;         // world space: union of the boxes of the objects' parts and of sphere lights
+    Vec3d origin{0, 0, 0}; // tables use world positions minus this
 };
 
-// The centre of the bounds, rounded to multiples of a power of two between four and eight times their radius: (0, 0, 0) for a scene
-// that lies where scenes usually do, and mostly the same while an object is dragged about. No coordinate of the geometry is further
-// from it than five radii.
+// The centre of the bounds, rounded to multiples of a power of two between four and eight times their radius. (0, 0, 0) for
+// scenes near the origin, and mostly constant while an object is dragged. No coordinate of the geometry is further from it than
+// five radii.
 Vec3d render_origin(const Bounds& bounds);
 
-// Computes extents without looking at every vertex at every edit: the bounds of each payload are kept.
+// Computes extents without reading all vertices at each edit: caches the bounds of each geometry.
 class ExtentCache {
 public:
     Extent extent_of(const std::vector<SceneObject>& objects, const std::vector<SphereLight>& spheres);

@@ -16,13 +16,13 @@ std::optional<Kind> fault_of(float x) {
     if (std::isinf(x)) return Kind::infinite;
     return std::nullopt;
 }
-// Of a position or direction: any sign will do.
+// Checks a position or direction: any sign is valid.
 std::optional<Kind> fault_of_vector(const Vec3& v) {
     for (const float x : {v.x, v.y, v.z})
         if (const auto kind = fault_of(x)) return kind;
     return std::nullopt;
 }
-// Of a radiance, throughput or weight.
+// Checks a radiance, throughput or weight.
 std::optional<Kind> fault_of_light(const Vec3& v) {
     if (const auto kind = fault_of_vector(v)) return kind;
     return v.x < 0 || v.y < 0 || v.z < 0 ? std::optional(Kind::negative) : std::nullopt;
@@ -34,7 +34,7 @@ std::optional<Kind> fault_of_pdf(float pdf) {
     return pdf == 0 ? std::optional(Kind::zero_pdf) : std::nullopt;
 }
 
-// Keeps the first of what it is told.
+// Keeps the first reported fault.
 struct Blame {
     int vertex = 0;
     std::optional<Fault> first = {};
@@ -66,17 +66,18 @@ void look_at_light_sample(const ReplayedVertex& v, Blame& blame) {
     if (!kind) return;
     const StepWeights<float>& w = v.step.weights;
     blame(fault_of_pdf(w.light_pdf), Place::light_sample);
-    if (w.light_bsdf_pdf != 0) blame(fault_of_pdf(w.light_bsdf_pdf), Place::bsdf_eval); // 0: a direction that the BSDF does not sample
+    // 0: a direction that the BSDF does not sample
+    if (w.light_bsdf_pdf != 0) blame(fault_of_pdf(w.light_bsdf_pdf), Place::bsdf_eval);
     blame(kind, Place::light_sample);
 }
 
 void look_at_scattering(const ReplayedVertex& v, Blame& blame) {
     if (!v.step.breaks) return;
     const auto kind = fault_of_light(v.step.next.beta);
-    // Survivors are divided by their probability: was it that division?
+    // Survivors are divided by their probability: check whether that division overflowed.
     const float q = v.step.weights.survival;
     if (q < 1 && !fault_of_light(v.step.next.beta * q)) blame(kind, Place::roulette);
-    // The density of a smooth lobe is infinite, and rightly so.
+    // The pdf of a delta lobe is infinite by definition.
     if (!std::isinf(v.step.next.pdf)) blame(fault_of_pdf(v.step.next.pdf), Place::bsdf_sample);
     blame(kind, Place::bsdf_sample);
 }

@@ -1,4 +1,4 @@
-// Why a sample is no sound radiance.
+// Finds the cause of a sample with invalid radiance.
 #pragma once
 
 #include "render/health.h"
@@ -8,11 +8,11 @@
 
 namespace blush {
 
-// The first thing that is wrong at a vertex of a path that was sound until there.
+// Returns the first invalid value at a vertex of a path that was valid before.
 std::optional<Fault> fault_at(const ReplayedVertex& vertex, const SceneTables& scene);
 
-// Traces the sample again and returns the first thing that is wrong in it. Only for samples that the film refuses. `scratch` is
-// overwritten. To be called from within Workers::run or for_each.
+// Traces the sample again and returns its first invalid value. Only for samples that the film rejects. `scratch` is overwritten.
+// Call it from within Workers::run or for_each.
 Fault find_fault(const KernelContext& context, int x, int y, int64_t sample, TileScratch& scratch);
 
 } // namespace blush

@@ -13,7 +13,7 @@
 namespace blush {
 namespace {
 
-// Radiance that single precision, which pictures are made of, cannot hold.
+// Radiance beyond single precision, the format of frames.
 constexpr double beyond_radiance = double(std::numeric_limits<float>::max());
 
 std::optional<BadSample::Cause> fault_of(double r, double g, double b) {
@@ -31,26 +31,26 @@ std::vector<PlaneUse> Film::plane_uses(const FilmSize& size) {
     const bool features = planes.albedo || planes.normal;
     const int bounces = planes.bounces > 0 ? planes.bounces : usual_bounce_planes;
     return {
-        {"beauty", true, "two halves, which tell the error", 2 * sizeof(Half)},
+        {"beauty", true, "two halves, for the error estimate", 2 * sizeof(Half)},
         {"albedo and normal", features,
-         features ? "the denoiser, the values of a pixel or a layer: what samples saw can only be kept while they are taken"
-                  : "nobody reads them: no layer, no denoiser",
+         features ? "used by the denoiser, the pixel probe or a layer; recorded only during rendering"
+                  : "not used: no layer, no denoiser",
          sizeof(FeatureSums)},
         {"depth", planes.depth,
-         planes.depth ? "a click that focuses, lights aimed at what is seen, the values of a pixel or a layer"
-                      : "nobody reads it: no layer, no focusing",
+         planes.depth ? "used by focus picking, light placing, the pixel probe or a layer"
+                      : "not used: no layer, no focus picking",
          sizeof(float)},
         {"ids", planes.ids,
-         planes.ids ? "a click that selects, the outline, the values of a pixel or a layer" : "nobody reads them: no layer, no picking",
+         planes.ids ? "used by picking, the outline, the pixel probe or a layer" : "not used: no layer, no picking",
          sizeof(uint32_t) + sizeof(int32_t)},
         {"coverage", size.transparent, size.transparent ? "the environment is hidden from the camera" : "the picture is opaque",
          places * sizeof(int64_t)},
-        {"bounces", planes.bounces > 0, planes.bounces > 0 ? "somebody reads them" : "nobody looks at single bounces",
+        {"bounces", planes.bounces > 0, planes.bounces > 0 ? "used by a layer or a view" : "not used: no layer, no view",
          places * BouncePlanes::bytes_per_pixel(bounces)},
-        {"light groups", size.groups > 0, size.groups > 0 ? "lights are mixed" : "nobody mixes lights",
+        {"light groups", size.groups > 0, size.groups > 0 ? "the light mix is on" : "the light mix is off",
          GroupPlanes::bytes_per_pixel(std::max(1, size.groups))},
         {"caught shadows", size.catches, size.catches ? "there is a shadow catcher" : "there is no shadow catcher", places * sizeof(CaughtSums)},
-        {"path statistics", planes.roulette, planes.roulette ? "roulette is being looked at" : "nobody looks at roulette",
+        {"path statistics", planes.roulette, planes.roulette ? "used by a roulette view" : "not used: no roulette view",
          places * sizeof(Vec3d)},
     };
 }
@@ -62,12 +62,13 @@ size_t Film::memory_bytes() const {
 }
 
 void Film::require_memory(const FilmSize& size) {
-    // Said before the system's killer says it in its own way. Beside the planes there are frames, and half of an adaptive pilot.
+    // Estimated before allocation, because the system's OOM killer gives no message. Includes frames, and half of an adaptive
+    // pilot.
     double per_pixel = 64 + 3 * double(sizeof(Vec3)) * size.groups + (size.adaptive ? 2 * sizeof(Vec3d) : 0);
     for (const PlaneUse& plane : plane_uses(size))
         if (plane.used) per_pixel += double(plane.bytes_per_pixel);
     const double needed = per_pixel * double(size.width) * double(size.height);
-    // To ask what room there is reads several files, at every edit; for what is this small the allocator's own failure says it as well.
+    // Reading the free memory opens several files at every edit; for small films a failed allocation reports the same.
     constexpr double never_asked_about = 256e6;
     if (needed <= never_asked_about) return;
     const MemoryRoom room = memory_room();
@@ -131,7 +132,7 @@ Film::Weights Film::weights(const Half& a, const Half& b) const {
     return {each, each};
 }
 
-// Of a plane's sums, at one or two places, over all samples of a pixel.
+// Mean of a plane over all samples of a pixel, from one or two places.
 template <class Sum> auto Film::mean_of(size_t pixel, const Weights& w, const Sum& sum) const {
     return adaptive_ ? sum(2 * pixel) * w.a + sum(2 * pixel + 1) * w.b : sum(pixel) * w.a;
 }
@@ -142,7 +143,7 @@ void Film::add_first_hit(size_t pixel, size_t place, const FirstHitColumns& firs
         const float albedo[3] = {first.albedo_r[slot], first.albedo_g[slot], first.albedo_b[slot]};
         const float normal[3] = {first.normal_x[slot], first.normal_y[slot], first.normal_z[slot]};
         for (int c = 0; c < 3; ++c) {
-            // What a miss shows may be the sun itself: guides are for denoising and stay in range.
+            // On a miss the albedo may be the sun's radiance; denoiser inputs must stay in range.
             if (std::isfinite(albedo[c])) f.albedo[c] += double(std::clamp(albedo[c], 0.f, 1.f));
             if (std::isfinite(normal[c])) f.normal[c] += double(normal[c]);
         }
@@ -161,15 +162,16 @@ Vec3d Film::sum_of(size_t pixel) const {
     return {a.r + b.r, a.g + b.g, a.b + b.b};
 }
 
-// Of the pixel's next samples, those whose components sum to at most this are neither clamped nor among the worst fireflies.
+// Threshold for the pixel's next samples: those whose components sum to at most this are neither clamped nor among the worst
+// fireflies.
 float Film::notable_sum(size_t pixel, int samples) const {
     float limit = std::min(std::numeric_limits<float>::max(), clamp_.least_sum());
     const double count = double(halves_[2 * pixel].count + halves_[2 * pixel + 1].count + samples), least = double(health_.least_excess());
-    // No sample is more than n times the mean of n.
+    // No sample exceeds n times the mean of n samples.
     if (count <= least) return limit;
-    // The mean cannot fall below this in these samples, and luminance is at most 0.716 of the sum.
+    // Lower bound of the mean during these samples; luminance is at most 0.716 of the sum.
     const double mean = luminance(sum_of(pixel)) / count;
-    return std::min(limit, float(least * std::max(mean, 0.1) / 0.716)); // at most sqrt(mean^2 + 0.01) as an excess has it
+    return std::min(limit, float(least * std::max(mean, 0.1) / 0.716)); // 0.1: the excess divides by sqrt(mean^2 + 0.01)
 }
 
 void Film::add_planes(size_t pixel, int half, const TileScratch& tile, int slot, const ClampLedger::Left& left) {
@@ -214,7 +216,7 @@ void Film::add(const TileJob& job, const TileScratch& tile, uint32_t seed, const
             for (int s = 0; s < job.samples; ++s, ++slot) {
                 const int64_t sample = job.sample(s);
                 const double r = tile.r[slot], g = tile.g[slot], b = tile.b[slot];
-                // One comparison for the many that are sound and ordinary; the slow questions only for the rest.
+                // One comparison for ordinary samples; the expensive checks only for the rest.
                 if (r >= 0 && g >= 0 && b >= 0 && r + g + b <= notable) {
                     if (planes) add_planes(pixel, int(sample & 1), tile, slot, {});
                     if (caught) add_caught(place_of(pixel, sample), tile, *caught, slot, {r, g, b});
@@ -240,7 +242,7 @@ void Film::add_caught(size_t place, const TileScratch& tile, const CatcherColumn
     if (transparent_) sums.open += tile.first->material[slot] < 0;
 }
 
-// Lays the shadow over what is seen behind the catcher.
+// Composites the shadow over the background behind the catcher.
 void Film::resolve_caught(float* rgba, size_t pixel, const Weights& w) const {
     const auto mean = [&](auto member) { return mean_of(pixel, w, [&](size_t place) { return caught_[place].*member; }); };
     const double shadow = shadow_alpha(mean(&CaughtSums::unoccluded), mean(&CaughtSums::arriving));
@@ -248,7 +250,7 @@ void Film::resolve_caught(float* rgba, size_t pixel, const Weights& w) const {
     rgba[0] -= float(shadow * mean(&CaughtSums::r));
     rgba[1] -= float(shadow * mean(&CaughtSums::g));
     rgba[2] -= float(shadow * mean(&CaughtSums::b));
-    for (int c = 0; c < 3; ++c) rgba[c] = std::max(rgba[c], 0.f); // what is left of equal sums, rounded
+    for (int c = 0; c < 3; ++c) rgba[c] = std::max(rgba[c], 0.f); // rounding residue of equal sums
     if (transparent_) rgba[3] = std::min(rgba[3] + float(shadow * mean(&CaughtSums::open)), 1.f);
 }
 
@@ -298,7 +300,7 @@ void Film::resolve_rows(Frame& frame, int first, int last, Totals& totals) const
         rgba[3] = transparent_ ? float(mean_of(i, w, [&](size_t place) { return double(covered_[place]); })) : count > 0 ? 1.f : 0.f;
         if (catches_) resolve_caught(rgba, i, w);
         if (adaptive_) frame.pixel_samples[i] = float(count);
-        // Guides for denoising, where it does no harm that all samples count alike.
+        // Denoiser inputs may weight all samples equally.
         const double inverse = 1 / double(std::max<int64_t>(1, count));
         const auto mean = [&](const double(&sum)[3]) {
             return Vec3{float(sum[0] * inverse), float(sum[1] * inverse), float(sum[2] * inverse)};
@@ -344,7 +346,7 @@ PixelHalves Film::halves(size_t pixel) const {
 }
 
 void Film::load_halves(int y, float scale, HalfRow& row) const {
-    // Most pixels have as many samples as the one before.
+    // Cached weights: most pixels have as many samples as the one before.
     struct Counted {
         int64_t a = -1, b = -1;
         bool known = false;
@@ -377,7 +379,7 @@ void Film::load_halves(int y, float scale, HalfRow& row) const {
 }
 
 ErrorEstimate Film::estimate_error(const Workers& workers, double sharing) const {
-    // A drag's single samples have nothing to compare.
+    // A single sample has no second half to compare with.
     size_t i = 0;
     const size_t n = size_t(width_) * size_t(height_);
     while (i < n && !halves(i).known) ++i;

@@ -1,4 +1,4 @@
-// Every number that a film holds for each of its pixels, by name, once: saving, loading and adding up walk the same list.
+// Lists all per-pixel numbers of a film by name, in one place for saving, loading and merging.
 #pragma once
 
 #include "render/film.h"
@@ -7,10 +7,10 @@
 
 namespace blush {
 
-// How two states of one image become one.
+// How to merge two states of one image.
 enum class Combine {
     add,   // sums over samples
-    first, // what the pixel's first sample saw
+    first, // value of the pixel's first sample
 };
 
 struct FilmPlanes {
@@ -58,7 +58,7 @@ struct FilmPlanes {
 private:
     static std::string name_of(size_t half, std::string_view what) { return fmt::format("{}.{}", half_name(int(half)), what); }
 
-    // One number for each pixel or, where halves have weights of their own, one for each half.
+    // One number per pixel or, if halves have separate weights, one per half.
     template <class AnyFilm, class Visit, class At>
     static void visit_places(AnyFilm& film, const Visit& visit, const std::string& name, const At& at) {
         if (!film.adaptive_) return visit(name, Combine::add, at);

@@ -14,7 +14,7 @@ namespace {
 
 template <class At> using ValueOf = std::remove_cvref_t<std::invoke_result_t<At, size_t>>;
 
-// A depth is kept as a sum is: every float is a double.
+// Depth is stored like a sum: every float is exact as a double.
 template <class T> constexpr bool is_sum = std::is_floating_point_v<T>;
 
 const ExactPlane* find_plane(const std::vector<ExactPlane>& planes, std::string_view name) {
@@ -22,17 +22,19 @@ const ExactPlane* find_plane(const std::vector<ExactPlane>& planes, std::string_
     return it == planes.end() ? nullptr : &*it;
 }
 
-// The state has every plane of the film, and of its size.
+// Error if the state lacks a plane of the film or has another size.
 std::optional<Error> misfit(const Film& film, const FilmState& state) {
     if (state.width != film.width() || state.height != film.height())
-        return Error{"", fmt::format("samples of {} x {} pixels do not fit an image of {} x {}", state.width, state.height, film.width(), film.height()),
+        return Error{"",
+                     fmt::format("saved samples of {} x {} pixels do not fit an image of {} x {}", state.width, state.height,
+                                 film.width(), film.height()),
                      ""};
     const size_t pixels = size_t(state.width) * size_t(state.height);
     std::optional<Error> error;
     FilmPlanes::visit(film, [&](const std::string& name, Combine, const auto& at) {
         const ExactPlane* plane = find_plane(state.planes, name);
         const bool there = plane && (is_sum<ValueOf<decltype(at)>> ? plane->sums.size() : plane->words.size()) == pixels;
-        if (!there && !error) error = Error{"", fmt::format("the samples come without the plane \"{}\"", name), ""};
+        if (!there && !error) error = Error{"", fmt::format("the saved samples lack the plane \"{}\"", name), ""};
     });
     return error;
 }
@@ -142,7 +144,7 @@ Result<void> load_new(Film& film, const FilmState& state, const RenderSettings& 
 Result<ResolvedFilm> resolve_film(const FilmState& state, const RenderSettings& settings, unsigned threads) {
     Film film;
     if (const auto loaded = load_new(film, state, settings); !loaded) return loaded.error();
-    // As ids are kept, not as indices, one more is what a frame says of them.
+    // Saved ids are ids; a frame stores table indices + 1.
     ResolvedFilm resolved;
     Frame& frame = resolved.frame;
     if (int(state.mix.size()) == film.needs_groups()) {
@@ -172,8 +174,8 @@ Result<ResolvedFilm> resolve_film(const FilmState& state, const RenderSettings& 
 Result<FilmState> merge_films(const FilmState& a, const FilmState& b, const RenderSettings& settings) {
     if (b.first_sample < a.first_sample) return merge_films(b, a, settings);
     const int64_t end = a.first_sample + a.samples;
-    if (b.first_sample < end) return Error{"", fmt::format("both hold sample {}", b.first_sample), ""};
-    if (b.first_sample > end) return Error{"", fmt::format("samples {} to {} are in neither", end, b.first_sample - 1), ""};
+    if (b.first_sample < end) return Error{"", fmt::format("both files contain sample {}", b.first_sample), ""};
+    if (b.first_sample > end) return Error{"", fmt::format("samples {} to {} are in neither file", end, b.first_sample - 1), ""};
     Film film;
     if (const auto loaded = load_new(film, a, settings); !loaded) return loaded.error();
     if (const auto added = add_film(film, b); !added) return added.error();

@@ -9,13 +9,13 @@
 namespace blush {
 namespace {
 
-// Rougher ones spread light so far that connections to lights find it.
+// Above this roughness, NEE finds the reflected light well enough.
 constexpr float focusing_roughness = 0.2f;
 
-// Of a material's light that must be reflected or refracted: less is seen beside what the rest scatters.
+// Minimal share of specular reflection or refraction in a material's light; less is not visible next to the diffuse part.
 constexpr float least_focused_part = 0.5f;
 
-// By how much a transform stretches lengths at most: exact for rotations with one scale, else the Frobenius norm, which is never less.
+// Upper bound of the scale factor of a transform: exact for rotations with uniform scale, else the Frobenius norm.
 double largest_scale(const Affined& a) {
     const double x = dot(a.x, a.x), y = dot(a.y, a.y), z = dot(a.z, a.z), largest = std::max({x, y, z});
     const double slant = std::max({std::abs(dot(a.x, a.y)), std::abs(dot(a.y, a.z)), std::abs(dot(a.z, a.x))});
@@ -26,7 +26,7 @@ double largest_scale(const Affined& a) {
 
 bool focuses(const Material& m) {
     const bool narrow = m.roughness <= focusing_roughness && !m.unlit && m.alpha == Material::Alpha::opaque;
-    const float refracts = m.thickness > 0 ? m.transmission : 0; // light passes thin walls straight on (thin_transmission.h)
+    const float refracts = m.thickness > 0 ? m.transmission : 0; // thin walls do not bend light (thin_transmission.h)
     return narrow && std::max(m.metallic, refracts) >= least_focused_part;
 }
 
@@ -54,7 +54,7 @@ void FocusTable::build(const Scene& scene, const std::vector<SceneObject>& objec
             for (size_t copy = 0; copy < object.copies(); ++copy) {
                 const Affined world_from_copy = object.world_from_copy(copy);
                 const Vec3d center = transform_point(world_from_copy, ball.center) - origin;
-                // A little larger, so that rounding leaves nothing of it outside.
+                // Slightly enlarged against rounding.
                 const double radius = ball.radius * largest_scale(world_from_copy) * (1 + 1e-5);
                 if (radius > 0 && std::isfinite(radius) && std::isfinite(dot(center, center)))
                     balls_.push_back({to_float(center), float(radius)});

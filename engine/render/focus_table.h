@@ -1,4 +1,5 @@
-// The objects that focus light, as balls that matte surfaces aim at (shading/focus.h).
+// Table of caustic casters: bounding spheres of specular objects, towards which diffuse surfaces sample directions
+// (shading/focus.h).
 #pragma once
 
 #include "render/object_list.h"
@@ -11,22 +12,22 @@
 
 namespace blush {
 
-// A mirror or glass, smooth or nearly so: light leaves it in directions that connections have never or rarely.
+// True for smooth or nearly smooth mirrors and glass, whose caustics NEE rarely or never finds.
 bool focuses(const Material& material);
 
-// A ball around all vertices of a payload, in its own space.
+// Bounding sphere of a geometry, in object space.
 struct PayloadBall {
     Vec3d center{0, 0, 0};
     double radius = 0;
 };
 PayloadBall ball_around(const Geometry& geometry);
 
-// Lists them without looking at every vertex at every edit: the balls of payloads are kept.
+// Builds the list without reading all vertices at each edit: caches the spheres of geometries.
 class FocusTable {
 public:
-    static constexpr size_t most_balls = 8; // every surface point looks at all: the largest
+    static constexpr size_t most_balls = 8; // the largest ones; every diffuse vertex loops over all of them
 
-    // `objects` as rays meet them; positions are about `origin`. No balls where `wanted` is false.
+    // `objects` in their traced form; positions are relative to `origin`. Empty if `wanted` is false.
     void build(const Scene& scene, const std::vector<SceneObject>& objects, const Vec3d& origin, bool wanted);
     FocusTables tables() const { return {balls_.data(), int32_t(balls_.size())}; }
     const std::vector<FocusBall>& balls() const { return balls_; }

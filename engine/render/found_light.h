@@ -1,5 +1,5 @@
-// Light that a path's ray happens to find: the environment, suns, spheres and emissive triangles, each with its MIS weight against
-// next-event estimation (Veach 1997).
+// Emission at ray hits: environment, suns, spheres and emissive triangles, each with its MIS weight against next-event estimation
+// (Veach 1997).
 #pragma once
 
 #include "render/estimator_settings.h"
@@ -9,14 +9,14 @@
 
 namespace blush::inline BLUSH_ISA {
 
-// MIS weight of emission that a ray happened to find; light_pdf is what next-event estimation would have had.
+// MIS weight of emission hit by a BSDF-sampled ray; light_pdf is the pdf of NEE for the same direction.
 template <class F> F found_emission_weight(Strategy strategy, const F& bsdf_pdf, const F& light_pdf) {
     const Mask<F> only_found = bsdf_pdf == F(infinity) || light_pdf == F(0.f);
     if (strategy == Strategy::bsdf) return F(1.f);
     if (strategy == Strategy::light) return select(only_found, F(1.f), F(0.f));
     return select(only_found, F(1.f), power_heuristic(bsdf_pdf, light_pdf));
 }
-// The MIS weight of emission that the path's ray found, if the light is linked to the surface that the ray left.
+// MIS weight of emission hit by the path's ray, considering light linking of the surface that the ray left.
 template <Features S, class F>
 F if_linked(const SceneTables& scene, const F& weight, const Int<F>& light, const Path<F>& path, const Mask<F>& active) {
     if constexpr (S.has(Feature::links))
@@ -24,13 +24,13 @@ F if_linked(const SceneTables& scene, const F& weight, const Int<F>& light, cons
     return weight;
 }
 
-// Light from beyond all surfaces along the path's ray, one source after the other: visit(light, radiance times MIS weight, that weight,
-// lanes), light being a record of the light table, -1 for an environment that lights nothing.
+// Calls visit(light, radiance times MIS weight, MIS weight, lanes) for each light at infinity in the direction of the path's ray;
+// light is a record of the light table, -1 for an environment that is only a backdrop.
 template <Features S, class F, class Visit>
 void visit_escaped_light(const SceneTables& scene, const EstimatorSettings& settings, const Path<F>& path, int bounce, const Mask<F>& active,
                          const Visit& visit) {
     const LightTables& lights = scene.lights;
-    // Of the density there would be by aiming, for its share of the weight. Nobody aims under Strategy::bsdf, and then there are no tables.
+    // NEE pdf for the MIS weight. Under Strategy::bsdf there is no NEE, and its tables do not exist.
     const bool aims = settings.strategy != Strategy::bsdf;
     const Receiver<F> from{path.ray.origin, path.normal};
     if constexpr (S.has(Feature::environment)) {
@@ -63,7 +63,7 @@ void visit_escaped_light(const SceneTables& scene, const EstimatorSettings& sett
     }
 }
 
-// All of it, and the environment's MIS weight.
+// Sum over all lights at infinity, and the environment's MIS weight.
 template <class F> struct EscapedLight {
     Vec<F> radiance;
     F weight;
@@ -79,13 +79,13 @@ EscapedLight<F> escaped_light(const SceneTables& scene, const EstimatorSettings&
     return all;
 }
 
-// The light that a triangle of a part is, -1: none.
+// Light record of a part's triangle; -1: none.
 template <class F> Int<F> light_of_triangle(const SceneTables& scene, const Int<F>& part, const Int<F>& triangle) {
     const Int<F> first = gather_field(scene.parts, &PartRecord::first_light, part);
     return select(as_mask(first >= 0), Int<F>(first + triangle), Int<F>(-1));
 }
 
-// By how much a light's profile scales its emission in the unit direction `away`; 1 for those without one. `light` is -1 or valid.
+// Factor of the light's IES profile in the unit direction `away`; 1 without a profile. `light` is -1 or valid.
 template <class F> F emission_profile(const SceneTables& scene, const Int<F>& light, const Vec<F>& away, const Mask<F>& active) {
     const Int<F> profile = gather_field(scene.lights.lights, &LightRecord::profile, max(light, Int<F>(0)));
     const Mask<F> shaped = active && as_mask(light >= 0) && as_mask(profile >= 0);
@@ -93,7 +93,7 @@ template <class F> F emission_profile(const SceneTables& scene, const Int<F>& li
     return select(shaped, profile_factor<F>(scene.lights.profiles, select(shaped, profile, Int<F>(0)), away, shaped), F(1.f));
 }
 
-// MIS weight of the emission of a triangle, met at distance t under cosine `facing`.
+// MIS weight of a triangle's emission, hit at distance t with cosine `facing`.
 template <Features S, class F>
 F surface_emission_weight(const SceneTables& scene, Strategy strategy, const Path<F>& path, const Int<F>& found, const F& t, const F& facing,
                           const Mask<F>& active) {
@@ -106,7 +106,8 @@ F surface_emission_weight(const SceneTables& scene, Strategy strategy, const Pat
     return found_emission_weight(strategy, path.pdf, pdf);
 }
 
-// Radiance of a triangle light that the path's ray has met, and its MIS weight. `emission`: of the material; facing: cosine between ray and plane.
+// Radiance of an emissive triangle hit by the path's ray, and its MIS weight. `emission`: of the material; facing: cosine between
+// ray and plane.
 template <class F> struct EmissionHit {
     Vec<F> radiance;
     F weight;
@@ -121,7 +122,7 @@ EmissionHit<F> emission_hit(const SceneTables& scene, Strategy strategy, const P
     return found;
 }
 
-// Light of a sphere that the path's ray has met, times its MIS weight, and that weight. From within, it is dark.
+// Radiance of a sphere light hit by the path's ray, times its MIS weight, and that weight. Black from inside.
 template <class F> struct FoundSphere {
     Vec<F> radiance;
     F weight;
@@ -135,7 +136,7 @@ FoundSphere<F> found_sphere(const SceneTables& scene, Strategy strategy, const P
     const F height = sphere_cone_height(dot(to_center, to_center), gather_field(lights, &LightRecord::radius, light));
     const Mask<F> outside = active && height > F(0.f);
     F found = F(1.f);
-    if (strategy != Strategy::bsdf) { // else nobody aims, and there is no table
+    if (strategy != Strategy::bsdf) { // Strategy::bsdf has no NEE and no table
         const Receiver<F> from{path.ray.origin, path.normal};
         const F pdf = cone_pdf(select(outside, height, F(1.f))) * light_probability<S, F>(scene.lights, from, light, outside);
         found = found_emission_weight(strategy, path.pdf, pdf);

@@ -5,7 +5,7 @@
 namespace blush {
 namespace {
 
-// One is on show and one is being written; a third waits while somebody looks at the one before.
+// One is shown, one is being written, and a reader may still hold the previous one.
 constexpr size_t most_kept = 3;
 
 } // namespace
@@ -20,7 +20,7 @@ std::shared_ptr<Frame> FramePool::take() {
         }
     }
     if (!frame) frame = std::make_unique<Frame>();
-    // The mutex orders every look at the old picture before the first stroke of the new one.
+    // The mutex orders all reads of the old image before the first write of the new one.
     const auto give_back = [shelf = shelf_](Frame* done) {
         std::unique_ptr<Frame> returned(done);
         const std::lock_guard lock(shelf->mutex);

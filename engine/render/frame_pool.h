@@ -1,4 +1,4 @@
-// Memory of pictures, used again: a frame comes back when the last look at it ends, on whichever thread that is.
+// Recycles the memory of frames: a frame returns when its last reference is dropped, on any thread.
 #pragma once
 
 #include "render/frame.h"
@@ -11,7 +11,7 @@ namespace blush {
 
 class FramePool {
 public:
-    // A frame that nobody else sees, holding whatever an earlier one held. May outlive the pool. Thread-safe.
+    // Returns an exclusive frame with arbitrary old contents. It may outlive the pool. Thread-safe.
     std::shared_ptr<Frame> take();
 
 private:

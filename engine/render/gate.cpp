@@ -28,7 +28,7 @@ void Gate::pass(const std::function<bool()>& hurries) {
 }
 
 void Gate::look_again() {
-    { const std::lock_guard lock(mutex_); } // whoever has asked is waiting by now
+    { const std::lock_guard lock(mutex_); } // after this, a thread that evaluated its predicate is waiting
     changed_.notify_all();
 }
 

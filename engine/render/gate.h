@@ -1,4 +1,4 @@
-// Where work in small pieces waits while somebody else needs the processors.
+// Pauses work that runs in small pieces while others need the processor.
 #pragma once
 
 #include <atomic>
@@ -15,12 +15,12 @@ public:
     void shut();
     void open();
     bool is_shut() const { return shut_.load(std::memory_order_relaxed); }
-    // Waits while it is shut, unless whoever comes `hurries`; costs one load where it is open.
+    // Blocks while closed, unless hurries() becomes true. One relaxed load when open.
     void pass(const std::function<bool()>& hurries);
     bool holds_anyone() const { return waiting_.load(std::memory_order_relaxed) > 0; }
-    // What `hurries` says may have changed.
+    // Wakes waiting threads to call `hurries` again.
     void look_again();
-    // Seconds for which it has been shut so far.
+    // Total seconds closed so far.
     double shut_seconds() const;
 
 private:
@@ -31,7 +31,7 @@ private:
     mutable std::mutex mutex_; // guards the following, and changes of shut_
     std::condition_variable changed_;
     Clock::time_point shut_since_{};
-    Clock::duration shut_before_{}; // that
+    Clock::duration shut_before_{}; // total of finished closures
 };
 
 } // namespace blush

@@ -12,7 +12,7 @@
 namespace blush {
 namespace {
 
-// Cofactors times the determinant's sign, scaled so that their size does not overflow in single precision.
+// Cofactors times the determinant's sign, scaled to avoid overflow in single precision.
 Affined normal_matrix(const Affined& m) {
     Affined c = cofactor(m);
     const double size = std::max({length(c.x), length(c.y), length(c.z), 1e-300});
@@ -33,7 +33,7 @@ template <class T> void append_or_fill(PlacedVector<T>& pool, bool wanted, const
         pool.resize(pool.size() + count, filler);
 }
 
-// Empty for one that the shape does not have.
+// Empty if the mesh lacks that set.
 const PlacedVector<Vec2>& uv_set(const Geometry& g, int number) {
     static const PlacedVector<Vec2> none;
     return number >= 0 && g.has_uv_set(number) ? g.uv[size_t(number)] : none;
@@ -50,7 +50,7 @@ int32_t flags_of(const Geometry& g, const AttributeNeeds& needs, bool smooth, co
     return flags;
 }
 
-// Vertex normals that are the faces' own change nothing and need not be read.
+// Vertex normals equal to the face normals need not be read.
 bool has_flat_normals(const Geometry& g) {
     for (size_t i = 0; i < g.indices.size(); i += 3) {
         const uint32_t* v = &g.indices[i];
@@ -65,7 +65,7 @@ bool has_flat_normals(const Geometry& g) {
     return true;
 }
 
-// Has it vertex normals of its own? By serial.
+// Whether each mesh has smooth vertex normals, by serial.
 std::map<uint64_t, bool> smooth_shapes(const std::vector<SceneObject>& objects) {
     std::map<uint64_t, bool> smooth;
     for (const SceneObject& object : objects)
@@ -77,27 +77,27 @@ std::map<uint64_t, bool> smooth_shapes(const std::vector<SceneObject>& objects) 
     return smooth;
 }
 
-// A copy's transform into the world about `origin`: the difference is taken before anything is rounded.
+// World transform of an instance relative to `origin`, subtracted before rounding.
 Affined placed(const SceneObject& object, size_t copy, const Vec3d& origin) {
     Affined m = object.world_from_copy(copy);
     m.t = m.t - origin;
     return m;
 }
 
-// Parts of one object, at all its places.
+// Number of parts of an object over all its instances.
 size_t placed_parts(const SceneObject& object) { return object.copies() * object.parts.size(); }
 
-// Can all of the last one be read as four floats?
+// True if the last position can be read as four floats.
 bool has_room_behind(const Geometry& geometry) { return placed_at(geometry) || geometry.positions.capacity() > geometry.positions.size(); }
 
-// Where number 0 of an array is: without numbers it begins with the array.
+// Address of element 0 of an array: without an arena, its own start.
 template <class T> const T* base_of(const PlacedVector<T>& own, bool numbered, Attribute attribute) {
     return numbered ? attribute_base<T>(attribute) : own.data();
 }
 
-// An empty array with room for `count`, at its numbers if there are any.
+// An empty array with capacity for `count`, at its arena range if there is one.
 template <class T> PlacedVector<T> with_room(size_t count, const NumbersPtr& numbers, T* base) {
-    if (numbers && !base) throw std::runtime_error("the addresses for the scene's vertices cannot be reserved");
+    if (numbers && !base) throw std::runtime_error("cannot reserve address space for the scene's vertices");
     PlacedVector<T> room(numbers ? PlacedAllocator<T>(base + numbers->first(), count) : PlacedAllocator<T>());
     room.reserve(count);
     return room;
@@ -105,19 +105,19 @@ template <class T> PlacedVector<T> with_room(size_t count, const NumbersPtr& num
 
 bool is_read_in_place(const SceneObject& object, const Geometry& geometry) { return object.instanced && placed_at(geometry); }
 
-// Lets the builder read the document's arrays, which do not move, in place of the pool's, which do.
+// Lets the BVH builder read the document's arrays, which never move, instead of the pool's.
 void share(const GeometryPtr& geometry, AccelTriangles& triangles) {
     triangles.owner = geometry;
     triangles.positions = geometry->positions.data();
     triangles.indices = geometry->indices.data();
 }
 
-// Kernels find the fields of a record of 21 by a 32-bit index.
+// Kernels address fields of 21-field records by a 32-bit index.
 constexpr size_t most_placed_parts = size_t(1) << 26;
 
 } // namespace
 
-// Room for exactly what build() appends.
+// Reserves exactly the capacity that build() needs.
 void GeometryPool::reserve(const std::vector<SceneObject>& objects) {
     std::set<uint64_t> shared;
     size_t vertices = 0, indices = 0, parts = 0, instances = 0;
@@ -315,7 +315,8 @@ void GeometryPool::fill(SceneTables& t) const {
 AccelScene GeometryPool::accel_scene(const std::vector<SceneObject>& objects, const std::vector<bool>& alpha,
                                      const std::vector<uint32_t>& masks) const {
     AccelScene scene;
-    // Instanced parts of the same data and material are equally opaque: the first answers for all, so that they share one bottom level.
+    // Instanced parts with equal geometry and material have equal opacity: the first one represents all, so that they share one
+    // bottom-level BVH.
     std::map<std::pair<uint64_t, Id<Material>>, int32_t> first_alike;
     size_t part = 0, instance = 0;
     for (size_t i = 0; i < objects.size(); ++i) {
@@ -332,7 +333,7 @@ AccelScene GeometryPool::accel_scene(const std::vector<SceneObject>& objects, co
             triangles.push_back(std::move(t));
             ++part;
         }
-        part += placed_parts(object) - object.parts.size(); // those of its other copies
+        part += placed_parts(object) - object.parts.size(); // those of its other instances
         if (object.instanced) {
             scene.instances.push_back({std::move(triangles), std::span(instances_).subspan(instance, object.copies()), masks[i]});
             instance += object.copies();

@@ -1,5 +1,5 @@
-// All vertices and triangles that rays can hit, in arrays that run in parallel; attributes that no part has are not allocated. Large shapes that
-// are traced through instances are read where the document has them (scene/placed_geometry.h).
+// All vertices and triangles that rays can hit, in parallel arrays; unused attributes are not allocated. Large instanced meshes
+// are read in place from the document (scene/placed_geometry.h).
 #pragma once
 
 #include "render/accel.h"
@@ -14,46 +14,46 @@
 
 namespace blush {
 
-// Which vertex attributes the shapes and the materials in use call for.
+// Vertex attributes that the meshes and the materials in use need.
 struct AttributeNeeds {
     bool tangents = false, colors = false;
-    std::vector<int> uv_sets; // at each of the scene's UV sets its number, -1 if no shape needs it
+    std::vector<int> uv_sets; // for each UV set of the scene its index, -1 if no mesh needs it
     bool operator==(const AttributeNeeds&) const = default;
 };
 
 class GeometryPool {
 public:
     // Lays out the parts of `objects`: flat ones in world space, instanced ones in object space and once for all instances. World
-    // space is about `origin` (render/extent.h). Fills every field of the part records but `material` and `first_light`.
+    // space is relative to `origin` (render/extent.h). Fills every field of the part records except `material` and `first_light`.
     void build(const std::vector<SceneObject>& objects, const AttributeNeeds& needs, const Vec3d& origin);
-    // Objects of the same shape at other places, or seen from another origin: rewrites what moved. `before` as given last time.
+    // Rewrites moved objects: same meshes, other transforms or another origin. `before` as passed last time.
     void move(const std::vector<SceneObject>& before, const std::vector<SceneObject>& objects, const Vec3d& origin);
 
-    // One record per part and copy, in the order of objects, their copies and the parts of each.
+    // One record per part and instance, in the order of objects, their instances and the parts of each.
     std::vector<PartRecord>& parts() { return parts_; }
     const std::vector<PartRecord>& parts() const { return parts_; }
-    // The material of each part in the scene.
+    // The material id of each part.
     const std::vector<Id<Material>>& part_materials() const { return part_materials_; }
     int64_t triangle_count(size_t part) const { return part_triangles_[part]; }
-    // Triangles that have no area where they lie.
+    // Number of triangles without area in the scene.
     int64_t degenerate_count() const;
-    // World-space corners of a triangle of a part, as the kernels compute them.
+    // World-space vertices of a part's triangle, computed like the kernels do.
     void corners(size_t part, int64_t triangle, Vec3 (&p)[3]) const;
 
     void fill(SceneTables& tables) const;
-    // For the builder, valid until the next change; alpha[part] asks for opacity tests, masks[object] says which rays meet it.
+    // Input for the BVH builder, valid until the next change; alpha[part] requests opacity tests, masks[object] is the ray mask.
     AccelScene accel_scene(const std::vector<SceneObject>& objects, const std::vector<bool>& alpha,
                            const std::vector<uint32_t>& masks) const;
     int64_t instance_count() const { return int64_t(instances_.size()); }
-    // Some part has vertex normals that differ from its faces'.
+    // True if some part has smooth vertex normals.
     bool has_normals() const { return has_normals_; }
-    // Of its own: what is read in the document is not counted.
+    // Own vertices, without those read in place from the document.
     int64_t vertex_count() const { return int64_t(positions_.size()); }
     size_t memory_bytes() const;
     size_t shapes_in_place() const { return read_in_place_.size(); }
-    // What copies of those would take.
+    // Bytes that copies of those would use.
     size_t in_place_bytes() const;
-    // Triangles of the largest mesh that is traced through instances.
+    // Triangles of the largest instanced mesh.
     size_t largest_instanced_mesh() const { return largest_instanced_mesh_; }
 
 private:
@@ -61,9 +61,9 @@ private:
         int32_t first_vertex = 0, first_index = 0;
     };
     void reserve(const std::vector<SceneObject>& objects);
-    int64_t degenerate_in(size_t part) const; // as it is stored
+    int64_t degenerate_in(size_t part) const; // in stored coordinates
     Span append(const Geometry& geometry);
-    // Where the shape is, here or in the document; what is not yet anywhere is appended. `shared`: instanced ones that are, by serial.
+    // Span of a mesh, here or in the document; missing ones are appended. `shared`: known instanced meshes by serial.
     Span find_or_append(const SceneObject& object, const GeometryPtr& geometry, std::map<uint64_t, Span>& shared);
     void place(size_t part, const Geometry& geometry, const Affined& world_from_object);
 
@@ -76,10 +76,10 @@ private:
     std::vector<GeometryPtr> read_in_place_;
     size_t largest_instanced_mesh_ = 0;
     bool has_normals_ = false;
-    // Its own arrays, and their first numbers. Without numbers, which may be refused, nothing is read in the document.
+    // Arena ranges of the own arrays. If the arena is unavailable, nothing is read in place.
     NumbersPtr vertex_numbers_, index_numbers_;
     int32_t first_vertex_ = 0, first_index_ = 0;
-    // From number 0 on: its own and those it reads in place.
+    // From arena element 0: own data and data read in place.
     const Vec3* all_positions_ = nullptr;
     const uint32_t* all_indices_ = nullptr;
     PlacedVector<uint32_t> indices_;

@@ -1,4 +1,4 @@
-// Light that a path found, by the group of lights that it came from.
+// Emission found by paths, by light group.
 #pragma once
 
 #include "render/estimator.h"
@@ -6,7 +6,7 @@
 
 namespace blush::inline BLUSH_ISA {
 
-// What step.emitted holds, of the paths k, k + 1, ... of a queue: surfaces by their part, spheres and light from beyond them source by source.
+// Adds step.emitted of paths k, k + 1, ... of a queue: surfaces by their part, spheres and lights at infinity one by one.
 template <Features S, class F>
 void add_found_by_group(const KernelContext& context, GroupColumns& groups, const HitColumns& hits, int k, const Path<F>& path,
                         const Step<F>& step, int bounce) {

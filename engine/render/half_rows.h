@@ -1,4 +1,4 @@
-// The two halves of a picture's samples as the error estimate reads them: row by row, channel by channel, whole registers at a time.
+// The two half buffers of an image as input of the error estimate: row by row, channel by channel, in whole registers.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace blush {
 
-// Four pixels side by side, on every machine, so that sums do not depend on which it is. Arithmetic is the compiler's.
+// Four adjacent pixels, on every machine, so that sums do not depend on the register width. Arithmetic is the compiler's.
 using Four = float __attribute__((vector_size(16)));
 
 inline Four splat(float v) { return Four{v, v, v, v}; }
@@ -28,7 +28,7 @@ inline Four load_four(const float* from) {
 }
 inline void store_four(float* to, const Four& v) { std::memcpy(to, &v, sizeof v); }
 
-// A number for each pixel of a row, and for a few beyond both ends: 0 unless somebody sets them.
+// A value per pixel of a row, with a margin on both ends that is initially 0.
 class PixelRow {
 public:
     static constexpr int step = 4, margin = step;
@@ -36,7 +36,7 @@ public:
     PixelRow() = default;
     explicit PixelRow(int width) : values_(size_t(width + 3 * margin)) {}
 
-    // Of pixel 0; from -margin on, and up to whole steps and a margin beyond the last.
+    // Points to pixel 0; valid from -margin to a margin beyond the last whole step.
     float* pixels() { return values_.data() + margin; }
     const float* pixels() const { return values_.data() + margin; }
     void clear() { std::fill(values_.begin(), values_.end(), 0.f); }
@@ -51,17 +51,17 @@ private:
 using ChannelRows = std::array<PixelRow, 3>;
 
 struct HalfRow {
-    ChannelRows a, b, own; // means of the halves, and the picture's values
-    PixelRow weight_a;     // what a counts for in the picture
-    PixelRow known;        // 1 where both halves hold samples; elsewhere 0, and a and b are the picture's value
-    PixelRow one_sample;   // where known, one over the number of samples of both; elsewhere 0
+    ChannelRows a, b, own; // means of the halves, and the image's values
+    PixelRow weight_a;     // weight of a in the image
+    PixelRow known;        // 1 where both halves hold samples; elsewhere 0, and a and b are the image's value
+    PixelRow one_sample;   // where known, 1 / (number of samples of both); elsewhere 0
 
     HalfRow() = default;
     explicit HalfRow(int width)
         : a{PixelRow(width), PixelRow(width), PixelRow(width)}, b(a), own(a), weight_a(width), known(width), one_sample(width) {}
 };
 
-// A picture that is read row by row; load(y, scale, row) gives the values of row y times `scale`.
+// An image that is read row by row; load(y, scale, row) gives the values of row y times `scale`.
 struct HalvesOfPicture {
     int width = 0, height = 0;
     std::function<void(int y, float scale, HalfRow& row)> load;

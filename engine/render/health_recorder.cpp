@@ -6,7 +6,7 @@
 namespace blush {
 namespace {
 
-// Appends, and keeps the first hundred in an order without ties, so that who came first does not matter.
+// Appends, and keeps the first hundred in a strict order, so that the result does not depend on arrival order.
 template <class T, class Less> void merge_first(std::vector<T>& kept, const std::vector<T>& more, const Less& less) {
     kept.insert(kept.end(), more.begin(), more.end());
     std::sort(kept.begin(), kept.end(), less);

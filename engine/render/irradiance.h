@@ -1,4 +1,4 @@
-// What a light meter reads: the irradiance of a point, estimated with the kernels' own stages, without a receiver in the scene.
+// The irradiance at a point, as a light meter reads it, estimated with the kernels' own stages, without a receiver in the scene.
 #pragma once
 
 #include "core/vec.h"
@@ -10,22 +10,23 @@
 
 namespace blush {
 
-// A place that light falls on from the side of its normal.
+// A receiver lit from the side of its normal.
 struct MeterPoint {
-    Vec3 position; // about the scene's origin (RenderScene::origin), off any surface
+    Vec3 position; // relative to the scene's origin (RenderScene::origin), off any surface
     Vec3 normal;   // unit length
 };
 
-// A shadow ray from the receiver to a point on a light, worth the radiance that a white matte surface there would send on, by the sampler's
-// numbers for the first scattering of a path. `part`: of the scene that the receiver lies on, which lights may leave out; or from_meter (links.h).
+// NEE at the receiver: a shadow ray to a sampled point on a light, with the radiance that a white diffuse surface there would
+// reflect, using the sampler dimensions of the first scattering. `part`: the part that the receiver is on, which light linking
+// may exclude; or from_meter (links.h).
 Step<float> aim_at_light(const KernelContext& context, const MeterPoint& receiver, const Sampler<float>& sampler, int32_t part);
 
-constexpr int most_irradiance_samples = 1024; // of one call
+constexpr int most_irradiance_samples = 1024; // per call
 
-// Mean of `samples` estimates of the irradiance, RGB in lux: light samples and cosine-distributed rays, combined and followed as at a first
-// matte surface of a path. `replicate` chooses the random numbers: replicates are independent, samples of one are stratified together.
-// Light takes at most settings.max_bounces scatterings on its way, the one that a matte surface here would add included; one at least.
-// To be called from within Workers::run or for_each.
+// Mean of `samples` estimates of the irradiance, RGB in lux: NEE and cosine-distributed rays combined by MIS, as at the first
+// diffuse vertex of a path. `replicate` selects the random numbers: replicates are independent, samples of one are stratified
+// together. Light takes at most settings.max_bounces scatterings including the one of a diffuse surface here; at least one. Call
+// it from within Workers::run or for_each.
 Vec3d estimate_irradiance(KernelContext context, const MeterPoint& receiver, uint32_t replicate, int samples, TileScratch& scratch);
 
 } // namespace blush

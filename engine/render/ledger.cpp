@@ -1,4 +1,4 @@
-// The lines of the ledger that a compiled scene writes.
+// Lines of the feature report of a compiled scene.
 #include "render/ledger.h"
 #include "render/render_scene.h"
 
@@ -26,22 +26,22 @@ constexpr FeatureText feature_texts[] = {
     {Feature::vertex_colors, "vertex colours", "a mesh has vertex colours", "no mesh has vertex colours"},
     {Feature::unlit, "unlit", "a material is unlit", "no material is unlit"},
     {Feature::emissive_triangles, "mesh lights", "a mesh emits light", "no mesh emits light"},
-    {Feature::point_lights, "point lights", "the scene has points or spots without size", "the scene has no points or spots without size"},
-    {Feature::sphere_lights, "sphere lights", "the scene has spheres that shine", "the scene has no spheres that shine"},
-    {Feature::light_profiles, "light profiles", "a light shines differently in different directions", "every light shines alike to all sides"},
-    {Feature::light_tree, "light tree", "the scene has many lights", "the scene has few lights, or more than a tree is built of"},
+    {Feature::point_lights, "point lights", "the scene has points or spots of zero size", "the scene has no points or spots of zero size"},
+    {Feature::sphere_lights, "sphere lights", "the scene has sphere lights", "the scene has no sphere lights"},
+    {Feature::light_profiles, "light profiles", "a light has an IES profile or a spread", "no light has an IES profile or a spread"},
+    {Feature::light_tree, "light tree", "the scene has many lights", "the scene has few lights, or more than the limit of a tree"},
     {Feature::suns, "suns", "the scene has a sun", "the scene has no sun"},
     {Feature::environment, "environment", "the scene has an environment", "the scene has no environment"},
     {Feature::instances, "instances", "a mesh is shared or large", "every mesh is small and used once"},
-    {Feature::links, "light links", "a light leaves objects out", "every light is everybody's"},
+    {Feature::links, "light links", "a light is linked to objects", "no light is linked to objects"},
     {Feature::energy_compensation, "energy compensation", "switched on", "switched off"},
     {Feature::thin_lens, "depth of field", "the lens has an aperture", "the camera is a pinhole"},
     {Feature::clearcoat, "clear coats", "a material has a clear coat", "no material has a clear coat"},
     {Feature::sheen, "sheen", "a material has a sheen", "no material has a sheen"},
-    {Feature::anisotropy, "anisotropy", "a material stretches reflections", "no material stretches reflections"},
+    {Feature::anisotropy, "anisotropy", "a material has anisotropic reflections", "no material has anisotropic reflections"},
     {Feature::iridescence, "iridescence", "a material has a thin film", "no material has a thin film"},
     {Feature::diffuse_transmission, "translucency", "a material transmits light diffusely", "no material transmits light diffusely"},
-    {Feature::dispersion, "dispersion", "a solid spreads light into colours", "no solid spreads light into colours"},
+    {Feature::dispersion, "dispersion", "a solid has dispersion", "no solid has dispersion"},
     {Feature::orthographic, "orthographic camera", "the camera is orthographic", "the camera is not orthographic"},
 };
 
@@ -67,8 +67,8 @@ void add_vertices(Ledger& ledger, const GeometryPool& geometry, const AttributeN
     const size_t uv_sets = needs.uv_sets.size() - size_t(std::ranges::count(needs.uv_sets, -1));
     const Attribute attributes[] = {
         {"normals", geometry.has_normals(), "a mesh is smooth", "every mesh is flat", sizeof(Vec3)},
-        {"texture coordinates", uv_sets > 0, uv_sets > 1 ? "textures lie on several sets of them" : "a texture lies on them",
-         "no texture lies on them", std::max<size_t>(1, uv_sets) * sizeof(Vec2)},
+        {"texture coordinates", uv_sets > 0, uv_sets > 1 ? "textures use several UV sets" : "a texture uses them",
+         "no texture uses them", std::max<size_t>(1, uv_sets) * sizeof(Vec2)},
         {"tangents", needs.tangents, "a material has a normal map", "no material has a normal map", sizeof(Vec4)},
         {"vertex colours", needs.colors, "a mesh has them", "no mesh has them", sizeof(Vec4)},
     };
@@ -76,11 +76,11 @@ void add_vertices(Ledger& ledger, const GeometryPool& geometry, const AttributeN
         ledger.push_back({"geometry", a.name, a.used, a.used ? a.why_used : a.why_not, int64_t(a.bytes) * geometry.vertex_count()});
     if (const size_t n = geometry.shapes_in_place(); n > 0)
         ledger.push_back({"geometry", "copies of large shapes", false,
-                          n == 1 ? "it is read where the document has it" : fmt::format("{} are read where the document has them", n),
+                          n == 1 ? "it is read in place from the document" : fmt::format("{} are read in place from the document", n),
                           int64_t(geometry.in_place_bytes())});
 }
 
-// Only meshes of a tree of their own come into question.
+// Only meshes with a bottom-level BVH of their own are candidates.
 void add_trees(Ledger& ledger, size_t instanced_meshes_triangles, size_t compact_triangles) {
     if (instanced_meshes_triangles == 0) return;
     constexpr int64_t bytes_per_triangle = 27;
@@ -110,14 +110,14 @@ void add_textures(Ledger& ledger, const TextureTable& table, const Scene& scene)
                           unread_bytes});
 }
 
-// Why the environment has no map.
+// The reason why the environment has no map.
 const char* why_no_map(const Environment& e) {
     if (e.kind == Environment::Kind::none) return "the scene has no environment";
     if (e.kind == Environment::Kind::constant) return "the environment is one colour";
     return gives_light(e) ? "the image cannot be used" : "the environment gives no light";
 }
 
-constexpr const char* nobody_aims = "BSDF sampling alone aims at nothing that has a size";
+constexpr const char* nobody_aims = "the strategy is BSDF sampling alone";
 
 void add_light_table(Ledger& ledger, const LightTable& lights, Aim aim) {
     const int64_t triangles = lights.emissive_triangles - lights.unaimed_triangles;
@@ -126,13 +126,13 @@ void add_light_table(Ledger& ledger, const LightTable& lights, Aim aim) {
     ledger.push_back({"lights", "light table", used,
                       used      ? "the scene has lights"
                       : all > 0 ? nobody_aims
-                                : "nothing shines",
+                                : "nothing emits light",
                       light_table_bytes(used && lights.tree.nodes.empty() ? lights.count : all)});
     if (!lights.tree.nodes.empty())
         ledger.push_back({"lights", "light tree", true, "the scene has many lights", int64_t(lights.tree.memory_bytes())});
     if (lights.unaimed_triangles > 0)
-        ledger.push_back({"lights", "mesh lights without number", false, fmt::format("no more than {} triangles are aimed at", most_mesh_lights),
-                          light_table_bytes(lights.unaimed_triangles)});
+        ledger.push_back({"lights", "mesh lights beyond the limit", false,
+                          fmt::format("no more than {} triangles are sampled", most_mesh_lights), light_table_bytes(lights.unaimed_triangles)});
     if (aim == Aim::at_points && used && all > lights.count)
         ledger.push_back({"lights", "lights with a size", false, nobody_aims, light_table_bytes(all - lights.count)});
 }
@@ -145,7 +145,7 @@ void add_lights(Ledger& ledger, const LightTable& lights, const EnvironmentTable
     FeatureUse map{"lights", "environment map", used, !used ? why_no_map(e) : is_sky ? "the environment is a sky" : "the environment is an image", 0};
     const bool aimed_at = used && aim == Aim::at_all;
     FeatureUse importance{"lights", "importance map", aimed_at,
-                          aimed_at ? "light from the environment is aimed at"
+                          aimed_at ? "the environment is sampled as a light"
                           : used   ? nobody_aims
                                    : why_no_map(e),
                           0};
@@ -176,7 +176,7 @@ Ledger RenderScene::ledger(const Scene& lowered, const FilmSize& film) const {
     Ledger ledger;
     add_kernel(ledger, features_);
     const size_t balls = focus_.balls().size();
-    ledger.push_back({"kernel", "aiming at what focuses", balls > 0,
+    ledger.push_back({"kernel", "caustic guiding", balls > 0,
                       balls > 0 ? fmt::format("mirrors or glass in {} place{}", balls, balls == 1 ? "" : "s") : "no mirror or glass has light to focus"});
     add_film(ledger, film);
     add_vertices(ledger, geometry_, needs_);

@@ -1,4 +1,4 @@
-// The ledger of what is made only where a scene needs it: a line for each such thing, whether it is there, why, and what it costs.
+// The feature report: one line for each feature that is built only if a scene needs it, with presence, reason and cost.
 #pragma once
 
 #include <cstdint>
@@ -13,14 +13,15 @@ struct FeatureUse {
     std::string name;
     bool used = false;
     std::string why; // "a material reads a texture", "no light has a size"
-    // Memory that it takes, exactly; where it was left out, what that saves. Empty: it takes none of its own.
+    // Exact memory use in bytes, or the bytes saved if the feature is absent. Empty: it uses no memory of its own.
     std::optional<int64_t> bytes = {};
-    // What making it took in this process, in seconds. Empty: not measured.
+    // Time to build it in this process, in seconds. Empty: not measured.
     std::optional<double> seconds = {};
 };
 using Ledger = std::vector<FeatureUse>;
 
-// "saves 3.50 MiB, 12.0 ms" of what was left out, "not measured" where no figure is known; without "saves", or empty, of what is in.
+// "saves 3.50 MiB, 12.0 ms" for absent features, "not measured" without a figure; for present ones without "saves", possibly
+// empty.
 std::string cost_text(const FeatureUse& use);
 
 } // namespace blush

@@ -19,7 +19,7 @@ namespace {
 
 using Grouping = LightMix::Grouping;
 
-// What makes a group one: the kind of thing, and which, or a name that somebody gave.
+// Key of a group: the kind of emitter, and its id or the group's manual name.
 enum class KeyKind { environment, light, object, material, hand, unlit };
 using Key = std::tuple<KeyKind, uint32_t, std::string>;
 
@@ -27,7 +27,7 @@ std::string named(const std::string& name, const char* kind, uint32_t id) { retu
 
 bool glows(const Material& m) { return m.unlit || !is_black(emission_of(m)); }
 
-// Collects emitters in the order of the scene, and gives those of one key one group.
+// Collects emitters in scene order; emitters with equal keys share a group.
 class Grouper {
 public:
     Grouper(const Scene& scene, int most) : scene_(scene), by_(scene.mix.grouping), most_(size_t(most)) {}
@@ -103,7 +103,7 @@ private:
         }
     }
 
-    // Too many groups: those that are mixed already keep their planes, then as many as there is room for.
+    // Too many groups: those with mix channels keep their planes, then as many others as fit.
     void share_last_plane() {
         std::vector<LightGroup>& all = groups_.groups;
         const size_t count = all.size();
@@ -126,7 +126,7 @@ private:
             rest.lights.insert(rest.lights.end(), group.lights.begin(), group.lights.end());
             rest.materials.insert(rest.materials.end(), group.materials.begin(), group.materials.end());
             rest.environment |= group.environment;
-            rest.unlit |= group.unlit; // then nothing of the rest can be scaled
+            rest.unlit |= group.unlit; // then the rest cannot be scaled
         }
         kept.push_back(std::move(rest));
         all = std::move(kept);
@@ -182,10 +182,10 @@ bool same_but_for_emission(Environment before, const Environment& after) {
 
 Vec3 shown_emission(const Light& light) { return light.enabled ? light_emission(light) : Vec3{0, 0, 0}; }
 
-// The factor of a group, narrowed down by one member after the other. What was black and still is fits any factor.
+// The factor of a group, narrowed down member by member. A black member that stays black fits any factor.
 class Factor {
 public:
-    // False: there is none.
+    // False: there is no common factor.
     bool meets(const Vec3& before, const Vec3& after) {
         return meets(x_, before.x, after.x) && meets(y_, before.y, after.y) && meets(z_, before.z, after.z);
     }
@@ -203,7 +203,7 @@ private:
     std::optional<float> x_, y_, z_;
 };
 
-// What has become of a group's light.
+// Change of a group's light since the planes were rendered.
 std::optional<Vec3> factor_between(const LightGroup& group, const Scene& before, const Scene& now) {
     Factor factor;
     const auto light = [&](Id<Light> id) { return factor.meets(shown_emission(*before.lights.find(id)), shown_emission(*now.lights.find(id))); };
@@ -213,7 +213,7 @@ std::optional<Vec3> factor_between(const LightGroup& group, const Scene& before,
     return factor.value();
 }
 
-// Names by which groups go.
+// Copies the names that groups are made from.
 Scene with_names_of(Scene scene, const Scene& now) {
     const auto rename = [](auto& table, const auto& named) {
         for (const auto id : std::decay_t<decltype(table)>::changed(table, named)) {
@@ -238,7 +238,7 @@ bool same_members(const LightGroups& a, const LightGroups& b) {
            a.surface_materials == b.surface_materials && a.environment == b.environment;
 }
 
-// Everything but emission, names and the mix is as it was.
+// True if only emission, names and the mix differ.
 bool only_emission_differs(const Scene& before, const Scene& now) {
     const Changes changes = diff(before, {}, now, {});
     if (!changes.only_light()) return false;
@@ -252,7 +252,7 @@ bool only_emission_differs(const Scene& before, const Scene& now) {
            same(before.materials, now.materials, changes.materials);
 }
 
-// A surface that was dark is no emitter of the planes.
+// True if no dark surface became emissive: dark surfaces are in no plane.
 bool none_begins_to_glow(const Scene& before, const Scene& now) {
     for (const Id<Material> id : Table<Material>::changed(before.materials, now.materials)) {
         const Material *a = before.materials.find(id), *b = now.materials.find(id);
@@ -289,7 +289,7 @@ std::optional<Mixing> mixing_of(const LightGroups& groups, const Scene& scene) {
     const Scene now = with_solo_applied(scene);
     if (base.mix.grouping != now.mix.grouping || !only_emission_differs(base, now) || !none_begins_to_glow(base, now)) return std::nullopt;
     Scene renamed = with_names_of(base, now);
-    if (groups.sharing > 0) renamed.mix = now.mix; // channels decide who has a plane
+    if (groups.sharing > 0) renamed.mix = now.mix; // channels decide which groups have a plane
     const bool same_names = renamed == base;
     const LightGroups named = same_names ? LightGroups{} : make_light_groups(renamed);
     if (!same_names && !same_members(groups, named)) return std::nullopt;

@@ -1,4 +1,4 @@
-// Which lights share a plane of the film, for the light mix: groups made by light, object, material or by hand.
+// Groups of lights that share a film plane, for the light mix: by light, object, material or manual name.
 #pragma once
 
 #include "scene/scene.h"
@@ -10,54 +10,55 @@
 
 namespace blush {
 
-// Planes: 48 bytes per pixel each in the film, 12 in a frame.
+// Each plane has 48 bytes per pixel in the film, 12 in a frame.
 constexpr int most_light_groups = 16;
 
 struct LightGroup {
-    std::string name;                         // no other group has it
-    std::vector<Id<Light>> lights = {};       // whose light it holds, each once
-    std::vector<Id<Material>> materials = {}; // of surfaces that glow
+    std::string name;                         // unique
+    std::vector<Id<Light>> lights = {};       // members, each once
+    std::vector<Id<Material>> materials = {}; // emissive materials
     bool environment = false;
-    bool unlit = false; // surfaces with KHR_materials_unlit, which show and do not shine: there is nothing to scale
+    bool unlit = false; // surfaces with KHR_materials_unlit, which are visible but emit no light: cannot be scaled
     bool operator==(const LightGroup&) const = default;
 };
 
-// One gain per group, RGB: what its plane is multiplied with.
+// One RGB gain per group: factor of its plane.
 using Gains = std::vector<Vec3>;
 
 struct LightGroups {
     std::vector<LightGroup> groups; // one for each plane, at most most_light_groups
-    int sharing = 0;                // how many groups share the last plane because there were too many; 0: each has its own
-    Scene base;                     // whose emission the planes hold
+    int sharing = 0;                // how many groups share the last plane because of the limit; 0: each has its own
+    Scene base;                     // the scene whose emission the planes hold
 
-    // Of the light on a node, of a surface of a node's own mesh, of the environment; every emitter of `base` has one.
+    // Group of the light on a node, of a surface of a node's own mesh, of the environment; every emitter of `base` has one.
     int of_light(Id<Node> node) const;
     int of_surface(Id<Node> node, Id<Material> material) const;
     int of_environment() const { return environment; }
 
     std::map<Id<Node>, int> light_nodes, surface_nodes;
-    std::map<Id<Material>, int> surface_materials; // where groups are not made by objects
+    std::map<Id<Material>, int> surface_materials; // unless groups are made by object
     int environment = 0;
 };
 
-// Of all that may shine in the scene, off or on: lights and glowing surfaces of visible nodes, and the environment. By light: each light,
-// each glowing object; by object: each node; by material: each light, each glowing material; by hand: what names the same group, glowing
-// surfaces by their material's name. If there are more than `most`, those that have a channel in the mix come first, the last ones share a
-// plane. Scenes with area lights lowered have the groups that they had before.
+// Groups of all possible emitters of the scene, switched off or on: lights and emissive surfaces of visible nodes, and the
+// environment. By light: each light, each emissive object; by object: each node; by material: each light, each emissive material;
+// by hand: lights with the same group name, and emissive surfaces by their material's group name. If there are more than `most`,
+// those with a mix channel come first, and the last ones share a plane. Scenes with expanded area lights have the same groups as
+// before expansion.
 LightGroups make_light_groups(const Scene& scene, int most = most_light_groups);
 
-// What a group's channel makes of its light; 1 without one.
+// Gain of a group's channel; 1 without a channel.
 Vec3 channel_gain(const LightMix& mix, const std::string& group);
 
-// The mix of a scene, as the planes of another one's light must be mixed to show it.
+// The mix of a scene, expressed for the planes of an earlier scene.
 struct Mixing {
-    std::vector<std::string> names; // of the groups, as they are called by now
-    Gains factors;                  // what has become of the light of their members
-    Gains channels;                 // what their channels make of it
-    Gains gains;                    // both together
+    std::vector<std::string> names; // current names of the groups
+    Gains factors;                  // change of the members' emission
+    Gains channels;                 // channel gains
+    Gains gains;                    // factors times channels
 };
-// Channels of the mix times what has changed in the light of each group's members. Nothing, if no gains would do: something else has
-// changed, a colour was black and is no longer, members of a group changed differently, or groups are made up otherwise.
+// Mix channels times the changes of each group's emission. Empty if gains cannot express the change: something else changed, a
+// colour was black and no longer is, members of a group changed differently, or the grouping changed.
 std::optional<Mixing> mixing_of(const LightGroups& groups, const Scene& now);
 
 } // namespace blush

@@ -8,7 +8,7 @@
 namespace blush {
 namespace {
 
-// The light that a record of the table is; null: a surface that glows, or the environment.
+// The light of a table record; null: an emissive surface, or the environment.
 const Light* light_of(const Scene& lowered, const LightRecord& record, Id<Node> node) {
     if (record.kind == int32_t(LightKind::environment)) return nullptr;
     if (record.kind == int32_t(LightKind::triangle)) return light_of_body(lowered, node);
@@ -16,7 +16,7 @@ const Light* light_of(const Scene& lowered, const LightRecord& record, Id<Node> 
     return found ? lowered.lights.find(found->light) : nullptr;
 }
 
-// Sets, each once, and a bit for each part of those that are in.
+// The distinct sets, with one bit per member part.
 class LitSets {
 public:
     LitSets(const Scene& scene, const GeometryPool& geometry) : scene_(scene), geometry_(geometry), words_(int32_t((geometry.parts().size() + 31) / 32)) {}
@@ -28,7 +28,7 @@ public:
         const size_t first = bits_.size();
         bits_.resize(first + size_t(words_));
         const std::vector<PartRecord>& parts = geometry_.parts();
-        bool in_set = false; // what follows each other is mostly of one object
+        bool in_set = false; // consecutive parts mostly belong to one object
         for (size_t part = 0; part < parts.size(); ++part) {
             if (part == 0 || parts[part].object != parts[part - 1].object) in_set = contains(set, scene_, Id<Node>{uint32_t(parts[part].object)});
             if (in_set) bits_[first + part / 32] |= 1u << part % 32;
@@ -48,12 +48,12 @@ private:
 
 constexpr int first_caster_bit = 2;
 
-// The node itself, or its nearest ancestor, that the set names.
+// The node itself or its nearest ancestor that is listed in the set.
 Id<Node> named_above(const ObjectSet& set, const Scene& scene, Id<Node> node) {
-    // A tree of nodes is as deep as it has nodes at most, should a cycle have come in.
+    // The depth is at most the number of nodes: ends if the hierarchy has a cycle.
     size_t steps = scene.nodes.size() + 1;
     for (Id<Node> up = node; up && steps > 0; --steps) {
-        // The body of a lamp is its node.
+        // The mesh of an area light belongs to the light's node.
         const Id<Node> id{up.value & ~lowered_bit};
         if (std::ranges::find(set.nodes, id) != set.nodes.end()) return id;
         const Node* found = scene.nodes.find(id);
@@ -121,7 +121,7 @@ LightLinks build_light_links(const Scene& lowered, const LightTable& lights, con
     if (!any) return {};
     links.words = lit.words();
     links.lit_parts = std::move(lit).bits();
-    if (links.lit_parts.empty()) links.lit_parts.push_back(0); // kernels read before they look at masks
+    if (links.lit_parts.empty()) links.lit_parts.push_back(0); // kernels read before they apply masks
     return links;
 }
 

@@ -11,13 +11,13 @@
 namespace blush {
 namespace {
 
-// Values at a time: small enough for the first-level cache, a multiple of every pixel's and every register's.
+// Values per block: fits the L1 cache, a multiple of the values of a pixel and of a register.
 constexpr size_t run = 48;
 constexpr size_t chunk = 32 * run;
 
 using Sums = std::array<float, chunk>;
 
-// Whole runs past the end are summed too where the planes have them.
+// Reads whole blocks, also past the end if the planes have room there.
 void add_plane(const float* plane, size_t count, const Vec3& gain, Sums& sums) {
     std::array<float, run> pattern;
     for (size_t i = 0; i < run; i += 3) {
@@ -39,7 +39,7 @@ void mix_chunk(std::span<const PlaneSpan> planes, std::span<const Vec3> gains, s
         if (gains[k] != Vec3{0, 0, 0}) add_plane(&planes[k][3 * first_pixel], 3 * pixels, gains[k], sums);
 }
 
-// take(first, count, sums) for every few pixels.
+// Calls take(first, count, sums) for each block of pixels.
 template <class Take>
 void mix_all(std::span<const PlaneSpan> planes, std::span<const Vec3> gains, size_t pixels, const Workers* workers, const Take& take) {
     const auto mix = [&](size_t begin, size_t end) {
@@ -51,7 +51,7 @@ void mix_all(std::span<const PlaneSpan> planes, std::span<const Vec3> gains, siz
         }
     };
     if (!workers) return mix(0, pixels);
-    // Tasks of some rows each: starting one costs as much as a chunk does.
+    // Tasks of several rows: starting a task costs as much as one chunk.
     constexpr size_t task = 64 * pixels_at_once;
     workers->for_each(int64_t((pixels + task - 1) / task), {},
                       [&](int64_t i, unsigned) { mix(size_t(i) * task, std::min(pixels, (size_t(i) + 1) * task)); });

@@ -13,8 +13,8 @@ namespace {
 
 constexpr double pi_d = std::numbers::pi;
 
-// The node's axes made a frame of unit vectors: the light shines along -Z, X is kept as far as it is perpendicular to that. A plane's own
-// normal, so that a panel under a skewed node still shines straight away from itself.
+// Orthonormal frame from the node's axes: the light points along -Z; X is kept as far as it is perpendicular to that. Panels use
+// the normal of their plane, so that a panel under a skewed node still emits perpendicular to itself.
 void set_frame(ProfileRecord& record, const Affined& m, bool is_panel) {
     Vec3d ahead = -m.z;
     if (is_panel) {
@@ -45,7 +45,7 @@ LightProfiles::Added LightProfiles::add(const Light& light, const Affined& world
     double share = 1;
     if (is_spot) {
         const double inner = std::cos(double(light.inner_cone_radians)), outer = std::cos(double(light.outer_cone_radians));
-        record.cone_scale = float(1 / std::max(0.001, inner - outer)); // as KHR_lights_punctual suggests
+        record.cone_scale = float(1 / std::max(0.001, inner - outer)); // as KHR_lights_punctual recommends
         record.cone_offset = float(-outer) * record.cone_scale;
         share = 0.5 * (1 - 0.5 * (inner + outer));
     }

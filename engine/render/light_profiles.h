@@ -1,4 +1,4 @@
-// The profiles of a scene's lights as rays read them.
+// IES profiles and spreads of a scene's lights as kernels read them.
 #pragma once
 
 #include "scene/scene.h"
@@ -12,8 +12,8 @@ namespace blush {
 
 class LightProfiles {
 public:
-    // The profile of `light` on a node placed so, and its share of what the light would emit without it, for the power of the light;
-    // -1 and 1 for a light that shines alike to all sides.
+    // The profile of `light` on a node with this transform, and the share of the light's flux that it leaves; -1 and 1 for a
+    // light without a profile.
     struct Added {
         int32_t profile = -1;
         double share = 1;
@@ -29,7 +29,7 @@ private:
 
     std::vector<ProfileRecord> records_;
     std::vector<float> numbers_;
-    std::map<uint64_t, int32_t> first_by_serial_; // of the measured distributions in numbers_
+    std::map<uint64_t, int32_t> first_by_serial_; // of the IES data in numbers_
 };
 
 } // namespace blush

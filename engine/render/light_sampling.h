@@ -1,4 +1,4 @@
-// Next-event estimation's half of the work: a point on a light, and what arrives from there.
+// Sampling for next-event estimation: selects a light, a point on it, and computes the incident light.
 #pragma once
 
 #include "core/sampler.h"
@@ -9,33 +9,33 @@
 
 namespace blush::inline BLUSH_ISA {
 
-// A light and a place on it.
+// A sampled point on a light.
 template <class F> struct LightPoint {
     Mask<F> valid, infinite, delta;
-    Vec<F> position;    // where a shadow ray ends; infinite: unit direction towards the light
+    Vec<F> position;    // end of the shadow ray; infinite: unit direction towards the light
     Vec<F> error;       // bound on the position's rounding error
     Vec<F> normal;      // triangle, sphere: unit
     Vec<F> emission;    // nits; delta: candela or lux
-    F probability;      // of having picked this light
-    F density;          // infinite, sphere: per solid angle; triangle: per area; delta: 1
+    F probability;      // selection probability of this light
+    F density;          // pdf. infinite, sphere: per solid angle; triangle: per area; delta: 1
     Int<F> kind, light;
     Mask<F> two_sided;
-    F clearcoat;        // triangle: share of the surface that shines through a coat; only with Feature::clearcoat
+    F clearcoat;        // triangle: share of the surface under a clear coat; only with Feature::clearcoat
 };
 
-// What arrives at a receiver along the unit direction wi: radiance (delta: irradiance on a surface facing wi) and its density.
+// Light arriving at a receiver along the unit direction wi: radiance (delta: irradiance on a surface facing wi) and its pdf.
 template <class F> struct IncidentLight {
     Vec<F> radiance;
     F pdf;
 };
 
-// A point of a triangle light as its material sees it.
+// A point of an emissive triangle with its material inputs.
 template <class F> struct LightSurface {
     Int<F> material;
     TexturePoint<F> at;
     F vertex_alpha; // 1 without vertex colours
 };
-// The point edge1 * along.x + edge2 * along.y.
+// The point at edge1 * along.x + edge2 * along.y.
 template <Features S, class F>
 LightSurface<F> light_surface(const SceneTables& scene, const Int<F>& light, const Vec2T<F>& along, const Mask<F>& active) {
     const LightRecord* lights = scene.lights.lights;
@@ -62,8 +62,8 @@ LightSurface<F> light_surface(const SceneTables& scene, const Int<F>& light, con
             texture_point<F>(scene, flags, {vertex(0), vertex(1), vertex(2)}, weights, active), vertex_alpha};
 }
 
-// Mean radiance of a triangle light whose emission or alpha varies, at the point edge1 * along.x + edge2 * along.y: stochastic opacity lets rays
-// meet it as often as it is opaque there.
+// Mean radiance of an emissive triangle with textured emission or alpha, at the point edge1 * along.x + edge2 * along.y:
+// multiplied by the opacity, because with stochastic opacity rays hit it with that probability.
 template <Features S, class F>
 Vec<F> varying_emission(const SceneTables& scene, const Int<F>& light, const Vec2T<F>& along, const Mask<F>& active) {
     const LightSurface<F> surface = light_surface<S, F>(scene, light, along, active);
@@ -71,7 +71,7 @@ Vec<F> varying_emission(const SceneTables& scene, const Int<F>& light, const Vec
            opacity_at<S, F>(scene.materials, surface.material, surface.at, surface.vertex_alpha, active);
 }
 
-// Draws a light for a receiver, and a point of it.
+// Samples a light for a receiver, and a point on it.
 template <Features S, class F>
 LightPoint<F> sample_light_point(const SceneTables& scene, const Pair<F>& random, const Receiver<F>& to, const Mask<F>& active) {
     const LightTables& table = scene.lights;
@@ -123,7 +123,7 @@ LightPoint<F> sample_light_point(const SceneTables& scene, const Pair<F>& random
         const Mask<F> sphere = is(LightKind::sphere);
         if (any(sphere)) {
             const SpherePoint<F> s = sample_sphere(p.position, gather_field(lights, &LightRecord::radius, pick.index), to.position, u, v);
-            // As far as Embree may be off about where a ray meets the sphere.
+            // Embree's error bound of a ray's hit point on the sphere.
             const F error = (max_component(abs(p.position)) + max_component(abs(to.position)) + s.distance) * gamma_bound(16);
             p.error = select<F>(sphere, splat<F>(1.f) * error, p.error);
             p.normal = select<F>(sphere, s.normal, p.normal);
@@ -158,7 +158,8 @@ LightPoint<F> sample_light_point(const SceneTables& scene, const Pair<F>& random
     return p;
 }
 
-// Radiance and density at a receiver `distance_squared` away in direction wi from it; infinite lights ignore the distance.
+// Radiance and pdf at a receiver at squared distance `distance_squared`, in direction wi from it; lights at infinity ignore the
+// distance.
 template <Features S, class F> IncidentLight<F> incident_light(const SceneTables& scene, const LightPoint<F>& p, const Vec<F>& wi, const F& distance_squared) {
     IncidentLight<F> in{p.emission, p.probability * p.density};
     if constexpr (S.has(Feature::emissive_triangles)) {

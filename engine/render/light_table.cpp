@@ -23,8 +23,8 @@ double luminance_of(const Vec3& c) { return double(luminance(c)); }
 struct Builder {
     Aim aim = Aim::at_all;
     LightTable table;
-    std::vector<LightBounds> bounds; // by record; of suns and the environment they are not asked for
-    int64_t luminaires = 0;          // at finite distance; a panel is one whatever its triangles
+    std::vector<LightBounds> bounds; // by record; unused for suns and the environment
+    int64_t luminaires = 0;          // at finite distance; a panel counts once, not per triangle
 
     void add(const LightRecord& record, Id<Node> node, double power, const LightBounds& where = {}) {
         table.records.push_back(record);
@@ -32,14 +32,14 @@ struct Builder {
         table.powers.push_back(std::isfinite(power) && power > 0 ? power : 0);
         bounds.push_back(where);
     }
-    // A light that rays can find as well.
+    // Adds a light that rays can also hit.
     void add_findable(const LightRecord& record, Id<Node> node, double power, const LightBounds& where = {}) {
         add(record, node, aim == Aim::at_all ? power : 0, where);
     }
 };
 
-// Mean radiance of a varying triangle light over a 4 x 4 grid, and never quite nothing where the material may emit: what the
-// grid misses must keep a chance.
+// Mean luminance of a textured emissive triangle over a 4 x 4 grid; never 0 where the material may emit, because the grid may
+// miss emission.
 double mean_varying_luminance(const SceneTables& tables, size_t light, const Vec3& factor) {
     double sum = 0;
     for (int i = 0; i < 4; ++i)
@@ -50,7 +50,7 @@ double mean_varying_luminance(const SceneTables& tables, size_t light, const Vec
     return std::max(sum / 16, 0.01 * luminance_of(factor));
 }
 
-// Radians by which cones are taken wider than they are: single-precision cosines do not tell narrower ones from none.
+// Radians added to cone angles: single-precision cosines cannot represent narrower cones.
 constexpr double angle_margin = 0.01;
 
 LightBounds triangle_bounds(const Vec3 (&p)[3], const LightRecord& light, const Light* panel) {
@@ -65,7 +65,7 @@ LightBounds triangle_bounds(const Vec3 (&p)[3], const LightRecord& light, const 
     return b;
 }
 
-// Of what shines from `center` to all sides, or into a spot's cone.
+// Bounds of an omnidirectional light at `center`, or of a spot's cone.
 LightBounds ball_bounds(const Vec3& center, double radius, const Light& light, const Affined& world) {
     LightBounds b;
     const Vec3d c = to_double(center), r{radius, radius, radius};
@@ -79,7 +79,7 @@ LightBounds ball_bounds(const Vec3& center, double radius, const Light& light, c
     return b;
 }
 
-// The profile of a panel that was lowered to this part; -1 for other meshes.
+// The profile of the panel that was expanded to this part; -1 for other meshes.
 int32_t panel_profile(Builder& b, const Scene& scene, Placements& placements, Id<Node> body) {
     const Light* light = light_of_body(scene, body);
     return light ? b.table.profiles.add(*light, placements(body).world_from_node).profile : -1;
@@ -87,8 +87,8 @@ int32_t panel_profile(Builder& b, const Scene& scene, Placements& placements, Id
 
 bool glows(const MaterialRecord& material) { return material.flags & material_emissive && !(material.flags & material_unlit); }
 
-// By part: are its triangles aimed at, should it glow? Those of lamps are, and then of the objects that have the fewest, so that a meadow of
-// copies does not crowd out what else there is.
+// For each part, whether its emissive triangles are sampled by NEE. Area lights come first, then objects with the fewest
+// triangles, so that a huge number of instances does not displace all other emitters.
 std::vector<bool> aimed_at(const Scene& scene, const MaterialTable& materials, const GeometryPool& geometry) {
     const std::vector<PartRecord>& parts = geometry.parts();
     std::vector<bool> aimed(parts.size(), true);
@@ -123,7 +123,7 @@ void add_triangles(Builder& b, const Scene& scene, const MaterialTable& material
         const Light* panel = light_of_body(scene, Id<Node>{uint32_t(record.object)});
         b.luminaires += panel ? 1 : geometry.triangle_count(part);
         const int32_t profile = panel_profile(b, scene, placements, Id<Node>{uint32_t(record.object)});
-        // Whoever finds a light reads its profile.
+        // A ray that hits the light reads its profile.
         if (b.aim == Aim::at_points && profile < 0) {
             b.table.emissive_triangles += geometry.triangle_count(part);
             continue;
@@ -137,9 +137,9 @@ void add_triangles(Builder& b, const Scene& scene, const MaterialTable& material
         const bool two_sided = material.flags & material_double_sided, translucent = material.alpha != alpha_opaque;
         const bool varying = material.emissive_texture >= 0 ||
                              (translucent && (material.base_color_texture >= 0 || (record.flags & part_colors) != 0));
-        // Alpha that is the same everywhere dims the whole light.
+        // Constant alpha dims the whole light.
         const float opacity = varying ? 1.f : opacity_at<all_features, float>(scene_tables.materials, record.material, {}, 1.f, true);
-        // The stored corners wind as in the mesh; under a mirroring transform the other side of their plane is the outside.
+        // The stored vertices have the mesh's winding; under a mirroring transform the outside is the other side of the plane.
         const bool mirrored = record.transform >= 0 ? determinant(scene_tables.instances[record.transform].world_from_object) < 0
                                                     : (record.flags & part_mirrored) != 0;
         for (int64_t t = 0; t < geometry.triangle_count(part); ++t) {
@@ -183,8 +183,8 @@ void add_spheres(Builder& b, const Scene& scene, const std::vector<SphereLight>&
         record.object = int32_t(sphere.node.value);
         record.position = to_float(sphere.center - origin);
         record.radius = float(sphere.radius);
-        const double disk = pi_d * sphere.radius * sphere.radius; // as seen from afar
-        // The candela of a point or a spot are those of its sphere from any direction.
+        const double disk = pi_d * sphere.radius * sphere.radius; // projected area
+        // The luminous intensity of a point or spot is that of its sphere in every direction.
         record.emission = light.enabled ? light_emission(light) : Vec3{0, 0, 0};
         if (light.kind != Light::Kind::sphere) record.emission = to_float(to_double(record.emission) * (1 / disk));
         ++b.table.sphere_lights;
@@ -201,7 +201,7 @@ LightRecord sun_record(const Vec3& towards, float angle_radians, const Vec3& lux
     record.position = towards;
     const double half = 0.5 * double(angle_radians), s = std::sin(0.5 * half);
     record.cone_height = float(2 * s * s);
-    // The disk's radiance gives the stated illuminance on a surface that faces it: E = L pi sin^2(half angle).
+    // Radiance of the disk from the stated illuminance on a facing surface: E = L pi sin^2(half angle).
     record.emission = record.cone_height > 0 ? lux / float(pi_d * std::sin(half) * std::sin(half)) : lux;
     return record;
 }
@@ -238,8 +238,8 @@ void add_punctual(Builder& b, const Scene& scene, double scene_radius, const Vec
     }
 }
 
-// A light that is faint in the whole scene may be all there is in one of its rooms: one sample in 64 goes to all that shine alike (a defensive
-// mixture, Hesterberg 1995), which costs others no more than a 64th of their samples.
+// One sample in 64 is distributed uniformly over all lights (defensive mixture, Hesterberg 1995): a light that is weak in the
+// whole scene may be the only one in a room. Other lights lose at most 1/64 of their samples.
 std::vector<double> shared_evenly(std::span<const double> powers, std::span<const double> factors) {
     constexpr double share = 1.0 / 64;
     std::vector<double> weights(powers.begin(), powers.end());
@@ -254,15 +254,15 @@ std::vector<double> shared_evenly(std::span<const double> powers, std::span<cons
     return weights;
 }
 
-// By slot of a table with a tree.
+// Powers by slot, for a table with a tree.
 std::vector<double> slot_powers(const LightTable& table, std::span<const double> powers) {
     std::vector<double> slots(table.slot_lights.size(), 0.0);
     for (size_t i = 0; i < powers.size(); ++i) slots[size_t(table.records[i].slot)] += powers[i];
     return slots;
 }
 
-// Lights at finite distance go into the tree, which gets the first slot; the others a slot each. False if none of those gives any light:
-// there is then no tree.
+// Puts lights at finite distance into a tree, which uses the first slot; each other light gets its own slot. False, and no tree,
+// if no light at finite distance emits.
 bool add_tree(Builder& b, const std::vector<double>& powers) {
     const auto is_finite_light = [](const LightRecord& r) { return r.kind != int32_t(LightKind::sun) && r.kind != int32_t(LightKind::environment); };
     std::vector<LightBounds> in_tree;
@@ -313,7 +313,7 @@ LightTable build_light_table(const Scene& scene, const MaterialTable& materials,
         b.add_findable(record, {}, 4 * pi_d * pi_d * radius * radius * luminance_of(sky.mean));
     }
     b.table.count = int32_t(b.table.records.size());
-    // Nothing is drawn from what nobody aims at: not even by the last of all random numbers.
+    // Emitters with zero selection probability are never returned, even for u = 1 - eps.
     while (aim == Aim::at_points && b.table.count > 0 && b.table.powers[size_t(b.table.count) - 1] == 0) --b.table.count;
     if (b.table.records.empty()) b.add({}, {}, 1);
     const std::vector<double> powers = shared_evenly(b.table.powers, {});

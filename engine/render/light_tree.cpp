@@ -14,13 +14,13 @@ namespace {
 
 constexpr double pi_d = std::numbers::pi;
 constexpr int splits_per_level = tree_branch_bits;
-constexpr int most_splits = 32 / tree_branch_bits * tree_branch_bits; // above a leaf: the bits of a trail
+constexpr int most_splits = 32 / tree_branch_bits * tree_branch_bits; // levels above a leaf; limited by the bits of a trail
 
 double component(const Vec3d& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 Vec3d lower(const Vec3d& a, const Vec3d& b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
 Vec3d upper(const Vec3d& a, const Vec3d& b) { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}; }
 
-// The smallest cone around two (Pharr, Jakob, Humphreys, 3.8.4).
+// The smallest cone that contains both (Pharr, Jakob, Humphreys, 3.8.4).
 void unite_cones(LightBounds& a, const LightBounds& b) {
     if (a.theta_o >= pi_d) return;
     const double between = std::acos(std::clamp(dot(a.axis, b.axis), -1.0, 1.0));
@@ -41,7 +41,7 @@ void unite_cones(LightBounds& a, const LightBounds& b) {
     a.theta_o = theta;
 }
 
-// Bounds without any light have power 0.
+// Empty bounds have power 0.
 void unite(LightBounds& a, const LightBounds& b) {
     if (b.power <= 0) return;
     if (a.power <= 0) {
@@ -56,7 +56,7 @@ void unite(LightBounds& a, const LightBounds& b) {
     a.two_sided |= b.two_sided;
 }
 
-// How much light a node may send past receivers: power, times the area of its box, times the integral of its cone's cosine bound.
+// Surface area orientation heuristic: power times the box's area times the integral of the cone's cosine bound.
 double cost(const LightBounds& b) {
     if (b.power <= 0) return 0;
     const Vec3d size = b.high - b.low;
@@ -75,7 +75,7 @@ struct Builder {
         LightTreeNode node{};
         node.center = to_float((b.low + b.high) * 0.5);
         node.half = to_float((b.high - b.low) * (0.5 * (1 + 1e-6)));
-        // Rounded up: the sphere must hold what it bounds.
+        // Rounded up, so that the sphere contains the box.
         node.radius = float(0.5 * length(b.high - b.low) * (1 + 1e-6));
         node.axis = to_float(b.axis);
         node.sin_o = b.theta_o >= pi_d ? 0 : float(std::sin(b.theta_o));
@@ -86,10 +86,10 @@ struct Builder {
         return node;
     }
 
-    // Where to split lights [begin, end): in the middle of their order along the longest side, or where buckets along some side cost least.
+    // Index at which to split lights [begin, end): the median along the longest side, or the bucket boundary of least cost.
     size_t split(size_t begin, size_t end, int splits) const {
         const std::span<LightBounds> part(lights.data() + begin, end - begin);
-        Vec3d low = part[0].low + part[0].high, high = low; // of centres, doubled
+        Vec3d low = part[0].low + part[0].high, high = low; // of centres, times 2
         for (const LightBounds& b : part) {
             low = lower(low, b.low + b.high);
             high = upper(high, b.low + b.high);
@@ -98,7 +98,7 @@ struct Builder {
         const int longest = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
         const auto position = [&](const LightBounds& b, int axis) { return component(b.low + b.high, axis); };
         const size_t middle = begin + part.size() / 2;
-        // What is left of the trail must do.
+        // Use the median if the remaining trail bits require it.
         const bool must_halve = most_splits - splits <= int(std::bit_width(part.size())) + splits_per_level;
         if (!must_halve && component(size, longest) > 0)
             if (const size_t found = split_by_cost(part, begin, low, size, longest)) return found;
@@ -112,7 +112,7 @@ struct Builder {
         return std::clamp(int(along * buckets), 0, buckets - 1);
     }
 
-    // 0: nowhere. Large parts are split along their longest side, where splitting nearly always is best.
+    // 0: no split. Large ranges are split along their longest side, which is nearly always best.
     size_t split_by_cost(std::span<LightBounds> part, size_t begin, const Vec3d& low, const Vec3d& size, int longest) const {
         double best = 0;
         int best_axis = -1, best_bucket = 0;
@@ -139,7 +139,7 @@ struct Builder {
         return begin + size_t(second.begin() - part.begin());
     }
 
-    // Fills nodes[index] with lights [begin, end).
+    // Builds nodes[index] for lights [begin, end).
     void build(size_t index, size_t begin, size_t end, uint32_t trail, int level) {
         LightBounds all = lights[begin];
         for (size_t i = begin + 1; i < end; ++i) unite(all, lights[i]);
@@ -190,7 +190,7 @@ LightTreeTable build_light_tree(std::vector<LightBounds> lights, int32_t light_c
 
 void weigh_light_tree(LightTreeTable& table, std::span<const double> powers) {
     std::vector<double> below(table.nodes.size(), 0.0);
-    // Children come after their parents.
+    // Children have larger indices than their parents.
     for (size_t i = table.nodes.size(); i-- > 0;) {
         LightTreeNode& node = table.nodes[i];
         if (node.children < 0) below[i] = powers[size_t(node.light)];

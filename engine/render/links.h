@@ -1,4 +1,4 @@
-// What a light does not light, and which shadow rays take no notice of whom.
+// Light linking in kernels: which lights illuminate a surface, and which objects a shadow ray can hit.
 #pragma once
 
 #include "core/math.h"
@@ -7,10 +7,10 @@
 
 namespace blush::inline BLUSH_ISA {
 
-// In place of a part that a ray leaves: the camera, which sees all lights, and a light meter, which is lit by all.
+// Part index for rays from the camera, which sees all lights, and from a light meter, which all lights illuminate.
 constexpr int32_t from_camera = -1, from_meter = -2;
 
-// Does the light of that record light a surface of part `part`? Light -1 lights all.
+// True if the light of that record illuminates part `part`. Light -1 illuminates all.
 template <class F> Mask<F> is_lit(const LinkTables& links, const Int<F>& light, const Int<F>& part, const Mask<F>& active) {
     const Mask<F> asked = active && as_mask(light >= 0) && as_mask(part >= 0);
     const Int<F> set = gather(links.lit_sets, select(asked, light, Int<F>(0)));
@@ -21,17 +21,17 @@ template <class F> Mask<F> is_lit(const LinkTables& links, const Int<F>& light, 
     return !linked || as_mask(bit != 0u);
 }
 
-// What a shadow ray towards a light meets.
+// Mask of a shadow ray towards the light.
 template <class F> UInt<F> shadow_mask(const LinkTables& links, const Int<F>& light) { return gather(links.shadow_masks, light); }
 
-// Not everything casts the light's shadow. A ray that a BSDF sends out does meet everything, so it must not find such a light: then light
-// sampling has all of it, as of a light without size. Where a mirror sends it, nothing else could find the light, and it shows what is there.
+// True if shadow linking applies to the light. BSDF-sampled rays hit all objects, so they must not count emission of such a
+// light: NEE gets the full weight, as for delta lights. Behind a delta lobe, only the ray can find the light, so it is counted.
 template <class F> Mask<F> has_own_shadows(const LinkTables& links, const Int<F>& light, const Mask<F>& active) {
     const Mask<F> asked = active && as_mask(light >= 0);
     return asked && as_mask(shadow_mask<F>(links, select(asked, light, Int<F>(0))) != other_ray_mask);
 }
 
-// What becomes of the MIS weight of emission that a ray from part `from` found with density bsdf_pdf.
+// MIS weight, adjusted for light linking, of emission hit by a ray from part `from` with density bsdf_pdf.
 template <class F>
 F linked_weight(const LinkTables& links, const F& weight, const Int<F>& light, const Int<F>& from, const F& bsdf_pdf, const Mask<F>& active) {
     const Mask<F> sampled = as_mask(from != from_camera) && bsdf_pdf != F(infinity);

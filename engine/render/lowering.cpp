@@ -14,7 +14,7 @@
 namespace blush {
 namespace {
 
-// Unit square in the XY plane, facing -Z, as lights do.
+// Unit square in the XY plane, facing -Z, the direction of lights.
 GeometryPtr unit_rectangle() {
     static const GeometryPtr shared = [] {
         auto g = std::make_shared<Geometry>();
@@ -104,7 +104,7 @@ Scene lower_area_lights(const Scene& whole, LoweredMeshes* known) {
     for (const auto& [id, node] : scene.nodes) {
         const Light* light = node.light ? scene.lights.find(node.light) : nullptr;
         if (!light || !is_area_light(*light)) continue;
-        // Where lights are mixed their bodies stay when they are off: switching one then changes nothing but its own light.
+        // With a light mix, meshes of disabled lights remain, so that switching a light changes only its own emission.
         if (!light->enabled && scene.mix.grouping == LightMix::Grouping::none) continue;
         const AreaShape shape = shape_of(*light, corners);
         const uint32_t key = lowered_bit | node.light.value;

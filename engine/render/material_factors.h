@@ -1,4 +1,4 @@
-// Internal to material_*.cpp: factors of a material made legal, and which of its parts there are.
+// Internal to material_*.cpp: clamps the factors of a material and tells which lobes it has.
 #pragma once
 
 #include "scene/scene.h"
@@ -13,20 +13,20 @@ inline float within(float x, float low, float high) { return x >= low ? std::min
 inline float unit(float x) { return within(x, 0, 1); }
 inline Vec3 within(const Vec3& v, float low, float high) { return {within(v.x, low, high), within(v.y, low, high), within(v.z, low, high)}; }
 
-// Which lobes a material has, after the order of precedence of glTF's parameters.
+// Lobes of a material, following the precedence of glTF's parameters.
 inline bool reflects(const Material& m) { return !m.unlit && (m.specular > 0 || m.metallic > 0 || m.transmission > 0); }
 inline bool transmits(const Material& m) { return !m.unlit && m.transmission > 0; }
 inline bool is_translucent(const Material& m) { return !m.unlit && m.diffuse_transmission > 0; }
 inline bool is_thin(const Material& m) { return !(m.thickness > 0); }
 
-// Light travels inside of it.
+// Light travels inside it.
 inline bool is_solid(const Material& m) { return (transmits(m) || is_translucent(m)) && !is_thin(m); }
-// A thin wall that is smooth, or may be where its texture says so: light may pass it straight on.
+// A thin wall that is smooth, or may be in places where a texture makes it so: light may pass it straight through.
 inline bool may_pass_straight(const Material& m) {
     return transmits(m) && is_thin(m) && (unit(m.roughness) < smooth_roughness || m.metallic_roughness_texture.texture);
 }
 
-// A place of Material that holds a texture, and that of a compiled record which tells where to read it.
+// A texture slot of Material and the corresponding field of a compiled record.
 template <class Record> struct CompiledSlot {
     TextureRef Material::*ref;
     int32_t Record::*index;

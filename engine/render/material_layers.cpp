@@ -6,7 +6,7 @@ namespace blush {
 
 namespace {
 
-constexpr float thickest_film = 1e6f; // nanometres: colours have long run together
+constexpr float thickest_film = 1e6f; // nanometres: beyond this, interference colours average out
 
 } // namespace
 
@@ -35,7 +35,7 @@ LayerRecord layer_factors_of(const Material& m) {
     }
     if (is_translucent(m)) {
         r.diffuse_transmission = unit(m.diffuse_transmission);
-        r.diffuse_transmission_color = within(m.diffuse_transmission_color, 0, 1); // more would make light out of nothing
+        r.diffuse_transmission_color = within(m.diffuse_transmission_color, 0, 1); // more would gain energy
     }
     if (disperses(m)) r.dispersion = within(m.dispersion, 0, 1000);
     return r;

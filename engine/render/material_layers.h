@@ -1,4 +1,4 @@
-// KHR_materials_*'s layers as records that rays read.
+// The layers of KHR_materials_* as records for kernels.
 #pragma once
 
 #include "render/material_factors.h"
@@ -9,17 +9,17 @@
 
 namespace blush {
 
-// Of the factors; no texture is read yet.
+// From the factors only; textures are not read yet.
 LayerRecord layer_factors_of(const Material& material);
 Features layer_features_of(const Material& material);
-// Reads a coat's normal map.
+// True if the material has a normal map for its clear coat.
 bool has_coat_normal_map(const Material& material);
 
 inline bool is_coated(const Material& m) { return !m.unlit && m.clearcoat > 0; }
 inline bool has_sheen(const Material& m) { return !m.unlit && std::max({m.sheen_color.x, m.sheen_color.y, m.sheen_color.z}) > 0; }
 inline bool is_anisotropic(const Material& m) { return reflects(m) && m.anisotropy > 0; }
 inline bool has_film(const Material& m) { return reflects(m) && m.iridescence > 0; }
-// Only what refracts disperses; 0 stands for an infinite index, which lets nothing in.
+// Only refracting solids disperse; ior 0 means an infinite index, which lets no light in.
 inline bool disperses(const Material& m) { return transmits(m) && !is_thin(m) && m.dispersion > 0 && m.ior > 1; }
 
 inline constexpr std::array layer_texture_slots{

@@ -13,7 +13,7 @@
 namespace blush {
 namespace {
 
-constexpr float max_radiance = 1e30f; // nits: whatever is multiplied with it on a path stays finite
+constexpr float max_radiance = 1e30f; // nits: products along a path stay finite
 
 bool has_normal_map(const Material& m) { return !m.unlit && m.normal_texture.texture && m.normal_scale != 0; }
 Vec3 sigma_of(const Material& m) {
@@ -43,7 +43,7 @@ template <class Visit> void each_read_slot(const Material& m, const Visit& visit
         if (slot.is_read(m)) visit(slot);
 }
 
-// Those of all meshes, each once.
+// Materials of all meshes, each once.
 std::vector<const Material*> worn_materials(const Scene& scene) {
     std::set<Id<Material>> ids;
     for (const auto& [id, mesh] : scene.meshes) {
@@ -55,14 +55,14 @@ std::vector<const Material*> worn_materials(const Scene& scene) {
     return materials;
 }
 
-// The UV sets that these materials read, ascending, whatever their number.
+// The UV sets that these materials use, ascending, without limit.
 std::vector<int> uv_sets_of(const std::vector<const Material*>& materials) {
     std::set<int> sets;
     for (const Material* material : materials) sets.merge(texture_reads(*material).uv_sets);
     return {sets.begin(), sets.end()};
 }
 
-// What these materials read, in the order the texture table wants.
+// The textures that these materials use, in the order that the texture table needs.
 std::vector<TextureSource> texture_sources(const Scene& scene, const std::vector<const Material*>& materials) {
     std::vector<std::tuple<Id<Texture>, bool>> keys;
     for (const Material* material : materials) {
@@ -101,13 +101,13 @@ MaterialRecord factors_of(const Material& m) {
     if (m.alpha != Material::Alpha::opaque) {
         r.alpha = m.alpha == Material::Alpha::mask ? alpha_mask : alpha_blend;
         r.opacity = unit(m.opacity);
-        r.alpha_cutoff = within(m.alpha_cutoff, 0, 2); // above 1 nothing is left, as glTF says
+        r.alpha_cutoff = within(m.alpha_cutoff, 0, 2); // above 1 all is cut out, as in the glTF specification
     }
     return r;
 }
 
-// KHR_texture_transform: scaled, rotated counter-clockwise as seen with v downwards, moved. The listing in the
-// specification's text turns the other way; its words and every implementation turn this way (KhronosGroup/glTF issue 1563).
+// KHR_texture_transform: scale, rotate counter-clockwise as seen with v downwards, translate. The listing in the specification
+// rotates the other way; its text and all implementations rotate this way (KhronosGroup/glTF issue 1563).
 TextureUse texture_use(const TextureRef& ref, int32_t texture, float texels_per_unit, int32_t uv_set) {
     const double c = std::cos(double(ref.rotation_radians)), s = std::sin(double(ref.rotation_radians));
     TextureUse use{};
@@ -119,7 +119,8 @@ TextureUse texture_use(const TextureRef& ref, int32_t texture, float texels_per_
     use.v_from_u = float(-s * ref.scale.x);
     use.v_from_v = float(c * ref.scale.y);
     use.v_offset = ref.offset.y;
-    use.texels_per_uv = float(std::sqrt(std::abs(double(ref.scale.x) * ref.scale.y))) * texels_per_unit; // turning changes no area
+    // rotation keeps the area
+    use.texels_per_uv = float(std::sqrt(std::abs(double(ref.scale.x) * ref.scale.y))) * texels_per_unit;
     return use;
 }
 
@@ -128,13 +129,13 @@ void choose_uv_sets(MaterialTable& table, const std::vector<const Material*>& wo
     table.warnings.clear();
     if (table.uv_sets.size() <= most_uv_sets) return;
     table.warnings.push_back({Diagnostic::Severity::warning,
-                              fmt::format("textures lie on {} UV sets; those on sets beyond {} are read as white", table.uv_sets.size(),
+                              fmt::format("textures use {} UV sets; those on sets beyond {} are read as white", table.uv_sets.size(),
                                           table.uv_sets[most_uv_sets - 1]),
                               "materials"});
     table.uv_sets.resize(most_uv_sets);
 }
 
-// The texture uses of one of a material's records, from `use` on.
+// Writes the texture uses of one record of a material, starting at index `use`.
 template <class Record, size_t N> void write_uses(MaterialTable& table, size_t use, const Material& material,
                                                   const std::array<CompiledSlot<Record>, N>& slots, Record& record) {
     for (const CompiledSlot<Record>& slot : slots) {
@@ -182,7 +183,7 @@ void build_material_table(MaterialTable& table, const Scene& scene, const Worker
     const std::vector<const Material*> worn = worn_materials(scene);
     std::vector<TextureSource> sources = texture_sources(scene, worn);
     if (sources != table.textures.sources) {
-        table.textures = {}; // frees the old texels before the new ones are there
+        table.textures = {}; // frees the old texels before allocating new ones
         table.textures = build_texture_table(std::move(sources), workers);
     }
     choose_uv_sets(table, worn);

@@ -1,4 +1,4 @@
-// A scene's materials as records that rays read, and what each of them needs of a kernel.
+// A scene's materials as records for kernels, and the kernel features that each needs.
 #pragma once
 
 #include "render/texture_table.h"
@@ -15,41 +15,41 @@ namespace blush {
 struct MaterialTable {
     std::vector<Id<Material>> ids;       // of records[1], records[2], ...; ascending
     std::vector<MaterialRecord> records; // the first is glTF's default material
-    std::vector<LayerRecord> layers;     // beside each of them
+    std::vector<LayerRecord> layers;     // parallel to `records`
     std::vector<TextureUse> uses;        // a fixed number per record, so that one can change alone
     TextureTable textures;
-    std::vector<int> uv_sets;            // the numbers of those that textures lie on, ascending, at most most_uv_sets
-    std::vector<Diagnostic> warnings;    // beside those of the textures
+    std::vector<int> uv_sets;            // the UV set numbers used by textures, ascending, at most most_uv_sets
+    std::vector<Diagnostic> warnings;    // in addition to those of the textures
 
-    // Of the default material for an id that does not exist.
+    // 0, the default material, for an unknown id.
     int32_t index_of(Id<Material> id) const;
     // Valid until the table changes.
     MaterialTables tables() const;
 };
 
-// Brings the table up to date with the scene; texels are kept if the scene still reads the same textures. The result depends
-// on the scene alone. Only textures that materials of some mesh read are in it. `workers`: share the work; null: none.
+// Updates the table to the scene; texels are kept if the scene still uses the same textures. The result depends on the scene
+// alone. Only textures used by materials of some mesh are included. `workers`: share the work; null: single-threaded.
 void build_material_table(MaterialTable& table, const Scene& scene, const Workers* workers = nullptr);
-// Rewrites the record of one material. False, and nothing has changed, if the table must be built anew: the set of textures
-// that are read, of their UV sets, or of materials is another.
+// Rewrites the record of one material. False, without changes, if the table must be rebuilt: the set of used textures, UV sets or
+// materials differs.
 bool update_material(MaterialTable& table, const Scene& scene, Id<Material> id);
 
-// What of a mesh a material's textures are laid out by.
+// The mesh attributes that a material's textures need.
 struct TextureReads {
     std::set<int> uv_sets;
     bool tangents = false;
 };
 TextureReads texture_reads(const Material& material);
 
-// Nits of a surface, before its texture; an unlit one does not shine.
+// Emission in nits, before its texture; 0 for unlit materials.
 Vec3 emission_of(const Material& material);
 inline bool is_black(const Vec3& v) { return v.x == 0 && v.y == 0 && v.z == 0; }
 
-// What a kernel must know to render the material right. Vertex colours are the geometry's and not among them.
+// Features that a kernel needs to render the material. Vertex colours are a feature of the geometry and not included.
 Features features_of(const Material& material);
 
-// Absorption coefficient in 1/m that leaves `color` of white light after `distance` metres: -ln(color) / distance. Colours are
-// cut to [2^-24, 1]: a colour of 0 would absorb infinitely, and no 24-bit mantissa sees the difference. No absorption for
+// Absorption coefficient in 1/m such that `color` of white light is left after `distance` metres: -ln(color) / distance. Colours
+// are clamped to [2^-24, 1]: 0 would give infinite absorption, and 24-bit mantissas cannot show the difference. No absorption for
 // distance 0, which stands for glTF's infinity.
 Vec3 absorption(const Vec3& color, float distance);
 

@@ -32,7 +32,7 @@ bool is_smooth(const Material& m) { return reflects(m) && unit(m.roughness) < sm
 } // namespace
 
 std::string missing_light(const Scene& scene, const std::vector<Id<Material>>& used) {
-    bool glass = false, mirror = false; // every smooth surface reflects a part
+    bool glass = false, mirror = false; // all smooth surfaces also reflect
     for (const Id<Material> id : used) {
         const Material* m = scene.materials.find(id);
         if (!m || !is_smooth(*m)) continue;
@@ -41,7 +41,7 @@ std::string missing_light(const Scene& scene, const std::vector<Id<Material>>& u
     }
     if (!mirror || !any_light_without_size(scene)) return {};
     const char* by = glass ? "through smooth glass or by reflection in smooth surfaces" : "by reflection in smooth surfaces";
-    return std::string("some light cannot be found: that of points, spots and suns without size ") + by +
+    return std::string("some light cannot be found: that of point, spot and sun lights of zero size, ") + by +
            "; give these lights a radius or an angle, or the material some roughness";
 }
 

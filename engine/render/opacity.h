@@ -1,4 +1,4 @@
-// How opaque a triangle is at a point: what Embree's filter asks for every candidate hit on an alpha material.
+// Opacity of a triangle at a point: called by Embree's filter for every candidate hit on a material with alpha.
 #pragma once
 
 #include "core/math.h"

@@ -1,4 +1,4 @@
-// What is known of a path, and what one step of it gives: the types that the estimator, its kernels and their observers share.
+// State of a path, and the result of one step: the types shared by the estimator, its kernels and diagnostics.
 #pragma once
 
 #include "render/camera.h"
@@ -7,49 +7,48 @@ namespace blush::inline BLUSH_ISA {
 
 template <class F> struct Path {
     Ray<F> ray;
-    Vec<F> beta;        // throughput: what radiance along the ray is worth to the pixel
-    F pdf;              // solid-angle density of the ray's direction; infinite after the camera and smooth lobes
-    Vec<F> normal;      // of the Receiver where the ray begins; only with Feature::light_tree
+    Vec<F> beta;        // throughput
+    F pdf;              // solid-angle pdf of the ray's direction; infinite after the camera and delta lobes
+    Vec<F> normal;      // receiver normal at the ray's origin; only with Feature::light_tree
     UInt<F> key, index; // of the sampler
-    Int<F> slot;        // which of the tile's samples it adds to
-    F cone;             // metres across where the ray begins (ray_cone.h); only with Feature::textures
-    Int<F> part;        // that the ray left, -1: the camera; only where lights may be linked
-    Int<F> dispersed;   // 1: carries the light of one wavelength, 0: of all; only with Feature::dispersion
+    Int<F> slot;        // index of the sample in the tile
+    F cone;             // footprint in metres at the ray's origin (ray_cone.h); only with Feature::textures
+    Int<F> part;        // that the ray left, -1: the camera; only if lights may be linked
+    Int<F> dispersed;   // 1: carries a single wavelength, 0: all; only with Feature::dispersion
 };
 
-// What the first surface of a path shows: the denoiser's and the picker's planes.
+// First-hit data of a path, for denoising and picking.
 template <class F> struct FirstHit {
     Vec<F> albedo, normal;
-    F depth;                // metres; 0: nothing was hit
+    F depth;                // metres; 0: miss
     Int<F> object, material;
 };
 
-// How a step was weighted, for those who want to know (path_log); kernels do not look and pay nothing. Valid where the step says that it
-// emits, connects or continues.
+// Weights of a step. Only read by path_log; dead code in kernels. Valid where the step emits, connects or continues.
 template <class F> struct StepWeights {
-    F emission;             // MIS weight of emission that was found
-    F light, light_pdf, light_bsdf_pdf; // MIS weight of the light sample; density it was drawn with; density the BSDF would have had
-    F survival;             // roulette's probability; 1 where it was not asked
-    Mask<F> asked;          // whether it was
-    Vec<F> arriving;        // throughput at the vertex, after absorption on the way
+    F emission;             // MIS weight of emission at the hit
+    F light, light_pdf, light_bsdf_pdf; // MIS weight of NEE; pdf of the light sample; pdf of the BSDF for it
+    F survival;             // survival probability of Russian roulette; 1 if not applied
+    Mask<F> asked;          // roulette was applied
+    Vec<F> arriving;        // throughput at the vertex, including absorption along the segment
 };
 
-// What a connection to another pixel's path needs to know of the first two vertices of a path (path_reuse.h).
+// First two vertices of a path, for connections by path reuse (path_reuse.h).
 template <class F> struct Junction {
-    Mask<F> lambertian;   // scatters the same radiance to all who are in front of ng and ns
+    Mask<F> lambertian;   // scatters equal radiance to all points in front of ng and ns
     Vec<F> position;
-    F clearance;          // metres along ng that keep a ray's origin off the surface
+    F clearance;          // offset in metres along ng that keeps a ray's origin off the surface
     Vec<F> ng, ns, reflectance;
 };
 
 template <class F> struct Step {
     Junction<F> junction; // at bounces 0 and 1 only
     Mask<F> emits, connects, continues;
-    Mask<F> breaks; // the throughput is no finite number: the path ends and its sample is spoilt, for the film to drop and count
+    Mask<F> breaks; // throughput is not finite: the path ends, and the film drops and counts the sample
     Vec<F> emitted; // add where `emits`
-    Vec<F> direct;  // add where `connects` and nothing lies on the shadow ray
-    Int<F> light;   // where that comes from: a record of the light table
-    UInt<F> shadow_mask; // what the shadow ray meets; only where lights are linked
+    Vec<F> direct;  // add where `connects` and the shadow ray is unoccluded
+    Int<F> light;   // light record of `direct`
+    UInt<F> shadow_mask; // mask of the shadow ray; only if lights are linked
     Ray<F> shadow;
     F shadow_distance;
     Path<F> next;   // where `continues` or `breaks`

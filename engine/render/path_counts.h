@@ -1,4 +1,4 @@
-// How many paths got how far.
+// Counts of paths by bounce.
 #pragma once
 
 #include <cstdint>
@@ -7,11 +7,11 @@ namespace blush {
 
 constexpr int most_counted_bounces = 64; // the last counts all further ones
 
-// At one bounce.
+// Counts at one bounce.
 struct PathCounts {
-    int64_t alive = 0;    // rays that were traced: at bounce 0 the camera's
-    int64_t asked = 0;    // paths that roulette was asked about before they went on,
-    int64_t survived = 0; // and how many of them it let go
+    int64_t alive = 0;    // traced rays; at bounce 0 camera rays
+    int64_t asked = 0;    // paths to which roulette was applied,
+    int64_t survived = 0; // and those that survived it
     bool operator==(const PathCounts&) const = default;
 };
 

@@ -1,4 +1,4 @@
-// One sample, vertex by vertex, in words: the kernels' own stages, one lane wide.
+// Text log of one sample, vertex by vertex, using the kernels' own stages with one lane.
 #include "core/parallel.h"
 #include "render/estimator_settings.h"
 #include "render/fault_finder.h"
@@ -14,12 +14,12 @@
 namespace blush {
 namespace {
 
-// What the film takes.
+// True if the film accepts it.
 bool is_sound(const Vec3& c) { return is_finite(c) && c.x >= 0 && c.y >= 0 && c.z >= 0; }
 
 std::string rgb(const Vec3& c) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", c.x, c.y, c.z); }
 
-// Nine digits tell single-precision numbers apart, wherever in the world.
+// Nine digits identify single-precision numbers at any distance from the origin.
 std::string point(const Vec3& p, const Vec3d& origin) {
     const Vec3d world = to_double(p) + origin;
     return fmt::format("({:.9g}, {:.9g}, {:.9g})", world.x, world.y, world.z);
@@ -55,7 +55,8 @@ struct Logger {
         }
         if (hit.instance == sphere_instance) {
             const LightTables& lights = compiled.tables().lights;
-            line("  hits       {}, a sphere that shines, at {:.6g} m", object_name(scene, lights.lights[lights.first_sphere + hit.triangle].object), hit.t);
+            line("  hits       {}, a sphere light, at {:.6g} m",
+                 object_name(scene, lights.lights[lights.first_sphere + hit.triangle].object), hit.t);
             return;
         }
         const Surface<float> s = surface_at<all_features, float>(compiled.tables(), hit, true);
@@ -70,8 +71,8 @@ struct Logger {
         const StepWeights<float>& w = step.weights;
         if (step.emits) line("  emission   contributes {}  MIS weight {:.6g}", rgb(step.emitted), w.emission);
         if (step.connects)
-            line("  light      contributes {}, {} over {:.6g} m  pdf {:.6g}, the BSDF's {:.6g}  MIS weight {:.6g}", rgb(step.direct),
-                 has_light<float>(reached) ? "arrives" : "is blocked", step.shadow_distance, w.light_pdf, w.light_bsdf_pdf, w.light);
+            line("  light      contributes {}, {} over {:.6g} m  pdf {:.6g}, BSDF pdf {:.6g}  MIS weight {:.6g}", rgb(step.direct),
+                 has_light<float>(reached) ? "unoccluded" : "occluded", step.shadow_distance, w.light_pdf, w.light_bsdf_pdf, w.light);
         const bool roulette = bounce + 1 >= settings.roulette.start && settings.roulette.rule != Roulette::Rule::off;
         if (roulette && w.survival < 1)
             line("  roulette   {} goes on with probability {:.6g}", to_string(settings.roulette), w.survival);
@@ -99,7 +100,7 @@ std::string trace_sample(const Scene& scene, const RenderSettings& settings, int
     Logger log{lowered, compiled, context.settings, {}};
     log.line("pixel {},{} sample {} seed {}", x, y, sample, settings.seed);
 
-    // A path of many vertices says nothing new: the log stops where a reader would.
+    // Limits the length of the log; long paths repeat themselves.
     constexpr int longest_log = 1000;
     const auto scratch = std::make_unique<TileScratch>();
     workers.run([&] {
@@ -109,7 +110,7 @@ std::string trace_sample(const Scene& scene, const RenderSettings& settings, int
             return true;
         });
         if (settings.reuse > 1)
-            log.line("path reuse: the film receives what this path found shared among {} pixels, and shares of what theirs found; alone it "
+            log.line("path reuse: the film shares the light of this path among {} pixels and adds shares of their light; alone this path "
                      "is worth",
                      settings.reuse);
         log.line("radiance {}", rgb(radiance));

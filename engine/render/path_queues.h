@@ -1,4 +1,4 @@
-// The queues of a tile: paths and shadow rays in and out of registers, and their rays through Embree.
+// The queues of a tile: loads and stores paths and shadow rays in registers, and traces their rays with Embree.
 #pragma once
 
 #include "render/kernels/kernel.h"
@@ -64,7 +64,8 @@ template <class F> void append(ShadowQueue& q, const Step<F>& s, const Int<F>& s
     q.size += count(lanes);
 }
 
-// The random number of a ray for stochastic opacity; salt tells the rays of one path apart: 2 * bounce, and 2 * bounce + 1 of its shadow ray.
+// Per-ray random number for stochastic opacity; salt distinguishes the rays of a path: 2 * bounce, and 2 * bounce + 1 for its
+// shadow ray.
 template <class F> UInt<F> opacity_random(const UInt<F>& key, const UInt<F>& index, uint32_t salt) {
     return key ^ pcg_hash(UInt<F>(index + salt * 0x9e3779b9u));
 }
@@ -74,7 +75,7 @@ template <class F> Hit<F> load_hit(const HitColumns& h, int k) {
             load<Int<F>>(h.triangle + k)};
 }
 
-// Closest hits of the queue's path rays. `random` is written where something is not opaque.
+// Closest hits of the queue's path rays. `random` is written if some material is not opaque.
 template <class F>
 void trace_rays(const KernelContext& context, Column<uint32_t>& random, const PathQueue& q, int bounce, HitColumns& h) {
     const bool alpha = context.accel->has_alpha();
@@ -91,7 +92,7 @@ inline RayArrays shadow_rays_of(const KernelContext& context, const ShadowQueue&
             context.scene->links.lit_sets ? q.mask.data : nullptr};
 }
 
-// What shadow ray k carries arrives.
+// Adds the light of unoccluded shadow ray k.
 inline void add_shadow_light(TileScratch& scratch, const ShadowQueue& q, int k) {
     const int slot = q.slot[k];
     scratch.r[slot] += double(q.r[k]);

@@ -1,20 +1,21 @@
 // Path reuse: the pixels of a small group share the second vertices of their paths (Bekaert, Sbert and Halton 2002,
 // "Accelerating Path Tracing by Re-Using Paths").
 //
-// Pixel k of a group sees a Lambertian point x_k of reflectance rho_k, whose path goes on to a point y_k. If that is Lambertian
-// too, it sends the same radiance L_k to everybody on its side, and every x_i that sees y_k could have found it. With the density
+// Pixel k of a group sees a Lambertian point x_k of reflectance rho_k, whose path continues to a point y_k. If y_k is Lambertian
+// too, it sends the same radiance L_k in all directions on its side, and every x_i that sees y_k could have sampled it. With the
+// density
 //   G_i(y) = max(0, cos theta_i) cos theta_y / (pi d^2)
 // per area with which x_i samples y, and V its visibility, the balance heuristic (Veach 1997, section 9.2) over all members as
 // strategies for y gives pixel i
 //   rho_i sum_k [ V_ik G_i(y_k) / sum_j V_jk G_j(y_k) ] L_k.
-// Where surfaces also aim at what focuses light (focus.h), x samples y more often than G says, D_i(y) >= G_i(y) / 2: then D stands in the
-// sum, and L_k, which a path that was drawn with D_k brings home, is D_k / G_k times what it brings.
-// The shares of a vertex sum to one, so reuse makes no outliers. L_k is any unbiased estimate of what y_k scatters: what roulette
-// did on the way does not matter. Emission of y_k itself stays with pixel k, where its MIS weight knows the density it was found with.
+// With caustic guiding (focus.h), x samples y with a density D_i(y) >= G_i(y) / 2: then D replaces G in the sum, and L_k is D_k /
+// G_k times the radiance of a path that was sampled with D_k.
+// The shares of a vertex sum to one, so reuse creates no outliers. L_k is any unbiased estimate of the radiance scattered by y_k,
+// so Russian roulette does not matter. Emission of y_k itself stays with pixel k, where the pdf for its MIS weight is known.
 //
-// Whether x_j takes part depends on x_j alone, and whether it can have y on these two points alone, never on directions drawn: the
-// paths that are shared and those that are not make up all of path space, each once. What stochastic opacity decides along a
-// connection is drawn for each anew, as if V were the path's own: the expectation over all of them is the same.
+// Whether x_j takes part depends on x_j alone, and whether it can have y depends on these two points alone, never on sampled
+// directions: the shared and unshared paths partition path space. Stochastic opacity along a connection is decided independently
+// for each connection, as if V were the path's own; the expectation is the same.
 #pragma once
 
 #include "render/estimator.h"
@@ -26,19 +27,20 @@
 
 namespace blush::inline BLUSH_ISA {
 
-// Smaller reflectances are black: too small to divide by.
+// Smaller reflectances count as black: too small to divide by.
 constexpr float least_reflectance = 1e-6f;
 
-// And no radiance that would then overflow is shared.
+// Limit of shared radiance, so that dividing by the reflectance does not overflow.
 constexpr float most_radiance = least_reflectance * std::numeric_limits<float>::max();
 
-// Densities per square metre beyond these do not take part: sums and quotients of those within neither overflow nor vanish.
+// Valid range of densities per square metre: sums and quotients within it neither overflow nor vanish.
 constexpr float least_density = 0x1p-100f, most_density = 0x1p100f;
 
-// Salt of the random numbers for opacity along connections; those of a path's own rays are numbered from 0.
+// Salt of the random numbers for opacity along connections; salts of a path's own rays count from 0.
 constexpr uint32_t connection_salt = 0xffffffffu;
 
-// Notes the vertices of paths k, k + 1, ... of the queue at bounce 0 or 1. At bounce 0 nothing has been compacted: the k-th path is slot k.
+// Stores the vertices of paths k, k + 1, ... of the queue at bounce 0 or 1. At bounce 0 there is no compaction: the k-th path is
+// slot k.
 template <class F>
 void store_junction(ReuseColumns& reuse, const PathQueue& now, int k, int bounce, const Path<F>& path, const Junction<F>& j) {
     JunctionColumns& c = bounce == 0 ? reuse.first : reuse.second;
@@ -64,7 +66,8 @@ void store_junction(ReuseColumns& reuse, const PathQueue& now, int k, int bounce
     }
 }
 
-// To be called when a path's radiance holds all that is its own - what reached x, and what x found: what comes after can be shared.
+// Call when a path's radiance holds exactly its unshared part (light arriving at x, and emission hit from x): later contributions
+// can be shared.
 inline void set_own_radiance_aside(ReuseColumns& reuse, TileScratch& scratch, int paths) {
     const auto set_aside = [&](double* r, double* g, double* b, RadianceColumns& own) {
         copy_radiance(r, g, b, paths, own);
@@ -82,7 +85,8 @@ template <class F> Vec<F> gather_columns(const float* x, const float* y, const f
     return {gather(x, i), gather(y, i), gather(z, i)};
 }
 
-// G of every member and vertex of the batch, and a ray from the vertex to the member where it is not known to be seen.
+// Computes G for every member and vertex of the batch, and queues visibility rays from vertex to member where visibility is
+// unknown.
 template <class F> void queue_connections(const FocusTables& focus, const ReuseColumns& reuse, ReuseBatch& batch, int group_size, ShadowQueue& q) {
     const int pairs = batch.vertices * group_size, last_member = group_size - 1, shift = std::countr_zero(unsigned(group_size));
     const JunctionColumns &a = reuse.first, &b = reuse.second;
@@ -102,7 +106,8 @@ template <class F> void queue_connections(const FocusTables& focus, const ReuseC
         const Vec<F> to = at_y - at_x;
         const F d2 = dot(to, to);
         const F cos_x = dot(ns_x, to), cos_y = -dot(ng_y, to); // times d
-        // Where sampling x would reject the direction, or y would look different from there: not for its own path, which has come through.
+        // False where sampling at x would reject the direction, or y would look different from there. Not tested for the path's
+        // own pixel.
         const Mask<F> possible = dot(ng_x, to) > F(0.f) && -dot(ns_y, to) >= F(least_facing) * sqrt(d2);
         F density = max(cos_x, F(0.f)) * max(cos_y, F(0.f)) / (d2 * d2);
         density = select(present && (own || possible) && density >= F(least_density) && density <= F(most_density), density, F(0.f));
@@ -119,7 +124,7 @@ template <class F> void queue_connections(const FocusTables& focus, const ReuseC
 
         const Mask<F> asks = !own && density > F(0.f);
         if (!any(asks)) continue;
-        // Both ends are off their surfaces on the side they face each other from.
+        // Both ends are offset to the side of their surface that faces the other.
         const Vec<F> from = offset_origin(at_y, ng_y * gather(b.clearance.data, y));
         const Vec<F> ray = offset_origin(at_x, ng_x * gather(a.clearance.data, x)) - from;
         const F distance = length(ray);
@@ -138,7 +143,7 @@ template <class F> void queue_connections(const FocusTables& focus, const ReuseC
     }
 }
 
-// Turns the densities of each vertex into the members' shares of it, up to who reflects which colour.
+// Turns the densities of each vertex into the members' shares, ignoring black reflectances.
 inline void weigh(ReuseBatch& batch, int group_size, Vec3* share) {
     for (int v = 0; v < batch.vertices; ++v) {
         const int own = batch.own_seat[v], first = own / group_size * group_size;
@@ -149,7 +154,7 @@ inline void weigh(ReuseBatch& batch, int group_size, Vec3* share) {
             sum.y += drawn[m] * batch.reflects_g[first + m];
             sum.z += drawn[m] * batch.reflects_b[first + m];
         }
-        // Rounding may have hidden a vertex from its own pixel, which then keeps what it found there.
+        // Rounding may hide a vertex from its own pixel; then the pixel keeps its own radiance.
         const bool seen = drawn[own - first] > 0;
         batch.shared[own] = seen;
         const float more = seen ? drawn[own - first] / batch.density[v * group_size + own - first] : 1.f;
@@ -163,7 +168,7 @@ struct SharedRadiance {
     double *r, *g, *b;
 };
 
-// Hands the radiance that the batch's paths brought home to all who share in it.
+// Distributes the radiance of the batch's paths among all members.
 template <class F>
 void distribute(const ReuseColumns& reuse, ReuseBatch& batch, int group_size, const Vec3* share, const SharedRadiance& radiance) {
     const int seats = batch.groups * group_size;
@@ -196,13 +201,13 @@ void distribute(const ReuseColumns& reuse, ReuseBatch& batch, int group_size, co
     }
 }
 
-// Slot in the tile of a pixel of the block whose first pixel is (x, y) of the tile; -1 if that is beyond the film.
+// Tile slot of a pixel of the block whose first pixel is (x, y) of the tile; -1 if outside the film.
 inline int slot_in_block(const TileJob& job, int x, int y, const BlockGroups::Pixel& pixel, int sample) {
     const int px = x + pixel.x, py = y + pixel.y;
     return px < job.width && py < job.height ? (py * job.width + px) * job.samples + sample : -1;
 }
 
-// Gives the next group of the batch its seats, and lists the vertices it has to share.
+// Adds the next group to the batch, and lists its vertices to share.
 inline void seat_group(const ReuseColumns& reuse, const TileScratch& scratch, ReuseBatch& batch, const int* slots, int group_size) {
     const int first = batch.groups++ * group_size;
     int members = 0;
@@ -222,7 +227,7 @@ inline void seat_group(const ReuseColumns& reuse, const TileScratch& scratch, Re
         if (slot < 0) continue;
         const int place = reuse.second_of[slot];
         if (place < 0 || !reuse.second.takes_part[place]) continue;
-        // Nothing to share, or nothing that others should get or that can be divided: the film counts it, for this pixel alone.
+        // Black or invalid radiance is not shared: it stays in this pixel, where the film counts it.
         const double r = scratch.r[slot], g = scratch.g[slot], b = scratch.b[slot];
         if (!(r >= 0 && g >= 0 && b >= 0 && r + g + b > 0 && r + g + b <= double(most_radiance))) continue;
         batch.place[batch.vertices] = place;
@@ -237,7 +242,7 @@ template <class F> [[gnu::flatten]] void share_batch(const KernelContext& contex
         ShadowQueue& q = scratch.shadows;
         queue_connections<F>(context.scene->focus, reuse, batch, group_size, q);
         const RayArrays rays{q.ox, q.oy, q.oz, q.dx, q.dy, q.dz, q.distance, context.accel->has_alpha() ? q.random.data : nullptr};
-        // Not coherent: those of one vertex are a narrow fan, but packets hold pieces of several.
+        // Not coherent: rays of one vertex form a narrow fan, but packets mix several vertices.
         context.accel->occluded(rays, q.size, false, scratch.blocked);
         scratch.shadow_rays += q.size;
         for (int k = 0; k < q.size; ++k)
@@ -245,19 +250,20 @@ template <class F> [[gnu::flatten]] void share_batch(const KernelContext& contex
         Vec3 share[ReuseBatch::most_seats];
         weigh(batch, group_size, share);
         distribute<F>(reuse, batch, group_size, share, {scratch.r, scratch.g, scratch.b});
-        // Light by the number of scatterings is shared as its sum is.
+        // Bounce planes are shared like the total radiance.
         for (int k = 2; scratch.bounces && k < scratch.bounces->recorded; ++k) {
             RadianceColumns& after = scratch.bounces->after[size_t(k)];
             distribute<F>(reuse, batch, group_size, share, {after.r, after.g, after.b});
         }
-        // So is light by the group that it came from.
+        // Light groups likewise.
         if (scratch.groups)
             for (RadianceColumns& group : scratch.groups->all) distribute<F>(reuse, batch, group_size, share, {group.r, group.g, group.b});
     }
     batch.groups = batch.vertices = 0;
 }
 
-// After all paths of the tile have ended and their own radiance was set aside: connects, shares, and puts it back.
+// After all paths of the tile have ended and their unshared radiance was stored: connects, shares, and adds the unshared part
+// again.
 template <class F> void share_paths(const KernelContext& context, const TileJob& job, TileScratch& scratch) {
     const ReuseGroups& groups = context.settings.reuse;
     ReuseColumns& reuse = *scratch.reuse;

@@ -7,9 +7,9 @@ namespace blush {
 namespace {
 
 constexpr double per_half = double(SamplePlan::pilot_samples) / 2;
-constexpr double dark = 0.1; // brightness below which noise does not show; that of relmse
+constexpr double dark = 0.1; // luminance below which noise is invisible; as in relmse
 
-// Each number and its neighbours along one axis of a grid, 1 : 4 : 1; past the edge the last one stands again.
+// Smooths along one axis of a grid with weights 1 : 4 : 1; borders repeat the last value.
 TileNoise smooth(const TileNoise& values, int across, int down, int dx, int dy) {
     TileNoise result;
     const auto at = [&](int x, int y) { return values[size_t(std::clamp(y, 0, down - 1) * across + std::clamp(x, 0, across - 1))]; };
@@ -31,7 +31,7 @@ double PilotNoise::of_pixel(const Film& film, size_t pixel, int half) const {
         const double difference = (sum - 2 * first_sum) / per_half, mean = sum / per_half;
         return difference * difference / (mean * mean + dark * dark);
     };
-    // A shadow is seen over something white.
+    // The shadow is assumed to be over white.
     return channel(first.x, both.x) + channel(first.y, both.y) + channel(first.z, both.z) + 3 * film.shadow_variance(pixel);
 }
 

@@ -1,4 +1,4 @@
-// What adaptive sampling goes by: the noise of the film's tiles during the pilot, each half of the film by itself.
+// Pilot variance for adaptive sampling: the noise of the film's tiles during the pilot, separately for each half of the film.
 #pragma once
 
 #include "core/vec.h"
@@ -11,19 +11,19 @@
 
 namespace blush {
 
-// The noise of a pixel is judged by how much its mean over the first part of the pilot differs from that over the second, so that what the
-// sampler's stratification takes away does not count. Its square is divided as relmse divides: the error that is reported is the one that
-// samples are spent on. Divided by less, dark parts of a picture get too few samples, and their relative error grows by more than bright
-// parts gain. A firefly makes its pixel bright too, so one pixel never counts for more than a few. A tile's noise is the root of the mean
-// over its pixels, smoothed over the tiles around, for what made a firefly here can make one there.
+// A pixel's noise is the difference of its means over the first and second part of the pilot, which excludes variance removed by
+// stratification. Its square is divided as in relmse, so that samples are allocated by the reported error. A smaller divisor
+// gives too few samples to dark regions, whose relative error grows more than bright regions gain. One pixel's weight is limited,
+// because a firefly makes its pixel bright. A tile's noise is the root mean square over its pixels, smoothed over neighbouring
+// tiles, because fireflies can occur there too.
 class PilotNoise {
 public:
-    // When the film holds half of the pilot: remembers its sums.
+    // Call when the film holds half of the pilot: stores its sums.
     void mark(const Film& film);
-    // When it holds all of the pilot; forgets the sums. For each half, the noise of its tiles.
+    // Call when it holds the whole pilot: returns the noise of the tiles for each half and drops the sums.
     std::array<TileNoise, 2> measure(const Film& film);
 
-    // The sums that it remembers, both halves of each pixel side by side, to be given to another one; empty if none.
+    // The stored sums, both halves of each pixel adjacent, for transfer to another object; empty if none.
     const std::vector<Vec3d>& marked() const { return marked_; }
     void restore(std::vector<Vec3d> marked) { marked_ = std::move(marked); }
 

@@ -14,7 +14,8 @@
 namespace blush {
 namespace {
 
-// What a kernel may read before it looks at masks: one triangle that nothing can hit, so that an empty scene needs no special case.
+// Kernels may read element 0 before they apply masks: one triangle that rays cannot hit, so that an empty scene is no special
+// case.
 std::vector<SceneObject> placeholder_objects() {
     static const GeometryPtr point = [] {
         auto g = std::make_shared<Geometry>();
@@ -47,7 +48,7 @@ bool has_catchers(const Scene& scene) {
     return std::ranges::any_of(scene.nodes, [](const auto& entry) { return entry.value.shadow_catcher; });
 }
 
-// Which rays meet each object: the bodies of lights may be hidden from the camera, and shadow catchers are.
+// Ray masks by object: meshes of area lights may be hidden from the camera, and shadow catchers always are.
 std::vector<uint32_t> masks_of(const Scene& lowered, const std::vector<SceneObject>& objects, const CasterSets& casters) {
     std::vector<uint32_t> masks;
     const bool any_catches = has_catchers(lowered);
@@ -165,7 +166,7 @@ void RenderScene::aim(std::span<const Vec3> gains) {
     lights_.fill(tables_.lights);
 }
 
-// Only light that a ray can find is focused for it, and who wants the BSDF alone gets that.
+// Casters only matter if rays can find light, and Strategy::bsdf excludes caustic guiding.
 void RenderScene::update_focus(const Scene& scene, const RenderSettings& settings) {
     const bool found = lights_.emissive_triangles + lights_.sphere_lights > 0 || !lights_.suns.empty();
     const bool narrow_sky = lights_.environment >= 0 && scene.environment.kind != Environment::Kind::constant;
@@ -174,8 +175,8 @@ void RenderScene::update_focus(const Scene& scene, const RenderSettings& setting
 }
 
 void RenderScene::update_lights(const Scene& scene, const RenderSettings& settings, const UpdatePlan& plan, const LightGroups* groups) {
-    // What gives no light needs no map, and where nobody aims, nothing to aim with.
-    // Linked lights are asked about by record, and sampled where rays must not find them.
+    // An environment without light needs no map, and without NEE no importance map. Linked lights need records, and are sampled
+    // by NEE where rays must not find them.
     const Aim aim_before = aim_;
     aim_ = settings.strategy == Strategy::bsdf && !has_links(scene) ? Aim::at_points : Aim::at_all;
     const bool needs_map = gives_light(scene.environment);
@@ -186,7 +187,7 @@ void RenderScene::update_lights(const Scene& scene, const RenderSettings& settin
     tables_.environment = environment_.tables();
     if (!plan.lights) return;
     const Vec3d mean = environment_.integral() * (1 / (4 * 3.14159265358979323846));
-    // A backdrop is seen and lights nothing.
+    // A backdrop is visible but lights nothing.
     const bool shines = scene.environment.lights_scene && needs_map && environment_.shines;
     lights_ = build_light_table(scene, materials_, geometry_, tables_, spheres_, {shines, to_float(mean)}, extent_, aim_);
     lights_.fill(tables_.lights);

@@ -1,4 +1,4 @@
-// The scene as rays see it, kept up to date with the one the user edits: the only room that knows both.
+// The compiled scene: tables that kernels read, kept up to date with the edited scene. Only this file knows both.
 #pragma once
 
 #include "core/parallel.h"
@@ -24,32 +24,32 @@ namespace blush {
 
 class RenderScene {
 public:
-    // Carries out `plan` for a scene with area lights lowered. After it all tables are those that full_plan() would give. `groups`: of its
-    // lights; null: nobody mixes.
+    // Executes `plan` for a scene with expanded area lights. Afterwards all tables equal those of full_plan(). `groups`: light
+    // groups of the scene; null: no light mix.
     void update(const Scene& lowered, const RenderSettings& settings, const UpdatePlan& plan, const Workers& workers,
                 const LightGroups* groups = nullptr);
-    // Aims at lights as if each group shone with its gain, until the next update of lights. The picture stays what it is on average.
+    // Weights light selection by the groups' gains, until the next update of lights. The image's expectation does not change.
     void aim(std::span<const Vec3> gains);
 
-    // Positions in them are about origin().
+    // Positions are relative to origin().
     const SceneTables& tables() const { return tables_; }
     const Vec3d& origin() const { return extent_.origin; }
     const Accel& accel() const { return accel_; }
-    // What the scene under these settings needs of a kernel.
+    // Kernel features that the scene needs under these settings.
     Features features() const { return features_; }
-    // The id of a record of the material table; 0 for glTF's default material and for -1.
+    // Material id of a table record; 0 for glTF's default material and for -1.
     Id<Material> material_id(int32_t index) const;
-    // And back; 0 for one that it does not have.
+    // Inverse of material_id(); 0 for an unknown id.
     int32_t material_index(Id<Material> id) const { return materials_.index_of(id); }
-    // By part, 1 if the part catches shadows (shadow_catcher.h); empty: none does.
+    // By part: 1 if the part is a shadow catcher (shadow_catcher.h); empty: no shadow catchers.
     const std::vector<uint8_t>& catchers() const { return catchers_; }
-    // Some light samples or rays can find light.
+    // True if NEE or rays can find light.
     bool has_light() const { return lights_.count > 0 || lights_.emissive_triangles > 0 || lights_.environment >= 0; }
-    // missing_light.h
+    // See missing_light.h.
     const std::string& missing_light() const { return missing_light_; }
-    // All but the kernel and the ledger.
+    // Everything except the kernel and the feature report.
     CompiledInfo info() const;
-    // `lowered` as last given; the film that it is rendered to.
+    // `lowered` as passed last time; the film that is rendered to.
     Ledger ledger(const Scene& lowered, const FilmSize& film) const;
 
 private:
@@ -64,7 +64,7 @@ private:
     MaterialTable materials_;
     std::vector<SceneObject> objects_;
     BakedTransforms baked_;
-    std::vector<Diagnostic> left_out_; // objects, and copies of them
+    std::vector<Diagnostic> left_out_; // objects, and instances of them
     std::vector<SphereLight> spheres_;
     AttributeNeeds needs_;
     ExtentCache extents_;
@@ -76,18 +76,18 @@ private:
     std::vector<uint8_t> catchers_; // by part; empty: none
     LightLinks links_;
     LightTable lights_;
-    std::vector<int32_t> group_of_light_, group_of_part_; // empty: nobody mixes
+    std::vector<int32_t> group_of_light_, group_of_part_; // empty: no light mix
     EnvironmentTable environment_;
     FocusTable focus_;
     Accel accel_;
     SceneTables tables_;
     Features features_;
     bool has_geometry_ = false, has_environment_map_ = false;
-    Aim aim_ = Aim::at_all; // at lights, as last told
+    Aim aim_ = Aim::at_all; // as passed last time
     std::string missing_light_;
 };
 
-// The view as kernels read it, at the given aspect = width / height, its position about `origin`.
+// The camera for kernels, at the given aspect = width / height, positioned relative to `origin`.
 CameraRecord camera_record(const View& view, float aspect, const Vec3d& origin);
 
 } // namespace blush

@@ -24,33 +24,33 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double rest_seconds = 1; // without a submission, after which sampling follows the mix
+constexpr double rest_seconds = 1; // without a submission, until light selection follows the mix
 
 double seconds_between(Clock::time_point a, Clock::time_point b) { return std::chrono::duration<double>(b - a).count(); }
 
 struct Submission {
     uint64_t revision = 0;
-    uint64_t image = 0; // counts submissions that ask for another image, not only for other stop rules
+    uint64_t image = 0; // counts submissions that change the image, not only stop rules
     Scene scene;
     RenderSettings settings;
     PlaneSet planes;
-    FilmStatePtr film; // to go on from
+    FilmStatePtr film; // to continue from
     Clock::time_point when;
-    std::shared_ptr<const LightGroups> groups; // of the scene that began the image; null: its lights are not mixed
+    std::shared_ptr<const LightGroups> groups; // of the scene that began the image; null: no light mix
 
-    // What the image is rendered from: the mix alone has changed since.
+    // The scene that the image is rendered from: later ones differ in the mix only.
     const Scene& base() const { return groups ? groups->base : scene; }
 };
 
-// Is it the same image: one that looks the same, or is the same but for the mix of lights, and has all the planes?
+// True if rendering continues the same image: equal except for the light mix, and with all planes.
 bool continues(const Submission& last, const Submission& next) {
     if (!last.planes.covers(next.planes)) return false;
     if (!diff(last.scene, last.settings, next.scene, next.settings).affects_image()) return true;
     return last.groups && same_image(last.settings, next.settings) && mixing_of(*last.groups, next.scene);
 }
 
-// Gives the submission its image: the last one's, which is what it returns, or a new one. Samples that come from elsewhere make another
-// image, even if it would look the same.
+// Sets the submission's image number: that of the last submission (returns true) or a new one. Loaded samples always start a new
+// image.
 bool name_image(Submission& next, const std::optional<Submission>& last, bool has_samples) {
     const bool same = last && !has_samples && continues(*last, next);
     next.image = (last ? last->image : 0) + !same;
@@ -60,7 +60,7 @@ bool name_image(Submission& next, const std::optional<Submission>& last, bool ha
     return same;
 }
 
-// The resolution scale folded into the size.
+// Multiplies the size by the resolution scale.
 RenderSettings at_film_size(RenderSettings settings) {
     const auto scaled = [&](int n) { return std::max(1, int(std::lround(double(n) * double(settings.resolution_scale)))); };
     settings.width = scaled(settings.width);
@@ -80,36 +80,36 @@ struct RenderSession::State {
     SessionOptions options;
     std::function<void()> on_frame;
 
-    std::mutex submitting; // one submission after the other; guards the last one
+    std::mutex submitting; // serialises submissions; guards last_submitted
     std::optional<Submission> last_submitted;
 
-    // Guards the letter box and what the outside may look at.
+    // Guards the pending submission and the published state.
     mutable std::mutex mutex;
     std::condition_variable wake;
     std::optional<Submission> pending;
     bool paused = false;
-    std::optional<uint64_t> film_asked; // of this revision
+    std::optional<uint64_t> film_asked; // revision of the requested film
     std::optional<KeptFilm> kept_film;
     Showcase showcase;
     SessionStatus status;
 
-    // What tiles compare with before they begin: one load, no lock.
+    // Read by tiles before they begin: one load, no lock.
     std::atomic<uint64_t> wanted_image{0};
     std::atomic<bool> quit{false};
     std::atomic<bool> film_wanted{false}; // film_asked holds a value
-    Gate gate;                            // shut while processors are left to others
+    Gate gate;                            // closed while rendering yields to the UI
 
-    // The render thread's own.
+    // Used only by the render thread.
     std::optional<Renderer> renderer;
     FramePool frames;
     Submission current;
     Scheduler scheduler;
     std::string failure, not_continued; // empty: none
     bool has_scene = false, has_first_image = false;
-    bool aims_at_mix = false; // lights are picked by what they are worth in the mix by now
+    bool aims_at_mix = false; // light selection follows the current mix
     double first_image_seconds = 0, samples_per_second = 0;
     ErrorCadence error_cadence;
-    // Of the image, the newest; a frame that gets none of its own shows it.
+    // Latest error estimate of this image; frames without their own reuse it.
     struct Estimated {
         ErrorEstimate error;
         int64_t samples = 0;
@@ -119,9 +119,10 @@ struct RenderSession::State {
     } estimated;
     std::thread thread;
 
-    std::unique_ptr<BackgroundDenoiser> denoiser; // always there; last, so that it goes before what it answers to
+    // always set; last member, so that it is destroyed before the members that its callbacks use
+    std::unique_ptr<BackgroundDenoiser> denoiser;
 
-    // With the mutex held.
+    // Requires the mutex.
     SessionStatus::State due_state() const;
     bool must_show() const { return has_scene && !has_first_image; }
     bool has_work() const { return due_state() == SessionStatus::State::rendering; }
@@ -152,7 +153,7 @@ SessionStatus::State RenderSession::State::due_state() const {
     return stands_aside() ? SessionStatus::State::aside : SessionStatus::State::rendering;
 }
 
-// Tells the outside what state this is, or that it is passing through another one.
+// Publishes the current state, or a transient one.
 void RenderSession::State::announce(std::optional<SessionStatus::State> passing) {
     {
         const std::lock_guard lock(mutex);
@@ -165,7 +166,7 @@ void RenderSession::State::announce(std::optional<SessionStatus::State> passing)
     on_frame();
 }
 
-// Rarely enough not to be felt, unless it is wanted.
+// Keeps the cost negligible, unless an estimate is requested.
 void RenderSession::State::estimate_error(Frame& frame, bool wanted) {
     const bool mixed_anew = estimated.samples > 0 && estimated.gains != frame.gains;
     const ErrorCadence::Picture picture{frame.samples, double(frame.width) * double(frame.height), frame.seconds,
@@ -194,7 +195,7 @@ std::shared_ptr<Frame> RenderSession::State::resolved(bool wants_error) {
     return frame;
 }
 
-// Denoised groups follow the mix without being denoised again.
+// Remixes denoised groups without denoising again.
 void RenderSession::State::mix_denoised(const Frame& frame) {
     const DenoisedPtr before = look().denoised;
     if (!before || !before->groups || before->gains == frame.gains || frame.light_groups != before->groups->of) return;
@@ -203,14 +204,14 @@ void RenderSession::State::mix_denoised(const Frame& frame) {
     showcase.replace(before, std::move(after));
 }
 
-// Hands out the film as it is.
+// Publishes the film as it is.
 void RenderSession::State::publish() {
     const std::shared_ptr<Frame> frame = resolved();
     mix_denoised(*frame);
     if (!has_first_image) first_image_seconds = seconds_between(current.when, Clock::now());
     has_first_image = true;
     frame->first_image_seconds = first_image_seconds;
-    const Pictures previous = look(); // freed without the lock
+    const Pictures previous = look(); // freed after unlocking
     const std::lock_guard lock(mutex);
     if (denoiser->offer(current.image, frame))
         showcase.withhold(current.image, frame);
@@ -218,10 +219,10 @@ void RenderSession::State::publish() {
         showcase.show(current.image, frame);
 }
 
-// On the denoiser's thread.
+// Called on the denoiser's thread.
 void RenderSession::State::take_denoised(uint64_t image, const FramePtr& source, DenoisedPtr denoised) {
     const Pictures previous = look();
-    // The mix may have moved on while it was made.
+    // The mix may have changed during denoising.
     if (denoised && denoised->groups && previous.frame && previous.frame->light_groups == denoised->groups->of)
         if (previous.frame->gains != denoised->gains) denoised = remixed(*denoised, previous.frame->gains);
     {
@@ -234,7 +235,7 @@ void RenderSession::State::take_denoised(uint64_t image, const FramePtr& source,
     on_frame();
 }
 
-// On the denoiser's thread: they are freed.
+// Called on the denoiser's thread after its networks were freed.
 void RenderSession::State::forget_networks() {
     {
         const std::lock_guard lock(mutex);
@@ -270,7 +271,7 @@ void RenderSession::State::take_up(Submission next) {
         scheduler.change_stop_rules(settings);
         renderer->set_planes(with_first_hits(current.planes, options));
         if (current.groups) renderer->update(current.scene, settings);
-        if (has_first_image) publish(); // the same picture answers the new revision
+        if (has_first_image) publish(); // the unchanged image answers the new revision
     }
     aims_at_mix = false;
     announce();
@@ -287,7 +288,7 @@ void RenderSession::State::go_on_from(const FilmState& film) {
 
 void RenderSession::State::keep_film(uint64_t revision) {
     KeptFilm kept{.revision = revision};
-    Result<FilmState> film = Error{"", "the image was changed in that moment", ""};
+    Result<FilmState> film = Error{"", "the image changed before its film was saved", ""};
     if (renderer && has_first_image && revision == current.revision) film = renderer->save_film(current.settings.first_sample);
     if (film) {
         film->seconds = scheduler.seconds();
@@ -340,7 +341,7 @@ void RenderSession::State::fail(std::string why, std::optional<uint64_t> asked) 
     failure = std::move(why);
     if (asked) answer({.revision = *asked, .why_none = failure});
     has_scene = has_first_image = false;
-    renderer.reset(); // what it holds is no longer known to match any scene
+    renderer.reset(); // its state may no longer match any scene
     announce();
 }
 
@@ -353,10 +354,11 @@ void RenderSession::State::run() {
             std::unique_lock lock(mutex);
             wake.wait(lock, [&] { return quit || film_asked || (pending && !stands_aside()) || has_work() || due_state() != status.state; });
             if (quit) return;
-            // Before the image goes that it is asked of.
+            // Before the requested image is replaced.
             asked = std::exchange(film_asked, std::nullopt);
             film_wanted = false;
-            // What was taken up is shown once before the next is looked at: else a drag faster than the updates would show nothing.
+            // Show an applied submission once before applying the next: otherwise a drag faster than the updates would show
+            // nothing.
             if (!asked && !must_show() && !stands_aside()) taken.swap(pending);
             work = has_work();
         }
@@ -406,7 +408,7 @@ bool RenderSession::submit(uint64_t revision, const Scene& scene, const RenderSe
     {
         const std::lock_guard lock(s.mutex);
         s.wanted_image = next->image;
-        // Samples that still wait to be taken up are this image's too.
+        // Samples of a pending submission belong to this image too.
         if (!film && s.pending && s.pending->image == next->image) film = s.pending->film;
         next->film = std::move(film);
         s.pending.swap(next);
@@ -442,7 +444,7 @@ void RenderSession::pause(bool paused) {
 void RenderSession::stand_aside(bool aside) {
     if (aside) return state_->gate.shut();
     {
-        const std::lock_guard lock(state_->mutex); // the thread is not between asking and sleeping
+        const std::lock_guard lock(state_->mutex); // ensures that the thread is not between its check and its wait
         state_->gate.open();
     }
     state_->wake.notify_one();

@@ -29,11 +29,11 @@ double seconds_since(Clock::time_point begin) { return std::chrono::duration<dou
 
 bool hides_environment(const Environment& e) { return e.kind != Environment::Kind::none && !e.visible_to_camera; }
 
-// The pilot's noise is being measured: its first half is remembered.
+// True during the pilot, after its first half was stored.
 bool in_mid_pilot(int64_t samples) { return samples >= SamplePlan::pilot_samples / 2 && samples < SamplePlan::pilot_samples; }
 
-// About two thousand paths in a tile: enough to fill packets, few enough for the cache. Of a small film, as a drag shows it first,
-// fewer: the last tile of a worker is what all others wait for.
+// About two thousand paths per tile: enough to fill packets, few enough for the cache. Fewer for a small film, as during a drag,
+// because all workers wait for the last tile.
 struct TileShape {
     int width, height, samples;
 };
@@ -45,9 +45,9 @@ TileShape tile_shape(int64_t count, int64_t pixels_per_worker) {
     return {64, 32, 1};
 }
 
-// With path reuse a tile is a block, or it would cut groups.
+// With path reuse a tile is a block, so that no group is cut.
 TileShape tile_shape(const ReuseGroups& groups) { return {groups.block_width, groups.block_height, 1}; }
-// Tiles of a sample plan have different numbers of samples: no group reaches out of one.
+// Tiles of a sample plan have different numbers of samples, so groups must not cross tiles.
 ReuseGroups reuse_groups_of_plan(int size) { return reuse_groups(size, SamplePlan::tile_size, SamplePlan::tile_size); }
 
 } // namespace
@@ -56,25 +56,25 @@ struct Renderer::State {
     RendererOptions options;
     Workers workers;
     std::vector<std::unique_ptr<TileScratch>> scratch;
-    std::vector<std::unique_ptr<TileScratch>> replays; // for samples that went wrong
+    std::vector<std::unique_ptr<TileScratch>> replays; // for invalid samples
     std::vector<std::unique_ptr<CatcherScratch>> catching;
     RenderScene scene;
     std::optional<Scene> lowered;
     LoweredMeshes meshes;
     RenderSettings settings;
-    std::shared_ptr<const LightGroups> groups; // null: nobody mixes
+    std::shared_ptr<const LightGroups> groups; // null: no light mix
     Mixing mixing;                             // of the groups
     Film film;
-    SamplePlan sample_plan; // if sampling is adaptive, as is
+    SamplePlan sample_plan; // only for adaptive sampling, like the next
     PilotNoise pilot_noise;
-    bool film_is_stale = true, film_is_uneven = false; // uneven: rendering was stopped in the middle of a sample
+    bool film_is_stale = true, film_is_uneven = false; // uneven: rendering stopped in the middle of a sample
     int divider = 1;
     const Kernel* kernel = nullptr;
     std::string kernel_name;
     double seconds_setup = 0;
-    // Made when somebody asks: it looks at every triangle, and a drag has no time for that.
+    // Computed on request: it reads every triangle, too slow during a drag.
     std::optional<CompiledInfo> info;
-    std::shared_ptr<const Ledger> ledger; // null: to be made
+    std::shared_ptr<const Ledger> ledger; // null: must be computed
     int64_t samples = 0;
     RayCounts rays;
     std::vector<PathCounts> path_counts;
@@ -89,7 +89,7 @@ struct Renderer::State {
     FilmSize full_film() const {
         return {settings.width, settings.height, options.planes, transparent(), settings.adaptive, int(mixing.gains.size()), catches()};
     }
-    // Is the scene what the film holds but for the mix of lights? Then takes over that.
+    // If the scene differs from the film only in the light mix, applies the mix and returns true.
     bool take_mix(const Scene& whole, const RenderSettings& now) {
         if (!groups || !same_image(settings, now)) return false;
         std::optional<Mixing> mix = mixing_of(*groups, whole);
@@ -108,7 +108,7 @@ struct Renderer::State {
     }
 
     bool catches() const { return !scene.catchers().empty(); }
-    // A caught shadow needs something that it is laid over: without an environment that is up to who looks at the picture.
+    // A caught shadow needs a background: without an environment the image is for compositing.
     bool transparent() const {
         return lowered && (hides_environment(lowered->environment) || (catches() && lowered->environment.kind == Environment::Kind::none));
     }
@@ -122,8 +122,8 @@ struct Renderer::State {
         path_counts.clear();
         truncated = 0;
     }
-    // Wiping a film of full size takes as long as a coarse picture, so it waits until somebody draws or looks: an edit is followed by
-    // another divider.
+    // Clearing a full-size film takes as long as rendering a coarse image, so it is delayed until the next draw or read: edits
+    // often change the divider afterwards.
     void wipe_stale_film() {
         if (!film_is_stale) return;
         FilmSize size = full_film();
@@ -134,7 +134,7 @@ struct Renderer::State {
         sample_plan.reset(film_width(), film_height());
         film_is_stale = false;
     }
-    // Samples first, first + stride, ... of a pixel, shared in these groups.
+    // Samples first, first + stride, ... of a pixel, with these reuse groups.
     struct Run {
         int64_t first, count;
         int stride;
@@ -143,7 +143,7 @@ struct Renderer::State {
     using Wanted = std::function<bool()>;
     using TileTask = std::function<bool(int tile, const TileJob& rectangle, unsigned worker)>;
     PixelRect rendered_pixels() const;
-    // False if stopped before the end, as all that follow.
+    // Null without a shadow catcher or if stopped. The bool functions below return false if stopped before the end.
     const CatcherColumns* shadows_of(const KernelContext& context, const TileJob& job, unsigned worker);
     bool render_run(TileJob rectangle, const Run& run, int most_samples, unsigned worker, const Wanted& wanted);
     bool for_each_tile(const TileShape& shape, const Wanted& wanted, const TileTask& task);
@@ -283,7 +283,7 @@ bool Renderer::State::render_run(TileJob job, const Run& run, int most_samples, 
     return true;
 }
 
-// Of the tile's samples; null where nothing catches them.
+// For the tile's samples; null without a shadow catcher.
 const CatcherColumns* Renderer::State::shadows_of(const KernelContext& context, const TileJob& job, unsigned worker) {
     if (!catches()) return nullptr;
     if (!catching[worker]) catching[worker] = std::make_unique<CatcherScratch>();
@@ -304,7 +304,7 @@ Vec3d Renderer::irradiance(const MeterPlace& place, uint32_t replicate, int samp
     return mean;
 }
 
-// Of the film, those that are rendered. Path reuse needs its groups whole.
+// The rendered part of the film. Path reuse needs whole groups.
 PixelRect Renderer::State::rendered_pixels() const {
     PixelRect r = pixels_of(settings.region, film.width(), film.height());
     if (settings.reuse <= 1) return r;
@@ -342,7 +342,7 @@ bool Renderer::State::for_each_tile(const TileShape& shape, const Wanted& wanted
     return all_begun && !cut_short;
 }
 
-// The same samples of every pixel.
+// Renders the same samples for every pixel.
 bool Renderer::State::render_evenly(int64_t first, int64_t count, const Wanted& wanted) {
     const PixelRect pixels = rendered_pixels();
     const ReuseGroups groups = reuse_groups(settings.reuse);
@@ -353,7 +353,7 @@ bool Renderer::State::render_evenly(int64_t first, int64_t count, const Wanted& 
     });
 }
 
-// Of each half of each tile what the plan says.
+// Renders the samples of each half of each tile by the sample plan.
 bool Renderer::State::render_by_plan(int64_t first, int64_t count, const Wanted& wanted) {
     constexpr TileShape shape{SamplePlan::tile_size, SamplePlan::tile_size, 8};
     const ReuseGroups groups = reuse_groups_of_plan(settings.reuse);
@@ -374,7 +374,7 @@ bool Renderer::render(int64_t first, int64_t count, const std::function<bool()>&
         s.samples += count;
         return true;
     }
-    // Up to where the pilot is looked at, then on.
+    // In steps that end where the pilot is measured.
     for (int64_t left = count; left > 0;) {
         const int64_t step = std::min(left, SamplePlan::next_look(s.samples) - s.samples);
         if (!(s.sample_plan.decided() ? s.render_by_plan(s.samples, step, wanted) : s.render_evenly(s.samples, step, wanted)))
@@ -421,7 +421,7 @@ ErrorEstimate Renderer::estimate_error() const {
     State& s = *state_;
     s.wipe_stale_film();
     ErrorEstimate error = blush::estimate_error(s.film, s.settings.reuse, s.workers);
-    // Two halves that miss the same light agree, and prove nothing.
+    // Both halves miss the same light, so their difference does not show that error.
     if (!s.scene.missing_light().empty()) {
         error.known = error.known && error.high > 0;
         error.rmse_known = error.rmse_known && error.rmse_high > 0;
@@ -431,11 +431,11 @@ ErrorEstimate Renderer::estimate_error() const {
 
 Result<FilmState> Renderer::save_film(int64_t first) const {
     const State& s = *state_;
-    if (s.film_is_stale || s.samples == 0) return Error{"", "nothing is rendered yet", ""};
-    if (s.film_is_uneven) return Error{"", "rendering was stopped half-way through a sample", ""};
-    if (s.divider != 1) return Error{"", "the image is still a coarse one", ""};
+    if (s.film_is_stale || s.samples == 0) return Error{"", "no samples are rendered yet", ""};
+    if (s.film_is_uneven) return Error{"", "rendering was stopped in the middle of a sample", ""};
+    if (s.divider != 1) return Error{"", "the image is not yet at full resolution", ""};
     FilmState state = blush::save_film(s.film);
-    // Whoever goes on begins with the lights as they are by now; channels of the mix are its own affair.
+    // A saved film starts with the current emission; mix channels are saved separately.
     if (std::ranges::any_of(s.mixing.factors, [](const Vec3& f) { return f != Vec3{1, 1, 1}; })) scale_groups(state, s.mixing.factors);
     if (ExactPlane* material = state.find("material"))
         for (uint32_t& index : material->words)
@@ -463,9 +463,9 @@ Result<void> Renderer::load_film(const FilmState& state) {
     if (state.samples < 1) return refused({"", "there are no samples", ""});
     const bool marked = s.settings.adaptive && in_mid_pilot(state.samples);
     if (marked && state.marked.size() != 2 * size_t(s.film.width()) * size_t(s.film.height()))
-        return refused({"", "the samples come without the pilot of adaptive sampling", ""});
+        return refused({"", "the saved samples lack the pilot of adaptive sampling", ""});
     const bool decided = s.settings.adaptive && state.samples >= SamplePlan::pilot_samples;
-    if (decided && !s.sample_plan.restore(state.shares)) return refused({"", "the samples come without the plan of adaptive sampling", ""});
+    if (decided && !s.sample_plan.restore(state.shares)) return refused({"", "the saved samples lack the plan of adaptive sampling", ""});
     if (const auto loaded = blush::load_film(s.film, state); !loaded) return refused(loaded.error());
     s.film.each_material([&](int32_t& index) {
         if (uint32_t(index) != FilmState::no_material) index = s.scene.material_index(Id<Material>{uint32_t(index)});

@@ -1,5 +1,5 @@
-// One sample traced again, vertex by vertex: the kernels' own stages, one lane wide. A sample is a function of scene, settings, pixel,
-// index and seed, so what is seen here is what the film received - under path reuse, what it received before pixels shared it.
+// Traces one sample again, vertex by vertex, using the kernels' own stages with one lane. A sample is a function of scene,
+// settings, pixel, index and seed, so this reproduces what the film received (with path reuse, before sharing).
 #pragma once
 
 #include "render/wavefront.h"
@@ -9,7 +9,7 @@
 
 namespace blush {
 
-// A vertex of the path, and how it ended there. `arrived`: what the light sample added, black if it was blocked.
+// A vertex of the path and the result of its step. `arrived`: contribution of NEE, black if occluded.
 struct ReplayedVertex {
     int bounce = 0;
     Path<float> path;
@@ -18,8 +18,8 @@ struct ReplayedVertex {
     Vec3 arrived;
 };
 
-// Calls visit(vertex) for each vertex until that says false, at most `longest` times. Returns the radiance so far. To be called from within
-// Workers::run or for_each.
+// Calls visit(vertex) for each vertex while it returns true, at most `longest` times. Returns the radiance so far. Call it from
+// within Workers::run or for_each.
 template <class Visit>
 Vec3 replay_sample(KernelContext context, int x, int y, int64_t sample, int longest, TileScratch& scratch, const Visit& visit) {
     constexpr Features s = all_features;

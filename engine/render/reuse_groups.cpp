@@ -7,7 +7,7 @@
 namespace blush {
 namespace {
 
-// A permutation of [0, count), which is a power of two up to 1024: odd factors and shifts to the right are bijections.
+// A permutation of [0, count), for powers of two up to 1024: odd factors and right xor-shifts are bijections.
 uint32_t permuted(uint32_t i, uint32_t count, uint64_t key) {
     const uint32_t last = count - 1, shift = uint32_t(std::countr_zero(count)) / 2;
     for (int round = 0; round < 3; ++round, key >>= 20) {

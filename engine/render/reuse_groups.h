@@ -1,16 +1,15 @@
-// Which pixels of the film share the second vertices of their paths (path_reuse.h).
+// Groups of pixels that share the second vertices of their paths (path_reuse.h).
 #pragma once
 
 #include <cstdint>
 
 namespace blush {
 
-// The film is cut into blocks, and a block into as many cells as a group has members. A group has one pixel of each cell, so that
-// neighbours are in different groups. Which pixels these are is drawn anew for every sample: if a pixel had the same partners for all its
-// samples, their common error would stay, as a texture that repeats from cell to cell and that a denoiser keeps. The pixels of a block
-// still have the error of the block's mean in common, which sharing does not lower: the larger the block, the further that is below the
-// noise of its pixels, and the less it shows as an edge between blocks. No group reaches out of its block, so a tile that begins and ends
-// with blocks has its groups whole, but for the film's border.
+// The film is divided into blocks, and a block into as many cells as a group has members. A group has one pixel of each cell, so
+// neighbours are in different groups. The pixels are selected anew for every sample: with fixed partners the common error would
+// remain as a repeating texture that a denoiser keeps. The error of a block's mean is still common to its pixels and not reduced
+// by sharing: the larger the block, the further that error is below the noise of its pixels, and the less visible are edges
+// between blocks. Groups never cross blocks, so tiles made of whole blocks have whole groups, except at the film's border.
 struct ReuseGroups {
     static constexpr int largest = 16; // pixels in a group
 
@@ -24,8 +23,8 @@ struct ReuseGroups {
     constexpr bool operator==(const ReuseGroups&) const = default;
 };
 
-// Of 4, 8 or 16 pixels; any other size is no group. A block is a tile of one sample per pixel, unless smaller parts of the film have
-// numbers of samples of their own.
+// Groups of 4, 8 or 16 pixels; other sizes disable reuse. A block is a tile of one sample per pixel, unless smaller parts of the
+// film have different numbers of samples.
 constexpr ReuseGroups reuse_groups(int size, int block_width = 64, int block_height = 32) {
     switch (size) {
     case 4: return {2, 2, block_width, block_height};
@@ -35,7 +34,7 @@ constexpr ReuseGroups reuse_groups(int size, int block_width = 64, int block_hei
     }
 }
 
-// The groups of one block at one sample: a function of the block's place in the film and the sample's index alone.
+// The groups of one block at one sample: a function of the block's position in the film and the sample's index alone.
 class BlockGroups {
 public:
     // (x, y): first pixel of the block in the film.
@@ -44,7 +43,7 @@ public:
     struct Pixel {
         int x, y; // from the block's first pixel
     };
-    // `group` in [0, per_block()), `member` in [0, size()): each pixel of the block exactly once.
+    // `group` in [0, per_block()), `member` in [0, size()): enumerates each pixel of the block exactly once.
     Pixel pixel(int group, int member) const;
 
 private:

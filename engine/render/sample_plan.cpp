@@ -34,7 +34,7 @@ bool SamplePlan::restore(const Shares& shares) {
     return true;
 }
 
-// In proportion to the noise, which is best (Neyman 1934), within limits: bisection for the logarithm of the factor of proportion at which
+// Proportional to the noise, which is optimal (Neyman 1934), within limits: bisection for the logarithm of the factor at which
 // shares are 1 on average.
 std::vector<double> SamplePlan::shares_of(const TileNoise& noise) const {
     std::vector<double> pixels(noise.size());
@@ -56,7 +56,7 @@ std::vector<double> SamplePlan::shares_of(const TileNoise& noise) const {
         const double middle = 0.5 * (low + high);
         (spend(middle) < all ? low : high) = middle;
     }
-    // Where nearly everything is silent the limits leave something over: all get of that.
+    // If the limits leave samples over (nearly no noise anywhere), they are distributed to all.
     const double scale = all / spend(high);
     for (double& share : shares) share *= scale;
     return shares;
@@ -66,7 +66,8 @@ int64_t SamplePlan::samples(int tile, int half, int64_t mean) const {
     const int64_t uniform = (mean + 1 - half) / 2;
     if (mean <= pilot_samples || !decided()) return uniform;
     const double wanted = 0.5 * double(mean - pilot_samples) * shares_[size_t(half)][size_t(tile)];
-    // Tiles take their turns, so that at any time the film holds about as many samples as it should: a golden-ratio sequence of thresholds.
+    // Rounding is staggered over tiles by a golden-ratio sequence of thresholds, so that the film always holds about the planned
+    // number of samples.
     const double turn = std::fmod(double(2 * tile + half) * (std::numbers::phi - 1), 1.0);
     return pilot_samples / 2 + granularity * int64_t(std::floor(wanted / double(granularity) + turn));
 }

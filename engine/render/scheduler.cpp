@@ -8,7 +8,7 @@
 namespace blush {
 namespace {
 
-// Of relmse with the number of samples, as a power: independent samples have -1, well distributed ones do better on smooth pictures.
+// Exponent of relmse as a function of samples: independent samples have -1, well distributed ones do better in smooth images.
 constexpr double fastest_fall = -1.5;
 
 } // namespace
@@ -31,7 +31,7 @@ void Scheduler::resume(int64_t samples, double seconds) {
 
 int Scheduler::first_divider() const {
     if (!interactive_) return 1;
-    // Nothing measured yet: guess a machine that traces two million full paths a second.
+    // Without measurements, assume two million full paths per second.
     const double full = timings_.sample_seconds > 0 ? timings_.sample_seconds : double(settings_.width) * double(settings_.height) / 2e6;
     const int long_side = std::max(settings_.width, settings_.height);
     int divider = 1;
@@ -59,7 +59,7 @@ Work Scheduler::next() const {
         return work;
     }
     if (film_divider_ > 1) {
-        // Full resolution next, in one step up if that is soon enough, else through a middle one.
+        // Full resolution next: directly if that is fast enough, else via an intermediate one.
         const int middle = std::max(1, film_divider_ / 4);
         const bool direct = timings_.sample_seconds < 0.25;
         work.divider = direct ? 1 : middle;
@@ -68,12 +68,13 @@ Work Scheduler::next() const {
     }
     work.first_sample = next_sample_;
     const double sample = std::max(timings_.sample_seconds, 1e-6);
-    // Doubling keeps the number of resolves logarithmic at first; what is left of the interval bounds the wait for the next picture.
+    // Doubling keeps the number of resolves logarithmic at first; later the remaining interval bounds the wait for the next
+    // frame.
     const double left = publish_interval() - (seconds_ - last_publish_);
     int64_t count = std::max<int64_t>(1, std::min<int64_t>(samples(), int64_t(left / sample)));
     if (settings_.spp > 0) count = std::min(count, settings_.spp - next_sample_);
     if (settings_.seconds > 0) count = std::min(count, std::max<int64_t>(1, int64_t((settings_.seconds - seconds_) / sample)));
-    // The error needs both halves: an even number of samples keeps them equal.
+    // The error estimate needs both halves: an even number of samples keeps them equal.
     if (count > 1 && settings_.spp <= 0) count &= ~int64_t(1);
     work.count = std::min<int64_t>(count, 1024);
     const double after = seconds_ + double(work.count) * sample;
@@ -87,7 +88,7 @@ void Scheduler::record_render(const Work& work, double seconds) {
     seconds_ += seconds;
     const double pixels_share = 1.0 / (double(work.divider) * double(work.divider));
     const double per_sample = seconds / (double(work.count) * pixels_share);
-    // Small films have idle lanes and cold caches: they tell less about the full one.
+    // Small films have idle lanes and cold caches, so they predict full-size timings less well.
     const double trust = work.divider == 1 ? 0.5 : 0.25;
     timings_.sample_seconds = timings_.sample_seconds > 0 ? (1 - trust) * timings_.sample_seconds + trust * per_sample : per_sample;
     film_divider_ = work.divider;
@@ -117,7 +118,7 @@ double Scheduler::progress() const {
     double p = 0;
     if (settings_.spp > settings_.first_sample) p = std::max(p, double(samples()) / double(settings_.spp - settings_.first_sample));
     if (settings_.seconds > 0) p = std::max(p, seconds_ / settings_.seconds);
-    // The error falls as 1 / samples, so the samples done are this share of those needed.
+    // The error falls as 1 / samples, so this is the completed share of the needed samples.
     if (settings_.error > 0 && error_ > 0) p = std::max(p, settings_.error / error_);
     return std::min(p, 0.999);
 }

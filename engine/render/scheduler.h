@@ -1,4 +1,4 @@
-// What to render next: a pure object, told how long things took, that says what is due. Tested without rendering.
+// Decides what to render next from measured times; pure computation, testable without rendering.
 #pragma once
 
 #include "scene/render_settings.h"
@@ -7,48 +7,49 @@
 
 namespace blush {
 
-// One piece of work for the render thread.
+// A work item of the render thread.
 struct Work {
     int divider = 1;           // full resolution / film resolution
     int64_t first_sample = 0;
     int64_t count = 0;         // samples per pixel
-    bool clear = false;        // the film holds something else: another divider, or nothing worth keeping
-    bool always_finish = false; // the first picture of a revision is never cancelled, so that a drag always shows something
-    bool publish = false;      // resolve and hand out a frame afterwards
+    bool clear = false;        // clears the film: another divider, or outdated contents
+    bool always_finish = false; // the first frame of a revision is never cancelled, so that a drag always shows something
+    bool publish = false;      // resolve and publish a frame afterwards
 };
 
-// Cadence follows Cycles' in spirit: a first picture within a display frame, then full resolution, then batches whose display
-// interval grows, because resolving costs and eyes get patient.
+// Similar to Cycles: a first image within a display frame, then full resolution, then batches with growing display intervals,
+// because resolving costs time and later updates are less urgent.
 class Scheduler {
 public:
     struct Timings {
-        // Seconds to trace one sample of every pixel at full resolution; 0: not known yet.
+        // Seconds per sample of every pixel at full resolution; 0: unknown.
         double sample_seconds = 0;
     };
 
-    static constexpr double first_image_seconds = 1.0 / 60; // to trace the coarse picture: stopping, resolving and drawing take their share
+    // tracing time of the coarse image; cancelling, resolving and drawing need time too
+    static constexpr double first_image_seconds = 1.0 / 60;
     static constexpr int coarsest_divider = 16;
-    static constexpr int smallest_long_side = 96; // pixels of the coarse picture, unless the full one is smaller
+    static constexpr int smallest_long_side = 96; // pixels of the coarse image, unless the full one is smaller
 
-    // Timings survive a restart: the next revision is probably as heavy as this one.
+    // Timings survive a restart: the next revision probably costs about the same.
     void restart(const RenderSettings& settings, bool interactive);
-    // After a restart: goes on from so many samples per pixel, rendered in `seconds`.
+    // After a restart: continues from so many samples per pixel, rendered in `seconds`.
     void resume(int64_t samples, double seconds);
-    // The stop rules changed, the image did not.
+    // For changed stop rules of an unchanged image.
     void change_stop_rules(const RenderSettings& settings) { settings_ = settings; }
-    // `work` was rendered in `seconds`.
+    // Records that `work` took `seconds`.
     void record_render(const Work& work, double seconds);
-    // Its frame was published.
+    // Records that its frame was published.
     void record_publish() { last_publish_ = seconds_; }
-    // The relMSE of the picture as it is now, in full resolution, was estimated; negative if not known.
+    // Records the estimated relMSE of the current full-resolution image; negative if unknown.
     void record_error(double error);
-    // May the stop rule by error be met by now, as the last estimate goes on? Then it is worth another.
+    // True if the stop rule by error may be met by now, extrapolating the last estimate; then a new estimate is worthwhile.
     bool error_may_be_reached() const { return error_may_be_reached(samples()); }
 
     bool finished() const;
     // Towards the nearest stop rule, [0, 1]; 1 only when finished.
     double progress() const;
-    // Only if not finished.
+    // Requires that rendering is not finished.
     Work next() const;
 
     int64_t samples() const { return next_sample_ - settings_.first_sample; }
@@ -65,9 +66,9 @@ private:
     int film_divider_ = 0; // 0: nothing rendered yet
     int64_t next_sample_ = 0;
     bool interactive_ = true;
-    double seconds_ = 0;         // rendered at this revision
+    double seconds_ = 0;         // render time of this revision
     double last_publish_ = 0;    // seconds_ when last published
-    double error_ = -1;          // last estimated, with
+    double error_ = -1;          // last estimate, made at
     int64_t error_samples_ = 0;
 };
 

@@ -1,11 +1,11 @@
-// From the settings a user makes to those a kernel reads.
+// Converts render settings to the settings that kernels read.
 #pragma once
 
 #include "render/estimator_settings.h"
 
 namespace blush {
 
-// For a film of width x height pixels. Tables it points to live as long as the program.
+// For a film of width x height pixels. Tables it points to have static lifetime.
 EstimatorSettings settings_for_kernels(const RenderSettings& settings, int width, int height);
 
 } // namespace blush

@@ -1,4 +1,4 @@
-// How a surface is turned for shading: its normal, interpolated or mapped, and the frame in which it scatters.
+// The shading frame of a surface: its interpolated or mapped normal, and the basis in which it scatters.
 #pragma once
 
 #include "render/surface.h"
@@ -6,7 +6,7 @@
 
 namespace blush::inline BLUSH_ISA {
 
-// The shading frame's normal: interpolated or mapped, turned to the plane's side.
+// The shading normal: interpolated or mapped, flipped to the side of the geometric normal.
 template <Features S, class F>
 Vec<F> shading_normal(const Surface<F>& s, const Vec<F>& ng, const Vec<F>& tangent_normal) {
     Vec<F> ns = select<F>(dot(s.ns, ng) < F(0.f), -s.ns, s.ns);
@@ -26,14 +26,14 @@ Vec<F> shading_normal(const Surface<F>& s, const Vec<F>& ng, const Vec<F>& tange
     return ns;
 }
 
-// The frame around the shading normal; its x is the direction along which the material stretches reflections, if it does.
+// Basis around the shading normal; x is the direction of anisotropy, if the material has any.
 template <Features S, class F> Basis<F> shading_frame(const Surface<F>& s, const Vec<F>& ns, const MaterialPoint<F>& material) {
     const Basis<F> any_frame = basis_around(ns);
     if constexpr (!S.has(Feature::anisotropy)) return any_frame;
     else {
         const Mask<F> stretched = s.has_tangents && material.anisotropy.strength > F(0.f);
         if (!any(stretched)) return any_frame;
-        // As in shading_normal; seen from behind the stretch is the same.
+        // As in shading_normal; seen from behind, the direction is the same.
         const Vec<F> t = normalize(s.tangent - s.ns * dot(s.ns, s.tangent)), b = cross(s.ns, t) * s.tangent_sign;
         const Vec<F> along = t * material.anisotropy.direction.x + b * material.anisotropy.direction.y;
         const Vec<F> flat = along - ns * dot(ns, along);
@@ -44,13 +44,13 @@ template <Features S, class F> Basis<F> shading_frame(const Surface<F>& s, const
     }
 }
 
-// A surface point as its BSDF wants it.
+// A surface point with the parameters for its BSDF.
 template <class F> struct ShadingFrame {
-    Vec<F> ng, ns;        // unit, world: turned towards the viewer unless the surface bounds a solid
-    Mask<F> behind;       // the viewer would look at the back of the interpolated or mapped normal: ns is the plane's own
+    Vec<F> ng, ns;        // unit, world: flipped towards the viewer unless the surface bounds a solid
+    Mask<F> behind;       // the viewer sees the back of the interpolated or mapped normal: ns is ng
     Basis<F> frame;
-    Vec<F> wo;            // in that frame
-    BsdfParams<F> params; // with what depends on the frame
+    Vec<F> wo;            // in `frame`
+    BsdfParams<F> params; // including those that depend on the frame
 };
 template <Features S, class F>
 ShadingFrame<F> shading_frame_at(const Surface<F>& surface, const MaterialPoint<F>& material, const Vec<F>& wo_world, const Mask<F>& front,
@@ -58,13 +58,13 @@ ShadingFrame<F> shading_frame_at(const Surface<F>& surface, const MaterialPoint<
     ShadingFrame<F> s;
     s.ng = select<F>(front || solid, surface.ng, -surface.ng);
     const Vec<F> bent = shading_normal<S, F>(surface, s.ng, material.tangent_normal);
-    // A viewer who would look at the back of a normal gets the plane's own, unless there is an inside to look from.
+    // If the viewer sees the back of the shading normal, uses the geometric normal, except on solids.
     s.behind = !solid && dot(bent, wo_world) < F(least_facing);
     s.ns = select<F>(s.behind, s.ng, bent);
     s.frame = shading_frame<S, F>(surface, s.ns, material);
     s.wo = s.frame.to_local(wo_world);
     s.params = material.bsdf;
-    // A coat covers the relief of what lies below it.
+    // The coat does not follow the normal map of the base.
     if constexpr (S.has(Feature::clearcoat))
         s.params.layers.clearcoat_normal = s.frame.to_local(shading_normal<S, F>(surface, s.ng, material.clearcoat_tangent_normal));
     if constexpr (S.has(Feature::anisotropy)) s.params.layers.anisotropy = select(surface.has_tangents, material.anisotropy.strength, F(0.f));

@@ -10,7 +10,7 @@ namespace {
 
 constexpr Features features = all_features;
 
-// The first surfaces that camera rays would meet if they saw catchers.
+// Traces camera rays to their first surface, including catchers.
 void trace_camera_rays(const KernelContext& context, TileScratch& tile) {
     const PathQueue& q = tile.paths[0];
     const bool alpha = context.accel->has_alpha();
@@ -21,7 +21,7 @@ void trace_camera_rays(const KernelContext& context, TileScratch& tile) {
     context.accel->intersect(rays, q.size, true, {h.t, h.u, h.v, h.geometry, h.instance, h.triangle});
 }
 
-// Puts a shadow ray into the queue, if some light may reach the surface. Returns its luminance.
+// Queues a shadow ray if a light may reach the surface. Returns its unoccluded luminance.
 float aim_from(const KernelContext& context, const Surface<float>& surface, const Vec3& direction, const Path<float>& path, TileScratch& tile) {
     const bool front = dot(surface.ng, direction) < 0;
     const Vec3 ng = front ? surface.ng : -surface.ng;
@@ -36,7 +36,7 @@ float aim_from(const KernelContext& context, const Surface<float>& surface, cons
     return luminance(step.direct);
 }
 
-// Light that other catchers keep off is in neither sum. Lights that choose who casts their shadows have made no exception of catchers either.
+// Light blocked by other catchers is in neither sum. Lights with linked shadow casters do not exclude catchers either.
 void drop_shadows_of_catchers(const KernelContext& context, CatcherScratch& scratch) {
     TileScratch& tile = scratch.tile;
     ShadowQueue& q = tile.shadows;
@@ -55,7 +55,7 @@ void drop_shadows_of_catchers(const KernelContext& context, CatcherScratch& scra
 } // namespace
 
 void catch_shadows(KernelContext context, std::span<const uint8_t> is_catcher, const TileJob& job, CatcherScratch& scratch) {
-    context.settings.strategy = Strategy::light; // all the light is sampled: what rays would find on their own is not looked for
+    context.settings.strategy = Strategy::light; // all light by NEE: emission at ray hits is not counted
     context.settings.reuse = {};
     TileScratch& tile = scratch.tile;
     CatcherColumns& out = scratch.columns;

@@ -9,15 +9,15 @@
 namespace blush {
 namespace {
 
-constexpr int max_pixels = 1 << 17; // that are looked at: in blocks all over the film, and not for long
+constexpr int max_pixels = 1 << 17; // limit, in blocks spread over the film, to bound the time
 
 Vec3d half_difference(const PixelHalves& p) {
     if (!p.known) return {0, 0, 0};
     return (p.a - p.b) * std::sqrt(p.weight_a * (1 - p.weight_a));
 }
 
-// The mean square of the sum of the half differences in a block over the sum of the squares, 1 if pixels err alone: of the blocks of groups, and of
-// the tiles of a sample plan within them, in one pass.
+// Ratio of the mean square of the sum of half differences in a block to the sum of squares; 1 if pixels are independent. For the
+// blocks of groups, and for the tiles of a sample plan within them, in one pass.
 struct BlockRatios {
     double blocks = 1, tiles = 1;
 };

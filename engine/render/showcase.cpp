@@ -28,7 +28,7 @@ void Showcase::answer(uint64_t image, const FramePtr& source, DenoisedPtr denois
     if (withheld_ == source) {
         show(image, source);
     } else if (denoised && image > image_) {
-        // A drag faster than the denoiser: a newer frame is withheld already, but something must be seen.
+        // The drag is faster than the denoiser: show the previous withheld frame, because otherwise nothing would appear.
         FramePtr newer = std::move(withheld_);
         show(image, source);
         withheld_ = std::move(newer);

@@ -1,4 +1,4 @@
-// What the outside sees of a session: the newest frame, and the newest denoised picture of the same image.
+// The published frame and its denoised version.
 #pragma once
 
 #include "render/denoised_picture.h"
@@ -10,28 +10,28 @@ namespace blush {
 
 struct Pictures {
     FramePtr frame;       // null before the first
-    DenoisedPtr denoised; // of the same image as the frame, perhaps of fewer samples or coarser; null: none yet
+    DenoisedPtr denoised; // of the same image as the frame, possibly with fewer samples or lower resolution; null: none yet
 };
 
-// While somebody drags a slider, each image lives for a moment. If its first frame were shown before its denoised picture, the window
-// would flicker between noise and no noise: so a frame may be withheld until it is answered. `image` counts images and never falls.
+// During a slider drag, images change constantly. Showing each first frame before its denoised version would flicker between
+// noisy and clean, so a frame may be withheld until it is denoised. `image` counts images and never decreases.
 class Showcase {
 public:
     const Pictures& pictures() const { return shown_; }
 
     void show(uint64_t image, FramePtr frame);
-    // Shown when it is answered, unless another frame is shown before.
+    // Shows the frame when its denoised version arrives, unless another frame is shown before.
     void withhold(uint64_t image, FramePtr frame);
-    // `denoised` was made from `source`; null if it was not to be.
+    // `denoised` was made from `source`; null if it was skipped.
     void answer(uint64_t image, const FramePtr& source, DenoisedPtr denoised);
-    // Shows another version of a denoised picture, if that is still on show.
+    // Replaces a denoised image if it is still shown.
     void replace(const DenoisedPtr& shown, DenoisedPtr by);
-    // No answer will come: shows what is withheld.
+    // Shows the withheld frame: its denoised version will not come.
     void release();
 
 private:
     Pictures shown_;
-    uint64_t image_ = 0; // of what is shown
+    uint64_t image_ = 0; // of the shown frame
     FramePtr withheld_;
     uint64_t withheld_image_ = 0;
 };

@@ -1,5 +1,5 @@
-// The lights that are spheres to rays: spheres, and points and spots with a radius. They are no meshes but what they are, and sampled by
-// the solid angle that they fill.
+// Lights that are intersected and sampled as exact spheres: sphere lights, and point and spot lights with a radius. NEE samples
+// them by solid angle.
 #pragma once
 
 #include "scene/scene.h"
@@ -13,14 +13,15 @@ struct SphereLight {
     Id<Node> node;
     Id<Light> light;
     Vec3d center;  // world space
-    double radius; // metres: the light's own, scaled by its node as volumes are, to the cube root of the determinant
+    double radius; // metres: the light's own, scaled by its node as volumes are, by the cube root of the determinant
     bool visible_to_camera;
     bool operator==(const SphereLight&) const = default;
 };
 
-// Enabled and visible ones - where lights are mixed those that are off too, as black bodies - in node order. One without a radius, or whose place is no finite number, gives no light and is left out.
+// Enabled and visible ones in node order; with a light mix also disabled ones, as black spheres. Lights without a radius or with
+// a non-finite position are omitted.
 std::vector<SphereLight> list_sphere_lights(const Scene& scene);
-// The light is one of them.
+// True for light types that are sphere lights.
 bool is_sphere_light(const Light& light);
 
 } // namespace blush

@@ -1,5 +1,5 @@
-// From a hit to the point it names: position with a bound on its rounding error, normals, texture coordinates; and rays
-// that leave the surface without hitting it again.
+// Computes the surface point of a hit: position with an error bound, normals, texture coordinates; and offsets ray origins
+// against self-intersection.
 #pragma once
 
 #include "core/math.h"
@@ -18,7 +18,7 @@ template <class F> struct Hit {
 template <class F> struct Surface {
     Vec<F> position;
     Vec<F> error;        // bound on |computed - exact| of the position, per axis
-    Vec<F> ng, ns;       // unit: of the plane, outward by winding; interpolated
+    Vec<F> ng, ns;       // unit: geometric, outward by winding; interpolated
     Vec<F> tangent;      // not normalised; only where S needs it
     F tangent_sign;
     TexturePoint<F> texture; // only with Feature::textures
@@ -30,19 +30,19 @@ template <class F> struct Surface {
 // Half an ulp times n operations, Higham 2002: bounds the relative error of n roundings.
 constexpr float gamma_bound(int n) { return float(n) * 0x1p-24f / (1 - float(n) * 0x1p-24f); }
 
-// The next float away from zero in the direction of `sign`'s sign: +-1 ulp.
+// The next float up or down: +-1 ulp.
 template <class F> F next_float(const F& x, const Mask<F>& up) {
-    const UInt<F> b = to_unsigned(float_bits(x)); // unsigned: of -0, whose neighbours are not used, there is none below
+    const UInt<F> b = to_unsigned(float_bits(x)); // unsigned: -0 has no lower neighbour, but its neighbours are not used
     const Mask<F> away = up == (x >= F(0.f));
     const UInt<F> next = select(away, UInt<F>(b + 1u), UInt<F>(b - 1u));
     const F from_zero = select(up, F(0x1p-126f), F(-0x1p-126f));
     return select(x == F(0.f), from_zero, float_from_bits(to_signed(next)));
 }
 
-// How far along the unit normal `ng` a point with that bound on its error must move to be off its plane.
+// Offset along the unit normal `ng` that moves a point with this error bound off its plane.
 template <class F> F clearance(const Vec<F>& ng, const Vec<F>& error) { return dot(abs(ng), error); }
 
-// Start of a ray that leaves `position` by the vector `offset`: moved, then rounded away (Pharr, Jakob, Humphreys, "Physically Based
+// Origin of a ray leaving `position` by the vector `offset`: moved, then rounded away (Pharr, Jakob, Humphreys, "Physically Based
 // Rendering", 6.8.6). No scene-wide epsilon.
 template <class F> Vec<F> offset_origin(const Vec<F>& position, const Vec<F>& offset) {
     const auto push = [](const F& p, const F& by) {
@@ -51,7 +51,7 @@ template <class F> Vec<F> offset_origin(const Vec<F>& position, const Vec<F>& of
     };
     return {push(position.x, offset.x), push(position.y, offset.y), push(position.z, offset.z)};
 }
-// The same on the side of `ng` that `outward` tells, by the error bound.
+// Offsets by the error bound to the outward or inward side of `ng`.
 template <class F> Vec<F> offset_origin(const Vec<F>& position, const Vec<F>& error, const Vec<F>& ng, const Mask<F>& outward) {
     const F d = clearance(ng, error);
     return offset_origin(position, ng * select(outward, d, -d));
@@ -76,7 +76,7 @@ template <Features S, class F> Int<F> part_of(const SceneTables& scene, const Hi
     return geometry;
 }
 
-// Lanes of `active` whose hit is on a wall that may transmit straight on (thin_transmission.h).
+// Lanes of `active` whose hit is on a wall that may transmit straight through (thin_transmission.h).
 template <Features S, class F> Mask<F> is_pane(const SceneTables& scene, const Hit<F>& hit, const Mask<F>& active) {
     const Mask<F> surface = active && as_mask(hit.geometry >= 0) && !as_mask(hit.instance == sphere_instance);
     if (!any(surface)) return surface;
@@ -84,7 +84,8 @@ template <Features S, class F> Mask<F> is_pane(const SceneTables& scene, const H
     return surface && as_mask((gather_field(scene.materials.materials, &MaterialRecord::flags, material) & int32_t(material_pane)) != 0);
 }
 
-// The attributes of `hit` in the lanes of `active`; elsewhere those of some valid triangle. Textures are looked at over `width` metres.
+// Interpolated attributes of `hit` in the lanes of `active`; elsewhere those of some valid triangle. Textures are filtered over
+// `width` metres.
 template <Features S, class F>
 Surface<F> surface_at(const SceneTables& scene, const Hit<F>& hit, const Mask<F>& active, const F& width = F(0.f)) {
     Surface<F> s;
@@ -97,9 +98,9 @@ Surface<F> surface_at(const SceneTables& scene, const Hit<F>& hit, const Mask<F>
     const Int<F> i1 = first_vertex + to_signed(gather(scene.indices + 1, at));
     const Int<F> i2 = first_vertex + to_signed(gather(scene.indices + 2, at));
 
-    // Position by barycentrics, whose error does not grow with the ray's length (PBR book 6.8.4). The bound covers, beyond the
-    // interpolation, the test Embree will make of the next ray against the same triangle: its distance from the plane is rounded in
-    // proportion to the triangle's largest coordinate, whatever the axis, so the bound is the same for all three.
+    // Position by barycentrics, whose error does not grow with the ray's length (PBR book 6.8.4). Besides the interpolation, the
+    // bound covers Embree's test of the next ray against the same triangle: its distance from the plane is rounded in proportion
+    // to the triangle's largest coordinate, whatever the axis, so the bound is the same for all three.
     const F b1 = hit.u, b2 = hit.v, b0 = 1.f - b1 - b2;
     const TriangleVertices<F> v = gather_vertices<F>(scene.positions, i0, i1, i2);
     s.position = v.p0 * b0 + v.p1 * b1 + v.p2 * b2;
@@ -112,7 +113,7 @@ Surface<F> surface_at(const SceneTables& scene, const Hit<F>& hit, const Mask<F>
     Vec<F> ns = ng;
     const Mask<F> smooth = active && as_mask((flags & int32_t(part_smooth)) != 0);
     if (any(smooth)) {
-        // Parts without normals share the index space: what is gathered for them is not used.
+        // Parts without normals share the index space: values gathered for them are not used.
         const Vec<F> n = gather3<F>(scene.normals, i0) * b0 + gather3<F>(scene.normals, i1) * b1 + gather3<F>(scene.normals, i2) * b2;
         ns = select<F>(smooth && dot(n, n) > F(0.f), n, ng);
     }

@@ -16,7 +16,7 @@ Surroundings::Surroundings(int width, int height) : width_(width), height_(heigh
     fill(inverse_at_border_, clipped_count(0, height));
 }
 
-// A pixel at the border has the blocks within twice, instead of those beyond.
+// Mirrors the row at the border, so that border pixels use the inner blocks twice.
 void Surroundings::mirror(PixelRow& row) const {
     if (width_ < 2) return;
     row[-1] = row[1];
@@ -59,7 +59,7 @@ void Surroundings::look(size_t channel, int y, const PixelRow& own, Around& arou
     float *const to_mean = around.mean.pixels(), *const to_darkest = around.darkest.pixels();
     for (int x = 0; x < width_; x += PixelRow::step) {
         const Four value = load_four(values + x);
-        // Sums of floats: what is left of dark pixels beside a bright one may be rounding.
+        // Sums of floats: next to a bright pixel, the remainder of dark ones may be rounding error.
         const auto mean = [&](const float* block, const float* inverse, int at) {
             return max(splat(0), (load_four(block + at) - value) * load_four(inverse + at));
         };

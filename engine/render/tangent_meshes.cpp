@@ -8,7 +8,7 @@
 namespace blush {
 namespace {
 
-// None that are made if there is nothing to make them of.
+// Null if the geometry lacks the inputs for tangents.
 GeometryPtr with_tangents(const GeometryPtr& geometry, int uv_set) {
     const GeometryPtr bare = without_made_tangents(geometry);
     if (!bare->has_uv_set(uv_set)) return bare;
@@ -19,7 +19,7 @@ GeometryPtr with_tangents(const GeometryPtr& geometry, int uv_set) {
     return made;
 }
 
-// As it is, it is not as importing it for that UV set would have left it.
+// True if the tangents differ from those that import would have made for this UV set.
 bool is_to_change(const Geometry& g, int uv_set) {
     if (uv_set < 0 || g.normals.empty()) return false;
     if (g.tangents.empty()) return g.has_uv_set(uv_set);

@@ -1,4 +1,4 @@
-// Meshes whose material has come to need tangents, or others, as rays meet them.
+// Adds tangents to meshes whose material needs them after an edit, for rendering.
 #pragma once
 
 #include "scene/scene.h"
@@ -8,11 +8,11 @@
 
 namespace blush {
 
-// What was made last time, so that what needs the same again is the same geometry and need not be built anew.
+// Caches the results, so that unchanged needs keep the same geometry and BVH.
 class TangentMeshes {
 public:
-    // Gives parts that need tangents and have none, or such as were made for another UV set (scene/tangents.h), those that they would have
-    // been imported with, had their material been in the file as it is. Those that came with a mesh stay.
+    // Gives parts that need tangents and have none, or have them for another UV set (scene/tangents.h), the tangents that import
+    // would have made for their current material. Tangents stored in the file are kept.
     void provide(Scene& scene);
 
 private:

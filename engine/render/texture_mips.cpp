@@ -9,7 +9,7 @@
 namespace blush {
 namespace {
 
-// The cells of a row that one of half as many lies on: two, or three of an odd number. Those beyond have no share.
+// Cells of the finer row that one cell of the half-size row covers: two, or three for odd sizes. Cells outside have weight 0.
 struct Cells {
     size_t first = 0;
     std::array<float, 3> shares{};
@@ -33,7 +33,7 @@ TextureMip half_of(int width, int height, const ReadRow& read) {
     const size_t row_size = size_t(mip.width) * 4;
     mip.rgba.resize(row_size * size_t(mip.height));
     const std::vector<Cells> columns = cells_of(width, mip.width);
-    std::vector<float> row(size_t(width + 2) * 4); // two more, as cells may lie beyond
+    std::vector<float> row(size_t(width + 2) * 4); // two more, because cells may lie outside
     for (int y = 0; y < mip.height; ++y)
         for_each_overlap(y, height, mip.height, [&](int from, float share) {
             read(from, row.data());

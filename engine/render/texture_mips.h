@@ -1,4 +1,4 @@
-// Smaller versions of an image: each has half the width and height of the one before, down to a single texel.
+// Mip levels of an image: each has half the width and height of the previous one, down to a single texel.
 #pragma once
 
 #include <functional>
@@ -12,14 +12,14 @@ struct TextureMip {
     std::vector<float> rgba;
 };
 
-// How many versions an image has, itself among them.
+// Number of mip levels, including the image itself.
 int mip_count(int width, int height);
 
 // Row y of an image as linear RGBA: 4 * width floats.
 using ReadRow = std::function<void(int y, float* rgba)>;
 
-// Calls take(mip) for each smaller version, the largest first. Texels are the mean of what they cover, also where a side is odd, so that all
-// versions have the mean of the image, but for rounding.
+// Calls take(mip) for each smaller level, largest first. Texels are area-weighted means, also for odd sizes, so that all levels
+// have the mean of the image up to rounding.
 void make_mips(int width, int height, const ReadRow& read, const std::function<void(const TextureMip&)>& take);
 
 } // namespace blush

@@ -1,4 +1,4 @@
-// Where a point of a triangle lies on its textures.
+// Texture coordinates and footprint at a point of a triangle.
 #pragma once
 
 #include "core/math.h"
@@ -6,14 +6,14 @@
 
 namespace blush::inline BLUSH_ISA {
 
-// How much of a triangle is looked at.
+// Size of the filtered area.
 template <class F> struct Footprint {
     F width = F(0.f);           // metres
     F triangle_area = F(1.f);   // twice the area, square metres
 };
 
-// Texture coordinates at the point of the triangle with these vertices that has these weights, and the footprint's width in their units (the
-// mean of all directions); 0 on sets that the part does not have and in lanes that are not active.
+// Interpolated texture coordinates with the given barycentric weights, and the footprint's width in UV units (mean over
+// directions); 0 on UV sets that the part lacks and in inactive lanes.
 template <class F>
 TexturePoint<F> texture_point(const SceneTables& scene, const Int<F>& part_flags, const std::array<Int<F>, 3>& vertices,
                               const std::array<F, 3>& weights, const Mask<F>& active, const Footprint<F>& footprint = {}) {

@@ -39,7 +39,7 @@ bool is_whole(const Image* image) {
     return (image->bytes.size() == values && image->floats.empty()) || (image->floats.size() == values && image->bytes.empty());
 }
 
-// Texel of an image with 1 to 4 channels as RGBA.
+// Converts a texel with 1 to 4 channels to RGBA.
 template <class T> std::array<T, 4> expand(const T* texel, int channels, T opaque) {
     switch (channels) {
     case 1: return {texel[0], texel[0], texel[0], opaque};
@@ -55,14 +55,14 @@ size_t mip_texels(const Image& image) {
     return texels;
 }
 
-// Where an image goes that is read as colour or as data, and what was found there.
+// Storage of an image read as colour or as data, and the problems found.
 struct Placed {
-    const TextureSource* source = nullptr; // the first that reads it so
+    const TextureSource* source = nullptr; // the first one with this image and encoding
     const Image* image = nullptr;
     size_t base = 0, mips = 0; // offsets in their pools, in texels
-    bool owns_base = true;     // else another that reads the same bytes fills them in
+    bool owns_base = true;     // else the entry of the other encoding fills in the same bytes
     int32_t first_level = 0;
-    int64_t replaced = 0;      // values that cannot be used
+    int64_t replaced = 0;      // invalid values
 };
 
 class Builder {
@@ -109,7 +109,7 @@ private:
         const bool is_float = image.bytes.empty();
         Placed placed{&source, &image};
         placed.first_level = int32_t(table_.levels.size());
-        // Bytes are the same texels for colour and for data.
+        // 8-bit texels are stored once for colour and data.
         const auto other = places_.find({image.serial, !source.is_color});
         placed.owns_base = is_float || other == places_.end();
         placed.base = placed.owns_base ? take(is_float ? floats_ : bytes_, texel_count(image)) : placed_[other->second].base;
@@ -134,14 +134,14 @@ private:
         return used - count;
     }
 
-    // One texel of each pool is kept for white.
+    // One texel of each pool is reserved for white.
     bool fits(const Image& image) const {
         const size_t texels = texel_count(image), mips = mip_texels(image);
         if (image.bytes.empty()) return texels + mips < max_float_texels - floats_;
         return texels < max_byte_texels - bytes_ && mips <= max_half_texels - halves_;
     }
 
-    // Placed images share no texel that two of them fill in.
+    // Thread-safe: no two entries write the same texels.
     void fill(Placed& placed) {
         const Image& image = *placed.image;
         if (image.bytes.empty()) fill_floats(placed);

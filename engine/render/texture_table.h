@@ -1,4 +1,4 @@
-// The images that a scene's materials read, as texels in two pools: bytes and floats.
+// The textures that a scene's materials use, as texels in two pools: bytes and floats.
 #pragma once
 
 #include "core/result.h"
@@ -13,7 +13,7 @@ namespace blush {
 
 class Workers;
 
-// A texture as materials read it: one image may hold colour for one slot and data for another.
+// An image as used by a material slot: one image may be colour for one slot and data for another.
 struct TextureSource {
     Id<Texture> id;
     bool is_color = false; // sRGB-encoded
@@ -31,25 +31,25 @@ struct TextureTable {
     std::vector<uint32_t> rgba8, rgba16f;
     std::vector<float> rgba32f;
     std::vector<Diagnostic> warnings;
-    double seconds = 0; // that building it took
+    double seconds = 0; // build time
 
     // -1 if absent.
     int32_t index_of(Id<Texture> id, bool is_color) const;
     // Texels per unit of the image's own coordinates: the geometric mean of width and height.
     float texels_per_unit(int32_t texture) const;
-    // Without uses. Valid until the table changes.
+    // Without texture uses. Valid until the table changes.
     TextureTables tables() const;
     size_t memory_bytes() const;
 };
 
-// Memory of an image's texels in the pools, smaller versions included.
+// Memory of an image's texels in the pools, including mip levels.
 int64_t texel_bytes(const Image& image);
 
-// Sources are sorted by (id, is_color), without repetition. An image that several read is stored once. Grey images become
-// RGB, missing alpha is 1. Float images count as sRGB-encoded where they are read as colour and stay within [0, 1], as 16-bit
-// PNG does; a value above 1 marks linear data. With a warning: texels that are negative or not finite become 0, and images
-// that do not hold what they say, or are beyond the pool's limits, become a white texel. Smaller versions hold the means of what is
-// meant: of linear colour, in half precision where the image has 8 bits. `workers`: share the work; null: none.
+// Sources are sorted by (id, is_color) and unique. An image with several users is stored once. Grey images become RGB, missing
+// alpha is 1. Float images used as colour count as sRGB-encoded if they stay within [0, 1], as in 16-bit PNG; a value above 1
+// marks linear data. With a warning: negative or non-finite texels become 0, and images with inconsistent data or beyond the pool
+// limits become a white texel. Mip levels are averaged in linear colour, and stored in half precision for 8-bit images.
+// `workers`: share the work; null: single-threaded.
 TextureTable build_texture_table(std::vector<TextureSource> sources, const Workers* workers = nullptr);
 
 } // namespace blush

@@ -1,11 +1,11 @@
-// Light that passes thin, smooth, transmitting walls - window glass in glTF: transmission without volume, roughness 0 - without being bent.
-// Such a wall is a null interaction: path rays and shadow rays go on in a straight line, times the wall's transmittance T = (1 - F) tint
-// (Cycles calls them transparent shadows). A path that passes keeps the origin, the density and the bounce count of its last real vertex, so MIS
-// weights an emitter found behind panes against next-event estimation through the same panes, and lights without size light through
+// Light passing thin, smooth, transmissive walls (window glass: in glTF, transmission without volume, roughness 0) without
+// refraction. Such a wall is a null interaction: path rays and shadow rays continue in a straight line, times the wall's
+// transmittance T = (1 - F) tint (Cycles: transparent shadows). The path keeps the origin, pdf and bounce count of its last real
+// vertex, so MIS weights an emitter behind panes against NEE through the same panes, and lights of zero size illuminate through
 // windows exactly.
 //
-// At a pane a path passes with the probability p with which the BSDF samples its straight lobe, and then carries T / p. Otherwise scatter()
-// samples the other lobes (estimator.h).
+// At a pane a path passes with the probability p with which the BSDF samples its straight lobe, and then carries T / p. Otherwise
+// scatter() samples the other lobes (estimator.h).
 #pragma once
 
 #include "render/estimator.h"
@@ -16,20 +16,20 @@
 
 namespace blush::inline BLUSH_ISA {
 
-// Dimensions of the sampler that decide whether paths pass: one pair for each bounce, far from those of scattering events.
+// Sampler dimensions for the decision to pass: one pair per bounce, separate from those of scattering events.
 constexpr uint32_t first_pane_dimension = 1u << 30;
 
-// A pane as the ray through it sees it.
+// A pane at the hit point of a ray.
 template <class F> struct PanePoint {
     StraightTransmission<F> through;
-    Vec<F> position, error, ng; // where the ray goes on; ng on the ray's side
+    Vec<F> position, error, ng; // origin of the continued ray; ng on the ray's side
     Vec<F> emission;            // nits towards the ray
     Vec<F> albedo, ns;
     Mask<F> emits;
     F facing;                   // cosine between ray and plane
     Int<F> part, object, material;
 };
-// `cone`: metres across which the ray looks at textures (ray_cone.h).
+// `cone`: texture footprint in metres (ray_cone.h).
 template <Features S, class F>
 [[gnu::noinline]] PanePoint<F> pane_at(const SceneTables& scene, const EnergyTable* energy, const Vec<F>& direction, const Hit<F>& hit, const F& cone,
                                        const Mask<F>& active) {
@@ -59,7 +59,7 @@ template <Features S, class F>
 
 // ---- path rays
 
-// Path `index` of the queue in each lane of `active`, the other lanes some path of it.
+// Loads path `index` of the queue in each lane of `active`; other lanes load an arbitrary path of it.
 template <Features S, class F> Path<F> gather_path(const PathQueue& q, const Int<F>& index, const Mask<F>& active) {
     const Int<F> i = select(active, index, Int<F>(0));
     Path<F> p;
@@ -78,8 +78,8 @@ template <Features S, class F> Path<F> gather_path(const PathQueue& q, const Int
     return p;
 }
 
-// Sends on those of the paths `index` of `now` that pass the pane they hit: their rays from there on are appended to `rest`, whose slot is the index and
-// whose pdf is the distance so far. `hit`: t from the path's own origin.
+// Continues those paths `index` of `now` that pass the pane they hit: their continued rays are appended to `rest`, with the path
+// index as slot and the distance so far as pdf. `hit`: t from the path's own origin.
 template <Features S, class F>
 void pass_panes(const KernelContext& context, TileScratch& scratch, PathQueue& now, PathQueue& rest, const Int<F>& index, const Hit<F>& hit,
                 int bounce, const Mask<F>& active) {
@@ -97,7 +97,7 @@ void pass_panes(const KernelContext& context, TileScratch& scratch, PathQueue& n
     const Mask<F> passes = pane && sampler.pair(first_pane_dimension + uint32_t(bounce)).x() < p.through.probability;
     if (!any(passes)) return;
 
-    // Paths that do not pass find the pane's own emission in scatter().
+    // Paths that do not pass get the pane's emission in scatter().
     const Mask<F> emits = passes && p.emits;
     if (any(emits)) {
         const EmissionHit<F> found = emission_hit<S, F>(scene, context.settings.strategy, path, p.part, hit, p.facing, p.emission, emits);
@@ -115,7 +115,7 @@ void pass_panes(const KernelContext& context, TileScratch& scratch, PathQueue& n
     const Vec<F> beta = path.beta * p.through.value * over;
     for_each_lane(bits(passes), [&](int i) {
         const int k = lane(index, i);
-        // Planes of the first hit show the pane.
+        // First-hit planes show the pane.
         if (bounce == 0 && scratch.first && passed[k] == 0) {
             FirstHitColumns& c = *scratch.first;
             c.albedo_r[k] = lane(p.albedo.x, i);
@@ -149,8 +149,8 @@ void pass_panes(const KernelContext& context, TileScratch& scratch, PathQueue& n
     rest.size += count(passes);
 }
 
-// After `now` was traced: replaces the hits of paths that pass panes by the first hits behind them, t still from the path's origin. `rest` is
-// overwritten.
+// Call after `now` was traced: replaces the hits of paths that pass panes by the first hits behind them, t still from the path's
+// origin. Overwrites `rest`.
 template <Features S, class F>
 void trace_through_panes(const KernelContext& context, TileScratch& scratch, PathQueue& now, PathQueue& rest, int bounce) {
     if (!scratch.panes) scratch.panes = std::make_unique<PaneColumns>();
@@ -161,7 +161,7 @@ void trace_through_panes(const KernelContext& context, TileScratch& scratch, Pat
         const Int<F> index = iota<F>() + k;
         pass_panes<S, F>(context, scratch, now, rest, index, load_hit<F>(scratch.hits, k), bounce, as_mask(index < now.size));
     }
-    // Each round takes a ray one surface further along its line.
+    // Each iteration advances each ray by one surface.
     for (int round = 0; rest.size > 0 && round < longest_path; ++round) {
         scratch.bounce_rays += rest.size;
         trace_rays<F>(context, scratch.random, rest, bounce, panes.hits);
@@ -180,15 +180,16 @@ void trace_through_panes(const KernelContext& context, TileScratch& scratch, Pat
                 scratch.hits.instance[at] = lane(hit.instance, i);
                 scratch.hits.triangle[at] = lane(hit.triangle, i);
             });
-            pass_panes<S, F>(context, scratch, now, rest, index, hit, bounce, active); // appends no further than it has read
+            // never appends beyond the entries already read
+            pass_panes<S, F>(context, scratch, now, rest, index, hit, bounce, active);
         }
     }
 }
 
 // ---- shadow rays
 
-// The lanes' shadow rays of the queue from k on, moved behind the panes that they hit and dimmed; those that carry nothing any more, or hit
-// anything else, end. Appended to the queue, which must hold no more than k rays.
+// Continues the queue's shadow rays from k on behind the panes that they hit, attenuated; rays without remaining light, or that
+// hit anything else, end. Appends to the queue, which must hold no more than k rays.
 template <Features S, class F>
 void move_shadow_rays(const KernelContext& context, TileScratch& scratch, int k, const Hit<F>& hit, const Mask<F>& active) {
     ShadowQueue& q = scratch.shadows;
@@ -200,7 +201,7 @@ void move_shadow_rays(const KernelContext& context, TileScratch& scratch, int k,
     Step<F> s;
     s.direct = Vec<F>{load<F>(q.r + k), load<F>(q.g + k), load<F>(q.b + k)} * p.through.value;
     s.shadow = {offset_origin(p.position, p.error, p.ng, Mask<F>(false)), direction};
-    // The way that is left, short of the light's own plane as before: rounding must not lengthen it.
+    // The remaining distance, again short of the light's plane: rounding must not lengthen it.
     const F left = (distance - dot(s.shadow.origin - origin, direction)) * (1.f - 4e-7f);
     s.shadow_distance = select(distance == F(infinity), distance, max(left, F(0.f)));
     const Int<F> slot = load<Int<F>>(q.slot + k);
@@ -212,7 +213,7 @@ void move_shadow_rays(const KernelContext& context, TileScratch& scratch, int k,
     append<F>(q, s, slot, goes_on);
 }
 
-// Adds the light of all shadow rays that reach their light, through any number of panes. Empties the queue.
+// Adds the light of all shadow rays that reach their light through any number of panes. Empties the queue.
 template <Features S, class F> void connect_through_panes(const KernelContext& context, TileScratch& scratch, int bounce) {
     ShadowQueue& q = scratch.shadows;
     HitColumns& h = scratch.hits;

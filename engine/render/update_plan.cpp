@@ -10,7 +10,7 @@ UpdatePlan plan(const Changes& c) {
     if (!p.all_materials) p.materials = c.materials;
     p.environment_map = c.environment_image || c.aiming;
     p.environment_parameters = c.environment_parameters || p.environment_map;
-    // Moving an object may move an emitter, and the scene's size tells how much power the sky has.
+    // A moving object may be an emitter, and changes the scene bounds, which scale the sky's power.
     p.lights = p.transforms || p.all_materials || !c.materials.empty() || !c.lights.empty() || p.environment_parameters || c.mix;
     p.camera = c.view || c.resolution;
     p.clear_film = c.affects_image();

@@ -1,4 +1,4 @@
-// The whole update policy in one place: which kind of change costs what.
+// The update policy in one place: maps changes to required updates.
 #pragma once
 
 #include "scene/changes.h"
@@ -8,7 +8,7 @@
 namespace blush {
 
 struct UpdatePlan {
-    bool objects = false;            // list the objects anew; what they are made of may have changed
+    bool objects = false;            // rebuild the object list; their geometry may have changed
     bool transforms = false;         // some objects moved
     bool all_materials = false;      // the set of materials or textures in use may have changed
     std::vector<Id<Material>> materials; // rewrite these records
@@ -17,14 +17,14 @@ struct UpdatePlan {
     bool environment_parameters = false;
     bool camera = false;
     bool clear_film = false;
-    bool features = false;           // another kernel may fit better
+    bool features = false;           // another kernel may be selected
 
     bool operator==(const UpdatePlan&) const = default;
 };
 
-// A pure table, from what changed in the scene (with area lights lowered to meshes) to what must be redone.
+// From changes of the scene (with expanded area lights) to required updates; a pure function.
 UpdatePlan plan(const Changes& changes);
-// Everything: the first time.
+// Everything, for the first build.
 UpdatePlan full_plan();
 
 } // namespace blush

@@ -1,4 +1,5 @@
-// A tile of paths, stage by stage: generate, trace, shade, trace shadows, and again with the survivors, compacted in order.
+// Wavefront path tracing of a tile: generate, trace, shade, trace shadow rays, and repeat with the surviving paths, compacted in
+// order.
 #pragma once
 
 #include "render/estimator.h"
@@ -13,9 +14,9 @@
 
 namespace blush::inline BLUSH_ISA {
 
-// Of the lanes of `straight`; the other paths have stored the first pane that they passed.
+// For the lanes of `straight`; other paths have stored the first pane that they passed.
 template <class F> void store_first_hit(FirstHitColumns& c, int k, FirstHit<F> first, const Mask<F>& straight) {
-    // At bounce 0 nothing has been compacted: the k-th path is slot k.
+    // At bounce 0 there is no compaction: the k-th path is slot k.
     if (!all(straight)) {
         const auto keep = [&](F& value, const float* column) { value = select(straight, value, load<F>(column + k)); };
         keep(first.albedo.x, c.albedo_r);
@@ -63,7 +64,7 @@ template <class F> void note_roulette(RouletteColumns& c, const int32_t* slots, 
 
 template <Features S, class F> [[gnu::flatten]] void generate_paths(const KernelContext& context, const TileJob& job, TileScratch& scratch) {
     PathQueue& q = scratch.paths[0];
-    // Pixel and sample of each slot, by plain counting; the columns that will hold the rays serve as scratch.
+    // Computes pixel and sample of each slot by counting; uses the ray columns as scratch memory.
     float* xs = scratch.hits.t;
     float* ys = scratch.hits.u;
     uint32_t* samples = scratch.random;
@@ -102,7 +103,7 @@ template <Features S, class F> [[gnu::flatten]] void generate_paths(const Kernel
     std::fill_n(scratch.roulette->survival.data, n, 0.f);
 }
 
-// Finds what the path rays of `now` hit. In scenes with panes `rest` is overwritten, and paths that pass some have their throughput changed.
+// Traces the path rays of `now`. In scenes with panes, overwrites `rest` and changes the throughput of paths that pass panes.
 template <Features S, class F> void trace_paths(const KernelContext& context, TileScratch& scratch, PathQueue& now, PathQueue& rest, int bounce) {
     trace_rays<F>(context, scratch.random, now, bounce, scratch.hits);
     if constexpr (S.has(Feature::transmission))
@@ -120,12 +121,12 @@ template <Features S, class F>
         if constexpr (S.has(Feature::dispersion)) path.dispersed = load<Int<F>>(now.dispersed + k);
         const Mask<F> active = as_mask(iota<F>() + k < now.size);
         const Step<F> step = scatter<S, F>(*context.scene, context.settings, path, load_hit<F>(scratch.hits, k), bounce, active);
-        Mask<F> straight = Mask<F>(true); // the path's ray has passed no pane
+        Mask<F> straight = Mask<F>(true); // the path's ray passed no pane
         if constexpr (S.has(Feature::transmission))
             if (context.scene->panes) straight = as_mask(load<Int<F>>(scratch.panes->passed + k) == 0);
         if (bounce == 0 && scratch.first) store_first_hit<F>(*scratch.first, k, step.first, straight);
         if (bounce <= 1 && context.settings.reuse.size() > 1) {
-            // Connections to other pixels do not pass panes, so a segment that does is not shared either.
+            // Path reuse connections do not pass panes, so a segment that does is not shared.
             Junction<F> junction = step.junction;
             if (bounce == 1) junction.lambertian = junction.lambertian && straight;
             store_junction<F>(*scratch.reuse, now, k, bounce, path, junction);
@@ -153,7 +154,7 @@ template <Features S, class F>
     }
 }
 
-// Adds the light of all shadow rays that reach their light.
+// Adds the light of all unoccluded shadow rays.
 template <Features S, class F> void connect_paths(const KernelContext& context, TileScratch& scratch, int bounce) {
     if constexpr (S.has(Feature::transmission))
         if (context.scene->panes) return connect_through_panes<S, F>(context, scratch, bounce);
@@ -163,8 +164,7 @@ template <Features S, class F> void connect_paths(const KernelContext& context, 
         if (!scratch.blocked[k]) add_shadow_light(scratch, q, k);
 }
 
-// What the paths have gathered so far, when everything that took at most `bounce` scatterings is in it: light that was aimed at after one
-// scattering less, and light that was found.
+// Stores the radiance so far as the result after at most `bounce` scatterings: emission at hits, and NEE of one scattering less.
 inline void record_bounce(TileScratch& scratch, int paths, int bounce) {
     BounceColumns& columns = *scratch.bounces;
     if (bounce >= int(columns.after.size())) return;

@@ -89,9 +89,9 @@ TEST(Tza, RefusesWhatIsDamaged) {
     EXPECT_EQ(error_of(file_of(data, {{}})), "no error");
     EXPECT_TRUE(refused(file_of(data, {{}}, 0x41D8), "magic"));
     EXPECT_TRUE(refused(file_of(data, {{}}, 0x41D7, 3), "version"));
-    EXPECT_TRUE(refused(file_of(data, {{.type = 'd'}}), "unknown type"));
-    EXPECT_TRUE(refused(file_of(data, {{}, {}}), "one name"));
-    EXPECT_TRUE(refused(file_of(data, {{.layout = ""}}), "cut off"));
+    EXPECT_TRUE(refused(file_of(data, {{.type = 'd'}}), "unknown value type"));
+    EXPECT_TRUE(refused(file_of(data, {{}, {}}), "same name"));
+    EXPECT_TRUE(refused(file_of(data, {{.layout = ""}}), "truncated"));
     EXPECT_TRUE(refused(file_of(floats({1, INFINITY}), {{}}), "not finite"));
     EXPECT_TRUE(refused(file_of(halves({1, 0x7e00}), {{.type = 'h'}}), "not finite"));
     EXPECT_TRUE(refused({}, "magic"));
@@ -114,7 +114,7 @@ TEST(Tza, RefusesAbsurdNumbers) {
     // More tensors than there is table.
     Bytes many = file_of(data, {{}});
     for (int i = 0; i < 4; i++) many[12 + data.size() + i] = 0xff;
-    EXPECT_TRUE(refused(many, "cut off"));
+    EXPECT_TRUE(refused(many, "truncated"));
     // The same bytes again and again.
     std::vector<Entry> entries;
     for (int i = 0; i < 1000; i++) entries.push_back({.name = std::to_string(i), .dimensions = {4000}, .type = 'h'});

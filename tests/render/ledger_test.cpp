@@ -99,7 +99,7 @@ TEST(Ledger, WhatARichSceneNeedsIsThere) {
 }
 
 TEST(Ledger, MirrorsAndGlassAreAimedAtWhereTheyFocusLight) {
-    const char* name = "aiming at what focuses";
+    const char* name = "caustic guiding";
     Scene scene = bare();
     place(scene, sphere(false), glass(0, 1.5f), at({0, 1, 0}, 0.5f));
     place(scene, sphere(false), metal(0.5f), at({2, 1, 0}, 0.5f)); // too rough

@@ -98,11 +98,11 @@ TEST(FilmState, IsNotToBeHadWhereItWouldNotBeWhole) {
     p.render.adaptive = true;
     Renderer renderer({.threads = 2});
     renderer.update(p.scene, p.render);
-    EXPECT_FALSE(renderer.save_film(0)) << "nothing is rendered";
+    EXPECT_FALSE(renderer.save_film(0)) << "no samples are rendered";
     renderer.render(0, 20);
     EXPECT_TRUE(renderer.save_film(0));
     EXPECT_FALSE(renderer.render(20, 10, [] { return false; }));
-    EXPECT_FALSE(renderer.save_film(0)) << "stopped half-way";
+    EXPECT_FALSE(renderer.save_film(0)) << "stopped in the middle";
     renderer.set_divider(2);
     renderer.render(0, 4);
     EXPECT_FALSE(renderer.save_film(0)) << "a coarse image";
@@ -118,7 +118,7 @@ TEST(FilmState, IsRefusedWhereItDoesNotFit) {
     with_planes.update(p.scene, p.render);
     const Result<void> lacking = with_planes.load_film(*state);
     ASSERT_FALSE(lacking);
-    EXPECT_EQ(lacking.error().what, "the samples come without the plane \"albedo.R\"");
+    EXPECT_EQ(lacking.error().what, "the saved samples lack the plane \"albedo.R\"");
     EXPECT_EQ(with_planes.resolve().samples, 0);
 
     p.render.adaptive = true;
@@ -139,7 +139,7 @@ TEST(FilmState, IsRefusedWhereItDoesNotFit) {
     renderer.update(p.scene, p.render);
     const Result<void> other_size = renderer.load_film(*state);
     ASSERT_FALSE(other_size);
-    EXPECT_EQ(other_size.error().what, "samples of 40 x 24 pixels do not fit an image of 41 x 24");
+    EXPECT_EQ(other_size.error().what, "saved samples of 40 x 24 pixels do not fit an image of 41 x 24");
 }
 
 // Material ids outlive the table that they index.
@@ -277,7 +277,7 @@ TEST(SessionFilm, SaysWhyItBeginsAnew) {
     ASSERT_TRUE(kept.film);
     session->submit(2, p.scene, p.render, {.bounces = 4}, kept.film);
     const Event done = session.wait_for(2, State::complete);
-    EXPECT_EQ(done.status.not_continued, "the samples come without the plane \"bounce.0.R\"");
+    EXPECT_EQ(done.status.not_continued, "the saved samples lack the plane \"bounce.0.R\"");
     EXPECT_EQ(done.frame->samples, 20);
     session->submit(3, p.scene, p.render, {}, kept.film);
     EXPECT_EQ(session.wait_for(3, State::complete).status.not_continued, "");
@@ -294,7 +294,7 @@ TEST(SessionFilm, OfAnImageThatIsGoneIsNotToBeHad) {
     session->keep_film(1);
     const KeptFilm kept = kept_film(session);
     EXPECT_FALSE(kept.film);
-    EXPECT_EQ(kept.why_none, "the image was changed in that moment");
+    EXPECT_EQ(kept.why_none, "the image changed before its film was saved");
 }
 
 // A change of the stop rules right behind it does not lose the samples.

@@ -1,4 +1,4 @@
-// What the network does between convolutions, on rows of pixels with interleaved channels. T: float, or bfloat16 as its bits.
+// Network operations other than convolutions, on rows of pixels with interleaved channels. T: float, or bfloat16 as its bits.
 #pragma once
 
 #include <algorithm>
@@ -12,14 +12,14 @@ namespace blush::denoise {
 
 using Bfloat16 = uint16_t;
 
-// Rounds to nearest, ties to even. For finite values.
+// Rounds to nearest, ties to even. Finite values only.
 inline Bfloat16 to_bfloat16(float x) {
     const uint32_t bits = std::bit_cast<uint32_t>(x);
     return Bfloat16((bits + 0x7fff + (bits >> 16 & 1)) >> 16);
 }
 inline float to_float(Bfloat16 x) { return std::bit_cast<float>(uint32_t(x) << 16); }
 
-// A row of pixels; behind the channels of each, what rounding took from the first `split` of them.
+// Converts a row of pixels; after the channels of each pixel follow the rounding errors of its first `split` channels.
 inline void split_row(const float* from, int channels, int split, Bfloat16* to, int width) {
     for (int x = 0; x < width; x++, from += channels, to += channels + split) {
         for (int c = 0; c < channels; c++) to[c] = to_bfloat16(from[c]);
@@ -27,7 +27,7 @@ inline void split_row(const float* from, int channels, int split, Bfloat16* to, 
     }
 }
 
-// The largest of each 2x2 pixels. What comes out of a ReLU is not negative, and such numbers are ordered like their bits.
+// 2x2 max pooling. Inputs are outputs of a ReLU, so non-negative, and such floats compare like their bits.
 template <class T> void pool_rows(const T* upper, const T* lower, T* to, int width, int channels) {
     using Ordered = std::conditional_t<std::is_same_v<T, float>, float, int16_t>;
     for (int x = 0; x < width; x++) {
@@ -39,7 +39,7 @@ template <class T> void pool_rows(const T* upper, const T* lower, T* to, int wid
     }
 }
 
-// Copies at least `bytes`, a vector register at a time; what it writes beyond, and reads beyond, is less than one register.
+// Copies at least `bytes` in whole vector registers; reads and writes less than one register beyond the end.
 inline void copy_over(std::byte* to, const std::byte* from, size_t bytes) {
     struct Register {
         std::byte bytes[16];
@@ -51,8 +51,8 @@ inline void copy_over(std::byte* to, const std::byte* from, size_t bytes) {
     }
 }
 
-// A row of (each pixel of `half` twice, then the skipped one's channels). Pixels are written in order, so that each covers what
-// its predecessor wrote beyond its end; behind the row there must be room for a register.
+// Writes a row of (each pixel of `half` twice, then the skip connection's channels). Pixels are written in order, so that each
+// overwrites what the previous one wrote beyond its end; the row needs room for one more register.
 template <class T> void double_and_join_row(const T* half, int half_channels, const T* skip, int skip_channels, T* to, int width) {
     const auto bytes = [](const T* p) { return reinterpret_cast<const std::byte*>(p); };
     for (int x = 0; x < width; x++) {

@@ -33,7 +33,7 @@ dnnl::convolution_forward::primitive_desc describe(const ConvolutionWeights& wei
     return {convolution, attributes, processor()};
 }
 
-// Copies `values` into memory of the layout that `packed` asks for.
+// Reorders `values` into the memory layout `packed`.
 memory pack(const std::vector<float>& values, const memory::desc& plain, const memory::desc& packed) {
     memory from(plain, processor(), const_cast<float*>(values.data())), to(packed, processor());
     dnnl::stream stream(processor());
@@ -45,7 +45,7 @@ memory pack(const std::vector<float>& values, const memory::desc& plain, const m
 } // namespace
 
 bool has_bfloat16() {
-    // Below these oneDNN emulates, slower than float32.
+    // On older instruction sets oneDNN emulates bfloat16, slower than float32.
     switch (dnnl::get_effective_cpu_isa()) {
     case dnnl::cpu_isa::avx512_core_bf16:
     case dnnl::cpu_isa::avx512_core_amx: return true;
@@ -78,7 +78,7 @@ Result<Convolution> Convolution::make(const ConvolutionWeights& weights, const B
         state->bias = pack(weights.bias, state->description.bias_desc(), state->description.bias_desc());
         return Convolution(std::move(state));
     } catch (const dnnl::error& e) {
-        return Error{.what = fmt::format("the denoiser's convolution of {} to {} channels cannot be made: {}", weights.inputs,
+        return Error{.what = fmt::format("the denoiser's convolution of {} to {} channels cannot be created: {}", weights.inputs,
                                          weights.outputs, e.what())};
     }
 }

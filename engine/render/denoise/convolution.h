@@ -1,4 +1,4 @@
-// One 3x3 convolution with bias and ReLU over a band of rows: the only file that knows oneDNN.
+// One 3x3 convolution with bias and ReLU over a band of rows; the only file that uses oneDNN.
 #pragma once
 
 #include "core/result.h"
@@ -10,11 +10,11 @@
 
 namespace blush::denoise {
 
-// Does this processor compute with bfloat16, and not only convert?
+// True if the processor has bfloat16 arithmetic, not only conversions.
 bool has_bfloat16();
 
-// oneDNN would spread each convolution over OpenMP's threads. Ours compute a band each, under our own priorities and beside the
-// renderer; so whoever makes or runs convolutions holds one of these, which leaves OpenMP this thread alone.
+// oneDNN would spread each convolution over OpenMP threads. Our workers compute one band each, at their own priority next to the
+// renderer; so code that creates or runs convolutions holds one of these, which limits OpenMP to this thread.
 class OneThread {
 public:
     OneThread();
@@ -33,14 +33,14 @@ struct BandShape {
 
 class Convolution {
 public:
-    // Packs the weights for this shape. Errors: oneDNN has no such convolution, or no memory for it.
+    // Packs the weights for this shape. Errors: oneDNN does not support the convolution, or out of memory.
     static Result<Convolution> make(const ConvolutionWeights& weights, const BandShape& shape);
     Convolution(Convolution&&) noexcept;
     Convolution& operator=(Convolution&&) noexcept;
     ~Convolution();
 
-    // source: rows + 2 rows of inputs, the first of them above the first output row; target: rows of outputs. Both without gaps,
-    // zero padding only at the left and at the right. scratch: scratch_bytes(), for this call alone. Thread-safe.
+    // source: rows + 2 rows of inputs, starting above the first output row; target: rows of outputs. Both without gaps; the zero
+    // padding at the left and right is implicit. scratch: scratch_bytes(), exclusive to this call. Thread-safe.
     void run(const void* source, void* target, std::byte* scratch) const;
     size_t scratch_bytes() const;
 

@@ -16,7 +16,7 @@ constexpr double key = 0.18;
 
 float finite(float x) { return is_finite(x) ? x : 0.f; }
 
-// Of the finite parts of a pixel. In double: sums of the largest floats are not finite.
+// Luminance of the finite components. In double, because sums of the largest floats overflow.
 double luminance_at(const float* p) { return luminance(Vec3d{finite(p[0]), finite(p[1]), finite(p[2])}); }
 
 struct LogSum {

@@ -8,11 +8,11 @@
 namespace blush::denoise {
 namespace {
 
-// Sizes and networks ready at once: the three of one high-quality image, and another size of each.
+// Prepared networks that are cached: the three of one high-quality image, and another size of each.
 constexpr size_t most_made = 6;
 constexpr auto alignment = std::align_val_t(64);
 
-// The part of network row y that lies in the image comes from the source, the rest is zero.
+// Network rows inside the image come from the source, others are zero.
 UnetSource tile_source(const NetworkJob& job, const TileGrid& grid, const Tile& tile) {
     return [&job, &grid, tile](int y, float* row) {
         const int inside = tile.y + y < job.height ? std::min(grid.width, job.width - tile.x) : 0;

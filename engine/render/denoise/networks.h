@@ -1,4 +1,4 @@
-// The networks in use: their weights, the sizes they were last made for, the memory they work in.
+// Caches the networks in use: weights, networks for recent sizes, working memory.
 #pragma once
 
 #include "core/parallel.h"
@@ -17,9 +17,9 @@
 
 namespace blush::denoise {
 
-// Fills `count` pixels of network input (all its channels) from (x, y) on, all within the image.
+// Writes `count` pixels of network input (all channels) starting at (x, y), all within the image.
 using ImageSource = std::function<void(int x, int y, int count, float* row)>;
-// Takes `count` pixels of network output, three channels, from (x, y) on.
+// Receives `count` pixels of network output, three channels, starting at (x, y).
 using ImageSink = std::function<void(int x, int y, int count, const float* row)>;
 
 struct NetworkJob {
@@ -30,15 +30,15 @@ struct NetworkJob {
     uint64_t memory_bytes = 0;
     ImageSource source = {};
     ImageSink sink = {};
-    std::function<void(double)> progress = {}; // told of the share that is done
+    std::function<void(double)> progress = {}; // gets the completed fraction
 };
 
 class Networks {
 public:
     explicit Networks(std::filesystem::path folder);
 
-    // Each pixel of the image is taken exactly once. How many tiles it took; 0 if it stopped because it was no longer wanted.
-    // Errors: weights, convolutions, memory too small for the smallest tile.
+    // Each pixel of the image is output exactly once. Returns the number of tiles; 0 if cancelled. Errors: weights, convolutions,
+    // not enough memory for the smallest tile.
     Result<int> run(const NetworkJob& job, const Workers& workers, const std::function<bool()>& wanted);
     // Frees everything but the weights.
     void release();
@@ -60,7 +60,7 @@ private:
 
     std::filesystem::path folder_;
     std::map<std::string, UnetWeights> weights_;
-    std::list<Made> made_; // the last used first
+    std::list<Made> made_; // most recently used first
     std::unique_ptr<std::byte[], Free> memory_;
     size_t memory_bytes_ = 0;
 };

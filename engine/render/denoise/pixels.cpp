@@ -12,7 +12,7 @@ const float perceived_largest = perceived(largest_radiance);
 // NaN becomes 0.
 template <class F> F clamped(const F& x, float low, float high) { return select(x == x, min(max(x, F(low)), F(high)), F(0.f)); }
 
-// to[i] = fn(from[i]) in registers, the rest one by one; the two agree bit by bit.
+// to[i] = fn(from[i]) in registers, the remainder one by one; both are bit-identical.
 template <class Fn> void map(const float* from, float* to, int count, Fn fn) {
     int i = 0;
     for (; i + width<Wide> <= count; i += width<Wide>) store(to + i, fn(load<Wide>(from + i)));

@@ -1,19 +1,19 @@
-// Between images and what the network reads and writes, on runs of `count` pixels.
+// Converts between images and network input and output, on runs of `count` pixels.
 #pragma once
 
 namespace blush::denoise {
 
-// Each writes three of the `channels` interleaved floats of each network pixel, the first of them at `to`. `from`: three
+// Each encoder writes three of the `channels` interleaved floats of each network pixel, the first at `to`. `from`: three
 // components of each pixel, `stride` floats apart.
 
-// NaN becomes 0, what is beyond [0, largest_radiance / scale] its end; then exposed and perceived.
+// NaN becomes 0, values are clamped to [0, largest_radiance / scale], then exposed and encoded.
 void encode_color(const float* from, int stride, int count, float scale, float* to, int channels);
 // NaN becomes 0; clamped to [0, 1].
 void encode_albedo(const float* from, int stride, int count, float* to, int channels);
 // NaN becomes 0; clamped to [-1, 1], then moved to [0, 1].
 void encode_normal(const float* from, int stride, int count, float* to, int channels);
 
-// The inverse of encode_color for what the network gives; count * 3 floats. NaN becomes 0, what is beyond [0, 1] its end.
+// The inverse of encode_color for network output; count * 3 floats. NaN becomes 0, values are clamped to [0, 1].
 void decode_color(const float* from, int count, float scale, float* to);
 
 } // namespace blush::denoise

@@ -1,4 +1,4 @@
-// How the network sees radiance: the perceptually uniform curve of Open Image Denoise, over a lane type.
+// Encodes radiance for the network: the perceptually uniform curve of Open Image Denoise, templated over the lane type.
 #pragma once
 
 #include "core/lanes.h"
@@ -6,7 +6,7 @@
 
 namespace blush::denoise {
 
-// The largest radiance that the network knows, after exposure.
+// The largest radiance that the network supports, after exposure.
 inline constexpr float largest_radiance = 65504.f;
 
 // Natural logarithm of a normal number > 0: ln m + e ln 2 with m in [sqrt 1/2, sqrt 2], ln m = 2 artanh((m - 1) / (m + 1)) as a
@@ -18,7 +18,7 @@ template <class F> F log(const F& x) {
     return to_float(e) * 0.693147181f + 2.f * s * (1.f + s2 * (0.333333333f + s2 * (0.2f + s2 * (0.142857143f + s2 * 0.111111111f))));
 }
 
-// T(y) of radiance y >= 0: linear, a power, a logarithm.
+// T(y) of radiance y >= 0, piecewise: linear, power, logarithm.
 template <class F> F perceived(const F& y) {
     const F logarithm = 0.192653254f * denoise::log(y + 0.00626026094f) + 0.998620152f;
     const Mask<F> dark = y <= F(0.0322087631f);

@@ -24,7 +24,7 @@ float float_from_half(uint16_t half) {
     return half & 0x8000 ? -magnitude : magnitude;
 }
 
-// Little-endian numbers from a place in the file. Once it was asked for what is not there it gives zeros and is `bad`.
+// Reads little-endian numbers from a position in the file. After reading beyond the end it returns zeros and is `bad`.
 class Reader {
 public:
     Reader(std::span<const uint8_t> bytes, uint64_t at) : bytes_(bytes), at_(at) {}
@@ -62,12 +62,12 @@ public:
 
     Result<TensorTable> read() {
         Reader head(bytes_, 0);
-        if (head.number<uint16_t>() != magic) return error("not a file of weights (wrong magic number)", 0);
-        if (head.number<uint8_t>() != major_version) return error("weights of an unknown version", 2);
-        head.number<uint8_t>(); // minor versions only add
+        if (head.number<uint16_t>() != magic) return error("not a weights file (wrong magic number)", 0);
+        if (head.number<uint8_t>() != major_version) return error("unknown version of the weights format", 2);
+        head.number<uint8_t>(); // minor versions only add data
         Reader table(bytes_, head.number<uint64_t>());
         const uint32_t count = table.number<uint32_t>();
-        if (head.bad() || table.bad()) return error("the table of tensors lies beyond the end", 4);
+        if (head.bad() || table.bad()) return error("the tensor table lies beyond the end of the file", 4);
 
         TensorTable tensors;
         for (uint32_t i = 0; i < count; i++) {
@@ -75,7 +75,7 @@ public:
             const std::string name = table.text(table.number<uint16_t>());
             auto tensor = read_tensor(table, entry);
             if (!tensor) return tensor.error();
-            if (!tensors.emplace(name, std::move(*tensor)).second) return error("two tensors with one name", entry);
+            if (!tensors.emplace(name, std::move(*tensor)).second) return error("two tensors have the same name", entry);
         }
         return tensors;
     }
@@ -94,21 +94,21 @@ private:
         tensor.layout = table.text(tensor.dimensions.size());
         const char type = char(table.number<uint8_t>());
         const uint64_t offset = table.number<uint64_t>();
-        if (table.bad()) return error("the table of tensors is cut off", entry);
-        if (type != 'h' && type != 'f') return error("values of an unknown type", entry);
+        if (table.bad()) return error("the tensor table is truncated", entry);
+        if (type != 'h' && type != 'f') return error("unknown value type", entry);
 
-        // Tensors do not overlap, so all of them together are no larger than the file. (A table that names the same bytes again and
-        // again would otherwise ask for any amount of memory.)
+        // Tensors do not overlap, so together they are no larger than the file. (Otherwise a table that references the same bytes
+        // repeatedly could request any amount of memory.)
         const uint64_t size = count * (type == 'h' ? 2 : 4);
-        if (size > bytes_.size() - claimed_) return error("tensors larger than the file", entry);
+        if (size > bytes_.size() - claimed_) return error("tensors are larger than the file", entry);
         claimed_ += size;
         Reader data(bytes_, offset);
         tensor.values.resize(count);
         for (float& value : tensor.values)
             value = type == 'h' ? float_from_half(data.number<uint16_t>()) : float_from_bits(int32_t(data.number<uint32_t>()));
-        if (data.bad()) return error("a tensor lies beyond the end", entry);
+        if (data.bad()) return error("a tensor lies beyond the end of the file", entry);
         for (const float value : tensor.values)
-            if (!is_finite(value)) return error("a tensor with values that are not finite", entry);
+            if (!is_finite(value)) return error("a tensor has values that are not finite", entry);
         return tensor;
     }
 

@@ -7,7 +7,7 @@
 namespace blush::denoise {
 namespace {
 
-// For a layer that reads the input split in two parts: its first channels' weights, from `first` on among those of the layer, twice.
+// For a layer with split input: duplicates the weights of the split channels, which start at `first`.
 ConvolutionWeights with_second_parts(const ConvolutionWeights& weights, int first) {
     ConvolutionWeights made{weights.inputs + split_channels, weights.outputs, {}, weights.bias};
     for (int o = 0; o < weights.outputs; o++) {
@@ -18,7 +18,7 @@ ConvolutionWeights with_second_parts(const ConvolutionWeights& weights, int firs
     return made;
 }
 
-// The weights of layer `layer` for the planes as they are laid out for `element`.
+// The weights of layer `layer`, adapted to the plane layout of `element`.
 ConvolutionWeights layer_weights(const UnetWeights& weights, int layer, Element element) {
     const bool reads_input = layer == 0 || unet_layers[layer].skip == 0;
     if (!reads_input || extra_inputs(element) == 0) return weights.layers[layer];
@@ -27,7 +27,7 @@ ConvolutionWeights layer_weights(const UnetWeights& weights, int layer, Element 
 
 int bands_of(int rows) { return (rows + band_rows - 1) / band_rows; }
 
-// One run of the network.
+// One inference of the network.
 template <class T> class Pass {
 public:
     Pass(const Unet& unet, const Workers& workers, const std::function<bool()>& wanted, std::byte* memory)
@@ -71,14 +71,14 @@ private:
     }
 
     struct Own {
-        std::byte *source, *target, *scratch; // a worker's alone: rows that a band is made of, rows it makes, the convolution's
+        std::byte *source, *target, *scratch; // per worker: input rows of a band, output rows, scratch of the convolution
     };
     Own own(unsigned worker) const {
         const UnetPlan& plan = unet_.plan;
         std::byte* begin = memory_ + plan.plane_bytes + worker * (2 * plan.band_bytes + unet_.scratch_bytes);
         return {begin, begin + plan.band_bytes, begin + 2 * plan.band_bytes};
     }
-    // Rows -1 and height are the zeros around.
+    // Rows -1 and height are the zero padding.
     std::byte* bytes_at(int plane, int y) const {
         const UnetPlane& p = unet_.plan.planes[plane];
         return memory_ + p.offset + p.row_bytes() * (y + 1);
@@ -89,7 +89,7 @@ private:
         for (const int y : {-1, p.height}) std::fill_n(bytes_at(plane, y), p.row_bytes(), std::byte(0));
     }
 
-    // What layer `layer` reads for its rows [y, y + rows) where it reads two planes.
+    // Assembles the input of layer `layer` for its rows [y, y + rows) from two planes (skip connection).
     const void* join(int layer, int y, int rows, std::byte* memory) const {
         const UnetPlane& half = unet_.plan.planes[layer];
         const int skip = unet_layers[layer].skip;

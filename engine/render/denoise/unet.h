@@ -1,4 +1,4 @@
-// The network for one size of image, ready to run.
+// The network, prepared for one image size.
 #pragma once
 
 #include "core/parallel.h"
@@ -14,7 +14,7 @@
 namespace blush::denoise {
 
 struct Unet {
-    // The last band of a plane may be lower than the others.
+    // The last band of a plane may have fewer rows.
     struct Layer {
         Convolution band;
         std::optional<Convolution> last_band;
@@ -22,10 +22,10 @@ struct Unet {
 
     UnetPlan plan;
     std::vector<Layer> layers = {};
-    std::vector<double> done_after = {}; // share of all multiplications that is done after each layer; the last is 1
-    size_t scratch_bytes = 0; // of the convolutions, for each worker
+    std::vector<double> done_after = {}; // fraction of all multiplications done after each layer; the last is 1
+    size_t scratch_bytes = 0; // of the convolutions, per worker
 
-    // Of the memory that run_unet() works in.
+    // Size of the working memory of run_unet().
     size_t bytes(const Workers& workers) const { return plan.bytes(workers.threads()) + workers.threads() * scratch_bytes; }
 };
 
@@ -34,12 +34,11 @@ Result<Unet> make_unet(const UnetWeights& weights, int width, int height, Elemen
 
 // Fills row y of the input: width * input channels.
 using UnetSource = std::function<void(int y, float* row)>;
-// Takes row y of the output: width * 3.
+// Receives row y of the output: width * 3.
 using UnetSink = std::function<void(int y, const float* row)>;
 
-// memory: unet.bytes(workers), aligned to 64; holds nothing between calls. Source and sink are called once for each row, from many
-// threads; progress after each layer, with the share of the work that is done, on the caller's. False if it stopped because it was no
-// longer wanted.
+// memory: unet.bytes(workers), aligned to 64; needs no contents between calls. Source and sink are called once per row, from many
+// threads; progress after each layer, with the completed fraction, on the caller's thread. False if cancelled.
 bool run_unet(const Unet& unet, const Workers& workers, const std::function<bool()>& wanted, std::byte* memory, const UnetSource& source,
               const UnetSink& sink, const std::function<void(double)>& progress = {});
 

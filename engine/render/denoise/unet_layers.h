@@ -1,4 +1,4 @@
-// The shape of the network: sixteen 3x3 convolutions, each with bias and ReLU. Base and small networks differ in channels only.
+// The network architecture: sixteen 3x3 convolutions, each with bias and ReLU. Base and small networks differ in channels only.
 #pragma once
 
 #include <array>
@@ -7,12 +7,13 @@ namespace blush::denoise {
 
 struct UnetLayer {
     const char* name;
-    bool pool = false; // what it makes is halved: the largest of 2x2 pixels
-    int skip = -1;     // -1: reads what the layer before made. Else: that doubled (nearest), and this plane's channels after it
+    bool pool = false; // the output is max-pooled by 2x2
+    // -1: input is the previous layer. Else: the previous layer upsampled by 2 (nearest), then this plane's channels
+    int skip = -1;
 };
 
 inline constexpr int unet_layer_count = 16;
-// Plane 0 is the network's input, plane i + 1 what layer i makes.
+// Plane 0 is the network's input, plane i + 1 the output of layer i.
 inline constexpr int unet_plane_count = unet_layer_count + 1;
 inline constexpr std::array<UnetLayer, unet_layer_count> unet_layers{{
     {"enc_conv0"},
@@ -35,7 +36,7 @@ inline constexpr std::array<UnetLayer, unet_layer_count> unet_layers{{
 
 // Four poolings: sides are multiples of this.
 inline constexpr int unet_side_multiple = 16;
-// How far, in pixels, an input reaches into the output: half the receptive field of 174, as a multiple of the above.
+// Reach of an input pixel in the output, in pixels: half the receptive field of 174, rounded up to a multiple of the above.
 inline constexpr int unet_reach = 96;
 
 using UnetChannels = std::array<int, unet_plane_count>;

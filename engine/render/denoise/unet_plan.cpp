@@ -6,12 +6,12 @@
 namespace blush::denoise {
 namespace {
 
-// Copies of whole vector registers may run over the end of a plane by less than this.
+// Copies of whole vector registers may exceed the end of a plane by less than this.
 constexpr size_t slack = 64;
 
 size_t aligned(size_t bytes) { return (bytes + 63) / 64 * 64; }
 
-// The last layer that reads plane `plane`, which layer plane - 1 makes.
+// The last layer that reads plane `plane`, the output of layer plane - 1.
 int last_reader(int plane) {
     int last = plane;
     for (int layer = plane; layer < unet_layer_count; layer++)
@@ -24,7 +24,7 @@ struct Block {
     int last_reader;
 };
 
-// The lowest place for `bytes` among the living, which are sorted by place.
+// The lowest free offset for `bytes` between the live blocks, which are sorted by offset.
 size_t lowest_gap(const std::vector<Block>& living, size_t bytes) {
     size_t begin = 0;
     for (const Block& block : living) {
@@ -56,7 +56,7 @@ UnetPlan plan_unet(const UnetChannels& channels, int width, int height, Element 
     std::vector<Block> living;
     for (int i = 0; i + 1 < unet_plane_count; i++) {
         UnetPlane& plane = plan.planes[i];
-        // Layer i - 1 writes this plane while it reads its own sources.
+        // Layer i - 1 writes this plane while it reads its inputs.
         std::erase_if(living, [&](const Block& block) { return block.last_reader < i - 1; });
         const size_t bytes = aligned(plane.row_bytes() * (plane.height + 2) + slack);
         plane.offset = lowest_gap(living, bytes);

@@ -11,7 +11,7 @@ namespace {
 constexpr uint64_t largest_file = uint64_t(64) << 20;
 constexpr uint32_t most_channels = 1024;
 
-// Moves the layer's two tensors out of the table. False if they are not there or have the wrong shape.
+// Moves the layer's two tensors out of the table. False if they are missing or have the wrong shape.
 bool take_layer(TensorTable& tensors, const std::string& name, int inputs, ConvolutionWeights& layer) {
     const auto kernel = tensors.find(name + ".weight"), bias = tensors.find(name + ".bias");
     if (kernel == tensors.end() || bias == tensors.end()) return false;
@@ -43,10 +43,10 @@ Result<UnetWeights> read_unet_weights(const std::filesystem::path& file, int inp
         const UnetLayer& layer = unet_layers[i];
         const int layer_inputs = channels[i] + (layer.skip >= 0 ? channels[layer.skip] : 0);
         if (!take_layer(*tensors, layer.name, layer_inputs, weights.layers[i]))
-            return Error{file.string(), "not the weights of this network: a tensor is missing or has another shape", layer.name};
+            return Error{file.string(), "not the weights of this network: a tensor is missing or has the wrong shape", layer.name};
         channels[i + 1] = weights.layers[i].outputs;
     }
-    if (channels.back() != 3) return Error{file.string(), "not the weights of this network: it does not end in three channels"};
+    if (channels.back() != 3) return Error{file.string(), "not the weights of this network: the output does not have three channels"};
     return weights;
 }
 

@@ -1,4 +1,4 @@
-// The numbers of one network, checked to fit each other.
+// The weights of one network, with checked shapes.
 #pragma once
 
 #include "core/result.h"
@@ -22,8 +22,8 @@ struct UnetWeights {
     UnetChannels channels() const;
 };
 
-// From a .tza file, for a network of so many input channels and three output channels. Errors: the file cannot be read, is not one
-// (read_tza), or its tensors do not make such a network.
+// Reads a .tza file for a network with `inputs` input channels and three output channels. Errors: the file cannot be read, is
+// invalid (read_tza), or its tensors do not form such a network.
 Result<UnetWeights> read_unet_weights(const std::filesystem::path& file, int inputs);
 
 } // namespace blush::denoise

@@ -1,9 +1,9 @@
-// Memory for one number per path.
+// A column: one number per path of a tile.
 #pragma once
 
 namespace blush {
 
-// Paths a tile holds at most. Enough to fill packets after most paths have ended, small enough for the second-level cache.
+// Maximal number of paths in a tile. Enough to fill packets after most paths have ended, small enough for the L2 cache.
 constexpr int tile_capacity = 4096;
 
 // One number per path, padded so that whole registers can be read and written past the end.

@@ -1,4 +1,4 @@
-// The sets of features that kernels are compiled for, smallest first. A scene gets the first that has all it needs.
+// The feature sets that kernels are compiled for, smallest first. A scene uses the first that has all it needs.
 #pragma once
 
 #include "shading/features.h"
@@ -13,14 +13,14 @@ struct FeatureSet {
     Features features;
 };
 
-// Matte rooms lit by meshes: the Cornell box.
+// Diffuse rooms lit by meshes: the Cornell box.
 inline constexpr Features lambert_features = no_features.with(Feature::emissive_triangles).with(Feature::instances);
-// Rooms with metal and glass in them, lit by meshes alone.
+// Rooms with metal and glass, lit only by meshes.
 inline constexpr Features mesh_lit_features = lambert_features.with(Feature::specular).with(Feature::transmission);
-// Everything but rare materials. These share one kernel: it is the largest by far, and each combination of its own would cost as much
-// again to compile for four instruction sets.
+// Everything except rare materials. The rare layers share one kernel: it is the largest by far, and each further combination
+// would cost as much compile time for four instruction sets.
 inline constexpr Features full_features{all_features.bits & ~layer_features.bits};
-// Everything else that needs no texture coordinates.
+// All features of `full` that need no texture coordinates.
 inline constexpr Features untextured_features = full_features.without(Feature::textures)
                                                     .without(Feature::normal_maps)
                                                     .without(Feature::vertex_colors)
@@ -28,7 +28,7 @@ inline constexpr Features untextured_features = full_features.without(Feature::t
                                                     .without(Feature::energy_compensation)
                                                     .without(Feature::orthographic)
                                                     .without(Feature::links);
-// The same without anything to see through.
+// The same without transmission.
 inline constexpr Features opaque_features = untextured_features.without(Feature::transmission).without(Feature::absorption);
 
 inline constexpr std::array<FeatureSet, 6> feature_sets{{

@@ -1,4 +1,4 @@
-// Radiance of a tile's paths, whole and by the group of lights that it came from.
+// Radiance of a tile's paths, in total and by light group.
 #pragma once
 
 #include "render/kernels/column.h"
@@ -22,13 +22,14 @@ inline void copy_radiance(const double* r, const double* g, const double* b, int
     std::copy_n(b, paths, to.b.data);
 }
 
-// One column of radiance for each group.
+// One radiance column per group.
 struct GroupColumns {
     explicit GroupColumns(int count, bool keeps_direct) : all(size_t(count)), direct(keeps_direct ? size_t(count) : 0) {}
 
     std::vector<RadianceColumns> all;
-    std::vector<RadianceColumns> direct; // of at most one scattering, for clamping, which spares it; empty: nobody reads it
-    bool has_direct = false;             // it was noted; if all paths ended earlier it would be the same as `all`
+    std::vector<RadianceColumns> direct; // of at most one scattering, which clamping excludes; empty: not needed
+    // `direct` was written; false if all paths ended earlier: then `direct` would equal `all`
+    bool has_direct = false;
 
     int count() const { return int(all.size()); }
     void clear(int paths) {

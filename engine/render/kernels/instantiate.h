@@ -1,4 +1,4 @@
-// Makes the table of kernels for the lane type and instruction set of the including file.
+// Instantiates the kernels for the lane type and instruction set of the including file.
 #pragma once
 
 #include "render/kernels/feature_sets.h"

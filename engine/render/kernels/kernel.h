@@ -1,4 +1,4 @@
-// A kernel renders one tile of paths; there is one for each instruction set and set of features.
+// A kernel renders one tile of paths; there is one kernel for each instruction set and feature set.
 #pragma once
 
 #include "core/vec.h"
@@ -25,7 +25,7 @@ struct TileJob {
     int x = 0, y = 0, width = 0, height = 0;
     int64_t first_sample = 0;
     int samples = 1;
-    int stride = 1; // from one sample index to the next: 2 stays within one half of the film
+    int stride = 1; // step of the sample index: 2 stays within one half of the film
     int64_t sample(int s) const { return first_sample + int64_t(s) * stride; }
     int paths() const { return width * height * samples; }
 };
@@ -48,37 +48,37 @@ struct ShadowQueue {
     int size = 0;
     Column<float> ox, oy, oz, dx, dy, dz, distance, r, g, b;
     Column<int32_t> slot;
-    Column<uint32_t> random; // for stochastic opacity; written only if something is not opaque
-    Column<int32_t> group;   // of the light; written only if somebody mixes
-    Column<uint32_t> mask;   // what the ray meets; written only if lights are linked
+    Column<uint32_t> random; // for stochastic opacity; written only if some material is not opaque
+    Column<int32_t> group;   // light group; written only with a light mix
+    Column<uint32_t> mask;   // ray mask; written only if lights are linked
 };
 struct FirstHitColumns {
     Column<float> albedo_r, albedo_g, albedo_b, normal_x, normal_y, normal_z, depth;
     Column<int32_t> object, material; // material: index into the material table, -1 on a miss
 };
 
-// The radiance of each path as it grows: after[k] holds what arrived by at most k scatterings. Never longer than the film asked for.
+// The radiance of each path by bounce: after[k] holds light of at most k scatterings. Never longer than the film requires.
 struct BounceColumns {
     explicit BounceColumns(int count) : after(size_t(count)) {}
     std::vector<RadianceColumns> after;
-    int recorded = 0; // of them; where all paths ended earlier, the others would hold their final radiance
+    int recorded = 0; // number of valid columns; if all paths ended earlier, the others equal the final radiance
 };
 
-// How long paths get and what roulette does to them.
+// Statistics of path lengths and Russian roulette.
 struct RouletteColumns {
-    Column<float> length;   // vertices of each path, the one where it leaves the scene among them
-    Column<float> asked;    // how often roulette was asked about it,
-    Column<float> survival; // and the sum of the probabilities that it gave
-    PathCounts counts[most_counted_bounces]; // counted up
+    Column<float> length;   // vertices of each path, including the one where it escapes
+    Column<float> asked;    // number of roulette decisions,
+    Column<float> survival; // and the sum of their survival probabilities
+    PathCounts counts[most_counted_bounces]; // accumulated
 };
 
-// Where panes are passed (thin_transmission.h).
+// For passing panes (thin_transmission.h).
 struct PaneColumns {
-    Column<int32_t> passed; // by path of the queue: how many panes its ray has passed
+    Column<int32_t> passed; // by path of the queue: number of panes passed
     HitColumns hits;        // of the rays behind them
 };
 
-// A worker's memory for tiles, and what a tile leaves in it. Results are by slot: slot = pixel * samples + sample, pixels by rows.
+// A worker's memory for a tile, and the tile's results. Results are by slot: slot = pixel * samples + sample, pixels row by row.
 struct TileScratch {
     PathQueue paths[2];
     HitColumns hits;
@@ -86,14 +86,14 @@ struct TileScratch {
     Column<uint32_t> random;
     Column<uint8_t> blocked;
 
-    Column<double> r, g, b;                 // radiance; in single precision a long path's last terms would be lost in its sum
-    std::unique_ptr<FirstHitColumns> first; // null: nobody reads it
-    std::unique_ptr<BounceColumns> bounces; // null: nobody reads it
-    std::unique_ptr<GroupColumns> groups;   // null: nobody mixes
-    std::unique_ptr<ReuseColumns> reuse;       // made by the first kernel that is told to
-    std::unique_ptr<RouletteColumns> roulette; // null: nobody reads it
-    std::unique_ptr<PaneColumns> panes;        // made by the first kernel whose scene has some
-    int64_t camera_rays = 0, bounce_rays = 0, shadow_rays = 0, truncated_paths = 0; // counted up
+    Column<double> r, g, b;                 // radiance; single precision would lose a long path's last terms
+    std::unique_ptr<FirstHitColumns> first; // null: not needed
+    std::unique_ptr<BounceColumns> bounces; // null: not needed
+    std::unique_ptr<GroupColumns> groups;   // null: no light mix
+    std::unique_ptr<ReuseColumns> reuse;       // allocated by the first kernel with path reuse
+    std::unique_ptr<RouletteColumns> roulette; // null: not needed
+    std::unique_ptr<PaneColumns> panes;        // allocated by the first kernel with panes
+    int64_t camera_rays = 0, bounce_rays = 0, shadow_rays = 0, truncated_paths = 0; // accumulated
 };
 
 struct KernelContext {
@@ -107,7 +107,7 @@ using TileFunction = void (*)(const KernelContext&, const TileJob&, TileScratch&
 
 struct Kernel {
     std::string_view isa;  // "scalar", "v2", "v3", "v4": x86-64 micro-architecture levels
-    std::string_view name; // of the set of features: "lambert", ...
+    std::string_view name; // of the feature set: "lambert", ...
     Features features;
     TileFunction render = nullptr;
 };
@@ -117,11 +117,11 @@ std::span<const Kernel> kernels_v2();
 std::span<const Kernel> kernels_v3();
 std::span<const Kernel> kernels_v4();
 
-// Instruction sets this processor can run, widest last; "scalar" first.
+// Instruction sets that this processor supports, widest last; "scalar" first.
 std::span<const std::string_view> runnable_isas();
 // All kernels of one instruction set, smallest feature set first; empty for an unknown name.
 std::span<const Kernel> kernels_of(std::string_view isa);
-// The smallest kernel that has all `needed` features, for $BLUSH_ISA if that is set and runnable, else the widest instruction set.
+// The smallest kernel with all `needed` features, for $BLUSH_ISA if set and supported, else for the widest instruction set.
 const Kernel& choose_kernel(Features needed);
 
 } // namespace blush

@@ -1,4 +1,4 @@
-// One path at a time: the oracle that the wide kernels are compared with.
+// One path at a time: the reference for tests of the wide kernels.
 #include "render/kernels/instantiate.h"
 
 namespace blush {
