@@ -24,19 +24,19 @@ struct ColorManagement::State {
 
 namespace {
 
-// Exact arithmetic where OCIO would trade precision for speed, so that processor and shader agree; no dynamic
-// properties, since nobody would set their uniforms.
+// Exact arithmetic where OCIO would trade precision for speed, so that CPU and shader agree; no dynamic properties, because their
+// uniforms would not be set.
 constexpr auto exact_arithmetic =
     OCIO::OptimizationFlags(OCIO::OPTIMIZATION_LOSSLESS | OCIO::OPTIMIZATION_LUT_INV_FAST | OCIO::OPTIMIZATION_NO_DYNAMIC_PROPERTIES);
 
-// The largest half: OCIO's tables for scene-linear values end there.
+// The largest half float: the end of OCIO's tables for scene-linear values.
 constexpr float largest_half = 65504;
 constexpr float smallest_gamma = 0.01f;
 
-// Bytes of a config's text: those of ACES have less than two million.
+// Limit of a config's size in bytes: ACES configs have less than two million.
 constexpr uint64_t largest_config = 8 << 20;
 
-// What widespread configs call our working space, ours first.
+// Names of our working space in common configs, our own first.
 constexpr const char* working_space_names[] = {"Linear Rec.709",          "lin_rec709",
                                                "Linear Rec.709 (sRGB)",   "lin_srgb",
                                                "Utility - Linear - sRGB", "Utility - Linear - Rec.709",
@@ -68,8 +68,8 @@ bool is_data_view(const OCIO::Config& config, const std::string& display, const 
     return space && space->isData();
 }
 
-// From the working space to the display. Raw views pass the numbers as they are. A config without our working space
-// is entered through ACES2065-1, and one that does not name that either is taken to work in Rec.709.
+// From the working space to the display. Raw views pass values unchanged. Configs without our working space are entered through
+// ACES2065-1; if that is missing too, the config's working space is assumed to be Rec.709.
 OCIO::ConstTransformRcPtr display_transform(const OCIO::Config& config, const DisplayTransform& names) {
     auto group = OCIO::GroupTransform::Create();
     if (is_data_view(config, names.display, names.view)) return group;
@@ -138,15 +138,15 @@ Result<OCIO::ConstProcessorRcPtr> make_processor(const OCIO::Config& config, Dis
     } catch (const std::exception& e) { return failure(e, {}, fmt::format("view \"{}\" of display \"{}\"", names.view, names.display)); }
 }
 
-// A parsed and validated config. Other people's configs must also be able to show their default view, so that a
-// missing table is found here and not at the first image.
+// A parsed and validated config. User configs must also be able to build their default view, so that a missing table is found
+// here and not at the first image.
 Result<OCIO::ConstConfigRcPtr> open_config(const std::filesystem::path& file, bool prove_default_view) {
     try {
         const Result<std::vector<uint8_t>> bytes = read_file(file, largest_config);
         if (!bytes) return bytes.error();
         std::istringstream text(std::string(bytes->begin(), bytes->end()));
         const OCIO::ConfigRcPtr config = OCIO::Config::CreateFromStream(text)->createEditableCopy();
-        config->setWorkingDir(std::filesystem::absolute(file).parent_path().c_str()); // where its tables are
+        config->setWorkingDir(std::filesystem::absolute(file).parent_path().c_str()); // location of its tables
         config->validate();
         if (config->getNumDisplays() == 0) return Error{file.string(), "the OpenColorIO config has no display", {}};
         if (prove_default_view) {
@@ -157,11 +157,11 @@ Result<OCIO::ConstConfigRcPtr> open_config(const std::filesystem::path& file, bo
     } catch (const std::exception& e) { return failure(e, file.string(), {}); }
 }
 
-// Not a number becomes black, infinities the ends of the range.
+// NaN becomes black, infinities the ends of the range.
 float sanitized(float x, float limit = largest_half) { return std::isnan(x) ? 0.0f : std::clamp(x, -limit, limit); }
 Vec3 sanitized(const Vec3& v, float limit = largest_half) { return {sanitized(v.x, limit), sanitized(v.y, limit), sanitized(v.z, limit)}; }
 
-// Of what is rendered: beyond any light, and white balance does not overflow.
+// Limit of scene values: brighter than any light, and safe from overflow in white balance.
 constexpr float largest_scene = 1e30f;
 
 float srgb_encoded(float x) { return x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1 / 2.4f) - 0.055f; }
@@ -170,7 +170,7 @@ Vec3 as_it_is(const Vec3& scene) {
     return {srgb_encoded(clamp01(scene.x)), srgb_encoded(clamp01(scene.y)), srgb_encoded(clamp01(scene.z))};
 }
 
-// The same around OCIO's function `ocio_display`, in the same order, as apply_display() has it.
+// The steps of apply_display() as GLSL, in the same order, around OCIO's function `ocio_display`.
 constexpr const char* shader_frame = R"(
 uniform float exposure_ev;
 uniform float gamma;
@@ -297,7 +297,7 @@ Result<DisplayShader> ColorManagement::display_shader(const DisplayTransform& tr
     if (!processor) return processor.error();
     try {
         auto description = OCIO::GpuShaderDesc::CreateShaderDesc();
-        description->setLanguage(OCIO::GPU_LANGUAGE_GLSL_1_3); // the newest that GLSL 3.30 contains
+        description->setLanguage(OCIO::GPU_LANGUAGE_GLSL_1_3); // the newest one supported by GLSL 3.30
         description->setFunctionName("ocio_display");
         description->setResourcePrefix("ocio_");
         (*processor)->getOptimizedGPUProcessor(exact_arithmetic)->extractGpuShaderInfo(description);
@@ -318,7 +318,7 @@ Result<void> ColorManagement::apply_display(const DisplayTransform& transform, c
     const float power = 1 / std::max(smallest_gamma, numbers.gamma);
     const FalseColorScale& scale = numbers.false_color;
     const bool background = numbers.background_as_it_is && coverage;
-    constexpr size_t chunk = 4096; // pixels: what fits into the first caches
+    constexpr size_t chunk = 4096; // pixels: fits the L1 cache
     std::vector<Vec3> scene(std::min(chunk, count)), shown(scene.size());
     try {
         const auto cpu = (*processor)->getOptimizedCPUProcessor(exact_arithmetic);

@@ -1,4 +1,4 @@
-// OpenColorIO behind plain data. The working space of everything else is scene-linear Rec.709.
+// Wraps OpenColorIO behind plain data. The working space of the program is scene-linear Rec.709.
 #pragma once
 
 #include "color/display_numbers.h"
@@ -12,9 +12,8 @@
 
 namespace blush {
 
-// Text and tables of the display transform for a fragment shader: GLSL 3.30 source that defines
-// `vec4 display_color(vec4 scene_linear)`, whose alpha is the share of the pixel that objects cover, with a uniform in it for each
-// DisplayNumber.
+// The display transform for a fragment shader: GLSL 3.30 source and lookup tables. The source defines `vec4 display_color(vec4
+// scene_linear)`, whose alpha is the coverage by objects, and has a uniform for each DisplayNumber.
 struct DisplayShader {
     struct Lut {
         std::string sampler;  // name of the uniform sampler
@@ -30,14 +29,14 @@ struct DisplayShader {
 
 class ColorManagement {
 public:
-    // `config_file` empty: $OCIO if set, else the config in `assets`. A broken config is reported in `warning` and
-    // the one in `assets` is used in its place; only if that is broken too is it an error.
+    // `config_file` empty: $OCIO if set, else the config in `assets`. If a config is invalid, warning() reports it and the one in
+    // `assets` is used instead; error only if that is invalid too.
     static Result<ColorManagement> load(const std::filesystem::path& assets, const std::filesystem::path& config_file = {});
     ColorManagement(ColorManagement&&) noexcept;
     ColorManagement& operator=(ColorManagement&&) noexcept;
     ~ColorManagement();
 
-    const std::string& warning() const; // empty if all is well
+    const std::string& warning() const; // empty if no warning
     std::string config_name() const;
     std::vector<std::string> displays() const;
     std::vector<std::string> views(std::string_view display) const;
@@ -45,9 +44,9 @@ public:
     std::string default_view(std::string_view display) const;
     std::vector<std::string> looks() const;
 
-    // Errors: unknown display, view or look (the message lists those there are).
+    // Errors: unknown display, view or look (the message lists the available ones).
     Result<DisplayShader> display_shader(const DisplayTransform& transform) const;
-    // The shader's twin on the processor: rgb is count * 3 floats, scene-linear in, display-encoded out, in place. `coverage` is count
+    // CPU version of the shader: rgb is count * 3 floats, scene-linear in, display-encoded out, in place. `coverage` is count
     // floats; null: objects cover everything.
     Result<void> apply_display(const DisplayTransform& transform, const DisplayNumbers& numbers, float* rgb, size_t count,
                                const float* coverage = nullptr) const;

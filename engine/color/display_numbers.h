@@ -1,4 +1,4 @@
-// What of the display stage is a number or a name; engine/color knows no settings of the document.
+// Parameters of the display transform, independent of the document's settings.
 #pragma once
 
 #include "color/false_color.h"
@@ -8,21 +8,20 @@
 
 namespace blush {
 
-// What a shader is made for. Empty names mean the config's default display, the display's default view, and the looks that the view has of
-// itself.
+// Names that select the shader. Empty: the config's default display, the display's default view, and the view's own looks.
 struct DisplayTransform {
     std::string display = {}, view = {}, look = {};
     bool operator==(const DisplayTransform&) const = default;
 };
 
-// All else: the uniforms of the shader. In this order: white balance, exposure, look and view, gamma; false colours take the place of what
-// comes after the exposure.
+// Uniforms of the shader. Order of operations: white balance, exposure, look and view, gamma; false colours replace everything
+// after the exposure.
 struct DisplayNumbers {
     float exposure_ev = 0;
     float gamma = 1;
-    Affine white_balance = {}; // of scene-linear values; its translation is not used
+    Affine white_balance = {}; // of scene-linear values; its translation is ignored
     FalseColorScale false_color = {};
-    bool background_as_it_is = false; // what the camera sees past all objects is clipped and sRGB-encoded, and nothing else
+    bool background_as_it_is = false; // the background behind all objects is only clipped and sRGB-encoded
     bool operator==(const DisplayNumbers&) const = default;
 };
 

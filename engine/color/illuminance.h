@@ -1,4 +1,4 @@
-// From the light that surfaces send back to the light that falls on them.
+// Converts reflected radiance to illuminance.
 #pragma once
 
 #include "core/vec.h"
@@ -7,8 +7,8 @@
 
 namespace blush {
 
-// Scene-linear `rgb`, 3 values a pixel, becomes grey of illuminance in lux, in place: pi Y / Y(albedo), which holds for what a Lambertian
-// surface reflects. 0 where the albedo's luminance is below a hundredth: nothing, black, or metal seen as such.
+// Replaces scene-linear `rgb`, 3 values per pixel, in place by grey values of illuminance in lux: pi Y / Y(albedo), which is
+// valid for Lambertian surfaces. 0 where the albedo's luminance is below 0.01: background, or a black surface.
 void to_illuminance(std::span<float> rgb, std::span<const Vec3> albedo);
 
 } // namespace blush

@@ -1,13 +1,13 @@
-// Chromatic adaptation: which colour looks white.
+// White balance by chromatic adaptation.
 #pragma once
 
 #include "core/vec.h"
 
 namespace blush {
 
-// The linear map of scene-linear Rec.709 values that turns `neutral` into the grey of its luminance, as eyes that have adapted to that
-// colour see it: Lam's Bradford cone responses scaled as von Kries proposed (CIE 160:2004). The identity for greys, and for what is not a
-// colour: components that are negative, not finite or all 0.
+// The linear map of scene-linear Rec.709 values that turns `neutral` into the grey of its luminance, as seen by adapted eyes:
+// Lam's Bradford cone responses with von Kries scaling (CIE 160:2004). The identity for greys and for invalid colours: components
+// that are negative, not finite or all 0.
 Affine white_balance(const Vec3& neutral);
 
 } // namespace blush

@@ -1,8 +1,9 @@
-// The base of a material, below its layers: glTF 2.0 Appendix B with KHR_materials_ior, _specular, _transmission, _volume, _anisotropy,
-// _iridescence and _diffuse_transmission, of two parts: a Lambertian one, and GGX facets, each of which reflects or transmits.
+// The base of a material, below its layers: glTF 2.0 Appendix B with KHR_materials_ior, _specular, _transmission, _volume,
+// _anisotropy, _iridescence and _diffuse_transmission. It has two parts: a Lambertian one, and GGX microfacets, each of which
+// reflects or transmits.
 //
-// What S leaves out is not computed, and what a material does not use changes no bit: every factor it then meets is an exact
-// 1, every summand an exact 0.
+// Features outside of S are not computed, and features that a material does not use do not change the result by a bit: their
+// factors are exactly 1, their summands exactly 0.
 #pragma once
 
 #include "shading/bsdf_types.h"
@@ -11,35 +12,35 @@
 
 namespace blush::inline BLUSH_ISA {
 
-// Of the facets: one alpha, or one for each of x and y.
+// Roughness of the microfacets: one alpha, or one each for x and y.
 template <Features S, class F> auto alpha_of(const Bsdf<F>& b) {
     if constexpr (S.has(Feature::anisotropy)) return b.stretch;
     else return b.alpha;
 }
 
-// ---- facets: what one with cosine c = dot(wo, h) > 0 does
+// ---- microfacets: reflectance and transmittance of one with cosine c = dot(wo, h) > 0
 
 template <class F> struct FacetAlbedo {
-    F layer;            // largest component of the dielectric's reflectance: what its base does not get
+    F layer;            // largest component of the dielectric's reflectance: the share that its base does not get
     Vec<F> reflected;   // into the mirror direction
     Vec<F> transmitted; // through the surface
 };
 
-// Outside of a solid, where a film lies: of the ray that is refracted to c or is c itself.
+// Cosine on the air side of a solid, where a thin film is: c itself, or that of the ray refracted to c.
 template <Features S, class F> F cosine_in_air(const Bsdf<F>& b, const F& c) {
     if constexpr (!S.has(Feature::transmission)) return c;
     return select(b.flipped, F(refracted_g(b.interface, c) / b.interface.eta), c);
 }
 
-// Appendix B uses Schlick's approximation, and so do we, but for solids: there total internal reflection must be right, and
-// seen from both sides the same light must split in the same ratio. For them Fresnel's curve replaces Schlick's between f0
-// and 1 (which Appendix B's non-normative section on implementation leaves open), so that specular and specular_color mean the same.
+// Appendix B uses Schlick's approximation, and so does this code, except for solids: they need correct total internal reflection,
+// and the same split ratio from both sides. For them the exact Fresnel curve replaces Schlick's between f0 and 1 (Appendix B's
+// non-normative section on implementation allows this), so that specular and specular_color mean the same.
 template <Features S, class F> FacetAlbedo<F> facet_albedo(const Bsdf<F>& b, const F& c) {
     const F rise = schlick(c);
     F dielectric_rise = rise;
     Mask<F> total = Mask<F>(false);
     if constexpr (S.has(Feature::transmission)) {
-        // Light that passes straight has seen no facets: the surface decides whether and how much is left to reflect.
+        // Straight transmission does not involve microfacets: the surface normal decides how much is reflected.
         const F at = select(b.straight, b.cos, c);
         const F exact = clamp01(F((dielectric_reflectance(b.interface, at) - b.interface_f0) / max(F(1.f - b.interface_f0), F(1e-6f))));
         dielectric_rise = select(b.solid, exact, rise);
@@ -62,7 +63,7 @@ template <Features S, class F> FacetAlbedo<F> facet_albedo(const Bsdf<F>& b, con
     return a;
 }
 
-// Probability with which a sampled facet reflects, or else transmits.
+// Probability that a sampled microfacet reflects rather than transmits.
 template <Features S, class F> F facet_probability(const FacetAlbedo<F>& a, const Mask<F>& reflects) {
     const F certain = select(reflects, F(1.f), F(0.f));
     if constexpr (!S.has(Feature::transmission)) return certain;
@@ -72,14 +73,15 @@ template <Features S, class F> F facet_probability(const FacetAlbedo<F>& a, cons
 
 // ---- make
 
-// Has an inside, where light travels.
+// True if light travels inside.
 template <Features S, class F> Mask<F> is_solid(const BsdfParams<F>& m) {
     if constexpr (!S.has(Feature::transmission)) return Mask<F>(false);
     else if constexpr (!S.has(Feature::diffuse_transmission)) return m.transmission > F(0.f) && !m.thin;
     else return (m.transmission > F(0.f) || m.layers.diffuse_transmission > F(0.f)) && !m.thin;
 }
 
-// Index of the interface between the material and air; 1, which is none, where nothing reflects there: a translucent body without facets.
+// Index of refraction of the interface between the material and air; 1 (no interface) if there is no reflection: a translucent
+// material without microfacets.
 template <Features S, class F> F interface_ior(const BsdfParams<F>& m) {
     const F ior = max(m.ior, F(1.f));
     if constexpr (!S.has(Feature::diffuse_transmission)) return ior;
@@ -114,7 +116,7 @@ template <Features S, class F> void make_facets(Bsdf<F>& b, const BsdfParams<F>&
     if constexpr (S.has(Feature::energy_compensation)) {
         if (energy) {
             F roughness = m.roughness;
-            // Of stretched facets roughly what round ones of the same product lose.
+            // Approximation: anisotropic microfacets lose about as much energy as isotropic ones of the same alpha product.
             if constexpr (S.has(Feature::anisotropy))
                 roughness = select(m.layers.anisotropy > F(0.f), sqrt(sqrt(b.stretch.product)), roughness);
             const F lost = select(b.smooth, F(0.f), 1.f / directional_albedo(*energy, roughness, b.cos) - 1.f);
@@ -130,8 +132,8 @@ template <Features S, class F> void make_facets(Bsdf<F>& b, const BsdfParams<F>&
         b.transmitted = m.base_color * ((1.f - m.metallic) * m.transmission);
         b.interface = interface_seen(b.flipped, ior);
         b.interface_f0 = normal_reflectance(ior);
-        // Radiance is squeezed into the smaller solid angle of the denser side: L / eta^2 is what refraction keeps (Veach 1997,
-        // section 5.2). A path that comes out again has both factors, and a glass ball in a furnace is as bright as the furnace.
+        // Refraction compresses radiance into the smaller solid angle of the denser side: it keeps L / eta^2 (Veach 1997, section
+        // 5.2). A path that leaves again has both factors, and a glass ball in a furnace is as bright as the furnace.
         b.radiance_scale = select(b.solid, 1.f / (b.interface.eta * b.interface.eta), F(1.f));
         b.mirror = m.ior < F(1.f);
         if constexpr (S.has(Feature::diffuse_transmission)) b.mirror = b.mirror && (m.specular > F(0.f) || m.transmission > F(0.f));
@@ -139,8 +141,9 @@ template <Features S, class F> void make_facets(Bsdf<F>& b, const BsdfParams<F>&
     }
 }
 
-// The share of the Lambertian part that goes through. Into a solid it spreads by Lambert's law on the other side, and since only 1 / ior^2 of
-// such light can leave again, the rest is reflected inside: radiance in equilibrium is then ior^2 within, as it is for clear glass.
+// Splits the Lambertian part into reflection and diffuse transmission. Into a solid the light spreads by Lambert's law on the
+// other side, and since only 1 / ior^2 of such light can leave again, the rest is reflected inside: in equilibrium the radiance
+// inside is ior^2 times that outside, as for clear glass.
 template <Features S, class F> void make_through(Bsdf<F>& b, const BsdfParams<F>& m) {
     const F share = m.layers.diffuse_transmission;
     const Vec<F> through = m.layers.diffuse_transmission_color * ((1.f - m.metallic) * (1.f - m.transmission) * share);
@@ -151,9 +154,9 @@ template <Features S, class F> void make_through(Bsdf<F>& b, const BsdfParams<F>
     b.p_through = down / max(down + up, F(1e-20f));
 }
 
-// The facets' share of samples follows what the parts reflect towards wo. On a rough surface the facets in view are less
-// grazing than the surface, hence the cosine; the bounds keep the weights bounded where the estimate is off.
-// Returns what both together scatter, roughly.
+// Sets the microfacets' share of samples in proportion to what the parts reflect towards wo. On a rough surface the visible
+// microfacets are less grazing than the surface, hence the cosine; the bounds limit the weights where the estimate is inaccurate.
+// Returns the approximate total albedo of both parts.
 template <Features S, class F> F choose_probabilities(Bsdf<F>& b, const BsdfParams<F>& m) {
     const FacetAlbedo<F> a = facet_albedo<S>(b, F(b.cos + (1.f - b.cos) * (0.5f * b.alpha)));
     F matte = max_component(b.diffuse);
@@ -161,7 +164,7 @@ template <Features S, class F> F choose_probabilities(Bsdf<F>& b, const BsdfPara
     const F diffuse = matte * (1.f - a.layer);
     const F facets = max(max_component(a.reflected), max_component(a.transmitted));
     const F p = min(max(diffuse / max(diffuse + facets, F(1e-20f)), F(0.1f)), F(0.9f));
-    // From the parameters: a facet that reflects nothing at one angle may at another.
+    // Uses the parameters: a microfacet that reflects nothing at one angle may reflect at another.
     const Mask<F> no_diffuse = !(matte > F(0.f));
     const Mask<F> no_facets = !(m.metallic > F(0.f) || m.specular > F(0.f) || m.transmission > F(0.f));
     b.p_diffuse = select(no_facets, F(1.f), select(no_diffuse, F(0.f), p));
@@ -169,8 +172,8 @@ template <Features S, class F> F choose_probabilities(Bsdf<F>& b, const BsdfPara
     return diffuse + facets;
 }
 
-// Returns what the base scatters, roughly. `energy`: scale facet reflection by what the microfacet model loses; null (or S without
-// energy_compensation): do not.
+// Returns the approximate albedo of the base. `energy`: compensates the energy loss of the microfacet model; null (or S without
+// energy_compensation): no compensation.
 template <Features S, class F> F make_base(Bsdf<F>& b, const BsdfParams<F>& m, const Vec<F>& wo, const EnergyTable* energy) {
     if constexpr (has_facets(S)) {
         b.diffuse = m.base_color * ((1.f - m.metallic) * (1.f - m.transmission));
@@ -186,7 +189,7 @@ template <Features S, class F> F make_base(Bsdf<F>& b, const BsdfParams<F>& m, c
 
 // ---- eval
 
-// The normal of the facet that scatters wo to wi, both in the viewer's frame, and the Jacobian |dh / dwi| times dot(wo, h).
+// The normal of the microfacet that scatters wo to wi, both in the viewer's frame, and the Jacobian |dh / dwi| times dot(wo, h).
 template <class F> struct Facet {
     Vec<F> h;
     F cos;      // dot(wo, h)
@@ -199,7 +202,7 @@ template <Features S, class F> Facet<F> facet_between(const Bsdf<F>& b, const Ve
     if constexpr (S.has(Feature::transmission)) {
         const Mask<F> below = wi.z < F(0.f);
         through = below && b.solid;
-        // wo + eta wi, so written that nothing is lost where eta is almost 1; it points to the denser side.
+        // wo + eta wi, written to avoid cancellation for eta near 1; it points to the denser side.
         const F excess = b.interface.eta_squared_minus_1 / (b.interface.eta + 1.f);
         const Vec<F> bent = sum + wi * excess;
         sum = select(through, bent * select(bent.z < F(0.f), F(-1.f), F(1.f)), wo + flip_z(below, wi));
@@ -235,7 +238,8 @@ template <Features S, class F> BsdfValue<F> eval_base(const Bsdf<F>& b, const Ve
             const F below = cosine_hemisphere_pdf(F(-wi.z));
             const Mask<F> crosses = below * b.p_through > F(0.f);
             if (any(crosses)) {
-                // What the surface reflects, it does not let through either: by the facet that would mirror the light, as it is for thin walls.
+                // Reflected light is not transmitted: uses the Fresnel term of the microfacet that would mirror the light, as for
+                // thin walls.
                 const F c = sqrt(max(F(0.5f + 0.5f * dot(wo, flip_z(Mask<F>(true), wi))), F(0.f)));
                 const F reflected = facet_albedo<S>(b, max(c, F(grazing))).layer;
                 diffuse = diffuse + b.through * select(crosses, (1.f - reflected) * below, F(0.f));
@@ -253,7 +257,8 @@ template <Features S, class F> BsdfValue<F> eval_base(const Bsdf<F>& b, const Ve
 
 // ---- sample
 
-// A direction for the facets alone, in the viewer's frame; u, v choose the facet, `choice` what it does.
+// Samples a direction from the microfacets alone, in the viewer's frame; u, v choose the microfacet, `choice` reflection or
+// transmission.
 template <Features S, class F> BsdfSample<F> sample_facets(const Bsdf<F>& b, const Vec<F>& wo, const F& u, const F& v, const F& choice) {
     const Vec<F> z{F(0.f), F(0.f), F(1.f)};
     Vec<F> h = select(b.smooth, z, sample_visible_normal(alpha_of<S>(b), wo, u, v));
@@ -273,14 +278,16 @@ template <Features S, class F> BsdfSample<F> sample_facets(const Bsdf<F>& b, con
         s.wi = select(reflects, s.wi, through);
         s.weight = select(reflects, s.weight, a.transmitted * b.radiance_scale);
         s.delta = s.delta || (b.straight && !reflects);
-        // Rounding may turn a facet at the rim of what is seen away from the viewer: what it refracts is not of unit length.
+        // By rounding, a microfacet at the edge of visibility may face away from the viewer: its refracted direction is not of
+        // unit length.
         s.valid = select(reflects, s.valid, s.wi.z < F(0.f) && dot(wo, h) > F(0.f));
     }
     s.weight = s.weight / facet_probability<S>(a, reflects);
     return s;
 }
 
-// A direction of the base; of its weight only that of a delta lobe, of its density nothing. u, v, choice: uniform in [0, 1), independent.
+// Samples a direction of the base; sets the weight only for a delta lobe, and no pdf. u, v, choice: uniform in [0, 1),
+// independent.
 template <Features S, class F> BsdfSample<F> draw_base(const Bsdf<F>& b, const Vec<F>& wo_surface, const F& u, const F& v, const F& choice) {
     BsdfSample<F> s;
     s.wi = sample_cosine_hemisphere(u, v);
@@ -306,7 +313,7 @@ template <Features S, class F> BsdfSample<F> draw_base(const Bsdf<F>& b, const V
     return s;
 }
 
-// Roughly how much of a uniform light comes back or through.
+// Approximate albedo (reflected and transmitted) under uniform light.
 template <Features S, class F> Vec<F> albedo_of_base(const Bsdf<F>& b) {
     if constexpr (has_facets(S)) {
         const FacetAlbedo<F> a = facet_albedo<S>(b, b.cos);

@@ -1,11 +1,11 @@
-// Tables over two parameters, read between their entries.
+// Bilinear interpolation in tables of two parameters.
 #pragma once
 
 #include "core/math.h"
 
 namespace blush::inline BLUSH_ISA {
 
-// The size x size values of `table`, rows one after another, at (row, column), each in [0, size - 1]; size >= 2.
+// Interpolates the size x size `table`, row-major, at (row, column), each in [0, size - 1]; size >= 2.
 template <class F> F bilinear(const float* table, int size, const F& row, const F& column) {
     const float last = float(size - 1);
     const F row0 = min(floor(row), F(last - 1.f)), column0 = min(floor(column), F(last - 1.f));

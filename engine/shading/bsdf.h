@@ -1,8 +1,8 @@
-// How a surface point scatters light, as one triple (make_bsdf, then eval / sample): the base (base.h) and, where S has them, the layers on
-// top of it. A layer takes from what lies below as much as it may reflect itself.
+// The BSDF of a surface point (make_bsdf, then eval / sample): the base (base.h) and, if S has them, the layers on top of it. A
+// layer reduces what is below it by its own maximal reflectance.
 //
-// What S leaves out is not computed, and what a material does not use changes no bit: every factor it then meets is an exact
-// 1, every summand an exact 0.
+// Features outside of S are not computed, and features that a material does not use do not change the result by a bit: their
+// factors are exactly 1, their summands exactly 0.
 #pragma once
 
 #include "shading/base.h"
@@ -11,14 +11,14 @@
 
 namespace blush::inline BLUSH_ISA {
 
-// Probability of sampling a layer that reflects `layer` rather than what is below it and reflects `below`: it follows what both send
-// towards the viewer, as between the parts of the base.
+// Probability of sampling a layer with reflectance `layer` rather than what is below it, with reflectance `below`: proportional
+// to their albedo towards the viewer, as between the parts of the base.
 template <class F> F layer_probability(const F& layer, const F& below) {
     const F p = min(max(F(layer / max(layer + below, F(1e-20f))), F(0.1f)), F(0.9f));
     return select(layer > F(0.f), p, F(0.f));
 }
 
-// Fibres on the base, and a coat on both. Where S lacks one, it is there with strength 0.
+// Sheen on the base, and a clear coat on both. A layer that S lacks has strength 0.
 template <Features S, class F>
 void make_layers(Bsdf<F>& b, const LayerParams<F>& m, const Vec<F>& wo, const EnergyTable* energy, F base_albedo) {
     b.p_base = F(1.f);
@@ -39,7 +39,7 @@ void make_layers(Bsdf<F>& b, const LayerParams<F>& m, const Vec<F>& wo, const En
     }
 }
 
-// `energy`: scale reflection by what the microfacet model loses; null (or S without energy_compensation): do not.
+// `energy`: compensates the energy loss of the microfacet model; null (or S without energy_compensation): no compensation.
 template <Features S, class F> Bsdf<F> make_bsdf(const BsdfParams<F>& m, const Vec<F>& wo, const EnergyTable* energy) {
     Bsdf<F> b{};
     if constexpr (!has_facets(S)) b.p_diffuse = F(1.f);
@@ -48,9 +48,9 @@ template <Features S, class F> Bsdf<F> make_bsdf(const BsdfParams<F>& m, const V
     return b;
 }
 
-// True where nothing has a density: eval is 0 for every direction, and light sampling would be wasted.
+// True if there are only delta lobes: eval is 0 for every direction, and NEE would be wasted.
 template <class F> Mask<F> is_delta_only(const Bsdf<F>& b) { return b.delta_only; }
-// True where all that is scattered is scattered alike to all viewers: reflectance b.diffuse.
+// True if the BSDF is Lambertian: radiance is the same for all viewers, with reflectance b.diffuse.
 template <Features S, class F> Mask<F> is_lambertian(const Bsdf<F>& b) {
     Mask<F> lambertian = Mask<F>(true);
     if constexpr (has_facets(S)) lambertian = b.p_diffuse == F(1.f);
@@ -59,7 +59,7 @@ template <Features S, class F> Mask<F> is_lambertian(const Bsdf<F>& b) {
     return lambertian;
 }
 
-// What the layers leave of the base between viewer and wi, both in the viewer's frame.
+// Share of the base's light that the layers let through between viewer and wi, both in the viewer's frame.
 template <Features S, class F> F left_for_base(const Bsdf<F>& b, const Vec<F>& wi) {
     F left = F(1.f);
     if constexpr (S.has(Feature::sheen)) left = left_below_sheen(b.sheen, wi);
@@ -89,7 +89,7 @@ template <Features S, class F> BsdfValue<F> eval(const Bsdf<F>& b, const Vec<F>&
     return value;
 }
 
-// As draw_base; choice decides between the layers first: coat, then sheen, then base.
+// As draw_base; choice first selects the layer: coat, then sheen, then base.
 template <Features S, class F> BsdfSample<F> draw(const Bsdf<F>& b, const Vec<F>& wo, const F& u, const F& v, const F& choice) {
     if constexpr (!has_layers(S)) return draw_base<S>(b, wo, u, v, choice);
     F p_layers = F(0.f);
@@ -129,17 +129,17 @@ template <Features S, class F> BsdfSample<F> sample(const Bsdf<F>& b, const Vec<
         s.pdf = select(s.delta, F(1.f), value.pdf);
         s.valid = s.valid && s.pdf > F(0.f);
         const Vec<F> mixed = value.f_cos / select(s.valid, s.pdf, F(1.f));
-        // Of a Lambertian surface the quotient is its albedo, exactly.
+        // On a Lambertian surface the quotient is exactly its albedo.
         s.weight = select(s.delta, s.weight, select(is_lambertian<S>(b), b.diffuse, mixed));
         s.weight = select(s.valid, s.weight, splat<F>(0.f));
     }
     return s;
 }
 
-// The delta lobe that goes on straight, to -wo: of thin, smooth, transmitting walls. 0 everywhere else.
+// The delta lobe that continues straight, to -wo: for thin, smooth, transmissive walls. 0 for all other surfaces.
 template <class F> struct StraightTransmission {
-    Vec<F> value;  // share of the light that passes
-    F probability; // of sample() choosing it; it is the last of the lobes, from choice = 1 - probability on
+    Vec<F> value;  // transmittance
+    F probability; // probability that sample() chooses it; it is the last lobe, for choice >= 1 - probability
 };
 template <Features S, class F> StraightTransmission<F> straight_transmission(const Bsdf<F>& b, const Vec<F>& wo) {
     if constexpr (!S.has(Feature::transmission)) return {splat<F>(0.f), F(0.f)};
@@ -156,7 +156,7 @@ template <Features S, class F> StraightTransmission<F> straight_transmission(con
     }
 }
 
-// Roughly how much of a uniform light comes back or through, in [0, 1]: the denoiser's guide.
+// Approximate albedo (reflected and transmitted) under uniform light, in [0, 1]: for the denoiser.
 template <Features S, class F> Vec<F> albedo(const Bsdf<F>& b, const Vec<F>&) {
     Vec<F> sum = albedo_of_base<S>(b);
     if constexpr (S.has(Feature::sheen)) sum = sum * left_below_sheen(b.sheen) + b.sheen.color * min(b.sheen.albedo, F(1.f));

@@ -1,7 +1,7 @@
-// What scattering is computed from and what comes of it: the records that base, layers and their sum (bsdf.h) share.
+// Inputs and results of the BSDF: the records shared by the base, the layers and bsdf.h.
 //
-// Local frame: z is the shading normal; directions are unit and point away from the surface. Of a surface that does not
-// transmit into a solid, wo.z > 0. Of a solid's (transmission, not thin) z points out of it, and wo.z < 0 is a viewer within.
+// Local frame: z is the shading normal; directions are unit and point away from the surface. wo.z > 0 unless the surface bounds a
+// solid (transmission, not thin): then z points out of it, and wo.z < 0 is a viewer inside.
 #pragma once
 
 #include "core/sampling.h"
@@ -11,34 +11,34 @@
 
 namespace blush::inline BLUSH_ISA {
 
-// What KHR_materials_* add to the metallic-roughness material. All 0: nothing.
+// KHR_materials_* parameters beyond the metallic-roughness material. All 0: no layers.
 template <class F> struct LayerParams {
     F clearcoat; // share of the surface that is coated
     F clearcoat_roughness;
-    Vec<F> clearcoat_normal; // unit, local frame; one that no viewer can be in front of: z
+    Vec<F> clearcoat_normal; // unit, local frame; z if no viewer can be in front of it
     Vec<F> sheen_color;
     F sheen_roughness;
-    F anisotropy;  // makes the base rougher along the local x
-    F iridescence; // share of the base that is under a film
+    F anisotropy;  // increases the base's roughness along the local x
+    F iridescence; // share of the base under a thin film
     F film_ior, film_thickness; // nanometres
-    F diffuse_transmission;     // share of the diffuse part that goes through
+    F diffuse_transmission;     // transmitted share of the diffuse part
     Vec<F> diffuse_transmission_color;
 };
 
 // Scattering at a surface point, textures already applied. Colours are linear Rec.709.
 template <class F> struct BsdfParams {
-    Vec<F> base_color; // reflectance of the diffuse or metallic, tint of the transmitting share
+    Vec<F> base_color; // albedo of the diffuse or metallic part, tint of the transmitted part
     F metallic;
     F roughness; // perceptual: alpha is its square
-    F ior;       // of the material in vacuum, >= 1; or 0, which reflects like a mirror (KHR_materials_ior)
-    F specular;  // KHR_materials_specular; 0 has no dielectric reflection at all
+    F ior;       // relative to vacuum, >= 1; or 0, which reflects like a mirror (KHR_materials_ior)
+    F specular;  // KHR_materials_specular; 0: no dielectric reflection
     Vec<F> specular_color;
     F transmission; // KHR_materials_transmission
-    Mask<F> thin;   // transmits without refraction, having no inside
+    Mask<F> thin;   // transmits without refraction, has no inside
     LayerParams<F> layers{};
 };
 
-// Lobes that scatter into one direction only (delta lobes) are seen by sample() alone.
+// Delta lobes are covered by sample() only.
 template <class F> struct BsdfValue {
     Vec<F> f_cos; // f |wi.z|, 1/sr
     F pdf;        // of sample(), per solid angle
@@ -46,64 +46,64 @@ template <class F> struct BsdfValue {
 
 template <class F> struct BsdfSample {
     Vec<F> wi;
-    Vec<F> weight; // f |wi.z| / pdf over all lobes but the delta ones; of a delta lobe its reflectance over its probability
-    F pdf;         // as eval's; 1 for a delta lobe
+    Vec<F> weight; // f |wi.z| / pdf over all non-delta lobes; for a delta lobe its reflectance over its probability
+    F pdf;         // as in eval; 1 for a delta lobe
     Mask<F> delta;
-    Mask<F> valid; // false: no direction, weight 0
+    Mask<F> valid; // false: no direction was sampled, weight 0
 };
 
-// A coat as one viewer sees it: clearcoat.h.
+// Clear coat prepared for one viewer: clearcoat.h.
 template <class F> struct Clearcoat {
     Basis<F> frame; // around the coat's normal, in the viewer's frame
-    Vec<F> wo;      // in that
-    F reflected;    // share of the light
-    F left;         // for what is below
+    Vec<F> wo;      // in `frame`
+    F reflected;    // reflected share of the light
+    F left;         // share for the layers below
     F alpha, visible;
     Mask<F> smooth;
     F probability; // of sampling it
 };
 
-// Fibres as one viewer sees them: sheen.h.
+// Sheen prepared for one viewer: sheen.h.
 template <class F> struct Sheen {
     Vec<F> color;
-    F strength; // its largest component
+    F strength; // largest component of its colour
     F roughness, alpha;
-    F albedo;      // as the fit has it: of white sheen, seen from wo
+    F albedo;      // directional albedo of white sheen for wo, from the table
     F probability; // of sampling it
 };
 
-// Prepared by make_bsdf for a point and a viewer.
+// BSDF prepared by make_bsdf for a point and a viewer.
 template <class F> struct Bsdf {
     Vec<F> diffuse;     // albedo of the Lambertian part below the Fresnel reflection
-    Mask<F> delta_only; // no part has a density
-    // Only where S has facets:
+    Mask<F> delta_only; // no lobe has a density
+    // Only with microfacets:
     Vec<F> metal_color, metal_gain; // reflects metal_gain * Schlick(metal_color)
     Vec<F> f0, dielectric_gain;     // ... + dielectric_gain * specular * Fresnel(f0)
-    Vec<F> transmitted;             // what is not reflected by the dielectric goes through, times this
+    Vec<F> transmitted;             // tint of the light that the dielectric does not reflect
     F specular, alpha;
     F cos;                  // |wo.z|
     F visible;              // masking(wo) / |wo.z|
-    Interface<F> interface; // of a solid
+    Interface<F> interface; // for solids
     F interface_f0;         // its reflectance at normal incidence
-    F radiance_scale;       // of light that goes through
+    F radiance_scale;       // of transmitted light
     F p_diffuse;            // probability of sampling the Lambertian part
     Mask<F> solid, flipped; // flipped: the viewer is below z = 0
-    Mask<F> mirror;         // ior 0: a solid lets nothing in
-    Mask<F> smooth;         // facets all face z: reflection and thin transmission are deltas
-    Mask<F> straight;       // a solid refracts by less than single precision resolves: transmission is a delta
-    // Only where S has them:
-    Stretch<F> stretch;                      // for alpha
-    F iridescence, film_ior, film_thickness; // a film on the facets
-    Vec<F> through;                          // albedo of the Lambertian part to the other side, as diffuse
-    F p_through;                             // of sampling that part: probability of crossing
+    Mask<F> mirror;         // ior 0: no light enters a solid
+    Mask<F> smooth;         // all microfacets face z: reflection and thin transmission are delta lobes
+    Mask<F> straight;       // refraction is below single precision: transmission is a delta lobe
+    // Only with the respective features:
+    Stretch<F> stretch;                      // anisotropic alpha
+    F iridescence, film_ior, film_thickness; // thin film on the microfacets
+    Vec<F> through;                          // albedo of the Lambertian part of the other side, as diffuse
+    F p_through;                             // probability of sampling that part
     Clearcoat<F> coat;
     Sheen<F> sheen;
-    F p_base; // probability of sampling what is below the layers
+    F p_base; // probability of sampling below the layers
 };
 
-// Cosine to a shading normal from which on a viewer is in front of it.
+// Minimal cosine to a shading normal for a viewer to count as in front of it.
 constexpr float least_facing = 1e-4f;
-// Smaller cosines between the viewer and a surface or facet count as this one.
+// Lower clamp of cosines between the viewer and a surface or microfacet.
 constexpr float grazing = 1e-6f;
 
 constexpr bool has_facets(Features s) {
@@ -112,7 +112,7 @@ constexpr bool has_facets(Features s) {
 constexpr bool has_layers(Features s) { return s.has(Feature::clearcoat) || s.has(Feature::sheen); }
 
 template <class F> Vec<F> flip_z(const Mask<F>& m, const Vec<F>& w) { return {w.x, w.y, select(m, -w.z, w.z)}; }
-// wo on the upper side, and never so grazing that a half vector vanishes.
+// wo flipped to the upper side, and clamped from grazing so that no half vector vanishes.
 template <class F> Vec<F> upper_wo(const Bsdf<F>& b, const Vec<F>& wo) {
     return {wo.x, wo.y, max(select(b.flipped, -wo.z, wo.z), F(grazing))};
 }

@@ -1,7 +1,7 @@
-// KHR_materials_clearcoat: a colourless GGX reflection of index 1.5 on top of all else, with a normal of its own. What it reflects
-// towards the viewer, by the cosine between viewer and coat normal, what lies below does not scatter there: the layers together
-// never reflect more than they get. As the specification has it, the split depends on the viewer alone, so the coated material is
-// not reciprocal.
+// KHR_materials_clearcoat: a colourless GGX reflection of index 1.5 on top of everything else, with its own normal. The light
+// that it reflects towards the viewer, by the cosine between viewer and coat normal, is taken from the layers below: the layers
+// together never reflect more than they receive. As in the specification, the split depends on the viewer alone, so the coated
+// material is not reciprocal.
 #pragma once
 
 #include "shading/bsdf_types.h"
@@ -12,20 +12,20 @@ namespace blush::inline BLUSH_ISA {
 
 constexpr float clearcoat_f0 = 0.04f; // of index 1.5
 
-// Share of the light that a coat on this share of the surface reflects to a viewer under this cosine.
+// Reflectance of a coat with coverage `clearcoat` towards a viewer at this cosine.
 template <class F> F clearcoat_reflectance(const F& clearcoat, const F& cos) {
     return clearcoat * (clearcoat_f0 + (1.f - clearcoat_f0) * schlick(cos));
 }
 
-// Share of a surface's own light that comes out of its coat. By the plane's normal, so that who aims at a light and who finds it agree.
+// Transmittance of the coat for the surface's own emission. Uses the geometric normal, so that NEE and emission hits agree.
 template <class F> F through_clearcoat(const F& clearcoat, const F& cos) { return 1.f - clearcoat_reflectance(clearcoat, cos); }
 
-// All but the probability.
+// Sets everything except the probability.
 template <Features S, class F>
 Clearcoat<F> make_clearcoat(const Bsdf<F>& b, const LayerParams<F>& m, const Vec<F>& wo_surface, const EnergyTable* energy) {
     Clearcoat<F> coat{};
     const Vec<F> wo = upper_wo(b, wo_surface), z{F(0.f), F(0.f), F(1.f)};
-    // From within, the coat's back faces the viewer.
+    // For a viewer inside, flips the coat's normal.
     const Vec<F>& n = m.clearcoat_normal;
     const Vec<F> towards{select(b.flipped, -n.x, n.x), select(b.flipped, -n.y, n.y), n.z};
     coat.frame = basis_around(select<F>(dot(towards, wo) > F(least_facing), towards, z));

@@ -6,8 +6,8 @@ namespace blush {
 
 namespace {
 
-// E = mean of masking(wi) over visible normals: the sampling density cancels all else. The mean over a grid of midpoints, finer
-// where v near 1 makes the distribution's long tail; by symmetry half the azimuths will do.
+// E = mean of masking(wi) over visible normals: the sampling density cancels all other terms. Mean over a grid of midpoints,
+// finer near v = 1, where the distribution has a long tail; by symmetry half the azimuths suffice.
 float integrate_albedo(float alpha, float cos) {
     constexpr int azimuths = 16, heights = 64;
     static_assert(heights % width<Wide> == 0);

@@ -1,7 +1,7 @@
-// What the microfacet model loses: a facet's light that meets another facet is masked instead of scattered again. The table
-// holds what is left, the directional albedo E of a GGX reflector with Fresnel reflectance 1; a lobe scaled as in Turquin 2019,
-// "Practical multiple scattering compensation for microfacet models", gets it back: by 1 / E where all is reflected, by
-// 1 + F0 (1 / E - 1) where a bounce reflects F0. The scale depends on wo alone, so the compensated lobe is not reciprocal.
+// Energy loss of the microfacet model: light from a microfacet that hits another one is masked instead of scattered again. The
+// table holds what remains, the directional albedo E of a GGX reflector with Fresnel reflectance 1. Scaling a lobe as in Turquin
+// 2019, "Practical multiple scattering compensation for microfacet models", restores it: by 1 / E for full reflection, by 1 + F0
+// (1 / E - 1) for reflectance F0. The scale depends on wo alone, so the compensated lobe is not reciprocal.
 #pragma once
 
 #include "shading/bilinear.h"

@@ -1,26 +1,26 @@
-// Light from infinitely far away: a lat-long map with bilinear filtering, and directions drawn from it.
+// Environment map: lat-long image with bilinear filtering, and importance sampling of directions.
 //
 // The map's centre column looks along -Z, its top row along +Y; to the right of the centre is +X. Radiance is interpolated
-// between texel centres, so the pieces on which a density is constant are the cells between texel centres, not the texels:
-// a cell is drawn with an exact probability by what its corners shine, a direction in it uniformly in solid angle. That
-// density is p / solid angle: no division by the sine of the polar angle, and above 0 wherever the filtered map is.
+// between texel centres, so the density is constant on the cells between texel centres, not on texels: a cell is sampled with a
+// probability proportional to the integral of the filtered map, a direction in it uniformly in solid angle. The pdf is p / solid
+// angle: no division by the sine of the polar angle, and above 0 wherever the filtered map is.
 #pragma once
 
 #include "core/distribution.h"
 
 namespace blush {
 
-// A row of cells, from theta = `begin` to `end`. Heights above the nearer pole keep their digits next to it, where cosines
-// do not: a row of an 8k map at the pole spans less than the spacing of floats at 1.
+// A row of cells, from theta = `begin` to `end`. Heights are relative to the nearer pole, where cosines would lose their digits:
+// a polar row of an 8k map spans less than the spacing of floats at 1.
 struct EnvironmentRow {
     float begin, end; // sin^2(angle / 2), the angle measured from the nearer pole
     float pole;       // +1: from +Y, -1: from -Y
     float density;    // 1 / solid angle of a cell of this row, 1/sr
 };
 
-// Columns of cells wrap around: cell c lies between the centres of texels c - 1 and c. There are height + 1 rows, the first and
-// the last of half height between a pole and the centres of the texels next to it. A uniform environment is a map of 1 x 1
-// texel, the lack of one a black map.
+// Columns of cells wrap around: cell c is between the centres of texels c - 1 and c. There are height + 1 rows, the first and the
+// last of half height between a pole and the centres of the adjacent texels. A constant environment is a map of 1 x 1 texel, no
+// environment is a black one.
 struct EnvironmentTables {
     const float* texels = nullptr;               // RGB >= 0, finite, top row first
     const uint32_t* row_thresholds = nullptr;    // height + 1
@@ -31,7 +31,7 @@ struct EnvironmentTables {
     Vec3 scale{0, 0, 0}; // radiance in nits of a texel of 1
     float rotation = 0;  // of the map about +Y, counter-clockwise seen from above, in turns, [-0.5, 0.5]
     int32_t visible_to_camera = 1;
-    int32_t lights_scene = 1; // seen by all other rays
+    int32_t lights_scene = 1; // visible to all other rays
 };
 
 } // namespace blush
@@ -40,10 +40,10 @@ namespace blush::inline BLUSH_ISA {
 
 template <class F> struct EnvironmentCell {
     Int<F> column, row;
-    F x, y; // where in the cell, [0, 1): the weights of its right column and its lower row
+    F x, y; // position in the cell, [0, 1): the weights of its right column and its lower row
 };
 
-// The cell seen in a direction of any length. Directions that are not finite give some cell.
+// The cell in a direction of any length. Non-finite directions give an arbitrary cell.
 template <class F> EnvironmentCell<F> environment_cell(const EnvironmentTables& env, const Vec<F>& direction) {
     const F width = to_float(Int<F>(env.width)), height = to_float(Int<F>(env.height));
     F u = atan2_turns(direction.x, F(-direction.z)) + (0.5f + env.rotation);
@@ -56,7 +56,7 @@ template <class F> EnvironmentCell<F> environment_cell(const EnvironmentTables& 
     return {select(as_mask(c >= env.width), Int<F>(0), c), min(to_int(row), Int<F>(env.height)), x - column, y - row};
 }
 
-// Radiance in nits from `direction`; zero in lanes that are not active.
+// Radiance in nits from `direction`; zero in inactive lanes.
 template <class F> Vec<F> environment_radiance(const EnvironmentTables& env, const Vec<F>& direction, const Mask<F>& active) {
     if (!any(active)) return splat<F>(0.f);
     const EnvironmentCell<F> cell = environment_cell<F>(env, direction);
@@ -74,9 +74,9 @@ template <class F> struct EnvironmentSample {
     F pdf;            // 1/sr
 };
 
-// Draws a direction. `u` in [0, 1) picks the row and the height in it, `bits` (all 32 uniform) the column and the azimuth.
+// Samples a direction. `u` in [0, 1) selects the row and the height in it, `bits` (all 32 uniform) the column and the azimuth.
 template <class F> EnvironmentSample<F> sample_environment(const EnvironmentTables& env, const F& u, const UInt<F>& bits) {
-    // u has but 24 bits; a hash fills in the rest, so that rows rarer than 2^-24 are drawn as often as their density says.
+    // u has only 24 bits; a hash adds more, so that rows rarer than 2^-24 are sampled with their exact probability.
     const UInt<F> upper = to_unsigned(to_int(F(u * 0x1p24f))) << 8;
     const DiscreteSample<F> row = sample_discrete<F>(env.row_thresholds, Int<F>(0), env.height + 1, upper | (pcg_hash(bits) & 255u));
     const DiscreteSample<F> column = sample_guided<F>(env.column_thresholds, row.index * env.width, env.width, env.column_guides,
@@ -94,7 +94,7 @@ template <class F> EnvironmentSample<F> sample_environment(const EnvironmentTabl
             row.probability * column.probability * gather_field(env.rows, &EnvironmentRow::density, row.index)};
 }
 
-// Density, 1/sr, with which sample_environment draws a direction.
+// The pdf, 1/sr, of sample_environment for a direction.
 template <class F> F environment_pdf(const EnvironmentTables& env, const Vec<F>& direction) {
     const EnvironmentCell<F> cell = environment_cell<F>(env, direction);
     const F p_row = discrete_probability<F>(env.row_thresholds, Int<F>(0), Int<F>(env.height + 1), cell.row);

@@ -1,5 +1,5 @@
-// What a scene really uses. A kernel is instantiated for a set of features and leaves out the code of all others;
-// any superset of a scene's features gives the same image bit for bit.
+// The features that a scene uses. A kernel is instantiated for a feature set and contains no code of others; any superset of a
+// scene's features gives a bit-identical image.
 #pragma once
 
 #include <cstdint>
@@ -15,17 +15,17 @@ enum class Feature : uint32_t {
     vertex_colors = 1u << 5,
     unlit = 1u << 6,
     emissive_triangles = 1u << 7,
-    point_lights = 1u << 8,        // points and spots without size
+    point_lights = 1u << 8,        // point and spot lights of zero size
     suns = 1u << 9,
     environment = 1u << 10,
-    instances = 1u << 11,          // some mesh is traced through an instance's transform
+    instances = 1u << 11,          // some mesh is instanced
     energy_compensation = 1u << 12,
     thin_lens = 1u << 13,
     orthographic = 1u << 14,
-    sphere_lights = 1u << 15,      // spheres, and points and spots with a size
-    light_profiles = 1u << 16,     // some light's emission depends on direction: spots, spread, measured distributions
-    light_tree = 1u << 17,         // so many lights that they are drawn by a tree
-    links = 1u << 18,              // some light leaves objects out, or some object casts no shadow of it
+    sphere_lights = 1u << 15,      // sphere lights, and point and spot lights with a radius
+    light_profiles = 1u << 16,     // some light's emission depends on direction: spots, spread, IES profiles
+    light_tree = 1u << 17,         // enough lights for a light tree
+    links = 1u << 18,              // some light is linked to objects for illumination or shadows
     clearcoat = 1u << 19,          // some material has a clear coat
     sheen = 1u << 20,
     anisotropy = 1u << 21,
@@ -47,7 +47,7 @@ struct Features {
 
 inline constexpr Features no_features{};
 inline constexpr Features all_features{(1u << 25) - 1};
-// KHR_materials_* beyond the metallic-roughness material that few scenes have.
+// KHR_materials_* layers on top of the metallic-roughness material, which few scenes use.
 inline constexpr Features layer_features = no_features.with(Feature::clearcoat)
                                                .with(Feature::sheen)
                                                .with(Feature::anisotropy)

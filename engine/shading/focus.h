@@ -1,7 +1,8 @@
-// Aiming at what focuses light: mirrors and glass throw bright spots on matte surfaces, and from there only a path that happens to leave
-// towards the right place of such an object finds the light. No connection can be made. So matte surfaces send more of their paths into
-// the cones in which they see balls around those objects. Directions then have the mixture of both densities (one-sample model, Veach 1997,
-// section 9.2.4): the expectation is the same whatever lies in the balls, and no path is worth more than 1 / (1 - most_focused) of before.
+// Caustic guiding: mirrors and glass cast caustics on diffuse surfaces, which are found only by paths that happen to leave a
+// diffuse surface towards the right point of a specular object; NEE cannot connect through it. So diffuse surfaces sample more
+// directions into the cones that bound specular objects (bounding spheres). Directions are sampled from the mixture of both
+// densities (one-sample model, Veach 1997, section 9.2.4): the expectation is the same whatever the spheres contain, and path
+// weights grow at most by 1 / (1 - most_focused).
 #pragma once
 
 #include "core/sampling.h"
@@ -13,7 +14,7 @@
 namespace blush {
 
 struct FocusBall {
-    Vec3 center; // in the tables' world space
+    Vec3 center; // relative to the tables' origin
     float radius; // metres
 };
 
@@ -26,38 +27,38 @@ struct FocusTables {
 
 namespace blush::inline BLUSH_ISA {
 
-// How many times as often as by chance paths go to a ball: where nine tenths of the variance come from an eighth of the paths, as where two
-// spheres fill that much of what a ceiling sees, the root of the quotient of their variances is about this (Neyman 1934). And what part of
-// all paths is aimed at most.
+// Oversampling factor of directions into a sphere: if nine tenths of the variance come from an eighth of the paths (two spheres
+// that fill this part of a ceiling's view), the optimal factor, the root of the ratio of variances, is about this (Neyman 1934).
+// And the maximal share of guided paths.
 constexpr float focus_boost = 6, most_focused = 0.5f;
 
-// sin^2 of the angular radius below which a ball is not aimed at.
+// sin^2 of the angular radius below which a sphere is not sampled.
 constexpr float least_focus = 1e-6f;
 
-// What a surface point sees of the balls.
+// The caster spheres as seen from a surface point.
 template <class F> struct Focus {
     Vec<F> from, normal;
-    F total; // of the balls' weights
-    F share; // of its paths that are aimed
+    F total; // sum of the spheres' weights
+    F share; // share of guided samples
 };
 
 template <class F> struct FocusCone {
-    Vec<F> to; // the ball's centre, from the point
+    Vec<F> to; // from the point to the sphere's centre
     F height;  // 1 - cos of its angular radius
-    F weight;  // 0: not aimed at
+    F weight;  // 0: not sampled
 };
 template <class F> FocusCone<F> focus_cone(const FocusBall& ball, const Vec<F>& from, const Vec<F>& normal) {
     FocusCone<F> c;
     c.to = splat<F>(ball.center) - from;
     const F d2 = dot(c.to, c.to);
     c.height = sphere_cone_height(d2, F(ball.radius));
-    // About its part of a hemisphere that is weighted by the cosine; a ball whose centre is below the horizon is left to chance.
+    // Approximate share of the cosine-weighted hemisphere; spheres with a centre below the horizon are not guided.
     const F part = 2.f * c.height * max(F(0.f), dot(c.to, normal)) / sqrt(max(d2, F(1e-30f)));
     c.weight = select(F(ball.radius) * ball.radius >= least_focus * d2, part * (focus_boost - 1.f), F(0.f));
     return c;
 }
 
-// `matte`: lanes whose surface is Lambertian; nobody else aims.
+// `matte`: lanes whose surface is Lambertian; others are not guided.
 template <class F> Focus<F> focus_at(const FocusTables& table, const Vec<F>& from, const Vec<F>& normal, const Mask<F>& matte) {
     Focus<F> f{from, normal, F(0.f), F(0.f)};
     for (int i = 0; i < table.count; ++i) f.total = f.total + focus_cone<F>(table.balls[i], from, normal).weight;
@@ -65,13 +66,13 @@ template <class F> Focus<F> focus_at(const FocusTables& table, const Vec<F>& fro
     return f;
 }
 
-// Density of a unit direction, where the surface alone would have had `pdf`.
+// Mixture pdf of a unit direction, where the BSDF alone has `pdf`.
 template <class F> F focused_pdf(const FocusTables& table, const Focus<F>& f, const Vec<F>& direction, const F& pdf) {
     F sum = F(0.f);
     for (int i = 0; i < table.count; ++i) {
         const FocusBall& ball = table.balls[i];
         const FocusCone<F> c = focus_cone<F>(ball, f.from, f.normal);
-        // By the distance at which the ray passes the centre: 1 - cos would lose all digits of a small cone.
+        // Compares the distance of the ray from the centre: 1 - cos would lose all digits for a small cone.
         const Mask<F> ahead = c.weight > F(0.f) && dot(direction, c.to) > F(0.f);
         const Mask<F> within = ahead && length_squared(cross(direction, c.to)) <= F(ball.radius * ball.radius);
         sum = sum + select(within, c.weight / c.height, F(0.f));
@@ -79,7 +80,8 @@ template <class F> F focused_pdf(const FocusTables& table, const Focus<F>& f, co
     return (1.f - f.share) * pdf + f.share * (0.5f * inv_pi) * sum / max(f.total, F(1e-30f));
 }
 
-// A direction into one of the balls' cones, for lanes with share > 0; u, v and `choice`, which picks the ball, in [0, 1).
+// Samples a direction into one of the spheres' cones, for lanes with share > 0; u, v and `choice`, which selects the sphere, in
+// [0, 1).
 template <class F> Vec<F> aim_at_ball(const FocusTables& table, const Focus<F>& f, const F& choice, const F& u, const F& v) {
     Vec<F> to{F(0.f), F(0.f), F(1.f)};
     F height = F(1.f), left = choice * f.total;

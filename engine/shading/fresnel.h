@@ -1,12 +1,12 @@
-// Reflectance and refraction at the interface of two dielectrics. All of it is written around g^2 = eta^2 - 1 + c^2 (Cook and
-// Torrance 1982), where eta^2 - 1 is a parameter of its own: nothing cancels as eta -> 1, and eta = 1 reflects exactly nothing.
+// Reflectance and refraction at the interface of two dielectrics. All formulas use g^2 = eta^2 - 1 + c^2 (Cook and Torrance
+// 1982), with eta^2 - 1 as a separate parameter: no cancellation as eta -> 1, and eta = 1 reflects exactly nothing.
 #pragma once
 
 #include "core/math.h"
 
 namespace blush::inline BLUSH_ISA {
 
-// (1 - c)^5: how far Schlick's reflectance is from its value at normal incidence (0) to that at grazing incidence (1).
+// (1 - c)^5: Schlick's interpolation weight from normal (0) to grazing incidence (1).
 template <class F> F schlick(const F& c) { return pow5(clamp01(F(1.f - c))); }
 
 // Reflectance at normal incidence of an interface with index ratio `ior`; 1 for 0, the special value of KHR_materials_ior.
@@ -17,10 +17,10 @@ template <class F> F normal_reflectance(const F& ior) {
 
 template <class F> struct Interface {
     F eta;                 // index behind the surface over index on the viewer's side
-    F eta_squared_minus_1; // free of cancellation
+    F eta_squared_minus_1; // computed without cancellation
 };
 
-// The interface between vacuum and a material of index ior >= 1, as seen from within the material or from outside.
+// The interface between vacuum and a material of index ior >= 1, for a viewer inside or outside the material.
 template <class F> Interface<F> interface_seen(const Mask<F>& from_inside, const F& ior) {
     const F excess = (ior - 1.f) * (ior + 1.f);
     return {select(from_inside, 1.f / ior, ior), select(from_inside, -excess / (ior * ior), excess)};

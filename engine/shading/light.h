@@ -1,9 +1,8 @@
-// One emitter per record: an emissive triangle, a point without size, a sphere, a sun, or the environment; and the table that
-// picks one with a probability proportional to its power (Shirley, Wang and Zimmerman 1996), or many of them by a tree.
+// Light records, one per emitter: an emissive triangle, a point without size, a sphere, a sun, or the environment; and the table
+// that selects one with a probability proportional to its power (Shirley, Wang and Zimmerman 1996), or from many by a light tree.
 //
-// Photometric units as in glTF: candela for points (irradiance I cos / r^2), lux for suns, nits for triangles and spheres. What makes a
-// point a spot, or a lamp with a measured distribution, is its profile. Not modelled: KHR_lights_punctual's `range`, which has no physical
-// counterpart.
+// Photometric units as in glTF: candela for points (irradiance I cos / r^2), lux for suns, nits for triangles and spheres. Spots
+// and IES lights are points with a profile. Not modelled: KHR_lights_punctual's `range`, which has no physical counterpart.
 #pragma once
 
 #include "core/distribution.h"
@@ -21,36 +20,37 @@ enum class LightKind : int32_t { triangle, point, sphere, sun, environment };
 struct LightRecord {
     int32_t kind;        // LightKind
     int32_t flags;       // LightFlag
-    int32_t part;        // triangle: whose material and vertices a varying emission reads
+    int32_t part;        // triangle: the part whose material and vertices give a varying emission
     int32_t triangle;
-    int32_t profile;     // of a ProfileRecord that scales the emission by direction, -1: none
+    int32_t profile;     // index of the ProfileRecord that scales the emission by direction, -1: none
     int32_t object;      // sphere: Id<Node>.value of its node
-    int32_t slot;        // with a tree: through which it is drawn; 0 is the tree's
+    int32_t slot;        // with a tree: its selection slot; 0 is the tree's
     Vec3 position;       // triangle: vertex 0; point: itself; sphere: its centre; sun: unit direction towards it
     Vec3 edge1, edge2;   // triangle: vertices 1 and 2 minus vertex 0
-    Vec3 emission;       // triangle that does not vary, sphere: nits, times the opacity; point: candela; sun: nits of its disk, or lux if parallel
+    // constant triangle, sphere: nits, times the opacity; point: candela; sun: nits of its disk, or lux if parallel
+    Vec3 emission;
     float inverse_area;  // triangle: 1 / m^2
     float radius;        // sphere: metres
     float cone_height;   // sun: 1 - cos of its angular radius; 0 is a parallel beam
 };
 enum LightFlag : int32_t {
     light_two_sided = 1,
-    light_varying = 2,  // emission or alpha differ from point to point
+    light_varying = 2,  // emission or alpha vary over the triangle
     light_mirrored = 4, // edge1 leads to vertex 2 and edge2 to vertex 1, so that their cross product still points outwards
-    light_hidden = 8,   // sun: the camera does not see its disk
+    light_hidden = 8,   // sun: disk invisible to the camera
 };
 
-// Lights are drawn by power through slots: a slot for each, or with a tree one for the tree and one for each light that is not in it.
+// Lights are selected by power through slots: one per light, or with a tree one for the tree and one for each light outside it.
 struct LightTables {
     const LightRecord* lights = nullptr;
     const uint32_t* thresholds = nullptr; // by slot: make_thresholds of the powers
     int32_t count = 0;                    // of slots
-    const int32_t* slot_lights = nullptr; // with a tree, by slot: the light; the first slot is the tree's
+    const int32_t* slot_lights = nullptr; // with a tree, by slot: the light; the first slot is the tree
     LightTree tree;
     int32_t environment = -1;             // index of the environment, -1: none
-    const int32_t* suns = nullptr;        // indices of the suns with a disk: what an escaping ray may hit
+    const int32_t* suns = nullptr;        // indices of the suns with a disk: escaping rays can hit them
     int32_t sun_count = 0;
-    int32_t first_sphere = 0;             // index of the first sphere; they follow each other
+    int32_t first_sphere = 0;             // index of the first sphere; spheres are consecutive
     ProfileTables profiles;
 };
 
@@ -58,7 +58,7 @@ struct LightTables {
 
 namespace blush::inline BLUSH_ISA {
 
-// A light, the probability of having drawn it, and what is left of the random number: uniform in [0, 1).
+// A light, its selection probability, and the remaining random number: uniform in [0, 1).
 template <Features S, class F>
 DiscreteSample<F> pick_light(const LightTables& table, const Receiver<F>& to, const Pair<F>& random, const Mask<F>& active) {
     const DiscreteSample<F> slot = sample_discrete<F>(table.thresholds, Int<F>(0), table.count, random.bits_x);
@@ -73,7 +73,7 @@ DiscreteSample<F> pick_light(const LightTables& table, const Receiver<F>& to, co
     return slot;
 }
 
-// Probability that pick_light draws `light` for that receiver.
+// Probability that pick_light selects `light` for that receiver.
 template <Features S, class F>
 F light_probability(const LightTables& table, const Receiver<F>& to, const Int<F>& light, const Mask<F>& active) {
     if constexpr (S.has(Feature::light_tree)) {
@@ -87,15 +87,15 @@ F light_probability(const LightTables& table, const Receiver<F>& to, const Int<F
     return discrete_probability<F>(table.thresholds, Int<F>(0), Int<F>(table.count), light);
 }
 
-// Solid-angle density, seen from distance^2 away, of a density per area on a surface tilted by cos_light.
+// Converts a density per area on a surface tilted by cos_light, at distance^2, to solid angle.
 template <class F> F area_to_solid_angle(const F& area_pdf, const F& distance_squared, const F& cos_light) {
     return area_pdf * distance_squared / cos_light;
 }
 
-// Density of directions uniform over a cone of the given height.
+// Uniform pdf over directions in a cone of the given height.
 template <class F> F cone_pdf(const F& height) { return F(0.5f * inv_pi) / height; }
 
-// The direction is within the sun's disk. Compares chords, |a - b|^2 = 2 (1 - cos), because 1 - dot loses all digits.
+// True if the direction is within the sun's disk. Compares chords, |a - b|^2 = 2 (1 - cos), because 1 - dot loses all digits.
 template <class F> Mask<F> in_sun_disk(const Vec<F>& direction, const Vec<F>& towards_sun, const F& cone_height) {
     const Vec<F> chord = direction - towards_sun;
     return dot(chord, chord) <= 2.f * cone_height;

@@ -1,10 +1,10 @@
-// How the emission of a light depends on the direction in which it leaves: a factor made of up to three.
+// Directional emission of a light: the product of up to three factors.
 //
 //   cone    of a spot, KHR_lights_punctual's falloff: clamp(cos theta * scale + offset)^2, theta from the axis
-//   spread  of a panel with a grid of slats before it, which hide more of it the further one looks from aside:
+//   spread  of a panel with a grid in front of it, which blocks more light at larger angles:
 //           max(0, tan h - tan theta) / (tan h - h), h half the spread. The integral of it times the cosine over the hemisphere is pi
-//           whatever the spread, so a panel keeps its luminous flux and gets brighter straight ahead.
-//   table   a measured distribution (scene/ies_profile.h), relative to its peak
+//           for any spread, so a panel keeps its luminous flux and gets brighter along its axis.
+//   table   an IES profile (scene/ies_profile.h), relative to its peak
 #pragma once
 
 #include "core/math.h"
@@ -17,8 +17,9 @@ struct ProfileRecord {
     Vec3 x, y, ahead;             // the light's frame in world space, unit vectors
     float cone_scale, cone_offset; // 0 and 1: no cone
     float spread_tan, spread_scale; // tan h and 1 / (tan h - h); scale 0: no spread
-    int32_t first, verticals, horizontals; // into the numbers: vertical angles, horizontal angles, then values, vertical fastest; -1: no table
-    int32_t polar_x;              // the table's polar axis is the light's X (type B), not its own axis (type C)
+    // into `numbers`: vertical angles, horizontal angles, then values, vertical fastest; -1: no table
+    int32_t first, verticals, horizontals;
+    int32_t polar_x;              // the table's polar axis is the light's X (type B), not the light's own axis (type C)
 };
 
 struct ProfileTables {
@@ -30,7 +31,8 @@ struct ProfileTables {
 
 namespace blush::inline BLUSH_ISA {
 
-// The interval of `count` ascending numbers at `first` that x lies in, and where; not inside beyond their ends. One number stands for all.
+// The interval of `count` ascending numbers at `first` that contains x, and the position in it; `inside` is false beyond the
+// ends. A single number applies everywhere.
 template <class F> struct TablePlace {
     Int<F> below, above;
     F fraction;
@@ -50,7 +52,7 @@ template <class F> TablePlace<F> place_in_table(const float* numbers, const Int<
     return {low, above, select(alone, F(0.f), (x - a) / select(alone, F(1.f), b - a)), alone || (x >= a && x <= b)};
 }
 
-// The tabulated factor towards a unit direction with those coordinates in the light's frame; lanes outside `active` give 0.
+// The IES factor in a unit direction with these coordinates in the light's frame; 0 in lanes outside `active`.
 template <class F> F table_factor(const ProfileTables& tables, const Int<F>& profile, const F& x, const F& y, const F& ahead, const Mask<F>& active) {
     const auto field = [&](int32_t ProfileRecord::*f) { return gather_field(tables.records, f, profile); };
     const Int<F> first = select(active, field(&ProfileRecord::first), Int<F>(0));
@@ -58,7 +60,7 @@ template <class F> F table_factor(const ProfileTables& tables, const Int<F>& pro
     const Int<F> horizontals = select(active, field(&ProfileRecord::horizontals), Int<F>(1));
     const Mask<F> polar_x = as_mask(field(&ProfileRecord::polar_x) != 0);
     const F turn = atan2_turns(y, x);
-    // Rounding must not lead beyond a table's last angle.
+    // Rounding must not exceed a table's last angle.
     const F from_ahead = min(atan2_turns(F(sqrt(x * x + y * y)), ahead), F(0.5f));
     const F aside = max(min(atan2_turns(x, F(sqrt(y * y + ahead * ahead))), F(0.25f)), F(-0.25f));
     const F vertical = select(polar_x, atan2_turns(y, ahead), from_ahead);
@@ -72,8 +74,8 @@ template <class F> F table_factor(const ProfileTables& tables, const Int<F>& pro
     return select(active && v.inside && h.inside, lerp(below, above, h.fraction), F(0.f));
 }
 
-// The factor of a profile in the unit direction in which light leaves; `profile` must be valid in every lane, those outside `active` are
-// computed in vain.
+// The factor of a profile in the unit direction of emission; `profile` must be valid in every lane; results outside `active` are
+// unused.
 template <class F> F profile_factor(const ProfileTables& tables, const Int<F>& profile, const Vec<F>& direction, const Mask<F>& active) {
     const auto axis = [&](Vec3 ProfileRecord::*f) { return dot(gather_field3<F>(tables.records, f, profile), direction); };
     const F x = axis(&ProfileRecord::x), y = axis(&ProfileRecord::y), ahead = axis(&ProfileRecord::ahead);
@@ -81,7 +83,7 @@ template <class F> F profile_factor(const ProfileTables& tables, const Int<F>& p
                               gather_field(tables.records, &ProfileRecord::cone_offset, profile));
     F factor = in_cone * in_cone;
     const F spread = gather_field(tables.records, &ProfileRecord::spread_scale, profile);
-    // Both sides of a panel have the same slats.
+    // The grid of a panel acts on both sides.
     const F tangent = sqrt(x * x + y * y) / max(abs(ahead), F(1e-12f));
     const F left = max(gather_field(tables.records, &ProfileRecord::spread_tan, profile) - tangent, F(0.f)) * spread;
     factor = select(spread > F(0.f), factor * left, factor);

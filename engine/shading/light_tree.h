@@ -1,8 +1,9 @@
-// Many lights: a tree of them, descended towards those that matter to a receiver (Conty Estevez and Kulla 2018, "Importance Sampling of Many
-// Lights with Adaptive Tree Splitting"). One light is drawn for each sample; nothing is split. Instead a node has up to sixteen
-// children: to choose among four levels of a binary tree at once costs twice as much as to descend them, and looks further.
+// Light tree: traverses a tree of lights towards those that matter to a receiver (Conty Estevez and Kulla 2018, "Importance
+// Sampling of Many Lights with Adaptive Tree Splitting"). Each sample selects one light, without splitting. Instead a node has up
+// to sixteen children: one choice among four levels of a binary tree costs twice as much as descending them, and is more
+// accurate.
 //
-// Only lights at finite distance are in the tree. It is drawn as one slot beside the suns and the environment, by power.
+// Only lights at finite distance are in the tree. It is one slot next to the suns and the environment, selected by power.
 #pragma once
 
 #include "core/sampler.h"
@@ -11,26 +12,26 @@
 
 namespace blush {
 
-// A node has up to 2^tree_branch_bits children; so many bits of a trail tell which of them.
+// A node has up to 2^tree_branch_bits children; this many trail bits select one of them.
 constexpr int tree_branch_bits = 4, most_tree_children = 1 << tree_branch_bits;
 
-// Bounds of the lights below a node: where they are, and the cone that they shine into.
+// Bounds of the lights below a node: position, and the cone of their emission.
 struct LightTreeNode {
     Vec3 center, half;  // of the box of their positions
     float radius;       // of the sphere around it
     Vec3 axis;          // of the cone of their normals
     float sin_o, cos_o; // of its half angle
-    float cos_e;        // of how far from its normal a light still shines
-    float power;        // their selection powers, in sum
-    int32_t two_sided;  // some of them
-    int32_t children;   // index of the first of them, which follow each other, -1: a leaf
+    float cos_e;        // of the emission angle beyond the normals
+    float power;        // sum of their selection powers
+    int32_t two_sided;  // some of them are
+    int32_t children;   // index of the first child (children are consecutive), -1: a leaf
     int32_t child_count;
     int32_t light;      // of a leaf
 };
 
 struct LightTree {
     const LightTreeNode* nodes = nullptr; // the first is the root; null: there is no tree
-    const uint32_t* trails = nullptr;     // by light: tree_branch_bits for each level, the root's lowest: which child leads to it
+    const uint32_t* trails = nullptr;     // by light: the path from the root, tree_branch_bits for each level, the root's lowest
     const int32_t* depths = nullptr;      // by light: levels above its leaf, -1: not in the tree
 };
 
@@ -38,7 +39,7 @@ struct LightTree {
 
 namespace blush::inline BLUSH_ISA {
 
-// Who asks for light: lights below the horizon of `normal` give it none. A zero normal receives from all sides.
+// The point to be lit: lights below the horizon of `normal` do not contribute. A zero normal receives from all sides.
 template <class F> struct Receiver {
     Vec<F> position, normal;
 };
@@ -49,14 +50,14 @@ template <class F> F cos_of_difference(const F& sin_a, const F& cos_a, const F& 
 }
 template <class F> F sin_of(const F& cosine) { return sqrt(max(F(0.f), 1.f - cosine * cosine)); }
 
-// About what the node's lights give the receiver, up to a factor; 0 only if that is nothing.
+// Approximate irradiance of the node's lights at the receiver, up to a factor; 0 only if exact.
 template <class F> F light_importance(const LightTreeNode* nodes, const Int<F>& node, const Receiver<F>& to) {
     const auto field = [&](float LightTreeNode::*f) { return gather_field(nodes, f, node); };
     const Vec<F> away = to.position - gather_field3<F>(nodes, &LightTreeNode::center, node);
     const F radius = field(&LightTreeNode::radius), r2 = radius * radius;
     const F d2 = max(dot(away, away), F(1e-30f));
     const Vec<F> w = away / sqrt(d2);
-    // The cone in which the receiver sees the sphere around them all; from within it anything may be anywhere.
+    // The cone of the node's bounding sphere as seen by the receiver; from inside, all directions are possible.
     const F sin2_b = r2 / d2;
     const Mask<F> within = sin2_b >= F(1.f);
     const F cos_b = select(within, F(-1.f), sqrt(max(F(0.f), 1.f - sin2_b))), sin_b = select(within, F(0.f), sqrt(min(sin2_b, F(1.f))));
@@ -67,8 +68,8 @@ template <class F> F light_importance(const LightTreeNode* nodes, const Int<F>& 
     const F cos_p = cos_of_difference(sin_of(cos_x), cos_x, sin_b, cos_b);
     const Mask<F> shines = cos_p > field(&LightTreeNode::cos_e);
 
-    // What of the box stands above the receiver's horizon: how much, how high on average, how far. A bound by the sphere around it would take a
-    // ceiling of lamps that is seen under a flat angle for one overhead.
+    // The part of the box above the receiver's horizon: its share, mean height and distance. Bounding it by a sphere would rate a
+    // ceiling of lights seen at a grazing angle as if it were overhead.
     const Mask<F> all_sides = dot(to.normal, to.normal) <= F(0.f);
     const F mean = -dot(to.normal, away), spread = dot(abs(to.normal), gather_field3<F>(nodes, &LightTreeNode::half, node));
     const F reach = max(F(0.f), mean + spread);
@@ -78,12 +79,12 @@ template <class F> F light_importance(const LightTreeNode* nodes, const Int<F>& 
     const F lit2 = max(select(cut, d2 - mean * mean + height * height, d2), F(1e-30f));
     const F lit_r2 = select(cut, max(r2 - spread * spread + height * height, F(0.f)), r2);
     const F facing = select(all_sides, F(1.f), min(height / sqrt(lit2), F(1.f)));
-    // Within its bounds a node is as near as a part of its size.
+    // Inside the bounds, the distance is clamped to a fraction of the node's size.
     const F importance = field(&LightTreeNode::power) * max(cos_p, F(0.f)) * share * facing / max(lit2, 0.05f * lit_r2);
     return select(shines, importance, F(0.f));
 }
 
-// The importances of a node's children, and their sum; 0 beyond the last of them.
+// The importances of a node's children, and their sum; 0 for missing children.
 template <class F> struct ChildImportances {
     F of[most_tree_children], sum;
 };
@@ -103,12 +104,12 @@ ChildImportances<F> importances_of(const LightTree& tree, const Int<F>& first, c
 
 template <class F> struct TreeSample {
     Int<F> light;
-    F probability; // 0: nothing in the tree can light the receiver
+    F probability; // 0: no light of the tree can illuminate the receiver
     F remainder;   // uniform in [0, 1), independent of the light
 };
 
-// Descends by `u` in [0, 1), known to 2^-24. What a choice leaves of it is spread out again by `bits`, or after some levels no digits would
-// be left to choose by.
+// Traverses by `u` in [0, 1), which has 24 bits. At each level the remainder of u is refilled from `bits`, because its digits
+// would be used up after some levels.
 template <class F> TreeSample<F> sample_tree(const LightTree& tree, const Receiver<F>& to, const F& u, const UInt<F>& bits, const Mask<F>& active) {
     Int<F> node = 0;
     F probability = F(1.f), rest = u;
@@ -119,7 +120,7 @@ template <class F> TreeSample<F> sample_tree(const LightTree& tree, const Receiv
         const Int<F> count = select(inner, gather_field(tree.nodes, &LightTreeNode::child_count, node), Int<F>(0));
         const ChildImportances<F> c = importances_of<F>(tree, first, count, to);
         const Mask<F> lit = c.sum > F(0.f);
-        // The last child with any importance whose range begins at or below the random number.
+        // Selects the last child with non-zero importance whose range begins at or below the random number.
         const F at = rest * c.sum;
         Int<F> chosen = 0;
         F begin = F(0.f), importance = F(0.f), passed = F(0.f);
@@ -140,7 +141,7 @@ template <class F> TreeSample<F> sample_tree(const LightTree& tree, const Receiv
     return {gather_field(tree.nodes, &LightTreeNode::light, node), probability, rest};
 }
 
-// Probability with which sample_tree draws `light`; 0 for lights that are not in the tree.
+// Probability that sample_tree selects `light`; 0 for lights outside the tree.
 template <class F> F tree_probability(const LightTree& tree, const Receiver<F>& to, const Int<F>& light, const Mask<F>& active) {
     UInt<F> trail = gather(tree.trails, light);
     const Int<F> depth = select(active, gather(tree.depths, light), Int<F>(-1));

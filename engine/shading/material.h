@@ -1,4 +1,4 @@
-// What a surface is made of at one point: the factors of a material record times its textures, made legal.
+// Material parameters at a surface point: the factors of a material record times its textures, clamped to valid ranges.
 #pragma once
 
 #include "shading/bsdf.h"
@@ -10,15 +10,15 @@ namespace blush {
 
 enum MaterialFlag : int32_t {
     material_double_sided = 1,
-    material_unlit = 2,    // base_color is what is seen; scatters nothing
-    material_thin = 4,     // transmits through a sheet without inside
+    material_unlit = 2,    // only base_color is visible; does not scatter
+    material_thin = 4,     // transmits like a sheet without inside
     material_emissive = 8, // emission is not black
-    material_pane = 16,    // thin, and may be smooth: light may pass it straight on (render/thin_transmission.h)
+    material_pane = 16,    // thin, and may be smooth: light may pass straight through (render/thin_transmission.h)
 };
 enum MaterialAlpha : int32_t { alpha_opaque, alpha_mask, alpha_blend };
 
-// glTF's metallic-roughness material, compiled: factors are finite and in range, what no lobe reads has its default, so that
-// materials that look alike are alike. Each texture slot is the index of a TextureUse or -1.
+// glTF's metallic-roughness material, compiled: factors are finite and in range; parameters that no lobe uses have their default,
+// so that materials of equal appearance are equal. Each texture slot is the index of a TextureUse or -1.
 struct MaterialRecord {
     Vec3 base_color{1, 1, 1};
     float opacity = 1;
@@ -45,7 +45,7 @@ struct MaterialRecord {
 
 struct MaterialTables {
     const MaterialRecord* materials = nullptr;
-    const LayerRecord* layers = nullptr; // beside each of them
+    const LayerRecord* layers = nullptr; // parallel to the records
     TextureTables textures;
 };
 
@@ -64,8 +64,8 @@ template <class F> struct MaterialPoint {
     Mask<F> double_sided, unlit, pane;
 };
 
-// Radiance in nits that the material emits at a point, front side; its texture is not filtered, as those who aim at it see points of it.
-// Zero in a kernel without emissive triangles.
+// Emission of the material in nits at a point, front side; its texture is not filtered, because NEE samples points. Zero in a
+// kernel without emissive triangles.
 template <Features S, class F>
 Vec<F> emission_at(const MaterialTables& tables, const Int<F>& material, const TexturePoint<F>& at, const Mask<F>& active) {
     if constexpr (!S.has(Feature::emissive_triangles)) return splat<F>(0.f);
@@ -76,7 +76,7 @@ Vec<F> emission_at(const MaterialTables& tables, const Int<F>& material, const T
     return emission * rgb(lookup<F>(tables.textures, gather_field(records, &MaterialRecord::emissive_texture, m), at, active, false));
 }
 
-// Share of the surface at a point that is coated; not filtered, for it dims emission.
+// Clear coat coverage at a point; not filtered, because it attenuates emission.
 template <Features S, class F>
 F clearcoat_at(const MaterialTables& tables, const Int<F>& material, const TexturePoint<F>& at, const Mask<F>& active) {
     const Int<F> m = select(active, material, Int<F>(0));
@@ -85,7 +85,7 @@ F clearcoat_at(const MaterialTables& tables, const Int<F>& material, const Textu
     });
 }
 
-// (0, 0, 1) without a normal map. Not filtered: the mean of normals shines otherwise than they do.
+// (0, 0, 1) without a normal map. Not filtered: averaged normals reflect differently.
 template <class F>
 Vec<F> tangent_normal_at(const MaterialTables& tables, const Int<F>& m, const TexturePoint<F>& at, const Mask<F>& active) {
     const Int<F> use = gather_field(tables.materials, &MaterialRecord::normal_texture, m);
@@ -95,8 +95,8 @@ Vec<F> tangent_normal_at(const MaterialTables& tables, const Int<F>& m, const Te
     return decode_normal<F>(rgb(lookup<F>(tables.textures, use, at, active, false)), scale, mapped);
 }
 
-// Everything the estimator wants to know about the material at a hit. Lanes that are not active get some legal material.
-// Base colour is cut to [0, 1]: a surface that reflects more than it receives would make light out of nothing.
+// All material parameters at a hit. Inactive lanes get some valid material. Base colour is clamped to [0, 1]: more would gain
+// energy.
 template <Features S, class F> MaterialPoint<F> material_at(const MaterialTables& tables, const Int<F>& material, const TexturePoint<F>& at,
                                                             const Vec4T<F>& vertex_color, const Mask<F>& active) {
     const Int<F> m = select(active, material, Int<F>(0));
@@ -106,7 +106,8 @@ template <Features S, class F> MaterialPoint<F> material_at(const MaterialTables
     };
     const auto layer_texture = [&](int32_t LayerRecord::*slot) {
         const bool filtered = slot != &LayerRecord::clearcoat_texture && slot != &LayerRecord::clearcoat_normal_texture &&
-                              slot != &LayerRecord::anisotropy_texture; // coats as for those who aim at what glows below; directions
+                              // coats are unfiltered, as in NEE of emission below them; so are directions
+                              slot != &LayerRecord::anisotropy_texture;
         return lookup<F>(tables.textures, gather_field(tables.layers, slot, m), at, active, filtered);
     };
     const Int<F> flags = gather_field(records, &MaterialRecord::flags, m);
@@ -168,8 +169,8 @@ template <Features S, class F> MaterialPoint<F> material_at(const MaterialTables
     return p;
 }
 
-// Share of the light that meets the surface at all, in [0, 1], glTF 2.0 section 3.9.4: 1 if opaque, 0 or 1 if masked, else the alpha of
-// factor, texture and vertex colour. Ray filters and light sampling read it at points, of no width.
+// Opacity in [0, 1], glTF 2.0 section 3.9.4: 1 if opaque, 0 or 1 if masked, else the alpha of factor, texture and vertex colour.
+// Unfiltered, because ray filters and NEE evaluate points.
 template <Features S, class F>
 F opacity_at(const MaterialTables& tables, const Int<F>& material, const TexturePoint<F>& at, const F& vertex_alpha, const Mask<F>& active) {
     const Int<F> m = select(active, material, Int<F>(0));

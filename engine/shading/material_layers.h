@@ -1,4 +1,4 @@
-// What KHR_materials_* add to a material, compiled: read by kernels for scenes that have such materials, and by no others.
+// KHR_materials_* layers of a material, compiled: read only by kernels for scenes that use them.
 #pragma once
 
 #include "shading/bsdf_types.h"
@@ -6,7 +6,7 @@
 
 namespace blush {
 
-// Beside the MaterialRecord of the same index, under the same rules. All 0: nothing is added.
+// Parallel to the MaterialRecords, with the same rules. All 0: no layers.
 struct LayerRecord {
     float clearcoat = 0, clearcoat_roughness = 0, clearcoat_normal_scale = 1;
     int32_t clearcoat_texture = -1;
@@ -35,8 +35,8 @@ struct LayerRecord {
 
 namespace blush::inline BLUSH_ISA {
 
-// Normal of a normal map, glTF 2.0 section 3.9.3: texels map [0, 1] to [-1, 1], scale stretches x and y. Texels that point
-// below the surface are lifted to it. (0, 0, 1) outside of `mapped` and where a texel says nothing.
+// Decodes a normal map, glTF 2.0 section 3.9.3: texels map [0, 1] to [-1, 1], scale multiplies x and y. Normals below the surface
+// are moved onto it. (0, 0, 1) outside of `mapped` and for zero vectors.
 template <class F> Vec<F> decode_normal(const Vec<F>& color, const F& scale, const Mask<F>& mapped) {
     const Vec<F> texel = color * 2.f - splat<F>(1.f);
     const Vec<F> n{texel.x * scale, texel.y * scale, max(texel.z, F(0.f))};
@@ -45,14 +45,14 @@ template <class F> Vec<F> decode_normal(const Vec<F>& color, const F& scale, con
     return select(usable, n / sqrt(select(usable, squared, F(1.f))), Vec<F>{F(0.f), F(0.f), F(1.f)});
 }
 
-// Share of the surface at a point that is coated. texture(slot) looks up what that member of the record reads.
+// Clear coat coverage at a point. texture(slot) looks up the texture of that member of the record.
 template <Features S, class F, class Texture> F clearcoat_share(const LayerRecord* records, const Int<F>& m, const Texture& texture) {
     const F factor = gather_field(records, &LayerRecord::clearcoat, m);
     if constexpr (!S.has(Feature::textures)) return factor;
     else return clamp01(F(factor * texture(&LayerRecord::clearcoat_texture).x));
 }
 
-// Fills in what S has of `layers`, but for directions, which need a frame.
+// Sets the members of `layers` that S has, except directions, which need a frame.
 template <Features S, class F, class Texture>
 void read_layers(LayerParams<F>& layers, const LayerRecord* records, const Int<F>& m, const Texture& texture) {
     constexpr bool textured = S.has(Feature::textures);
@@ -78,7 +78,7 @@ void read_layers(LayerParams<F>& layers, const LayerRecord* records, const Int<F
         if constexpr (textured) {
             layers.iridescence = clamp01(F(layers.iridescence * texture(&LayerRecord::iridescence_texture).x));
             const F low = factor(&LayerRecord::film_thickness_minimum);
-            // White, and no texture, is the maximum, exactly.
+            // White, and no texture, give exactly the maximum.
             const F lack = 1.f - clamp01(texture(&LayerRecord::film_thickness_texture).y);
             layers.film_thickness = layers.film_thickness + (low - layers.film_thickness) * lack;
         }
@@ -94,7 +94,7 @@ void read_layers(LayerParams<F>& layers, const LayerRecord* records, const Int<F
     }
 }
 
-// How far reflections are stretched, and along which direction in the frame of tangent and bitangent.
+// Strength of the anisotropy, and its direction in the frame of tangent and bitangent.
 template <class F> struct AnisotropyPoint {
     F strength;
     Vec2T<F> direction; // unit
@@ -108,7 +108,7 @@ AnisotropyPoint<F> anisotropy_at(const LayerRecord* records, const Int<F>& m, co
         if (!any(mapped)) return a;
         const Vec4T<F> texel = texture(&LayerRecord::anisotropy_texture);
         const F x = texel.x * 2.f - 1.f, y = texel.y * 2.f - 1.f, squared = x * x + y * y;
-        const Mask<F> turned = mapped && squared > F(1e-6f); // grey is no direction
+        const Mask<F> turned = mapped && squared > F(1e-6f); // grey encodes no direction
         const F scale = 1.f / sqrt(select(turned, squared, F(1.f)));
         const F c = select(turned, x * scale, F(1.f)), s = select(turned, y * scale, F(0.f));
         const Vec2T<F> by = a.direction;

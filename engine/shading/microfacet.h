@@ -1,18 +1,18 @@
-// The GGX distribution of facet normals with Smith's separable masking, as glTF 2.0 Appendix B has them (Walter et al. 2007,
-// "Microfacet Models for Refraction through Rough Surfaces"). Local frame, z is the normal. Every formula is in x, y, z of the
-// direction instead of 1 - z^2, and without a division by a cosine: alpha down to 1e-4 and grazing directions keep their digits.
+// The GGX distribution of microfacet normals with Smith's separable masking, as in glTF 2.0 Appendix B (Walter et al. 2007,
+// "Microfacet Models for Refraction through Rough Surfaces"). Local frame, z is the normal. All formulas use x, y, z of the
+// direction instead of 1 - z^2, and avoid division by a cosine: precise for alpha down to 1e-4 and grazing directions.
 #pragma once
 
 #include "core/math.h"
 
 namespace blush::inline BLUSH_ISA {
 
-// Below this perceptual roughness a surface counts as perfectly smooth: its lobe is narrower than what single precision resolves.
+// Below this perceptual roughness a surface is treated as perfectly smooth: its lobe is narrower than single precision resolves.
 constexpr float smooth_roughness = 0.01f;
 
-// Alpha along the local x and y, where it is not the same in both (KHR_materials_anisotropy; Heitz 2014, "Understanding the
-// Masking-Shadowing Function in Microfacet-Based BRDFs", stretched GGX). All below take it in place of one alpha and, where both are the
-// same, give the same bits.
+// Anisotropic alpha along the local x and y (KHR_materials_anisotropy; Heitz 2014, "Understanding the Masking-Shadowing Function
+// in Microfacet-Based BRDFs", stretched GGX). Functions below accept it in place of one alpha and give bit-identical results if
+// both are equal.
 template <class F> struct Stretch {
     F x, y;
     F x_over_y, y_over_x;
@@ -25,7 +25,7 @@ template <class F> F alpha_along_y(const F& alpha) { return alpha; }
 template <class F> F alpha_along_x(const Stretch<F>& alpha) { return alpha.x; }
 template <class F> F alpha_along_y(const Stretch<F>& alpha) { return alpha.y; }
 
-// Density of facet normals h (unit) per projected solid angle.
+// Density of microfacet normals h (unit) per projected solid angle.
 template <class F> F ggx(const F& alpha, const Vec<F>& h) {
     const F alpha2 = alpha * alpha;
     const F k = h.x * h.x + h.y * h.y + alpha2 * (h.z * h.z);
@@ -36,7 +36,7 @@ template <class F> F ggx(const Stretch<F>& alpha, const Vec<F>& h) {
     return alpha.product / (pi * k * k);
 }
 
-// Share of the facets seen from w that are not masked, over |w.z|.
+// Unmasked share of the microfacets seen from w, divided by |w.z|.
 template <class F> F masking_over_cos(const F& alpha, const Vec<F>& w) {
     const F tilt = w.x * w.x + w.y * w.y;
     return 2.f / (abs(w.z) + sqrt(w.z * w.z + alpha * alpha * tilt));
@@ -47,8 +47,9 @@ template <class F> F masking_over_cos(const Stretch<F>& alpha, const Vec<F>& w) 
 }
 template <class Alpha, class F> F masking(const Alpha& alpha, const Vec<F>& w) { return abs(w.z) * masking_over_cos(alpha, w); }
 
-// A facet normal as seen from wo, wo.z >= 0, with density masking(wo) ggx(h) max(0, dot(wo, h)) / wo.z: Dupuy and Benyoub 2023,
-// "Sampling Visible GGX Normals with Spherical Caps", the cap's coordinates rearranged so that h.z > 0 is a product.
+// Samples a microfacet normal visible from wo, wo.z >= 0, with density masking(wo) ggx(h) max(0, dot(wo, h)) / wo.z: Dupuy and
+// Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps", with the cap's coordinates rearranged so that h.z > 0 is a
+// product.
 template <class Alpha, class F> Vec<F> sample_visible_normal(const Alpha& alpha, const Vec<F>& wo, const F& u, const F& v) {
     const F along_x = alpha_along_x(alpha), along_y = alpha_along_y(alpha);
     const Vec<F> o = normalize(Vec<F>{wo.x * along_x, wo.y * along_y, wo.z});

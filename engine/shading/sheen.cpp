@@ -3,7 +3,8 @@
 namespace blush {
 namespace {
 
-// E by midpoints over the hemisphere of light, finer towards the horizon, where smooth fibres reflect; by symmetry half the azimuths will do.
+// E by midpoint quadrature over the hemisphere, finer towards the horizon, where smooth fibres reflect; by symmetry half the
+// azimuths suffice.
 float integrate_albedo(float alpha, float cos) {
     constexpr int azimuths = 32, heights = 64;
     static_assert(heights % width<Wide> == 0);

@@ -1,7 +1,5 @@
-// Image textures: glTF's wrap modes and filters over tables that hold the texels of all images of a scene, and for looks from far away
-// smaller versions of them (mipmaps).
-// Texels are made linear first and filtered then, as sRGB samplers of graphics hardware do; filtering encoded values would
-// darken every edge.
+// Image textures: glTF's wrap modes and filters, and mip levels, over tables that hold the texels of all images of a scene.
+// Texels are linearised before filtering, as in sRGB samplers of GPUs; filtering encoded values would darken every edge.
 #pragma once
 
 #include "core/half.h"
@@ -13,7 +11,7 @@ namespace blush {
 
 enum TextureWrap : int32_t { wrap_repeat, wrap_clamp, wrap_mirror };
 enum TextureFilter : int32_t { filter_linear, filter_nearest };
-// Where the texels of an image are and what they mean. Alpha is always linear.
+// Storage and colour encoding of an image's texels. Alpha is always linear.
 enum TextureEncoding : int32_t {
     encoding_srgb8,   // rgba8, colour sRGB-encoded
     encoding_linear8, // rgba8
@@ -21,7 +19,7 @@ enum TextureEncoding : int32_t {
     encoding_float32, // rgba32f
 };
 
-// One of the versions of an image.
+// One mip level of an image.
 struct TextureLevel {
     int32_t offset; // of the first texel, in texels, within its pool
     int32_t width, height;
@@ -29,25 +27,25 @@ struct TextureLevel {
 };
 
 struct TextureRecord {
-    int32_t first_level;    // the image itself; smaller versions, each half as wide and high, follow
+    int32_t first_level;    // the image itself; smaller levels follow, each half as wide and high
     int32_t levels;         // at least 1
     int32_t wrap_u, wrap_v; // TextureWrap
     int32_t filter;         // TextureFilter
 };
 
-// So many different UV sets can the textures of one scene lie on.
+// Maximal number of UV sets that the textures of one scene use.
 constexpr int most_uv_sets = 8;
 
-// A texture as one slot of a material reads it: u' = u_from_u * u + u_from_v * v + u_offset, the same for v'.
+// A texture as used by one material slot: u' = u_from_u * u + u_from_v * v + u_offset, the same for v'.
 struct TextureUse {
     int32_t texture; // index of a TextureRecord
-    int32_t uv_set;  // which of TexturePoint::uv
+    int32_t uv_set;  // index into TexturePoint::uv
     float u_from_u, u_from_v, u_offset;
     float v_from_u, v_from_v, v_offset;
-    float texels_per_uv; // of the image itself, along a line in the UV set: the mean of all directions
+    float texels_per_uv; // of the full image, per unit of length in the UV set: mean over directions
 };
 
-// Pools hold four channels per texel, top row first; every value in them is finite.
+// Pools hold four channels per texel, top row first; all values are finite.
 struct TextureTables {
     const TextureRecord* textures = nullptr;
     const TextureLevel* levels = nullptr;
@@ -56,7 +54,7 @@ struct TextureTables {
     const uint32_t* rgba16f = nullptr;     // two per texel, red and blue in the lower bits; below 2^30 texels
     const float* rgba32f = nullptr;        // below 2^29 texels
     const float* srgb_to_linear = nullptr; // of the 256 byte values
-    int32_t uv_sets = 0;                   // that the uses are laid out by
+    int32_t uv_sets = 0;                   // number of UV sets in the uses
 };
 
 } // namespace blush
@@ -66,26 +64,26 @@ namespace blush::inline BLUSH_ISA {
 template <class F> Vec4T<F> select(const Mask<F>& m, const Vec4T<F>& a, const Vec4T<F>& b) {
     return {select(m, a.x, b.x), select(m, a.y, b.y), select(m, a.z, b.z), select(m, a.w, b.w)};
 }
-// Gives a back exactly for t = 0 and wherever a = b.
+// Returns exactly a for t = 0 and wherever a = b.
 template <class F> Vec4T<F> lerp(const Vec4T<F>& a, const Vec4T<F>& b, const std::type_identity_t<F>& t) {
     return {lerp(a.x, b.x, t), lerp(a.y, b.y, t), lerp(a.z, b.z, t), lerp(a.w, b.w, t)};
 }
 template <class F> Vec<F> rgb(const Vec4T<F>& c) { return {c.x, c.y, c.z}; }
 
-// Where a point of a surface lies on its textures.
+// Texture coordinates of a surface point.
 template <class F> struct TexturePoint {
-    // The first TextureTables::uv_sets of each.
+    // The first TextureTables::uv_sets entries of each are valid.
     std::array<Vec2T<F>, most_uv_sets> uv;
-    std::array<F, most_uv_sets> width{}; // of the part of the surface that is looked at, in units of uv; 0: a point
+    std::array<F, most_uv_sets> width{}; // of the footprint, in units of uv; 0: a point
 };
 
-// The two texels of one axis that a coordinate lies between, both in [0, size), and the weight of the second.
+// The two texels along one axis around a coordinate, both in [0, size), and the weight of the second.
 template <class F> struct TexturePair {
     Int<F> first, second;
     F weight;
 };
 
-// `s` in units of the image, any finite number. Texel i covers [i, i + 1] / size, its centre is where it is seen unmixed.
+// `s` in units of the image, any finite number. Texel i covers [i, i + 1] / size; at its centre its weight is 1.
 template <class F> TexturePair<F> texture_pair(const F& s, const Int<F>& size, const Int<F>& wrap, const Mask<F>& nearest) {
     const Mask<F> repeats = as_mask(wrap == wrap_repeat), mirrors = as_mask(wrap == wrap_mirror);
     const F in_period = s - 2.f * floor(s * 0.5f); // [0, 2]
@@ -98,7 +96,7 @@ template <class F> TexturePair<F> texture_pair(const F& s, const Int<F>& size, c
     const Int<F> last = size - 1;
     const Int<F> first = to_int(below); // in [-1, size]
     const Int<F> second = first + 1;
-    // Past an edge a repeated image goes on at the other; the neighbour of an edge texel in a mirror is that texel itself.
+    // Repeat continues at the other edge; with mirrored repeat, the neighbour of an edge texel is that texel itself.
     const Int<F> before_first = select(repeats, last, Int<F>(0)), after_last = select(repeats, Int<F>(0), last);
     return {select(as_mask(first < 0), before_first, min(first, last)), select(as_mask(second > last), after_last, second),
             select(nearest, F(0.f), x - below)};
@@ -114,8 +112,8 @@ template <class F> Vec4T<F> decode_texel(const TextureTables& tables, const UInt
     return select(is_srgb, Vec4T<F>{gather(table, r), gather(table, g), gather(table, b), linear.w}, linear);
 }
 
-// Which versions of an image are mixed for a look at so many of its texels side by side: `finer` and, with this weight, the next. The weight
-// grows with the width from one power of two to the next. Up to one texel it is the image itself alone.
+// The mip levels for a footprint of so many texels: `finer` and, with this weight, the next coarser one. The weight grows from
+// one power of two to the next. Up to one texel wide only the image itself is used.
 template <class F> struct TextureBlend {
     Int<F> finer;
     F coarser_weight;
@@ -126,7 +124,7 @@ template <class F> TextureBlend<F> texture_blend(const F& texels, const Int<F>& 
     return {(bits >> 23) - 127, float_from_bits(Int<F>((bits & 0x7fffff) | 0x3f800000)) - 1.f};
 }
 
-// Bilinear or nearest, of one version of an image in the lanes of `reads`. Out of line, as kernels are flattened.
+// Bilinear or nearest lookup in one mip level in the lanes of `reads`. Not inlined, although kernels are flattened.
 template <class F>
 [[gnu::noinline]] Vec4T<F> texture_level(const TextureTables& tables, const Int<F>& level, const F& s, const F& t, const Int<F>& wrap_u, const Int<F>& wrap_v,
                        const Mask<F>& nearest, const Mask<F>& reads) {
@@ -163,9 +161,9 @@ template <class F>
     return lerp(top, bottom, y.weight);
 }
 
-// Linear RGBA of a texture use at a point: the mean over the width that is looked at, or, if not `filtered`, the point itself. `use` -1 and
-// lanes that are not active read white, the neutral element of glTF's "factor times texture". Coordinates and widths may be anything: those
-// that are not finite read as 0. Out of line: a material reads many textures.
+// Linear RGBA of a texture use: filtered over the footprint or, if not `filtered`, at the point. `use` -1 and inactive lanes
+// return white, the neutral element of glTF's "factor times texture". Coordinates and widths may be anything: non-finite ones
+// count as 0. Not inlined: a material reads many textures.
 template <class F>
 [[gnu::noinline]] Vec4T<F> lookup(const TextureTables& tables, const Int<F>& use, const TexturePoint<F>& at, const Mask<F>& active,
                                   bool filtered = true) {

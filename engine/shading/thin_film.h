@@ -1,16 +1,16 @@
-// KHR_materials_iridescence: reflectance of a surface under a film as thin as light's wavelength, after Belcour and Barla 2017, "A Practical
-// Extension to Microfacet Theory for the Modeling of Varying Iridescence", as the specification simplifies it: Schlick's curve at both
+// KHR_materials_iridescence: reflectance of a surface under a thin film, after Belcour and Barla 2017, "A Practical Extension to
+// Microfacet Theory for the Modeling of Varying Iridescence", as simplified by the specification: Schlick's approximation at both
 // interfaces, no polarisation, real indices, two orders of interference integrated over the spectrum as a sum of Gaussians.
 //
-// The film lies in air also below a clear coat, as in the Khronos sample viewer. Not modelled: absorption in the film.
+// The film is in contact with air even below a clear coat, as in the Khronos sample viewer. Not modelled: absorption in the film.
 #pragma once
 
 #include "shading/fresnel.h"
 
 namespace blush::inline BLUSH_ISA {
 
-// What the eye makes of a spectrum that is modulated with this optical path difference in nanometres, CIE XYZ over that of white: the
-// Fourier transforms of colour matching functions that are Gaussians.
+// CIE XYZ, relative to white, of a spectrum modulated with this optical path difference in nanometres: the Fourier transforms of
+// colour matching functions approximated by Gaussians.
 template <class F> Vec<F> interference_xyz(const F& path_nm) {
     const F per_metre = path_nm * 1e-9f; // in turns per wave number
     const auto wave = [&](float height, float center, float variance) {
@@ -18,7 +18,7 @@ template <class F> Vec<F> interference_xyz(const F& path_nm) {
         const F fade = blush::exp(F(-variance * phase * phase));
         return height * sincos_turns(F(turns - floor(turns))).cos * fade;
     };
-    // height = val sqrt(2 pi var) / 1.0685e-7, the specification's figures.
+    // height = val sqrt(2 pi var) / 1.0685e-7, with the specification's values.
     const F x = wave(0.846578f, 1.6810e6f, 4.3278e9f) + wave(0.153866f, 2.2399e6f, 4.5282e9f);
     return {x, wave(1.000218f, 1.7953e6f, 9.3046e9f), wave(1.001124f, 2.2084e6f, 6.6121e9f)};
 }
@@ -28,11 +28,11 @@ template <class F> Vec<F> linear_from_xyz(const Vec<F>& c) {
             0.0556434f * c.x - 0.2040259f * c.y + 1.0572252f * c.z};
 }
 
-// A film seen under one cosine: what does not depend on the base.
+// A film at one cosine: the part that does not depend on the base.
 template <class F> struct ThinFilm {
     F ior, reflectance; // of its outer interface
     F cos;              // within the film
-    Vec<F> once, twice; // linear Rec.709 of light that differs by one and by two passes
+    Vec<F> once, twice; // linear Rec.709 of light with a path difference of one and of two passes
 };
 
 // c: cosine in air.
@@ -48,7 +48,8 @@ template <class F> ThinFilm<F> make_thin_film(const F& ior, const F& thickness_n
     return film;
 }
 
-// Reflectance on a base that reflects f0 at normal incidence in air, cut to [0, 1]: the sum of Gaussians leaves the gamut at places.
+// Reflectance over a base that reflects f0 at normal incidence in air, clamped to [0, 1]: the sum of Gaussians leaves the gamut
+// in places.
 template <class F> Vec<F> thin_film_reflectance(const ThinFilm<F>& film, const Vec<F>& f0) {
     const F outer = film.reflectance, passed = 1.f - outer, rise = schlick(film.cos);
     const auto channel = [&](const F& base, const F& once, const F& twice) {
@@ -58,7 +59,7 @@ template <class F> Vec<F> thin_film_reflectance(const ThinFilm<F>& film, const V
         const F inner = r0 + (1.f - r0) * rise;
         const F both = min(F(outer * inner), F(0.9999f));
         const F steady = passed * passed * inner / (1.f - both);
-        // Reflection at a denser medium turns light by half a wave: at both interfaces, or at the outer alone.
+        // Reflection at a denser medium shifts the phase by half a wavelength: at both interfaces, or only at the outer one.
         const F turn = select(base_ior < film.ior, F(1.f), F(-1.f));
         return clamp01(F(outer + steady + 2.f * (steady - passed) * (turn * sqrt(both) * once + both * twice)));
     };
