@@ -1,5 +1,5 @@
-// Adaptive sampling: right on average however noise and value hang together, the error it states is that which it has, and the picture is
-// still a function of scene, settings and number of samples alone.
+// Adaptive sampling: unbiased for any correlation of noise and value, its estimated error is the true error, and the image
+// depends only on scene, settings and number of samples.
 #include "core/math.h"
 #include "picture.h"
 #include "render/film.h"
@@ -23,7 +23,7 @@ using namespace statistics;
 constexpr int tile_size = SamplePlan::tile_size, size = 2 * tile_size;
 using Draw = float (*)(std::mt19937_64& bits, int tile);
 
-// Most are around 1, now and then one is a firefly: a tile whose pilot has seen none looks calm.
+// Mostly around 1, rarely a firefly: a tile without fireflies in its pilot looks quiet.
 constexpr double firefly = 1000, firefly_chance = 1e-4, firefly_mean = 1 + firefly * firefly_chance;
 float with_fireflies(std::mt19937_64& bits, int) {
     const uint64_t b = bits();
@@ -36,7 +36,7 @@ float noisy_in_a_corner(std::mt19937_64& bits, int tile) {
     return tile == 3 ? exponential : 0.9f + 0.1f * exponential;
 }
 
-enum class Rule { uniform, crossed, uncrossed }; // uncrossed: each half decides for itself, which is wrong
+enum class Rule { uniform, crossed, uncrossed }; // uncrossed: each half decides for itself, which is biased
 
 // A film of such samples, `spp` per pixel on average.
 struct Sampled {
@@ -78,7 +78,7 @@ struct Sampled {
     }
 };
 
-// Of whole pictures.
+// Means of whole images.
 Moments means(Rule rule) {
     Moments m;
     for (uint64_t seed = 0; seed < 300; ++seed) {
@@ -90,14 +90,14 @@ Moments means(Rule rule) {
     return m;
 }
 
-TEST(Adaptive, IsRightOnAverageAmongFirefliesAndDecidingForOneselfIsNot) {
+TEST(Adaptive, IsUnbiasedWithFirefliesOnlyIfHalvesDecideForEachOther) {
     const double alpha = sidak(significance, 2);
     EXPECT_TRUE(z_test(means(Rule::uniform), firefly_mean, alpha));
     EXPECT_TRUE(z_test(means(Rule::crossed), firefly_mean, alpha));
-    EXPECT_FALSE(z_test(means(Rule::uncrossed), firefly_mean, alpha)) << "a test that does not see this sees nothing";
+    EXPECT_FALSE(z_test(means(Rule::uncrossed), firefly_mean, alpha)) << "the test must detect this bias";
 }
 
-TEST(Adaptive, TheErrorItStatesIsTheErrorItHas) {
+TEST(Adaptive, EstimatedErrorIsTheTrueError) {
     Moments stated_beyond_true; // squared, summed over a picture
     int64_t inside = 0;
     constexpr int64_t runs = 300;
@@ -115,7 +115,8 @@ TEST(Adaptive, TheErrorItStatesIsTheErrorItHas) {
         inside += frame.error.low <= relmse && relmse <= frame.error.high;
     }
     EXPECT_TRUE(z_test(stated_beyond_true, 0));
-    // The interval is for the expectation of what this run has drawn once: with both scatters alike, it holds at 1.96 / sqrt(2) sigma.
+    // The interval is for the expectation, and this run is one draw: with equal scatter of both, it holds at 1.96 / sqrt(2)
+    // sigma.
     const double chance = 1 - normal_p(1.96 / std::numbers::sqrt2);
     EXPECT_GT(double(inside) / double(runs), chance - 4 * std::sqrt(chance * (1 - chance) / double(runs)));
 }
@@ -132,10 +133,10 @@ TEST(Adaptive, CountsItsSamplesPixelByPixel) {
     EXPECT_GT(frame.pixel_samples.back(), 2 * frame.pixel_samples.front());
 }
 
-// Two tiles far apart, one of brightness 0.03, one of brightness 1, both with a noise of a tenth of it: the measured noise must be that of
-// relmse, or dark parts of a picture get too few samples.
+// Two distant tiles, one of brightness 0.03, one of brightness 1, both with a relative noise of a tenth: the measured noise must
+// be that of relmse, or dark regions get too few samples.
 TEST(Adaptive, MeasuresTheNoiseThatRelmseMeasures) {
-    constexpr int tiles = 9; // smoothing reaches one tile far
+    constexpr int tiles = 9; // smoothing reaches one tile
     constexpr float dark = 0.03f, bright = 1;
     Film film;
     film.reset({tiles * tile_size, tile_size, {}, false, true});
@@ -163,7 +164,7 @@ TEST(Adaptive, MeasuresTheNoiseThatRelmseMeasures) {
     for (const TileNoise& half : measured) EXPECT_NEAR(half.front() / half.back(), expected, 4 * error);
 }
 
-// ---- with one
+// ---- with a renderer
 
 constexpr PlaneSet everything{true, true, true, true};
 
@@ -199,7 +200,7 @@ TEST(Adaptive, ThreadsAndStepsDoNotChangeABit) {
     }
 }
 
-TEST(Adaptive, SpendsWhatItWasGiven) {
+TEST(Adaptive, SpendsTheGivenNumberOfSamples) {
     const Scene scene = shipped_scene("cornell");
     const Frame frame = render_in_steps(scene, adaptive_settings(250, 140, 40), 0, {40});
     EXPECT_EQ(frame.samples, 40);
@@ -207,17 +208,17 @@ TEST(Adaptive, SpendsWhatItWasGiven) {
     for (const float n : frame.pixel_samples) sum += double(n);
     EXPECT_EQ(sum, double(frame.rays.camera));
     const double mean = sum / (250 * 140);
-    // Tiles get whole multiples of a few samples, and not all round the same way.
+    // Tiles get whole multiples of a few samples, and their rounding is staggered.
     EXPECT_NEAR(mean, 40, 1);
     EXPECT_GT(*std::max_element(frame.pixel_samples.begin(), frame.pixel_samples.end()), 60);
 }
 
-TEST(Adaptive, NoPlaneBelongsToItWhenItIsOff) {
+TEST(Adaptive, AddsNoPlaneWhenItIsOff) {
     EXPECT_TRUE(render_in_steps(shipped_scene("cornell"), settings_for(32, 32, 32), 1, {32}).pixel_samples.empty());
 }
 
-// Against the same scene sampled evenly, block by block, with the variances that both measure.
-TEST(Adaptive, ShowsTheSamePicture) {
+// Compares with uniform sampling of the same scene, block by block, with the variances that both measure.
+TEST(Adaptive, HasTheMeanOfUniformSampling) {
     for (const char* name : {"cornell", "card-and-mug"}) {
         const Scene scene = shipped_scene(name);
         RenderSettings settings = settings_for(64, 64, 64);
@@ -228,9 +229,9 @@ TEST(Adaptive, ShowsTheSamePicture) {
     }
 }
 
-// Where halves count alike, so do their rays that hit: a floor that fills a quarter of the picture, under a sky that the camera does not
-// see.
-TEST(Adaptive, WhatIsCoveredStaysCovered) {
+// With equal weights of the halves, their coverage has equal weights too: a floor that covers a quarter of the image, under a sky
+// that is hidden from the camera.
+TEST(Adaptive, KeepsCoverage) {
     Scene scene;
     place(scene, floor_quad(0.5f), lambert(0.5f));
     constant_world(scene, 1);

@@ -1,4 +1,4 @@
-// Emitters that are partly not there - alpha of factor, texture and vertices, blended and masked - light a scene as much as rays find of them.
+// Emitters with alpha (of factor, texture and vertices; blended and masked): NEE gives as much light as BSDF sampling finds.
 #include "core/distribution.h"
 #include "irradiance.h"
 #include "picture.h"
@@ -30,7 +30,7 @@ struct Panel {
     Scene scene;
 };
 
-// A glowing panel over a floor and a box, both seen from the side.
+// An emissive panel over a floor and a box, both seen from the side.
 template <class Change> Panel panel(const char* name, const Change& change) {
     Panel p{name, {}};
     place(p.scene, floor_quad(3), lambert(0.6f));
@@ -92,7 +92,7 @@ TEST(AlphaOfEmitters, IsTheSameForEveryStrategy) {
     }
 }
 
-// A panel of opacity a gives a times the light, in closed form.
+// A panel of opacity a gives a times the light (closed form).
 TEST(AlphaOfEmitters, DimsInProportion) {
     Light corners;
     corners.kind = Light::Kind::rectangle;
@@ -109,8 +109,8 @@ TEST(AlphaOfEmitters, DimsInProportion) {
     }
 }
 
-// Lights are chosen by the light that they give: of two panels, one of a quarter's opacity.
-TEST(AlphaOfEmitters, CountsForTheChoiceOfLights) {
+// Selection probabilities follow the emitted light: two panels, one with a quarter of the opacity.
+TEST(AlphaOfEmitters, ScalesSelectionProbabilities) {
     for (const bool textured : {false, true}) {
         Scene scene;
         place(scene, ceiling_quad(1, 2), emitter(1));

@@ -1,4 +1,4 @@
-// The estimator's arithmetic where every number is known: light of 12, thrown on by surfaces of 0.9 and 0.7, is 7.56.
+// The estimator's arithmetic with exactly known values: light of 12, reflected by surfaces of 0.9 and 0.7, is 7.56.
 #include "picture.h"
 #include "render/estimator.h"
 #include "render/lowering.h"
@@ -11,7 +11,7 @@ namespace {
 
 constexpr float expected = 0.7f * 0.9f * 12.f;
 
-TEST(Arithmetic, TwoGelsBeforeALamp) {
+TEST(Arithmetic, TwoGelsBeforeALight) {
     Scene scene;
     place(scene, floor_quad(2, 2), gel({0.7f, 0.7f, 0.7f}));
     place(scene, floor_quad(2, 1), gel({0.9f, 0.9f, 0.9f}));
@@ -24,8 +24,8 @@ TEST(Arithmetic, TwoGelsBeforeALamp) {
     }
 }
 
-// The same path by hand, vertex by vertex: what each scattering event does to the throughput, and what the lamp adds at its end.
-TEST(Arithmetic, APathOverTwoMatteSurfaces) {
+// The same path vertex by vertex: the throughput after each scattering event, and the emission at its end.
+TEST(Arithmetic, APathOverTwoDiffuseSurfaces) {
     constexpr Features s = all_features;
     Scene scene;
     place(scene, floor_quad(1, 0), lambert(0.7f));
@@ -39,7 +39,7 @@ TEST(Arithmetic, APathOverTwoMatteSurfaces) {
     compiled.update(lower_area_lights(scene), settings, full_plan(), workers);
     const EstimatorSettings estimator = settings_for_kernels(settings, 1, 1);
 
-    // Every vertex is met from above, in the middle of the first triangle of one of the three.
+    // Every vertex is hit from above, in the middle of the first triangle of one of the three.
     const auto from_above = [](Path<float> path) {
         path.ray = {{0, 1, 0}, {0, -1, 0}};
         return path;

@@ -1,4 +1,4 @@
-// The beauty taken apart by scatterings: nothing is lost, nothing is in the wrong plane, and who does not ask pays nothing.
+// Bounce planes: they sum to the beauty, hold the right light, and cost nothing if not requested.
 #include "picture.h"
 #include "scenes.h"
 
@@ -45,7 +45,7 @@ TEST(BouncePlanes, SumToTheBeauty) {
     }
 }
 
-// Up to plane k they are what `--max-bounces k` renders: the same paths, cut off.
+// The sum up to plane k equals a render with `--max-bounces k`: the same paths, truncated.
 TEST(BouncePlanes, CountScatteringsAsMaxBouncesDoes) {
     for (const char* name : {"cornell", "card-and-mug", "corridor"}) {
         const Scene scene = shipped_scene(name);
@@ -63,7 +63,7 @@ TEST(BouncePlanes, CountScatteringsAsMaxBouncesDoes) {
     }
 }
 
-// In a closed room that glows with e and reflects rho, everything that was scattered k times is e rho^k.
+// In a closed room of emission e and albedo rho, light that was scattered k times is e rho^k.
 TEST(BouncePlanes, OfAClosedRoomAreTheGeometricSeries) {
     constexpr double rho = 0.6, glow = 2;
     constexpr int planes = 5;
@@ -80,7 +80,7 @@ TEST(BouncePlanes, OfAClosedRoomAreTheGeometricSeries) {
     }
 }
 
-TEST(BouncePlanes, TheLastHoldsWhatMorePlanesTakeApart) {
+TEST(BouncePlanes, TheLastIsTheSumOfFurtherPlanes) {
     const Scene scene = shipped_scene("cornell");
     const RenderSettings settings = settings_for(16, 16, 4);
     const Frame few = render_planes(scene, settings, 3), many = render_planes(scene, settings, 7);
@@ -93,7 +93,7 @@ TEST(BouncePlanes, TheLastHoldsWhatMorePlanesTakeApart) {
     }
 }
 
-TEST(BouncePlanes, LeaveTheBeautyAsItIsAndDependOnNothing) {
+TEST(BouncePlanes, DoNotChangeTheBeautyAndAreDeterministic) {
     const Scene scene = shipped_scene("cornell");
     const RenderSettings settings = settings_for(40, 24, 6);
     const Frame without = render_planes(scene, settings, 0), with = render_planes(scene, settings, 4);

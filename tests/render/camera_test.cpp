@@ -1,4 +1,4 @@
-// Projections, lenses and pixel filters, by what they make of things of known size and place.
+// Projections, lenses and pixel filters, tested with objects of known size and position.
 #include "core/math.h"
 #include "picture.h"
 #include "scene/affine.h"
@@ -35,7 +35,7 @@ TEST(Camera, PerspectiveShrinksWithDistance) {
     }
 }
 
-// To the right is right and up is up.
+// Right is right and up is up.
 TEST(Camera, PicturesAreNotMirrored) {
     Scene scene;
     scene.view = looking({0, 0, 5}, {0, 0, 0}, 1);
@@ -46,7 +46,7 @@ TEST(Camera, PicturesAreNotMirrored) {
     for (const auto& [x, y] : {std::pair{0, 0}, {0, 16}, {16, 16}}) EXPECT_EQ(picture.region(x, y, 16, 16).mean.x, 0);
 }
 
-// Columns of many colours, `depth` before the eye, a little tilted, so that their edges cross pixels everywhere.
+// Columns of many colours, at `depth` from the camera, slightly tilted, so that edges cross pixels at all offsets.
 Scene striped(float depth) {
     Scene scene;
     for (int i = -8; i < 8; ++i) {
@@ -91,8 +91,8 @@ TEST(Camera, BlurHasTheWidthOfTheConeOfLight) {
     }
 }
 
-// A filter wider than a pixel weighs places between pixels unevenly, but places all alike on average: over an eighth of a pixel's
-// steps the mean is exact for both.
+// A filter wider than a pixel weights positions unevenly, but uniformly on average: over steps of an eighth of a pixel the mean
+// is exact for both.
 TEST(Filter, KeepsTheMean) {
     for (const PixelFilter filter : {PixelFilter::box, PixelFilter::blackman_harris}) {
         Measured sum;

@@ -1,4 +1,4 @@
-// Channels of the light mix stay with the light that they scale, whatever their groups are called after an edit.
+// Channels of the light mix stay attached to their light, however an edit renames the groups.
 #include "render/carried_mix.h"
 
 #include "render/light_groups.h"
@@ -56,7 +56,7 @@ TEST(CarriedMix, FollowsARenamedObjectAndMaterial) {
     EXPECT_EQ(m.after(SetMaterial{id, material}), Names{"Glow"});
 }
 
-TEST(CarriedMix, GoesWithLightsThatLeaveTheirNameToOthers) {
+TEST(CarriedMix, RemovesChannelsOfLightsWhoseNameIsReused) {
     Carried s;
     const Id<Node> second = shine(s.scene, lamp("Bulb", Light::Kind::point, 1, {1, 1, 1}), at({1, 1, 1}));
     s.channel("Bulb").intensity = 2;
@@ -68,7 +68,7 @@ TEST(CarriedMix, GoesWithLightsThatLeaveTheirNameToOthers) {
     EXPECT_EQ(s.after(RemoveNode{second}), (Names{"Bulb", "Bulb 2"})) << "nobody took its name: undo, or showing it again, finds it";
 }
 
-TEST(CarriedMix, StaysWithWhatIsLeftOfAGroupByHand) {
+TEST(CarriedMix, KeepsChannelsOfRemainingMembersOfAManualGroup) {
     Carried s;
     s.scene.mix.grouping = LightMix::Grouping::by_hand;
     for (const Id<Node> node : {s.bulb, s.panel}) s.change(node, [](Light& l) { l.group = "Warm"; });
@@ -78,7 +78,7 @@ TEST(CarriedMix, StaysWithWhatIsLeftOfAGroupByHand) {
     EXPECT_EQ(s.after(s.changed(s.bulb, [](Light& l) { l.group = "Cool"; })), Names{"Cool"});
 }
 
-// Beyond sixteen groups only those with a channel have a plane of their own: the new name counts as one.
+// Beyond sixteen groups only those with a channel have their own plane: the renamed group keeps its plane.
 TEST(CarriedMix, KnowsGroupsThatShareAPlane) {
     Carried s;
     for (int i = 0; i < 20; ++i) shine(s.scene, lamp("Extra", Light::Kind::point, 1, {1, 1, 1}), at({0, 1, 0}));

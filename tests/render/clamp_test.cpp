@@ -1,4 +1,4 @@
-// Clamping takes light away: exactly as much as it says, nowhere else, and not unless asked.
+// Clamping removes exactly the light that it reports, nothing else, and only if enabled.
 #include "picture.h"
 #include "scenes.h"
 
@@ -30,7 +30,7 @@ TEST(Clamp, IsOffByDefault) {
     EXPECT_EQ(r.frame.rgba, render_clamped({1e30f, true}).frame.rgba) << "a limit that nothing reaches changes nothing";
 }
 
-TEST(Clamp, AccountsForWhatItTakes) {
+TEST(Clamp, ReportsTheRemovedLight) {
     const Rendered plain = render_clamped({});
     for (const bool all : {false, true}) {
         const Rendered clamped = render_clamped({0.3f, all});
@@ -50,8 +50,8 @@ TEST(Clamp, LimitsEverySample) {
         for (size_t c = 0; c < 3; ++c) EXPECT_LE(clamped.frame.rgba[i + c], 0.3f);
 }
 
-// Light that was scattered at most once stays as it is; the planes of the rest are scaled and still sum to the beauty.
-TEST(Clamp, OfIndirectLightSparesDirectLight) {
+// Light that was scattered at most once is unchanged; the planes of the rest are scaled and still sum to the beauty.
+TEST(Clamp, OfIndirectLightKeepsDirectLight) {
     const Frame plain = render_clamped({}, 4).frame, clamped = render_clamped({0.05f, false}, 4).frame;
     EXPECT_EQ(plain.bounces[0], clamped.bounces[0]);
     EXPECT_EQ(plain.bounces[1], clamped.bounces[1]);

@@ -1,4 +1,4 @@
-// Trees that hold indices in place of corners: chosen where memory is short, said, and the same to every ray.
+// Compact BVHs, which store indices instead of vertices: used if memory is short, reported, and bit-identical for rays.
 #include "picture.h"
 #include "render/accel.h"
 #include "render/compact_tree.h"
@@ -27,7 +27,7 @@ GeometryPtr sheet(uint32_t n) {
     return g;
 }
 
-TEST(CompactTree, IsForWantOfMemory) {
+TEST(CompactTree, IsUsedIfMemoryIsShort) {
     constexpr uint64_t gigabyte = 1'000'000'000;
     EXPECT_FALSE(needs_compact_tree(1'000'000, 4 * gigabyte));
     EXPECT_TRUE(needs_compact_tree(1'000'000, gigabyte / 10));
@@ -35,8 +35,8 @@ TEST(CompactTree, IsForWantOfMemory) {
     EXPECT_TRUE(needs_compact_tree(20'000'000, 2 * gigabyte));
 }
 
-// The tests of a ray against a triangle are the same arithmetic, so that a picture does not depend on the memory there was.
-TEST(CompactTree, MeetsTheSameTrianglesBitForBit) {
+// Ray-triangle tests use the same arithmetic, so the image does not depend on the available memory.
+TEST(CompactTree, HitsTheSameTrianglesBitForBit) {
     const GeometryPtr shape = sheet(150);
     const size_t triangles = shape->triangle_count();
     const std::vector<InstanceRecord> places{{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.1f, 0.2f, 0.3f}}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
@@ -82,7 +82,7 @@ TEST(CompactTree, MeetsTheSameTrianglesBitForBit) {
     EXPECT_GT(met, n / 10);
 }
 
-TEST(CompactTree, IsNotWhatALargeMeshGetsWhereMemorySuffices) {
+TEST(CompactTree, IsNotUsedIfMemorySuffices) {
     Scene scene;
     place(scene, sheet(520), lambert(0.5f));
     constant_world(scene, 1);

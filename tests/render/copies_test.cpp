@@ -1,4 +1,4 @@
-// Copies of one node's mesh (EXT_mesh_gpu_instancing) look, shine and are picked as nodes of their own would, but as one object.
+// Instances of one node's mesh (EXT_mesh_gpu_instancing) render, emit and are picked like separate nodes, but as one object.
 #include "picture.h"
 #include "render/render_scene.h"
 #include "scene/affine.h"
@@ -48,7 +48,7 @@ struct Orchard {
     }
 };
 
-TEST(Copies, LookLikeNodesOfTheirOwn) {
+TEST(Copies, RenderLikeSeparateNodes) {
     Material leaves = lambert({0.8f, 0.3f, 0.2f});
     leaves.alpha = Material::Alpha::blend;
     leaves.opacity = 0.6f;
@@ -62,7 +62,7 @@ TEST(Copies, LookLikeNodesOfTheirOwn) {
     }
 }
 
-TEST(Copies, ThatGlowAreSampled) {
+TEST(Copies, EmissiveCopiesAreSampledAsLights) {
     const Orchard copies(emitter(3, 0.5f), true), nodes(emitter(3, 0.5f), false);
     RenderSettings settings = settings_for(32, 24, 4);
     settings.strategy = Strategy::light;
@@ -75,7 +75,7 @@ TEST(Copies, ThatGlowAreSampled) {
     EXPECT_EQ(renderer.info().triangles, int64_t(3 * (12 + sphere(false)->triangle_count()) + 2));
 }
 
-// A glowing ball of 128 x 128 quads, copied `count` times in a layer above a floor, and a lamp of two triangles.
+// An emissive sphere of 128 x 128 quads, instanced `count` times in a layer above a floor, and a light of two triangles.
 Scene glowing_layer(int count) {
     constexpr uint32_t n = 128;
     auto ball = std::make_shared<Geometry>();
@@ -107,8 +107,9 @@ Scene glowing_layer(int count) {
     return scene;
 }
 
-// More triangles than are aimed at: the lamp and some of the balls are, the others are found, and nothing is counted twice or left out.
-TEST(Copies, ThatGlowBeyondNumberGiveTheSameLight) {
+// More emissive triangles than the light-sampling limit: the light and some spheres are sampled, the others are found by BSDF
+// sampling, and nothing is counted twice or lost.
+TEST(Copies, EmissiveCopiesBeyondTheLimitAreUnbiased) {
     const Scene scene = glowing_layer(64);
     RenderSettings settings = settings_for(16, 16, 256);
     settings.max_bounces = 2;
@@ -126,8 +127,8 @@ TEST(Copies, ThatGlowBeyondNumberGiveTheSameLight) {
     EXPECT_TRUE(same_means(found, blocks(Strategy::light, 3), statistics::sidak(statistics::significance, 2)));
 }
 
-// Three thousand million triangles that glow, of a file of a few megabytes.
-TEST(Copies, ThatGlowAreBoundedInMemory) {
+// Three thousand million emissive triangles from a file of a few megabytes.
+TEST(Copies, EmissiveCopiesAreBoundedInMemory) {
     const Scene scene = glowing_layer(100'000);
     Renderer renderer({.threads = 1, .planes = {}});
     renderer.update(scene, settings_for(8, 8, 1));
@@ -153,7 +154,7 @@ TEST(Copies, ArePickedAsTheirNode) {
     EXPECT_EQ(seen, std::ranges::count_if(apart.object_id, [&](uint32_t id) { return id >= nodes.tree.value; }));
 }
 
-TEST(Copies, HaveBoundsAndStandInTheWay) {
+TEST(Copies, HaveBoundsAndBlockTheLineOfSight) {
     const Orchard copies(plastic(0.3f), true), nodes(plastic(0.3f), false);
     const Bounds all = world_bounds(nodes.scene), same = world_bounds(copies.scene);
     EXPECT_EQ(all.low, same.low) << "of cubes, whose boxes they fill";

@@ -1,4 +1,4 @@
-// A picture is a function of scene, settings and sample range: not of threads, of chance, or of how the range was split.
+// An image depends on scene, settings and sample range only: not on threads, timing, or how the range was split.
 #include "picture.h"
 #include "scenes.h"
 #include "support/pictures.h"
@@ -18,7 +18,7 @@ Frame render_in_steps(const Scene& scene, const RenderSettings& settings, unsign
     return renderer.resolve();
 }
 
-// Pixels and planes, and what is said about them.
+// Pixels, planes and statistics.
 void expect_same(const Frame& a, const Frame& b, const char* what) {
     EXPECT_TRUE(same_picture(a, b)) << what;
     EXPECT_EQ(a.rays.total(), b.rays.total()) << what;
@@ -26,7 +26,7 @@ void expect_same(const Frame& a, const Frame& b, const char* what) {
     EXPECT_EQ(a.error.high, b.error.high) << what;
 }
 
-TEST(Determinism, ThreadsRunsAndSplitsDoNotShow) {
+TEST(Determinism, DoesNotDependOnThreadsRunsAndSplits) {
     for (const char* name : {"card-and-mug", "veach-mis"}) {
         const Scene scene = shipped_scene(name);
         const RenderSettings settings = settings_for(80, 45, 8);
@@ -47,7 +47,7 @@ TEST(Determinism, IndependentNumbersDoNotDependOnThreadsAndSplits) {
     expect_same(once, render_in_steps(scene, settings, 1, {1, 2, 4, 8}), "doubling");
 }
 
-// The same mean, and of 64 samples clearly more noise than evenly distributed points leave.
+// Equal means, and with 64 independent samples clearly more noise than with stratified points.
 TEST(Samplers, AgreeInTheMeanAndDifferInNoise) {
     const Scene scene = shipped_scene("cornell");
     RenderSettings settings = settings_for(32, 32, 64);
@@ -97,7 +97,7 @@ TEST(Determinism, SeedsAreIndependent) {
     const Picture a = render(scene, settings);
     settings.seed = 1;
     const Picture b = render(scene, settings);
-    // Were they not, their mean would be no better than one of them: the variance of a difference is the sum of both.
+    // Otherwise their mean would be no better than one of them: the variance of a difference is the sum of both.
     double difference = 0, sum = 0;
     for (size_t i = 0; i < a.pixels.size(); ++i) {
         difference += std::pow(a.pixels[i].y - b.pixels[i].y, 2);
@@ -107,7 +107,7 @@ TEST(Determinism, SeedsAreIndependent) {
     EXPECT_LT(difference, 2 * sum);
 }
 
-TEST(Determinism, AStoppedRenderSaysSo) {
+TEST(Determinism, AStoppedRenderReturnsFalse) {
     Renderer renderer;
     renderer.update(shipped_scene("cornell"), settings_for(64, 64, 4));
     EXPECT_FALSE(renderer.render(0, 4, [] { return false; }));

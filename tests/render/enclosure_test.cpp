@@ -1,4 +1,4 @@
-// Closed rooms whose walls all shine and reflect alike: light goes round for ever, and its sum is known.
+// Closed rooms with uniform emission and albedo: light is reflected infinitely often, and its sum is known.
 #include "picture.h"
 #include "scenes.h"
 
@@ -39,14 +39,14 @@ TEST(Enclosure, OfAlbedoOneHalf) {
 TEST(Enclosure, OfAlbedoNineTenths) {
     expect_series(0.9f, {{"off", 4}, {"max", 32}, {"luminance", 32}, {"sqrt", 32}, {"constant=0.95", 32}});
 }
-// A constant rule must survive with more than the square of the albedo, or its variance is infinite.
+// A constant rule needs a survival probability above the square of the albedo, or its variance is infinite.
 TEST(Enclosure, OfAlbedoNinetyNineHundredths) {
     expect_series(0.99f, {{"max", 16}, {"luminance", 16}, {"sqrt", 16}, {"constant=0.995", 16}});
 }
-// Without roulette each path goes on until its throughput underflows, after ten thousand bounces.
-TEST(Enclosure, OfAlbedoNinetyNineHundredthsToTheEnd) { expect_series(0.99f, {{"off", 2}}, 8); }
+// Without roulette each path continues until its throughput underflows, after ten thousand bounces.
+TEST(Enclosure, OfAlbedoNinetyNineHundredthsWithoutRoulette) { expect_series(0.99f, {{"off", 2}}, 8); }
 
-// A path that roulette cuts short without paying for it misses light, and this very test sees it.
+// Cutting paths without compensating the throughput loses light, and this test detects it.
 TEST(Enclosure, BiasedCutIsCaught) {
     RenderSettings settings = settings_for(16, 16, 64);
     settings.roulette = *parse_roulette("biased-cut=0.1");

@@ -1,4 +1,4 @@
-// Light from far away: a constant world, maps of one bright texel, and what the camera sees of them.
+// Environment light: constant environments, maps of one bright texel, and what the camera sees of them.
 #include "core/math.h"
 #include "irradiance.h"
 
@@ -10,7 +10,7 @@ namespace {
 using namespace statistics;
 constexpr double pi = std::numbers::pi;
 
-TEST(Environment, ConstantWorldLightsWithPi) {
+TEST(Environment, ConstantEnvironmentGivesIrradiancePi) {
     Scene scene;
     constant_world(scene, 3);
     EXPECT_TRUE(shows_on_floor(scene, [](const Vec3d&) { return 3 * pi; }));
@@ -27,7 +27,8 @@ Scene under_map(const std::vector<Vec3>& texels, float rotation_degrees) {
     return scene;
 }
 
-// Radiance of the map bilinearly between texel centres, turned counter-clockwise as seen from above; a second implementation, in double.
+// Radiance of the map, bilinear between texel centres, rotated counter-clockwise as seen from above; a second implementation, in
+// double.
 Vec3d map_radiance(const std::vector<Vec3>& texels, double rotation_degrees, const Vec3d& direction) {
     const double a = rotation_degrees * pi / 180, c = std::cos(a), s = std::sin(a);
     const Vec3d d{direction.x * c - direction.z * s, direction.y, direction.x * s + direction.z * c};
@@ -70,14 +71,14 @@ TEST(Environment, OneBrightTexelLightsAsItsIntegral) {
             }
 }
 
-TEST(Environment, CameraSeesTheMapWhereItLightsFrom) {
+TEST(Environment, CameraSeesTheMapInTheDirectionOfItsLight) {
     std::vector<Vec3> texels;
     for (int i = 0; i < map_width * map_height; ++i) texels.push_back({float(i % 7), float(i % 11), float(i % 5)});
     for (const float rotation : {0.f, -110.f}) {
         Scene scene = under_map(texels, rotation);
         const Vec3 towards = unit({0.7f, 0.4f, -0.6f});
         scene.view = looking({0, 0, 0}, towards, 0.002f);
-        // A tiny view: the map is plane within it, and its middle is its mean.
+        // In a tiny view the map is linear, and its middle is its mean.
         EXPECT_TRUE(is_mean(render(scene, settings_for(16, 16, 4)).whole(),
                             map_radiance(texels, double(rotation), {towards.x, towards.y, towards.z}), sidak(significance, 2), 1e-4));
     }

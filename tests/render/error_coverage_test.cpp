@@ -1,4 +1,4 @@
-// The 95 % intervals of the error estimate hold the true error, against the stored references, as often as they say.
+// The 95 % intervals of the error estimate contain the true error, against the stored references, in 95 % of cases.
 #include "core/math.h"
 #include "reference_scenes.h"
 #include "support/error_coverage.h"
@@ -16,7 +16,8 @@ Truth stored_truth(const std::string& scene) {
     return truth;
 }
 
-// The shares of the known intervals that hold the truth, one number per rendering: its pictures at several counts have samples in common.
+// Fraction of the known intervals that contain the true error, one number per rendering: its images at several sample counts
+// share samples.
 struct Shares {
     Moments relmse, rmse;
     int64_t runs = 0, known = 0;
@@ -54,22 +55,22 @@ Shares measure_shares(int seeds, RenderSettings settings) {
 }
 
 testing::AssertionResult between(const Moments& share, double low, double high) {
-    const double z = 2.576; // beyond which 1 % lies
+    const double z = 2.576; // beyond which 1 % of the distribution lies
     if (share.mean + z * share.error() >= low && share.mean - z * share.error() <= high) return testing::AssertionSuccess();
     return testing::AssertionFailure() << share.mean << " +- " << share.error() << " of " << share.count;
 }
 
-TEST(ErrorCoverage, IntervalsHoldTheTruthAsOftenAsTheySay) {
+TEST(ErrorCoverage, IntervalsHaveTheirNominalCoverage) {
     const Shares shares = measure_shares(32, coverage_settings());
     EXPECT_TRUE(between(shares.relmse, 0.93, 0.97)) << "relmse";
     EXPECT_TRUE(between(shares.rmse, 0.93, 0.97)) << "rmse";
-    // An estimate that never dares would be no estimate.
+    // An estimate that is always unknown would be useless.
     EXPECT_GT(shares.known, shares.runs / 2);
 }
 
-// As the window and `blush render` begin: where pixels share paths, the interval allows for what their errors have in common, not for none of
-// it and not for all; and pixels have different numbers of samples.
-TEST(ErrorCoverage, IntervalsHoldTheTruthAsOftenWithTheRecommendedSettings) {
+// Default settings of the window and `blush render`: with path reuse, the interval accounts for the correlation of errors, no
+// more and no less; and pixels have different numbers of samples.
+TEST(ErrorCoverage, IntervalsHaveTheirNominalCoverageWithTheRecommendedSettings) {
     RenderSettings settings = coverage_settings();
     settings.adaptive = recommended_settings().adaptive;
     settings.reuse = recommended_settings().reuse;

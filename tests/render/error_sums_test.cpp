@@ -1,4 +1,4 @@
-// The sums that the error estimate is made of, against the plain way to write them down, and for pictures beyond single precision.
+// The sums for the error estimate, compared with a plain implementation, and for images beyond single precision.
 #include "core/math.h"
 #include "render/error_estimate.h"
 #include "render/surroundings.h"
@@ -13,7 +13,7 @@
 namespace blush {
 namespace {
 
-// Two noisy halves of a picture that gets brighter to the right, every seventh pixel with one of them alone.
+// Two noisy halves of an image that gets brighter to the right; every seventh pixel has samples in one half only.
 struct Halves {
     int width, height;
     double brightness;
@@ -45,7 +45,7 @@ struct Halves {
     }
 };
 
-TEST(Surroundings, AreTheBlocksOfPixelsAround) {
+TEST(Surroundings, AreMeansOfTheNeighbouringBlocks) {
     for (const auto& [w, h] : {std::pair{1, 1}, {1, 5}, {6, 1}, {2, 2}, {2, 7}, {5, 3}, {9, 11}}) {
         const Halves halves(w, h);
         std::vector<HalfRow> rows{size_t(h), HalfRow(w)};
@@ -80,7 +80,7 @@ TEST(Surroundings, AreTheBlocksOfPixelsAround) {
     }
 }
 
-TEST(ErrorSums, AreThoseOfThePixelsAndTheirNeighbours) {
+TEST(ErrorSums, MatchThePlainComputation) {
     const Halves halves(37, 23);
     const ErrorSums sums = sum_errors(halves.rows(), 0, 23);
     int64_t pixels = 0, pairs = 0;
@@ -108,7 +108,7 @@ TEST(ErrorSums, AreThoseOfThePixelsAndTheirNeighbours) {
     EXPECT_EQ(sums.unequal, 0);
 }
 
-TEST(ErrorSums, OfBandsAreThoseOfThePicture) {
+TEST(ErrorSums, OfBandsAddUpToThoseOfTheImage) {
     const Halves halves(37, 50);
     const ErrorSums whole = sum_errors(halves.rows(), 0, 50);
     ErrorSums bands;
@@ -124,9 +124,9 @@ TEST(ErrorSums, OfBandsAreThoseOfThePicture) {
     near(bands.relative_high, whole.relative_high);
 }
 
-// Fourth powers of values from 1e-30 to 1e30 are no floats, but the estimate is the same times what the picture is; relMSE where its 0.01
-// vanishes beside the values, or they beside it.
-TEST(ErrorSums, FollowThePictureBeyondSinglePrecision) {
+// Fourth powers of values from 1e-30 to 1e30 overflow floats, but the estimate must scale with the image; relMSE where its 0.01
+// is negligible, or dominates.
+TEST(ErrorSums, ScaleBeyondSinglePrecision) {
     const auto estimate = [](double brightness) { return estimate_error(sum_errors(Halves(64, 64, brightness).rows(), 0, 64)); };
     const ErrorEstimate usual = estimate(1), bright = estimate(1e3), dark = estimate(1e-5);
     ASSERT_TRUE(usual.known && usual.rmse_known);
@@ -143,8 +143,8 @@ TEST(ErrorSums, FollowThePictureBeyondSinglePrecision) {
     }
 }
 
-// Sixteen times the variance is four times the width, on the scale of factors; what relmse divides by is no surer for it.
-TEST(ErrorEstimate, ErrorsThatPixelsShareWidenTheInterval) {
+// 16 times the variance is 4 times the width, on a logarithmic scale; the uncertainty of relmse's divisor is separate.
+TEST(ErrorEstimate, CorrelatedPixelErrorsWidenTheInterval) {
     ErrorSums sums;
     sums.pixels = 1'000'000;
     sums.absolute.squares = sums.relative.squares = sums.relative_high = 1;

@@ -1,4 +1,4 @@
-// The origin about which a scene is rendered: near the geometry, exact, and the same for as long as that is good enough.
+// The render origin: near the geometry, exact, and stable while it is good enough.
 #include "render/extent.h"
 
 #include "core/math.h"
@@ -20,7 +20,7 @@ Bounds box(const Vec3d& centre, double half) {
     return b;
 }
 
-TEST(RenderOrigin, IsTheWorldsForScenesAroundIt) {
+TEST(RenderOrigin, IsTheWorldOriginForScenesAroundIt) {
     EXPECT_EQ(render_origin({}), (Vec3d{0, 0, 0}));
     for (const double half : {1e-6, 0.3, 1.0, 1e6}) {
         EXPECT_EQ(render_origin(box({0, 0, 0}, half)), (Vec3d{0, 0, 0}));
@@ -31,7 +31,7 @@ TEST(RenderOrigin, IsTheWorldsForScenesAroundIt) {
     EXPECT_EQ(render_origin(point), (Vec3d{0, 0, 0}));
 }
 
-TEST(RenderOrigin, IsWithinFourRadiiOfTheMiddle) {
+TEST(RenderOrigin, IsWithinFourRadiiOfTheCentre) {
     for (const double half : {1e-6, 0.3, 1.0, 17.0, 1e6})
         for (const double away : {10.0, 1e3, 1e7}) {
             const Vec3d centre{away * half, -0.7 * away * half, 0};
@@ -42,7 +42,7 @@ TEST(RenderOrigin, IsWithinFourRadiiOfTheMiddle) {
         }
 }
 
-// A drag by less than the scene's size changes it at most once.
+// A drag by less than the scene's size changes the origin at most once.
 TEST(RenderOrigin, StaysWhileAnObjectIsDragged) {
     int changes = 0;
     Vec3d last = render_origin(box({1000, 0, 0}, 1));
@@ -54,13 +54,13 @@ TEST(RenderOrigin, StaysWhileAnObjectIsDragged) {
     EXPECT_LE(changes, 1);
 }
 
-TEST(Extent, IsThatOfTheVerticesWhereverTheObjectsAre) {
+TEST(Extent, IsThatOfTheTransformedVertices) {
     Scene scene;
     place(scene, cube(false), lambert(1), at({100, 0, 0}, 2));
     place(scene, cube(false), lambert(1), at({110, 5, 0}));
     ExtentCache cache;
     const std::vector<SceneObject> objects = list_objects(scene);
-    for (int i = 0; i < 2; ++i) { // the second time from what it has kept
+    for (int i = 0; i < 2; ++i) { // the second time from the cache
         const Extent extent = cache.extent_of(objects, {});
         EXPECT_EQ(extent.bounds.low, (Vec3d{98, -2, -2}));
         EXPECT_EQ(extent.bounds.high, (Vec3d{111, 6, 2}));
@@ -68,8 +68,8 @@ TEST(Extent, IsThatOfTheVerticesWhereverTheObjectsAre) {
     }
 }
 
-// What the tables say about the origin is the same for a scene that lies a multiple of the origin's steps away: so is the picture.
-TEST(Extent, APictureOfAFarSceneIsThatOfTheNearOneBitForBit) {
+// Tables relative to the origin are the same if the scene is moved by a multiple of the origin's steps: so is the image.
+TEST(Extent, AFarSceneRendersLikeTheNearOneBitForBit) {
     const auto still_life = [](const Vec3& away) {
         Scene scene;
         place(scene, floor_quad(2), lambert(0.7f), at(away));
@@ -86,7 +86,7 @@ TEST(Extent, APictureOfAFarSceneIsThatOfTheNearOneBitForBit) {
     };
     const PlaneSet planes{true, true, true, true};
     const Frame near = render(still_life({0, 0, 0}), settings_for(24, 24, 8), planes).frame;
-    // Not further than where nodes and camera can still stand on quarters of a metre.
+    // Limited to distances where nodes and camera are still exact to a quarter of a metre.
     for (const Vec3& away : {Vec3{1024, 0, -2048}, Vec3{0x1p20f, 0x1p21f, 0}}) {
         const Frame far = render(still_life(away), settings_for(24, 24, 8), planes).frame;
         EXPECT_EQ(far.rgba, near.rgba) << away.x;
@@ -96,7 +96,7 @@ TEST(Extent, APictureOfAFarSceneIsThatOfTheNearOneBitForBit) {
     }
 }
 
-TEST(PathLog, TellsWorldCoordinates) {
+TEST(PathLog, PrintsWorldCoordinates) {
     Scene scene;
     place(scene, floor_quad(1, 0), lambert(0.5f), at({1e7f, 16, -3e6f}));
     scene.view = looking_down(1, 1);

@@ -1,4 +1,4 @@
-// Samples that went wrong are traced to where it happened: by hand-made vertices for every place there is, and end to end.
+// Invalid samples are traced to their cause: by hand-made vertices for every place, and end to end.
 #include "picture.h"
 #include "render/fault_finder.h"
 #include "scenes.h"
@@ -10,7 +10,7 @@ constexpr float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeri
 using Kind = Fault::Kind;
 using Place = Fault::Place;
 
-// A sound vertex where the path leaves the scene after `bounce` scatterings.
+// A valid vertex whose path escapes after `bounce` scatterings.
 ReplayedVertex sound_vertex(int bounce) {
     ReplayedVertex v;
     v.bounce = bounce;
@@ -36,7 +36,7 @@ TEST(Fault, IsFoundInTheRay) {
     EXPECT_EQ(fault(v), (Fault{Kind::infinite, Place::bsdf_sample, 3}));
 }
 
-TEST(Fault, IsFoundInLightFromBeyond) {
+TEST(Fault, IsFoundInLightAtInfinity) {
     ReplayedVertex v = sound_vertex(2);
     v.step.emitted = {0, -1, 0};
     EXPECT_FALSE(fault(v)) << "not added";
@@ -61,7 +61,7 @@ TEST(Fault, IsFoundInTheLightSampleAndItsDensities) {
     EXPECT_EQ(fault(v), (Fault{Kind::overflowing_pdf, Place::light_sample, 1}));
 }
 
-TEST(Fault, IsFoundInWhatScatteringLeaves) {
+TEST(Fault, IsFoundInTheScatteredPath) {
     ReplayedVertex v = sound_vertex(4);
     v.step.next.beta = {nan, 1, 1};
     v.step.next.pdf = 1;
@@ -89,7 +89,7 @@ Refused render_refused(const Scene& scene, const RenderSettings& settings = sett
     }
     return r;
 }
-// All that was dropped was dropped for one reason, and the log of a sample says so too.
+// All drops have one cause, and the log of a sample reports it too.
 void expect_only(const Refused& r, Kind kind, Place place) {
     ASSERT_GT(r.frame.health.dropped(), 0);
     EXPECT_EQ(r.frame.health.count(kind, place), r.frame.health.dropped());
@@ -100,18 +100,18 @@ void expect_only(const Refused& r, Kind kind, Place place) {
     for (const float value : r.frame.rgba) EXPECT_TRUE(std::isfinite(value) && value >= 0);
 }
 
-TEST(Fault, OfALightTooBrightForFloats) {
+TEST(Fault, OfALightThatOverflowsSinglePrecision) {
     expect_only(render_refused(floor_under_an_overflowing_bulb()), Kind::infinite, Place::light_sample);
 }
 
-// A spot of the floor shines beyond all numbers: the rest of the picture and the error estimate are as without it.
+// One spot of the floor overflows: the rest of the image and the error estimate are as without it.
 TEST(Fault, DoesNotPoisonTheErrorEstimate) {
     std::vector<Vec3> values(64, Vec3{1, 1, 1});
     values[0] = {3e38f, 3e38f, 3e38f};
     Scene scene;
     Material material = emitter(5, 0.5f);
     const Id<Texture> texture = add_texture(scene, float_picture(8, 8, values));
-    Texture unfiltered = *scene.textures.find(texture); // else its neighbours would be bright beyond measure, but numbers
+    Texture unfiltered = *scene.textures.find(texture); // else its neighbours would be extremely bright but finite
     unfiltered.filter = Texture::Filter::nearest;
     scene.textures.set(texture, unfiltered);
     material.emissive_texture.texture = texture;

@@ -1,4 +1,4 @@
-// The film's arithmetic, fed by hand: sums that do not drift, samples that may not enter, and an honest estimate of the error.
+// The film's arithmetic with hand-made samples: sums that do not drift, invalid samples, and a valid error estimate.
 #include "render/film.h"
 #include "statistics.h"
 
@@ -45,7 +45,7 @@ TEST(Film, AMillionSamplesDoNotDrift) {
     EXPECT_EQ(f.resolve().rgba[0], float((double(0.1f) + double(3000.7f)) / 2));
 }
 
-TEST(Film, DropsCountsAndRemembersWhatCannotBeAdded) {
+TEST(Film, DropsCountsAndRecordsInvalidSamples) {
     Fixture f(4, 3);
     const auto value = [](int x, int y, int64_t s) {
         if (x == 1 && y == 2 && s == 3) return std::numeric_limits<float>::quiet_NaN();
@@ -68,7 +68,7 @@ TEST(Film, DropsCountsAndRemembersWhatCannotBeAdded) {
     EXPECT_FLOAT_EQ(frame.rgba[0], 23.f / 7);
 }
 
-TEST(Film, KeepsTheDiagnosisAndAMapOfWhatItDropped) {
+TEST(Film, KeepsDiagnosesAndAMapOfDroppedSamples) {
     Fixture f(3, 2);
     f.diagnose = [](int x, int y, int64_t sample) { return Fault{Fault::Kind::zero_pdf, Fault::Place::bsdf_eval, x + 10 * y + 100 * int(sample)}; };
     f.add(0, 2, [](int x, int y, int64_t s) { return x == 2 && y == 1 && s == 1 ? NAN : 1.f; });
@@ -82,7 +82,7 @@ TEST(Film, KeepsTheDiagnosisAndAMapOfWhatItDropped) {
     EXPECT_TRUE(sound.resolve().health.dropped_map.empty()) << "no memory without need";
 }
 
-TEST(Film, RemembersAHundredAndCountsAll) {
+TEST(Film, RecordsTheFirstHundredAndCountsAll) {
     Fixture f(16, 16);
     f.add(8, 8, [](int, int, int64_t) { return -INFINITY; });
     f.add(0, 8, [](int, int, int64_t) { return NAN; });
@@ -95,7 +95,7 @@ TEST(Film, RemembersAHundredAndCountsAll) {
     EXPECT_FALSE(frame.error.known);
 }
 
-TEST(Film, ClearForgets) {
+TEST(Film, ClearResetsHealth) {
     Fixture f(8, 8);
     f.add(0, 2, [](int, int, int64_t) { return NAN; });
     f.add(2, 2, [](int, int, int64_t) { return 5; });
@@ -138,8 +138,9 @@ TEST(ErrorEstimate, IsUnknownBeforeBothHalvesHoldSamples) {
     EXPECT_EQ(f.film.standard_error().size(), 256u);
 }
 
-// The error of the very picture, which is known here. relMSE's interval also allows for what it divides by, so that it may hold it more often.
-TEST(ErrorEstimate, IsRightOnAverageAndInsideItsIntervalAsOftenAsItSays) {
+// The error of this very image, which is known here. relMSE's interval also accounts for its divisor, so its coverage may be
+// higher.
+TEST(ErrorEstimate, IsUnbiasedAndItsIntervalHasNominalCoverage) {
     constexpr int64_t runs = 1000;
     for (const int samples : {2, 8}) {
         Noise noise{uint32_t(samples)};
@@ -164,15 +165,15 @@ TEST(ErrorEstimate, IsRightOnAverageAndInsideItsIntervalAsOftenAsItSays) {
     }
 }
 
-// One pixel that carries all of the error says nothing about how large it may be.
-TEST(ErrorEstimate, IsUnknownWhereOnePixelCarriesIt) {
+// A single pixel that carries all of the error gives no estimate of how large it may be.
+TEST(ErrorEstimate, IsUnknownIfOnePixelCarriesTheError) {
     Fixture f(16, 16);
     f.add(0, 2, [&](int x, int y, int64_t sample) { return x == 8 && y == 8 && sample == 0 ? 1000.0 : 1.0; });
     EXPECT_FALSE(f.resolve().error.known);
     EXPECT_FALSE(f.resolve().error.rmse_known);
 }
 
-TEST(ErrorEstimate, KnowsThatAPictureWithoutNoiseHasNone) {
+TEST(ErrorEstimate, IsZeroForAnImageWithoutNoise) {
     Fixture f(16, 16);
     f.add(0, 2, [&](int, int, int64_t) { return 1.0; });
     const ErrorEstimate e = f.resolve().error;

@@ -1,4 +1,4 @@
-// The samples that stand out: the worst ones are found, in an order that nothing but the picture decides, and can be traced again.
+// Fireflies: the worst samples are found, in an order that depends on the image only, and can be traced again.
 #include "picture.h"
 #include "scenes.h"
 
@@ -9,7 +9,7 @@ namespace {
 
 RenderSettings settings() { return settings_for(48, 32, 16); }
 
-// Samples [0, 16) in batches of so many.
+// Samples [0, 16) in batches of the given size.
 Health health_of(const Scene& scene, unsigned threads, int64_t batch) {
     Renderer renderer({.threads = threads, .planes = {}});
     renderer.update(scene, settings());
@@ -26,8 +26,8 @@ TEST(Fireflies, DoNotDependOnThreadsOrBatches) {
     EXPECT_EQ(one.fireflies, health_of(scene, 2, 4).fireflies);
 }
 
-// Against all samples of the picture, one by one.
-TEST(Fireflies, AreTheWorstThereAre) {
+// Compared with all samples of the image, one by one.
+TEST(Fireflies, AreTheWorstOfAllSamples) {
     const Scene scene = shipped_scene("card-and-mug");
     Renderer renderer({.threads = 1, .planes = {}});
     renderer.update(scene, settings());
@@ -62,7 +62,7 @@ TEST(Fireflies, CanBeTracedAgain) {
     }
 }
 
-TEST(Fireflies, OfAPictureWithoutNoiseAreNone) {
+TEST(Fireflies, AreAbsentFromAnImageWithoutNoise) {
     Scene scene;
     constant_world(scene, 3);
     scene.view = looking_down(1, 1);

@@ -1,4 +1,4 @@
-// Instances whose transform has no usable inverse are shown flat, or left out with a warning, and no ray that is not finite is traced.
+// Instances without an invertible transform are rendered flat, or removed with a warning, and non-finite rays are not traced.
 #include "core/math.h"
 #include "picture.h"
 #include "render/accel.h"
@@ -17,12 +17,13 @@ namespace {
 
 constexpr PlaneSet planes{.albedo = true, .normal = true, .depth = true, .ids = true};
 
-// A quad that leans, so that flattening it along Z leaves it its extent in X and Y.
+// A tilted quad, which keeps its extent in X and Y when flattened along Z.
 GeometryPtr leaning_quad() { return quad({-1, -1, 0.5f}, {1, -1, -0.5f}, {1, 1, 0.5f}, {-1, 1, 1.5f}); }
 
 enum class How { own_mesh, shared_mesh, copies };
 
-// Two objects side by side with that scale, in front of a wall; as small meshes of their own, as nodes that share one, or as copies.
+// Two objects side by side with that scale, in front of a wall; as small separate meshes, as nodes sharing one mesh, or as
+// instances.
 Scene pair_of(const Vec3& scale, How how, const GeometryPtr& shape = leaning_quad()) {
     Scene scene;
     place(scene, quad({-4, -4, -2}, {4, -4, -2}, {4, 4, -2}, {-4, 4, -2}), lambert(0.4f));
@@ -67,7 +68,7 @@ std::vector<Diagnostic> warnings_of(const Scene& scene) {
     return renderer.info().warnings;
 }
 
-TEST(Flattened, AreShownAsSmallMeshesOfTheirOwnAre) {
+TEST(Flattened, RenderLikeSmallSeparateMeshes) {
     for (const Vec3 scale : {Vec3{1, 1, 0}, Vec3{1, 1, 1e-30f}, Vec3{1, 1, 1e-7f}, Vec3{-0.7f, 1, 0}}) {
         const Frame own = picture_of(pair_of(scale, How::own_mesh));
         const size_t seen = pixels_of(own, 1);
@@ -84,7 +85,7 @@ TEST(Flattened, AreShownAsSmallMeshesOfTheirOwnAre) {
     }
 }
 
-// The case that ended the process: one triangle that two nodes share.
+// The case that crashed: one triangle shared by two nodes.
 TEST(Flattened, OneTriangleOnTwoNodes) {
     auto triangle = std::make_shared<Geometry>();
     triangle->positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
@@ -92,7 +93,7 @@ TEST(Flattened, OneTriangleOnTwoNodes) {
     EXPECT_GT(pixels_of(picture_of(pair_of({1, 1, 0}, How::shared_mesh, triangle)), 1), 20u);
 }
 
-// A mesh too large to be rebuilt with every move, alone.
+// A single mesh that is too large to be rebuilt at every move.
 TEST(Flattened, ALargeMesh) {
     constexpr uint32_t n = 140;
     auto grid = std::make_shared<Geometry>();
@@ -118,7 +119,7 @@ TEST(Flattened, ALargeMesh) {
     EXPECT_EQ(facing, seen) << "it is a plane";
 }
 
-// Passing through zero, as an animation does or typing into a scale: each picture is the one of a fresh start.
+// Passing through zero, as in an animation or while typing a scale: each image equals that of a fresh start.
 TEST(Flattened, WhileAnEditPassesThroughZero) {
     Renderer renderer({.threads = 1, .planes = planes});
     for (const float z : {0.5f, 0.f, -0.5f, 0.f, 1e-8f, 0.5f})
@@ -133,7 +134,7 @@ TEST(Flattened, WhileAnEditPassesThroughZero) {
         }
 }
 
-TEST(Flattened, ToALineOrAPointAreLeftOutAndSaid) {
+TEST(Flattened, ToALineOrAPointAreRemovedWithAWarning) {
     for (const Vec3 scale : {Vec3{1, 0, 0}, Vec3{0, 0, 0}, Vec3{1e30f, 1e-30f, 1e-30f}})
         for (const How how : {How::shared_mesh, How::copies}) {
             const Scene scene = pair_of(scale, how);
@@ -146,7 +147,7 @@ TEST(Flattened, ToALineOrAPointAreLeftOutAndSaid) {
     EXPECT_TRUE(warnings_of(pair_of({1, 1, 0}, How::shared_mesh)).empty());
 }
 
-TEST(Flattened, CopiesThatAreFlatInOneWayShareAShape) {
+TEST(Flattened, CopiesWithEqualStretchShareAMesh) {
     auto mesh = std::make_shared<Geometry>(*sphere(false));
     Scene scene;
     Instances instances;
@@ -172,8 +173,8 @@ TEST(Flattened, CopiesThatAreFlatInOneWayShareAShape) {
     EXPECT_TRUE(left_out.empty());
 }
 
-// What is split multiplies to what it was, and each factor is what it promises.
-TEST(Flattened, TransformsAreSplitIntoFactors) {
+// The product of the factors is the original, and each factor has its promised properties.
+TEST(Flattened, TransformsAreFactored) {
     std::mt19937 random(1);
     std::normal_distribution<double> normal;
     const auto vector = [&] { return Vec3d{normal(random), normal(random), normal(random)}; };
@@ -203,7 +204,7 @@ TEST(Flattened, TransformsAreSplitIntoFactors) {
     }
 }
 
-TEST(Flattened, StandInTheWay) {
+TEST(Flattened, BlockTheLineOfSight) {
     for (const How how : {How::shared_mesh, How::copies}) {
         const Scene scene = pair_of({1, 1, 0}, how);
         const auto is_flat = [&](Id<Node> id) { return id.value > 1; };
@@ -212,8 +213,9 @@ TEST(Flattened, StandInTheWay) {
     }
 }
 
-// Rays that are not finite, or leave the range of the ray tracer in the space of an instance, meet nothing; their neighbours in the packet do.
-TEST(Flattened, NoRayIsTracedThatIsNotFinite) {
+// Rays that are not finite, or leave Embree's range in the space of an instance, miss; their neighbours in the packet are
+// unaffected.
+TEST(Flattened, NonFiniteRaysMiss) {
     constexpr float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
     const GeometryPtr shape = quad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0});
     const std::vector<InstanceRecord> small{{{{1e-6f, 0, 0}, {0, 1e-6f, 0}, {0, 0, 1e-6f}, {0, 0, 0}}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};

@@ -1,4 +1,4 @@
-// White furnaces: in a world that shines evenly, what loses nothing cannot be seen.
+// White furnace tests: in uniform light, a lossless object is invisible.
 #include "picture.h"
 #include "scenes.h"
 #include "shading/energy.h"
@@ -11,7 +11,7 @@ namespace {
 using namespace statistics;
 constexpr double pi = std::numbers::pi;
 
-// The material on a convex body that fills the picture, in a world of radiance 1.
+// The material on a convex body that fills the image, in an environment of radiance 1.
 Scene furnace(const GeometryPtr& body, const Material& material) {
     Scene scene;
     place(scene, body, material);
@@ -25,7 +25,7 @@ Measured ball(const Material& material, int64_t spp = 64, bool compensate = fals
     return render(furnace(sphere(false), material), settings).whole();
 }
 
-// A plane seen under one angle shows its directional albedo everywhere.
+// A plane seen at one angle shows its directional albedo everywhere.
 Measured plane(const Material& material, double degrees, bool from_below = false) {
     Scene scene;
     place(scene, floor_quad(100), material);
@@ -37,7 +37,7 @@ Measured plane(const Material& material, double degrees, bool from_below = false
     return render(scene, settings_for(16, 16, 64)).whole();
 }
 
-TEST(Furnace, WhiteBodiesThatLoseNothingAreInvisible) {
+TEST(Furnace, LosslessWhiteBodiesAreInvisible) {
     struct Case {
         const char* name;
         Material material;
@@ -50,8 +50,8 @@ TEST(Furnace, WhiteBodiesThatLoseNothingAreInvisible) {
     for (const Case& c : cases) EXPECT_TRUE(is_mean(ball(c.material), 1, sidak(significance, int64_t(cases.size())))) << c.name;
 }
 
-// The share of the light that a facet throws onto other facets is what single scattering loses: how much, a boundary alone shows below.
-TEST(Furnace, RoughBodiesLoseAndNeverGain) {
+// Single scattering loses the light that a microfacet reflects onto others; how much, the boundary test below shows.
+TEST(Furnace, RoughBodiesLoseEnergyAndNeverGain) {
     Material thin = glass(0.6f, 1.5f);
     thin.thickness = 0;
     for (const Material& m : {metal(0.2f), metal(0.6f), metal(1), glass(0.3f, 1.5f), glass(0.8f, 1.5f), thin}) {
@@ -78,9 +78,9 @@ double fresnel(double n1, double n2, double cos1) {
     return 0.5 * (s * s + p * p);
 }
 
-// What a clear rough boundary shows of a world of radiance 1 on both of its sides: what its facets reflect and let through, less what
-// other facets mask, in double precision over the visible facets. Radiance that comes from index n2 to n1 is (n1 / n2)^2 of what it
-// was. n2 = 0: a perfect mirror, or a thin sheet, which loses as much of what it mirrors as of what it lets through.
+// What a clear rough boundary shows of radiance 1 on both of its sides: reflection and transmission of its microfacets minus
+// masking, in double precision over the visible microfacets. Radiance from index n2 to n1 changes by (n1 / n2)^2. n2 = 0: a
+// perfect mirror, or a thin sheet, whose transmission loses as much as its reflection.
 double boundary_radiance(double alpha, double cos_view, double n1, double n2) {
     constexpr int rows = 500, columns = 500;
     const Vec3d wo{std::sqrt(1 - cos_view * cos_view), 0, cos_view};
@@ -88,7 +88,7 @@ double boundary_radiance(double alpha, double cos_view, double n1, double n2) {
     double sum = 0;
     for (int i = 0; i < rows; ++i)
         for (int j = 0; j < columns; ++j) {
-            // Of all facets, the share q^2 is steeper than this.
+            // The fraction q^2 of all microfacets is steeper than this.
             const double q = (i + 0.5) / rows, phi = pi * (j + 0.5) / columns;
             const double tan = alpha * std::sqrt(1 - q * q) / q, z = 1 / std::sqrt(1 + tan * tan);
             const Vec3d h{tan * z * std::cos(phi), tan * z * std::sin(phi), z};

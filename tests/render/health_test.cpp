@@ -1,4 +1,4 @@
-// Inputs that no picture can be made of: what cannot be used is dropped, counted and reported, and the picture stays finite.
+// Invalid inputs: unusable values are dropped, counted and reported, and the image stays finite.
 #include "picture.h"
 #include "scenes.h"
 
@@ -19,7 +19,7 @@ void expect_finite(const Frame& frame) {
     for (const Vec3& v : frame.normal) ASSERT_TRUE(std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z));
 }
 
-TEST(Health, OverflowingLightIsDroppedCountedAndRemembered) {
+TEST(Health, OverflowingSamplesAreDroppedCountedAndRecorded) {
     const Scene scene = floor_under_an_overflowing_bulb();
     const Frame frame = render_anything(scene);
     expect_finite(frame);
@@ -37,7 +37,7 @@ TEST(Health, OverflowingLightIsDroppedCountedAndRemembered) {
     }
 }
 
-TEST(Health, TexelsThatAreNoNumbersDoNotSpread) {
+TEST(Health, NonFiniteTexelsDoNotSpread) {
     for (const float bad : {nan, inf, -inf, -3.f}) {
         const ImagePtr image =
             float_picture(2, 2, std::vector<Vec3>{{bad, bad, bad}, {0.5f, 0.5f, 0.5f}, {0.5f, 0.5f, 0.5f}, {0.5f, 0.5f, 0.5f}});
@@ -57,13 +57,13 @@ TEST(Health, TexelsThatAreNoNumbersDoNotSpread) {
             const Frame frame = render_anything(*scene);
             expect_finite(frame);
             EXPECT_EQ(frame.health.dropped(), 0) << "sanitised, not dropped";
-            // The good texels are what they were: the last quarter of the floor, the sky.
+            // The valid texels are unchanged: the last quarter of the floor, the sky.
             EXPECT_GT(frame.rgba[4 * (12 * 16 + 12)], 0);
         }
     }
 }
 
-TEST(Health, MaterialsAndGeometryThatAreNoNumbersDoNotSpread) {
+TEST(Health, NonFiniteMaterialsAndGeometryDoNotSpread) {
     Scene scene;
     Material m = plastic(nan);
     m.base_color = {nan, inf, -1};
@@ -86,7 +86,7 @@ TEST(Health, MaterialsAndGeometryThatAreNoNumbersDoNotSpread) {
     scene.view = looking_down(1, 1);
     const Frame frame = render_anything(scene);
     expect_finite(frame);
-    // The world is still seen around them.
+    // The environment is still visible around them.
     EXPECT_EQ(frame.rgba[0], 1);
 }
 

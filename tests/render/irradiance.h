@@ -1,4 +1,4 @@
-// The test that a picture of a matte floor shows the irradiance of a closed form.
+// Checks that an image of a diffuse floor shows the irradiance of a closed form.
 #pragma once
 
 #include "measure/stability/irradiance.h"
@@ -7,7 +7,7 @@
 
 namespace blush::test {
 
-// Is each quarter of a photograph of the floor on average what the irradiance says?
+// True if the mean of each quarter of an image of the floor matches the irradiance.
 testing::AssertionResult shows_on_floor(const Scene& scene, const FloorIrradiance& irradiance, double alpha = statistics::significance,
                                         const RenderSettings& settings = settings_for(16, 16, 64));
 

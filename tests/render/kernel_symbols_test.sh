@@ -1,7 +1,7 @@
 #!/bin/sh
-# kernel_symbols_test.sh NM OBJECT...: what the linker may merge with code from elsewhere must carry the name of the object's
-# instruction set, or AVX-512 instructions could end up in code that every machine runs. Nor may a kernel call the C library's
-# mathematics, whose bits are not those of our own. Objects are named v2, v3, v4.
+# kernel_symbols_test.sh NM OBJECT...: weak symbols, which the linker may merge with those of other objects, must contain the name
+# of the object's instruction set, or AVX-512 instructions could end up in code that every machine runs. Kernels must not call the
+# mathematical functions of the C library, which are not bit-identical to ours. Objects are named v2, v3, v4.
 set -eu
 nm=$1
 shift

@@ -1,4 +1,4 @@
-// One kernel is the oracle of all others: every instruction set and every superset of features gives the same bits.
+// All kernels agree with the scalar reference: every instruction set and every superset of features is bit-identical.
 #include "picture.h"
 #include "render/kernels/kernel.h"
 #include "render/lowering.h"
@@ -15,7 +15,7 @@ namespace {
 constexpr int size = 24, samples = 4;
 
 struct Tile {
-    std::vector<double> values; // radiance and what the first surface shows
+    std::vector<double> values; // radiance and first-hit data
     int64_t rays = 0;
 };
 
@@ -49,7 +49,7 @@ struct Compiled {
     }
 };
 
-// Values of `b` whose bits differ from `a`.
+// Number of values of `b` whose bits differ from `a`.
 int64_t differing_bits(const Tile& a, const Tile& b) {
     int64_t n = 0;
     for (size_t i = 0; i < a.values.size(); ++i) n += std::memcmp(&a.values[i], &b.values[i], sizeof(double)) != 0;
@@ -90,7 +90,7 @@ TEST(Kernels, GiveTheSameBitsWhenPathsAreShared) {
         }
 }
 
-// A little of each feature in front of a lens.
+// A scene with every feature, seen through a lens.
 Scene everything() {
     Scene scene;
     std::vector<Vec3> texels;
@@ -153,7 +153,7 @@ Scene everything() {
     return scene;
 }
 
-TEST(Kernels, GiveTheSameBitsOnASceneWithEverything) {
+TEST(Kernels, GiveTheSameBitsOnASceneWithAllFeatures) {
     Scene scene = everything();
     expect_same_bits_from_all_kernels(Compiled(scene, true));
     expect_same_bits_from_all_kernels(Compiled(scene, true, 16));
@@ -186,8 +186,8 @@ TEST(Kernels, GiveTheSameBitsOnCoatsSheenAndFilms) {
     expect_same_bits_from_all_kernels(Compiled(scene, false, 16));
 }
 
-// Most scenes have no such material, and their kernels no code for it.
-TEST(Kernels, OnlyTheLargestKnowsLayers) {
+// Most scenes have no such material, and their kernels contain no code for it.
+TEST(Kernels, OnlyTheLargestHasLayers) {
     for (const std::string_view isa : runnable_isas()) {
         int know = 0;
         for (const Kernel& kernel : kernels_of(isa)) know += (kernel.features.bits & layer_features.bits) != 0;
@@ -210,7 +210,7 @@ TEST(Kernels, GiveTheSameBitsWithManyLights) {
     expect_same_bits_from_all_kernels(compiled);
 }
 
-TEST(Kernels, TheSmallestThatKnowsEnoughIsChosen) {
+TEST(Kernels, TheSmallestSufficientOneIsChosen) {
     for (const std::string_view isa : runnable_isas()) {
         for (const Kernel& kernel : kernels_of(isa)) {
             EXPECT_EQ(kernel.isa, isa);

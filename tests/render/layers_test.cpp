@@ -1,4 +1,4 @@
-// Coats, sheen, films, stretched and translucent surfaces, and glass that spreads colours, in pictures.
+// Rendered tests of clear coats, sheen, thin films, anisotropic and translucent surfaces, and dispersive glass.
 #include "picture.h"
 #include "render/dispersion.h"
 #include "scenes.h"
@@ -48,7 +48,7 @@ Material dispersive(Material m, float dispersion) {
     return m;
 }
 
-// Each material on a ball of its own, three rows of four, between a lamp that is coated itself, a floor and a sky.
+// Each material on its own sphere, three rows of four, between a coated area light, a floor and a sky.
 Scene grid(const std::vector<Material>& materials) {
     Scene scene;
     place(scene, floor_quad(6), lambert(0.5f));
@@ -115,8 +115,8 @@ TEST(Layers, WhiteFurnacesStayWhite) {
     }
 }
 
-// Through its coat a lamp shines less towards grazing views: 1 - clearcoat * Schlick(0.04).
-TEST(Layers, CoatsDimTheGlowBelow) {
+// A clear coat attenuates emission at grazing views: 1 - clearcoat * Schlick(0.04).
+TEST(Layers, ClearCoatsDimEmissionBelow) {
     for (const double degrees : {0.0, 60.0, 80.0}) {
         const double a = degrees * std::numbers::pi / 180, cos = std::cos(a);
         Scene scene;
@@ -131,8 +131,8 @@ TEST(Layers, CoatsDimTheGlowBelow) {
     }
 }
 
-// A stretch by the tangents, and the same by a rotation from other tangents, along which alone highlights are long.
-TEST(Layers, StretchFollowsTheTangents) {
+// Anisotropy along the tangents, and the same by a rotation from other tangents: highlights are long in this direction only.
+TEST(Layers, AnisotropyFollowsTheTangents) {
     const auto picture = [](const Vec4& tangent, float rotation) {
         Scene scene;
         Material m = stretched(metal(0.25f), 0.9f);
@@ -153,8 +153,8 @@ TEST(Layers, StretchFollowsTheTangents) {
     EXPECT_GT(along_x[1 * 4 + 3].mean.x, 3 * along_x[3 * 4 + 1].mean.x);
 }
 
-TEST(Layers, CoatsHaveNormalsOfTheirOwn) {
-    // A mirror-like coat on black sees the sun only if its own map, not the base's, turns it there.
+TEST(Layers, ClearCoatsHaveTheirOwnNormals) {
+    // A mirror-like coat on black reflects the sun only if its own normal map, not the base's, turns it there.
     const auto brightness = [](bool coat_map, bool base_map) {
         Scene scene;
         Material m = coated(lambert(0), 0.2f);
@@ -172,7 +172,7 @@ TEST(Layers, CoatsHaveNormalsOfTheirOwn) {
     EXPECT_NEAR(brightness(false, true), brightness(false, false), 1e-3 * brightness(false, false));
 }
 
-TEST(Dispersion, SpectrumIsWhiteInTheMean) {
+TEST(Dispersion, SpectrumAveragesToWhite) {
     const Spectrum& spectrum = visible_spectrum();
     Vec3d sum{0, 0, 0};
     for (int i = 0; i < Spectrum::steps; ++i) {

@@ -1,4 +1,4 @@
-// The ledger tells the truth: what it says is there is there, and takes the bytes that it says.
+// The feature report matches reality: features are present or absent as reported, with the reported bytes.
 #include "render/ledger.h"
 
 #include "render/environment_table.h"
@@ -44,7 +44,7 @@ Scene bare() {
     return scene;
 }
 
-// The rest of a quad's attributes, with normals that lean away from its plane.
+// Further attributes of a quad, with normals tilted away from its plane.
 GeometryPtr dressed_quad() {
     Geometry g = *floor_quad(1);
     g.serial = next_payload_serial();
@@ -69,7 +69,7 @@ Scene rich() {
     return scene;
 }
 
-TEST(Ledger, WhatABareSceneLeavesOutIsNotThere) {
+TEST(Ledger, UnusedFeaturesOfABareSceneAreNotAllocated) {
     const Compiled c(bare());
     const SceneTables& tables = c.scene.tables();
     const Ledger ledger = c.ledger();
@@ -82,7 +82,7 @@ TEST(Ledger, WhatABareSceneLeavesOutIsNotThere) {
     }
 }
 
-TEST(Ledger, WhatARichSceneNeedsIsThere) {
+TEST(Ledger, UsedFeaturesOfARichSceneAreAllocated) {
     const Compiled c(rich());
     const SceneTables& tables = c.scene.tables();
     const Ledger ledger = c.ledger();
@@ -98,13 +98,13 @@ TEST(Ledger, WhatARichSceneNeedsIsThere) {
     EXPECT_EQ(line(ledger, "lights", "environment map").bytes, 16 * 16 * 12);
 }
 
-TEST(Ledger, MirrorsAndGlassAreAimedAtWhereTheyFocusLight) {
+TEST(Ledger, CausticGuidingIsUsedIfMirrorsOrGlassFocusLight) {
     const char* name = "caustic guiding";
     Scene scene = bare();
     place(scene, sphere(false), glass(0, 1.5f), at({0, 1, 0}, 0.5f));
     place(scene, sphere(false), metal(0.5f), at({2, 1, 0}, 0.5f)); // too rough
     constant_world(scene, 1);
-    EXPECT_FALSE(line(Compiled(scene).ledger(), "kernel", name).used) << "a constant world is not focused";
+    EXPECT_FALSE(line(Compiled(scene).ledger(), "kernel", name).used) << "a constant environment makes no caustics";
     place(scene, ceiling_quad(1, 3), emitter(1));
     const Compiled lit(scene);
     EXPECT_TRUE(line(lit.ledger(), "kernel", name).used);
@@ -114,12 +114,12 @@ TEST(Ledger, MirrorsAndGlassAreAimedAtWhereTheyFocusLight) {
     EXPECT_NEAR(focus.balls[0].center.y, 1, 1e-6f);
 }
 
-TEST(Ledger, TexturesThatNobodyReadsAreNotKept) {
+TEST(Ledger, UnusedTexturesAreNotStored) {
     Scene scene = bare();
     add_texture(scene, texels(4));
     Material m = lambert(0.5f);
     m.normal_texture.texture = add_texture(scene, texels(8));
-    m.normal_scale = 0; // read by nobody, nor are the coordinates it would be laid out by
+    m.normal_scale = 0; // unused
     place(scene, floor_quad(1), m);
     const Compiled c(scene);
     EXPECT_EQ(c.scene.info().textures, 0);
@@ -130,7 +130,7 @@ TEST(Ledger, TexturesThatNobodyReadsAreNotKept) {
     EXPECT_EQ(line(ledger, "textures", "unread images").bytes, (4 * 4 + 4 + 1 + 8 * 8 + 16 + 4 + 1) * 16);
 }
 
-TEST(Ledger, AnEnvironmentWithoutLightHasNoMapUntilItShinesAgain) {
+TEST(Ledger, AnEnvironmentWithoutLightHasNoMap) {
     Scene scene = rich();
     scene.environment.intensity = 0;
     Compiled c(scene);
@@ -152,7 +152,7 @@ TEST(Ledger, AnEnvironmentWithoutLightHasNoMapUntilItShinesAgain) {
     EXPECT_EQ(c.scene.tables().environment.width, 1) << "freed when it is not needed any more";
 }
 
-TEST(Ledger, WhereNobodyAimsThereIsNothingToAimWith) {
+TEST(Ledger, BsdfSamplingAloneHasNoSamplingTables) {
     Scene scene = rich();
     place(scene, floor_quad(1), emitter(2));
     Compiled c(scene, Strategy::bsdf);
@@ -219,7 +219,7 @@ TEST(Ledger, BytesOfTheFilmAreThoseAllocated) {
         }
 }
 
-// Vertices of instances are kept once, and the ledger counts them once.
+// Vertices of instanced meshes are stored once, and counted once.
 TEST(Ledger, BytesOfVertexAttributesAreThoseAllocated) {
     Scene scene = rich();
     const Id<Mesh> twice = scene.meshes.add({"", {{dressed_quad(), scene.materials.add(lambert(0.5f))}}});
@@ -237,7 +237,7 @@ TEST(Ledger, BytesOfVertexAttributesAreThoseAllocated) {
     EXPECT_EQ(int64_t(pool.memory_bytes() - less.memory_bytes()), pool.vertex_count() * (8 + 8 + 16 + 16));
 }
 
-TEST(Ledger, CostsAreSaidInTheirUnits) {
+TEST(Ledger, CostsAreFormattedWithUnits) {
     EXPECT_EQ(cost_text({"film", "depth", false, "", 3 << 20}), "saves 3.00 MiB");
     EXPECT_EQ(cost_text({"film", "depth", true, "", 512, 0.0125}), "0.50 KiB, 12.5 ms");
     EXPECT_EQ(cost_text({"textures", "texels", false, "", 0}), "saves nothing");

@@ -1,4 +1,4 @@
-// Groups of lights and the film planes that hold them.
+// Light groups and their film planes.
 #include "render/light_groups.h"
 
 #include "render/material_table.h"
@@ -25,7 +25,7 @@ TEST(LightGroups, SumToTheBeauty) {
         const Frame frame = render_frame(studio.scene, settings);
         EXPECT_EQ(frame.groups.size(), 5u);
         EXPECT_EQ(frame.clamp.samples > 0, variant >= 3) << "else the test shows nothing about clamping";
-        // A ray that meets two suns, or sun and sky, adds both in single precision.
+        // A ray that hits two suns, or sun and sky, adds both in single precision.
         expect_planes_sum_to_beauty(frame, variant == 1 ? 0x1p-18 : 0x1p-20, std::to_string(variant));
     }
 }
@@ -40,7 +40,7 @@ TEST(LightGroups, OfShippedScenesSumToTheBeauty) {
         }
 }
 
-TEST(LightGroups, LeaveTheBeautyAsItIsAndDependOnNothing) {
+TEST(LightGroups, DoNotChangeTheBeautyAndAreDeterministic) {
     Studio studio;
     const RenderSettings settings = settings_for(40, 24, 6);
     const Frame with = render_frame(studio.scene, settings);
@@ -66,7 +66,7 @@ TEST(LightGroups, LeaveTheBeautyAsItIsAndDependOnNothing) {
     EXPECT_EQ(without.rgba, with.rgba);
 }
 
-// The scene with nothing but the light of one group.
+// The scene with only the lights of one group.
 Scene alone(const Studio& studio, const LightGroup& group) {
     Scene scene = studio.scene;
     if (!group.environment) scene.environment.intensity = 0;
@@ -81,12 +81,12 @@ Scene alone(const Studio& studio, const LightGroup& group) {
     return scene;
 }
 
-TEST(LightGroups, HoldTheirOwnLightAlone) {
+TEST(LightGroups, HoldOnlyTheirOwnLight) {
     const Studio studio;
     const RenderSettings settings = settings_for(32, 32, 64);
     const Frame frame = render_frame(studio.scene, settings);
     for (size_t k = 0; k < frame.groups.size(); ++k) {
-        // Lamps that are off keep their bodies while lights are mixed: nothing else differs.
+        // With a light mix, meshes of disabled lights remain: nothing else differs.
         const Measured whole = render(alone(studio, frame.light_groups->groups[k]), settings).whole();
         const GroupShare& share = frame.group_shares[k];
         EXPECT_GT(share.mean.y, 0) << frame.group_names[k];
@@ -134,7 +134,7 @@ TEST(LightGroups, ShareTheLastPlaneIfThereAreTooMany) {
     EXPECT_EQ(groups.groups.back().lights.size(), 10u);
     const Frame frame = render_frame(studio.scene, settings_for(16, 16, 4));
     expect_planes_sum_to_beauty(frame, 0x1p-20, "shared");
-    // What has a channel keeps a plane of its own.
+    // Groups with a channel keep their own plane.
     studio.channel("More 20").intensity = 2;
     EXPECT_EQ(make_light_groups(studio.scene).groups.front().name, "More 20");
 }

@@ -1,4 +1,4 @@
-// Light meters against closed forms, and the honesty of their intervals.
+// Light meters against closed forms, and the coverage of their intervals.
 #include "core/math.h"
 #include "irradiance.h"
 #include "measure/light_meter.h"
@@ -21,7 +21,7 @@ MeterReading reading(const Scene& scene, const MeterPlace& place, const RenderSe
     return meters.readings()[0];
 }
 
-// Is the illuminance `lux`? What has no noise is so but for rounding.
+// True if the illuminance is `lux`; without noise, up to rounding.
 testing::AssertionResult reads(const MeterReading& r, double lux) {
     const double error = (r.lux.high - r.lux.low) / 2 / student_95(r.rounds - 1);
     return statistics::z_verdict("illuminance", r.lux.value - lux, std::max(error, 1e-5 * lux), lux, statistics::significance);
@@ -77,8 +77,8 @@ TEST(LightMeter, ReadsTheSkyFromAnySideOfItself) {
     EXPECT_TRUE(reads(reading(scene, {{0, 0, 0}, normalize(Vec3d{1, -2, 0.5}), 0}), 0.7 * pi));
 }
 
-// On a floor half the sky is gone; what the floor sends back does not reach a meter that lies on it.
-TEST(LightMeter, SeesWhatBlocksTheLightAndWhatReflectsIt) {
+// Above a floor only half of the sky is visible; light reflected by the floor does not reach a meter on it.
+TEST(LightMeter, SeesOccludersAndReflectedLight) {
     Scene scene;
     constant_world(scene, 1);
     place(scene, floor_quad(50), lambert(0.5f));
@@ -88,7 +88,7 @@ TEST(LightMeter, SeesWhatBlocksTheLightAndWhatReflectsIt) {
     EXPECT_LT(dark.lux.value, 0.01 * pi) << "under a black ceiling";
 }
 
-// A closed room whose walls emit 1 nit and reflect half: radiance 1 / (1 - 1/2) everywhere.
+// A closed room whose walls emit 1 nit with albedo 1/2: radiance 1 / (1 - 1/2) everywhere.
 TEST(LightMeter, CountsLightThatWasReflectedManyTimes) {
     Scene scene;
     place(scene, cube(true), emitter(1, 0.5f));
@@ -98,8 +98,8 @@ TEST(LightMeter, CountsLightThatWasReflectedManyTimes) {
     EXPECT_TRUE(reads(reading(scene, {{0.3, -1, 0.2}, {0, 1, 0}, 1e-4}, direct), pi));
 }
 
-// Of many readings, 95 % hold the truth; how many by chance, the binomial says.
-TEST(LightMeter, IntervalsHoldTheTruthAsOftenAsTheySay) {
+// Of many readings, 95 % contain the true value; the allowed deviation is binomial.
+TEST(LightMeter, IntervalsHaveTheirNominalCoverage) {
     const auto [scene, expected] = under_a_rectangle_light();
     constexpr int readings = 400;
     int held = 0;
@@ -112,7 +112,7 @@ TEST(LightMeter, IntervalsHoldTheTruthAsOftenAsTheySay) {
     EXPECT_NEAR(held, 0.95 * readings, 4 * std::sqrt(readings * 0.95 * 0.05));
 }
 
-TEST(LightMeter, DoesNotDependOnThreadsAndLeavesTheFilmAlone) {
+TEST(LightMeter, DoesNotDependOnThreadsOrTouchTheFilm) {
     const Scene scene = shipped_scene("cornell");
     Renderer one({.threads = 1}), two({.threads = 2});
     one.update(scene, settings_for(16, 16, 1));
@@ -125,7 +125,7 @@ TEST(LightMeter, DoesNotDependOnThreadsAndLeavesTheFilmAlone) {
     EXPECT_EQ(one.resolve().rgba, before);
 }
 
-// The same scene afresh, and after an edit.
+// A fresh renderer, and one after an edit.
 TEST(LightMeter, FollowsEdits) {
     Scene scene;
     Light point;

@@ -1,4 +1,4 @@
-// The light mix: pictures put together from groups, whatever becomes of their lights.
+// The light mix: images mixed from groups while their lights change.
 #include "render/light_mix.h"
 
 #include "core/parallel.h"
@@ -16,7 +16,7 @@ using Grouping = LightMix::Grouping;
 using statistics::sidak;
 using statistics::significance;
 
-// A studio of which a renderer has a few samples already.
+// A studio with a renderer that already has a few samples.
 struct RenderedStudio {
     Studio studio;
     RenderSettings settings = settings_for(24, 16, 4);
@@ -28,7 +28,7 @@ struct RenderedStudio {
     }
 };
 
-TEST(LightMix, OfAllLightsAlikeIsAFreshRenderOfThem) {
+TEST(LightMix, OfEqualGainsMatchesAFreshRender) {
     RenderedStudio rendered;
     auto& [studio, settings, renderer] = rendered;
     for (auto [id, light] : studio.scene.lights) {
@@ -44,7 +44,7 @@ TEST(LightMix, OfAllLightsAlikeIsAFreshRenderOfThem) {
     const Frame mixed = renderer.resolve(), fresh = render_frame(studio.scene, settings);
     EXPECT_EQ(mixed.samples, 4);
     EXPECT_EQ(mixed.gains, Gains(5, Vec3{2, 2, 2}));
-    // The same probabilities, the same samples, each twice as bright.
+    // The same probabilities and samples, each twice as bright.
     for (size_t i = 0; i < mixed.rgba.size(); ++i) ASSERT_NEAR(mixed.rgba[i], fresh.rgba[i], 0x1p-20f * fresh.rgba[i]) << i;
     EXPECT_NEAR(mixed.error.rmse, fresh.error.rmse, 1e-4 * fresh.error.rmse);
     EXPECT_NEAR(mixed.error.relmse, fresh.error.relmse, 1e-4 * fresh.error.relmse);
@@ -74,8 +74,8 @@ const MixEdit mix_edits[] = {
      }},
 };
 
-// The same picture on average, everywhere in it, whatever was dimmed, coloured or switched.
-TEST(LightMix, IsThePictureOfTheEditedLights) {
+// The same image on average, in every block, for any dimmed, coloured or switched light.
+TEST(LightMix, MatchesARenderOfTheEditedLights) {
     const RenderSettings settings = settings_for(32, 32, 96);
     const Studio before;
     Renderer renderer({.threads = 2, .planes = {}});
@@ -94,7 +94,7 @@ TEST(LightMix, IsThePictureOfTheEditedLights) {
     EXPECT_EQ(renderer.resolve().rgba, render(before.scene, settings).frame.rgba) << "and back without a trace";
 }
 
-TEST(LightMix, ThinnedIsTheSameOfFewerPixels) {
+TEST(LightMix, ThinnedIsTheSameForFewerPixels) {
     RenderedStudio rendered;
     const Frame frame = rendered.renderer.resolve();
     Gains gains(frame.groups.size(), Vec3{0.5f, 2, 1});
@@ -136,7 +136,7 @@ TEST(LightMix, ChannelsAreGains) {
     EXPECT_EQ(shared, remixed);
 }
 
-TEST(LightMix, ResetsWhereNoGainWouldDo) {
+TEST(LightMix, ResetsIfNoGainExpressesTheChange) {
     const MixEdit edits[] = {
         {"moved",
          [](Studio& s) {
@@ -167,7 +167,7 @@ TEST(LightMix, ResetsWhereNoGainWouldDo) {
     }
 }
 
-TEST(LightMix, OfOneGroupThatChangedInTwoWaysResets) {
+TEST(LightMix, ResetsIfMembersOfAGroupChangeDifferently) {
     Studio studio;
     studio.scene.mix.grouping = Grouping::by_hand;
     for (const Id<Node> node : {studio.bulb, studio.panel}) studio.change(node, [](Light& l) { l.group = "Both"; });
@@ -191,15 +191,15 @@ TEST(LightMix, FollowsNames) {
     EXPECT_EQ(mixing->gains[1], (Vec3{2, 2, 2}));
 }
 
-// Aiming at what matters in the mix goes on from the samples there are, and less noise is left where it has mattered.
-// What the mix has switched off is sampled no more, without bias: lights that are drawn by power, and those in a tree.
+// Light selection by the mix continues from the existing samples, and reduces noise where the mix needs it. Lights that the mix
+// switched off are no longer sampled, without bias: for selection by power, and for the tree.
 class MixAim : public testing::TestWithParam<bool> {};
 TEST_P(MixAim, SamplesByTheMixWithoutBias) {
     const RenderSettings settings = settings_for(64, 64, 96);
     Studio studio;
     const bool tree = GetParam();
     if (!tree) {
-        Node hidden = *studio.scene.nodes.find(studio.ball); // its many triangles would bring in the tree
+        Node hidden = *studio.scene.nodes.find(studio.ball); // its many triangles would enable the light tree
         hidden.visible = false;
         studio.scene.nodes.set(studio.ball, hidden);
     }
@@ -224,9 +224,9 @@ TEST_P(MixAim, SamplesByTheMixWithoutBias) {
 INSTANTIATE_TEST_SUITE_P(Lights, MixAim, testing::Values(false, true),
                          [](const auto& light) { return light.param ? "InATree" : "ByPower"; });
 
-// Estimated from the halves of the groups, the error of a mix is that of the same picture rendered afresh; and what is said before, from
-// the variances of single groups, is near that.
-TEST(LightMix, SaysItsNoise) {
+// The error of a mix, estimated from the halves of the groups, is that of a fresh render of the same image; the prediction from
+// the variances of single groups is close to it.
+TEST(LightMix, PredictsItsNoise) {
     const RenderSettings settings = settings_for(48, 48, 64);
     Studio studio;
     Renderer renderer({.threads = 2, .planes = {}});
@@ -248,7 +248,7 @@ TEST(LightMix, SaysItsNoise) {
     }
     EXPECT_NEAR(energy, 1, 1e-9);
     EXPECT_NEAR(noise, 1, 1e-9);
-    // Squared differences from a much better picture of the same mix.
+    // Squared differences from a converged image of the same mix.
     RenderSettings long_settings = settings;
     long_settings.spp = 4096;
     long_settings.seed = 99;
@@ -272,7 +272,7 @@ LightMix some_mix() {
     return mix;
 }
 
-TEST(BakeMix, LeavesTheImageAndTheFilm) {
+TEST(BakeMix, KeepsTheImageAndTheFilm) {
     RenderedStudio rendered;
     auto& [studio, settings, renderer] = rendered;
     studio.scene.mix = some_mix();
@@ -285,15 +285,16 @@ TEST(BakeMix, LeavesTheImageAndTheFilm) {
     const Frame after = renderer.resolve();
     for (size_t i = 0; i < mixed.rgba.size(); ++i) ASSERT_NEAR(after.rgba[i], mixed.rgba[i], 0x1p-20f * mixed.rgba[i]) << i;
     EXPECT_EQ(bake_mix(baked).scene, baked) << "once is enough";
-    // And a fresh render of the baked scene is the mix, which now has no channels.
+    // A fresh render of the baked scene equals the mix, which now has no channels.
     const Picture fresh = render(baked, settings_for(32, 32, 96));
     Studio with_channels;
     with_channels.scene.mix = some_mix();
     EXPECT_TRUE(same_means(fresh.blocks(16, 16), render(with_channels.scene, settings_for(32, 32, 96)).blocks(16, 16)));
 }
 
-// Two lamps of one record and two objects of one glowing material, told apart by the mix, are told apart by the scene afterwards.
-TEST(BakeMix, TellsApartWhatWasShared) {
+// Two lights sharing a record and two objects sharing an emissive material, separated by the mix, have separate records
+// afterwards.
+TEST(BakeMix, SplitsSharedRecords) {
     Studio studio;
     studio.scene.mix.grouping = Grouping::by_object;
     Node twin = *studio.scene.nodes.find(studio.bulb), ball = *studio.scene.nodes.find(studio.ball);

@@ -1,4 +1,4 @@
-// Lights that shine differently in different directions, or are hidden from the camera: against quadrature, and alike for all strategies.
+// Lights with directional emission or hidden from the camera: against quadrature, and equal for all strategies.
 #include "core/math.h"
 #include "irradiance.h"
 #include "render/light_profiles.h"
@@ -28,7 +28,7 @@ Scene lit_by(const Light& light, const Transform& pose) {
     return scene;
 }
 
-// Irradiance of the floor from all of a flat light: `point(s, t)` lays the unit square over it, uniformly by area.
+// Irradiance of the floor from a flat light: `point(s, t)` maps the unit square onto it, uniformly by area.
 template <class Point, class Radiance> double from_area(const Vec3d& x, double area, const Vec3d& normal, Point point, Radiance radiance) {
     constexpr int n = 24;
     double sum = 0;
@@ -40,7 +40,7 @@ template <class Point, class Radiance> double from_area(const Vec3d& x, double a
     return sum * area / (double(n) * n);
 }
 
-// Smooth functions of the floor, slow to compute: one value for each of 1/32 m.
+// Smooth functions of the floor that are slow to compute: cached per 1/32 m.
 template <class Fn> FloorIrradiance coarse(Fn fn) {
     return [fn, cache = std::make_shared<std::map<std::pair<int, int>, double>>()](const Vec3d& x) {
         const std::pair key{int(std::floor(x.x * 32)), int(std::floor(x.z * 32))};
@@ -50,7 +50,7 @@ template <class Fn> FloorIrradiance coarse(Fn fn) {
     };
 }
 
-// The falloff as documented: max(0, tan h - tan theta) / (tan h - h).
+// The documented falloff: max(0, tan h - tan theta) / (tan h - h).
 double spread_factor(double spread, double cos_theta) {
     const double h = spread / 2, tangent = std::sqrt(1 / (cos_theta * cos_theta) - 1);
     return cos_theta > 0 ? std::max(0.0, std::tan(h) - tangent) / (std::tan(h) - h) : 0;
@@ -94,7 +94,7 @@ TEST(Spread, NarrowsRectanglesAndDisks) {
     }
 }
 
-// Of a sphere in every direction radiance is candela over its disk: integrated over the cone in which it is seen.
+// For a sphere, radiance in each direction is candela / disk area, integrated over the cone that it subtends.
 template <class Candela> double from_sphere(const Vec3d& x, const Vec3d& center, double radius, Candela candela) {
     const Vec3d to = center - x;
     const double sin2 = radius * radius / dot(to, to), height = 1 - std::sqrt(1 - sin2);
@@ -156,7 +156,7 @@ TEST(IesLight, HasTheCandelaOfEachDirection) {
         }
 }
 
-// The kernel's lookup is the table's, anywhere, and for a turned and mirrored node.
+// The kernel's lookup matches the table for all directions, including a rotated and mirrored node.
 TEST(IesLight, TheKernelReadsTheTable) {
     std::mt19937 rng(3);
     std::normal_distribution<double> normal;
@@ -172,8 +172,8 @@ TEST(IesLight, TheKernelReadsTheTable) {
                 const Vec3d local = normalize(Vec3d{normal(rng), normal(rng), normal(rng)});
                 const Vec3 w = to_float(transform_vector(world, local));
                 const double expected = candela_towards(*light.ies, local) / 1000;
-                // An arc tangent is off by 1.4e-7 turns, and the table rises by at most a thousandth of its peak in a tenth of a degree; at
-                // its rim it may end on either side.
+                // The arc tangent has an error of 1.4e-7 turns, and the table rises by at most a thousandth of its peak in a
+                // tenth of a degree; at its edge either side is valid.
                 const double seen = double(profile_factor<float>(profiles.tables(), 0, w, true));
                 if ((seen == 0) != (expected == 0)) continue;
                 EXPECT_NEAR(seen, expected, 1e-4);
@@ -188,7 +188,7 @@ std::vector<Measured> blocks(const Scene& scene, Strategy strategy, int64_t spp)
     return render(scene, settings).blocks(8, 8);
 }
 
-// Every kind that a scattered ray can find, above a matte floor and a half-rough wall.
+// Every light kind that scattered rays can hit, above a diffuse floor and a half-rough wall.
 Scene lit_by_everything(bool seen) {
     Scene scene;
     place(scene, floor_quad(3), lambert(0.6f));
@@ -224,7 +224,7 @@ TEST(LightProfiles, StrategiesAgree) {
     EXPECT_TRUE(same_means(mis, blocks(scene, Strategy::bsdf, 2048), sidak(significance, 2))) << "bsdf";
 }
 
-TEST(HiddenLights, AreNotSeenButShineAndAreReflected) {
+TEST(HiddenLights, AreInvisibleButEmitAndAreReflected) {
     for (const Light::Kind kind : {Light::Kind::rectangle, Light::Kind::disk, Light::Kind::sphere}) {
         Light light = light_of(kind, 3);
         light.radius = 0.4f;

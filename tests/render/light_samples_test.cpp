@@ -1,5 +1,5 @@
-// Chi-squared of every kind of light that has a size, drawn the way the estimator draws it: points spread as evenly as the density that comes
-// with them says. Points, spots, and suns without a size are no samples at all; their measured distributions and cones scale what arrives.
+// Chi-squared tests of sampling each kind of light with a size, as in the estimator: points are distributed by their stated pdf.
+// Points, spots, and suns of zero size need no sampling; their IES profiles and cones scale the emission.
 #include "core/math.h"
 #include "picture.h"
 #include "render/light_sampling.h"
@@ -22,11 +22,11 @@ constexpr double pi = std::numbers::pi;
 struct Drawn {
     LightPoint<float> point;
     Vec3 direction;      // from the receiver, unit
-    Vec3d position;      // in the world; of no meaning for lights infinitely far away
+    Vec3d position;      // world space; unused for lights at infinity
     double pdf = 0;      // per solid angle
 };
 
-// A scene of one light, and a receiver at the world's origin that turns to all sides.
+// A scene with one light, and a receiver at the world origin that faces all directions.
 struct Desk {
     Scene scene;
     RenderScene compiled;
@@ -53,7 +53,7 @@ struct Desk {
 constexpr int kinds = 7, side = 12;
 constexpr int64_t samples = 60'000;
 
-// Points mapped to the unit square so that their density is that of the square, evenly; `pdf` is what each must say of itself.
+// Points mapped to the unit square such that the expected density is uniform; `pdf` is the stated pdf.
 template <class Map, class Pdf> void expect_even(const char* kind, Desk& desk, const Map& to_square, const Pdf& pdf) {
     std::vector<int64_t> counts(size_t(side * side));
     for (int64_t i = 0; i < samples; ++i) {
@@ -75,14 +75,14 @@ Light light_of(Light::Kind kind) {
     return light;
 }
 
-// What 1 / area is per solid angle.
+// The area pdf 1 / area converted to solid angle.
 double over_area(const Drawn& d, double area) {
     const Vec3d way = d.position;
     const double facing = std::abs(dot(normalize(way), to_double(d.point.normal)));
     return dot(way, way) / (area * facing);
 }
 
-TEST(LightSamples, OfRectanglesAreEven) {
+TEST(LightSamples, OfRectanglesAreUniformInArea) {
     Desk desk;
     Light light = light_of(Light::Kind::rectangle);
     light.width = 2;
@@ -93,8 +93,8 @@ TEST(LightSamples, OfRectanglesAreEven) {
         [](const Drawn& d) { return over_area(d, 1); });
 }
 
-// A polygon of as many corners and the disk's area.
-TEST(LightSamples, OfDisksAreEven) {
+// A polygon with as many corners and the disk's area.
+TEST(LightSamples, OfDisksAreUniformInArea) {
     constexpr double corners = 96, step = 2 * pi / corners;
     const double radius = std::sqrt(2 * pi / (corners * std::sin(step)));
     Desk desk;
@@ -111,7 +111,7 @@ TEST(LightSamples, OfDisksAreEven) {
         [](const Drawn& d) { return over_area(d, pi); });
 }
 
-TEST(LightSamples, OfGlowingObjectsAreEven) {
+TEST(LightSamples, OfEmissiveObjectsAreUniformInArea) {
     Desk desk;
     place(desk.scene, cube(false), emitter(2), at({2, 1, 3}, 0.5f));
     desk.compile();
@@ -126,18 +126,18 @@ TEST(LightSamples, OfGlowingObjectsAreEven) {
             const double face = double(2 * axis) + (along[axis] > 0);
             return std::array{(face + (along[(axis + 1) % 3] + 1) / 2) / 6, (along[(axis + 2) % 3] + 1) / 2};
         },
-        // Of a face that is turned away nothing arrives, whatever its density.
+        // A face that is turned away contributes nothing, whatever its pdf.
         [](const Drawn& d) { return dot(d.direction, d.point.normal) < 0 ? over_area(d, 6) : d.pdf; });
 }
 
-// Around an axis: how far up the cone of that height, and the turn.
+// Cone coordinates: height in the cone, and azimuth.
 std::array<double, 2> in_cone(const Vec3& direction, const Vec3& axis, double height) {
     const Vec3 w = basis_around(axis).to_local(direction);
     const double sin2 = double(w.x) * w.x + double(w.y) * w.y;
     return {sin2 / (1 + std::sqrt(1 - sin2)) / height, std::atan2(w.y, w.x) / (2 * pi) + 0.5};
 }
 
-TEST(LightSamples, OfSpheresAreEvenOverTheSolidAngle) {
+TEST(LightSamples, OfSpheresAreUniformInSolidAngle) {
     Desk desk;
     Light light = light_of(Light::Kind::sphere);
     light.radius = 0.5f;
@@ -148,7 +148,7 @@ TEST(LightSamples, OfSpheresAreEvenOverTheSolidAngle) {
         [&](const Drawn&) { return 1 / (2 * pi * height); });
 }
 
-TEST(LightSamples, OfSunsAreEvenOverTheSolidAngle) {
+TEST(LightSamples, OfSunsAreUniformInSolidAngle) {
     Desk desk;
     Light light = light_of(Light::Kind::sun);
     light.angle_radians = 0.3f;
@@ -159,14 +159,14 @@ TEST(LightSamples, OfSunsAreEvenOverTheSolidAngle) {
         "sun", desk, [&](const Drawn& d) { return in_cone(d.direction, towards, height); }, [&](const Drawn&) { return 1 / (2 * pi * height); });
 }
 
-// Of what lies all around, against the density that rays which find it are weighed with.
+// Environments, compared with the pdf that is used to weight hits.
 void expect_follows(Desk& desk, const char* kind) {
     const DirectionTest test{.rows = 24, .columns = 24, .points = 12, .samples = samples, .alpha = sidak(significance, kinds)};
     const auto pdf = [&](const Vec3& w) { return environment_pdf<float>(desk.compiled.tables().environment, w); };
     EXPECT_TRUE(directions_follow(test, [&] { return std::optional(desk.draw().direction); }, pdf)) << kind;
 }
 
-TEST(LightSamples, OfAnImageFollowIt) {
+TEST(LightSamples, OfAnImageFollowItsRadiance) {
     Desk desk;
     std::vector<Vec3> texels;
     std::mt19937 bits{3};
@@ -178,7 +178,7 @@ TEST(LightSamples, OfAnImageFollowIt) {
     expect_follows(desk, "image");
 }
 
-TEST(LightSamples, OfTheSkyFollowIt) {
+TEST(LightSamples, OfTheSkyFollowItsRadiance) {
     Desk desk;
     desk.scene.environment.kind = Environment::Kind::sky;
     desk.scene.environment.sky.sun_disk = false;

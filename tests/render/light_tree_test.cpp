@@ -1,4 +1,4 @@
-// Many lights: the tree draws each as often as it says, never leaves out one that matters, and is near what knowing all of them would give.
+// Light tree: selects each light with its stated probability, omits none that contributes, and is close to optimal selection.
 #include "core/math.h"
 #include "irradiance.h"
 #include "picture.h"
@@ -60,7 +60,7 @@ int64_t record_count(const LightTables& t) {
     return t.environment + 1;
 }
 
-TEST(LightTree, IsBuiltOnlyWhereLightsAreMany) {
+TEST(LightTree, IsBuiltOnlyForManyLights) {
     EXPECT_EQ(Compiled(mixed_scene(10)).lights().tree.nodes, nullptr);
     const Compiled many(mixed_scene(100));
     EXPECT_NE(many.lights().tree.nodes, nullptr);
@@ -73,9 +73,8 @@ TEST(LightTree, IsBuiltOnlyWhereLightsAreMany) {
     EXPECT_EQ(Compiled(few).lights().tree.nodes, nullptr) << "a disk is one light, whatever its polygon";
 }
 
-// Of what is drawn, and of what is asked for when a ray finds a light.
-// Emitters without an area give no light; the sun beside them is drawn like any other.
-TEST(LightTree, IsNotBuiltOfLightsThatGiveNone) {
+// Tests sampling and the probability for hits. Emitters without area give no light; the sun next to them is selected normally.
+TEST(LightTree, IsNotBuiltOfLightsWithoutPower) {
     Scene scene;
     place(scene, sphere(false), emitter(1, 0.5f), at({0, 5, 0}, 1e-24f));
     Light sun;
@@ -88,7 +87,7 @@ TEST(LightTree, IsNotBuiltOfLightsThatGiveNone) {
     EXPECT_TRUE(shows_on_floor(scene, [](const Vec3d&) { return 2 * std::sqrt(0.5); }));
 }
 
-TEST(LightTree, DrawsLightsWithTheProbabilityItSays) {
+TEST(LightTree, SamplesLightsWithTheStatedProbability) {
     const Compiled compiled(mixed_scene(60));
     const LightTables& t = compiled.lights();
     Random random;
@@ -106,7 +105,7 @@ TEST(LightTree, DrawsLightsWithTheProbabilityItSays) {
             sum += p;
         }
         EXPECT_LT(sum, 1 + 1e-5);
-        expected[n] = std::max(0.0, 1 - sum) * samples; // a branch that cannot light it
+        expected[n] = std::max(0.0, 1 - sum) * samples; // the traversal ends in a branch without contribution
         Moments rest;
         for (int64_t i = 0; i < samples; ++i) {
             const auto pick = pick_light<all_features, float>(t, to, {uint32_t(random.bits()), uint32_t(random.bits())}, true);
@@ -120,8 +119,8 @@ TEST(LightTree, DrawsLightsWithTheProbabilityItSays) {
     }
 }
 
-// A light that the closed form says arrives has a chance to be drawn.
-TEST(LightTree, LeavesOutNothingThatShines) {
+// A light that contributes by its closed form has a positive probability.
+TEST(LightTree, GivesEveryContributingLightAProbability) {
     const Compiled compiled(mixed_scene(200));
     const SceneTables& tables = compiled.scene.tables();
     Random random;
@@ -182,7 +181,7 @@ TEST(LightTree, IsNearTheOracleWithTenThousandLights) {
     EXPECT_GT(v.power, 5 * v.tree) << "power " << v.power << ", tree " << v.tree;
 }
 
-// The same of what is rendered. How far the picture's variance is off, told from two seeds, is bounded by their pixels being independent.
+// The same for rendered images. The uncertainty of the variance, from two seeds, is bounded by independent pixels.
 TEST(LightTree, PicturesOfTenThousandLightsAreNearTheOracle) {
     const ImageVariance v = image_variance(20, 64);
     EXPECT_LT(v.rendered, 3 * v.oracle) << "oracle " << v.oracle << ", rendered " << v.rendered;

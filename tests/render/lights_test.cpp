@@ -1,4 +1,4 @@
-// Each kind of light on a matte floor, against its closed form, from several places and angles.
+// Each kind of light on a diffuse floor, against its closed form, from several positions and angles.
 #include "core/math.h"
 #include "irradiance.h"
 #include "render/lowering.h"
@@ -22,7 +22,7 @@ Light light_of(Light::Kind kind, float intensity) {
     return light;
 }
 
-// Places and where the light points.
+// Positions and directions of the light.
 struct Pose {
     Vec3 position, direction;
 };
@@ -63,8 +63,8 @@ TEST(SpotLight, HasTheSpecifiedCone) {
     }
 }
 
-// Lux are measured facing the sun, whatever its angle, as long as none of it has set.
-TEST(Sun, LightsWithTheCosine) {
+// Lux are measured facing the sun, for any angular size, as long as it is entirely above the horizon.
+TEST(Sun, IrradianceFollowsTheCosine) {
     for (const float angle : {0.f, 0.0092f, 0.3f})
         for (const Vec3& direction : {Vec3{0, -1, 0}, Vec3{1, -1, 0.5f}, Vec3{-1, -0.3f, 0.2f}}) {
             Light light = light_of(Light::Kind::sun, 7);
@@ -87,7 +87,7 @@ TEST(RectangleLight, IsLambertsPolygon) {
     }
 }
 
-TEST(RectangleLight, ShinesForwardsOnlyUnlessTwoSided) {
+TEST(RectangleLight, EmitsForwardsOnlyUnlessTwoSided) {
     Light light = light_of(Light::Kind::rectangle, 3);
     const Pose away{{0.2f, 1, 0.3f}, {0.3f, 1, 0}};
     EXPECT_TRUE(shows_on_floor(lit_by(light, away), [](const Vec3d&) { return 0; }));
@@ -96,8 +96,9 @@ TEST(RectangleLight, ShinesForwardsOnlyUnlessTwoSided) {
     EXPECT_TRUE(shows_on_floor(lit_by(light, away), [&](const Vec3d& x) { return 3 * polygon_irradiance(x, up, corners); }));
 }
 
-// As much of the floor as sees all of it is lit by a sphere as by a point in its middle, from however near: E = pi L (r / d)^2 cos.
-TEST(SphereLight, LightsAsThePointInItsMiddle) {
+// Points of the floor that see the whole sphere get the irradiance of a point at its centre, at any distance: E = pi L (r / d)^2
+// cos.
+TEST(SphereLight, IrradianceIsThatOfAPointAtItsCentre) {
     for (const auto& [pose, radius] : {std::pair{poses[0], 0.5f}, {poses[2], 0.2f}, {poses[3], 5.f}, {Pose{{0.3f, 0.7f, 0}, {0, -1, 0}}, 0.55f},
                                        {poses[1], 1e-4f}}) {
         const Vec3d p = to_double(pose.position);
@@ -114,7 +115,7 @@ TEST(SphereLight, LightsAsThePointInItsMiddle) {
     }
 }
 
-// A node scales what is below it: a sphere keeps its nits, a point its candela.
+// A node scales its light: a sphere keeps its nits, a point its candela.
 TEST(SphereLight, IsScaledByItsNode) {
     for (const Light::Kind kind : {Light::Kind::sphere, Light::Kind::point}) {
         Light light = light_of(kind, 3);
@@ -129,13 +130,13 @@ TEST(SphereLight, IsScaledByItsNode) {
     }
 }
 
-TEST(SphereLight, IsDarkFromWithin) {
+TEST(SphereLight, IsBlackFromInside) {
     Light light = light_of(Light::Kind::sphere, 3);
     light.radius = 5;
     EXPECT_TRUE(shows_on_floor(lit_by(light, poses[0]), [](const Vec3d&) { return 0; }));
 }
 
-// The floor and a disk above it in parallel planes: Howell's catalogue of configuration factors, B-12, exact from anywhere.
+// Floor and disk in parallel planes: Howell's catalogue of configuration factors, B-12, exact everywhere.
 double parallel_disk_irradiance(const Vec3d& x, const Vec3d& center, double radius) {
     const double h = center.y - x.y, a2 = (center.x - x.x) * (center.x - x.x) + (center.z - x.z) * (center.z - x.z);
     const double z = a2 + h * h + radius * radius;
@@ -154,8 +155,8 @@ TEST(DiskLight, IsItsConfigurationFactor) {
     }
 }
 
-// Tilted, it is what a polygon of very many corners is.
-TEST(DiskLight, ShinesAskanceAndTwoSided) {
+// Tilted disks, compared with a polygon of many corners.
+TEST(DiskLight, EmitsObliquelyAndOnTwoSides) {
     Light light = light_of(Light::Kind::disk, 3);
     light.radius = 0.4f;
     for (const Pose& pose : {poses[1], poses[2], Pose{{0.2f, 1, 0.3f}, {0.3f, 1, 0}}}) {
@@ -166,7 +167,7 @@ TEST(DiskLight, ShinesAskanceAndTwoSided) {
             const double turn = 2 * pi * i / 3000, r = double(light.radius);
             rim.push_back(transform_point(world, Vec3d{r * std::cos(turn), r * std::sin(turn), 0}));
         }
-        // Smooth: one value for each of 1/16 m will do.
+        // Smooth: cached per 1/16 m.
         const auto expected = [&, cache = std::map<std::pair<int, int>, double>()](const Vec3d& x) mutable {
             const std::pair key{int(std::floor(x.x * 16)), int(std::floor(x.z * 16))};
             const auto [it, is_new] = cache.try_emplace(key);
@@ -177,7 +178,7 @@ TEST(DiskLight, ShinesAskanceAndTwoSided) {
     }
 }
 
-// Direct light is the first bounce: without any there is nothing but what emits, and more change nothing where nothing faces the floor.
+// Direct light is the first bounce: with 0 bounces only emission is visible; more change nothing if nothing faces the floor.
 TEST(Lights, TakeOneBounce) {
     const Scene scene = lit_by(light_of(Light::Kind::rectangle, 3), poses[0]);
     const auto corners = rectangle_corners(light_of(Light::Kind::rectangle, 3), aimed(poses[0].position, poses[0].direction));
@@ -189,7 +190,7 @@ TEST(Lights, TakeOneBounce) {
     }
 }
 
-// Choosing among lights by power must not change what any of them gives.
+// Light selection by power must not change any light's contribution.
 TEST(Lights, AddUp) {
     const Vec3 place_of_point{0.5f, 0.6f, -0.3f};
     Scene scene;
@@ -207,7 +208,7 @@ TEST(Lights, AddUp) {
     EXPECT_TRUE(shows_on_floor(
         with_sun, [&](const Vec3d& x) { return of_point(x) + 0.25 * pi + 2 * std::sqrt(0.5); }, sidak(significance, 2)));
 
-    // The rectangle hides as much of the world as it lights.
+    // The rectangle blocks as much of the environment as it illuminates.
     const Light area = light_of(Light::Kind::rectangle, 3);
     const Transform pose = aimed({-1, 1, 0.5f}, {1, -2, 0});
     Scene with_area = scene;
@@ -217,8 +218,8 @@ TEST(Lights, AddUp) {
     EXPECT_TRUE(shows_on_floor(with_area, expected, sidak(significance, 2)));
 }
 
-// Each takes a hundred bytes of a file. What stands for them keeps the area, and with it the lumens.
-TEST(DiskLight, WithoutNumberAreBoundedInMemory) {
+// Each takes a hundred bytes of a file. The polygons keep the area, so also the lumens.
+TEST(DiskLight, AnyNumberIsBoundedInMemory) {
     const auto disks = [](int count) {
         Scene scene;
         Light light = light_of(Light::Kind::disk, 3);

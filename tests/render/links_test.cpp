@@ -1,4 +1,4 @@
-// Light and shadow linking: whom a light lights and who casts its shadows, the same whichever way a path finds the light.
+// Light and shadow linking: illuminated objects and shadow casters, the same for NEE and BSDF sampling.
 #include "render/light_links.h"
 
 #include "picture.h"
@@ -15,7 +15,7 @@ using statistics::significance;
 ObjectSet only(std::vector<Id<Node>> nodes) { return {false, std::move(nodes)}; }
 ObjectSet all_but(std::vector<Id<Node>> nodes) { return {true, std::move(nodes)}; }
 
-// A floor and a box under one lamp, seen from the side; the lamp is not.
+// A floor and a box under one light, seen from the side; the light is not visible.
 struct Stage {
     Scene scene;
     Id<Node> floor, box, lamp;
@@ -50,7 +50,7 @@ Picture shot(const Scene& scene, Strategy strategy, int64_t spp, int max_bounces
     return render(scene, settings);
 }
 
-// By pixels of an object, direct light alone.
+// Direct light only, by pixels of an object.
 double light_on(const Scene& scene, Id<Node> object, Strategy strategy) {
     RenderSettings settings = settings_for(32, 32, 16);
     settings.strategy = strategy;
@@ -63,13 +63,13 @@ double light_on(const Scene& scene, Id<Node> object, Strategy strategy) {
     return sum;
 }
 
-TEST(LightLinks, DecideWhomALightLights) {
+TEST(LightLinks, SelectIlluminatedObjects) {
     for (const Light::Kind kind : kinds)
         for (const Strategy strategy : strategies) {
             Stage stage(kind);
             ASSERT_GT(light_on(stage.scene, stage.box, strategy), 0);
             stage.link([&](Light& l) { l.lit_objects = all_but({stage.box}); });
-            // Pixels on edges see both: the box's own are those whose first sample met it.
+            // Edge pixels see both: a pixel belongs to the object that its first sample hit.
             const double on_box = light_on(stage.scene, stage.box, strategy), on_floor = light_on(stage.scene, stage.floor, strategy);
             stage.link([&](Light& l) { l.lit_objects = only({stage.floor}); });
             EXPECT_EQ(light_on(stage.scene, stage.box, strategy), on_box) << "said the other way round";
@@ -81,7 +81,7 @@ TEST(LightLinks, DecideWhomALightLights) {
         }
 }
 
-// Links of both kinds at once, and light that goes on from there: what is sampled and what is found agree.
+// Both kinds of links at once, with indirect light: NEE and BSDF sampling agree.
 TEST(LightLinks, AreTheSameForEveryStrategy) {
     for (const Light::Kind kind : kinds)
         for (const bool shadows : {false, true}) {
@@ -97,7 +97,7 @@ TEST(LightLinks, AreTheSameForEveryStrategy) {
         }
 }
 
-// A black board over the camera that casts no shadow might as well not be there, and one that casts one is.
+// A black board above the camera that casts no shadow has no effect, and one that casts a shadow has.
 TEST(ShadowLinks, LetLightThrough) {
     for (const Light::Kind kind : kinds) {
         Stage open(kind);
@@ -113,14 +113,14 @@ TEST(ShadowLinks, LetLightThrough) {
             EXPECT_TRUE(same_means(shot(open.scene, Strategy::mis, 64, 1).blocks(16, 16), shot(shaded.scene, strategy, 64, 1).blocks(16, 16),
                                    sidak(significance, 15)))
                 << int(kind) << " " << int(strategy);
-        // Nobody but the board: the box's shadow goes.
+        // Only the board casts shadows: the box's shadow disappears.
         shaded.link([&](Light& l) { l.shadow_casters = only({}); });
         const Measured none = shot(shaded.scene, Strategy::mis, 64, 1).whole();
         EXPECT_GT(none.mean.y, shot(open.scene, Strategy::mis, 64, 1).whole().mean.y) << int(kind);
     }
 }
 
-TEST(ObjectSets, NodesStandForAllBelowThem) {
+TEST(ObjectSets, NodesIncludeTheirDescendants) {
     Stage stage(Light::Kind::point);
     Node child;
     child.parent = stage.box;
@@ -131,7 +131,7 @@ TEST(ObjectSets, NodesStandForAllBelowThem) {
     EXPECT_TRUE(contains(all_but({below}), stage.scene, stage.box));
 }
 
-TEST(ObjectSets, TakeANodeOutAndInAgain) {
+TEST(ObjectSets, ToggleANode) {
     Stage stage(Light::Kind::point);
     for (ObjectSet set : {all_but({}), only({stage.floor}), all_but({stage.box}), only({stage.box})}) {
         const ObjectSet before = set;
@@ -143,7 +143,7 @@ TEST(ObjectSets, TakeANodeOutAndInAgain) {
     }
 }
 
-TEST(ObjectSets, ForgetNodesThatAreGone) {
+TEST(ObjectSets, IgnoreRemovedNodes) {
     Stage stage(Light::Kind::point);
     const Frame before = shot(stage.scene, Strategy::mis, 2).frame;
     stage.link([](Light& l) { l.lit_objects = l.shadow_casters = {true, {Id<Node>{12345}}}; });
@@ -153,7 +153,7 @@ TEST(ObjectSets, ForgetNodesThatAreGone) {
     EXPECT_EQ(after.kernel, before.kernel) << "nothing is linked, and nothing is paid for";
 }
 
-TEST(ShadowLinks, SayWhenThereAreTooMany) {
+TEST(ShadowLinks, WarnIfThereAreTooMany) {
     Stage stage(Light::Kind::point);
     std::vector<Id<Node>> things;
     for (int i = 0; i < 40; ++i) things.push_back(place(stage.scene, cube(false), lambert(0.5f), at({float(i) - 20, 0.5f, -2}, 0.1f)));

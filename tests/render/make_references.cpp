@@ -1,5 +1,5 @@
-// make_references [RENDERS]: writes the references of every shipped scene, the means of that many independent renders (default 256)
-// with their standard errors as error.*. Run it when a scene changes, never to make a failing test pass.
+// make_references [RENDERS]: writes the references of every shipped scene, the means of that many independent renders (default
+// 256), with their standard errors as error.*. Run it when a scene changes, never to make a failing test pass.
 #include "io/image_io.h"
 #include "reference_scenes.h"
 

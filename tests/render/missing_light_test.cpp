@@ -1,4 +1,4 @@
-// Light that no strategy can find is named, and two halves that both miss it do not count as proof that nothing is wrong.
+// Light that no strategy can find is reported, and the agreement of two halves that both miss it does not make the error known.
 #include "picture.h"
 #include "render/missing_light.h"
 #include "render/renderer.h"
@@ -34,7 +34,7 @@ std::string said(const Material& material, const Light& light) {
     return missing_light(room.scene, room.used);
 }
 
-TEST(MissingLight, IsThatOfLightsWithoutSizeAtSmoothSurfaces) {
+TEST(MissingLight, IsThatOfZeroSizeLightsAtSmoothSurfaces) {
     Material pane = glass(0, 1.5f);
     pane.thickness = 0;
     pane.specular = 0;
@@ -53,8 +53,8 @@ TEST(MissingLight, IsThatOfLightsWithoutSizeAtSmoothSurfaces) {
     EXPECT_EQ(said(metal(0), lamp(Light::Kind::rectangle, 0)), "");
 }
 
-// A floor under a block of glass and a parallel sun, in direct light: black, and not known to be.
-TEST(MissingLight, IsSaidWithThePictureAndItsError) {
+// A floor under a glass block and a parallel sun, with direct light only: black, and the error is unknown.
+TEST(MissingLight, IsReportedWithTheFrameAndItsError) {
     Room room;
     place(room.scene, floor_quad(50), lambert(0.5f));
     place(room.scene, cube(false), glass(0, 1.5f), at({0, 2, 0}));

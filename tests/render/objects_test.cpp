@@ -1,4 +1,4 @@
-// One thing described in several ways gives one picture: mirrored or not, instanced or flat, with a normal map that says nothing.
+// Equivalent descriptions of a scene give the same image: mirrored or not, instanced or flat, with a neutral normal map.
 #include "core/math.h"
 #include "picture.h"
 #include "scene/affine.h"
@@ -9,7 +9,7 @@ namespace {
 
 using namespace statistics;
 
-// A lop-sided dome with smooth normals and texture coordinates.
+// An asymmetric dome with smooth normals and texture coordinates.
 Geometry dome() {
     Geometry g;
     g.uv.resize(1);
@@ -30,7 +30,7 @@ Geometry dome() {
 }
 GeometryPtr shared(Geometry g) { return std::make_shared<const Geometry>(std::move(g)); }
 
-// The same triangles where the transform puts them, wound so that the outside stays outside.
+// The same triangles transformed, with the winding kept outward.
 GeometryPtr transformed(const Geometry& g, const Transform& transform) {
     const Affined m = to_affine(transform), normals = cofactor(m);
     const double sign = determinant(m) < 0 ? -1 : 1;
@@ -72,7 +72,7 @@ void expect_same_picture(const Scene& a, const Scene& b, const std::string& what
     settings.seed = 7;
     const Picture other = render(b, settings, guides);
     EXPECT_TRUE(same_means(first.blocks(8, 8), other.blocks(8, 8), sidak(significance, 12))) << what;
-    // The guides of one and the same sample are equal but for rounding, except where that moved an edge.
+    // First-hit data of a sample are equal up to rounding, except where rounding moved an edge.
     settings.seed = 0;
     settings.spp = 1;
     const Frame f = render(a, settings, guides).frame, g = render(b, settings, guides).frame;
@@ -114,7 +114,7 @@ TEST(Objects, InstancesEqualCopies) {
     }
 }
 
-// (0.5, 0.5, 1) is straight up, along whatever tangents.
+// (0.5, 0.5, 1) is the unmodified normal, for any tangents.
 TEST(Objects, FlatNormalMapChangesNothing) {
     Geometry g = dome();
     g.tangents.assign(g.positions.size(), Vec4{0.8f, 0.3f, 0.5f, -1});
@@ -131,7 +131,7 @@ TEST(Objects, FlatNormalMapChangesNothing) {
     }
 }
 
-// And one that leans by 45 degrees towards +X leans the light.
+// A normal map tilted by 45 degrees towards +X shifts the shading.
 TEST(Objects, NormalMapTurnsTheNormal) {
     Geometry g = *floor_quad(5);
     g.serial = next_payload_serial();

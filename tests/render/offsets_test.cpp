@@ -1,5 +1,5 @@
-// Rays that leave a surface neither hit it again nor slip through it, at any scale and far from the origin. A parallel sun leaves
-// nothing to chance: what it lights must be lit exactly, every pixel.
+// Rays that leave a surface neither hit it again nor leak through it, at any scale and far from the origin. With a parallel sun
+// there is no noise: every lit pixel must be exact.
 #include "core/math.h"
 #include "picture.h"
 #include "scene/affine.h"
@@ -22,7 +22,7 @@ Scene sunlit(const GeometryPtr& geometry, const Transform& transform, const Vec3
     return scene;
 }
 
-// A view whose rays come from some way off, framing a body of the given size at `centre`.
+// A view with a distant camera that frames a body of the given size at `centre`.
 View view_of(const Vec3& centre, float size, const Vec3& from) {
     const Vec3d eye = to_double(centre) + normalize(to_double(from)) * (3.0 * double(size));
     View view = looking({0, 0, 0}, to_float(normalize(to_double(from)) * -1.0), 1);
@@ -32,7 +32,7 @@ View view_of(const Vec3& centre, float size, const Vec3& from) {
     return view;
 }
 
-// Every pixel that hits shows albedo / pi times the sun's cosine with its own normal, and 0 where that is turned away.
+// Every hit pixel shows albedo / pi times the sun's cosine with its own normal, and 0 where it faces away.
 void expect_exactly_lit(const Scene& scene, const Vec3& sun_direction, const std::string& what) {
     const Picture picture = render(scene, settings_for(48, 48, 1), {.normal = true, .depth = true});
     const Vec3d to_sun = normalize(to_double(sun_direction)) * -1.0;
@@ -40,7 +40,7 @@ void expect_exactly_lit(const Scene& scene, const Vec3& sun_direction, const std
     for (size_t i = 0; i < picture.pixels.size(); ++i) {
         if (picture.frame.depth[i] == 0) continue;
         const double cos = dot(to_double(picture.frame.normal[i]), to_sun);
-        if (std::abs(cos) < 1e-4) continue; // rounding decides which side it is
+        if (std::abs(cos) < 1e-4) continue; // the side depends on rounding
         const double expected = cos > 0 ? double(albedo) / std::numbers::pi * double(lux) * cos : 0;
         wrong += std::abs(picture.pixels[i].x - expected) > 1e-5;
         lit += cos > 0;
@@ -72,7 +72,7 @@ TEST(Offsets, PlanesFarFromTheOrigin) {
         }
 }
 
-// A quad in each of the three planes through the origin, where coordinates are exactly 0.
+// A quad in each of the three coordinate planes, where coordinates are exactly 0.
 TEST(Offsets, AxisAlignedPlanesThroughTheOrigin) {
     const GeometryPtr quads[] = {quad({0, -1, 1}, {0, -1, -1}, {0, 1, -1}, {0, 1, 1}), floor_quad(1),
                                  quad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0})};
@@ -84,7 +84,7 @@ TEST(Offsets, AxisAlignedPlanesThroughTheOrigin) {
     }
 }
 
-TEST(Offsets, BallsAtAllScalesAndPlaces) {
+TEST(Offsets, SpheresAtAllScalesAndPlaces) {
     for (const Vec3& sun : sun_directions) {
         for (const float scale : {1e-3f, 0.1f, 1.f, 100.f, 1e3f}) {
             Scene scene = sunlit(sphere(false), at({0, 0, 0}, scale), sun);
@@ -122,7 +122,7 @@ TEST(Offsets, InstancesToo) {
         }
 }
 
-// What leaks into a closed room under the sun and a sky of radiance 1, on average over its picture.
+// Mean radiance that leaks into a closed room under the sun and a sky of radiance 1.
 double leak(const GeometryPtr& walls, const Vec3& centre, float scale, int bounces) {
     Scene scene = sunlit(walls, at(centre, scale), {1, -1, 0.5f});
     constant_world(scene, 1);
@@ -134,7 +134,7 @@ double leak(const GeometryPtr& walls, const Vec3& centre, float scale, int bounc
     return render(scene, settings).whole().mean.x;
 }
 
-TEST(Offsets, ClosedRoomsAreDarkWhereverTheyAre) {
+TEST(Offsets, ClosedRoomsAreDarkEverywhere) {
     for (const GeometryPtr& walls : {cube(true), sphere(true)})
         for (const float scale : {1e-3f, 1.f, 1e3f})
             for (const Vec3& centre : {Vec3{0, 0, 0}, Vec3{3, -1, 2}, Vec3{1000, -300, 700}, Vec3{1e7f, 2e6f, -1e7f}})

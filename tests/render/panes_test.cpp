@@ -1,4 +1,5 @@
-// Thin smooth walls that transmit: light passes them straight on, for every kind of light and every strategy (render/thin_transmission.h).
+// Panes (thin smooth transmissive walls): light passes straight through, for every kind of light and every strategy
+// (render/thin_transmission.h).
 #include "irradiance.h"
 #include "picture.h"
 #include "scenes.h"
@@ -24,7 +25,7 @@ double passes(double cosine, double tint = 1) { return tint * (1 - (0.04 + 0.96 
 
 constexpr float albedo = 0.6f;
 
-// A matte floor under `panes` parallel panes, seen from between them.
+// A diffuse floor under `panes` parallel panes, seen from between them.
 Scene floor_under_panes(int panes, const Material& material) {
     Scene scene;
     place(scene, floor_quad(50), lambert(albedo));
@@ -32,7 +33,7 @@ Scene floor_under_panes(int panes, const Material& material) {
     scene.view = looking_down(0.5f, 0.5f);
     return scene;
 }
-// Light of one scattering: what panes reflect back to the floor is left out.
+// Single scattering only: light that panes reflect back to the floor is excluded.
 Vec3d direct_light(const Scene& scene, Strategy strategy = Strategy::mis, int64_t spp = 4) {
     RenderSettings settings = settings_for(4, 4, spp);
     settings.max_bounces = 1;
@@ -47,7 +48,7 @@ void sunlit(Scene& scene, const Vec3& direction) {
     shine(scene, sun, aimed({0, 5, 0}, direction));
 }
 
-// No noise: one light, one sample of it, and nothing but it.
+// Without noise: a single light, sampled once, and no other contribution.
 TEST(Panes, PassAParallelSunExactly) {
     for (const int panes : {0, 1, 2, 30}) {
         for (const Vec3& direction : {Vec3{0, -1, 0}, Vec3{1, -1, 0}, Vec3{0.9f, -0.2f, 0.1f}}) {
@@ -81,8 +82,8 @@ TEST(Panes, PassPointsAndSpotsExactly) {
     }
 }
 
-// What is rough, or has an inside, bends light: nothing passes straight on.
-TEST(Panes, OnlyThinSmoothOnesLetLightWithoutSizePass) {
+// Rough or solid glass bends light: nothing passes straight through.
+TEST(Panes, OnlyThinSmoothOnesPassZeroSizeLights) {
     Material rough = window_glass(), solid = window_glass();
     rough.roughness = 0.3f;
     solid.thickness = 0.01f;
@@ -93,12 +94,12 @@ TEST(Panes, OnlyThinSmoothOnesLetLightWithoutSizePass) {
     }
 }
 
-TEST(Panes, DimWhatIsSeenThroughThem) {
+TEST(Panes, AttenuateTransmittedLight) {
     Scene scene;
     place(scene, floor_quad(50), emitter(3));
     for (const float y : {0.1f, 0.2f}) place(scene, floor_quad(50, y), window_glass({0.5f, 1, 1}));
     scene.view = looking_down(0.5f, 0.5f);
-    // Light is reflected to and fro between the panes, and between the panes and the floor, which reflects nothing.
+    // Light is reflected back and forth between the panes; the floor reflects nothing.
     const double t = passes(1, 0.5), r = 0.04;
     const Measured seen = render(scene, settings_for(8, 8, 1024)).whole();
     EXPECT_TRUE(is_mean(seen, Vec3d{3 * t * t / (1 - r * r), 3 * 0.96 * 0.96 / (1 - r * r), 3 * 0.96 * 0.96 / (1 - r * r)}));
@@ -123,7 +124,7 @@ Scene glazed_room(Light::Kind kind) {
     light.radius = 0.4f;
     light.angle_radians = 0.6f;
     light.width = light.height = 0.8f;
-    light.visible_to_camera = false; // its edge, seen by few samples, would be most of the variance
+    light.visible_to_camera = false; // its edge, sampled rarely, would dominate the variance
     if (kind == Light::Kind::sun) shine(scene, light, aimed({0, 2.5f, 0}, {0.8f, -0.5f, 0.1f}));
     else shine(scene, light, aimed({0, 2.5f, 0}, {0.2f, -1, 0.1f}));
     scene.view = looking({0, 2.2f, 4}, {0, 0.8f, 0}, 0.8f);
@@ -149,7 +150,7 @@ TEST(Panes, AreTheSameForEveryStrategy) {
     }
 }
 
-// Panes are no scattering events: a limit on those cuts the same light for every strategy.
+// Panes are no scattering events: a bounce limit cuts the same light for every strategy.
 TEST(Panes, DoNotCountAsBounces) {
     const Scene scene = glazed_room(Light::Kind::rectangle);
     for (const int bounces : {1, 2}) {
@@ -159,8 +160,8 @@ TEST(Panes, DoNotCountAsBounces) {
     }
 }
 
-// What every pixel shows first is the pane, whether its samples pass or not.
-TEST(Panes, AreWhatPlanesOfTheFirstHitShow) {
+// First-hit data of every pixel are those of the pane, whether its samples pass or not.
+TEST(Panes, AreShownByFirstHitPlanes) {
     Scene scene = floor_under_panes(0, {});
     const Id<Node> pane = place(scene, floor_quad(50, 0.25f), window_glass());
     sunlit(scene, {0.2f, -1, 0});

@@ -1,4 +1,4 @@
-// The log of a path is the path: what it says it carried home is what the film received for that sample.
+// The log of a path matches the film: its contribution is what the film received for that sample.
 #include "scenes.h"
 
 #include "render/renderer.h"
@@ -9,13 +9,13 @@
 namespace blush::test {
 namespace {
 
-// The last line's numbers.
+// The numbers in the last line.
 bool read_radiance(const std::string& log, Vec3& radiance) {
     const size_t at = log.rfind("radiance (");
     return at != std::string::npos && std::sscanf(log.c_str() + at, "radiance (%f, %f, %f)", &radiance.x, &radiance.y, &radiance.z) == 3;
 }
 
-TEST(PathLog, SaysWhatTheFilmReceives) {
+TEST(PathLog, MatchesTheRadianceThatTheFilmReceives) {
     constexpr int width = 16, height = 12;
     constexpr int64_t sample = 5;
     int lit = 0;
@@ -44,7 +44,7 @@ TEST(PathLog, SaysWhatTheFilmReceives) {
     EXPECT_GT(lit, 5);
 }
 
-TEST(PathLog, SaysThatReuseSharesWhatThePathFound) {
+TEST(PathLog, MentionsPathReuse) {
     const Scene scene = shipped_scene("cornell");
     RenderSettings settings;
     settings.width = settings.height = 16;
@@ -58,7 +58,7 @@ TEST(PathLog, SaysThatReuseSharesWhatThePathFound) {
     EXPECT_EQ(a, b);
 }
 
-TEST(PathLog, TellsRoulettesProbability) {
+TEST(PathLog, PrintsTheSurvivalProbability) {
     const Scene scene = shipped_scene("cornell");
     RenderSettings settings;
     settings.width = settings.height = 8;

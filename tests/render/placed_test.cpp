@@ -1,4 +1,4 @@
-// Large shapes that are read where the document has them look like those that are copied, bit for bit.
+// Large meshes that are read in place from the document render bit-identically to copies.
 #include "core/math.h"
 #include "picture.h"
 #include "render/geometry_pool.h"
@@ -11,7 +11,7 @@ namespace {
 
 constexpr PlaneSet planes{.albedo = true, .normal = true, .depth = true, .ids = true};
 
-// A wavy square with everything that a vertex can have, and UV sets 0 and 3.
+// A wavy square with all vertex attributes, and UV sets 0 and 3.
 Geometry waves(uint32_t n) {
     Geometry g;
     g.uv.resize(4);
@@ -39,7 +39,7 @@ GeometryPtr large(bool placed) {
     return std::make_shared<const Geometry>(std::move(g));
 }
 
-// Twice the large shape, and small ones in front and behind: of the pool's own, flat and instanced.
+// Two instances of the large mesh, and small meshes in front and behind: copied into the pool, flat and instanced.
 Scene scene_with(const GeometryPtr& shape, const Material& material) {
     Scene scene;
     Material dressed = material;
@@ -64,7 +64,7 @@ Scene scene_with(const GeometryPtr& shape, const Material& material) {
     return scene;
 }
 
-TEST(Placed, LargeShapesAreAndCopiesAndSmallOnesAreNot) {
+TEST(Placed, OnlyLargeInstancedMeshesAre) {
     const GeometryPtr placed = large(true), bare = large(false);
     ASSERT_TRUE(placed_at(*placed));
     EXPECT_FALSE(placed_at(*bare));
@@ -75,7 +75,7 @@ TEST(Placed, LargeShapesAreAndCopiesAndSmallOnesAreNot) {
     EXPECT_EQ(placed->positions, bare->positions);
     EXPECT_EQ(placed->uv, bare->uv);
     EXPECT_EQ(placed->indices, bare->indices);
-    // One of its arrays elsewhere is enough.
+    // A single array outside the arena is enough.
     Geometry g = waves(150);
     place_arrays(g);
     ASSERT_TRUE(placed_at(g));
@@ -83,7 +83,7 @@ TEST(Placed, LargeShapesAreAndCopiesAndSmallOnesAreNot) {
     EXPECT_FALSE(placed_at(g));
 }
 
-TEST(Placed, LookLikeCopies) {
+TEST(Placed, RenderLikeCopies) {
     for (const Material& material : {plastic(0.3f), emitter(1, 0.5f)}) {
         const RenderSettings settings = settings_for(40, 30, 4);
         const Frame placed = render(scene_with(large(true), material), settings, planes).frame;
@@ -94,8 +94,8 @@ TEST(Placed, LookLikeCopies) {
     }
 }
 
-// A pool that is built again while others hold numbers, and one that outlives the document.
-TEST(Placed, StayAsLongAsTheyAreRead) {
+// A pool that is rebuilt while others hold arena ranges, and one that outlives the document.
+TEST(Placed, LiveAsLongAsTheyAreUsed) {
     const RenderSettings settings = settings_for(40, 30, 4);
     Renderer renderer({.threads = 1, .planes = planes});
     Frame first, again;

@@ -1,4 +1,4 @@
-// What the stored references are of, shared by the tool that makes them and the test that compares with them.
+// Scenes of the stored references, shared by the tool that renders them and the test that compares with them.
 #pragma once
 
 #include "picture.h"
@@ -6,8 +6,8 @@
 
 namespace blush::test {
 
-// A reference is the mean of many renders, each as large as the test's own. Beside it stands their scatter, so that the test
-// knows its variance far better than from its own samples.
+// A reference is the mean of many renders of the test's own size, stored with their scatter, so that the test knows its variance
+// far better than from its own samples.
 constexpr int64_t reference_spp = 16; // of one render
 
 inline RenderSettings reference_settings(const std::string& scene) {
@@ -16,7 +16,7 @@ inline RenderSettings reference_settings(const std::string& scene) {
 }
 inline std::string reference_file(const std::string& scene) { return std::string(BLUSH_REFERENCES) + "/" + scene + ".exr"; }
 
-// Pictures as everybody renders them, small, and known far better: what error estimates are held against.
+// Small images with default settings and their converged versions, to validate error estimates.
 inline RenderSettings coverage_settings() {
     RenderSettings settings;
     settings.width = 64;
@@ -30,7 +30,7 @@ inline std::string coverage_reference_file(const std::string& scene) {
 
 struct Reference {
     Picture mean;       // with the standard errors of its pixels
-    double renders = 0; // whose mean it is
+    double renders = 0; // number of renders in the mean
 };
 // Throws if the file cannot be read.
 Reference read_reference(const std::string& file);

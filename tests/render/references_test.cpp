@@ -1,4 +1,4 @@
-// The shipped scenes look as they always did: a z-test of each block of 8 x 8 pixels against stored references.
+// The shipped scenes match stored references: a z-test of each block of 8 x 8 pixels.
 #include "core/math.h"
 #include "reference_scenes.h"
 
@@ -9,8 +9,8 @@ using namespace statistics;
 
 constexpr int block = 8;
 
-// The error of a single render is that of the reference times the root of their number; a render that scatters more than those did
-// is given its own.
+// The error of a single render is that of the reference times the square root of the number of renders; a render with more
+// scatter uses its own error.
 testing::AssertionResult looks_like(const Picture& picture, const Reference& reference) {
     std::vector<Measured> seen = picture.blocks(block, block);
     const std::vector<Measured> expected = reference.mean.blocks(block, block);
@@ -22,13 +22,13 @@ testing::AssertionResult looks_like(const Picture& picture, const Reference& ref
     return same_means(seen, expected);
 }
 
-TEST(References, ShippedScenesLookAsTheyDid) {
+TEST(References, ShippedScenesMatch) {
     for (const std::string& name : shipped_scene_names())
         EXPECT_TRUE(looks_like(render(shipped_scene(name), reference_settings(name)), read_reference(reference_file(name)))) << name;
 }
 
-// The test has teeth: light that ends after four bounces, walls a twentieth less green.
-TEST(References, SmallMistakesAreSeen) {
+// The test is sensitive: light cut after four bounces, walls 5 % less green.
+TEST(References, SmallErrorsAreDetected) {
     const Scene cornell = shipped_scene("cornell");
     const Reference reference = read_reference(reference_file("cornell"));
     const RenderSettings settings = reference_settings("cornell");

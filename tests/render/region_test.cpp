@@ -1,4 +1,4 @@
-// A region alone is the same pixels of the whole picture, and nothing else is rendered.
+// A rendered region equals the same pixels of the whole image, and nothing else is rendered.
 #include "picture.h"
 #include "scenes.h"
 
@@ -13,7 +13,7 @@ Frame render(const Scene& scene, const RenderSettings& settings, int divider = 1
     return renderer.resolve();
 }
 
-// `rendered` of the region's picture is what the whole one has there; the rest is empty.
+// True if `rendered` equals the whole image inside the region and is empty elsewhere.
 void expect_crop(const Frame& part, const Frame& whole, const PixelRect& rendered) {
     ASSERT_EQ(part.width, whole.width);
     for (int y = 0; y < whole.height; ++y)
@@ -58,7 +58,7 @@ TEST(RenderRegion, IsSampledEvenly) {
     EXPECT_EQ(render(scene, settings).rgba, even.rgba);
 }
 
-TEST(RenderRegion, IsThereInCoarsePicturesToo) {
+TEST(RenderRegion, WorksInCoarseImages) {
     const Scene scene = shipped_scene("cornell");
     RenderSettings settings = settings_for(80, 48, 1);
     const Frame whole = render(scene, settings, 4);
@@ -66,7 +66,7 @@ TEST(RenderRegion, IsThereInCoarsePicturesToo) {
     expect_crop(render(scene, settings, 4), whole, {10, 3, 15, 9});
 }
 
-TEST(RenderRegion, SetAndTakenBackLeavesWhatAFreshRendererRenders) {
+TEST(RenderRegion, SetAndResetMatchesAFreshRenderer) {
     const Scene scene = shipped_scene("cornell");
     RenderSettings settings = settings_for(40, 24, 2);
     const Frame whole = render(scene, settings);

@@ -1,4 +1,4 @@
-// Path reuse moves noise, not light: the mean of every part of a picture is what it is without, whatever stands in the way of sharing.
+// Path reuse keeps the mean of every part of an image, and changes only noise, whatever blocks the connections.
 #include "picture.h"
 #include "render/error_estimate.h"
 #include "scenes.h"
@@ -17,11 +17,12 @@ using statistics::Moments;
 using statistics::sidak;
 using statistics::significance;
 
-// Pixels and blocks along each side. A group shares out all it has, so that blocks as large as groups are right whatever the shares.
+// Pixels and blocks along each side. The shares of a group sum to one, so blocks as large as groups would be right for any
+// shares.
 constexpr int size = 32, blocks = 8;
 using BlockMoments = std::array<Moments, blocks * blocks * 3>;
 
-// Of the means of blocks over independent seeds: pixels of a group have errors in common, renders do not.
+// Block means over independent seeds: pixels of a group are correlated, renders are not.
 BlockMoments over_seeds(const Scene& scene, RenderSettings settings, uint32_t first_seed, int seeds) {
     constexpr int side = size / blocks;
     BlockMoments moments;
@@ -58,8 +59,8 @@ void expect_same_means(const Scene& scene, const RenderSettings& settings, std::
     }
 }
 
-// A room where everything that can end or bend a connection does: textures that reflect no green or nothing at all, a ball with
-// interpolated normals, a wall with a normal map, a veil that is half there, a mirror and a glossy box, and a lamp that shines to one side.
+// A room with everything that can end or block a connection: textures that reflect no green or nothing, a sphere with
+// interpolated normals, a wall with a normal map, a veil with alpha, a mirror and a glossy box, and a one-sided light.
 Scene obstacle_room() {
     Scene scene;
     const std::array<Vec3, 4> texels{{{0.9f, 0, 0.4f}, {0.8f, 0.8f, 0.8f}, {0, 0, 0}, {0.5f, 0.9f, 0}}};
@@ -97,7 +98,7 @@ Scene obstacle_room() {
     return scene;
 }
 
-TEST(PathReuse, KeepsTheMeanOfAMatteRoom) { expect_same_means(shipped_scene("cornell"), settings_for(size, size, 8), {4, 8, 16}, 48); }
+TEST(PathReuse, KeepsTheMeanOfADiffuseRoom) { expect_same_means(shipped_scene("cornell"), settings_for(size, size, 8), {4, 8, 16}, 48); }
 
 TEST(PathReuse, KeepsTheMeanAmongObstacles) { expect_same_means(obstacle_room(), settings_for(size, size, 8), {4, 16}, 48); }
 
@@ -127,7 +128,7 @@ TEST(PathReuse, KeepsTheMeanOfEveryStrategy) {
     }
 }
 
-// Le / (1 - rho), where all that is scattered is scattered by matte walls and goes round for ever.
+// Le / (1 - rho): all scattering is diffuse and infinite.
 TEST(PathReuse, KeepsTheLightOfAClosedSphere) {
     Scene scene;
     place(scene, sphere(true), emitter(2, 0.8f));
@@ -155,8 +156,8 @@ TEST(PathReuse, LowersTheNoiseOfIndirectLight) {
     }
 }
 
-// A film that ends amid cells and groups, and one smaller than any group.
-TEST(PathReuse, KnowsTheFilmsBorder) {
+// A film whose border cuts cells and groups, and one smaller than a group.
+TEST(PathReuse, WorksAtTheFilmsBorder) {
     for (const auto& [width, height] : {std::pair{37, 19}, {3, 2}, {1, 1}}) {
         RenderSettings settings = settings_for(width, height, 16);
         settings.reuse = 16;
@@ -165,16 +166,16 @@ TEST(PathReuse, KnowsTheFilmsBorder) {
     }
 }
 
-// ---- who shares with whom
+// ---- groups
 
-// As they are sampled evenly, and by a plan.
+// For uniform sampling, and for a sample plan.
 std::vector<ReuseGroups> groupings() {
     std::vector<ReuseGroups> all;
     for (const int size : {4, 8, 16}) all.insert(all.end(), {reuse_groups(size), reuse_groups(size, 16, 16)});
     return all;
 }
 
-TEST(ReuseGroups, HaveEveryPixelOnceAndOneOfEachCell) {
+TEST(ReuseGroups, ContainEveryPixelOnceAndOnePerCell) {
     for (const ReuseGroups& groups : groupings()) {
         const int pixels = groups.block_width * groups.block_height;
         ASSERT_EQ(groups.size() * groups.per_block(), pixels);
@@ -193,8 +194,8 @@ TEST(ReuseGroups, HaveEveryPixelOnceAndOneOfEachCell) {
     }
 }
 
-// How often one pixel shares with each of the others, over many samples: all of other cells alike.
-TEST(ReuseGroups, DrawPartnersAnewForEverySample) {
+// How often one pixel shares with each of the others, over many samples: uniform over other cells.
+TEST(ReuseGroups, SelectNewPartnersForEverySample) {
     for (const ReuseGroups& groups : groupings()) {
         constexpr int64_t samples = 20000;
         const int width = groups.block_width, pixels = width * groups.block_height;
@@ -224,7 +225,7 @@ TEST(ReuseGroups, DrawPartnersAnewForEverySample) {
     }
 }
 
-// The means of squares of 4 x 4 pixels, as the difference of two independent renders has them.
+// Variance of the means of squares of 4 x 4 pixels, from the difference of two independent renders.
 constexpr int wide = 64, high = 32, square = 4;
 std::vector<double> noise_of_squares(Renderer& renderer, const Scene& scene, RenderSettings settings) {
     std::vector<double> means(size_t(wide / square * high / square));
@@ -240,9 +241,9 @@ std::vector<double> noise_of_squares(Renderer& renderer, const Scene& scene, Ren
     return means;
 }
 
-// Groups that had a pixel of each of the 4 x 4 squares within 16 pixels gave all these squares the same mean error, and their neighbours
-// another one: masonry. Neighbouring squares must have no more in common within 16 pixels than on both sides of such a border.
-TEST(PathReuse, LaysNoBricks) {
+// Groups with a pixel of each of the 4 x 4 squares within 16 pixels would give all these squares the same mean error: a visible
+// block pattern. Neighbouring squares must be no more correlated inside 16 pixels than across such a border.
+TEST(PathReuse, HasNoBlockPattern) {
     const Scene scene = shipped_scene("corridor");
     for (const int group_size : {8, 16}) {
         RenderSettings settings = settings_for(wide, high, 8);
@@ -266,9 +267,8 @@ TEST(PathReuse, LaysNoBricks) {
     }
 }
 
-// By how much the mean of a picture scatters over seeds, against what its
-// pixels' errors say and how far they say that they are shared.
-TEST(PathReuse, SaysHowFarErrorsAreShared) {
+// Scatter of the mean of an image over seeds, compared with its pixels' errors and their measured correlation.
+TEST(PathReuse, MeasuresTheErrorCorrelation) {
     const Scene scene = shipped_scene("corridor");
     constexpr int width = 128, height = 64; // four blocks
     RenderSettings settings = settings_for(width, height, 8);
@@ -291,8 +291,7 @@ TEST(PathReuse, SaysHowFarErrorsAreShared) {
         shared += renderer.shared_errors().means / seeds;
     }
     EXPECT_GT(shared, 1.5) << "or there would be nothing to tell";
-    // A variance from 64 means has a relative standard error of sqrt(2 / 63) if
-    // they are normal.
+    // A variance from 64 normal means has a relative standard error of sqrt(2 / 63).
     EXPECT_NEAR(means.variance() / told.mean, 1, 4 * std::sqrt(2.0 / (seeds - 1)));
 }
 

@@ -1,4 +1,4 @@
-// The shares in which path reuse hands out light, for a group placed by hand, against the balance heuristic written out in double.
+// The shares of path reuse for a hand-made group, compared with the balance heuristic in double precision.
 #include "render/path_reuse.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ constexpr int size = 4;
 constexpr std::array<Vec3d, size> on_floor{{{-0.8, 0, 0.1}, {0.3, 0, -0.4}, {0.7, 0, 0.6}, {-0.2, 0, 0.9}}};
 constexpr std::array<Vec3d, size> on_ceiling{{{0.1, 1, 0.2}, {-0.6, 1, -0.3}, {0.9, 1, 0.4}, {-0.1, 1, 0.8}}};
 constexpr std::array<Vec3d, size> reflectance{{{0.8, 0.2, 0.5}, {0.4, 0.9, 0}, {0.6, 0.6, 0.6}, {0.1, 0.3, 0.7}}};
-constexpr std::array<Vec3d, size> radiance{{{1, 2, 3}, {0.5, 4, 0.1}, {2, 0.3, 1}, {7, 0.2, 0.6}}}; // of each vertex above
+constexpr std::array<Vec3d, size> radiance{{{1, 2, 3}, {0.5, 4, 0.1}, {2, 0.3, 1}, {7, 0.2, 0.6}}}; // for each vertex above
 
 // G of the floor's point i and the ceiling's point k: both cosines are 1 / d.
 double density(int i, int k) {
@@ -30,7 +30,8 @@ void put(JunctionColumns& c, int i, const Vec3d& position, float up) {
     c.takes_part[i] = 1;
 }
 
-// What the members receive. `hidden`: whether point k of the ceiling is hidden from member i; `tamper`: what a bug does to the densities.
+// Radiance received by the members. `hidden`: whether point k of the ceiling is hidden from member i; `tamper`: modifies the
+// densities to simulate a bug.
 template <class Hidden, class Tamper> std::array<Vec3d, size> received(const Hidden& hidden, const Tamper& tamper) {
     const auto scratch = std::make_unique<TileScratch>();
     scratch->reuse = std::make_unique<ReuseColumns>();
@@ -68,12 +69,12 @@ bool nobody(int, int) { return false; }
 bool some(int member, int vertex) { return (member == 0 && vertex == 2) || (member == 3 && vertex == 1); }
 float sound(float d, int, int) { return d; }
 
-// rho_i sum_k V_ik G_i(y_k) / sum_j V_jk G_j(y_k) L_k, j over those who reflect the colour.
+// rho_i sum_k V_ik G_i(y_k) / sum_j V_jk G_j(y_k) L_k, j over members that reflect the colour.
 template <class Hidden> Vec3d expected(int i, const Hidden& hidden) {
     const auto colour = [&](double Vec3d::*c) {
         double sum = 0;
         for (int k = 0; k < size; ++k) {
-            if (reflectance[size_t(k)].*c == 0) continue; // its path brought nothing home
+            if (reflectance[size_t(k)].*c == 0) continue; // its path carried no light
             double all = 0;
             for (int j = 0; j < size; ++j)
                 if (reflectance[size_t(j)].*c > 0 && !hidden(j, k)) all += density(j, k);
@@ -93,7 +94,7 @@ template <class Hidden> double worst_deviation(const std::array<Vec3d, size>& go
     return worst;
 }
 
-// A few roundings of numbers up to 7.
+// A few rounding errors of numbers up to 7.
 constexpr double rounding = 2e-5;
 
 TEST(ReuseWeights, AreTheBalanceHeuristics) {
@@ -101,7 +102,7 @@ TEST(ReuseWeights, AreTheBalanceHeuristics) {
     EXPECT_LT(worst_deviation(received(some, sound), some), rounding);
 }
 
-// All that the vertices have to give is given, no more and no less.
+// The radiance of the vertices is distributed completely, and no more.
 TEST(ReuseWeights, OfAVertexSumToOne) {
     for (const bool hides : {false, true}) {
         const auto got = hides ? received(some, sound) : received(nobody, sound);
@@ -117,7 +118,7 @@ TEST(ReuseWeights, OfAVertexSumToOne) {
     }
 }
 
-// What the first test is worth: any one weight a twentieth off shows.
+// Sensitivity of the first test: a single weight 5 % off is detected.
 TEST(ReuseWeights, WrongOnesAreCaught) {
     for (int vertex = 0; vertex < size; ++vertex)
         for (int member = 0; member < size; ++member) {

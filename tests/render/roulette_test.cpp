@@ -1,4 +1,4 @@
-// What roulette does to paths, counted, and the lab that weighs it: honest rules pass, the two that darken the picture do not.
+// Statistics of Russian roulette, and the lab that evaluates it: unbiased rules pass, the two that darken the image do not.
 #include "measure/roulette_lab.h"
 #include "picture.h"
 #include "scenes.h"
@@ -17,7 +17,7 @@ Roulette constant(float p) {
     return r;
 }
 
-// A closed room of which nothing but roulette lets a path out.
+// A closed room where paths end only by roulette.
 Scene closed_room() {
     Scene scene;
     place(scene, cube(true), emitter(1, 0.5f));
@@ -51,7 +51,7 @@ TEST(RouletteColumns, PathsInAClosedRoomAreGeometric) {
     }
 }
 
-TEST(RouletteColumns, LeaveThePictureAsItIsAndDependOnNothing) {
+TEST(RouletteColumns, DoNotChangeTheImageAndAreDeterministic) {
     const Scene scene = shipped_scene("cornell");
     const auto frame = [&](bool roulette, unsigned threads) {
         Renderer renderer({.threads = threads, .planes = {.roulette = roulette}});
@@ -77,7 +77,7 @@ RouletteReport report_of(const Roulette& roulette, int max_bounces, int rounds) 
     return lab.report();
 }
 
-TEST(RouletteLab, HonestRulesPass) {
+TEST(RouletteLab, UnbiasedRulesPass) {
     for (const char* text : {"max,start=3", "luminance,start=1", "sqrt,start=2", "constant=0.6,start=1", "max,start=1,cap=0.5"}) {
         const RouletteReport report = report_of(*parse_roulette(text), unlimited_bounces, 24);
         EXPECT_FALSE(report.biased()) << text;
@@ -86,12 +86,12 @@ TEST(RouletteLab, HonestRulesPass) {
     }
 }
 
-TEST(RouletteLab, CatchesTheCutAndSaysAtWhichBounces) {
+TEST(RouletteLab, DetectsTheBiasedCutAndItsBounces) {
     const RouletteReport report = report_of(*parse_roulette("biased-cut=0.3,start=1"), unlimited_bounces, 24);
     EXPECT_TRUE(report.biased());
     EXPECT_TRUE(report.bias[0].significant);
     EXPECT_LT(report.bias[0].difference, 0);
-    EXPECT_EQ(report.bias[1].difference, 0) << "what glows in view is out of its reach";
+    EXPECT_EQ(report.bias[1].difference, 0) << "directly visible emission is unaffected";
     int darkened = 0;
     double by_bounce = 0;
     for (size_t i = 1; i < report.bias.size(); ++i) {
@@ -102,7 +102,7 @@ TEST(RouletteLab, CatchesTheCutAndSaysAtWhichBounces) {
     EXPECT_NEAR(by_bounce, report.bias[0].difference, 1e-9);
 }
 
-TEST(RouletteLab, CatchesABareBounceCap) {
+TEST(RouletteLab, DetectsABareBounceCap) {
     const RouletteReport report = report_of(*parse_roulette("off"), 3, 24);
     EXPECT_TRUE(report.bias[0].significant);
     EXPECT_LT(report.bias[0].difference, 0);
@@ -122,7 +122,7 @@ TEST(RouletteLab, NothingDiffersFromItself) {
     EXPECT_GT(report.gain_error, 0) << "time differs, and is part of it";
 }
 
-TEST(Trials, AreMeanAndSpread) {
+TEST(Trials, HaveMeanAndStandardError) {
     Trials t;
     for (const double x : {1.0, 2.0, 4.0, 5.0}) t.add(x);
     EXPECT_EQ(t.mean(), 3);

@@ -1,4 +1,4 @@
-// Who gets how many samples, decided by hand-made noise.
+// Sample allocation for hand-made noise.
 #include "render/sample_plan.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ SamplePlan plan_of(int width, int height) {
     return plan;
 }
 
-// Mean over the pixels of how many samples a half has.
+// Mean number of samples of a half over the pixels.
 double mean_samples(const SamplePlan& plan, int width, int height, int half, int64_t mean) {
     int64_t sum = 0;
     for (int t = 0; t < plan.tiles(); ++t) {
@@ -26,7 +26,7 @@ double mean_samples(const SamplePlan& plan, int width, int height, int half, int
     return double(sum) / (double(width) * height);
 }
 
-TEST(SamplePlan, ThePilotIsEven) {
+TEST(SamplePlan, ThePilotIsUniform) {
     const SamplePlan plan = plan_of(70, 40);
     EXPECT_EQ(plan.tiles(), 5 * 3);
     EXPECT_FALSE(plan.decided());
@@ -37,14 +37,14 @@ TEST(SamplePlan, ThePilotIsEven) {
         }
 }
 
-TEST(SamplePlan, HaltsHalfWayThroughThePilotAndAtItsEnd) {
+TEST(SamplePlan, StopsInTheMiddleAndAtTheEndOfThePilot) {
     EXPECT_EQ(SamplePlan::next_look(0), pilot / 2);
     EXPECT_EQ(SamplePlan::next_look(pilot / 2 - 1), pilot / 2);
     EXPECT_EQ(SamplePlan::next_look(pilot / 2), pilot);
     EXPECT_GT(SamplePlan::next_look(pilot), int64_t(1) << 40);
 }
 
-// What one half measured must move the other half alone.
+// Noise measured in one half must change only the other half.
 TEST(SamplePlan, HalvesDecideForEachOther) {
     SamplePlan plan = plan_of(64, 64);
     TileNoise a(16, 1), b(16, 1);
@@ -55,7 +55,7 @@ TEST(SamplePlan, HalvesDecideForEachOther) {
     for (int t = 0; t < 16; ++t) EXPECT_NEAR(double(plan.samples(t, 0, 128)), 64, double(SamplePlan::granularity)) << t;
 }
 
-TEST(SamplePlan, SpendsWhatItIsGivenWithinRoundingAndNeverTakesBack) {
+TEST(SamplePlan, SpendsTheGivenSamplesAndNeverDecreases) {
     constexpr int width = 250, height = 130; // with tiles cut at the edges
     SamplePlan plan = plan_of(width, height);
     std::array<TileNoise, 2> noise;
@@ -70,7 +70,7 @@ TEST(SamplePlan, SpendsWhatItIsGivenWithinRoundingAndNeverTakesBack) {
         for (int64_t mean = 0; mean < 200; ++mean) ASSERT_LE(plan.samples(t, 0, mean), plan.samples(t, 0, mean + 1));
 }
 
-TEST(SamplePlan, NobodyIsStarvedAndNobodyTakesAll) {
+TEST(SamplePlan, SharesStayWithinTheirLimits) {
     SamplePlan plan = plan_of(160, 160);
     TileNoise noise(100, 1);
     noise[42] = 1e9;
@@ -84,14 +84,14 @@ TEST(SamplePlan, NobodyIsStarvedAndNobodyTakesAll) {
     EXPECT_NEAR(mean_samples(plan, 160, 160, 0, n), double(n) / 2, 2);
 }
 
-TEST(SamplePlan, SilenceIsSharedEvenly) {
+TEST(SamplePlan, WithoutNoiseSharesAreEqual) {
     SamplePlan plan = plan_of(40, 40);
     plan.decide({TileNoise(9, 0), TileNoise(9, 0)});
     for (int t = 0; t < 9; ++t) EXPECT_NEAR(double(plan.samples(t, 0, 1016)), 508, double(SamplePlan::granularity));
 }
 
-// So few are loud that the limits would leave samples over.
-TEST(SamplePlan, WhatTheLimitsLeaveOverIsNotLost) {
+// So few tiles are noisy that the limits would leave samples over.
+TEST(SamplePlan, SamplesLeftOverByTheLimitsAreDistributed) {
     SamplePlan plan = plan_of(160, 160);
     TileNoise noise(100, 0);
     noise[0] = 1;

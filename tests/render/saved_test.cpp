@@ -1,4 +1,4 @@
-// A scene that was saved and opened again gives the very same picture.
+// A scene that is saved and reopened renders bit-identically.
 #include "io/gltf_import.h"
 #include "io/gltf_save.h"
 #include "io/ies.h"
@@ -25,7 +25,7 @@ Frame picture(const Project& project) {
     return fresh_picture(project.scene, settings, 2);
 }
 
-TEST(Saved, ScenesRenderBitForBitAsTheyWere) {
+TEST(Saved, ScenesRenderBitForBitAsBefore) {
     const TemporaryFolder folder;
     Rng rng(8);
     for (const std::string& name : shipped_scene_names()) {
@@ -46,7 +46,7 @@ TEST(Saved, ScenesRenderBitForBitAsTheyWere) {
     }
 }
 
-// One light of every kind, measured ones, links, groups and a mix of them, under an environment map.
+// One light of every kind, IES lights, links, groups and a mix of them, under an environment map.
 Scene desk() {
     Scene scene;
     Material clay, glow;
@@ -104,13 +104,13 @@ Scene desk() {
     return scene;
 }
 
-// A file with nothing in it, to save scenes of our own into.
+// An empty file, as a base for saving scenes.
 Result<ImportedScene> import_empty(const TemporaryFolder& folder) {
     std::ofstream(folder / "empty.gltf") << R"({"asset": {"version": "2.0"}})";
     return import_gltf(folder / "empty.gltf");
 }
 
-TEST(Saved, EveryKindOfLightRendersBitForBitAsItDid) {
+TEST(Saved, EveryKindOfLightRendersBitForBitAsBefore) {
     const TemporaryFolder folder;
     const auto original = import_empty(folder);
     ASSERT_TRUE(original) << original.error().text();
@@ -127,7 +127,7 @@ TEST(Saved, EveryKindOfLightRendersBitForBitAsItDid) {
     }
 }
 
-// A ball with a texture that is mirrored in the middle, without tangents, as `save_gltf` writes it.
+// A sphere with a texture that is mirrored in the middle, without tangents, as written by `save_gltf`.
 std::string save_ball(const GltfOrigin& origin, const TemporaryFolder& folder) {
     Geometry g;
     constexpr uint32_t n = 12;
@@ -163,8 +163,8 @@ std::string save_ball(const GltfOrigin& origin, const TemporaryFolder& folder) {
     return file;
 }
 
-// What is stretched in the window looks as it does when the saved file is opened, whose import computes tangents.
-TEST(Saved, TangentsThatAnEditCallsForAreThoseOfTheReopenedFile) {
+// Anisotropy in the window looks like that of the saved file after reopening, whose import computes tangents.
+TEST(Saved, TangentsAfterAnEditAreThoseOfTheReopenedFile) {
     const TemporaryFolder folder;
     const auto empty = import_empty(folder);
     ASSERT_TRUE(empty) << empty.error().text();
@@ -198,7 +198,7 @@ ImagePtr slanted_normal_map() {
     return map;
 }
 
-// The tangents that importing has made are for the UV set that the normal map was on.
+// Imported tangents are for the UV set of the original normal map.
 TEST(Saved, TangentsFollowTheNormalMapToAnotherUvSetAsInTheReopenedFile) {
     const TemporaryFolder folder;
     const auto empty = import_empty(folder);
@@ -221,7 +221,7 @@ TEST(Saved, TangentsFollowTheNormalMapToAnotherUvSetAsInTheReopenedFile) {
         material.normal_texture.uv_set = uint8_t(set);
         project = *blush::apply(project, SetMaterial{id, material});
         EXPECT_EQ(same_picture(picture(project), first), set == 0);
-        // Into the file it came from, and with meshes written anew, without tangents.
+        // Into the original file, and with newly written meshes, without tangents.
         for (const GltfOrigin* origin : {&bumpy->origin, &empty->origin}) {
             const std::string file = folder / (std::to_string(set) + (origin == &bumpy->origin ? "edited.gltf" : "written.gltf"));
             const auto saved = save_gltf(*origin, project, file);

@@ -1,4 +1,4 @@
-// Scenes whose pictures are known, those of the stability battery, and those that are shipped.
+// Test scenes with known images, those of the stability battery, and the shipped ones.
 #pragma once
 
 #include "measure/stability/scenes.h"
@@ -14,7 +14,7 @@ using namespace stability;
 Scene shipped_scene(const std::string& name);
 const std::vector<std::string>& shipped_scene_names();
 
-// A bulb so strong and so near to the floor below it that its irradiance overflows in the middle of the picture.
+// A light so strong and so close to the floor that its irradiance overflows in the middle of the image.
 Scene floor_under_an_overflowing_bulb();
 
 } // namespace blush::test

@@ -1,4 +1,4 @@
-// Shadow catchers: the opacity of shadows against closed forms and an independent quadrature, and that everything else stays as it is.
+// Shadow catchers: the opacity of shadows against closed forms and an independent quadrature; everything else is unchanged.
 #include "picture.h"
 #include "render/film_state.h"
 #include "render/render_scene.h"
@@ -21,7 +21,7 @@ void catch_shadows_with(Scene& scene, Id<Node> id) {
     scene.nodes.set(id, node);
 }
 
-// A floor that catches shadows, a square plate above it, and an eye between the two that looks down.
+// A shadow-catching floor, a square plate above it, and a camera between the two that looks down.
 struct Stage {
     Scene scene;
     Id<Node> floor;
@@ -33,7 +33,7 @@ struct Stage {
         scene.view = looking({0, 0.9f, 0.01f}, {0, 0, 0}, 1.6f);
         catch_shadows_with(scene, floor);
     }
-    // Where the ray through a place of the picture, in pixels, meets the floor.
+    // Floor point of the ray through an image position in pixels.
     Vec3d on_floor(double x, double y, int width, int height) const {
         const CameraRecord c = camera_record(scene.view, float(width) / float(height), {0, 0, 0});
         const Vec3d d = to_double(c.forward) + to_double(c.right) * (2 * x / width - 1) - to_double(c.up) * (2 * y / height - 1);
@@ -56,7 +56,7 @@ Frame render(const Scene& scene, const RenderSettings& settings, unsigned thread
 
 float alpha_at(const Frame& f, int x, int y) { return f.rgba[4 * (size_t(y) * size_t(f.width) + size_t(x)) + 3]; }
 
-// The plate's shadow in the light of a bulb is a square of twice its size: all within, nothing without.
+// The plate's shadow from a point light is a square of twice its size: opacity 1 inside, 0 outside.
 void expect_sharp_shadow(const Stage& stage, const Frame& f, const PixelRect& rendered) {
     constexpr double edge = 2 * double(plate_half), margin = 0.12;
     int within = 0, without = 0;
@@ -81,7 +81,7 @@ TEST(ShadowCatcher, HasTheSharpShadowOfAPoint) {
         for (size_t c = 0; c < 3; ++c) ASSERT_EQ(f.rgba[4 * i + c], 0) << "a shadow is black, and the catcher itself is not seen";
 }
 
-TEST(ShadowCatcher, IsThereInRegionsAndAdaptivePictures) {
+TEST(ShadowCatcher, WorksInRegionsAndAdaptiveRenders) {
     const Stage stage(bulb());
     RenderSettings settings = settings_for(48, 48, 32);
     settings.adaptive = true;
@@ -96,7 +96,7 @@ TEST(ShadowCatcher, IsThereInRegionsAndAdaptivePictures) {
     EXPECT_EQ(alpha_at(part, 0, 0), 0);
 }
 
-// The share of a disk's irradiance at a point of the floor that the plate keeps off, by plain quadrature.
+// Share of a disk light's irradiance at a floor point that the plate blocks, by plain quadrature.
 double hidden_share(const Vec3d& p, double radius) {
     constexpr int rings = 96, spokes = 192;
     double all = 0, hidden = 0;
@@ -142,7 +142,7 @@ TEST(ShadowCatcher, HasTheSoftShadowOfADisk) {
                 expected += hidden_share(stage.on_floor(left + (i + 0.5) / 2, top + (j + 0.5) / 2, size, size), double(light.radius)) / (points * points);
         for (const double v : values[b]) mean += v / seeds;
         for (const double v : values[b]) square += (v - mean) * (v - mean) / (seeds - 1);
-        // Beside noise: the quadratures' own errors, and the bias of a ratio of 256 samples.
+        // Besides noise: the quadratures' own errors, and the bias of a ratio of 256 samples.
         constexpr double slack = 0.004, z = 4.5;
         EXPECT_NEAR(mean, expected, z * std::sqrt(square / seeds) + slack) << "block " << b;
         partial += expected > 0.05 && expected < 0.95;
@@ -150,7 +150,7 @@ TEST(ShadowCatcher, HasTheSoftShadowOfADisk) {
     EXPECT_GT(partial, 8) << "the test looks at the penumbra";
 }
 
-TEST(ShadowCatcher, DoesNotDependOnThreadsAndGoesOnFromAFile) {
+TEST(ShadowCatcher, DoesNotDependOnThreadsAndResumesFromAFile) {
     Light light = bulb();
     light.radius = 0.2f;
     const Stage stage(light);
@@ -193,8 +193,8 @@ TEST(ShadowCatcher, DarkensTheEnvironmentThatTheCameraSees) {
     EXPECT_LT(alpha_at(hidden, 1, 1), 0.2f);
 }
 
-// Objects are lit by light that a catcher reflects as by that of any floor, and hide it as any floor.
-TEST(ShadowCatcher, IsAnOrdinarySurfaceToAllButTheCamera) {
+// Light reflected by a catcher illuminates objects as with any floor, and a catcher occludes them as any floor does.
+TEST(ShadowCatcher, IsAnOrdinarySurfaceForNonCameraRays) {
     Scene scene;
     const Id<Node> floor = place(scene, floor_quad(4), lambert({0.9f, 0.3f, 0.2f}));
     place(scene, sphere(false), lambert({0.7f, 0.7f, 0.7f}), at({0, 0.6f, 0}, 0.5f));
@@ -241,7 +241,7 @@ TEST(ShadowCatcher, DoesNotCatchTheShadowsOfCatchers) {
     for (const float v : render(scene, settings_for(32, 32, 2)).rgba) ASSERT_EQ(v, 0);
 }
 
-TEST(ShadowCatcher, SwitchedOnAndOffLeavesTheSamePicture) {
+TEST(ShadowCatcher, SwitchedOnAndOffKeepsTheImage) {
     Stage stage(bulb());
     const RenderSettings settings = settings_for(24, 24, 2);
     const Frame caught = render(stage.scene, settings);

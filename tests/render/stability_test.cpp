@@ -1,4 +1,4 @@
-// The stability battery, group by group; that it would notice a wrong answer; and that its list of limits is honest.
+// The stability battery, group by group; its sensitivity to wrong answers; and the validity of its list of limits.
 #include "measure/intervals.h"
 #include "measure/stability/battery.h"
 #include "measure/stability/groups.h"
@@ -27,7 +27,7 @@ TEST(Verdict, QuantilesAreThoseOfTheNormalDistribution) {
     EXPECT_NEAR(1 - std::pow(1 - sidak(0.01, 200), 200), 0.01, 1e-12);
 }
 
-TEST(Verdict, HoldsWithinRoundingAndSigmas) {
+TEST(Verdict, HoldsWithinRoundingAndStandardErrors) {
     EXPECT_TRUE(holds({1, 1, 0, 0, {}}, 4));
     EXPECT_TRUE(holds({1, 1 + 1e-6, 0, 0, {}}, 4)) << "single precision";
     EXPECT_FALSE(holds({1, 1.001, 0, 0, {}}, 4));
@@ -45,11 +45,11 @@ TEST(Verdict, HoldsWithinRoundingAndSigmas) {
 TEST(Verdict, OfSeveralFindingsTheWorstDecides) {
     const Findings findings{{1, 1, 0.1, 0, "a"}, {1, 1.2, 0.1, 0, "b"}, {1, 0.5, 0.1, 0, "c"}, {1, 1.1, 0.1, 0, "d"}};
     EXPECT_EQ(worst_of(findings, 4).where, "c");
-    EXPECT_FALSE(holds(worst_of({}, 4), 4)) << "who measures nothing has not passed";
+    EXPECT_FALSE(holds(worst_of({}, 4), 4)) << "a case without measurements does not pass";
 }
 
-// A battery of sound cases fails as often as it says: one in a hundred.
-TEST(Verdict, FamiliesOfSoundCasesFailAsOftenAsStated) {
+// A battery of correct cases fails at its stated rate: one in a hundred.
+TEST(Verdict, FamiliesOfCorrectCasesHaveTheStatedFailureRate) {
     constexpr int families = 20000, cases = 50;
     const double k = normal_quantile_two_sided(sidak(family_wise_level, cases));
     std::mt19937 random(1);
@@ -65,7 +65,7 @@ TEST(Verdict, FamiliesOfSoundCasesFailAsOftenAsStated) {
 
 // ---- the runner
 
-TEST(RunCase, TellsRightFromWrong) {
+TEST(RunCase, DistinguishesRightFromWrong) {
     const auto answer = [](double expected) {
         return StabilityCase{"", 1, [expected] { return Findings{{expected, 2, 0.01, 0, {}}}; }, {}};
     };
@@ -75,7 +75,7 @@ TEST(RunCase, TellsRightFromWrong) {
     EXPECT_GT(run_case("", answer(2), 1000).tolerance, run_case("", answer(2), 10).tolerance) << "more cases, more chances to fail";
 }
 
-TEST(RunCase, AnExceptionIsAFailureWithItsWords) {
+TEST(RunCase, AnExceptionIsAFailureWithItsMessage) {
     const StabilityCase c{"", 1, []() -> Findings { throw std::runtime_error("out of glass"); }, {}};
     const CaseResult r = run_case("", c, 100);
     EXPECT_FALSE(r.pass);
@@ -84,7 +84,7 @@ TEST(RunCase, AnExceptionIsAFailureWithItsWords) {
 
 // ---- the cases
 
-TEST(Battery, IsListedWell) {
+TEST(Battery, ListIsConsistent) {
     std::set<std::string> groups;
     int cases = 0;
     for (const StabilityGroup& group : battery()) {
@@ -110,7 +110,7 @@ TEST_P(Battery, Holds) {
     for (const CaseResult& r : report.cases) {
         EXPECT_TRUE(r.pass) << r.name << " " << r.finding.where << ": " << r.finding.measured << " instead of " << r.finding.expected
                             << ", tolerance " << r.tolerance << " " << r.error;
-        // Who tolerates everything proves nothing: noise must not hide an answer that is wrong by a fifth.
+        // The tolerance must be limited: noise must not hide an answer that is wrong by a fifth.
         EXPECT_LE(r.tolerance - r.finding.rounding, 0.2 * std::abs(r.finding.expected)) << r.name << " " << r.finding.where;
     }
 }
@@ -123,19 +123,19 @@ std::vector<std::string> group_names() {
 }
 INSTANTIATE_TEST_SUITE_P(Stability, Battery, testing::ValuesIn(group_names()), [](const auto& group) { return group.param; });
 
-// What is said not to hold does not: else it is no limit any more.
-TEST(KnownLimits, AreLimits) {
+// Known limits must fail: otherwise they are no limits any more.
+TEST(KnownLimits, DoNotHold) {
     const BatteryReport report = run_battery("limits", 0);
     EXPECT_EQ(report.passed + report.failed, 0) << "limits are not counted";
     EXPECT_FALSE(report.limits.empty());
     for (const CaseResult& r : report.limits) {
-        EXPECT_FALSE(r.pass) << r.name << " holds: give it a place in the battery";
+        EXPECT_FALSE(r.pass) << r.name << " holds: move it to the battery";
         EXPECT_TRUE(r.error.empty()) << r.name << ": " << r.error;
     }
 }
 
-// What appendix B's layering of a smooth reflection over white gives back of a uniform world, by quadrature: the mirror's share F(v.n), and
-// of the base the integral of (1 - F(v.h)) cos / pi, F being Schlick's with 0.04 at normal incidence.
+// Albedo of appendix B's layering of a smooth reflection over white in a uniform environment, by quadrature: the mirror's share
+// F(v.n), and for the base the integral of (1 - F(v.h)) cos / pi, F being Schlick's with 0.04 at normal incidence.
 double layered_albedo(double degrees) {
     const double angle = degrees * std::numbers::pi / 180;
     const auto reflectance = [](double c) { return 0.04 + 0.96 * std::pow(1 - c, 5); };
@@ -164,7 +164,7 @@ TEST(KnownLimits, TheGainAtGrazingAnglesIsThatOfTheSpecification) {
         EXPECT_NEAR(finding.measured, expected, normal_quantile_two_sided(statistics::significance) * finding.sigma + 1e-4);
         return;
     }
-    FAIL() << "the case is gone";
+    FAIL() << "the case is missing";
 }
 
 TEST(RunBattery, StopsWhenAsked) {

@@ -1,4 +1,4 @@
-// All ways to compute one picture agree in the mean, block by block, on the shipped scenes; a way that is wrong does not.
+// All strategies agree in the mean, block by block, on the shipped scenes; a biased one is detected.
 #include "picture.h"
 #include "scenes.h"
 
@@ -25,8 +25,8 @@ TEST(Strategies, AgreeOnCornell) {
     EXPECT_TRUE(same_means(mis, with_strategy(scene, Strategy::bsdf, 32, 32, 512), sidak(significance, 2))) << "bsdf";
 }
 
-// Where a strategy finds light by rare chance alone, no affordable number of samples knows its variance. So the sharpest reflections
-// are dulled, and the upper left quarter is left out, where the two smallest lights are smaller than a pixel.
+// If a strategy finds light only rarely, no affordable number of samples gives its variance. So the sharpest reflections are made
+// rougher, and the upper left quarter, where the two smallest lights are below a pixel, is excluded.
 TEST(Strategies, AgreeOnVeachMis) {
     Scene scene = shipped_scene("veach-mis");
     for (const auto& [id, material] : Table<Material>(scene.materials)) {
@@ -44,9 +44,9 @@ TEST(Strategies, AgreeOnVeachMis) {
     EXPECT_TRUE(same_means(mis, three_quarters(Strategy::bsdf, 1024), sidak(significance, 2))) << "bsdf";
 }
 
-// The scene as it is, but of its lights only those that a strategy is meant for: on the sharpest plate a light sample is as rare a
-// chance for the largest light as a scattered ray is for the smallest.
-TEST(Strategies, AgreeOnVeachMisAsItIs) {
+// The unmodified scene, with only the lights that suit each strategy: on the sharpest plate NEE rarely finds the reflection of
+// the largest light, and BSDF sampling rarely hits the smallest one.
+TEST(Strategies, AgreeOnVeachMisUnchanged) {
     const auto lit_by = [](std::initializer_list<std::string> lights) {
         Scene scene = shipped_scene("veach-mis");
         for (const auto& [id, material] : Table<Material>(scene.materials)) {
@@ -69,8 +69,8 @@ TEST(Strategies, AgreeOnCardAndMug) {
     EXPECT_TRUE(same_means(with_strategy(scene, Strategy::mis, 32, 16, 256), with_strategy(scene, Strategy::light, 32, 16, 256)));
 }
 
-// The real sun covers a hundred-thousandth of the sky: one scattered ray in fifty thousand finds it, and then weighs as much as all the
-// others. So that scattered rays alone are a measurement, this one is twenty degrees wide.
+// The real sun covers a hundred-thousandth of the sky: one scattered ray in fifty thousand hits it, with the weight of all others
+// together. This sun is twenty degrees wide, so that BSDF sampling alone gives a measurement.
 TEST(Strategies, AgreeOnCardAndMugUnderAWideSun) {
     Scene scene = shipped_scene("card-and-mug");
     for (const auto& [id, light] : Table<Light>(scene.lights)) {
@@ -83,7 +83,7 @@ TEST(Strategies, AgreeOnCardAndMugUnderAWideSun) {
     EXPECT_TRUE(same_means(mis, with_strategy(scene, Strategy::bsdf, 32, 16, 512), sidak(significance, 2))) << "bsdf";
 }
 
-// Under BSDF sampling alone, lights without a size are still aimed at, for no ray can find them, and nothing else is.
+// With BSDF sampling alone, lights of zero size are still sampled, because rays cannot hit them; no others are.
 TEST(Strategies, AgreeUnderLightsWithAndWithoutSize) {
     Scene scene;
     place(scene, floor_quad(2), lambert(0.7f));
@@ -104,8 +104,8 @@ TEST(Strategies, AgreeUnderLightsWithAndWithoutSize) {
     EXPECT_TRUE(same_means(mis, with_strategy(scene, Strategy::bsdf, 16, 16, 1024)));
 }
 
-// Only BSDF sampling alone does not aim at mirrors and glass (shading/focus.h), and only it finds every light by chance.
-TEST(Strategies, AgreeWhereMirrorsAndGlassFocusLight) {
+// BSDF sampling alone excludes caustic guiding (shading/focus.h), so it is the reference that finds all light by chance.
+TEST(Strategies, AgreeOnCaustics) {
     Scene scene;
     place(scene, floor_quad(3), lambert(0.7f));
     place(scene, ceiling_quad(3, 3), lambert({0.3f, 0.6f, 0.9f}));
@@ -126,7 +126,7 @@ std::vector<Measured> with_roulette(const Scene& scene, const char* rule, uint32
     return blocks_of(scene, settings, seed);
 }
 
-TEST(Roulette, RulesAgreeOnCornellAndTheBiasedOneIsCaught) {
+TEST(Roulette, RulesAgreeOnCornellAndBiasIsDetected) {
     const Scene scene = shipped_scene("cornell");
     const auto truth = with_roulette(scene, "off", 1);
     const std::vector<const char*> rules = {"max", "max,start=1", "luminance", "sqrt", "constant=0.7,start=1", "max,floor=0.2,cap=0.9"};

@@ -19,7 +19,7 @@ inline Light lamp(const char* name, Light::Kind kind, float intensity, const Vec
     return light;
 }
 
-// A floor and a box under one light of each kind, with a glowing ball and a sky.
+// A floor and a box under one light of each kind, with an emissive sphere and a sky.
 struct Studio {
     Scene scene;
     Id<Node> bulb, panel, ball;
@@ -57,7 +57,7 @@ inline Frame render_frame(const Scene& scene, const RenderSettings& settings, un
 
 inline double channel_of(const Vec3& v, int c) { return double(c == 0 ? v.x : c == 1 ? v.y : v.z); }
 
-// Contributions are the same, summed in another order: double precision, but where pixels share paths, whose sums are single.
+// Equal contributions summed in another order: in double precision, except for path reuse, whose sums are single.
 inline void expect_planes_sum_to_beauty(const Frame& frame, double rounding, const std::string& what) {
     ASSERT_GT(frame.groups.size(), 0u) << what;
     for (size_t i = 0; i < frame.rgba.size() / 4; ++i)

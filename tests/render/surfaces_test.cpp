@@ -1,4 +1,4 @@
-// What materials do beyond reflecting: emission from textures, opacity, unlit colours, absorption; each against arithmetic.
+// Materials beyond reflection: textured emission, opacity, unlit colours, absorption; each against closed forms.
 #include "core/math.h"
 #include "irradiance.h"
 
@@ -21,12 +21,12 @@ ImagePtr half_opaque() {
 
 // ---- emission
 
-// uv (0, 0) is the first corner: u runs along x.
+// uv (0, 0) is the first vertex: u is along x.
 const GeometryPtr lamp = quad({-1, 1, -0.5f}, {0.6f, 1, -0.5f}, {0.6f, 1, 0.5f}, {-1, 1, 0.5f});
 const std::vector<Vec3d> lamp_left = {{-1, 1, -0.5}, {-0.2, 1, -0.5}, {-0.2, 1, 0.5}, {-1, 1, 0.5}};
 const std::vector<Vec3d> lamp_right = {{-0.2, 1, -0.5}, {0.6, 1, -0.5}, {0.6, 1, 0.5}, {-0.2, 1, 0.5}};
 
-// Of an sRGB-encoded value up to 1.
+// Linear value of an sRGB-encoded one up to 1.
 double decoded(double encoded) { return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4); }
 
 TEST(Emission, OfATextureIsThatOfItsTexels) {
@@ -46,7 +46,7 @@ TEST(Emission, OfATextureIsThatOfItsTexels) {
         }
 }
 
-TEST(Emission, GoesForwardsOrBothWays) {
+TEST(Emission, IsOneSidedOrTwoSided) {
     const GeometryPtr away = floor_quad(0.5f, 1);
     const std::vector<Vec3d> corners = {{-0.5, 1, 0.5}, {0.5, 1, 0.5}, {0.5, 1, -0.5}, {-0.5, 1, -0.5}};
     Material material = emitter(4);
@@ -59,7 +59,7 @@ TEST(Emission, GoesForwardsOrBothWays) {
     }
 }
 
-TEST(Emission, OfUnlitSurfacesIsOnlySeen) {
+TEST(Emission, OfUnlitSurfacesIsVisibleButEmitsNoLight) {
     Scene scene;
     place(scene, floor_quad(2), unlit({0.3f, 0.6f, 0.9f}));
     shine(scene, Light{}, at({0, 1, 0}));
@@ -73,7 +73,7 @@ TEST(Emission, OfUnlitSurfacesIsOnlySeen) {
 
 // ---- opacity
 
-// A sheet between the floor and the light, large enough to shade all of it.
+// A sheet between the floor and the light, large enough to cover the light completely.
 Scene shaded_by(const Material& sheet, int sheets) {
     Scene scene;
     for (int i = 0; i < sheets; ++i) place(scene, floor_quad(100, 0.5f + 0.1f * float(i)), sheet);
@@ -86,7 +86,7 @@ Light parallel_sun() {
     return sun;
 }
 
-TEST(Opacity, BlendedSheetsLetTheirShareThrough) {
+TEST(Opacity, BlendedSheetsTransmitTheirShare) {
     Material sheet = lambert(0.f);
     sheet.alpha = Material::Alpha::blend;
     sheet.opacity = 0.3f;
@@ -147,7 +147,7 @@ TEST(Opacity, MasksAreAllOrNothing) {
 TEST(Absorption, FollowsBeerAndLambert) {
     const Vec3 color{0.9f, 0.5f, 0.1f};
     Scene scene;
-    Material solid = glass(0, 1); // without refraction: all that happens is absorption
+    Material solid = glass(0, 1); // no refraction: absorption only
     solid.attenuation_color = color;
     solid.attenuation_distance = 0.5f;
     Transform slab;
@@ -161,7 +161,7 @@ TEST(Absorption, FollowsBeerAndLambert) {
     EXPECT_TRUE(is_mean(render(scene, settings_for(8, 8, 8)).whole(), expected, significance, 1e-6));
 }
 
-// Light straight on a pane bounces to and fro inside: R + T of the geometric series, each passage absorbing.
+// Light perpendicular to a pane is reflected back and forth inside: R + T of the geometric series, each pass absorbing.
 TEST(Absorption, InAPaneThatReflects) {
     Scene scene;
     Material solid = glass(0, 1.5f);

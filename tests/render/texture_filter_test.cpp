@@ -1,4 +1,4 @@
-// What texture filtering does to pictures: distant textures are their mean, and nothing that is near changes.
+// Texture filtering in images: distant textures show their mean, and near ones do not change.
 #include "core/srgb.h"
 #include "picture.h"
 #include "scenes.h"
@@ -15,7 +15,7 @@ Vec3d mean_of_checks() {
     return {mean(bright.x, dark.x), mean(bright.y, dark.y), mean(bright.z, dark.z)};
 }
 
-// Squares of one metre on [-half, half]^2, of 8 x 8 texels each.
+// Squares of one metre on [-half, half]^2, with 8 x 8 texels each.
 Material checkered(Scene& scene, Material material, float half) {
     std::vector<Vec3> texels;
     for (int y = 0; y < 64; ++y)
@@ -26,7 +26,7 @@ Material checkered(Scene& scene, Material material, float half) {
     return material;
 }
 
-// An unlit plane to the horizon, seen from 50 m above it along -Z; the horizon is in the middle of the picture.
+// An unlit plane to the horizon, seen from 50 m above along -Z; the horizon is in the middle of the image.
 Scene plain() {
     Scene scene;
     place(scene, floor_quad(1e5f), checkered(scene, unlit({1, 1, 1}), 1e5f));
@@ -45,7 +45,7 @@ Picture draw(const Scene& scene, bool filter, int64_t spp) {
 
 double variance(const Measured& m) { return m.error.x * m.error.x + m.error.y * m.error.y + m.error.z * m.error.z; }
 
-TEST(TextureFilter, APlaneToTheHorizonIsItsMeanAndQuietThere) {
+TEST(TextureFilter, APlaneToTheHorizonShowsItsMeanWithoutNoise) {
     const Scene scene = plain();
     const Picture filtered = draw(scene, true, 64), points = draw(scene, false, 64);
     // Six rows below the horizon: 700 m away and more, where half a pixel is four squares.
@@ -53,7 +53,7 @@ TEST(TextureFilter, APlaneToTheHorizonIsItsMeanAndQuietThere) {
     EXPECT_TRUE(is_mean(far_filtered, mean_of_checks()));
     EXPECT_TRUE(is_mean(far_points, mean_of_checks()));
     EXPECT_LT(variance(far_filtered), variance(far_points) / 100);
-    // Nearer, where squares are still to be seen, filtering moves light by less than a pixel.
+    // Nearer, where squares are visible, filtering moves light by less than a pixel.
     const Measured near_filtered = filtered.region(0, height / 2 + 8, width, 24), near_points = points.region(0, height / 2 + 8, width, 24);
     EXPECT_TRUE(same_mean(near_filtered, near_points));
     RecordProperty("variance_ratio_near", std::to_string(variance(near_points) / variance(near_filtered)));
@@ -75,7 +75,7 @@ TEST(TextureFilter, LitScenesKeepTheirLight) {
     EXPECT_TRUE(same_mean(draw(scene, true, 64).whole(), draw(scene, false, 64).whole()));
 }
 
-// The plane behind the camera in a mirror before it.
+// The plane behind the camera, seen in a mirror in front of it.
 Scene mirrored(bool curved) {
     Scene scene = plain();
     Geometry g = *quad({-90, -40, -1}, {90, -40, -1}, {90, 140, -1}, {-90, 140, -1});
@@ -85,7 +85,7 @@ Scene mirrored(bool curved) {
     return scene;
 }
 
-TEST(TextureFilter, GoesOnBehindFlatMirrorsAndStopsAtCurvedOnes) {
+TEST(TextureFilter, WorksBehindFlatMirrorsOnly) {
     const Scene flat = mirrored(false), curved = mirrored(true);
     const auto far_part = [](const Picture& p) { return p.region(0, height / 2 + 1, width, 5); };
     const Measured filtered = far_part(draw(flat, true, 16)), points = far_part(draw(flat, false, 16));
