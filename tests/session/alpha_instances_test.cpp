@@ -1,4 +1,4 @@
-// Leaves of a tree: many instances of one mesh with stochastic alpha share their memory, and are opaque independently of each other.
+// Leaves of a tree: many instances of one mesh with stochastic alpha share their memory, and their opacities are independent.
 #include "support/pictures.h"
 #include "session/rich_project.h"
 #include "support/sample_project.h"
@@ -10,7 +10,7 @@
 namespace blush {
 namespace {
 
-// `count` instances behind one another, half opaque and black, under a white sky.
+// `count` instances behind each other, black with opacity 1/2, under a white sky.
 Project leaves(const GeometryPtr& geometry, int count, float scale) {
     Project project;
     Scene& scene = project.scene;
@@ -44,7 +44,7 @@ TEST(AlphaInstances, ShareTheirMemory) {
     EXPECT_LT(memory_of(20), 1.5 * memory_of(2));
 }
 
-TEST(AlphaInstances, LetLightThroughIndependently) {
+TEST(AlphaInstances, TransmitLightIndependently) {
     for (const int count : {2, 3}) {
         const Project project = leaves(test::quad_geometry(), count, 100);
         const Frame picture = test::fresh_picture(project.scene, project.render, 16);

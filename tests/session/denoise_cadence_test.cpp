@@ -1,4 +1,4 @@
-// The cadence against a denoiser made of numbers: no pictures, no clock.
+// DenoiseCadence with simulated timings: no images, no clock.
 #include "render/denoise_cadence.h"
 
 #include <gtest/gtest.h>
@@ -13,11 +13,11 @@ namespace {
 using Source = DenoiseCadence::Source;
 constexpr DenoiseQuality fast = DenoiseQuality::fast, base = DenoiseQuality::base, high = DenoiseQuality::high;
 
-// Renders an image of one megapixel and denoises it as the cadence says; one piece of work at a time.
+// Simulates rendering an image of one megapixel, denoised as scheduled; one task at a time.
 struct Bench {
     DenoiseCadence cadence;
     double now = 1000;
-    std::array<double, 3> seconds{0.1, 0.2, 0.6}; // a megapixel, by quality
+    std::array<double, 3> seconds{0.1, 0.2, 0.6}; // per megapixel, by quality
 
     struct Done {
         double at;
@@ -27,7 +27,7 @@ struct Bench {
     std::vector<Done> done;
 
     void offer(const Source& source) { cadence.offer(source, now); }
-    // What is due now, until nothing is.
+    // Runs all due tasks.
     void denoise_what_is_due(const Source& source) {
         for (auto decision = cadence.next(now); decision.quality; decision = cadence.next(now)) {
             const double took = seconds[size_t(*decision.quality)] * source.megapixels;
@@ -36,7 +36,7 @@ struct Bench {
             now += took;
         }
     }
-    // Frames in full resolution, one each tenth of a second; the last one ends it.
+    // Full-resolution frames, one every tenth of a second; the last one completes the image.
     void render(uint64_t image, int frames) {
         for (int i = 1; i <= frames; ++i) {
             const Source source{image, i, 1, i == frames, 1};
@@ -76,14 +76,14 @@ TEST(DenoiseCadence, AtMostOnceASecondAndATenthOfTheTime) {
             const auto& d = bench.done[i];
             spent += bench.seconds[size_t(d.quality)];
             const bool last = i + 1 == bench.done.size();
-            if (i == 0 || last) continue; // those two are promised whatever they cost
+            if (i == 0 || last) continue; // those two are guaranteed at any cost
             EXPECT_GE(d.at, bench.done[i - 1].at + DenoiseCadence::least_interval - 1e-9);
             EXPECT_LE(spent, DenoiseCadence::time_share * (d.at - begin) + 1e-9) << "picture " << i << " of " << slowness;
         }
     }
 }
 
-TEST(DenoiseCadence, TheLargeNetworkAtRestAndTheBestInTheEnd) {
+TEST(DenoiseCadence, UsesTheLargeNetworkWhenIdleAndTheBestAtTheEnd) {
     Bench bench;
     const double begin = bench.now;
     bench.render(1, 300);
@@ -95,7 +95,7 @@ TEST(DenoiseCadence, TheLargeNetworkAtRestAndTheBestInTheEnd) {
     EXPECT_FALSE(bench.cadence.next(bench.now + 1e6).quality);
 }
 
-TEST(DenoiseCadence, WantedLateTheFastOneIsThereFirst) {
+TEST(DenoiseCadence, EnabledLateTheFastQualityComesFirst) {
     Bench bench;
     const Source source{1, 64, 1, true, 1};
     bench.offer(source);
@@ -106,7 +106,7 @@ TEST(DenoiseCadence, WantedLateTheFastOneIsThereFirst) {
     EXPECT_EQ(bench.done[1].quality, high);
 }
 
-TEST(DenoiseCadence, APausedImageIsDenoisedWellOnceItRests) {
+TEST(DenoiseCadence, APausedImageIsDenoisedWellWhenIdle) {
     Bench bench;
     const Source source{1, 5, 1, false, 1};
     bench.offer(source);
@@ -123,7 +123,7 @@ TEST(DenoiseCadence, APausedImageIsDenoisedWellOnceItRests) {
     EXPECT_EQ(bench.done[1].quality, base);
 }
 
-TEST(DenoiseCadence, CoarsePicturesOnlyIfTheyFitAFrame) {
+TEST(DenoiseCadence, CoarseImagesAreDenoisedOnlyIfTheyFitAFrame) {
     const Source coarse{2, 1, 4, false, 1.0 / 16};
     for (const double megapixel_seconds : {0.1, 10.0}) {
         Bench bench;
@@ -151,7 +151,7 @@ TEST(DenoiseCadence, AfterACoarsePictureTheFirstFullOneIsDueAtOnce) {
     EXPECT_EQ(bench.cadence.next(bench.now).quality, fast);
 }
 
-TEST(DenoiseCadence, AFirstSlowRunIsForgottenAndGrowingSlownessNoticed) {
+TEST(DenoiseCadence, ASlowFirstRunIsIgnoredAndRisingCostIsTracked) {
     Bench bench;
     const Source coarse{2, 1, 4, false, 1.0 / 16};
     const auto coarse_fits = [&](uint64_t image) {
@@ -160,18 +160,18 @@ TEST(DenoiseCadence, AFirstSlowRunIsForgottenAndGrowingSlownessNoticed) {
         bench.offer(source);
         return bench.cadence.answers_within_a_frame();
     };
-    bench.seconds[0] = 3; // it loads and makes its networks
+    bench.seconds[0] = 3; // loading and building its networks
     bench.render(1, 1);
     EXPECT_FALSE(coarse_fits(2));
     bench.seconds[0] = 0.1;
     bench.render(3, 1);
     EXPECT_TRUE(coarse_fits(4));
-    bench.seconds[0] = 3; // the machine has other things to do
+    bench.seconds[0] = 3; // the machine is busy
     for (uint64_t image = 5; image < 15; ++image) bench.render(image, 1);
     EXPECT_FALSE(coarse_fits(20));
 }
 
-TEST(DenoiseCadence, WhatDidNotFinishIsDueAgain) {
+TEST(DenoiseCadence, AnUnfinishedRunIsDueAgain) {
     Bench bench;
     const Source source{1, 1, 1, false, 1};
     bench.offer(source);
@@ -179,7 +179,7 @@ TEST(DenoiseCadence, WhatDidNotFinishIsDueAgain) {
     EXPECT_EQ(bench.cadence.next(bench.now).quality, fast);
 }
 
-TEST(DenoiseCadence, AnOlderImagesPictureIsNotThisOnes) {
+TEST(DenoiseCadence, ADenoisedImageOfAnOlderImageDoesNotCount) {
     Bench bench;
     bench.offer({1, 1, 1, false, 1});
     bench.offer({2, 1, 1, false, 1});

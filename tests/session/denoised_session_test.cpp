@@ -1,4 +1,4 @@
-// Denoised pictures beside frames, with a stand-in for the networks. Proofs rest on the order of what is announced.
+// Denoised images of a session, with a fake for the networks. Tests rely on the order of announcements.
 #include "render/render_session.h"
 
 #include "support/pictures.h"
@@ -25,7 +25,7 @@ using test::fresh_picture;
 using test::same_picture;
 using test::WatchedSession;
 
-// Gives each picture back as it is, and writes down what it was asked for.
+// Returns each image unchanged, and records its calls.
 class StandIn {
 public:
     struct Call {
@@ -34,7 +34,7 @@ public:
         float tolerance;
         bool guided;
     };
-    // Instead of an answer; called on the denoiser's thread with the number of the call, from 1.
+    // Replaces the answer if set; called on the denoiser's thread with the number of the call, from 1.
     std::function<Result<std::optional<Denoised>>(size_t call, const std::function<bool()>& wanted)> instead;
 
     DenoiseFunction function() {
@@ -60,7 +60,7 @@ private:
         Denoised denoised;
         for (size_t i = 0; i < size_t(input.width) * size_t(input.height); ++i)
             for (size_t k = 0; k < 3; ++k) denoised.rgb.push_back(input.color.values[i * size_t(input.color.stride) + k]);
-        // What it measures is never within the tolerance.
+        // The measured scale is never within the tolerance.
         denoised.exposure_scale =
             options.exposure_scale && std::isinf(options.exposure_tolerance) ? *options.exposure_scale : float(number);
         return std::optional(std::move(denoised));
@@ -83,7 +83,7 @@ Project small_project(int64_t spp = 8, int width = 32, int height = 24) {
     return project;
 }
 
-// The same scene in another light.
+// The same scene under different light.
 Project lit_by(Project project, float intensity) {
     const auto [id, light] = project.scene.lights.entries()[0];
     Light brighter = light;
@@ -97,7 +97,7 @@ void submit(WatchedSession& session, uint64_t revision, const Project& project) 
     session->submit(revision, project.scene, project.render);
 }
 
-// The picture with which denoising a revision ends.
+// The last denoised image of a revision.
 test::EventTest ends(uint64_t revision) {
     return [=](const Event& e) { return e.denoised && e.denoised->revision == revision && e.denoised->quality == DenoiseQuality::high; };
 }
@@ -130,7 +130,7 @@ TEST(DenoisedSession, TheFirstIsFastAndTheLastIsTheBestOfTheLastFrame) {
     ASSERT_TRUE(last.denoised);
     EXPECT_EQ(last.denoised->samples, 16);
     EXPECT_TRUE(shows(*last.denoised, *last.frame));
-    EXPECT_TRUE(same_picture(*last.frame, fresh_picture(project.scene, project.render, 16))) << "frames are as ever";
+    EXPECT_TRUE(same_picture(*last.frame, fresh_picture(project.scene, project.render, 16))) << "frames are unchanged";
     const auto calls = networks.calls();
     EXPECT_EQ(calls.front().quality, DenoiseQuality::fast);
     EXPECT_EQ(calls.back().quality, DenoiseQuality::high);
@@ -144,7 +144,7 @@ TEST(DenoisedSession, TheFirstIsFastAndTheLastIsTheBestOfTheLastFrame) {
     }
 }
 
-TEST(DenoisedSession, ToggledAtRestItAddsAPictureAndResetsNothing) {
+TEST(DenoisedSession, EnabledWhenCompleteItAddsAPictureAndResetsNothing) {
     StandIn networks;
     WatchedSession session(2, {}, networks.function());
     submit(session, 1, small_project());
@@ -154,12 +154,12 @@ TEST(DenoisedSession, ToggledAtRestItAddsAPictureAndResetsNothing) {
     EXPECT_EQ(after.frame, before.frame) << "the very same frame";
     EXPECT_EQ(after.status.state, State::complete);
     const size_t calls = networks.calls().size();
-    EXPECT_EQ(calls, 2u) << "the fast one to look at, then the best";
+    EXPECT_EQ(calls, 2u) << "the fast quality first, then the best";
 
     for (int i = 0; i < 50; ++i) session->want_denoised(i % 2 == 0);
-    EXPECT_EQ(session->pictures().denoised, after.denoised) << "it stays, for whoever toggles back";
+    EXPECT_EQ(session->pictures().denoised, after.denoised) << "it is kept for toggling on again";
     session->want_denoised(true);
-    // Whatever it had wanted to do for that it would have done before the next image.
+    // Any work for it would have been done before the next image.
     submit(session, 2, lit_by(small_project(), 3));
     session.wait_for(ends(2));
     session.shut_down();
@@ -170,7 +170,7 @@ TEST(DenoisedSession, ToggledAtRestItAddsAPictureAndResetsNothing) {
         }
 }
 
-TEST(DenoisedSession, APictureNeverStandsBesideAnotherImagesFrame) {
+TEST(DenoisedSession, DenoisedPicturesBelongToTheImageOfTheirFrame) {
     const Project project = small_project(6);
     constexpr uint64_t last = 12;
     StandIn networks;
@@ -190,8 +190,8 @@ TEST(DenoisedSession, APictureNeverStandsBesideAnotherImagesFrame) {
         if (e.denoised) { EXPECT_EQ(e.denoised->revision, e.frame->revision); }
 }
 
-TEST(DenoisedSession, DraggingShowsNoNoiseInBetween) {
-    // Coarse pictures that are denoised within a frame come with their denoised ones, or the window would flicker.
+TEST(DenoisedSession, DraggingDoesNotFlickerBetweenNoisyAndDenoised) {
+    // Coarse frames that are denoised within a frame are published with their denoised version, or the window would flicker.
     const Project project = small_project(2, 256, 256);
     StandIn networks;
     networks.instead = [](size_t, const std::function<bool()>&) {
@@ -199,7 +199,7 @@ TEST(DenoisedSession, DraggingShowsNoNoiseInBetween) {
     };
     WatchedSession session(2, {}, networks.function());
     session->want_denoised(true);
-    // At first it does not know how fast it is; on a busy machine it may be wrong once.
+    // At first its speed is unknown; on a busy machine the first prediction may be wrong.
     constexpr uint64_t learnt = 3, last = 8;
     for (uint64_t revision = 1; revision <= last; ++revision) {
         submit(session, revision, lit_by(project, float(revision)));
@@ -217,11 +217,11 @@ TEST(DenoisedSession, DraggingShowsNoNoiseInBetween) {
     }
 }
 
-TEST(DenoisedSession, AnEditCancelsWhatIsBeingDenoised) {
+TEST(DenoisedSession, AnEditCancelsDenoising) {
     StandIn networks;
     std::atomic<bool> begun{false};
     networks.instead = [&](size_t call, const std::function<bool()>& wanted) {
-        // The first would never end by itself; the next are done at once.
+        // The first run would never end by itself; the next ones finish at once.
         if (call > 1) return Result<std::optional<Denoised>>(std::optional<Denoised>(Denoised{}));
         begun = true, begun.notify_all();
         return wait_until_unwanted(wanted);
@@ -263,7 +263,7 @@ TEST(DenoisedSession, EndsInTheMiddleOfDenoising) {
     }
 }
 
-TEST(DenoisedSession, WhatCannotBeDenoisedIsRenderedAllTheSame) {
+TEST(DenoisedSession, RendersIfDenoisingFails) {
     const Project project = small_project();
     for (const bool throws : {false, true}) {
         StandIn networks;
@@ -286,7 +286,7 @@ TEST(DenoisedSession, WhatCannotBeDenoisedIsRenderedAllTheSame) {
     }
 }
 
-TEST(DenoisedSession, TheExposureScaleHoldsWhileAnImageRefines) {
+TEST(DenoisedSession, TheExposureScaleIsConstantWhileAnImageRefines) {
     const Project project = small_project(64);
     StandIn networks;
     WatchedSession session(2, {}, networks.function());
@@ -302,19 +302,19 @@ TEST(DenoisedSession, TheExposureScaleHoldsWhileAnImageRefines) {
     ASSERT_EQ(scales.size(), 3u);
     for (const auto& [revision, of_image] : scales)
         for (const float scale : of_image) EXPECT_EQ(scale, of_image[0]) << "image " << revision;
-    // The first picture of an image begins from the scale of the image before, but not at any price.
+    // The first run of an image starts from the scale of the previous image, within a tolerance.
     const auto calls = networks.calls();
     EXPECT_FALSE(calls[0].scale);
     for (size_t i = 1; i < calls.size(); ++i) EXPECT_TRUE(calls[i].scale);
     EXPECT_EQ(std::count_if(calls.begin(), calls.end(), [](const auto& c) { return std::isfinite(c.tolerance); }), 3) << "one an image";
 }
 
-// Weights and working memory go when the toggle is off and stays off; the picture that there is stays.
-TEST(DenoisedSession, WhatDenoisesIsFreedWhenNoPictureIsWantedAnyMore) {
+// Weights and working memory are freed after the toggle stays off; the existing denoised image stays.
+TEST(DenoisedSession, DenoiserMemoryIsFreedWhenDisabled) {
     constexpr std::array<bool, denoise_qualities> none{};
     StandIn networks;
     std::mutex guard;
-    std::vector<std::weak_ptr<int>> made; // by the maker, for as long as somebody holds it
+    std::vector<std::weak_ptr<int>> made; // created by the maker, while alive
     SessionOptions options;
     options.threads = 2;
     options.denoiser_grace = 0;
@@ -350,7 +350,7 @@ TEST(DenoisedSession, WhatDenoisesIsFreedWhenNoPictureIsWantedAnyMore) {
         session.wait_for(ends(revision));
         session->want_denoised(false);
     }
-    EXPECT_EQ(made.size(), 1u) << "who toggles to and fro waits for nothing";
+    EXPECT_EQ(made.size(), 1u) << "toggling off and on keeps the denoiser";
 }
 
 TEST(DenoisedSession, PublishedPicturesNeverChange) {
@@ -382,7 +382,7 @@ TEST(DenoisedSession, PublishedPicturesNeverChange) {
     for (const auto& [frame, before] : sources) EXPECT_EQ(checksum(*frame), before);
 }
 
-TEST(DenoisedSession, ManyThreadsMayToggleSubmitAndLook) {
+TEST(DenoisedSession, ManyThreadsMayToggleSubmitAndRead) {
     const Project project = small_project(2, 16, 12);
     StandIn networks;
     WatchedSession session(2, {}, networks.function());
@@ -406,7 +406,7 @@ TEST(DenoisedSession, ManyThreadsMayToggleSubmitAndLook) {
     EXPECT_TRUE(shows(*done.denoised, *done.frame));
 }
 
-TEST(DenoisedSession, AWithheldFrameIsShownWhenNoPictureIsWantedAnyMore) {
+TEST(DenoisedSession, AWithheldFrameIsShownWhenDenoisingIsDisabled) {
     const Project project = small_project(2, 256, 256);
     StandIn networks;
     std::atomic<bool> slow{false}, begun{false};
@@ -420,7 +420,7 @@ TEST(DenoisedSession, AWithheldFrameIsShownWhenNoPictureIsWantedAnyMore) {
     submit(session, 1, project);
     session.wait_for(ends(1));
     slow = true;
-    session->pause(true); // no later frame comes to its rescue
+    session->pause(true); // so that no later frame replaces it
     submit(session, 2, lit_by(project, 3));
     begun.wait(false);
     session->want_denoised(false);

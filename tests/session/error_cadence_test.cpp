@@ -1,4 +1,4 @@
-// The cadence against an estimate made of numbers: no pictures, no clock.
+// ErrorCadence with simulated timings: no images, no clock.
 #include "render/error_cadence.h"
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@ namespace {
 
 constexpr double pixels = 1e6, estimate_seconds = 0.01, sample_seconds = 0.1;
 
-// Renders sample after sample and shows the picture after each.
+// Simulates rendering one sample after the other and publishing each.
 struct Bench {
     ErrorCadence cadence;
     int64_t samples = 0;
@@ -30,7 +30,7 @@ struct Bench {
 
 TEST(ErrorCadence, TakesAtMostItsShareOfTheTime) {
     Bench bench;
-    bench.render(2); // what an estimate takes is known after the first
+    bench.render(2); // the cost of an estimate is known after the first one
     for (int i = 0; i < 1000; ++i) {
         bench.render(1);
         const double allowed = ErrorCadence::time_share * bench.picture().seconds;
@@ -47,7 +47,7 @@ TEST(ErrorCadence, EstimatesNoMoreOftenThanAPlotCanShow) {
     EXPECT_LE(bench.estimates, estimates + 1) << "not a tenth more samples";
 }
 
-TEST(ErrorCadence, WhatIsWantedIsDoneWhateverItCosts) {
+TEST(ErrorCadence, ARequestedEstimateIsDoneAtAnyCost) {
     Bench bench;
     bench.render(3);
     const int estimates = bench.estimates;
@@ -56,15 +56,15 @@ TEST(ErrorCadence, WhatIsWantedIsDoneWhateverItCosts) {
     EXPECT_DOUBLE_EQ(bench.cadence.spent(), estimate_seconds * bench.estimates) << "and counted";
 }
 
-TEST(ErrorCadence, OneSampleHasNothingToCompare) {
+TEST(ErrorCadence, NeedsTwoSamples) {
     Bench bench;
     bench.render(1);
     bench.look(true);
     EXPECT_EQ(bench.estimates, 0);
 }
 
-// What an estimate takes is remembered: the next image does not pay for finding out.
-TEST(ErrorCadence, AnotherImageBeginsAnewAndKnowsTheCost) {
+// The measured cost of an estimate is kept for the next image.
+TEST(ErrorCadence, ANewImageRestartsAndKeepsTheMeasuredCost) {
     Bench bench;
     bench.render(1000);
     bench.cadence.restart();

@@ -1,4 +1,4 @@
-// A film as a value: what goes on from it ends as if it had never stopped, to the last bit and in every plane.
+// Film states: a render continued from one is bit-identical to an uninterrupted render, in every plane.
 #include "render/film_state.h"
 #include "render/render_session.h"
 
@@ -27,7 +27,7 @@ Project small_project() {
     return project;
 }
 
-// What a film shows besides what same_picture() looks at.
+// Properties of a film that same_picture() does not compare.
 void expect_same_planes(const Frame& a, const Frame& b) {
     EXPECT_TRUE(test::same_picture(a, b));
     EXPECT_EQ(a.bounces, b.bounces);
@@ -44,12 +44,12 @@ void expect_same_planes(const Frame& a, const Frame& b) {
     EXPECT_EQ(a.health.truncated, b.health.truncated);
 }
 
-// `before` samples by one renderer, the rest by another one.
+// Renders `before` samples with one renderer, the rest with another one.
 void expect_seamless(const Project& p, int64_t before, int64_t all) {
     const RendererOptions options{.threads = 2, .planes = everything};
     Renderer whole(options), begun(options), continued(options);
     whole.update(p.scene, p.render);
-    whole.render(0, before); // in the same steps: an adaptive film's fireflies are judged by those
+    whole.render(0, before); // in the same steps, because fireflies of an adaptive film depend on them
     whole.render(before, all - before);
     begun.update(p.scene, p.render);
     begun.render(0, before);
@@ -64,7 +64,7 @@ void expect_seamless(const Project& p, int64_t before, int64_t all) {
     EXPECT_EQ(continued.resolve_error(), whole.resolve_error());
 }
 
-TEST(FilmState, GoesOnAsIfItHadNeverStopped) {
+TEST(FilmState, ContinuesLikeAnUninterruptedRender) {
     Project p = small_project();
     expect_seamless(p, 7, 20);
     p.render.clamp = {0.5f, false};
@@ -74,14 +74,14 @@ TEST(FilmState, GoesOnAsIfItHadNeverStopped) {
     expect_seamless(p, 5, 12);
 }
 
-TEST(FilmState, GoesOnWithCoverage) {
+TEST(FilmState, ContinuesWithCoverage) {
     Project p = small_project();
     p.scene.environment.kind = Environment::Kind::constant;
     p.scene.environment.visible_to_camera = false;
     expect_seamless(p, 3, 8);
 }
 
-TEST(FilmState, GoesOnWithThePlanOfAdaptiveSampling) {
+TEST(FilmState, ContinuesWithThePlanOfAdaptiveSampling) {
     Project p = small_project();
     p.render.adaptive = true;
     expect_seamless(p, 4, 40);
@@ -93,7 +93,7 @@ TEST(FilmState, GoesOnWithThePlanOfAdaptiveSampling) {
     expect_seamless(p, 16, 40);
 }
 
-TEST(FilmState, IsNotToBeHadWhereItWouldNotBeWhole) {
+TEST(FilmState, CannotBeSavedIfIncomplete) {
     Project p = small_project();
     p.render.adaptive = true;
     Renderer renderer({.threads = 2});
@@ -108,7 +108,7 @@ TEST(FilmState, IsNotToBeHadWhereItWouldNotBeWhole) {
     EXPECT_FALSE(renderer.save_film(0)) << "a coarse image";
 }
 
-TEST(FilmState, IsRefusedWhereItDoesNotFit) {
+TEST(FilmState, IsRejectedIfItDoesNotFit) {
     Project p = small_project();
     Renderer renderer({.threads = 2}), with_planes({.threads = 2, .planes = everything});
     renderer.update(p.scene, p.render);
@@ -142,7 +142,7 @@ TEST(FilmState, IsRefusedWhereItDoesNotFit) {
     EXPECT_EQ(other_size.error().what, "saved samples of 40 x 24 pixels do not fit an image of 41 x 24");
 }
 
-// Material ids outlive the table that they index.
+// Material ids stay valid when table indices change.
 TEST(FilmState, KeepsMaterialsByTheirIds) {
     const test::Sample sample = test::sample_project();
     const Project p = small_project();
@@ -161,7 +161,7 @@ TEST(FilmState, KeepsMaterialsByTheirIds) {
     EXPECT_GT(found, 0);
 }
 
-// Sums of doubles need not round the same in another order: by less than a picture in single precision shows, but for one in the last place.
+// Sums of doubles may round differently in another order: by less than single precision shows, except in the last place.
 TEST(FilmState, RangesOfSamplesAddUpToTheWhole) {
     Project p = small_project();
     Renderer whole({.threads = 2, .planes = everything}), part({.threads = 2, .planes = everything});
@@ -264,10 +264,10 @@ TEST(SessionFilm, RestoredAndContinuedEqualsUninterrupted) {
     p.render.spp = 20;
     session->submit(4, p.scene, p.render);
     EXPECT_TRUE(test::same_picture(*session.wait_for(4, State::complete).frame, test::fresh_picture(p.scene, p.render, 20)));
-    for (const FramePtr& frame : session.frames()) EXPECT_TRUE(frame->revision < 3 || frame->samples >= 8) << "it began anew";
+    for (const FramePtr& frame : session.frames()) EXPECT_TRUE(frame->revision < 3 || frame->samples >= 8) << "it restarted";
 }
 
-TEST(SessionFilm, SaysWhyItBeginsAnew) {
+TEST(SessionFilm, ReportsWhyItRestarts) {
     Project p = small_project();
     WatchedSession session;
     session->submit(1, p.scene, p.render);
@@ -283,7 +283,7 @@ TEST(SessionFilm, SaysWhyItBeginsAnew) {
     EXPECT_EQ(session.wait_for(3, State::complete).status.not_continued, "");
 }
 
-TEST(SessionFilm, OfAnImageThatIsGoneIsNotToBeHad) {
+TEST(SessionFilm, OfAReplacedImageIsUnavailable) {
     Project p = small_project();
     WatchedSession session;
     session->submit(1, p.scene, p.render);
@@ -297,8 +297,8 @@ TEST(SessionFilm, OfAnImageThatIsGoneIsNotToBeHad) {
     EXPECT_EQ(kept.why_none, "the image changed before its film was saved");
 }
 
-// A change of the stop rules right behind it does not lose the samples.
-TEST(SessionFilm, OutlivesASubmissionThatComesBeforeItIsTakenUp) {
+// A following change of the stop rules does not lose the samples.
+TEST(SessionFilm, SurvivesASubmissionThatReplacesThePendingOne) {
     Project p = small_project();
     WatchedSession session;
     session->submit(1, p.scene, p.render);
@@ -313,7 +313,7 @@ TEST(SessionFilm, OutlivesASubmissionThatComesBeforeItIsTakenUp) {
     session->submit(4, p.scene, p.render);
     const FramePtr frame = session.wait_for(4, State::complete).frame;
     EXPECT_TRUE(test::same_picture(*frame, test::fresh_picture(p.scene, p.render, 24)));
-    for (const FramePtr& f : session.frames()) EXPECT_TRUE(f->revision < 3 || f->samples >= 20) << "it began anew";
+    for (const FramePtr& f : session.frames()) EXPECT_TRUE(f->revision < 3 || f->samples >= 20) << "it restarted";
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-// What the film holds does not depend on how samples come in, not even where some cannot be added.
+// The contents of a film do not depend on batches, even if some samples are invalid.
 #include "render/film.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace {
 constexpr int width = 4, height = 3, samples = 6;
 constexpr float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
 
-// Red of a sample: some are not to be had, the first of pixel (0, 0) among them.
+// Red of a sample: some are invalid, including the first of pixel (0, 0).
 float red_of(int x, int y, int64_t sample) {
     if (x == 0 && y == 0 && sample == 0) return nan;
     if (x == 1 && y == 2 && sample == 3) return inf;
@@ -51,7 +51,7 @@ Frame resolved(const Film& film) {
     return frame;
 }
 
-TEST(FilmBatches, FirstHitsAreOfTheFirstSampleThatCounts) {
+TEST(FilmBatches, FirstHitsAreOfTheFirstValidSample) {
     Film film;
     trace(film, {samples});
     const Frame frame = resolved(film);
@@ -61,7 +61,7 @@ TEST(FilmBatches, FirstHitsAreOfTheFirstSampleThatCounts) {
     EXPECT_EQ(frame.depth[1], 0);
 }
 
-TEST(FilmBatches, DoNotChangeWhatItHolds) {
+TEST(FilmBatches, DoNotChangeItsSums) {
     Film whole, split;
     trace(whole, {samples});
     trace(split, {1, 2, 3});

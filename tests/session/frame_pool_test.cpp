@@ -11,7 +11,7 @@
 namespace blush {
 namespace {
 
-TEST(FramePool, AFrameComesBackOnlyWhenNobodyLooksAtIt) {
+TEST(FramePool, AFrameIsRecycledWhenItsLastReferenceIsDropped) {
     FramePool pool;
     std::shared_ptr<Frame> first = pool.take();
     const Frame* const memory = first.get();
@@ -39,7 +39,7 @@ TEST(FramePool, FramesMayOutliveIt) {
     EXPECT_EQ(frame->samples, 7);
 }
 
-TEST(FramePool, ManyHeldAndReleasedAreNotAllKept) {
+TEST(FramePool, KeepsALimitedNumberOfFrames) {
     FramePool pool;
     std::vector<std::shared_ptr<Frame>> held;
     for (int i = 0; i < 20; ++i) {
@@ -56,8 +56,8 @@ TEST(FramePool, ManyHeldAndReleasedAreNotAllKept) {
     EXPECT_LT(kept, 5);
 }
 
-// For the race detector: one writes frames, another reads them and lets go last.
-TEST(FramePool, WhoLooksLastIsDoneBeforeItIsWrittenAgain) {
+// For the race detector: one thread writes frames, another reads them and drops the last reference.
+TEST(FramePool, ReadersFinishBeforeAFrameIsRewritten) {
     FramePool pool;
     std::mutex mutex; // of `shown`, as in the session
     FramePtr shown;

@@ -1,4 +1,4 @@
-// Work that waits while the processors are left to whoever needs them, and a session that does.
+// The pause gate, and a session that yields to the UI.
 #include "render/gate.h"
 
 #include "session/watched_session.h"
@@ -21,7 +21,7 @@ using test::WatchedSession;
 
 const auto at_leisure = [] { return false; };
 
-TEST(Gate, HoldsWhoeverComesUntilItOpens) {
+TEST(Gate, BlocksUntilItOpens) {
     Gate gate;
     gate.pass(at_leisure);
     gate.shut();
@@ -38,7 +38,7 @@ TEST(Gate, HoldsWhoeverComesUntilItOpens) {
     EXPECT_FALSE(gate.holds_anyone());
 }
 
-TEST(Gate, LetsThroughWhoeverHurries) {
+TEST(Gate, LetsInterruptedThreadsPass) {
     Gate gate;
     gate.shut();
     gate.pass([] { return true; });
@@ -51,7 +51,7 @@ TEST(Gate, LetsThroughWhoeverHurries) {
     EXPECT_TRUE(gate.is_shut());
 }
 
-TEST(Gate, KnowsHowLongItWasShut) {
+TEST(Gate, MeasuresItsClosedTime) {
     Gate gate;
     EXPECT_EQ(gate.shut_seconds(), 0);
     gate.shut();
@@ -73,7 +73,7 @@ Project project_of(int width, int height, int64_t spp) {
     return project;
 }
 
-// Stands aside at the first picture of so many samples.
+// Yields at the first frame with so many samples.
 auto aside_after(int64_t samples) {
     return [samples, done = false](RenderSession& session, const Event& event) mutable {
         if (done || !event.frame || event.frame->samples < samples) return;
@@ -82,14 +82,14 @@ auto aside_after(int64_t samples) {
     };
 }
 
-TEST(StandingAside, GoesOnFromTheSameSamples) {
+TEST(StandingAside, ContinuesFromTheSameSamples) {
     Project project = project_of(32, 24, 64);
     WatchedSession session(2, aside_after(4));
     session->submit(1, project.scene, project.render);
     const Event aside = session.wait_for(1, State::aside);
     ASSERT_TRUE(aside.frame);
     EXPECT_LT(aside.frame->samples, 64);
-    // More of the same image waits as well.
+    // More samples of the same image wait as well.
     project.render.spp = 80;
     EXPECT_TRUE(session->submit(2, project.scene, project.render));
     const size_t before = session.events().size();
@@ -99,10 +99,10 @@ TEST(StandingAside, GoesOnFromTheSameSamples) {
     ASSERT_TRUE(done.frame);
     EXPECT_EQ(done.frame->samples, 80);
     EXPECT_EQ(done.frame->rgba, test::fresh_picture(project.scene, project.render, 80).rgba);
-    EXPECT_NE(session.events()[before].status.state, State::aside) << "nothing was announced until it went on";
+    EXPECT_NE(session.events()[before].status.state, State::aside) << "nothing is announced before it resumes";
 }
 
-TEST(StandingAside, IsNotForAnotherImage) {
+TEST(StandingAside, DoesNotDelayAnotherImage) {
     Project project = project_of(32, 24, 8);
     WatchedSession session(2, aside_after(1));
     session->submit(1, project.scene, project.render);
@@ -110,10 +110,10 @@ TEST(StandingAside, IsNotForAnotherImage) {
     project.scene.view.position.x += 0.1f;
     session->submit(2, project.scene, project.render);
     const Event other = session.wait_for([](const Event& e) { return e.frame && e.frame->revision == 2; });
-    EXPECT_TRUE(other.frame) << "its first picture is there all the same";
+    EXPECT_TRUE(other.frame) << "its first image is rendered nevertheless";
 }
 
-TEST(StandingAside, KeepsFilmsAllTheSame) {
+TEST(StandingAside, StillSavesFilms) {
     const Project project = project_of(32, 24, 64);
     WatchedSession session(2, aside_after(4));
     session->submit(1, project.scene, project.render);
@@ -145,7 +145,7 @@ TEST(StandingAside, DoesNotCountAsRendering) {
     EXPECT_LT(done.frame->seconds, whole.count() - aside.count());
 }
 
-TEST(StandingAside, EndsInTheMiddle) {
+TEST(StandingAside, CanBeDestroyed) {
     const Project project = project_of(480, 360, 1 << 20);
     WatchedSession session;
     session->submit(1, project.scene, project.render);

@@ -1,4 +1,4 @@
-// A scene reached by edits renders bit for bit like the same scene just opened.
+// A scene reached by edits renders bit-identically to the same scene just opened.
 #include "core/math.h"
 #include "scene/affine.h"
 #include "scene/document.h"
@@ -23,13 +23,13 @@ using test::same_picture;
 
 constexpr int64_t samples = 2;
 
-// A renderer that is only ever updated, and its picture of where it is.
+// A renderer that is only updated, and the scene that it should show.
 class Updated {
 public:
     explicit Updated(const Project& project) { follow(project); }
 
     void follow(const Project& project) {
-        // If the renderer says that what is in the film still answers, it must.
+        // If the renderer reports that the film is still valid, it must be.
         if (renderer_.update(project.scene, project.render)) {
             renderer_.render(project.render.first_sample, samples);
             base_ = project;
@@ -39,9 +39,9 @@ public:
         picture_ = renderer_.resolve();
     }
     const Frame& picture() const { return picture_; }
-    // What the film was rendered from: another project only in its mix of lights.
+    // The project that the film was rendered from; it may differ in the light mix only.
     const Project& base() const { return base_; }
-    // How often the film was kept.
+    // Number of updates that kept the film.
     int kept() const { return kept_; }
     const CompiledInfo& info() const { return renderer_.info(); }
 
@@ -55,7 +55,7 @@ private:
 constexpr size_t edit_kinds = std::variant_size_v<Edit>;
 using Tried = std::array<int, edit_kinds>;
 
-// The next edit: the kinds in turn, so that each is tried many times; another kind where this one has nothing to act upon.
+// The next edit: cycles through the kinds, so that each is tried many times; skips kinds without a target.
 Edit next_edit(test::Rng& rng, const Project& project, int step, Tried& tried) {
     if (const std::optional<Edit> edit = test::random_edit(rng, project, size_t(step) % edit_kinds)) {
         ++tried[size_t(step) % edit_kinds];
@@ -67,14 +67,15 @@ Edit next_edit(test::Rng& rng, const Project& project, int step, Tried& tried) {
 TEST(RichProject, IsInView) {
     const Project project = test::rich_project();
     const Frame picture = fresh_picture(project.scene, project.render, samples);
-    EXPECT_GE(std::set<uint32_t>(picture.object_id.begin(), picture.object_id.end()).size(), 8u) << "edits of what nobody sees prove nothing";
+    EXPECT_GE(std::set<uint32_t>(picture.object_id.begin(), picture.object_id.end()).size(), 8u)
+        << "edits of invisible objects test nothing";
     EXPECT_GE(std::set<uint32_t>(picture.material_id.begin(), picture.material_id.end()).size(), 6u);
     EXPECT_EQ(picture.health.dropped(), 0);
 }
 
 class RandomEdits : public ::testing::TestWithParam<unsigned> {};
 
-TEST_P(RandomEdits, RenderAsIfTheSceneWereJustOpenedAndUndoToTheFirstImage) {
+TEST_P(RandomEdits, RenderLikeAFreshSceneAndUndoToTheFirstImage) {
     test::Rng rng(GetParam());
     Document document(test::rich_project());
     Updated updated(document.project());
@@ -87,7 +88,7 @@ TEST_P(RandomEdits, RenderAsIfTheSceneWereJustOpenedAndUndoToTheFirstImage) {
         const std::string what = label(edit, document.project());
         ASSERT_TRUE(document.apply(edit)) << what;
         const Project& project = document.project();
-        // Now and then several edits are taken up at once, as the session does.
+        // Sometimes several edits are applied at once, as in the session.
         if (rng() % 4 == 0) continue;
         updated.follow(project);
         Renderer fresh(all_planes());
@@ -108,7 +109,7 @@ TEST_P(RandomEdits, RenderAsIfTheSceneWereJustOpenedAndUndoToTheFirstImage) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomEdits, ::testing::Values(1u, 2u));
 
-// Moments of clips, forth and back: of nodes, of a skin and of a morph target.
+// Times of clips, forward and backward: of nodes, of a skin and of a morph target.
 TEST(Renderer, FollowsAnimationsBitForBit) {
     Project project = test::rich_project();
     Updated updated(project);
@@ -129,7 +130,7 @@ TEST(Renderer, FollowsAnimationsBitForBit) {
     EXPECT_TRUE(same_picture(updated.picture(), first));
 }
 
-// By `change` of each geometry's copy.
+// Replaces each geometry by a copy modified by `change`.
 Scene with_geometries(const Scene& scene, auto&& change) {
     Scene changed = scene;
     for (auto [id, mesh] : Table<Mesh>(scene.meshes)) {
@@ -144,9 +145,9 @@ Scene with_geometries(const Scene& scene, auto&& change) {
     return changed;
 }
 
-// Materials that are stretched, or coated with a normal map, on meshes that were imported without tangents: they are as they would be had
-// the meshes had them all along, and go again without a trace.
-TEST(Renderer, MakesTangentsWhenAMaterialComesToNeedThem) {
+// Anisotropic materials, or coats with a normal map, on meshes imported without tangents: they render as if the meshes always had
+// tangents, and removing them restores the original.
+TEST(Renderer, MakesTangentsWhenAMaterialNeedsThem) {
     Project project = test::rich_project();
     const Material bumpy = std::ranges::find_if(project.scene.materials, [](const auto& m) { return m.value.name == "Bumpy"; })->value;
     const Table<Material> materials = project.scene.materials;
@@ -198,8 +199,8 @@ TEST(Renderer, MakesTangentsWhenAMaterialComesToNeedThem) {
     EXPECT_TRUE(same_picture(updated.picture(), plain));
 }
 
-// Far from the origin a scene is rendered about another one: moving there and back leaves no trace, in tables that the edit itself did
-// not ask to be rewritten either.
+// Far from the origin a scene has another render origin: moving there and back restores the image, including tables that the edit
+// itself does not update.
 TEST(Renderer, FollowsASceneThatMovesFarAway) {
     Project project = test::rich_project();
     Updated updated(project);
@@ -223,7 +224,7 @@ TEST(Renderer, FollowsASceneThatMovesFarAway) {
     }
     EXPECT_TRUE(same_picture(updated.picture(), first));
 
-    // Without the camera, which is then looked from at another origin: straight away from it, so that it still sees something.
+    // Without the camera, which then has another origin: moved straight away from it, so that the scene stays in view.
     const Vec3d forward = to_affine(near.view.rotation).z * -1;
     move(to_float(forward * (6 * world_bounds(near).radius())));
     updated.follow(project);
@@ -243,7 +244,7 @@ TEST(Renderer, ThreadsAndBatchesDoNotChangeABit) {
     EXPECT_TRUE(same_picture(one, split.resolve()));
 }
 
-// What the pilot of one scene decided must not outlive it.
+// The pilot's decisions must not be reused for another scene.
 TEST(Renderer, AdaptiveSamplingStartsAgainWithEachPicture) {
     Project project = test::rich_project();
     project.render.adaptive = true;

@@ -1,4 +1,4 @@
-// The light mix in a running session: an edit of light shows on the samples that there are, denoised or not, and nothing begins anew.
+// The light mix in a running session: an edit of lights applies to the existing samples, denoised or not, without a restart.
 #include "render/light_mix.h"
 #include "render/render_session.h"
 #include "support/pictures.h"
@@ -35,7 +35,7 @@ FramePtr frame_of(WatchedSession& session, uint64_t revision) {
     return session.wait_for([&](const Event& e) { return e.frame && e.frame->revision == revision && e.frame->complete; }).frame;
 }
 
-TEST(SessionMix, ShowsOnTheSamplesThatThereAre) {
+TEST(SessionMix, AppliesToExistingSamples) {
     Lamps lamps;
     WatchedSession session;
     session->submit(1, lamps.project.scene, lamps.project.render);
@@ -52,7 +52,7 @@ TEST(SessionMix, ShowsOnTheSamplesThatThereAre) {
     EXPECT_EQ(after->gains, (Gains{{1, 1, 1}, {3, 3, 3}}));
     EXPECT_NE(after->rgba, before->rgba);
     EXPECT_NE(after->error.rmse, before->error.rmse);
-    // What the window shows meanwhile, from the frame before.
+    // What the window shows meanwhile, mixed from the previous frame.
     const std::vector<float> meanwhile = mixed_rgba(*before, after->gains);
     for (size_t i = 0; i < meanwhile.size(); ++i) ASSERT_NEAR(meanwhile[i], after->rgba[i], 0x1p-20f * after->rgba[i]);
 
@@ -64,8 +64,8 @@ TEST(SessionMix, ShowsOnTheSamplesThatThereAre) {
     EXPECT_EQ(moved->rgba, test::fresh_picture(lamps.project.scene, lamps.project.render, 8).rgba);
 }
 
-// A mix that is submitted before the image it belongs to was taken up still shows on planes of that image's own light.
-TEST(SessionMix, CountsFromTheSceneThatBeganTheImage) {
+// A mix submitted before its image was applied still uses planes with that image's own emission.
+TEST(SessionMix, IsRelativeToTheSceneThatBeganTheImage) {
     Lamps lamps;
     const Scene first = lamps.project.scene;
     WatchedSession session;
@@ -81,7 +81,7 @@ TEST(SessionMix, CountsFromTheSceneThatBeganTheImage) {
     EXPECT_EQ(frame->samples, 8);
 }
 
-TEST(SessionMix, KeepsTheFilmForOthersToGoOnFrom) {
+TEST(SessionMix, SavesAFilmThatOthersCanContinue) {
     Lamps lamps;
     WatchedSession session;
     session->submit(1, lamps.project.scene, lamps.project.render);
@@ -106,7 +106,7 @@ TEST(SessionMix, KeepsTheFilmForOthersToGoOnFrom) {
     for (size_t i = 0; i < mixed->rgba.size(); ++i) ASSERT_NEAR(restored->rgba[i], mixed->rgba[i], 0x1p-20f * mixed->rgba[i]);
 }
 
-// Stands in for the networks: halves what it is given, so that what it has touched can be told from what it has not.
+// Fake networks: halve their input, so that denoised values can be recognised.
 Result<std::optional<Denoised>> halved(const DenoiseInput& input, const DenoiseOptions&, const std::function<bool()>&) {
     Denoised denoised;
     for (size_t i = 0; i < size_t(input.width) * size_t(input.height); ++i)
@@ -119,7 +119,7 @@ TEST(SessionMix, StaysDenoised) {
     WatchedSession session(2, {}, halved);
     session->want_denoised(true);
     session->submit(1, lamps.project.scene, lamps.project.render);
-    // What comes earlier is denoised again, better.
+    // Earlier frames are denoised again with better quality.
     const auto is_done = [](const Event& e) {
         return e.frame && e.frame->complete && e.denoised && e.denoised->samples == 8 && e.denoised->quality == DenoiseQuality::high;
     };

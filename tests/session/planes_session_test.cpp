@@ -1,4 +1,4 @@
-// Planes that somebody wants to see for a while: asking for them begins the image anew, giving them back does not.
+// Temporarily requested film planes: requesting them restarts the image, releasing them does not.
 #include "render/render_session.h"
 
 #include "support/pictures.h"
@@ -24,7 +24,7 @@ Project small_project() {
     return project;
 }
 
-TEST(SessionPlanes, ComeWithANewImageAndGoWithoutOne) {
+TEST(SessionPlanes, RestartTheImageWhenAddedButNotWhenRemoved) {
     const Project p = small_project();
     WatchedSession session;
     session->submit(1, p.scene, p.render);
@@ -57,7 +57,7 @@ TEST(SessionPlanes, SurviveEdits) {
     EXPECT_EQ(session.wait_for(2, State::complete).frame->bounces.size(), 4u);
 }
 
-TEST(PlaneSet, CoversWhatItHas) {
+TEST(PlaneSet, CoversItsSubsets) {
     const PlaneSet all{true, true, true, true, 6, true};
     EXPECT_TRUE(all.covers(PlaneSet{}));
     EXPECT_TRUE(all.covers(all));

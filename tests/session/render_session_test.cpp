@@ -1,4 +1,4 @@
-// The session as the window uses it. Proofs rest on the order of what is announced, never on how long something takes.
+// The session as the window uses it. Tests rely on the order of announcements, never on durations.
 #include "render/render_session.h"
 
 #include "support/pictures.h"
@@ -31,10 +31,10 @@ Project small_project(int width = 32, int height = 24, int64_t spp = 8) {
     return project;
 }
 
-// Large enough that the first picture is a coarse one.
+// Large enough for a coarse first image.
 Project large_project(int64_t spp) { return small_project(256, 256, spp); }
 
-// The same scene in another light.
+// The same scene under different light.
 Project lit_by(Project project, float intensity) {
     const auto [id, light] = project.scene.lights.entries()[0];
     Light brighter = light;
@@ -55,7 +55,7 @@ void submit(WatchedSession& session, uint64_t revision, const Project& project) 
 
 Frame fresh(const Project& project) { return fresh_picture(project.scene, project.render, project.render.spp); }
 
-// Revisions of pictures in the order in which they came, each once.
+// Revisions of published frames in order, each once.
 std::vector<uint64_t> revisions_shown(const WatchedSession& session) {
     std::vector<uint64_t> revisions;
     for (const FramePtr& frame : session.frames())
@@ -63,7 +63,7 @@ std::vector<uint64_t> revisions_shown(const WatchedSession& session) {
     return revisions;
 }
 
-// An action at the first event that `when` accepts.
+// Runs an action at the first event that `when` accepts.
 auto once(test::EventTest when, std::function<void(RenderSession&)> action) {
     return [when = std::move(when), action = std::move(action), done = false](RenderSession& session, const Event& event) mutable {
         if (done || !when(event)) return;
@@ -74,7 +74,7 @@ auto once(test::EventTest when, std::function<void(RenderSession&)> action) {
 test::EventTest is(uint64_t revision, State state) {
     return [=](const Event& e) { return e.status.revision == revision && e.status.state == state; };
 }
-// The picture of a revision is out.
+// True if a frame of the revision was published.
 test::EventTest shows(uint64_t revision) {
     return [=](const Event& e) { return e.frame && e.frame->revision == revision; };
 }
@@ -87,7 +87,7 @@ TEST(RenderSession, BeginsIdle) {
     EXPECT_TRUE(session.events().empty());
 }
 
-TEST(RenderSession, ComesToTheImageOfARendererAndSaysSo) {
+TEST(RenderSession, ReachesTheImageOfARendererAndCompletes) {
     const Project project = small_project();
     WatchedSession session;
     submit(session, 5, project);
@@ -113,8 +113,8 @@ TEST(RenderSession, ComesToTheImageOfARendererAndSaysSo) {
     EXPECT_EQ(session.events().front().status.state, State::updating);
 }
 
-// Not every picture's error is estimated; each shows the newest there is, and says of which picture.
-TEST(RenderSession, ErrorsSayWhichPictureTheyAreOf) {
+// Not every frame's error is estimated; each frame has the latest estimate with its sample count.
+TEST(RenderSession, ErrorsStateTheirSampleCount) {
     const Project project = small_project(64, 48, 64);
     WatchedSession session;
     submit(session, 1, project);
@@ -128,7 +128,7 @@ TEST(RenderSession, ErrorsSayWhichPictureTheyAreOf) {
         EXPECT_GE(f->error_samples, samples) << "none is lost";
         samples = f->error_samples;
     }
-    EXPECT_EQ(frames.back()->error_samples, 64) << "the last is always looked at";
+    EXPECT_EQ(frames.back()->error_samples, 64) << "the last frame is always estimated";
     EXPECT_EQ(frames.back()->error.relmse, fresh(project).error.relmse);
 }
 
@@ -160,7 +160,7 @@ TEST(RenderSession, LatestOfTenThousandWins) {
     for (const Event& e : session.events()) EXPECT_EQ(e.status.progress == 1, e.status.state == State::complete) << "of any revision";
 }
 
-TEST(RenderSession, ManyThreadsMaySubmitAndLook) {
+TEST(RenderSession, ManyThreadsMaySubmitAndRead) {
     const Project project = small_project(16, 12, 2);
     WatchedSession session;
     std::vector<std::thread> callers;
@@ -182,8 +182,8 @@ TEST(RenderSession, ManyThreadsMaySubmitAndLook) {
     EXPECT_TRUE(same_picture(*done.frame, fresh(last)));
 }
 
-TEST(RenderSession, WhatIsTakenUpIsShownEvenIfTheNextAlreadyWaits) {
-    // Each revision is submitted as soon as the one before is being taken up, as by a drag that is faster than the renderer.
+TEST(RenderSession, AnAppliedSubmissionIsShownEvenIfTheNextIsPending) {
+    // Each revision is submitted as soon as the previous one is being applied, as in a drag faster than the renderer.
     const Project project = large_project(2);
     constexpr uint64_t last = 6;
     uint64_t submitted = 1;
@@ -228,10 +228,10 @@ TEST(RenderSession, PausedItShowsTheFirstPictureAndWaits) {
     const Event done = session.wait_for(2, State::complete);
     ASSERT_TRUE(done.frame);
     EXPECT_TRUE(same_picture(*done.frame, fresh(edited)));
-    EXPECT_EQ(session.events()[before].status.state, State::rendering) << "nothing was announced until it went on";
+    EXPECT_EQ(session.events()[before].status.state, State::rendering) << "nothing is announced before it resumes";
 }
 
-TEST(RenderSession, PausingInTheMiddleKeepsWhatIsDone) {
+TEST(RenderSession, PausingKeepsTheSamples) {
     const Project project = small_project(32, 24, 64);
     WatchedSession session(2, once([](const Event& e) { return e.frame && e.frame->samples >= 4; }, [](RenderSession& s) { s.pause(true); }));
     submit(session, 1, project);
@@ -244,8 +244,8 @@ TEST(RenderSession, PausingInTheMiddleKeepsWhatIsDone) {
     EXPECT_TRUE(same_picture(*done.frame, fresh(project)));
 }
 
-TEST(RenderSession, EndsInMidPass) {
-    // It would go on forever: the destructor returns because it stops a pass.
+TEST(RenderSession, CanBeDestroyedDuringAPass) {
+    // Rendering is endless: the destructor returns because it interrupts a pass.
     const Project project = small_project(2048, 2048, 0);
     for (int i = 0; i < 3; ++i) {
         WatchedSession session;
@@ -256,7 +256,7 @@ TEST(RenderSession, EndsInMidPass) {
     }
 }
 
-TEST(RenderSession, EndsBeforeAndDuringTheFirstPicture) {
+TEST(RenderSession, CanBeDestroyedBeforeAndDuringTheFirstImage) {
     const Project project = large_project(4);
     for (int i = 0; i < 20; ++i) {
         WatchedSession session;
@@ -288,7 +288,7 @@ TEST(RenderSession, StopRulesMayChangeInTheMiddle) {
     submit(session, 1, project);
     const Event done = session.wait_for(2, State::complete);
     ASSERT_TRUE(done.frame);
-    // It may have been further already: then what is done is shown.
+    // Rendering may already be further: then that frame is shown.
     EXPECT_GE(done.frame->samples, 50);
     EXPECT_TRUE(same_picture(*done.frame, fresh(with_spp(project, done.frame->samples))));
 }
@@ -303,14 +303,14 @@ TEST(RenderSession, AdaptiveSamplingShowsThePictureThatARendererMakes) {
     EXPECT_EQ(done.frame->samples, 48);
     EXPECT_EQ(done.frame->pixel_samples.size(), size_t(48 * 32));
     EXPECT_TRUE(same_picture(*done.frame, fresh(project)));
-    // More of it goes on from there.
+    // More samples continue from there.
     submit(session, 2, with_spp(project, 80));
     const Event more = session.wait_for(2, State::complete);
     ASSERT_TRUE(more.frame);
     EXPECT_TRUE(same_picture(*more.frame, fresh(with_spp(project, 80))));
 }
 
-TEST(RenderSession, FewerSamplesThanAreDoneCompleteWithThePictureThereIs) {
+TEST(RenderSession, FewerSamplesThanRenderedCompleteAtOnce) {
     const Project project = small_project(32, 24, 16);
     WatchedSession session;
     submit(session, 1, project);
@@ -323,7 +323,7 @@ TEST(RenderSession, FewerSamplesThanAreDoneCompleteWithThePictureThereIs) {
     EXPECT_TRUE(same_picture(*done.frame, fresh(project)));
 }
 
-TEST(RenderSession, ANameIsNoReasonToStartAgain) {
+TEST(RenderSession, ARenameDoesNotRestart) {
     const Project project = small_project(32, 24, 8);
     WatchedSession session;
     submit(session, 1, project);
@@ -344,18 +344,18 @@ TEST(RenderSession, SleepsWhenComplete) {
     WatchedSession session;
     submit(session, 1, project);
     session.wait_for(1, State::complete);
-    for (int i = 0; i < 100; ++i) session->pause(i % 2 == 0); // wakes it for nothing
+    for (int i = 0; i < 100; ++i) session->pause(i % 2 == 0); // wakes it unnecessarily
     submit(session, 2, project);
     session.wait_for(2, State::complete);
     session.shut_down();
     const std::vector<Event> events = session.events();
     const auto complete = std::find_if(events.begin(), events.end(), is(1, State::complete));
     ASSERT_NE(complete, events.end());
-    EXPECT_EQ((complete + 1)->status.revision, 2u) << "between completion and the next submission it has nothing to say";
+    EXPECT_EQ((complete + 1)->status.revision, 2u) << "no announcement between completion and the next submission";
     EXPECT_EQ(events.end() - complete, 2);
 }
 
-TEST(RenderSession, FailsWithAReasonAndRecovers) {
+TEST(RenderSession, ReportsFailuresAndRecovers) {
     const Project project = small_project();
     Project impossible = project;
     impossible.render.width = impossible.render.height = 65536;
@@ -371,7 +371,7 @@ TEST(RenderSession, FailsWithAReasonAndRecovers) {
     EXPECT_TRUE(same_picture(*done.frame, fresh(project)));
 
     submit(session, 3, impossible);
-    EXPECT_EQ(session.wait_for(3, State::updating).status.progress, 0) << "what was complete is no longer asked for";
+    EXPECT_EQ(session.wait_for(3, State::updating).status.progress, 0) << "the completed image is outdated";
     EXPECT_EQ(session.wait_for(3, State::failed).frame, done.frame) << "the last picture stays";
     submit(session, 4, impossible);
     session.wait_for(4, State::failed);
@@ -382,7 +382,7 @@ TEST(RenderSession, FailsWithAReasonAndRecovers) {
 TEST(RenderSession, PublishedFramesNeverChange) {
     const Project project = small_project(32, 24, 32);
     constexpr uint64_t last = 8;
-    std::map<FramePtr, uint64_t> held; // every second frame: the others go back to where the next are written
+    std::map<FramePtr, uint64_t> held; // every second frame: the others return to the pool
     bool hold = false;
     std::atomic<bool> done{false};
     RenderSession* watched = nullptr;

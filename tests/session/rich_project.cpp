@@ -7,7 +7,7 @@
 namespace blush::test {
 namespace {
 
-// A ball with shading normals, both UV sets, tangents and vertex colours whose alpha varies.
+// A sphere with shading normals, both UV sets, tangents and vertex colours with varying alpha.
 GeometryPtr octahedron() {
     Geometry g;
     g.positions = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
@@ -17,7 +17,7 @@ GeometryPtr octahedron() {
     for (const Vec3& p : g.positions) {
         g.uv[0].push_back({0.5f + 0.5f * p.x, 0.5f + 0.5f * p.y});
         g.uv[1].push_back({0.5f + 0.5f * p.z, 0.5f - 0.5f * p.x});
-        g.tangents.push_back({p.y, p.z, p.x, 1}); // perpendicular, as the corners lie on the axes
+        g.tangents.push_back({p.y, p.z, p.x, 1}); // perpendicular, as the vertices are on the axes
         g.colors.push_back({0.5f + 0.5f * p.x, 0.7f, 0.5f - 0.5f * p.z, 0.75f + 0.25f * p.y});
     }
     return std::make_shared<const Geometry>(std::move(g));
@@ -144,8 +144,8 @@ void add_lights(Builder& b) {
     b.light("Hidden ball", {-0.2f, 0.6f, 1.8f}, {}, [](Light& l) { l.kind = Light::Kind::sphere, l.radius = 0.15f, l.visible_to_camera = false; });
 }
 
-// A flag on two joints, whose tip a morph target lifts: the clip turns the upper joint and raises the weight. And a leaf that only the
-// other one of two scenes has.
+// A flag skinned to two joints, with a morph target for its tip: the clip rotates the upper joint and raises the weight. And a
+// leaf that only the other one of two scenes has.
 void add_motion(Builder& b) {
     Scene& scene = b.project().scene;
     auto g = std::make_shared<Geometry>();

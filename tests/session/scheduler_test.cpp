@@ -1,4 +1,4 @@
-// The scheduler against a machine made of numbers: no rendering, no clock.
+// The scheduler with simulated timings: no rendering, no clock.
 #include "render/scheduler.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 namespace blush {
 namespace {
 
-// A machine that takes the same time for every sample, and whose error falls as 1 / samples.
+// A machine with a constant time per sample, whose error falls as 1 / samples.
 struct Machine {
     double sample_seconds = 0.01; // every pixel at full resolution
     double error_of_one_sample = 1;
@@ -23,7 +23,7 @@ struct Machine {
         scheduler.record_publish();
         if (work.divider == 1) scheduler.record_error(error_of_one_sample / double(scheduler.samples()));
     }
-    // Works until finished, or until that many pieces are done.
+    // Works until finished, or for that many work items.
     std::vector<Work> run(Scheduler& scheduler, size_t pieces = 100000) const {
         std::vector<Work> done;
         while (!scheduler.finished() && done.size() < pieces) {
@@ -42,7 +42,7 @@ RenderSettings endless(int width = 1280, int height = 720) {
     return settings;
 }
 
-// A scheduler that has learnt how long a sample takes, before the first work of a new revision.
+// A scheduler that knows the sample time, before the first work of a new revision.
 Scheduler experienced(const Machine& machine, const RenderSettings& settings) {
     Scheduler scheduler;
     RenderSettings long_ago = settings;
@@ -62,7 +62,7 @@ TEST(Scheduler, FirstPictureIsTheFinestThatFits) {
     }
 }
 
-TEST(Scheduler, FirstPictureIsNeverTooSmallToBeOne) {
+TEST(Scheduler, FirstPictureHasAMinimumSize) {
     EXPECT_EQ(experienced({1000}, endless(8192, 8192)).next().divider, Scheduler::coarsest_divider);
     for (const int width : {1, 16, 95, 100, 200, 400, 1280, 4000}) {
         const int d = experienced({1000}, endless(width, 3)).next().divider;
@@ -71,15 +71,15 @@ TEST(Scheduler, FirstPictureIsNeverTooSmallToBeOne) {
     EXPECT_EQ(experienced({1000}, endless(1, 1)).next().divider, 1);
 }
 
-TEST(Scheduler, GuessesBeforeItHasMeasured) {
+TEST(Scheduler, AssumesASpeedBeforeItHasMeasured) {
     Scheduler scheduler;
     scheduler.restart(endless(64, 64), true);
-    EXPECT_EQ(scheduler.next().divider, 1) << "a thumbnail needs no thumbnail";
+    EXPECT_EQ(scheduler.next().divider, 1) << "a small image needs no coarse version";
     scheduler.restart(endless(4096, 4096), true);
     EXPECT_GT(scheduler.next().divider, 1);
 }
 
-TEST(Scheduler, WithoutAnAudienceItBeginsAtFullResolution) {
+TEST(Scheduler, NonInteractiveItBeginsAtFullResolution) {
     Scheduler scheduler = experienced({1000}, endless());
     scheduler.restart(endless(), false);
     EXPECT_EQ(scheduler.next().divider, 1);
@@ -148,7 +148,7 @@ TEST(Scheduler, BatchesDouble) {
     EXPECT_EQ(samples, 64);
 }
 
-TEST(Scheduler, PicturesComeLessAndLessOftenButKeepComing) {
+TEST(Scheduler, DisplayIntervalsGrowUpToALimit) {
     const auto longest_wait = [](double now) { return now < 1 ? 0.1 : now < 4 ? 0.25 : now < 15 ? 0.5 : 1; };
     for (const double sample_seconds : {0.0005, 0.004, 0.03, 0.4}) {
         const Machine machine{sample_seconds};
@@ -206,7 +206,7 @@ TEST(Scheduler, StopsAtTheErrorOfTheFullImageOnly) {
     EXPECT_LE(scheduler.samples(), 110);
 }
 
-TEST(Scheduler, AnErrorThatMayBeReachedIsWorthALook) {
+TEST(Scheduler, RequestsAnEstimateWhenTheErrorMayBeReached) {
     RenderSettings settings = endless(64, 64);
     Scheduler scheduler;
     const auto render = [&](int64_t samples) {
@@ -216,13 +216,13 @@ TEST(Scheduler, AnErrorThatMayBeReachedIsWorthALook) {
         settings.error = target;
         scheduler.restart(settings, true);
         render(100);
-        EXPECT_FALSE(scheduler.error_may_be_reached()) << "nothing is known of it";
+        EXPECT_FALSE(scheduler.error_may_be_reached()) << "the error is unknown";
         scheduler.record_error(0.2);
         render(150);
-        EXPECT_FALSE(scheduler.error_may_be_reached()) << "half as much again does not halve the error";
+        EXPECT_FALSE(scheduler.error_may_be_reached()) << "50 % more samples do not halve the error";
         render(170);
         EXPECT_EQ(scheduler.error_may_be_reached(), target > 0) << "if it falls fast";
-        EXPECT_FALSE(scheduler.finished()) << "it was not seen";
+        EXPECT_FALSE(scheduler.finished()) << "it was not measured";
     }
 }
 
@@ -282,7 +282,7 @@ TEST(Scheduler, ProgressGrowsAndIsOneOnlyWhenFinished) {
     }
     Scheduler scheduler = experienced(machine, endless());
     machine.run(scheduler, 100);
-    EXPECT_EQ(scheduler.progress(), 0) << "there is no end to come nearer to";
+    EXPECT_EQ(scheduler.progress(), 0) << "without a stop rule there is no progress";
 }
 
 TEST(Scheduler, OtherStopRulesContinueTheSameImage) {
@@ -302,7 +302,7 @@ TEST(Scheduler, OtherStopRulesContinueTheSameImage) {
     settings.spp = 8;
     scheduler.change_stop_rules(settings);
     EXPECT_TRUE(scheduler.finished());
-    EXPECT_EQ(scheduler.samples(), 16) << "what is done stays";
+    EXPECT_EQ(scheduler.samples(), 16) << "finished samples stay";
 }
 
 TEST(Scheduler, RestartForgetsTheImageAndKeepsTheTimings) {

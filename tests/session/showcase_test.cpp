@@ -8,7 +8,7 @@ namespace {
 FramePtr frame() { return std::make_shared<const Frame>(); }
 DenoisedPtr denoised() { return std::make_shared<const DenoisedPicture>(); }
 
-TEST(Showcase, ADenoisedPictureStaysWithItsImageAndGoesWithIt) {
+TEST(Showcase, ADenoisedPictureLivesAsLongAsItsImage) {
     Showcase showcase;
     const FramePtr first = frame(), second = frame(), other = frame();
     const DenoisedPtr picture = denoised();
@@ -20,7 +20,7 @@ TEST(Showcase, ADenoisedPictureStaysWithItsImageAndGoesWithIt) {
     EXPECT_EQ(showcase.pictures().frame, second);
     EXPECT_EQ(showcase.pictures().denoised, picture);
     showcase.answer(1, second, nullptr);
-    EXPECT_EQ(showcase.pictures().denoised, picture) << "no answer takes nothing away";
+    EXPECT_EQ(showcase.pictures().denoised, picture) << "a skipped frame keeps the denoised image";
     showcase.show(2, other);
     EXPECT_EQ(showcase.pictures().denoised, nullptr);
     showcase.answer(1, second, denoised());
@@ -28,7 +28,7 @@ TEST(Showcase, ADenoisedPictureStaysWithItsImageAndGoesWithIt) {
     EXPECT_EQ(showcase.pictures().denoised, nullptr) << "of an image that is no longer shown";
 }
 
-TEST(Showcase, AWithheldFrameComesWithItsAnswer) {
+TEST(Showcase, AWithheldFrameIsShownWithItsDenoisedVersion) {
     Showcase showcase;
     const FramePtr old = frame(), next = frame();
     showcase.show(1, old);
@@ -40,7 +40,7 @@ TEST(Showcase, AWithheldFrameComesWithItsAnswer) {
     EXPECT_EQ(showcase.pictures().denoised, picture);
 }
 
-TEST(Showcase, AWithheldFrameComesEvenWithoutOne) {
+TEST(Showcase, AWithheldFrameIsShownIfDenoisingFails) {
     for (const bool answered : {true, false}) {
         Showcase showcase;
         const FramePtr next = frame();
@@ -56,7 +56,7 @@ TEST(Showcase, AWithheldFrameComesEvenWithoutOne) {
     }
 }
 
-TEST(Showcase, ALaterFrameDoesNotWait) {
+TEST(Showcase, ALaterFrameIsShownAtOnce) {
     Showcase showcase;
     const FramePtr coarse = frame(), fine = frame();
     const DenoisedPtr picture = denoised();

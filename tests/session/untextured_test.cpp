@@ -1,4 +1,5 @@
-// A scene is shown without its textures, then with them: the renderer that has seen both ends with the picture of one that never saw the first.
+// A scene is shown without textures first, then with them: the final image equals that of a renderer that never saw the
+// untextured scene.
 #include "render/renderer.h"
 #include "scene/untextured.h"
 #include "support/pictures.h"
@@ -19,7 +20,7 @@ RenderSettings small() {
     return settings;
 }
 
-TEST(Untextured, IsAPictureOfItsOwnThatGivesWayToTheWhole) {
+TEST(Untextured, IsReplacedByTheTexturedScene) {
     const test::Sample sample = test::sample_project();
     const Scene& whole = sample.project.scene;
     Renderer renderer(test::all_planes());

@@ -1,4 +1,4 @@
-// The update policy, row by row: which change costs what, and what each kind of edit therefore costs.
+// The update policy, row by row: the updates needed for each change, and so for each kind of edit.
 #include "render/update_plan.h"
 
 #include "render/lowering.h"
@@ -29,7 +29,7 @@ namespace {
 using test::Sample;
 using test::sample_project;
 
-// The costs that always come together.
+// Updates that always occur together.
 UpdatePlan nothing() { return {}; }
 UpdatePlan camera() {
     UpdatePlan p;
@@ -88,7 +88,7 @@ UpdatePlan plan_if(auto&& fill) {
     return plan(c);
 }
 
-TEST(UpdatePlan, EachChangeCostsItsRowAndNothingMore) {
+TEST(UpdatePlan, EachChangeNeedsItsUpdatesOnly) {
     EXPECT_EQ(plan(Changes{}), nothing());
     EXPECT_EQ(plan_if([](Changes& c) { c.stop_rules = true; }), nothing());
     EXPECT_EQ(plan_if([](Changes& c) { c.view = true; }), camera());
@@ -106,20 +106,20 @@ TEST(UpdatePlan, EachChangeCostsItsRowAndNothingMore) {
     EXPECT_EQ(plan_if([](Changes& c) { c.mix = true; }), lights());
 }
 
-TEST(UpdatePlan, TwoChangesCostTheirUnion) {
+TEST(UpdatePlan, TwoChangesNeedTheUnion) {
     UpdatePlan both = moved();
     both.camera = true;
     EXPECT_EQ(plan_if([](Changes& c) { c.transforms = {{1}}, c.view = true; }), both);
     EXPECT_EQ(plan_if([](Changes& c) { c.textures = {{1}}, c.materials = {{7}}; }), every_material()) << "all of them include the one";
 }
 
-TEST(UpdatePlan, TheFirstTimeEverythingIsDone) {
+TEST(UpdatePlan, TheFirstPlanIsFull) {
     const UpdatePlan p = full_plan();
     EXPECT_TRUE(p.objects && p.transforms && p.all_materials && p.lights && p.environment_map && p.environment_parameters && p.camera &&
                 p.clear_film && p.features);
 }
 
-// What an edit of the sample project makes the renderer do.
+// The updates that an edit of the sample project causes.
 UpdatePlan cost(const Project& before, const Edit& edit) {
     const Result<Project> after = blush::apply(before, edit);
     EXPECT_TRUE(after) << after.error().text();
@@ -140,7 +140,7 @@ protected:
         with(material);
         return cost_of(SetMaterial{sample.red, material});
     }
-    // Makes the lamp something else for the rest of the test.
+    // Replaces the lamp for the rest of the test.
     void set_lamp(auto&& with) { sample.project = *blush::apply(sample.project, SetLight{sample.lamp, lamp(with)}); }
     UpdatePlan cost_of_lamp(auto&& with) const { return cost_of(SetLight{sample.lamp, lamp(with)}); }
     Light lamp(auto&& with) const {
@@ -188,7 +188,7 @@ TEST_F(EditCost, SetLight) {
     EXPECT_EQ(cost_of_lamp([](Light& l) { l.unit = Light::Unit::lumen, l.keep_power = true; }), nothing()) << "for the window";
 }
 
-TEST_F(EditCost, SetLightWithABody) {
+TEST_F(EditCost, SetAreaLight) {
     set_lamp([](Light& l) { l.kind = Light::Kind::rectangle; });
     const uint32_t body = lowered_bit | sample.lamp.value;
     EXPECT_EQ(cost_of_lamp([](Light& l) { l.intensity = 7; }), one_material(body));

@@ -27,10 +27,10 @@ WatchedSession::WatchedSession(const SessionOptions& options, std::function<void
 }
 
 void WatchedSession::record() {
-    // Nothing is announced before the first submission, so the session is known by now.
+    // Nothing is announced before the first submission, so watched_ is set by now.
     Event event;
     {
-        // The render thread and the denoiser's announce: they are written down in the order of what they saw.
+        // The render thread and the denoiser's thread announce concurrently: record in the order in which they read the state.
         const std::lock_guard lock(mutex_);
         const Pictures pictures = watched_->pictures();
         event = {watched_->status(), pictures.frame, pictures.denoised};
@@ -49,7 +49,7 @@ Event WatchedSession::wait_for(const EventTest& test) {
         found = std::find_if(events_.begin(), events_.end(), test);
         return found != events_.end();
     });
-    EXPECT_TRUE(came) << "the session never came to what the test waits for";
+    EXPECT_TRUE(came) << "the session never reached the state that the test waits for";
     return came ? *found : Event{};
 }
 

@@ -1,4 +1,4 @@
-// A session with a witness: everything that it announces is kept, in order, and can be waited for.
+// A session that records all of its announcements, in order; tests can wait for them.
 #pragma once
 
 #include "render/render_session.h"
@@ -11,10 +11,10 @@
 
 namespace blush::test {
 
-// What could be seen at one call of on_frame.
+// The published state at one call of on_frame.
 struct Event {
     SessionStatus status;
-    FramePtr frame;       // the newest; null before the first
+    FramePtr frame;       // the latest; null before the first
     DenoisedPtr denoised; // of its image, if any
 };
 
@@ -22,21 +22,20 @@ using EventTest = std::function<bool(const Event&)>;
 
 class WatchedSession {
 public:
-    // `on_event` runs at each announcement, after it was recorded, one at a time.
+    // `on_event` runs for each announcement after it was recorded, one at a time.
     explicit WatchedSession(unsigned threads = 2, std::function<void(RenderSession&, const Event&)> on_event = {},
                             DenoiseFunction denoise = {});
     explicit WatchedSession(const SessionOptions& options, std::function<void(RenderSession&, const Event&)> on_event = {});
 
     RenderSession* operator->() { return session_.get(); }
-    // Stops and joins; what was announced stays readable.
+    // Stops and joins; recorded events stay readable.
     void shut_down() { session_.reset(); }
 
-    // The first event for which `test` holds, from the first ever on. A test that waits for more than minutes has failed: returns an empty
-    // event.
+    // Returns the first recorded event for which `test` holds. After minutes the test fails and an empty event is returned.
     Event wait_for(const EventTest& test);
     Event wait_for(uint64_t revision, SessionStatus::State state);
     std::vector<Event> events() const;
-    // The events' frames without repetitions, in order of publication.
+    // The distinct frames of the events, in order of publication.
     std::vector<FramePtr> frames() const;
 
 private:
@@ -47,8 +46,8 @@ private:
     mutable std::mutex mutex_;
     std::condition_variable changed_;
     std::vector<Event> events_;
-    RenderSession* watched_ = nullptr;       // the next one, reachable while it is being destroyed
-    std::unique_ptr<RenderSession> session_; // last: gone before what its thread writes to
+    RenderSession* watched_ = nullptr;       // the session, accessible during its destruction
+    std::unique_ptr<RenderSession> session_; // last member: destroyed before the members that its thread writes to
 };
 
 } // namespace blush::test
