@@ -73,7 +73,7 @@ Denoised denoised(Denoiser& denoiser, const Planes& planes, const DenoiseOptions
         ADD_FAILURE() << made.error().text();
         return {};
     }
-    EXPECT_TRUE(made->has_value()) << "stopped though it was wanted";
+    EXPECT_TRUE(made->has_value()) << "stopped without being cancelled";
     return *made ? std::move(**made) : Denoised{};
 }
 

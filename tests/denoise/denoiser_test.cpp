@@ -1,4 +1,4 @@
-// The denoiser as its users see it: sizes, tiles, threads, cancellation, warm and cold, what it says about itself.
+// The public interface of the denoiser: sizes, tiles, threads, cancellation, cold and warm starts, reported statistics.
 #include "denoise/agreement.h"
 
 #include <algorithm>
@@ -48,7 +48,7 @@ TEST(Denoiser, AConstantImageKeepsItsMean) {
         }
 }
 
-TEST(Denoiser, TellsTheMeanLuminances) {
+TEST(Denoiser, ReportsMeanLuminances) {
     const Denoised made = denoised(constant_planes(40, 30, 0.25f), {});
     EXPECT_NEAR(made.mean_before, 0.25, 1e-6);
     double luminance = 0;
@@ -57,8 +57,8 @@ TEST(Denoiser, TellsTheMeanLuminances) {
     EXPECT_NEAR(made.mean_after, luminance / (40 * 30), 1e-6);
 }
 
-// Seams would be largest where tiles meet, so all pixels must agree.
-TEST(Denoiser, TilesDoNotShow) {
+// Seams are largest at tile borders, so all pixels must agree.
+TEST(Denoiser, TilesAreInvisible) {
     Denoiser denoiser(BLUSH_WEIGHTS, 2);
     const auto check = [&](const Planes& planes, DenoiseQuality quality, int megabytes) {
         DenoiseOptions options{.quality = quality, .precision = DenoisePrecision::float32};
@@ -88,8 +88,8 @@ TEST(Denoiser, ThreadsDoNotChangeTheResult) {
     for (const unsigned threads : {2u, 5u}) EXPECT_EQ(denoised(planes, {}, threads).rgb, one.rgb);
 }
 
-// Sizes, networks and precisions in turns: what earlier calls left in memory must not show.
-TEST(Denoiser, WarmIsAsCold) {
+// Sizes, networks and precisions in turn: memory contents of earlier calls must not matter.
+TEST(Denoiser, WarmEqualsCold) {
     Denoiser warm(BLUSH_WEIGHTS, 2);
     for (int round = 0; round < 2; round++)
         for (const auto& [width, height] : {std::pair{100, 50}, {20, 90}, {64, 64}})
@@ -120,8 +120,8 @@ TEST(Denoiser, StopsWhenNoLongerWanted) {
     EXPECT_EQ(denoised(denoiser, planes, {}).rgb, denoised(planes, {}).rgb);
 }
 
-// Layer by layer and tile by tile, for all the networks of the quality: many steps forward, the last of them to the end.
-TEST(Denoiser, TellsHowFarItIs) {
+// Per layer and tile, for all networks of the quality: many increasing steps, ending at 1.
+TEST(Denoiser, ReportsProgress) {
     Denoiser denoiser(BLUSH_WEIGHTS, 2);
     const Planes planes = noisy_planes(500, 60);
     const auto steps = [&](const DenoiseOptions& options) {
@@ -177,7 +177,7 @@ TEST(Denoiser, AGivenExposureScaleIsUsed) {
     EXPECT_NE(other.rgb, measured.rgb);
 }
 
-TEST(Denoiser, UsesWhatFeaturesThereAre) {
+TEST(Denoiser, UsesAvailableFeatures) {
     Planes planes = noisy_planes(40, 40);
     EXPECT_EQ(denoised(planes, {.quality = DenoiseQuality::high}).network, "rt_hdr_calb_cnrm");
     EXPECT_EQ(denoised(planes, {.quality = DenoiseQuality::base}).network, "rt_hdr_alb_nrm");

@@ -16,13 +16,13 @@ float scale_of(const Planes& planes) { return exposure_scale_of({planes.color, 3
 
 TEST(Exposure, BringsTheMeanToMiddleGrey) {
     for (const float value : {1e-6f, 0.18f, 1.f, 1e9f}) EXPECT_NEAR(scale_of(constant_planes(37, 21, value)) * value, 0.18, 1e-6);
-    // Half of the blocks at 1/4, half at 4: the geometric mean is 1.
+    // Half of the blocks have 1/4, half 4: the geometric mean is 1.
     Planes halves = constant_planes(64, 16, 0.25f);
     for (int y = 0; y < 16; y++) std::fill_n(&halves.color[(size_t(y) * 64 + 32) * 3], 32 * 3, 4.f);
     EXPECT_NEAR(scale_of(halves), 0.18, 1e-6);
 }
 
-TEST(Exposure, BlackIsLeftOut) {
+TEST(Exposure, BlackIsExcluded) {
     EXPECT_EQ(scale_of(constant_planes(1, 1, 0)), 1);
     EXPECT_EQ(scale_of(constant_planes(40, 40, -1)), 1);
     EXPECT_EQ(scale_of(constant_planes(40, 40, nan)), 1);
@@ -44,7 +44,7 @@ TEST(Exposure, StaysWithinTheRangeOfFloat) {
     EXPECT_NEAR(scale_of(odd), 1, 0.01);
 }
 
-TEST(Inspection, CountsPixelsThatAreNotUsualAndKeepsTheMeanFinite) {
+TEST(Inspection, CountsInvalidPixelsAndKeepsTheMeanFinite) {
     Planes planes = constant_planes(10, 10, 1);
     planes.color[0] = planes.color[1] = nan; // two components of one pixel
     planes.color[30] = -0.5f;

@@ -1,4 +1,4 @@
-// Against pictures that another program made with the same networks (tests/golden/denoise).
+// Compares with images that another program denoised with the same networks (tests/golden/denoise).
 #include "denoise/agreement.h"
 
 #include <ostream>
@@ -10,10 +10,10 @@ struct Golden {
     const char* network;
     DenoiseQuality quality;
     bool features;
-    double relmse; // of the expected picture against the reference, to five digits
+    double relmse; // of the expected image against the reference, to five digits
 };
 
-// How GoogleTest names the case.
+// Name of the GoogleTest case.
 void PrintTo(const Golden& golden_case, std::ostream* out) { *out << golden_case.network; }
 
 class GoldenTest : public testing::TestWithParam<Golden> {
@@ -45,7 +45,7 @@ TEST_P(GoldenTest, Bfloat16Agrees) {
     EXPECT_LT(relative_difference(made.rgb, expected().color).mean, 1e-2);
 }
 
-TEST_P(GoldenTest, IsAsFarFromTheReferenceAsExpected) {
+TEST_P(GoldenTest, HasTheExpectedErrorAgainstTheReference) {
     const Denoised made = denoised(noisy(), options(DenoisePrecision::float32));
     ASSERT_EQ(made.rgb.size(), golden("reference").color.size());
     EXPECT_NEAR(relmse(made.rgb, golden("reference").color), GetParam().relmse, 5e-6);

@@ -1,4 +1,4 @@
-// Input that is not a picture: numbers that are none, sizes that do not fit, damaged weights.
+// Invalid input: non-finite numbers, inconsistent sizes, damaged weights.
 #include "denoise/agreement.h"
 
 #include "core/files.h"
@@ -32,7 +32,7 @@ TEST(DenoiserHostile, BadPixelsAreSanitisedAndCounted) {
     }
 }
 
-TEST(DenoiserHostile, NothingButBadPixels) {
+TEST(DenoiserHostile, OnlyBadPixels) {
     Denoiser denoiser(BLUSH_WEIGHTS, 2);
     for (const float value : {nan, infinite, -infinite, -1.f, 0.f, 1e-45f, 1e30f, std::numeric_limits<float>::max()}) {
         const Denoised made = denoised(denoiser, constant_planes(20, 20, value), {});
@@ -52,9 +52,9 @@ TEST(DenoiserHostile, BadFeatures) {
     }
 }
 
-// A floor of which one texel shines beyond all numbers: its samples are dropped, and where that leaves a hole in the picture, nothing but
-// its surroundings shows it. How much two soundly rendered pictures of other seeds differ says what "nothing" is.
-TEST(DenoiserHostile, DroppedSamplesPoisonNothing) {
+// A floor with one texel that overflows: its samples are dropped, and the gap in the image affects only its neighbourhood. The
+// threshold is the difference of two valid renders with different seeds.
+TEST(DenoiserHostile, DroppedSamplesDoNotSpread) {
     constexpr int side = 128, texels = 16, reach = 40;
     const auto picture = [&](float odd_one, uint32_t seed) {
         std::vector<Vec3> values(texels * texels, Vec3{1, 1, 1});
@@ -93,7 +93,7 @@ TEST(DenoiserHostile, DroppedSamplesPoisonNothing) {
     }
 }
 
-TEST(DenoiserHostile, SizesThatDoNotFit) {
+TEST(DenoiserHostile, InconsistentSizes) {
     Denoiser denoiser(BLUSH_WEIGHTS, 1);
     const Planes planes = constant_planes(10, 10, 1);
     const auto refused = [&](auto change) {
@@ -127,7 +127,7 @@ TEST(DenoiserHostile, DamagedWeightsAreAnError) {
     const auto made = denoiser.denoise(planes.input(), {});
     ASSERT_FALSE(made);
     EXPECT_NE(made.error().text().find("rt_hdr_small.tza"), std::string::npos) << made.error().text();
-    // Put right, they are read.
+    // After repair, they are read.
     ASSERT_TRUE(write_file(folder / "rt_hdr_small.tza", *whole));
     EXPECT_TRUE(denoiser.denoise(planes.input(), {}));
 }

@@ -12,12 +12,12 @@ namespace {
 
 using namespace denoise;
 
-// Does the network see all that reaches into the part from `begin` to `end`, as far as there is an image?
+// True if the network input covers the receptive field of the part from `begin` to `end`, as far as the image extends.
 bool sees_enough(int begin, int end, int seen, int seen_size, int side) {
     return seen <= std::max(0, begin - unet_reach) && seen + seen_size >= std::min(side, end + unet_reach);
 }
 
-TEST(Tiles, EveryPixelOnceAndAllThatReachesIt) {
+TEST(Tiles, CoverEveryPixelOnceWithItsReceptiveField) {
     for (const auto& [width, height] : {std::pair{1, 1}, {15, 17}, {1000, 300}, {1921, 1081}, {5000, 20}, {208, 209}})
         for (const int64_t most_pixels : {43264, 100000, 1 << 20, 1 << 30}) {
             const auto grid = choose_tiles(width, height, [&](int w, int h) { return int64_t(w) * h <= most_pixels; });

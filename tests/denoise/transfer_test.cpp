@@ -14,7 +14,7 @@ namespace {
 
 using namespace denoise;
 
-// The published curve in double.
+// The published curve in double precision.
 double curve(double y) {
     if (y <= 1.5794576e-6) return 1412.83765 * y;
     if (y <= 0.0322087631) return 1.64593172 * std::pow(y, 0.431384981) - 0.00294139609;
@@ -28,22 +28,22 @@ std::vector<float> radiances() {
     return values;
 }
 
-TEST(Transfer, LogarithmIsTheLibrarys) {
+TEST(Transfer, LogarithmMatchesTheLibrary) {
     for (float x = 1e-30f; x < 1e30f; x *= 1.01f)
         EXPECT_NEAR(denoise::log(x), std::log(double(x)), 2e-7 * std::max(1.0, std::abs(std::log(double(x))))) << x;
 }
 
 TEST(Transfer, IsThePublishedCurve) {
-    // Relative errors of exp and log below 2e-7 each, and the rounding of some five operations on numbers of size 1.
+    // Relative errors of exp and log are below 2e-7 each, plus the rounding of about five operations on numbers of size 1.
     for (const float y : radiances()) EXPECT_NEAR(perceived(y), curve(y), 1e-6 * std::max(curve(y), 3e-3)) << y;
 }
 
-TEST(Transfer, InverseUndoesIt) {
+TEST(Transfer, InverseRoundTrips) {
     // The inverse magnifies errors of x near 1 by dy / y = dx x / 0.19.
     for (const float y : radiances()) EXPECT_NEAR(radiance_of(perceived(y)), y, 3e-5 * std::max(y, 1e-6f)) << y;
 }
 
-TEST(Transfer, RegistersGiveTheBitsOfNumbers) {
+TEST(Transfer, RegistersAndScalarsAreBitIdentical) {
     const std::vector<float> values = radiances();
     for (const float y : values) {
         EXPECT_EQ(lane(perceived(Wide(y)), 0), perceived(y)) << y;
@@ -51,7 +51,7 @@ TEST(Transfer, RegistersGiveTheBitsOfNumbers) {
     }
 }
 
-TEST(Pixels, ColorThereAndBack) {
+TEST(Pixels, ColorRoundTrip) {
     std::vector<float> rgba, back(3);
     for (const float y : radiances()) rgba.insert(rgba.end(), {y / 4, y / 8, y / 16, 1});
     const int count = int(rgba.size() / 4);
@@ -66,7 +66,7 @@ TEST(Pixels, ColorThereAndBack) {
         for (int c = 0; c < 3; c++) EXPECT_NEAR(rgb[3 * i + c], rgba[4 * i + c], 3e-5 * std::max(rgba[4 * i + c], 1e-6f));
 }
 
-TEST(Pixels, WhatTheNetworkSeesIsWithinItsRange) {
+TEST(Pixels, NetworkInputIsInRange) {
     constexpr float nan = std::numeric_limits<float>::quiet_NaN(), infinite = std::numeric_limits<float>::infinity();
     const std::vector<float> odd{nan, -1, infinite, -infinite, 1e30f, 0.5f};
     std::vector<float> seen(6);

@@ -21,7 +21,7 @@ template <class T> void put(Bytes& bytes, T value) {
 }
 void put(Bytes& bytes, const std::string& text) { bytes.insert(bytes.end(), text.begin(), text.end()); }
 
-// An entry of the table as it stands in the file, right or wrong.
+// An entry of the table as stored in the file, valid or not.
 struct Entry {
     std::string name = "a";
     std::vector<uint32_t> dimensions = {2};
@@ -84,7 +84,7 @@ TEST(Tza, ReadsFloatsAndHalves) {
     EXPECT_EQ(read->at("b").values, (std::vector<float>{1, -2.5f, 0x1p-24f, -1023 * 0x1p-24f, 0x1p-14f, 65504}));
 }
 
-TEST(Tza, RefusesWhatIsDamaged) {
+TEST(Tza, RejectsDamagedFiles) {
     const Bytes data = floats({1, 2});
     EXPECT_EQ(error_of(file_of(data, {{}})), "no error");
     EXPECT_TRUE(refused(file_of(data, {{}}, 0x41D8), "magic"));
@@ -97,25 +97,25 @@ TEST(Tza, RefusesWhatIsDamaged) {
     EXPECT_TRUE(refused({}, "magic"));
 }
 
-TEST(Tza, RefusesAbsurdNumbers) {
+TEST(Tza, RejectsInvalidOffsetsAndSizes) {
     const Bytes data = floats({1, 2});
-    // Offsets beyond the end, and such that adding the size wraps round.
+    // Offsets beyond the end, and offsets that overflow when the size is added.
     for (const uint64_t offset : {uint64_t(1000), ~uint64_t(0), ~uint64_t(0) - 7, uint64_t(1) << 63}) {
         EXPECT_TRUE(refused(file_of(data, {{.offset = offset}}), "beyond the end"));
         Bytes bytes = file_of(data, {{}});
         for (int i = 0; i < 8; i++) bytes[4 + i] = uint8_t(offset >> 8 * i);
         EXPECT_TRUE(refused(bytes, "beyond the end"));
     }
-    // Products that are too large, or wrap to something small.
+    // Products that are too large, or overflow to a small number.
     for (const std::vector<uint32_t>& dimensions :
          {std::vector<uint32_t>{~0u}, {65536, 65536, 65536, 65536}, {0x80000001, 2, 0x80000001, 2}, std::vector<uint32_t>(255, 2)})
         EXPECT_TRUE(
             refused(file_of(data, {{.dimensions = dimensions, .layout = std::string(dimensions.size(), 'x')}}), "larger than the file"));
-    // More tensors than there is table.
+    // More tensors than table entries.
     Bytes many = file_of(data, {{}});
     for (int i = 0; i < 4; i++) many[12 + data.size() + i] = 0xff;
     EXPECT_TRUE(refused(many, "truncated"));
-    // The same bytes again and again.
+    // Many tensors with the same bytes.
     std::vector<Entry> entries;
     for (int i = 0; i < 1000; i++) entries.push_back({.name = std::to_string(i), .dimensions = {4000}, .type = 'h'});
     EXPECT_TRUE(refused(file_of(Bytes(8000), entries), "larger than the file"));
@@ -134,18 +134,18 @@ TEST(Tza, TruncatedAnywhereIsAnError) {
     EXPECT_TRUE(refused({real->begin(), real->end() - 1}, ""));
 }
 
-TEST(Tza, AnyByteMayBeWrong) {
+TEST(Tza, SurvivesAnyWrongByte) {
     const Bytes whole = file_of(floats({1, 2}), {{.dimensions = {1}}, {"b", {1}, "x", 'f', 16}});
     std::mt19937 random(1);
     for (int round = 0; round < 20000; round++) {
         Bytes bytes = whole;
         for (int i = 0; i < 3; i++) bytes[random() % bytes.size()] = uint8_t(random());
-        const auto read = read_tza(bytes, "weights.tza"); // must end, within memory; what it finds does not matter
+        const auto read = read_tza(bytes, "weights.tza"); // must return, within memory; its result does not matter
         EXPECT_LE(read ? read->size() : 0, 2u);
     }
 }
 
-TEST(UnetWeights, MustMakeTheNetwork) {
+TEST(UnetWeights, MustFitTheNetwork) {
     const std::string folder = BLUSH_WEIGHTS;
     const auto good = read_unet_weights(folder + "/rt_hdr_alb_nrm.tza", 9);
     ASSERT_TRUE(good) << good.error().text();
@@ -158,7 +158,7 @@ TEST(UnetWeights, MustMakeTheNetwork) {
     EXPECT_FALSE(read_unet_weights(folder + "/absent.tza", 9));
     EXPECT_FALSE(read_unet_weights("/dev/zero", 9));
 
-    // A container in order, without a network in it.
+    // A valid container that contains no network.
     const TemporaryFolder temporary;
     ASSERT_TRUE(write_file(temporary / "empty.tza", file_of({}, {})));
     EXPECT_FALSE(read_unet_weights(temporary / "empty.tza", 9));

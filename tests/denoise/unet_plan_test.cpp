@@ -33,8 +33,8 @@ TEST(UnetPlan, Bfloat16ComesInTwoPartsAndEndsInFloat32) {
         EXPECT_EQ(plan.planes[i].element, i + 2 < unet_plane_count ? Element::bfloat16 : Element::float32) << i;
 }
 
-// While layer i runs, what it writes and everything that it or a later layer still reads must lie apart.
-TEST(UnetPlan, WhatIsNeededAtOnceLiesApart) {
+// While layer i runs, its output and all planes that it or a later layer still reads must not overlap.
+TEST(UnetPlan, LivePlanesDoNotOverlap) {
     for (const Element element : {Element::float32, Element::bfloat16})
         for (const auto& [width, height] : {std::pair{16, 16}, {208, 160}, {1280, 720}, {16, 4096}}) {
             const UnetPlan plan = plan_unet(base, width, height, element);
@@ -56,7 +56,7 @@ TEST(UnetPlan, SharesMemory) {
     size_t all = 0;
     for (int plane = 0; plane + 1 < unet_plane_count; plane++) all += end_of(plan, plane) - plan.planes[plane].offset;
     EXPECT_LT(plan.plane_bytes, 0.7 * double(all));
-    // The widest moment: the last but two layers' planes, 64 and 32 channels of full size.
+    // The peak: the planes of the last layers but two, 64 and 32 channels of full size.
     EXPECT_GE(plan.plane_bytes, size_t(1280) * 720 * 96 * 4);
 }
 

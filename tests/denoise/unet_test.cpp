@@ -1,4 +1,4 @@
-// Convolutions and whole networks against the plainest possible arithmetic in double.
+// Convolutions and whole networks compared with a plain implementation in double precision.
 #include "render/denoise/unet.h"
 
 #include "render/denoise/band_ops.h"
@@ -29,7 +29,7 @@ struct Image {
     double padded(int x, int y, int c) const { return x < 0 || y < 0 || x >= width || y >= height ? 0 : at(x, y, c); }
 };
 
-// `magnitude`: the same with absolute values, before the ReLU: what rounding errors are relative to.
+// `magnitude`: the same with absolute values, before the ReLU: the reference for rounding errors.
 struct Convolved {
     Image result, magnitude;
 };
@@ -84,7 +84,7 @@ Image network(const Image& input, const UnetWeights& weights) {
     return planes.back();
 }
 
-// As the network will see it.
+// Rounded to the network's element type.
 float rounded_to(Element element, float x) { return element == Element::float32 ? x : denoise::to_float(to_bfloat16(x)); }
 
 class Random {
@@ -113,7 +113,7 @@ std::vector<Element> elements() {
     return {Element::float32};
 }
 
-// One row of padding above and below, then the image in the element's bytes.
+// The image with one row of padding above and below, in bytes of the element type.
 template <class T> std::vector<T> rows_of(const Image& image) {
     std::vector<float> values(size_t(image.width) * image.channels * (image.height + 2));
     std::ranges::copy(image.values, values.begin() + long(image.width) * image.channels);
@@ -142,20 +142,20 @@ template <class T> void check_convolution(const Shape& s, Element element) {
     std::vector<float> made(expected.result.values.size());
     std::vector<std::byte> scratch(convolution->scratch_bytes());
     convolution->run(source.data(), made.data(), scratch.data());
-    // Each of the additions and multiplications of a sum rounds once.
+    // Each addition and multiplication of a sum rounds once.
     const double roundings = 9 * s.inputs + 1;
     for (size_t i = 0; i < made.size(); i++)
         ASSERT_NEAR(made[i], expected.result.values[i], roundings * epsilon * expected.magnitude.values[i]) << i;
 }
 
-TEST(Convolution, IsThePlainSum) {
+TEST(Convolution, MatchesThePlainSum) {
     for (const Element element : elements())
         for (const Shape& s :
              {Shape{9, 32, 16, 8}, {3, 32, 48, 3}, {41, 32, 17, 8}, {73, 64, 33, 2}, {32, 3, 16, 8}, {160, 112, 2, 1}, {1, 1, 1, 1}})
             element == Element::float32 ? check_convolution<float>(s, element) : check_convolution<Bfloat16>(s, element);
 }
 
-// Weights and inputs are positive, so that nothing cancels and relative errors only add up. Channels such that no vector is full.
+// Positive weights and inputs, so that nothing cancels and relative errors only add up. Channel counts that fill no vector.
 UnetWeights positive_network(int inputs, Random& random) {
     const UnetChannels outputs{inputs, 5, 7, 6, 9, 8, 10, 11, 12, 9, 7, 8, 6, 5, 7, 9, 3};
     UnetWeights weights;
@@ -166,7 +166,7 @@ UnetWeights positive_network(int inputs, Random& random) {
     return weights;
 }
 
-TEST(Unet, IsTheNetworkOfPlainSums) {
+TEST(Unet, MatchesTheNetworkOfPlainSums) {
     for (const auto& [width, height] : {std::pair{16, 16}, {48, 80}, {32, 208}}) {
         Random random{uint32_t(height)};
         const UnetWeights weights = positive_network(4, random);
@@ -176,7 +176,8 @@ TEST(Unet, IsTheNetworkOfPlainSums) {
         const auto unet = make_unet(weights, width, height, Element::float32);
         ASSERT_TRUE(unet) << unet.error().text();
         const Workers workers(3);
-        std::vector<std::byte> memory(unet->bytes(workers) + 64, std::byte(0xff)); // NaN: nothing may be read before it is written
+        // NaN: nothing may be read before it is written
+        std::vector<std::byte> memory(unet->bytes(workers) + 64, std::byte(0xff));
         auto* aligned = reinterpret_cast<std::byte*>((reinterpret_cast<uintptr_t>(memory.data()) + 63) / 64 * 64);
         std::vector<float> made(expected.values.size());
         const auto source = [&](int y, float* row) { std::copy_n(&input.values[size_t(y) * width * 4], width * 4, row); };
