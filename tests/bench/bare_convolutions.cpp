@@ -51,7 +51,7 @@ dnnl::convolution_forward::primitive_desc convolution(int inputs, int outputs, i
 
 struct BareConvolutions::State {
     unsigned threads;
-    memory source = {}, target = {}; // as large as the largest of any layer
+    memory source = {}, target = {}; // size of the largest layer
     std::vector<Work> work = {};
     double operations = 0;
 };

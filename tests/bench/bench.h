@@ -1,4 +1,4 @@
-// What the cases have in common. A case measures one thing on several scenes and returns its figures as JSON.
+// Common parts of the benchmark cases. A case measures one thing on several scenes and returns its figures as JSON.
 #pragma once
 
 #include "tests/bench/bench_scene.h"
@@ -15,13 +15,13 @@ using Json = nlohmann::ordered_json;
 
 struct Options {
     std::vector<BenchScene> scenes;
-    unsigned threads = 2;         // the largest number of them measured
+    unsigned threads = 2;         // the largest number that is measured
     int rounds = 9;               // of each interleaved comparison; medians are reported
     int edits = 40;               // of each kind
-    int reference_samples = 4096; // of the pictures that errors are measured against
-    std::filesystem::path cache;  // folder for those pictures, so that they are rendered once; empty: they are not kept
-    std::string variant;          // of path reuse and adaptive sampling, the only one; empty: all of them
-    int64_t most_samples = 64;    // per pixel, of a series
+    int reference_samples = 4096; // of the reference images for errors
+    std::filesystem::path cache;  // folder that caches reference images; empty: no cache
+    std::string variant;          // the only variant of path reuse and adaptive sampling to run; empty: all
+    int64_t most_samples = 64;    // per pixel, maximum of a series
 };
 
 Json run_rate(const Options& options);
@@ -43,7 +43,7 @@ Json run_shown_pictures(const Options& options);
 using Clock = std::chrono::steady_clock;
 inline double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
-// What work took. Seconds of all cores together tell what it costs whatever else the machine is doing.
+// Cost of work. CPU seconds of all cores are independent of other load on the machine.
 struct Cost {
     double wall_seconds = 0, core_seconds = 0;
 };
@@ -52,7 +52,7 @@ Cost cost_of(const std::function<void()>& work);
 // The smallest value that at least the share `p` of all values does not exceed (nearest rank); `values` must not be empty.
 double quantile(std::vector<double> values, double p);
 double median(std::vector<double> values);
-// Three significant digits: what a shared machine can promise.
+// Three significant digits: the precision of a shared machine.
 double rounded(double value);
 
 } // namespace blush::bench

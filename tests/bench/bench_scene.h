@@ -1,4 +1,4 @@
-// The scenes that are measured.
+// The benchmark scenes.
 #pragma once
 
 #include "core/result.h"
@@ -14,18 +14,18 @@ namespace blush::bench {
 struct BenchScene {
     std::filesystem::path file;
     Scene scene;
-    bool ours = true; // in assets/scenes, not from outside
+    bool ours = true; // in assets/scenes, not external
     std::string name() const { return file.filename().string(); }
 };
 
 // All glTF scenes of assets/scenes, by name.
 Result<std::vector<BenchScene>> shipped_scenes();
-// Of the files the peers are measured on, those that are in `folder`.
+// Those files of the peer comparison that exist in `folder`.
 Result<std::vector<BenchScene>> peer_scenes(const std::filesystem::path& folder);
 
-// Settings of every comparison of rates: 512 x 512, box filter, no limit of bounces.
+// Settings of all rate comparisons: 512 x 512, box filter, no bounce limit.
 RenderSettings rate_settings();
-// As the window renders: 1280 x 720, without end.
+// Settings of the window: 1280 x 720, unlimited samples.
 RenderSettings window_settings();
 
 } // namespace blush::bench

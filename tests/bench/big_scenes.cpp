@@ -1,5 +1,5 @@
-// Scenes as large as people have them: from the program's start to the first image of 1280 x 720, once through every pixel, and the most
-// memory that it took on the way, beside the bytes of the file's own geometry.
+// Large realistic scenes: time from program start to the first image of 1280 x 720 at one sample per pixel, and peak memory
+// compared with the size of the file's geometry.
 #include "tests/bench/bench.h"
 
 #include "core/files.h"
@@ -28,7 +28,7 @@ struct Glb {
                                      {"type", type}});
         return json["accessors"].size() - 1;
     }
-    // A net of n x n squares over [-1, 1]^2 as a landscape, with normals and texture coordinates.
+    // A grid of n x n squares over [-1, 1]^2 as a landscape, with normals and texture coordinates.
     size_t landscape(uint32_t n) {
         std::vector<float> positions, normals, uv;
         std::vector<uint32_t> indices;
@@ -89,7 +89,7 @@ Json landscape(uint32_t n, const test::TemporaryFolder& folder, const Options& o
     return figures;
 }
 
-// One tree of 20,000 triangles, at many places.
+// One tree of 20,000 triangles, with many instances.
 Json orchard(size_t instances, const test::TemporaryFolder& folder, const Options& options) {
     Glb glb;
     const size_t tree = glb.landscape(100);
@@ -111,7 +111,7 @@ Json orchard(size_t instances, const test::TemporaryFolder& folder, const Option
 Json run_big_scenes(const Options& options) {
     const test::TemporaryFolder folder;
     Json figures;
-    figures["nothing"] = landscape(1, folder, options); // what the program takes for itself
+    figures["nothing"] = landscape(1, folder, options); // base memory of the program
     figures["triangles_1m"] = landscape(708, folder, options);
     figures["triangles_10m"] = landscape(2237, folder, options);
     figures["instances_1m"] = orchard(1'000'000, folder, options);

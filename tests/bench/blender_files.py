@@ -1,4 +1,4 @@
-# Writes glTF files as strangers have them, with Blender and its exporter: models without light, rooms and suns at Blender's usual strengths.
+# Writes typical glTF files with Blender and its exporter: models without light, rooms and suns at Blender's default strengths.
 # tests/bench/opened_files opens them.
 #   blender -b --python tests/bench/blender_files.py -- FOLDER
 import math
@@ -96,7 +96,7 @@ export("room-point-1000-watts")
 
 clear()
 room()
-lamp("AREA", 100, (0, -0.5, 2.5))  # which the exporter drops
+lamp("AREA", 100, (0, -0.5, 2.5))  # not exported
 export("room-area-light-dropped")
 
 clear()

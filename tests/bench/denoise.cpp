@@ -1,4 +1,4 @@
-// The denoiser: what a picture of the window's size costs, beside its convolutions alone, and how much closer it is to the truth.
+// The denoiser: time for an image of the window's size, compared with its convolutions alone, and the reduction of the error.
 #include "tests/bench/bare_convolutions.h"
 #include "tests/bench/bench.h"
 
@@ -48,8 +48,8 @@ Frame rendered(const BenchScene& scene, const RenderSettings& settings, unsigned
     return renderer.resolve();
 }
 
-// Whole and bare alternate, so that whatever else the machine does falls on both. Core seconds of the bare ones are those of one thread:
-// oneDNN's own threads spin while they wait for each other.
+// The full denoiser and bare convolutions alternate, so that other load affects both. CPU seconds of the bare ones are those of
+// one thread: oneDNN's own threads spin while they wait.
 Result<Json> measure_speed(const Case& c, const Frame& frame, const Options& options) {
     const auto weights = denoise::read_unet_weights(weights_folder() / (std::string(c.network) + ".tza"), 9);
     if (!weights) return weights.error();
@@ -94,7 +94,7 @@ RgbImage image(int width, int height, std::span<const float> values, int stride)
     return made;
 }
 
-// relMSE of raw and denoised against many samples of another seed.
+// relMSE of raw and denoised images against many samples of another seed.
 Result<Json> measure_error(const BenchScene& scene, const Options& options) {
     RenderSettings settings = rate_settings();
     settings.width = settings.height = 256;

@@ -5,7 +5,7 @@
 namespace blush::bench {
 namespace {
 
-// 1 plus a little more with every step.
+// 1 plus a little more at each step.
 float grown(int step) { return 1 + 0.01f * float(step); }
 
 bool emits(const Material& m) { return std::max({m.emissive.x, m.emissive.y, m.emissive.z}) * m.emissive_strength > 0; }

@@ -1,4 +1,4 @@
-// What an artist does to a scene, in steps too small to change what it costs.
+// Typical edits, in steps small enough to keep the render cost.
 #pragma once
 
 #include "scene/scene.h"
@@ -11,10 +11,10 @@ namespace blush::bench {
 
 struct EditKind {
     std::string name;                                  // "light", "material", "camera", "object"
-    std::function<void(Scene& scene, int step)> apply; // every step gives another scene
+    std::function<void(Scene& scene, int step)> apply; // each step gives a different scene
 };
 
-// Those that the scene has something for. A scene that is lit by its surfaces or its environment alone has those as its light.
+// The kinds that the scene supports. If a scene is lit only by surfaces or its environment, those are its light.
 std::vector<EditKind> edits_of(const Scene& scene);
 
 } // namespace blush::bench

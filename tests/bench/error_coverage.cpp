@@ -1,6 +1,5 @@
-// How often the error estimate's 95 % intervals cover the true error, by scene and samples per pixel, of the plain path tracer and with the
-// recommended settings. The truth is the mean of renders with
-// other seeds, many times the samples.
+// Coverage of the true error by the error estimate's 95 % intervals, by scene and samples per pixel, for the plain path tracer
+// and the recommended settings. The reference is the mean of renders with other seeds and many times the samples.
 #include "support/error_coverage.h"
 #include "tests/bench/bench.h"
 

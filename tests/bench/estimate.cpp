@@ -1,5 +1,5 @@
-// What the error estimate costs: of a picture of the window's size, beside the rendering of one sample per pixel. Seconds of all cores, in
-// turns.
+// Cost of the error estimate for an image of the window's size, relative to rendering one sample per pixel. CPU seconds of all
+// cores, measured in turn.
 #include "tests/bench/bench.h"
 
 #include "render/renderer.h"

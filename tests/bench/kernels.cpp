@@ -1,4 +1,4 @@
-// Every kernel that can render a scene, on the same tiles in turns: what specialised code and wide registers are worth.
+// All kernels that can render a scene, on the same tiles in turn: the benefit of specialised code and wide registers.
 #include "tests/bench/bench.h"
 
 #include "core/parallel.h"

@@ -1,4 +1,4 @@
-// From an edit to the first image that shows it, through the same session as the window's, while it is busy refining the scene before.
+// Latency from an edit to the first image that shows it, in the window's session while it is refining the previous scene.
 #include "tests/bench/bench.h"
 #include "tests/bench/edits.h"
 #include "tests/bench/latency_probe.h"
@@ -9,7 +9,7 @@
 namespace blush::bench {
 namespace {
 
-// Lets the session refine for a while, never in step with it.
+// Lets the session refine for a random time.
 void let_it_work(std::mt19937& random) {
     std::this_thread::sleep_for(std::chrono::milliseconds(std::uniform_int_distribution(20, 120)(random)));
 }

@@ -1,4 +1,4 @@
-// A render session and a clock: how long until an edit is seen.
+// Measures the latency from an edit to its first image in a render session.
 #pragma once
 
 #include "render/render_session.h"
@@ -13,17 +13,17 @@ namespace blush::bench {
 struct Response {
     double first_ms = 0;   // from submit to the first image
     int first_divider = 0; // full size / the size of that image
-    double full_ms = 0;    // to the first one of full size
+    double full_ms = 0;    // to the first image of full size
 };
 
-// Of several, which must not be none.
+// `responses` must not be empty.
 Json figures_of(const std::vector<Response>& responses);
 
 class LatencyProbe {
 public:
     explicit LatencyProbe(unsigned threads);
 
-    // Submits another scene and waits for its first image of full size; nothing if the session failed.
+    // Submits another scene and waits for its first image of full size; empty if the session failed.
     std::optional<Response> measure(const Scene& scene, const RenderSettings& settings);
 
 private:
@@ -35,7 +35,7 @@ private:
     Clock::time_point submitted_;
     Response response_;
     bool failed_ = false;
-    RenderSession session_; // last: its thread uses all the others
+    RenderSession session_; // last member: its thread uses all the others
 };
 
 } // namespace blush::bench

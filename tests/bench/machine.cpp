@@ -37,7 +37,7 @@ nlohmann::ordered_json describe_machine() {
 
 MemoryGrowth::MemoryGrowth() {
     malloc_trim(0);
-    std::ofstream("/proc/self/clear_refs") << "5"; // the kernel's word for: the peak is now
+    std::ofstream("/proc/self/clear_refs") << "5"; // resets the peak (VmHWM)
     before_mb_ = memory_mb("VmRSS");
 }
 

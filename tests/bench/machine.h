@@ -1,17 +1,17 @@
-// What the figures were measured on.
+// Describes the machine of a measurement.
 #pragma once
 
 #include <nlohmann/json.hpp>
 
 namespace blush::bench {
 
-// Processor, cores, instruction sets, and how busy the machine is already.
+// Processor, cores, instruction sets, and current load.
 nlohmann::ordered_json describe_machine();
 
-// How much the resident memory of this process grew at most since a moment, in MB; 0 where the system does not tell.
+// Maximal growth of this process's resident memory since construction, in MB; 0 if the system does not report it.
 class MemoryGrowth {
 public:
-    // Gives back what has been freed before, or later allocations would find it and cost nothing.
+    // Returns freed memory to the system, or later allocations would reuse it at no cost.
     MemoryGrowth();
     double peak_mb() const;
 

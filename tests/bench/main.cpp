@@ -1,4 +1,4 @@
-// blush_bench: speed in figures, as JSON. Ratios hold on any machine; absolute figures only on this one, when it is quiet.
+// blush_bench: measures speed and prints JSON. Ratios are portable; absolute figures hold only for this machine when it is idle.
 #include "tests/bench/bench.h"
 #include "tests/bench/machine.h"
 
@@ -34,29 +34,32 @@ int run(int argc, char** argv) {
     std::string peers, only;
     bool quick = false;
     CLI::App app{"Measures speed and prints JSON: setup (import, compile, memory), startup (to the first image, without and with "
-                 "textures, sky and view), rate (paths and rays per second beside raw Embree), kernels "
-                 "(every feature set and instruction set), latency (from an edit to the first image), denoise (speed beside the "
-                 "convolutions alone, error left), estimate (what the error estimate costs beside rendering), coverage (how often the "
-                 "estimated error's intervals hold the true one), "
-                 "recorder (what it costs to know the error while rendering), lights (variance and cost of choosing among many), mix (of groups of lights: time, cost, memory), "
+                 "textures, sky and view), rate (paths and rays per second compared with Embree alone), kernels "
+                 "(every feature set and instruction set), latency (from an edit to the first image), denoise (speed "
+                 "compared with the convolutions alone, remaining error), estimate (cost of the error estimate), coverage (how often the "
+                 "estimated error's intervals contain the true one), "
+                 "recorder (cost of tracking the error while rendering), lights (variance and cost of selecting from many), "
+                 "mix (of light groups: time, cost, memory), "
                  "big (to the first image of a million and ten million triangles and a million instances: time, memory), "
-                 "textures (loading 64 of them; what filtering costs and is worth), time (from a step of the time slider to the first image), "
+                 "textures (loading 64 of them; cost and benefit of filtering), "
+                 "time (from a step of the time slider to the first image), "
                  "pictures (FLIP and relMSE of raw and denoised pictures, with and without path reuse and adaptive sampling)"};
     app.add_option("cases", names, "What to measure; default: everything")
         ->check(CLI::IsMember({"setup", "startup", "rate", "kernels", "latency", "denoise", "estimate", "coverage", "recorder", "lights", "mix", "big", "textures", "time", "pictures"}));
     app.add_option("--scenes", peers,
-                   "Folder with the scenes that peers are measured on: cornell.glb, cornell_spheres.glb, dense_cornell.glb");
+                   "Folder with the scenes of the peer comparison: cornell.glb, cornell_spheres.glb, dense_cornell.glb");
     app.add_option("--only", only, "Scenes whose file name contains this");
     app.add_option("--threads", options.threads, "Largest number of threads")->check(CLI::Range(1, 1024))->capture_default_str();
     app.add_option("--seeds", options.rounds, "Seeds of each series of pictures, rounds of other comparisons")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
     app.add_option("--spp", options.most_samples, "Largest number of samples per pixel in a series of pictures")->capture_default_str();
-    app.add_option("--variant", options.variant, "Of the case \"pictures\": plain, reuse, adaptive or \"reuse and adaptive\" alone");
+    app.add_option("--variant", options.variant,
+                   "The only variant of the case \"pictures\": plain, reuse, adaptive or \"reuse and adaptive\"");
     app.add_option("--reference-spp", options.reference_samples, "Samples per pixel of pictures that errors are measured against")
         ->capture_default_str();
     app.add_option("--cache", options.cache, "Folder that keeps the reference pictures of the case \"pictures\"");
-    app.add_flag("--quick", quick, "Few rounds: shows that it works, proves no figure");
+    app.add_flag("--quick", quick, "Few rounds: for testing the benchmark, not for figures");
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) { return app.exit(e) == 0 ? 0 : 2; }

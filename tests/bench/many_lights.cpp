@@ -1,5 +1,5 @@
-// Many lamps: how much variance the light tree leaves beside an oracle and beside power sampling, at single points and in a picture, and how
-// long an edit of lights takes.
+// Many lights: variance of the light tree compared with an oracle and with power sampling, at single points and in an image, and
+// the latency of edits of lights.
 #include "support/many_lights.h"
 #include "tests/bench/bench.h"
 

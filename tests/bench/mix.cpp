@@ -1,4 +1,4 @@
-// The light mix: how long a new mix takes, what the planes cost while rendering, and what memory they take.
+// The light mix: time to remix, render cost of the planes, and their memory.
 #include "tests/bench/bench.h"
 
 #include "core/parallel.h"
@@ -13,7 +13,7 @@ namespace {
 
 constexpr int groups = 8;
 
-// A picture of the window's size with planes of some value.
+// A frame of the window's size with constant planes.
 Frame frame_with_groups() {
     const RenderSettings settings = window_settings();
     Frame frame;
@@ -44,7 +44,7 @@ Json time_of_mixing(const Options& options) {
     return result;
 }
 
-// Core seconds with groups over those without, in turns.
+// CPU seconds with groups divided by those without, measured in turn.
 double cost_of_planes(const Scene& plain, int& count) {
     Scene grouped = plain;
     grouped.mix.grouping = LightMix::Grouping::by_light;

@@ -1,5 +1,5 @@
-// Rays per second of the whole renderer, beside those of Embree alone on the same rays. Rounds of the two alternate, so that whatever else
-// the machine does falls on both.
+// Rays per second of the whole renderer, compared with Embree alone on the same rays. Rounds of the two alternate, so that other
+// load on the machine affects both.
 #include "tests/bench/bench.h"
 #include "tests/bench/recorded_rays.h"
 
@@ -16,7 +16,7 @@ namespace {
 
 constexpr int samples_per_round = 8;
 
-// One scene compiled twice: for the renderer, and for tracing its rays alone.
+// One scene compiled twice: for the renderer, and for tracing its recorded rays.
 struct Contest {
     RenderSettings settings = rate_settings();
     Renderer renderer;
@@ -46,7 +46,7 @@ void replay_all(const Contest& contest, Round& round) {
             cost_of([&] { replay(contest.compiled.accel(), contest.rays, kind, contest.workers); }).core_seconds;
 }
 
-// Replays before and after the render: a machine that slows down steadily is fair to both.
+// Replays before and after the render, so that a machine that slows down steadily affects both.
 Round play_round(Contest& contest) {
     Round round;
     replay_all(contest, round);
@@ -65,7 +65,7 @@ template <class Value> Json median_of(const std::vector<Round>& rounds, const Va
     return rounded(median(values));
 }
 
-// Million rays per second of one core.
+// Million rays per second per core.
 Json embree_rates(const Contest& contest, const std::vector<Round>& rounds) {
     const auto rate = [&](RayKind kind) {
         const double count = double(count_rays(contest.rays[size_t(kind)]));
@@ -101,7 +101,7 @@ Json run_rate(const Options& options) {
         if (!is_measured(scene)) continue;
         for (const unsigned threads : std::set{1u, options.threads}) {
             Contest contest(scene.scene, threads);
-            play_round(contest); // pages, caches and clocks warm up
+            play_round(contest); // warms up pages, caches and clock rates
             std::vector<Round> rounds;
             for (int i = 0; i < options.rounds; ++i) rounds.push_back(play_round(contest));
             Json figures{{"scene", scene.name()}, {"threads", threads}, {"kernel", contest.renderer.info().kernel}};

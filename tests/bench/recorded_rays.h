@@ -1,4 +1,4 @@
-// The rays of a render, kept so that they can be traced again with nothing else going on: what Embree alone could do.
+// Records the rays of a render and traces them again without shading: the speed of Embree alone.
 #pragma once
 
 #include "core/parallel.h"
@@ -13,7 +13,7 @@ namespace blush::bench {
 enum class RayKind { camera, bounce, shadow };
 constexpr std::array<RayKind, 3> ray_kinds{RayKind::camera, RayKind::bounce, RayKind::shadow};
 
-// What one stage of one tile hands to Embree. Arrays are padded to whole packets.
+// The rays that one stage of one tile passes to Embree. Arrays are padded to whole packets.
 struct RayBatch {
     int count = 0;
     bool coherent = false;
@@ -25,12 +25,12 @@ struct RayBatch {
 // By kind.
 using RecordedRays = std::array<std::vector<RayBatch>, ray_kinds.size()>;
 
-// Renders the tiles, path by path, and keeps every ray. In-order compaction makes queues independent of the lane type: these are the
-// packets that the wide kernels trace.
+// Renders the tiles, path by path, and records every ray. In-order compaction makes queues independent of the lane type: these
+// are the packets that the wide kernels trace.
 RecordedRays record_rays(const KernelContext& context, const std::vector<TileJob>& tiles, const Workers& workers);
 
 int64_t count_rays(const std::vector<RayBatch>& batches);
-// Traces all rays of one kind through the same calls as the renderer, its packing of packets included, and does nothing with what they hit.
+// Traces all rays of one kind through the same calls as the renderer, including packet assembly, and ignores the hits.
 void replay(const Accel& accel, const RecordedRays& rays, RayKind kind, const Workers& workers);
 
 } // namespace blush::bench

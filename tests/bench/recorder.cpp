@@ -1,5 +1,5 @@
-// What it costs to follow the error while a picture converges, as the window renders: recording, measuring pictures against a reference as
-// often as the window does, and estimating the error from the halves. Each to stay below 1 % of the rendering time.
+// Cost of tracking the error while an image converges, with window settings: recording, measuring images against a reference as
+// often as the window does, and estimating the error from the halves. Each should stay below 1 % of the render time.
 #include "tests/bench/bench.h"
 
 #include "core/time_budget.h"
@@ -13,7 +13,7 @@
 namespace blush::bench {
 namespace {
 
-// Of one picture against a reference of its size.
+// For one image against a reference of its size.
 double measuring_seconds(const Frame& frame) {
     MeasuredImage reference;
     reference.image = {frame.width, frame.height, std::vector<Vec3>(frame.rgba.size() / 4, {1, 1, 1})};
@@ -23,7 +23,7 @@ double measuring_seconds(const Frame& frame) {
     return seconds_since(begin);
 }
 
-// A session that is rendered to its end, its frames recorded and measured as they come.
+// A session rendered to its end, whose frames are recorded and measured as they are published.
 class RecordedSession {
 public:
     explicit RecordedSession(unsigned threads) : session_({.threads = threads, .low_priority = true}, [this] { on_frame(); }) {}
@@ -75,7 +75,7 @@ private:
     int64_t measured_samples_ = 0;
     int measured_ = 0;
     uint64_t revision_ = 0;
-    RenderSession session_; // last: its thread calls on_frame
+    RenderSession session_; // last member: its thread calls on_frame
 };
 
 } // namespace
@@ -85,7 +85,7 @@ Json run_recorder(const Options& options) {
     for (const BenchScene& scene : options.scenes) {
         RecordedSession session(options.threads);
         RenderSettings settings = window_settings();
-        for (const double seconds : {2.0, options.rounds > 2 ? 20.0 : 2.0}) { // the second knows what an estimate takes
+        for (const double seconds : {2.0, options.rounds > 2 ? 20.0 : 2.0}) { // the second run knows the cost of an estimate
             settings.seconds = seconds;
             ++settings.seed;
             session.run(scene.scene, settings);

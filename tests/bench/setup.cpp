@@ -1,4 +1,4 @@
-// From a file to the first ray: seconds to import and to compile, and the most memory that took, a film of the window's size included.
+// From a file to the first ray: seconds to import and to compile, and peak memory, including a film of the window's size.
 #include "tests/bench/bench.h"
 #include "tests/bench/machine.h"
 

@@ -1,5 +1,5 @@
-// What path reuse and adaptive sampling do to the pictures that people look at, raw and denoised: FLIP and relMSE at equal samples against
-// a converged reference, and what the rendering costs.
+// Effect of path reuse and adaptive sampling on displayed images, raw and denoised: FLIP and relMSE at equal samples against a
+// converged reference, and the render cost.
 #include "tests/bench/bench.h"
 
 #include "io/image_io.h"
@@ -78,7 +78,7 @@ RgbImage reference_of(const BenchScene& scene, const Options& options) {
     return image;
 }
 
-// Over seeds.
+// Statistics over seeds.
 struct Figures {
     std::vector<double> flip, relmse;
     void add(const RgbImage& image, const RgbImage& reference) {
@@ -97,7 +97,7 @@ Json mean_and_error(const std::vector<double>& values) {
     return Json::array({rounded(mean), n > 1 ? Json(rounded(std::sqrt(squares / (n * (n - 1))))) : Json()});
 }
 
-// Everything at 1, 2, 4, ... samples per pixel of one rendering.
+// All measures at 1, 2, 4, ... samples per pixel of one rendering.
 void render_series(const BenchScene& scene, const Variant& variant, uint32_t seed, const RgbImage& reference, Denoiser& denoiser,
                    const Options& options, std::map<int64_t, std::map<std::string, Figures>>& figures, std::vector<double>& seconds) {
     Renderer renderer({.threads = options.threads, .planes = {.albedo = true, .normal = true}});

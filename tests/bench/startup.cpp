@@ -1,6 +1,6 @@
-// To the first image, coarse as the window shows it: the Cornell box as it is, and the same with textures, a sky and a view transform.
-// What is not needed must not be paid for. Seconds of all cores, in turns: of the engine alone, from an imported scene on, and of the
-// program, from its start to its end.
+// Time to the first coarse image: the Cornell box as shipped, and with textures, a sky and a view transform. Unused features must
+// cost nothing. CPU seconds of all cores, in turn: of the engine alone, from an imported scene on, and of the program, from start
+// to end.
 #include "tests/bench/bench.h"
 
 #include "color/color_management.h"
@@ -18,7 +18,7 @@ namespace {
 constexpr int first_divider = 8;
 constexpr int texture_side = 2048, sky_width = 4096, sky_height = 2048;
 
-// Values in [0, 1] without a pattern that could be cached or compressed away.
+// Values in [0, 1] without a pattern that could be cached or compressed.
 float speckle(size_t i) { return float((i * 2654435761u >> 8) & 0xffff) / 65535.f; }
 
 std::vector<float> speckles(int width, int height) {
@@ -33,7 +33,7 @@ ImagePtr byte_image(int side) {
     return std::make_shared<const Image>(std::move(image));
 }
 
-// Two images of 2048 x 2048 texels and a sky of 4096 x 2048: what a furnished scene has several of.
+// Two images of 2048 x 2048 texels and a sky of 4096 x 2048, as in typical furnished scenes.
 Scene with_everything(Scene scene) {
     std::vector<Id<Texture>> textures;
     for (int i = 0; i < 2; ++i) {
@@ -89,7 +89,7 @@ Result<void> write_everything(const std::filesystem::path& plain, const test::Te
         material["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
         material["pbrMetallicRoughness"]["metallicRoughnessTexture"] = {{"index", 1}};
     }
-    // Texture coordinates, of no particular kind: the bytes of the positions.
+    // Texture coordinates with arbitrary values: the bytes of the positions.
     for (Json& mesh : gltf["meshes"])
         for (Json& primitive : mesh["primitives"]) {
             Json coordinates = gltf["accessors"][primitive["attributes"]["POSITION"].get<size_t>()];
@@ -115,7 +115,7 @@ double children_core_seconds() {
     return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-// `blush render` with these arguments; below 0 if it failed.
+// Runs `blush render` with these arguments; negative if it failed.
 double program_core_seconds(std::vector<std::string> arguments, const Options& options) {
     const std::vector<std::string> common{"--spp", "1", "--size", "160x90", "--threads", std::to_string(options.threads), "--quiet"};
     arguments.insert(arguments.begin(), {BLUSH_BINARY, "render"});
@@ -125,7 +125,7 @@ double program_core_seconds(std::vector<std::string> arguments, const Options& o
     return finished.exit_code == 0 ? children_core_seconds() - before : -1;
 }
 
-// Two ways of starting, in turns; the figure that counts is the ratio.
+// Alternates two ways of starting; the ratio is the result.
 Json compare(const std::function<double()>& plain, const std::function<double()>& full, int rounds) {
     std::vector<double> without, with, ratios;
     for (int round = 0; round < rounds; ++round) {

@@ -1,4 +1,4 @@
-// Textures: how long 64 of 2048 x 2048 pixels take to load and how much memory, and what filtering costs and is worth.
+// Textures: time and memory to load 64 images of 2048 x 2048 pixels, and the cost and benefit of filtering.
 #include "tests/bench/bench.h"
 #include "tests/bench/machine.h"
 
@@ -20,7 +20,7 @@ namespace {
 
 constexpr int texture_count = 64, texture_side = 2048;
 
-// Shades with some noise, as photographs have; no two alike. Every other one is a JPEG.
+// Gradients with noise, like photographs; all different. Every other one is a JPEG.
 void write_texture(const std::filesystem::path& file, int index) {
     std::mt19937 random{uint32_t(index)};
     std::vector<float> rgb;
@@ -34,7 +34,7 @@ void write_texture(const std::filesystem::path& file, int index) {
     if (const auto ok = write_display_image(file, texture_side, texture_side, rgb); !ok) throw std::runtime_error(ok.error().text());
 }
 
-// One square after the other, each with a texture of its own.
+// One square per texture.
 void write_scene(const std::filesystem::path& file) {
     const std::vector<float> square{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, /* texture coordinates */ 0, 1, 1, 1, 0, 0, 1, 0};
     const auto* bytes = reinterpret_cast<const uint8_t*>(square.data());
@@ -91,7 +91,7 @@ Json measure_loading(const Options& options) {
             {"peak_mb", rounded(peak_mb)}};
 }
 
-// A room whose six sides have squares of one metre on them, seen from inside.
+// A room seen from inside, whose six sides have textures with squares of one metre.
 Scene textured_room(float half) {
     Scene scene;
     std::vector<Vec3> texels;

@@ -1,4 +1,4 @@
-// From a step of the time slider to the first image that shows it, in scenes of which little or much moves.
+// Latency from a step of the time slider to the first image that shows it, in scenes with few or many moving objects.
 #include "tests/bench/bench.h"
 #include "tests/bench/latency_probe.h"
 
@@ -9,7 +9,7 @@
 namespace blush::bench {
 namespace {
 
-// A net of n x n squares over [-1, 1]^2.
+// A grid of n x n squares over [-1, 1]^2.
 Geometry net(uint32_t n) {
     Geometry g;
     for (uint32_t j = 0; j <= n; ++j)
@@ -52,7 +52,7 @@ struct Stage {
         node.local.translation = place;
         return scene.nodes.add(node);
     }
-    // Up and down again, from where it is.
+    // Up and down, starting at the current position.
     void swing(Id<Node> node) {
         const Vec3 at = scene.nodes.find(node)->local.translation;
         const auto up = std::make_shared<Keyframes>();
@@ -74,7 +74,7 @@ Scene rigid_nodes(int count) {
     return stage.finished();
 }
 
-// Four joints a vertex, one of which moves.
+// Four joints per vertex, one of which moves.
 Scene skinned_net(uint32_t n) {
     Stage stage;
     Geometry g = net(n);

@@ -65,7 +65,8 @@ TEST(CarriedMix, RemovesChannelsOfLightsWhoseNameIsReused) {
     ASSERT_EQ(mix.channels.size(), 1u);
     EXPECT_EQ(mix.channels[0].group, "Bulb");
     EXPECT_EQ(mix.channels[0].intensity, 5);
-    EXPECT_EQ(s.after(RemoveNode{second}), (Names{"Bulb", "Bulb 2"})) << "nobody took its name: undo, or showing it again, finds it";
+    EXPECT_EQ(s.after(RemoveNode{second}), (Names{"Bulb", "Bulb 2"}))
+        << "its name is unused: undo, or showing the light again, restores it";
 }
 
 TEST(CarriedMix, KeepsChannelsOfRemainingMembersOfAManualGroup) {

@@ -157,7 +157,7 @@ TEST(Copies, ArePickedAsTheirNode) {
 TEST(Copies, HaveBoundsAndBlockTheLineOfSight) {
     const Orchard copies(plastic(0.3f), true), nodes(plastic(0.3f), false);
     const Bounds all = world_bounds(nodes.scene), same = world_bounds(copies.scene);
-    EXPECT_EQ(all.low, same.low) << "of cubes, whose boxes they fill";
+    EXPECT_EQ(all.low, same.low) << "cubes fill their boxes";
     EXPECT_EQ(all.high, same.high);
     const auto is_tree = [&](Id<Node> id) { return id == copies.tree; };
     EXPECT_EQ(first_between(copies.scene, {1.2, 3, -0.4}, {1.2, -3, -0.4}, is_tree), copies.tree);

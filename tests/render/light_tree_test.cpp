@@ -115,7 +115,7 @@ TEST(LightTree, SamplesLightsWithTheStatedProbability) {
             ASSERT_NEAR(pick.probability, (light_probability<all_features, float>(t, to, pick.index, true)), 1e-6 + 1e-4 * pick.probability);
         }
         EXPECT_TRUE(chi_squared_test(counts, expected, sidak(significance, 2 * receivers))) << r;
-        EXPECT_TRUE(z_test(rest, 0.5, sidak(significance, 2 * receivers))) << "what is left is uniform";
+        EXPECT_TRUE(z_test(rest, 0.5, sidak(significance, 2 * receivers))) << "the remainder is uniform";
     }
 }
 

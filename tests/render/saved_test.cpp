@@ -214,7 +214,7 @@ TEST(Saved, TangentsFollowTheNormalMapToAnotherUvSetAsInTheReopenedFile) {
     ASSERT_TRUE(bumpy) << bumpy.error().text();
     const auto geometry_of = [](const Scene& scene) { return scene.meshes.begin()->value.parts[0].geometry; };
     ASSERT_TRUE(geometry_of(bumpy->scene)->made_tangents);
-    EXPECT_EQ(scene_hash(bumpy->scene), scene_hash(project.scene)) << "what is made follows from the rest";
+    EXPECT_EQ(scene_hash(bumpy->scene), scene_hash(project.scene)) << "generated tangents are not part of the hash";
     project.scene = bumpy->scene;
     const Frame first = picture(project);
     for (const int set : {1, 5, 0}) { // 5: which it does not have

@@ -169,7 +169,7 @@ TEST(ShadowCatcher, DoesNotDependOnThreadsAndResumesFromAFile) {
     EXPECT_EQ(second.resolve().rgba, one.rgba);
     const Result<ResolvedFilm> read = resolve_film(*second.save_film(0), settings);
     ASSERT_TRUE(read);
-    EXPECT_EQ(read->frame.rgba, one.rgba) << "of the sums alone";
+    EXPECT_EQ(read->frame.rgba, one.rgba) << "restored from the sums alone";
     EXPECT_TRUE(read->frame.transparent);
 }
 
@@ -214,7 +214,7 @@ TEST(ShadowCatcher, IsAnOrdinarySurfaceForNonCameraRays) {
     int objects = 0;
     for (size_t i = 0; i < plain.object_id.size(); ++i) {
         if (plain.object_id[i] == floor.value) {
-            EXPECT_EQ(caught.object_id[i], 0u) << "what is seen there is nothing";
+            EXPECT_EQ(caught.object_id[i], 0u) << "no object there";
             continue;
         }
         ASSERT_EQ(caught.object_id[i], plain.object_id[i]);

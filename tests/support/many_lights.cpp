@@ -30,17 +30,17 @@ void add_quad(Geometry& g, const Vec3& corner, const Vec3& along, const Vec3& up
     for (const uint32_t i : {0u, 1u, 2u, 0u, 2u, 3u}) g.indices.push_back(first + i);
 }
 
-// What lamps give a receiver, and the second moments of one sample of it.
+// Contribution of the lights at a receiver, and the second moments of one sample of it.
 struct Given {
-    double by_all = 0, seen = 0;       // were no wall between them, and as it is
+    double by_all = 0, seen = 0;       // without walls, and with occlusion
     double by_tree = 0, by_power = 0;
     ChoiceVariance relative() const { return {by_all / seen - 1, by_tree / (seen * seen) - 1, by_power / (seen * seen) - 1}; }
 };
 
-// The receiver stands in room (rx, rz).
+// The receiver is in room (rx, rz).
 Given given_by(const LightTables& t, int rooms, const Vec3& origin, const Receiver<float>& to, int rx, int rz) {
     const int32_t n = rooms * rooms * lamps_in_a_row * lamps_in_a_row;
-    // What power sampling goes by: 4 pi I, of a downlight a quarter of it.
+    // Power for selection: 4 pi I, for a downlight a quarter of it.
     const auto power = [&](int32_t i) { return double(t.lights[i].emission.y) * (t.lights[i].profile >= 0 ? 0.25 : 1); };
     double total_power = 0;
     for (int32_t i = 0; i < n; ++i) total_power += power(i);
@@ -63,7 +63,7 @@ Given given_by(const LightTables& t, int rooms, const Vec3& origin, const Receiv
     return given;
 }
 
-// In the tables, which are about an origin of their own.
+// In the tables, whose origin differs.
 Vec3 corner_of_house(const LightTables& t) { return t.lights[0].position - Vec3{side / (2 * lamps_in_a_row), ceiling, side / (2 * lamps_in_a_row)}; }
 
 } // namespace

@@ -41,13 +41,13 @@ Frame fresh_picture(const Scene& scene, const RenderSettings& settings, int64_t 
     if (a.width != b.width || a.height != b.height) return ::testing::AssertionFailure() << "sizes differ";
     if (a.samples != b.samples) return ::testing::AssertionFailure() << a.samples << " samples against " << b.samples;
     const std::vector<Plane> planes_a = planes_of(a), planes_b = planes_of(b);
-    if (planes_a.size() != planes_b.size()) return ::testing::AssertionFailure() << "other groups";
+    if (planes_a.size() != planes_b.size()) return ::testing::AssertionFailure() << "different groups";
     ::testing::AssertionResult result = ::testing::AssertionSuccess();
     for (size_t i = 0; i < planes_a.size(); ++i) {
         const auto& [name, p, pixel_size] = planes_a[i];
         const std::string_view q = planes_b[i].bytes;
         if (p == q) continue;
-        if (p.size() != q.size()) return ::testing::AssertionFailure() << name << " is there in one only";
+        if (p.size() != q.size()) return ::testing::AssertionFailure() << name << " exists in one image only";
         size_t differing = 0, first = 0;
         for (size_t k = p.size() / pixel_size; k-- > 0;)
             if (p.substr(k * pixel_size, pixel_size) != q.substr(k * pixel_size, pixel_size)) ++differing, first = k;

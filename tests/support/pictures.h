@@ -1,4 +1,4 @@
-// Pictures that must be equal to the last bit.
+// Comparison of images bit for bit.
 #pragma once
 
 #include "render/renderer.h"
@@ -8,15 +8,15 @@
 
 namespace blush::test {
 
-// Every film plane there is.
+// All film planes.
 RendererOptions all_planes(unsigned threads = 2);
 
-// Samples [first_sample, first_sample + count) of a scene, by a Renderer that has seen nothing else.
+// Samples [first_sample, first_sample + count) of a scene, rendered by a fresh Renderer.
 Frame fresh_picture(const Scene& scene, const RenderSettings& settings, int64_t count, unsigned threads = 2);
 
-// Pixels and planes, bit for bit; not who rendered them, nor how long it took.
+// Pixels and planes, bit for bit; ignores the kernel and timings.
 ::testing::AssertionResult same_picture(const Frame& a, const Frame& b);
-// A fingerprint of the same.
+// A checksum of the same data.
 uint64_t checksum(const Frame& frame);
 
 } // namespace blush::test

@@ -1,4 +1,4 @@
-// Runs a program the way a shell does and collects what it says.
+// Runs a program like a shell and collects its output.
 #pragma once
 
 #include <filesystem>
@@ -15,17 +15,17 @@ struct Finished {
 
 struct RunOptions {
     bool stderr_is_terminal = false;
-    // Called with what stderr has said so far, each time it says more, and the process id: to answer with a signal.
+    // Called with all of stderr so far, whenever it grows, and the process id: for sending signals.
     std::function<void(const std::string& err, int pid)> on_stderr;
 };
 
-// Whether this machine has pseudo-terminals; bare containers may not.
+// True if this machine has pseudo-terminals; bare containers may not.
 bool terminals_exist();
 
-// `command[0]` is a path. Stdin is empty. Ends with the program.
+// `command[0]` is a path. Stdin is empty. Returns when the program ends.
 Finished run(const std::vector<std::string>& command, const RunOptions& options = {});
 
-// A folder of its own that is gone with the object.
+// A temporary folder that is deleted with the object.
 class TemporaryFolder {
 public:
     TemporaryFolder();

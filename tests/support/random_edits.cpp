@@ -25,7 +25,7 @@ template <class T> Id<T> pick_id(Rng& rng, const Table<T>& table) {
     return entry ? entry->id : Id<T>{};
 }
 
-// One of two measured distributions, the same each time it is asked for.
+// One of two IES profiles, the same object on each call.
 IesPtr lamp_profile(bool type_b) {
     const auto make = [](IesProfile::Type type, float first_horizontal, float last_horizontal, float first_vertical, float last_vertical) {
         IesProfile p;
@@ -64,7 +64,7 @@ Light light(Rng& rng) {
     return l;
 }
 
-// As before but for what a mix of lights takes in its stride.
+// Changes only what a light mix can express.
 Light dimmed(Rng& rng, Light l) {
     l.intensity *= uniform(rng, 0.1f, 2);
     if (coin(rng)) l.color = color(rng);
@@ -76,7 +76,7 @@ Light dimmed(Rng& rng, Light l) {
     return l;
 }
 
-// Nothing that needs tangents: the importer makes them for materials that do, and so a mesh would come back with more than it had.
+// Nothing that needs tangents: the importer makes them for such materials, so a saved mesh would return with more attributes.
 void add_layers(Rng& rng, const Scene& scene, Material& m) {
     if (coin(rng)) m.clearcoat = uniform(rng, 0, 1);
     if (coin(rng)) m.clearcoat_roughness = uniform(rng, 0, 1);
@@ -110,7 +110,7 @@ Material material(Rng& rng, const Scene& scene) {
     return m;
 }
 
-// Never a parent that hangs below the node itself.
+// Never a descendant of the node.
 Id<Node> new_parent(Rng& rng, const Scene& scene, Id<Node> id) {
     const Id<Node> candidate = pick_id(rng, scene.nodes);
     for (Id<Node> up = candidate; up; up = scene.nodes.find(up)->parent)
@@ -259,13 +259,13 @@ std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<AddLight
 }
 std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<DuplicateNode>) {
     const Id<Node> id = pick_id(rng, p.scene.nodes);
-    // Doubling again and again would outgrow any test.
+    // Repeated duplication would grow without limit.
     if (!id || p.scene.nodes.size() > 60) return {};
     return DuplicateNode{id};
 }
 std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<RemoveNode>) {
     const Id<Node> id = pick_id(rng, p.scene.nodes);
-    // A test of edits needs something left to edit.
+    // Later edits need nodes to edit.
     if (!id || p.scene.nodes.size() < 4) return {};
     return RemoveNode{id};
 }

@@ -1,11 +1,11 @@
-// What files can hold of a project that random edits have made.
+// Reduces a project to what files can store, for tests with random edits.
 #pragma once
 
 #include "scene/edit.h"
 
 namespace blush::test {
 
-// Images have the channels that decoding gives them; distributions that no file measured are gone.
+// Images have the channels that decoding gives them; IES profiles that were not loaded from a file are removed.
 Project storable(Project project);
 
 } // namespace blush::test
