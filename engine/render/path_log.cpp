@@ -77,7 +77,7 @@ struct Logger {
         if (roulette && w.survival < 1)
             line("  roulette   {} goes on with probability {:.6g}", to_string(settings.roulette), w.survival);
         if (step.breaks) {
-            line("  breaks     throughput {}  pdf {:.6g}", rgb(step.next.beta), step.next.pdf);
+            line("  non-finite throughput {}  pdf {:.6g}", rgb(step.next.beta), step.next.pdf);
             return;
         }
         if (!step.continues) {
