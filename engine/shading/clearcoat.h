@@ -41,18 +41,18 @@ Clearcoat<F> make_clearcoat(const Bsdf<F>& b, const LayerParams<F>& m, const Vec
     return coat;
 }
 
-// The coat's own value and density, whatever the probability of sampling it; wi in the viewer's frame.
+// Value and pdf of the coat alone, without its sampling probability; wi in the viewer's frame.
 template <class F> BsdfValue<F> eval_clearcoat(const Clearcoat<F>& coat, const Vec<F>& wi_viewer) {
     const Vec<F> wi = coat.frame.to_local(wi_viewer);
     const Vec<F> sum = coat.wo + wi;
     const Vec<F> h = sum / sqrt(max(length_squared(sum), F(1e-30f)));
-    // Below the surface the coat does not scatter, however its normal is tilted.
+    // The coat scatters nothing below the surface, whatever the tilt of its normal.
     const Mask<F> above = wi.z > F(0.f) && wi_viewer.z > F(0.f) && !coat.smooth && coat.reflected > F(0.f);
     const F pdf = select(above, ggx(coat.alpha, h) * coat.visible * 0.25f, F(0.f));
     return {splat<F>(1.f) * (coat.reflected * pdf * masking(coat.alpha, wi)), pdf};
 }
 
-// A direction, in the viewer's frame; its weight is that of a delta.
+// Samples a direction in the viewer's frame; sets the weight only for a delta lobe.
 template <class F> BsdfSample<F> draw_clearcoat(const Clearcoat<F>& coat, const F& u, const F& v) {
     const Vec<F> z{F(0.f), F(0.f), F(1.f)};
     const Vec<F> h = select(coat.smooth, z, sample_visible_normal(coat.alpha, coat.wo, u, v));

@@ -110,7 +110,7 @@ TEST(Denoiser, StopsWhenNoLongerWanted) {
     std::atomic<int> asked = 0;
     ASSERT_TRUE(denoiser.denoise(planes.input(), {}, [&] { return ++asked > 0; }));
     const int all = asked;
-    EXPECT_GT(all, 16 * 2) << "asked in every layer";
+    EXPECT_GT(all, 16 * 2) << "`wanted` is called in every layer";
     for (const int enough : {0, 1, all / 2, all - 1}) {
         asked = 0;
         const auto stopped = denoiser.denoise(planes.input(), {}, [&] { return asked++ < enough; });
@@ -133,7 +133,7 @@ TEST(Denoiser, ReportsProgress) {
         EXPECT_DOUBLE_EQ(told.back(), 1);
         double widest = told.front();
         for (size_t i = 1; i < told.size(); ++i) widest = std::max(widest, told[i] - told[i - 1]);
-        EXPECT_LT(widest, 0.4) << "no step is most of the way";
+        EXPECT_LT(widest, 0.4) << "progress has no large jumps";
         return told.size();
     };
     const size_t one = steps({});

@@ -39,7 +39,7 @@ TEST_P(GoldenTest, Float32Agrees) {
 }
 
 TEST_P(GoldenTest, Bfloat16Agrees) {
-    if (!has_bfloat16()) GTEST_SKIP() << "this processor has none";
+    if (!has_bfloat16()) GTEST_SKIP() << "this processor does not support bfloat16";
     const Denoised made = denoised(noisy(), options(DenoisePrecision::bfloat16));
     EXPECT_EQ(made.precision, "bfloat16");
     EXPECT_LT(relative_difference(made.rgb, expected().color).mean, 1e-2);

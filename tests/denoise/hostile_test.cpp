@@ -81,7 +81,7 @@ TEST(DenoiserHostile, DroppedSamplesDoNotSpread) {
         };
         const Denoised with = denoised_of(broken), without = denoised_of(sound), again = denoised_of(other);
         EXPECT_TRUE(all_good(with));
-        EXPECT_EQ(with.sanitised, 0) << "what the film drops never gets here";
+        EXPECT_EQ(with.sanitised, 0) << "dropped samples never reach the denoiser";
         double largest = 0, usual = 0;
         for (size_t i = 0; i < with.rgb.size(); ++i) {
             const size_t x = i / 3 % side, y = i / 3 / side;

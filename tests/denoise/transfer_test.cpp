@@ -58,7 +58,7 @@ TEST(Pixels, ColorRoundTrip) {
     std::vector<float> network(size_t(count) * 9, 7), rgb(size_t(count) * 3), packed;
     encode_color(rgba.data(), 4, count, 2.f, network.data(), 9);
     for (int i = 0; i < count; i++) {
-        for (int c = 3; c < 9; c++) EXPECT_EQ(network[9 * i + c], 7) << "other channels are others'";
+        for (int c = 3; c < 9; c++) EXPECT_EQ(network[9 * i + c], 7) << "other channels are unchanged";
         packed.insert(packed.end(), &network[9 * i], &network[9 * i] + 3);
     }
     decode_color(packed.data(), count, 2.f, rgb.data());

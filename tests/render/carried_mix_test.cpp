@@ -31,10 +31,12 @@ TEST(CarriedMix, FollowsARenamedLight) {
     s.channel("Sun");
     EXPECT_EQ(s.after(s.changed(s.bulb, [](Light& l) { l.name = "Lamp"; })), (Names{"Lamp", "Sun"}));
     EXPECT_EQ(s.after(s.changed(s.bulb, [](Light& l) { l.intensity = 9; })), (Names{"Bulb", "Sun"}));
-    EXPECT_EQ(s.after(s.changed(s.bulb, [](Light& l) { l.name = "Panel"; })), (Names{"Panel", "Sun"})) << "the one that had the name is its second";
+    EXPECT_EQ(s.after(s.changed(s.bulb, [](Light& l) { l.name = "Panel"; })), (Names{"Panel", "Sun"}))
+        << "the other light becomes the second of this name";
     LightMix mix = s.scene.mix;
     mix.channels.pop_back();
-    EXPECT_EQ(carried_mix({s.scene, {}, {}}, std::array<Edit, 1>{SetMix{mix}}), std::nullopt) << "an edit of the mix is what it says";
+    EXPECT_EQ(carried_mix({s.scene, {}, {}}, std::array<Edit, 1>{SetMix{mix}}), std::nullopt)
+        << "edits of the mix itself are unchanged";
 }
 
 TEST(CarriedMix, FollowsARenamedObjectAndMaterial) {

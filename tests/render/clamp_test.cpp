@@ -27,7 +27,7 @@ TEST(Clamp, IsOffByDefault) {
     const Rendered r = render_clamped({});
     EXPECT_EQ(r.frame.clamp.samples, 0);
     EXPECT_EQ(r.frame.clamp.share, 0);
-    EXPECT_EQ(r.frame.rgba, render_clamped({1e30f, true}).frame.rgba) << "a limit that nothing reaches changes nothing";
+    EXPECT_EQ(r.frame.rgba, render_clamped({1e30f, true}).frame.rgba) << "a limit above all samples changes nothing";
 }
 
 TEST(Clamp, ReportsTheRemovedLight) {

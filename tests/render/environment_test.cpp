@@ -67,7 +67,7 @@ TEST(Environment, OneBrightTexelLightsAsItsIntegral) {
                 const double expected = map_irradiance(texels, double(rotation));
                 EXPECT_TRUE(shows_on_floor(
                     under_map(texels, rotation), [&](const Vec3d&) { return expected; }, sidak(significance, count)))
-                    << "texel " << column << ", " << row << ", turned by " << rotation;
+                    << "texel " << column << ", " << row << ", rotated by " << rotation;
             }
 }
 

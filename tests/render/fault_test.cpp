@@ -71,7 +71,7 @@ TEST(Fault, IsFoundInTheScatteredPath) {
     v.step.next.pdf = 0;
     EXPECT_EQ(fault(v), (Fault{Kind::zero_pdf, Place::bsdf_sample, 4}));
     v.step.next.pdf = inf;
-    EXPECT_EQ(fault(v), (Fault{Kind::nan, Place::bsdf_sample, 4})) << "a smooth lobe";
+    EXPECT_EQ(fault(v), (Fault{Kind::nan, Place::bsdf_sample, 4})) << "a delta lobe";
 }
 
 struct Refused {

@@ -79,7 +79,7 @@ TEST(Film, KeepsDiagnosesAndAMapOfDroppedSamples) {
     EXPECT_EQ(health.dropped_map, (std::vector<uint32_t>{0, 0, 0, 0, 0, 1}));
     Fixture sound(3, 2);
     sound.add(0, 2, [](int, int, int64_t) { return 1; });
-    EXPECT_TRUE(sound.resolve().health.dropped_map.empty()) << "no memory without need";
+    EXPECT_TRUE(sound.resolve().health.dropped_map.empty()) << "not allocated if unused";
 }
 
 TEST(Film, RecordsTheFirstHundredAndCountsAll) {

@@ -75,7 +75,7 @@ TEST(Flattened, RenderLikeSmallSeparateMeshes) {
         EXPECT_GT(seen, 100u);
         for (const How how : {How::shared_mesh, How::copies}) {
             const Frame frame = picture_of(pair_of(scale, how));
-            EXPECT_NEAR(double(pixels_of(frame, 1)), double(seen), 8) << scale.z << ": edges may be rounded otherwise";
+            EXPECT_NEAR(double(pixels_of(frame, 1)), double(seen), 8) << scale.z << ": edges may round differently";
             double difference = 0, sum = 0, turned = 0;
             for (size_t i = 0; i < own.rgba.size(); ++i) difference += std::abs(double(frame.rgba[i]) - double(own.rgba[i])), sum += double(own.rgba[i]);
             for (size_t i = 0; i < own.normal.size(); ++i) turned += double(length(frame.normal[i] - own.normal[i]));

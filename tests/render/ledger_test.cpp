@@ -78,7 +78,7 @@ TEST(Ledger, UnusedFeaturesOfABareSceneAreNotAllocated) {
     for (const FeatureUse& use : ledger) {
         EXPECT_EQ(use.used, use.part == "film" && use.name == "beauty") << use.part << "/" << use.name;
         EXPECT_FALSE(use.why.empty()) << use.name;
-        EXPECT_FALSE(use.seconds) << use.name << ": nothing was made that could have taken time";
+        EXPECT_FALSE(use.seconds) << use.name << ": nothing was built, so there is no time";
     }
 }
 
@@ -145,11 +145,11 @@ TEST(Ledger, AnEnvironmentWithoutLightHasNoMap) {
     EXPECT_EQ(c.scene.tables().environment.width, 16);
     const FeatureUse bright = line(c.ledger(), "lights", "importance map");
     EXPECT_TRUE(bright.used);
-    EXPECT_EQ(bright.bytes, dark.bytes) << "what leaving it out saves is what it takes";
+    EXPECT_EQ(bright.bytes, dark.bytes) << "bytes saved if absent equal bytes used if present";
 
     c.lowered.environment.intensity = 0;
     c.scene.update(c.lowered, c.settings, brighter, Workers(1));
-    EXPECT_EQ(c.scene.tables().environment.width, 1) << "freed when it is not needed any more";
+    EXPECT_EQ(c.scene.tables().environment.width, 1) << "freed when unused";
 }
 
 TEST(Ledger, BsdfSamplingAloneHasNoSamplingTables) {
@@ -176,7 +176,7 @@ TEST(Ledger, BsdfSamplingAloneHasNoSamplingTables) {
         const Ledger with = c.ledger();
         EXPECT_TRUE(line(with, "lights", name).used) << name;
         EXPECT_EQ(line(with, "lights", name).bytes, line(without, "lights", name).bytes)
-            << name << ": what leaving it out saves is what it takes";
+            << name << ": bytes saved if absent equal bytes used if present";
     }
     c.change_strategy(Strategy::bsdf);
     expect_nothing();
@@ -185,7 +185,7 @@ TEST(Ledger, BsdfSamplingAloneHasNoSamplingTables) {
     point.intensity = 1;
     shine(scene, point, at({0, 1, 0}));
     const Compiled lit(scene, Strategy::bsdf);
-    EXPECT_EQ(lit.scene.tables().lights.count, 1) << "no ray finds a point";
+    EXPECT_EQ(lit.scene.tables().lights.count, 1) << "rays cannot hit a point light";
     EXPECT_FALSE(line(lit.ledger(), "lights", "lights with a size").used);
 }
 

@@ -24,7 +24,7 @@ TEST(LightGroups, SumToTheBeauty) {
         if (variant == 4) settings.clamp = {0.02f, false};
         const Frame frame = render_frame(studio.scene, settings);
         EXPECT_EQ(frame.groups.size(), 5u);
-        EXPECT_EQ(frame.clamp.samples > 0, variant >= 3) << "else the test shows nothing about clamping";
+        EXPECT_EQ(frame.clamp.samples > 0, variant >= 3) << "the test needs clamped samples";
         // A ray that hits two suns, or sun and sky, adds both in single precision.
         expect_planes_sum_to_beauty(frame, variant == 1 ? 0x1p-18 : 0x1p-20, std::to_string(variant));
     }
@@ -122,7 +122,8 @@ TEST(LightGroups, AreMadeByLightObjectMaterialOrHand) {
     studio.scene.environment.group = "Glow";
     EXPECT_EQ(names_by(Grouping::by_hand, studio.scene), (Names{"Glow", "Warm", "Panel", "Sun"})) << "by the material's name";
     studio.change(studio.panel, [](Light& l) { l.name = "Bulb"; });
-    EXPECT_EQ(names_by(Grouping::by_light, studio.scene), (Names{"Environment", "Bulb", "Bulb 2", "Sun", "Ball"})) << "names tell apart";
+    EXPECT_EQ(names_by(Grouping::by_light, studio.scene), (Names{"Environment", "Bulb", "Bulb 2", "Sun", "Ball"}))
+        << "duplicate names get numbers";
 }
 
 TEST(LightGroups, ShareTheLastPlaneIfThereAreTooMany) {

@@ -40,7 +40,7 @@ TEST(LightMix, OfEqualGainsMatchesAFreshRender) {
         studio.scene.materials.set(id, material);
     }
     studio.scene.environment.intensity *= 2;
-    EXPECT_FALSE(renderer.update(studio.scene, settings)) << "the film stays";
+    EXPECT_FALSE(renderer.update(studio.scene, settings)) << "the film is kept";
     const Frame mixed = renderer.resolve(), fresh = render_frame(studio.scene, settings);
     EXPECT_EQ(mixed.samples, 4);
     EXPECT_EQ(mixed.gains, Gains(5, Vec3{2, 2, 2}));
@@ -91,7 +91,7 @@ TEST(LightMix, MatchesARenderOfTheEditedLights) {
         EXPECT_FALSE(same_mean(mixed.whole(), render(before.scene, settings).whole())) << edit.name << " shows nothing";
     }
     EXPECT_FALSE(renderer.update(before.scene, settings));
-    EXPECT_EQ(renderer.resolve().rgba, render(before.scene, settings).frame.rgba) << "and back without a trace";
+    EXPECT_EQ(renderer.resolve().rgba, render(before.scene, settings).frame.rgba) << "reverting restores the image exactly";
 }
 
 TEST(LightMix, ThinnedIsTheSameForFewerPixels) {
@@ -218,7 +218,7 @@ TEST_P(MixAim, SamplesByTheMixWithoutBias) {
     for (Renderer* r : {&follows, &stays}) r->render(16, 80);
     const Picture a = picture_of(follows), b = picture_of(stays);
     EXPECT_TRUE(same_means(a.blocks(32, 32), b.blocks(32, 32)));
-    EXPECT_LT(a.frame.error.rmse_high, b.frame.error.rmse_low) << "else it would be of no use";
+    EXPECT_LT(a.frame.error.rmse_high, b.frame.error.rmse_low) << "selection by the mix must reduce the error";
     expect_planes_sum_to_beauty(a.frame, 0x1p-20, "aimed");
 }
 INSTANTIATE_TEST_SUITE_P(Lights, MixAim, testing::Values(false, true),
@@ -240,7 +240,7 @@ TEST(LightMix, PredictsItsNoise) {
     ASSERT_TRUE(after.error.rmse_known);
     EXPECT_NE(after.error.rmse, before.error.rmse);
     const double predicted = predicted_rmse(before, after.gains);
-    EXPECT_NEAR(predicted / after.error.rmse, 1, 0.35) << "groups share their paths, which the prediction leaves out";
+    EXPECT_NEAR(predicted / after.error.rmse, 1, 0.35) << "the prediction ignores the correlation of groups";
     double energy = 0, noise = 0;
     for (const GroupReport& r : report_groups(after, after.group_names, after.gains)) {
         energy += r.energy;
@@ -281,10 +281,10 @@ TEST(BakeMix, KeepsTheImageAndTheFilm) {
     const Scene baked = bake_mix(studio.scene).scene;
     EXPECT_TRUE(baked.mix.channels.empty());
     EXPECT_NE(baked, studio.scene);
-    EXPECT_FALSE(renderer.update(baked, settings)) << "nothing is rendered again";
+    EXPECT_FALSE(renderer.update(baked, settings)) << "the film is kept";
     const Frame after = renderer.resolve();
     for (size_t i = 0; i < mixed.rgba.size(); ++i) ASSERT_NEAR(after.rgba[i], mixed.rgba[i], 0x1p-20f * mixed.rgba[i]) << i;
-    EXPECT_EQ(bake_mix(baked).scene, baked) << "once is enough";
+    EXPECT_EQ(bake_mix(baked).scene, baked) << "baking twice changes nothing";
     // A fresh render of the baked scene equals the mix, which now has no channels.
     const Picture fresh = render(baked, settings_for(32, 32, 96));
     Studio with_channels;

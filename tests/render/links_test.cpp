@@ -72,7 +72,7 @@ TEST(LightLinks, SelectIlluminatedObjects) {
             // Edge pixels see both: a pixel belongs to the object that its first sample hit.
             const double on_box = light_on(stage.scene, stage.box, strategy), on_floor = light_on(stage.scene, stage.floor, strategy);
             stage.link([&](Light& l) { l.lit_objects = only({stage.floor}); });
-            EXPECT_EQ(light_on(stage.scene, stage.box, strategy), on_box) << "said the other way round";
+            EXPECT_EQ(light_on(stage.scene, stage.box, strategy), on_box) << "the complementary set";
             EXPECT_EQ(light_on(stage.scene, stage.floor, strategy), on_floor);
             stage.link([&](Light& l) { l.lit_objects = only({}); });
             EXPECT_EQ(light_on(stage.scene, stage.box, strategy), 0);
@@ -150,7 +150,7 @@ TEST(ObjectSets, IgnoreRemovedNodes) {
     EXPECT_FALSE(leaves_out(all_but({Id<Node>{12345}}), stage.scene));
     const Frame after = shot(stage.scene, Strategy::mis, 2).frame;
     EXPECT_EQ(after.rgba, before.rgba);
-    EXPECT_EQ(after.kernel, before.kernel) << "nothing is linked, and nothing is paid for";
+    EXPECT_EQ(after.kernel, before.kernel) << "without links the kernel has no linking code";
 }
 
 TEST(ShadowLinks, WarnIfThereAreTooMany) {

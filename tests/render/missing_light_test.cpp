@@ -43,8 +43,8 @@ TEST(MissingLight, IsThatOfZeroSizeLightsAtSmoothSurfaces) {
         EXPECT_NE(said(glass(0, 1.5f), lamp(kind, 0)).find("through smooth glass"), std::string::npos);
         EXPECT_NE(said(metal(0), lamp(kind, 0)).find("by reflection"), std::string::npos);
         EXPECT_EQ(said(pane, lamp(kind, 0)).find("through"), std::string::npos) << "light passes panes";
-        EXPECT_EQ(said(glass(0, 1.5f), lamp(kind, 0.1f)), "") << "rays find what has a size";
-        EXPECT_EQ(said(glass(0.3f, 1.5f), lamp(kind, 0)), "") << "light sampling finds it by rough lobes";
+        EXPECT_EQ(said(glass(0, 1.5f), lamp(kind, 0.1f)), "") << "rays can hit lights with a size";
+        EXPECT_EQ(said(glass(0.3f, 1.5f), lamp(kind, 0)), "") << "NEE finds it through rough lobes";
         EXPECT_EQ(said(lambert(0.5f), lamp(kind, 0)), "");
         Light muted = lamp(kind, 0);
         muted.enabled = false;

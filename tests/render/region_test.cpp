@@ -35,7 +35,7 @@ TEST(RenderRegion, IsTheSamePixelsOfTheWholePicture) {
         ASSERT_EQ(pixels_of(settings.region, 80, 48), r);
         const Frame part = render(scene, settings);
         expect_crop(part, whole, r);
-        EXPECT_EQ(part.rays.camera, int64_t(r.x1 - r.x0) * (r.y1 - r.y0) * 4) << "all samples go there";
+        EXPECT_EQ(part.rays.camera, int64_t(r.x1 - r.x0) * (r.y1 - r.y0) * 4) << "all samples are in the region";
         EXPECT_EQ(part.samples, 4);
     }
 }

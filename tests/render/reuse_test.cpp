@@ -290,7 +290,7 @@ TEST(PathReuse, MeasuresTheErrorCorrelation) {
         told.add(squares / (pixels * pixels) * renderer.shared_errors().means);
         shared += renderer.shared_errors().means / seeds;
     }
-    EXPECT_GT(shared, 1.5) << "or there would be nothing to tell";
+    EXPECT_GT(shared, 1.5) << "the test needs correlated errors";
     // A variance from 64 normal means has a relative standard error of sqrt(2 / 63).
     EXPECT_NEAR(means.variance() / told.mean, 1, 4 * std::sqrt(2.0 / (seeds - 1)));
 }

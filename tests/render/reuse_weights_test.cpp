@@ -126,7 +126,7 @@ TEST(ReuseWeights, WrongOnesAreCaught) {
             EXPECT_GT(worst_deviation(received(nobody, tamper), nobody), 10 * rounding) << member << ", " << vertex;
         }
     const auto alike = [](float, int, int) { return 1.f; };
-    EXPECT_GT(worst_deviation(received(nobody, alike), nobody), 10 * rounding) << "shares that sum to one, but not the right ones";
+    EXPECT_GT(worst_deviation(received(nobody, alike), nobody), 10 * rounding) << "wrong shares that sum to one";
 }
 
 } // namespace

@@ -119,7 +119,7 @@ TEST(RouletteLab, NothingDiffersFromItself) {
     EXPECT_FALSE(report.biased());
     EXPECT_EQ(report.rule.variance, report.none.variance);
     EXPECT_EQ(report.rule.alive, report.none.alive);
-    EXPECT_GT(report.gain_error, 0) << "time differs, and is part of it";
+    EXPECT_GT(report.gain_error, 0) << "the measured time differs, so the gain has an error";
 }
 
 TEST(Trials, HaveMeanAndStandardError) {

@@ -186,7 +186,7 @@ TEST(Saved, TangentsAfterAnEditAreThoseOfTheReopenedFile) {
     ASSERT_TRUE(loaded) << loaded.error().text();
     EXPECT_FALSE(geometry_of(loaded->scene)->tangents.empty());
     const size_t vertices = geometry_of(project.scene)->positions.size();
-    EXPECT_GT(geometry_of(loaded->scene)->positions.size(), vertices) << "those on the mirror's line are several";
+    EXPECT_GT(geometry_of(loaded->scene)->positions.size(), vertices) << "vertices on the mirror line are split";
     EXPECT_TRUE(same_picture(picture(project), picture({loaded->scene, {}, {}})));
 }
 

@@ -78,7 +78,7 @@ TEST(ShadowCatcher, HasTheSharpShadowOfAPoint) {
     EXPECT_TRUE(f.transparent);
     expect_sharp_shadow(stage, f, {0, 0, 48, 48});
     for (size_t i = 0; i < f.rgba.size() / 4; ++i)
-        for (size_t c = 0; c < 3; ++c) ASSERT_EQ(f.rgba[4 * i + c], 0) << "a shadow is black, and the catcher itself is not seen";
+        for (size_t c = 0; c < 3; ++c) ASSERT_EQ(f.rgba[4 * i + c], 0) << "a shadow is black, and the catcher is invisible";
 }
 
 TEST(ShadowCatcher, WorksInRegionsAndAdaptiveRenders) {
@@ -147,7 +147,7 @@ TEST(ShadowCatcher, HasTheSoftShadowOfADisk) {
         EXPECT_NEAR(mean, expected, z * std::sqrt(square / seeds) + slack) << "block " << b;
         partial += expected > 0.05 && expected < 0.95;
     }
-    EXPECT_GT(partial, 8) << "the test looks at the penumbra";
+    EXPECT_GT(partial, 8) << "the test must cover the penumbra";
 }
 
 TEST(ShadowCatcher, DoesNotDependOnThreadsAndResumesFromAFile) {
@@ -188,7 +188,7 @@ TEST(ShadowCatcher, DarkensTheEnvironmentThatTheCameraSees) {
     stage.scene.environment.visible_to_camera = false;
     const Frame hidden = render(stage.scene, settings_for(48, 48, 16));
     EXPECT_TRUE(hidden.transparent);
-    EXPECT_GT(alpha_at(hidden, 24, 24), 0.3f) << "the plate keeps the bulb's light off, not all of the world's";
+    EXPECT_GT(alpha_at(hidden, 24, 24), 0.3f) << "the plate blocks the light, but only a part of the environment";
     EXPECT_LT(alpha_at(hidden, 24, 24), 0.98f);
     EXPECT_LT(alpha_at(hidden, 1, 1), 0.2f);
 }

@@ -35,7 +35,7 @@ TEST(Verdict, HoldsWithinRoundingAndStandardErrors) {
     EXPECT_TRUE(holds({1, 1.39, 0.1, 0, {}}, 4));
     EXPECT_FALSE(holds({1, 1.41, 0.1, 0, {}}, 4));
     EXPECT_FALSE(holds({1, 0.59, 0.1, 0, {}}, 4));
-    EXPECT_FALSE(holds({0, 1e-30, 0, 0, {}}, 4)) << "nothing is near enough to an exact 0";
+    EXPECT_FALSE(holds({0, 1e-30, 0, 0, {}}, 4)) << "an exact 0 has no tolerance";
     for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
         EXPECT_FALSE(holds({1, bad, 0.1, 0, {}}, 4));
         EXPECT_FALSE(holds({1, 1.1, bad, 0, {}}, 4));

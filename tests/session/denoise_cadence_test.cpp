@@ -119,7 +119,7 @@ TEST(DenoiseCadence, APausedImageIsDenoisedWellWhenIdle) {
         bench.now += wait + 1e-6;
         bench.denoise_what_is_due(source);
     }
-    ASSERT_EQ(bench.done.size(), 2u) << "no more than that, however long it stays paused";
+    ASSERT_EQ(bench.done.size(), 2u) << "no further runs while paused";
     EXPECT_EQ(bench.done[1].quality, base);
 }
 
@@ -129,7 +129,7 @@ TEST(DenoiseCadence, CoarseImagesAreDenoisedOnlyIfTheyFitAFrame) {
         Bench bench;
         bench.seconds[0] = megapixel_seconds;
         bench.offer(coarse);
-        EXPECT_FALSE(bench.cadence.next(bench.now).quality) << "nothing is known yet";
+        EXPECT_FALSE(bench.cadence.next(bench.now).quality) << "the cost is unknown";
         EXPECT_FALSE(bench.cadence.answers_within_a_frame());
         bench.render(1, 3);
         bench.offer(coarse);
@@ -137,7 +137,7 @@ TEST(DenoiseCadence, CoarseImagesAreDenoisedOnlyIfTheyFitAFrame) {
         EXPECT_EQ(bench.cadence.answers_within_a_frame(), fits);
         EXPECT_EQ(bench.cadence.next(bench.now).quality.has_value(), fits);
         bench.denoise_what_is_due(coarse);
-        EXPECT_FALSE(bench.cadence.answers_within_a_frame()) << "only the first picture of an image is worth waiting for";
+        EXPECT_FALSE(bench.cadence.answers_within_a_frame()) << "only the first frame of an image is waited for";
     }
 }
 

@@ -138,7 +138,7 @@ TEST(DenoisedSession, TheFirstIsFastAndTheLastIsTheBestOfTheLastFrame) {
     int64_t samples = 0;
     for (const Event& e : session.events()) {
         if (!e.denoised) continue;
-        EXPECT_GE(e.denoised->samples, samples) << "never back to an older one";
+        EXPECT_GE(e.denoised->samples, samples) << "sample counts never decrease";
         EXPECT_LE(e.denoised->samples, e.frame->samples);
         samples = e.denoised->samples;
     }
@@ -151,7 +151,7 @@ TEST(DenoisedSession, EnabledWhenCompleteItAddsAPictureAndResetsNothing) {
     const Event before = session.wait_for(1, State::complete);
     session->want_denoised(true);
     const Event after = session.wait_for(ends(1));
-    EXPECT_EQ(after.frame, before.frame) << "the very same frame";
+    EXPECT_EQ(after.frame, before.frame) << "the same frame object";
     EXPECT_EQ(after.status.state, State::complete);
     const size_t calls = networks.calls().size();
     EXPECT_EQ(calls, 2u) << "the fast quality first, then the best";
@@ -306,7 +306,8 @@ TEST(DenoisedSession, TheExposureScaleIsConstantWhileAnImageRefines) {
     const auto calls = networks.calls();
     EXPECT_FALSE(calls[0].scale);
     for (size_t i = 1; i < calls.size(); ++i) EXPECT_TRUE(calls[i].scale);
-    EXPECT_EQ(std::count_if(calls.begin(), calls.end(), [](const auto& c) { return std::isfinite(c.tolerance); }), 3) << "one an image";
+    EXPECT_EQ(std::count_if(calls.begin(), calls.end(), [](const auto& c) { return std::isfinite(c.tolerance); }), 3)
+        << "one per image";
 }
 
 // Weights and working memory are freed after the toggle stays off; the existing denoised image stays.

@@ -36,7 +36,7 @@ TEST(ErrorCadence, TakesAtMostItsShareOfTheTime) {
         const double allowed = ErrorCadence::time_share * bench.picture().seconds;
         EXPECT_LE(bench.cadence.spent(), std::max(estimate_seconds, allowed + 1e-12)) << bench.samples;
     }
-    EXPECT_GT(bench.estimates, 10) << "and makes use of it";
+    EXPECT_GT(bench.estimates, 10) << "and uses most of its share";
 }
 
 TEST(ErrorCadence, EstimatesNoMoreOftenThanAPlotCanShow) {
@@ -44,7 +44,7 @@ TEST(ErrorCadence, EstimatesNoMoreOftenThanAPlotCanShow) {
     bench.render(100000);
     const int estimates = bench.estimates;
     bench.render(9999);
-    EXPECT_LE(bench.estimates, estimates + 1) << "not a tenth more samples";
+    EXPECT_LE(bench.estimates, estimates + 1) << "fewer than 10 % more samples";
 }
 
 TEST(ErrorCadence, ARequestedEstimateIsDoneAtAnyCost) {

@@ -128,9 +128,9 @@ TEST(FilmState, IsRejectedIfItDoesNotFit) {
     twenty.samples = 20;
     EXPECT_FALSE(adaptive.load_film(twenty)) << "no plan";
     twenty.shares = {std::vector<double>(6, 1.0), std::vector<double>(5, 1.0)};
-    EXPECT_FALSE(adaptive.load_film(twenty)) << "a plan for other tiles";
+    EXPECT_FALSE(adaptive.load_film(twenty)) << "a plan for different tiles";
     twenty.shares[1].push_back(std::numeric_limits<double>::quiet_NaN());
-    EXPECT_FALSE(adaptive.load_film(twenty)) << "a plan of no numbers";
+    EXPECT_FALSE(adaptive.load_film(twenty)) << "a plan with NaN";
     twenty.samples = 10;
     EXPECT_FALSE(adaptive.load_film(twenty)) << "no pilot";
 
@@ -189,7 +189,7 @@ TEST(FilmState, RangesOfSamplesAddUpToTheWhole) {
         EXPECT_LE(merged.rgba[i], std::nextafter(expected.rgba[i], std::numeric_limits<float>::max()));
         EXPECT_GE(merged.rgba[i], std::nextafter(expected.rgba[i], 0.f));
     }
-    EXPECT_EQ(merged.depth, expected.depth) << "first hits are the first range's";
+    EXPECT_EQ(merged.depth, expected.depth) << "first hits come from the first range";
 }
 
 TEST(FilmState, HealthAddsUp) {

@@ -25,7 +25,7 @@ TEST(FramePool, AFrameIsRecycledWhenItsLastReferenceIsDropped) {
         held.push_back(pool.take());
         next.insert(held.back().get());
     }
-    EXPECT_TRUE(next.contains(memory)) << "memory is used again";
+    EXPECT_TRUE(next.contains(memory)) << "memory is reused";
 }
 
 TEST(FramePool, FramesMayOutliveIt) {

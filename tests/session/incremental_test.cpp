@@ -100,7 +100,7 @@ TEST_P(RandomEdits, RenderLikeAFreshSceneAndUndoToTheFirstImage) {
         EXPECT_EQ(updated.info().triangles, fresh.info().triangles) << what;
         EXPECT_EQ(updated.info().emissive_triangles, fresh.info().emissive_triangles) << what;
     }
-    EXPECT_GT(updated.kept(), 20) << "nothing was mixed";
+    EXPECT_GT(updated.kept(), 20) << "no edit was applied by the mix";
     for (size_t kind = 0; kind < edit_kinds; ++kind) EXPECT_GT(tried[kind], 0) << "kind " << kind << " of edit was never tried";
 
     while (document.undo()) updated.follow(document.project());
@@ -192,7 +192,8 @@ TEST(Renderer, MakesTangentsWhenAMaterialNeedsThem) {
         if (!g.normals.empty() && g.has_uv_set(0)) add_tangents(g, 0);
     });
     updated.follow(project);
-    EXPECT_TRUE(same_picture(updated.picture(), fresh_picture(project.scene, project.render, samples))) << "that were made for the first";
+    EXPECT_TRUE(same_picture(updated.picture(), fresh_picture(project.scene, project.render, samples)))
+        << "tangents of the first UV set";
     project.scene = with_geometries(project.scene, [](const MeshPart& part, Geometry& g) { g = *without_made_tangents(part.geometry); });
     restyle([](Material&) {});
     updated.follow(project);

@@ -102,7 +102,7 @@ TEST(SessionMix, SavesAFilmThatOthersCanContinue) {
     other->submit(1, lamps.project.scene, lamps.project.render, {}, kept->film);
     const FramePtr restored = frame_of(other, 1);
     ASSERT_TRUE(restored);
-    EXPECT_EQ(restored->gains, Gains(2, Vec3{1, 1, 1})) << "its lights are now as bright as they were mixed";
+    EXPECT_EQ(restored->gains, Gains(2, Vec3{1, 1, 1})) << "its lights include the mixed gains";
     for (size_t i = 0; i < mixed->rgba.size(); ++i) ASSERT_NEAR(restored->rgba[i], mixed->rgba[i], 0x1p-20f * mixed->rgba[i]);
 }
 

@@ -37,7 +37,7 @@ TEST(SessionPlanes, RestartTheImageWhenAddedButNotWhenRemoved) {
     ASSERT_TRUE(with);
     EXPECT_EQ(with->bounces.size(), 4u);
     EXPECT_EQ(with->rgba, plain->rgba) << "the picture is the same";
-    EXPECT_FALSE(with->albedo.empty()) << "first hits stay";
+    EXPECT_FALSE(with->albedo.empty()) << "first-hit planes are kept";
 
     session->submit(3, p.scene, p.render);
     const FramePtr without = session.wait_for([](const Event& e) { return e.frame && e.frame->revision == 3; }).frame;
@@ -62,7 +62,7 @@ TEST(PlaneSet, CoversItsSubsets) {
     EXPECT_TRUE(all.covers(PlaneSet{}));
     EXPECT_TRUE(all.covers(all));
     EXPECT_TRUE(all.covers({.depth = true}));
-    EXPECT_FALSE(all.covers({.bounces = 4})) << "another division is another plane";
+    EXPECT_FALSE(all.covers({.bounces = 4})) << "another number of bounce planes differs";
     EXPECT_FALSE(PlaneSet{}.covers({.roulette = true}));
     EXPECT_FALSE(PlaneSet{}.covers({.bounces = 4}));
 }

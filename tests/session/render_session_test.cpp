@@ -125,7 +125,7 @@ TEST(RenderSession, ErrorsStateTheirSampleCount) {
     for (const FramePtr& f : frames) {
         EXPECT_LE(f->error_samples, f->samples);
         EXPECT_LE(f->error_at, f->seconds);
-        EXPECT_GE(f->error_samples, samples) << "none is lost";
+        EXPECT_GE(f->error_samples, samples) << "estimates are never lost";
         samples = f->error_samples;
     }
     EXPECT_EQ(frames.back()->error_samples, 64) << "the last frame is always estimated";
@@ -199,7 +199,7 @@ TEST(RenderSession, AnAppliedSubmissionIsShownEvenIfTheNextIsPending) {
     EXPECT_EQ(revisions_shown(session), (std::vector<uint64_t>{1, 2, 3, 4, 5, 6}));
     std::map<uint64_t, int> pictures;
     for (const FramePtr& frame : session.frames()) ++pictures[frame->revision];
-    for (uint64_t revision = 1; revision < last; ++revision) { EXPECT_EQ(pictures[revision], 1) << "the coarse one, then on to the next"; }
+    for (uint64_t revision = 1; revision < last; ++revision) { EXPECT_EQ(pictures[revision], 1) << "only the coarse image"; }
     ASSERT_TRUE(done.frame);
     EXPECT_TRUE(same_picture(*done.frame, fresh(lit_by(project, last))));
 }
@@ -318,7 +318,7 @@ TEST(RenderSession, FewerSamplesThanRenderedCompleteAtOnce) {
     submit(session, 2, with_spp(project, 8));
     const Event done = session.wait_for(2, State::complete);
     ASSERT_TRUE(done.frame);
-    EXPECT_EQ(done.frame->revision, 2u) << "the picture says which revision it answers";
+    EXPECT_EQ(done.frame->revision, 2u) << "the frame states its revision";
     EXPECT_TRUE(done.frame->complete);
     EXPECT_TRUE(same_picture(*done.frame, fresh(project)));
 }

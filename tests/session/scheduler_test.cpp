@@ -109,7 +109,7 @@ TEST(Scheduler, FullResolutionIsNextAndStays) {
     };
     EXPECT_EQ(dividers(0.001), (std::vector{1, 1, 1, 1, 1}));
     EXPECT_EQ(dividers(0.2), (std::vector{4, 1, 1, 1, 1}));
-    EXPECT_EQ(dividers(0.9), (std::vector{8, 2, 1, 1, 1})) << "one step between for slow scenes";
+    EXPECT_EQ(dividers(0.9), (std::vector{8, 2, 1, 1, 1})) << "one intermediate step for slow scenes";
 }
 
 TEST(Scheduler, SamplesOfTheFullImageAreDoneOnceAndInOrder) {
@@ -142,7 +142,7 @@ TEST(Scheduler, BatchesDouble) {
     int64_t samples = 0;
     for (const Work& work : machine.run(scheduler, 7)) {
         EXPECT_EQ(work.count, std::max<int64_t>(1, samples));
-        EXPECT_TRUE(work.publish || samples >= 8) << "the first pictures are the ones waited for";
+        EXPECT_TRUE(work.publish || samples >= 8) << "the first frames are urgent";
         samples += work.count;
     }
     EXPECT_EQ(samples, 64);

@@ -25,7 +25,7 @@ TEST(Showcase, ADenoisedPictureLivesAsLongAsItsImage) {
     EXPECT_EQ(showcase.pictures().denoised, nullptr);
     showcase.answer(1, second, denoised());
     EXPECT_EQ(showcase.pictures().frame, other);
-    EXPECT_EQ(showcase.pictures().denoised, nullptr) << "of an image that is no longer shown";
+    EXPECT_EQ(showcase.pictures().denoised, nullptr) << "its image is no longer shown";
 }
 
 TEST(Showcase, AWithheldFrameIsShownWithItsDenoisedVersion) {
@@ -65,7 +65,7 @@ TEST(Showcase, ALaterFrameIsShownAtOnce) {
     EXPECT_EQ(showcase.pictures().frame, fine);
     showcase.answer(1, coarse, picture);
     EXPECT_EQ(showcase.pictures().frame, fine);
-    EXPECT_EQ(showcase.pictures().denoised, picture) << "coarser, but of this image";
+    EXPECT_EQ(showcase.pictures().denoised, picture) << "coarser, but of the same image";
 }
 
 TEST(Showcase, ADragFasterThanTheDenoiserStillShowsSomething) {

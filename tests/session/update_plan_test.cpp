@@ -94,7 +94,7 @@ TEST(UpdatePlan, EachChangeNeedsItsUpdatesOnly) {
     EXPECT_EQ(plan_if([](Changes& c) { c.view = true; }), camera());
     EXPECT_EQ(plan_if([](Changes& c) { c.resolution = true; }), film_size());
     EXPECT_EQ(plan_if([](Changes& c) { c.integrator = true; }), integrator());
-    EXPECT_EQ(plan_if([](Changes& c) { c.integrator = c.aiming = true; }), environment_image()) << "all that is aimed with";
+    EXPECT_EQ(plan_if([](Changes& c) { c.integrator = c.aiming = true; }), environment_image()) << "all sampling tables";
     EXPECT_EQ(plan_if([](Changes& c) { c.environment_parameters = true; }), environment());
     EXPECT_EQ(plan_if([](Changes& c) { c.environment_image = true; }), environment_image());
     EXPECT_EQ(plan_if([](Changes& c) { c.transforms = {{1}}; }), moved());
@@ -182,10 +182,10 @@ TEST_F(EditCost, SetLight) {
     EXPECT_EQ(cost_of_lamp([](Light& l) { l.enabled = false; }), lights());
     EXPECT_EQ(cost_of_lamp([](Light& l) { l.kind = Light::Kind::sun; }), lights());
     EXPECT_EQ(cost_of_lamp([](Light& l) { l.name = "Bulb"; }), nothing());
-    EXPECT_EQ(cost_of_lamp([](Light& l) { l.kind = Light::Kind::rectangle; }), listed_anew()) << "a body appears";
-    EXPECT_EQ(cost_of_lamp([](Light& l) { l.kind = Light::Kind::disk, l.radius = 0.1f; }), listed_anew()) << "a body appears";
+    EXPECT_EQ(cost_of_lamp([](Light& l) { l.kind = Light::Kind::rectangle; }), listed_anew()) << "a mesh appears";
+    EXPECT_EQ(cost_of_lamp([](Light& l) { l.kind = Light::Kind::disk, l.radius = 0.1f; }), listed_anew()) << "a mesh appears";
     EXPECT_EQ(cost_of_lamp([](Light& l) { l.radius = 0.1f; }), lights()) << "a sphere is no mesh";
-    EXPECT_EQ(cost_of_lamp([](Light& l) { l.unit = Light::Unit::lumen, l.keep_power = true; }), nothing()) << "for the window";
+    EXPECT_EQ(cost_of_lamp([](Light& l) { l.unit = Light::Unit::lumen, l.keep_power = true; }), nothing()) << "display only";
 }
 
 TEST_F(EditCost, SetAreaLight) {
@@ -222,7 +222,7 @@ TEST_F(EditCost, SetEnvironment) {
     EXPECT_EQ(cost_of_environment([](Environment& e) { e.visible_to_camera = false; }), environment());
     EXPECT_EQ(cost_of_environment([](Environment& e) { e.lights_scene = false; }), environment());
     EXPECT_EQ(cost_of_environment([](Environment& e) { e.kind = Environment::Kind::none; }), environment_image());
-    EXPECT_EQ(cost_of_environment([](Environment& e) { e.sky.turbidity = 5; }), nothing()) << "of a sky that is not there";
+    EXPECT_EQ(cost_of_environment([](Environment& e) { e.sky.turbidity = 5; }), nothing()) << "the sky is unused";
     sample.project.scene.environment.kind = Environment::Kind::sky;
     EXPECT_EQ(cost_of_environment([](Environment& e) { e.sky.turbidity = 5; }), environment_image());
 }
@@ -230,7 +230,7 @@ TEST_F(EditCost, SetEnvironment) {
 TEST_F(EditCost, SetLens) { EXPECT_EQ(cost_of(SetLens{{.aperture_radius = 0.1f}}), camera()); }
 
 TEST_F(EditCost, SetStaging) {
-    EXPECT_EQ(cost_of(SetStaging{{.seconds = 1}}), nothing()) << "of no clip";
+    EXPECT_EQ(cost_of(SetStaging{{.seconds = 1}}), nothing()) << "no clip is selected";
     EXPECT_EQ(cost_of(SetStaging{{.clip = sample.swing, .seconds = 1}}), moved());
     EXPECT_EQ(cost_of(SetStaging{{.variant = 1}}), listed_anew()) << "another material";
 }
