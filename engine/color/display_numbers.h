@@ -14,8 +14,8 @@ struct DisplayTransform {
     bool operator==(const DisplayTransform&) const = default;
 };
 
-// Uniforms of the shader. Order of operations: white balance, exposure, look and view, gamma; false colours replace everything
-// after the exposure.
+// Uniforms of the shader. Order of operations: white balance, exposure, look
+// and view, gamma; false colours replace everything after the exposure.
 struct DisplayNumbers {
     float exposure_ev = 0;
     float gamma = 1;

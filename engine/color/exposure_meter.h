@@ -5,9 +5,9 @@
 
 namespace blush {
 
-// `values` are pixels of `channels` >= 3 scene-linear values, of which the first three are red, green and blue. Pixels that are
-// black, negative or not finite are skipped; the result is 0 if none is left. Large images are subsampled to every k-th pixel, at
-// least 65536 of them.
+// `values` are pixels of `channels` >= 3 scene-linear values, of which the first three are red,
+// green and blue. Pixels that are black, negative or not finite are skipped; the result is 0 if
+// none is left. Large images are subsampled to every k-th pixel, at least 65536 of them.
 
 // Stops that map the log-average luminance (geometric mean) to middle grey, 0.18 (Reinhard et al. 2002, "Photographic tone
 // reproduction for digital images", with their default key).

@@ -180,8 +180,8 @@ template <int N, class Ray> void load_rays(Ray& ray, const RayArrays& rays, int 
 // Largest ray coordinate that Embree accepts, in world space and in the space of each instance.
 constexpr float embree_range = 1.8e18f;
 
-// Largest sum of coordinates of a world-space ray that also keeps it within embree_range inside the instance; 0 if the transform
-// is not invertible.
+// Largest sum of coordinates of a world-space ray that also keeps it within
+// embree_range inside the instance; 0 if the transform is not invertible.
 float reach_through(const Affine& world_from_object) {
     const Affined m = to_double(world_from_object), c = cofactor(m);
     const double norm = std::sqrt(dot(c.x, c.x) + dot(c.y, c.y) + dot(c.z, c.z)) / std::abs(determinant(m)); // of the inverse
@@ -233,8 +233,8 @@ template <int N> void occluded_packets(RTCScene scene, RTCIntersectContext& cont
 
 // Memory of an Embree device and its first thread, with a margin.
 constexpr uint64_t min_memory_of_embree = uint64_t(128) << 20;
-// Memory that must be left after that: TBB, which Embree uses to build BVHs, crashes if an allocation fails in one of its
-// threads.
+// Memory that must be left after that: TBB, which Embree uses to
+// build BVHs, crashes if an allocation fails in one of its threads.
 constexpr uint64_t min_memory_to_build = uint64_t(128) << 20;
 
 bool count_memory(void* user, ssize_t bytes, bool) {

@@ -18,8 +18,8 @@ namespace blush {
 struct InstanceRecord;
 struct SceneTables;
 
-// A ray can hit an object if their masks share a bit. The other bits are for shadow rays of lights with linked shadow casters
-// (light_links.h).
+// A ray can hit an object if their masks share a bit. The other bits are
+// for shadow rays of lights with linked shadow casters (light_links.h).
 constexpr uint32_t camera_ray_mask = 1, other_ray_mask = 2;
 constexpr uint32_t seen_by_all = ~0u;
 
@@ -87,8 +87,8 @@ public:
     size_t compact_triangles() const;
     size_t memory_bytes() const;
 
-    // Closest hits and any-hits, in the widest packets that this machine supports. `coherent`: rays share an origin region and
-    // direction.
+    // Closest hits and any-hits, in the widest packets that this machine
+    // supports. `coherent`: rays share an origin region and direction.
     void intersect(const RayArrays& rays, int count, bool coherent, const HitArrays& hits) const;
     // blocked[i] = 1 if anything lies within far_distance of ray i.
     void occluded(const RayArrays& rays, int count, bool coherent, uint8_t* blocked) const;

@@ -11,8 +11,8 @@
 namespace blush {
 namespace {
 
-// A third of a stop: an edit that changes the exposure scale by less keeps it, so that brightness does not flicker while
-// dragging.
+// A third of a stop: an edit that changes the exposure scale by less
+// keeps it, so that brightness does not flicker while dragging.
 constexpr float scale_tolerance = 1.26f;
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }

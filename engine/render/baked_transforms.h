@@ -1,6 +1,6 @@
-// Instances whose transform is not (or barely) invertible: flattened along an axis, nearly flattened, or far too small. The BVH
-// transforms rays by the inverse, so such an instance gets its own mesh, with the offending part of the transform baked into the
-// vertices.
+// Instances whose transform is not (or barely) invertible: flattened along an axis, nearly
+// flattened, or far too small. The BVH transforms rays by the inverse, so such an instance
+// gets its own mesh, with the offending part of the transform baked into the vertices.
 #pragma once
 
 #include "core/result.h"
@@ -13,9 +13,9 @@
 
 namespace blush {
 
-// Least singular value of an instance transform, in metres per unit: this fraction of the largest singular value, this absolute
-// value, and this fraction of the distance from the origin. The inverse is then exact to about 1 % and keeps rays within Embree's
-// range of 1.8e18.
+// Least singular value of an instance transform, in metres per unit: this fraction of the
+// largest singular value, this absolute value, and this fraction of the distance from the
+// origin. The inverse is then exact to about 1 % and keeps rays within Embree's range of 1.8e18.
 constexpr double min_relative_scale = 1e-5, min_absolute_scale = 1e-9, min_scale_by_distance = 1e-15;
 // Limit of copied triangles; a scene with more triangles of its own may copy as many as those.
 constexpr size_t max_baked_triangles = size_t(1) << 22;

@@ -12,8 +12,8 @@
 
 namespace blush {
 
-// Limits a sample's largest component to `limit` and keeps its hue. Applies to all light, or only to light scattered more than
-// once.
+// Limits a sample's largest component to `limit` and keeps its hue.
+// Applies to all light, or only to light scattered more than once.
 class ClampLedger {
 public:
     // Statistics for each place; one or two places per pixel.

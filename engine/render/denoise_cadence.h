@@ -36,12 +36,12 @@ public:
 
     // The newest frame.
     void offer(const Source& source, double now);
-    // True if it is the first of its image and its denoised image is expected within one frame of the window, so that waiting is
-    // worthwhile.
+    // True if it is the first of its image and its denoised image is expected
+    // within one frame of the window, so that waiting is worthwhile.
     bool answers_within_a_frame() const;
     Decision next(double now) const;
-    // Records that the run requested by next(), of the newest frame at time `begun`, took `seconds`; `finished`: it produced an
-    // image.
+    // Records that the run requested by next(), of the newest frame at
+    // time `begun`, took `seconds`; `finished`: it produced an image.
     void record(const Source& source, DenoiseQuality quality, double begun, double seconds, bool finished);
 
 private:

@@ -35,8 +35,8 @@ struct DenoisedPicture {
 };
 using DenoisedPtr = std::shared_ptr<const DenoisedPicture>;
 
-// The frame's planes as denoiser input: one of the whole image, or one for each light group before its gain. They point into the
-// frame.
+// The frame's planes as denoiser input: one of the whole image, or one
+// for each light group before its gain. They point into the frame.
 std::vector<DenoiseInput> denoise_inputs(const Frame& frame);
 
 // Combines the results for denoise_inputs(); groups are mixed with the frame's gains.

@@ -80,9 +80,9 @@ public:
     Denoiser& operator=(const Denoiser&) = delete;
 
     // `wanted` is called often, from many threads; returns empty soon after it returns false.
-    // Errors: weights missing or damaged, spans too short for the size, not enough memory for the smallest tile, a precision that
-    // this processor does not support. `progress` (optional) gets the completed fraction after each layer, on the caller's
-    // thread; 1 at the end.
+    // Errors: weights missing or damaged, spans too short for the size, not enough memory for
+    // the smallest tile, a precision that this processor does not support. `progress` (optional)
+    // gets the completed fraction after each layer, on the caller's thread; 1 at the end.
     Result<std::optional<Denoised>> denoise(const DenoiseInput& input, const DenoiseOptions& options,
                                             const std::function<bool()>& wanted = {}, const std::function<void(double)>& progress = {});
     // Frees everything but the weights; the next call rebuilds it.

@@ -33,8 +33,8 @@ struct EnvironmentTable {
     EnvironmentTables tables() const;
 };
 
-// Size of the map that a sky is rendered into: 0.7 degrees per texel, finer than all features except the sun's disk, which is a
-// separate light.
+// Size of the map that a sky is rendered into: 0.7 degrees per texel, finer
+// than all features except the sun's disk, which is a separate light.
 constexpr int sky_map_width = 512, sky_map_height = 256;
 
 // Warns if texels are negative or not finite (they become 0) or if the image is unusable (no environment). Without an importance

@@ -19,9 +19,9 @@ struct Extent {
     Vec3d origin{0, 0, 0}; // tables use world positions minus this
 };
 
-// The centre of the bounds, rounded to multiples of a power of two between four and eight times their radius. (0, 0, 0) for
-// scenes near the origin, and mostly constant while an object is dragged. No coordinate of the geometry is further from it than
-// five radii.
+// The centre of the bounds, rounded to multiples of a power of two between four and eight
+// times their radius. (0, 0, 0) for scenes near the origin, and mostly constant while an
+// object is dragged. No coordinate of the geometry is further from it than five radii.
 Vec3d render_origin(const Bounds& bounds);
 
 // Computes extents without reading all vertices at each edit: caches the bounds of each geometry.

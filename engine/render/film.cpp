@@ -62,8 +62,8 @@ size_t Film::memory_bytes() const {
 }
 
 void Film::require_memory(const FilmSize& size) {
-    // Estimated before allocation, because the system's OOM killer gives no message. Includes frames, and half of an adaptive
-    // pilot.
+    // Estimated before allocation, because the system's OOM killer
+    // gives no message. Includes frames, and half of an adaptive pilot.
     double per_pixel = 64 + 3 * double(sizeof(Vec3)) * size.groups + (size.adaptive ? 2 * sizeof(Vec3d) : 0);
     for (const PlaneUse& plane : plane_uses(size))
         if (plane.used) per_pixel += double(plane.bytes_per_pixel);
@@ -162,8 +162,8 @@ Vec3d Film::sum_of(size_t pixel) const {
     return {a.r + b.r, a.g + b.g, a.b + b.b};
 }
 
-// Threshold for the pixel's next samples: those whose components sum to at most this are neither clamped nor among the worst
-// fireflies.
+// Threshold for the pixel's next samples: those whose components sum
+// to at most this are neither clamped nor among the worst fireflies.
 float Film::notable_sum(size_t pixel, int samples) const {
     float limit = std::min(std::numeric_limits<float>::max(), clamp_.least_sum());
     const double count = double(halves_[2 * pixel].count + halves_[2 * pixel + 1].count + samples), least = double(health_.least_excess());

@@ -98,8 +98,8 @@ public:
     // Adaptive films: variance of a caught shadow's opacity in one half of the pixel's samples, from the difference of the
     // halves; 0 without a shadow catcher or if a half is empty.
     double shadow_variance(size_t pixel) const;
-    // Writes everything except the error: pixels, planes, health. Reuses the frame's memory. Material ids remain table indices +
-    // 1.
+    // Writes everything except the error: pixels, planes, health.
+    // Reuses the frame's memory. Material ids remain table indices + 1.
     void resolve(Frame& frame, const Workers& workers) const;
     // `sharing`: see shared_errors.h.
     ErrorEstimate estimate_error(const Workers& workers, double sharing = 1) const;

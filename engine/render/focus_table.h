@@ -1,5 +1,5 @@
-// Table of caustic casters: bounding spheres of specular objects, towards which diffuse surfaces sample directions
-// (shading/focus.h).
+// Table of caustic casters: bounding spheres of specular objects,
+// towards which diffuse surfaces sample directions (shading/focus.h).
 #pragma once
 
 #include "render/object_list.h"

@@ -1,5 +1,5 @@
-// Emission at ray hits: environment, suns, spheres and emissive triangles, each with its MIS weight against next-event estimation
-// (Veach 1997).
+// Emission at ray hits: environment, suns, spheres and emissive triangles,
+// each with its MIS weight against next-event estimation (Veach 1997).
 #pragma once
 
 #include "render/estimator_settings.h"
@@ -106,8 +106,8 @@ F surface_emission_weight(const SceneTables& scene, Strategy strategy, const Pat
     return found_emission_weight(strategy, path.pdf, pdf);
 }
 
-// Radiance of an emissive triangle hit by the path's ray, and its MIS weight. `emission`: of the material; facing: cosine between
-// ray and plane.
+// Radiance of an emissive triangle hit by the path's ray, and its MIS
+// weight. `emission`: of the material; facing: cosine between ray and plane.
 template <class F> struct EmissionHit {
     Vec<F> radiance;
     F weight;

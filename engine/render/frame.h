@@ -50,8 +50,8 @@ struct Frame {
     bool whole = true;         // false: only a region was rendered
     bool transparent = false;  // shadow catcher without a background: alpha is for compositing
 
-    // width * height * 4, scene-linear, top row first; alpha is 1, or coverage if the environment is hidden from the camera; 0 where
-    // nothing is rendered
+    // width * height * 4, scene-linear, top row first; alpha is 1, or coverage
+    // if the environment is hidden from the camera; 0 where nothing is rendered
     std::vector<float> rgba;
     std::vector<float> pixel_samples; // of each pixel; empty if all have the same number
     std::vector<Vec3> albedo, normal; // empty unless requested; normal in world space

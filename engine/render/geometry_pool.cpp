@@ -315,8 +315,8 @@ void GeometryPool::fill(SceneTables& t) const {
 AccelScene GeometryPool::accel_scene(const std::vector<SceneObject>& objects, const std::vector<bool>& alpha,
                                      const std::vector<uint32_t>& masks) const {
     AccelScene scene;
-    // Instanced parts with equal geometry and material have equal opacity: the first one represents all, so that they share one
-    // bottom-level BVH.
+    // Instanced parts with equal geometry and material have equal opacity:
+    // the first one represents all, so that they share one bottom-level BVH.
     std::map<std::pair<uint64_t, Id<Material>>, int32_t> first_alike;
     size_t part = 0, instance = 0;
     for (size_t i = 0; i < objects.size(); ++i) {

@@ -20,8 +20,8 @@ public:
     // Clears the planes; 0 groups: none.
     void reset(size_t pixels, int groups);
     int groups() const { return groups_; }
-    // Adds one sample, a slot of the tile; light after `first_scaled` (0 or 2) or more scatterings is multiplied by `scale`
-    // (clamping).
+    // Adds one sample, a slot of the tile; light after `first_scaled`
+    // (0 or 2) or more scatterings is multiplied by `scale` (clamping).
     void add(size_t pixel, int half, const TileScratch& tile, int slot, int first_scaled, double scale);
 
     Vec3d& sum(size_t pixel, int half, size_t group) { return sums_[place(pixel, half) + group]; }

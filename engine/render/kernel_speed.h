@@ -1,5 +1,5 @@
-// Measures the speed of specialised kernels: renders the same tiles with several kernels in turn, so that machine load affects
-// all alike.
+// Measures the speed of specialised kernels: renders the same tiles
+// with several kernels in turn, so that machine load affects all alike.
 #pragma once
 
 #include "render/kernels/kernel.h"

@@ -20,8 +20,8 @@ struct FeatureUse {
 };
 using Ledger = std::vector<FeatureUse>;
 
-// "saves 3.50 MiB, 12.0 ms" for absent features, "not measured" without a figure; for present ones without "saves", possibly
-// empty.
+// "saves 3.50 MiB, 12.0 ms" for absent features, "not measured"
+// without a figure; for present ones without "saves", possibly empty.
 std::string cost_text(const FeatureUse& use);
 
 } // namespace blush

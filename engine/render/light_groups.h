@@ -40,11 +40,11 @@ struct LightGroups {
     int environment = 0;
 };
 
-// Groups of all possible emitters of the scene, switched off or on: lights and emissive surfaces of visible nodes, and the
-// environment. By light: each light, each emissive object; by object: each node; by material: each light, each emissive material;
-// by hand: lights with the same group name, and emissive surfaces by their material's group name. If there are more than `most`,
-// those with a mix channel come first, and the last ones share a plane. Scenes with expanded area lights have the same groups as
-// before expansion.
+// Groups of all possible emitters of the scene, switched off or on: lights and emissive surfaces of visible
+// nodes, and the environment. By light: each light, each emissive object; by object: each node; by material:
+// each light, each emissive material; by hand: lights with the same group name, and emissive surfaces by
+// their material's group name. If there are more than `most`, those with a mix channel come first, and the
+// last ones share a plane. Scenes with expanded area lights have the same groups as before expansion.
 LightGroups make_light_groups(const Scene& scene, int most = most_light_groups);
 
 // Gain of a group's channel; 1 without a channel.

@@ -14,8 +14,8 @@ class GeometryPool;
 
 // True if the set lists the node or an ancestor of it; for exclusion sets, if it does not.
 bool contains(const ObjectSet& set, const Scene& scene, Id<Node> node);
-// Removes a node from the set or adds it. A node included through an ancestor cannot be removed alone: then the ancestor is
-// toggled.
+// Removes a node from the set or adds it. A node included through an
+// ancestor cannot be removed alone: then the ancestor is toggled.
 void toggle(ObjectSet& set, const Scene& scene, Id<Node> node);
 // True if an existing node is excluded.
 bool leaves_out(const ObjectSet& set, const Scene& scene);

@@ -158,8 +158,8 @@ LightPoint<F> sample_light_point(const SceneTables& scene, const Pair<F>& random
     return p;
 }
 
-// Radiance and pdf at a receiver at squared distance `distance_squared`, in direction wi from it; lights at infinity ignore the
-// distance.
+// Radiance and pdf at a receiver at squared distance `distance_squared`,
+// in direction wi from it; lights at infinity ignore the distance.
 template <Features S, class F> IncidentLight<F> incident_light(const SceneTables& scene, const LightPoint<F>& p, const Vec<F>& wi, const F& distance_squared) {
     IncidentLight<F> in{p.emission, p.probability * p.density};
     if constexpr (S.has(Feature::emissive_triangles)) {

@@ -38,8 +38,8 @@ struct Builder {
     }
 };
 
-// Mean luminance of a textured emissive triangle over a 4 x 4 grid; never 0 where the material may emit, because the grid may
-// miss emission.
+// Mean luminance of a textured emissive triangle over a 4 x 4 grid; never
+// 0 where the material may emit, because the grid may miss emission.
 double mean_varying_luminance(const SceneTables& tables, size_t light, const Vec3& factor) {
     double sum = 0;
     for (int i = 0; i < 4; ++i)

@@ -32,8 +32,8 @@ struct LightTreeTable {
     }
 };
 
-// With fewer lights, sampling by power alone is faster than traversal. With more, building the tree would take longer than an
-// edit may.
+// With fewer lights, sampling by power alone is faster than traversal.
+// With more, building the tree would take longer than an edit may.
 constexpr int64_t fewest_lights_for_a_tree = 32, most_lights_for_a_tree = 1 << 15;
 
 // Top-down build; splits by the surface area orientation heuristic (Conty Estevez and Kulla 2018). Lights without power or with a

@@ -30,8 +30,8 @@ struct MaterialTable {
 // Updates the table to the scene; texels are kept if the scene still uses the same textures. The result depends on the scene
 // alone. Only textures used by materials of some mesh are included. `workers`: share the work; null: single-threaded.
 void build_material_table(MaterialTable& table, const Scene& scene, const Workers* workers = nullptr);
-// Rewrites the record of one material. False, without changes, if the table must be rebuilt: the set of used textures, UV sets or
-// materials differs.
+// Rewrites the record of one material. False, without changes, if the table
+// must be rebuilt: the set of used textures, UV sets or materials differs.
 bool update_material(MaterialTable& table, const Scene& scene, Id<Material> id);
 
 // The mesh attributes that a material's textures need.

@@ -26,9 +26,9 @@ struct SceneObject {
     Affined world_from_copy(size_t copy) const;
 };
 
-// Visible nodes with geometry, flat ones first, both in id order. A mesh is flattened into world space if one node uses it once
-// and it is small enough to be rebuilt within a frame. Objects with a non-finite transform are omitted, with a warning each in
-// `left_out`.
+// Visible nodes with geometry, flat ones first, both in id order. A mesh is flattened into
+// world space if one node uses it once and it is small enough to be rebuilt within a frame.
+// Objects with a non-finite transform are omitted, with a warning each in `left_out`.
 std::vector<SceneObject> list_objects(const Scene& scene, std::vector<Diagnostic>* left_out = nullptr);
 // "node "NAME"", or its number if it has no name.
 std::string node_label(const Scene& scene, Id<Node> node);

@@ -64,8 +64,8 @@ template <class F> void append(ShadowQueue& q, const Step<F>& s, const Int<F>& s
     q.size += count(lanes);
 }
 
-// Per-ray random number for stochastic opacity; salt distinguishes the rays of a path: 2 * bounce, and 2 * bounce + 1 for its
-// shadow ray.
+// Per-ray random number for stochastic opacity; salt distinguishes the
+// rays of a path: 2 * bounce, and 2 * bounce + 1 for its shadow ray.
 template <class F> UInt<F> opacity_random(const UInt<F>& key, const UInt<F>& index, uint32_t salt) {
     return key ^ pcg_hash(UInt<F>(index + salt * 0x9e3779b9u));
 }

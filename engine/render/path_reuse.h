@@ -1,9 +1,9 @@
 // Path reuse: the pixels of a small group share the second vertices of their paths (Bekaert, Sbert and Halton 2002,
 // "Accelerating Path Tracing by Re-Using Paths").
 //
-// Pixel k of a group sees a Lambertian point x_k of reflectance rho_k, whose path continues to a point y_k. If y_k is Lambertian
-// too, it sends the same radiance L_k in all directions on its side, and every x_i that sees y_k could have sampled it. With the
-// density
+// Pixel k of a group sees a Lambertian point x_k of reflectance rho_k, whose path continues
+// to a point y_k. If y_k is Lambertian too, it sends the same radiance L_k in all directions
+// on its side, and every x_i that sees y_k could have sampled it. With the density
 //   G_i(y) = max(0, cos theta_i) cos theta_y / (pi d^2)
 // per area with which x_i samples y, and V its visibility, the balance heuristic (Veach 1997, section 9.2) over all members as
 // strategies for y gives pixel i
@@ -39,8 +39,8 @@ constexpr float least_density = 0x1p-100f, most_density = 0x1p100f;
 // Salt of the random numbers for opacity along connections; salts of a path's own rays count from 0.
 constexpr uint32_t connection_salt = 0xffffffffu;
 
-// Stores the vertices of paths k, k + 1, ... of the queue at bounce 0 or 1. At bounce 0 there is no compaction: the k-th path is
-// slot k.
+// Stores the vertices of paths k, k + 1, ... of the queue at bounce 0
+// or 1. At bounce 0 there is no compaction: the k-th path is slot k.
 template <class F>
 void store_junction(ReuseColumns& reuse, const PathQueue& now, int k, int bounce, const Path<F>& path, const Junction<F>& j) {
     JunctionColumns& c = bounce == 0 ? reuse.first : reuse.second;
@@ -66,8 +66,8 @@ void store_junction(ReuseColumns& reuse, const PathQueue& now, int k, int bounce
     }
 }
 
-// Call when a path's radiance holds exactly its unshared part (light arriving at x, and emission hit from x): later contributions
-// can be shared.
+// Call when a path's radiance holds exactly its unshared part (light arriving
+// at x, and emission hit from x): later contributions can be shared.
 inline void set_own_radiance_aside(ReuseColumns& reuse, TileScratch& scratch, int paths) {
     const auto set_aside = [&](double* r, double* g, double* b, RadianceColumns& own) {
         copy_radiance(r, g, b, paths, own);
@@ -85,8 +85,8 @@ template <class F> Vec<F> gather_columns(const float* x, const float* y, const f
     return {gather(x, i), gather(y, i), gather(z, i)};
 }
 
-// Computes G for every member and vertex of the batch, and queues visibility rays from vertex to member where visibility is
-// unknown.
+// Computes G for every member and vertex of the batch, and queues
+// visibility rays from vertex to member where visibility is unknown.
 template <class F> void queue_connections(const FocusTables& focus, const ReuseColumns& reuse, ReuseBatch& batch, int group_size, ShadowQueue& q) {
     const int pairs = batch.vertices * group_size, last_member = group_size - 1, shift = std::countr_zero(unsigned(group_size));
     const JunctionColumns &a = reuse.first, &b = reuse.second;
@@ -106,8 +106,8 @@ template <class F> void queue_connections(const FocusTables& focus, const ReuseC
         const Vec<F> to = at_y - at_x;
         const F d2 = dot(to, to);
         const F cos_x = dot(ns_x, to), cos_y = -dot(ng_y, to); // times d
-        // False where sampling at x would reject the direction, or y would look different from there. Not tested for the path's
-        // own pixel.
+        // False where sampling at x would reject the direction, or y would
+        // look different from there. Not tested for the path's own pixel.
         const Mask<F> possible = dot(ng_x, to) > F(0.f) && -dot(ns_y, to) >= F(least_facing) * sqrt(d2);
         F density = max(cos_x, F(0.f)) * max(cos_y, F(0.f)) / (d2 * d2);
         density = select(present && (own || possible) && density >= F(least_density) && density <= F(most_density), density, F(0.f));
@@ -262,8 +262,8 @@ template <class F> [[gnu::flatten]] void share_batch(const KernelContext& contex
     batch.groups = batch.vertices = 0;
 }
 
-// After all paths of the tile have ended and their unshared radiance was stored: connects, shares, and adds the unshared part
-// again.
+// After all paths of the tile have ended and their unshared radiance
+// was stored: connects, shares, and adds the unshared part again.
 template <class F> void share_paths(const KernelContext& context, const TileJob& job, TileScratch& scratch) {
     const ReuseGroups& groups = context.settings.reuse;
     ReuseColumns& reuse = *scratch.reuse;

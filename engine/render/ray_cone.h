@@ -1,7 +1,7 @@
-// Texture footprint of a path: ray cones (Akenine-Moeller et al., "Texture Level of Detail Strategies for Real-Time Ray Tracing",
-// Ray Tracing Gems 2019, and "Improved Shader and Texture Level of Detail Using Ray Cones", JCGT 2021). Width and angle are
-// perpendicular to the ray; the stretch on slanted surfaces is ignored (the samples of a pixel cover it), so that no blur is
-// added.
+// Texture footprint of a path: ray cones (Akenine-Moeller et al., "Texture Level of Detail Strategies
+// for Real-Time Ray Tracing", Ray Tracing Gems 2019, and "Improved Shader and Texture Level of Detail
+// Using Ray Cones", JCGT 2021). Width and angle are perpendicular to the ray; the stretch on slanted
+// surfaces is ignored (the samples of a pixel cover it), so that no blur is added.
 //
 // At the camera the cone is half a pixel wide, less than the pixel filter, which does the rest. Flat specular surfaces pass the
 // cone on. Curved ones are not handled: behind them textures are unfiltered until a rough lobe spreads the path.
@@ -37,8 +37,8 @@ template <class F> F cone_width(const CameraRecord& camera, const EstimatorSetti
     return max(F(path.cone + spread * t), F(0.f));
 }
 
-// Cone of the path leaving a surface with footprint `width`. Rough lobes spread the path much more, so the old width is dropped
-// there.
+// Cone of the path leaving a surface with footprint `width`. Rough
+// lobes spread the path much more, so the old width is dropped there.
 template <class F> F scattered_cone(const F& width, const Mask<F>& delta, const Mask<F>& flat) {
     return select(delta, select(flat, width, F(-infinity)), F(0.f));
 }

@@ -14,8 +14,8 @@
 namespace blush {
 namespace {
 
-// Kernels may read element 0 before they apply masks: one triangle that rays cannot hit, so that an empty scene is no special
-// case.
+// Kernels may read element 0 before they apply masks: one triangle
+// that rays cannot hit, so that an empty scene is no special case.
 std::vector<SceneObject> placeholder_objects() {
     static const GeometryPtr point = [] {
         auto g = std::make_shared<Geometry>();

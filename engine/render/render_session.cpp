@@ -49,8 +49,8 @@ bool continues(const Submission& last, const Submission& next) {
     return last.groups && same_image(last.settings, next.settings) && mixing_of(*last.groups, next.scene);
 }
 
-// Sets the submission's image number: that of the last submission (returns true) or a new one. Loaded samples always start a new
-// image.
+// Sets the submission's image number: that of the last submission
+// (returns true) or a new one. Loaded samples always start a new image.
 bool name_image(Submission& next, const std::optional<Submission>& last, bool has_samples) {
     const bool same = last && !has_samples && continues(*last, next);
     next.image = (last ? last->image : 0) + !same;
@@ -357,8 +357,8 @@ void RenderSession::State::run() {
             // Before the requested image is replaced.
             asked = std::exchange(film_asked, std::nullopt);
             film_wanted = false;
-            // Show an applied submission once before applying the next: otherwise a drag faster than the updates would show
-            // nothing.
+            // Show an applied submission once before applying the next:
+            // otherwise a drag faster than the updates would show nothing.
             if (!asked && !must_show() && !stands_aside()) taken.swap(pending);
             work = has_work();
         }

@@ -48,8 +48,8 @@ struct KeptFilm {
 
 class RenderSession {
 public:
-    // `on_frame` is called after each publication and each change of state, on the session's threads, possibly concurrently; it
-    // must not block.
+    // `on_frame` is called after each publication and each change of state,
+    // on the session's threads, possibly concurrently; it must not block.
     RenderSession(const SessionOptions& options, std::function<void()> on_frame);
     // Stops rendering, even within a pass, and joins the threads.
     ~RenderSession();

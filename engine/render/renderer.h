@@ -100,16 +100,16 @@ public:
     // Error correlation between pixels by path reuse; 1 without.
     SharedErrors shared_errors() const;
 
-    // Saves the film exactly: another renderer of the same scene and settings continues as if it had rendered it. `first` is the
-    // index of its first sample. Errors: nothing is rendered, rendering was stopped in the middle of a sample, the film is not at
-    // full resolution.
+    // Saves the film exactly: another renderer of the same scene and settings continues as if it
+    // had rendered it. `first` is the index of its first sample. Errors: nothing is rendered,
+    // rendering was stopped in the middle of a sample, the film is not at full resolution.
     Result<FilmState> save_film(int64_t first) const;
     // Replaces the film, at full size; continue with sample first_sample + samples. Errors: it does not fit the settings or lacks
     // a plane; the film is then empty.
     Result<void> load_film(const FilmState& state);
 
-    // Irradiance at a light meter in the last applied scene: one of many independent estimates (irradiance.h), RGB in lux. Does
-    // not touch the film.
+    // Irradiance at a light meter in the last applied scene: one of many
+    // independent estimates (irradiance.h), RGB in lux. Does not touch the film.
     Vec3d irradiance(const MeterPlace& place, uint32_t replicate, int samples) const;
     // True if anything in the last applied scene emits light.
     bool has_light() const;

@@ -66,8 +66,8 @@ int64_t SamplePlan::samples(int tile, int half, int64_t mean) const {
     const int64_t uniform = (mean + 1 - half) / 2;
     if (mean <= pilot_samples || !decided()) return uniform;
     const double wanted = 0.5 * double(mean - pilot_samples) * shares_[size_t(half)][size_t(tile)];
-    // Rounding is staggered over tiles by a golden-ratio sequence of thresholds, so that the film always holds about the planned
-    // number of samples.
+    // Rounding is staggered over tiles by a golden-ratio sequence of thresholds,
+    // so that the film always holds about the planned number of samples.
     const double turn = std::fmod(double(2 * tile + half) * (std::numbers::phi - 1), 1.0);
     return pilot_samples / 2 + granularity * int64_t(std::floor(wanted / double(granularity) + turn));
 }

@@ -40,8 +40,8 @@ public:
     void decide(const std::array<TileNoise, 2>& noise);
     bool decided() const { return !shares_[0].empty(); }
 
-    // The decided shares, for transfer to another plan; empty before. restore() returns false, without changes, if the number of
-    // tiles differs.
+    // The decided shares, for transfer to another plan; empty before. restore()
+    // returns false, without changes, if the number of tiles differs.
     using Shares = std::array<std::vector<double>, 2>;
     const Shares& shares() const { return shares_; }
     bool restore(const Shares& shares);

@@ -12,8 +12,8 @@
 
 namespace blush {
 
-// One mesh part of one instance. Its vertices are in world space, or in object space with `transform` indexing the
-// InstanceRecord.
+// One mesh part of one instance. Its vertices are in world space,
+// or in object space with `transform` indexing the InstanceRecord.
 struct PartRecord {
     int32_t material;     // index into the material table
     int32_t object;       // Id<Node>.value

@@ -68,8 +68,8 @@ Work Scheduler::next() const {
     }
     work.first_sample = next_sample_;
     const double sample = std::max(timings_.sample_seconds, 1e-6);
-    // Doubling keeps the number of resolves logarithmic at first; later the remaining interval bounds the wait for the next
-    // frame.
+    // Doubling keeps the number of resolves logarithmic at first;
+    // later the remaining interval bounds the wait for the next frame.
     const double left = publish_interval() - (seconds_ - last_publish_);
     int64_t count = std::max<int64_t>(1, std::min<int64_t>(samples(), int64_t(left / sample)));
     if (settings_.spp > 0) count = std::min(count, settings_.spp - next_sample_);

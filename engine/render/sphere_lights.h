@@ -1,5 +1,5 @@
-// Lights that are intersected and sampled as exact spheres: sphere lights, and point and spot lights with a radius. NEE samples
-// them by solid angle.
+// Lights that are intersected and sampled as exact spheres: sphere lights,
+// and point and spot lights with a radius. NEE samples them by solid angle.
 #pragma once
 
 #include "scene/scene.h"

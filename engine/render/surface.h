@@ -84,8 +84,8 @@ template <Features S, class F> Mask<F> is_pane(const SceneTables& scene, const H
     return surface && as_mask((gather_field(scene.materials.materials, &MaterialRecord::flags, material) & int32_t(material_pane)) != 0);
 }
 
-// Interpolated attributes of `hit` in the lanes of `active`; elsewhere those of some valid triangle. Textures are filtered over
-// `width` metres.
+// Interpolated attributes of `hit` in the lanes of `active`; elsewhere
+// those of some valid triangle. Textures are filtered over `width` metres.
 template <Features S, class F>
 Surface<F> surface_at(const SceneTables& scene, const Hit<F>& hit, const Mask<F>& active, const F& width = F(0.f)) {
     Surface<F> s;

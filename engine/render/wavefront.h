@@ -1,5 +1,5 @@
-// Wavefront path tracing of a tile: generate, trace, shade, trace shadow rays, and repeat with the surviving paths, compacted in
-// order.
+// Wavefront path tracing of a tile: generate, trace, shade, trace
+// shadow rays, and repeat with the surviving paths, compacted in order.
 #pragma once
 
 #include "render/estimator.h"

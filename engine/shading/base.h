@@ -238,8 +238,8 @@ template <Features S, class F> BsdfValue<F> eval_base(const Bsdf<F>& b, const Ve
             const F below = cosine_hemisphere_pdf(F(-wi.z));
             const Mask<F> crosses = below * b.p_through > F(0.f);
             if (any(crosses)) {
-                // Reflected light is not transmitted: uses the Fresnel term of the microfacet that would mirror the light, as for
-                // thin walls.
+                // Reflected light is not transmitted: uses the Fresnel term of
+                // the microfacet that would mirror the light, as for thin walls.
                 const F c = sqrt(max(F(0.5f + 0.5f * dot(wo, flip_z(Mask<F>(true), wi))), F(0.f)));
                 const F reflected = facet_albedo<S>(b, max(c, F(grazing))).layer;
                 diffuse = diffuse + b.through * select(crosses, (1.f - reflected) * below, F(0.f));
@@ -257,8 +257,8 @@ template <Features S, class F> BsdfValue<F> eval_base(const Bsdf<F>& b, const Ve
 
 // ---- sample
 
-// Samples a direction from the microfacets alone, in the viewer's frame; u, v choose the microfacet, `choice` reflection or
-// transmission.
+// Samples a direction from the microfacets alone, in the viewer's frame;
+// u, v choose the microfacet, `choice` reflection or transmission.
 template <Features S, class F> BsdfSample<F> sample_facets(const Bsdf<F>& b, const Vec<F>& wo, const F& u, const F& v, const F& choice) {
     const Vec<F> z{F(0.f), F(0.f), F(1.f)};
     Vec<F> h = select(b.smooth, z, sample_visible_normal(alpha_of<S>(b), wo, u, v));
@@ -278,16 +278,16 @@ template <Features S, class F> BsdfSample<F> sample_facets(const Bsdf<F>& b, con
         s.wi = select(reflects, s.wi, through);
         s.weight = select(reflects, s.weight, a.transmitted * b.radiance_scale);
         s.delta = s.delta || (b.straight && !reflects);
-        // By rounding, a microfacet at the edge of visibility may face away from the viewer: its refracted direction is not of
-        // unit length.
+        // By rounding, a microfacet at the edge of visibility may face away
+        // from the viewer: its refracted direction is not of unit length.
         s.valid = select(reflects, s.valid, s.wi.z < F(0.f) && dot(wo, h) > F(0.f));
     }
     s.weight = s.weight / facet_probability<S>(a, reflects);
     return s;
 }
 
-// Samples a direction of the base; sets the weight only for a delta lobe, and no pdf. u, v, choice: uniform in [0, 1),
-// independent.
+// Samples a direction of the base; sets the weight only for a delta
+// lobe, and no pdf. u, v, choice: uniform in [0, 1), independent.
 template <Features S, class F> BsdfSample<F> draw_base(const Bsdf<F>& b, const Vec<F>& wo_surface, const F& u, const F& v, const F& choice) {
     BsdfSample<F> s;
     s.wi = sample_cosine_hemisphere(u, v);

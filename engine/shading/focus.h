@@ -80,8 +80,8 @@ template <class F> F focused_pdf(const FocusTables& table, const Focus<F>& f, co
     return (1.f - f.share) * pdf + f.share * (0.5f * inv_pi) * sum / max(f.total, F(1e-30f));
 }
 
-// Samples a direction into one of the spheres' cones, for lanes with share > 0; u, v and `choice`, which selects the sphere, in
-// [0, 1).
+// Samples a direction into one of the spheres' cones, for lanes with
+// share > 0; u, v and `choice`, which selects the sphere, in [0, 1).
 template <class F> Vec<F> aim_at_ball(const FocusTables& table, const Focus<F>& f, const F& choice, const F& u, const F& v) {
     Vec<F> to{F(0.f), F(0.f), F(1.f)};
     F height = F(1.f), left = choice * f.total;

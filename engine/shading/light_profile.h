@@ -74,8 +74,8 @@ template <class F> F table_factor(const ProfileTables& tables, const Int<F>& pro
     return select(active && v.inside && h.inside, lerp(below, above, h.fraction), F(0.f));
 }
 
-// The factor of a profile in the unit direction of emission; `profile` must be valid in every lane; results outside `active` are
-// unused.
+// The factor of a profile in the unit direction of emission; `profile`
+// must be valid in every lane; results outside `active` are unused.
 template <class F> F profile_factor(const ProfileTables& tables, const Int<F>& profile, const Vec<F>& direction, const Mask<F>& active) {
     const auto axis = [&](Vec3 ProfileRecord::*f) { return dot(gather_field3<F>(tables.records, f, profile), direction); };
     const F x = axis(&ProfileRecord::x), y = axis(&ProfileRecord::y), ahead = axis(&ProfileRecord::ahead);

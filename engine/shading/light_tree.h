@@ -1,7 +1,7 @@
-// Light tree: traverses a tree of lights towards those that matter to a receiver (Conty Estevez and Kulla 2018, "Importance
-// Sampling of Many Lights with Adaptive Tree Splitting"). Each sample selects one light, without splitting. Instead a node has up
-// to sixteen children: one choice among four levels of a binary tree costs twice as much as descending them, and is more
-// accurate.
+// Light tree: traverses a tree of lights towards those that matter to a receiver (Conty Estevez
+// and Kulla 2018, "Importance Sampling of Many Lights with Adaptive Tree Splitting"). Each sample
+// selects one light, without splitting. Instead a node has up to sixteen children: one choice
+// among four levels of a binary tree costs twice as much as descending them, and is more accurate.
 //
 // Only lights at finite distance are in the tree. It is one slot next to the suns and the environment, selected by power.
 #pragma once

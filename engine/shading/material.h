@@ -95,8 +95,8 @@ Vec<F> tangent_normal_at(const MaterialTables& tables, const Int<F>& m, const Te
     return decode_normal<F>(rgb(lookup<F>(tables.textures, use, at, active, false)), scale, mapped);
 }
 
-// All material parameters at a hit. Inactive lanes get some valid material. Base colour is clamped to [0, 1]: more would gain
-// energy.
+// All material parameters at a hit. Inactive lanes get some valid
+// material. Base colour is clamped to [0, 1]: more would gain energy.
 template <Features S, class F> MaterialPoint<F> material_at(const MaterialTables& tables, const Int<F>& material, const TexturePoint<F>& at,
                                                             const Vec4T<F>& vertex_color, const Mask<F>& active) {
     const Int<F> m = select(active, material, Int<F>(0));

@@ -10,9 +10,9 @@ namespace blush::inline BLUSH_ISA {
 // Below this perceptual roughness a surface is treated as perfectly smooth: its lobe is narrower than single precision resolves.
 constexpr float smooth_roughness = 0.01f;
 
-// Anisotropic alpha along the local x and y (KHR_materials_anisotropy; Heitz 2014, "Understanding the Masking-Shadowing Function
-// in Microfacet-Based BRDFs", stretched GGX). Functions below accept it in place of one alpha and give bit-identical results if
-// both are equal.
+// Anisotropic alpha along the local x and y (KHR_materials_anisotropy; Heitz 2014, "Understanding
+// the Masking-Shadowing Function in Microfacet-Based BRDFs", stretched GGX). Functions below
+// accept it in place of one alpha and give bit-identical results if both are equal.
 template <class F> struct Stretch {
     F x, y;
     F x_over_y, y_over_x;
@@ -47,9 +47,9 @@ template <class F> F masking_over_cos(const Stretch<F>& alpha, const Vec<F>& w) 
 }
 template <class Alpha, class F> F masking(const Alpha& alpha, const Vec<F>& w) { return abs(w.z) * masking_over_cos(alpha, w); }
 
-// Samples a microfacet normal visible from wo, wo.z >= 0, with density masking(wo) ggx(h) max(0, dot(wo, h)) / wo.z: Dupuy and
-// Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps", with the cap's coordinates rearranged so that h.z > 0 is a
-// product.
+// Samples a microfacet normal visible from wo, wo.z >= 0, with density masking(wo) ggx(h)
+// max(0, dot(wo, h)) / wo.z: Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with
+// Spherical Caps", with the cap's coordinates rearranged so that h.z > 0 is a product.
 template <class Alpha, class F> Vec<F> sample_visible_normal(const Alpha& alpha, const Vec<F>& wo, const F& u, const F& v) {
     const F along_x = alpha_along_x(alpha), along_y = alpha_along_y(alpha);
     const Vec<F> o = normalize(Vec<F>{wo.x * along_x, wo.y * along_y, wo.z});

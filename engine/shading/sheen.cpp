@@ -3,8 +3,8 @@
 namespace blush {
 namespace {
 
-// E by midpoint quadrature over the hemisphere, finer towards the horizon, where smooth fibres reflect; by symmetry half the
-// azimuths suffice.
+// E by midpoint quadrature over the hemisphere, finer towards the horizon,
+// where smooth fibres reflect; by symmetry half the azimuths suffice.
 float integrate_albedo(float alpha, float cos) {
     constexpr int azimuths = 32, heights = 64;
     static_assert(heights % width<Wide> == 0);

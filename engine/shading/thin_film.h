@@ -48,8 +48,8 @@ template <class F> ThinFilm<F> make_thin_film(const F& ior, const F& thickness_n
     return film;
 }
 
-// Reflectance over a base that reflects f0 at normal incidence in air, clamped to [0, 1]: the sum of Gaussians leaves the gamut
-// in places.
+// Reflectance over a base that reflects f0 at normal incidence in air,
+// clamped to [0, 1]: the sum of Gaussians leaves the gamut in places.
 template <class F> Vec<F> thin_film_reflectance(const ThinFilm<F>& film, const Vec<F>& f0) {
     const F outer = film.reflectance, passed = 1.f - outer, rise = schlick(film.cos);
     const auto channel = [&](const F& base, const F& once, const F& twice) {

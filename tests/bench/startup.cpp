@@ -1,6 +1,6 @@
-// Time to the first coarse image: the Cornell box as shipped, and with textures, a sky and a view transform. Unused features must
-// cost nothing. CPU seconds of all cores, in turn: of the engine alone, from an imported scene on, and of the program, from start
-// to end.
+// Time to the first coarse image: the Cornell box as shipped, and with textures, a sky and
+// a view transform. Unused features must cost nothing. CPU seconds of all cores, in turn:
+// of the engine alone, from an imported scene on, and of the program, from start to end.
 #include "tests/bench/bench.h"
 
 #include "color/color_management.h"

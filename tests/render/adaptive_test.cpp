@@ -115,8 +115,8 @@ TEST(Adaptive, EstimatedErrorIsTheTrueError) {
         inside += frame.error.low <= relmse && relmse <= frame.error.high;
     }
     EXPECT_TRUE(z_test(stated_beyond_true, 0));
-    // The interval is for the expectation, and this run is one draw: with equal scatter of both, it holds at 1.96 / sqrt(2)
-    // sigma.
+    // The interval is for the expectation, and this run is one draw:
+    // with equal scatter of both, it holds at 1.96 / sqrt(2) sigma.
     const double chance = 1 - normal_p(1.96 / std::numbers::sqrt2);
     EXPECT_GT(double(inside) / double(runs), chance - 4 * std::sqrt(chance * (1 - chance) / double(runs)));
 }

@@ -91,8 +91,8 @@ TEST(Camera, BlurHasTheWidthOfTheConeOfLight) {
     }
 }
 
-// A filter wider than a pixel weights positions unevenly, but uniformly on average: over steps of an eighth of a pixel the mean
-// is exact for both.
+// A filter wider than a pixel weights positions unevenly, but uniformly on
+// average: over steps of an eighth of a pixel the mean is exact for both.
 TEST(Filter, KeepsTheMean) {
     for (const PixelFilter filter : {PixelFilter::box, PixelFilter::blackman_harris}) {
         Measured sum;

@@ -27,8 +27,8 @@ Scene under_map(const std::vector<Vec3>& texels, float rotation_degrees) {
     return scene;
 }
 
-// Radiance of the map, bilinear between texel centres, rotated counter-clockwise as seen from above; a second implementation, in
-// double.
+// Radiance of the map, bilinear between texel centres, rotated
+// counter-clockwise as seen from above; a second implementation, in double.
 Vec3d map_radiance(const std::vector<Vec3>& texels, double rotation_degrees, const Vec3d& direction) {
     const double a = rotation_degrees * pi / 180, c = std::cos(a), s = std::sin(a);
     const Vec3d d{direction.x * c - direction.z * s, direction.y, direction.x * s + direction.z * c};

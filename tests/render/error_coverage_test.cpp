@@ -16,8 +16,8 @@ Truth stored_truth(const std::string& scene) {
     return truth;
 }
 
-// Fraction of the known intervals that contain the true error, one number per rendering: its images at several sample counts
-// share samples.
+// Fraction of the known intervals that contain the true error, one number
+// per rendering: its images at several sample counts share samples.
 struct Shares {
     Moments relmse, rmse;
     int64_t runs = 0, known = 0;

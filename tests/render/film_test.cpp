@@ -138,8 +138,8 @@ TEST(ErrorEstimate, IsUnknownBeforeBothHalvesHoldSamples) {
     EXPECT_EQ(f.film.standard_error().size(), 256u);
 }
 
-// The error of this very image, which is known here. relMSE's interval also accounts for its divisor, so its coverage may be
-// higher.
+// The error of this very image, which is known here. relMSE's interval
+// also accounts for its divisor, so its coverage may be higher.
 TEST(ErrorEstimate, IsUnbiasedAndItsIntervalHasNominalCoverage) {
     constexpr int64_t runs = 1000;
     for (const int samples : {2, 8}) {

@@ -22,8 +22,8 @@ GeometryPtr leaning_quad() { return quad({-1, -1, 0.5f}, {1, -1, -0.5f}, {1, 1, 
 
 enum class How { own_mesh, shared_mesh, copies };
 
-// Two objects side by side with that scale, in front of a wall; as small separate meshes, as nodes sharing one mesh, or as
-// instances.
+// Two objects side by side with that scale, in front of a wall; as
+// small separate meshes, as nodes sharing one mesh, or as instances.
 Scene pair_of(const Vec3& scale, How how, const GeometryPtr& shape = leaning_quad()) {
     Scene scene;
     place(scene, quad({-4, -4, -2}, {4, -4, -2}, {4, 4, -2}, {-4, 4, -2}), lambert(0.4f));
@@ -213,8 +213,8 @@ TEST(Flattened, BlockTheLineOfSight) {
     }
 }
 
-// Rays that are not finite, or leave Embree's range in the space of an instance, miss; their neighbours in the packet are
-// unaffected.
+// Rays that are not finite, or leave Embree's range in the space of
+// an instance, miss; their neighbours in the packet are unaffected.
 TEST(Flattened, NonFiniteRaysMiss) {
     constexpr float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
     const GeometryPtr shape = quad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0});

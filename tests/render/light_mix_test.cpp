@@ -292,8 +292,8 @@ TEST(BakeMix, KeepsTheImageAndTheFilm) {
     EXPECT_TRUE(same_means(fresh.blocks(16, 16), render(with_channels.scene, settings_for(32, 32, 96)).blocks(16, 16)));
 }
 
-// Two lights sharing a record and two objects sharing an emissive material, separated by the mix, have separate records
-// afterwards.
+// Two lights sharing a record and two objects sharing an emissive
+// material, separated by the mix, have separate records afterwards.
 TEST(BakeMix, SplitsSharedRecords) {
     Studio studio;
     studio.scene.mix.grouping = Grouping::by_object;

@@ -96,8 +96,8 @@ TEST(RectangleLight, EmitsForwardsOnlyUnlessTwoSided) {
     EXPECT_TRUE(shows_on_floor(lit_by(light, away), [&](const Vec3d& x) { return 3 * polygon_irradiance(x, up, corners); }));
 }
 
-// Points of the floor that see the whole sphere get the irradiance of a point at its centre, at any distance: E = pi L (r / d)^2
-// cos.
+// Points of the floor that see the whole sphere get the irradiance
+// of a point at its centre, at any distance: E = pi L (r / d)^2 cos.
 TEST(SphereLight, IrradianceIsThatOfAPointAtItsCentre) {
     for (const auto& [pose, radius] : {std::pair{poses[0], 0.5f}, {poses[2], 0.2f}, {poses[3], 5.f}, {Pose{{0.3f, 0.7f, 0}, {0, -1, 0}}, 0.55f},
                                        {poses[1], 1e-4f}}) {

@@ -17,8 +17,8 @@ using statistics::Moments;
 using statistics::sidak;
 using statistics::significance;
 
-// Pixels and blocks along each side. The shares of a group sum to one, so blocks as large as groups would be right for any
-// shares.
+// Pixels and blocks along each side. The shares of a group sum to
+// one, so blocks as large as groups would be right for any shares.
 constexpr int size = 32, blocks = 8;
 using BlockMoments = std::array<Moments, blocks * blocks * 3>;
 

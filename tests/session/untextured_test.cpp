@@ -1,5 +1,5 @@
-// A scene is shown without textures first, then with them: the final image equals that of a renderer that never saw the
-// untextured scene.
+// A scene is shown without textures first, then with them: the final
+// image equals that of a renderer that never saw the untextured scene.
 #include "render/renderer.h"
 #include "scene/untextured.h"
 #include "support/pictures.h"

@@ -6,8 +6,8 @@
 
 namespace blush::test {
 
-// `rooms` x `rooms` rooms of 4 m with 25 lights each below the (missing) ceiling, of various intensities, half of them points and
-// half downlights.
+// `rooms` x `rooms` rooms of 4 m with 25 lights each below the (missing)
+// ceiling, of various intensities, half of them points and half downlights.
 Scene house(int rooms);
 
 // Relative variances of one NEE sample, averaged over receivers on floors and walls. Computed from the probabilities alone: the
