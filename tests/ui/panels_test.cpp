@@ -242,10 +242,10 @@ TEST_F(Panels, AnEmptySceneAndAFrameWithoutPlanes) {
     EXPECT_FALSE(document.can_undo());
 }
 
-// Every line of the ledger that was left out takes its room, and what is in use waits behind a heading.
-TEST_F(Panels, EachThingLeftOutHasItsLine) {
+// The Specialisation section has a line per unused feature; used features are below a collapsed heading.
+TEST_F(Panels, EachUnusedFeatureHasALine) {
     Document document;
-    ui.settings.panels["section.Left out"] = 1;
+    ui.settings.panels["section.Specialisation"] = 1;
     const auto height_of = [&](const Ledger& ledger) {
         auto made = std::make_shared<Frame>();
         made->ledger = std::make_shared<const Ledger>(ledger);

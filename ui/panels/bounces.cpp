@@ -1,4 +1,4 @@
-// Bounces: the picture taken apart by how often light was scattered. Looking at them renders nothing anew.
+// Bounces panel: the picture split by the number of scattering events. Changing the view does not restart the render.
 #include "measure/bounce_energy.h"
 #include "ui/bars.h"
 #include "ui/panels/panels.h"
@@ -15,11 +15,11 @@ using Mode = BouncesView::Mode;
 void draw_playing(PanelContext& c, Fields& f, BouncesView& view, int planes) {
     int64_t bounce = view.bounce;
     if (f.integer("Bounce", bounce, 0, planes - 1, 1,
-                  "0 glows in view, 1 is direct light, 2 the first colour bleeding; the last holds all further ones.")) {
+                  "0: emission seen directly. 1: direct light. 2: first indirect bounce. The last one holds all further bounces.")) {
         view.bounce = int(bounce);
         view.playing = false;
     }
-    if (f.button(view.playing ? "Stop" : "Play", "Shows one after the other.")) {
+    if (f.button(view.playing ? "Stop" : "Play", "Step through the bounces in a loop.")) {
         view.playing = !view.playing;
         view.step_due = ImGui::GetTime() + BouncesView::seconds_each;
     }
@@ -30,8 +30,8 @@ void draw_gains(Fields& f, BouncesView& view, const std::vector<BounceEnergy>& e
     view.gains.resize(energies.size(), 1.f);
     for (size_t k = 0; k < energies.size(); ++k)
         f.number(fmt::format("Bounce {}", energies[k].name).c_str(), view.gains[k],
-                 {.min = 0, .max = most_bounce_gain, .reset = 1, .unit = "×", .bar = true, .tip = "A demonstration: only 1 is true.", .format = "%.2f"});
-    if (f.button("All 1", "Back to the true picture.")) view.gains.assign(energies.size(), 1.f);
+                 {.min = 0, .max = most_bounce_gain, .reset = 1, .unit = "×", .bar = true, .tip = "Gain of this bounce, for demonstration. Only 1 is physically correct.", .format = "%.2f"});
+    if (f.button("All 1", "Reset all gains to 1.")) view.gains.assign(energies.size(), 1.f);
 }
 
 void draw_energy(PanelContext& c, BouncesView& view, const std::vector<BounceEnergy>& energies) {
@@ -44,14 +44,14 @@ void draw_energy(PanelContext& c, BouncesView& view, const std::vector<BounceEne
                         view.mode != Mode::picture && gains[k] != 0});
         if (k <= 1) direct += e.share;
     }
-    const int clicked = draw_bars(c.ui, "Energy", bars, "Its share of the picture's luminance. A click shows it alone.");
+    const int clicked = draw_bars(c.ui, "Energy", bars, "Share of the picture's luminance. Click to show this bounce alone.");
     if (clicked >= 0) {
         view.mode = Mode::single;
         view.bounce = clicked;
         view.playing = false;
     }
     if (is_mixed(c.mixing ? c.mixing->gains : c.frame->gains))
-        quiet_text("The bounces show the light as it was before the light mix.");
+        quiet_text("The bounce passes do not include the light mix.");
     quiet_text(fmt::format("Direct {:.1f} %, indirect {:.1f} % of the picture's light.", 100 * direct, 100 * (1 - direct)));
 }
 
@@ -60,11 +60,11 @@ void draw_energy(PanelContext& c, BouncesView& view, const std::vector<BounceEne
 void draw_bounces_panel(PanelContext& c) {
     BouncesView& view = c.ui.bounces;
     const std::vector<BounceEnergy> energies = c.frame ? bounce_energy(*c.frame) : std::vector<BounceEnergy>();
-    if (energies.empty()) return quiet_text("Waiting for a picture with bounces in it.");
+    if (energies.empty()) return quiet_text("Waiting for a render with bounce passes.");
     Fields f(c.ui, "Bounces");
     int mode = int(view.mode);
     if (f.choice("Show", mode, BouncesView::names,
-                 "What the viewport shows. Nothing is rendered again for it, and nothing of it is saved.")) {
+                 "What the viewport shows. It does not restart the render and is not saved.")) {
         view.mode = Mode(mode);
         view.playing = false;
     }

@@ -1,4 +1,4 @@
-// Camera: how the view sees. Navigating it bypasses the history; its lens does not.
+// Camera tab: lens, pose and exposure of the view. Navigation is not recorded as undo steps; lens edits are.
 #include "scene/pose.h"
 #include "ui/panels/panels.h"
 #include "ui/rotation.h"
@@ -27,7 +27,7 @@ void draw_scene_cameras(Fields& f, PanelContext& c) {
     }
     const auto current = std::ranges::find(nodes, camera_of_view(c.scene()));
     std::string name = names[size_t(current - nodes.begin())];
-    if (!f.choice("Look through", name, names, "Put the view where one of the scene's cameras is, with its lens.")) return;
+    if (!f.choice("Look through", name, names, "Set the view to the pose and lens of one of the scene's cameras.")) return;
     const auto at = size_t(std::ranges::find(names, name) - names.begin());
     if (nodes[at] && c.apply(LookThrough{nodes[at]})) c.ui.home.camera = nodes[at];
 }
@@ -36,11 +36,11 @@ void draw_projection(Fields& f, Lens& lens) {
     static constexpr const char* projections[] = {"Perspective", "Orthographic"};
     int projection = lens.orthographic;
     if (f.choice("Projection", projection, projections,
-                 "Orthographic views keep parallel lines parallel and show every distance at the same size."))
+                 "Orthographic: parallel lines stay parallel, and size does not depend on distance."))
         lens.orthographic = projection == 1;
     if (lens.orthographic) {
         float height = 2 * lens.ymag;
-        if (f.number("Height", height, {.min = 1e-4f, .max = 1e6f, .reset = 2, .unit = "m", .tip = "How many metres the picture is high."}))
+        if (f.number("Height", height, {.min = 1e-4f, .max = 1e6f, .reset = 2, .unit = "m", .tip = "Height of the view in metres."}))
             lens.ymag = height / 2;
         return;
     }
@@ -48,7 +48,7 @@ void draw_projection(Fields& f, Lens& lens) {
             {.min = 1, .max = 170, .reset = 39.6f, .bar = true, .tip = "Vertical angle of the picture."});
     float millimetres = focal_length(lens) * 1000;
     if (f.number("Focal length", millimetres,
-                 {.min = 0.14f, .max = 1375, .reset = 33.3f, .unit = "mm", .step = 0.1f, .tip = "Of the lens that gives this angle on film of 36 x 24 mm."}))
+                 {.min = 0.14f, .max = 1375, .reset = 33.3f, .unit = "mm", .step = 0.1f, .tip = "Focal length for this field of view on full frame (36 x 24 mm)."}))
         lens.yfov_radians = 2 * std::atan(full_frame_height / 2 * 1000 / millimetres);
 }
 
@@ -60,12 +60,12 @@ void draw_focus(Fields& f, Lens& lens) {
                   .reset = 0,
                   .unit = "mm",
                   .step = 0.05f,
-                  .tip = "Radius of the lens opening. 0 is a pinhole, sharp everywhere; wider blurs what is not in focus."}))
+                  .tip = "Radius of the lens opening. 0 is a pinhole: everything is sharp. A larger radius blurs what is out of focus."}))
         lens.aperture_radius = millimetres / 1000;
     if (!lens.orthographic) {
         float f_number = f_number_of(lens);
         if (f.number("f-number", f_number,
-                     {.min = 0, .max = 1e6f, .reset = 0, .step = 0.05f, .tip = "Focal length over the diameter of the opening, on full frame. 0 is a pinhole.", .format = f_number > 0 ? "f/%.3g" : "pinhole (%.0f)"}))
+                     {.min = 0, .max = 1e6f, .reset = 0, .step = 0.05f, .tip = "Focal length divided by the diameter of the aperture, on full frame. 0 is a pinhole.", .format = f_number > 0 ? "f/%.3g" : "pinhole (%.0f)"}))
             lens.aperture_radius = f_number > 0 ? focal_length(lens) / (2 * f_number) : 0;
     }
     f.number("Focus", lens.focus_distance,
@@ -73,14 +73,14 @@ void draw_focus(Fields& f, Lens& lens) {
               .max = 1e6f,
               .reset = 1,
               .unit = "m",
-              .tip = "Distance along the view axis to what is sharp. Ctrl+click in the picture sets it."});
+              .tip = "Distance of the focus plane along the view axis. Ctrl+click in the picture sets it."});
 }
 
 struct AspectPreset {
     const char* name;
     float aspect;
 };
-constexpr AspectPreset presets[] = {{"As the window", 0}, {"16:9", 16.f / 9}, {"3:2", 1.5f}, {"4:3", 4.f / 3}, {"1:1", 1},
+constexpr AspectPreset presets[] = {{"Viewport", 0}, {"16:9", 16.f / 9}, {"3:2", 1.5f}, {"4:3", 4.f / 3}, {"1:1", 1},
                                     {"4:5", 0.8f}, {"9:16", 9.f / 16}, {"1.85:1", 1.85f}, {"2.39:1", 2.39f}};
 
 void draw_frame(PanelContext& c) {
@@ -94,30 +94,31 @@ void draw_frame(PanelContext& c) {
     for (const AspectPreset& preset : presets) names.push_back(preset.name), aspects.push_back(preset.aspect);
     const auto chosen = std::ranges::find_if(aspects, [&](float a) { return std::abs(a - frame.aspect) < 1e-4f; });
     std::string name = chosen == aspects.end() ? fmt::format("{:.3g}:1", frame.aspect) : names[size_t(chosen - aspects.begin())];
-    if (f.choice("Aspect", name, names, "Width over height of the camera's frame. What lies beside it is dimmed while the camera is looked through. Saved with the scene.")) {
+    if (f.choice("Aspect", name, names, "Width / height of the camera's frame. In the camera view, the picture outside the frame is dimmed. Saved with the scene.")) {
         const auto at = size_t(std::ranges::find(names, name) - names.begin());
         settings.frame_aspect.reset();
-        if (own <= 0 || at > 0) settings.frame_aspect = aspects[at]; // the first is the camera's own
+        if (own <= 0 || at > 0) settings.frame_aspect = aspects[at]; // index 0 is the camera's own aspect
     }
     ImGui::BeginDisabled(frame.aspect <= 0);
-    f.checkbox("Fit camera", frame.fit, "Render the frame alone, as large as fits into the window.");
+    f.checkbox("Fit camera", frame.fit, "Render only the frame, as large as the window allows.");
     ImGui::EndDisabled();
     ImGui::BeginDisabled(!c.scene().nodes.contains(c.ui.home.camera));
-    f.checkbox("Lock to view", settings.lock_camera, "Lock camera to view: orbiting, panning and flying move the camera that is looked through, as one step of the history.");
+    f.checkbox("Lock to view", settings.lock_camera, "Lock camera to view: orbiting, panning and flying move the camera itself. Each drag is one undo step.");
     ImGui::EndDisabled();
     if (settings != c.project().view) c.apply(SetView{settings});
 }
 
-// The stops of a camera's settings: middle grey, 0.18, is what a reflected-light meter with K = 12.5 cd/m2 s shows as medium (ISO 2720:1974).
+// Middle grey, 0.18, is what a reflected-light meter with K = 12.5 cd/m2 s shows as medium (ISO 2720:1974). Returns the exposure
+// in stops.
 float exposure_of(float f_number, float seconds, float iso) {
     constexpr float grey = 0.18f, metered = 0.125f; // nits at EV 0
     return std::log2(grey / metered) - std::log2(f_number * f_number / seconds) + std::log2(iso / 100);
 }
 
-// As cameras show it: fractions of a second below one, seconds above.
+// Shutter time as cameras show it: fractions of a second below 1 s, seconds above.
 bool draw_shutter(Fields& f, float& per_second) {
     constexpr float shortest = 1e-9f, longest = 1e9f;
-    constexpr const char* tip = "How long the film is exposed. Below a second the number is that below the fraction: 125 is 1/125 s.";
+    constexpr const char* tip = "Exposure time. Below one second, enter the denominator: 125 means 1/125 s.";
     if (per_second > 1) return f.number("Shutter", per_second, {.min = 1, .max = 1 / shortest, .reset = 125, .unit = "s", .tip = tip, .format = "1/%.4g"});
     float seconds = 1 / per_second;
     if (!f.number("Shutter", seconds, {.min = shortest, .max = longest, .reset = 1 / 125.f, .unit = "s", .tip = tip})) return false;
@@ -125,7 +126,7 @@ bool draw_shutter(Fields& f, float& per_second) {
     return true;
 }
 
-// f-number, shutter and ISO are another way to say the exposure; the shutter follows it when it is changed elsewhere.
+// Exposure as f-number, shutter time and ISO. If the exposure changes elsewhere, the shutter time is adapted.
 void draw_camera_exposure(PanelContext& c, Fields& f, ViewSettings& settings) {
     ExposureTriangle& t = c.ui.triangle;
     const float lens_f_number = f_number_of(c.scene().view.lens);
@@ -134,10 +135,10 @@ void draw_camera_exposure(PanelContext& c, Fields& f, ViewSettings& settings) {
     bool changed = false;
     ImGui::BeginDisabled(lens_f_number > 0);
     changed |= f.number("f-number", f_number,
-                        {.min = 0.1f, .max = 1000, .reset = 8, .step = 0.05f, .tip = "Of the exposure alone while the lens is a pinhole; else that of the lens.", .format = "f/%.3g"});
+                        {.min = 0.1f, .max = 1000, .reset = 8, .step = 0.05f, .tip = "With a pinhole it sets only the exposure; otherwise it is the f-number of the lens.", .format = "f/%.3g"});
     ImGui::EndDisabled();
     changed |= draw_shutter(f, per_second);
-    changed |= f.number("ISO", iso, {.min = 1, .max = 1e7f, .reset = 100, .tip = "Sensitivity of the film.", .format = "%.0f"});
+    changed |= f.number("ISO", iso, {.min = 1, .max = 1e7f, .reset = 100, .tip = "Sensitivity of the sensor or film.", .format = "%.0f"});
     if (!changed) return;
     if (lens_f_number <= 0) t.f_number = f_number;
     t.iso = iso;
@@ -148,13 +149,13 @@ void draw_pose(PanelContext& c) {
     View view = c.scene().view;
     Fields f(c.ui, "View");
     f.vector("Position", view.position, view.position,
-             {.step = 0.01f, .tip = "Of the eye, in metres. Moving the view is not a step of the history."});
+             {.step = 0.01f, .tip = "Position of the view in metres. Moving the view is not an undo step."});
     f.number("Pivot", view.pivot_distance,
              {.min = 1e-3f,
               .max = 1e6f,
               .reset = view.pivot_distance,
               .unit = "m",
-              .tip = "How far before the eye the point lies that orbiting turns about. F puts it on the selection."});
+              .tip = "Distance from the view to the point that orbiting rotates about. F sets it to the selection."});
     if (f.changed()) c.document.navigate(view);
 }
 
@@ -170,7 +171,7 @@ void draw_camera_node_panel(PanelContext& c, Id<Node> id) {
     draw_projection(f, camera.lens);
     draw_focus(f, camera.lens);
     if (f.changed()) c.apply(SetCamera{camera_id, camera}, f.gesture());
-    if (f.button("Look through", "Put the view where this camera is, with its lens.")) c.apply(LookThrough{id});
+    if (f.button("Look through", "Set the view to the pose and lens of this camera.")) c.apply(LookThrough{id});
 }
 
 void draw_camera_panel(PanelContext& c) {
@@ -193,7 +194,7 @@ void draw_camera_panel(PanelContext& c) {
                   .reset = 0,
                   .unit = "EV",
                   .step = 0.02f,
-                  .tip = "Each EV doubles the brightness of the picture as shown. The render is not touched.",
+                  .tip = "Each EV doubles the displayed brightness. The render does not change.",
                   .format = "%+.2f"});
         if (c.project().view.auto_exposure == AutoExposure::off) draw_camera_exposure(c, f, settings);
         if (f.changed()) c.apply(SetView{settings}, f.gesture());

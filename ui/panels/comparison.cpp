@@ -1,4 +1,4 @@
-// Comparison: which two pictures are compared, how, and by how much they differ.
+// Comparison panel: which two pictures are compared, how, and their difference in numbers.
 #include "core/text.h"
 #include "ui/difference.h"
 #include "ui/panels/panels.h"
@@ -23,7 +23,7 @@ void draw_side(PanelContext& c, Fields& f, const char* label, uint64_t& side) {
     std::vector<const char*> texts;
     for (const std::string& name : names) texts.push_back(name.c_str());
     int index = int(std::ranges::find(ids, side) - ids.begin());
-    if (f.choice(label, index, texts, "Any snapshot, or the image as it is now.")) side = ids[size_t(index)];
+    if (f.choice(label, index, texts, "A snapshot or the live image.")) side = ids[size_t(index)];
     if (const SnapshotPtr s = c.ui.snapshots.find(side)) draw_layer_choice(f, *s, fmt::format("Layer of {}", label).c_str());
 }
 
@@ -34,21 +34,21 @@ std::string stops(const std::array<double, 3>& a, const std::array<double, 3>& b
 
 void draw_numbers(PanelContext& c, Fields& f, const Difference& d) {
     const Metrics& m = d.numbers;
-    f.info("relMSE", fmt::format("{:.3g}   {:.2g} %", m.relmse, 100 * std::sqrt(m.relmse)), "Mean of (a - b)² / (b² + 0.01), and its root.");
-    f.info("RMSE", fmt::format("{:.3g} nits", m.rmse), "Root of the mean square difference.");
+    f.info("relMSE", fmt::format("{:.3g}   {:.2g} %", m.relmse, 100 * std::sqrt(m.relmse)), "Mean of (a - b)² / (b² + 0.01), and its square root.");
+    f.info("RMSE", fmt::format("{:.3g} nits", m.rmse), "Root mean square difference.");
     f.info("Mean |A - B|", fmt::format("{:.3g} nits", m.mae), "Mean absolute difference.");
     f.info("Largest", fmt::format("{:.3g} nits", m.max_abs), "Largest absolute difference of a channel.");
-    f.info("PSNR", std::isfinite(m.psnr) ? fmt::format("{:.1f} dB", m.psnr) : "equal", "Of the sRGB encoding of values clamped to 0 .. 1.");
+    f.info("PSNR", std::isfinite(m.psnr) ? fmt::format("{:.1f} dB", m.psnr) : "equal", "Computed on sRGB-encoded values clamped to 0 .. 1.");
     f.info("A is brighter by", stops(m.mean_a, m.mean_b), "Ratio of the means of all channels, in stops.");
     c.ui.probe.record_last_item(std::string("Compare/Numbers/") + (d.has_flip ? "FLIP" : "difference"));
     if (!d.has_flip) return;
     const FlipNumbers& flip = m.flip;
-    f.info("FLIP", fmt::format("{:.4f}", flip.mean), "Mean HDR-FLIP: 0 nobody sees a difference, 1 as far apart as can be.");
+    f.info("FLIP", fmt::format("{:.4f}", flip.mean), "Mean HDR-FLIP: 0 is no visible difference, 1 is the maximum.");
     f.info("Quartiles", fmt::format("{:.3f}  {:.3f}  {:.3f}", flip.first_quartile, flip.median, flip.third_quartile),
-           "A quarter, half (the weighted median) and three quarters of all that there is of FLIP lies in pixels of up to this much.");
-    f.info("Largest FLIP", fmt::format("{:.3f}", flip.largest), "Of the pixel that differs most.");
+           "Weighted quartiles of the FLIP error, as printed by the reference tool.");
+    f.info("Largest FLIP", fmt::format("{:.3f}", flip.largest), "FLIP of the pixel with the largest difference.");
     f.info(fmt::format("Above {:.1f}", FlipNumbers::noticeable).c_str(), fmt::format("{:.2f} % of pixels", 100 * flip.share_noticeable),
-           "How many pixels differ by more than that.");
+           "Share of the pixels with a larger FLIP than this.");
     c.ui.probe.record_last_item("Compare/Numbers/FLIP above");
 }
 
@@ -72,19 +72,19 @@ void draw_comparison_panel(PanelContext& c) {
     draw_side(c, f, "B", compare.b);
     constexpr const char* modes[] = {"Wipe", "Flicker", "Difference"};
     int mode = int(compare.mode) - 1;
-    if (f.choice("Show", mode, modes, "Side by side with a bar between them, one after the other, or what is different."))
+    if (f.choice("Show", mode, modes, "Wipe: both, with a movable bar between them. Flicker: one after the other. Difference: a map of the differences."))
         compare.mode = Mode(mode + 1);
     if (compare.mode == Mode::flicker) {
-        if (f.button(compare.shows_b ? "Show A" : "Show B", "So does the key J.")) compare.shows_b = !compare.shows_b;
+        if (f.button(compare.shows_b ? "Show A" : "Show B", "Shortcut: J.")) compare.shows_b = !compare.shows_b;
     } else if (compare.mode == Mode::difference) {
         constexpr const char* kinds[] = {"Absolute", "Relative", "FLIP"};
         int kind = int(compare.kind);
         if (f.choice("Kind", kind, kinds,
-                     "|A - B| as light; relative to B as a map; or FLIP, what a viewer would notice, as a map. B is the reference."))
+                     "Absolute: |A - B|. Relative: |A - B| / B, as a map. FLIP: perceived difference, as a map. B is the reference."))
             compare.kind = DifferenceKind(kind);
         const Difference* d = c.ui.difference.get();
         if (compare.a == compare.b)
-            quiet_text("Both are the same picture.");
+            quiet_text("A and B are the same picture.");
         else if (!d || d->kind != compare.kind)
             quiet_text("Comparing...");
         else if (!d->problem.empty())

@@ -1,4 +1,4 @@
-// What a panel sees and may do.
+// PanelContext: the state that a panel reads, and the edits that it can make.
 #pragma once
 
 #include "color/color_management.h"
@@ -21,26 +21,26 @@ struct PanelContext {
     const ColorManagement& color;
     FramePtr frame; // the newest; null before the first
     SessionStatus status;
-    // The size that the image has at full resolution.
+    // Resolution of the full-size image.
     int render_width = 0, render_height = 0;
-    DenoisedPtr denoised = {};         // of the frame's image, if any
-    std::string denoiser_problem = {}; // why nothing can be denoised; empty: it can
-    const Ledger* window_ledger = nullptr; // of what the window makes itself; null: nothing
-    const Mixing* mixing = nullptr;        // what makes the frame's groups the picture of the scene as it is now; null: nothing does
+    DenoisedPtr denoised = {};         // of the frame's image; null: none
+    std::string denoiser_problem = {}; // why denoising is not possible; empty: it is possible
+    const Ledger* window_ledger = nullptr; // features of the window itself; null: none
+    const Mixing* mixing = nullptr;        // gains that turn the frame's light groups into the current scene's picture; null: none
 
-    float metered_ev = 0; // of the frame, by the auto exposure; 0 without
+    float metered_ev = 0; // result of auto exposure for the frame; 0 if it is off
     WaveformTextures waveforms = {};                                         // of the scopes
-    std::function<ImTextureID(const std::string& file)> file_thumbnail = {}; // a texture; 0: there is none
+    std::function<ImTextureID(const std::string& file)> file_thumbnail = {}; // returns a texture; 0: no thumbnail
 
-    // How the picture is looked at, with auto exposure settled.
+    // The view settings, with auto exposure applied.
     ViewSettings shown_view() const { return settled(project().view, metered_ev); }
     bool has_picture() const { return frame && frame->width > 0; }
     ShownPicture shown_picture() const { return {frame, denoised, mix_of(ui.denoise, denoised != nullptr), shown_view(), &color}; }
     const Project& project() const { return document.project(); }
     const Scene& scene() const { return document.project().scene; }
-    // An edit that the document refuses becomes a toast.
+    // Applies an edit. If the document refuses it, an error toast is shown.
     bool apply(const Edit& edit, Gesture gesture = no_gesture) { return apply({&edit, 1}, label(edit, project()), gesture); }
-    // Several as one step of the history; all or none. Channels of the light mix follow the names of their groups.
+    // Applies several edits as one undo step; all or none. Channels of the light mix follow renamed groups.
     bool apply(std::span<const Edit> edits, const std::string& label, Gesture gesture = no_gesture) {
         std::vector<Edit> all(edits.begin(), edits.end());
         if (std::optional<LightMix> mix = carried_mix(project(), edits)) all.push_back(SetMix{*std::move(mix)});

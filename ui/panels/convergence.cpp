@@ -1,4 +1,4 @@
-// Convergence: error against run time, of this run and others, with what it says about the time that is left.
+// Convergence panel: error over render time of the current and stored runs, and the predicted time to the target error.
 #include "ui/fitting_text.h"
 #include "ui/panels/convergence_runs.h"
 #include "ui/panels/panels.h"
@@ -19,7 +19,7 @@ namespace {
 
 using Kind = ConvergencePoint::Kind;
 
-// Buttons side by side of which one is chosen. The index of one that was clicked, or `chosen`.
+// A segmented control. Returns the index of the clicked button, or `chosen`.
 int segments(PanelContext& c, const char* scope, std::initializer_list<const char*> names, int chosen, const char* tip) {
     int i = 0, result = chosen;
     for (const char* name : names) {
@@ -46,10 +46,10 @@ void draw_settings(PanelContext& c, ConvergenceView& view) {
     const float em = ImGui::GetFontSize();
     view.metric =
         ErrorMetric(segments(c, "Error", {"RMSE", "relMSE"}, int(view.metric),
-                             "RMSE: root of the mean squared error, in the picture's units. relMSE: mean of the squared error over the "
-                             "squared value, so that dark parts count as much as bright ones."));
+                             "RMSE: root mean squared error, in the units of the picture. relMSE: mean of the squared error divided by the "
+                             "squared value, so dark regions count as much as bright ones."));
     same_line_if_fits(em * 10, em);
-    view.axis = ProgressAxis(segments(c, "Over", {"Seconds", "Samples"}, int(view.axis), "What the error is shown against."));
+    view.axis = ProgressAxis(segments(c, "Over", {"Seconds", "Samples"}, int(view.axis), "The x axis of the chart."));
     same_line_if_fits(em * 9, em);
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted("Target");
@@ -60,18 +60,18 @@ void draw_settings(PanelContext& c, ConvergenceView& view) {
     ImGui::DragFloat("##target", &target, speed, 0, 1e6f, target > 0 ? "%.3g" : "none", ImGuiSliderFlags_AlwaysClamp);
     c.ui.probe.record_last_item("Convergence/Target");
     tip_for_last_item(c.ui,
-                      "The error to get to: the panel tells when, as the fitted slope goes on. Drag, or Ctrl+click to type; 0 is none.");
+                      "Target error. The panel predicts from the fitted slope when it is reached. Drag, or Ctrl+click to type; 0 is none.");
     ImGui::BeginDisabled(!c.denoiser_problem.empty());
     toggle(
         c, "Denoised", view.denoised,
-        "A curve of the denoised picture, over the time that its samples took, without its own. Its error cannot be told from halves of the "
-        "samples: it is measured against the reference, or, without one, held against the raw picture later in the run, as soon as that is "
-        "good enough to judge it.");
+        "Adds a curve of the denoised picture, over render time without denoising time. Its error cannot be estimated from the half "
+        "buffers. It is measured against the reference or, without one, against a later raw picture of this run that is accurate "
+        "enough.");
     ImGui::EndDisabled();
     toggle(c, "Reference", view.reference,
-           "Measure against a picture of many samples with a seed of its own. Those that `blush converge` has kept are found, of the same "
-           "scene, "
-           "view and size; another can be rendered.");
+           "Measure against a reference: a picture with many samples and another seed. References stored by `blush converge` for "
+           "the same scene, "
+           "view and size are found. A new one can be rendered.");
 }
 
 void draw_reference(PanelContext& c, ConvergenceView& view) {
@@ -81,19 +81,19 @@ void draw_reference(PanelContext& c, ConvergenceView& view) {
     std::string text;
     const char* button = nullptr;
     switch (news.state) {
-    case State::none: text = "The reference is looked for when the picture has some samples."; break;
-    case State::looking: text = "Looking for a stored reference"; break;
+    case State::none: text = "The search for a reference begins after the first samples."; break;
+    case State::looking: text = "Searching for a stored reference"; break;
     case State::absent:
-        text = "There is no stored reference of this picture.";
-        button = "Render one";
+        text = "No stored reference for this picture.";
+        button = "Render reference";
         break;
     case State::rendering:
-        text = fmt::format("Rendering the reference, {:.0f} %: the picture waits.", std::floor(100 * news.progress));
+        text = fmt::format("Rendering the reference, {:.0f} %. The live render is paused.", std::floor(100 * news.progress));
         button = "Stop";
         break;
     case State::stopping: text = "Stopping"; break;
     case State::there:
-        text = fmt::format("Reference of {} spp, itself off by {:.3g} (RMSE).", news.spp, news.rmse);
+        text = fmt::format("Reference: {} spp, its own RMSE is {:.3g}.", news.spp, news.rmse);
         button = "Improve";
         break;
     }
@@ -105,10 +105,10 @@ void draw_reference(PanelContext& c, ConvergenceView& view) {
         view.wanted_reference =
             news.state == State::rendering ? ConvergenceView::ReferenceRequest::stop : ConvergenceView::ReferenceRequest::render;
     c.ui.probe.record_last_item("Convergence/Reference/Render");
-    tip_for_last_item(c.ui, "With twice as many samples as the picture has, or as the reference has. It is kept for the next time.");
+    tip_for_last_item(c.ui, "Renders twice as many samples as the picture or the current reference has. The reference is stored for later runs.");
 }
 
-// Lines through the point under the mouse, and what it says beside it.
+// Draws crosshair lines through the point under the mouse, with its values beside it.
 void draw_readout(const ConvergenceView& view, const ConvergencePlot& p, const PlotLayout& l, ImVec2 origin) {
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     const float em = ImGui::GetFontSize();
@@ -126,7 +126,7 @@ void draw_readout(const ConvergenceView& view, const ConvergencePlot& p, const P
     const ConvergenceRun* run = view.runs.find(source.run);
     const std::string text = readout_text(run ? run->record.name : "", source.points[found->point], view.metric);
     const ImVec2 size = ImGui::CalcTextSize(text.c_str()), room{em * 0.6f, em * 0.4f};
-    // To the right and above, where a falling curve is not, unless it would leave the axes.
+    // Above and to the right of the point, where a falling curve leaves room, unless that is outside the axes.
     const float x = at.x + em + size.x + 2 * room.x < right ? at.x + em : at.x - em - size.x - 2 * room.x;
     const float y = std::max(top + 1, at.y - em - size.y - 2 * room.y);
     draw.AddRectFilled({x, y}, {x + size.x + 2 * room.x, y + size.y + 2 * room.y}, IM_COL32(18, 18, 18, 235), em * 0.25f);
@@ -134,7 +134,7 @@ void draw_readout(const ConvergenceView& view, const ConvergencePlot& p, const P
     draw.AddText({x + room.x, y + room.y}, tone::text, text.c_str());
 }
 
-// The kinds of lines that there are, in the line of the title from the right. Whose they are, the list of runs says.
+// Legend of the line styles, right-aligned in the title line. The list of runs is the legend of the colours.
 void draw_key(const ConvergencePlot& p, const PlotLayout& l, ImVec2 origin) {
     const float em = ImGui::GetFontSize(), y = origin.y + float(l.top) - 1.55f * em;
     float x = origin.x + float(l.right);
@@ -155,7 +155,7 @@ void draw_key(const ConvergencePlot& p, const PlotLayout& l, ImVec2 origin) {
 void draw_chart(PanelContext& c, const ConvergenceView& view, float height) {
     const ImVec2 size{std::max(ImGui::GetContentRegionAvail().x, 1.f), height}, origin = ImGui::GetCursorScreenPos();
     ConvergencePlot p = convergence_plot(view.runs, view.plot_options(true));
-    p.plot.title = std::exchange(p.plot.y_label, {}); // letters that lie on their side are hard to read
+    p.plot.title = std::exchange(p.plot.y_label, {}); // a horizontal title is easier to read than a vertical axis label
     const ImFont& font = *ImGui::GetFont();
     const float em = ImGui::GetFontSize();
     const PlotLayout l = lay_out(p.plot, plot_metrics(size, font, em, false));
@@ -165,15 +165,15 @@ void draw_chart(PanelContext& c, const ConvergenceView& view, float height) {
     c.ui.probe.record_last_item("Convergence/Chart");
     if (ImGui::IsItemHovered()) draw_readout(view, p, l, origin);
     if (!l.curves.empty()) return;
-    const char* const text = "The error is estimated once both halves of the samples hold some.";
+    const char* const text = "No error estimate yet: both half buffers need samples.";
     const float width = std::min(ImGui::CalcTextSize(text).x, size.x - 4 * em), from = origin.x + (size.x - width) / 2;
     ImGui::GetWindowDrawList()->AddText(&font, em, {from, origin.y + size.y / 2 - 2 * em}, tone::dim_text, text, nullptr, width + 1);
 }
 
-// The live run in words.
+// The state of the live run as text.
 void draw_summary(const ConvergenceView& view) {
     const ConvergenceRun* live = view.runs.live();
-    if (!live) return quiet_text("There is no run yet.");
+    if (!live) return quiet_text("No run yet.");
     const auto points = live->record.points(Kind::estimated);
     std::string text = fmt::format("{} {}", view.metric == ErrorMetric::rmse ? "RMSE" : "relMSE",
                                    points.empty() ? "not known yet" : error_text(points.back().error(view.metric)));
@@ -181,23 +181,23 @@ void draw_summary(const ConvergenceView& view) {
     if (view.target() > 0) text += ",  " + time_left_text(time_left(live->record, Kind::estimated, view.metric, view.target()));
     ImGui::TextWrapped("%s", text.c_str());
     if (view.denoised && view.waiting > 0)
-        quiet_text(fmt::format("{} denoised {} until the raw picture{} good enough to tell how far off {}.", view.waiting,
-                               view.waiting == 1 ? "picture waits" : "pictures wait", view.reference ? ", or the reference, is" : " is",
-                               view.waiting == 1 ? "it is" : "they are"));
+        quiet_text(fmt::format("{} denoised {} for a raw picture{} accurate enough to measure {} against.", view.waiting,
+                               view.waiting == 1 ? "picture waits" : "pictures wait", view.reference ? ", or a reference," : "",
+                               view.waiting == 1 ? "it" : "them"));
 }
 
 void draw_files(PanelContext& c, ConvergenceView& view) {
     if (ImGui::Button("Load...")) c.ui.commands.push_back(Command::load_convergence);
     c.ui.probe.record_last_item("Convergence/Load");
-    tip_for_last_item(c.ui, "A table exported here, or the convergence.csv of `blush converge`, beside the runs of this session.");
+    tip_for_last_item(c.ui, "Add runs from a CSV table that was saved here, or from the convergence.csv of `blush converge`.");
     for (const auto format : {ConvergenceView::Export::csv, ConvergenceView::Export::svg, ConvergenceView::Export::png}) {
         const std::string name = fmt::format("Save {}", ConvergenceView::export_names[int(format)]);
         same_line_if_fits(ImGui::CalcTextSize(name.c_str()).x + 2 * ImGui::GetStyle().FramePadding.x);
         if (ImGui::Button(name.c_str())) view.wanted_export = format;
         c.ui.probe.record_last_item(fmt::format("Convergence/{}", name));
         tip_for_last_item(c.ui, format == ConvergenceView::Export::csv
-                                    ? "Every point of every run shown, with its intervals, into the snapshot folder."
-                                    : "The chart on white, into the snapshot folder.");
+                                    ? "Saves all points of the visible runs, with confidence intervals, to the snapshot folder."
+                                    : "Saves the chart on white to the snapshot folder.");
     }
     const RecorderCost& cost = view.cost;
     if (!(cost.rendering > 0)) return;
@@ -206,9 +206,9 @@ void draw_files(PanelContext& c, ConvergenceView& view) {
     same_line_if_fits(ImGui::CalcTextSize(text.c_str()).x, ImGui::GetFontSize());
     quiet_text(text);
     const std::string tip =
-        fmt::format("Of {:.1f} s of rendering this run, {:.3g} ms went into recording errors and {:.3g} ms into measuring them against other "
-                    "pictures; {:.3g} ms into estimating them, which the status bar and the stop rules need in any case. Both are made as often as fits "
-                    "into half a per cent of the time, and once more when rendering ends.",
+        fmt::format("Of {:.1f} s of rendering in this run, recording errors took {:.3g} ms and measuring them against other pictures "
+                    "{:.3g} ms. Estimating them took {:.3g} ms; the status bar and the stop rules need the estimate in any case. "
+                    "Both are limited to half a per cent of the time, with one more measurement when rendering ends.",
                     cost.rendering, 1e3 * cost.recording, 1e3 * cost.measuring, 1e3 * cost.estimating);
     tip_for_last_item(c.ui, tip.c_str());
 }
@@ -232,7 +232,7 @@ void draw_convergence_panel(PanelContext& c) {
     const float em = ImGui::GetFontSize(), gap = ImGui::GetStyle().ItemSpacing.x;
     const ImVec2 room = ImGui::GetContentRegionAvail();
     if (room.x < 2 * room.y || room.x < 44 * em) return draw_one_above_the_other(c, view);
-    // Where it is flat, the chart has its whole height.
+    // In a flat dock the chart gets the whole height.
     ImGui::BeginChild("chart", {std::floor(room.x * 0.52f), 0});
     draw_chart(c, view, std::max(ImGui::GetContentRegionAvail().y, em * 8));
     ImGui::EndChild();

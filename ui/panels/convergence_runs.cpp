@@ -16,13 +16,13 @@ namespace {
 using Kind = ConvergencePoint::Kind;
 using Origin = ConvergenceRun::Origin;
 
-// Filled if the run is shown.
+// Filled if the run is shown in the chart.
 void draw_swatch(PanelContext& c, ConvergenceRun& run) {
     const float side = ImGui::GetTextLineHeight();
     const ImVec2 at = ImGui::GetCursorScreenPos();
     if (ImGui::InvisibleButton("shown", {side, side})) run.shown = !run.shown;
     c.ui.probe.record_last_item(fmt::format("Convergence/{}/Show", run.record.name));
-    tip_for_last_item(c.ui, "Shown or hidden.");
+    tip_for_last_item(c.ui, "Show or hide the curve.");
     const ImVec2 low{at.x + side * 0.2f, at.y + side * 0.2f}, high{at.x + side * 0.8f, at.y + side * 0.8f};
     const ImU32 color = parse_color(plot_color_on_dark(run.color));
     ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -71,26 +71,26 @@ void draw_figures(const ConvergenceView& view, const ConvergenceRun& run, bool a
     if (all) figure(any ? elapsed_text(points.back().seconds) : "");
 }
 
-// True if the run is to be removed.
+// Returns true if the run is to be removed.
 bool draw_buttons(PanelContext& c, ConvergenceRun& run) {
     ImGui::TableNextColumn();
     if (run.origin != Origin::stored) {
         if (ImGui::SmallButton(run.kept ? "Kept" : "Keep")) run.kept = !run.kept;
         c.ui.probe.record_last_item(fmt::format("Convergence/{}/Keep", run.record.name));
-        tip_for_last_item(c.ui, "Newer runs push out the oldest, but not those that are kept.");
+        tip_for_last_item(c.ui, "New runs replace the oldest ones. Kept runs are not replaced.");
     }
     ImGui::TableNextColumn();
     if (run.origin == Origin::live) return false;
     const bool removed = ImGui::SmallButton("×");
     c.ui.probe.record_last_item(fmt::format("Convergence/{}/Remove", run.record.name));
-    tip_for_last_item(c.ui, "Removes the run from the list.");
+    tip_for_last_item(c.ui, "Remove the run from the list.");
     return removed;
 }
 
 } // namespace
 
 void draw_convergence_runs(PanelContext& c, ConvergenceView& view, float height) {
-    // Where all figures would leave no room for names, slope and time are left out.
+    // A narrow table has no columns for slope and time, so that there is room for the names.
     const bool all = ImGui::GetContentRegionAvail().x > ImGui::GetFontSize() * 30;
     if (!ImGui::BeginTable(all ? "runs" : "runs, narrow", all ? 8 : 6, ImGuiTableFlags_ScrollY | ImGuiTableFlags_SizingFixedFit, {0, std::max(height, 1.f)})) return;
     int& shown = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("shown"), int(view.runs.all().size()));

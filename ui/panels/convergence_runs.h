@@ -5,7 +5,7 @@
 
 namespace blush {
 
-// A line for each run, which is its legend too: shown or not, name, figures, kept, removed. Scrolls within `height` pixels.
+// One row per run, which is also the legend: visibility, name, values, Keep, Remove. Scrolls within `height` pixels.
 void draw_convergence_runs(PanelContext& c, ConvergenceView& view, float height);
 
 } // namespace blush

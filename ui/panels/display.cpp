@@ -1,4 +1,4 @@
-// Display: how the finished image is looked at. Nothing here restarts the render.
+// Display tab: denoising, view transform, exposure and white balance of the displayed picture. Nothing here restarts the render.
 #include "core/math.h"
 #include "core/text.h"
 #include "scene/color_temperature.h"
@@ -15,14 +15,14 @@ namespace {
 
 void draw_denoised_figures(Fields& f, const DenoisedPicture& picture) {
     const Denoised& d = picture.denoised;
-    f.info("Network", fmt::format("{}, {}", d.network, d.precision), "What denoised the picture, and with which arithmetic.");
-    f.info("Took", fmt::format("{:.0f} ms", 1000 * d.seconds),
-           "Denoising goes on beside the rendering and takes a tenth of the time at most, but for the first picture and the last.");
+    f.info("Network", fmt::format("{}, {}", d.network, d.precision), "The network that denoised the picture, and its numeric precision.");
+    f.info("Denoise time", fmt::format("{:.0f} ms", 1000 * d.seconds),
+           "Denoising runs in parallel with rendering and takes at most a tenth of the time, except for the first and last picture.");
     f.info("Mean energy", signed_number(energy_change_percent(d), 2) + " %",
-           "By how much the denoiser changed the mean luminance. The estimated error is always that of the raw image.");
+           "Change of the mean luminance by the denoiser. The estimated error is always that of the raw image.");
     if (d.sanitised > 0)
-        f.info("Sanitised", fmt::format("{} pixels", d.sanitised),
-               "Pixels that no network could be given as they were: not finite, negative, or far too bright.");
+        f.info("Replaced", fmt::format("{} pixels", d.sanitised),
+               "Pixels that were not finite, negative or far too bright. They were replaced before denoising.");
 }
 
 void draw_denoise_fields(PanelContext& c) {
@@ -32,8 +32,8 @@ void draw_denoise_fields(PanelContext& c) {
     Fields f(c.ui, "Denoise");
     int show = int(view.show);
     if (f.choice("Show", show, names,
-                 "The image as it was traced, its denoised picture, something between them, or by how much they differ. Nothing is "
-                 "rendered again."))
+                 "Raw: the rendered image. Denoised: the output of the denoiser. Blend: a mix of both. Difference: |raw - denoised|. "
+                 "The render does not restart."))
         view.show = DenoiseView::Show(show);
     if (view.show == DenoiseView::Show::blend)
         f.number("Blend", view.blend,
@@ -43,31 +43,31 @@ void draw_denoise_fields(PanelContext& c) {
     if (!c.denoiser_problem.empty())
         quiet_text(c.denoiser_problem);
     else if (!view.wants_denoised())
-        quiet_text("The image is shown as it was traced, noise included.");
+        quiet_text("The raw image is shown, without denoising.");
 }
 
-// How scene light becomes display light.
+// The display transform: from scene-linear to display values.
 void draw_transform_fields(PanelContext& c, Fields& f, ViewSettings& v) {
     std::string display = v.display.empty() ? c.color.default_display() : v.display;
-    if (f.choice("Display", display, c.color.displays(), "The screen that the image is encoded for.")) {
+    if (f.choice("Display", display, c.color.displays(), "The display that the image is encoded for.")) {
         v.display = display;
         v.view.clear();
     }
     std::string view = v.view.empty() ? c.color.default_view(display) : v.view;
-    if (f.choice("View", view, c.color.views(display), "How scene light becomes display light: a film-like curve, or none.")) v.view = view;
-    static constexpr const char* no_look = "As the view has it";
+    if (f.choice("View", view, c.color.views(display), "The view transform: from scene-linear to display values, with tone mapping or without.")) v.view = view;
+    static constexpr const char* no_look = "View's default";
     std::vector<std::string> looks = c.color.looks();
     looks.insert(looks.begin(), no_look);
     std::string look = v.look.empty() ? no_look : v.look;
-    if (f.choice("Look", look, looks, "A grade before the view: contrast, or luminance alone.")) v.look = look == no_look ? "" : look;
+    if (f.choice("Look", look, looks, "A grade that is applied before the view transform, for example contrast.")) v.look = look == no_look ? "" : look;
     f.checkbox(
         "Backdrop as it is", v.background_as_it_is,
-        "What the camera sees past all objects is left out of exposure, white balance, look and view: a backdrop keeps its own colours.");
-    f.info("Colours from", c.color.config_name(), "The OpenColorIO configuration in use. The variable OCIO chooses another.");
+        "Do not apply exposure, white balance, look and view transform to the background: a backdrop image keeps its own colours.");
+    f.info("Colours from", c.color.config_name(), "The OpenColorIO configuration in use. Set the environment variable OCIO to use another.");
 }
 
 void draw_exposure_fields(PanelContext& c, Fields& f, ViewSettings& v) {
-    constexpr const char* names[] = {"By hand", "Mean to middle grey", "Highlights to white"};
+    constexpr const char* names[] = {"Manual", "Mean to middle grey", "Highlights to white"};
     const bool by_hand = v.auto_exposure == AutoExposure::off;
     f.number(by_hand ? "Exposure" : "Compensation", v.exposure_ev,
              {.min = -20,
@@ -75,25 +75,25 @@ void draw_exposure_fields(PanelContext& c, Fields& f, ViewSettings& v) {
               .reset = 0,
               .unit = "EV",
               .step = 0.02f,
-              .tip = "Each EV doubles the brightness of the picture as shown. In the picture: E+drag, Alt+wheel.",
+              .tip = "Each EV doubles the displayed brightness. In the viewport: E+drag or Alt+wheel.",
               .format = "%+.2f"});
     int rule = int(v.auto_exposure);
     if (f.choice(
             "Auto exposure", rule, names,
-            "By hand, or by the picture as it is now: its log-average luminance becomes middle grey (0.18), or the brightest one per cent "
-            "of its pixels lies above white (1).")) {
+            "Manual, or computed from the current picture: its log-average luminance becomes middle grey (0.18), or the brightest one per cent "
+            "of its pixels is above white (1).")) {
         if (by_hand || rule == int(AutoExposure::off)) v.exposure_ev = rule == int(AutoExposure::off) ? c.shown_view().exposure_ev : 0;
         v.auto_exposure = AutoExposure(rule);
     }
     if (v.auto_exposure != AutoExposure::off) f.info("Exposure", signed_number(c.shown_view().exposure_ev, 2) + " EV");
-    if (f.button("Meter once", "Sets the exposure by the mean of the picture as it is now, and leaves it."))
+    if (f.button("Meter once", "Sets the exposure once, from the log-average luminance of the current picture."))
         c.ui.commands.push_back(Command::exposure_meter);
     f.number("Gamma", v.gamma,
              {.min = 0.2f,
               .max = 5,
               .reset = 1,
               .step = 0.005f,
-              .tip = "Bends the picture after the view: above 1 lifts the shadows. For looking into dark corners, not for saving.",
+              .tip = "Gamma after the view transform: above 1 lifts the shadows. For inspecting dark regions, not for final images.",
               .format = "%.2f"});
 }
 
@@ -109,14 +109,14 @@ void draw_white_temperature(PanelContext& c, Fields& f, ViewSettings& v) {
                              .reset = ColorTemperature{}.kelvin,
                              .unit = "K",
                              .step = 10,
-                             .tip = "Of the light that is to look white: bulbs 2700 K, noon sun 5500 K, shade 8000 K. 6504 K leaves the picture as rendered.",
+                             .tip = "Colour temperature that is shown as white: bulbs 2700 K, noon sun 5500 K, shade 8000 K. 6504 K is no white balance.",
                              .format = "%.0f"});
     changed |= f.number("Green tint", white.green_tint,
                         {.min = -0.05f,
                          .max = 0.05f,
                          .reset = ColorTemperature{}.green_tint,
                          .step = 0.0002f,
-                         .tip = "Distance of that light from the colours of black bodies in CIE 1960 uv (Duv); 0.0032 is daylight's.",
+                         .tip = "Distance of the white from the black body colours in CIE 1960 uv (Duv). Daylight has 0.0032.",
                          .format = "%+.4f"});
     if (!changed) return;
     const ColorTemperature neutral;
@@ -128,13 +128,13 @@ void draw_white_temperature(PanelContext& c, Fields& f, ViewSettings& v) {
 void draw_white_fields(PanelContext& c, Fields& f, ViewSettings& v) {
     draw_white_temperature(c, f, v);
     f.color("White", v.white, {1, 1, 1},
-            "The colour that is shown as neutral, as eyes see it that have adapted to it. EXR files never change.");
+            "The colour that is shown as neutral white (chromatic adaptation). EXR files do not change.");
     if (v.white.x + v.white.y + v.white.z <= 0) v.white = {1, 1, 1};
-    if (f.button("Pick in the picture", "Click something that should be white or grey.")) c.ui.commands.push_back(Command::pick_white);
+    if (f.button("Pick in the picture", "Click a place in the picture that should be white or grey.")) c.ui.commands.push_back(Command::pick_white);
     if (v.white != Vec3{1, 1, 1} && f.button("As rendered", "No white balance.")) c.ui.commands.push_back(Command::reset_white);
 }
 
-// The ends of the scale as the picture has it now.
+// The range of the picture's values, for Fit to the picture.
 FalseColor fitted_to_picture(const PanelContext& c, const FalseColor& scale) {
     if (scale.of == FalseColor::Of::nits) return fitted(scale, c.frame->rgba, 4);
     return fitted(scale, pixels_of(*c.frame, {PictureView::Show::illuminance}), 4);
@@ -145,15 +145,15 @@ void draw_false_color_fields(PanelContext& c, Fields& f, ViewSettings& v) {
     constexpr const char* names[] = {"Off", "Stops from grey", "Luminance", "Illuminance"};
     int of = int(scale.of);
     if (f.choice("Show", of, names,
-                 "Stops from middle grey as exposed, luminance in nits, or illuminance in lux. Illuminance is told from luminance and "
+                 "Stops from middle grey after exposure, luminance in nits, or illuminance in lux. Illuminance is computed from luminance and "
                  "albedo: it "
-                 "holds for matte surfaces."))
+                 "is valid for diffuse surfaces."))
         scale.of = FalseColor::Of(of);
     if (scale.of != FalseColor::Of::nits && scale.of != FalseColor::Of::lux) return;
     const char* unit = scale.of == FalseColor::Of::nits ? "nits" : "lux";
-    f.number("From", scale.low, {.min = 1e-6f, .max = scale.high * 0.999f, .reset = 1, .unit = unit, .tip = "Black is below."});
-    f.number("To", scale.high, {.min = scale.low * 1.001f, .max = 1e9f, .reset = 1000, .unit = unit, .tip = "White is above."});
-    if (f.button("Fit to the picture", "Ends that hold all but the darkest and the brightest one per cent of the pixels.") &&
+    f.number("From", scale.low, {.min = 1e-6f, .max = scale.high * 0.999f, .reset = 1, .unit = unit, .tip = "Lower end of the scale. Smaller values are black."});
+    f.number("To", scale.high, {.min = scale.low * 1.001f, .max = 1e9f, .reset = 1000, .unit = unit, .tip = "Upper end of the scale. Larger values are white."});
+    if (f.button("Fit to the picture", "Sets the range without the darkest and the brightest one per cent of the pixels.") &&
         c.has_picture()) {
         v.false_color = fitted_to_picture(c, scale);
         c.apply(SetView{v});

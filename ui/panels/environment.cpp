@@ -1,4 +1,4 @@
-// Environment: what surrounds the scene and lights it from all sides.
+// Environment panel: the light from all directions around the scene (constant, image or sky).
 #include "scene/sky_model.h"
 #include "scene/sun_position.h"
 #include "ui/panels/panels.h"
@@ -32,14 +32,14 @@ void draw_place_and_time(Fields& f, Sky& sky) {
              {.min = -180, .max = 180, .reset = 5, .unit = "°", .step = 0.1f, .tip = "Degrees east of Greenwich.", .format = "%.3f"});
     whole_number(f, "Year", sky.year, 1900, 2100, 2026, "Gregorian calendar.");
     whole_number(f, "Month", sky.month, 1, 12, 6, "1 is January.");
-    whole_number(f, "Day", sky.day, 1, 31, 21, "Of the month.");
+    whole_number(f, "Day", sky.day, 1, 31, 21, "Day of the month.");
     f.number("Hour (UTC)", sky.utc_hours,
              {.min = 0,
               .max = 24,
               .reset = 12,
               .unit = "h",
               .bar = true,
-              .tip = "Universal time. Add the longitude over 15 degrees for the time by the sun.",
+              .tip = "Universal time in hours. Solar time is this plus longitude / 15.",
               .format = "%.2f"});
     const SunPosition sun = sun_position(sky);
     f.info("Sun", fmt::format("{:.2f}° up, {:.2f}° from north", sun.elevation, sun.azimuth));
@@ -47,19 +47,19 @@ void draw_place_and_time(Fields& f, Sky& sky) {
 
 void draw_angles(Fields& f, Sky& sky) {
     f.number("Elevation", sky.elevation_degrees,
-             {.min = -10, .max = 90, .reset = 35, .unit = "°", .bar = true, .tip = "Of the sun above the horizon.", .format = "%.1f"});
+             {.min = -10, .max = 90, .reset = 35, .unit = "°", .bar = true, .tip = "Elevation of the sun above the horizon.", .format = "%.1f"});
     f.number("Azimuth", sky.azimuth_degrees,
              {.min = 0,
               .max = 360,
               .reset = 135,
               .unit = "°",
               .bar = true,
-              .tip = "Of the sun, clockwise from north as seen from above. North is -Z, east +X.",
+              .tip = "Azimuth of the sun, clockwise from north as seen from above. North is -Z, east is +X.",
               .format = "%.1f"});
 }
 
 void draw_sky(Fields& f, Sky& sky) {
-    f.checkbox("By place and time", sky.by_place_and_time, "Put the sun where it stands there and then. Otherwise it stands at two angles.");
+    f.checkbox("By place and time", sky.by_place_and_time, "Compute the sun's direction from place and time. Otherwise set elevation and azimuth directly.");
     if (sky.by_place_and_time) draw_place_and_time(f, sky);
     else draw_angles(f, sky);
     f.number("Turbidity", sky.turbidity,
@@ -70,12 +70,12 @@ void draw_sky(Fields& f, Sky& sky) {
               .tip = "How hazy the air is: 2 is very clear, 3 clear, 6 a warm moist day, 10 hazy. (Preetham, Shirley and Smits 1999.)",
               .format = "%.2f"});
     f.number("Ground albedo", sky.ground_albedo,
-             {.min = 0, .max = 1, .reset = 0.3f, .bar = true, .tip = "Share of the daylight that the ground below the horizon reflects.", .format = "%.2f"});
-    f.checkbox("Sun", sky.sun_disk, "Let the sun itself shine, with the colour that the air leaves it.");
+             {.min = 0, .max = 1, .reset = 0.3f, .bar = true, .tip = "Fraction of the daylight that the ground below the horizon reflects.", .format = "%.2f"});
+    f.checkbox("Sun", sky.sun_disk, "Add the sun disk, with its light attenuated by the atmosphere.");
     const SkyModel model(sky);
     const auto lux = [](const Vec3d& c) { return 0.2126729 * c.x + 0.7151522 * c.y + 0.0721750 * c.z; };
-    f.info("Skylight", fmt::format("{:.3g} klx", lux(model.sky_illuminance()) / 1000), "Of the sky alone, on a horizontal surface.");
-    f.info("Sunlight", fmt::format("{:.3g} klx", lux(model.sun_illuminance()) / 1000), "Of the sun alone, on a surface that faces it.");
+    f.info("Skylight", fmt::format("{:.3g} klx", lux(model.sky_illuminance()) / 1000), "Illuminance of the sky without the sun, on a horizontal surface.");
+    f.info("Sunlight", fmt::format("{:.3g} klx", lux(model.sun_illuminance()) / 1000), "Illuminance of the sun without the sky, on a surface that faces it.");
 }
 
 } // namespace
@@ -86,7 +86,7 @@ void draw_environment_panel(PanelContext& c) {
     Fields f(c.ui, "Environment");
     int kind = int(e.kind);
     if (f.choice("Type", kind, kinds,
-                 "What lies beyond the scene: nothing, one colour, a panorama that lights it as the place where it was taken, or a clear sky.")) {
+                 "Light from all directions: none, one colour, a panorama image (HDRI), or a clear sky.")) {
         if (Environment::Kind(kind) == Environment::Kind::image && !e.image)
             c.ui.commands.push_back(Command::environment);
         else
@@ -102,10 +102,10 @@ void draw_environment_panel(PanelContext& c) {
                   .max = 1e9f,
                   .reset = 1,
                   .unit = constant ? "nits" : "×",
-                  .tip = constant ? "Luminance of the surround for a white colour."
+                  .tip = constant ? "Luminance of the environment for a white colour."
                                   : "Multiplies the image or the sky. 1 takes their values as nits; a day's are thousands."});
         f.color(constant ? "Colour" : "Tint", e.color, {1, 1, 1},
-                constant ? "Linear RGB (Rec.709) of the surround." : "Linear RGB (Rec.709) that multiplies it.");
+                constant ? "Linear RGB (Rec.709) of the environment." : "Linear RGB (Rec.709) factor of the environment.");
         if (!constant)
             f.number("Rotation", e.rotation_degrees,
                      {.min = -180,
@@ -113,10 +113,10 @@ void draw_environment_panel(PanelContext& c) {
                       .reset = 0,
                       .unit = "°",
                       .bar = true,
-                      .tip = "Turns it about the vertical axis.",
+                      .tip = "Rotation about the vertical axis.",
                       .format = "%.1f"});
-        f.checkbox("Seen by camera", e.visible_to_camera, "Show the surround behind the scene.");
-        f.checkbox("Lights the scene", e.lights_scene, "Otherwise it is a backdrop that only the camera sees; a sky's sun then does not shine either.");
+        f.checkbox("Seen by camera", e.visible_to_camera, "Show the environment behind the scene.");
+        f.checkbox("Lights the scene", e.lights_scene, "If off, the environment is only a backdrop that the camera sees. The sun of a sky is then off as well.");
     }
     if (f.changed()) c.apply(SetEnvironment{e}, f.gesture());
 }

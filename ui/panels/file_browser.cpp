@@ -1,4 +1,4 @@
-// The file browser: folders and the files that fit the purpose, by click, by keyboard or by typing a path.
+// File browser: folders and the files with fitting extensions; by mouse, by keyboard or by a typed path.
 #include "ui/file_listing.h"
 #include "ui/file_places.h"
 #include "ui/icons.h"
@@ -17,7 +17,7 @@ namespace {
 
 using Use = FileRequest::Use;
 
-// A name to save under goes along from folder to folder.
+// The typed file name of a save dialog is kept when the folder changes.
 void enter(FileBrowser& b, const std::filesystem::path& folder) {
     const bool named = b.use == Use::save_scene && !b.typed.empty();
     b.typed = named ? (folder / std::filesystem::path(b.typed).filename()).string() : folder.string();
@@ -32,7 +32,7 @@ void finish(PanelContext& c, const std::filesystem::path& path) {
     ImGui::CloseCurrentPopup();
 }
 
-// A typed folder is entered, a typed file is taken.
+// Opens a typed folder, or accepts a typed file.
 void take_typed(PanelContext& c) {
     FileBrowser& b = *c.ui.browser;
     std::error_code unreadable;
@@ -44,10 +44,10 @@ void take_typed(PanelContext& c) {
     else if (std::filesystem::is_regular_file(path, unreadable) && b.use != Use::snapshot_folder)
         finish(c, path);
     else
-        c.ui.toasts.fail("There is no file " + b.typed);
+        c.ui.toasts.fail("File not found: " + b.typed);
 }
 
-// Tab.
+// Tab completes the path.
 int complete(ImGuiInputTextCallbackData* data) {
     const FileBrowser& b = *static_cast<const FileBrowser*>(data->UserData);
     const std::string completed = completed_path(std::string(data->Buf, size_t(data->BufTextLen)), filter_of(b.use));
@@ -77,7 +77,7 @@ void draw_bookmark_button(PanelContext& c) {
         else bookmarks.push_back(folder);
     }
     c.ui.probe.record_last_item("Browser/Bookmark");
-    tip_for_last_item(c.ui, "Keeps this folder among the places.");
+    tip_for_last_item(c.ui, "Add this folder to the list of places.");
 }
 
 void draw_places(PanelContext& c, float width, float height) {
@@ -97,7 +97,7 @@ void draw_places(PanelContext& c, float width, float height) {
     if (entered) enter(*c.ui.browser, *entered);
 }
 
-// A thumbnail for a file in sight that has one, else an icon.
+// A thumbnail for a visible file that has one, else an icon.
 void draw_entry_picture(PanelContext& c, const FileEntry& entry, float height) {
     const float width = height * Thumbnail::width / Thumbnail::height;
     const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -148,17 +148,17 @@ void draw_list(PanelContext& c, float height) {
     if (!list)
         ImGui::TextWrapped("%s", list.error().text().c_str());
     else if (list->entries.empty())
-        ImGui::TextDisabled("Nothing here that fits.");
+        ImGui::TextDisabled("No matching files in this folder.");
     else if (ImGui::BeginTable("entries", 2, ImGuiTableFlags_RowBg)) {
         ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
         ImGui::TableSetupColumn("size", ImGuiTableColumnFlags_WidthFixed, ImGui::GetFontSize() * 5);
         for (const FileEntry& entry : list->entries) {
-            if (c.ui.browser) draw_entry(c, entry); // until one was taken
+            if (c.ui.browser) draw_entry(c, entry); // until one was accepted
         }
         ImGui::EndTable();
     }
     if (list && list->left_out > 0) {
-        ImGui::TextDisabled("%s", fmt::format("{} of other kinds not shown", list->left_out == 1 ? "1 file" : fmt::format("{} files", list->left_out)).c_str());
+        ImGui::TextDisabled("%s", fmt::format("{} of other types hidden", list->left_out == 1 ? "1 file" : fmt::format("{} files", list->left_out)).c_str());
         if (c.ui.browser) c.ui.probe.record_last_item("Browser/Left out");
     }
     ImGui::EndChild();

@@ -1,4 +1,4 @@
-// Which gizmo is shown and whose axes it has: a strip of icons at the left of the picture, while something is selected.
+// Toolbar at the left of the picture that selects the gizmo and its axes; visible while something is selected.
 #include "ui/icons.h"
 #include "ui/panels/panels.h"
 #include "ui/theme.h"
@@ -31,17 +31,17 @@ void draw_gizmo_bar(PanelContext& c, const Region& picture) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
     ImGui::SetNextWindowBgAlpha(0.6f);
     if (ImGui::Begin("##gizmos", nullptr, flags)) {
-        if (ImGui::IsWindowAppearing()) c.ui.next_frame_in = 0; // it is seen in the frame after the one that measures it
+        if (ImGui::IsWindowAppearing()) c.ui.next_frame_in = 0; // becomes visible in the frame after the one that measures its size
         TransformView& view = c.ui.transform;
         const auto choose = [&](TransformMode mode, const char* name, Icon icon, Command key) {
-            const std::string tip = fmt::format("Handles that {} what is selected. {} does it with the mouse alone; {} goes to the next.", name,
+            const std::string tip = fmt::format("Gizmo to {} the selection. {} does it with the mouse alone; {} switches to the next gizmo.", name,
                                                 keys_of(shortcut(key)), keys_of(shortcut(Command::next_gizmo)));
             if (button(c, name, icon, view.gizmo == mode, tip)) view.gizmo = mode;
         };
         choose(TransformMode::grab, "move", Icon::move, Command::grab);
         choose(TransformMode::rotate, "rotate", Icon::rotate, Command::rotate);
         choose(TransformMode::scale, "scale", Icon::scale, Command::scale);
-        const std::string tip = fmt::format("{} axes. {} changes between the axes of the world and of what is selected.",
+        const std::string tip = fmt::format("{} axes. {} switches between world axes and the local axes of the selection.",
                                             view.local ? "Local" : "World", keys_of(shortcut(Command::local_axes)));
         if (button(c, "axes", view.local ? Icon::local_axes : Icon::world_axes, false, tip)) view.local = !view.local;
     }

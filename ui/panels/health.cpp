@@ -1,4 +1,5 @@
-// Health: samples that could not be used, by cause and place; those that stand out; and what clamping costs. Each can be traced again.
+// Health panel: dropped samples by cause and place, fireflies, and the light removed by clamping. Each listed sample can be
+// replayed.
 #include "ui/panels/panels.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
@@ -13,7 +14,7 @@ void cell(const std::string& text) {
     ImGui::TextUnformatted(text.c_str());
 }
 
-// Traces the sample in the background: the scene is compiled for it.
+// Traces the sample again in the background; compiles the scene for it.
 void replay(PanelContext& c, int x, int y, int64_t sample, uint32_t seed) {
     RenderSettings settings = c.project().render;
     settings.width = c.render_width;
@@ -27,7 +28,8 @@ void replay(PanelContext& c, int x, int y, int64_t sample, uint32_t seed) {
         [scene = c.scene(), settings, x, y, sample](JobProgress&) { return trace_sample(scene, settings, x, y, sample); }, [] {});
 }
 
-// The cells of (pixel, sample, seed) and a button; samples of a coarse picture are none of the full one's.
+// Table cells for (pixel, sample, seed) and the Replay button. Disabled for coarse frames: their samples do not exist at full
+// size.
 void sample_cells(PanelContext& c, const char* list, size_t i, int x, int y, int64_t sample, uint32_t seed) {
     cell(fmt::format("{}, {}", x, y));
     cell(fmt::format("{}", sample));
@@ -68,13 +70,13 @@ void draw_faults(const Health& health) {
 
 void draw_dropped(PanelContext& c, const Health& health) {
     if (health.truncated > 0)
-        quiet_text(fmt::format("{} paths were cut off at the longest length there is, which darkens.", health.truncated));
-    if (health.dropped() == 0) return quiet_text("Every sample was a sound radiance: none is NaN, infinite or negative.");
-    quiet_text(fmt::format("{} samples dropped: {} NaN, {} infinite, {} negative. Their pixels are the mean of the others.",
+        quiet_text(fmt::format("{} paths were truncated at the maximum path length; this darkens the picture.", health.truncated));
+    if (health.dropped() == 0) return quiet_text("No invalid samples: no radiance was NaN, infinite or negative.");
+    quiet_text(fmt::format("{} samples dropped: {} NaN, {} infinite, {} negative. Each pixel is the mean of its valid samples.",
                            health.dropped(), health.nan, health.infinite, health.negative));
     draw_faults(health);
     Fields f(c.ui, "Health");
-    f.checkbox("Show map", c.ui.health.map, "The viewport shows where they are.");
+    f.checkbox("Show map", c.ui.health.map, "Show in the viewport where samples were dropped.");
     if (!begin_list("first", {"Cause", "Place", "Vertex", "Pixel", "Sample", ""})) return;
     for (size_t i = 0; i < health.first.size(); ++i) {
         const BadSample& s = health.first[i];
@@ -103,7 +105,7 @@ void draw_clamping(PanelContext& c) {
     Fields f(c.ui, "Health");
     bool on = r.clamp.limit > 0;
     if (f.checkbox("Clamp", on,
-                   "Limit bright samples. It hides fireflies and takes light away: the picture gets darker than it should be."))
+                   "Limit the radiance of bright samples. It hides fireflies but is biased: the picture gets too dark."))
         r.clamp.limit = on ? 10.f : 0.f;
     if (on) {
         f.number("Limit", r.clamp.limit,
@@ -111,13 +113,13 @@ void draw_clamping(PanelContext& c) {
                   .max = 1e6f,
                   .reset = 10,
                   .unit = "nits",
-                  .tip = "The largest component that a sample may have. Its hue stays."});
-        f.checkbox("All light", r.clamp.all, "Otherwise only light that was scattered more than once.");
+                  .tip = "Maximum component of a sample. Its hue does not change."});
+        f.checkbox("All light", r.clamp.all, "Clamp all light. Otherwise only indirect light is clamped.");
     }
     if (f.changed()) c.apply(SetRender{r}, f.gesture());
-    if (!on) return quiet_text("Off: nothing is taken from the picture.");
+    if (!on) return quiet_text("Off: the picture is not changed.");
     const ClampReport& report = c.frame->clamp;
-    quiet_text(fmt::format("Biased: takes {:.3g} % of the light, from {} samples.", 100 * report.share, report.samples));
+    quiet_text(fmt::format("Biased: removes {:.3g} % of the light, from {} samples.", 100 * report.share, report.samples));
 }
 
 void draw_replay(PanelContext& c) {
@@ -141,7 +143,7 @@ void draw_replay(PanelContext& c) {
 } // namespace
 
 void draw_health_panel(PanelContext& c) {
-    if (!c.frame) return quiet_text("Waiting for the first picture.");
+    if (!c.frame) return quiet_text("Waiting for the first render.");
     if (section(c.ui, "Dropped samples")) draw_dropped(c, c.frame->health);
     if (section(c.ui, "Fireflies")) draw_fireflies(c, c.frame->health);
     if (section(c.ui, "Clamping")) draw_clamping(c);

@@ -1,4 +1,4 @@
-// History: the steps taken and undone; a click goes there.
+// History panel: the undo and redo steps. A click goes to a step.
 #include "ui/fitting_text.h"
 #include "ui/panels/panels.h"
 #include "ui/theme.h"
@@ -10,7 +10,7 @@ namespace blush {
 
 void draw_history(PanelContext& c) {
     const std::vector<std::string> past = c.document.undo_labels(), future = c.document.redo_labels();
-    ptrdiff_t steps = 0; // to go: negative undoes
+    ptrdiff_t steps = 0; // steps to go: negative undoes
     const float room = ImGui::GetContentRegionAvail().x;
     const auto step = [&](const std::string& label, bool current, const std::string& id) {
         const std::string shown = elided(label, room);

@@ -1,4 +1,4 @@
-// What the scene file asks for and what the picture makes of it, finding by finding with its place in the file.
+// Import report panel: supported, approximated and ignored glTF features, and warnings with their place in the file.
 #include "io/gltf_import.h"
 #include "ui/panels/panels.h"
 #include "ui/theme.h"
@@ -20,7 +20,7 @@ void draw_extensions(const char* verdict, const std::vector<std::string>& names)
     }
 }
 
-// What on one line, where below.
+// The finding on one line, its place in the file below.
 void draw_findings(PanelContext& c, const char* title, const ImportReport& report, Diagnostic::Severity severity) {
     if (std::ranges::count(report.diagnostics, severity, &Diagnostic::severity) == 0 || !section(c.ui, title)) return;
     for (const Diagnostic& d : report.diagnostics) {
@@ -39,13 +39,13 @@ void draw_report(PanelContext& c, const ImportReport& report) {
     }
     draw_findings(c, "Warnings", report, Diagnostic::Severity::warning);
     draw_findings(c, "Notes", report, Diagnostic::Severity::note);
-    if (report.diagnostics.empty()) quiet_text("All that the file says is shown as it says.");
+    if (report.diagnostics.empty()) quiet_text("Everything in the file is supported.");
 }
 
 } // namespace
 
 void draw_import_report(PanelContext& c) {
-    if (!c.ui.import_report.report) return quiet_text("No file was opened yet.");
+    if (!c.ui.import_report.report) return quiet_text("No file opened yet.");
     draw_report(c, *c.ui.import_report.report);
 }
 

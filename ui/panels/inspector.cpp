@@ -1,4 +1,4 @@
-// The inspector: tabs over the sections that belong together.
+// The inspector: tabs, each with the sections that belong together.
 #include "ui/panels/panels.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
@@ -10,7 +10,7 @@ namespace {
 
 constexpr const char* tab_names[] = {"Selection", "Camera", "World", "Render", "Display"};
 
-// A row of tabs as wide as their names and equal shares of the rest, as quiet as all else.
+// A row of tabs. Each is as wide as its name plus an equal share of the remaining width.
 void draw_tabs(PanelContext& c) {
     float rest = ImGui::GetContentRegionAvail().x;
     for (const char* name : tab_names) rest -= ImGui::CalcTextSize(name).x;
@@ -38,7 +38,7 @@ void draw_selection(PanelContext& c) {
     const Node* node = c.scene().nodes.find(c.ui.selected);
     if (!node) {
         draw_material_panel(c, {});
-        if (!c.ui.selected_material) quiet_text("Nothing is selected. Click something in the picture or in the outliner.");
+        if (!c.ui.selected_material) quiet_text("Nothing is selected. Click an object in the picture or in the outliner.");
         return;
     }
     const Id<Node> id = c.ui.selected;

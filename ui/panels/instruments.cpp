@@ -8,7 +8,7 @@
 namespace blush {
 namespace {
 
-// An instrument that a flag of the window's state opens.
+// An instrument whose open state is a flag in UiState.
 template <auto flag> constexpr bool is_set(const PanelContext& c) { return *flag(c.ui); }
 template <auto flag> constexpr void set(PanelContext& c, bool open) { *flag(c.ui) = open; }
 
@@ -26,7 +26,7 @@ void close_region(PanelContext& c, bool open) {
 
 void open_roulette(PanelContext& c, bool open) {
     c.ui.roulette.open = open;
-    if (!open) c.ui.roulette.runner.reset(); // it measures for as long as somebody may look
+    if (!open) c.ui.roulette.runner.reset(); // it measures as long as the panel is open
 }
 
 constexpr DockSide right = DockSide::right, bottom = DockSide::bottom;
@@ -96,7 +96,7 @@ void recall_instruments(PanelContext c, const std::string& file) {
     for (const std::string& id : found->instruments)
         if (const Instrument* i = find_instrument(id); i && i->remembered) {
             i->set_open(c, true);
-            c.ui.docks.open.push_back(id); // none comes to the front for being new
+            c.ui.docks.open.push_back(id); // saved instruments do not come to the front of their dock
         }
     for (const std::string& id : c.ui.settings.dock.front) c.ui.docks.to_front.insert(id);
 }

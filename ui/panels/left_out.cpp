@@ -1,4 +1,5 @@
-// What was left out: all that a renderer may have and this scene does not need, why, and what that saves; then what is in.
+// Specialisation section: optional renderer features that this scene does not need, why, and what their absence saves; then those
+// in use.
 #include "ui/panels/panels.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
@@ -41,13 +42,13 @@ void draw_lines(const Ledger& ledger, bool used) {
 } // namespace
 
 void draw_left_out_section(PanelContext& c) {
-    if (!section(c.ui, "Left out", false)) return;
-    if (!c.frame || !c.frame->ledger) return quiet_text("Nothing is rendered yet.");
+    if (!section(c.ui, "Specialisation", false)) return;
+    if (!c.frame || !c.frame->ledger) return quiet_text("Nothing rendered yet.");
     Ledger ledger = *c.frame->ledger;
     if (c.window_ledger) ledger.insert(ledger.end(), c.window_ledger->begin(), c.window_ledger->end());
     quiet_text(
-        fmt::format("{} of {} things are made only on need and were not needed. Kernel {}; `blush info --measure` tells how much faster "
-                    "it is than the one with everything.",
+        fmt::format("{} of {} optional features are not compiled in or not built, because this scene does not need them. Kernel {}; "
+                    "`blush info --measure` measures how much faster it is than the kernel with all features.",
                     count(ledger, false), ledger.size(), c.frame->kernel));
     draw_lines(ledger, false);
     if (section(c.ui, "In use", false)) draw_lines(ledger, true);

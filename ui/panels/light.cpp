@@ -1,4 +1,4 @@
-// Light: its kind and where it points; brightness, size and distribution are in the files beside.
+// Light section: type and direction. Intensity, size and distribution are in the files light_*.cpp.
 #include "ui/gizmo.h"
 #include "ui/light_tools.h"
 #include "ui/orbit_camera.h"
@@ -21,13 +21,13 @@ constexpr const char* kinds[] = {"Point", "Spot", "Sun", "Rectangle", "Disk", "S
 
 void draw_kind(Fields& f, PanelContext& c, Light& light, const Vec3d& position) {
     int kind = int(light.kind);
-    if (!f.choice("Type", kind, kinds, "What shape the light has. The new kind lights the view's pivot as brightly as the old one."))
+    if (!f.choice("Type", kind, kinds, "Type of the light. A change keeps the illuminance at the view's pivot."))
         return;
     const double distance = std::max(length(pivot(c.scene().view) - position), 1e-3);
     light = converted(light, Light::Kind(kind), distance);
 }
 
-// By how much the node makes areas of a light larger.
+// Factor by which the node's scale enlarges the area of a light.
 double area_scale(const Affined& world, Light::Kind kind) {
     if (kind == Light::Kind::sphere) return std::pow(std::abs(determinant(world)), 2.0 / 3);
     return length(cross(world.x, world.y));
@@ -43,8 +43,8 @@ void draw_direction(Fields& f, PanelContext& c, Id<Node> id, const Light& light)
               .unit = "°",
               .step = 0.5f,
               .tip = light.kind == Light::Kind::sun
-                         ? "Compass direction in which the light travels, clockwise from -Z as seen from above."
-                         : "Compass direction in which the light shines, clockwise from -Z as seen from above."});
+                         ? "Compass direction in which the light travels: degrees clockwise from -Z, seen from above."
+                         : "Compass direction of the emission: degrees clockwise from -Z, seen from above."});
     f.number("Tilt", heading.tilt,
              {.min = -90,
               .max = 90,
@@ -52,7 +52,7 @@ void draw_direction(Fields& f, PanelContext& c, Id<Node> id, const Light& light)
               .unit = "°",
               .step = 0.25f,
               .bar = true,
-              .tip = "Angle above the horizon in which the light shines: -90 is straight down. A sun that stands 30 degrees high has a "
+              .tip = "Angle of the emission above the horizon: -90 is straight down. A sun 30 degrees above the horizon has a "
                      "tilt of -30."});
     if (!f.changed()) return;
     Node node = *c.scene().nodes.find(id);
@@ -71,7 +71,7 @@ void draw_light_panel(PanelContext& c, Id<Node> id) {
     if (const std::string several = about_selected_lights(c); !several.empty()) quiet_text(several);
     {
         Fields f(c.ui, "Light");
-        f.checkbox("On", light.enabled, "A light that is off gives no light and costs no time.");
+        f.checkbox("On", light.enabled, "A light that is off emits nothing and costs no render time.");
         const Affined world = world_from_node(c.scene(), id);
         draw_kind(f, c, light, world.t);
         draw_light_strength(f, light, area_scale(world, light.kind));

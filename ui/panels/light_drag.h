@@ -1,4 +1,4 @@
-// Lights dragged from row to row, in outliner and light table: into the group of whatever they are dropped on.
+// Drag and drop of light rows in outliner and light table: the drop target's group receives the lights.
 #pragma once
 
 #include "ui/panels/context.h"
@@ -8,9 +8,9 @@
 
 namespace blush {
 
-// The row drawn last can be dragged: its light, and all that is selected with it. No node stands for the environment.
+// Makes the row drawn last a drag source: its light and all selected lights. The environment has no node.
 void drag_light(Id<Node> node, const std::string& name);
-// What was let go over the row drawn last; nothing in most frames.
+// The payload dropped on the row drawn last, if any.
 std::optional<Id<Node>> light_dropped_here();
 void put_dropped_into_group(PanelContext& c, Id<Node> dropped, const std::string& group);
 

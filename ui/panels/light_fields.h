@@ -1,4 +1,4 @@
-// Internal to the light inspector: its groups of rows, a file each.
+// Internal to the Light section: its groups of rows, one file each.
 #pragma once
 
 #include "ui/panels/context.h"
@@ -6,11 +6,11 @@
 
 namespace blush {
 
-// How bright, in the unit of the user's choice, and of which colour. `area_scale`: by how much the light's node makes areas larger.
+// Intensity in the user's unit, and colour. `area_scale`: factor by which the light's node enlarges areas.
 void draw_light_strength(Fields& f, Light& light, double area_scale);
-// How large, and into which cone.
+// Size and cone.
 void draw_light_shape(Fields& f, Light& light);
-// The measured distribution of a point or a spot.
+// IES profile of a point or a spot.
 void draw_light_distribution(Fields& f, PanelContext& c, Light& light);
 
 } // namespace blush

@@ -1,4 +1,4 @@
-// Linking: which objects the light lights, and which cast its shadows.
+// Light linking: which objects a light illuminates, and which cast its shadows.
 #include "render/light_links.h"
 #include "ui/panels/panels.h"
 #include "ui/selected_lights.h"
@@ -16,11 +16,11 @@ namespace {
 
 std::string name_of(const Scene& scene, Id<Node> id) {
     const Node* node = scene.nodes.find(id);
-    if (!node) return "an object that is gone";
+    if (!node) return "deleted object";
     return node->name.empty() ? fmt::format("Node {}", id.value) : node->name;
 }
 
-// What has triangles, or something with triangles below it, and is not in the set; names that several have tell their number.
+// Nodes with triangles in their subtree that are not in the set. Names used more than once get the node's number.
 struct Candidates {
     std::vector<Id<Node>> nodes;
     std::vector<std::string> names;
@@ -32,7 +32,7 @@ Candidates candidates(const Scene& scene, const ObjectSet& set) {
         for (Id<Node> up = id; scene.nodes.contains(up) && solid.insert(up).second;) up = scene.nodes.find(up)->parent;
     }
     Candidates found;
-    std::unordered_set<std::string> taken; // asked in every frame, of as many objects as a scene has
+    std::unordered_set<std::string> taken; // a set, because this runs in every frame for all objects of the scene
     for (const Id<Node> id : solid) {
         if (std::ranges::count(set.nodes, id)) continue;
         std::string name = name_of(scene, id);
@@ -43,14 +43,14 @@ Candidates candidates(const Scene& scene, const ObjectSet& set) {
     return found;
 }
 
-// Everything, or all but some, or only some: those are the rows, each with a button that takes it away.
+// One row per node of the set ("all but" or "only"), each with a button that removes it.
 bool draw_set(PanelContext& c, const char* label, ObjectSet& set, const char* tip) {
     const std::string scope = std::string("Linking/") + label;
     Fields f(c.ui, scope.c_str());
     const char* const choices[] = {set.nodes.empty() ? "Everything" : "All but", "Only"};
     int choice = set.all_but ? 0 : 1;
     if (f.choice(label, choice, choices, tip)) set.all_but = choice == 0;
-    if (!set.all_but && set.nodes.empty()) f.info("", "nothing yet");
+    if (!set.all_but && set.nodes.empty()) f.info("", "no objects yet");
     for (size_t i = 0; i < set.nodes.size(); ++i) {
         if (!f.removable(name_of(c.scene(), set.nodes[i]))) continue;
         set.nodes.erase(set.nodes.begin() + std::ptrdiff_t(i));
@@ -60,19 +60,19 @@ bool draw_set(PanelContext& c, const char* label, ObjectSet& set, const char* ti
     std::vector<const char*> names;
     for (const std::string& name : others.names) names.push_back(name.c_str());
     int added = -1;
-    if (f.choice(set.all_but ? "Leave out" : "Add", added, names, "An object stands for all that hangs below it."))
+    if (f.choice(set.all_but ? "Leave out" : "Add", added, names, "An object includes all its children."))
         set.nodes.push_back(others.nodes[size_t(added)]);
     return f.changed();
 }
 
-// Where the shadows of this light are not what the panel says.
+// Warns if the renderer cannot use this light's shadow linking.
 void draw_limit(PanelContext& c, const Light& light) {
     const CasterSets sets(c.scene());
     if (!leaves_out(light.shadow_casters, c.scene()) || sets.left_out() == 0) return;
     const bool left_out = sets.ray_mask(c.scene(), light) == CasterSets().ray_mask(c.scene(), light);
     ImGui::PushStyleColor(ImGuiCol_Text, tone::warning);
     ImGui::PushTextWrapPos(0);
-    ImGui::TextUnformatted(fmt::format("There are more than {} different sets of shadow casters. Everything casts the shadows of {}.",
+    ImGui::TextUnformatted(fmt::format("More than {} different sets of shadow casters. Shadow linking is ignored for {}: everything casts its shadows.",
                                        most_caster_sets, left_out ? "this light" : fmt::format("{} other lights", sets.left_out()))
                                .c_str());
     ImGui::PopTextWrapPos();
@@ -86,16 +86,16 @@ void draw_light_links_panel(PanelContext& c, Id<Node> id) {
     const Node* node = c.scene().nodes.find(id);
     const Light* record = node ? c.scene().lights.find(node->light) : nullptr;
     if (!record) return;
-    // Once there are links it is open, and does not close with the last of them.
+    // Opens when the first link is made, and stays open when the last one is removed.
     if (leaves_out(record->lit_objects, c.scene()) || leaves_out(record->shadow_casters, c.scene()))
         c.ui.settings.panels.try_emplace("section.Linking", 1);
     if (!section(c.ui, "Linking", false)) return;
     const Id<Light> light_id = node->light;
     Light light = *record;
-    bool changed = draw_set(c, "Lights", light.lit_objects, "What this light lights. Shift+click on an object in the picture takes it out, or in again.");
+    bool changed = draw_set(c, "Lights", light.lit_objects, "Objects that this light illuminates. Shift+click an object in the picture to remove or add it.");
     changed |= draw_set(c, "Shadows of", light.shadow_casters,
-                        "What stands in the way of this light; the rest lets its light through. Alt+Shift+click on an object in the picture "
-                        "takes it out, or in again.");
+                        "Objects that cast shadows of this light. Other objects let its light through. Alt+Shift+click an object in the picture "
+                        "to remove or add it.");
     draw_limit(c, *record);
     if (changed) set_light(c, light_id, light, no_gesture);
 }

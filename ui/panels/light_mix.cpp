@@ -1,4 +1,4 @@
-// Light mix: a gain for each group of lights, on the picture that there is.
+// Light mix panel: a gain per light group, applied to the existing samples.
 #include "render/light_mix.h"
 #include "render/bake_mix.h"
 #include "ui/fitting_text.h"
@@ -14,7 +14,7 @@
 namespace blush {
 namespace {
 
-constexpr const char* groupings[] = {"Off", "By light", "By object", "By material", "By hand"};
+constexpr const char* groupings[] = {"Off", "By light", "By object", "By material", "Manual"};
 
 const MixChannel* find_channel(const LightMix& mix, const std::string& group) {
     const auto it = std::ranges::find(mix.channels, group, &MixChannel::group);
@@ -32,7 +32,7 @@ void set_channel(LightMix& mix, const MixChannel& channel) {
     else *it = channel;
 }
 
-// Only this group, or all again if it is the only one already.
+// Solos this group; if it is already solo, all groups are enabled again.
 LightMix with_solo(LightMix mix, const std::vector<std::string>& groups, const std::string& solo) {
     const bool alone = std::ranges::all_of(groups, [&](const std::string& g) { return channel_of(mix, g).enabled == (g == solo); });
     for (const std::string& group : groups) {
@@ -48,14 +48,14 @@ void draw_grouping(PanelContext& c) {
     LightMix mix = c.scene().mix;
     int grouping = int(mix.grouping);
     if (f.choice("Groups", grouping, groupings,
-                 "What shares a gain. By hand: lights that name the same group; glowing surfaces go by their material's name.")) {
+                 "Which lights share a gain. Manual: by the group of each light; emissive surfaces by the name of their material.")) {
         mix.grouping = LightMix::Grouping(grouping);
         c.ui.light_mix.stays_off = mix.grouping == LightMix::Grouping::none;
         c.apply(SetMix{mix});
     }
 }
 
-// On, solo, name, and what the group is worth.
+// On, solo, name, and the group's share of energy and noise.
 void draw_heading(PanelContext& c, const GroupReport& report, LightMix& mix, bool& changed) {
     const std::string& group = report.name;
     MixChannel channel = channel_of(mix, group);
@@ -64,17 +64,17 @@ void draw_heading(PanelContext& c, const GroupReport& report, LightMix& mix, boo
         changed = true;
     }
     c.ui.probe.record_last_item("Light mix/" + group + "/On");
-    tip_for_last_item(c.ui, "Off, the picture is what it would be without this light; lamps keep their bodies.");
+    tip_for_last_item(c.ui, "If off, the picture is shown without this light. Lamps stay visible as objects.");
     ImGui::SameLine();
     if (ImGui::Button("S")) {
         mix = with_solo(mix, c.mixing->names, group);
         changed = true;
     }
     c.ui.probe.record_last_item("Light mix/" + group + "/Solo");
-    tip_for_last_item(c.ui, "Solo: this group alone; all groups again if it is alone.");
+    tip_for_last_item(c.ui, "Solo: only this group. Click again for all groups.");
     ImGui::SameLine();
     const float em = ImGui::GetFontSize();
-    const bool narrow = ImGui::GetContentRegionAvail().x < 16 * em; // the noise is in the tooltip as well
+    const bool narrow = ImGui::GetContentRegionAvail().x < 16 * em; // the tooltip also has the noise
     const std::string light = fmt::format("{:.1f} % light", 100 * report.energy), noise = fmt::format("{:.1f} % noise", 100 * report.noise);
     const std::string figures = narrow ? light : light + "  " + noise;
     const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(figures.c_str()).x - em;
@@ -84,12 +84,12 @@ void draw_heading(PanelContext& c, const GroupReport& report, LightMix& mix, boo
     if (ImGui::Selectable((shown + "##name").c_str(), unfolded, 0, {std::max(em * 4, room), 0}))
         c.ui.light_mix.unfolded = unfolded ? "" : group;
     c.ui.probe.record_last_item("Light mix/" + group);
-    tip_for_last_item(c.ui, (shown == group ? std::string() : group + "\n").append("A click unfolds its colour.").c_str());
+    tip_for_last_item(c.ui, (shown == group ? std::string() : group + "\n").append("Click to show its colour settings.").c_str());
     ImGui::SameLine();
     ImGui::PushStyleColor(ImGuiCol_Text, tone::dim_text);
     ImGui::TextUnformatted(figures.c_str());
     ImGui::PopStyleColor();
-    const std::string tip = light + ", " + noise + ": its shares of the image's luminance and of the variance of its noise, in this mix.";
+    const std::string tip = light + ", " + noise + ": share of the picture's luminance and of its noise variance, in this mix.";
     tip_for_last_item(c.ui, tip.c_str());
 }
 
@@ -97,11 +97,11 @@ void draw_colour(Fields& f, MixChannel& channel) {
     float stops = channel.intensity > 0 ? std::log2(channel.intensity) : -20;
     if (f.number("Stops", stops, {.min = -20, .max = 20, .reset = 0, .unit = "EV", .step = 0.02f, .tip = "The same gain in stops.", .format = "%+.2f"}))
         channel.intensity = std::exp2(stops);
-    f.checkbox("Temperature", channel.use_temperature, "Multiply by the colour of a black body. The brightness stays.");
+    f.checkbox("Temperature", channel.use_temperature, "Multiply by the colour of a black body. The luminance does not change.");
     if (channel.use_temperature)
         f.number("Kelvin", channel.kelvin,
                  {.min = 1000, .max = 15000, .reset = 6500, .unit = "K", .bar = true, .tip = "Temperature of the black body.", .format = "%.0f"});
-    f.color("Colour", channel.color, {1, 1, 1}, "Linear RGB that the group's light is multiplied with, as a gel before all its lamps.");
+    f.color("Colour", channel.color, {1, 1, 1}, "Linear RGB factor of the group's light, like a colour gel in front of all its lamps.");
 }
 
 void draw_group(PanelContext& c, const GroupReport& report) {
@@ -114,7 +114,7 @@ void draw_group(PanelContext& c, const GroupReport& report) {
     Fields f(c.ui, scope.c_str());
     MixChannel channel = channel_of(c.scene().mix, report.name);
     f.number("Intensity", channel.intensity,
-             {.min = 0, .max = 1e6f, .reset = 1, .unit = "×", .step = 0.01f, .tip = "What the group's light is multiplied with.", .format = "%.3g"});
+             {.min = 0, .max = 1e6f, .reset = 1, .unit = "×", .step = 0.01f, .tip = "Gain of the group.", .format = "%.3g"});
     if (c.ui.light_mix.unfolded == report.name) draw_colour(f, channel);
     if (f.changed()) {
         mix = c.scene().mix;
@@ -124,7 +124,7 @@ void draw_group(PanelContext& c, const GroupReport& report) {
     ImGui::PopID();
 }
 
-// Noise of the picture that is shown; until the session has estimated it, what the groups' variances let expect.
+// Error of the displayed picture; until the session has estimated it, the prediction from the groups' variances.
 std::string noise_text(const Frame& frame, const Gains& gains) {
     const ErrorEstimate& e = frame.error;
     if (!e.rmse_known) return "Noise of the mix: not known yet.";
@@ -142,7 +142,7 @@ std::string memory_text(const Frame& frame) {
 void draw_groups(PanelContext& c) {
     const Frame& frame = *c.frame;
     if (const int sharing = frame.light_groups->sharing) {
-        quiet_text(fmt::format("There are more than {} groups: {} share the last plane and one gain. Those with a gain come first.",
+        quiet_text(fmt::format("More than {} groups: {} of them share the last plane and one gain. Groups with a gain come first.",
                                most_light_groups, sharing));
         c.ui.probe.record_last_item("Light mix/Sharing");
     }
@@ -158,7 +158,7 @@ void draw_bake(PanelContext& c) {
     if (ImGui::Button("Bake", {-FLT_MIN, 0})) c.apply(bake_mix(c.scene()));
     ImGui::EndDisabled();
     c.ui.probe.record_last_item("Light mix/Bake");
-    tip_for_last_item(c.ui, "Writes the mix into the lights, materials and the environment as one step; the image stays as it is.");
+    tip_for_last_item(c.ui, "Writes the mix into the lights, materials and environment as one undo step. The picture does not change.");
 }
 
 } // namespace
@@ -166,12 +166,12 @@ void draw_bake(PanelContext& c) {
 void draw_light_mix_panel(PanelContext& c) {
     draw_grouping(c);
     if (c.scene().mix.grouping == LightMix::Grouping::none)
-        return quiet_text("With groups, the brightness and colour of lights act on the picture that there is: nothing is rendered again.");
+        return quiet_text("With groups, edits of light intensity and colour apply to the existing samples: the render does not restart.");
     ImGui::Dummy({0, ImGui::GetFontSize() * 0.4f});
-    // However many groups there are, baking them is in sight.
+    // Bake stays visible, however long the list of groups is.
     if (ImGui::BeginChild("groups", {0, -ImGui::GetFrameHeightWithSpacing()})) {
         if (c.mixing) draw_groups(c);
-        else quiet_text("Waiting for a picture with these groups in it.");
+        else quiet_text("Waiting for a render with these groups.");
     }
     ImGui::EndChild();
     draw_bake(c);

@@ -1,4 +1,4 @@
-// The light inspector's rows of brightness and colour.
+// Rows of the Light section for intensity and colour.
 #include "ui/panels/light_fields.h"
 
 #include "scene/color_temperature.h"
@@ -25,12 +25,12 @@ UnitText text_of(Light::Unit unit, Light::Kind kind) {
     switch (unit) {
     case Light::Unit::watt:
         return {"Watt (radiant)", "W",
-                "Radiant power in watts, each counted as 683 lumens as in exchange with other programs. It is not what the lamp draws: a 60 W bulb "
-                "gives about 1 W of this."};
-    case Light::Unit::lumen: return {"Lumen", "lm", "Luminous flux: all light that leaves it, as printed on lamps. A 60 W bulb gives 800 lm."};
+                "Radiant power in watts; 1 W counts as 683 lm, as other programs exchange it. It is not the electrical power: a 60 W bulb "
+                "emits about 1 W of this."};
+    case Light::Unit::lumen: return {"Lumen", "lm", "Luminous flux: all emitted light, as printed on lamps. A 60 W bulb gives 800 lm."};
     case Light::Unit::candela:
         return {"Candela", "cd",
-                "Luminous intensity straight ahead: the illuminance in lux of a surface one metre away. It falls with the square of the distance."};
+                "Luminous intensity straight ahead: equals the lux on a surface one metre away. Lux fall with the square of the distance."};
     case Light::Unit::lux:
         return is_sun ? UnitText{"Lux", "lx",
                                  "Illuminance of a surface that faces the light. The sun at noon gives about 100 000 lx, an overcast sky 10 000, an "
@@ -39,16 +39,16 @@ UnitText text_of(Light::Unit unit, Light::Kind kind) {
     case Light::Unit::nits:
         return is_sun ? UnitText{"Nits", "nits", "Luminance of the sun's disk. The sun at noon has 1.6e9 nits."}
                       : UnitText{"Nits", "nits",
-                                 "Luminance in candela per square metre of the surface itself. A larger light of the same luminance gives more light."};
+                                 "Luminance of the surface in candela per square metre. A larger light of the same luminance gives more light."};
     case Light::Unit::ev:
         return {"EV", "EV",
-                "Exposure value at ISO 100 that shows it, or what it lights at one metre, at medium brightness: one more doubles the light."};
+                "Exposure value at ISO 100 that shows the light, or a surface it lights at one metre, as medium grey. One EV more doubles the light."};
     case Light::Unit::own: break;
     }
     return {"", "", ""};
 }
 
-// The unit that the window shows: the user's, if the kind has it.
+// The unit shown: the user's choice, if this kind of light has it.
 Light::Unit shown_unit(const Light& light) {
     return light.unit == Light::Unit::own || !has_unit(light, light.unit) ? own_unit(light.kind) : light.unit;
 }
@@ -63,7 +63,7 @@ void draw_intensity(Fields& f, Light& light, double area_scale) {
         }
     Light::Unit unit = shown_unit(light);
     int index = int(std::ranges::find(choices, unit) - choices.begin());
-    if (f.choice("Unit", index, names, "What the strength is stated in. The light stays the same.")) light.unit = unit = choices[size_t(index)];
+    if (f.choice("Unit", index, names, "Unit of the intensity. The light does not change.")) light.unit = unit = choices[size_t(index)];
 
     const UnitText text = text_of(unit, light.kind);
     const bool is_ev = unit == Light::Unit::ev;
@@ -76,7 +76,7 @@ void draw_intensity(Fields& f, Light& light, double area_scale) {
     if (light.kind != Light::Kind::sun && unit != Light::Unit::lumen) f.info("", fmt::format("{:.4g} lm in all", luminous_flux(light, area_scale)));
 }
 
-// A stripe below the last field, in a colour.
+// A coloured stripe below the last field.
 void draw_stripe(const Vec3& color) {
     const float brightest = std::max({color.x, color.y, color.z, 1e-6f});
     const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
@@ -88,7 +88,7 @@ void draw_stripe(const Vec3& color) {
 
 void draw_color(Fields& f, Light& light) {
     f.checkbox("Temperature", light.use_temperature,
-               "Take the colour of a glowing black body, as lamps and daylight are described. The brightness stays.");
+               "Use the colour of a black body, as specified for lamps and daylight. The intensity does not change.");
     if (light.use_temperature) {
         f.number("Kelvin", light.kelvin,
                  {.min = 1000,
@@ -109,7 +109,7 @@ void draw_color(Fields& f, Light& light) {
                   .format = "%+.4f"});
     }
     f.color(light.use_temperature ? "Tint" : "Colour", light.color, {1, 1, 1},
-            "Linear RGB (Rec.709) that multiplies the intensity, as a gel before the lamp does.");
+            "Linear RGB (Rec.709) factor of the intensity, like a colour gel in front of the lamp.");
 }
 
 } // namespace

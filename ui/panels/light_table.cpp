@@ -1,4 +1,5 @@
-// The light table: everything that shines, by its group, with what it gives to the picture. Rows are dragged from group to group.
+// Light table: all lights and emissive materials by group, with their share of the picture's light and noise. Rows can be dragged
+// between groups.
 #include "ui/edit_together.h"
 #include "ui/fitting_text.h"
 #include "ui/icons.h"
@@ -21,11 +22,11 @@ namespace blush {
 namespace {
 
 constexpr const char* how_to_get_shares =
-    "Its share of the picture's light, and of its noise. They are known while the light mix keeps the lights apart: choose groups there.";
+    "Share of the picture's light and noise. Available while the light mix renders groups: choose Groups there.";
 
-constexpr const char* of_its_group = "The share of its whole group, which the light mix keeps together.";
+constexpr const char* of_its_group = "Share of the whole group: the light mix renders one plane per group.";
 
-// Of the groups in the frame, as they are mixed now; none where it keeps none apart.
+// Reports of the frame's groups in the current mix; none if the frame has no groups.
 std::vector<GroupReport> reports_of(const PanelContext& c) {
     if (!c.frame || !c.frame->light_groups || !c.mixing) return {};
     return report_groups(*c.frame, c.mixing->names, c.mixing->gains);
@@ -36,7 +37,7 @@ Icon icon_of(const PanelContext& c, const LightRow& row) {
     return row.environment ? Icon::sun : Icon::mesh;
 }
 
-// M or S, lit while it is on.
+// Button M or S, highlighted while it is on.
 bool letter_button(PanelContext& c, const char* letter, bool on, ImU32 lit, const std::string& name, const char* tip) {
     const float size = ImGui::GetFrameHeight();
     const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -52,7 +53,7 @@ bool letter_button(PanelContext& c, const char* letter, bool on, ImU32 lit, cons
     return pressed;
 }
 
-// Lights that are selected with it are switched with it.
+// Selected lights are switched together.
 void set_switches(PanelContext& c, const LightRow& row, bool on, bool solo) {
     const Edit edit = with_switches(c.scene(), row, on, solo);
     if (const auto* light = std::get_if<SetLight>(&edit)) set_light(c, light->id, light->light, no_gesture);
@@ -60,10 +61,10 @@ void set_switches(PanelContext& c, const LightRow& row, bool on, bool solo) {
 }
 
 void draw_switches(PanelContext& c, const LightRow& row, const std::string& scope) {
-    if (letter_button(c, "M", !row.on, tone::failure, scope + "/Mute", "Mute: it gives no light. Mute wins over solo."))
+    if (letter_button(c, "M", !row.on, tone::failure, scope + "/Mute", "Mute: the light is off. Mute overrides solo."))
         set_switches(c, row, !row.on, row.solo);
     ImGui::SameLine(0, 0);
-    if (letter_button(c, "S", row.solo, tone::warning, scope + "/Solo", "Solo: while anything is solo, only that shines."))
+    if (letter_button(c, "S", row.solo, tone::warning, scope + "/Solo", "Solo: while a light is solo, all lights that are not solo are off."))
         set_switches(c, row, row.on, !row.solo);
 }
 
@@ -96,7 +97,7 @@ void draw_intensity(PanelContext& c, const LightRow& row, const std::string& sco
     c.ui.probe.record_last_item(scope + "/Intensity");
 }
 
-// The field in place of a name that is being changed; true when it is done, `text` then holds the new name if it is another.
+// The rename field. True when editing ends; `text` is then the new name if it has changed.
 bool rename_field(LightTableView& view) {
     ImGui::SetNextItemWidth(-FLT_MIN);
     if (std::exchange(view.just_begun, false)) ImGui::SetKeyboardFocusHere();
@@ -147,7 +148,7 @@ void draw_name(PanelContext& c, RowClicks& clicks, const LightRow& row, const st
     fitting_text(c.ui, row.name, row.shines ? tone::text : tone::dim_text);
 }
 
-// In brackets where it is that of a whole group.
+// In brackets if it is the share of a whole group.
 void draw_share(PanelContext& c, const std::optional<RowShare>& share, double RowShare::*figure) {
     ImGui::AlignTextToFramePadding();
     const std::string text = !share ? "-" : fmt::format(fmt::runtime(share->alone ? "{:.1f} %" : "({:.1f} %)"), 100 * (*share).*figure);
@@ -178,7 +179,7 @@ void draw_row(PanelContext& c, RowClicks& clicks, const LightRow& row, const std
     ImGui::PopStyleColor();
 }
 
-// The heading of a group: dropped on, its rows are joined.
+// The heading of a group. It is a drop target: dropped rows join the group.
 void draw_group(PanelContext& c, const std::string& group) {
     LightTableView& view = c.ui.light_table;
     ImGui::TableNextRow();
@@ -209,7 +210,7 @@ void draw_rows(PanelContext& c, const std::vector<LightRows>& all) {
     if (!ImGui::BeginTable("lights", 6, flags, {0, -ImGui::GetFrameHeightWithSpacing() - em * 0.3f})) return;
     ImGui::TableSetupScrollFreeze(0, 1);
     ImGui::TableSetupColumn("Name", ImGuiTableColumnFlags_WidthStretch, 1.6f);
-    // A narrow dock has no room for all; what the icon and the light mix say as well gives way.
+    // A narrow dock drops the columns that the icon and the light mix show as well.
     const bool narrow = ImGui::GetContentRegionAvail().x < 34 * em;
     const ImGuiTableColumnFlags extra = ImGuiTableColumnFlags_WidthFixed | (narrow ? ImGuiTableColumnFlags_Disabled : 0);
     ImGui::TableSetupColumn("Type", extra, em * 5);
@@ -238,7 +239,7 @@ void draw_rows(PanelContext& c, const std::vector<LightRows>& all) {
 
 void draw_new_group(PanelContext& c) {
     const float width = ImGui::GetContentRegionAvail().x;
-    const std::string label = elided("New group of the selected, or drop a light here", width - 2 * ImGui::GetStyle().FramePadding.x);
+    const std::string label = elided("New group from selection, or drop a light here", width - 2 * ImGui::GetStyle().FramePadding.x);
     if (ImGui::Button((label + "##new").c_str(), {width, 0})) c.ui.commands.push_back(Command::group_lights);
     c.ui.probe.record_last_item("Light table/New group");
     if (const auto dropped = light_dropped_here()) put_dropped_into_group(c, *dropped, unused_group_name(c.scene()));
@@ -248,7 +249,7 @@ void draw_new_group(PanelContext& c) {
 
 void draw_light_table(PanelContext& c) {
     const std::vector<LightRows> rows = light_rows(c.scene());
-    if (rows.empty()) return quiet_text("Nothing shines in this scene. Add a light, or an environment.");
+    if (rows.empty()) return quiet_text("No lights in this scene. Add a light or an environment.");
     draw_rows(c, rows);
     draw_new_group(c);
 }

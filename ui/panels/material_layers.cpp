@@ -5,24 +5,24 @@ namespace {
 
 void draw_coat(Fields& f, Material& m) {
     f.number("Clear coat", m.clearcoat,
-             unit_interval(0, "A thin layer of varnish: a colourless reflection of its own on top of all else, as on lacquered wood or "
-                              "car paint. What it reflects does not reach what lies below."));
-    f.number("Coat roughness", m.clearcoat_roughness, unit_interval(0, "How rough the varnish is; 0 is a mirror."));
+             unit_interval(0, "Weight of a thin layer of varnish: a colourless specular reflection on top, as on lacquered wood or "
+                              "car paint. Light that it reflects does not reach the base layer."));
+    f.number("Coat roughness", m.clearcoat_roughness, unit_interval(0, "Roughness of the coat; 0 is a mirror."));
 }
 
 void draw_sheen(Fields& f, Material& m) {
     f.color("Sheen", m.sheen_color, {0, 0, 0},
-            "Light that upright fibres scatter back towards grazing views: the soft rim of velvet, satin and dust.");
+            "Colour of the sheen: light scattered by fibres at grazing angles, as on velvet, satin and dust.");
     f.number("Sheen roughness", m.sheen_roughness,
-             unit_interval(0, "How far the fibres lean. Low values leave a sharp rim, high values a veil over the whole cloth."));
+             unit_interval(0, "Roughness of the fibres. Low values give a sharp rim, high values a soft layer over the whole cloth."));
 }
 
 void draw_anisotropy(Fields& f, Material& m) {
     f.number("Anisotropy", m.anisotropy,
-             unit_interval(0, "Stretches reflections along one direction, as fine parallel scratches do: brushed metal, records, hair. "
-                              "Directions come from the mesh's tangents; without them highlights stay round."));
+             unit_interval(0, "Stretches highlights along one direction, as fine parallel scratches do: brushed metal, records, hair. "
+                              "The direction comes from the mesh's tangents; without tangents highlights stay round."));
     f.angle("Direction", m.anisotropy_rotation_radians,
-            {.min = -360, .max = 360, .reset = 0, .step = 0.25f, .tip = "Turns the stretch counter-clockwise from the mesh's tangent."});
+            {.min = -360, .max = 360, .reset = 0, .step = 0.25f, .tip = "Rotation of the stretch direction, counter-clockwise from the mesh's tangent."});
 }
 
 void draw_film(Fields& f, Material& m) {
@@ -30,22 +30,22 @@ void draw_film(Fields& f, Material& m) {
         return NumberStyle{.min = 0, .max = 100000, .reset = reset, .unit = "nm", .step = 1, .tip = tip};
     };
     f.number("Iridescence", m.iridescence,
-             unit_interval(0, "A transparent film as thin as light's wavelength: its two reflections cancel some colours and add others, "
+             unit_interval(0, "Weight of thin-film interference, which amplifies some colours and cancels others, "
                               "as on soap bubbles, oil and tempered steel."));
-    f.number("Film index", m.iridescence_ior,
+    f.number("Film IOR", m.iridescence_ior,
              {.min = 1, .max = 4, .reset = 1.3f, .step = 0.002f, .tip = "Index of refraction of the film: soap 1.33, oil 1.5."});
     f.number("Film thickness", m.iridescence_thickness_maximum,
-             nanometres(400, "Where the colours change fastest is from 100 to 1000 nm. With a thickness map, what white stands for."));
+             nanometres(400, "Thickness of the film. Colours change most between 100 and 1000 nm. With a thickness map: the thickness for white."));
     if (m.iridescence_thickness_texture.texture)
-        f.number("Least thickness", m.iridescence_thickness_minimum, nanometres(100, "What black in the thickness map stands for."));
+        f.number("Min. thickness", m.iridescence_thickness_minimum, nanometres(100, "Thickness for black in the thickness map."));
 }
 
 void draw_translucency(Fields& f, Material& m) {
     f.number("Translucency", m.diffuse_transmission,
              unit_interval(0,
-                           "Share of the light not reflected at the surface that comes out, scattered, on the other side: leaves, paper, "
+                           "Fraction of the light not reflected at the surface that is transmitted diffusely: leaves, paper, "
                            "lampshades, wax."));
-    f.color("Tint", m.diffuse_transmission_color, {1, 1, 1}, "Colour of the light that comes through.");
+    f.color("Tint", m.diffuse_transmission_color, {1, 1, 1}, "Colour of the transmitted light.");
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-// The material's layers and unusual ways to scatter: coat, sheen, stretched highlights, thin films, translucency.
+// Inspector sections of the material layers: clear coat, sheen, anisotropy, thin film, translucency.
 #pragma once
 
 #include "scene/scene.h"
@@ -10,7 +10,7 @@ namespace blush {
 
 NumberStyle unit_interval(float reset, const char* tip);
 
-// Sections for each of them, open where the material uses it.
+// One section per layer, open if the material uses it.
 void draw_material_layers(Fields& f, UiState& ui, Material& m);
 
 struct LayerTexture {
@@ -22,15 +22,15 @@ inline constexpr std::array layer_textures{
     LayerTexture{"Coat map", &Material::clearcoat_texture, "Red multiplies the clear coat."},
     LayerTexture{"Coat roughness map", &Material::clearcoat_roughness_texture, "Green multiplies the coat's roughness."},
     LayerTexture{"Coat normal map", &Material::clearcoat_normal_texture,
-                 "Tilts the coat's normal. Without it the coat is as smooth as the mesh, whatever the normal map below it."},
+                 "Normal map of the coat. Without it the coat has the mesh's normals; the base normal map does not apply."},
     LayerTexture{"Sheen map", &Material::sheen_color_texture, "Multiplies the sheen's colour."},
     LayerTexture{"Sheen roughness map", &Material::sheen_roughness_texture, "Its alpha multiplies the sheen's roughness."},
     LayerTexture{"Anisotropy map", &Material::anisotropy_texture,
-                 "Red and green are the direction of the stretch, grey being none; blue multiplies the anisotropy."},
+                 "Red and green: direction of the stretch; grey is no direction. Blue multiplies the anisotropy."},
     LayerTexture{"Film map", &Material::iridescence_texture, "Red multiplies the iridescence."},
-    LayerTexture{"Film thickness map", &Material::iridescence_thickness_texture, "Green goes from the least to the largest thickness."},
+    LayerTexture{"Film thickness map", &Material::iridescence_thickness_texture, "Green: thickness, from minimum (0) to maximum (1)."},
     LayerTexture{"Translucency map", &Material::diffuse_transmission_texture, "Its alpha multiplies the translucency."},
-    LayerTexture{"Translucency tint map", &Material::diffuse_transmission_color_texture, "Multiplies the colour of the light that comes through."},
+    LayerTexture{"Translucency tint map", &Material::diffuse_transmission_color_texture, "Multiplies the colour of the transmitted light."},
 };
 
 } // namespace blush

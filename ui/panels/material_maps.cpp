@@ -20,12 +20,12 @@ struct Slot {
 constexpr Slot usual[] = {
     {"Base colour map", &Material::base_color_texture, "Multiplies the base colour; its alpha multiplies the opacity."},
     {"Metal-rough map", &Material::metallic_roughness_texture, "Green multiplies roughness, blue multiplies metallic."},
-    {"Normal map", &Material::normal_texture, "Tilts the surface's normal: fine relief without geometry."},
+    {"Normal map", &Material::normal_texture, "Normal map: fine relief without geometry."},
     {"Emission map", &Material::emissive_texture, "Multiplies the emission."},
 };
 constexpr Slot further[] = {
-    {"Reflectivity map", &Material::specular_texture, "Its alpha multiplies the reflectivity."},
-    {"Tint map", &Material::specular_color_texture, "Multiplies the reflection tint."},
+    {"Specular map", &Material::specular_texture, "Its alpha multiplies the specular strength."},
+    {"Specular tint map", &Material::specular_color_texture, "Multiplies the specular tint."},
     {"Transmission map", &Material::transmission_texture, "Red multiplies the transmission."},
 };
 
@@ -54,7 +54,7 @@ void draw_preview(PanelContext& c, const Texture& texture, const MapThumbnails::
     ImGui::EndTooltip();
 }
 
-// A square that the image fits into.
+// The image, scaled to fit into a square.
 void draw_thumbnail(PanelContext& c, const Texture& texture, const std::string& label, const std::string& name, float side) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const MapThumbnails::Picture picture =
@@ -80,7 +80,7 @@ void ask_for_file(PanelContext& c, Id<Material> id, const Slot& slot) {
 void load_button(PanelContext& c, Id<Material> id, const Slot& slot, const char* text, float width) {
     if (ImGui::Button(text, {width, 0})) ask_for_file(c, id, slot);
     c.ui.probe.record_last_item(std::string("Map/") + slot.label + "/" + text);
-    tip_for_last_item(c.ui, "Choose an image file (.png, .jpg, .webp, .bmp, .exr, .hdr). The saved scene carries the image with it.");
+    tip_for_last_item(c.ui, "Choose an image file (.png, .jpg, .webp, .bmp, .exr, .hdr). The image is saved with the scene.");
 }
 
 // One of the scene's images, or none.
@@ -104,7 +104,7 @@ bool choose_image(PanelContext& c, const Slot& slot, TextureRef& ref) {
 
 void draw_image_row(Fields& f, PanelContext& c, Id<Material> id, const Slot& slot, TextureRef& ref, const Texture& texture) {
     const float gap = ImGui::GetStyle().ItemInnerSpacing.x, line = ImGui::GetFrameHeight(), side = 2 * line + ImGui::GetStyle().ItemSpacing.y;
-    // The size below the label.
+    // The image size, below the label.
     const ImVec2 row = ImGui::GetCursorScreenPos();
     const float left = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMin().x;
     ImGui::GetWindowDrawList()->AddText({left, row.y + side - line + ImGui::GetStyle().FramePadding.y}, tone::dim_text, size_of(texture).c_str());
@@ -121,7 +121,7 @@ void draw_image_row(Fields& f, PanelContext& c, Id<Material> id, const Slot& slo
         f.note_change();
     }
     c.ui.probe.record_last_item(std::string("Map/") + slot.label + "/Remove");
-    tip_for_last_item(c.ui, "Take the image off this material");
+    tip_for_last_item(c.ui, "Remove the image from this material");
     ImGui::EndGroup();
 }
 
@@ -132,9 +132,9 @@ void draw_placement(Fields& f, TextureRef& ref) {
     f.number("Offset V", ref.offset.y, {.reset = 0, .step = 0.002f, .tip = "Moves the image along V, in heights of the image."});
     f.number("Scale U", ref.scale.x, {.reset = 1, .step = 0.005f, .tip = "How many times the image repeats over one unit of U."});
     f.number("Scale V", ref.scale.y, {.reset = 1, .step = 0.005f, .tip = "How many times the image repeats over one unit of V."});
-    f.angle("Turn", ref.rotation_radians,
-            {.min = -360, .max = 360, .reset = 0, .step = 0.25f, .tip = "Turns the image counter-clockwise about its corner."});
-    if (f.integer("UV set", uv_set, 0, most_uv_set, 0, "Which texture coordinates of the mesh are used.")) ref.uv_set = uint8_t(uv_set);
+    f.angle("Rotation", ref.rotation_radians,
+            {.min = -360, .max = 360, .reset = 0, .step = 0.25f, .tip = "Rotates the image counter-clockwise about its corner."});
+    if (f.integer("UV set", uv_set, 0, most_uv_set, 0, "Set of texture coordinates of the mesh (TEXCOORD_n).")) ref.uv_set = uint8_t(uv_set);
 }
 
 void draw_map(Fields& f, PanelContext& c, Id<Material> id, const Slot& slot, Material& m) {
@@ -166,12 +166,12 @@ void draw_material_maps(Fields& f, PanelContext& c, Id<Material> id, Material& m
     for (const Slot& slot : usual) draw_map(f, c, id, slot, m);
     if (m.normal_texture.texture)
         f.number("Normal strength", m.normal_scale,
-                 {.min = -10, .max = 10, .reset = 1, .step = 0.005f, .tip = "Scales the tilt of the normal map."});
+                 {.min = -10, .max = 10, .reset = 1, .step = 0.005f, .tip = "Scale of the normal map."});
     for (const Slot& slot : all)
         if (has_image(slot)) draw_map(f, c, id, slot, m);
     if (m.clearcoat_normal_texture.texture)
         f.number("Coat normal strength", m.clearcoat_normal_scale,
-                 {.min = -10, .max = 10, .reset = 1, .step = 0.005f, .tip = "Scales the tilt of the coat's normal map."});
+                 {.min = -10, .max = 10, .reset = 1, .step = 0.005f, .tip = "Scale of the coat's normal map."});
     if (!section(c.ui, "More maps", false)) return;
     for (const Slot& slot : all)
         if (!has_image(slot)) draw_map(f, c, id, slot, m);

@@ -1,4 +1,4 @@
-// The images on a material, a row each.
+// The texture slots of a material, one row each.
 #pragma once
 
 #include "ui/panels/context.h"
@@ -6,7 +6,8 @@
 
 namespace blush {
 
-// Thumbnail, name and size, with what loads, replaces and removes it, and how it lies. `id` is the material that `m` is being edited of.
+// Rows with thumbnail, name, size, buttons to load, replace and remove, and the UV transform. `m` is the edited copy of material
+// `id`.
 void draw_material_maps(Fields& f, PanelContext& c, Id<Material> id, Material& m);
 
 } // namespace blush

@@ -1,4 +1,4 @@
-// The menu bar: every command that has a place in a menu, with its key.
+// The menu bar: all commands that are in a menu, with their shortcuts.
 #include "ui/panels/panels.h"
 #include "ui/widgets.h"
 
@@ -179,7 +179,7 @@ void draw_menu_bar(PanelContext& c) {
         item(c, Command::dock_all, std::ranges::any_of(c.ui.settings.dock.tabs, &DockTab::floats));
         ImGui::Separator();
         ImGui::MenuItem("Desktop's file dialog", nullptr, &c.ui.settings.desktop_file_dialog);
-        tip_for_last_item(c.ui, "Files are asked for by the desktop's own dialog, where there is one, in place of Blush's.");
+        tip_for_last_item(c.ui, "Use the desktop's file dialog, if available, instead of Blush's file browser.");
         ImGui::EndMenu();
     }
     if (begin_menu(c, "Help")) {

@@ -1,4 +1,5 @@
-// Light meters: illuminance in lux at places on surfaces, with 95 % intervals, refreshed by every edit that light depends on.
+// Light meters panel: illuminance in lux at points on surfaces, with 95 % confidence intervals, measured again after every edit
+// that affects light.
 #include "ui/fitting_text.h"
 #include "ui/panels/panels.h"
 #include "ui/theme.h"
@@ -9,7 +10,7 @@
 namespace blush {
 namespace {
 
-// The meters as the table leaves them: one renamed, or one gone.
+// Returns the meters after edits in the table: renamed or removed.
 std::vector<LightMeter> draw_table(PanelContext& c) {
     std::vector<LightMeter> meters = c.project().view.meters;
     const auto& readings = c.ui.meters.state.answer;
@@ -67,13 +68,13 @@ void draw_meters_panel(PanelContext& c) {
     const MetersView& view = c.ui.meters;
     ViewSettings v = c.project().view;
     if (v.meters.empty())
-        quiet_text("Place a meter on a surface to read how much light falls on it.");
+        quiet_text("Place a meter on a surface to measure its illuminance.");
     else
         v.meters = draw_table(c);
     if (!view.state.failure.empty()) quiet_text(view.state.failure);
     if (ImGui::Button("Place a meter")) c.ui.tool = ViewTool::meter;
     c.ui.probe.record_last_item("Meters/Place a meter");
-    tip_for_last_item(c.ui, "Click a surface. The meter moves with the object, and reads what falls on the side that is seen.");
+    tip_for_last_item(c.ui, "Click a surface. The meter moves with the object and measures the side facing the viewer.");
     if (v != c.project().view) c.apply(SetView{v});
 }
 

@@ -1,4 +1,4 @@
-// The weights of a mesh's morph targets.
+// Shape section: weights of a mesh's morph targets.
 #include "scene/pose.h"
 #include "ui/panels/panels.h"
 #include "ui/widgets.h"
@@ -23,7 +23,7 @@ void draw_morph_weights_panel(PanelContext& c, Id<Node> id) {
     const size_t count = mesh ? target_count(*mesh) : 0;
     if (count == 0 || !section(c.ui, "Shape")) return;
     if (is_led(c.scene(), id, Channel::Property::morph_weights)) {
-        quiet_text("Led by the animation. At rest it can be set by hand.");
+        quiet_text("Animated. Select the rest pose in the timeline to edit the weights.");
         return;
     }
     Node node = *record;
@@ -37,7 +37,7 @@ void draw_morph_weights_panel(PanelContext& c, Id<Node> id) {
                   .max = 10,
                   .reset = 0,
                   .step = 0.005f,
-                  .tip = "How much of this target's shape is added: 0 nothing, 1 all of it.",
+                  .tip = "Weight of this morph target: 0 none, 1 full.",
                   .format = "%.3f"});
     }
     if (f.changed()) c.apply(SetNode{id, node}, f.gesture());

@@ -1,4 +1,5 @@
-// A file without any light is shown in a studio; this banner says so and offers other light. A scene that has lost its light gets it, too.
+// Banner for scenes without lights: says that the scene is shown in a studio, and offers other lighting. Also shown if the last
+// light is removed.
 #include "ui/panels/panels.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
@@ -21,33 +22,33 @@ void draw_button(PanelContext& c, const char* name, std::initializer_list<Comman
     tip_for_last_item(c.ui, tip);
 }
 
-constexpr const char* sky_tip = "A clear sky with its sun lights the scene.";
-constexpr const char* environment_tip = "A panorama (.hdr, .exr) lights the scene as the place where it was taken.";
-constexpr const char* lamp_tip = "A rectangle light beside the subject.";
+constexpr const char* sky_tip = "Add a clear sky with sun.";
+constexpr const char* environment_tip = "Choose a panorama image (.hdr, .exr) as the environment.";
+constexpr const char* lamp_tip = "Add a rectangle light beside the subject.";
 
 void draw_choices(PanelContext& c) {
     ImGui::TextUnformatted("No light in this file");
-    draw_button(c, "Studio", {Command::light_by_studio}, "Three softboxes and the panorama of a studio light the scene.");
+    draw_button(c, "Studio", {Command::light_by_studio}, "Add three softboxes and a studio panorama.");
     draw_button(c, "Sky", {Command::light_by_sky}, sky_tip);
     draw_button(c, "Environment...", {Command::environment}, environment_tip);
     draw_button(c, "Add light", {Command::add_rectangle}, lamp_tip);
 }
 
-// Other light comes in place of the studio: the step that added it is undone first.
+// Other lighting replaces the studio: the step that added it is undone first.
 void draw_choices_in_studio(PanelContext& c) {
-    ImGui::TextUnformatted("No light in this file: it is shown in a studio");
-    draw_button(c, "Keep", {}, "The three softboxes and the panorama are lights of the scene; saving the scene saves them.");
+    ImGui::TextUnformatted("No light in this file: shown with studio lighting");
+    draw_button(c, "Keep", {}, "Keep the three softboxes and the panorama as lights of the scene. They are saved with it.");
     draw_button(c, "Sky", {Command::undo, Command::light_by_sky}, sky_tip);
     draw_button(c, "Environment...", {Command::undo, Command::environment}, environment_tip);
     draw_button(c, "Add light", {Command::undo, Command::add_rectangle}, lamp_tip);
-    draw_button(c, "No light", {Command::undo}, "The scene as it is in the file: black.");
+    draw_button(c, "No light", {Command::undo}, "Remove the studio lighting. The scene is black, as in the file.");
 }
 
 } // namespace
 
 void draw_no_light_banner(PanelContext& c, const Region& viewport) {
     if (c.scene().nodes.empty()) return;
-    // The first edit keeps the studio.
+    // The first edit also keeps the studio.
     if (c.ui.studio_at_opening && (c.document.undo_labels().size() != 1 || c.document.can_redo())) c.ui.studio_at_opening = false;
     const bool dark = !c.ui.light_presence.in(c.scene());
     if (!dark && !c.ui.studio_at_opening) return;
@@ -57,7 +58,7 @@ void draw_no_light_banner(PanelContext& c, const Region& viewport) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {em, em * 0.7f});
     ImGui::SetNextWindowBgAlpha(0.92f);
     if (ImGui::Begin(dark ? "##no light" : "##no light in the file", nullptr, flags)) {
-        if (ImGui::IsWindowAppearing()) c.ui.next_frame_in = 0; // it is seen in the frame after the one that measures it
+        if (ImGui::IsWindowAppearing()) c.ui.next_frame_in = 0; // becomes visible in the frame after the one that measures its size
         ImGui::AlignTextToFramePadding();
         dark ? draw_choices(c) : draw_choices_in_studio(c);
         c.ui.probe.record("No light", {ImGui::GetWindowPos().x, ImGui::GetWindowPos().y, ImGui::GetWindowWidth(), ImGui::GetWindowHeight()});

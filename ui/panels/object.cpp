@@ -1,4 +1,4 @@
-// The selected node: name, visibility, place in the world, and what it is made of.
+// Object and Transform sections: name, visibility, transform and mesh of the selected node.
 #include "scene/pose.h"
 #include "ui/panels/panels.h"
 #include "ui/rotation.h"
@@ -27,7 +27,7 @@ std::string grouped(int64_t number) {
     return text;
 }
 
-// Euler angles of the rotation; those the user sees while dragging stay as long as nothing else turns the node.
+// Euler angles of the rotation. Angles typed by the user stay as long as only this panel rotates the node.
 Vec3d& angles_of(EulerFields& fields, Id<Node> id, const Quat& rotation) {
     if (fields.node != id || fields.rotation != rotation) {
         const Vec3d e = euler_degrees(rotation);
@@ -37,7 +37,7 @@ Vec3d& angles_of(EulerFields& fields, Id<Node> id, const Quat& rotation) {
     return fields.degrees;
 }
 
-// Bright enough to be seen glowing at this exposure: twice what is shown as white.
+// Emission that is visible at this exposure: twice the luminance shown as white.
 void draw_make_light(PanelContext& c, Id<Node> id) {
     const float nits = 2 * std::exp2(-c.project().view.exposure_ev);
     if (ImGui::Button("Make it a light", {-FLT_MIN, 0}) && c.apply(MakeEmissive{id, nits})) {
@@ -45,7 +45,7 @@ void draw_make_light(PanelContext& c, Id<Node> id) {
         c.ui.selected_material = mesh->parts.empty() ? Id<Material>{} : mesh->parts.front().material;
     }
     c.ui.probe.record_last_item("Object/Make it a light");
-    tip_for_last_item(c.ui, "Give the object a material of its own that glows. How brightly is set under Emission.");
+    tip_for_last_item(c.ui, "Give the object its own emissive material. Set its strength under Emission.");
 }
 
 } // namespace
@@ -55,10 +55,10 @@ void draw_object_panel(PanelContext& c, Id<Node> id) {
     if (!record) return;
     Node node = *record;
     Fields f(c.ui, "Object");
-    f.text("Name", node.name, "Used in the outliner, in the history and in saved files.");
-    f.checkbox("Visible", node.visible, "Hidden, the node and all below it neither show nor cast shadows nor give light.");
+    f.text("Name", node.name, "Name in the outliner, the history and saved files.");
+    f.checkbox("Visible", node.visible, "If off, the node and its children are invisible, cast no shadows and emit no light.");
     f.checkbox("Shadow catcher", node.shadow_catcher,
-               "The camera sees nothing of it but the shadows that lie on it, in the picture's alpha; all other light meets it as it is. Holds for all below, too.");
+               "The camera sees only the shadows on it, in the picture's alpha. Reflections and indirect light treat it as a normal object. Includes all children.");
     if (const Mesh* mesh = c.scene().meshes.find(node.mesh)) {
         f.info("Mesh", fmt::format("{} triangles{}", grouped(triangle_count(*mesh)),
                                    mesh->parts.size() > 1 ? fmt::format(", {} parts", mesh->parts.size()) : ""));
@@ -81,13 +81,13 @@ void draw_transform_panel(PanelContext& c, Id<Node> id) {
     Node node = *record;
     node.local = posed_transform(c.scene(), id, node);
     const bool led = is_placed_by_clip(c.scene(), id);
-    if (led) quiet_text("Led by the animation. At rest it can be set by hand.");
-    if (node.skin) quiet_text("Hangs on joints, which say where it is: the node's own place does not move it.");
+    if (led) quiet_text("Animated. Select the rest pose in the timeline to edit the transform.");
+    if (node.skin) quiet_text("Skinned: joints define its position. The node's own transform has no effect.");
     ImGui::BeginDisabled(led);
     Fields f(c.ui, "Transform");
     if (node.local.matrix) {
-        quiet_text("This transform is a sheared matrix, which position, rotation and scale cannot express. Turning or scaling it here "
-                   "replaces the shear.");
+        quiet_text("This transform is a sheared matrix. Position, rotation and scale cannot represent shear: editing rotation or scale "
+                   "removes it.");
     }
     if (f.vector("Position", node.local.translation, {0, 0, 0},
                  {.unit = "", .step = 0.005f, .tip = "Metres, relative to the parent node."}) &&

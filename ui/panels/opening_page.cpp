@@ -1,4 +1,4 @@
-// What a start without a scene offers in a dock below the picture: the demos and the files that were open last. It goes with Esc or a file.
+// Start page in a dock below the picture: demos and recent files. It closes with Esc, or when a file is opened.
 #include "ui/fitting_text.h"
 #include "ui/panels/panels.h"
 #include "ui/theme.h"
@@ -14,7 +14,7 @@ namespace {
 constexpr size_t max_cards = 10;
 constexpr float card_width = 7, card_height = 4.4f, title_width = 4.5f; // ems
 
-// A picture with the file's name below; true if it is clicked.
+// A thumbnail with the file's name below. Returns true if it is clicked.
 bool draw_card(PanelContext& c, const std::string& file) {
     const float em = ImGui::GetFontSize(), width = card_width * em;
     const std::string name = std::filesystem::path(file).stem().string();
@@ -32,7 +32,7 @@ bool draw_card(PanelContext& c, const std::string& file) {
     return clicked;
 }
 
-// So many rows, as many in each as fit; the menus have the others.
+// Up to the given number of rows, filled from the left. Files that do not fit are only in the menus.
 void draw_rows(PanelContext& c, const char* title, const std::vector<std::string>& files, size_t rows) {
     if (files.empty()) return;
     const float em = ImGui::GetFontSize(), left = ImGui::GetCursorPosX();

@@ -1,4 +1,4 @@
-// Outliner: the scene's nodes as a tree, with what each carries and whether it shows.
+// Outliner: the scene's nodes as a tree, with icons for content and visibility.
 #include "ui/fitting_text.h"
 #include "ui/icons.h"
 #include "ui/light_tools.h"
@@ -21,7 +21,7 @@ namespace {
 
 using Children = std::map<Id<Node>, std::vector<Id<Node>>>;
 
-// What the rows of one frame share.
+// State that the rows of one frame share.
 struct Rows {
     Children children;
     bool some_solo = false;
@@ -124,21 +124,21 @@ void draw_node(PanelContext& c, Rows& rows, Id<Node> id, int depth) {
     ImGui::PopID();
 }
 
-// What a file offers to choose from, where it does.
+// Scene and material variant, if the file has several.
 void draw_choices(PanelContext& c) {
     const Scene& scene = c.scene();
     Staging staging = scene.staging;
     const auto choose = [&](const char* label, int32_t& index, std::vector<std::string> names, int32_t first, const char* tip) {
-        for (size_t i = 0; i < names.size(); ++i) names[i] += fmt::format("##{}", i); // two may be called alike
+        for (size_t i = 0; i < names.size(); ++i) names[i] += fmt::format("##{}", i); // names may be equal
         Fields f(c.ui, "Outliner");
         std::string name = names.at(size_t(index - first));
         if (f.choice(label, name, names, tip)) index = int32_t(std::ranges::find(names, name) - names.begin()) + first;
     };
-    if (!scene.scene_names.empty()) choose("Scene", staging.scene, scene.scene_names, 0, "Which of the file's scenes shows.");
+    if (!scene.scene_names.empty()) choose("Scene", staging.scene, scene.scene_names, 0, "Scene of the file to show.");
     if (!scene.variants.empty()) {
-        std::vector<std::string> names{"As they are"};
+        std::vector<std::string> names{"Default"};
         names.insert(names.end(), scene.variants.begin(), scene.variants.end());
-        choose("Materials", staging.variant, std::move(names), -1, "Which of the file's variants of its materials is worn.");
+        choose("Materials", staging.variant, std::move(names), -1, "Material variant of the file (KHR_materials_variants).");
     }
     if (staging != scene.staging) c.apply(SetStaging{staging});
 }

@@ -1,4 +1,4 @@
-// Every panel is one function that draws from the project and applies edits; one file each.
+// The panels: each is one function that draws from the project and applies edits; one file each.
 #pragma once
 
 #include "ui/panels/context.h"
@@ -17,7 +17,7 @@ void draw_menu_bar(PanelContext& c);
 void draw_outliner(PanelContext& c);
 void draw_inspector(PanelContext& c); // tabs, each made of the sections below
 void draw_status_bar(PanelContext& c);
-void draw_time(PanelContext& c); // of scenes that have animations
+void draw_time(PanelContext& c); // for scenes with animations
 
 // Sections of the inspector.
 void draw_object_panel(PanelContext& c, Id<Node> node);
@@ -25,20 +25,20 @@ void draw_transform_panel(PanelContext& c, Id<Node> node);
 void draw_morph_weights_panel(PanelContext& c, Id<Node> node);
 void draw_light_panel(PanelContext& c, Id<Node> node);
 void draw_light_links_panel(PanelContext& c, Id<Node> node);
-void draw_material_panel(PanelContext& c, Id<Node> node);    // of the selected material, or of the node's mesh
-void draw_camera_panel(PanelContext& c);                     // of the view
-void draw_camera_node_panel(PanelContext& c, Id<Node> node); // of one of the scene's cameras
+void draw_material_panel(PanelContext& c, Id<Node> node);    // the selected material, or the material of the node's mesh
+void draw_camera_panel(PanelContext& c);                     // the view
+void draw_camera_node_panel(PanelContext& c, Id<Node> node); // one of the scene's cameras
 void draw_environment_panel(PanelContext& c);
 void draw_render_panel(PanelContext& c);
-void draw_left_out_section(PanelContext& c); // of the render panel
+void draw_left_out_section(PanelContext& c); // of the Render tab
 void draw_display_panel(PanelContext& c);
 
 // Instruments (instruments.h), each into the current ImGui window.
 void draw_history(PanelContext& c);
-// Which layer of a picture of another program is shown; nothing for a snapshot.
+// Chooses which layer of an image from another program is shown; draws nothing for a snapshot.
 void draw_layer_choice(Fields& f, Snapshot& picture, const char* label);
 void draw_comparison_panel(PanelContext& c);
-void draw_snapshot_panel(PanelContext& c); // name, note and file of one of them
+void draw_snapshot_panel(PanelContext& c); // name, note and file of one snapshot
 void draw_pixel_panel(PanelContext& c);
 void draw_meters_panel(PanelContext& c);
 void draw_region_panel(PanelContext& c);
@@ -50,28 +50,28 @@ void draw_import_report(PanelContext& c);
 void draw_roulette_panel(PanelContext& c);
 void draw_light_table(PanelContext& c);
 void draw_convergence_panel(PanelContext& c);
-// The meters measure, whether their panel is in sight or not: the picture shows what they read.
+// Runs the meters, even if their panel is closed: the picture shows their readings.
 void follow_meters(PanelContext& c);
 
-// Above everything else, each in a window of its own while it is open.
+// Drawn above everything else, each in its own window while it is open.
 void draw_file_browser(PanelContext& c);
 void draw_shortcut_sheet(PanelContext& c);
-void draw_pixel_popup(PanelContext& c); // in place of the panel while panels are hidden
+void draw_pixel_popup(PanelContext& c); // replaces the panel while panels are hidden
 void draw_question(PanelContext& c);
-void draw_opening_page(PanelContext& c); // an instrument, too
+void draw_opening_page(PanelContext& c); // also an instrument
 // At the upper edge of the viewport, while the scene has no light at all.
 void draw_no_light_banner(PanelContext& c, const Region& viewport);
-// At the left of the picture: which gizmo is shown, and whose axes it has.
+// At the left of the picture: which gizmo is shown, and its axes.
 void draw_gizmo_bar(PanelContext& c, const Region& picture);
 
-// A job that goes on in the background.
+// A running background job.
 struct RunningJob {
     std::string title, what;
     double fraction = 0;
     bool can_cancel = false;
 };
-// In the lower right corner of the viewport: toasts, one above the other, and below them the job that goes on; null: none does. True if its
-// Cancel is pressed.
+// In the lower right corner of the viewport: toasts, stacked, and below them the running job (null: none). Returns true if its
+// Cancel button is pressed.
 bool draw_cards(PanelContext& c, const Region& viewport, const RunningJob* job);
 
 } // namespace blush

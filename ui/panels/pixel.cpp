@@ -1,4 +1,4 @@
-// What one pixel holds: scene-linear and displayed colour, luminance, and what the camera hit there.
+// Pixel panel: scene-linear and displayed colour, luminance, and the first hit of one pixel.
 #include "color/illuminance.h"
 #include "core/math.h"
 #include "core/text.h"
@@ -40,7 +40,7 @@ std::string displayed(const PanelContext& c, const Vec3& rgb, const Vec3& albedo
                        byte(shown[2]));
 }
 
-// Of the group or bounce that is looked at.
+// Value of the group or bounce that the viewport shows.
 void draw_planes(const PanelContext& c, const Frame& f, size_t pixel) {
     const AovView& view = c.ui.aov;
     const size_t k = size_t(view.index);
@@ -62,7 +62,7 @@ void draw_values(const PanelContext& c, const Frame& f, int x, int y) {
     if (!f.albedo.empty() && luminance(f.albedo[i]) >= 0.01f) {
         float lux[3] = {rgba[0], rgba[1], rgba[2]};
         to_illuminance(lux, {&f.albedo[i], 1});
-        row(c, "Illuminance", fmt::format("{:.4g} lx, if matte", lux[0]));
+        row(c, "Illuminance", fmt::format("{:.4g} lx, if diffuse", lux[0]));
     }
     if (c.denoised) row(c, "Denoised RGB", triple(denoised_pixel(f, *c.denoised, x, y)));
     const Vec3 shown = mixed_pixel(f, c.denoised.get(), mix_of(c.ui.denoise, c.denoised != nullptr), x, y);
@@ -89,7 +89,7 @@ void draw_values(const PanelContext& c, const Frame& f, int x, int y) {
 } // namespace
 
 void draw_pixel_panel(PanelContext& c) {
-    if (!c.has_picture()) return quiet_text("Waiting for the first picture.");
+    if (!c.has_picture()) return quiet_text("Waiting for the first render.");
     if (!c.ui.pixel || !ImGui::BeginTable("values", 2)) return;
     ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed);
     ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch);
@@ -107,7 +107,7 @@ void draw_pixel_popup(PanelContext& c) {
         c.ui.pixel.reset();
         return;
     }
-    ImGui::Dummy({ImGui::GetFontSize() * 26, 0}); // values as wide as the popup would make it as narrow as can be
+    ImGui::Dummy({ImGui::GetFontSize() * 26, 0}); // fixed width: values that fill the popup would make it as narrow as possible
     draw_pixel_panel(c);
     if (ImGui::IsKeyPressed(key::escape)) ImGui::CloseCurrentPopup();
     ImGui::EndPopup();

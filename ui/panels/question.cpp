@@ -1,4 +1,4 @@
-// A question in the middle of the window; nothing else can be done until it is answered.
+// Modal dialog in the middle of the window.
 #include "ui/panels/panels.h"
 #include "ui/theme.h"
 
@@ -21,7 +21,7 @@ void draw_texts(const Question& question) {
     ImGui::Spacing();
 }
 
-// To the right, the first one outermost, as far from the others as possible.
+// Right-aligned. The first choice is the outermost, away from the others.
 void draw_choices(PanelContext& c, Question& question) {
     const float width = ImGui::GetFontSize() * 7, gap = ImGui::GetStyle().ItemSpacing.x;
     const float all = float(question.choices.size()) * (width + gap) - gap;
@@ -46,7 +46,7 @@ void draw_question(PanelContext& c) {
     ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
     if (!ImGui::BeginPopupModal(name, nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoTitleBar))
         return;
-    if (ImGui::IsWindowAppearing()) c.ui.next_frame_in = 0; // it is seen in the frame after the one that finds out how large it is
+    if (ImGui::IsWindowAppearing()) c.ui.next_frame_in = 0; // becomes visible in the frame after the one that measures its size
     draw_texts(*c.ui.question);
     draw_choices(c, *c.ui.question);
     if (c.ui.question->chosen) ImGui::CloseCurrentPopup();

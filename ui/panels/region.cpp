@@ -1,4 +1,5 @@
-// Region: mean, ends and deviation of the measured rectangle, in scene-linear values, nits, stops and display values.
+// Region panel: mean, minimum, maximum and standard deviation in the measured rectangle, in scene-linear values, nits, stops and
+// display values.
 #include "core/text.h"
 #include "ui/panels/panels.h"
 #include "ui/region_statistics.h"
@@ -26,7 +27,7 @@ void draw_table(const RegionStatistics& s) {
     if (!ImGui::BeginTable("statistics", 5, ImGuiTableFlags_SizingStretchSame)) return;
     ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, ImGui::CalcTextSize("Luminance, nits").x);
     const bool narrow = ImGui::GetContentRegionAvail().x < 22 * ImGui::GetFontSize();
-    for (const char* column : {"Mean", "Least", "Most", "Deviation"})
+    for (const char* column : {"Mean", "Min", "Max", "Std. dev."})
         ImGui::TableSetupColumn(column, narrow && column[0] != 'M' ? ImGuiTableColumnFlags_Disabled : ImGuiTableColumnFlags_None);
     ImGui::TableHeadersRow();
     constexpr const char* linear[] = {"Linear R", "Linear G", "Linear B"};
@@ -51,7 +52,7 @@ void draw_statistics(PanelContext& c, const RegionStatistics& s) {
 
 void draw_region_panel(PanelContext& c) {
     if (!c.project().view.measured) return;
-    if (!c.has_picture()) return quiet_text("Waiting for the first picture.");
+    if (!c.has_picture()) return quiet_text("Waiting for the first render.");
     if (c.ui.region.ask(c.shown_picture(), region_statistics)) c.ui.next_frame_in = std::min(c.ui.next_frame_in, 0.05);
     if (const RegionStatistics* s = c.ui.region.answer()) draw_statistics(c, *s);
 }

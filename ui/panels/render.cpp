@@ -1,4 +1,4 @@
-// Render: size, when to stop, and how paths are traced. The same settings as `blush render` takes.
+// Render tab: size, stop rules and path tracing settings. The same settings as `blush render` has.
 #include "ui/panels/panels.h"
 #include "ui/panels/roulette_fields.h"
 #include "ui/presets.h"
@@ -15,13 +15,13 @@ namespace blush {
 namespace {
 
 void draw_size(Fields& f, PanelContext& c, RenderSettings& r) {
-    f.checkbox("Fit viewport", c.ui.settings.follow_viewport, "Render as many pixels as the viewport shows. Otherwise the size below.");
+    f.checkbox("Fit viewport", c.ui.settings.follow_viewport, "Render at the size of the viewport. Otherwise at the size below.");
     if (!c.ui.settings.follow_viewport) {
         std::vector<const char*> names;
         for (const SizePreset& preset : size_presets) names.push_back(preset.name);
-        names.push_back("Of my own");
+        names.push_back("Custom");
         int preset = int(preset_of_size(r));
-        if (f.choice("Preset", preset, names, "Sizes that have names.") && size_t(preset) < size_presets.size()) {
+        if (f.choice("Preset", preset, names, "Common image sizes.") && size_t(preset) < size_presets.size()) {
             r.width = size_presets[size_t(preset)].width;
             r.height = size_presets[size_t(preset)].height;
         }
@@ -35,12 +35,12 @@ void draw_size(Fields& f, PanelContext& c, RenderSettings& r) {
               .reset = 1,
               .unit = "×",
               .bar = true,
-              .tip = "Share of the full size that is rendered. Half the resolution converges four times as fast.",
+              .tip = "Fraction of the full width and height. Half the resolution converges four times as fast.",
               .format = "%.2f"});
     f.info("", fmt::format("{} × {} pixels", c.render_width, c.render_height));
     const PixelRect part = pixels_of(r.region, std::max(c.render_width, 1), std::max(c.render_height, 1));
     if (r.region == PictureRegion{}) {
-        if (f.button("Render a region alone", "Drag a rectangle in the picture: all samples go there."))
+        if (f.button("Render a region alone", "Drag a rectangle in the picture. Only its pixels are rendered."))
             c.ui.commands.push_back(Command::render_region);
     } else {
         f.info("Region", fmt::format("{} × {} from {}, {}", part.x1 - part.x0, part.y1 - part.y0, part.x0, part.y0));
@@ -51,16 +51,16 @@ void draw_size(Fields& f, PanelContext& c, RenderSettings& r) {
 void draw_stop_rules(Fields& f, RenderSettings& r) {
     std::vector<const char*> names;
     for (const QualityPreset& preset : quality_presets) names.push_back(preset.name);
-    names.push_back("Of my own");
+    names.push_back("Custom");
     int preset = int(preset_of_quality(r));
     if (f.choice("Quality", preset, names,
-                 "When it is good enough: 32, 256 or 1024 samples per pixel, or as many as bring the estimated relMSE to 0.01 %.") &&
+                 "Stop rules: 32, 256 or 1024 samples per pixel, or until the estimated relMSE is 0.01 %.") &&
         size_t(preset) < quality_presets.size()) {
         r.spp = quality_presets[size_t(preset)].spp;
         r.error = quality_presets[size_t(preset)].error;
     }
     f.integer("Samples", r.spp, 0, int64_t(1) << 40, 1024,
-              "Stop at this many paths per pixel. 0 never stops. The noise halves with four times as many.");
+              "Stop at this many samples per pixel. 0: no limit. Four times the samples halve the noise.");
     float seconds = float(r.seconds), per_cent = float(r.error * 100);
     if (f.number("Time", seconds,
                  {.min = 0,
@@ -68,7 +68,7 @@ void draw_stop_rules(Fields& f, RenderSettings& r) {
                   .reset = 0,
                   .unit = "s",
                   .step = 0.5f,
-                  .tip = "Stop after this many seconds of rendering. 0 sets no limit."}))
+                  .tip = "Stop after this render time in seconds. 0: no limit."}))
         r.seconds = seconds;
     if (f.number("Error", per_cent,
                  {.min = 0,
@@ -76,7 +76,7 @@ void draw_stop_rules(Fields& f, RenderSettings& r) {
                   .reset = 0,
                   .unit = "%",
                   .step = 0.001f,
-                  .tip = "Stop when the estimated relative mean squared error is below this. 0 sets no limit. It is estimated from two "
+                  .tip = "Stop when the estimated relative mean squared error (relMSE) is below this. 0: no limit. It is estimated from two "
                          "independent halves of the samples."}))
         r.error = per_cent / 100;
 }
@@ -86,7 +86,7 @@ void draw_reuse(Fields& f, RenderSettings& r) {
     static constexpr int sizes[] = {1, 4, 8, 16};
     int choice = int(std::find(std::begin(sizes), std::end(sizes), r.reuse) - std::begin(sizes));
     if (f.choice("Path reuse", choice, names,
-                 "Groups of this many pixels nearby share the light that their paths find at a second matte surface. The mean stays right, "
+                 "Groups of this many nearby pixels share the light that their paths find at a second diffuse surface. It is unbiased; "
                  "indirect light gets less noisy for a few more shadow rays."))
         r.reuse = sizes[choice];
 }
@@ -99,27 +99,27 @@ void draw_paths(Fields& f, RenderSettings& r) {
     draw_roulette_fields(f, r.roulette);
     int strategy = int(r.strategy), filter = int(r.filter), sampler = int(r.sampler);
     if (f.choice("Direct light", strategy, strategies,
-                 "How light is found: by aiming at lights, by following the surface's reflection, or both combined by multiple importance "
-                 "sampling. The mean is the same, the noise is not."))
+                 "How direct light is sampled: light sampling (NEE), BSDF sampling, or both combined by multiple importance "
+                 "sampling (MIS). All are unbiased; the noise differs."))
         r.strategy = Strategy(strategy);
     if (f.choice("Pixel filter", filter, filters,
-                 "How light is gathered around a pixel: a smooth bell 1.5 pixels wide, or the bare pixel."))
+                 "Reconstruction filter: Blackman-Harris, 1.5 pixels wide, or a box of one pixel."))
         r.filter = PixelFilter(filter);
     if (f.choice(
             "Sampler", sampler, samplers,
-            "Where samples get their numbers from: points that fill every pixel evenly, or independent random numbers, for comparison. "
-            "The mean is the same, the noise is not."))
+            "Source of the random numbers: Sobol points, which are stratified, or independent random numbers, for comparison. "
+            "Both are unbiased; the noise differs."))
         r.sampler = SampleNumbers(sampler);
     f.checkbox("Multiscatter", r.energy_compensation,
-               "Give back the light that rough metal and glass lose by scattering more than once between their microscopic facets. Off is "
+               "Compensate the energy that rough metal and glass lose by multiple scattering between microfacets. Off is "
                "what glTF specifies.");
     f.checkbox("Adaptive", r.adaptive,
-               "After 16 samples per pixel, give noisy parts of the image more samples and quiet ones fewer, the same number on average. Each half "
-               "of the samples decides for the other, so the mean stays right.");
+               "Adaptive sampling: after 16 samples per pixel, noisy regions get more samples and others fewer, the same number on average. Each half "
+               "buffer controls the samples of the other, so it is unbiased.");
     draw_reuse(f, r);
     int64_t seed = r.seed;
     if (f.integer("Seed", seed, 0, UINT32_MAX, 0,
-                  "Another seed gives another, equally good noise. The same seed gives the same image, bit for bit."))
+                  "Another seed gives different noise of the same level. The same seed gives the same image, bit for bit."))
         r.seed = uint32_t(seed);
 }
 
@@ -129,7 +129,7 @@ void draw_render_panel(PanelContext& c) {
     RenderSettings r = c.project().render;
     if (ImGui::Button(c.ui.paused ? "Resume" : "Pause", {-FLT_MIN, 0})) c.ui.commands.push_back(Command::pause);
     c.ui.probe.record_last_item("Render/Pause");
-    tip_for_last_item(c.ui, "A paused render still answers an edit with its first image.");
+    tip_for_last_item(c.ui, "A paused render still shows the first image after an edit.");
     Fields f(c.ui, "Render");
     if (section(c.ui, "Image")) draw_size(f, c, r);
     if (section(c.ui, "Stop at")) draw_stop_rules(f, r);

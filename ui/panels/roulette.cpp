@@ -1,4 +1,4 @@
-// Roulette lab: the rule with its numbers, what it does to paths, whether it pays, and whether it is honest.
+// Roulette lab: the Russian roulette settings, their effect on paths, their efficiency, and a bias test.
 #include "core/text.h"
 #include "render/estimator_settings.h"
 #include "ui/bars.h"
@@ -18,15 +18,15 @@ namespace {
 std::string formula(const Roulette& r) {
     std::string q;
     switch (r.rule) {
-    case Roulette::Rule::off: return "q = 1: every path goes on until it leaves the scene or carries nothing.";
+    case Roulette::Rule::off: return "q = 1: every path continues until it leaves the scene or its throughput is 0.";
     case Roulette::Rule::max: q = "max(beta)"; break;
     case Roulette::Rule::luminance: q = "Y(beta)"; break;
     case Roulette::Rule::sqrt: q = "sqrt(max(beta))"; break;
     case Roulette::Rule::constant: q = fmt::format("{:.3g}", r.probability); break;
     case Roulette::Rule::biased_cut:
         return fmt::format(
-            "q = 1 if max(beta) >= {:.3g}, else 0, from bounce {} on, at smooth mirrors and glass from bounce {}. Survivors are not weighted "
-            "up for those that end: biased.",
+            "q = 1 if max(beta) >= {:.3g}, else 0, from bounce {} on, at smooth mirrors and glass from bounce {}. Survivors are not "
+            "weighted up: biased.",
             r.threshold, r.start, std::max(r.start, first_asked_at_smooth));
     }
     if (r.cap < 1)
@@ -51,23 +51,23 @@ void figure_row(const char* name, const std::string& rule, const std::string& no
 
 void draw_figures(PanelContext& c, const RouletteReport& r) {
     if (!ImGui::BeginTable("figures", 3, ImGuiTableFlags_SizingStretchSame)) return;
-    for (const char* column : {"", "As set", "Without"}) ImGui::TableSetupColumn(column);
+    for (const char* column : {"", "Current", "Off"}) ImGui::TableSetupColumn(column);
     ImGui::TableHeadersRow();
     const auto row = [&](const char* name, double RouletteSide::*field, const char* format, double scale, const char* tip) {
         figure_row(name, fmt::format(fmt::runtime(format), scale * (r.rule.*field)),
                    fmt::format(fmt::runtime(format), scale * (r.none.*field)), tip, c.ui);
     };
-    row("Path length", &RouletteSide::path_length, "{:.2f} vertices", 1, "On average, the one where the path leaves the scene among them.");
-    row("Rays per pixel", &RouletteSide::rays_per_path, "{:.2f}", 1, "For one sample: camera, bounce and shadow rays.");
-    row("Time per path", &RouletteSide::path_seconds, "{:.3f} µs", 1e6, "Of one thread.");
-    row("Variance", &RouletteSide::variance, "{:.4g}", 1, "Of one path's luminance, mean over the pixels.");
-    row("Efficiency", &RouletteSide::efficiency, "{:.4g}", 1, "1 / (variance x time): how much picture a second buys.");
+    row("Path length", &RouletteSide::path_length, "{:.2f} vertices", 1, "Mean number of vertices, including the one where the path leaves the scene.");
+    row("Rays per pixel", &RouletteSide::rays_per_path, "{:.2f}", 1, "Rays of one sample: camera, bounce and shadow rays.");
+    row("Time per path", &RouletteSide::path_seconds, "{:.3f} µs", 1e6, "Time of one thread.");
+    row("Variance", &RouletteSide::variance, "{:.4g}", 1, "Variance of the luminance of one path, mean over the pixels.");
+    row("Efficiency", &RouletteSide::efficiency, "{:.4g}", 1, "1 / (variance x time). Higher is better.");
     ImGui::EndTable();
     if (r.efficiency_gain > 0)
-        quiet_text(fmt::format("{:.2f} ± {:.2f} times as efficient as without, over {} rounds of {} × {} pixels.", r.efficiency_gain,
+        quiet_text(fmt::format("{:.2f} ± {:.2f} times as efficient as without roulette, over {} rounds of {} × {} pixels.", r.efficiency_gain,
                                2 * r.gain_error, r.rounds, r.width, r.height));
     else
-        quiet_text(fmt::format("Round {}: not enough yet to compare efficiency.", r.rounds));
+        quiet_text(fmt::format("Round {}: not enough data to compare efficiency yet.", r.rounds));
 }
 
 void draw_survival(PanelContext& c, const RouletteReport& r) {
@@ -77,11 +77,11 @@ void draw_survival(PanelContext& c, const RouletteReport& r) {
         bars.push_back({fmt::format("To {}", k + 1), r.rule.alive[k + 1],
                         fmt::format("{:.1f} %{}", 100 * r.rule.alive[k + 1], q < 0 ? "" : fmt::format("  q {:.2f}", q)), false});
     }
-    draw_bars(c.ui, "Survival", bars, "Share of the paths that get to this bounce, and the chance that roulette gave them before it.");
+    draw_bars(c.ui, "Survival", bars, "Fraction of the paths that reach this bounce, and the mean survival probability before it.");
 }
 
 void draw_bias(const RouletteReport& r) {
-    if (r.bias.empty() || r.rounds < 8) return quiet_text("Too few rounds yet.");
+    if (r.bias.empty() || r.rounds < 8) return quiet_text("Not enough rounds yet.");
     const RouletteBias& whole = r.bias.front();
     const std::string size = fmt::format("{} ± {:.3f} %", signed_number(100 * whole.difference, 3), 200 * whole.error);
     ImGui::PushStyleColor(ImGuiCol_Text, r.biased() ? tone::failure : tone::text);
@@ -118,7 +118,7 @@ void draw_measured(PanelContext& c, RouletteView& view) {
     const RouletteRunner::State state = view.runner->state();
     if (!state.failure.empty()) return quiet_text(state.failure);
     if (state.answer.rounds == 0) return quiet_text("The first round is being rendered.");
-    if (section(c.ui, "Against no roulette")) draw_figures(c, state.answer);
+    if (section(c.ui, "Compared with no roulette")) draw_figures(c, state.answer);
     if (section(c.ui, "Survival by bounce")) draw_survival(c, state.answer);
     if (section(c.ui, "Bias test")) draw_bias(state.answer);
 }
@@ -133,7 +133,7 @@ void draw_roulette_panel(PanelContext& c) {
     draw_roulette_fields(f, r.roulette);
     quiet_text(formula(r.roulette));
     int map = int(view.map);
-    if (f.choice("Viewport", map, RouletteView::map_names, "The picture, or a map of what roulette does in it."))
+    if (f.choice("Viewport", map, RouletteView::map_names, "What the viewport shows: the picture, or a map of the effect of roulette."))
         view.map = RouletteView::Map(map);
     else if (f.changed())
         c.apply(SetRender{r}, f.gesture());

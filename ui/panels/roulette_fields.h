@@ -1,4 +1,4 @@
-// Rows that the Render panel and the Roulette lab share.
+// Rows that the Render tab and the Roulette lab share.
 #pragma once
 
 #include "scene/render_settings.h"
@@ -7,7 +7,7 @@
 namespace blush {
 
 void draw_roulette_fields(Fields& f, Roulette& roulette);
-// How often light may be scattered.
+// The limit on the number of bounces.
 void draw_bounce_limit_fields(Fields& f, RenderSettings& settings);
 
 } // namespace blush

@@ -1,4 +1,4 @@
-// Scopes: histogram and waveform of the light as rendered, in stops from middle grey, and of what the display shows.
+// Scopes: histogram and waveform of scene-linear values, in stops from middle grey, and of displayed values.
 #include "ui/panels/panels.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
@@ -19,7 +19,7 @@ struct Box {
     float height() const { return high.y - low.y; }
 };
 
-// Values that get a line and a label.
+// Values that get a grid line and a label.
 struct Marks {
     float first, step;
     const char* format;
@@ -31,7 +31,7 @@ std::string mark_text(const ScopeAxis& axis, float value) {
     return fmt::format(fmt::runtime(marks_of(axis).format), value);
 }
 
-// Lines across for values, along the x axis or the y axis.
+// Grid lines for values of the x axis or the y axis.
 void draw_marks(ImDrawList& draw, const Box& box, const ScopeAxis& axis, bool upright) {
     const Marks marks = marks_of(axis);
     const float em = ImGui::GetFontSize();
@@ -55,7 +55,7 @@ void draw_marks(ImDrawList& draw, const Box& box, const ScopeAxis& axis, bool up
     }
 }
 
-// Heights are roots of counts, so that small groups of pixels are seen beside large ones.
+// Bars have the square root of the counts, so that small counts are visible beside large ones.
 void draw_histogram(ImDrawList& draw, const Box& box, const Histogram& h) {
     uint32_t most = 1;
     for (const auto& counts : h.counts) most = std::max(most, *std::max_element(counts.begin(), counts.end()));
@@ -105,7 +105,7 @@ void draw_column(PanelContext& c, const char* title, const char* tip, const Hist
     c.ui.probe.record_last_item(std::string("Scopes/") + title);
     if (flat) ImGui::SameLine(0, gap);
     const Box wave_box = plot_box(width, height);
-    const float label_room = ImGui::CalcTextSize("grey ").x; // at its left: a waveform would cover them
+    const float label_room = ImGui::CalcTextSize("grey ").x; // at the left, where a waveform would cover the labels
     if (h.pixels == 0) return;
     draw_marks(draw, histogram_box, h.axis, true);
     draw_histogram(draw, histogram_box, h);
@@ -128,14 +128,14 @@ void draw_scopes_panel(PanelContext& c) {
     const float height = std::max(4 * em, std::floor(flat ? room.y - 4.8f * em - labels : (room.y - 6.2f * em - labels) / 2));
     if (ImGui::BeginTable("scopes", 2)) {
         ImGui::TableNextColumn();
-        draw_column(c, "Light", "As rendered, in stops from middle grey. Looking changes nothing here.", scopes.scene,
+        draw_column(c, "Light", "Scene-linear, in stops from middle grey. View settings have no effect.", scopes.scene,
                     scopes.scene_wave.axis, c.waveforms.scene, height, flat);
         ImGui::TableNextColumn();
-        draw_column(c, "Displayed", "What the display is given: exposure, white balance, look, view and gamma included.", scopes.displayed,
+        draw_column(c, "Displayed", "Displayed values: after exposure, white balance, look, view transform and gamma.", scopes.displayed,
                     scopes.displayed_wave.axis, c.waveforms.displayed, height, flat);
         ImGui::EndTable();
     }
-    if (scopes.step > 1) quiet_text(fmt::format("One pixel of {} is read.", scopes.step * scopes.step));
+    if (scopes.step > 1) quiet_text(fmt::format("Every {}th pixel is read.", scopes.step * scopes.step));
 }
 
 } // namespace blush

@@ -1,4 +1,4 @@
-// The shortcut sheet (F1): the table of commands, and what the mouse does.
+// The shortcut sheet (F1): all commands with a key, and the mouse controls.
 #include "ui/panels/panels.h"
 #include "ui/theme.h"
 
@@ -24,7 +24,7 @@ void line(const char* what, const char* how, float column) {
     ImGui::TextUnformatted(how);
 }
 
-// Names of one column, the commands of some groups that have a key; the keys stand where the longest name ends.
+// One column: the commands of some groups that have a key. Keys are aligned behind the longest name.
 void draw_groups(std::initializer_list<const char*> groups) {
     const auto in = [](const Shortcut& s, const char* group) { return std::strcmp(s.group, group) == 0 && s.press.key != key::none; };
     float widest = 0;
@@ -55,7 +55,7 @@ void draw_shortcut_sheet(PanelContext& c) {
     if (ImGui::Begin("Shortcuts", &c.ui.show_shortcuts,
                      ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_HorizontalScrollbar |
                          ImGuiWindowFlags_NoSavedSettings)) {
-        if (ImGui::IsWindowAppearing()) c.ui.next_frame_in = 0; // it is seen in the frame after the one that measures it
+        if (ImGui::IsWindowAppearing()) c.ui.next_frame_in = 0; // becomes visible in the frame after the one that measures its size
         ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {ImGui::GetFontSize(), 0});
         if (ImGui::BeginTable("columns", screen.x > 80 * ImGui::GetFontSize() ? 3 : 1, ImGuiTableFlags_SizingFixedFit)) {
             ImGui::TableNextColumn();

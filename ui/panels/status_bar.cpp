@@ -1,4 +1,4 @@
-// Status bar: how far the picture is, how fast it gets there, and what makes it.
+// Status bar: progress, speed and estimated error of the render, and the kernel in use.
 #include "core/text.h"
 #include "ui/fitting_text.h"
 #include "ui/panels/panels.h"
@@ -32,9 +32,9 @@ std::string rate_text(double rate) {
                         : fmt::format("{:.2f} spp/s", rate);
 }
 
-// Keeps its place while its number changes. Where the bar is too narrow for all, those of the least weight are left out.
+// Fixed minimum width, so that cells do not move when numbers change. If the bar is too narrow, cells of low weight are dropped.
 struct Cell {
-    float width; // font sizes, at least
+    float width; // font sizes, minimum
     std::string text, tip;
     ImU32 color = tone::text;
     int weight = 5;
@@ -46,7 +46,7 @@ float width_of(const Cell& cell) {
     return std::max(cell.width * em, ImGui::CalcTextSize(cell.text.c_str()).x + em);
 }
 
-// Of those that fit into the width: the heavier ones.
+// The cells that fit into the width, by weight.
 Cells fitting(Cells cells, float width) {
     const auto total = [&] {
         float sum = 0;
@@ -68,23 +68,23 @@ void draw(PanelContext& c, const Cells& cells, float x) {
     }
 }
 
-// Along the upper edge: the way to the nearest stop rule. Full only when it is reached.
+// Progress bar along the upper edge: towards the nearest stop rule. Full only when the rule is met.
 void draw_progress_line(double progress) {
     const ImVec2 low = ImGui::GetWindowPos();
     const float width = ImGui::GetWindowWidth(), height = std::max(2.f, ImGui::GetFontSize() / 8);
     ImGui::GetWindowDrawList()->AddRectFilled(low, {low.x + std::floor(width * float(progress)), low.y + height}, tone::field_filled);
 }
 
-// Which picture is looked at. The error before it is the raw one's in any case; what the denoiser did to the picture stands beside it.
+// Which picture is shown. The error cell always refers to the raw picture; the change of energy refers to the denoiser.
 void add_denoised_cells(const PanelContext& c, Cells& cells, const Frame& frame) {
     const DenoiseView& view = c.ui.denoise;
-    if (!view.wants_denoised()) return cells.push_back({4, "raw", "The image is shown as it was traced.", tone::dim_text, 6});
+    if (!view.wants_denoised()) return cells.push_back({4, "raw", "The raw image is shown, without denoising.", tone::dim_text, 6});
     const DenoisedPicture* denoised = c.denoised.get();
     cells.push_back({19, shown_text(view, frame, denoised),
-                     "What is shown, and by how much the denoised picture is older than the raw one.", tone::text, 7});
+                     "What is shown, and how far the denoised picture is behind the raw one.", tone::text, 7});
     if (!denoised) return;
     cells.push_back({9, fmt::format("energy {} %", signed_number(energy_change_percent(denoised->denoised), 2)),
-                     "By how much the denoiser changed the mean luminance of the picture. The estimated error is that of the raw image.",
+                     "Change of the mean luminance by the denoiser. The estimated error is that of the raw image.",
                      tone::text, 3});
 }
 
@@ -92,9 +92,7 @@ Cell error_cell(const Frame& frame) {
     const ErrorEstimate& e = frame.error;
     if (!e.known)
         return {9, "error not known yet",
-                "The error is estimated from two independent halves of the samples, now and then, so that this takes hardly any time. The "
-                "samples so far do "
-                "not tell.",
+                "Not enough samples yet to estimate the error.",
                 tone::text, 8};
     const bool older = frame.error_samples < frame.samples;
     const std::string of = older ? fmt::format("the picture as it was after {} samples per pixel", frame.error_samples) : "the picture";
@@ -110,12 +108,12 @@ Cell error_cell(const Frame& frame) {
 void add_frame_cells(const PanelContext& c, Cells& cells, const Frame& frame) {
     const int64_t target = c.project().render.spp;
     cells.push_back({9, target > 0 ? fmt::format("{} / {} spp", frame.samples, target) : fmt::format("{} spp", frame.samples),
-                     "Samples, that is paths, per pixel so far and in the end.", tone::text, 9});
-    cells.push_back({6.5f, rate_text(frame.samples_per_second), "Samples per pixel and second, over the last batch.", tone::text, 4});
+                     "Samples (paths) per pixel: rendered, and the target.", tone::text, 9});
+    cells.push_back({6.5f, rate_text(frame.samples_per_second), "Samples per pixel per second, in the last batch.", tone::text, 4});
     const bool mix_is_new = c.mixing && c.mixing->gains != frame.gains;
     if (mix_is_new)
-        cells.push_back({9, "error follows",
-                         "The mix of lights shows at once; its error is estimated with the next picture of the session.", tone::dim_text,
+        cells.push_back({9, "error pending",
+                         "The light mix is shown immediately. Its error is estimated with the next frame of the render thread.", tone::dim_text,
                          8});
     else
         cells.push_back(error_cell(frame));
@@ -126,15 +124,15 @@ void add_frame_cells(const PanelContext& c, Cells& cells, const Frame& frame) {
     cells.push_back({8.5f,
                      frame.divider > 1 ? fmt::format("{} × {}  1/{}", frame.width, frame.height, frame.divider)
                                        : fmt::format("{} × {}", frame.width, frame.height),
-                     "Pixels rendered. Right after an edit they are fewer, so that the picture comes at once.", tone::text, 3});
-    cells.push_back({9, frame.kernel, "Which of the compiled kernels renders: instruction set / what the scene needs.", tone::dim_text, 1});
+                     "Rendered resolution. It is lower just after an edit, for a fast response.", tone::text, 3});
+    cells.push_back({9, frame.kernel, "The render kernel: instruction set / features that the scene needs.", tone::dim_text, 1});
     if (frame.health.dropped() > 0)
-        cells.push_back({12, fmt::format("{} bad samples dropped", frame.health.dropped()),
-                         "Samples that were not a number, infinite or negative. They are left out of the picture and counted.",
+        cells.push_back({12, fmt::format("{} invalid samples dropped", frame.health.dropped()),
+                         "Samples that were NaN, infinite or negative. They are excluded from the picture. See the Health panel.",
                          tone::warning, 7});
 }
 
-// Empty: the display is as the light is.
+// Empty if exposure is 0 and not metered.
 std::string exposure_text(const PanelContext& c) {
     const float exposure = c.shown_view().exposure_ev;
     const bool metered = c.project().view.auto_exposure != AutoExposure::off;
@@ -150,12 +148,12 @@ void draw_status_bar(PanelContext& c) {
     ImGui::SetCursorPos({left, (ImGui::GetWindowHeight() - ImGui::GetTextLineHeight()) / 2});
     ImGui::Dummy({0, 0});
     Cells cells{{6, state_name(c.status.state),
-                 "What the render thread does. Complete, it sleeps; while lights are being mixed it stands still.",
+                 "State of the render thread. It sleeps when complete and waits while the light mix is edited.",
                  failed ? tone::failure : tone::text, 10}};
     if (!failed && c.frame) add_frame_cells(c, cells, *c.frame);
     if (c.ui.zoom.scale > 0)
         cells.push_back({5, fmt::format("{:.0f} %", 100 * c.ui.zoom.scale),
-                         "Pixels of the screen for one of the picture. Z shows all of it again.", tone::dim_text, 5});
+                         "Zoom: screen pixels per picture pixel. Z switches back to fit.", tone::dim_text, 5});
     const std::string exposure = exposure_text(c);
     const float right = width - left - ImGui::CalcTextSize(exposure.c_str()).x;
     if (failed)

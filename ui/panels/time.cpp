@@ -1,4 +1,4 @@
-// Time: which animation moves the scene, and to which moment. A row below the picture, for scenes that have any.
+// Timeline: the animation clip and the time. A row below the picture, for scenes with animations.
 #include "ui/icons.h"
 #include "ui/panels/panels.h"
 #include "ui/theme.h"
@@ -22,10 +22,10 @@ void set_staging(PanelContext& c, const Staging& staging, Gesture gesture = no_g
 void draw_clips(PanelContext& c) {
     const Clip* chosen = c.scene().clips.find(c.scene().staging.clip);
     ImGui::SetNextItemWidth(ImGui::GetFontSize() * 10);
-    const bool open = ImGui::BeginCombo("##clip", chosen ? chosen->name.c_str() : "At rest");
+    const bool open = ImGui::BeginCombo("##clip", chosen ? chosen->name.c_str() : "Rest pose");
     c.ui.probe.record_last_item("Time/Animation");
     if (!open) {
-        tip_for_last_item(c.ui, "Which of the file's animations moves the scene.");
+        tip_for_last_item(c.ui, "Animation clip of the file, or the rest pose.");
         return;
     }
     Staging staging = c.scene().staging;
@@ -39,7 +39,7 @@ void draw_clips(PanelContext& c) {
             staging.seconds = 0;
         }
     };
-    item({}, "At rest");
+    item({}, "Rest pose");
     for (const auto& [id, clip] : c.scene().clips) item(id, clip.name);
     ImGui::EndCombo();
     if (staging != c.scene().staging) stop(c);
@@ -56,7 +56,7 @@ void draw_play(PanelContext& c) {
     }
     c.ui.probe.record_last_item("Time/Play");
     tip_for_last_item(c.ui,
-                      time.playing ? "Pause" : "Play, over and over. The picture is as rough as the time between two moments leaves it.");
+                      time.playing ? "Pause" : "Loop playback. Each frame is rendered for as long as the frame rate allows.");
 }
 
 void draw_slider(PanelContext& c, const Clip& clip) {
@@ -72,13 +72,13 @@ void draw_slider(PanelContext& c, const Clip& clip) {
         time = {};
         c.ui.gestures.end();
     }
-    if (!time.dragged) tip_for_last_item(c.ui, "The moment of the animation, in seconds. A drag is one step of the history.");
+    if (!time.dragged) tip_for_last_item(c.ui, "Time of the animation in seconds. A drag is one undo step.");
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
     quiet_text(length);
 }
 
-// Moves on by the time that has passed, and asks for the next frame.
+// Advances the time while playing, and requests the next frame.
 void play(PanelContext& c, const Clip& clip) {
     if (!c.ui.time.playing) return;
     Staging staging = c.scene().staging;
@@ -94,7 +94,7 @@ void draw_time(PanelContext& c) {
     draw_clips(c);
     const Clip* found = c.scene().clips.find(c.scene().staging.clip);
     if (!found) return stop(c);
-    const Clip clip = *found; // edits may replace the table
+    const Clip clip = *found; // a copy: edits may replace the table
     play(c, clip);
     ImGui::SameLine();
     draw_play(c);

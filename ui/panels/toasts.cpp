@@ -1,4 +1,4 @@
-// Toasts and background jobs: small cards above the status bar, out of the way of the work.
+// Toasts and background jobs: small cards above the status bar.
 #include "ui/fitting_text.h"
 #include "ui/panels/panels.h"
 #include "ui/theme.h"
@@ -34,7 +34,7 @@ ImU32 edge_of(Toast::Kind kind) {
     return kind == Toast::Kind::failure ? tone::failure : kind == Toast::Kind::warning ? tone::warning : IM_COL32(90, 90, 90, 255);
 }
 
-// As wide as a card may be: not over all of a small picture.
+// Maximum width of a card: it must not cover a small picture completely.
 float text_width(const Region& viewport) {
     const float em = ImGui::GetFontSize();
     return std::clamp(viewport.width - 4 * em, 12 * em, 28 * em);
@@ -51,7 +51,7 @@ void draw_texts(const Toast& toast, float width) {
     ImGui::PopTextWrapPos();
 }
 
-// Each draws cards from `bottom` upwards, and leaves there where the next one ends.
+// Each draws cards from `bottom` upwards and sets `bottom` to the upper edge of the last one.
 bool draw_job(const PanelContext& c, const RunningJob& job, float right, float width, float& bottom) {
     const float em = ImGui::GetFontSize();
     begin_card("##job", right, bottom, IM_COL32(90, 90, 90, 255));
@@ -78,7 +78,7 @@ void draw_toasts(PanelContext& c, float right, float width, float& bottom) {
         const std::chrono::duration<double> left = toast.since + lifetime(toast) - now;
         c.ui.next_frame_in = std::min(c.ui.next_frame_in, std::max(left.count(), 0.0));
         begin_card(("##toast" + std::to_string(i)).c_str(), right, bottom, edge_of(toast.kind));
-        if (ImGui::IsWindowAppearing()) c.ui.next_frame_in = 0; // it is seen in the frame after the one that finds out how large it is
+        if (ImGui::IsWindowAppearing()) c.ui.next_frame_in = 0; // becomes visible in the frame after the one that measures its size
         draw_texts(toast, width);
         if (toast.action && ImGui::Button(shortcut(*toast.action).name)) {
             c.ui.commands.push_back(*toast.action);
