@@ -194,7 +194,7 @@ void EditorFiles::reset_document(Document& document, UiState& ui, Project projec
     if (!lit) return;
     Project shown = document.project();
     shown.scene = *std::move(lit);
-    document.replace(std::move(shown), "Light with a studio");
+    document.replace(std::move(shown), "Studio lighting");
     document.mark_saved(); // nothing that the user did
 }
 

@@ -27,8 +27,8 @@ void draw_list(PanelContext& c, const Frame* frame) {
 void show_aov(PanelContext& c, const AovView& view) {
     const bool lacks = view.show == PictureView::Show::bounces && c.frame && c.frame->bounces.empty();
     c.ui.aov = view;
-    c.ui.bounces.mode = BouncesView::Mode::picture; // one of the two decides
-    if (lacks) c.ui.toasts.note("Bounces are switched on: the render restarts");
+    c.ui.bounces.mode = BouncesView::Mode::picture; // one of the two modes controls the viewport
+    if (lacks) c.ui.toasts.note("Bounce passes are switched on: the render restarts");
 }
 
 void draw_aov_bar(PanelContext& c, const ImageRect& seen) {
@@ -48,7 +48,7 @@ void draw_aov_bar(PanelContext& c, const ImageRect& seen) {
     const bool open = ImGui::BeginCombo("##pass", name_of(c.ui.aov, frame).c_str(), ImGuiComboFlags_HeightLarge);
     if (!open) {
         c.ui.probe.record_last_item("Viewport/Pass");
-        tip_for_last_item(c.ui, "What the viewport shows: the picture (beauty) or another plane of the film. Comma and full stop step through them.");
+        tip_for_last_item(c.ui, "The pass that the viewport shows: beauty or another AOV. Comma and full stop step through the passes.");
     } else {
         draw_list(c, frame);
         ImGui::EndCombo();
@@ -58,7 +58,7 @@ void draw_aov_bar(PanelContext& c, const ImageRect& seen) {
 
 void draw_map_scale(ImDrawList& draw, const ImageRect& seen, const Frame& frame, const PictureView& view) {
     const auto scale = is_special(frame, view) ? map_scale(frame, view.show) : std::nullopt;
-    // Between the upper edge and the dial of the environment.
+    // Between the upper edge and the environment dial.
     const float em = ImGui::GetFontSize(), top = em * 2.6f, room = seen.height - top - em * 6, swatch = em * 1.1f;
     const float height = std::floor(std::min(em * 14, room));
     if (!scale || height < em * 4) return;

@@ -1,4 +1,4 @@
-// The viewport's own bar: which plane of the film is looked at; and the scale of planes that are maps.
+// The viewport's toolbar that selects the displayed pass (AOV), and the colour scale of passes that are maps.
 #pragma once
 
 #include "ui/aov_view.h"
@@ -9,11 +9,12 @@
 
 namespace blush {
 
-// Looks at another plane. Says so if the render restarts for it.
+// Switches to another pass. Shows a message if the render restarts for it.
 void show_aov(PanelContext& c, const AovView& view);
-// A drop-down at the upper right corner of what is seen of the picture; not while pictures are compared, which have a label there.
+// A drop-down at the upper right corner of the visible picture; hidden while pictures are compared, because the compare label is
+// there.
 void draw_aov_bar(PanelContext& c, const ImageRect& seen);
-// The scale beside the picture, if the view is a map that has one.
+// The colour scale beside the picture, if the pass is a map that has one.
 void draw_map_scale(ImDrawList& draw, const ImageRect& seen, const Frame& frame, const PictureView& view);
 
 } // namespace blush

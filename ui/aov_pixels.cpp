@@ -13,7 +13,7 @@ namespace {
 using Show = PictureView::Show;
 
 constexpr Vec3 nothing_hit{0.004f, 0.012f, 0.06f};
-// Relative errors between which the heat map runs, in decades.
+// Range of relative errors of the heat map, as powers of ten.
 constexpr float least_error = 1e-3f, error_decades = 3;
 
 struct Range {
@@ -21,7 +21,7 @@ struct Range {
     float share(float x) const { return (x - low) / std::max(high - low, 1e-12f); }
 };
 
-// Of what was hit.
+// Range of the first-hit depths.
 Range depth_range(const Frame& frame) {
     Range r{1e30f, 0};
     for (const float z : frame.depth)
@@ -29,7 +29,7 @@ Range depth_range(const Frame& frame) {
     return r.low > r.high ? Range{} : r;
 }
 
-// From 0, so that equal numbers are one colour.
+// Starts at 0, so that a constant number of samples has one colour.
 Range sample_range(const Frame& frame) {
     float most = float(frame.samples);
     for (const float n : frame.pixel_samples) most = std::max(most, n);
@@ -65,7 +65,7 @@ Vec3 color_of(const Frame& f, Show show, const Ranges& ranges, size_t i) {
 
 } // namespace
 
-// Hues that follow each other by the golden ratio: numbers that are close are far apart in colour.
+// Hues at multiples of the golden ratio: consecutive ids get very different colours.
 Vec3 id_color(uint32_t id) {
     if (id == 0) return {0, 0, 0};
     const float hue = float(std::fmod(double(id) * 0.61803398875, 1.0)), value = 0.55f + 0.4f * float(id % 3) / 2;
@@ -103,13 +103,13 @@ std::vector<float> aov_pixels(const Frame& frame, Show show) {
 std::string aov_caption(const Frame& frame, Show show) {
     switch (show) {
     case Show::albedo: return "Albedo: the reflectance at first hits";
-    case Show::normal: return "Normal: X red, Y green, Z blue; 0 is half";
-    case Show::depth: return "Depth: metres along the ray; blue: nothing is hit";
-    case Show::object_id: return "Object ids: a colour each";
-    case Show::material_id: return "Material ids: a colour each";
-    case Show::error: return "Error: the standard error of a pixel over its value";
+    case Show::normal: return "Normal: X red, Y green, Z blue; 0 is mid-grey";
+    case Show::depth: return "Depth: metres along the ray; blue: no hit";
+    case Show::object_id: return "Object ids: one colour per id";
+    case Show::material_id: return "Material ids: one colour per id";
+    case Show::error: return "Error: standard error of each pixel divided by its value";
     case Show::samples:
-        return frame.pixel_samples.empty() ? fmt::format("Samples: {} in each pixel", frame.samples) : std::string("Samples: of each pixel");
+        return frame.pixel_samples.empty() ? fmt::format("Samples: {} in each pixel", frame.samples) : std::string("Samples: number per pixel");
     default: return {};
     }
 }

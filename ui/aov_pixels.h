@@ -1,4 +1,4 @@
-// Planes of the film as colours: albedo, normals, depth, ids, error, samples (AOVs).
+// Converts passes (AOVs) to colours: albedo, normal, depth, ids, error, samples.
 #pragma once
 
 #include "ui/picture_view.h"
@@ -8,25 +8,25 @@
 
 namespace blush {
 
-// width * height * 4 values of a plane that is data (is_data()), which the frame must have: linear colours that the display encodes by the sRGB
-// curve and nothing else, alpha 0. Albedo as it is; normals n / 2 + 1 / 2; depth from black, the nearest, to white, the furthest, with nothing
-// hit in blue; ids in colours of their own that stay the same from frame to frame; error and samples as a heat map.
+// Colours of a data pass (is_data()) that the frame must have: width * height * 4 linear values, alpha 0. The display applies
+// only the sRGB curve. Albedo is unchanged; normals are n / 2 + 1 / 2; depth is black at the nearest and white at the furthest
+// hit, blue where nothing is hit; ids have fixed colours that do not change between frames; error and samples are heat maps.
 std::vector<float> aov_pixels(const Frame& frame, PictureView::Show show);
-// A group of lights, as the mix has it.
+// The plane of a light group, in the current light mix.
 Vec3 group_pixel(const Frame& frame, size_t group, size_t pixel);
-// The colour of a number that is a name: 0 is black.
+// The colour of an id: 0 is black.
 Vec3 id_color(uint32_t id);
-// The standard error of a pixel's luminance over sqrt(luminance^2 + 0.01), as relMSE weighs it.
+// Standard error of a pixel's luminance, divided by sqrt(luminance^2 + 0.01), as in relMSE.
 float relative_error(const Frame& frame, size_t pixel);
-// In words.
+// One-line description.
 std::string aov_caption(const Frame& frame, PictureView::Show show);
 
-// What a map's colours mean: numbers at its bottom, middle and top, and the colour of 0 .. 1 between them as the display shows it.
+// Legend of a map: labels for its bottom, middle and top, and the display colour for values 0 .. 1.
 struct MapScale {
     std::string title, low, middle, high;
     Vec3 (*color)(float t) = nullptr; // display-encoded
 };
-// Of depth, error and samples; none of others.
+// For depth, error and samples; nullopt for other passes.
 std::optional<MapScale> map_scale(const Frame& frame, PictureView::Show show);
 
 } // namespace blush

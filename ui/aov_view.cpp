@@ -10,7 +10,7 @@ using Show = PictureView::Show;
 
 std::string bounce_name(int k) {
     const bool last = k + 1 == usual_bounce_planes;
-    return fmt::format("Bounce {}{}", k, last ? "+" : k == 0 ? ": seen directly" : k == 1 ? ": direct light" : "");
+    return fmt::format("Bounce {}{}", k, last ? "+" : k == 0 ? ": emission" : k == 1 ? ": direct light" : "");
 }
 
 } // namespace
@@ -22,10 +22,10 @@ std::vector<AovEntry> aov_list(const Frame* frame) {
     if (frame && !frame->groups.empty())
         for (size_t k = 0; k < frame->groups.size(); ++k) list.push_back({{Show::group, int(k)}, fmt::format("Group {}", frame->group_names[k])});
     else
-        list.push_back({{Show::group}, "Light groups", "Ctrl+M makes groups of lights", false});
+        list.push_back({{Show::group}, "Light groups", "Needs light groups: open the light mix (Ctrl+M)", false});
     const bool has_bounces = frame && !frame->bounces.empty();
     const int bounces = has_bounces ? int(frame->bounces.size()) : usual_bounce_planes;
-    for (int k = 0; k < bounces; ++k) list.push_back({{Show::bounces, k}, bounce_name(k), has_bounces ? "" : "The render restarts with bounces in it"});
+    for (int k = 0; k < bounces; ++k) list.push_back({{Show::bounces, k}, bounce_name(k), has_bounces ? "" : "Needs bounce passes: the render restarts"});
     return list;
 }
 

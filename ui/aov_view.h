@@ -1,4 +1,4 @@
-// Which plane of the film the viewport shows, and the list it is chosen from: render passes, or AOVs.
+// Which pass (AOV) the viewport shows, and the list of passes to choose from.
 #pragma once
 
 #include "render/renderer.h"
@@ -11,27 +11,28 @@ namespace blush {
 
 struct AovView {
     PictureView::Show show = PictureView::Show::beauty;
-    int index = 0; // of bounces and groups
+    int index = 0; // of the bounce or group
     bool operator==(const AovView&) const = default;
 };
 
 struct AovEntry {
     AovView view;
     std::string name;
-    std::string needs = {}; // what it takes to see it, if the picture lacks it now; empty: it is there
-    bool possible = true;   // false: `needs` is up to the user
+    std::string needs = {}; // why the pass is not available yet; empty: it is available
+    bool possible = true;   // false: only the user can provide what is missing
 };
-// All there are: beauty, first hits, error, samples, one for each group of lights of the frame and for each bounce. A null frame has the same
+// All passes: beauty, first-hit data, error, samples, one per light group of the frame and one per bounce. With a null frame, the
+// list has no groups.
 // list without groups.
 std::vector<AovEntry> aov_list(const Frame* frame);
-// The name of one of them in the list.
+// Its name in the list.
 std::string name_of(const AovView& view, const Frame* frame);
-// The entry that is so many further in the list, round its end, leaving out those that are not possible.
+// The entry `steps` further in the list, cyclically, skipping impossible ones.
 AovView stepped(const AovView& view, const Frame* frame, int by);
 
-// `bounce_planes`: of the frame.
+// `bounce_planes`: number in the frame.
 PictureView picture_view(const AovView& view, int bounce_planes);
-// Film planes it needs beside those that every frame has. Nothing for the beauty.
+// The film planes that it needs in addition to the default ones. None for the beauty.
 PlaneSet planes_of(const AovView& view);
 
 } // namespace blush

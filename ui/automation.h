@@ -1,4 +1,4 @@
-// What tests ask of the window through the environment; none of it is needed for work.
+// Environment variables for tests; not needed for normal use.
 #pragma once
 
 #include <filesystem>
@@ -7,15 +7,15 @@
 namespace blush {
 
 struct Automation {
-    std::filesystem::path probe_file; // BLUSH_UI_PROBE: where the widgets are, rewritten as they change (probe.h)
-    std::filesystem::path stats_file; // BLUSH_UI_STATS: frame times and latencies, written at the end (frame_stats.h)
-    float scale = 0;                  // BLUSH_UI_SCALE: of fonts and spacing in place of the display's
-    double autosave_interval = 0;     // BLUSH_UI_AUTOSAVE: seconds in place of the usual ones
-    int width = 0, height = 0;        // BLUSH_UI_SIZE=WxH: of the window in place of the remembered one
+    std::filesystem::path probe_file; // BLUSH_UI_PROBE: positions of the widgets, rewritten when they change (probe.h)
+    std::filesystem::path stats_file; // BLUSH_UI_STATS: frame times and latencies, written at exit (frame_stats.h)
+    float scale = 0;                  // BLUSH_UI_SCALE: scale of fonts and spacing; overrides that of the display
+    double autosave_interval = 0;     // BLUSH_UI_AUTOSAVE: seconds; overrides the default interval
+    int width = 0, height = 0;        // BLUSH_UI_SIZE=WxH: size of the window; overrides the saved one
 };
 
 Automation automation_from_environment();
-// "800x600"; false and nothing changed for anything else.
+// Parses "800x600". Returns false and changes nothing if the text is invalid.
 bool parse_size(const std::string& text, int& width, int& height);
 
 } // namespace blush

@@ -1,4 +1,5 @@
-// A question about what is shown, answered on a thread of its own, again whenever it differs: figures that would hold the window up.
+// Computes a value for a question on another thread, again whenever the question changes. For statistics that would block the UI
+// thread.
 #pragma once
 
 #include "ui/background_job.h"
@@ -12,8 +13,9 @@ namespace blush {
 
 template <class Question, class Answer> class BackgroundAnswer {
 public:
-    // `answer_it` is called on another thread, and must not throw. Answers take a fifth of one core's time at most: rendering needs it.
-    // True while the answer to this very question is not there yet.
+    // `answer_it` runs on another thread and must not throw. Answers use at most a fifth of one core's time, which the renderer
+    // needs.
+    // True while there is no answer to this question yet.
     bool ask(const Question& question, Answer (*answer_it)(const Question&)) {
         take();
         if (!job_ && (!asked_ || *asked_ != question) && Clock::now() >= next_) {
@@ -24,9 +26,9 @@ public:
         }
         return job_ || !asked_ || *asked_ != question;
     }
-    // The newest; null before the first.
+    // The latest answer; null before the first.
     const Answer* answer() const { return answer_ ? &*answer_ : nullptr; }
-    // Of that answer, counted from 1; 0 before the first.
+    // Its number, counted from 1; 0 before the first.
     uint64_t number() const { return number_; }
 
 private:
@@ -44,7 +46,7 @@ private:
     std::optional<Question> asked_;
     std::optional<Answer> answer_;
     uint64_t number_ = 0;
-    std::shared_ptr<BackgroundJob<Answer>> job_; // shared, since what holds it is copied
+    std::shared_ptr<BackgroundJob<Answer>> job_; // shared, because the owner is copied
     Clock::time_point began_{}, next_{};
 };
 

@@ -1,4 +1,4 @@
-// One piece of work on a thread of its own, with progress and a cancel flag; the UI thread asks for the result once per frame.
+// A job on its own thread, with progress and a cancel flag. The UI thread polls for the result once per frame.
 #pragma once
 
 #include "core/parallel.h"
@@ -13,7 +13,7 @@
 
 namespace blush {
 
-// What a running job says and hears. Shared by the two threads.
+// Progress and cancel flag of a running job. Shared by the two threads.
 class JobProgress {
 public:
     void report(double fraction, std::string what) {
@@ -33,10 +33,10 @@ private:
     std::string what_;
 };
 
-// Destroying a job cancels it and waits for its thread.
+// The destructor cancels the job and joins its thread.
 template <class T> class BackgroundJob {
 public:
-    // `wake` is called on the job's thread when the result is there. `work` must not throw.
+    // `wake` is called on the job's thread when the result is available. `work` must not throw.
     BackgroundJob(std::string title, std::function<T(JobProgress&)> work, std::function<void()> wake)
         : title_(std::move(title)), thread_([this, work = std::move(work), wake = std::move(wake)] {
               lower_priority_of_this_thread();
@@ -54,7 +54,7 @@ public:
     BackgroundJob(const BackgroundJob&) = delete;
     BackgroundJob& operator=(const BackgroundJob&) = delete;
 
-    // The result, once; nothing while the work goes on.
+    // Returns the result once; nullopt while the job is running.
     std::optional<T> take() {
         const std::lock_guard lock(mutex_);
         return std::exchange(result_, std::nullopt);
@@ -69,7 +69,7 @@ private:
     JobProgress progress_;
     std::mutex mutex_;
     std::optional<T> result_;
-    std::thread thread_; // last: starts when everything else is there
+    std::thread thread_; // last member: starts after everything else is initialised
 };
 
 } // namespace blush

@@ -1,4 +1,4 @@
-// Horizontal bars with a name before and a figure behind each.
+// Horizontal bars, with a name before and a value after each.
 #pragma once
 
 #include "ui/ui_state.h"
@@ -10,12 +10,12 @@ namespace blush {
 
 struct Bar {
     std::string name;
-    double share = 0; // of the full width, 0 .. 1
+    double share = 0; // fraction of the full width, 0 .. 1
     std::string figure;
     bool chosen = false;
 };
 
-// The index of the bar that was clicked, or -1. `scope`: before the names in the probe.
+// Returns the index of the clicked bar, or -1. `scope`: prefix of the names in the probe.
 int draw_bars(UiState& ui, const char* scope, std::span<const Bar> bars, const char* tip);
 
 } // namespace blush

@@ -1,4 +1,4 @@
-// How the bounce planes are looked at: one, all up to one, direct against indirect light, each with a gain, or one after the other.
+// How the viewport shows the bounce passes: one bounce, all up to one, direct or indirect light, with a gain each, or in a loop.
 #pragma once
 
 #include "ui/picture_view.h"
@@ -12,21 +12,21 @@ struct BouncesView {
     static constexpr const char* names[] = {"Picture", "One bounce", "Up to a bounce", "Direct light", "Indirect light", "Gains"};
     static constexpr double seconds_each = 0.8; // while playing
 
-    bool open = false; // the panel; while it is, the film holds the planes
+    bool open = false; // the panel is open: the film then has the bounce planes
     Mode mode = Mode::picture;
-    int bounce = 1; // of single and cumulative
+    int bounce = 1; // for single and cumulative
     std::vector<float> gains;
     bool playing = false;
-    double step_due = 0; // when the next bounce is shown
+    double step_due = 0; // time at which the next bounce is shown
 
-    // There are bounces to step through.
+    // True if the mode shows a single bounce that can be stepped.
     bool steps() const { return mode == Mode::single || mode == Mode::cumulative; }
 };
 
-// The gain of each of so many planes; direct light is what glows in view and what was scattered once.
+// The gain of each of `n` planes. Direct light is emission seen directly plus bounce 1.
 std::vector<float> gains_of(const BouncesView& view, int planes);
 PictureView picture_view(const BouncesView& view, int planes);
-// Goes on to the next bounce, the first after the last, when that is due. Returns seconds until the one after it.
+// Switches to the next bounce, cyclically, when it is due. Returns the seconds until the next switch.
 double play(BouncesView& view, double now, int planes);
 
 } // namespace blush

@@ -53,7 +53,7 @@ void carry_camera_along(PanelContext& c) {
     const View view = c.scene().view;
     node.local = placed_at(c.scene(), id, to_double(view.position), view.rotation);
     if (!c.apply(SetNode{id, node}, c.ui.gestures.current())) return;
-    // To the last bit where the camera is, which its transform rounds: else the view would count as a free one.
+    // Use the camera's exact pose: its transform is rounded, and the difference would count as a free view.
     View seen = view;
     const View eye = eye_of(c.scene(), id);
     seen.position = eye.position;

@@ -1,4 +1,4 @@
-// What the picture shows of the camera that it is composed for.
+// Camera overlay of the viewport: passepartout and frame.
 #pragma once
 
 #include "ui/gizmo.h"
@@ -9,14 +9,15 @@
 
 namespace blush {
 
-// The passepartout and the frame's edge while the camera is looked through; else, where there is a camera, which key goes back to it.
-// `seen`: the part of the picture that is in the window.
+// In the camera view: passepartout and frame. In a free view, if there is a camera: the key that returns to it. `seen`: the
+// visible part of the picture.
 void draw_camera_frame(PanelContext& c, ImDrawList& draw, const ImageRect& picture, const ImageRect& seen);
 
-// The pixels of the camera's frame in a picture that goes on beside it while the camera is looked through; none: the picture is the frame.
+// The pixels of the camera's frame, if the picture extends beyond it and the view is the camera's; nullopt: the frame is the
+// whole picture.
 std::optional<PixelRect> camera_frame_of(const UiState& ui, const Scene& scene, const Frame& picture);
 
-// Moves the camera to where the view is, if it is locked to the view.
+// Moves the camera to the view's pose, if it is locked to the view.
 void carry_camera_along(PanelContext& c);
 
 } // namespace blush

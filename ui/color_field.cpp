@@ -15,7 +15,7 @@ constexpr float largest_color = 1e6f;
 
 ImVec4 shown(const Vec3& linear) { return {srgb_from_linear(linear.x), srgb_from_linear(linear.y), srgb_from_linear(linear.z), 1}; }
 
-// From the next click into the picture on, the field of that id has what is there.
+// The next click in the picture sets the field with this id.
 void take_dropper(UiState& ui, unsigned field) {
     ui.values.dropper = field;
     ui.values.picked.reset();
@@ -42,7 +42,7 @@ bool Fields::obey_color_wish(const char* label, Vec3& value, const Vec3& reset) 
     case ValueWish::paste: {
         const auto pasted = pasted_color(pasted_text());
         if (!pasted) {
-            refuse_pasted(ui_, label, "It takes #rrggbb, srgb(r, g, b), or three linear numbers.");
+            refuse_pasted(ui_, label, "Use #rrggbb, srgb(r, g, b), or three linear numbers.");
             return false;
         }
         return std::exchange(value, *pasted) != *pasted;
@@ -51,7 +51,7 @@ bool Fields::obey_color_wish(const char* label, Vec3& value, const Vec3& reset) 
     }
 }
 
-// In the popup of the swatch.
+// The popup of the swatch.
 bool Fields::draw_picker(const char* label, Vec3& value) {
     const ImVec4 encoded = shown(value), before = shown(ui_.values.before);
     float edited[4] = {encoded.x, encoded.y, encoded.z, 1};
@@ -69,10 +69,10 @@ bool Fields::draw_picker(const char* label, Vec3& value) {
         changed = changed_ = true;
     }
     ui_.probe.record_last_item(path + "/Before");
-    tip_for_last_item(ui_, "As it was when this opened. A click brings it back.");
+    tip_for_last_item(ui_, "The colour before this edit. Click to restore it.");
     ImGui::SameLine(0, 0);
     ImGui::ColorButton("##now", shown(value), plain, {width, height});
-    tip_for_last_item(ui_, "As it is now.");
+    tip_for_last_item(ui_, "The current colour.");
     ImGui::SameLine(0, gap);
     return changed;
 }
@@ -99,7 +99,7 @@ bool Fields::color(const char* label, Vec3& value, const Vec3& reset, const char
             ImGui::CloseCurrentPopup();
         }
         ui_.probe.record_last_item(path + "/Pick");
-        tip_for_last_item(ui_, "Takes the colour of a pixel of the picture: scene-linear, as rendered, before exposure, white balance and view transform.");
+        tip_for_last_item(ui_, "Pick the colour of a pixel in the picture: scene-linear, before exposure, white balance and view transform.");
         ImGui::EndPopup();
     }
     static constexpr const char* ids[] = {"##R", "##G", "##B"};

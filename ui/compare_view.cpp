@@ -12,7 +12,7 @@ namespace {
 
 using Mode = Comparison::Mode;
 
-constexpr double usual_frame = 16; // milliseconds of the window, as for the live picture
+constexpr double usual_frame = 16; // milliseconds per window frame, as for the live picture
 
 std::shared_ptr<const Difference> answer(const DifferenceQuestion& question) {
     return std::make_shared<const Difference>(difference_of(question));
@@ -30,7 +30,7 @@ void label(const char* letter, const std::string& text, ImVec2 at, bool to_the_l
     draw.AddText({at.x + em * 0.5f, at.y + em * 0.25f}, tone::text, all.c_str());
 }
 
-// A bar to be dragged, in a window of its own, above the viewport. True while it is.
+// The wipe bar, in its own window above the viewport. True while it is dragged.
 bool drag_bar(UiState& ui, float x, const ImageRect& seen) {
     const float grab = std::max(8.f, ImGui::GetFontSize() * 0.8f);
     ImGui::SetNextWindowPos({x - grab / 2, seen.y});
@@ -77,7 +77,7 @@ void CompareView::ask_difference(PanelContext& c, const ComparedSide& a, const C
     c.ui.difference = answer_;
 }
 
-// Sides that are not live, one above the other.
+// Uploads the sides that are not live, one above the other.
 void CompareView::upload_sides(const PanelContext& c, const ComparedSide& a, const ComparedSide& b) {
     int width = 1, height = 0;
     const ComparedSide* sides[] = {&a, &b};
@@ -150,7 +150,7 @@ void CompareView::update(PanelContext& c, const ComparedSide& a, const ComparedS
     }
 }
 
-// A picture of another shape than the live one keeps its own.
+// A picture with another aspect ratio than the live one keeps its own.
 void CompareView::draw_part(const Part& part, const ImageRect& whole, const ImageRect& clip) const {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     draw.PushClipRect({clip.x, clip.y}, {clip.x + clip.width, clip.y + clip.height}, true);

@@ -1,4 +1,4 @@
-// Two pictures in the place of one: a wipe between them, either by turns, or their difference. Draws over the viewport's picture.
+// Compares two pictures in the viewport: wipe, flicker or difference. Draws over the viewport's picture.
 #pragma once
 
 #include "ui/background_answer.h"
@@ -13,27 +13,27 @@
 
 namespace blush {
 
-// One of the two: a snapshot's pictures, or the live ones.
+// One side: a snapshot's pictures, or the live ones.
 struct ComparedSide {
     uint64_t id = live_image;
     std::string label;
     Pictures pictures;
 };
-// Null frames where there is no such picture.
+// Null frames if there is no such picture.
 ComparedSide compared_side(const PanelContext& c, uint64_t id);
 
 class CompareView {
 public:
     void set_shader(const DisplayShader& shader);
-    // `image` is where the whole picture lies, `seen` what of it is in the window; the live picture is there already, drawn with `look`.
+    // `image` is the rectangle of the whole picture, `seen` its visible part. The live picture is already drawn, with `look`.
     void draw(PanelContext& c, const ImageRect& image, const ImageRect& seen, const DisplayLook& look, const FramePace& pace);
 
 private:
-    // Where in a texture a picture lies.
+    // Rectangle of a picture in a texture.
     struct Part {
         GLuint texture = 0;
         float u = 1, v0 = 0, v1 = 1;
-        float aspect = 0; // of the picture; 0: that of the live one
+        float aspect = 0; // of the picture; 0: same as the live one
     };
     void ask_difference(PanelContext& c, const ComparedSide& a, const ComparedSide& b);
     void update(PanelContext& c, const ComparedSide& a, const ComparedSide& b, const DisplayLook& look, const FramePace& pace);
@@ -41,14 +41,14 @@ private:
     void draw_part(const Part& part, const ImageRect& image, const ImageRect& clip) const;
     void draw_wipe(PanelContext& c, const ComparedSide& a, const ComparedSide& b, const ImageRect& image, const ImageRect& seen);
 
-    DisplayPass pass_; // of both sides, A above B, or of the difference
+    DisplayPass pass_; // for both sides, A above B, or for the difference
     std::optional<DisplayShader> shader_;
     bool shader_changed_ = false, drawn_ = false;
     DisplayLook look_;
-    // What it was last given.
+    // The inputs of the last upload.
     struct Shown {
         Comparison::Mode mode = Comparison::Mode::off;
-        FramePtr a, b; // of snapshots; null for the live one
+        FramePtr a, b; // of snapshots; null for the live picture
         PictureMix mix_a, mix_b;
         const Difference* difference = nullptr;
         bool operator==(const Shown&) const = default;

@@ -17,9 +17,9 @@ ConvergencePlot paper_chart(const ConvergenceView& view, const std::string& scen
 
 ChartPicture draw_chart_picture(const Plot& chart) {
     const ImFont& font = *ImGui::GetIO().Fonts->Fonts.front();
-    const float size = font.FontSize, scale = size / 12; // of a chart whose letters are as large as an SVG's
+    const float size = font.FontSize, scale = size / 12; // the layout is made for an SVG with this font size
     Plot plot = chart;
-    plot.title += plot.title.empty() ? plot.y_label : ",  " + plot.y_label; // letters do not lie on their side
+    plot.title += plot.title.empty() ? plot.y_label : ",  " + plot.y_label; // the y label goes into the title: no vertical text
     plot.y_label.clear();
     ChartPicture picture{int(float(plot.width) * scale), int(float(plot.height) * scale), {}};
     ImDrawList list(ImGui::GetDrawListSharedData());

@@ -1,4 +1,4 @@
-// The convergence chart for files: on white, with its own legend.
+// The convergence chart as an image file: on white, with its own legend.
 #pragma once
 
 #include "ui/convergence_view.h"
@@ -8,10 +8,10 @@
 
 namespace blush {
 
-// As the panel is set, titled after the scene.
+// With the panel's settings; the title is the scene's name.
 ConvergencePlot paper_chart(const ConvergenceView& view, const std::string& scene);
 
-// Display-encoded RGB in [0, 1], width * height * 3, drawn with the window's fonts.
+// Display-encoded RGB in [0, 1], width * height * 3, drawn with the UI fonts.
 struct ChartPicture {
     int width = 0, height = 0;
     std::vector<float> rgb;

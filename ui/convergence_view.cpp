@@ -8,7 +8,7 @@
 namespace blush {
 namespace {
 
-// Fixed digits with a true minus sign; a slope that rounds to nothing has none.
+// Fixed digits with a true minus sign; no sign if the value rounds to zero.
 std::string signed_text(double value) { return fmt::format("{}{:.2f}", value <= -0.005 ? "−" : "", std::abs(value)); }
 
 const char* kind_text(ConvergencePoint::Kind kind) {
@@ -37,8 +37,8 @@ std::string time_left_text(const TimeLeft& left) {
     switch (left.state) {
     case TimeLeft::State::reached: return "target reached";
     case TimeLeft::State::too_few: return "time to the target not known yet";
-    case TimeLeft::State::no_trend: return "time to the target not known: the error does not fall for sure";
-    case TimeLeft::State::too_far: return "the target is too far away to tell when";
+    case TimeLeft::State::no_trend: return "time to the target not known: no significant downward trend yet";
+    case TimeLeft::State::too_far: return "the target is too far away to predict the time";
     case TimeLeft::State::known: break;
     }
     const std::string low = guessed_time_text(left.low), high = guessed_time_text(left.high);

@@ -1,4 +1,4 @@
-// What the Convergence panel shows, is set to, and asks of the editor.
+// State of the Convergence panel: its data, settings and requests to the editor.
 #pragma once
 
 #include "measure/convergence_plot.h"
@@ -9,24 +9,24 @@
 
 namespace blush {
 
-// What recording the live run has cost so far, seconds. All of it is counted as if rendering had stood still meanwhile: an upper bound.
+// CPU time of recording the live run so far, in seconds. Counted as if rendering had stopped meanwhile: an upper bound.
 struct RecorderCost {
-    double estimating = 0; // errors from the two halves, of every frame: status bar and stop rules read them too
-    double recording = 0;  // on the window's thread
-    double measuring = 0;  // against a reference, or against the raw picture
+    double estimating = 0; // estimating errors from the half buffers of every frame; status bar and stop rules use them as well
+    double recording = 0;  // on the UI thread
+    double measuring = 0;  // measuring against a reference, or against the raw picture
     double rendering = 0;
     double recorder_share() const { return rendering > 0 ? (recording + measuring) / rendering : 0; }
     double estimate_share() const { return rendering > 0 ? estimating / rendering : 0; }
 };
 
-// How the panel comes by a reference.
+// How the panel gets a reference.
 struct ReferenceNews {
     enum class State { none, looking, absent, rendering, stopping, there };
     State state = State::none;
-    double progress = 0; // of rendering
-    int64_t spp = 0;     // there: its samples per pixel and its own root mean squared error
+    double progress = 0; // of rendering it
+    int64_t spp = 0;     // if State::there: its samples per pixel and its own root mean squared error
     double rmse = 0;
-    std::string problem; // why it could not be kept, say; may be empty
+    std::string problem; // for example why it could not be stored; may be empty
 };
 
 struct ConvergenceView {
@@ -36,19 +36,19 @@ struct ConvergenceView {
     bool open = false;
     ErrorMetric metric = ErrorMetric::rmse;
     ProgressAxis axis = ProgressAxis::seconds;
-    std::array<float, 2> targets{}; // of each metric; 0: none
-    bool denoised = false;          // a curve of the denoised picture too
+    std::array<float, 2> targets{}; // target of each metric; 0: none
+    bool denoised = false;          // also record a curve of the denoised picture
     bool reference = false;         // measure against a reference
-    int renaming = 0;               // the run whose name is being edited
+    int renaming = 0;               // id of the run whose name is being edited
     std::string rename_text;
 
-    // Kept up to date by the editor.
+    // Updated by the editor.
     ConvergenceRuns runs;
     RecorderCost cost;
     ReferenceNews news;
-    size_t waiting = 0; // denoised pictures whose error is not known yet
+    size_t waiting = 0; // number of denoised pictures whose error is not known yet
 
-    // Done by the editor after the panels are drawn.
+    // Executed by the editor after the panels are drawn.
     std::optional<Export> wanted_export;
     enum class ReferenceRequest { none, render, stop };
     ReferenceRequest wanted_reference = ReferenceRequest::none;
@@ -62,11 +62,11 @@ struct ConvergenceView {
 std::string error_text(const Interval& error);
 // "slope -0.49 (-0.52 to -0.46)"; "slope not known yet".
 std::string slope_text(const Interval& slope);
-// "target in 12 s (9.1 s to 16 s)", or why nobody can tell.
+// "target in 12 s (9.1 s to 16 s)", or why it cannot be predicted.
 std::string time_left_text(const TimeLeft& left);
-// A share of the rendering time, never rounded to less than it is: "0.04 %".
+// A fraction of the render time in per cent, rounded up: "0.04 %".
 std::string share_text(double share);
-// What a point of a chart is: run, kind, seconds, samples and error, a line each.
+// Description of a point of a chart: run, kind, seconds, samples and error, one line each.
 std::string readout_text(const std::string& run, const ConvergencePoint& point, ErrorMetric metric);
 
 } // namespace blush

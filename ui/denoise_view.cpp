@@ -20,7 +20,7 @@ PictureMix mix_of(const DenoiseView& view, bool has_denoised) {
 }
 
 Vec3 denoised_pixel(const Frame& frame, const DenoisedPicture& denoised, int x, int y) {
-    // The middle of the frame's pixel, in the coarser picture: as the display pass finds it.
+    // Centre of the frame's pixel in the coarser picture, computed as in the display pass.
     const auto in_coarse = [](int i, int fine, int coarse) {
         return std::min(int((float(i) + 0.5f) * (float(coarse) / float(fine))), coarse - 1);
     };

@@ -1,4 +1,4 @@
-// Looking at a raw picture and its denoised one: either, between them, or how they differ. Nothing is rendered again for it.
+// How raw and denoised picture are shown: either, a blend, or their difference. Does not restart the render.
 #pragma once
 
 #include "render/denoised_picture.h"
@@ -19,21 +19,22 @@ struct DenoiseView {
     bool operator==(const DenoiseView&) const = default;
 };
 
-// What is shown of two pictures, in scene-linear values: |raw_weight raw + denoised_weight denoised|.
+// Weights of the displayed combination, in scene-linear values: |raw_weight raw + denoised_weight denoised|.
 struct PictureMix {
     float raw_weight = 1, denoised_weight = 0;
     bool operator==(const PictureMix&) const = default;
 };
-// Without a denoised picture it is the raw one, whatever is asked for.
+// Without a denoised picture the raw one is shown, whatever the setting.
 PictureMix mix_of(const DenoiseView& view, bool has_denoised);
 
-// The pixel of a denoised picture, perhaps a coarser one, that answers pixel (x, y) of the frame.
+// The pixel of the (possibly coarser) denoised picture at pixel (x, y) of the frame.
 Vec3 denoised_pixel(const Frame& frame, const DenoisedPicture& denoised, int x, int y);
 Vec3 mixed_pixel(const Frame& frame, const DenoisedPicture* denoised, const PictureMix& mix, int x, int y);
-// width * height * 3: all of them.
+// All pixels: width * height * 3.
 std::vector<float> mixed_picture(const Frame& frame, const DenoisedPicture* denoised, const PictureMix& mix);
 
-// "denoised", "blend 40 %, 16 spp and 1.2 s behind", "raw, denoising": which picture is shown, and how far it is behind the raw one.
+// "denoised", "blend 40 %, 16 spp and 1.2 s behind", "raw, denoising": which picture is shown, and how far it is behind the raw
+// one.
 std::string shown_text(const DenoiseView& view, const Frame& frame, const DenoisedPicture* denoised);
 
 } // namespace blush

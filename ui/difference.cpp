@@ -44,7 +44,7 @@ Difference difference_of(const DifferenceQuestion& q) {
     Difference d{.kind = q.kind};
     const Frame &a = *q.a, &b = *q.b;
     if (a.width != b.width || a.height != b.height) {
-        d.problem = fmt::format("A has {} × {} pixels, B {} × {}: pixel by pixel they cannot be compared", a.width, a.height, b.width, b.height);
+        d.problem = fmt::format("A has {} × {} pixels, B {} × {}. Only pictures of the same size can be compared.", a.width, a.height, b.width, b.height);
         return d;
     }
     try {
@@ -66,8 +66,8 @@ Difference difference_of(const DifferenceQuestion& q) {
 std::string caption_of(DifferenceKind kind) {
     switch (kind) {
     case DifferenceKind::absolute: return "|A - B|, through the view and exposure";
-    case DifferenceKind::relative: return "|A - B| relative to B: black 0, white 1";
-    case DifferenceKind::flip: return "FLIP, what a viewer notices: black 0, white 1";
+    case DifferenceKind::relative: return "|A - B| / B: black 0, white 1";
+    case DifferenceKind::flip: return "FLIP, perceived difference: black 0, white 1";
     }
     return {};
 }

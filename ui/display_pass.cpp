@@ -7,7 +7,7 @@
 namespace blush {
 namespace {
 
-// mixed_picture() on the graphics card.
+// mixed_picture() as a shader.
 const char* const main_source = R"(
 uniform sampler2D image, denoised;
 uniform float raw_weight, denoised_weight;
@@ -28,7 +28,8 @@ void main() {
     result = vec4(over_checker ? mix(vec3(squares()), shown, coverage) : shown, 1.0);
 })";
 
-// Milliseconds after which the clock is looked at: what a step takes is known from the one before alone, and other threads may come between.
+// Milliseconds between checks of the clock: the time of a step is only predicted from the previous one, and other threads can
+// delay it.
 constexpr double longest_step = 2.5;
 
 using Clock = std::chrono::steady_clock;
@@ -95,7 +96,7 @@ void DisplayPass::Picture::take(int w, int h, Values values) {
     height = h;
     coming = std::move(values);
     next_row = 0;
-    // Every edit brings small pictures and then full ones again: the texture keeps the largest size, so that none is allocated anew.
+    // Each edit renders small pictures before full ones: the texture keeps its maximum size, so it is not reallocated.
     if (texture && w <= room_width && h <= room_height) return;
     room_width = std::max(room_width, w);
     room_height = std::max(room_height, h);
@@ -167,7 +168,7 @@ void DisplayPass::draw_rows(int first, int count) {
     target.end();
 }
 
-// A few rows of what is to be done first.
+// Uploads some rows first if an upload is pending.
 void DisplayPass::step(double milliseconds) {
     Picture* const comes = image_.coming ? &image_ : denoised_.coming ? &denoised_ : nullptr;
     const int width = comes ? comes->width : width_, left = comes ? comes->height - comes->next_row : height_ - next_row_;
@@ -178,7 +179,7 @@ void DisplayPass::step(double milliseconds) {
         comes->upload_rows(count);
     else
         draw_rows(std::exchange(next_row_, next_row_ + count), count);
-    glFinish(); // else the time would be that of queueing
+    glFinish(); // otherwise only the time of queueing would be measured
     pace.pixels_per_millisecond = double(count) * width / std::max(milliseconds_since(begin), 1e-3);
 }
 

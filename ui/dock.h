@@ -1,4 +1,4 @@
-// Where instruments open: on which side of the viewport, in which order, which is in front, and which float in windows of their own.
+// Dock layout of the instruments: side, tab order, front tab, and which are floating windows.
 #pragma once
 
 #include "ui/layout.h"
@@ -19,30 +19,30 @@ struct DockTab {
     bool operator==(const DockTab&) const = default;
 };
 
-// What is remembered of the docks, for all scenes.
+// The saved layout, for all scenes.
 struct Dock {
     DockSizes sizes;
-    std::vector<DockTab> tabs;        // in their order; of instruments that were never opened there is none
-    std::array<std::string, 2> front; // by side: the id of the tab that is shown
+    std::vector<DockTab> tabs;        // in order; instruments that were never opened are not included
+    std::array<std::string, 2> front; // per side: the id of the front tab
     bool operator==(const Dock&) const = default;
 };
 
-// The place of an instrument; at the end of its side if it has none yet.
+// The tab of an instrument; new ones are added at the end of their side.
 DockTab& place_of(Dock& dock, const std::string& id, DockSide side_at_first);
 
-// Those of the open instruments that are docked on a side, in their order. Without a right dock all are at the bottom.
+// The open instruments docked on a side, in order. Without a right dock all are at the bottom.
 std::vector<std::string> tabs_on(const Dock& dock, DockSide side, std::span<const std::string> open, bool has_right_dock);
 std::vector<std::string> floating(const Dock& dock, std::span<const std::string> open);
 
-// `shown` are tabs of one side as they lie on the screen: the tabs take that order, others keep their places.
+// `shown` are the tabs of one side in their order on the screen: they take that order, other tabs keep their places.
 void reorder(Dock& dock, std::span<const std::string> shown);
 
-// The docks as they are on the screen; not remembered.
+// The state of the docks on the screen; not saved.
 struct DockView {
     std::vector<std::string> open;  // in the last frame
-    std::set<std::string> in_sight; // those of them that are not behind another tab
-    std::set<std::string> to_front; // asked for
-    std::string torn_off;           // just now: the mouse goes on moving it
+    std::set<std::string> in_sight; // those that are not behind another tab
+    std::set<std::string> to_front; // requested to come to the front
+    std::string torn_off;           // just torn off: the mouse continues to move it
     std::string moved;              // the floating window that the mouse moves
 };
 

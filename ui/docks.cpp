@@ -35,7 +35,7 @@ bool menu_item(PanelContext& c, const char* name) {
     return pressed;
 }
 
-// Of the last item: a tab, or the title of a window.
+// For the last item: a tab, or the title bar of a window.
 void draw_menu(PanelContext& c, const Instrument& i) {
     if (!ImGui::BeginPopupContextItem(i.id)) return;
     const DockTab& tab = place_of(c, i);
@@ -53,25 +53,25 @@ void draw_inside(PanelContext& c, const Instrument& i) {
     ImGui::EndChild();
 }
 
-// Dragged away from its row of tabs?
+// True if the tab is dragged away from its row.
 bool is_dragged_off(const Region& row) {
     const float away = ImGui::GetFontSize() * 2, y = ImGui::GetIO().MousePos.y;
     return ImGui::IsItemActive() && ImGui::IsMouseDragging(ImGuiMouseButton_Left) && (y < row.y - away || y > row.y + row.height + away);
 }
 
-// A tab and, if it is in front, what it holds. Where the tab lies; nothing if it is not laid out yet.
+// Draws a tab and, if it is in front, its content. Returns the tab's rectangle; nullopt if it has no layout yet.
 std::optional<float> draw_tab(PanelContext& c, const Instrument& i, DockSide side, const Region& region) {
     DockView& view = c.ui.docks;
     bool open = true;
     const bool asked = view.to_front.contains(i.id);
     const bool front = ImGui::BeginTabItem(i.title, &open, asked ? ImGuiTabItemFlags_SetSelected : 0);
     if (front) view.to_front.erase(i.id);
-    if (asked && !front) c.ui.next_frame_in = 0; // it comes to the front in the next one
+    if (asked && !front) c.ui.next_frame_in = 0; // it comes to the front in the next frame
     const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
     c.ui.probe.record_last_item(std::string("Dock/") + i.title);
     if (is_dragged_off({region.x, low.y, region.width, high.y - low.y})) tear_off(c, i, true);
     draw_menu(c, i);
-    tip_for_last_item(c.ui, "Drag it along the row to sort, or off it for a window of its own. A right-click offers the other side.");
+    tip_for_last_item(c.ui, "Drag along the row to reorder, or away from it to undock. Right-click to move it to the other side.");
     if (front) {
         view.in_sight.insert(i.id);
         c.ui.settings.dock.front[size_t(side)] = i.id;
@@ -100,7 +100,7 @@ void draw_dock(PanelContext& c, DockSide side, const Region& region, const Ids& 
     end_region();
 }
 
-// Where a window that is dropped here would dock.
+// The dock position for a window that is dropped here.
 void show_target(const Layout& l, DockSide side) {
     const float edge = ImGui::GetFontSize() * 2;
     Region at = side == DockSide::right ? l.right_dock : l.bottom_dock;
@@ -112,7 +112,7 @@ void show_target(const Layout& l, DockSide side) {
     draw.AddRect({at.x, at.y}, {at.x + at.width, at.y + at.height}, tone::text);
 }
 
-// While the mouse moves the window, and when it lets go.
+// While the mouse moves the window, and on release.
 void follow_mouse(PanelContext& c, const Instrument& i, const Layout& l) {
     DockView& view = c.ui.docks;
     const ImGuiWindow* const moving = GImGui->MovingWindow;
@@ -145,13 +145,13 @@ void draw_floating(PanelContext& c, const Instrument& i, const Layout& l) {
     const bool drawn = ImGui::Begin(i.title, &open, ImGuiWindowFlags_NoCollapse);
     if (taken_up && ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
         ImGui::StartMouseMovingWindow(ImGui::GetCurrentWindow());
-        GImGui->ActiveIdClickOffset = {em * 5, ImGui::GetFrameHeight() / 2}; // not from where the tab was clicked
+        GImGui->ActiveIdClickOffset = {em * 5, ImGui::GetFrameHeight() / 2}; // not where the tab was clicked
     }
-    if (ImGui::IsWindowAppearing()) c.ui.next_frame_in = 0; // it is seen in the frame after the one that measures it
+    if (ImGui::IsWindowAppearing()) c.ui.next_frame_in = 0; // becomes visible in the frame after the one that measures its size
     const ImVec2 at = ImGui::GetWindowPos();
     c.ui.probe.record(std::string("Window/") + i.title, {at.x, at.y, ImGui::GetWindowWidth(), ImGui::GetFrameHeight()});
     if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) put(c, i, place_of(c, i).side);
-    tip_for_last_item(c.ui, "A double-click docks it, or drop it on a dock or at an edge of the picture.");
+    tip_for_last_item(c.ui, "Double-click to dock, or drop it on a dock or at an edge of the picture.");
     draw_menu(c, i);
     follow_mouse(c, i, l);
     view.in_sight.insert(i.id);
@@ -181,7 +181,7 @@ Beside docks_beside(PanelContext& c, const Region& room) {
 void draw_docks(PanelContext& c, const Layout& layout) {
     const bool right_dock = has_right_dock(layout.room, ImGui::GetFontSize());
     const Ids right = docked(c, DockSide::right, right_dock), bottom = docked(c, DockSide::bottom, right_dock);
-    const Ids torn_off = floating(c.ui.settings.dock, c.ui.docks.open); // what is torn off below floats from the next frame on
+    const Ids torn_off = floating(c.ui.settings.dock, c.ui.docks.open); // panels torn off below become floating in the next frame
     draw_dock(c, DockSide::right, layout.right_dock, right);
     draw_dock(c, DockSide::bottom, layout.bottom_dock, bottom);
     for (const std::string& id : torn_off) draw_floating(c, *find_instrument(id), layout);

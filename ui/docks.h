@@ -1,17 +1,18 @@
-// The docks of the instruments: tabs on the right of the picture and below it, and what was torn off them.
+// The docks of the instruments, to the right of the picture and below it, and floating windows.
 #pragma once
 
 #include "ui/panels/instruments.h"
 
 namespace blush {
 
-// The docks that hold something in a window with this room, and their sizes. Call it once a frame, before the layout is made.
+// Returns which docks have content for a window with this room, and their sizes. Call once per frame, before the layout is
+// computed.
 Beside docks_beside(PanelContext& c, const Region& room);
 
-// Draws the instruments that are open: docked ones in their regions, the others in windows of their own.
+// Draws the open instruments: docked ones in their regions, the others in floating windows.
 void draw_docks(PanelContext& c, const Layout& layout);
 
-// Puts all that was torn off back into the docks.
+// Docks all floating windows.
 void dock_all(Dock& dock);
 
 } // namespace blush

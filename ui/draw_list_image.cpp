@@ -17,7 +17,7 @@ Rgba unpacked(ImU32 c) {
     return {channel(IM_COL32_R_SHIFT), channel(IM_COL32_G_SHIFT), channel(IM_COL32_B_SHIFT), channel(IM_COL32_A_SHIFT)};
 }
 
-// The coverage of ImGui's atlas, whose colour is white throughout; bilinear, as the window's texture is.
+// Samples the coverage of ImGui's font atlas, whose colour is white; bilinear, as in the window.
 struct Atlas {
     unsigned char* alpha = nullptr;
     int width = 0, height = 0;
@@ -42,14 +42,14 @@ struct Canvas {
 
     void blend(int x, int y, const Rgba& c) {
         float* p = &rgb[3 * (size_t(y) * size_t(width) + size_t(x))];
-        // Weights of a triangle's corners may sum to a little more than 1.
+        // The sum of the barycentric weights can be slightly larger than 1.
         const auto over = [&](float& below, float above) { below = std::clamp(below + (above - below) * c.a, 0.f, 1.f); };
         over(p[0], c.r);
         over(p[1], c.g);
         over(p[2], c.b);
     }
 
-    // Pixels whose middle is inside; of one on an edge, only the upper and left edges', so that neighbours do not both draw it.
+    // Pixels whose centre is inside. Top-left rule on edges, so that adjacent triangles do not both draw a pixel.
     void triangle(const ImDrawVert& a, const ImDrawVert& b, const ImDrawVert& c, const ImVec4& clip) {
         const auto edge = [](const ImVec2& p, const ImVec2& q, float x, float y) {
             return (q.x - p.x) * (y - p.y) - (q.y - p.y) * (x - p.x);

@@ -1,4 +1,4 @@
-// What ImGui was told to draw, as pixels, without a window or OpenGL: for pictures that go into files.
+// Rasterizes an ImGui draw list to pixels, without a window or OpenGL: for image files.
 #pragma once
 
 #include <imgui.h>
@@ -6,8 +6,8 @@
 
 namespace blush {
 
-// Triangles of a list, textured by the font atlas, over a ground: display-encoded RGB in [0, 1], width * height * 3, top row first. Clip
-// rectangles hold; callbacks and other textures are left out.
+// Draws the triangles of a list, textured by the font atlas, over a background. Returns display-encoded RGB in [0, 1], width *
+// height * 3, top row first. Respects clip rectangles; ignores callbacks and other textures.
 std::vector<float> rasterize(const ImDrawList& list, int width, int height, ImU32 ground);
 
 } // namespace blush

@@ -34,7 +34,7 @@ bool draw_environment_dial(PanelContext& c, ImDrawList& draw, const Projection& 
     if (chosen) draw.AddCircle(centre, radius * 1.25f, tone::accent, 0, line * 1.5f);
     draw.AddCircle(centre, radius, color, 0, line * 1.5f);
     if (e.kind != Environment::Kind::constant) {
-        // Where north is, or the middle of the panorama.
+        // Where north is, or the centre of the panorama.
         const Vec3d mark = direction_of(Heading{-e.rotation_degrees, 0});
         draw.AddLine(at(mark, 0.65f), at(mark), color, line * 2);
     }

@@ -1,4 +1,6 @@
-// The environment as a dial in a corner of the picture: seen from above, what lies ahead of the view is up. A sky has its sun on it.
+// A dial in a corner of the picture that shows the environment's rotation: top view, the view direction is up. A sky shows its
+// sun.
+// sun.
 #pragma once
 
 #include "ui/gizmo.h"
@@ -8,11 +10,12 @@
 
 namespace blush {
 
-// Where a direction lies on the dial: the zenith in the middle, the horizon and all below it on the rim. x to the right, y down, rim 1.
+// Position of a direction on the dial: the zenith in the centre, the horizon and everything below on the rim. x to the right, y
+// down, rim 1.
 ScreenPoint dial_point(const Vec3d& direction, const Vec3d& view_forward);
 
-// Draws it; a click on it opens the environment's tab. True if the left button is the dial's. `seen`: the part of the picture on the
-// screen.
+// Draws it; a click opens the Environment section. Returns true if the dial uses the left button. `seen`: the visible part of the
+// picture.
 bool draw_environment_dial(PanelContext& c, ImDrawList& draw, const Projection& projection, const ImageRect& seen, bool hovered);
 
 } // namespace blush

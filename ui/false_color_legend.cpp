@@ -16,7 +16,7 @@ const char* title_of(FalseColor::Of of) {
     case FalseColor::Of::off: return "";
     case FalseColor::Of::stops: return "EV from grey";
     case FalseColor::Of::nits: return "nits";
-    case FalseColor::Of::lux: return "lux, if matte";
+    case FalseColor::Of::lux: return "lux, if diffuse";
     }
     return "";
 }
@@ -42,7 +42,7 @@ void draw_false_color_legend(ImDrawList& draw, const ImageRect& image, const Vie
     draw.AddRectFilled({at.x - em * 0.5f, at.y - em * 1.8f}, {at.x + width, at.y + step * float(count) + em * 0.5f},
                        IM_COL32(20, 20, 20, 220), em * 0.2f);
     draw.AddText({at.x, at.y - em * 1.4f}, tone::text, title_of(view.false_color.of));
-    const int every = std::max(1, int(std::ceil(em * 1.05f / step))); // labels that would overlap are left out
+    const int every = std::max(1, int(std::ceil(em * 1.05f / step))); // labels that would overlap are skipped
     for (int band = 0; band < count; ++band) {
         const Vec3& c = false_colors[size_t(band)];
         const float top = at.y + step * float(count - 1 - band);

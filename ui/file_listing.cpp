@@ -35,7 +35,7 @@ Result<FolderListing> list_folder(const std::filesystem::path& folder, const Ext
         FileEntry entry;
         entry.name = entries->path().filename().string();
         if (entry.name.starts_with('.')) continue;
-        std::error_code unreadable; // a dangling link is neither a folder nor a file
+        std::error_code unreadable; // a dangling symlink is neither a folder nor a file
         entry.folder = entries->is_directory(unreadable);
         if (!entry.folder && !entries->is_regular_file(unreadable)) continue;
         if (!entry.folder && !matches(filter, entries->path())) {

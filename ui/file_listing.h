@@ -1,4 +1,4 @@
-// What the file browser shows of a folder: pure but for reading the folder.
+// The file browser's listing of a folder: pure except for reading the folder.
 #pragma once
 
 #include "core/result.h"
@@ -17,20 +17,20 @@ struct FileEntry {
     bool operator==(const FileEntry&) const = default;
 };
 
-// Lower-case extensions with the dot; empty: folders alone.
+// Lower-case extensions with the dot; empty: only folders.
 using ExtensionFilter = std::vector<std::string>;
 
-// Case does not count.
+// Case-insensitive.
 bool matches(const ExtensionFilter& filter, const std::filesystem::path& file);
 struct FolderListing {
     std::vector<FileEntry> entries;
-    size_t left_out = 0; // files that the filter does not let through
+    size_t left_out = 0; // number of files that the filter excludes
 };
-// Folders first, then the files that match, each in the order of their names without regard to case. Names with a leading dot are neither
-// listed nor counted.
+// Folders first, then matching files, each sorted by name, case-insensitive. Hidden files (leading dot) are neither listed nor
+// counted.
 Result<FolderListing> list_folder(const std::filesystem::path& folder, const ExtensionFilter& filter);
-// A typed path as far as the names in its folder tell: up to where those that fit differ, with a slash after the only folder. The path itself if
-// nothing fits.
+// Tab completion of a typed path: the longest common prefix of the matching names in its folder, with a slash after a unique
+// folder. The path itself if nothing matches.
 std::string completed_path(const std::string& typed, const ExtensionFilter& filter);
 // "812 B", "3.4 MB".
 std::string bytes_text(uintmax_t bytes);

@@ -1,4 +1,4 @@
-// Folders that the file browser offers beside its list.
+// The folders in the file browser's list of places.
 #pragma once
 
 #include "ui/window_settings.h"
@@ -12,10 +12,10 @@ namespace blush {
 struct FilePlace {
     std::string name;
     std::filesystem::path folder;
-    bool bookmark = false; // made by the user, who may take it away
+    bool bookmark = false; // added by the user, who can remove it
 };
 
-// Home, desktop, the scene's folder, those of recent files, and bookmarks; each folder once, and only folders that are there.
+// Home, desktop, the scene's folder, folders of recent files, and bookmarks; without duplicates, only existing folders.
 std::vector<FilePlace> file_places(const WindowSettings& settings, const std::filesystem::path& scene_folder);
 
 } // namespace blush

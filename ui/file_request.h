@@ -1,4 +1,4 @@
-// What a file is wanted for, and the answer of a file dialog.
+// The purpose of a file dialog, and its answer.
 #pragma once
 
 #include "ui/file_listing.h"
@@ -7,16 +7,16 @@
 
 namespace blush {
 
-// A file that the user has chosen.
+// A file chosen by the user.
 struct FileRequest {
     enum class Use { open, import_scene, environment, ies, snapshot_folder, convergence, save_scene, map };
     Use use = Use::open;
     std::filesystem::path path;
 };
 
-// "Open a scene", a dialog's title.
+// The title of the dialog, for example "Open a scene".
 const char* title_of(FileRequest::Use use);
-// The files that fit; empty for a folder.
+// The accepted file types; empty for a folder.
 const ExtensionFilter& filter_of(FileRequest::Use use);
 
 } // namespace blush

@@ -16,7 +16,7 @@
 namespace blush {
 namespace {
 
-// FNV-1a, 64 bits: the same name in every version of the program.
+// FNV-1a, 64 bits: stable file names across versions.
 uint64_t hash_of(const std::string& text) {
     uint64_t hash = 0xcbf29ce484222325;
     for (const unsigned char c : text) hash = (hash ^ c) * 0x100000001b3;
@@ -38,7 +38,7 @@ std::filesystem::path cache_file(const std::string& key) {
     return cache.empty() ? cache : cache / "blush" / "thumbnails" / fmt::format("{:016x}.png", hash_of(key));
 }
 
-// Mean of a rectangle of pixels. Bytes from 0 to 1.
+// Mean of a rectangle of pixels, bytes mapped to 0 .. 1.
 Vec3 mean(const Image& image, int x0, int y0, int x1, int y1) {
     Vec3 sum{0, 0, 0};
     int count = 0;
@@ -121,14 +121,14 @@ Result<void> write_thumbnail(const std::filesystem::path& file, const Frame& fra
 }
 
 GlTexture FileThumbnails::kept(const std::filesystem::path& thumbnail) const {
-    constexpr int max_pixels_across = 1024; // a file in the cache may be anything
+    constexpr int max_pixels_across = 1024; // limit, because a file in the cache may be invalid
     const Result<ImagePtr> image = read_image(thumbnail, {.max_side = max_pixels_across});
     const bool fits = image && !(**image).bytes.empty() && (**image).channels >= 3;
     return fits ? uploaded(**image) : GlTexture();
 }
 
 ImTextureID FileThumbnails::of(const std::string& file) {
-    constexpr size_t max_textures = 1000; // of about 50 KB
+    constexpr size_t max_textures = 1000; // about 50 KB each
     const auto known = textures_.find(file);
     if (known != textures_.end()) return texture_id(known->second.name());
     if (textures_.size() >= max_textures) textures_.clear();
@@ -136,7 +136,7 @@ ImTextureID FileThumbnails::of(const std::string& file) {
     return texture_id((textures_[file] = kept(thumbnail_file(file, assets_))).name());
 }
 
-// From the cache, or from the image itself, which may take seconds.
+// From the cache, or made from the image, which can take seconds.
 ImTextureID FileThumbnails::image(const std::string& file) {
     if (job_) {
         const auto made = job_->take();

@@ -1,4 +1,4 @@
-// Text that is too long for its place: shortened to an ellipsis, whole in a tooltip.
+// Text that is too long for its place: shortened with an ellipsis, in full in a tooltip.
 #pragma once
 
 #include "ui/ui_state.h"
@@ -9,18 +9,18 @@
 
 namespace blush {
 
-// The beginning of the text, with an ellipsis in place of what does not fit into so many pixels of the current font; whole characters of
-// UTF-8. The text itself if it fits. What follows `##` is not drawn and does not count.
+// The beginning of the text, with an ellipsis if it does not fit into `width` pixels of the current font. Does not split UTF-8
+// characters. Text after `##` is not drawn and does not count.
 std::string elided(const std::string& text, float width);
 
-// A line in what the row has left, or in `width` pixels; where it is shortened, a tooltip has all of it.
+// A line of text in the rest of the row, or in `width` pixels. If it is shortened, a tooltip shows all of it.
 void fitting_text(UiState& ui, const std::string& text, ImU32 color, float width = 0);
 
-// As ImGui::InputText over the width of the next item; while it is not being edited, text that is too long ends in an ellipsis.
+// As ImGui::InputText with the width of the next item; while it is not edited, text that is too long ends with an ellipsis.
 bool fitting_input(UiState& ui, const char* id, std::string& text, ImGuiInputTextFlags flags = 0);
 
-// Goes on in the row of the last item if so many pixels fit, `gap` pixels from it; else the next item begins a row. A gap below 0 is the
-// usual one.
+// Continues the row of the last item if `width` pixels fit after `gap` pixels; else the next item begins a new row. A negative
+// gap is the default gap.
 void same_line_if_fits(float width, float gap = -1);
 
 } // namespace blush

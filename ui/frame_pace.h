@@ -1,4 +1,4 @@
-// Shares out the time of one of the window's frames, so that drawing a picture, which can wait, does not make the frame late.
+// Time budget of one UI frame: limits the drawing of the picture, which can continue later, so that the frame is not late.
 #pragma once
 
 #include "ui/frame_stats.h"
@@ -15,7 +15,8 @@ public:
 
     void begin(TimePoint now) { begin_ = picture_begun_ = picture_done_ = now; }
     void begin_picture(TimePoint now) { picture_begun_ = picture_done_ = now; }
-    // Milliseconds from now on that the picture may take of a frame of `whole`, if what comes after it takes as long as lately; never none.
+    // Milliseconds that the picture may use in a frame of `whole` milliseconds, if the rest of the frame takes as long as
+    // recently; always more than 0.
     double left(double whole, TimePoint now) const { return std::max(least, whole - since(begin_, now) - after_picture_); }
     void end_picture(TimePoint now) { picture_done_ = now; }
     FrameTimes end(TimePoint now) {
@@ -25,8 +26,8 @@ public:
     }
 
 private:
-    static constexpr double least = 2;        // milliseconds: a picture is finished some time
-    static constexpr double forgetting = 0.9; // a frame
+    static constexpr double least = 2;        // milliseconds: guarantees progress
+    static constexpr double forgetting = 0.9; // decay per frame
     static double since(TimePoint from, TimePoint to) { return std::chrono::duration<double, std::milli>(to - from).count(); }
 
     TimePoint begin_{}, picture_begun_{}, picture_done_{};

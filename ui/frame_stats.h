@@ -1,4 +1,4 @@
-// How smooth the window is: times of its frames, and from an edit to the picture that answers it.
+// Statistics of UI frame times, and of the latency from an edit to the picture that shows it.
 #pragma once
 
 #include "core/result.h"
@@ -12,11 +12,11 @@
 
 namespace blush {
 
-// The value below which `fraction` of the values lie (nearest rank); 0 for none.
+// The quantile `fraction` of the values (nearest rank); 0 if there are none.
 double percentile(std::vector<double> values, double fraction);
 
-// Where the time of one of the window's frames went, in milliseconds: to input and panels, to drawing the rendered picture, and to the
-// panels after it and all that is drawn and shown.
+// Milliseconds of one UI frame: before the picture (input and panels), drawing the rendered picture, and after it (remaining
+// panels, drawing and swap).
 struct FrameTimes {
     double before_picture = 0, picture = 0, after_picture = 0;
     double total() const { return before_picture + picture + after_picture; }
@@ -25,17 +25,17 @@ struct FrameTimes {
 class FrameStats {
 public:
     using Clock = std::chrono::steady_clock;
-    static constexpr double late = 33; // milliseconds: a frame that takes longer is felt
+    static constexpr double late = 33; // milliseconds: longer frames are noticeable
 
-    // A frame that was on the screen at `when`.
+    // A frame that was displayed at `when`.
     void add_frame(const FrameTimes& times, Clock::time_point when);
-    // A revision was submitted in the frame that began then, and later a picture of some revision was on the screen. One picture answers all
-    // revisions up to its own; the wait is counted from the submit that it was made for.
+    // submitted: a revision was submitted in the frame that began at this time. shown: a picture of some revision was displayed.
+    // A picture answers all revisions up to its own; the latency counts from the submission of its own revision.
     void submitted(uint64_t revision, Clock::time_point when);
     void shown(uint64_t revision, Clock::time_point when);
     void end_frame() { submitted_in_frame_ = 0; }
 
-    // Another way of looking at the picture was asked for, and later it was on the screen.
+    // The view settings were changed, and later a picture with them was displayed.
     void looked(Clock::time_point when) { look_begun_ = when; }
     void look_shown(Clock::time_point when);
 
@@ -52,7 +52,7 @@ private:
         uint64_t revision;
         Clock::time_point when;
     };
-    // A week of work must not fill the memory.
+    // Limits memory use in long sessions.
     static void keep(std::vector<double>& values, double value) {
         if (values.size() < (1u << 20)) values.push_back(value);
     }
@@ -65,7 +65,7 @@ private:
     std::optional<Clock::time_point> first_frame_;
     std::optional<Clock::time_point> look_begun_;
     std::deque<Submit> unanswered_;
-    uint64_t submitted_in_frame_ = 0; // 0: nothing was
+    uint64_t submitted_in_frame_ = 0; // 0: none
     size_t at_once_ = 0;
 };
 

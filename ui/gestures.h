@@ -1,4 +1,4 @@
-// Numbers the user's gestures, so that all edits of one drag become one step of the history.
+// Numbers the user's gestures, so that all edits of one drag become one undo step.
 #pragma once
 
 #include "scene/document.h"
@@ -7,10 +7,10 @@ namespace blush {
 
 class GestureTracker {
 public:
-    // A widget was grabbed: from now on edits belong to a new gesture.
+    // A widget was grabbed: edits from now on belong to a new gesture.
     Gesture begin() { return current_ = ++last_; }
     void end() { current_ = no_gesture; }
-    // no_gesture between gestures: an edit made then is a step of its own.
+    // no_gesture outside of gestures: such an edit is an undo step of its own.
     Gesture current() const { return current_; }
 
 private:

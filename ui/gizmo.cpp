@@ -24,7 +24,7 @@ float distance_to_line(ScreenPoint p, const std::vector<ScreenPoint>& line) {
 
 Affined world_from_parent(const Scene& scene, const Node& node) { return node.parent ? world_from_node(scene, node.parent) : Affined{}; }
 
-// A parent scaled to nothing has no inverse; its children then cannot be placed in the world and stay as they are.
+// A parent with scale 0 has no inverse; its children keep their transform.
 bool invertible(const Affined& m) { return std::abs(determinant(m)) > 1e-300; }
 
 // Unit length.
@@ -34,7 +34,7 @@ Vec3d towards_eye(const Projection& projection, const Vec3d& from) {
     return length(to) > 0 ? normalize(to) : -projection.forward();
 }
 
-// The part of a ring that faces the eye, from end to end.
+// The half of a ring that faces the viewer, from end to end.
 std::vector<ScreenPoint> seen_ring(const Projection& projection, const ImageRect& image, const Vec3d& centre, const Vec3d& axis, double radius) {
     constexpr int steps = 96;
     const Vec3d towards = towards_eye(projection, centre);
@@ -51,7 +51,7 @@ std::vector<ScreenPoint> seen_ring(const Projection& projection, const ImageRect
 }
 
 HandleShape ring_shape(Handle handle, ScreenPoint from, std::vector<ScreenPoint> ring) {
-    const ScreenPoint grip = ring[ring.size() / 4]; // aside: near sides of several rings may lie in one place
+    const ScreenPoint grip = ring[ring.size() / 4]; // not in the middle: near sides of several rings may coincide
     return {handle, from, grip, std::move(ring)};
 }
 
@@ -117,7 +117,7 @@ Handle handle_under(const std::vector<HandleShape>& shapes, ScreenPoint mouse, f
     if (nearest != Handle::none) return nearest;
     best = reach / 2;
     for (const HandleShape& shape : shapes) {
-        if (shape.handle == Handle::aim || is_size(shape.handle)) continue; // their lines cross the picture; only grips are to be grabbed
+        if (shape.handle == Handle::aim || is_size(shape.handle)) continue; // their lines cross the picture; only the grips can be grabbed
         const float d = shape.ring.empty() ? distance_to_segment(mouse, shape.from, shape.grip) : distance_to_line(mouse, shape.ring);
         if (d < best) {
             best = d;
@@ -152,7 +152,7 @@ std::optional<double> ring_angle(const ViewRay& ray, const Vec3d& centre, const 
 }
 
 double pulled_angle(const Projection& projection, const Vec3d& centre, const Vec3d& axis, ScreenPoint from, ScreenPoint to, float radius) {
-    // Turning right-handed, the near side goes this way.
+    // For a right-handed rotation, the near side moves in this direction.
     const Vec3d way = cross(axis, towards_eye(projection, centre));
     const double x = dot(way, projection.right()), y = -dot(way, projection.up()), n = std::hypot(x, y);
     return n > 0 ? ((to.x - from.x) * x + (to.y - from.y) * y) / (n * radius) : 0;
@@ -185,7 +185,7 @@ Transform placed_at(const Scene& scene, Id<Node> id, const Vec3d& position, cons
 
 Quat world_rotation(const Scene& scene, Id<Node> id) {
     const Affined m = world_from_node(scene, id);
-    // Z and Y say where a light or camera looks and what is up; X follows, so that a mirrored node still gets a rotation.
+    // Z and Y are the view and up directions of a light or camera; X follows, so that a mirrored node still has a rotation.
     if (length(m.z) == 0 || length(cross(m.y, m.z)) == 0) return {};
     const Vec3d z = normalize(m.z), x = normalize(cross(m.y, m.z));
     return to_quat(Affined{x, cross(z, x), z, {0, 0, 0}});

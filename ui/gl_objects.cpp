@@ -3,7 +3,7 @@
 namespace blush {
 namespace {
 
-// One triangle that covers the target.
+// One triangle that covers the render target.
 const char* const vertex_source = R"(#version 330 core
 out vec2 uv;
 void main() {
@@ -17,7 +17,7 @@ Result<void> attach_shader(GLuint program, GLenum stage, const std::string& sour
     glShaderSource(shader, 1, &text, nullptr);
     glCompileShader(shader);
     glAttachShader(program, shader);
-    glDeleteShader(shader); // lives on as long as the program
+    glDeleteShader(shader); // deleted together with the program
     GLint compiled = 0;
     glGetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
     if (compiled) return {};
@@ -25,7 +25,7 @@ Result<void> attach_shader(GLuint program, GLenum stage, const std::string& sour
     GLsizei length = 0;
     glGetShaderInfoLog(shader, GLsizei(log.size()), &length, log.data());
     log.resize(size_t(length));
-    return Error{"", "the graphics driver rejects a shader: " + log, ""};
+    return Error{"", "the graphics driver cannot compile a shader: " + log, ""};
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-// Move-only owners of OpenGL objects. A context must be current wherever they are made, used and destroyed.
+// Move-only RAII owners of OpenGL objects. A context must be current when they are created, used and destroyed.
 #pragma once
 
 #include "core/result.h"
@@ -63,19 +63,19 @@ using GlFramebuffer = GlObject<GlFramebufferKind>;
 using GlVertexArray = GlObject<GlVertexArrayKind>;
 using GlProgram = GlObject<GlProgramKind>;
 
-// A program that fills the target with `fragment_source` (GLSL 3.30 without #version); its input is `in vec2 uv`, (0, 0) in
-// the first row of the target, and its output `out vec4 result`. The error holds the compiler's message.
+// A program that fills the target with `fragment_source` (GLSL 3.30 without #version). Its input is `in vec2 uv`, (0, 0) in the
+// first row of the target, its output `out vec4 result`. Errors contain the compiler's log.
 Result<GlProgram> make_fill_program(const std::string& fragment_source);
 
-// GL_LINEAR or GL_NEAREST, for a 2D texture that is shown larger than it is.
+// Magnification filter for a 2D texture: GL_LINEAR or GL_NEAREST.
 void set_filter(GLuint texture, GLint filter);
 
-// A texture to draw into and to show, resized on demand.
+// A texture used as render target and for display, resized on demand.
 class RenderTarget {
 public:
-    // Binds it for drawing over its whole size. RGBA8, filtered linearly when shown.
+    // Binds the framebuffer, with its whole size as viewport. RGBA8, linear filter for display.
     void begin(int width, int height);
-    // Back to the window.
+    // Binds the window's framebuffer.
     void end() const;
     GLuint texture() const { return texture_.name(); }
     int width() const { return width_; }

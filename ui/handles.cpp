@@ -98,7 +98,7 @@ const char* name_of(Handle handle) {
     case Handle::height: return "Height";
     case Handle::radius: return "Radius";
     case Handle::outer_cone: return "Cone";
-    case Handle::inner_cone: return "Full inside";
+    case Handle::inner_cone: return "Inner cone";
     case Handle::spread: return "Spread";
     case Handle::sun_angle: return "Angle";
     }
@@ -115,7 +115,7 @@ TransformRequest request_of(Handle handle, const TransformView& view) {
     return {view.gizmo, {.axis = axis, .local = axis >= 0 && view.local}, true, on_ring ? gizmo_size() : 0};
 }
 
-// A node with a light that has a direction can be aimed.
+// True if a node has a light with a direction: it can be aimed.
 bool can_aim(const Scene& scene, Id<Node> id) {
     const Light* light = light_of(scene, scene.nodes.find(id));
     return light && has_direction(light->kind);
@@ -154,7 +154,7 @@ void Handles::aim(PanelContext& c, const Projection& projection, double u, doubl
     const Id<Node> primary = c.ui.selected;
     const Vec3d origin = world_from_node(c.scene(), primary).t;
     const Vec3d old_target = origin + rotate(world_rotation(c.scene(), primary), {0, 0, -1}) * aim_distance_;
-    // At what is seen under the mouse; beside everything, at the depth of the last target.
+    // Aims at the surface under the mouse; beside all objects, at the depth of the last target.
     std::optional<Vec3d> target;
     if (c.frame && pick(*c.frame, u, v).node != primary) target = seen_point(*c.frame, projection, u, v);
     if (!target) target = meet_plane(projection.ray(u, v), old_target, projection.forward());

@@ -1,5 +1,5 @@
-// The handles of the selected node: drawn over the picture, dragged with the mouse, one drag one step of the history. They move, rotate,
-// scale, aim and resize all that is selected.
+// The handles of the selection: drawn over the picture, dragged with the mouse, one undo step per drag. They move, rotate, scale,
+// aim and resize all selected nodes.
 #pragma once
 
 #include "ui/light_handles.h"
@@ -14,12 +14,12 @@ namespace blush {
 
 class Handles {
 public:
-    // Draws the selected node's handles and lets the mouse drag them. True while the mouse is on one or drags one: the
-    // click is then not the viewport's. `hovered`: the mouse is free to grab.
+    // Draws the selected node's handles and handles mouse drags. True while the mouse is on a handle or drags one: the viewport
+    // then ignores the click. `hovered`: the mouse is free to grab.
     bool update(PanelContext& c, ImDrawList& draw, const Projection& projection, const ImageRect& image, bool hovered);
 
 private:
-    // Where the handles sit: the middle of those of all that is transformed.
+    // The handles' centre: the mean of the centres of all transformed nodes.
     Vec3d anchor(const Scene& scene, std::span<const TransformTarget> targets);
     void grab(PanelContext& c, Handle handle, const std::optional<LightSight>& seen, const ViewRay& ray);
     std::vector<HandleShape> shapes(const PanelContext& c, std::span<const TransformTarget> targets, const Vec3d& position,
@@ -28,20 +28,20 @@ private:
     void aim(PanelContext& c, const Projection& projection, double u, double v);
     std::optional<LightSight> sight(const Scene& scene, Id<Node> id, const Projection& projection, const ImageRect& image) const;
 
-    // The middle of a node's mesh in its own space. It belongs to a node and the first part of its mesh, since a reloaded scene may have
-    // another mesh under the same id.
+    // The centre of a node's mesh in local space. The key is the node and the first part of its mesh, because after a reload the
+    // same id may have another mesh.
     struct Anchor {
         uint64_t geometry = 0;
         Vec3d local{0, 0, 0};
     };
     std::map<Id<Node>, Anchor> anchors_;
-    Id<Node> aimed_;          // the node that the distance belongs to
+    Id<Node> aimed_;          // the node that aim_distance_ belongs to
     double aim_distance_ = 1; // metres from the node to its aim handle
 
     Handle dragged_ = Handle::none;
     ViewRay start_ray_{};
     std::optional<LightSight> start_sight_;
-    // Selected nodes that hang below none of the others, and where they were.
+    // Selected nodes that are not descendants of other selected ones, with their initial transforms.
     struct Grabbed {
         Id<Node> node;
         Vec3d origin;

@@ -1,4 +1,4 @@
-// What the Health panel is set to, and the sample it has traced again.
+// State of the Health panel, with the last replayed sample.
 #pragma once
 
 #include "ui/background_job.h"
@@ -12,8 +12,8 @@ namespace blush {
 struct HealthView {
     bool open = false;
     bool map = false;                                   // the viewport shows where samples were dropped
-    std::string log;                                    // of the last replay
-    std::shared_ptr<BackgroundJob<std::string>> replay; // while it goes on
+    std::string log;                                    // path log of the last replay
+    std::shared_ptr<BackgroundJob<std::string>> replay; // while it is running
 };
 
 } // namespace blush

@@ -1,4 +1,4 @@
-// The view that a scene is composed for: that of a camera, or, in a scene without cameras, the one it was opened with.
+// The home view of a scene: its camera's view or, in a scene without cameras, the view at opening.
 #pragma once
 
 #include "scene/scene.h"
@@ -6,17 +6,17 @@
 namespace blush {
 
 struct HomeView {
-    Id<Node> camera; // none: `opened`
+    Id<Node> camera; // null id: use `opened`
     View opened;
 };
 
-// The camera that the view looks through, else the first of the chosen scene.
+// The camera that the view looks through, else the first camera of the current scene.
 HomeView home_at_opening(const Scene& scene);
-// As the camera is now; the view at opening where the camera is gone.
+// The camera's current view; the view at opening if the camera was deleted.
 View home_view(const Scene& scene, const HomeView& home);
-// The scene is seen from the camera's place. True without a camera: every view is a free one.
+// True if the view has the camera's pose. True without a camera: every view is then a free one.
 bool is_at_home(const Scene& scene, const HomeView& home);
-// The camera node whose place and direction the view has; none: a free view.
+// The camera node that has the view's pose; null id: a free view.
 Id<Node> camera_of_view(const Scene& scene);
 
 } // namespace blush

@@ -85,7 +85,7 @@ void draw_globe(const Pen& p) {
     p.draw.AddBezierQuadratic(p.at(0, -0.85f), p.at(-0.85f, 0), p.at(0, 0.85f), p.color, p.width);
 }
 
-// A tilted cross of axes on a small body.
+// Tilted axes on a small box.
 void draw_local_axes(const Pen& p) {
     p.box(-0.3f, -0.3f, 0.3f, 0.3f);
     p.line(0.3f, -0.3f, 0.85f, -0.85f), p.line(-0.3f, -0.3f, -0.85f, -0.85f), p.line(0, 0.3f, 0, 0.95f);

@@ -1,4 +1,4 @@
-// What the Import report panel shows: what became of a file's extensions and features, and what is suspicious about it.
+// State of the Import report panel: support of a file's extensions and features, and lint warnings.
 #pragma once
 
 #include <memory>
@@ -10,8 +10,8 @@ struct ImportReport;
 
 struct ImportReportView {
     bool open = false;
-    std::string file;                           // that was opened, reloaded or imported last
-    std::shared_ptr<const ImportReport> report; // null: none was
+    std::string file;                           // file that was last opened, reloaded or imported
+    std::shared_ptr<const ImportReport> report; // null: none yet
 };
 
 } // namespace blush

@@ -18,7 +18,7 @@ float right_dock_width(const Region& room, float font_size, const Beside& beside
     return std::clamp(std::round(beside.docks.right * font_size), narrowest_dock * font_size, widest_dock(room, font_size));
 }
 
-// Docks and strip take their places from the room.
+// Subtracts docks and strip from the room.
 void divide_room(Layout& l, float bottom_edge, float font_size, const Beside& beside) {
     const float body = bottom_edge - l.room.y, picture = std::min(lowest_viewport * font_size, std::floor(body * 0.45f));
     float free = std::max(body - beside.time - picture, 0.f);

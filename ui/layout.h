@@ -1,4 +1,5 @@
-// Where the regions of the window lie: menu above, status below, side panels, and docks beside and below the viewport.
+// Rectangles of the window's regions: menu on top, status bar at the bottom, side panels, and docks to the right of and below the
+// viewport.
 #pragma once
 
 #include <optional>
@@ -11,7 +12,7 @@ struct Region {
     bool contains(float px, float py) const { return px >= x && px < x + width && py >= y && py < y + height; }
 };
 
-// Widths of the side panels in units of the font size, so that they mean the same on every display.
+// Widths of the side panels in font sizes, so that they scale with the display.
 struct Splitters {
     float outliner = 13;
     float inspector = 21;
@@ -20,47 +21,47 @@ struct Splitters {
 
 constexpr Splitters no_side_panels{0, 0};
 
-// The sides of the viewport that instruments open on.
+// The sides of the viewport where instruments can dock.
 enum class DockSide { right, bottom };
 
-// Width of the right dock and height of the bottom one, in units of the font size.
+// Width of the right dock and height of the bottom one, in font sizes.
 struct DockSizes {
     float right = 25, bottom = 17;
     bool operator==(const DockSizes&) const = default;
 };
 
-// What takes its place from the picture.
+// What reduces the space of the picture.
 struct Beside {
-    bool right = false, bottom = false; // docks that hold something
+    bool right = false, bottom = false; // docks that have content
     DockSizes docks = {};
-    float strip = 0, time = 0; // pixels of height below the picture; 0: there is none
+    float strip = 0, time = 0; // heights below the picture, pixels; 0: hidden
 };
 
 struct Layout {
     Region outliner, viewport, inspector, status;
-    Region room;                                 // of the viewport while docks and strip are closed: the image has its size at all times
-    Region strip, time, right_dock, bottom_dock; // of no size where there is none
+    Region room;                                 // viewport without docks and strip; defines the image size
+    Region strip, time, right_dock, bottom_dock; // empty if hidden
 };
 
-// Regions of a window of width x height pixels below a menu bar. Side panels give way before the viewport gets narrower than it can be
-// used, docks and strip before it gets flatter. The bottom dock is as wide as the room, the right one ends above it.
+// Regions of a window of width x height pixels below a menu bar. To keep the viewport usable, side panels shrink before it gets
+// too narrow, docks and strip before it gets too flat. The bottom dock is as wide as the room; the right dock ends above it.
 Layout lay_out(float width, float height, float menu_height, float status_height, float font_size, const Splitters& splitters,
                const Beside& beside = {});
 
-// Is there room for a dock on the right that can be read, beside a viewport that can be used? Else the bottom dock holds its tabs.
+// True if there is room for a usable dock to the right of a usable viewport. Otherwise the bottom dock has its tabs.
 bool has_right_dock(const Region& room, float font_size);
 
-// The splitters after dragging the bar on the outliner's right (inspector's left) edge to `x` pixels, kept within sensible limits.
+// The splitters after dragging the outliner's right (inspector's left) edge to `x` pixels, clamped to sensible limits.
 Splitters drag_outliner(Splitters splitters, float x, float font_size);
 Splitters drag_inspector(Splitters splitters, float x, float width, float font_size);
-// The same for the right dock's left edge and the bottom dock's upper edge; what they cannot have in this window they do not get.
+// The same for the right dock's left edge and the bottom dock's upper edge; clamped to what fits into this window.
 DockSizes drag_right_dock(DockSizes sizes, float x, const Layout& layout, float font_size);
 DockSizes drag_bottom_dock(DockSizes sizes, float y, const Layout& layout, float font_size);
 
-// Where an instrument that is dropped at (x, y) docks: on a dock's tabs, or at the edge that an absent dock would be at.
+// The dock for an instrument dropped at (x, y): over a dock's tabs, or at the edge of a dock that is hidden.
 std::optional<DockSide> dock_at(const Layout& layout, float x, float y, float font_size);
 
-// The largest rectangle of the given aspect (width / height) inside a region, centred, on whole pixels.
+// The largest rectangle of the given aspect ratio (width / height) inside a region, centred, in whole pixels.
 Region fit_aspect(const Region& region, float aspect);
 
 } // namespace blush

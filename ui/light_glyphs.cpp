@@ -32,7 +32,7 @@ void draw_icon_of(ImDrawList& draw, ScreenPoint at, const Light& light, bool shi
                      std::max(1.5f, size / 12));
 }
 
-// Calls see(id, light, where, distance) for each light that shows in front of the eye.
+// Calls see(id, light, where, distance) for each visible light in front of the viewer.
 template <class See>
 void for_each_light(const Scene& scene, const Projection& projection, const ImageRect& image, const UiState& ui, const See& see) {
     Placements placements(scene);

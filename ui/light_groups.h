@@ -1,4 +1,4 @@
-// The groups that lights are sorted into by hand.
+// Light groups that the user has named.
 #pragma once
 
 #include "scene/scene.h"
@@ -8,9 +8,9 @@
 
 namespace blush {
 
-// Of the lights that nodes carry and of the environment, in alphabetical order, without "".
+// Names of the groups of lights on nodes and of the environment, sorted, without "".
 std::vector<std::string> group_names(const Scene& scene);
-// "Group 1", or the first number after it that is free.
+// "Group 1", or the first unused number after it.
 std::string unused_group_name(const Scene& scene);
 
 } // namespace blush

@@ -13,21 +13,21 @@ constexpr double pi_d = std::numbers::pi;
 constexpr float smallest_size = 1e-4f, smallest_spread = 0.002f;
 constexpr double dial_start = 1.6, dial_decade = 1.1, dial_finest = 0.05 * pi_d / 180; // ems, ems, radians
 
-// Right and down on the screen, where no axis handle usually lies.
+// Right and down on the screen, where axis handles are rare.
 Vec3d screen_diagonal(const Projection& projection) { return normalize(projection.right() - projection.up()); }
 
 Vec3d axis_of(const LightSight& sight) { return rotate(sight.rotation, {0, 0, -1}); }
 
-// The side of the cone that is its silhouette for the eye.
+// The silhouette edge of the cone, as seen by the viewer.
 Vec3d silhouette(const Vec3d& axis, const Projection& projection) {
     const Vec3d side = cross(axis, projection.forward());
     return length(side) > 1e-6 ? normalize(side) : any_perpendicular(axis);
 }
 
-// The eye looks along the axis rather than across it.
+// True if the view direction is closer to the axis than to its normal plane.
 bool seen_end_on(const Vec3d& axis, const Projection& projection) { return std::abs(dot(axis, projection.forward())) > 0.7; }
 
-// Metres that a drag goes along an axis of the light, or along the screen's diagonal.
+// Metres of a drag along an axis of the light, or along the screen's diagonal.
 double dragged_along(const Vec3d& axis, const Vec3d& origin, const ViewRay& from, const ViewRay& to) {
     const auto a = nearest_on_axis(from, origin, axis), b = nearest_on_axis(to, origin, axis);
     return a && b ? *b - *a : 0;
@@ -37,7 +37,7 @@ double dragged_along_screen(const Projection& projection, const Vec3d& origin, c
     return a && b ? dot(*b - *a, screen_diagonal(projection)) : 0;
 }
 
-// Its radius is dragged on the screen; a disk's lies in the disk.
+// True if the radius is dragged in the screen plane; for a disk, it is dragged in the plane of the disk.
 bool is_ball(Light::Kind kind) { return kind != Light::Kind::disk; }
 
 Vec3d cone_point(const LightSight& sight, const Projection& projection, double angle, double side) {
@@ -93,14 +93,15 @@ double angle_of_dial(double ems) {
 std::optional<double> cone_angle_under(const ViewRay& ray, const Vec3d& apex, const Vec3d& axis, const Projection& projection,
                                        double length) {
     const Vec3d side = silhouette(axis, projection);
-    // Across, the angle is read in the plane of axis and silhouette; end on, from a cap of the sphere that the cone's rim lies on.
+    // Seen from the side, the angle is measured in the plane of axis and silhouette; seen along the axis, on a sphere through the
+    // cone's rim.
     if (!seen_end_on(axis, projection)) {
         const auto p = meet_plane(ray, apex, cross(axis, side));
         if (!p) return {};
         return std::atan2(std::abs(dot(*p - apex, side)), dot(*p - apex, axis));
     }
     const double b = dot(ray.direction, ray.origin - apex), c = dot(ray.origin - apex, ray.origin - apex) - length * length;
-    const double discriminant = std::max(b * b - c, 0.0); // beside the sphere: its rim
+    const double discriminant = std::max(b * b - c, 0.0); // the ray misses the sphere: use its silhouette
     const double toward = dot(axis, ray.direction) > 0 ? 1 : -1;
     const Vec3d p = ray.origin + ray.direction * (-b + toward * std::sqrt(discriminant)) - apex;
     return std::atan2(blush::length(p - axis * dot(p, axis)), dot(p, axis));

@@ -1,36 +1,37 @@
-// Handles that change a light's size: where they are, and what dragging them does. Pure.
+// Handles that change a light's size: their positions, and the result of a drag. Pure.
 #pragma once
 
 #include "ui/gizmo.h"
 
 namespace blush {
 
-// The light of a node as it lies before the eye.
+// The light of a node, with its world pose as seen by the viewer.
 struct LightSight {
     Light light;
     Affined world_from_node;
     Quat rotation; // in the world, without scale
-    double reach;  // metres of the lines that show its cone, as light_outline draws them
-    double em;     // metres that a letter of the screen's text spans at the light
+    double reach;  // length of the lines that show its cone in metres, as in light_outline
+    double em;     // metres per font size of the screen at the light's distance
 };
 
 struct SizeHandle {
     Handle handle;
     Vec3d grip; // in the world
 };
-// Those that the kind of light has. A radius of 0 can be grabbed as well: its handle keeps clear of the centre.
+// The handles of this type of light. A radius of 0 also has a handle, at a minimum distance from the centre.
 std::vector<SizeHandle> size_handles(const LightSight& sight, const Projection& projection);
 
-// The light after a size handle was dragged from one ray to another. Sizes stay positive, a radius of a point or spot not negative, the
-// inner cone within the outer one. The radiance stays, or the flux where the light asks for that.
+// The light after a size handle is dragged from one ray to another. Sizes stay positive, the radius of a point or spot
+// non-negative, the inner cone within the outer cone. Radiance is preserved, or flux if the light's keep_power is set.
 Light resized(const LightSight& start, Handle handle, const Projection& projection, const ViewRay& from, const ViewRay& to);
 
-// A sun's angle on a dial around its glyph: the dial's radius in ems, steeper where angles are small. The two are each other's inverse.
+// Maps a sun's angle to a dial around its glyph: the dial's radius in font sizes, with finer resolution at small angles. The two
+// functions are inverses.
 double dial_of_angle(double radians);
 double angle_of_dial(double ems); // 0 .. pi
 
-// The angle to the axis at which a cone of `length` metres from `apex` is under the mouse; nothing where the ray misses what it is read
-// from.
+// The cone angle under the mouse, for a cone of `length` metres from `apex`; nullopt if the ray misses the surface on which it is
+// measured.
 std::optional<double> cone_angle_under(const ViewRay& ray, const Vec3d& apex, const Vec3d& axis, const Projection& projection,
                                        double length);
 

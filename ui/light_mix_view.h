@@ -1,4 +1,4 @@
-// The light mix panel's own state; the mix itself is the document's.
+// UI state of the light mix panel; the mix itself is in the document.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@ namespace blush {
 
 struct LightMixView {
     bool open = false;
-    bool stays_off = false; // the user has turned grouping off in this scene
-    std::string unfolded; // the group whose colour is shown
+    bool stays_off = false; // the user has switched grouping off for this scene
+    std::string unfolded; // the group whose colour settings are shown
 };
 
 } // namespace blush

@@ -19,7 +19,7 @@ struct Outline {
         const auto at = [&](int i) { return centre + x * std::cos(2 * pi_d * i / steps) + y * std::sin(2 * pi_d * i / steps); };
         for (int i = 0; i < steps; ++i) line(at(i), at(i + 1));
     }
-    // Of directions within half_angle of forward.
+    // Circle of directions at half_angle around forward.
     void cone(const Vec3d& apex, const Quat& rotation, double half_angle, double length, bool sides) {
         const double angle = std::min(half_angle, 1.5), radius = length * std::sin(angle);
         const Vec3d centre = apex + rotate(rotation, {0, 0, -1}) * (length * std::cos(angle));
@@ -32,14 +32,14 @@ struct Outline {
         const Vec3d corners[] = {centre - x - y, centre + x - y, centre + x + y, centre - x + y};
         for (int i = 0; i < 4; ++i) line(corners[i], corners[(i + 1) % 4]);
     }
-    // Which side shines.
+    // An arrow on the emitting side.
     void face(const Vec3d& centre, const Quat& rotation, const Light& light, double reach) {
         const Vec3d forward = rotate(rotation, {0, 0, -1});
         line(centre, centre + forward * (reach * 0.5));
         if (light.two_sided) line(centre, centre - forward * (reach * 0.5));
         if (light.spread_radians < pi_d - 1e-3) cone(centre, rotation, light.spread_radians / 2, reach, true);
     }
-    // Parallel rays, and how wide the disk is in the sky.
+    // Parallel rays, and the cone of the sun's angular diameter.
     void sun(const Vec3d& centre, const Quat& rotation, const Light& light, double reach) {
         const Vec3d forward = rotate(rotation, {0, 0, -1}) * reach;
         for (int i = 0; i < 6; ++i) {

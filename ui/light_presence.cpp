@@ -5,7 +5,7 @@
 namespace blush {
 namespace {
 
-// Nothing is muted and nothing solo.
+// True if nothing is muted and nothing is solo.
 Scene all_on(Scene scene) {
     const Table<Light> lights = scene.lights;
     for (auto [id, light] : lights) {

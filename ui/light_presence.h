@@ -1,4 +1,4 @@
-// Whether the scene has any light, muted or not, looked up again only when a table that tells has changed.
+// Whether the scene has any light, muted or not. Recomputed only if a relevant table has changed.
 #pragma once
 
 #include "scene/scene.h"

@@ -8,7 +8,8 @@ namespace {
 constexpr double pi_d = 3.14159265358979323846;
 constexpr double degrees = 180 / pi_d;
 
-// Candela towards a surface `distance` metres away that the light faces. One that has no candela is asked for its illuminance there.
+// Candela towards a surface that faces the light at `distance` metres. For lights without candela, computed from the illuminance
+// there.
 double candela(const Light& light, double distance) {
     return light.kind == Light::Kind::sun ? light.intensity * distance * distance : in_unit(light, Light::Unit::candela);
 }
@@ -37,13 +38,13 @@ bool has_direction(Light::Kind kind) { return kind != Light::Kind::point && kind
 Light converted(const Light& light, Light::Kind kind, double distance) {
     Light next = light;
     next.kind = kind;
-    if (is_per_area(kind) && next.radius <= 0) next.radius = 0.1f; // a disk and a sphere need one
+    if (is_per_area(kind) && next.radius <= 0) next.radius = 0.1f; // disk and sphere need a radius
     next.intensity = intensity_towards(next, candela(light, distance), distance);
     return next;
 }
 
 float turned_rotation(float rotation_degrees, double share, const Lens& lens) {
-    const double tangent = lens.orthographic ? 1 : 2 * std::tan(lens.yfov_radians / 2.0); // that the height spans
+    const double tangent = lens.orthographic ? 1 : 2 * std::tan(lens.yfov_radians / 2.0); // height of the image plane at distance 1
     return float(std::remainder(rotation_degrees - share * tangent * degrees, 360));
 }
 
@@ -61,7 +62,7 @@ Vec3d direction_of(const Heading& h) {
 Heading heading_of_rotation(const Quat& rotation) {
     const Vec3d forward = rotate(rotation, {0, 0, -1});
     Heading heading = heading_of(forward);
-    constexpr double nearly_vertical = 1e-4; // horizontal part of a unit vector whose direction single precision does not hold
+    constexpr double nearly_vertical = 1e-4; // horizontal part of a unit vector that is too short for a direction in single precision
     if (std::hypot(forward.x, forward.z) < nearly_vertical) heading.heading = heading_of(rotate(rotation, {0, forward.y < 0 ? 1.0 : -1.0, 0})).heading;
     return heading;
 }

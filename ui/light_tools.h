@@ -1,4 +1,4 @@
-// What the window knows about lights beyond their record: units, new lights, angles. Pure.
+// Light utilities: units, conversion between types, angles. Pure.
 #pragma once
 
 #include "scene/edit.h"
@@ -10,30 +10,31 @@ const char* kind_name(Light::Kind kind);
 // "cd", "lx" or "nits".
 const char* intensity_unit(Light::Kind kind);
 bool has_direction(Light::Kind kind);
-// `light` as another kind that lights a surface `distance` metres away, facing it, as brightly as before.
+// Converts `light` to another type that gives the same illuminance on a surface facing it at `distance` metres.
 Light converted(const Light& light, Light::Kind kind, double distance);
 
-// The intensity, in its own unit, of a light that sends so many candela towards a surface `distance` metres away that it faces. A sun, which has
-// no candela, gives the same illuminance there.
+// The intensity, in the light's own unit, for this many candela towards a surface facing it at `distance` metres. A sun, which
+// has no candela, gets the same illuminance there.
 float intensity_towards(const Light& light, double candela, double distance);
 
-// The rotation of surroundings, in -180 .. 180 degrees, that were dragged to the right by a share of the image's height: what was under the
-// mouse in the middle of the picture goes along.
+// The environment's rotation, in -180 .. 180 degrees, after a drag to the right by a fraction of the image's height. The point
+// under the mouse at the image centre follows the mouse.
 float turned_rotation(float rotation_degrees, double share, const Lens& lens);
 
-// Where a direction points: degrees clockwise from -Z seen from above, and degrees above the horizon.
+// A direction as angles: degrees clockwise from -Z seen from above, and degrees above the horizon.
 struct Heading {
     float heading = 0, tilt = 0;
 };
 Heading heading_of(const Vec3d& direction);
 Vec3d direction_of(const Heading& heading);
 
-// Where the -Z of a rotation points. Straight up or down, its +Y tells the heading.
+// The direction of a rotation's -Z. If it is vertical, +Y gives the heading.
 Heading heading_of_rotation(const Quat& rotation);
-// The rotation turned about the vertical to another heading, and about the horizontal axis across that heading to another tilt: it does not roll.
+// The rotation changed to another heading (about the vertical axis) and another tilt (about the horizontal axis across that
+// heading), without roll.
 Quat with_heading(const Quat& rotation, const Heading& heading);
 
-// The rotation turned the shortest way so that its -Z looks along `forward`.
+// The shortest rotation that turns -Z to `forward`, applied to `rotation`.
 Quat turned_to(const Quat& rotation, const Vec3d& forward);
 
 } // namespace blush

@@ -34,7 +34,7 @@ View view_through_light(const View& view, const Light& light, const LightPose& p
     const Vec3d forward = forward_of(through.rotation);
     if (has_place(light))
         through.position = to_float(pose.position + forward * clearance);
-    else if (through.rotation != view.rotation) // else the pivot would creep by rounding
+    else if (through.rotation != view.rotation) // otherwise rounding would move the pivot
         through.position = to_float(pivot(view) - forward * double(view.pivot_distance));
     return through;
 }

@@ -1,19 +1,19 @@
-// Looking through a light: the view that sees with its eyes, and the light that follows such a view. Pure.
+// Light camera: the view from a light, and the light moved by that view. Pure.
 #pragma once
 
 #include "ui/light_placing.h"
 
 namespace blush {
 
-// How far before a light's centre the eye stands so as not to look into its body, in metres.
+// Metres from a light's centre to the view position, so that the view is outside its body.
 double clearance(const Scene& scene, Id<Node> light_node);
 
-// `view` moved so that it looks out of the light. A sun has no place: its direction is taken and the pivot stays. A point and a sphere have
-// no direction: the view's stays. The view itself where it does so already.
+// The view from the light. A sun has no position: only its direction is used, and the pivot does not move. A point and a sphere
+// have no direction: the view keeps its own. Returns `view` unchanged if it already matches.
 View view_through_light(const View& view, const Light& light, const LightPose& pose, double clearance);
-// The light moved so that `view` looks out of it, as far as it has a place and a direction.
+// The light moved so that `view` is the view from it, as far as it has position and direction.
 LightPose pose_behind_view(const View& view, const Light& light, const LightPose& pose, double clearance);
-// `view` turned towards its pivot from where the light is: what looking through it begins with.
+// The view from the light's position towards the current pivot: the start of the light camera.
 View first_view_through_light(const View& view, const Light& light, const LightPose& pose, double clearance);
 
 } // namespace blush

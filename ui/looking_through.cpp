@@ -12,7 +12,7 @@ const Light* looked_through_light(const PanelContext& c) {
 void follow_looked_through(PanelContext& c) {
     if (!c.ui.looked_through) return;
     const Light* light = looked_through_light(c);
-    if (!light) { // deleted, or its adding undone
+    if (!light) { // deleted, or its creation was undone
         c.document.navigate(c.ui.looked_through->back);
         return c.ui.looked_through.reset();
     }

@@ -1,15 +1,15 @@
-// The viewport while it looks through a light: eye and light move as one.
+// Light camera mode of the viewport: view and light move together.
 #pragma once
 
 #include "ui/panels/context.h"
 
 namespace blush {
 
-// The light that is looked through; null if none is.
+// The light of the light camera; null if the mode is off.
 const Light* looked_through_light(const PanelContext& c);
-// The view goes where the light is, whatever has moved that. A light that is gone is looked through no more.
+// Moves the view to the light, after any edit of the light. Ends the mode if the light was deleted.
 void follow_looked_through(PanelContext& c);
-// And where the view has gone, the light goes.
+// Moves the light to the view, after navigation.
 void carry_light_along(PanelContext& c);
 
 } // namespace blush

@@ -8,7 +8,7 @@
 namespace blush {
 namespace {
 
-constexpr int most_samples = 8; // of the pixels under one of the preview, along each side
+constexpr int most_samples = 8; // source pixels averaged per thumbnail pixel, per axis
 
 float value_at(const Image& image, int x, int y, int channel) {
     const size_t i = (size_t(y) * size_t(image.width) + size_t(x)) * size_t(image.channels) + size_t(image.channels < 3 ? 0 : channel);

@@ -1,4 +1,4 @@
-// Small pictures of the images on materials, as textures of the graphics card.
+// Thumbnails of the textures of materials, on the GPU.
 #pragma once
 
 #include "scene/scene.h"
@@ -11,17 +11,17 @@
 
 namespace blush {
 
-// A picture's longer side is this many pixels at most.
+// Maximum length of the longer side, in pixels.
 constexpr int map_preview_side = 256;
 
 struct SmallImage {
     int width = 0, height = 0;
     std::vector<uint8_t> rgb;
 };
-// Means of an image's pixels as they are stored, without alpha; one channel is grey. Empty for an image without pixels.
+// Averages an image's stored pixel values, without alpha; one channel is shown as grey. Empty for an image without pixels.
 SmallImage small_image(const Image& image);
 
-// Made when they are first asked for. A graphics context must be current.
+// Created on first use. A graphics context must be current.
 class MapThumbnails {
 public:
     struct Picture {
@@ -31,12 +31,12 @@ public:
     Picture of(const Image& image);
 
 private:
-    static constexpr size_t most = 256; // then all are made anew
+    static constexpr size_t most = 256; // above this, all are created anew
     struct Kept {
         GlTexture texture;
         int width = 0, height = 0;
     };
-    std::map<uint64_t, Kept> kept_; // by the image's serial number
+    std::map<uint64_t, Kept> kept_; // key: the image's serial number
 };
 
 } // namespace blush

@@ -1,4 +1,4 @@
-// What the window knows of the images on materials: which of them a file is being chosen for, and their small pictures.
+// UI state of material textures: the slot that a file is being chosen for, and the thumbnails.
 #pragma once
 
 #include "scene/scene.h"
@@ -11,11 +11,11 @@ namespace blush {
 class MapThumbnails;
 
 struct MapView {
-    // What the next chosen image file is for.
+    // The slot for the next chosen image file.
     Id<Material> material;
     TextureRef Material::*slot = nullptr;
     std::string label;                             // of the slot
-    std::shared_ptr<MapThumbnails> thumbnails = {}; // none: without a window
+    std::shared_ptr<MapThumbnails> thumbnails = {}; // null without a window
 };
 
 } // namespace blush

@@ -1,4 +1,4 @@
-// Images on materials, put there and taken away: edits of the document. Pure but for the document.
+// Edits that add and remove textures of materials. Pure, except for the document.
 #pragma once
 
 #include "scene/document.h"
@@ -7,11 +7,11 @@
 
 namespace blush {
 
-// Puts an image into a slot of a material, as one step of the history; how it is placed there stays. Errors: a material that is no longer there,
-// what the document refuses.
+// Puts an image into a texture slot of a material, as one undo step; keeps the slot's UV transform. Errors: the material was
+// deleted, or the document refuses the edit.
 Result<void> set_map(Document& document, Id<Material> material, TextureRef Material::*slot, const std::string& label, Texture texture,
                      Gesture gesture);
-// Some mesh with this material says where on an image its vertices lie.
+// True if any mesh with this material has texture coordinates.
 bool has_texture_coordinates(const Scene& scene, Id<Material> material);
 
 } // namespace blush

@@ -9,13 +9,13 @@ namespace {
 
 constexpr int samples_per_round = 256;
 constexpr int64_t least_rounds = 16, most_rounds = 4000;
-constexpr double good_enough = 0.002; // half the interval, relative
+constexpr double good_enough = 0.002; // half the confidence interval, relative
 
 } // namespace
 
 MeterWork::Question::Question(const Scene& scene_, const RenderSettings& settings_, const std::vector<MeterPlace>& places_)
     : scene(scene_), settings(settings_), places(places_) {
-    // Meters stay where they are, wherever it is looked from and at however many pixels.
+    // Readings do not depend on view or resolution.
     scene.view = {};
     settings.width = settings.height = 1;
     settings.resolution_scale = 1;

@@ -1,4 +1,4 @@
-// Light meters at work on a thread of its own, while there are any.
+// Runs the light meters on their own thread, while there are any.
 #pragma once
 
 #include "measure/light_meter.h"
@@ -16,7 +16,7 @@ public:
         Scene scene;
         RenderSettings settings;
         std::vector<MeterPlace> places;
-        // Is light at the places the same?
+        // True if the light at the meters is the same for both questions.
         bool asks_the_same(const Question& other) const;
     };
     using Answer = std::vector<MeterReading>;

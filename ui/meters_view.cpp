@@ -14,7 +14,7 @@
 namespace blush {
 namespace {
 
-// Metres that keep a meter off its surface in the renderer's single precision, of which surfaces are off by at most 2^-21 of the
+// Offset of a meter from its surface, in metres, for the renderer's single precision: hit points are off by at most 2^-21 of the
 // coordinates that they are computed from (render/surface.h); four times that.
 double clearance_of(const Scene& scene, const RayHit& hit) {
     const Vec3d origin = render_origin(world_bounds(scene));
@@ -31,7 +31,8 @@ double clearance_of(const Scene& scene, const RayHit& hit) {
 std::optional<LightMeter> meter_at(const Frame& frame, const Scene& scene, const Projection& projection, double u, double v,
                                    std::string name) {
     const ViewRay ray = projection.ray(u, v);
-    // The object that the pixel shows, which may be seen through holes of others; at an edge the click's own ray may miss it.
+    // The object id of the pixel, which may be visible through holes of other objects. At an edge the ray through the click may
+    // miss it.
     const Id<Node> shown = pick(frame, u, v).node;
     std::optional<RayHit> hit;
     if (shown) hit = cast_ray(scene, ray.origin, ray.direction, [&](Id<Node> id) { return id == shown; });
@@ -62,7 +63,7 @@ std::string reading_text(const MeterReading& reading) {
     const Interval& lux = reading.lux;
     if (!lux.known) return reading.rounds > 1 ? "no light found yet" : "...";
     const double half = (lux.high - lux.low) / 2;
-    // As many decimals as the interval has something to say about.
+    // As many decimals as the confidence interval justifies.
     const int decimals = half > 0 ? std::clamp(1 - int(std::floor(std::log10(half))), 0, 6) : 3;
     return fmt::format("{:.{}f} ± {:.{}f} lx", lux.value, decimals, half, decimals);
 }

@@ -49,7 +49,7 @@ void MixPreview::thin(Kept& kept, const std::shared_ptr<const void>& of, const s
     thinning_ = per_millisecond(double(kept.planes.width) * kept.planes.height * double(planes.size()), begin);
 }
 
-// By this thread alone: it is little, and workers may be at the session's work, whose priority is low.
+// On this thread only: the work is small, and the worker threads may be busy with the session's work, at low priority.
 void MixPreview::mix(const Kept& kept, const Gains& gains, std::vector<float>& rgb) {
     const auto begin = Clock::now();
     mix_rgb(kept.planes.spans(), gains, rgb);

@@ -1,4 +1,4 @@
-// A mix of lights while it is being moved: of as many pixels as there is time for, all of them when it rests.
+// Preview of a light mix while it is edited: at a reduced resolution that fits the time budget, in full when the edit pauses.
 #pragma once
 
 #include "render/light_mix.h"
@@ -10,7 +10,7 @@
 
 namespace blush {
 
-// What is moved: the groups of a frame, of what it was denoised to, or of both.
+// The source: the groups of a frame, of its denoised picture, or of both.
 struct MovedMix {
     FramePtr frame;
     DenoisedPtr denoised;
@@ -22,23 +22,23 @@ class MixPreview {
 public:
     static constexpr int coarsest = 8;
 
-    // So many pixels of each row and column make one, at most `coarsest`: the fewest that can be mixed and drawn within so many milliseconds,
-    // if all goes as fast as it last did. `drawing`: milliseconds to draw so many pixels.
+    // Step between the pixels that are mixed, per axis, at most `coarsest`: the smallest that can be mixed and drawn within the
+    // given milliseconds, at the last measured speed. `drawing`: milliseconds to draw this many pixels.
     int step_in_time(const MovedMix& moved, double milliseconds, const std::function<double(double pixels)>& drawing) const;
 
     struct Picture {
         int width = 0, height = 0;
         std::shared_ptr<const std::vector<float>> values;
     };
-    // 4 values a pixel, of which the last is 1; the others mean nothing if the raw picture is not shown.
+    // 4 values per pixel, the last is 1; the others are unspecified if the raw picture is not shown.
     Picture raw(const MovedMix& moved, const Gains& gains, int step);
-    // 3 values a pixel.
+    // 3 values per pixel.
     Picture denoised(const MovedMix& moved, const Gains& gains, int step);
-    // Nothing is moved any more: frees what was kept for it.
+    // The edit has ended: frees the cached planes.
     void forget() { raw_ = denoised_ = {}; }
 
 private:
-    // What was last taken out of planes, and memory for what is made of it.
+    // The planes last read, and reused output buffers.
     struct Kept {
         std::weak_ptr<const void> of;
         int step = 0;
@@ -51,7 +51,7 @@ private:
     void mix(const Kept& kept, const Gains& gains, std::vector<float>& rgb);
 
     Kept raw_, denoised_;
-    // Pixels of one plane in a millisecond: careful guesses at first.
+    // Pixels of one plane per millisecond: conservative initial values.
     double thinning_ = 1.5e5, mixing_ = 5e5;
 };
 

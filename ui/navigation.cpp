@@ -10,13 +10,13 @@ namespace blush {
 namespace {
 
 constexpr double turn_per_height = 3.2;   // radians for a drag over the picture's height
-constexpr double closer_per_notch = 0.88; // of the distance, for one notch of the wheel
+constexpr double closer_per_notch = 0.88; // factor of the distance per notch of the wheel
 constexpr double stops_per_height = 8;
 constexpr float stops_per_notch = 0.25f;
-constexpr double same_wheeling = 1;       // seconds between notches of the wheel that are one gesture
+constexpr double same_wheeling = 1;       // maximum seconds between notches of one gesture
 constexpr double speed = 0.8;             // pivot distances per second
 
-// Right, up and forward from W A S D Q E.
+// Movement along right, up and forward, from W A S D Q E.
 Vec3d wanted_motion() {
     const auto axis = [](int plus, int minus) { return double(ImGui::IsKeyDown(plus)) - double(ImGui::IsKeyDown(minus)); };
     return {axis('D', 'A'), axis('E', 'Q'), axis('W', 'S')};

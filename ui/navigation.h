@@ -1,4 +1,4 @@
-// The mouse and keys that move the view, and what a click means when nothing was moved.
+// Mouse and keyboard navigation of the view, and clicks in the viewport.
 #pragma once
 
 #include "scene/scene.h"
@@ -8,23 +8,23 @@
 
 namespace blush {
 
-// What the user asked of the viewport in this frame.
+// The user's input to the viewport in this frame.
 struct NavigationResult {
-    std::optional<View> view;                          // moved there
-    std::optional<ScreenPoint> select, toggle, toggle_shadow, focus, inspect; // clicked there: plain, with Shift, Alt+Shift, Ctrl, the right button
-    double turned = 0;                                 // the surroundings were dragged to the right by this share of the image's height
-    bool flying = false;                               // moves by itself while a key is held
-    float brighter = 0;                                // stops of exposure
-    bool begins_exposure = false;                      // of a new gesture
-    double zoom = 1;                                   // times as large, about the mouse
-    double shift_x = 0, shift_y = 0;                   // of the picture, pixels of the screen
+    std::optional<View> view;                          // the new view
+    std::optional<ScreenPoint> select, toggle, toggle_shadow, focus, inspect; // clicks: plain, with Shift, Alt+Shift, Ctrl, right button
+    double turned = 0;                                 // drag of the environment to the right, as a fraction of the image's height
+    bool flying = false;                               // moves continuously while a key is held
+    float brighter = 0;                                // change of exposure in stops
+    bool begins_exposure = false;                      // this is a new gesture
+    double zoom = 1;                                   // factor, about the mouse position
+    double shift_x = 0, shift_y = 0;                   // shift of the picture in screen pixels
 };
 
 class Navigation {
 public:
-    // `image` is where the picture lies, `hovered` whether the mouse is over it and `free` whether a press would be ours.
+    // `image` is the picture's rectangle, `hovered` whether the mouse is over it, `free` whether the viewport may use a press.
     NavigationResult update(const View& view, const ImageRect& image, bool hovered, bool free);
-    // Between press and release.
+    // True between press and release.
     bool busy() const { return mode_ != Mode::none; }
 
 private:
@@ -36,10 +36,10 @@ private:
 
     Mode mode_ = Mode::none;
     int button_ = 0;
-    bool moved_ = false;     // further than a click's tremble
-    bool may_click_ = false; // released without a move, it is a click
+    bool moved_ = false;     // further than a click allows
+    bool may_click_ = false; // a release without movement is a click
     ScreenPoint last_;
-    double exposed_at_ = -1e9; // when the wheel last changed the exposure, seconds
+    double exposed_at_ = -1e9; // time of the last exposure change by the wheel, seconds
 };
 
 } // namespace blush

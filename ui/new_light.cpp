@@ -16,9 +16,9 @@ namespace {
 
 constexpr double pi_d = 3.14159265358979323846;
 constexpr double size_of_reach = 0.2, distance_of_reach = 0.45, farthest_of_reach = 1.5;
-constexpr double share_of_room = 0.6; // of the way to a wall
+constexpr double share_of_room = 0.6; // fraction of the distance to a wall
 
-// Metres that the picture is high at a distance along the view axis.
+// Height of the picture in metres at a distance along the view axis.
 double reach_at(const View& view, double distance) {
     return view.lens.orthographic ? 2.0 * view.lens.ymag : 2 * distance * std::tan(view.lens.yfov_radians / 2.0);
 }
@@ -39,7 +39,7 @@ double clearance_at(const Scene& scene, const Vec3d& position) {
     return nearest;
 }
 
-// The first that no light is too near to; else the one farthest from all.
+// The first candidate that keeps its distance from all lights; else the one farthest from all.
 LightSpot first_free(const Scene& scene, const std::vector<LightSpot>& spots, double room) {
     const LightSpot* best = &spots.front();
     double most = -1e300;
@@ -55,7 +55,7 @@ bool contains(const Bounds& box, const Vec3d& p) {
     return p.x > box.low.x && p.x < box.high.x && p.y > box.low.y && p.y < box.high.y && p.z > box.low.z && p.z < box.high.z;
 }
 
-// Where a ray from inside leaves the box; 0 from outside.
+// Distance at which a ray from inside leaves the box; 0 if the origin is outside.
 double way_out(const Bounds& box, const Vec3d& from, const Vec3d& direction) {
     if (box.empty || !contains(box, from)) return 0;
     double out = 1e300;
@@ -68,8 +68,8 @@ double way_out(const Bounds& box, const Vec3d& from, const Vec3d& direction) {
     return out;
 }
 
-// Distance from a point inside to the wall of a room around it: a surface that faces the point. The shell of an object that the point lies in faces
-// away, and is passed. Infinite in the open.
+// Distance from a point inside a room to its wall: a surface that faces the point. The shell of an object around the point faces
+// away and is skipped. Infinite in the open.
 double wall_of_room(const Scene& scene, const Vec3d& from, const Vec3d& direction) {
     constexpr int most_shells = 16;
     Vec3d origin = from;
@@ -84,7 +84,7 @@ double wall_of_room(const Scene& scene, const Vec3d& from, const Vec3d& directio
     return std::numeric_limits<double>::infinity();
 }
 
-// Degrees about the vertical, from the viewer's side to the right, and above the horizon.
+// Direction by angles in degrees: about the vertical axis from the viewer's side to the right, and above the horizon.
 struct Direction {
     double around, above, strength;
 };
@@ -123,7 +123,7 @@ LightSpot spot_round_subject(const Scene& scene, const View& view, const Bounds&
         for (size_t i = 0; i < directions.size(); ++i) {
             const Vec3d& direction = directions[i];
             double distance = distance_of_reach * reach;
-            // A floor that goes on beyond the picture is nothing to be outside of.
+            // A floor that extends beyond the picture is not a subject: the light need not be outside of it.
             if (const double out = in_room ? 0 : 1.1 * way_out(subject, target, direction); out < farthest_of_reach * reach) distance = std::max(distance, out);
             spots.push_back({target + direction * std::min(distance * farther, farthest[i]), target, in_turn[i].strength});
         }
@@ -140,7 +140,7 @@ AddLight new_light(Light::Kind kind, const View& view, const LightSpot& spot, fl
     add.light.outer_cone_radians = 0.5f;
     add.light.inner_cone_radians = 0.4f;
     add.light.angle_radians = kind == Light::Kind::sun ? 0.00925f : 0;
-    // White is reflectance x illuminance / pi = 1 at exposure 0.
+    // White is displayed for reflectance x illuminance / pi = 1 at exposure 0.
     const double illuminance = spot.strength * pi_d * std::exp2(-exposure_ev);
     add.light.intensity = intensity_towards(add.light, illuminance * distance * distance, distance);
     add.node.local.translation = to_float(spot.position);

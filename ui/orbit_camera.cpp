@@ -10,8 +10,8 @@ constexpr double nearest_to_pole = half_pi - 1e-3;
 
 Vec3d forward(const View& view) { return rotate(view.rotation, {0, 0, -1}); }
 
-// The rotation after a turn about world up and then about the view's own right, stopped short of the poles.
-// A view that was rolled (a scene's camera may be) stays rolled.
+// Rotation after a turn about world up and then about the view's right axis, clamped at the poles. A rolled view (from a scene's
+// camera) keeps its roll.
 Quat turned(const View& view, double yaw, double pitch) {
     const double elevation = std::asin(std::clamp(forward(view).y, -1.0, 1.0));
     const double limit = std::max(nearest_to_pole, std::abs(elevation));

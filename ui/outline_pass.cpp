@@ -6,7 +6,7 @@
 namespace blush {
 namespace {
 
-// Outside the objects, as opaque as a ring of eight neighbours finds one of them within `thickness` screen pixels.
+// Drawn outside the objects; opacity is the maximum of the mask at eight neighbours in `thickness` screen pixels distance.
 const char* const source = R"(
 uniform sampler2D mask;
 uniform vec2 ring; // thickness in uv
@@ -19,10 +19,10 @@ void main() {
     result = vec4(1.0, 0.62, 0.2, 0.9 * near * (1.0 - inside(uv)));
 })";
 
-constexpr int cell = 16; // pixels along a side; wider than the line
+constexpr int cell = 16; // pixels along a side; larger than the line width
 
-// Where a line may be: cells with something outside the objects, of which they or a neighbour have something inside, in rows of cells side
-// by side.
+// Cells where the line can be: they have pixels outside the objects, and they or a neighbour have pixels inside. Merged into
+// horizontal runs.
 std::vector<PixelRect> edges_of(const std::vector<uint8_t>& mask, int width, int height) {
     const int across = (width + cell - 1) / cell, down = (height + cell - 1) / cell;
     const auto index = [&](int x, int y) { return size_t(y) * size_t(across) + size_t(x); };
@@ -66,7 +66,7 @@ Result<void> OutlinePass::load() {
 void OutlinePass::upload(const Frame& frame, const std::vector<uint8_t>& selected) {
     coming_.resize(frame.object_id.size());
     std::ranges::transform(frame.object_id, coming_.begin(), [&](uint32_t id) { return id < selected.size() && selected[id] ? 255 : 0; });
-    // Most frames show more samples of the same.
+    // Most frames have the same mask with more samples.
     if (frame.width == width_ && frame.height == height_ && coming_ == inside_) return;
     inside_.swap(coming_);
     width_ = frame.width;
@@ -95,7 +95,7 @@ void OutlinePass::draw(int width, int height, float thickness) {
     glBindVertexArray(no_vertices_.name());
     glUniform2f(glGetUniformLocation(program_.name(), "ring"), thickness / float(width), thickness / float(height));
     const float across = float(width) / float(width_), down = float(height) / float(height_);
-    glEnable(GL_SCISSOR_TEST); // to look for the line everywhere would cost ten times as much
+    glEnable(GL_SCISSOR_TEST); // searching the whole picture would cost ten times as much
     for (const PixelRect& edge : edges_) {
         const int x0 = int(std::floor(float(edge.x0) * across)), y0 = int(std::floor(float(edge.y0) * down));
         glScissor(x0, y0, int(std::ceil(float(edge.x1) * across)) - x0, int(std::ceil(float(edge.y1) * down)) - y0);

@@ -1,4 +1,4 @@
-// A thin line around the selected objects, found in the frame's id plane: no ray is traced for it.
+// Outline of the selected objects, computed from the frame's id plane; no rays are traced.
 #pragma once
 
 #include "render/frame.h"
@@ -14,15 +14,15 @@ namespace blush {
 class OutlinePass {
 public:
     Result<void> load();
-    // Takes from the id plane where the selected objects are: those whose selected[Id<Node>.value] is not 0. A frame without
-    // that plane gives no outline, nor one in which none of them is seen.
+    // Makes the mask of the selected objects from the id plane: those with selected[Id<Node>.value] != 0. No outline if the frame
+    // has no id plane, or none of the objects is visible.
     void upload(const Frame& frame, const std::vector<uint8_t>& selected);
-    // Makes texture() the line over a picture that is so large on the screen, see-through elsewhere. It does not depend on the picture's colours:
-    // nothing is done where the last one will do.
+    // Renders the outline into texture() for a picture of this size on the screen; transparent elsewhere. It does not depend on
+    // the picture's colours. Skipped if the last outline is still valid.
     void draw(int width, int height, float thickness);
 
     GLuint texture() const { return target_.texture(); }
-    // Where the line may be, in pixels of the frame that was uploaded; the rest of the texture need not be shown.
+    // Regions that can contain the line, in pixels of the uploaded frame; the rest of the texture can be skipped.
     std::span<const PixelRect> edges() const { return edges_; }
     int frame_width() const { return width_; }
     int frame_height() const { return height_; }
@@ -31,11 +31,11 @@ private:
     GlProgram program_;
     GlVertexArray no_vertices_;
     GlTexture mask_;
-    std::vector<uint8_t> inside_, coming_; // coming_: kept for its memory
+    std::vector<uint8_t> inside_, coming_; // coming_: reused buffer
     RenderTarget target_;
     int width_ = 0, height_ = 0;
     std::vector<PixelRect> edges_;
-    float thickness_ = 0; // of the line that is in the target; 0: it shows another mask
+    float thickness_ = 0; // of the line in the target; 0: it shows an outdated mask
 };
 
 } // namespace blush

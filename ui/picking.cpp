@@ -31,7 +31,7 @@ std::optional<SurfaceSpot> seen_surface(const Frame& frame, const Projection& pr
     const auto position = seen_point(frame, projection, u, v);
     const auto i = pixel_at(frame, u, v);
     if (!position || *i >= frame.normal.size()) return {};
-    const Vec3d normal = to_double(frame.normal[*i]); // a mean over the pixel: next to nothing where surfaces turn away from each other
+    const Vec3d normal = to_double(frame.normal[*i]); // a mean over the pixel: nearly zero at the border of surfaces with opposite normals
     if (!(length(normal) > 1e-3)) return {};
     return SurfaceSpot{*position, normalize(normal), pick(frame, u, v).node};
 }

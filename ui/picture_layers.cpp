@@ -73,7 +73,7 @@ struct Range {
 Range range_of(const std::vector<float>& values) {
     Range r;
     for (const float v : values) {
-        // What renderers write for infinitely far away is no part of the range.
+        // Infinite depth, as written by renderers for no hit, is not part of the range.
         if (!std::isfinite(v) || std::abs(v) >= 1e9f) continue;
         r = r.known ? Range{std::min(r.low, v), std::max(r.high, v), true} : Range{v, v, true};
     }
@@ -94,7 +94,7 @@ std::vector<PictureLayer> layers_of(const std::vector<LayeredImage>& parts) {
             all.push_back(std::move(layer));
         }
     }
-    // Colours without a name of their own are the picture.
+    // A colour layer without a name is the beauty.
     const auto beauty = std::ranges::find_if(all, [](const PictureLayer& l) { return l.kind == Kind::color && l.name.ends_with("Beauty"); });
     if (beauty != all.end()) std::rotate(all.begin(), beauty, beauty + 1);
     return all;

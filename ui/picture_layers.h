@@ -1,4 +1,4 @@
-// The layers of a picture that another program made: which channels make a layer, and how a layer is shown.
+// Layers of an EXR from another program: which channels form a layer, and how it is displayed.
 #pragma once
 
 #include "io/image_io.h"
@@ -12,14 +12,14 @@
 
 namespace blush {
 
-// Some channels of an image that are looked at together: red, green, blue and perhaps alpha; three coordinates; or one number.
+// Channels that are displayed together: red, green, blue and optionally alpha; three coordinates; or a single number.
 struct PictureLayer {
     enum class Kind { color, vector, number, id };
-    std::string name;     // "Beauty", "diffuse", "N", "depth.Z", with the part's name before it where the file has several
-    std::string channels; // as the file calls them
+    std::string name;     // "Beauty", "diffuse", "N", "depth.Z", with the part's name as prefix if the file has several parts
+    std::string channels; // names in the file
     Kind kind = Kind::color;
     size_t part = 0;                         // of the file
-    std::array<int, 4> channel{-1, -1, -1, -1}; // of the part; -1: none
+    std::array<int, 4> channel{-1, -1, -1, -1}; // index in the part; -1: none
 };
 
 struct PictureLayers {
@@ -29,17 +29,17 @@ struct PictureLayers {
     size_t chosen = 0;
 };
 
-// The layers of a file: "NAME.R", "NAME.G", "NAME.B" (and A) are one, as are X, Y, Z and names in small letters; R, G, B without a name are the
-// beauty, which comes first; every other channel is a layer of its own. None without channels.
+// The layers of a file: "NAME.R", "NAME.G", "NAME.B" (and A) form one layer, also with X, Y, Z or lower-case letters; R, G, B
+// without a name are the beauty, which comes first; every other channel is a layer of its own. Empty without channels.
 std::vector<PictureLayer> layers_of(const std::vector<LayeredImage>& parts);
-// All of a file, the beauty chosen. Errors as in read_parts.
+// Reads all layers of a file; the beauty is the chosen one. Errors as in read_parts.
 Result<std::shared_ptr<PictureLayers>> open_picture_layers(const std::filesystem::path& file);
-// Is it a panorama, as environments are kept: one image, twice as wide as high, of colours alone?
+// True if it is probably an environment panorama: one image, twice as wide as high, with colours only.
 bool is_panorama(const PictureLayers& picture);
-// The chosen layer as a picture. Colours are as they are; vectors v / 2 + 1 / 2; numbers run from black, the least, to white, the largest; ids
-// have a colour each. What is no number is black.
+// The chosen layer as a picture. Colours are unchanged; vectors are v / 2 + 1 / 2; numbers go from black (minimum) to white
+// (maximum); each id has its own colour. Non-finite values are black.
 FramePtr frame_of(const PictureLayers& picture);
-// "from 0.5 to 12.25": the range of a layer of numbers; empty of others.
+// "from 0.5 to 12.25": the range of a layer of numbers; empty for other layers.
 std::string range_text(const PictureLayers& picture);
 
 } // namespace blush

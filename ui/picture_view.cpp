@@ -57,9 +57,9 @@ std::string bounces_caption(const std::vector<float>& gains) {
         plain = plain && (gains[k] == 0 || gains[k] == 1);
         if (gains[k] != 0) kept += fmt::format("{}{}{}", kept.empty() ? "" : ", ", k, k + 1 == gains.size() ? "+" : "");
     }
-    if (!plain) return "Bounces with gains: not the picture";
-    if (kept.empty()) return "No bounce: not the picture";
-    return fmt::format("Bounce{} {} alone: not the whole picture", kept.find(',') == kept.npos ? "" : "s", kept);
+    if (!plain) return "Bounces with gains: not the physical picture";
+    if (kept.empty()) return "No bounces selected";
+    return fmt::format("Bounce{} {} only: not the whole picture", kept.find(',') == kept.npos ? "" : "s", kept);
 }
 
 std::vector<float> illuminance_of(const Frame& frame) {
@@ -146,13 +146,13 @@ bool is_mixed(std::span<const Vec3> gains) {
 std::string caption_of(const Frame& frame, const PictureView& view) {
     const Range range = range_of(frame, view.show);
     switch (view.show) {
-    case Show::bounces: return bounces_caption(view.gains) + (is_mixed(frame.gains) ? ", in the light from before the light mix" : "");
+    case Show::bounces: return bounces_caption(view.gains) + (is_mixed(frame.gains) ? ", without the light mix" : "");
     case Show::dropped:
         if (frame.health.dropped_map.empty()) return "Dropped samples: none";
-        return fmt::format("Dropped samples: black 0, white {:.0f} in a pixel", range.high);
+        return fmt::format("Dropped samples: black 0, white {:.0f} per pixel", range.high);
     case Show::path_length: return fmt::format("Path length: black {:.0f}, white {:.1f} vertices on average", range.low, range.high);
-    case Show::survival: return "Survival: black 0, white 1, the mean chance that roulette gave";
-    case Show::group: return fmt::format("Light group {} alone: not the whole picture", frame.group_names[size_t(view.group)]);
+    case Show::survival: return "Survival: mean survival probability, black 0, white 1";
+    case Show::group: return fmt::format("Light group {} only: not the whole picture", frame.group_names[size_t(view.group)]);
     default: return is_data(view) ? aov_caption(frame, view.show) : std::string();
     }
 }

@@ -1,5 +1,5 @@
-// Which picture of a frame the viewport shows: the beauty, or one that is made of the frame's other planes. A way of looking: nothing is
-// rendered for it, and nothing of it is saved.
+// What the viewport shows of a frame: the beauty, or a picture computed from its other planes. Only a view: it does not restart
+// the render and is not saved.
 #pragma once
 
 #include "render/frame.h"
@@ -13,42 +13,42 @@ namespace blush {
 struct PictureView {
     enum class Show {
         beauty,
-        bounces,     // the bounce planes, each times its gain
-        dropped,     // where samples could not be used
+        bounces,     // sum of the bounce planes, each with its gain
+        dropped,     // number of dropped samples
         path_length, // mean number of vertices
-        survival,    // mean probability that roulette gave
-        illuminance, // lux, if surfaces are matte: what false colours of lux are made of
-        albedo,      // of first hits, as are the next four
+        survival,    // mean survival probability of Russian roulette
+        illuminance, // lux, for diffuse surfaces: input of the false colours in lux
+        albedo,      // first-hit data, as the next four
         normal,
         depth,
         object_id,
         material_id,
-        error,       // standard error of each pixel's mean, of its value
-        samples,     // of each pixel
-        group,       // of lights, as the light mix has it
+        error,       // standard error of each pixel, relative to its value
+        samples,     // per pixel
+        group,       // a light group, in the current light mix
     };
     Show show = Show::beauty;
-    std::vector<float> gains = {}; // of bounces
-    int group = 0;                 // of the frame's groups of lights
+    std::vector<float> gains = {}; // per bounce
+    int group = 0;                 // index in the frame's light groups
     bool operator==(const PictureView&) const = default;
 };
 
-// A map's colour for 0 .. 1: black, blue, red, yellow, white; dark to bright, so that it reads without colours too.
+// Heat map colour for 0 .. 1: black, blue, red, yellow, white; luminance increases, so that it is readable without colour.
 Vec3 heat(float t);
 
-// The frame has what the view needs and it is not simply the beauty.
+// True if the frame has the required planes and the view is not just the beauty.
 bool is_special(const Frame& frame, const PictureView& view);
-// Its colours stand for numbers that are no light.
+// True if its colours represent numbers other than light.
 bool is_map(const PictureView& view);
-// Its colours are those of the screen: no exposure, no view transform.
+// True if its colours are display values: no exposure, no view transform.
 bool is_data(const PictureView& view);
-// width * height * 4 scene-linear values of a special view. Maps run from black over blue, red and yellow to white.
+// width * height * 4 scene-linear values of a special view. Heat maps go from black over blue, red and yellow to white.
 std::vector<float> pixels_of(const Frame& frame, const PictureView& view);
-// `rgba`, a picture of the frame's, its alpha the coverage by objects (coverage.h).
+// `rgba` with the coverage by objects (coverage.h) as alpha.
 std::vector<float> with_coverage(const Frame& frame, std::vector<float> rgba);
-// Are lights brighter or darker than the planes of bounces know, which are not mixed?
+// True if the light mix changes the gain of any group; the bounce planes do not include the mix.
 bool is_mixed(std::span<const Vec3> gains);
-// Says what a special view shows and that it is not the picture, in one line.
+// One-line caption of a special view; it also says that this is not the whole picture.
 std::string caption_of(const Frame& frame, const PictureView& view);
 
 } // namespace blush

@@ -11,7 +11,7 @@ ImageRect fitted(const Region& region, int width, int height) {
     return {fit.x, fit.y, fit.width, fit.height};
 }
 
-// The zoom that has (u, v) of the picture at a place of the screen.
+// The zoom that shows (u, v) of the picture at a position on the screen.
 PictureZoom with_at(double scale, const Region& region, int width, int height, double u, double v, double x, double y) {
     return {scale, std::clamp(u + (region.x + region.width / 2.0 - x) / (scale * width), 0.0, 1.0),
             std::clamp(v + (region.y + region.height / 2.0 - y) / (scale * height), 0.0, 1.0)};
@@ -31,7 +31,7 @@ PictureZoom zoomed(const PictureZoom& zoom, const Region& region, int width, int
     const double before = zoom.scale > 0 ? zoom.scale : double(fit.width) / width,
                  scale = std::clamp(before * factor, least_zoom, most_zoom);
     if (factor < 1 && scale * width <= double(fit.width)) return {};
-    // Not from where the picture is drawn: whole pixels would add up to a drift.
+    // Not from the drawn rectangle: its rounding to whole pixels would accumulate to a drift.
     const double u = zoom.u + (about.x - region.x - region.width / 2.0) / (before * width);
     const double v = zoom.v + (about.y - region.y - region.height / 2.0) / (before * height);
     return with_at(scale, region, width, height, u, v, about.x, about.y);

@@ -1,4 +1,4 @@
-// How large the picture is on the screen and which part of it is seen: the maths, without drawing.
+// Zoom and pan of the picture in the viewport: only the maths, no drawing.
 #pragma once
 
 #include "ui/gizmo.h"
@@ -7,20 +7,21 @@
 namespace blush {
 
 struct PictureZoom {
-    double scale = 0;        // pixels of the screen for one of the picture; 0: as large as fits
-    double u = 0.5, v = 0.5; // of the picture, in the middle of the window's region
+    double scale = 0;        // screen pixels per picture pixel; 0: fit
+    double u = 0.5, v = 0.5; // the point of the picture in the centre of the region
     bool operator==(const PictureZoom&) const = default;
 };
 
 constexpr double least_zoom = 1.0 / 16, most_zoom = 128;
 
-// Where a picture of width x height pixels lies in a region of the window, on whole pixels.
+// The rectangle of a picture of width x height pixels in a region of the window, in whole pixels.
 ImageRect placed_picture(const PictureZoom& zoom, const Region& region, int width, int height);
-// `factor` times as large about a place of the screen, which keeps its place in the picture. Smaller than what fits becomes what fits.
+// Zooms by `factor` about a screen position, which keeps its place in the picture. If the result is smaller than fit, returns
+// fit.
 PictureZoom zoomed(const PictureZoom& zoom, const Region& region, int width, int height, ScreenPoint about, double factor);
-// The picture dragged by so many pixels of the screen; its middle stays within the picture. What fits stays.
+// Pans by screen pixels; the centre of the region stays within the picture. No effect if the zoom is fit.
 PictureZoom shifted(const PictureZoom& zoom, const Region& region, int width, int height, double dx, double dy);
-// From what fits to one pixel of the screen for each of the picture, and back.
+// Toggles between fit and 1:1.
 PictureZoom toggled(const PictureZoom& zoom);
 
 } // namespace blush

@@ -1,4 +1,4 @@
-// The borders of pixels, and the numbers in them, where the picture is so large that there is room.
+// Pixel borders and pixel values, drawn over the picture at high zoom.
 #pragma once
 
 #include "render/frame.h"
@@ -9,7 +9,7 @@
 
 namespace blush {
 
-// Lines from 8 pixels of the screen on; values of the raw picture, scene-linear red, green and blue, from where they fit.
+// Lines from 8 screen pixels per pixel on; raw scene-linear red, green and blue from the zoom on at which they fit.
 void draw_pixel_grid(ImDrawList& draw, const ImageRect& image, const Region& region, const Frame& frame);
 
 } // namespace blush

@@ -46,7 +46,7 @@ std::optional<LightPose> PlaceTool::wanted(PanelContext& c, const Projection& pr
 
 void PlaceTool::press(PanelContext& c, const SurfaceSpot& spot) {
     dragging_ = true;
-    placed_ = by_ == PlacingBy::highlight || occluder_; // else this press chooses the occluder, and a drag from it places
+    placed_ = by_ == PlacingBy::highlight || occluder_; // otherwise this press chooses the occluder, and a drag from it places the light
     surfaces_ = c.frame;
     start_ = pose_of(c.scene(), node_);
     pressed_at_ = ImGui::GetIO().MousePos;
@@ -59,7 +59,7 @@ void PlaceTool::press(PanelContext& c, const SurfaceSpot& spot) {
     c.ui.gestures.begin();
 }
 
-// The light is where the effect would be seen, if nothing else stood in its way: then somebody should know.
+// The light is placed even if something blocks its path; warn the user about it.
 void PlaceTool::say_what_blocks(PanelContext& c) const {
     const Light* light = light_at(c.scene(), node_);
     if (!light || !effect_at_) return;
@@ -67,13 +67,13 @@ void PlaceTool::say_what_blocks(PanelContext& c) const {
         return id != node_ && id != occluder_node_ && contains(light->shadow_casters, c.scene(), id);
     };
     Vec3d way = pose_of(c.scene(), node_).position - *effect_at_;
-    if (light->kind == Light::Kind::sun) way = way * (1 + 2 * world_bounds(c.scene()).radius() / std::max(length(way), 1e-9)); // from outside
+    if (light->kind == Light::Kind::sun) way = way * (1 + 2 * world_bounds(c.scene()).radius() / std::max(length(way), 1e-9));
     const auto blocker = first_between(c.scene(), *effect_at_, *effect_at_ + way, counts);
     if (!blocker) return;
     const std::string name = c.scene().nodes.find(*blocker)->name;
-    c.ui.toasts.warn((name.empty() ? "Another object" : name) + " stands in the way",
-                     by_ == PlacingBy::highlight ? "The light does not reach the place where its highlight would be."
-                                                 : "The shadow is not that object's alone: something else is on the line as well.");
+    c.ui.toasts.warn((name.empty() ? "Another object" : name) + " is in the way",
+                     by_ == PlacingBy::highlight ? "It blocks the light at the position of the highlight."
+                                                 : "Another object on the line to the light casts a shadow there as well.");
 }
 
 void PlaceTool::release(PanelContext& c) {
@@ -101,7 +101,7 @@ void PlaceTool::draw_preview(ImDrawList& draw, const Projection& projection, con
 
 std::string PlaceTool::hint(const std::string& light) const {
     if (by_ == PlacingBy::highlight) return "Click or drag where the highlight of " + light + " should be.  Esc ends";
-    if (!occluder_) return "Click what should throw a shadow of " + light + ", or drag from there to where it should fall.  Esc ends";
+    if (!occluder_) return "Click the object that should cast a shadow of " + light + ", or drag from it to the place of the shadow.  Esc ends";
     return "Click or drag where that shadow should fall.  Esc ends";
 }
 

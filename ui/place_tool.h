@@ -1,4 +1,4 @@
-// Placing the selected light by its effect: a click on a surface, or a drag over it, brings its highlight or its shadow there.
+// Tool that places the selected light by its effect: a click or drag on a surface moves its highlight or shadow there.
 #pragma once
 
 #include "ui/gizmo.h"
@@ -11,13 +11,13 @@ namespace blush {
 
 class PlaceTool {
 public:
-    // Draws what a click would do and does it, while the window's state says so. True if the left button is this tool's now. `hovered`: the
-    // mouse is free to press.
+    // Draws the tool and applies clicks while UiState has it active. Returns true if the tool uses the left button. `hovered`:
+    // the mouse is free to press.
     bool update(PanelContext& c, ImDrawList& draw, const Projection& projection, const ImageRect& image, bool hovered);
 
 private:
     std::optional<SurfaceSpot> spot_under_mouse(PanelContext& c, const Projection& projection, const ImageRect& image) const;
-    // The light as the spot under the mouse would have it.
+    // The light's pose for the surface point under the mouse.
     std::optional<LightPose> wanted(PanelContext& c, const Projection& projection, const ImageRect& image, const SurfaceSpot& spot) const;
     void press(PanelContext& c, const SurfaceSpot& spot);
     void release(PanelContext& c);
@@ -29,12 +29,12 @@ private:
     PlacingBy by_ = PlacingBy::hand;
     Id<Node> node_;
     bool dragging_ = false, placed_ = false;
-    FramePtr surfaces_; // as they were when the mouse went down: the light's own body may move in front of them
+    FramePtr surfaces_; // frame at mouse press: the light's own body may later cover the surfaces
     LightPose start_;
-    double distance_ = 1;           // metres that the drag keeps
-    std::optional<Vec3d> occluder_; // whose shadow is placed
+    double distance_ = 1;           // distance in metres, constant during the drag
+    std::optional<Vec3d> occluder_; // the point whose shadow is placed
     Id<Node> occluder_node_;
-    std::optional<Vec3d> effect_at_; // where the highlight or shadow was put
+    std::optional<Vec3d> effect_at_; // where the highlight or shadow was placed
     ImVec2 pressed_at_{0, 0};
 };
 

@@ -17,7 +17,7 @@ struct Pen {
     ImVec2 at(double x, double y) const { return {origin.x + float(x), origin.y + float(y)}; }
     ImVec2 at(const PlotPixel& p) const { return at(p.x, p.y); }
 
-    // `anchor`: 0 begins at x, 0.5 is centred on it, 1 ends there. `y` is the baseline.
+    // `anchor`: 0 left-aligned at x, 0.5 centred, 1 right-aligned. `y` is the baseline.
     void text(double x, double y, double anchor, const std::string& text, ImU32 color) const {
         if (text.empty()) return;
         const float width = font.CalcTextSizeA(size, FLT_MAX, 0, text.c_str()).x, ascent = font.Ascent * size / font.FontSize;
@@ -26,7 +26,7 @@ struct Pen {
     }
     void line(ImVec2 a, ImVec2 b, ImU32 color, float width = 1) const { draw.AddLine(a, b, color, width); }
 
-    // Dashes go on around corners.
+    // The dash pattern continues around corners.
     void dashed(const std::vector<PlotPixel>& line, ImU32 color, float width, float on, float off) const {
         float left = on;
         bool visible = true;
@@ -73,7 +73,7 @@ void draw_grid(const Pen& pen, const PlotLayout& l, const PlotTones& tones) {
     pen.draw.AddRect(pen.at(l.left, l.top), pen.at(l.right, l.bottom), tones.box);
 }
 
-// The strip between the two edges, seams unseen: antialiased pieces side by side would show where they meet.
+// Fills the band between two curves as one mesh: antialiased pieces would have visible seams.
 void draw_band(const Pen& pen, const std::vector<PlotPixel>& band, ImU32 color) {
     const ImDrawListFlags flags = std::exchange(pen.draw.Flags, pen.draw.Flags & ~ImDrawListFlags_AntiAliasedFill);
     for (size_t i = 0, last = band.size() - 1; 2 * i + 2 < band.size(); ++i)
@@ -109,7 +109,7 @@ void draw_legend(const Pen& pen, const Plot& plot, const PlotLayout& l, const Pl
     double right = left;
     for (const PlotLayout::Entry& e : l.legend)
         right = std::max(right, e.text.x + double(pen.font.CalcTextSizeA(pen.size, FLT_MAX, 0, plot.curves[e.curve].name.c_str()).x));
-    // Lines of the grid would run through the letters.
+    // Grid lines are interrupted behind labels.
     pen.draw.AddRectFilled(pen.at(left - 0.4 * em, l.legend.front().text.y - 1.15 * em),
                            pen.at(right + 0.4 * em, l.legend.back().text.y + 0.45 * em),
                            (tones.ground & ~IM_COL32_A_MASK) | IM_COL32(0, 0, 0, 210), 0.2f * pen.size);
@@ -148,7 +148,7 @@ void draw_plot(ImDrawList& draw, const Plot& plot, const PlotLayout& l, ImVec2 o
     draw.AddRectFilled(pen.at(l.left, l.top), pen.at(l.right, l.bottom), tones.ground);
     draw_grid(pen, l, tones);
     draw.PushClipRect(pen.at(l.left, l.top), pen.at(l.right, l.bottom), true);
-    // What one compares with lies below what is compared.
+    // References are drawn below the curves that are compared with them.
     for (const bool guides : {true, false})
         for (const PlotLayout::Curve& c : l.curves)
             if (guides == (plot.curves[c.index].dots == PlotCurve::Dots::none)) draw_curve(pen, plot.curves[c.index], c, tones);

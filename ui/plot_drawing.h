@@ -1,4 +1,4 @@
-// A chart drawn by ImGui, from the same layout as its SVG.
+// Draws a chart with ImGui, from the same layout as its SVG.
 #pragma once
 
 #include "measure/plot_layout.h"
@@ -11,19 +11,19 @@ struct PlotTones {
     ImU32 ground, text, dim_text, box, major, minor;
 };
 PlotTones plot_tones_dark();  // for the window
-PlotTones plot_tones_paper(); // for files
+PlotTones plot_tones_paper(); // for image files
 
-// Sizes and letters of `font` at `font_size` pixels.
+// Font metrics of `font` at `font_size` pixels.
 PlotMetrics plot_metrics(ImVec2 size, const ImFont& font, float font_size, bool legend);
 
-// The upper left corner of the layout at `origin`.
+// `origin` is the upper left corner of the layout.
 void draw_plot(ImDrawList& draw, const Plot& plot, const PlotLayout& layout, ImVec2 origin, const ImFont& font, float font_size,
                const PlotTones& tones);
 
-// A sample of a curve's line, `length` pixels from `at` to the right.
+// A line sample for the legend, `length` pixels from `at` to the right.
 void draw_line_sample(ImDrawList& draw, PlotCurve::Line line, ImVec2 at, float length, ImU32 color, float font_size);
 
-// "#rrggbb"; black for anything else.
+// Parses "#rrggbb"; black if invalid.
 ImU32 parse_color(const std::string& text, float alpha = 1);
 
 } // namespace blush

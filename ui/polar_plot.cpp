@@ -12,7 +12,7 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-// KHR_lights_punctual's falloff.
+// Angular attenuation of KHR_lights_punctual.
 double cone_factor(const Light& light, double cosine) {
     if (light.kind != Light::Kind::spot) return 1;
     const double inner = std::cos(double(light.inner_cone_radians)), outer = std::cos(double(light.outer_cone_radians));

@@ -1,10 +1,10 @@
-// Menus, lists of choices, colour pickers and dialogs that are open: ImGui's stack of popups.
+// Open popups (menus, combo boxes, colour pickers, dialogs): ImGui's popup stack.
 #pragma once
 
 namespace blush {
 
 bool any_popup_open();
-// Closes the popup that was opened last. False: none is open.
+// Closes the most recent popup. False if none is open.
 bool close_top_popup();
 
 } // namespace blush

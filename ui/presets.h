@@ -1,4 +1,4 @@
-// Sizes and qualities that have names.
+// Named image sizes and render qualities.
 #pragma once
 
 #include "scene/render_settings.h"
@@ -24,7 +24,7 @@ constexpr std::array<SizePreset, 7> size_presets{{
 struct QualityPreset {
     const char* name;
     int64_t spp;
-    double error; // estimated relMSE at which it stops earlier; 0: it does not
+    double error; // estimated relMSE of the stop rule; 0: none
 };
 constexpr std::array<QualityPreset, 4> quality_presets{{
     {"Draft", 32, 0},
@@ -33,8 +33,7 @@ constexpr std::array<QualityPreset, 4> quality_presets{{
     {"Final", 16384, 1e-4},
 }};
 
-// The preset that these are, or the size of the list: settings of the user's own. A limit on time is no part of a quality, it stands beside
-// it.
+// The index of the matching preset, or the size of the list for custom settings. The time limit is not part of a quality.
 inline size_t preset_of_size(const RenderSettings& r) {
     size_t i = 0;
     while (i < size_presets.size() && (size_presets[i].width != r.width || size_presets[i].height != r.height)) ++i;

@@ -1,4 +1,4 @@
-// Where the window's widgets are, by name, for automation: a test that drags "Light/Intensity" asks here where that is.
+// Writes the positions of named widgets to a file, for UI tests: a test that drags "Light/Intensity" finds its rectangle here.
 #pragma once
 
 #include "ui/layout.h"
@@ -10,31 +10,31 @@
 
 namespace blush {
 
-// What the window shows besides its widgets.
+// State of the window other than widgets.
 struct ProbeState {
-    Region image; // of the picture on the screen
+    Region image; // the picture's rectangle on the screen
     int width = 0, height = 0;
     int64_t samples = 0;
     bool complete = false;
-    uint64_t revision = 0;   // counts the edits that reach the picture
-    bool up_to_date = false; // the picture answers the latest edit
-    std::string toast;       // the newest
-    std::string look = {};   // raw, denoised, ...: shown_text()
+    uint64_t revision = 0;   // number of edits that affect the picture
+    bool up_to_date = false; // the picture shows the latest edit
+    std::string toast;       // the newest toast
+    std::string look = {};   // shown_text(): raw, denoised, ...
     bool operator==(const ProbeState&) const = default;
 };
 
 class Probe {
 public:
-    // With an empty path nothing is recorded.
+    // With an empty path, nothing is recorded.
     explicit Probe(std::filesystem::path file = {}) : file_(std::move(file)) {}
 
     bool enabled() const { return !file_.empty(); }
     void begin_frame() { items_.clear(); }
-    // The widget that ImGui drew last.
+    // Records the last ImGui item.
     void record_last_item(const std::string& name);
-    // What can be dragged without being a widget.
+    // Records a draggable region that is not an ImGui item.
     void record(const std::string& name, const Region& region);
-    // Writes a JSON file if anything differs from what it holds.
+    // Writes the JSON file if its content has changed.
     void end_frame(const ProbeState& state);
 
 private:

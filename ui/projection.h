@@ -1,4 +1,4 @@
-// Between the world and the picture: what a View shows where. Image coordinates are (0, 0) top left to (1, 1) bottom right.
+// Projection between world and picture for a View. Image coordinates go from (0, 0) top left to (1, 1) bottom right.
 #pragma once
 
 #include "core/vec.h"
@@ -23,13 +23,13 @@ public:
     // `aspect` is width / height of the image.
     Projection(const View& view, double aspect);
 
-    // Nothing for points behind the eye.
+    // nullopt for points behind the viewer.
     std::optional<ImagePoint> project(const Vec3d& world) const;
-    // The ray through a point of the image, from the eye (perspective) or from the image plane (orthographic).
+    // The ray through a point of the image, from the camera position (perspective) or from the image plane (orthographic).
     ViewRay ray(double u, double v) const;
-    // Metres that the image's height spans at a distance along the view axis.
+    // Height in metres that the image covers at a distance along the view axis.
     double height_at(double distance) const;
-    // From metres along the ray through (u, v), as a depth plane holds them, to metres along the view axis.
+    // Converts metres along the ray through (u, v), as in a depth plane, to metres along the view axis.
     double axial_distance(double u, double v, double along_ray) const;
 
     Vec3d eye() const { return eye_; }

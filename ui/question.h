@@ -1,4 +1,4 @@
-// Something that the user has to decide before the window goes on.
+// Content of a modal dialog.
 #pragma once
 
 #include <optional>
@@ -9,8 +9,8 @@ namespace blush {
 
 struct Question {
     std::string text;
-    std::string details;              // smaller, below; may be empty
-    std::vector<std::string> choices; // the first is what Enter means, the last what Esc means
+    std::string details;              // smaller text below; may be empty
+    std::vector<std::string> choices; // Enter chooses the first, Esc the last
     std::optional<size_t> chosen = {};
 };
 

@@ -36,7 +36,7 @@ RegionStatistics region_statistics(const ShownPicture& picture) {
             const Vec3 c = mixed_pixel(frame, picture.denoised.get(), picture.mix, x, y);
             rgb.insert(rgb.end(), {c.x, c.y, c.z});
             nits.push_back(luminance(c));
-            // Of what is black the logarithm is no number, and is left out.
+            // log2(0) is not finite: black pixels are skipped
             ev.push_back(stops_from_grey(numbers, c));
             ev100.push_back(std::log2(nits.back() / 0.125f));
             const size_t pixel = size_t(y) * size_t(frame.width) + size_t(x);

@@ -5,7 +5,7 @@
 namespace blush {
 namespace {
 
-constexpr double usual_frame = 16; // milliseconds of the window, as for the picture itself
+constexpr double usual_frame = 16; // milliseconds per UI frame, as for the picture itself
 constexpr ImU32 dimmed = IM_COL32(105, 105, 105, 255);
 
 } // namespace
@@ -39,7 +39,7 @@ bool RegionSurroundings::update(const DisplayLook& look, const PictureView& view
     const bool special = is_special(*frame_, view);
     Shown wanted{frame_, look, view};
     if (special || !denoised_) wanted.look.mix = {};
-    if (shader_changed_ && !pass_.set_shader(*shader_)) return true; // the picture's own shader has said why
+    if (shader_changed_ && !pass_.set_shader(*shader_)) return true; // the display pass of the picture has already reported the error
     if (shader_changed_ || (!pass_.busy() && shown_ != wanted)) {
         if (special)
             pass_.upload(frame_->width, frame_->height, pixels_of(*frame_, view));

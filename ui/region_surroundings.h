@@ -1,4 +1,4 @@
-// What surrounds a region that is rendered alone: the last picture of everything, dimmed, until there is a new one.
+// The last whole picture, drawn dimmed around a render region.
 #pragma once
 
 #include "scene/picture_region.h"
@@ -16,15 +16,15 @@ namespace blush {
 class RegionSurroundings {
 public:
     void set_shader(const DisplayShader& shader);
-    // The picture on the screen, with what is denoised of it; kept if it is a whole one.
+    // The displayed frame and its denoised picture; kept if the frame is a whole picture.
     void remember(const FramePtr& frame, const DenoisedPtr& denoised);
-    // There is nothing to go back to: another scene.
+    // Forgets the picture, for a new scene.
     void forget();
-    // Is there such a picture, and is it drawn?
+    // True if there is such a picture and it is ready to be drawn.
     bool ready() const { return drawn_; }
-    // Works at it for as long as there is time, as it is looked at now. Returns false while there is more to do.
+    // Continues to render it with the current view settings while there is time. Returns false while it is not finished.
     bool update(const DisplayLook& look, const PictureView& view, const FramePace& pace);
-    // Draws it dimmed around the region, `image` being where the whole picture lies.
+    // Draws it dimmed around the region; `image` is the rectangle of the whole picture.
     void draw(ImDrawList& draw, const ImageRect& image, const PictureRegion& region) const;
 
 private:
@@ -41,7 +41,7 @@ private:
     } shown_;
 };
 
-// The parts of a picture outside of a region, as shares of its sides: above, below, left, right.
+// The parts of a picture outside a region, as fractions of its sides: above, below, left, right.
 std::array<PictureRegion, 4> around(const PictureRegion& region);
 
 } // namespace blush

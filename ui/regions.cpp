@@ -7,7 +7,7 @@
 namespace blush {
 namespace {
 
-// A bar over the edge of two regions: `edge` has no width (it is dragged sideways) or no height. True while it is dragged.
+// A splitter: `edge` has zero width (it is dragged horizontally) or zero height. True while it is dragged.
 bool draw_splitter(UiState& ui, const char* id, const Region& edge, bool& reset) {
     const bool upright = edge.width <= 0;
     const float grab = std::max(6.f, ImGui::GetFontSize() * 0.5f);
@@ -45,7 +45,7 @@ void drag_dock_splitters(UiState& ui, const Layout& l) {
     const float em = ImGui::GetFontSize();
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     bool reset = false;
-    // Out of the window where there is no dock: see drag_splitters.
+    // Outside the window if there is no dock: see drag_splitters.
     constexpr Region beside{-99, -99, 0, 1}, above{-99, -99, 1, 0};
     if (draw_splitter(ui, "right dock", l.right_dock.width > 0 ? left_edge(l.right_dock) : beside, reset))
         sizes = drag_right_dock(sizes, mouse.x, l, em);

@@ -9,7 +9,7 @@ namespace {
 
 const std::string bounce_gain = "bounces.gain.";
 
-// visit("name", value, least, most) for each; a bool has no ends.
+// visit("name", value, min, max) for each; a bool has no limits.
 template <class Ui, class V> void visit_panels(Ui& ui, const V& visit) {
     visit("tab", ui.tab, InspectorTab::selection, InspectorTab::display);
     visit("denoise", ui.denoise.show, DenoiseView::Show::raw, DenoiseView::Show::difference);

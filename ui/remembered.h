@@ -1,6 +1,6 @@
-// Where each state of the window lives, so that none is lost that somebody may miss.
+// Where each part of the UI state is saved.
 //
-// | state                                                       | kept in                                    | taken back by       |
+// | state                                                       | kept in                                    | undone by           |
 // |-------------------------------------------------------------|--------------------------------------------|---------------------|
 // | scene, render and display settings, light mix, meters,      | the scene file (glTF, extras.blush), the   | undo                |
 // |   measured and rendered region, links, groups, mute, solo   |   recovery sidecar, every snapshot         |                     |
@@ -27,11 +27,11 @@
 
 namespace blush {
 
-// Panels, tab and ways of looking, to and from the settings. What is missing or out of its range stays as it is.
+// Saves and restores panels, tab and view modes. Missing or invalid entries leave the state unchanged.
 void remember_panels(const UiState& ui, WindowSettings& settings);
 void recall_panels(const WindowSettings& settings, UiState& ui);
 
-// What is kept of the scene of a file (above). A file that is not known leaves the whole picture, and nothing selected or unfolded.
+// The state saved per scene file (above). An unknown file gets zoom to fit, and nothing selected or unfolded.
 void remember_scene(const UiState& ui, const std::string& file, WindowSettings& settings);
 void recall_scene(const WindowSettings& settings, const std::string& file, const Scene& scene, UiState& ui);
 

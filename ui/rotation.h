@@ -1,4 +1,4 @@
-// Quaternion arithmetic for cameras, handles and angle fields. Unit quaternions, right-handed axes, glTF's order x, y, z, w.
+// Quaternions for cameras, handles and angle fields. Unit quaternions, right-handed, components x, y, z, w as in glTF.
 #pragma once
 
 #include "scene/affine.h"
@@ -24,13 +24,13 @@ inline Vec3d rotate(const Quat& q, const Vec3d& v) {
     return v + t * double(q.w) + cross(u, t);
 }
 
-// Right-handed turn about a unit axis.
+// Right-handed rotation about a unit axis.
 inline Quat axis_angle(const Vec3d& axis, double radians) {
     const double s = std::sin(radians / 2);
     return {float(axis.x * s), float(axis.y * s), float(axis.z * s), float(std::cos(radians / 2))};
 }
 
-// The rotation whose -Z looks along `forward` (any length but 0) and whose +Y is as near to `up` as that allows.
+// The rotation that maps -Z to `forward` (any length but 0), with +Y as close to `up` as possible.
 inline Quat looking_along(const Vec3d& forward, const Vec3d& up = {0, 1, 0}) {
     const Vec3d z = normalize(-forward);
     Vec3d x = cross(up, z);
@@ -39,7 +39,7 @@ inline Quat looking_along(const Vec3d& forward, const Vec3d& up = {0, 1, 0}) {
     return to_quat(Affined{x, cross(z, x), z, {0, 0, 0}});
 }
 
-// Angles in degrees of the turns about X, then Y, then Z (each about the fixed axes) that make up `q`.
+// Euler angles in degrees: rotations about X, then Y, then Z (fixed axes) whose product is `q`.
 inline Vec3d euler_degrees(const Quat& q) {
     const Vec3d x = rotate(q, {1, 0, 0}), y = rotate(q, {0, 1, 0}), z = rotate(q, {0, 0, 1});
     const double to_degrees = 180 / 3.14159265358979323846;

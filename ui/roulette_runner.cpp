@@ -5,7 +5,7 @@
 namespace blush {
 namespace {
 
-constexpr int64_t most_rounds = 2000; // enough to see a hundredth of a per cent
+constexpr int64_t most_rounds = 2000; // enough to measure a bias of 0.01 %
 
 } // namespace
 

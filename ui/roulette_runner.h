@@ -1,4 +1,4 @@
-// The roulette lab at work on a thread of its own, while somebody looks.
+// Runs the roulette lab on its own thread, while its panel is open.
 #pragma once
 
 #include "measure/roulette_lab.h"

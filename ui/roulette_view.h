@@ -1,4 +1,4 @@
-// What the Roulette lab is set to.
+// State of the Roulette lab.
 #pragma once
 
 #include "ui/roulette_runner.h"
@@ -9,11 +9,11 @@ namespace blush {
 
 struct RouletteView {
     enum class Map { none, path_length, survival };
-    static constexpr const char* map_names[] = {"The picture", "Path length", "Survival"};
+    static constexpr const char* map_names[] = {"Picture", "Path length", "Survival"};
 
     bool open = false;
     Map map = Map::none;                    // what the viewport shows
-    std::shared_ptr<RouletteRunner> runner; // while it is open
+    std::shared_ptr<RouletteRunner> runner; // while the panel is open
 };
 
 } // namespace blush

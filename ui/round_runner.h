@@ -1,4 +1,4 @@
-// Measures something round after round on a thread of its own, while somebody looks.
+// Repeats a measurement in rounds on its own thread, with a growing number of samples.
 #pragma once
 
 #include "core/parallel.h"
@@ -15,21 +15,21 @@
 
 namespace blush {
 
-// What is done there is `Work`, made and used on that thread alone:
+// `Work` is created and used only on that thread:
 //     struct Question;                                  with bool asks_the_same(const Question&) const
 //     struct Answer;
 //     void begin(const Question&);
-//     bool round(const std::function<bool()>& wanted);  false if it was given up because it is not wanted any more
+//     bool round(const std::function<bool()>& wanted);  false if it was cancelled because wanted() is false
 //     Answer answer() const;                            from the rounds so far
-//     static bool is_good(const Answer&);               further rounds are of no use
-// What begin() and round() throw is told as a failure.
+//     static bool is_good(const Answer&);               true if more rounds would not improve it
+// Exceptions thrown by begin() and round() are reported as a failure.
 template <class Work> class RoundRunner {
 public:
     using Question = typename Work::Question;
     using Answer = typename Work::Answer;
 
     RoundRunner() : thread_([this] { run(); }) {}
-    // Gives up the round it is in.
+    // Cancels the current round and joins the thread.
     ~RoundRunner() {
         {
             const std::lock_guard lock(mutex_);
@@ -41,7 +41,7 @@ public:
     RoundRunner(const RoundRunner&) = delete;
     RoundRunner& operator=(const RoundRunner&) = delete;
 
-    // Starts anew if this differs from what is measured. Does not wait.
+    // Restarts if this question differs from the current one. Does not block.
     void measure(Question question) {
         {
             const std::lock_guard lock(mutex_);
@@ -54,9 +54,9 @@ public:
     }
 
     struct State {
-        Answer answer = {};  // from no round at first
-        bool rests = false;  // it is as good as is of use
-        std::string failure; // why there is none
+        Answer answer = {};  // default-constructed before the first round
+        bool rests = false;  // accurate enough; no more rounds
+        std::string failure; // error message; empty: none
     };
     State state() const {
         const std::lock_guard lock(mutex_);
@@ -73,7 +73,7 @@ private:
             state.rests = Work::is_good(state.answer);
         } catch (const std::exception& e) { state.failure = e.what(); }
         const std::lock_guard lock(mutex_);
-        if (!pending_) state_ = std::move(state); // else it answers something that nobody asks any more
+        if (!pending_) state_ = std::move(state); // otherwise it answers an outdated question
     }
 
     void run() {
@@ -96,7 +96,7 @@ private:
     std::optional<Question> last_, pending_;
     State state_;
     std::atomic<bool> quit_{false};
-    std::thread thread_; // last: starts when everything else is there
+    std::thread thread_; // last member: starts after everything else is initialised
 };
 
 } // namespace blush

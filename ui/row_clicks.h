@@ -1,4 +1,4 @@
-// Clicks on rows that stand for nodes, in outliner and tables: plain selects, Ctrl adds or takes away, Shift selects all up to there.
+// Selection by clicks on rows of nodes, in outliner and tables: plain selects, Ctrl toggles, Shift selects a range.
 #pragma once
 
 #include "ui/ui_state.h"
@@ -7,9 +7,9 @@ namespace blush {
 
 class RowClicks {
 public:
-    // For each row in the order in which they are shown; `clicked`: its item was, in this frame.
+    // Call for each row in display order; `clicked`: its item was clicked in this frame.
     void row(Id<Node> node, bool clicked, Id<Material> material = {});
-    // After the last one.
+    // Call after the last row.
     void finish(UiState& ui) const;
 
 private:

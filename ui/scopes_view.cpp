@@ -10,10 +10,10 @@ namespace {
 
 constexpr double enough_pixels = 130000;
 constexpr ScopeAxis stops_axis{true, -8, 8}, display_axis{false, 0, 1};
-constexpr int stops_bins = 128, display_bins = 128; // an eighth of a stop; two bytes
+constexpr int stops_bins = 128, display_bins = 128; // width 1/8 stop; width 2 of 256 levels
 constexpr int wave_columns = 160, wave_levels = 64;
 
-// Every step-th pixel of every step-th row.
+// Reads every step-th pixel of every step-th row.
 struct Thinned {
     int width = 0;
     std::vector<float> rgb;

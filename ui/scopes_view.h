@@ -1,4 +1,4 @@
-// Histograms and waveforms of the picture that is shown, made beside the window.
+// Histograms and waveforms of the displayed picture, computed in the background.
 #pragma once
 
 #include "measure/scopes.h"
@@ -9,10 +9,10 @@ namespace blush {
 
 struct Scopes {
     int step = 1;               // every step-th pixel of every step-th row was read
-    Histogram scene, displayed; // in stops from middle grey as rendered; display-encoded, 0 .. 1, nothing if the view cannot be had
+    Histogram scene, displayed; // in stops from middle grey; display-encoded, 0 .. 1, empty if the view transform fails
     Waveform scene_wave, displayed_wave;
 };
-// Reads a hundred thousand pixels or so.
+// Reads about a hundred thousand pixels.
 Scopes scopes_of(const ShownPicture& picture);
 
 // State of the panel.

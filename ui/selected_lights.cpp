@@ -9,7 +9,7 @@ namespace blush {
 
 bool set_light(PanelContext& c, Id<Light> id, const Light& after, Gesture gesture) {
     const Light* record = c.scene().lights.find(id);
-    if (!record) return false; // undone while it was dragged
+    if (!record) return false; // its creation was undone during the drag
     const Light before = *record;
     std::vector<Id<Light>> lights = lights_of(c.scene(), c.ui.selection(c.scene()));
     if (!std::ranges::count(lights, id)) lights = {id};
@@ -39,7 +39,7 @@ std::string about_selected_lights(const PanelContext& c) {
     const std::vector<Id<Light>> lights = lights_of(c.scene(), c.ui.selection(c.scene()));
     if (lights.size() < 2) return {};
     std::string text = std::to_string(lights.size()) +
-                       " lights are edited together: what is changed here is changed in all, an intensity by "
+                       " lights are edited together: edits apply to all of them, intensities are scaled by "
                        "the same factor.";
     const std::vector<std::string> fields = differing_fields(c.scene(), lights);
     for (size_t i = 0; i < fields.size(); ++i) text += (i == 0 ? " They differ in " : i + 1 < fields.size() ? ", " : " and ") + fields[i];

@@ -1,19 +1,18 @@
-// Edits of one light that take the other selected lights along.
+// Multi-edit: applies an edit of one light to all selected lights.
 #pragma once
 
 #include "ui/panels/context.h"
 
 namespace blush {
 
-// The light becomes `after`; if it is one of several that are selected, the others are edited alike (edit_together.h). One step of the
-// history.
+// Sets the light to `after`; if several lights are selected, the others get the same edit (edit_together.h). One undo step.
 bool set_light(PanelContext& c, Id<Light> light, const Light& after, Gesture gesture);
 
-// Takes an object out of what the selected light lights, or whose shadow it sees, or in again, and says so. False where no light is selected
-// or the object is one.
+// Toggles an object in the selected light's light linking or shadow linking, and shows a message. False if no light is selected
+// or the object is the light.
 bool toggle_link(PanelContext& c, Id<Node> object, ObjectSet Light::*set);
 
-// "3 lights are edited together. They differ in kind and intensity."; empty for one alone.
+// "3 lights are edited together. They differ in kind and intensity."; empty for a single light.
 std::string about_selected_lights(const PanelContext& c);
 
 } // namespace blush

@@ -1,4 +1,4 @@
-// Every command of the window with its key, once: dispatch, menus and the shortcut sheet read the same table.
+// All commands with their keys, in one table: used by dispatch, menus and the shortcut sheet.
 #pragma once
 
 #include <span>
@@ -6,7 +6,7 @@
 
 namespace blush {
 
-// Key codes as GLFW gives them; letters are their ASCII capitals.
+// Key codes of GLFW; letters are their upper-case ASCII codes.
 namespace key {
 constexpr int none = 0, space = 32, zero = 48, escape = 256, enter = 257, tab = 258, backspace = 259, remove = 261, home = 268, f1 = 290;
 constexpr int pad_zero = 320, pad_point = 330, pad_minus = 333, pad_enter = 335; // of the number pad
@@ -15,8 +15,8 @@ constexpr int pad_zero = 320, pad_point = 330, pad_minus = 333, pad_enter = 335;
 struct KeyPress {
     int key = key::none;
     bool ctrl = false, shift = false, alt = false;
-    char32_t typed = 0; // the character that the keyboard's layout gives it; 0: none, or not known
-    // The same key: what it types does not count.
+    char32_t typed = 0; // the character typed in the current keyboard layout; 0: none or unknown
+    // Compares keys and modifiers; ignores `typed`.
     bool operator==(const KeyPress& o) const { return key == o.key && ctrl == o.ctrl && shift == o.shift && alt == o.alt; }
 };
 
@@ -108,21 +108,21 @@ enum class Command {
 struct Shortcut {
     Command command;
     const char* group;
-    const char* name;   // as in the menu
-    KeyPress press;     // key::none: in the menu only
-    KeyPress also = {}; // a second key for the same command
+    const char* name;   // in the menu
+    KeyPress press;     // key::none: only in the menu
+    KeyPress also = {}; // second key for the same command
 };
 
 std::span<const Shortcut> shortcuts();
 const Shortcut& shortcut(Command command);
-// The command a key press stands for, or nullptr.
+// The command for a key press, or nullptr.
 const Shortcut* find_shortcut(const KeyPress& press);
 // "Ctrl+Shift+Z"; empty without a key.
 std::string to_string(const KeyPress& press);
 // Both keys of a command: "F12 or Ctrl+Enter".
 std::string keys_of(const Shortcut& shortcut);
 
-// What the mouse does in the viewport, for the sheet.
+// Mouse controls of the viewport, for the shortcut sheet.
 struct MouseHint {
     const char* action;
     const char* gesture;

@@ -1,4 +1,4 @@
-// All that makes the picture on the screen what it is, as one value: what figures about it are asked of.
+// All inputs of the displayed picture, as one value: the question for statistics of it.
 #pragma once
 
 #include "color/color_management.h"
@@ -12,8 +12,8 @@ struct ShownPicture {
     FramePtr frame; // not null
     DenoisedPtr denoised;
     PictureMix mix;
-    ViewSettings view;                      // with auto exposure settled
-    const ColorManagement* color = nullptr; // not null; outlives all who ask
+    ViewSettings view;                      // with auto exposure applied
+    const ColorManagement* color = nullptr; // not null; outlives all users
     bool operator==(const ShownPicture&) const = default;
 };
 

@@ -1,4 +1,4 @@
-// What kept snapshots cost in memory, and which of them go when that is too much. Pure.
+// Memory use of snapshots, and which of them are unloaded above the limit. Pure.
 #pragma once
 
 #include "ui/snapshots_view.h"
@@ -8,12 +8,12 @@
 
 namespace blush {
 
-// Bytes of its pictures, planes and samples; payloads that the scene shares with others are not counted.
+// Bytes of its pictures, planes and samples; without payloads shared with the scene.
 size_t bytes_of(const Snapshot& snapshot);
 size_t bytes_of(const std::vector<SnapshotPtr>& list);
 
-// Those that have to let go of their pictures so that the rest takes no more than `limit` bytes: the ones whose use is longest ago, but none
-// that is pinned or compared, and never the last one used.
+// The snapshots to unload so that the rest uses at most `limit` bytes: least recently used first; never pinned, compared or the
+// most recently used ones.
 std::vector<SnapshotPtr> beyond_memory(const SnapshotsView& view, size_t limit);
 
 } // namespace blush

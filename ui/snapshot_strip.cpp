@@ -14,7 +14,7 @@ namespace {
 
 constexpr float card_width = 9, card_gap = 0.6f; // ems
 
-// A letter that says, and chooses, which side a snapshot is on.
+// Button A or B of a card: shows and selects the side of the comparison.
 void side_button(PanelContext& c, const Snapshot& s, uint64_t& side, const char* letter, const ImVec2& at) {
     ImGui::SetCursorScreenPos(at);
     const bool chosen = side == s.id;
@@ -30,7 +30,7 @@ void side_button(PanelContext& c, const Snapshot& s, uint64_t& side, const char*
     }
     ImGui::PopStyleColor(2);
     c.ui.probe.record_last_item(fmt::format("Snapshot/{}/{}", s.id, letter));
-    tip_for_last_item(c.ui, "Compares this one: A left of the wipe, B right of it, the live image where none is chosen.");
+    tip_for_last_item(c.ui, "Compare this snapshot: A is left of the wipe, B right of it. The default is the live image.");
 }
 
 bool menu_item(PanelContext& c, const char* name, bool enabled = true) {
@@ -62,11 +62,11 @@ void draw_fitting(const std::string& text, const ImVec2& at, float width, ImU32 
     ImGui::GetWindowDrawList()->AddText(at, color, elided(text, width).c_str());
 }
 
-// Where its picture and samples are, if that is not here; empty: here.
+// Where its picture and samples are, if not in memory; empty: in memory.
 const char* place_of(const Snapshot& s) {
-    if (s.place == Snapshot::Place::lost) return "lost its file";
-    if (s.place == Snapshot::Place::file) return s.film_in_file ? "in its file" : "in its file, begins anew";
-    return s.film || s.layers ? "" : "begins anew";
+    if (s.place == Snapshot::Place::lost) return "file missing";
+    if (s.place == Snapshot::Place::file) return s.film_in_file ? "on disk" : "on disk, no samples";
+    return s.film || s.layers ? "" : "no samples";
 }
 
 void draw_place(PanelContext& c, const Snapshot& s, const ImVec2& low, float width, float bottom) {
@@ -79,19 +79,19 @@ void draw_place(PanelContext& c, const Snapshot& s, const ImVec2& low, float wid
     c.ui.probe.record(fmt::format("Snapshot/{}/{}", s.id, text), {low.x, bottom - em, width, em});
 }
 
-// A click goes back to its state; the letters and the menu do the rest.
+// A click restores its state; the buttons and the menu do the rest.
 void draw_card(PanelContext& c, const SnapshotPtr& snapshot, const ThumbnailPart& part, float width) {
     const Snapshot& s = *snapshot;
     const float em = ImGui::GetFontSize(), picture_height = width * Thumbnail::height / Thumbnail::width;
     const ImVec2 at = ImGui::GetCursorScreenPos();
     if (ImGui::InvisibleButton(fmt::format("card{}", s.id).c_str(), {width, picture_height + em * 2.6f}))
         c.ui.snapshots.requests.push_back({SnapshotRequest::What::restore, s.id});
-    ImGui::SetItemAllowOverlap(); // the letters lie on it
+    ImGui::SetItemAllowOverlap(); // the buttons A and B are over it
     c.ui.probe.record_last_item(fmt::format("Snapshot/{}", s.id));
     const bool hovered = ImGui::IsItemHovered();
     const std::string tip = fmt::format("{}\n{}{}{}\n{}", s.name, s.figures(), s.note.empty() ? "" : "\n", s.note,
-                                        s.no_state.empty() ? "A click goes back to this state; undo returns." : s.no_state);
-    draw_menu(c, s); // before the tip, whose text would be the item that is clicked
+                                        s.no_state.empty() ? "Click to restore this state. It can be undone." : s.no_state);
+    draw_menu(c, s); // before the tooltip, whose text would otherwise be the item
     tip_for_last_item(c.ui, tip.c_str());
 
     ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -118,12 +118,12 @@ float snapshot_strip_height(const SnapshotsView& v) {
 void delete_snapshot(PanelContext& c, const Snapshot& s) {
     const std::string name = s.name;
     c.ui.snapshots.remove(s.id);
-    c.ui.toasts.add({Toast::Kind::note, name + " is deleted", "", Command::undelete_snapshot});
+    c.ui.toasts.add({Toast::Kind::note, name + " deleted", "", Command::undelete_snapshot});
 }
 
 void draw_snapshot_strip(PanelContext& c, const Region& region, const std::function<ThumbnailPart(size_t)>& part) {
     if (region.height <= 0) return;
-    const std::vector<SnapshotPtr> list = c.ui.snapshots.list; // a menu may delete one
+    const std::vector<SnapshotPtr> list = c.ui.snapshots.list; // a copy: the menu may delete one
     const float em = ImGui::GetFontSize(), width = em * card_width, gap = em * card_gap;
     ImGui::SetNextWindowPos({region.x, region.y});
     ImGui::SetNextWindowSize({region.width, region.height});
@@ -139,7 +139,7 @@ void draw_snapshot_strip(PanelContext& c, const Region& region, const std::funct
         ImGui::EndGroup();
     }
     int& shown = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("shown"));
-    if (shown < int(list.size())) ImGui::SetScrollHereX(1); // a new one comes into view
+    if (shown < int(list.size())) ImGui::SetScrollHereX(1); // scrolls to a new one
     shown = int(list.size());
     ImGui::End();
     ImGui::PopStyleVar();
@@ -153,11 +153,11 @@ void ThumbnailSheet::set_shader(const DisplayShader& shader) {
 void ThumbnailSheet::update(const std::vector<SnapshotPtr>& list, const DisplayNumbers& numbers) {
     if (list.empty() || !shader_) return;
     const bool other_shader = std::exchange(shader_changed_, false);
-    if (other_shader && !pass_.set_shader(*shader_)) return; // the viewport says what is wrong with it
+    if (other_shader && !pass_.set_shader(*shader_)) return; // the viewport reports the error
     std::vector<uint64_t> ids;
     for (const SnapshotPtr& s : list) ids.push_back(s->id);
     DisplayLook look{numbers, {}};
-    look.numbers.false_color = {}; // pictures to recognise; and they have no albedo to tell lux by
+    look.numbers.false_color = {}; // no false colours: thumbnails should be recognisable, and have no albedo for lux
     if (ids != ids_) {
         std::vector<float> rgba;
         for (const SnapshotPtr& s : list) rgba.insert(rgba.end(), s->thumbnail.rgba.begin(), s->thumbnail.rgba.end());

@@ -1,4 +1,4 @@
-// The history strip: snapshots in a row below the picture.
+// The snapshot strip: snapshots in a row below the picture.
 #pragma once
 
 #include "ui/display_pass.h"
@@ -13,22 +13,22 @@
 
 namespace blush {
 
-// Where a snapshot's picture is to be drawn from; a texture of 0 draws none.
+// Texture and rectangle of a snapshot's thumbnail; texture 0 draws nothing.
 struct ThumbnailPart {
     ImTextureID texture = {};
     float v0 = 0, v1 = 1;
 };
 
-// The strip in its region; `part(index)` says where the thumbnail of list[index] is.
+// Draws the strip in its region; `part(index)` returns the thumbnail of list[index].
 void draw_snapshot_strip(PanelContext& c, const Region& region, const std::function<ThumbnailPart(size_t)>& part);
 
-// The height that it wants, in pixels; 0 while there is none to be seen.
+// Its height in pixels; 0 if it is hidden.
 float snapshot_strip_height(const SnapshotsView& view);
 
-// Takes it out of the strip; a message offers to put it back.
+// Removes it from the strip; a toast offers to restore it.
 void delete_snapshot(PanelContext& c, const Snapshot& snapshot);
 
-// All thumbnails in one texture, one above the other, drawn again when one comes, goes or is looked at in another way.
+// All thumbnails in one texture, stacked vertically. Redrawn if the list or the view settings change.
 class ThumbnailSheet {
 public:
     void set_shader(const DisplayShader& shader);
@@ -40,7 +40,7 @@ private:
     std::optional<DisplayShader> shader_;
     bool shader_changed_ = false;
     DisplayLook look_;
-    std::vector<uint64_t> ids_; // of what it shows
+    std::vector<uint64_t> ids_; // of the thumbnails in the texture
 };
 
 } // namespace blush

@@ -14,7 +14,7 @@ Thumbnail thumbnail_of(const Frame& frame) {
     const double scale = std::max(double(frame.width) / Thumbnail::width, double(frame.height) / Thumbnail::height);
     const int width = std::clamp(int(frame.width / scale), 1, Thumbnail::width), height = std::clamp(int(frame.height / scale), 1, Thumbnail::height);
     const int left = (Thumbnail::width - width) / 2, top = (Thumbnail::height - height) / 2;
-    constexpr int taps = 3; // along each side of what a pixel covers: enough for so small a picture
+    constexpr int taps = 3; // samples along each side of a pixel's footprint: enough for a small picture
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
             float* to = &t.rgba[4 * (size_t(top + y) * Thumbnail::width + size_t(left + x))];
@@ -79,7 +79,7 @@ void SnapshotsView::put_back() {
 
 bool SnapshotsView::toggle(Comparison::Mode mode) {
     if (compare.mode == mode && mode == Comparison::Mode::flicker) {
-        compare.shows_b = !compare.shows_b; // the key that began it goes on with it
+        compare.shows_b = !compare.shows_b; // the same key continues the mode
         return true;
     }
     if (compare.mode == mode) {

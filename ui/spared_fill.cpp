@@ -10,10 +10,10 @@
 namespace blush {
 namespace {
 
-constexpr unsigned few_elements = 60; // drawing them once for each part costs less than filling what is covered
+constexpr unsigned few_elements = 60; // drawing a few elements once per part is cheaper than filling covered pixels
 constexpr size_t most_parts = 8;
 
-// As ImGui has clip rectangles: from (x, y) to (z, w).
+// As ImGui's clip rectangles: from (x, y) to (z, w).
 using Rect = ImVec4;
 
 bool is_empty(const Rect& r) { return !(r.x < r.z && r.y < r.w); }
@@ -22,7 +22,7 @@ bool is_on_pixels(const Rect& r) {
     return std::floor(r.x) == r.x && std::floor(r.y) == r.y && std::floor(r.z) == r.z && std::floor(r.w) == r.w;
 }
 
-// What is left of rectangles without another: above and below it, and beside it.
+// Subtracts a rectangle: the remaining parts above, below and beside it.
 std::vector<Rect> without(const std::vector<Rect>& rects, const Rect& hole) {
     std::vector<Rect> left;
     for (const Rect& r : rects) {
@@ -43,7 +43,7 @@ struct Ground {
     ImU32 color;
 };
 
-// The opaque rectangle of whole pixels that a list begins with, as ImGui draws the ground of a window.
+// The opaque rectangle of whole pixels at the start of a list, as ImGui draws a window's background.
 std::optional<Ground> ground_of(const ImDrawList& list) {
     if (list.CmdBuffer.empty()) return {};
     const ImDrawCmd& first = list.CmdBuffer.front();
@@ -85,7 +85,7 @@ ImDrawCmd clearing(const Rect& rect, ImU32 color) {
     return command;
 }
 
-// The command, once for each part of it that is seen; none if none is.
+// The command, once per visible part; none if it is fully covered.
 void add_seen(ImVector<ImDrawCmd>& seen, const ImDrawCmd& command, const std::vector<Rect>& covered) {
     std::vector<Rect> parts{command.ClipRect};
     if (!command.UserCallback)
@@ -100,7 +100,7 @@ void add_seen(ImVector<ImDrawCmd>& seen, const ImDrawCmd& command, const std::ve
 } // namespace
 
 void spare_fill(ImDrawData& data) {
-    std::vector<Rect> covered; // by what lies above
+    std::vector<Rect> covered; // covered by windows above
     for (int i = data.CmdListsCount; i-- > 0;) {
         ImDrawList& list = *data.CmdLists[i];
         const std::optional<Ground> ground = ground_of(list);

@@ -1,17 +1,18 @@
-// What a software rasteriser need not fill. Through ImGui's shader, texture and blending a window's ground takes it four times as long as
-// clearing, and what lies below a window it would fill in vain: a graphics card does not notice, a frame without one does.
+// Reduces overdraw for software rasterizers. Filling a window's background with ImGui's shader, texture and blending takes four
+// times as long as clearing, and pixels below other windows are filled without need. Not
+// significant with a GPU.
 #pragma once
 
 #include <imgui.h>
 
 namespace blush {
 
-// Changes what is to be drawn, not what is seen. The opaque ground of each window is cleared, by commands that need OpenGL when they are
-// drawn; of the lists below it nothing is drawn that it covers: commands that it covers wholly are left out, those of a few triangles are
-// clipped to what is left of them. `data` is ImGui's after Render(), and is drawn before the next frame.
+// Changes the draw commands but not the result. The opaque background of each window is cleared by commands that need OpenGL when
+// drawn. In the lists below it, commands that are fully covered are removed; commands with few triangles are clipped to their
+// visible parts. `data` is ImGui's draw data after Render(), drawn before the next frame.
 void spare_fill(ImDrawData& data);
 
-// Is it a clearing of its clip rectangle, and in what colour?
+// If the command clears its clip rectangle: the colour.
 bool is_clearing(const ImDrawCmd& command);
 ImU32 clearing_color(const ImDrawCmd& command);
 

@@ -14,9 +14,9 @@ namespace blush {
 namespace {
 
 constexpr int cells_across = 40, cells_down = 24;
-constexpr double enough_of_picture = 0.005;  // for the selection, or what is in focus, to be the subject
-constexpr double sharp_blur = 0.01;          // diameter of the circle of confusion over the height of the picture
-constexpr double darkest = 1.0 / 256;        // of the mean: darker cells count as this
+constexpr double enough_of_picture = 0.005;  // minimum area of the selection, or of what is in focus, to be the subject
+constexpr double sharp_blur = 0.01;          // diameter of the circle of confusion divided by the height of the picture
+constexpr double darkest = 1.0 / 256;        // of the mean: darker cells are clamped to this
 constexpr double most_clipped = 0.03;        // of the subject, and of the picture
 constexpr double brightest_picture = 0.55;   // mean display luminance
 constexpr float most_lowered = 6, most_lowered_for_backdrop = 1.5f, step = 0.25f; // stops
@@ -27,10 +27,10 @@ struct Cell {
     double pixels = 0;
 };
 
-// Means of the pixels that `belongs` picks, cell by cell; cells without any are left out.
+// Means of the selected pixels per cell; cells without any are skipped.
 struct Cells {
     std::vector<Vec3> means;
-    std::vector<double> shares; // of the picture's pixels
+    std::vector<double> shares; // fraction of the picture's pixels
     double share = 0;
 };
 
@@ -56,7 +56,7 @@ template <class Belongs> Cells cells_of(const Frame& f, const Belongs& belongs) 
     return found;
 }
 
-// Blur of a point `depth` metres away, as a share of the picture's height (thin lens).
+// Blur of a point at `depth` metres, as a fraction of the picture's height (thin lens).
 double blur(const Lens& lens, double depth) {
     return lens.aperture_radius * std::abs(depth - lens.focus_distance) / (depth * lens.focus_distance * std::tan(lens.yfov_radians / 2));
 }
@@ -68,7 +68,7 @@ Cells subject_of(const Frame& f, const Scene& scene, std::span<const Id<Node>> s
         std::vector<uint32_t> ids;
         for (const Id<Node> root : selected)
             for (const Id<Node> id : subtree(scene, root))
-                if (scene.nodes.find(id)->mesh) ids.push_back(id.value); // a lamp's own glow is not what it lights
+                if (scene.nodes.find(id)->mesh) ids.push_back(id.value); // only objects: the emission of a lamp is not its subject
         std::ranges::sort(ids);
         Cells cells = cells_of(f, [&](size_t i) { return is_object(i) && std::ranges::binary_search(ids, f.object_id[i]); });
         if (cells.share >= enough_of_picture) return cells;
@@ -81,7 +81,7 @@ Cells subject_of(const Frame& f, const Scene& scene, std::span<const Id<Node>> s
     return cells_of(f, is_object);
 }
 
-// log2 of the geometric mean of luminance; nothing where all is black.
+// log2 of the geometric mean of luminance; nullopt if all is black.
 std::optional<double> log_average(const Cells& cells) {
     double mean = 0;
     for (size_t i = 0; i < cells.means.size(); ++i) mean += cells.shares[i] * std::max(0.0, double(luminance(cells.means[i])));
@@ -93,8 +93,8 @@ std::optional<double> log_average(const Cells& cells) {
 }
 
 struct Shown {
-    double clipped = 0; // share of the cells in which a channel is at the white of the display
-    double mean = 0;    // display luminance
+    double clipped = 0; // fraction of the cells with a channel at display white
+    double mean = 0;    // mean display luminance
 };
 Shown shown_as(const Cells& cells, const ViewSettings& view, const ColorManagement& color) {
     std::vector<float> shown;
@@ -130,7 +130,7 @@ std::optional<float> subject_exposure(const Frame& frame, const Scene& scene, st
         return shown.exposure_ev;
     };
     const float for_subject = lowered(subject, wanted, most_lowered, 1);
-    // A dark subject before a bright backdrop: the picture as a whole does not glare.
+    // A dark subject in front of a bright background: limits the exposure so that the whole picture is not too bright.
     const float for_picture = lowered(cells_of(frame, [](size_t) { return true; }), for_subject, most_lowered_for_backdrop, brightest_picture);
     return std::clamp(for_picture, -20.f, 20.f);
 }

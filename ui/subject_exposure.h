@@ -1,4 +1,4 @@
-// The exposure that shows the subject of a picture well: what a camera that meters what it is pointed at would choose.
+// Auto exposure for the subject of a picture.
 #pragma once
 
 #include "color/color_management.h"
@@ -11,14 +11,15 @@
 
 namespace blush {
 
-// Paths that a picture has to hold before metering it says anything: enough for the mean of each of its cells.
+// Minimum paths of a picture for metering: enough for the mean of each cell.
 constexpr int64_t paths_to_meter = 1 << 16;
 
-// Stops for `view`, whose own exposure is left out. The subject is the selected nodes with all below them, where they take up enough of the
-// picture; else what is in focus, where the lens has an aperture; else all objects. The backdrop is never part of it. The log-average
-// luminance of the subject becomes middle grey (exposure_meter.h), lower where more than a few per cent of it would be clipped by the view
-// transform, or, by at most 1.5 stops, of the whole picture, or where its mean display luminance would be above 0.55. Means of cells stand for pixels, so that noise does not count as highlights.
-// Nothing where the subject is black or there is no object.
+// Stops for `view`, whose own exposure is ignored. The subject is: the selected nodes with their children, if large enough in the
+// picture; else what is in focus, if the lens has an aperture; else all objects. The background is never part of it. The
+// log-average luminance of the subject becomes middle grey (exposure_meter.h). The exposure is lower if the view transform would
+// clip more than a few per cent of the subject or, by at most 1.5 stops, of the whole picture, or if the picture's mean display
+// luminance would exceed 0.55. Cells are averaged, so that noise does not count as highlights. nullopt if the subject is black or
+// there is no object.
 std::optional<float> subject_exposure(const Frame& frame, const Scene& scene, std::span<const Id<Node>> selected, const ViewSettings& view,
                                       const ColorManagement& color);
 

@@ -1,4 +1,4 @@
-// An OpenGL texture as ImGui and its OpenGL backend name it.
+// Conversion between OpenGL texture names and ImGui's texture ids.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// The look: neutral greys without a tint, so that the eye judges the picture's colours and not ours.
+// UI theme: neutral greys, so that it does not influence the perception of the picture's colours.
 #pragma once
 
 #include "core/vec.h"
@@ -8,14 +8,14 @@
 
 namespace blush {
 
-// Inter if it is in `assets`/fonts or among the system's fonts, else DejaVu Sans, else ImGui's own. The first font is
-// the text font, the second the semibold one for headings.
+// Loads Inter from `assets`/fonts or the system's fonts, else DejaVu Sans, else ImGui's font. The first font is the text font,
+// the second the semibold one for headings.
 void load_fonts(const std::filesystem::path& assets, float scale);
 ImFont* heading_font();
 
 void apply_theme(float scale);
 
-// A linear colour as the display shows it at full brightness.
+// A linear colour, display-encoded, scaled to full brightness.
 ImU32 hue_of(const Vec3& linear, int alpha = 255);
 
 namespace tone {
@@ -26,7 +26,7 @@ constexpr ImU32 field = IM_COL32(58, 58, 58, 255);
 constexpr ImU32 field_hovered = IM_COL32(68, 68, 68, 255);
 constexpr ImU32 field_filled = IM_COL32(92, 92, 92, 255); // the part of a slider below its value
 constexpr ImU32 line = IM_COL32(24, 24, 24, 255);
-constexpr ImU32 accent = IM_COL32(255, 158, 51, 255); // the selection in the viewport, and nothing else
+constexpr ImU32 accent = IM_COL32(255, 158, 51, 255); // only for the selection in the viewport
 constexpr ImU32 warning = IM_COL32(235, 185, 90, 255);
 constexpr ImU32 failure = IM_COL32(240, 110, 95, 255);
 constexpr ImU32 axis_x = IM_COL32(226, 92, 84, 255), axis_y = IM_COL32(128, 190, 76, 255), axis_z = IM_COL32(86, 146, 232, 255);

@@ -1,4 +1,4 @@
-// Playing an animation in the window.
+// UI state of animation playback.
 #pragma once
 
 #include "scene/document.h"
@@ -7,7 +7,7 @@ namespace blush {
 
 struct TimeView {
     bool playing = false;
-    Gesture gesture = no_gesture; // that all of the playing is one step of
+    Gesture gesture = no_gesture; // all of one playback is one undo step
     bool dragged = false;         // the slider is held
 };
 

@@ -20,7 +20,7 @@ bool has_children(const Scene& scene, Id<Node> id) {
     return std::ranges::any_of(scene.nodes, [&](const auto& entry) { return entry.value.parent == id; });
 }
 
-// By how much the motion stretches the axis; negative where it turns it round.
+// Factor by which the transform scales the axis; negative if it flips it.
 double stretch(const Motion& motion, const Vec3d& axis) {
     const double n = length(axis);
     if (!(n > 0)) return 1;
@@ -83,10 +83,10 @@ std::vector<TransformTarget> transform_targets(const Scene& scene, std::span<con
 }
 
 std::string why_not(const Scene& scene, std::span<const TransformTarget> targets, TransformMode mode) {
-    if (targets.empty()) return "Nothing that can be moved is selected: an animation or a skin leads the rest";
+    if (targets.empty()) return "The selection cannot be transformed: it is driven by an animation or a skin";
     if (targets.size() != 1 || !targets[0].light || mode == TransformMode::grab) return {};
     const Light& light = *scene.lights.find(targets[0].light);
-    if (mode == TransformMode::rotate && looks_the_same_from_all_sides(light)) return light.name + " shines alike to all sides: turning it changes nothing";
+    if (mode == TransformMode::rotate && looks_the_same_from_all_sides(light)) return light.name + " emits uniformly: rotation has no effect";
     if (mode == TransformMode::scale && !has_size(light))
         return light.name + (light.kind == Light::Kind::sun ? " has no angle to scale: set its Angle first" : " has no size to scale: set its Radius first");
     return {};
@@ -98,7 +98,7 @@ bool scales_along_axes(std::span<const TransformTarget> targets) {
 
 std::vector<Edit> transform_edits(const Scene& scene, std::span<const TransformTarget> targets, const Motion& motion) {
     std::vector<Edit> edits;
-    std::vector<Id<Light>> scaled_lights; // each once, though several nodes share it
+    std::vector<Id<Light>> scaled_lights; // each once, although several nodes can share it
     for (const TransformTarget& target : targets) {
         const Node* record = scene.nodes.find(target.node);
         if (!record) continue;

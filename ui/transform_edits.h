@@ -1,4 +1,4 @@
-// What a transform of the selection does to the document: which nodes it takes, and the edits it amounts to. Pure.
+// Applies a transform of the selection to the document: which nodes are transformed, and the resulting edits. Pure.
 #pragma once
 
 #include "scene/edit.h"
@@ -9,30 +9,31 @@
 
 namespace blush {
 
-// A node that is transformed, as it was when that began.
+// A transformed node, with its state at the start.
 struct TransformTarget {
     Id<Node> node;
     Affined world_from_node;
-    Id<Light> light; // whose size scaling changes, in place of the node's scale; none: a node with a mesh or children
+    Id<Light> light; // its size is scaled instead of the node; null id: a node with a mesh or children
     Light light_before;
 };
-// Of a selection: what hangs below none of the others, is led by no clip and hangs on no skin.
+// The nodes of a selection that can be transformed: not a descendant of another selected node, not animated, not skinned.
 std::vector<TransformTarget> transform_targets(const Scene& scene, std::span<const Id<Node>> selection);
 
-// Does the mode change the picture, or where its nodes are? Else the reason, as a sentence for the user: a point light looks the same from all sides.
+// Why the mode has no effect, as a sentence for the user; empty if it has one. A point light, for example, looks the same from
+// all sides.
 std::string why_not(const Scene& scene, std::span<const TransformTarget> targets, TransformMode mode);
-// Scaling along one axis alone changes something; otherwise all axes have one factor.
+// True if scaling along a single axis is possible; otherwise scaling is uniform.
 bool scales_along_axes(std::span<const TransformTarget> targets);
 
-// Edits that bring the targets from where they were to where the motion has them. Nodes keep their local axes: a factor along an axis of the
-// world stretches each local axis as far as it points that way, as in Blender, and no shear comes about.
+// Edits that move the targets from their initial transforms by the motion. A scale factor along a world axis is distributed to
+// the local axes by their direction, as in Blender, so no shear results.
 std::vector<Edit> transform_edits(const Scene& scene, std::span<const TransformTarget> targets, const Motion& motion);
 // "Move node Cup", "Rotate 3 objects".
 std::string transform_label(const Scene& scene, std::span<const TransformTarget> targets, TransformMode mode);
 
-// Where a node's handles sit: the middle of its mesh, else its origin. Looks at every vertex of the mesh.
+// The pivot of a node's handles: the centre of its mesh, else its origin. Reads every vertex of the mesh.
 Vec3d handle_point(const Scene& scene, Id<Node> node);
-// Unit vectors of a node's axes in the world, scale and shear taken out; the world's for a node that is not there.
+// World axes of a node as unit vectors, without scale and shear; the standard axes for a missing node.
 std::array<Vec3d, 3> local_axes(const Scene& scene, Id<Node> node);
 
 } // namespace blush

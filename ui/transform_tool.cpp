@@ -12,7 +12,7 @@ namespace blush {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
-constexpr double least_reach = 8;      // pixels from the pivot that scaling counts from
+constexpr double least_reach = 8;      // minimum distance from the pivot for scaling, pixels
 constexpr double most_amount = 1e9;
 constexpr double degrees_step = 5, factor_step = 0.1;
 constexpr std::array<Vec3d, 3> world_axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
@@ -20,12 +20,12 @@ constexpr const char* axis_names[] = {"X", "Y", "Z"};
 
 double wrapped(double radians) { return std::remainder(radians, 2 * std::numbers::pi); }
 
-// On the screen, counter-clockwise from the right.
+// Angle on the screen, counter-clockwise from the right.
 double angle_of(ScreenPoint p, ScreenPoint centre) { return std::atan2(centre.y - p.y, p.x - centre.x); }
 
 double rounded_to(double value, double step) { return std::round(value / step) * step; }
 
-// The character that a key stands for here; 0: none.
+// The character of a key for typed amounts; 0: none.
 char character_of(const KeyPress& press) {
     if (press.typed != 0 && press.typed < 128) return char(std::tolower(int(press.typed)));
     if (press.key >= key::pad_zero && press.key < key::pad_zero + 10) return char('0' + press.key - key::pad_zero);
@@ -34,7 +34,7 @@ char character_of(const KeyPress& press) {
     return press.key > key::space && press.key < 128 ? char(std::tolower(press.key)) : char(0);
 }
 
-// A minus or a point alone is a number that is still being typed.
+// A minus or a point alone is an incomplete number.
 double number_in(const std::string& text, double empty) {
     const bool negative = !text.empty() && text[0] == '-';
     const std::string digits = text.substr(negative ? 1 : 0);
@@ -42,7 +42,7 @@ double number_in(const std::string& text, double empty) {
     return std::min(magnitude, most_amount) * (negative ? -1 : 1);
 }
 
-// The axis that is left free, and the one after it.
+// The free axis, and the one after it.
 std::array<int, 2> others(int axis) { return {axis == 0 ? 1 : 0, axis == 2 ? 1 : 2}; }
 
 } // namespace
@@ -120,7 +120,7 @@ double TransformTool::pointed_factor() const {
     const ScreenPoint c = centre();
     const double sx = start_.mouse.x - c.x, sy = start_.mouse.y - c.y, x = at_.x - c.x, y = at_.y - c.y;
     const double reach = std::hypot(sx, sy);
-    if (reach < least_reach) return 1 + (x - sx) / 100; // begun on the pivot: to the right grows
+    if (reach < least_reach) return 1 + (x - sx) / 100; // started on the pivot: dragging to the right enlarges
     return std::hypot(x, y) / reach * (x * sx + y * sy < 0 ? -1 : 1);
 }
 
@@ -203,7 +203,7 @@ void TransformTool::switch_to(TransformMode mode) {
     turned_ = turn(start_.mouse, at_);
 }
 
-// The same again: the other kind of axes, then none.
+// Pressing the same key again: the other kind of axes, then no lock.
 void TransformTool::lock_to(int axis, bool plane) {
     const bool in_plane = plane && start_.mode != TransformMode::rotate;
     const AxisLock first{axis, in_plane, start_.local_first}, second{axis, in_plane, !start_.local_first};

@@ -1,4 +1,4 @@
-// Move, rotate and scale by mouse and keys: the state of one such transform and what it amounts to. Pure: no window, no document.
+// Modal transform (move, rotate, scale) by mouse and keys: its state and result. Pure: no window, no document.
 #pragma once
 
 #include "ui/gizmo.h"
@@ -9,15 +9,15 @@
 
 namespace blush {
 
-// Which axes a transform is held to.
+// Axis constraint of a transform.
 struct AxisLock {
     int axis = -1;      // 0, 1, 2 for X, Y, Z; -1: free
-    bool plane = false; // all but that axis
-    bool local = false; // of the selection, not of the world
+    bool plane = false; // all axes except this one
+    bool local = false; // axes of the selection instead of the world
     bool operator==(const AxisLock&) const = default;
 };
 
-// What a transform does to points, in the world.
+// A transform of points in world space.
 struct Motion {
     TransformMode mode = TransformMode::grab;
     Vec3d pivot{0, 0, 0};
@@ -28,22 +28,22 @@ struct Motion {
     Vec3d factors{1, 1, 1};    // scale: along the axes
 
     bool operator==(const Motion&) const = default;
-    // The linear part: a direction, rotated or scaled.
+    // The linear part: rotates or scales a direction.
     Vec3d direction(const Vec3d& v) const;
     Vec3d point(const Vec3d& p) const;
 };
 
-// How a transform begins.
+// Initial state of a transform.
 struct TransformStart {
     TransformMode mode = TransformMode::grab;
     Vec3d pivot;
-    std::array<Vec3d, 3> local_axes; // of what was selected last, orthonormal
+    std::array<Vec3d, 3> local_axes; // of the active object, orthonormal
     Projection projection;
     ImageRect image;
     ScreenPoint mouse;
     AxisLock lock = {};
-    bool local_first = false;  // the first press of X is the local axis, the second the world's
-    float ring = 0;            // pixels: radius of the ring that is dragged; 0: none is
+    bool local_first = false;  // the first press of X selects the local axis, the second the world axis
+    float ring = 0;            // pixels: radius of the dragged ring; 0: none
 };
 
 class TransformTool {
@@ -51,10 +51,10 @@ public:
     explicit TransformTool(const TransformStart& start);
 
     enum class Answer { ignored, taken, confirmed, cancelled };
-    // X, Y, Z: that axis, again: the local one, again: none; with Shift all but that axis. Digits, minus, point and Backspace: the amount; Tab:
-    // the next of several amounts. G, R, S: another mode, from the start. Enter or Space confirms, Esc cancels.
+    // Keys. X, Y, Z: this axis; again: local axis; again: free; with Shift all but this axis. Digits, minus, point and Backspace:
+    // the amount; Tab: the next of several amounts. G, R, S: another mode, restarted. Enter or Space confirms, Esc cancels.
     Answer press(const KeyPress& press);
-    // `fine`: the way since the last call counts a tenth. `snap`: amounts are rounded, to a tenth of that while fine.
+    // `fine`: the movement since the last call counts a tenth. `snap`: amounts are rounded, to a tenth of the step if `fine`.
     void point_at(ScreenPoint mouse, bool fine, bool snap);
 
     Motion motion() const;
@@ -63,13 +63,13 @@ public:
     TransformMode mode() const { return start_.mode; }
     const AxisLock& lock() const { return lock_; }
     const Vec3d& pivot() const { return start_.pivot; }
-    // Unit vectors of the world's or the selection's axes, as the lock has it.
+    // Unit axes of the world or the selection, depending on the constraint.
     std::array<Vec3d, 3> axes() const;
 
 private:
     static constexpr size_t most_typed = 12; // characters
     int amount_count() const;
-    std::array<double, 3> amounts() const; // as many as there are, in metres, degrees or as a factor
+    std::array<double, 3> amounts() const; // current number of amounts, in metres, degrees or as a factor
     std::array<double, 3> pointed_amounts() const;
     Vec3d pointed_at() const;
     double pointed_factor() const;
@@ -85,8 +85,8 @@ private:
 
     TransformStart start_;
     AxisLock lock_;
-    ScreenPoint mouse_, at_; // where the mouse is, and where it would be without fine moves
-    double turned_ = 0;      // radians about turn_axis(), over full turns
+    ScreenPoint mouse_, at_; // mouse position, and the virtual position after slow fine moves
+    double turned_ = 0;      // radians about turn_axis(), including full turns
     bool fine_ = false, snap_ = false;
     std::array<std::string, 3> typed_;
     size_t typing_ = 0;

@@ -1,4 +1,4 @@
-// What the window knows of transforms of the selection: the gizmo that is shown, and the transform that is asked for or under way.
+// UI state of transforms of the selection: the displayed gizmo, and the requested or active transform.
 #pragma once
 
 #include "ui/shortcuts.h"
@@ -12,20 +12,20 @@ namespace blush {
 struct TransformRequest {
     TransformMode mode = TransformMode::grab;
     AxisLock lock = {};
-    bool by_drag = false; // of a handle: letting the button go confirms
-    float ring = 0;       // pixels: radius of the ring that is dragged
+    bool by_drag = false; // of a handle: releasing the button confirms
+    float ring = 0;       // pixels: radius of the dragged ring
 };
 
 struct TransformView {
     TransformMode gizmo = TransformMode::grab;
-    bool local = false; // the gizmo's axes are the selection's, and X is the local one first
-    std::optional<TransformRequest> wanted; // begun in the next frame of the picture
+    bool local = false; // the gizmo has the axes of the selection, and X selects the local axis first
+    std::optional<TransformRequest> wanted; // starts in the next frame of the viewport
     bool active = false;
     std::vector<KeyPress> keys; // pressed since the last frame, for the transform
 
-    // Keys are the transform's: it is under way, or about to be.
+    // True if keys belong to the transform: it is active or requested.
     bool takes_keys() const { return active || wanted; }
-    // True for G, R and S, which it then asks for.
+    // Requests a transform for G, R and S and returns true.
     bool begin(Command command) {
         if (command != Command::grab && command != Command::rotate && command != Command::scale) return false;
         wanted = {.mode = TransformMode(int(command) - int(Command::grab))};

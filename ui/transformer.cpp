@@ -11,7 +11,7 @@ namespace {
 
 constexpr ImU32 axis_tones[] = {tone::axis_x, tone::axis_y, tone::axis_z};
 
-// Over all else: no panel takes the mouse meanwhile.
+// A window above all panels, so that they do not receive the mouse meanwhile.
 void cover_window() {
     constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoMove |
                                        ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav;
@@ -36,7 +36,7 @@ bool changes_nothing(const Motion& m) { return m.by == Vec3d{0, 0, 0} && m.radia
 
 void Transformer::begin(PanelContext& c, const TransformRequest& request, const Projection& projection, const ImageRect& image) {
     targets_ = transform_targets(c.scene(), c.ui.selection(c.scene()));
-    const std::string problem = c.ui.selected ? why_not(c.scene(), targets_, request.mode) : "Select what is to be transformed first";
+    const std::string problem = c.ui.selected ? why_not(c.scene(), targets_, request.mode) : "Select an object to transform first";
     if (!problem.empty()) {
         c.ui.transform.keys.clear();
         return c.ui.toasts.note(problem);
@@ -85,7 +85,7 @@ std::optional<bool> Transformer::hear(PanelContext& c) {
     return {};
 }
 
-// Anew from where everything was: another mode leaves nothing of the one before.
+// Restarts from the initial transforms: the previous mode has no effect.
 void Transformer::apply(PanelContext& c) {
     const Motion motion = tool_->motion();
     if (applied_ == motion) return;
@@ -122,7 +122,7 @@ bool Transformer::update(PanelContext& c, ImDrawList& draw, const Projection& pr
     if (!confirmed) {
         draw_axes(draw, projection, image);
         const std::string text = problem_.empty() ? tool_->text() : problem_;
-        draw_hint(draw, text + (by_drag_ ? "" : "   Enter or click: done.  Esc: back"));
+        draw_hint(draw, text + (by_drag_ ? "" : "   Enter or click: confirm.  Esc: cancel"));
         c.ui.probe.record("Transforming/" + text, {image.x, image.y, image.width, image.height});
     } else {
         end(c, *confirmed);

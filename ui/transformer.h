@@ -1,4 +1,5 @@
-// A transform of the selection under way in the viewport: it follows mouse and keys, shows what it does and edits the document, as one step.
+// The active transform of the selection in the viewport: reads mouse and keys, shows its amount and edits the document, as one
+// undo step.
 #pragma once
 
 #include "ui/panels/context.h"
@@ -11,16 +12,16 @@ namespace blush {
 
 class Transformer {
 public:
-    // Begins what is asked for and goes on with what is under way. True while one is: all of the mouse and the keys are then its own.
+    // Starts a requested transform and continues the active one. True while one is active: it then uses all mouse and key input.
     bool update(PanelContext& c, ImDrawList& draw, const Projection& projection, const ImageRect& image);
-    // Nothing is asked for any more, and what was under way is taken back.
+    // Drops a request and cancels the active transform.
     void abandon(PanelContext& c);
     bool under_way() const { return tool_.has_value(); }
 
 private:
     void begin(PanelContext& c, const TransformRequest& request, const Projection& projection, const ImageRect& image);
     void end(PanelContext& c, bool confirmed);
-    // Confirmed or cancelled; nothing: it goes on.
+    // true: confirmed, false: cancelled; nullopt: still active
     std::optional<bool> hear(PanelContext& c);
     void apply(PanelContext& c);
     void draw_axes(ImDrawList& draw, const Projection& projection, const ImageRect& image) const;
@@ -28,7 +29,7 @@ private:
     std::optional<TransformTool> tool_;
     std::vector<TransformTarget> targets_;
     std::optional<Motion> applied_;
-    std::string problem_; // why the mode it is in changes nothing; empty: it does
+    std::string problem_; // why the mode has no effect; empty: it has one
     Gesture gesture_ = no_gesture;
     bool by_drag_ = false;
 };

@@ -1,4 +1,4 @@
-// All state of the window that is not the document: selection, open panels, tool, and what panels ask the editor to do.
+// All UI state that is not in the document: selection, open panels, tool, and requests of panels to the editor.
 #pragma once
 
 #include "scene/scene.h"
@@ -44,16 +44,16 @@ struct Difference;
 
 enum class InspectorTab { selection, camera, environment, render, display };
 
-// What a click or drag in the picture does instead of navigating, once.
+// Tools: the next click or drag in the picture does this instead of navigating, once.
 enum class ViewTool {
     none,
-    pick_white, // a click says what is to look neutral
-    measure,    // a drag says which rectangle has its statistics shown
-    pick_color, // a click says which colour a field becomes
-    region,     // a drag says which rectangle is rendered
-    meter,      // a click puts a light meter on a surface
+    pick_white, // click: this pixel becomes neutral white
+    measure,    // drag: rectangle for statistics
+    pick_color, // click: a colour field gets the pixel's colour
+    region,     // drag: render region
+    meter,      // click: places a light meter on a surface
 };
-// Where in the picture a tool's drag began, (0, 0) top left, (1, 1) bottom right.
+// Start of a tool's drag in the picture, (0, 0) top left, (1, 1) bottom right.
 struct ToolStart {
     double u = 0, v = 0;
 };
@@ -66,37 +66,38 @@ struct FileBrowser {
     std::string chosen;
     bool just_opened = true;
     std::filesystem::path scene_folder = {}; // of the open scene
-    bool on_desktop = false; // the desktop's own dialog asks: ours is not drawn
+    bool on_desktop = false; // the desktop's dialog is open: the file browser is not drawn
 };
 
-// A pixel whose values are shown.
+// The pixel whose values are shown.
 struct PixelProbe {
-    double u = 0, v = 0; // of the image, (0, 0) top left
+    double u = 0, v = 0; // in the image, (0, 0) top left
     bool just_opened = true;
 };
 
-// Angles as the user typed them, kept while the rotation they belong to stays: a quaternion alone would make them jump.
+// Euler angles as the user typed them, kept while the rotation does not change elsewhere: from a quaternion alone they could
+// jump.
 struct EulerFields {
     Id<Node> node;
     Quat rotation;
     Vec3d degrees{0, 0, 0};
 };
 
-// The temperature of a white as the user typed it, kept while that white stays.
+// The white's temperature as the user typed it, kept while the white does not change elsewhere.
 struct WhiteFields {
     Vec3 color{0, 0, 0};
     float kelvin = 0, green_tint = 0;
 };
 
-// A camera's exposure, of which only the stops are the document's.
+// Camera exposure settings; the document has only the stops.
 struct ExposureTriangle {
-    float f_number = 8, iso = 100; // f_number: where the lens is a pinhole
+    float f_number = 8, iso = 100; // f_number: used while the lens is a pinhole
 };
 
-// What a click into the picture decides about the selected light.
+// The effect of a click in the picture on the selected light.
 enum class PlacingBy { hand, highlight, shadow };
 
-// The light whose eyes the viewport sees with, and the view to go back to.
+// The light of the light camera, and the view to return to.
 struct LookedThrough {
     Id<Node> node;
     View back;
@@ -104,18 +105,18 @@ struct LookedThrough {
 
 struct LightTableView {
     bool open = false;
-    Id<Node> renaming;          // this row's node
-    std::string renaming_group; // or this group
+    Id<Node> renaming;          // the node that is being renamed
+    std::string renaming_group; // or the group
     std::string text;
     bool just_begun = false;
 };
 
-// A place in the picture, (0, 0) top left.
+// A point in the picture, (0, 0) top left.
 struct PicturePoint {
     double u = 0, v = 0;
 };
 
-// How long the mouse has rested on a widget.
+// How long the mouse has been over a widget without moving.
 struct TipTimer {
     Region item;
     double since = 0; // seconds of ImGui's clock
@@ -123,48 +124,48 @@ struct TipTimer {
 };
 
 struct UiState {
-    Id<Node> selected;                   // what handles and inspector are for
-    std::vector<Id<Node>> also_selected; // edited together with it
+    Id<Node> selected;                   // the active node: used by handles and inspector
+    std::vector<Id<Node>> also_selected; // edited together with it (multi-edit)
     Id<Material> selected_material;
-    std::set<Id<Node>> turned;       // the outliner's rows that are not folded as they are at first
-    bool scroll_to_selected = false; // the outliner brings it into view
+    std::set<Id<Node>> turned;       // outliner rows whose fold state differs from the default
+    bool scroll_to_selected = false; // the outliner scrolls to it
     InspectorTab tab = InspectorTab::selection;
     Id<Node> renaming;
     std::string rename_text;
 
     PictureZoom zoom;
-    std::optional<PicturePoint> cursor; // while it is over the picture and nothing lies between
+    std::optional<PicturePoint> cursor; // while the mouse is over the picture and no other window
     ViewTool tool = ViewTool::none;
-    std::optional<ToolStart> tool_start; // while it drags
-    DenoiseView denoise; // a way of looking, not of rendering: apart from the document and its history
+    std::optional<ToolStart> tool_start; // while the tool's drag is active
+    DenoiseView denoise; // view setting: not part of the document and its history
     bool paused = false;
-    double next_frame_in = 1e9; // seconds until something moves by itself: a toast that goes, a tooltip that comes
+    double next_frame_in = 1e9; // seconds until a frame is needed without input, for example for toasts and tooltips
     PlacingBy placing_by = PlacingBy::hand;
     std::optional<LookedThrough> looked_through;
     LightTableView light_table;
     bool show_shortcuts = false;
-    bool studio_at_opening = false;  // the file has no light; it was opened in the studio rig, and the banner still says so
-    bool opening_page = false;       // of a start without a scene
-    std::vector<std::string> demos;  // scene files that come with the program
-    bool panels_hidden = false; // all but menu, picture and status bar
-    HomeView home;              // where `Camera's view` goes back to
+    bool studio_at_opening = false;  // the file has no light and was opened with studio lighting; the banner is still shown
+    bool opening_page = false;       // shown after a start without a scene
+    std::vector<std::string> demos;  // scene files shipped with the program
+    bool panels_hidden = false; // hides everything except menu, picture and status bar
+    HomeView home;              // target of the command Camera view
     CameraFrame frame;          // of that camera
     TransformView transform;    // of the selection, by gizmo or keys
     bool show_history = false;
     LightMixView light_mix;
     BouncesView bounces;
-    AovView aov; // what the bar of the viewport shows
+    AovView aov; // the pass selected in the viewport's toolbar
     HealthView health;
     ImportReportView import_report;
     RouletteView roulette;
     SnapshotsView snapshots;
-    std::shared_ptr<const Difference> difference; // of what is compared, as last worked out; null: none
+    std::shared_ptr<const Difference> difference; // of the compared pictures, as last computed; null: none
     ScopesView scopes;
     MetersView meters;
     RegionView region;
     ConvergenceView convergence;
     std::optional<FileBrowser> browser;
-    std::optional<Question> question; // asked by the editor, which also hears the answer
+    std::optional<Question> question; // set by the editor, which also receives the answer
     std::optional<PixelProbe> pixel;
     EulerFields euler;
     WhiteFields white;
@@ -174,19 +175,19 @@ struct UiState {
     MapView maps;
     TimeView time;
 
-    WindowSettings settings; // remembered between starts
+    WindowSettings settings; // saved between starts
     GestureTracker gestures;
     TipTimer tip;
     DockView docks;
     Probe probe;
     Toasts toasts;
 
-    // Done by the editor after the panels are drawn.
+    // Executed by the editor after the panels are drawn.
     std::vector<Command> commands;
     std::vector<FileRequest> files;
-    bool meter_exposure = false; // once, of the picture that answers the last edit: its surroundings are other ones
+    bool meter_exposure = false; // once, for the picture of the last edit, because the environment has changed
 
-    // What the viewport shows instead of the picture, if some panel asks for it.
+    // The special view that the viewport shows instead of the picture, if a panel requests one.
     PictureView picture_view(int bounce_planes) const {
         if (health.open && health.map) return {PictureView::Show::dropped};
         if (roulette.open && roulette.map == RouletteView::Map::path_length) return {PictureView::Show::path_length};
@@ -194,7 +195,7 @@ struct UiState {
         const PictureView by_panel = blush::picture_view(bounces, bounce_planes);
         return by_panel.show == PictureView::Show::beauty ? blush::picture_view(aov, bounce_planes) : by_panel;
     }
-    // Film planes that open panels read, beside those that every frame has.
+    // Film planes that open panels need, in addition to the default ones.
     PlaneSet wanted_planes() const {
         PlaneSet planes = planes_of(aov);
         if (bounces.open) planes.bounces = usual_bounce_planes;
@@ -209,14 +210,14 @@ struct UiState {
         scroll_to_selected = true;
         tab = InspectorTab::selection;
     }
-    // Adds what is not selected and takes away what is.
+    // Toggles the selection of a node.
     void toggle(Id<Node> node);
-    // All from the one selected to this one, in the order in which they are listed. Where the one selected is not listed, this one alone.
+    // Selects all from the active node to this one, in list order. If the active node is not in the list, selects only this one.
     void select_range(std::span<const Id<Node>> listed, Id<Node> to);
     bool is_selected(Id<Node> node) const;
-    // It is the environment that is looked at.
+    // The environment's inspector is shown.
     bool environment_chosen() const { return tab == InspectorTab::environment && !selected; }
-    // All that is selected and still there; the one selected first.
+    // All selected nodes that still exist; the active one first.
     std::vector<Id<Node>> selection(const Scene& scene) const;
 };
 

@@ -1,4 +1,4 @@
-// Memory of a picture that was handed on, taken again once nobody reads it: the one before may still be being copied.
+// Reuses the memory of a published picture once it has no more readers; the previous one may still be in use.
 #pragma once
 
 #include <memory>

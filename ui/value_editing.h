@@ -1,4 +1,4 @@
-// What the window knows of values being edited, beyond the document: what is asked of the value under the mouse, and colours being picked.
+// UI state of value fields: requested clipboard actions, and colour picking.
 #pragma once
 
 #include "core/vec.h"
@@ -7,16 +7,16 @@
 
 namespace blush {
 
-// Asked of one value, by a key over its field or in its menu.
+// A clipboard action for one value, from a key or its context menu.
 enum class ValueWish { none, copy, copy_hex, copy_srgb, copy_all, paste, reset, pick };
 
 struct ValueEditing {
-    ValueWish wish = ValueWish::none; // of the field under the mouse
-    int wish_frame = -1;              // in which it holds
-    unsigned in_hand = 0;             // the item whose gesture is under way
-    Vec3 before{1, 1, 1};             // a colour, as it was when its picker was opened
+    ValueWish wish = ValueWish::none; // for the field under the mouse
+    int wish_frame = -1;              // the frame in which it is valid
+    unsigned in_hand = 0;             // the item of the active gesture
+    Vec3 before{1, 1, 1};             // the colour when the picker was opened
 
-    // The colour field that the eyedropper is for, and what it has picked: scene-linear.
+    // The colour field that uses the eyedropper, and the picked scene-linear colour.
     unsigned dropper = 0;
     std::optional<Vec3> picked;
 };

@@ -7,7 +7,7 @@
 namespace blush {
 namespace {
 
-// Far more than a value needs, far less than what slows a window down.
+// Longest clipboard text that is read: more than any value needs.
 constexpr size_t longest_pasted = 4096;
 
 ValueWish menu(UiState& ui, const std::string& name, bool is_color, bool has_siblings) {
@@ -70,7 +70,7 @@ void copy_text(UiState& ui, const std::string& text) {
 
 void refuse_pasted(UiState& ui, const std::string& field, const char* wanted) {
     const std::string text = shown_of(pasted_text());
-    ui.toasts.warn(text.empty() ? "The clipboard holds no text that " + field + " could take" : "\"" + text + "\" is no value for " + field, wanted);
+    ui.toasts.warn(text.empty() ? "The clipboard has no text that " + field + " accepts" : "\"" + text + "\" is not a value for " + field, wanted);
 }
 
 } // namespace blush

@@ -1,4 +1,4 @@
-// Copying, pasting and resetting values: by the menu of a field's right click, or by keys over it.
+// Copy, paste and reset of values, by the context menu of a field or by keys.
 #pragma once
 
 #include "ui/ui_state.h"
@@ -7,16 +7,16 @@
 
 namespace blush {
 
-// From the next frame on, for that frame: what a key asks of the field under the mouse.
+// Requests the action for the field under the mouse, for the next frame.
 void wish_of_value(UiState& ui, ValueWish wish);
 
-// What the user asks of the last item, which was drawn for a value of that name: by a key, or in the menu that a right click opens.
+// The action requested for the last item, a field with this name: by a key, or in its context menu.
 ValueWish value_wish(UiState& ui, const std::string& name, bool is_color, bool has_siblings);
 
-// What was copied elsewhere; empty: nothing, or more than a value can be.
+// The clipboard's text; empty if there is none or it is too long.
 std::string pasted_text();
 void copy_text(UiState& ui, const std::string& text);
-// Says that the text on the clipboard is none of what the field takes.
+// Shows a warning that the field cannot use the clipboard's text.
 void refuse_pasted(UiState& ui, const std::string& field, const char* wanted);
 
 } // namespace blush

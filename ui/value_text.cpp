@@ -20,7 +20,7 @@ std::string_view trimmed(std::string_view text) {
     return first == std::string_view::npos ? std::string_view{} : text.substr(first, text.find_last_not_of(blank) - first + 1);
 }
 
-// The number that the whole text is.
+// Parses the whole text as one number.
 std::optional<double> number_of(std::string_view text) {
     if (!text.empty() && text[0] == '+') text.remove_prefix(1);
     double value = 0;
@@ -35,7 +35,7 @@ std::optional<int> hex_digit(char c) {
     return {};
 }
 
-// Without the #.
+// Hex digits without the #.
 std::optional<Vec3> hex_color(std::string_view digits) {
     if (digits.size() != 3 && digits.size() != 6) return {};
     std::array<float, 3> channels{};
@@ -53,7 +53,7 @@ bool is_color(const Vec3& c) {
     return fits(c.x) && fits(c.y) && fits(c.z);
 }
 
-// What follows a name, with the brackets around it.
+// The bracketed arguments after a function name.
 std::optional<std::string_view> after(std::string_view text, std::string_view name) {
     if (!text.starts_with(name)) return {};
     return trimmed(text.substr(name.size()));

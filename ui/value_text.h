@@ -1,4 +1,4 @@
-// Values as text, for the clipboard: numbers, and colours as hex, sRGB or linear triples. Pasted text may be anything.
+// Formats and parses values for the clipboard: numbers, and colours as hex, sRGB or linear triples. Pasted text is untrusted.
 #pragma once
 
 #include "core/vec.h"
@@ -9,27 +9,28 @@
 
 namespace blush {
 
-// The sRGB transfer functions: display-encoded from linear, and back.
+// The sRGB transfer functions.
 float srgb_from_linear(float x);
 float linear_from_srgb(float x);
 
-// As short as reads back the same: "0.25".
+// The shortest text that parses to the same number: "0.25".
 std::string number_text(double value);
 // "0.8, 0.2, 0.05"
 std::string triple_text(const Vec3& value);
-// "#rrggbb", display-encoded; what lies outside 0 .. 1 is cut.
+// "#rrggbb", display-encoded; clamped to 0 .. 1.
 std::string hex_text(const Vec3& linear);
 // "srgb(0.9, 0.5, 0.25)", display-encoded.
 std::string srgb_text(const Vec3& linear);
 
-// A finite number, with or without the unit after it; a comma counts as the point. Nothing for any other text.
+// Parses a finite number, optionally followed by the unit; accepts a decimal comma. nullopt for other text.
 std::optional<double> pasted_number(std::string_view text, std::string_view unit = {});
-// Three finite numbers between commas, semicolons or blanks, in brackets or not.
+// Parses three finite numbers, separated by commas, semicolons or blanks, optionally in brackets.
 std::optional<Vec3> pasted_triple(std::string_view text);
-// Linear RGB, not negative: "#rgb", "#rrggbb", "srgb(r, g, b)" of 0 .. 1, "rgb(r, g, b)" of 0 .. 255, or a triple, which is linear.
+// Parses non-negative linear RGB: "#rgb", "#rrggbb", "srgb(r, g, b)" with 0 .. 1, "rgb(r, g, b)" with 0 .. 255, or a triple,
+// which is linear.
 std::optional<Vec3> pasted_color(std::string_view text);
 
-// Of pasted text what a message can show: one line, printable, 32 characters at most.
+// Pasted text for a message: one line, printable, at most 32 characters.
 std::string shown_of(std::string_view text);
 
 } // namespace blush

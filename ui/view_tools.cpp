@@ -15,11 +15,11 @@ constexpr int white_radius = 2; // pixels: 5 x 5
 const char* hint_of(ViewTool tool) {
     switch (tool) {
     case ViewTool::none: return "";
-    case ViewTool::pick_white: return "Click what is to look white.  Esc: nothing";
-    case ViewTool::pick_color: return "Click the colour to take: scene-linear, as rendered.  Esc: nothing";
-    case ViewTool::meter: return "Click a surface to put a light meter on it.  Esc: nothing";
-    case ViewTool::region: return "Drag a rectangle to render alone.  Esc: nothing";
-    case ViewTool::measure: return "Drag a rectangle to measure.  Esc: nothing";
+    case ViewTool::pick_white: return "Click a place that should be white.  Esc: cancel";
+    case ViewTool::pick_color: return "Click to pick a colour (scene-linear).  Esc: cancel";
+    case ViewTool::meter: return "Click a surface to place a light meter.  Esc: cancel";
+    case ViewTool::region: return "Drag a rectangle to render only this region.  Esc: cancel";
+    case ViewTool::measure: return "Drag a rectangle to measure.  Esc: cancel";
     }
     return "";
 }
@@ -36,16 +36,16 @@ void draw_hint(const ImageRect& image, const char* text) {
 void pick_white(PanelContext& c, double u, double v) {
     const Vec3 white = picked_color(*c.frame, c.denoised.get(), mix_of(c.ui.denoise, c.denoised != nullptr), u, v, white_radius);
     const float y = luminance(white);
-    if (!(y > 0) || !is_finite(white)) return c.ui.toasts.note("Too dark there to tell a colour");
+    if (!(y > 0) || !is_finite(white)) return c.ui.toasts.note("The picture is too dark there to pick a white");
     ViewSettings view = c.project().view;
     view.white = {std::max(white.x / y, 0.f), std::max(white.y / y, 0.f), std::max(white.z / y, 0.f)};
     c.apply(SetView{view});
 }
 
-// For the field whose eyedropper it is, of the one pixel.
+// Sets the colour field that uses the eyedropper, from a single pixel.
 void pick_color(PanelContext& c, double u, double v) {
     const Vec3 color = picked_color(*c.frame, c.denoised.get(), mix_of(c.ui.denoise, c.denoised != nullptr), u, v, 0);
-    if (!is_finite(color)) return c.ui.toasts.note("The pixel there has no colour that is a number");
+    if (!is_finite(color)) return c.ui.toasts.note("The colour of this pixel is not finite");
     c.ui.values.picked = color;
     c.ui.next_frame_in = 0;
 }
@@ -53,7 +53,7 @@ void pick_color(PanelContext& c, double u, double v) {
 void place_meter(PanelContext& c, const Projection& projection, double u, double v) {
     ViewSettings view = c.project().view;
     const auto meter = meter_at(*c.frame, c.scene(), projection, u, v, new_meter_name(view.meters));
-    if (!meter) return c.ui.toasts.note("There is no surface there");
+    if (!meter) return c.ui.toasts.note("There is no surface at this point");
     view.meters.push_back(*meter);
     c.ui.meters.open = true;
     c.ui.docks.to_front.insert("meters");
@@ -63,7 +63,7 @@ void place_meter(PanelContext& c, const Projection& projection, double u, double
 void draw_rectangle(ImDrawList& draw, const ImageRect& image, const PictureRegion& r) {
     const ImVec2 low{image.x + r.x * image.width, image.y + r.y * image.height};
     const ImVec2 high{low.x + r.width * image.width, low.y + r.height * image.height};
-    draw.AddRect({low.x - 1, low.y - 1}, {high.x + 1, high.y + 1}, IM_COL32(0, 0, 0, 160), 0, 0, 3); // seen on any ground
+    draw.AddRect({low.x - 1, low.y - 1}, {high.x + 1, high.y + 1}, IM_COL32(0, 0, 0, 160), 0, 0, 3); // visible on any background
     draw.AddRect(low, high, tone::text);
 }
 

@@ -1,4 +1,4 @@
-// Tools that take the next click or drag in the picture: picking white, and drawing rectangles.
+// Tools that use the next click or drag in the picture: eyedroppers, light meters and rectangles.
 #pragma once
 
 #include "ui/gizmo.h"
@@ -11,19 +11,19 @@ namespace blush {
 // The rectangle between two corners, clipped to the picture.
 PictureRegion region_between(double u0, double v0, double u1, double v1);
 
-// The measured region's frame, over the picture.
+// Draws the frame of the measured region.
 void draw_measured_region(ImDrawList& draw, const ImageRect& image, const ViewSettings& view);
-// The frame of the region that is rendered alone; covers the rest, unless something of it is shown (region_surroundings.h).
+// Draws the frame of the render region; covers the rest, unless the last whole picture is shown there (region_surroundings.h).
 void draw_rendered_region(ImDrawList& draw, const ImageRect& image, const PictureRegion& region, bool covers);
 
-// From now on this alone is rendered.
+// Sets the render region.
 void render_region(PanelContext& c, const PictureRegion& region);
 
-// Says over the part of the picture that is seen what the tool waits for, and does it. True while a tool is in hand: the mouse is then not
-// the viewport's.
+// Shows the hint of the active tool over the visible part of the picture, and executes the tool. True while a tool is active: the
+// viewport then ignores the mouse.
 bool use_tool(PanelContext& c, const Projection& projection, const ImageRect& image, const ImageRect& seen, bool hovered);
 
-// Mean of what is shown within `radius` pixels of (u, v), scene-linear: of one pixel alone noise would be picked too.
+// Mean of the displayed picture within `radius` pixels of (u, v), scene-linear; averaging reduces the noise.
 Vec3 picked_color(const Frame& frame, const DenoisedPicture* denoised, const PictureMix& mix, double u, double v, int radius);
 
 } // namespace blush

@@ -22,10 +22,10 @@
 namespace blush {
 namespace {
 
-// Milliseconds that a frame of the window may take while a picture is being drawn for it; where somebody waits for a look they asked for; and
-// with the mix that is being moved, which is to be there in that very frame.
+// Milliseconds for a UI frame while a picture is being drawn: normally; while the user waits for changed view settings; and while
+// a light mix is edited, which must be visible in the same frame.
 constexpr double usual_frame = 16, asked_frame = 20, moved_frame = 12;
-// Without another change, after which a mix is no longer being moved: a mouse that is dragged is not in every frame of the window further on.
+// Time without a change after which an edit of the mix has paused: during a drag, not every UI frame has mouse input.
 constexpr std::chrono::milliseconds mix_rests_after{120};
 
 Region window_region() {
@@ -33,7 +33,7 @@ Region window_region() {
     return {at.x, at.y, size.x, size.y};
 }
 
-// Where the picture lies in the current window; fills what it leaves of it.
+// Rectangle of the picture in the current window; fills the rest of the window.
 ImageRect place_picture(const PanelContext& c) {
     const Region region = window_region();
     const ImageRect image = placed_picture(c.ui.zoom, region, std::max(c.render_width, 1), std::max(c.render_height, 1));
@@ -43,7 +43,7 @@ ImageRect place_picture(const PanelContext& c) {
     return image;
 }
 
-// What of the picture is in the window: where words are to be written.
+// The visible part of the picture, where captions are placed.
 ImageRect visible_part(const ImageRect& image) {
     const Region r = window_region();
     const float left = std::max(image.x, r.x), top = std::max(image.y, r.y);
@@ -63,7 +63,7 @@ void draw_centred(const char* text) {
     ImGui::GetWindowDrawList()->AddText({at.x + (window.x - size.x) / 2, at.y + (window.y - size.y) / 2}, tone::dim_text, text);
 }
 
-// Words at the lower edge of the picture.
+// A caption at the lower edge of the picture.
 void write_caption(const ImageRect& image, const char* text) {
     const float em = ImGui::GetFontSize();
     const ImVec2 size = ImGui::CalcTextSize(text), at{image.x + (image.width - size.x) / 2, image.y + image.height - size.y - em};
@@ -73,7 +73,7 @@ void write_caption(const ImageRect& image, const char* text) {
     draw.AddText(at, tone::warning, text);
 }
 
-// A mask over node ids: the node and all below it.
+// Mask over node ids: the node and all its descendants.
 std::vector<uint8_t> with_descendants(const Scene& scene, Id<Node> root) {
     std::vector<uint8_t> selected(scene.nodes.empty() ? 1 : scene.nodes.entries().back().id.value + 1);
     for (const Id<Node> id : subtree(scene, root)) selected[id.value] = true;
@@ -82,7 +82,7 @@ std::vector<uint8_t> with_descendants(const Scene& scene, Id<Node> root) {
 
 void focus_at(PanelContext& c, const Projection& projection, double u, double v) {
     const Picked picked = c.frame ? pick(*c.frame, u, v) : Picked{};
-    if (!picked.depth) return c.ui.toasts.note("Nothing there to focus on");
+    if (!picked.depth) return c.ui.toasts.note("There is no surface to focus on at this point");
     Lens lens = c.scene().view.lens;
     lens.focus_distance = float(projection.axial_distance(u, v, *picked.depth));
     c.apply(SetLens{lens});
@@ -94,7 +94,7 @@ void expose(PanelContext& c, float stops, Gesture gesture) {
     c.apply(SetView{v}, gesture);
 }
 
-// The light whose glyph is there, else what the picture shows.
+// The light whose glyph is at this position, else the object in the picture.
 Picked picked_at(PanelContext& c, const Projection& projection, const ImageRect& image, const ScreenPoint& at) {
     if (c.ui.settings.overlays) {
         if (const Id<Node> light = light_under(c.scene(), projection, image, c.ui, at)) return {light, {}, {}};
@@ -105,7 +105,7 @@ Picked picked_at(PanelContext& c, const Projection& projection, const ImageRect&
 void turn_surroundings(PanelContext& c, double share) {
     Environment e = c.scene().environment;
     if (e.kind != Environment::Kind::image && e.kind != Environment::Kind::sky)
-        return c.ui.toasts.note("Only an environment that is an image or a sky can be turned");
+        return c.ui.toasts.note("Only an image or sky environment can be rotated");
     e.rotation_degrees = turned_rotation(e.rotation_degrees, share, c.scene().view.lens);
     c.apply(SetEnvironment{e}, c.ui.gestures.current());
 }
@@ -115,7 +115,7 @@ void inspect(PanelContext& c, double u, double v) {
     c.ui.docks.to_front.insert("pixel");
 }
 
-// Are there planes of groups for these gains, of the frame and of what is shown of it denoised?
+// True if the frame, and its denoised picture if it is shown, have group planes for these gains.
 bool can_be_mixed(const PanelContext& c, const Gains& gains, bool denoised) {
     if (!c.frame || gains.empty() || c.frame->groups.size() != gains.size()) return false;
     return !denoised || (c.denoised && c.denoised->groups && c.denoised->groups->planes.size() == gains.size());
@@ -130,7 +130,7 @@ Result<void> Viewport::set_display_shader(const DisplayShader& shader) {
     return display_.set_shader(shader);
 }
 
-// As the mix has it by now: the session's own mix of the same planes follows when it has time.
+// Applies the current mix; the session's own mix of the same planes follows later.
 void Viewport::upload_frame(const FramePtr& shown, const PictureView& view, const Gains& gains, bool background_as_it_is) {
     const Frame& frame = *shown;
     const bool special = is_special(frame, view), mixes = !gains.empty() && gains.size() == frame.groups.size() && gains != frame.gains;
@@ -169,11 +169,12 @@ void Viewport::take_frame(PanelContext& c, const FramePace& pace) {
     const bool special = c.frame && is_special(*c.frame, view);
     DisplayNumbers numbers = numbers_of(v);
     if (special && is_map(view)) numbers.false_color = {}; // it has colours of its own
-    if (special && is_data(view)) numbers.background_as_it_is = true; // and that alone: its pixels are all background
+    if (special && is_data(view)) numbers.background_as_it_is = true; // all its pixels count as background
     const DisplayLook look{numbers, special ? PictureMix{} : mix_of(c.ui.denoise, c.denoised != nullptr), !special && c.frame && c.frame->transparent};
     const Gains gains = c.mixing ? c.mixing->gains : Gains();
     const bool new_gains = gains != uploaded_gains_, shows_denoised = look.mix.denoised_weight != 0;
-    // A mix that is being moved is shown at once, of fewer pixels where there is no time for all of them; those follow when it rests.
+    // While a mix is edited it is shown at once, at a lower resolution if time is short; full resolution follows when the edit
+    // pauses.
     const bool moved = new_gains && can_be_mixed(c, gains, shows_denoised) && !special && !numbers.background_as_it_is;
     const auto now = FramePace::Clock::now();
     if (moved) mix_moved_ = now;
@@ -181,13 +182,14 @@ void Viewport::take_frame(PanelContext& c, const FramePace& pace) {
     const auto drawing = [&](double pixels) { return display_.expected_milliseconds(pixels, shows_denoised ? 2 : 1); };
     const int step = moved ? preview_.step_in_time(moving, pace.left(moved_frame, now), drawing) : 1;
     const bool thinned = thinned_by_ > 1 && !moved, rests = thinned && now >= mix_moved_ + mix_rests_after;
-    const bool waits = thinned && !rests; // for the mix to be moved further
+    const bool waits = thinned && !rests; // for the next edit of the mix
     if (waits) c.ui.next_frame_in = std::min(c.ui.next_frame_in, std::chrono::duration<double>(mix_moved_ + mix_rests_after - now).count());
     const bool new_frame = c.frame && c.frame->width > 0 && !waits &&
                            (c.frame != uploaded_frame_ || view != uploaded_view_ || new_gains || rests ||
                             numbers.background_as_it_is != look_.numbers.background_as_it_is);
     const bool new_denoised = shows_denoised && !waits && (c.denoised != uploaded_denoised_ || new_gains || rests);
-    // Raw or denoised, at once: what is being drawn is given up for it. Not for a slider, whose every step would start anew.
+    // A switch between raw and denoised cancels the picture in progress. The blend slider does not, because each step would
+    // restart it.
     const bool toggled =
         uploaded_frame_ && look.mix != look_.mix && (look.mix.raw_weight == 0 || look.mix.denoised_weight == 0) && !new_denoised;
     if (display_.busy() && toggled) {
@@ -213,7 +215,7 @@ void Viewport::take_frame(PanelContext& c, const FramePace& pace) {
         shader_changed_ = false;
     }
     drew_display_ = display_.busy();
-    // Whoever asked for another look, or moves a mix, is waiting: for the picture that is being drawn to end, and for theirs.
+    // After a change of view settings or mix, the user waits for the current picture and for the new one.
     const bool awaited = look_ != look || answers_ || thinned_by_ > 1;
     display_.advance(pace.left(awaited ? asked_frame : usual_frame, FramePace::Clock::now()));
     if (display_.busy()) {
@@ -223,12 +225,12 @@ void Viewport::take_frame(PanelContext& c, const FramePace& pace) {
         shown_frame_ = uploaded_frame_;
         shown_gains_ = uploaded_gains_;
         shown_thinned_by_ = thinned_by_;
-        // Perhaps the next one waits already.
+        // the next one may be ready
         c.ui.next_frame_in = thinned_by_ == 1 ? 0 : std::min(c.ui.next_frame_in, std::chrono::duration<double>(mix_rests_after).count());
     }
 }
 
-// Of a region that is rendered alone.
+// For a render region.
 void Viewport::draw_surroundings(PanelContext& c, const ImageRect& image, const FramePace& pace) {
     const PictureRegion& region = c.project().render.region;
     if (shown_frame_->whole) surroundings_.remember(shown_frame_, uploaded_denoised_);
@@ -239,10 +241,10 @@ void Viewport::draw_surroundings(PanelContext& c, const ImageRect& image, const 
     draw_rendered_region(draw, image, region, !surroundings_.ready());
 }
 
-// Over the picture, where it may be alone: blending the rest of the layer would cost as much as the picture.
+// A layer of its own over the picture: blending a full layer would cost as much as the picture.
 void Viewport::draw_outline(const PanelContext& c, const ImageRect& image) {
     const Outlined wanted{shown_frame_, c.ui.selected};
-    // Not in the same frame of the window as the display pass: that has used up its time.
+    // Not in the same UI frame as the display pass, which has used the time budget.
     const bool later = drew_display_ && outlined_.frame && outlined_.selected == wanted.selected;
     if (outlined_ != wanted && !later) {
         outline_.upload(*shown_frame_, with_descendants(c.scene(), c.ui.selected));
@@ -262,27 +264,27 @@ void Viewport::draw_picture(PanelContext& c, const ImageRect& image, bool outlin
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const GLuint picture = display_.texture();
     set_filter(picture, c.ui.zoom.scale >= 1 && shown_frame_->divider == 1 && shown_thinned_by_ == 1 ? GL_NEAREST : GL_LINEAR);
-    // It is opaque: blending it would only cost time.
+    // opaque: blending would only cost time
     draw.AddCallback([](const ImDrawList*, const ImDrawCmd*) { glDisable(GL_BLEND); }, nullptr);
-    // What is in the window of it alone: far beyond, coordinates lose their precision.
+    // clipped to the window: coordinates far outside lose precision
     const ImageRect seen = visible_part(image);
     const ImVec2 high{seen.x + seen.width, seen.y + seen.height};
     const auto uv = [&](const ImVec2& at) { return ImVec2{float(image.u(at.x)), float(image.v(at.y))}; };
     draw.AddImage(texture_id(picture), {seen.x, seen.y}, high, uv({seen.x, seen.y}), uv(high));
     draw.AddCallback(ImDrawCallback_ResetRenderState, nullptr);
-    // The line is drawn as large as the picture is on the screen: not where that is far larger than the window.
+    // The outline is drawn at the picture's size on the screen; skipped if that is far larger than the window.
     const Region region = window_region();
     const bool fits = image.width <= region.width && image.height <= region.height;
     if (outlined && fits) draw_outline(c, image);
 }
 
-// What is shown instead of the picture, where it cannot be overlooked.
+// The caption of a special view.
 void Viewport::draw_caption(const PanelContext& c, const ImageRect& image) const {
     if (!is_special(*shown_frame_, uploaded_view_)) {
-        // Frames of before it was asked for do not have the plane.
+        // Frames from before the request do not have the plane.
         const AovView& wanted = c.ui.aov;
         const bool lacks = wanted.show != PictureView::Show::beauty && uploaded_view_ == picture_view(wanted, int(shown_frame_->bounces.size()));
-        if (lacks) write_caption(image, (name_of(wanted, shown_frame_.get()) + " is not in this picture yet").c_str());
+        if (lacks) write_caption(image, (name_of(wanted, shown_frame_.get()) + " is not rendered yet").c_str());
         return;
     }
     if (uploaded_view_.show == PictureView::Show::illuminance) return;
@@ -317,7 +319,7 @@ void Viewport::obey(PanelContext& c, const NavigationResult& wish, const Project
     if (wish.toggle_shadow) {
         const Picked picked = picked_at(c, projection, image, *wish.toggle_shadow);
         if (picked.node && !toggle_link(c, picked.node, &Light::shadow_casters))
-            c.ui.toasts.note("Select the light whose shadow it is first");
+            c.ui.toasts.note("Select a light first, to edit its shadow linking");
     }
 }
 
@@ -332,7 +334,7 @@ ImageRect Viewport::draw(PanelContext& c, const FramePace& pace) {
     c.ui.cursor.reset();
     if (hovered && image.contains(mouse.x, mouse.y)) c.ui.cursor = PicturePoint{image.u(mouse.x), image.v(mouse.y)};
     if (!c.frame) {
-        shown_frame_ = uploaded_frame_ = nullptr; // there is nothing to be seen any more
+        shown_frame_ = uploaded_frame_ = nullptr; // nothing is displayed any more
         surroundings_.forget();
     }
     if (!shown_frame_) {
@@ -354,7 +356,7 @@ ImageRect Viewport::draw(PanelContext& c, const FramePace& pace) {
     bool taken = use_tool(c, projection, image, seen, hovered && !navigation_.busy());
     if (c.ui.tool == ViewTool::none) taken |= draw_overlays(c, projection, image, hovered && !navigation_.busy());
     const bool special = is_special(*shown_frame_, uploaded_view_), map = special && is_map(uploaded_view_);
-    if (!special) draw_pixel_grid(draw, image, window_region(), *shown_frame_); // its numbers are the beauty's
+    if (!special) draw_pixel_grid(draw, image, window_region(), *shown_frame_); // the values are those of the beauty
     draw_false_color_legend(draw, seen, map ? ViewSettings{} : c.project().view);
     if (c.ui.settings.overlays) {
         draw_measured_region(draw, image, c.project().view);
@@ -363,7 +365,7 @@ ImageRect Viewport::draw(PanelContext& c, const FramePace& pace) {
     if (c.ui.pixel) draw_read_pixel(draw, image, c.ui.pixel->u, c.ui.pixel->v);
     draw_map_scale(draw, seen, *shown_frame_, uploaded_view_);
     draw_caption(c, seen);
-    // The line that says what a transform does lies where the bar is.
+    // the hint of an active transform is at the toolbar's position
     if (c.ui.settings.overlays && !transformer_.under_way()) draw_aov_bar(c, seen);
     navigate(c, projection, image, hovered, taken);
     return image;
@@ -377,13 +379,13 @@ ImageRect Viewport::draw_alone(PanelContext& c, const FramePace& pace, const cha
         draw_centred("Preparing the first image");
         return image;
     }
-    surroundings_.forget(); // they belong to the scene that goes
+    surroundings_.forget(); // they belong to the previous scene
     draw_picture(c, image, false);
     write_caption(visible_part(image), caption);
     return image;
 }
 
-// True if the left button is theirs. What a tool shows is there even while overlays are off: somebody has asked for it.
+// True if the handles or a tool use the left button. Tools are shown even while overlays are off, because the user started them.
 bool Viewport::draw_overlays(PanelContext& c, const Projection& projection, const ImageRect& image, bool hovered) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const ImageRect seen = visible_part(image);
@@ -396,7 +398,7 @@ bool Viewport::draw_overlays(PanelContext& c, const Projection& projection, cons
         taken |= draw_environment_dial(c, draw, projection, seen, hovered && !taken);
     }
     if (const Light* light = looked_through_light(c); light && c.ui.placing_by == PlacingBy::hand)
-        draw_hint(draw, "Looking through " + light->name + ": moving the view moves the light.  L or Esc goes back");
+        draw_hint(draw, "Looking through " + light->name + ": moving the view moves the light.  L or Esc: back to the camera");
     taken |= place_tool_.update(c, draw, projection, image, hovered);
     taken |= transformer_.update(c, draw, projection, image);
     draw.PopClipRect();

@@ -1,4 +1,4 @@
-// The picture and what the mouse does in it: navigation, picking, handles.
+// The viewport: displays the picture and handles the mouse in it (navigation, picking, handles).
 #pragma once
 
 #include "core/parallel.h"
@@ -19,21 +19,22 @@ namespace blush {
 
 class Viewport {
 public:
-    // Compiles the shaders that do not depend on the colour configuration.
+    // Compiles the shaders that do not depend on the OCIO configuration.
     Result<void> load() { return outline_.load(); }
     Result<void> set_display_shader(const DisplayShader& shader);
 
-    // Fills the current ImGui window. Returns where the picture lies. A new picture is worked at for as long as `pace` leaves time.
+    // Fills the current ImGui window and returns the picture's rectangle. Continues to draw a new picture as long as `pace` has
+    // time.
     ImageRect draw(PanelContext& c, const FramePace& pace);
-    // As draw(), but nothing in it can be touched and nothing is drawn into it, except for `caption`, which says why.
+    // As draw(), but without interaction and overlays, except for `caption`, which gives the reason.
     ImageRect draw_alone(PanelContext& c, const FramePace& pace, const char* caption);
-    // The frame whose picture is on the screen; null before the first.
+    // The displayed frame; null before the first.
     const FramePtr& shown() const { return shown_frame_; }
-    // The gains of its light groups that it is shown with; empty where there are none.
+    // The gains of its light groups as displayed; empty without groups.
     const Gains& shown_gains() const { return shown_gains_; }
-    // Are its pictures on the screen in this mixture?
+    // True if the pictures are displayed with these gains.
     bool shows(const PictureMix& mix) const { return shown_frame_ && !begun_ && look_.mix == mix; }
-    // Does it show fewer pixels than there are, for a while, of a mix of lights that is being moved?
+    // True if it temporarily shows a lower resolution, while a light mix is edited.
     bool is_thinned() const { return thinned_by_ > 1 || shown_thinned_by_ > 1; }
 
 private:
@@ -54,26 +55,26 @@ private:
     CompareView compare_;
     RegionSurroundings surroundings_;
     Navigation navigation_;
-    bool navigating_ = false; // as of the last frame: what it edits is one step of the history
+    bool navigating_ = false; // in the last frame; its edits are one undo step
     Handles handles_;
     Transformer transformer_;
     Gesture exposure_gesture_ = no_gesture;
     PlaceTool place_tool_;
 
-    // What the textures hold, to draw into them only when something differs.
+    // The content of the textures, to redraw them only when something has changed.
     FramePtr uploaded_frame_, shown_frame_;
     PictureView uploaded_view_;
     DenoisedPtr uploaded_denoised_;
-    Gains uploaded_gains_, shown_gains_; // of both
-    int thinned_by_ = 1, shown_thinned_by_ = 1; // only every so many-th pixel of a row, and row, of both
-    FramePace::TimePoint mix_moved_{}; // last
+    Gains uploaded_gains_, shown_gains_; // of raw and denoised picture
+    int thinned_by_ = 1, shown_thinned_by_ = 1; // only every n-th pixel of a row, and every n-th row, of both
+    FramePace::TimePoint mix_moved_{}; // last edit of the mix
     MixPreview preview_;
-    std::shared_ptr<std::vector<float>> mixed_, mixed_denoised_; // the last pictures that were mixed here, kept for their memory
-    Workers workers_{0};   // mix planes
+    std::shared_ptr<std::vector<float>> mixed_, mixed_denoised_; // mixed pictures, kept to reuse their memory
+    Workers workers_{0};   // for mixing planes
     DisplayLook look_;
     bool shader_changed_ = false, begun_ = false;
-    bool answers_ = false; // the picture being drawn is the look that was asked for last
-    bool drew_display_ = false; // in this frame of the window
+    bool answers_ = false; // the picture in progress has the last requested view settings
+    bool drew_display_ = false; // in this UI frame
     struct Outlined {
         FramePtr frame;
         Id<Node> selected;

@@ -1,4 +1,4 @@
-// The waveforms of the scopes as textures: ten thousand cells drawn as rectangles would take a software rasteriser longer than all else.
+// The waveforms of the scopes as textures: ten thousand cells as rectangles would be slow with a software rasterizer.
 #pragma once
 
 #include "ui/gl_objects.h"
@@ -10,24 +10,24 @@
 
 namespace blush {
 
-// A cell's colour, RGBA in bytes, the highest level first: how many pixels of its column are there, channel by channel. Transparent where
-// there are none.
+// RGBA bytes per cell, the highest level first: brightness is the pixel count of its column, per channel. Transparent if the
+// count is zero.
 std::vector<uint32_t> waveform_texels(const Waveform& waveform);
 
-// What the panel draws from; 0 draws none.
+// The textures for the panel; 0 draws nothing.
 struct WaveformTextures {
     ImTextureID scene = {}, displayed = {};
 };
 
 class WaveformSheet {
 public:
-    // Uploads an answer that is not the one it holds. Needs a current context once there is one.
+    // Uploads the answer if it has changed. Requires a current context.
     void update(const ScopesView& view);
     WaveformTextures textures() const;
 
 private:
     GlTexture scene_, displayed_;
-    uint64_t answer_ = 0; // the number of what they hold
+    uint64_t answer_ = 0; // number of the uploaded answer
 };
 
 } // namespace blush

@@ -26,7 +26,7 @@ std::string format_with_unit(const NumberStyle& style) {
     return format;
 }
 
-// The value, or 0 where the format would show it as zero with a minus sign.
+// The value, or 0 if the format would show it as a negative zero.
 float shown_value(float value, const char* format) {
     if (!(value < 0)) return value + 0.f; // no -0
     char text[64];
@@ -34,7 +34,7 @@ float shown_value(float value, const char* format) {
     return text[0] == '-' && without_sign_of_zero(text)[0] != '-' ? 0.f : value;
 }
 
-// ImGui makes drags with Shift ten times as fast; here they are a tenth.
+// In ImGui, Shift makes drags ten times faster; here they become ten times finer.
 float drag_speed(float speed) { return ImGui::GetIO().KeyShift ? speed / 100 : speed; }
 
 void draw_bar(float fraction, float width) {
@@ -63,7 +63,7 @@ void Fields::begin_row(const char* label, const char* tip) {
 }
 
 bool Fields::finish(const char* label, const char* tip, bool changed) {
-    // By Tab the next field is begun in the frame that ends the last one: each ends its own gesture alone.
+    // With Tab, the next field starts in the frame that ends the last one: each ends only its own gesture.
     const unsigned id = ImGui::GetItemID();
     if (ImGui::IsItemActivated()) {
         ui_.gestures.begin();
@@ -93,7 +93,7 @@ bool Fields::obey_wish(const std::string& name, float& value, const NumberStyle&
         }
         const auto three = !all ? std::nullopt : color ? pasted_color(text) : pasted_triple(text);
         if (!three) {
-            refuse_pasted(ui_, name, all ? "It takes a number, or three of them." : "It takes a number.");
+            refuse_pasted(ui_, name, all ? "Use a number, or three numbers." : "Use a number.");
             return false;
         }
         const auto clamped = [&](float x) { return std::clamp(x, style.min, style.max); };
@@ -112,7 +112,7 @@ bool Fields::number_field(const char* id, float& value, const NumberStyle& style
     bool changed = false;
     if (style.bar) {
         draw_bar((value - style.min) / (style.max - style.min), width);
-        // Dragged like a field, its end following the mouse: a click alone then changes nothing.
+        // Dragged like a field: the bar follows the mouse. So a click without movement changes nothing.
         for (const ImGuiCol c : {ImGuiCol_FrameBg, ImGuiCol_FrameBgHovered, ImGuiCol_FrameBgActive})
             ImGui::PushStyleColor(c, ImVec4(0, 0, 0, 0));
         changed = ImGui::DragFloat(id, &edited, drag_speed((style.max - style.min) / width), style.min, style.max, format.c_str(), flags);
@@ -158,7 +158,7 @@ bool Fields::integer(const char* label, int64_t& value, int64_t min, int64_t max
         if (const auto number = pasted_number(pasted_text()))
             edited = int64_t(std::clamp(std::round(*number), -9e18, 9e18));
         else
-            refuse_pasted(ui_, label, "It takes a number.");
+            refuse_pasted(ui_, label, "Use a number.");
         break;
     default: break;
     }
@@ -269,7 +269,7 @@ bool Fields::removable(const std::string& name) {
     ImGui::SameLine(right - ImGui::GetFrameHeight());
     const bool pressed = ImGui::Button("×", {ImGui::GetFrameHeight(), 0});
     ui_.probe.record_last_item(std::string(scope_) + "/Remove " + name);
-    tip_for_last_item(ui_, "Take it away");
+    tip_for_last_item(ui_, "Remove");
     ImGui::PopID();
     changed_ |= pressed;
     return pressed;
@@ -304,7 +304,7 @@ bool section(UiState& ui, const char* name, bool open_at_first) {
 
 namespace {
 
-// Beside the window of the widget where that is near, else above the widget or beside it: never over the row below it.
+// The tooltip is beside the widget's window if that is near, else above or beside the widget: never over the row below.
 ImVec2 place_tip(const ImVec2& low, const ImVec2& high, const ImVec2& size) {
     const ImVec2 screen = ImGui::GetIO().DisplaySize, at = ImGui::GetWindowPos();
     const float em = ImGui::GetFontSize(), gap = em / 3, near = em * 14, edge = at.x + ImGui::GetWindowWidth();
@@ -341,7 +341,8 @@ void tip_for_last_item(UiState& ui, const char* tip) {
     const ImVec2 text = ImGui::CalcTextSize(tip, nullptr, false, wrap), padding = ImGui::GetStyle().WindowPadding;
     place_next_tip({text.x + 2 * padding.x, text.y + 2 * padding.y});
     ImGui::BeginTooltip();
-    // ImGui hides a new window for the one frame in which it measures it; over a mouse at rest nothing else asks for the next.
+    // ImGui hides a new window for the frame in which it measures it; with the mouse at rest nothing else requests the next
+    // frame.
     if (ImGui::IsWindowAppearing()) ui.next_frame_in = 0;
     ImGui::PushTextWrapPos(wrap);
     ImGui::TextUnformatted(tip);

@@ -1,6 +1,6 @@
-// Value editors in rows of label and field. They report "changed" and which gesture the change belongs to, so that a
-// panel applies one edit per frame and a drag becomes one step of the history. Every number is dragged, finely with Shift, and typed after a
-// double-click; Tab goes on to the next. Its menu copies, pastes and resets it.
+// Value fields in rows of label and field. They report "changed" and the gesture of the change, so that a panel applies one edit
+// per frame and a drag becomes one undo step. Numbers are dragged (finely with Shift) or typed after a double-click; Tab moves to
+// the next field. The context menu copies, pastes and resets.
 #pragma once
 
 #include "core/vec.h"
@@ -14,55 +14,55 @@
 
 namespace blush {
 
-// How a number is shown and dragged. Limits hold for typed values too.
+// Format and drag behaviour of a number. Limits also apply to typed values.
 struct NumberStyle {
     float min = -FLT_MAX, max = FLT_MAX;
     float reset = 0; // the default
     const char* unit = "";
-    float step = 0;              // per pixel of a drag; 0: half a per cent of the value, for what spans magnitudes
-    bool bar = false;            // a filled bar from min to max in place of a field that is dragged
-    const char* tip = "";        // what it does, physically
-    const char* format = "%.4g"; // of the number alone
+    float step = 0;              // per pixel of a drag; 0: 0.5 % of the value, for large ranges
+    bool bar = false;            // a filled bar from min to max instead of a drag field
+    const char* tip = "";        // tooltip: its physical meaning
+    const char* format = "%.4g"; // without the unit
 };
 
 class Fields {
 public:
-    // `scope` goes before each label in the probe: "Light" makes "Light/Intensity".
+    // `scope` is the prefix of each label in the probe: "Light" makes "Light/Intensity".
     Fields(UiState& ui, const char* scope);
     ~Fields();
     Fields(const Fields&) = delete;
     Fields& operator=(const Fields&) = delete;
 
     bool number(const char* label, float& value, const NumberStyle& style);
-    // Shown in degrees, as the style's limits and reset are.
+    // Shown in degrees; the style's limits and reset are in degrees as well.
     bool angle(const char* label, float& radians, const NumberStyle& style);
     bool integer(const char* label, int64_t& value, int64_t min, int64_t max, int64_t reset, const char* tip);
     bool vector(const char* label, Vec3& value, const Vec3& reset, const NumberStyle& style);
-    // Linear RGB: a swatch with a picker, and the three numbers.
+    // Linear RGB: a swatch with a colour picker, and three numbers.
     bool color(const char* label, Vec3& value, const Vec3& reset, const char* tip);
     bool checkbox(const char* label, bool& value, const char* tip);
     bool choice(const char* label, int& index, std::span<const char* const> names, const char* tip);
     bool choice(const char* label, std::string& name, std::span<const std::string> names, const char* tip);
-    // Changed when the user is done typing.
+    // Returns true when the user has finished typing.
     bool text(const char* label, std::string& value, const char* tip);
     void info(const char* label, const std::string& text, const char* tip = "");
-    // A name in the field's column, with a button that takes it away; true when that is pressed.
+    // A name in the field column with a remove button; true when that is pressed.
     bool removable(const std::string& name);
-    // A button in the field's column.
+    // A button in the field column.
     bool button(const char* label, const char* tip = "");
 
-    // The label of a row whose field the caller draws; it is as wide as the rest of the row unless another width is set.
+    // The label of a row whose field the caller draws. The next item's width is the rest of the row unless set otherwise.
     void begin_row(const char* label, const char* tip);
-    // A button's press has changed the record: one step of the history.
+    // The press of a button has changed the record: one undo step.
     void note_change() { changed_ = true; }
 
-    // Anything edited since construction, and the gesture of that edit.
+    // True if any field was edited since construction; and the gesture of that edit.
     bool changed() const { return changed_; }
     Gesture gesture() const { return gesture_; }
 
 private:
     bool number_field(const char* id, float& value, const NumberStyle& style);
-    // Of the number drawn last: copies, pastes, resets. `all`: the three that it is one of; null: it stands alone.
+    // Clipboard actions for the number drawn last. `all`: the three numbers it belongs to; null: it is single.
     bool obey_wish(const std::string& name, float& value, const NumberStyle& style, float reset, Vec3* all, bool color);
     bool obey_color_wish(const char* label, Vec3& value, const Vec3& reset);
     bool draw_picker(const char* label, Vec3& value);
@@ -74,15 +74,15 @@ private:
     Gesture gesture_ = no_gesture;
 };
 
-// A foldable heading over rows; draw them if it returns true.
+// A collapsible heading; draw its rows if it returns true.
 bool section(UiState& ui, const char* name, bool open_at_first = true);
-// A tooltip for the last item, once the mouse has rested on it.
+// A tooltip for the last item, after the tooltip delay.
 void tip_for_last_item(UiState& ui, const char* tip);
-// The mouse has rested on the last item for as long as a tooltip waits; asks for the frame in which that is so.
+// True if the mouse has been over the last item for the tooltip delay; requests the frame in which that becomes true.
 bool tip_is_due(UiState& ui);
-// A tooltip of that size goes beside the window of the last item, never over the row below it.
+// Places a tooltip of this size beside the window of the last item, never over the row below.
 void place_next_tip(const ImVec2& size);
-// A wrapped paragraph in the quiet colour.
+// A wrapped paragraph in the dim text colour.
 void quiet_text(const std::string& text);
 
 } // namespace blush

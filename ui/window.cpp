@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <epoxy/gl.h>
-// After epoxy, which replaces the system's OpenGL header.
+// Included after epoxy, which replaces the system's OpenGL header.
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
@@ -22,11 +22,11 @@ static_assert(key::space == GLFW_KEY_SPACE && key::zero == GLFW_KEY_0 && key::es
 constexpr int frames_after_input = 3;
 
 std::atomic<bool> woken = false;
-std::string glfw_error; // GLFW reports on the thread that calls it: ours
+std::string glfw_error; // GLFW reports errors on the calling thread, which is this one
 
 Window& owner(GLFWwindow* window) { return *static_cast<Window*>(glfwGetWindowUserPointer(window)); }
 
-// The monitor that shows most of the window; null: there is none.
+// The monitor that shows most of the window; null if there is none.
 GLFWmonitor* monitor_of(GLFWwindow* window) {
     int x = 0, y = 0, width = 0, height = 0, count = 0;
     glfwGetWindowPos(window, &x, &y);
@@ -52,7 +52,7 @@ GLFWmonitor* monitor_of(GLFWwindow* window) {
 
 Result<std::unique_ptr<Window>> Window::open(const WindowOptions& options) {
     glfwSetErrorCallback([](int, const char* text) { glfw_error = text; });
-    if (!glfwInit()) return Error{"", "no display: " + glfw_error, ""};
+    if (!glfwInit()) return Error{"", "cannot open the display: " + glfw_error, ""};
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
@@ -61,7 +61,7 @@ Result<std::unique_ptr<Window>> Window::open(const WindowOptions& options) {
     glfwWindowHintString(GLFW_X11_CLASS_NAME, "blush");
     std::unique_ptr<Window> window(new Window);
     window->window_ = glfwCreateWindow(options.width, options.height, options.title.c_str(), nullptr, nullptr);
-    if (!window->window_) return Error{"", "no window with OpenGL 3.3: " + glfw_error, ""};
+    if (!window->window_) return Error{"", "cannot create a window with OpenGL 3.3: " + glfw_error, ""};
     glfwMakeContextCurrent(window->window_);
     glfwSwapInterval(1);
     glfwSetWindowSizeLimits(window->window_, 480, 320, GLFW_DONT_CARE, GLFW_DONT_CARE);
@@ -84,7 +84,7 @@ Window::~Window() {
     glfwTerminate();
 }
 
-// Ours first: ImGui's backend chains to whatever is installed before it.
+// Our callbacks come first: ImGui's backend chains to the previously installed ones.
 void Window::install_callbacks() {
     glfwSetWindowUserPointer(window_, this);
     glfwSetKeyCallback(window_, [](GLFWwindow* w, int code, int, int action, int mods) {
@@ -102,7 +102,7 @@ void Window::install_callbacks() {
     glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int, int, int) { owner(w).request_frames(frames_after_input); });
     glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double, double) { owner(w).request_frames(1); });
     glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double) { owner(w).request_frames(frames_after_input); });
-    // It follows the press of the key that types it.
+    // The character event follows the press of its key.
     glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned character) {
         owner(w).request_frames(frames_after_input);
         if (!owner(w).key_presses_.empty()) owner(w).key_presses_.back().typed = character;
@@ -117,15 +117,15 @@ void Window::install_callbacks() {
 void Window::begin_imgui() {
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
-    ImGui::GetIO().IniFilename = nullptr;              // the layout is ours to remember
-    ImGui::GetIO().ConfigInputTextCursorBlink = false; // a blinking cursor would keep the window from sleeping
+    ImGui::GetIO().IniFilename = nullptr;              // the layout is saved by the application
+    ImGui::GetIO().ConfigInputTextCursorBlink = false; // a blinking cursor would prevent the window from sleeping
     apply_scale();
     ImGui_ImplGlfw_InitForOpenGL(window_, true);
     ImGui_ImplOpenGL3_Init("#version 330 core");
     imgui_ = true;
 }
 
-// Glyphs are drawn anew for each size: stretched ones would be blurred.
+// Fonts are rasterized again for each size: scaled glyphs would be blurred.
 void Window::apply_scale() {
     ImGui::GetIO().Fonts->Clear();
     load_fonts(assets_, scale_);
@@ -168,7 +168,7 @@ void Window::end_frame() {
     ImGui::Render();
     ImDrawData& drawn = *ImGui::GetDrawData();
     spare_fill(drawn);
-    // As big as it was when the frame began: to ask again would be to wait for the display's server again.
+    // The size at the start of the frame: another query would wait for the display server.
     glViewport(0, 0, GLsizei(drawn.DisplaySize.x * drawn.FramebufferScale.x), GLsizei(drawn.DisplaySize.y * drawn.FramebufferScale.y));
     glDisable(GL_SCISSOR_TEST);
     glClearColor(0.11f, 0.11f, 0.11f, 1);

@@ -1,4 +1,4 @@
-// The GLFW window with its OpenGL context and ImGui's backends: the only file that knows GLFW.
+// The GLFW window with its OpenGL context and ImGui's backends: the only file that uses GLFW.
 #pragma once
 
 #include "core/result.h"
@@ -30,18 +30,18 @@ public:
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
 
-    // Sleeps until there is input, wake() is called or the timeout is over; returns at once while frames are due.
-    // False if nothing asks for a frame.
+    // Sleeps until input, wake() or the timeout; returns at once while frames are pending.
+    // False if no frame is needed.
     bool wait(double timeout_seconds);
-    // At least this many more frames will be due: ImGui needs a few to settle after input.
+    // Requests at least this many more frames: ImGui needs a few to settle after input.
     void request_frames(int count);
-    // Makes wait() return with a frame due. Callable from any thread while a window is open.
+    // Makes wait() return with a frame pending. Thread-safe while a window is open.
     static void wake();
 
-    // Per cent of the size that the display asks for, of text and all that goes by it. Not within a frame.
+    // Text and UI size in per cent of the display's default. Must not be called within a frame.
     void set_text_size(int per_cent);
     void begin_frame();
-    // Draws ImGui's picture over a cleared window and shows it.
+    // Renders ImGui's draw data over a cleared window and swaps the buffers.
     void end_frame();
 
     bool close_requested() const;
@@ -53,11 +53,12 @@ public:
     };
     Size size() const; // screen coordinates
     bool maximized() const;
-    // On the monitor that most of the window is on; back to the size and place before.
+    // Switches to full screen on the monitor that shows most of the window, and back to the previous size and place.
     void toggle_full_screen();
     bool full_screen() const;
 
-    // What was pressed and dropped since the last call, in order. A key that was pressed and released between two frames counts.
+    // Keys pressed and files dropped since the last call, in order. Includes keys that were pressed and released between two
+    // frames.
     std::vector<KeyPress> take_key_presses() { return std::exchange(key_presses_, {}); }
     std::vector<std::filesystem::path> take_dropped_files() { return std::exchange(dropped_files_, {}); }
 
@@ -69,9 +70,9 @@ private:
 
     GLFWwindow* window_ = nullptr;
     bool imgui_ = false;
-    Size windowed_{};                  // before it filled the screen
+    Size windowed_{};                  // size before full screen
     int windowed_x_ = 0, windowed_y_ = 0;
-    float display_scale_ = 1, scale_ = 1; // of the display; of fonts and spacing: that many times their size at 96 dpi
+    float display_scale_ = 1, scale_ = 1; // of the display; of fonts and spacing, relative to 96 dpi
     int text_size_ = 100;                 // per cent
     std::filesystem::path assets_;
     int frames_due_ = 3;

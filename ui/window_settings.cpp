@@ -13,7 +13,7 @@ namespace {
 constexpr size_t most_panel_settings = 1000, most_ids = 100000, most_floating_text = 1 << 16;
 constexpr size_t most_snapshots = 64, most_bookmarks = 64, most_instruments = 64;
 
-// The entry if it is there and of the right type and range, else what `value` was.
+// Reads the entry if it exists with the right type and range; otherwise `value` is unchanged.
 template <class T> void read(const nlohmann::json& json, const char* key, T& value, T low, T high) {
     const auto it = json.find(key);
     if (it == json.end() || !it->is_number()) return;
@@ -180,7 +180,7 @@ Result<void> write_window_settings(const std::filesystem::path& file, const Wind
     std::filesystem::create_directories(file.parent_path(), error);
     const std::filesystem::path temporary = file.string() + ".new";
     std::ofstream out(temporary);
-    // A path may hold bytes that are not UTF-8; they are replaced rather than thrown over.
+    // A path may contain bytes that are not UTF-8; they are replaced instead of throwing.
     out << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
     out.close();
     if (!out) return Error{file.string(), "cannot write the window's settings", ""};

@@ -1,4 +1,4 @@
-// What the window remembers from one start to the next. Kept in $XDG_CONFIG_HOME/blush/window.json, apart from any scene.
+// UI settings saved between starts, in $XDG_CONFIG_HOME/blush/window.json, independent of scenes.
 #pragma once
 
 #include "core/result.h"
@@ -12,16 +12,16 @@
 
 namespace blush {
 
-// How the scene of a file was last looked at.
+// UI state of the last session with a scene file.
 struct SceneMemory {
     std::string file;
     double zoom = 0, u = 0.5, v = 0.5; // PictureZoom
-    std::vector<uint32_t> selected;    // Id<Node>.value, the first to come first
-    uint32_t material = 0;             // Id<Material>.value of the one selected
-    std::vector<uint32_t> turned;      // Id<Node>.value of the outliner's rows that are not folded as they are at first
-    std::string mix_group;             // whose colour the light mix shows
+    std::vector<uint32_t> selected;    // Id<Node>.value, the active one first
+    uint32_t material = 0;             // Id<Material>.value of the selected material
+    std::vector<uint32_t> turned;      // Id<Node>.value of the outliner rows whose fold state differs from the default
+    std::string mix_group;             // the light mix group whose colour settings are shown
     std::vector<std::string> snapshots; // files, oldest first
-    std::vector<std::string> instruments; // ids of those that were open
+    std::vector<std::string> instruments; // ids of the open ones
     bool operator==(const SceneMemory&) const = default;
 };
 constexpr size_t remembered_files = 10;
@@ -31,34 +31,34 @@ struct WindowSettings {
     int width = 1280, height = 800; // of the window, in screen coordinates
     bool maximized = false;
     Splitters splitters;
-    Dock dock;                       // of the instruments
-    int text_size = 100;             // per cent of what the display asks for
+    Dock dock;                       // layout of the instruments
+    int text_size = 100;             // per cent of the display's default
     bool follow_viewport = true;     // render at the viewport's size
     bool overlays = true;            // light glyphs, handles, outlines
     std::vector<std::string> recent; // scene files, newest first
     std::string snapshot_folder;     // empty: that of the scene
-    bool snapshot_files = true;      // each snapshot is written to a file,
-    bool snapshot_half = false;      // its colours in 16 bits,
-    bool snapshot_film = true;       // with the samples to go on from
-    int64_t snapshot_memory = 2048;  // MiB that the strip's snapshots may take before the oldest live in their files alone
+    bool snapshot_files = true;      // every snapshot is written to a file,
+    bool snapshot_half = false;      // with colours in 16 bits,
+    bool snapshot_film = true;       // with samples, to resume rendering
+    int64_t snapshot_memory = 2048;  // MiB limit for the strip's snapshots; above it the oldest are unloaded
     std::vector<std::string> bookmarks; // folders of the file browser
-    bool desktop_file_dialog = true; // files are asked for by the desktop's own dialog, where there is one
-    std::string browser_folder;      // where the file browser was last
-    std::map<std::string, double> panels; // which are open and what they are set to (remembered.h), and sections of the inspector
-    std::string floating;            // where panels lie: ImGui's text
+    bool desktop_file_dialog = true; // use the desktop's file dialog, if available
+    std::string browser_folder;      // last folder of the file browser
+    std::map<std::string, double> panels; // open panels and their settings (remembered.h), and sections of the inspector
+    std::string floating;            // ImGui's text with the positions of floating windows
     std::vector<SceneMemory> scenes; // newest first
     bool operator==(const WindowSettings&) const = default;
 };
 
-// $XDG_CONFIG_HOME/blush/window.json, or the same under ~/.config; empty if neither variable is set.
+// $XDG_CONFIG_HOME/blush/window.json, or ~/.config/blush/window.json; empty if neither variable is set.
 std::filesystem::path window_settings_file();
 
-// A missing or damaged file, or a damaged entry of it, gives the defaults.
+// Returns the defaults for a missing or damaged file, or for damaged entries.
 WindowSettings read_window_settings(const std::filesystem::path& file);
-// Creates the folder; written beside the target and renamed, so that the file is whole or not there.
+// Creates the folder; writes a temporary file and renames it, so that the file is never incomplete.
 Result<void> write_window_settings(const std::filesystem::path& file, const WindowSettings& settings);
 
-// Moves a file to the front of the recent list; the list keeps its ten newest.
+// Moves a file to the front of the recent list, which keeps the ten newest.
 void remember_recent(std::vector<std::string>& recent, const std::string& file);
 
 } // namespace blush

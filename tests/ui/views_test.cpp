@@ -56,16 +56,16 @@ TEST(BouncesView, ShowsThePictureWhenAllOfItIsThere) {
 
 TEST(BouncesView, SaysThatItIsNotThePicture) {
     Frame f = frame_with_bounces();
-    EXPECT_EQ(caption_of(f, picture_view(view_of(Mode::single, 1), 3)), "Bounce 1 alone: not the whole picture");
-    EXPECT_EQ(caption_of(f, picture_view(view_of(Mode::indirect), 3)), "Bounce 2+ alone: not the whole picture");
-    EXPECT_EQ(caption_of(f, picture_view(view_of(Mode::direct), 3)), "Bounces 0, 1 alone: not the whole picture");
+    EXPECT_EQ(caption_of(f, picture_view(view_of(Mode::single, 1), 3)), "Bounce 1 only: not the whole picture");
+    EXPECT_EQ(caption_of(f, picture_view(view_of(Mode::indirect), 3)), "Bounce 2+ only: not the whole picture");
+    EXPECT_EQ(caption_of(f, picture_view(view_of(Mode::direct), 3)), "Bounces 0, 1 only: not the whole picture");
     BouncesView gains = view_of(Mode::gains);
     gains.gains = {1, 1, 1.5f};
-    EXPECT_EQ(caption_of(f, picture_view(gains, 3)), "Bounces with gains: not the picture");
+    EXPECT_EQ(caption_of(f, picture_view(gains, 3)), "Bounces with gains: not the physical picture");
     f.gains = {{1, 1, 1}, {1, 1, 1}};
-    EXPECT_EQ(caption_of(f, picture_view(gains, 3)), "Bounces with gains: not the picture");
+    EXPECT_EQ(caption_of(f, picture_view(gains, 3)), "Bounces with gains: not the physical picture");
     f.gains[1] = {1, 0, 1};
-    EXPECT_EQ(caption_of(f, picture_view(gains, 3)), "Bounces with gains: not the picture, in the light from before the light mix");
+    EXPECT_EQ(caption_of(f, picture_view(gains, 3)), "Bounces with gains: not the physical picture, without the light mix");
 }
 
 TEST(BouncesView, PlaysInSequenceAndStartsOver) {
@@ -91,7 +91,7 @@ TEST(Maps, RunFromDarkToBright) {
     }
     EXPECT_EQ(pixels_of(f, {Show::survival})[5], 1);
     EXPECT_NE(caption_of(f, {Show::path_length}).find("5.0"), std::string::npos);
-    EXPECT_NE(caption_of(f, {Show::dropped}).find("3 in a pixel"), std::string::npos);
+    EXPECT_NE(caption_of(f, {Show::dropped}).find("3 per pixel"), std::string::npos);
     // Nothing dropped is a black map, not none.
     EXPECT_TRUE(is_special(frame_with_bounces(), {Show::dropped}));
     EXPECT_EQ(pixels_of(frame_with_bounces(), {Show::dropped})[4], 0);
