@@ -6,7 +6,7 @@
 namespace blush {
 namespace {
 
-// What `variable` says; else ../share/blush/NAME beside the program, where installing puts it; else `built`.
+// The value of `variable` if set; else ../share/blush/NAME relative to the program (installed); else `built`.
 std::filesystem::path find_dir(const char* variable, const char* name, const char* built) {
     if (const char* set = std::getenv(variable); set && *set) return set;
     std::error_code code;

@@ -1,13 +1,14 @@
-// Where the program finds its own files.
+// Locates the program's data files.
 #pragma once
 
 #include <filesystem>
 
 namespace blush {
 
-// $BLUSH_ASSETS if set; else ../share/blush/assets beside the program, where installing puts them; else the source tree it was built from.
+// $BLUSH_ASSETS if set; else ../share/blush/assets relative to the program (installed); else the source tree it was built from.
 std::filesystem::path assets_dir();
-// The denoiser's: $BLUSH_WEIGHTS if set; else ../share/blush/weights beside the program; else the build tree's `weights`.
+// Weights of the denoiser: $BLUSH_WEIGHTS if set; else ../share/blush/weights relative to the program; else the build tree's
+// `weights`.
 std::filesystem::path weights_dir();
 
 } // namespace blush

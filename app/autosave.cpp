@@ -16,7 +16,7 @@ constexpr uint64_t most_bytes = uint64_t(1) << 28;
 
 std::filesystem::path lock_of(std::filesystem::path file) { return file.replace_extension(".lock"); }
 
-// A lock goes with its process, however that ends.
+// A lock is released when its process ends, in any way.
 bool is_locked(const std::filesystem::path& lock) {
     const int fd = ::open(lock.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
     if (fd < 0) return false;
@@ -64,7 +64,8 @@ bool Autosave::claim_lock() {
     if (lock_fd_ >= 0) return true;
     std::error_code error;
     std::filesystem::create_directories(folder_, error);
-    // Any name that no other process holds; those left by a crash are not taken over, since their edits may still be wanted.
+    // The first name that no other process has locked; sidecars of a crash are not reused, because their edits may still be
+    // needed.
     for (int number = 1; number < 1000; ++number) {
         file_ = folder_ / fmt::format("{}-{}.json", ::getpid(), number);
         if (std::filesystem::exists(file_, error)) continue;
@@ -88,7 +89,7 @@ std::optional<Error> Autosave::poll(const Document& document, const Scene& impor
         job_.reset();
         if (!*result) failure = result->error();
     }
-    // An edit, or a save: what was kept belongs to the file as it was before.
+    // After an edit or a save, the sidecar is outdated.
     if (document.revision() != seen_revision_ || origin.json != seen_origin_) {
         seen_revision_ = document.revision();
         seen_origin_ = origin.json;
@@ -100,10 +101,10 @@ std::optional<Error> Autosave::poll(const Document& document, const Scene& impor
         }
     }
     if (!changed_ || Clock::now() < next_) return failure;
-    if (!claim_lock()) return Error{folder_.string(), "cannot keep unsaved edits for a recovery", ""};
+    if (!claim_lock()) return Error{folder_.string(), "cannot autosave: no lock file in the recovery folder", ""};
     changed_ = false;
     job_ = std::make_unique<BackgroundJob<Result<void>>>(
-        "Keeping unsaved edits",
+        "Autosaving",
         [file = file_, project = document.project(), imported, origin](JobProgress&) -> Result<void> {
             return write_file(file, sidecar_json(sidecar_of(origin.file, *origin.json, imported, project)));
         },
@@ -114,7 +115,7 @@ std::optional<Error> Autosave::poll(const Document& document, const Scene& impor
 void Autosave::adopt(const std::filesystem::path& leftover) {
     forget();
     const int fd = ::open(lock_of(leftover).c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600);
-    if (fd < 0) return; // it stays, to be offered again
+    if (fd < 0) return; // keep it, to be offered again
     if (::flock(fd, LOCK_EX | LOCK_NB) != 0) {
         ::close(fd);
         return;
@@ -125,7 +126,7 @@ void Autosave::adopt(const std::filesystem::path& leftover) {
 
 void Autosave::forget() {
     if (lock_fd_ < 0) return;
-    job_.reset(); // it must not write again what is removed here
+    job_.reset(); // cancel first: the job must not write the file again
     remove_leftover(file_);
     ::close(std::exchange(lock_fd_, -1));
     changed_ = false;

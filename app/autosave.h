@@ -1,4 +1,4 @@
-// Unsaved edits kept in a file of the user's state folder, for the start after a crash.
+// Autosave: unsaved edits in a sidecar file of the user's state folder, for recovery after a crash.
 #pragma once
 
 #include "core/result.h"
@@ -15,37 +15,37 @@
 
 namespace blush {
 
-// $XDG_STATE_HOME/blush/recovery, or the same under ~/.local/state; empty if neither variable is set.
+// $XDG_STATE_HOME/blush/recovery, or ~/.local/state/blush/recovery; empty if neither variable is set.
 std::filesystem::path recovery_folder();
 
-// What a process that is gone has left.
+// A sidecar left by a process that has ended.
 struct Leftover {
     std::filesystem::path file;
     Sidecar sidecar;
     std::filesystem::file_time_type written;
 };
-// Newest first. Files of running processes and what cannot be read are passed over.
+// Newest first. Skips files of running processes and unreadable files.
 std::vector<Leftover> find_leftovers(const std::filesystem::path& folder);
-// With its lock.
+// Removes the sidecar and its lock file.
 void remove_leftover(const std::filesystem::path& file);
 
 class Autosave {
 public:
     using Clock = std::chrono::steady_clock;
 
-    // With an empty folder nothing is kept.
+    // With an empty folder, autosave is off.
     Autosave(std::filesystem::path folder, std::chrono::duration<double> interval);
-    // Leaves the sidecar, for an exception may be what ends the program.
+    // Keeps the sidecar, because an exception may be ending the program.
     ~Autosave();
     Autosave(const Autosave&) = delete;
     Autosave& operator=(const Autosave&) = delete;
 
-    // Once per frame: writes the sidecar in the background when there are changes that it lacks and the interval is over, and
-    // removes it when there is nothing left to save. `origin.file` is absolute. Returns the error of a write, once.
+    // Call once per frame: writes the sidecar in the background if it is outdated and the interval has passed; removes it if
+    // there are no unsaved edits. `origin.file` is absolute. Returns the error of a write, once.
     std::optional<Error> poll(const Document& document, const Scene& imported, const GltfOrigin& origin);
-    // Removes the sidecar: the edits are saved, or not wanted.
+    // Removes the sidecar: the edits were saved or discarded.
     void forget();
-    // Takes over what a crash has left, now that its edits are in the document.
+    // Adopts the sidecar of a crash, after its edits were loaded into the document.
     void adopt(const std::filesystem::path& leftover);
 
 private:

@@ -6,10 +6,10 @@ namespace {
 void request(UiState& ui, FileRequest::Use use, std::filesystem::path path) {
     if (use == FileRequest::Use::save_scene && !matches(scene_files, path)) {
         path += ".gltf";
-        // The desktop has asked about replacing the name without it.
+        // The desktop has asked about replacing the name without the extension.
         std::error_code unreadable;
         if (std::filesystem::exists(path, unreadable))
-            return ui.toasts.fail("The scene was not saved: there is a " + path.filename().string() + " already", "Choose that file in the dialog to replace it.");
+            return ui.toasts.fail("The scene was not saved: the file " + path.filename().string() + " exists", "Choose that file in the dialog to replace it.");
     }
     ui.settings.browser_folder = (use == FileRequest::Use::snapshot_folder ? path : path.parent_path()).string();
     ui.files.push_back({use, std::move(path)});
@@ -27,13 +27,13 @@ void DesktopFileDialog::poll(UiState& ui) {
         ui.browser->on_desktop = true;
     }
     if (!job_) return;
-    if (!ui.browser || !ui.browser->on_desktop) return job_.reset(); // a question has taken its place
+    if (!ui.browser || !ui.browser->on_desktop) return job_.reset(); // replaced by a modal dialog
     const std::optional<PortalAnswer> answer = job_->take();
     if (!answer) return;
     job_.reset();
     if (answer->outcome == PortalAnswer::Outcome::no_portal) {
         usable_ = false;
-        ui.browser->on_desktop = false; // the window's own dialog asks
+        ui.browser->on_desktop = false; // show the window's file browser
         return;
     }
     if (answer->outcome == PortalAnswer::Outcome::chosen) request(ui, ui.browser->use, answer->path);

@@ -1,4 +1,4 @@
-// Lets the desktop's own file dialog ask for a file where there is one, in place of the window's.
+// Uses the desktop's file dialog, if available, instead of the window's file browser.
 #pragma once
 
 #include "app/portal_dialog.h"
@@ -14,8 +14,8 @@ class DesktopFileDialog {
 public:
     explicit DesktopFileDialog(std::function<void()> wake) : wake_(std::move(wake)) {}
 
-    // Once per frame, before the window's own dialog is drawn. Takes over one that has just been asked for, unless the settings say otherwise or the
-    // desktop has shown that it has none. Its answer comes as the own dialog's does: in ui.files.
+    // Call once per frame, before the file browser is drawn. Takes over a new request, unless the settings disable it or the
+    // desktop has no dialog. The answer is in ui.files, as with the file browser.
     void poll(UiState& ui);
 
 private:

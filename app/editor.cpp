@@ -37,9 +37,9 @@ namespace {
 
 using Clock = FrameStats::Clock;
 
-constexpr double longest_sleep = 1; // seconds: how often the scene file is looked at
+constexpr double longest_sleep = 1; // seconds: interval of checks whether the scene file has changed
 
-// What the window leaves behind. A failure is a warning: the window has gone.
+// Writes the settings on exit. A failure is a warning, because the window is already closed.
 void write_at_end(const WindowSettings& settings, const FrameStats& stats, const std::filesystem::path& stats_file) {
     const auto warn = [](const Result<void>& written) {
         if (!written) fmt::print(stderr, "blush: warning: {}\n", written.error().text());
@@ -77,7 +77,7 @@ private:
     bool shows_preview() const { return pictures_.frame && pictures_.frame->revision <= last_preview_; }
 
     Automation automation_;
-    std::unique_ptr<Window> window_; // first to come, last to go: the session wakes it
+    std::unique_ptr<Window> window_; // constructed first, destroyed last: the session calls wake()
     ColorManagement color_;
     EditorOptions options_;
     Document document_;
@@ -100,20 +100,20 @@ private:
     FollowedMix mix_;
     MeteringOnce metering_;
     OpeningPage opening_page_{options_.assets, &Window::wake};
-    std::string weights_problem_; // why the denoiser's weights are of no use; empty: they are there
+    std::string weights_problem_; // why the denoiser's weights cannot be used; empty: they can
     RenderSession session_;
 
     Submitted submitted_;
-    uint64_t last_preview_ = 0; // revision of the last scene that was shown without its textures; 0: none was
+    uint64_t last_preview_ = 0; // revision of the last scene shown without textures; 0: none
     bool session_paused_ = false, session_denoises_ = false, session_aside_ = false;
 
-    bool remembered_follow_viewport_ = true; // what the settings said before the command line
+    bool remembered_follow_viewport_ = true; // the saved setting, before the command line
 
-    Layout layout_; // of the last frame of the window
+    Layout layout_; // of the last UI frame
     bool instruments_recalled_ = false;
     ImageRect image_;
-    enum class SnapshotDue { none, keep, png } snapshot_due_ = SnapshotDue::none; // waits for a picture in full resolution
-    std::string not_continued_; // as was last said
+    enum class SnapshotDue { none, keep, png } snapshot_due_ = SnapshotDue::none; // pending until a picture in full resolution exists
+    std::string not_continued_; // last message
     Clock::time_point frame_begin_{};
 };
 
@@ -132,14 +132,14 @@ Editor::Editor(const EditorOptions& options, std::unique_ptr<Window> window, Col
     recall_panels(ui_.settings, ui_);
     ImGui::LoadIniSettingsFromMemory(ui_.settings.floating.c_str(), ui_.settings.floating.size());
     if (const auto found = find_denoiser_weights(options.weights); !found)
-        weights_problem_ = found.error().text() + ": packaging/setup fetches them";
+        weights_problem_ = found.error().text() + ": run packaging/setup to download them";
     else if (options.denoise)
         ui_.denoise.show = DenoiseView::Show::denoised;
     if (!weights_problem_.empty()) ui_.denoise.show = DenoiseView::Show::raw;
     remembered_follow_viewport_ = ui_.settings.follow_viewport;
     if (!options.follow_viewport) ui_.settings.follow_viewport = false;
     ui_.probe = Probe(automation.probe_file);
-    if (!color_.warning().empty()) ui_.toasts.warn("The colour configuration is replaced by our own", color_.warning());
+    if (!color_.warning().empty()) ui_.toasts.warn("The OCIO configuration cannot be used: the default one is used instead", color_.warning());
     document_.reset(Project{{}, options.render, options.view});
     if (const auto loaded = viewport_.load(); !loaded) ui_.toasts.fail(loaded.error().text());
     files_.open(options.scene.empty() ? options.assets / "scenes" / "card-and-mug.gltf" : options.scene,
@@ -171,14 +171,14 @@ void Editor::run() {
     remember();
 }
 
-// Input, and what was finished in the background.
+// Handles input and results of background jobs.
 void Editor::poll() {
     const EditorFiles::Finished finished = files_.poll(document_, ui_);
     saving_.poll(finished);
     if (finished.opened || finished.saved) {
         window_->set_title(files_.scene_file().filename().string() + " - Blush");
         if (finished.opened) {
-            submitted_.forget(); // a new scene is submitted whatever it looks like
+            submitted_.forget(); // a new scene is always submitted
             metering_.opened(finished.stored_exposure || std::exchange(options_.exposure_given, false), document_.project());
             snapshots_.list_kept(ui_, files_.scene_file());
             if (!std::exchange(instruments_recalled_, true)) recall_instruments(context(), files_.scene_file().string());
@@ -192,9 +192,10 @@ void Editor::poll() {
         if (!ui_.question) saving_.before_losing_edits("closing the window", [this] { leaving_ = true; });
     }
     for (const auto& file : window_->take_dropped_files()) takers().take_dropped(file);
-    // While text is typed or something is open on top, keys are meant for that. Esc closes menus and lists of choices; dialogs hear it themselves.
+    // While text is edited or a popup is open, it receives the keys. Esc closes menus and combo boxes; dialogs handle it
+    // themselves.
     const bool taken = ImGui::GetIO().WantTextInput || ui_.browser || ui_.question, menu = any_popup_open();
-    const bool flying = ImGui::IsMouseDown(ImGuiMouseButton_Right); // by letters that stand for commands otherwise
+    const bool flying = ImGui::IsMouseDown(ImGuiMouseButton_Right); // letters are then navigation keys instead of commands
     for (const KeyPress& press : window_->take_key_presses()) {
         if (ui_.transform.takes_keys()) {
             ui_.transform.keys.push_back(press);
@@ -207,7 +208,7 @@ void Editor::poll() {
     save_due_snapshot();
 }
 
-// What is in sight: the document, or the scene that is about to take its place.
+// The displayed document, or the preview of a scene that is loading.
 Document& Editor::document_shown() {
     Document* preview = files_.preview();
     return preview ? *preview : document_;
@@ -259,14 +260,14 @@ void Editor::draw_regions(PanelContext& c) {
     c.waveforms = waveforms_.textures();
     c.file_thumbnail = [this](const std::string& file) { return opening_page_.thumbnail(file); };
     const Layout l = layout_ = window_layout(c, screen.x, screen.y);
-    ImGui::BeginDisabled(files_.preview() != nullptr); // what would be edited is about to be replaced
+    ImGui::BeginDisabled(files_.preview() != nullptr); // edits would be lost when the scene replaces the document
     if (panels) draw_side_panels(c, l);
-    // After all that changes lights: what they are changed to is in the picture of this very frame.
+    // after all code that changes lights: the picture of this frame shows their edits
     mix_.follow(pictures_.frame, document_shown());
     c.mixing = mix_.mixing();
     begin_region("Viewport", l.viewport, {.padded = false, .background = false});
     pace_.begin_picture(Clock::now());
-    image_ = files_.preview() ? viewport_.draw_alone(c, pace_, "Textures are still loading: plain colours stand in for them")
+    image_ = files_.preview() ? viewport_.draw_alone(c, pace_, "Textures are loading: plain colours are shown instead")
                               : viewport_.draw(c, pace_);
     pace_.end_picture(Clock::now());
     end_region();
@@ -291,12 +292,12 @@ void Editor::draw_on_top(PanelContext& c) {
     draw_question(c);
 }
 
-// What panels, menus and keys asked for.
+// Executes requests of panels, menus and keys.
 void Editor::obey(PanelContext& c) {
     for (const Command command : std::exchange(ui_.commands, {})) {
         const bool needs_document = command != Command::open && command != Command::quit && command != Command::shortcuts;
         if (needs_document && files_.preview())
-            ui_.toasts.note("Not before the textures are loaded");
+            ui_.toasts.note("Not available until the textures are loaded");
         else if (!run_command(command, c))
             run_own_command(command);
     }
@@ -308,7 +309,7 @@ void Editor::obey(PanelContext& c) {
     snapshots_.obey(document_, ui_, files_);
     const bool paused = ui_.paused || convergence_.renders_reference();
     if (session_paused_ != paused) session_.pause(session_paused_ = paused);
-    // Whoever moves a mix waits for it to be drawn, and for nothing else.
+    // While a mix is edited, only its drawing matters.
     if (session_aside_ != viewport_.is_thinned()) session_.stand_aside(session_aside_ = viewport_.is_thinned());
     const bool denoises = ui_.denoise.wants_denoised() || ui_.convergence.wants_denoised();
     if (session_denoises_ != denoises) session_.want_denoised(session_denoises_ = denoises);
@@ -353,21 +354,21 @@ RenderSettings Editor::render_settings() {
     return carried_out(r);
 }
 
-// A restored picture is the one that was kept: if the window would give it another size, it no longer does.
+// A restored snapshot keeps its size, even if the window would give another one.
 void Editor::keep_size(const RenderSettings& kept) {
     const RenderSettings r = render_settings();
     if (!ui_.settings.follow_viewport || (r.width == kept.width && r.height == kept.height)) return;
     ui_.settings.follow_viewport = false;
-    ui_.toasts.note(fmt::format("The image keeps the snapshot's {} × {} pixels", kept.width, kept.height), "The Render tab lets it follow the window again.");
+    ui_.toasts.note(fmt::format("The image keeps the snapshot's {} × {} pixels", kept.width, kept.height), "To render at the window's size again, switch on Fit viewport in the Render tab.");
 }
 
-// Not where the image on the screen is the same and further on.
+// Not if the displayed picture is the same image with more samples.
 bool Editor::worth_restoring(const FilmState& film, const RenderSettings& r) const {
     const bool same = submitted_.is_same_image(document_.project().scene, r);
     return !same || !pictures_.frame || pictures_.frame->revision != submitted_.revision() || pictures_.frame->samples < film.samples;
 }
 
-// Hands the project over when something in it reaches the image.
+// Submits the project if something that affects the image has changed.
 void Editor::submit() {
     if (const Document* preview = files_.preview()) return submit_preview(preview->project().scene);
     if (files_.scene_file().empty()) return; // nothing is open yet
@@ -379,7 +380,7 @@ void Editor::submit() {
     const FilmStatePtr film = restored && restored->film && worth_restoring(*restored->film, r) ? restored->film : nullptr;
     if (!film && !submitted_.is_new(scene, r, planes)) return;
     const std::string opened = submitted_.revision() == 0 ? files_.scene_file().filename().string() : "";
-    const bool goes_back = opened.empty() && submitted_.revision() == last_preview_; // no other scene took the document's place
+    const bool goes_back = opened.empty() && submitted_.revision() == last_preview_; // no other scene has replaced the document
     const uint64_t revision = submitted_.note(scene, r, planes);
     const bool goes_on = session_.submit(revision, scene, r, planes, film);
     convergence_.submit(ui_.convergence, {document_, r, planes, revision, goes_on}, opened);
@@ -396,7 +397,7 @@ void Editor::submit_preview(const Scene& scene) {
 
 void Editor::latest() {
     pictures_ = session_.pictures();
-    if (shows_preview() && !files_.preview() && files_.scene_file().empty()) pictures_ = {}; // there is nothing to go back to
+    if (shows_preview() && !files_.preview() && files_.scene_file().empty()) pictures_ = {}; // there is no document to return to
     if (!shows_preview()) convergence_.look(ui_.convergence, pictures_);
     if (pictures_.frame && pictures_.frame->revision == submitted_.revision() && !files_.preview()) {
         metering_.look(document_, pictures_.frame, ui_, color_);
@@ -404,7 +405,7 @@ void Editor::latest() {
     }
     const SessionStatus status = session_.status();
     if (std::exchange(not_continued_, status.not_continued) != status.not_continued && !status.not_continued.empty())
-        ui_.toasts.warn("The snapshot is rendered anew", status.not_continued);
+        ui_.toasts.warn("The snapshot is rendered from the start", status.not_continued);
     const std::string& failure = status.denoiser_failure;
     if (failure.empty() || !ui_.denoise.wants_denoised()) return;
     ui_.denoise.show = DenoiseView::Show::raw;
@@ -429,7 +430,7 @@ void Editor::draw() {
     window_->end_frame();
     const auto now = Clock::now();
     const FrameTimes took = pace_.end(now);
-    // Loading and compiling shaders, before there is a picture, is not what smoothness is judged by.
+    // Loading and shader compilation before the first picture are not part of the statistics.
     if (shown) stats_.add_frame(took, now);
     mix_.follow(pictures_.frame, document_shown());
     const bool mixed = shown && mix_.is_shown_by(*shown, viewport_.shown_gains());
@@ -444,7 +445,7 @@ void Editor::remember() {
     remember_panels(ui_, s);
     remember_scene(ui_, files_.scene_file().string(), s);
     s.floating = ImGui::SaveIniSettingsToMemory();
-    // `--size` holds for this time only.
+    // `--size` is not saved.
     if (!options_.follow_viewport && !s.follow_viewport) s.follow_viewport = remembered_follow_viewport_;
     s.maximized = window_->maximized();
     if (!s.maximized && !window_->full_screen()) {

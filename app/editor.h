@@ -10,22 +10,22 @@
 namespace blush {
 
 struct EditorOptions {
-    std::filesystem::path assets;      // folder that holds scenes/, ocio/ and fonts/
-    std::filesystem::path weights;     // folder with the denoiser's
+    std::filesystem::path assets;      // folder with scenes/, ocio/ and fonts/
+    std::filesystem::path weights;     // folder with the denoiser's weights
     std::filesystem::path scene;       // empty: the card-and-mug scene in `assets`
-    std::filesystem::path ocio_config; // empty: as ColorManagement::load decides
-    SceneOverrides overrides;          // of the scene given here, not of those opened later
+    std::filesystem::path ocio_config; // empty: see ColorManagement::load
+    SceneOverrides overrides;          // only for the scene given here, not for those opened later
     RenderSettings render;
     ViewSettings view;
-    // Named on the command line, they win over those that were saved with the scene.
+    // Settings from the command line override those saved with the scene.
     bool settings_given = false, view_given = false;
-    bool exposure_given = false; // by the command line: the picture is not metered when it opens
-    bool denoise = false;        // begin with the denoised picture
-    bool follow_viewport = true; // the image has the viewport's size; false: render.width x render.height, as `--size` asks
+    bool exposure_given = false; // exposure set on the command line: no metering when the scene opens
+    bool denoise = false;        // start with the denoised picture
+    bool follow_viewport = true; // render at the viewport's size; false: render.width x render.height, from `--size`
     unsigned threads = 0;        // 0: one per core
 };
 
-// Runs until the window is closed. Returns the process's exit code: 0, or 1 after one line on stderr, as without a display.
+// Runs until the window is closed. Returns the exit code: 0, or 1 after one line on stderr, for example without a display.
 int run_editor(const EditorOptions& options);
 
 } // namespace blush

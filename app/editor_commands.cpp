@@ -21,7 +21,7 @@ namespace {
 
 Id<Node> last_node(const Scene& scene) { return scene.nodes.empty() ? Id<Node>{} : scene.nodes.entries().back().id; }
 
-// Of the nodes and all below them.
+// The meshes of the nodes and their descendants.
 Bounds bounds_of_meshes(const Scene& scene, const std::vector<Id<Node>>& roots) {
     Bounds all;
     for (const Id<Node> root : roots)
@@ -34,14 +34,14 @@ Bounds bounds_of_meshes(const Scene& scene, const std::vector<Id<Node>>& roots) 
     return all;
 }
 
-// Selects what an edit has added: the new nodes that hang below none of each other.
+// Selects the nodes that an edit has added, without their descendants.
 void select_all_after(PanelContext& c, Id<Node> last) {
     c.ui.select({});
     for (const auto& [id, node] : c.scene().nodes)
         if (id > last && node.parent <= last) c.ui.toggle(id);
 }
 
-// What an edit of whole branches acts upon.
+// The roots of the selection, for edits of whole subtrees.
 std::vector<Id<Node>> selected_branches(PanelContext& c) { return topmost(c.scene(), c.ui.selection(c.scene())); }
 
 template <class BranchEdit> bool apply_to_selection(PanelContext& c, const std::string& what) {
@@ -52,7 +52,7 @@ template <class BranchEdit> bool apply_to_selection(PanelContext& c, const std::
     return c.apply(edits, name);
 }
 
-// Where the cursor points, if it is over an object in the picture; else round the subject.
+// The surface under the mouse, if it is over an object in the picture; else the subject's centre.
 LightSpot spot_for_new_light(PanelContext& c) {
     const View& view = c.scene().view;
     if (const auto& cursor = c.ui.cursor; cursor && c.frame && c.frame->width > 0) {
@@ -91,7 +91,7 @@ void begin_rename(PanelContext& c) {
     c.ui.scroll_to_selected = true;
 }
 
-// The meshes of a node and all below it; where there are none (a light, a camera), a little room around its origin.
+// Bounds of the meshes of a node and its descendants; without meshes (a light, a camera), a small box around its origin.
 Bounds bounds_of(const Scene& scene, Id<Node> root) {
     Bounds all = bounds_of_meshes(scene, {{root}});
     if (!all.empty) return all;
@@ -118,7 +118,7 @@ void frame(PanelContext& c, const Bounds& bounds) {
     c.document.navigate(framed(c.scene().view, bounds, float(c.render_width) / float(std::max(c.render_height, 1))));
 }
 
-// Back to the camera, with the whole picture in sight.
+// Back to the camera view, with zoom to fit.
 void go_home(PanelContext& c) {
     c.ui.looked_through.reset();
     c.ui.zoom = {};
@@ -127,7 +127,7 @@ void go_home(PanelContext& c) {
     c.document.navigate(view);
 }
 
-// Keeps what is at the pivot at its size.
+// Keeps the size of objects at the pivot.
 void toggle_projection(PanelContext& c) {
     const View& view = c.scene().view;
     Lens lens = view.lens;
@@ -142,7 +142,7 @@ void change_exposure(PanelContext& c, float exposure_ev) {
     c.apply(SetView{v});
 }
 
-// The exposure that auto exposure would have, set once.
+// Sets the exposure once to that of auto exposure.
 void meter_once(PanelContext& c) {
     if (!c.frame) return;
     ViewSettings v = c.project().view;
@@ -151,7 +151,7 @@ void meter_once(PanelContext& c) {
     c.apply(SetView{v});
 }
 
-// Off, the picture keeps the exposure that it has.
+// Switched off, the current exposure is kept.
 void toggle_auto_exposure(PanelContext& c) {
     ViewSettings v = c.shown_view();
     if (c.project().view.auto_exposure == AutoExposure::off) {
@@ -168,7 +168,7 @@ void reset_white(PanelContext& c) {
 }
 
 void compare(PanelContext& c, Comparison::Mode mode) {
-    if (!c.ui.snapshots.toggle(mode)) c.ui.toasts.note("There is no snapshot to compare with", keys_of(shortcut(Command::snapshot_exr)) + " keeps the image on the screen.");
+    if (!c.ui.snapshots.toggle(mode)) c.ui.toasts.note("There is no snapshot to compare", keys_of(shortcut(Command::snapshot_exr)) + " takes a snapshot of the current picture.");
 }
 
 void toggle_denoise(PanelContext& c) {
@@ -176,7 +176,7 @@ void toggle_denoise(PanelContext& c) {
     c.ui.toasts.warn("The image cannot be denoised", c.denoiser_problem);
 }
 
-// Closes what is on top, or ends what was begun last: a menu, the shortcut sheet, a tool, placing, looking through a light, a selection.
+// Closes or cancels the topmost item: a menu, the shortcut sheet, a tool, placing, the light camera, the selection.
 void escape(PanelContext& c) {
     if (close_top_popup()) return;
     for (bool* open : {&c.ui.show_shortcuts, &c.ui.opening_page})

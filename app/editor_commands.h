@@ -1,12 +1,12 @@
-// What the window's commands do to the document and to the window's state.
+// Implements the window's commands as edits of the document and of UiState.
 #pragma once
 
 #include "ui/panels/context.h"
 
 namespace blush {
 
-// True if the command is one of those that need nothing but document and state: history, selection, lights, view, open panels.
-// The others (files, quitting) are the editor's own.
+// Executes the command if it only needs document and UI state: history, selection, lights, view, open panels. Returns false for
+// the others (files, quit), which the editor executes.
 bool run_command(Command command, PanelContext& c);
 
 } // namespace blush

@@ -64,7 +64,7 @@ void EditorConvergence::begin(ConvergenceView& view, const std::string& name, ui
     keeper_.forget();
 }
 
-// The same samples from now on, with other weights: errors told so far are another picture's, and so is the reference.
+// The same samples with other weights: earlier errors, and the reference, belong to another picture.
 void EditorConvergence::remix(const std::string& name, uint64_t revision, const Scene& scene) {
     first_revision_ = revision;
     subject_.scene = scene;
@@ -76,7 +76,7 @@ void EditorConvergence::remix(const std::string& name, uint64_t revision, const 
 void EditorConvergence::look(ConvergenceView& view, const Pictures& pictures) {
     const auto begin = Clock::now();
     const FramePtr& frame = pictures.frame;
-    // A coarse picture has another error than the one that is waited for.
+    // The error of a coarse picture is not comparable.
     const bool ours = frame && frame->revision >= first_revision_ && frame->divider == 1 && view.runs.live();
     if (ours && frame != last_frame_) record(view, frame);
     if (ours && pictures.denoised && pictures.denoised != last_denoised_) record_denoised(view, pictures.denoised);
@@ -91,7 +91,7 @@ void EditorConvergence::record(ConvergenceView& view, const FramePtr& frame) {
     ConvergenceRecord& record = view.runs.live()->record;
     const ConvergencePoint point = estimated_point(*frame);
     const bool known = point.rmse.known || point.relmse.known, remixed = !remixed_by_.empty();
-    // Where a run ends or its lights are mixed anew there is a point, whether or not one is due.
+    // Adds a point when a run ends or the mix changes, even if none is due.
     if (known && (frame->complete || remixed))
         record.set(point);
     else if (known)
@@ -107,7 +107,7 @@ void EditorConvergence::record_denoised(ConvergenceView& view, const DenoisedPtr
 
 void EditorConvergence::measure(ConvergenceView& view, const FramePtr& frame) {
     const ConvergenceRun* live = view.runs.live();
-    // Not for a picture that is gone in a moment: a drag would read the whole scene again and again.
+    // Not while a drag changes the picture: each key would read the whole scene.
     const bool settled = live && live->record.points(Kind::estimated).size() >= ConvergenceRuns::fewest_points;
     if (view.open && view.reference && settled && frame) {
         subject_.settings.width = frame->width;
@@ -139,11 +139,11 @@ void EditorConvergence::obey(UiState& ui, const std::filesystem::path& folder, c
     }
 }
 
-// Drawn here, where ImGui is, and written in the background.
+// Drawn here, because ImGui is on this thread; written in the background.
 void EditorConvergence::save(UiState& ui, ConvergenceView::Export format, const std::filesystem::path& folder,
                              const std::filesystem::path& scene_file) {
     const std::vector<ConvergenceRecord> records = shown_records(ui.convergence.runs);
-    if (records.empty()) return ui.toasts.warn("There is no curve to save yet");
+    if (records.empty()) return ui.toasts.warn("No convergence data to save yet");
     std::function<Result<void>(const std::filesystem::path&)> write;
     const char* extension = "";
     const ConvergencePlot chart = paper_chart(ui.convergence, scene_file.filename().string());

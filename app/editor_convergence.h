@@ -1,4 +1,4 @@
-// What the editor does for the Convergence panel: records each picture's error, keeps the runs apart, and writes and reads their files.
+// Convergence runs of the editor: records the error of each picture, separates the runs, and writes and reads their files.
 #pragma once
 
 #include "app/error_measuring.h"
@@ -17,28 +17,28 @@ class EditorConvergence {
 public:
     EditorConvergence(std::function<void()> wake, unsigned threads) : measuring_(wake), keeper_(wake, threads), wake_(std::move(wake)) {}
 
-    // What the session is about to be given.
+    // The next submission to the session.
     struct Submission {
         const Document& document;
         const RenderSettings& settings;
         const PlaneSet& planes;
         uint64_t revision = 0;
-        bool goes_on = false; // with the samples that there are, if lights that are mixed are all that differs
+        bool goes_on = false; // keeps the samples, if only the gains of the light mix differ
     };
-    // Begins another run if another image will be rendered, named after what was changed, or `opened`, if that is not empty: the file that was
-    // opened. What the image survives only marks the run.
+    // Starts a new run if another image will be rendered. Its name is the last edit, or `opened` (the file just opened) if that
+    // is not empty. Edits that keep the image only add a mark.
     void submit(ConvergenceView& view, const Submission& submission, const std::string& opened);
-    // From this revision on another image is rendered, of the scene as it then is.
+    // From this revision on, another image is rendered, of the scene at that time.
     void begin(ConvergenceView& view, const std::string& name, uint64_t revision, const Scene& scene, const RenderSettings& settings);
-    // From this revision on the samples there are, and those to come, are mixed in another way.
+    // From this revision on, the samples have another light mix.
     void remix(const std::string& name, uint64_t revision, const Scene& scene);
-    // The newest pictures: once per frame of the window.
+    // Call once per UI frame with the newest pictures.
     void look(ConvergenceView& view, const Pictures& pictures);
-    // Does what the panel asked for. Files go into `folder`, named after `scene_file`.
+    // Executes requests of the panel. Files are written to `folder`, named after `scene_file`.
     void obey(UiState& ui, const std::filesystem::path& folder, const std::filesystem::path& scene_file);
     void load(UiState& ui, const std::filesystem::path& file);
 
-    // The picture should wait: all cores are at the reference, and its times would be none.
+    // True while the reference uses all cores: the live render should pause, or its times would be wrong.
     bool renders_reference() const { return keeper_.renders(); }
 
 private:
@@ -59,7 +59,7 @@ private:
     PlaneSet planes_;
     size_t steps_to_redo_ = 0;
 
-    std::string remixed_by_; // the edit after which no picture of the new mix was seen yet; empty: none
+    std::string remixed_by_; // the last edit of the mix, until its picture is seen; empty: none
     FramePtr last_frame_;
     DenoisedPtr last_denoised_;
     double recording_seconds_ = 0;

@@ -7,7 +7,7 @@ namespace blush {
 void EditorDisplay::update_shader(const ViewSettings& view, const FramePtr& frame, Viewport& viewport, ThumbnailSheet& thumbnails, Toasts& toasts) {
     using Clock = std::chrono::steady_clock;
     const DisplayTransform wanted = transform_of(view);
-    // No processor and no tables before there is something to show.
+    // No OCIO processor and no lookup tables before the first picture.
     if (!frame || (shader_ready_ && wanted == transform_)) return;
     shader_ready_ = true;
     transform_ = wanted;

@@ -1,4 +1,4 @@
-// What the window makes to show a picture: the display shader of the view, the exposure that is metered, and the account of both.
+// Display state of the editor: the display shader, the metered exposure, and their feature report.
 #pragma once
 
 #include "color/color_management.h"
@@ -16,24 +16,24 @@ class EditorDisplay {
 public:
     EditorDisplay(const ColorManagement& color, std::filesystem::path weights) : color_(color), weights_(std::move(weights)) {}
 
-    // Gives viewport and strip a shader if the view asks for another transform. None before there is a frame.
+    // Updates the shader of viewport and strip if the view transform has changed. No shader before the first frame.
     void update_shader(const ViewSettings& view, const FramePtr& frame, Viewport& viewport, ThumbnailSheet& thumbnails, Toasts& toasts);
-    // Meters the frame if the view asks for that.
+    // Meters the frame if auto exposure is on.
     void meter(AutoExposure rule, const FramePtr& frame);
     void update_ledger(const SessionStatus& status);
 
-    float metered_ev() const { return metered_ev_; } // 0 where nothing is metered
+    float metered_ev() const { return metered_ev_; } // 0 if auto exposure is off
     const Ledger& ledger() const { return ledger_; }
 
 private:
     const ColorManagement& color_;
     std::filesystem::path weights_;
-    DisplayTransform transform_; // that the shader is for
+    DisplayTransform transform_; // of the current shader
     bool shader_ready_ = false;
     FramePtr metered_;
     AutoExposure metered_by_ = AutoExposure::off;
     float metered_ev_ = 0;
-    FeatureUse view_transform_{"display", "view transform", false, "there is no picture yet"};
+    FeatureUse view_transform_{"display", "view transform", false, "no picture yet"};
     Ledger ledger_;
     std::array<bool, denoise_qualities> denoised_with_{};
 };

@@ -17,12 +17,12 @@ namespace blush {
 namespace {
 
 std::filesystem::file_time_type time_of(const std::filesystem::path& file) {
-    std::error_code missing; // being rewritten, perhaps: the next look will tell
+    std::error_code missing; // it may be in the middle of a rewrite: the next check decides
     const auto time = std::filesystem::last_write_time(file, missing);
     return missing ? std::filesystem::file_time_type{} : time;
 }
 
-// What the import has to say: all of it in its panel, a few lines at once.
+// Shows the first warnings of the import report in a toast; the panel has all.
 void report(UiState& ui, const std::filesystem::path& file, const ImportReport& r) {
     ui.import_report.file = file.filename().string();
     ui.import_report.report = std::make_shared<const ImportReport>(r);
@@ -40,14 +40,14 @@ void report(UiState& ui, const std::filesystem::path& file, const ImportReport& 
         ui.toasts.note(text);
 }
 
-// The camera that the scene is composed for, and its frame.
+// The camera of the home view, and its frame.
 void begin_at_camera(UiState& ui, const Project& project, std::map<Id<Camera>, float> aspects) {
     ui.home = home_at_opening(project.scene);
     ui.frame = {.fit = ui.frame.fit, .from_file = std::move(aspects)};
     settle(ui.frame, project.view, project.scene, ui.home.camera);
 }
 
-// In front of what the import says itself.
+// Inserted before the import's own warnings.
 void list_conflicts(const std::vector<std::string>& conflicts, const std::string& heading, ImportReport& report) {
     std::vector<Diagnostic> all;
     if (!heading.empty()) all.push_back({Diagnostic::Severity::warning, heading, ""});
@@ -57,7 +57,8 @@ void list_conflicts(const std::vector<std::string>& conflicts, const std::string
 
 bool has_our_settings(const ImportedScene& imported) { return imported.has_view || imported.render || imported.view; }
 
-// A file that Blush did not write and that has no light is shown in the studio rig, rather than as a black picture. `--light` and `--environment` decide themselves.
+// A file not written by Blush that has no light gets studio lighting, instead of a black picture; unless `--light` or
+// `--environment` is given.
 std::optional<Scene> lit_at_opening(const ImportedScene& imported, const Scene& scene, const SceneOverrides& overrides) {
     if (overrides.light || overrides.environment || has_our_settings(imported) || world_bounds(scene).empty || has_light(scene)) return {};
     Result<Scene> lit = with_light_rig(scene, LightRig::studio, studio_map());
@@ -65,7 +66,7 @@ std::optional<Scene> lit_at_opening(const ImportedScene& imported, const Scene& 
     return *std::move(lit);
 }
 
-// The node of another scene that is called the same: ids do not outlive a reload, names mostly do.
+// The node with the same name in another scene: ids do not survive a reload, names usually do.
 Id<Node> same_node(const Scene& before, Id<Node> id, const Scene& after) {
     const Node* old = before.nodes.find(id);
     if (!old) return {};
@@ -113,7 +114,7 @@ Result<EditorFiles::Opened> EditorFiles::import_file(const std::filesystem::path
     Result<RecoveredEdits> recovered = recover_edits(*sidecar, opened.imported.scene, *opened.imported.origin.json);
     if (!recovered) return in_file(recovered.error(), file.string());
     opened.recovered = std::move(recovered->project);
-    if (recovered->file_changed) list_conflicts(recovered->conflicts, "The file changed after these edits: they are made again by name", opened.imported.report);
+    if (recovered->file_changed) list_conflicts(recovered->conflicts, "The file has changed after these edits: they were reapplied by name", opened.imported.report);
     return opened;
 }
 
@@ -124,15 +125,15 @@ void EditorFiles::start_import(const std::filesystem::path& file, Purpose purpos
     keep_settings_ = options.keep_settings;
     keep_view_ = options.keep_view;
     std::error_code error;
-    importing_ = std::filesystem::absolute(file, error); // the recent list outlives the working directory
+    importing_ = std::filesystem::absolute(file, error); // the recent list must not depend on the working directory
     preview_.reset();
     early_ = std::make_shared<EarlyScene>();
-    // What is merged, reloaded or recovered is not looked at before it is complete: what is open stays in sight.
+    // No preview for imports, reloads and recovery: the open scene stays visible.
     std::function<void(const ImportedScene&)> on_untextured;
     if (purpose == Purpose::open && !sidecar)
         on_untextured = [options, early = early_, wake = wake_](const ImportedScene& imported) {
             Opened opened{imported, imported.scene, {}, {}, {}};
-            if (!apply_overrides(options.overrides, opened.scene, options.aspect, imported.has_view)) return; // will be said of the whole
+            if (!apply_overrides(options.overrides, opened.scene, options.aspect, imported.has_view)) return;
             opened.lit = lit_at_opening(imported, opened.scene, options.overrides);
             early->put(std::move(opened));
             wake();
@@ -168,12 +169,12 @@ void EditorFiles::load_ies(const std::filesystem::path& file, Document& document
     const Node* node = scene.nodes.find(ui.selected);
     const Light* selected = node ? scene.lights.find(node->light) : nullptr;
     if (!selected || (selected->kind != Light::Kind::point && selected->kind != Light::Kind::spot))
-        return ui.toasts.fail(file.filename().string() + ": select the point or spot light that it is for");
+        return ui.toasts.fail(file.filename().string() + ": select a point or spot light first");
     Result<IesPtr> profile = read_ies(file);
     if (!profile) return ui.toasts.fail(profile.error().text());
     Light light = *selected;
     light.ies = *std::move(profile);
-    // Files beside the scene are named from there, so that the scene can move with them.
+    // Files in the scene's folder get relative names, so that they can be moved with the scene.
     const std::filesystem::path beside = file.lexically_relative(scene_file_.parent_path());
     const bool is_below = !beside.empty() && *beside.begin() != "..";
     light.ies_file = (is_below ? beside : file).string();
@@ -195,7 +196,7 @@ void EditorFiles::reset_document(Document& document, UiState& ui, Project projec
     Project shown = document.project();
     shown.scene = *std::move(lit);
     document.replace(std::move(shown), "Studio lighting");
-    document.mark_saved(); // nothing that the user did
+    document.mark_saved(); // not an edit of the user
 }
 
 EditorFiles::Finished EditorFiles::finish_import(Document& document, UiState& ui, Result<Opened> opened) {
@@ -207,7 +208,7 @@ EditorFiles::Finished EditorFiles::finish_import(Document& document, UiState& ui
         ui.toasts.fail(opened.error().text());
         return {};
     }
-    // The scene that was opened is what the edits were made to.
+    // Edits are relative to the scene that was opened.
     std::optional<MergedEdits> merged;
     if (purpose_ == Purpose::reload && keep_edits_) {
         merged = merge_edits(imported_, document.project().scene, opened->imported.scene);
@@ -234,7 +235,7 @@ EditorFiles::Finished EditorFiles::finish_import(Document& document, UiState& ui
     }
     ui.also_selected.clear();
     ui.selected_material = {};
-    ui.looked_through.reset(); // ids may mean something else now
+    ui.looked_through.reset(); // ids may refer to other objects now
     ui.placing_by = PlacingBy::hand;
     ui.light_table.renaming = {};
     watch_.watch(scene_file_);
@@ -242,10 +243,10 @@ EditorFiles::Finished EditorFiles::finish_import(Document& document, UiState& ui
     if (purpose_ == Purpose::open) begin_at_camera(ui, document.project(), std::move(opened->camera_aspects));
     if (purpose_ == Purpose::open) recall_scene(ui.settings, scene_file_.string(), document.project().scene, ui);
     if (merged) {
-        // Undo leads to the file as it is.
+        // Undo returns to the unedited file.
         Project edited = document.project();
         edited.scene = std::move(merged->scene);
-        document.replace(std::move(edited), "Reload with my edits");
+        document.replace(std::move(edited), "Reload with edits");
     }
     if (opened->recovered) document.replace(*std::move(opened->recovered), "Recover unsaved edits");
     const bool stored = purpose_ != Purpose::open || (opened->imported.view && !keep_view_) || opened->recovered;
@@ -284,7 +285,7 @@ void EditorFiles::finish_environment(Document& document, UiState& ui, Result<Ima
     if (cancelled) return;
     if (!image) return ui.toasts.fail(image.error().text());
     Environment e = document.project().scene.environment;
-    if (e.kind != Environment::Kind::image) e.intensity = 1; // what a constant surround had says nothing about an image
+    if (e.kind != Environment::Kind::image) e.intensity = 1; // the intensity of a constant environment is not meaningful for an image
     e.kind = Environment::Kind::image;
     e.color = {1, 1, 1};
     e.file = environment_.string();
@@ -305,7 +306,7 @@ void EditorFiles::finish_map(Document& document, UiState& ui, Result<ImagePtr> i
     ui.gestures.end();
     if (!done) return ui.toasts.fail(done.error().text());
     if (!has_texture_coordinates(document.project().scene, map_.material))
-        ui.toasts.warn("The map does not show yet", "No mesh with this material has texture coordinates (UV), which say where an image lies.");
+        ui.toasts.warn("The image is not visible", "No mesh with this material has texture coordinates (UV).");
 }
 
 void EditorFiles::look_at_scene_file(const Document& document, UiState& ui) {
@@ -315,14 +316,14 @@ void EditorFiles::look_at_scene_file(const Document& document, UiState& ui) {
     if (import_job_ || save_job_ || !watch_.changed()) return;
     if (!document.modified()) return reload(false);
     ui.toasts.add({Toast::Kind::warning, scene_file_.filename().string() + " has changed on disk",
-                   "Reload it to take up the changes; your edits can be kept.", Command::reload});
+                   "Reload it to see the changes. Your edits can be kept.", Command::reload});
 }
 
 EditorFiles::Finished EditorFiles::poll(Document& document, UiState& ui) {
     Finished finished;
     if (import_job_ && !import_job_->cancelled()) {
         if (const auto early = early_->take()) {
-            // As it is there to be looked at for a moment, it takes no more time from the textures than a rough picture needs.
+            // Limited, so that the preview does not slow down the loading of the textures.
             constexpr int64_t enough_samples = 8;
             Project project = opened_project(*early, document.project());
             if (early->lit) project.scene = *early->lit;
@@ -353,7 +354,7 @@ std::optional<RunningJob> EditorFiles::running() const {
     };
     if (import_job_) {
         RunningJob job = show(import_job_, true);
-        if (preview_) job.what += "; the picture is still without them";
+        if (preview_) job.what += "; shown without textures";
         return job;
     }
     if (environment_job_) return show(environment_job_, true);

@@ -1,4 +1,4 @@
-// What the editor does with files, in the background: opening, importing, environment images, snapshots, reloading.
+// File operations of the editor, in the background: open, import, environment images, snapshots, reload.
 #pragma once
 
 #include "app/scene_overrides.h"
@@ -25,7 +25,7 @@
 
 namespace blush {
 
-// Tells when a file has been rewritten: its time differs from before and has been the same for one look.
+// Detects that a file was rewritten: its modification time has changed, and is the same in two consecutive checks.
 class FileWatch {
 public:
     void watch(const std::filesystem::path& file);
@@ -36,11 +36,11 @@ private:
     std::filesystem::file_time_type known_{}, seen_{};
 };
 
-// What the command line says of the file that it names.
+// Command line options for the first file.
 struct OpenOptions {
     SceneOverrides overrides = {};
-    float aspect = 1.6f;        // frames a scene without a camera
-    bool keep_settings = false, keep_view = false; // rather than take those that were saved with the scene
+    float aspect = 1.6f;        // for framing a scene without a camera
+    bool keep_settings = false, keep_view = false; // keep them instead of those saved with the scene
 };
 
 class EditorFiles {
@@ -48,55 +48,56 @@ public:
     explicit EditorFiles(std::function<void()> wake) : wake_(std::move(wake)) {}
 
     const std::filesystem::path& scene_file() const { return scene_file_; }
-    const Scene& imported() const { return imported_; } // as it is in the file
+    const Scene& imported() const { return imported_; } // the scene as in its file
     const GltfOrigin& origin() const { return origin_; }
-    // The scene file holds settings that Blush writes, or has been saved by this window.
+    // True if the scene file has settings written by Blush, or was saved by this window.
     bool written_by_blush() const { return written_by_blush_; }
 
-    // Each starts a job and returns; a newer one of the same sort cancels the older.
+    // Each of these starts a job and returns; it cancels an older job of the same type.
     void open(const std::filesystem::path& file, const OpenOptions& options = {}) { start_import(file, Purpose::open, options); }
-    // Opens the scene of a sidecar with its edits. If the file changed since, edits are made again by name, and the import report lists conflicts.
+    // Opens the scene of a sidecar with its edits. If the file has changed since, edits are reapplied by name, and the import
+    // report lists conflicts.
     void recover(const Sidecar& sidecar) { start_import(sidecar.scene, Purpose::open, {}, sidecar); }
     void import_scene(const std::filesystem::path& file) { start_import(file, Purpose::merge); }
-    // Takes up the file as it is now; `keep_edits`: with the edits that were made to it here, as one step that can be undone.
+    // Reloads the file; `keep_edits`: and reapplies the edits of this session, as one undo step.
     void reload(bool keep_edits) {
         keep_edits_ = keep_edits;
         start_import(scene_file_, Purpose::reload);
     }
-    // The document as it is now; scene_file() is then the file.
+    // Saves the current document; `file` becomes scene_file().
     void save(const std::filesystem::path& file, const Project& project);
-    // The scene that is being opened, while its textures are still missing: a document of its own, to be looked at. Null: there is none.
+    // Preview of the scene that is being opened, while its textures are loading: a separate document. Null: none.
     Document* preview() { return preview_ ? &*preview_ : nullptr; }
     bool saving() const { return save_job_ != nullptr; }
     void load_environment(const std::filesystem::path& file);
-    // Reads an image for the map that the window's state says, in the background.
+    // Reads an image for the texture slot in ui.map, in the background.
     void load_map(const std::filesystem::path& file, UiState& ui);
-    // Gives the selected light the distribution of a photometric file, at once.
+    // Loads an IES file for the selected light, synchronously.
     void load_ies(const std::filesystem::path& file, Document& document, UiState& ui) const;
 
-    // Brings finished work into the document, and looks once a second whether the scene file was rewritten: it is then
-    // loaded again, or, when there are edits to lose, a toast offers it.
+    // Applies finished jobs to the document, and checks once per second whether the scene file was rewritten. It is then reloaded
+    // or, if there are unsaved edits, a toast offers to reload it.
     struct Finished {
         bool opened = false, recovered = false, saved = false;
-        bool stored_exposure = true; // what was opened says how it is exposed
+        bool stored_exposure = true; // the opened file has an exposure
     };
     Finished poll(Document& document, UiState& ui);
 
-    // The job to show progress of.
+    // The job whose progress is shown.
     std::optional<RunningJob> running() const;
     void cancel();
 
 private:
     enum class Purpose { open, merge, reload };
-    // An imported file, with the overrides in its scene.
+    // An imported file, with the command line overrides applied.
     struct Opened {
         ImportedScene imported;
         Scene scene;
-        std::optional<Scene> lit; // with the studio rig, where nothing in the file gives light
+        std::optional<Scene> lit; // with studio lighting, if the file has no light
         std::optional<Project> recovered;
         std::map<Id<Camera>, float> camera_aspects;
     };
-    // From the importing thread to this one.
+    // Passed from the importing thread to this one.
     class EarlyScene {
     public:
         void put(Opened opened) {
@@ -116,9 +117,9 @@ private:
                       const std::optional<Sidecar>& sidecar = {});
     static Result<Opened> import_file(const std::filesystem::path& file, const OpenOptions& options, const std::optional<Sidecar>& sidecar,
                                       JobProgress& progress, std::function<void(const ImportedScene&)> on_untextured);
-    // The settings that a document has once this is open.
+    // Settings of the document when this file is open.
     Project opened_project(const Opened& opened, const Project& before) const;
-    // Takes the scene up as the document, with the studio rig as a step of its own if the file has no light.
+    // Makes the scene the document, with the studio lighting as an undo step of its own if the file has no light.
     void reset_document(Document& document, UiState& ui, Project project, std::optional<Scene> lit) const;
     Finished finish_import(Document& document, UiState& ui, Result<Opened> opened);
     bool finish_save(Document& document, UiState& ui, Result<SavedGltf> saved);
@@ -128,7 +129,7 @@ private:
 
     std::function<void()> wake_;
     std::filesystem::path scene_file_;
-    Scene imported_; // as it came from the file: what snapshots list the edits against
+    Scene imported_; // as imported from the file: snapshots save edits relative to it
     GltfOrigin origin_;
     bool written_by_blush_ = false;
     FileWatch watch_;
@@ -137,13 +138,13 @@ private:
     Purpose purpose_ = Purpose::open;
     std::filesystem::path importing_, environment_, map_file_;
     bool keep_settings_ = false, keep_view_ = false;
-    bool keep_edits_ = false; // of a reload
-    std::shared_ptr<EarlyScene> early_; // of the import that goes on
+    bool keep_edits_ = false; // for a reload
+    std::shared_ptr<EarlyScene> early_; // of the running import
     std::optional<Document> preview_;
-    Project saving_; // as it was when the save began
+    Project saving_; // the document when the save started
     std::unique_ptr<BackgroundJob<Result<Opened>>> import_job_;
     std::unique_ptr<BackgroundJob<Result<SavedGltf>>> save_job_;
-    MapView map_; // that the image is for
+    MapView map_; // slot that the image is for
     std::unique_ptr<BackgroundJob<Result<ImagePtr>>> environment_job_, map_job_;
 };
 

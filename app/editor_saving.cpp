@@ -12,10 +12,10 @@
 namespace blush {
 namespace {
 
-// A crash loses less than a minute, the writing itself included.
+// A crash loses less than a minute of work, including the time to write.
 constexpr double usual_interval = 45; // seconds
 
-// In local time.
+// Local time.
 std::string time_text(std::filesystem::file_time_type time) {
     const auto system = std::chrono::file_clock::to_sys(time);
     const std::time_t seconds =
@@ -51,12 +51,12 @@ void EditorSaving::ask_about_foreign_file() {
     const std::filesystem::path own = name_beside_original();
     const std::string name = files_.scene_file().filename().string();
     ask({fmt::format("Save over {}?", name),
-         fmt::format("Blush did not write this file. A copy named {} leaves it as it is.", own.filename().string()),
+         fmt::format("Blush did not write this file. Save a copy named {} to keep the original.", own.filename().string()),
          {fmt::format("Save as {}", own.filename().string()), fmt::format("Overwrite {}", name), "Cancel"}},
         [this, own](size_t choice) {
             if (choice == 0) {
                 std::error_code unreadable;
-                if (std::filesystem::exists(own, unreadable)) return ask_for_file(own); // it is replaced there, or another name is typed
+                if (std::filesystem::exists(own, unreadable)) return ask_for_file(own); // the dialog asks to replace it
                 save_as(own);
             } else if (choice == 1) {
                 save_as(files_.scene_file());
@@ -83,7 +83,7 @@ void EditorSaving::save_as(const std::filesystem::path& file) {
 void EditorSaving::before_losing_edits(const std::string& doing, std::function<void()> go_on) {
     if (!document_.modified()) return go_on();
     const std::string name = files_.scene_file().filename().string();
-    ask({fmt::format("Save the changes to {}?", name), fmt::format("They would be lost by {}.", doing), {"Save", "Discard", "Cancel"}},
+    ask({fmt::format("Save the changes to {}?", name), fmt::format("Otherwise they are lost by {}.", doing), {"Save", "Discard", "Cancel"}},
         [this, go_on = std::move(go_on)](size_t choice) {
             if (choice == 1) {
                 autosave_.forget();
@@ -98,9 +98,9 @@ void EditorSaving::before_losing_edits(const std::string& doing, std::function<v
 void EditorSaving::before_reloading(std::function<void(bool keep_edits)> go_on) {
     if (!document_.modified()) return go_on(false);
     ask({fmt::format("Reload {} and keep your edits?", files_.scene_file().filename().string()),
-         "Edits are made again to the objects, materials and lights that are called the same. Where the file changed the same thing, yours is kept and the "
-         "import report lists it. Undo shows the file as it is.",
-         {"Keep edits", "Take file's", "Cancel"}},
+         "Edits are reapplied to objects, materials and lights with the same name. On conflicts your edit is kept, and the "
+         "import report lists it. Undo returns to the file's version.",
+         {"Keep edits", "Discard edits", "Cancel"}},
         [go_on = std::move(go_on)](size_t choice) {
             if (choice < 2) go_on(choice == 0);
         });
@@ -112,7 +112,7 @@ void EditorSaving::offer_recovery(const std::filesystem::path& scene) {
         std::ranges::find_if(leftovers, [&](const Leftover& l) { return scene.empty() || same_file(l.sidecar.scene, scene); });
     if (wanted == leftovers.end()) return;
     ask({fmt::format("Recover the unsaved changes to {}?", wanted->sidecar.scene.filename().string()),
-         fmt::format("Blush ended before they were saved. They are of {}.\n{}", time_text(wanted->written), wanted->sidecar.scene.string()),
+         fmt::format("Blush ended before they were saved. Last edit: {}.\n{}", time_text(wanted->written), wanted->sidecar.scene.string()),
          {"Recover", "Discard", "Not now"}},
         [this, leftover = *wanted](size_t choice) {
             if (choice == 1) remove_leftover(leftover.file);
@@ -123,11 +123,11 @@ void EditorSaving::offer_recovery(const std::filesystem::path& scene) {
 }
 
 void EditorSaving::poll(const EditorFiles::Finished& finished) {
-    // From now on the edits are this window's, and so is what keeps them.
+    // The sidecar now belongs to this window.
     if (finished.recovered && recovering_) autosave_.adopt(recovering_->file);
     if (finished.opened) recovering_.reset();
     if (finished.saved && go_on_) std::exchange(go_on_, {})();
-    // The save has failed, or no file was chosen for it.
+    // The save has failed, or the file dialog was cancelled.
     if (go_on_ && !files_.saving() && !ui_.browser && !ui_.question && ui_.files.empty()) go_on_ = {};
     if (const auto failed = autosave_.poll(document_, files_.imported(), files_.origin())) ui_.toasts.warn(failed->text());
 }
@@ -140,7 +140,7 @@ void EditorSaving::hear_answer() {
 }
 
 void EditorSaving::ask(Question question, std::function<void(size_t)> answer) {
-    // It stands alone: what is open on top would only be hidden by it.
+    // Hides open popups, which would cover it.
     ui_.browser.reset();
     ui_.pixel.reset();
     ui_.question = std::move(question);

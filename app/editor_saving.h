@@ -1,4 +1,4 @@
-// Nothing is lost without being asked: saving, unsaved edits, and what a crash has left.
+// Saving, unsaved edits and crash recovery; asks before edits are lost.
 #pragma once
 
 #include "app/autosave.h"
@@ -11,27 +11,27 @@ namespace blush {
 
 class EditorSaving {
 public:
-    // `assets`: scenes in there are shipped; saving them asks for another place. `interval`: of autosaves, in seconds; 0: the usual one.
+    // `assets`: its scenes are shipped; saving one asks for another location. `interval`: of autosaves, in seconds; 0: default.
     EditorSaving(EditorFiles& files, Document& document, UiState& ui, std::filesystem::path assets, double interval);
 
-    // To the scene's own file, or to one that the user is asked for: before the first save over a file that Blush did not write.
+    // Saves to the scene's file. Before the first save over a file that Blush did not write, asks for a file.
     void save();
-    // Opens the browser, with `proposed` as the name; empty: the scene's own.
+    // Opens the file browser with the file name `proposed`; empty: the scene's name.
     void ask_for_file(const std::filesystem::path& proposed = {});
-    // The browser's answer.
+    // Handles the answer of the file browser.
     void save_as(const std::filesystem::path& file);
-    // `go_on` runs at once if everything is saved, else when the user has saved or discarded; not at all if they cancel.
-    // `doing`: "closing the window".
+    // Runs `go_on` at once if there are no unsaved edits, else after the user has saved or discarded them; never if the user
+    // cancels. `doing`: for the message, for example "closing the window".
     void before_losing_edits(const std::string& doing, std::function<void()> go_on);
-    // Asks whether edits are kept, if there are any, and goes on unless the user cancels.
+    // Asks whether to keep the edits, if there are any, and continues unless the user cancels.
     void before_reloading(std::function<void(bool keep_edits)> go_on);
-    // Offers the edits that a crash has left of this scene, or, with an empty path, of any.
+    // Offers the sidecar of a crash for this scene or, with an empty path, for any scene.
     void offer_recovery(const std::filesystem::path& scene);
 
-    // Once per frame, with what files.poll() has said; and after the panels were drawn.
+    // Call both once per frame: with the result of files.poll(), and after the panels were drawn.
     void poll(const EditorFiles::Finished& finished);
     void hear_answer();
-    // The window closes by itself: no edits are left to recover.
+    // The window is closing: removes the sidecar.
     void end() { autosave_.forget(); }
 
 private:
@@ -45,7 +45,7 @@ private:
     std::filesystem::path assets_;
     Autosave autosave_;
     std::function<void(size_t)> answer_;
-    std::function<void()> go_on_; // when the save has succeeded
+    std::function<void()> go_on_; // called after a successful save
     std::optional<Leftover> recovering_;
 };
 

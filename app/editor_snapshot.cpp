@@ -16,14 +16,14 @@
 namespace blush {
 namespace {
 
-// Seen from the folder of the picture, so that both may move together.
+// Relative to the picture's folder, so that both can be moved together.
 std::string seen_from(const std::filesystem::path& folder, const std::filesystem::path& file) {
     std::error_code error;
     const std::filesystem::path relative = std::filesystem::relative(file, folder, error);
     return error || relative.empty() ? file.string() : relative.string();
 }
 
-// `denoised`: what the picture shows of it; null: nothing.
+// `denoised`: as displayed; null: none.
 SnapshotMetadata metadata_of(const SnapshotJob& job, const std::filesystem::path& file, const DenoisedPicture* denoised) {
     const Snapshot& s = job.snapshot;
     const Frame& f = *s.pictures.frame;
@@ -57,7 +57,7 @@ SnapshotMetadata metadata_of(const SnapshotJob& job, const std::filesystem::path
     return m;
 }
 
-// The camera's frame alone, without the samples, which are those of other pixels than an image of its size has.
+// Crops to the camera's frame, without samples, which belong to the full size.
 SnapshotJob cut_out(SnapshotJob job) {
     Snapshot& s = job.snapshot;
     const Frame& whole = *s.pictures.frame;
@@ -74,7 +74,7 @@ SnapshotJob cut_out(SnapshotJob job) {
 } // namespace
 
 Result<SavedSnapshot> write_snapshot_exr(const SnapshotJob& job) {
-    // With samples to go on from, all pixels are kept, and what lies beside the frame is overscan.
+    // With samples all pixels are saved; those outside the frame are overscan.
     if (job.snapshot.frame && !(job.film && job.snapshot.film)) return write_snapshot_exr(cut_out(job));
     const Result<std::filesystem::path> file = job.file.empty() ? free_name(job.folder, job.snapshot.scene_file.stem().string(), ".exr") : job.file;
     if (!file) return file.error();

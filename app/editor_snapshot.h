@@ -1,4 +1,4 @@
-// A snapshot as a file.
+// Writes a snapshot to a file.
 #pragma once
 
 #include "color/color_management.h"
@@ -12,28 +12,28 @@
 
 namespace blush {
 
-// Everything that is written; copies are cheap, so it may be written while the user goes on.
+// All data to write; cheap to copy, so it can be written while the user continues.
 struct SnapshotJob {
     Snapshot snapshot;
-    DenoiseView view; // how its pictures are looked at
+    DenoiseView view; // its view mode
     std::filesystem::path folder;
-    std::filesystem::path file = {}; // that is written anew; empty: one of its own in the folder
-    std::optional<SnapshotMetadata> metadata = {}; // as its file had them, while the snapshot has no state of its own
-    bool half = false, film = true; // of an EXR: colours in 16 bits, samples to go on from
+    std::filesystem::path file = {}; // to overwrite; empty: a new file in the folder
+    std::optional<SnapshotMetadata> metadata = {}; // from its file, for a snapshot without state
+    bool half = false, film = true; // EXR: colours in 16 bits; samples to resume rendering
 };
 
 struct SavedSnapshot {
     std::filesystem::path file;
-    int64_t beyond_half = 0; // values that 16 bits could not hold
+    int64_t beyond_half = 0; // number of values outside the range of 16 bits
 };
 
-// Of a picture that goes on beside the camera's frame, the frame alone is the picture: a PNG holds no more, an EXR has it as its display window if
-// it holds samples to go on from, which are those of all pixels, and else holds no more either.
+// If the picture extends beyond the camera's frame, only the frame is saved. An EXR with samples contains all pixels, because the
+// samples need them, and has the frame as its display window.
 //
-// The layered EXR of cli.md: the raw beauty always, the denoised picture as a layer beside it, and all that brings the state back. The file
-// is named after the scene and numbered so that none is overwritten.
+// The layered EXR of docs/reference/exr.md: always the raw beauty, the denoised picture as a layer, and the state for Restore.
+// The file name is the scene's plus a number, so that no file is overwritten.
 Result<SavedSnapshot> write_snapshot_exr(const SnapshotJob& job);
-// The picture as it is looked at, through the display's view, as a PNG.
+// The displayed picture, after the view transform, as a PNG.
 Result<SavedSnapshot> write_snapshot_png(const SnapshotJob& job, const ColorManagement& color);
 
 } // namespace blush

@@ -1,4 +1,4 @@
-// What the editor does with snapshots: keeps them, writes and opens their files, goes back to their states.
+// Snapshots of the editor: takes them, writes and opens their files, restores their states.
 #pragma once
 
 #include "app/editor_files.h"
@@ -19,12 +19,12 @@ namespace blush {
 
 class EditorSnapshots {
 public:
-    // `before_leaving`: runs what it is given when no edits of the open scene are lost by it, or never.
-    // `assets`: the folder of shipped scenes, beside which nothing is written.
+    // `before_leaving`: runs its argument when no unsaved edits would be lost; never if the user cancels.
+    // `assets`: the folder of shipped scenes, to which nothing is written.
     EditorSnapshots(std::function<void()> wake, std::filesystem::path assets, std::function<void(std::function<void()>)> before_leaving)
         : wake_(wake), assets_(std::move(assets)), before_leaving_(std::move(before_leaving)), store_(std::move(wake)) {}
 
-    // All that makes the image on the screen, when it is one of full resolution.
+    // Everything that defines the displayed picture; requires a frame in full resolution.
     struct Shown {
         uint64_t revision = 0;
         Pictures pictures;
@@ -33,23 +33,23 @@ public:
         RenderSettings settings;
         Scene imported;
         std::filesystem::path scene_file;
-        std::optional<PixelRect> frame = {}; // of the camera, in a picture that goes on beside it
+        std::optional<PixelRect> frame = {}; // the camera's frame, if the picture extends beyond it
     };
-    // Keeps it in the strip, when the session has answered, and in a file if the settings say so.
+    // Adds it to the strip when the session has returned the samples, and saves it if the settings say so.
     void keep(Shown shown, RenderSession& session);
-    // Writes it as a PNG.
+    // Saves it as a PNG.
     void save_png(const Shown& shown, const ColorManagement& color, const UiState& ui);
-    // Reads the files that were in the strip when the scene was last left, one after the other; those that cannot be read are not listed.
+    // Reads the files that were in the strip when the scene was last closed, one after the other; unreadable ones are skipped.
     void list_kept(const UiState& ui, const std::filesystem::path& scene_file);
-    // An EXR: a snapshot comes into the strip and its state into the document; a picture of another program comes into the strip with its layers and
-    // is looked at in the comparison's place. `panoramas_light`: unless it is a panorama, which then becomes the environment.
+    // Opens an EXR. A snapshot is added to the strip and its state is restored. A picture from another program is added to the
+    // strip with its layers and shown in the comparison. `panoramas_light`: a panorama becomes the environment instead.
     void open(const std::filesystem::path& file, const std::filesystem::path& open_scene, bool panoramas_light);
-    // Does what panels asked for.
+    // Executes requests of panels.
     void obey(Document& document, UiState& ui, EditorFiles& files);
 
-    // Takes what was finished. `opened`: the scene file has just been read.
+    // Applies finished jobs. `opened`: the scene file has just been read.
     void poll(bool opened, Document& document, UiState& ui, EditorFiles& files, RenderSession& session);
-    // The samples that the state last restored goes on from, once; `size` is that which it was rendered in.
+    // Samples to resume from after a Restore, once; `size` is their resolution.
     struct Restored {
         FilmStatePtr film;
         RenderSettings settings;
@@ -57,11 +57,11 @@ public:
     std::optional<Restored> take_restored() { return std::exchange(restored_, std::nullopt); }
 
     std::optional<RunningJob> running() const;
-    // Writes what still waits to be written.
+    // Writes all pending files.
     void finish_all();
 
 private:
-    // One of the two; neither is an environment.
+    // Either a snapshot or a picture from another program; not an environment.
     struct OpenAnswer {
         std::optional<OpenedSnapshot> snapshot = {};
         std::shared_ptr<PictureLayers> picture = {};
@@ -94,13 +94,13 @@ private:
     bool restores_opened_ = false;
     struct ToRead {
         std::filesystem::path file;
-        bool to_restore = false; // rather than only be in the strip
+        bool to_restore = false; // otherwise only add it to the strip
         bool panoramas_light = false;
     };
     std::deque<ToRead> to_read_;
-    // Of those whose state has not been worked out yet.
+    // Snapshots whose state is not computed yet.
     std::map<uint64_t, SnapshotMetadata> stateless_;
-    SnapshotPtr waiting_; // whose scene is being read, or whose state is worked out
+    SnapshotPtr waiting_; // its scene is being read, or its state computed
     std::unique_ptr<BackgroundJob<Result<SnapshotState>>> state_job_;
 
     struct Writing {

@@ -10,8 +10,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Kind = ConvergencePoint::Kind;
 
-constexpr size_t most_denoised_bytes = size_t(256) << 20; // that wait for the raw picture to get better
-constexpr double judging_growth = 1.4;                    // of the raw picture's samples
+constexpr size_t most_denoised_bytes = size_t(256) << 20; // of denoised pictures that wait for a better raw picture
+constexpr double judging_growth = 1.4;                    // factor of the raw picture's samples between two measurements
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
@@ -21,7 +21,7 @@ ConvergencePoint point_of(const DenoisedPicture& picture, const PictureError& er
 
 bool known(const ConvergencePoint& p) { return p.rmse.known || p.relmse.known; }
 
-// Intervals that say nothing are left out of a point, values that stand for nothing with them.
+// Points without a usable interval get no value either.
 ConvergencePoint only_known(ConvergencePoint p) {
     if (!p.rmse.known) p.rmse = {};
     if (!p.relmse.known) p.relmse = {};
@@ -76,7 +76,7 @@ void ErrorMeasuring::poll(ConvergenceRuns& runs, const std::shared_ptr<const Ref
     job_ = std::make_unique<BackgroundJob<Measured>>("Measuring errors", std::move(work), wake_);
 }
 
-// Each once: the reference does not get better by itself. Empty if nothing waits.
+// Each picture once: the reference does not improve by itself. Empty if nothing is pending.
 ErrorMeasuring::Work ErrorMeasuring::against_reference(const std::shared_ptr<const Reference>& reference) {
     if (const FramePtr frame = std::exchange(raw_, nullptr))
         return [=](JobProgress&) {
@@ -93,8 +93,8 @@ ErrorMeasuring::Work ErrorMeasuring::against_reference(const std::shared_ptr<con
     };
 }
 
-// The one that was judged the longest ago, by a raw picture of fewer samples; it stays, as a later one judges it better. Empty if there is
-// none that this one judges better.
+// The picture whose last measurement used the fewest raw samples; it stays in the queue for better raw pictures. Empty if the
+// current raw picture would not improve any.
 ErrorMeasuring::Work ErrorMeasuring::against_raw(const FramePtr& raw) {
     const auto w = std::ranges::min_element(denoised_, {}, &Waiting::judged_at);
     if (w == denoised_.end() || w->picture->samples >= raw->samples) return {};

@@ -1,5 +1,5 @@
-// Measures the error of pictures that cannot tell it themselves, in the background: raw and denoised ones against a reference, denoised
-// ones without one against the raw picture as it gets better. As often as fits into a share of the rendering time, and once more at the end.
+// Measures errors that a picture cannot estimate itself, in the background: raw and denoised pictures against a reference;
+// without one, denoised pictures against later raw pictures. Limited to a fraction of the render time, plus once at the end.
 #pragma once
 
 #include "core/time_budget.h"
@@ -17,23 +17,23 @@ namespace blush {
 
 class ErrorMeasuring {
 public:
-    // `wake` is called on another thread when something was measured.
+    // `wake` is called on another thread when a result is available.
     explicit ErrorMeasuring(std::function<void()> wake) : wake_(std::move(wake)) {}
 
-    // Another run begins: pictures of the last one are measured no further.
+    // A new run begins: drops pending pictures of the last one.
     void begin(int run);
-    // The same run shows another picture: the ones that wait are measured no further.
+    // The same run shows another picture: drops pending pictures.
     void forget_pictures();
-    // Pictures of the run whose points are due: held until they are measured. Those in full resolution only.
+    // Queues the pictures of a due point of the run; they are kept until measured. Only in full resolution.
     void add_raw(const FramePtr& frame);
     void add_denoised(const DenoisedPtr& picture);
-    // Denoised ones that have no point in their run's record yet.
+    // Number of denoised pictures whose error is not in the run's record yet.
     size_t waiting(const ConvergenceRecord& record) const;
 
-    // Once per frame of the window: puts what was measured into the runs, and measures on if there is something to measure against:
-    // `reference` of the run's picture, or else `raw`, the newest frame. Either may be null.
+    // Call once per UI frame: adds results to the runs, and starts the next measurement against the run's `reference` or, without
+    // one, against `raw`, the newest frame. Either may be null.
     void poll(ConvergenceRuns& runs, const std::shared_ptr<const Reference>& reference, const FramePtr& raw);
-    // Of all measuring for this run so far.
+    // Total time of all measurements of this run.
     double seconds() const { return budget_.spent(); }
 
 private:

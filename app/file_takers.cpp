@@ -61,7 +61,7 @@ void FileTakers::take_dropped(const std::filesystem::path& file) {
         files.load_ies(file, document, ui);
     else
         ui.toasts.fail(file.filename().string() + ": neither a glTF scene (.gltf, .glb), nor an environment image (.hdr, .exr), nor a picture "
-                                                   "(.exr), nor a photometric file (.ies), nor a convergence table (.csv)");
+                                                                                              "(.exr), nor an IES file (.ies), nor a convergence table (.csv)");
 }
 
 } // namespace blush

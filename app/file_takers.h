@@ -1,4 +1,4 @@
-// Where files go that were chosen in the browser or dropped on the window.
+// Dispatches files that were chosen in a file dialog or dropped on the window.
 #pragma once
 
 #include "app/editor_convergence.h"
@@ -11,7 +11,7 @@
 
 namespace blush {
 
-// By reference: made where it is needed.
+// Holds references: created where it is needed.
 struct FileTakers {
     EditorFiles& files;
     EditorSaving& saving;
@@ -20,12 +20,12 @@ struct FileTakers {
     Document& document;
     UiState& ui;
 
-    // Opens the browser in the folder where such files were last.
+    // Opens the file browser in the last folder of this file type.
     void browse(FileRequest::Use use);
-    // The same for a command that asks for a file; false for any other.
+    // Opens it for a command that needs a file; false for other commands.
     bool browse_for(Command command);
     void take(const FileRequest& request);
-    // By its extension; one that nobody takes is said.
+    // By its extension; an unknown one gives an error toast.
     void take_dropped(const std::filesystem::path& file);
 };
 

@@ -1,5 +1,5 @@
-// The mix of the lights that a frame keeps apart, as the project has it by now: the picture follows it at once where gains are all it takes,
-// whatever the session is at.
+// The current light mix of a frame with light groups: applied to the picture at once if gains are sufficient, whatever the
+// session does.
 #pragma once
 
 #include "render/frame.h"
@@ -15,17 +15,17 @@ class FollowedMix {
 public:
     // `frame` may be null.
     void follow(const FramePtr& frame, const Document& document);
-    // Null where there are no groups, or no gains would do.
+    // Null if there are no groups, or gains are not sufficient.
     const Mixing* mixing() const { return mixing_ ? &*mixing_ : nullptr; }
-    // Is this frame, shown with these gains, the picture of that mix?
+    // True if this frame, shown with these gains, is the picture of the current mix.
     bool is_shown_by(const Frame& frame, const Gains& gains) const {
         return mixing_ && frame.light_groups == groups_ && gains == mixing_->gains;
     }
 
 private:
     std::optional<Mixing> mixing_;
-    std::shared_ptr<const LightGroups> groups_; // of which it is,
-    uint64_t revision_ = 0;                     // and of which of the document
+    std::shared_ptr<const LightGroups> groups_; // the groups,
+    uint64_t revision_ = 0;                     // and the document revision it was computed for
 };
 
 } // namespace blush

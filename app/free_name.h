@@ -1,4 +1,4 @@
-// A name for a new file in a folder of the user's.
+// Unique names for new files.
 #pragma once
 
 #include "core/result.h"
@@ -8,8 +8,8 @@
 
 namespace blush {
 
-// FOLDER/STEM-0001EXTENSION with the first number that is free; the folder is made if it is not there.
-// Errors: the folder cannot be made, is full.
+// Returns FOLDER/STEM-0001EXTENSION with the first unused number; creates the folder if necessary.
+// Errors: the folder cannot be created, no unused number.
 Result<std::filesystem::path> free_name(const std::filesystem::path& folder, const std::string& stem, const std::string& extension);
 
 } // namespace blush

@@ -1,4 +1,4 @@
-// Work for a thread that nothing may be thrown from.
+// Converts exceptions of background work to errors.
 #pragma once
 
 #include "core/result.h"
@@ -7,7 +7,7 @@
 
 namespace blush {
 
-// What `work` returns, or what it throws as an error.
+// Returns the result of `work`, or its exception as an error.
 template <class T, class Work> Result<T> guarded(const Work& work) {
     try {
         return work();

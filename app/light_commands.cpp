@@ -18,7 +18,7 @@ bool wears(const Scene& scene, Id<Node> id, Id<Material> material) {
     return mesh && std::ranges::count(mesh->parts, material, &MeshPart::material) > 0;
 }
 
-// Lights, surfaces that glow, or the environment.
+// Lights, emissive materials, or the environment.
 std::vector<LightRow> selected_rows(PanelContext& c) {
     const std::vector<Id<Node>> nodes = c.ui.selection(c.scene());
     const std::vector<Id<Light>> lights = lights_of(c.scene(), nodes);
@@ -29,7 +29,7 @@ std::vector<LightRow> selected_rows(PanelContext& c) {
     };
     std::vector<LightRow> rows;
     for (const LightRows& group : light_rows(c.scene())) std::ranges::copy_if(group.rows, std::back_inserter(rows), selected);
-    if (rows.empty()) c.ui.toasts.note("Nothing that shines is selected");
+    if (rows.empty()) c.ui.toasts.note("No light or emissive object is selected");
     return rows;
 }
 

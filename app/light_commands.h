@@ -1,4 +1,4 @@
-// What the window's commands do to lights, mostly to the selected ones.
+// Commands for lights, mostly for the selected ones.
 #pragma once
 
 #include "scene/light_rig.h"
@@ -6,21 +6,21 @@
 
 namespace blush {
 
-// Adds a studio or a sky as one step, and meters the exposure for it.
+// Adds studio or sky lighting as one undo step, and meters the exposure for it.
 void add_light_rig(PanelContext& c, LightRig rig);
 
-// Off if any of them is on, else on.
+// Mutes all if any is on; else unmutes them.
 void toggle_mute(PanelContext& c);
-// Solo, unless all of them are.
+// Makes all solo, unless all of them are; then ends solo.
 void toggle_solo(PanelContext& c);
-// A new group of the light mix for the selected lights, by a name that none has.
+// Puts the selected lights into a new light group with an unused name.
 void group_lights(PanelContext& c);
 
-// A click into the picture then places the selected light; the same command again ends it.
+// Toggles the tool that places the selected light with a click in the picture.
 void toggle_placing(PanelContext& c, PlacingBy by);
-// Opens the light mix, grouped by light at first; or closes it.
+// Opens the light mix, first with groups by light; or closes it.
 void toggle_light_mix(PanelContext& c);
-// The view goes where the selected light is and moves it along, and back where it was.
+// Toggles the light camera for the selected light.
 void toggle_look_through(PanelContext& c);
 
 } // namespace blush

@@ -1,4 +1,4 @@
-// Arguments in, exit code out: 0 done, 1 could not (one line on stderr), 2 bad usage.
+// Entry point. Exit codes: 0 done, 1 failed (one line on stderr), 2 bad usage.
 #include "app/assets_dir.h"
 #include "app/commands/check.h"
 #include "app/commands/common.h"
@@ -38,17 +38,17 @@ int edit(const EditorCommand& c) {
     editor.weights = weights_dir();
     editor.scene = c.scene;
     editor.render = *settings;
-    // Nobody waits for the window to end, so it goes on for longer than a render does.
+    // In the window, rendering has no sample limit by default.
     if (!c.options.spp_given && !c.options.samples_given && settings->spp > 0) editor.render.spp = 1024;
     editor.view = c.options.view;
     editor.overrides = c.options.overrides;
-    editor.denoise = c.options.denoise.has_value(); // the session chooses the quality as time allows
+    editor.denoise = c.options.denoise.has_value(); // the session chooses the quality by the available time
     editor.follow_viewport = !c.options.size_given;
     editor.threads = c.common.threads;
     return run_editor(editor);
 }
 
-// Without a command the program is the editor, which takes the options of `render` too.
+// Without a command the program is the editor, which also accepts the options of `render`.
 void add_editor(CLI::App& app, std::function<int()>& run) {
     const auto command = std::make_shared<EditorCommand>();
     app.add_option("scene", command->scene, "Scene to open in the editor (.gltf, .glb) [card-and-mug]")->type_name("SCENE");

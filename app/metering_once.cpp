@@ -7,7 +7,7 @@
 namespace blush {
 
 void MeteringOnce::want(const Project& project, bool opening) {
-    // An environment that is chosen before the picture was metered is part of the opening's picture.
+    // An environment chosen before the picture was metered belongs to the opening.
     due_ = Due{opening || (due_ && due_->opening), project.view.exposure_ev, project.scene.environment};
 }
 
@@ -19,7 +19,7 @@ void MeteringOnce::look(Document& document, const FramePtr& frame, const UiState
     const int64_t paths = frame->samples * frame->width * frame->height;
     if (frame->divider != 1 || (paths < paths_to_meter && !frame->complete)) return;
     const auto metered = subject_exposure(*frame, project.scene, ui.selection(project.scene), project.view, color);
-    // In steps of a tenth: the noise of the few samples does not show in the number.
+    // Rounded to tenths, so that noise of few samples does not change the value.
     if (metered) document.meter(std::round(*metered * 10) / 10 + 0.f, due_->opening);
     due_.reset();
 }

@@ -1,4 +1,4 @@
-// Meters the exposure once when a scene was opened, and when a sky or an environment image was chosen.
+// Meters the exposure once after a scene was opened, and after a sky or an environment image was chosen.
 #pragma once
 
 #include "color/color_management.h"
@@ -12,15 +12,15 @@ namespace blush {
 
 class MeteringOnce {
 public:
-    // The picture of the document as it is now is to be metered. `opening`: it belongs to opening the file rather than to the last edit.
+    // Requests metering for the current document. `opening`: as part of opening the file rather than of the last edit.
     void want(const Project& project, bool opening);
-    // A file was opened, with this project; nothing of what was wanted before is.
+    // A file with this project was opened; drops pending requests.
     void opened(bool exposure_is_set, const Project& project) {
         due_.reset();
         if (!exposure_is_set) want(project, true);
     }
-    // Meters as soon as the frame, a picture of the document as it is, holds enough samples. Not if the user has set an exposure, or taken the
-    // environment back, in the meantime.
+    // Meters as soon as the frame shows the current document with enough samples. Not if the user has set an exposure, or undone
+    // the environment, in the meantime.
     void look(Document& document, const FramePtr& frame, const UiState& ui, const ColorManagement& color);
 
 private:

@@ -28,7 +28,7 @@ std::vector<Vec3> vectors(const LayeredImage& image, const std::array<const char
     return result;
 }
 
-// As float channels have them, where there are no sums that are more exact.
+// From the float channels, if there are no exact sums.
 Result<Frame> frame_from_layers(const LayeredImage& image, const SnapshotMetadata& m) {
     Frame f;
     f.width = image.width;
@@ -98,7 +98,7 @@ Result<OpenedSnapshot> open_snapshot(const std::filesystem::path& file, const st
     if (!frame) return in_file(frame.error(), file.string());
     s.pictures.denoised = denoised_from_layer(*image, *metadata, frame->samples);
     s.pictures.frame = std::make_shared<const Frame>(*std::move(frame));
-    if (s.scene_file.empty()) s.no_state = fmt::format("Its scene, {}, is neither where it was nor beside the picture.", metadata->scene);
+    if (s.scene_file.empty()) s.no_state = fmt::format("Its scene file {} was not found, neither at its old path nor beside the picture.", metadata->scene);
     return opened;
 }
 
@@ -107,10 +107,10 @@ Result<SnapshotState> state_of(const SnapshotMetadata& m, const Scene& imported,
     if (!scene) return scene.error();
     SnapshotState state{{*std::move(scene), m.settings, m.view.value_or(ViewSettings{})}, {}};
     if (scene_hash(imported) != m.scene_hash)
-        state.warning = fmt::format("{} has changed since it was kept: its edits are made to the new file, and it is rendered anew.",
+        state.warning = fmt::format("{} has changed since the snapshot: the edits were applied to the new file, and it is rendered from the start.",
                                     scene_file.filename().string());
     else if (edits_left_out(m.edits) > 0)
-        state.warning = "Not all that was changed could be kept in the file, added objects for one: the rest is back, and it is rendered anew.";
+        state.warning = "Some edits, such as added objects, are not stored in the snapshot. The others were restored, and it is rendered from the start.";
     return state;
 }
 

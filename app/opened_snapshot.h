@@ -1,4 +1,4 @@
-// A snapshot from its file: the picture at once, the state when its scene is there. Any file may be hostile.
+// Loads a snapshot from its file: the picture first, the state when its scene is loaded. The file is untrusted.
 #pragma once
 
 #include "core/result.h"
@@ -12,19 +12,19 @@ namespace blush {
 
 struct OpenedSnapshot {
     Snapshot snapshot;         // without project, imported scene and thumbnail
-    SnapshotMetadata metadata; // what they are made of
+    SnapshotMetadata metadata; // from which these are made
 };
-// Pictures, samples, name and note; snapshot.scene_file is where the scene is, if it is where the picture says or beside it.
-// `open_scene`: the file that is open, taken if it is called the same and no other is found.
-// Errors: unreadable, not one of ours, damaged in what a picture needs. Samples that make no sense are left out: snapshot.film is null.
+// Reads pictures, samples, name and note. snapshot.scene_file is the scene's path, if the file exists there or beside the
+// picture; else `open_scene`, the open file, if it has the same name. Errors: unreadable, not written by Blush, damaged image
+// data. Invalid samples are dropped: snapshot.film is null.
 Result<OpenedSnapshot> open_snapshot(const std::filesystem::path& file, const std::filesystem::path& open_scene);
 
-// What a picture was rendered from, as far as the scene file still is what it was.
+// The state of a picture, as far as the scene file is unchanged.
 struct SnapshotState {
     Project project;
-    std::string warning; // what differs from when it was kept, in a sentence; empty: nothing
+    std::string warning; // differences from the saved state, as a sentence; empty: none
 };
-// `imported`: the scene as its file has it now. Errors: the edits do not fit it.
+// `imported`: the scene in its current file. Errors: the edits do not fit it.
 Result<SnapshotState> state_of(const SnapshotMetadata& metadata, const Scene& imported, const std::filesystem::path& scene_file);
 
 } // namespace blush

@@ -1,4 +1,4 @@
-// The opening page's demos and thumbnails, and the thumbnails that the window keeps of scenes.
+// Demos and thumbnails of the start page, and the saved thumbnails of scenes.
 #pragma once
 
 #include "render/frame.h"
@@ -12,15 +12,16 @@ namespace blush {
 class OpeningPage {
 public:
     OpeningPage(std::filesystem::path assets, std::function<void()> wake) : assets_(std::move(assets)), thumbnails_(assets_, std::move(wake)) {}
-    // The shipped scenes, by name.
+    // The shipped scenes, sorted by name.
     std::vector<std::string> demos() const;
-    // Of a scene or image file; 0: it has none, or none yet.
+    // Thumbnail of a scene or image file; 0: none (yet).
     ImTextureID thumbnail(const std::string& file) { return thumbnails_.of(file); }
-    // Writes a thumbnail of the scene once its picture is good enough, and, with `leaving`, as it was last seen. Failing is silent: it is a cache.
+    // Saves a thumbnail of the scene when its picture is good enough, and, with `leaving`, of the last picture. Failures are
+    // ignored: it is a cache.
     void keep_thumbnail(const std::filesystem::path& scene, const FramePtr& frame, const ViewSettings& view, const ColorManagement& color, bool leaving = false);
 
 private:
-    std::filesystem::path assets_, kept_; // kept_: the scene that has its thumbnail
+    std::filesystem::path assets_, kept_; // kept_: the scene whose thumbnail is saved
     FileThumbnails thumbnails_;
 };
 

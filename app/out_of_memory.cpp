@@ -1,4 +1,4 @@
-// In place of the library's operator new: what it throws says how much was wanted and how much the process may have.
+// Replaces operator new: its std::bad_alloc says how much memory was requested and what the process limit is.
 #include "core/memory_room.h"
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <new>
 
-// Sanitizers have their own.
+// Sanitizers have their own operator new.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 
 namespace {
@@ -14,14 +14,14 @@ namespace {
 class OutOfMemory : public std::bad_alloc {
 public:
     explicit OutOfMemory(size_t wanted) {
-        std::snprintf(text_, sizeof text_, "not enough memory: %.4g MB more were wanted", double(wanted) / 1e6);
-        thread_local bool asking = false; // which takes memory itself
+        std::snprintf(text_, sizeof text_, "not enough memory: %.4g MB more were requested", double(wanted) / 1e6);
+        thread_local bool asking = false; // the query itself allocates
         if (asking) return;
         asking = true;
         try {
             const std::string room = blush::memory_room().text();
-            std::snprintf(text_, sizeof text_, "not enough memory: %.4g MB more were wanted, %s", double(wanted) / 1e6, room.c_str());
-        } catch (...) {} // said without it
+            std::snprintf(text_, sizeof text_, "not enough memory: %.4g MB more were requested, %s", double(wanted) / 1e6, room.c_str());
+        } catch (...) {} // the message without the limit
         asking = false;
     }
     const char* what() const noexcept override { return text_; }
@@ -44,7 +44,7 @@ void* allocated(size_t size, std::align_val_t alignment) {
 
 } // namespace
 
-// The other forms call these.
+// The other operators call these.
 void* operator new(size_t size) { return allocated(size); }
 void* operator new(size_t size, std::align_val_t alignment) { return allocated(size, alignment); }
 void operator delete(void* memory) noexcept { std::free(memory); }

@@ -25,7 +25,7 @@ constexpr const char* file_chooser = "org.freedesktop.portal.FileChooser";
 constexpr const char* request_interface = "org.freedesktop.portal.Request";
 constexpr auto time_to_appear = 3s;
 
-// The portal's `ay`: the bytes of a path with a zero at the end.
+// The portal's type `ay`: the bytes of a path, terminated by zero.
 std::vector<uint8_t> path_bytes(const std::filesystem::path& path) {
     const std::string& text = path.native();
     std::vector<uint8_t> bytes(text.begin(), text.end());
@@ -33,7 +33,7 @@ std::vector<uint8_t> path_bytes(const std::filesystem::path& path) {
     return bytes;
 }
 
-// One filter that holds all extensions, in either case.
+// One filter with all extensions, in both cases.
 Options options_of(const PortalRequest& request, const std::string& token) {
     Options options{{"handle_token", sdbus::Variant(token)}, {"modal", sdbus::Variant(true)}};
     if (!request.folder.empty()) options["current_folder"] = sdbus::Variant(path_bytes(request.folder));
@@ -55,7 +55,7 @@ Options options_of(const PortalRequest& request, const std::string& token) {
     return options;
 }
 
-// What the Response signal of a request said: from the bus's thread to the one that asks.
+// The Response signal of a request: passed from the bus thread to the waiting one.
 class Response {
 public:
     void set(uint32_t code, const Options& results) {
@@ -83,7 +83,7 @@ PortalAnswer ask(const PortalRequest& request, const std::atomic<bool>& cancel) 
     Response response;
     auto connection = sdbus::createSessionBusConnection();
     const std::string token = fmt::format("blush{}_{}", ::getpid(), ++count);
-    // The portal answers on a path that the asker can work out, and so listen to before it asks.
+    // The reply path is predictable, so the signal is connected before the request is sent.
     std::string sender = connection->getUniqueName().substr(1);
     for (char& c : sender)
         if (c == '.') c = '_';
@@ -101,7 +101,7 @@ PortalAnswer ask(const PortalRequest& request, const std::atomic<bool>& cancel) 
         .withArguments(std::string(), std::string(title_of(request.use)), options_of(request, token))
         .storeResultsTo(given);
     while (!response.get() && !cancel) {
-        // A portal that ends while its dialog is open never answers.
+        // If the portal ends while its dialog is open, it never answers.
         bool alive = false;
         auto bus = sdbus::createProxy(*connection, "org.freedesktop.DBus", "/org/freedesktop/DBus");
         bus->callMethod("NameHasOwner").onInterface("org.freedesktop.DBus").withTimeout(time_to_appear).withArguments(std::string(service)).storeResultsTo(alive);
@@ -126,7 +126,7 @@ PortalAnswer ask_portal(const PortalRequest& request, const std::atomic<bool>& c
     try {
         return ask(request, cancel);
     } catch (const sdbus::Error&) {
-        return {}; // no bus, no portal, or none with file dialogs
+        return {}; // no bus, no portal, or no file chooser
     }
 }
 

@@ -12,24 +12,24 @@ namespace blush {
 
 struct PortalRequest {
     FileRequest::Use use = FileRequest::Use::open;
-    std::filesystem::path folder; // where the dialog begins
-    std::string name;             // proposed, for saving
+    std::filesystem::path folder; // initial folder
+    std::string name;             // default name for saving
 };
 
 struct PortalAnswer {
     enum class Outcome { chosen, cancelled, no_portal };
     Outcome outcome = Outcome::no_portal;
-    std::filesystem::path path; // of `chosen`: absolute
+    std::filesystem::path path; // if `chosen`: absolute
 };
 
-// False if there is no session bus for certain: asks nothing, looks at the environment alone.
+// False if there is certainly no session bus: only checks the environment, without a request.
 bool may_have_session_bus();
 
-// Shows the dialog and waits for its answer; for a thread of its own. Ends with `cancelled` soon after `cancel` is set. no_portal: no bus, no portal,
-// a portal that refuses or vanishes, or one that does not confirm within 3 seconds that it shows a dialog.
+// Shows the dialog and blocks until its answer; for a background thread. Returns `cancelled` soon after `cancel` is set.
+// no_portal: no bus, no portal, the portal refuses or disappears, or it does not confirm within 3 seconds that it shows a dialog.
 PortalAnswer ask_portal(const PortalRequest& request, const std::atomic<bool>& cancel);
 
-// The path of a file:// URI of this machine; empty for any other and for bytes that are not encoded well.
+// The path of a local file:// URI; empty for other URIs and for invalid encodings.
 std::filesystem::path path_of_uri(std::string_view uri);
 
 } // namespace blush

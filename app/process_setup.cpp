@@ -15,15 +15,15 @@
 namespace blush {
 namespace {
 
-// No allocation: memory may be what is missing.
+// Must not allocate: memory may be exhausted.
 [[noreturn]] void end_with_a_line() {
-    const char *cause = "an error that nothing handles", *what = "the program cannot go on";
+    const char *cause = "unhandled exception", *what = "the program cannot continue";
     try {
         if (const std::exception_ptr current = std::current_exception()) std::rethrow_exception(current);
     } catch (const std::bad_alloc& e) {
         cause = "not enough memory";
         what = e.what();
-    } catch (const std::system_error& e) { // what starting a thread throws
+    } catch (const std::system_error& e) { // thrown if a thread cannot be started
         cause = "not enough threads or memory";
         what = e.what();
     } catch (const std::exception& e) { what = e.what(); } catch (...) {}
@@ -33,15 +33,15 @@ namespace {
     ::_exit(1);
 }
 
-// libgomp reads these while it is loaded, before main, and speaks on stderr of what it does not like. It is used with one thread
-// at a time (render/denoise/convolution.cpp), so that none of them changes anything but its chatter; TBB_VERSION makes TBB print its own.
+// libgomp reads these when it is loaded, before main, and prints warnings about them. It is used with one thread at a time
+// (render/denoise/convolution.cpp), so they have no other effect; TBB_VERSION makes TBB print its version.
 bool is_chatty(const char* variable) {
     for (const char* name : {"OMP_", "GOMP_", "TBB_VERSION="})
         if (std::strncmp(variable, name, std::strlen(name)) == 0) return true;
     return false;
 }
 
-// Before shared libraries' constructors, some of which start threads.
+// Before constructors of shared libraries, some of which start threads.
 void begin_process(int, char**, char** environment) {
     std::set_terminate(end_with_a_line);
     char** kept = environment;
@@ -56,8 +56,8 @@ void begin_process(int, char**, char** environment) {
 
 void set_up_process() {
     std::signal(SIGXFSZ, SIG_IGN);
-    // TBB starts no more workers than there are cores, and says so on stderr, unless it is told before it starts. Never destroyed: its threads
-    // may run until the end.
+    // TBB starts at most one worker per core and prints a warning on stderr otherwise, unless configured before it starts. Never
+    // destroyed, because its threads may run until exit.
     static const auto* const control = new tbb::global_control(tbb::global_control::max_allowed_parallelism, startable_threads_limit());
     (void)control;
 }

@@ -1,11 +1,11 @@
-// What the process arranges once, so that running out of something ends in one line and exit code 1.
+// Process-wide setup, so that lack of memory, threads or disk space ends with one line and exit code 1.
 #pragma once
 
 namespace blush {
 
-// SIGXFSZ is ignored: a write beyond the limit on file sizes then fails with EFBIG, which the writer reports. Linked in with it, and from before
-// main: what would end in std::terminate (a thread that cannot be started, no memory where nothing may be thrown) is said in one line and ends
-// with exit code 1, and libraries that print on stderr what they find in environment variables do not find those.
+// Ignores SIGXFSZ: a write beyond the file size limit then fails with EFBIG, which the writer reports. Linking this file also
+// installs, before main: a terminate handler that prints one line (for example if a thread cannot be started) and exits with code
+// 1; and removal of environment variables that make libraries print to stderr.
 void set_up_process();
 
 } // namespace blush

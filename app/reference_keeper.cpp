@@ -14,7 +14,7 @@ void ReferenceKeeper::forget() {
     looked_ = false;
     problem_.clear();
     if (!job_) return;
-    // Not waited for: a batch of samples may take a second.
+    // Do not block: a batch of samples can take a second.
     job_->cancel();
     outdated_ = true;
 }
@@ -24,7 +24,7 @@ void ReferenceKeeper::start(std::function<Found(JobProgress&)> work, bool render
     outdated_ = false;
     problem_.clear();
     job_ =
-        std::make_unique<BackgroundJob<Found>>(rendering ? "Rendering the reference" : "Looking for a reference", std::move(work), wake_);
+        std::make_unique<BackgroundJob<Found>>(rendering ? "Rendering the reference" : "Searching for a reference", std::move(work), wake_);
 }
 
 void ReferenceKeeper::look(const Subject& subject) {
@@ -55,15 +55,15 @@ void ReferenceKeeper::render(const Subject& subject, int64_t samples) {
                 extend_reference(
                     begun, renderer, subject.scene, subject.settings, budget, [&] { return !progress.cancel; },
                     [&](double fraction) { progress.report(fraction, ""); });
-            } catch (const std::bad_alloc&) { found.problem = "There is not enough memory for it."; } catch (const std::exception& e) {
+            } catch (const std::bad_alloc&) { found.problem = "Not enough memory for the reference."; } catch (const std::exception& e) {
                 found.problem = e.what();
             }
             if (begun.measured.samples == 0) return found;
             found.reference = std::make_shared<const Reference>(std::move(begun));
-            // Without a cache the next one takes longer, that is all.
+            // Without the cache the next run only takes longer.
             if (const auto kept = cache_reference(reference_folder(), reference_key(subject.scene, subject.settings), *found.reference);
                 !kept)
-                found.problem = "It could not be stored: " + kept.error().text();
+                found.problem = "The reference could not be stored: " + kept.error().text();
             return found;
         },
         true);

@@ -1,4 +1,4 @@
-// The reference of the picture in the window: found among the stored ones, or rendered, both in the background.
+// The reference for the live picture: found in the cache or rendered, both in the background.
 #pragma once
 
 #include "measure/reference.h"
@@ -14,24 +14,24 @@ namespace blush {
 
 class ReferenceKeeper {
 public:
-    // What a reference is one of.
+    // The picture that a reference belongs to.
     struct Subject {
         Scene scene;
-        RenderSettings settings; // of the film's size, scale 1
+        RenderSettings settings; // size of the film, scale 1
     };
 
     ReferenceKeeper(std::function<void()> wake, unsigned threads) : wake_(std::move(wake)), threads_(threads) {}
 
-    // Another picture: what there is is no reference of it.
+    // The picture has changed: drops its reference.
     void forget();
-    // Looks among the stored ones, once for each picture.
+    // Searches the cache, once per picture.
     void look(const Subject& subject);
-    // Renders one with `samples` per pixel, or twice as many as there are. Nothing while something else is going on.
+    // Renders one with `samples` per pixel, or doubles the samples of the current one. No effect while a job is running.
     void render(const Subject& subject, int64_t samples);
-    // What was rendered until then is a reference too.
+    // Stops; the samples rendered so far are used.
     void stop();
 
-    // Once per frame of the window. True if there is a new one.
+    // Call once per UI frame. True if there is a new reference.
     bool poll();
     bool renders() const { return job_ && rendering_ && !outdated_; }
     const std::shared_ptr<const Reference>& reference() const { return reference_; } // null: none
@@ -48,7 +48,7 @@ private:
     unsigned threads_;
     std::shared_ptr<const Reference> reference_;
     bool looked_ = false, rendering_ = false;
-    bool outdated_ = false; // the job's answer is one to what nobody asks any more
+    bool outdated_ = false; // the running job belongs to a previous picture
     std::string problem_;
     std::unique_ptr<BackgroundJob<Found>> job_;
 };

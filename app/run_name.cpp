@@ -5,7 +5,7 @@
 namespace blush {
 namespace {
 
-// Nothing but the pose differs, or how far an orthographic view reaches.
+// True if only the pose differs, or the height of an orthographic view.
 bool is_navigation(const Scene& before, const Scene& after, Changes changes) {
     changes.view = false;
     if (changes.affects_image()) return false;

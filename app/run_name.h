@@ -1,4 +1,4 @@
-// What a run of the Convergence panel is called: by what was changed before it began.
+// Names of the runs in the Convergence panel: the edit that started them.
 #pragma once
 
 #include "scene/changes.h"
@@ -8,17 +8,17 @@
 
 namespace blush {
 
-// The settings in which the second differs from the first: "Path reuse 8, Adaptive sampling on". Empty if it is
-// only stop rules and sizes.
+// The settings in which the second differs from the first: "Path reuse 8, Adaptive sampling on". Empty if only stop rules and
+// sizes differ.
 std::string settings_difference(const RenderSettings& before, const RenderSettings& after);
 
-// What was handed to the session.
+// The state given to the session.
 struct Submitted {
     const Scene& scene;
     const RenderSettings& settings;
 };
-// Of the run that begins when what is rendered differs. The document's last step names an edit of the scene, or the step that was undone;
-// navigation leaves no step.
+// Name of the run after a change of the rendered image. An edit of the scene has the name of the document's last undo step, or of
+// the step that was undone; navigation has no undo step.
 std::string run_name(const Submitted& before, const Submitted& after, const Document& document, bool undone);
 
 } // namespace blush

@@ -15,7 +15,7 @@
 namespace blush {
 namespace {
 
-// Takes "NAME=number" off the end of `text`; true if it was there.
+// Removes a suffix ",NAME=number" of `text`; true if it was there.
 Result<bool> take_suffix(std::string_view& text, std::string_view name, float& number) {
     const size_t comma = text.rfind(',');
     if (comma == text.npos) return false;
@@ -55,7 +55,7 @@ bool is_called(const Scene& scene, Id<Node> id, const std::string& name) {
     return node.name == name || (camera && camera->name == name);
 }
 
-// A name wins over a number, since a camera may well be called "2".
+// A name has priority over an index, because a camera may be named "2".
 Result<Id<Node>> find_camera(const Scene& scene, const std::string& wanted) {
     const std::vector<Id<Node>> ids = camera_nodes(scene);
     for (const Id<Node> id : ids)
@@ -90,10 +90,10 @@ Result<void> light_up(std::optional<LightRig> light, Scene& scene, std::vector<D
     };
     const bool asked = light && *light != LightRig::none;
     if (has_light(scene)) {
-        if (asked) warn(fmt::format("--light {} is not used: the scene has light of its own", to_string(*light)));
+        if (asked) warn(fmt::format("--light {} is ignored: the scene has light of its own", to_string(*light)));
         return {};
     }
-    if (!light) warn("no light in this file: the picture is black (--light studio or --light sky adds some)");
+    if (!light) warn("no light in this file: the picture is black (use --light studio or --light sky)");
     if (!asked) return {};
     Result<Scene> lit = with_light_rig(scene, *light, studio_map());
     if (!lit) return lit.error();
@@ -101,7 +101,7 @@ Result<void> light_up(std::optional<LightRig> light, Scene& scene, std::vector<D
     return {};
 }
 
-// The camera node whose place the view has; none: a free view.
+// The camera node that has the view's pose; null id: a free view.
 Id<Node> looked_through(const Scene& scene) {
     for (const Id<Node> id : camera_nodes(scene)) {
         View seen = view_through(scene, id);

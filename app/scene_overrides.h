@@ -1,5 +1,5 @@
-// What the command line changes in a scene: staging, camera, lens and environment when it is loaded, the size of textures on the way. The same for
-// every command and the window.
+// Scene options of the command line: selection of clip, scene and variant, camera, lens, environment and texture memory. The same
+// for all commands and the window.
 #pragma once
 
 #include "app/staging_choice.h"
@@ -25,10 +25,10 @@ struct EnvironmentChoice {
     float rotation_degrees = 0;
     bool operator==(const EnvironmentChoice&) const = default;
 };
-// Errors name what was expected.
+// Error messages name the expected format.
 Result<EnvironmentChoice> parse_environment(std::string_view text);
 
-// The environment map of the light rig `studio` (scene/light_rig.h) from the assets; no environment where the installation lacks it.
+// The environment of the studio lighting (scene/light_rig.h) from the assets; none if the file is not installed.
 Environment studio_map();
 // "none", "studio", "sky".
 Result<std::optional<LightRig>> parse_light(std::string_view text);
@@ -37,26 +37,25 @@ Result<std::optional<LightRig>> parse_light(std::string_view text);
 Result<std::optional<LightMix::Grouping>> parse_grouping(std::string_view text);
 
 struct SceneOverrides {
-    std::string camera = {}; // name of a camera or of its node, or its number from 0; empty: the scene's first
+    std::string camera = {}; // name of a camera or its node, or index from 0; empty: the scene's first
     std::optional<EnvironmentChoice> environment = {};
-    std::optional<LightRig> light = {};             // where the scene has none; empty: none, with a warning
+    std::optional<LightRig> light = {};             // lighting for a scene without lights; empty: none, with a warning
     std::optional<float> aperture = {}, focus = {}; // metres
     std::optional<LightMix::Grouping> groups = {};
-    std::optional<int64_t> texture_mib = {}; // that all textures may take as decoded: while they are read, larger ones are made smaller
+    std::optional<int64_t> texture_mib = {}; // memory limit for all decoded textures in MiB; larger ones are downsampled while loading
     StagingChoice staging = {};
 };
 
-// Without any camera in the scene, one is framed around it for a picture of `aspect` (width / height).
-// Errors: no such animation, scene, variant or camera, an environment map that cannot be read, a lens that makes no sense. `warnings`: no light
-// in the scene, or light asked for that the scene does not need.
-// `has_view`: the scene was saved with a view, which is then kept.
+// Without a camera in the scene, one is framed around it for a picture of `aspect` (width / height). Errors: unknown animation,
+// scene, variant or camera, unreadable environment map, invalid lens. `warnings`: no light in the scene, or --light not needed.
+// `has_view`: the scene was saved with a view, which is used.
 Result<void> apply_overrides(const SceneOverrides& overrides, Scene& scene, float aspect, bool has_view = false,
                              std::vector<Diagnostic>* warnings = nullptr);
 
-// The aspect of the camera that the view looks through; 0: a free view, or the camera says none.
+// Aspect ratio of the camera of the view; 0: a free view, or the camera has none.
 float aspect_of_camera(const std::map<Id<Camera>, float>& aspects, const Scene& scene);
 
-// Of the camera node that the view looks through; empty for a free view.
+// Name of the view's camera node; empty for a free view.
 std::string camera_name(const Scene& scene);
 
 } // namespace blush

@@ -28,7 +28,7 @@ void SnapshotStore::poll(UiState& ui) {
     Snapshot& s = *std::exchange(read_for_, nullptr);
     if (!*result) {
         s.place = Snapshot::Place::lost;
-        return ui.toasts.warn(s.name + " has lost its picture and is rendered anew", result->error().text());
+        return ui.toasts.warn(s.name + " cannot be read and is rendered from the start", result->error().text());
     }
     Snapshot& read = (**result).snapshot;
     s.pictures = std::move(read.pictures);

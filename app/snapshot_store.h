@@ -1,4 +1,4 @@
-// Where the strip's snapshots have their pictures and samples: in memory as far as the user allows, the others in their files.
+// Memory management of the strip's snapshots: which are in memory, and which only in their files.
 #pragma once
 
 #include "app/opened_snapshot.h"
@@ -16,14 +16,14 @@ class SnapshotStore {
 public:
     explicit SnapshotStore(std::function<void()> wake) : wake_(std::move(wake)) {}
 
-    // Has its pictures and samples in memory, or never will again. If not, they are being read from its file.
+    // True if pictures and samples are in memory, or lost. Otherwise starts reading them from the file.
     bool has(const SnapshotPtr& snapshot);
-    // Lets those go that are beyond the limit and whole in their files, and returns those that have to be written first. Samples that the user
-    // has not wanted in the file go with a word.
+    // Unloads snapshots above the memory limit that are saved, and returns those that must be saved first. If the user has
+    // disabled samples in files, they are dropped with a message.
     std::vector<SnapshotPtr> make_room(UiState& ui);
-    // Takes what has been read.
+    // Applies finished reads.
     void poll(UiState& ui);
-    // What is being read; null: nothing.
+    // The file being read; null: none.
     const BackgroundJob<Result<OpenedSnapshot>>* reading() const { return reading_.get(); }
 
 private:

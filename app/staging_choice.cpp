@@ -35,7 +35,7 @@ Result<Id<Clip>> find_clip(const Scene& scene, const std::string& wanted) {
     return index.error();
 }
 
-// A file with one scene has no names to choose from, but a first.
+// A file with a single scene has no list of names, but index 0 is valid.
 Result<size_t> find_scene(const Scene& scene, const std::string& wanted) {
     if (scene.scene_names.empty() && wanted == "0") return size_t(0);
     return find_named("scene", scene.scene_names, wanted);
@@ -51,7 +51,7 @@ Result<Staging> find_staging(const StagingChoice& choice, const Scene& scene) {
         staging.clip = *clip;
         staging.seconds = 0;
     }
-    if (choice.seconds && !staging.clip) return Error{.what = "a time of which animation? --animation says"};
+    if (choice.seconds && !staging.clip) return Error{.what = "--animation-time needs --animation"};
     if (choice.seconds) staging.seconds = *choice.seconds;
     if (!choice.scene.empty()) {
         const Result<size_t> index = find_scene(scene, choice.scene);
@@ -68,10 +68,10 @@ Result<Staging> find_staging(const StagingChoice& choice, const Scene& scene) {
 }
 
 void add_staging_options(CLI::App& app, StagingChoice& choice) {
-    app.add_option("--animation", choice.animation, "Which animation moves the scene [none: at rest]")->type_name("NAME|INDEX|none");
-    app.add_option("--animation-time", choice.seconds, "Moment of the animation in seconds [0]")->type_name("S");
-    app.add_option("--scene", choice.scene, "Which of the file's scenes [its default]")->type_name("NAME|INDEX");
-    app.add_option("--material-variant", choice.variant, "Which variant of the materials [none]")->type_name("NAME|INDEX|none");
+    app.add_option("--animation", choice.animation, "Animation clip [none: rest pose]")->type_name("NAME|INDEX|none");
+    app.add_option("--animation-time", choice.seconds, "Time of the animation in seconds [0]")->type_name("S");
+    app.add_option("--scene", choice.scene, "Scene of the file [its default]")->type_name("NAME|INDEX");
+    app.add_option("--material-variant", choice.variant, "Material variant [none]")->type_name("NAME|INDEX|none");
 }
 
 } // namespace blush

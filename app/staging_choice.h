@@ -1,4 +1,4 @@
-// What the command line chooses of what a file offers: a moment of an animation, one of its scenes, a variant of its materials.
+// Scene selection on the command line: animation and time, scene, material variant.
 #pragma once
 
 #include "core/result.h"
@@ -13,16 +13,16 @@ class App;
 
 namespace blush {
 
-// Names or numbers from 0; a name wins. Empty: as the file has it.
+// Names or indices from 0; a name has priority. Empty: the file's default.
 struct StagingChoice {
     std::string animation = {};          // or "none"
-    std::optional<float> seconds = {};   // of that animation, or of the one that is chosen
+    std::optional<float> seconds = {};   // time in this animation, or in the current one
     std::string scene = {};
     std::string variant = {};            // or "none"
     bool operator==(const StagingChoice&) const = default;
 };
 
-// Errors: nothing of that name, a time without an animation, a time that is no number from 0.
+// Errors: unknown name, a time without an animation, an invalid time.
 Result<Staging> find_staging(const StagingChoice& choice, const Scene& scene);
 
 void add_staging_options(CLI::App& app, StagingChoice& choice);

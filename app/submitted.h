@@ -1,4 +1,4 @@
-// What the render session was last given, which the project is compared with.
+// The last submission to the render session, for comparison with the project.
 #pragma once
 
 #include "render/film_planes.h"
@@ -11,20 +11,20 @@ namespace blush {
 
 class Submitted {
 public:
-    // The revision that the window waits for; 0: nothing yet.
+    // The revision that the window expects; 0: none yet.
     uint64_t revision() const { return revision_; }
     const RenderSettings& settings() const { return settings_; }
-    // Whatever comes next is new.
+    // The next call of is_new() returns true.
     void forget() { revision_ = 0; }
 
     bool is_new(const Scene& scene, const RenderSettings& settings, PlaneSet planes) const;
-    // Does the session work at the very image of these?
+    // True if these give the image that the session renders.
     bool is_same_image(const Scene& scene, const RenderSettings& settings) const;
-    // The revision that these are given under.
+    // Records the submission and returns its revision.
     uint64_t note(const Scene& scene, const RenderSettings& settings, PlaneSet planes);
 
 private:
-    uint64_t last_ = 0; // of all that were given out
+    uint64_t last_ = 0; // of all revisions so far
     uint64_t revision_ = 0;
     Scene scene_;
     RenderSettings settings_;

@@ -22,8 +22,8 @@ Result<BegunPicture> read_begun_picture(const std::string& file) {
 Result<LoadedScene> as_begun(LoadedScene loaded, const std::string& scene_file, const BegunPicture& begun, const std::string& file) {
     const SnapshotMetadata& m = begun.metadata;
     if (scene_hash(loaded.imported) != m.scene_hash)
-        return Error{file, fmt::format("was rendered from another scene than {}, or from it before it was changed", scene_file), ""};
-    if (edits_left_out(m.edits) > 0) return Error{file, "its scene had changes that text cannot keep", "blush:edits left_out"};
+        return Error{file, fmt::format("was rendered from another scene than {}, or from an older version of it", scene_file), ""};
+    if (edits_left_out(m.edits) > 0) return Error{file, "its scene had edits that are not stored in the picture", "blush:edits left_out"};
     if (m.edits.empty()) return loaded;
     Result<Scene> edited = apply_edits_json(loaded.imported, m.edits);
     if (!edited) return in_file(edited.error(), file);

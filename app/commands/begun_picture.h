@@ -1,4 +1,4 @@
-// A picture in a file that rendering goes on from: `blush render --continue`, `blush merge`.
+// Loads an image to resume rendering from: `blush render --continue`, `blush merge`.
 #pragma once
 
 #include "app/commands/load_scene.h"
@@ -15,11 +15,11 @@ struct BegunPicture {
     FilmState film;
 };
 
-// Errors name the file: unreadable, not one of our pictures, saved without its film.
+// Errors name the file: unreadable, not written by Blush, saved without its film.
 Result<BegunPicture> read_begun_picture(const std::string& file);
 
-// The scene that the picture in `file` was begun with: what `scene_file` holds, edited as the picture says. Errors: it is another one, or not
-// all that was changed is in the picture.
+// The scene of the picture in `file` when it was rendered: `scene_file` with the edits stored in the picture. Errors: another
+// scene, or not all edits are stored in the picture.
 Result<LoadedScene> as_begun(LoadedScene loaded, const std::string& scene_file, const BegunPicture& begun, const std::string& file);
 
 } // namespace blush

@@ -31,7 +31,7 @@ void print_list(const std::string& only) {
         fmt::print("{}\n", group.name);
         for (const StabilityCase& c : group.cases) fmt::print("  {:<60} guards against: {}\n", c.name, hot_spot(c.hot_spot).name);
     }
-    fmt::print("\nwhat is guarded, and how\n");
+    fmt::print("\nnumerical hot spots and their remedies\n");
     for (const HotSpot& spot : hot_spots()) fmt::print("  {:<42} {}\n", spot.name, spot.remedy);
 }
 
@@ -54,7 +54,7 @@ void print_report(const BatteryReport& report, double seconds) {
         print_row(r, r.pass ? "holds" : "limit");
         fmt::print("    {}\n", r.limit);
     }
-    fmt::print("\n{} of {} cases passed in {:.0f} s; chance that one fails without a reason: {:.0f} % over the whole battery\n",
+    fmt::print("\n{} of {} cases passed in {:.0f} s; probability of a false alarm: {:.0f} % for the whole battery\n",
                report.passed, report.passed + report.failed, seconds, 100 * family_wise_level);
 }
 
@@ -111,7 +111,7 @@ int run_check(const CheckCommand& c) {
     if (report.failed > 0)
         return failed(
             {.what = fmt::format("{} of {} cases of the stability battery failed", report.failed, report.passed + report.failed)});
-    if (!report.complete) return failed({.what = "stopped before all cases were run"});
+    if (!report.complete) return failed({.what = "stopped before all cases had run"});
     return exit_done;
 }
 
@@ -119,9 +119,9 @@ int run_check(const CheckCommand& c) {
 
 void add_check_command(CLI::App& app, std::function<int()>& run) {
     const auto command = std::make_shared<CheckCommand>();
-    CLI::App* sub = app.add_subcommand("check", "Run the stability battery: stiff and extreme scenes whose answers are known");
-    sub->add_option("--group", command->group, "Run the cases of this group alone")->type_name("NAME");
-    sub->add_flag("--list", command->list, "Print the groups and their cases, and what they guard against");
+    CLI::App* sub = app.add_subcommand("check", "Run the stability battery: numerically difficult scenes with known results");
+    sub->add_option("--group", command->group, "Run only the cases of this group")->type_name("NAME");
+    sub->add_flag("--list", command->list, "Print the groups, their cases, and the hot spots that they test");
     add_common_options(*sub, command->common);
     sub->callback([command, &run] { run = [command] { return run_check(*command); }; });
 }

@@ -9,7 +9,7 @@ class App;
 
 namespace blush {
 
-// Adds the command to the command line; `run` becomes what to do, and returns the exit code, if it is the one that was asked for.
+// Adds the command to the command line. `run` is set to the function that executes it and returns the exit code.
 void add_check_command(CLI::App& app, std::function<int()>& run);
 
 } // namespace blush

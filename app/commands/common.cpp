@@ -8,7 +8,7 @@
 namespace blush {
 namespace {
 
-// An error is one line, whatever a hostile file's names hold.
+// An error is one line, even if untrusted names contain line breaks.
 std::string one_line(std::string text) {
     std::replace_if(
         text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
@@ -18,9 +18,9 @@ std::string one_line(std::string text) {
 } // namespace
 
 void add_common_options(CLI::App& app, CommonOptions& options) {
-    app.add_option("--json", options.json, "Write what was found as JSON to FILE; - is stdout")->type_name("FILE");
+    app.add_option("--json", options.json, "Write the results as JSON to FILE; - is stdout")->type_name("FILE");
     app.add_option("--threads", options.threads, "Threads to use [one per core]")->check(CLI::Range(1, 1024))->type_name("N");
-    app.add_flag("--quiet", options.quiet, "Print errors alone");
+    app.add_flag("--quiet", options.quiet, "Print only errors");
 }
 
 int failed(const Error& error) {

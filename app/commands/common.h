@@ -1,4 +1,4 @@
-// What all commands share: exit codes, common options, and how they speak to the terminal.
+// Shared by all commands: exit codes, common options, messages on stderr.
 #pragma once
 
 #include "core/result.h"
@@ -17,18 +17,18 @@ constexpr int exit_done = 0, exit_failed = 1, exit_usage = 2;
 struct CommonOptions {
     std::string json;     // file, "-" for stdout, empty for none
     unsigned threads = 0; // 0: one per core
-    bool quiet = false;   // errors alone
+    bool quiet = false;   // only errors
 };
 void add_common_options(CLI::App& app, CommonOptions& options);
 
-// One line on stderr, "blush: error: FILE: what, where". Returns the exit code.
+// Prints one line on stderr, "blush: error: FILE: what, where". Returns the exit code.
 int failed(const Error& error);
 int bad_usage(const std::string& what);
 
-// On stderr, one line each, the first ten; notes are for `blush info`.
+// Prints the first ten warnings on stderr, one line each; notes are only printed by `blush info`.
 void print_warnings(const std::string& file, const std::vector<Diagnostic>& diagnostics);
 
-// `error` with `file` filled in if it names none.
+// `error` with its file set to `file` if it has none.
 Error in_file(Error error, const std::string& file);
 
 } // namespace blush

@@ -75,10 +75,10 @@ void print_table(const Metrics& m) {
     row("nonfinite_b", double(m.nonfinite_b));
 }
 
-// Even under --quiet: figures of other pixels than those asked for are no matter of taste.
+// Printed even with --quiet: the metrics do not cover all pixels.
 void warn_of_non_finite(const std::string& file, int64_t pixels) {
     if (pixels > 0)
-        print_warnings(file, {{Diagnostic::Severity::warning, fmt::format("{} pixel{} not finite: the figures leave {} out", pixels,
+        print_warnings(file, {{Diagnostic::Severity::warning, fmt::format("{} pixel{} not finite: the metrics ignore {}", pixels,
                                                                           pixels == 1 ? " is" : "s are", pixels == 1 ? "it" : "them"), ""}});
 }
 
@@ -98,10 +98,10 @@ int run_compare(const CompareCommand& c) {
 
 void add_compare_command(CLI::App& app, std::function<int()>& run) {
     const auto command = std::make_shared<CompareCommand>();
-    CLI::App* sub = app.add_subcommand("compare", "Print how two images differ; B is the reference");
+    CLI::App* sub = app.add_subcommand("compare", "Print the difference of two images; B is the reference");
     sub->add_option("a", command->a, "Image")->required()->type_name("A");
     sub->add_option("b", command->b, "Reference image of the same size")->required()->type_name("B");
-    sub->add_option("--layer", command->layer, "A layer of A in place of its beauty, as \"denoised\"")->type_name("NAME");
+    sub->add_option("--layer", command->layer, "A layer of A instead of its beauty, for example \"denoised\"")->type_name("NAME");
     add_common_options(*sub, command->common);
     sub->callback([command, &run] { run = [command] { return run_compare(*command); }; });
 }

@@ -1,4 +1,4 @@
-// Image files as the metrics want them.
+// Loads image files for the metrics.
 #pragma once
 
 #include "measure/metrics.h"
@@ -13,8 +13,8 @@ struct ImageToCompare {
     Encoding encoding = Encoding::scene_linear;
 };
 
-// R, G and B of an EXR or of one of its layers ("denoised"), or any other image; a grey one counts as three equal channels. EXR, HDR and
-// other float formats are scene-linear, PNG, JPEG, WebP and BMP display-encoded.
+// R, G and B of an EXR or of one of its layers ("denoised"), or any other image; grey is converted to three equal channels. EXR,
+// HDR and other float formats are scene-linear; PNG, JPEG, WebP and BMP are display-encoded.
 // Errors name the file.
 Result<ImageToCompare> read_image_to_compare(const std::filesystem::path& file, const std::string& layer = {});
 

@@ -19,7 +19,7 @@
 namespace blush {
 namespace {
 
-// A reference's error is a quarter of a variant's, its squared error a sixteenth.
+// Samples for a reference with a quarter of a variant's RMSE, that is 1/16 of its MSE.
 constexpr double reference_effort = 16;
 
 struct ConvergeCommand {
@@ -38,7 +38,7 @@ struct Plan {
 Result<Plan> plan_of(const ConvergeCommand& c) {
     RenderOptions options = c.options;
     if (options.samples_given) return Error{.what = "converge takes --spp or --time, not --samples"};
-    if (options.denoise) return Error{.what = "converge measures pictures as they are rendered, without --denoise"};
+    if (options.denoise) return Error{.what = "converge measures raw pictures: --denoise is not allowed"};
     if (options.settings.error > 0) return Error{.what = "converge takes --spp or --time, not --error"};
     if (!options.spp_given && options.settings.seconds == 0) options.settings.seconds = 10;
     Plan plan;
@@ -66,11 +66,11 @@ Result<Plan> plan_of(const ConvergeCommand& c) {
     for (size_t i = 0; i < input.variants.size(); ++i)
         for (size_t j = 0; j < i; ++j)
             if (input.variants[i].name == input.variants[j].name)
-                return Error{.what = fmt::format("two variants are called \"{}\"", input.variants[i].name)};
+                return Error{.what = fmt::format("two variants have the name \"{}\"", input.variants[i].name)};
     return plan;
 }
 
-// From --reference, or from the cache, made better if need be, or from scratch.
+// From --reference, from the cache (with more samples if necessary), or rendered.
 Result<void> provide_reference(const ConvergeCommand& c, const Plan& plan, ConvergeReport& report, const std::atomic<bool>& interrupted) {
     if (!c.reference.empty()) {
         Result<Reference> given = read_reference_file(c.reference, plan.base.width, plan.base.height);
@@ -100,10 +100,10 @@ Result<void> provide_reference(const ConvergeCommand& c, const Plan& plan, Conve
     report.reference_source = cached_samples == 0                           ? "rendered"
                               : reference.measured.samples > cached_samples ? "from the cache, extended"
                                                                             : "from the cache";
-    // Without a cache the next run takes longer, that is all.
+    // Without the cache the next run only takes longer.
     if (reference.measured.samples > cached_samples)
         if (const Result<void> cached = cache_reference(folder, key, reference); !cached && !c.common.quiet)
-            fmt::print(stderr, "blush: warning: the reference could not be kept: {}\n", cached.error().text());
+            fmt::print(stderr, "blush: warning: the reference could not be stored: {}\n", cached.error().text());
     return {};
 }
 
@@ -138,7 +138,7 @@ int run_converge_command(const ConvergeCommand& c) {
     std::error_code code;
     std::filesystem::create_directories(c.folder, code);
     if (code || !std::filesystem::is_directory(c.folder, code))
-        return failed({.file = c.folder, .what = "is not a folder and cannot be made one"});
+        return failed({.file = c.folder, .what = "is not a folder and cannot be created"});
 
     const InterruptGuard guard;
     const float aspect = float(plan->base.width) / float(plan->base.height);
@@ -177,20 +177,20 @@ int run_converge_command(const ConvergeCommand& c) {
 
 void add_converge_command(CLI::App& app, std::function<int()>& run) {
     const auto command = std::make_shared<ConvergeCommand>();
-    CLI::App* sub = app.add_subcommand("converge", "Error against run time, for one or more settings side by side: CSV, JSON, HTML report");
+    CLI::App* sub = app.add_subcommand("converge", "Measure error over render time for one or more settings: CSV, JSON, HTML report");
     sub->add_option("scene", command->scene, "glTF file (.gltf, .glb)")->required()->type_name("SCENE");
     sub->add_option("-o,--output", command->folder, "Folder for convergence.csv, convergence.json and report.html")
         ->required()
         ->type_name("DIR");
-    sub->add_option("--variant", command->variants, "Settings to compare: a name, a colon and options of render; once for each")
+    sub->add_option("--variant", command->variants, "Settings to compare: a name, a colon and options of render; repeatable")
         ->type_name("'NAME: OPTIONS'")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     sub->add_option("--preset", command->preset, "Settings to compare: roulette, strategies, bounces or samplers")->type_name("NAME");
-    sub->add_option("--repeats", command->repeats, "Independent repetitions, each with a seed of its own [4]")
+    sub->add_option("--repeats", command->repeats, "Independent repeats, each with its own seed [4]")
         ->check(CLI::Range(1, 1000))
         ->type_name("N");
-    sub->add_option("--reference", command->reference, "EXR to compare with [rendered, and kept in the cache]")->type_name("FILE");
+    sub->add_option("--reference", command->reference, "Reference EXR [rendered and cached]")->type_name("FILE");
     add_render_options(*sub, command->options);
     add_common_options(*sub, command->common);
     sub->callback([command, &run] { run = [command] { return run_converge_command(*command); }; });

@@ -1,4 +1,4 @@
-// The report to hand around: one HTML file that needs nothing else.
+// The report of `blush converge` as one self-contained HTML file.
 #include "app/commands/converge_report.h"
 
 #include "core/text.h"
@@ -44,7 +44,7 @@ std::string base64(std::span<const uint8_t> bytes) {
     return text;
 }
 
-// Means of square blocks of pixels, so that it is no wider than a thumbnail.
+// Averages square blocks of pixels, to at most the width of a thumbnail.
 RgbImage shrunk(const RgbImage& image) {
     const int k = (image.width + widest_thumbnail - 1) / widest_thumbnail;
     RgbImage small{std::max(1, image.width / k), std::max(1, image.height / k), {}};
@@ -76,7 +76,7 @@ Result<std::string> figure(const RgbImage& image, const std::string& caption, co
                        small.width, small.height, escaped_markup(caption), base64(*png));
 }
 
-// One curve for each repeat in the variant's colour, the first of which is in the legend.
+// One curve per repeat in the variant's colour; only the first is in the legend.
 Plot error_plot(const ConvergeReport& report, const std::string& title, const std::string& x_label, double (*x_of)(const MeasuredPoint&)) {
     Plot plot{title, x_label, "RMSE against the reference", {}, {}, {}};
     for (size_t v = 0; v < report.result.variants.size(); ++v) {
@@ -87,8 +87,8 @@ Plot error_plot(const ConvergeReport& report, const std::string& title, const st
             plot.curves.back().points.push_back({x_of(p), p.metrics.rmse});
         }
     }
-    const PlotCurve guide = plot_guide(plot, -0.5, "1/√N, for comparison");
-    PlotCurve floor{"the reference's own error", "#bbbbbb", {}, PlotCurve::Line::dashed, PlotCurve::Dots::none};
+    const PlotCurve guide = plot_guide(plot, -0.5, "1/√N (reference slope)");
+    PlotCurve floor{"error of the reference", "#bbbbbb", {}, PlotCurve::Line::dashed, PlotCurve::Dots::none};
     const double own = std::sqrt(mean_square_error(report.reference.measured));
     for (const PlotCurve::Point& p : guide.points) floor.points.push_back({p.x, own});
     plot.curves.push_back(guide);
@@ -110,7 +110,7 @@ std::string bias_cell(const VariantResult& v) {
                                                             w.height, w.x, w.y, w.percent(), signed_number(w.z(), 1));
     const std::string pooled = std::abs(p.z()) <= std::abs(b.whole.z())
                                    ? std::string()
-                                   : fmt::format("<small>weighted by what noise lets tell {:+.3g} % ± {:.2g}, z {}</small>", p.percent(),
+                                   : fmt::format("<small>weighted by the precision of the reference {:+.3g} % ± {:.2g}, z {}</small>", p.percent(),
                                                  1.96 * p.percent_error(), signed_number(p.z(), 1));
     std::string bounces = bias_by_bounce_text(v);
     if (!bounces.empty()) bounces = fmt::format("<small>{}</small>", bounces);
@@ -127,7 +127,7 @@ std::string variant_row(const VariantResult& v, size_t index) {
                        "style='background:{}'></span>{}<small><code>{}</code></small></td><td>{}</td><td>{:.3g}</td><td>{:.3g}{}</td>"
                        "<td>{:.3g}</td><td>{}</td><td>{}</td><td>{}</td>{}</tr>\n",
                        plot_color(index), escaped_markup(v.variant.name), escaped_markup(v.variant.options), p.spp, p.seconds,
-                       p.metrics.rmse, p.reference_clearly_better ? "" : "<small>no more than the reference's</small>", p.metrics.relmse,
+                       p.metrics.rmse, p.reference_clearly_better ? "" : "<small>not above the reference's error</small>", p.metrics.relmse,
                        flip == v.points.rend() ? std::string("–") : fmt::format("{:.3g}", flip->metrics.flip.mean),
                        with_interval(v.over_seconds.slope), with_interval(v.efficiency), bias_cell(v));
 }
@@ -148,32 +148,32 @@ std::string how_to_read(const ConvergeReport& report) {
         return v.variant.settings.roulette.rule == Roulette::Rule::biased_cut && v.bias.biased;
     });
     std::string html = fmt::format(
-        "<p>Both axes are logarithmic. Where an error is noise alone it falls like one over the root of the number of samples, a line of "
-        "slope "
-        "−½, and faster where well-spread points sample something smooth; a curve that is lower is better at that time, and one that "
-        "levels off is wrong or has met the error of its reference. Variants took "
-        "turns in slices of a tenth of a second, so that whatever else the machine did cost all of them alike; each was rendered {} "
-        "times, and the time to measure is not counted. Efficiency is one over squared error times seconds: twice of it is the same "
-        "picture in half the time. "
-        "Intervals are 95 %, over the repeats for efficiency; fits leave out points at which the reference is not clearly better.</p>\n",
+        "<p>Both axes are logarithmic. Pure Monte Carlo noise falls with one over the square root of the number of samples: a line of "
+        "slope −½. "
+        "Stratified samples of a smooth integrand converge faster. A lower curve is better at that time. A curve that "
+        "levels off is biased, or has reached the error of its reference. Variants were rendered in "
+        "alternating slices of a tenth of a second, so that other load on the machine affected all equally; each was rendered {} "
+        "times. The time to measure is not included. Efficiency is 1 / (MSE × seconds): twice the efficiency is the same "
+        "error in half the time. "
+        "Intervals are 95 % confidence intervals, over the repeats for efficiency. Fits exclude points at which the reference is not clearly better.</p>\n",
         report.input.repeats);
     html += fmt::format(
-        "<p>The bias test compares means of the whole picture and of a grid of regions with the reference's, in units of the standard "
-        "error of their "
-        "difference. All regions of a variant together call a right picture biased in {:g} % of cases (Šidák's correction). A picture that "
-        "is "
-        "no darker than it would be for want of samples as bright as the brightest it has met is not called biased. Which bounces a biased "
-        "variant takes light from is measured apart, with the same random numbers and without roulette and limit: per cent of all light."
+        "<p>The bias test compares the means of the whole picture and of a grid of regions with the reference, in units of the standard "
+        "error of the "
+        "difference. Its false positive rate over all regions of a variant is {:g} % (Šidák correction). A picture is "
+        "not called biased "
+        "if its missing light can be explained by rare bright samples, as bright as the brightest it has found. The bias per bounce of a biased "
+        "variant is measured separately, with the same random numbers and without roulette and limit, in per cent of all light."
         "</p>\n",
         100 * bias_significance);
     if (capped)
-        html += "<p>A limit on bounces is biased by design: the light of all longer paths is missing, however many samples there are, and "
+        html += "<p>A limit on bounces is biased: the light of all longer paths is missing, for any number of samples, and "
                 "the curve "
                 "levels off at that error.</p>\n";
     if (cut)
-        html += "<p>The biased cut ends paths that carry little and gives the survivors nothing in return, so that their light is missing. "
-                "Russian roulette divides "
-                "what survives by the probability to survive, which keeps the mean.</p>\n";
+        html += "<p>The biased cut terminates paths of low throughput without compensation, so their light is missing. "
+                "Russian roulette divides the throughput of "
+                "survivors by the survival probability, which preserves the mean.</p>\n";
     return html;
 }
 

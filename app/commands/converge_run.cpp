@@ -15,7 +15,7 @@ namespace {
 constexpr double slice_seconds = 0.1;
 constexpr int explaining_rounds = 24;
 
-// One variant in one repeat.
+// The renderer of one variant in one repeat.
 struct Runner {
     std::unique_ptr<Renderer> renderer;
     double seconds = 0;
@@ -26,7 +26,7 @@ struct Runner {
     void restart(const Scene& scene, RenderSettings settings, uint32_t seed) {
         settings.seed = seed;
         renderer->update(scene, settings);
-        // What is allocated upon first use is allocated before the clock runs.
+        // Warm-up: allocations on first use are not part of the time.
         renderer->render(0, 1);
         renderer->clear();
         seconds = 0;
@@ -34,7 +34,7 @@ struct Runner {
         looks = {};
         done = false;
     }
-    // At most as many samples again as there are, so that no doubling is missed.
+    // At most doubles the samples, so that every power of two is measured.
     int64_t next_count(const ConvergeInput& input) const {
         if (samples == 0) return 1;
         const double fitting = slice_seconds * double(samples) / std::max(seconds, 1e-9);
@@ -64,7 +64,7 @@ MeasuredPoint look(const Runner& runner, int repeat, const MeasuredImage& refere
     const Frame frame = runner.renderer->resolve();
     RgbImage image{frame.width, frame.height, {}};
     for (size_t i = 0; i < frame.rgba.size(); i += 4) image.pixels.push_back({frame.rgba[i], frame.rgba[i + 1], frame.rgba[i + 2]});
-    // Sizes agree, and films hold finite values alone.
+    // Sizes agree, and films contain only finite values.
     if (const Result<Metrics> metrics = compare(image, reference.image, Encoding::scene_linear, p.has_flip)) p.metrics = *metrics;
     p.reference_clearly_better = clearly_better(reference_mse, p.metrics.mse);
     return p;
@@ -97,7 +97,8 @@ void conclude(VariantResult& v, const MeasuredImage& reference) {
     v.bias = test_bias(v.picture, reference);
 }
 
-// Rendered once more, small, with the same random numbers as without roulette and limit: what differs by bounce is their doing.
+// Renders once more at a low resolution, with the same random numbers but without roulette and limit: the difference per bounce
+// is the bias.
 std::vector<RouletteBias> explain(const ConvergeInput& input, const RenderSettings& settings, const std::atomic<bool>& interrupted) {
     RouletteLab lab({.threads = input.threads, .low_priority = false, .planes = {}});
     lab.begin(*input.scene, settings);

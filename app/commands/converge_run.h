@@ -1,4 +1,4 @@
-// Renders several variants side by side and measures each against a reference as time goes by.
+// Renders several variants in turns and measures their error against a reference over time.
 #pragma once
 
 #include "app/commands/converge_variants.h"
@@ -18,9 +18,9 @@ namespace blush {
 
 struct MeasuredPoint {
     int repeat = 0;
-    double seconds = 0; // of rendering this variant in this repeat; neither setup nor measuring
+    double seconds = 0; // render time of this variant in this repeat, without setup and measuring
     int64_t spp = 0;
-    Metrics metrics; // against the reference; flip is measured in the first repeat alone, which takes longer than rendering
+    Metrics metrics; // against the reference; flip only in the first repeat, because it takes longer than rendering
     bool has_flip = false;
     bool reference_clearly_better = false;
 };
@@ -28,11 +28,11 @@ struct MeasuredPoint {
 struct VariantResult {
     Variant variant;
     std::vector<MeasuredPoint> points;
-    MeasuredImage picture;           // the mean of all repeats
-    PowerFit over_seconds, over_spp; // of RMSE; of points whose reference is clearly better alone
-    Interval efficiency;             // 1 / (MSE x seconds), over the repeats' last points
+    MeasuredImage picture;           // mean of all repeats
+    PowerFit over_seconds, over_spp; // fits of RMSE; only of points whose reference is clearly better
+    Interval efficiency;             // 1 / (MSE x seconds), from the last points of the repeats
     BiasTest bias;
-    // Where light is lost or gained: by the number of scatterings, of a biased variant that its roulette or its limit on bounces makes so.
+    // Bias by bounce, for a variant that is biased by its roulette or its limit on bounces.
     std::vector<RouletteBias> bias_by_bounce;
 };
 
@@ -40,9 +40,9 @@ struct ConvergeInput {
     const Scene* scene = nullptr;
     std::vector<Variant> variants;
     int repeats = 1;
-    double seconds = 0; // of rendering, for each variant in each repeat; 0: no limit
-    int64_t spp = 0;    // the same in samples per pixel
-    uint32_t seed = 0;  // of the first repeat; the next ones follow
+    double seconds = 0; // render time of each variant in each repeat; 0: no limit
+    int64_t spp = 0;    // samples per pixel, likewise
+    uint32_t seed = 0;  // of the first repeat; the next repeats use the following seeds
     unsigned threads = 0;
     bool whole_paths = true; // the reference has no limit on bounces
 };
@@ -53,13 +53,14 @@ std::vector<uint32_t> seeds_of(const ConvergeInput& input);
 struct ConvergeResult {
     std::vector<VariantResult> variants;
     std::string kernel;
-    bool partial = false; // ended early
+    bool partial = false; // interrupted
 };
 
-// Told of 0 .. 1 and what is going on.
+// Called with the progress 0 .. 1 and a description.
 using ConvergeProgress = std::function<void(double, std::string_view)>;
 
-// Variants take turns in slices of a tenth of a second, whoever has had the least time first, so that a busy machine is busy for all.
+// Variants alternate in slices of 0.1 s, the one with the least time first, so that other load on the machine affects all
+// equally.
 ConvergeResult run_converge(const ConvergeInput& input, const MeasuredImage& reference, const std::atomic<bool>& interrupted,
                             const ConvergeProgress& progress);
 

@@ -34,7 +34,7 @@ std::string trimmed(const std::string& text) {
     return first == text.npos ? std::string() : text.substr(first, text.find_last_not_of(" \t") + 1 - first);
 }
 
-// All variants are compared with one reference, for as long as each other.
+// Options that all variants must share: they have one reference and the same budget. Returns the first that differs.
 const char* shared_option(const RenderSettings& a, const RenderSettings& b, const RenderOptions& parsed, const RenderOptions& base) {
     if (a.width != b.width || a.height != b.height) return "--size";
     if (a.spp != b.spp || a.first_sample != b.first_sample || a.seconds != b.seconds || a.error != b.error)
@@ -67,7 +67,7 @@ Result<Variant> parse_variant(const std::string& text, const RenderOptions& base
     } catch (const CLI::ParseError& error) { return Error{.what = fmt::format("variant \"{}\": {}", variant.name, error.what())}; }
     if (const char* shared = shared_option(options.settings, base.settings, options, base))
         return Error{
-            .what = fmt::format("variant \"{}\" may not have {} of its own: all are compared with one reference", variant.name, shared)};
+            .what = fmt::format("variant \"{}\" must not set {}: all variants share one reference", variant.name, shared)};
     const Result<RenderSettings> settings = settings_of(options);
     if (!settings) return Error{.what = fmt::format("variant \"{}\": {}", variant.name, settings.error().text())};
     variant.settings = *settings;
@@ -75,7 +75,7 @@ Result<Variant> parse_variant(const std::string& text, const RenderOptions& base
 }
 
 Result<std::vector<Variant>> preset_variants(const std::string& name, const RenderOptions& base) {
-    // They compare rules of the plain path tracer.
+    // The presets compare settings of the path tracer without path reuse and adaptive sampling.
     RenderOptions plain = base;
     if (!base.adaptive_given) plain.settings.adaptive = RenderSettings{}.adaptive;
     if (!base.reuse_given) plain.settings.reuse = RenderSettings{}.reuse;

@@ -1,4 +1,4 @@
-// What `blush converge` compares: render settings under a name, given one by one or as a preset.
+// The variants of `blush converge`: named render settings, from the command line or a preset.
 #pragma once
 
 #include "app/commands/render_options.h"
@@ -14,11 +14,11 @@ struct Variant {
     RenderSettings settings;
 };
 
-// "NAME: OPTIONS", the options being those of `render` on top of `base`. Errors: no name, options that are wrong or that change what
-// picture is rendered or for how long, which all variants share.
+// Parses "NAME: OPTIONS" with options of `render`, on top of `base`. Errors: no name, invalid options, or options that all
+// variants must share (image and stop rules).
 Result<Variant> parse_variant(const std::string& text, const RenderOptions& base);
 
-// roulette, strategies, bounces, samplers. Errors: an unknown one.
+// roulette, strategies, bounces, samplers. Errors: unknown preset.
 Result<std::vector<Variant>> preset_variants(const std::string& preset, const RenderOptions& base);
 
 } // namespace blush

@@ -26,9 +26,9 @@ struct DenoiseCommand {
     CommonOptions common;
 };
 
-// What is denoised: planes of three floats per pixel.
+// Input of the denoiser: planes of three floats per pixel.
 struct Planes {
-    std::vector<float> color, albedo, normal; // the latter two may be empty
+    std::vector<float> color, albedo, normal; // albedo and normal may be empty
 };
 
 using Channels = std::array<const LayeredImage::Channel*, 3>;
@@ -42,7 +42,7 @@ std::vector<float> interleaved(const Channels& channels) {
     return values;
 }
 
-// A display-encoded image becomes scene-linear: only there do means of light make sense.
+// Converts a display-encoded image to scene-linear, where averaging is correct.
 void linearise(LayeredImage& image) {
     for (LayeredImage::Channel& channel : image.channels)
         if (channel.name != "A") std::ranges::transform(channel.values, channel.values.begin(), linear_from_srgb<float>);
@@ -51,7 +51,7 @@ void linearise(LayeredImage& image) {
 Result<LayeredImage> read_input(const DenoiseCommand& c) {
     Result<LayeredImage> image = read_layers(c.input);
     if (!image) return image;
-    if (image->more_parts) return Error{c.input, "an EXR of several parts: all but the first would be lost", ""};
+    if (image->more_parts) return Error{c.input, "multi-part EXR files are not supported: only the first part would be kept", ""};
     if (is_display_encoded(c.input)) linearise(*image);
     return image;
 }
@@ -65,7 +65,7 @@ Result<Planes> planes_of(const LayeredImage& image) {
 
 PixelView view_of(const std::vector<float>& plane) { return {plane, 3}; }
 
-// All that was in the file, and the new layer behind the beauty.
+// All channels of the file, with the new layer after the beauty.
 Result<void> write_exr_output(const DenoiseCommand& c, LayeredImage image, const Denoised& denoised) {
     std::string behind = image.find("A") ? "A" : "B";
     for (size_t k = 0; k < 3; ++k) {
@@ -79,7 +79,7 @@ Result<void> write_exr_output(const DenoiseCommand& c, LayeredImage image, const
     return write_exr(c.output, image);
 }
 
-// What was display-encoded is encoded again as it was; what was scene-linear goes through the view.
+// A display-encoded image is encoded again with the same curve; a scene-linear one goes through the view transform.
 Result<void> write_display_output(const DenoiseCommand& c, const LayeredImage& image, const Denoised& denoised,
                                   const ColorManagement& color) {
     const std::map<std::string, std::string> metadata{{"blush:version", BLUSH_VERSION}, {"blush:denoised", denoised_by(denoised)}};
@@ -92,7 +92,7 @@ Result<void> write_display_output(const DenoiseCommand& c, const LayeredImage& i
 
 struct Outcome {
     int width = 0, height = 0;
-    std::vector<std::string> guides; // the channels that helped
+    std::vector<std::string> guides; // auxiliary channels used by the network
     Denoised denoised;
 };
 
@@ -145,10 +145,10 @@ int run_denoise(const DenoiseCommand& c) {
 
 void add_denoise_command(CLI::App& app, std::function<int()>& run) {
     const auto command = std::make_shared<DenoiseCommand>();
-    CLI::App* sub = app.add_subcommand("denoise", "Denoise an image; channels albedo.{R,G,B} and normal.{X,Y,Z} help if it has both");
+    CLI::App* sub = app.add_subcommand("denoise", "Denoise an image; uses the channels albedo.{R,G,B} and normal.{X,Y,Z} if it has both");
     sub->add_option("input", command->input, "EXR, HDR, PNG or JPEG file")->required()->type_name("IN");
     sub->add_option("-o,--output", command->output,
-                    "EXR keeps all that is in IN and gets a layer \"denoised\" beside the beauty; PNG and JPEG show the denoised picture")
+                    "EXR: all channels of IN and a layer \"denoised\"; PNG and JPEG: the denoised picture")
         ->required()
         ->type_name("OUT");
     sub->add_option_function<std::string>(
@@ -158,7 +158,7 @@ void add_denoise_command(CLI::App& app, std::function<int()>& run) {
                if (!quality) throw CLI::ValidationError("--quality", quality.error().text());
                command->quality = *quality;
            },
-           "The small network, or the large one with albedo and normal denoised first [high]")
+           "fast: the small network; high: the large one, with albedo and normal denoised first [high]")
         ->type_name("fast|high");
     add_view_options(*sub, command->view);
     add_common_options(*sub, command->common);

@@ -11,12 +11,12 @@
 namespace blush {
 namespace {
 
-constexpr int64_t most_samples = int64_t(1) << 40; // per pixel; beyond any render, far from where integers end
+constexpr int64_t most_samples = int64_t(1) << 40; // per pixel; above any real render, and far below integer overflow
 constexpr const char* dropped_plane = "dropped";
 constexpr std::array pilot_planes{"pilot.even.R", "pilot.even.G", "pilot.even.B", "pilot.odd.R", "pilot.odd.G", "pilot.odd.B"};
 constexpr double Vec3d::*channels[3] = {&Vec3d::x, &Vec3d::y, &Vec3d::z};
 
-// A list of exactly these numbers.
+// Reads an array with exactly these numbers.
 template <class... T> bool read_numbers(const Json& json, T&... numbers) {
     if (!json.is_array() || json.size() != sizeof...(T)) return false;
     size_t i = 0;
@@ -31,7 +31,7 @@ const Json& member(const Json& object, const char* key) {
     const auto it = object.find(key);
     return it == object.end() ? null : *it;
 }
-// read(item, value) for each item of a list, of which there are at most so many.
+// Calls read(item, value) for each item of an array, which must not have more than `most` items.
 template <class T, class Read> bool read_list(const Json& json, size_t most, std::vector<T>& list, const Read& read) {
     if (!json.is_array() || json.size() > most) return false;
     list.resize(json.size());
@@ -86,7 +86,7 @@ bool read_mix(const Json& json, std::vector<FilmState::MixedGroup>& mix) {
     });
 }
 
-// What is no plane of the film itself: takes it out of the planes.
+// Extracts the planes that are not part of the film itself.
 void take_health_map(FilmState& film, size_t pixels) {
     if (const ExactPlane* dropped = film.find(dropped_plane)) film.health.dropped_map = dropped->words;
     if (!film.health.dropped_map.empty()) film.health.dropped_map.resize(pixels);
@@ -134,10 +134,10 @@ std::string film_json(const FilmState& film) {
 }
 
 Result<FilmState> film_in_file(const LayeredImage& image, const SnapshotMetadata& metadata) {
-    if (metadata.film.empty()) return Error{"", "the picture was saved without the samples to go on from", ""};
+    if (metadata.film.empty()) return Error{"", "the picture was saved without samples: it cannot be resumed", ""};
     const Result<Json> json = parse_json_object(metadata.film);
     if (!json) return Error{"", json.error().what, "blush:film"};
-    const auto bad = [](const char* key) { return Error{"", "not what a film says", fmt::format("blush:film {}", key)}; };
+    const auto bad = [](const char* key) { return Error{"", "invalid film state", fmt::format("blush:film {}", key)}; };
     FilmState film;
     film.width = image.width;
     film.height = image.height;
@@ -152,7 +152,7 @@ Result<FilmState> film_in_file(const LayeredImage& image, const SnapshotMetadata
         return bad("paths");
     if (!read_health(member(*json, "health"), image, film.health)) return bad("health");
     if (const Json& shares = member(*json, "shares"); !shares.is_null()) {
-        const size_t pixels = size_t(image.width) * size_t(image.height); // more than there are tiles
+        const size_t pixels = size_t(image.width) * size_t(image.height); // upper bound of the number of tiles
         if (!shares.is_array() || shares.size() != 2) return bad("shares");
         for (size_t half = 0; half < 2; ++half)
             if (!read_list(shares[half], pixels, film.shares[half], [](const Json& item, double& share) { return read_json(item, share); }))

@@ -1,4 +1,4 @@
-// A film state as part of a picture's file: its planes are channels, the rest is text.
+// Stores a film state in an image file: its planes as channels, the rest as JSON text.
 #pragma once
 
 #include "core/result.h"
@@ -10,12 +10,12 @@
 
 namespace blush {
 
-// What make_snapshot() takes: planes and metadata. Health's map of dropped samples and what adaptive
-// sampling remembers of its pilot are more planes.
+// Input of make_snapshot(): planes and metadata. The map of dropped samples and the pilot statistics of adaptive sampling are
+// additional planes.
 std::vector<ExactPlane> planes_in_file(const FilmState& film);
 std::string film_json(const FilmState& film);
 
-// The film that the picture was saved with. Errors: saved without one, damaged text, numbers that no film has.
+// Restores the film of a picture. Errors: saved without film, damaged text, invalid numbers.
 Result<FilmState> film_in_file(const LayeredImage& image, const SnapshotMetadata& metadata);
 
 } // namespace blush

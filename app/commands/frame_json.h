@@ -1,4 +1,4 @@
-// What a finished frame says about itself, as JSON.
+// Statistics of a finished frame, as JSON.
 #pragma once
 
 #include "app/commands/json_output.h"
@@ -12,7 +12,7 @@ namespace blush {
 OrderedJson health_json(const Health& health);
 // [{bounce, share, mean}]
 OrderedJson bounces_json(const Frame& frame);
-// [{group, energy, noise, gain}]: shares of the image's luminance and variance, and what the group's light was multiplied with
+// [{group, energy, noise, gain}]: fractions of the image's luminance and variance, and the gain of the group
 OrderedJson groups_json(const Frame& frame);
 // {limit, light, samples, share, removed}
 OrderedJson clamp_json(const Clamp& clamp, const ClampReport& report);

@@ -51,7 +51,7 @@ int64_t count_cameras(const Scene& scene) {
     return std::count_if(scene.nodes.begin(), scene.nodes.end(), [](const auto& entry) { return bool(entry.value.camera); });
 }
 
-// What the import and the compilation had to say, in one list.
+// Warnings of import and compilation, in one list.
 std::vector<Diagnostic> all_diagnostics(const ImportReport& report, const CompiledInfo& info) {
     std::vector<Diagnostic> all = report.diagnostics;
     all.insert(all.end(), info.warnings.begin(), info.warnings.end());
@@ -68,7 +68,7 @@ OrderedJson speed_json(const KernelSpeed& s) {
             {"ratio", s.ratio}};
 }
 
-// What `info` has to say beside the import.
+// Results of `info` in addition to the import report.
 struct Findings {
     CompiledInfo info;
     std::optional<KernelSpeed> speed;
@@ -115,7 +115,7 @@ void print_list(std::string_view name, const std::vector<std::string>& items) {
     if (!items.empty()) fmt::print("{:<22} {}\n", name, fmt::join(items, ", "));
 }
 
-// What there is to choose from.
+// Names of animations, scenes and material variants.
 void print_offers(const Scene& scene) {
     std::vector<std::string> clips;
     for (const auto& [id, clip] : scene.clips) clips.push_back(fmt::format("{} ({:.4g} s)", clip.name, clip.seconds));
@@ -124,7 +124,7 @@ void print_offers(const Scene& scene) {
     print_list("material variants", scene.variants);
 }
 
-// A line for each, by part.
+// One line each, by part.
 void print_uses(const char* title, const Ledger& ledger, bool used) {
     fmt::print("{}\n", title);
     for (const FeatureUse& use : ledger)
@@ -179,12 +179,12 @@ int run_info(const InfoCommand& c) {
 
 void add_info_command(CLI::App& app, std::function<int()>& run) {
     const auto command = std::make_shared<InfoCommand>();
-    CLI::App* sub = app.add_subcommand("info", "Print what a scene holds, what of it is ignored, and the kernel it needs");
+    CLI::App* sub = app.add_subcommand("info", "Print the content of a scene, what is ignored, and the kernel that it needs");
     sub->add_option("scene", command->scene, "glTF file (.gltf, .glb)")->required()->type_name("SCENE");
     sub->add_flag(
         "--measure", command->measure,
-        "Measure what specialising saves: this scene's kernel against the one that can do everything, in turns for a few seconds, and "
-        "the start-up of the view transform and of the denoiser");
+        "Measure the effect of specialisation: the speed of this scene's kernel and of the kernel with all features, in turns for a few seconds, and "
+        "the start-up time of the view transform and of the denoiser");
     add_staging_options(*sub, command->overrides.staging);
     add_common_options(*sub, command->common);
     sub->callback([command, &run] { run = [command] { return run_info(*command); }; });

@@ -6,7 +6,7 @@ namespace blush {
 namespace {
 
 std::atomic<bool> noted{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch nothing that locks");
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler must not lock");
 
 void note(int) { noted = true; }
 

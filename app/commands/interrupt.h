@@ -1,11 +1,11 @@
-// Ctrl-C as a request instead of an end.
+// Ctrl-C as a stop request.
 #pragma once
 
 #include <atomic>
 
 namespace blush {
 
-// While one lives, the first SIGINT or SIGTERM is only noted; the second ends the process, as ever.
+// While an object exists, the first SIGINT or SIGTERM only sets a flag; the second ends the process.
 class InterruptGuard {
 public:
     InterruptGuard();

@@ -11,7 +11,7 @@ Result<void> write_json(const std::string& target, const OrderedJson& json) {
     const std::string text = json.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
     if (target != "-") return write_file(target, text);
     if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
-        return Error{.file = "-", .what = "stdout cannot be written to"};
+        return Error{.file = "-", .what = "cannot write to stdout"};
     return {};
 }
 

@@ -22,7 +22,7 @@ Result<void> switch_on(Layers& layers, std::string_view name) {
     }
     if (name.starts_with("bounces=")) {
         if (parse_number(name.substr(8), layers.bounces) && layers.bounces >= 2 && layers.bounces <= most_bounce_planes) return {};
-        return Error{.what = fmt::format("bounces=N takes a number from 2 to {}, not \"{}\"", most_bounce_planes, name.substr(8))};
+        return Error{.what = fmt::format("bounces=N must be a number from 2 to {}, not \"{}\"", most_bounce_planes, name.substr(8))};
     }
     std::string names;
     for (const LayerName& layer : known) {

@@ -1,5 +1,5 @@
-// Which planes beside the beauty a render writes: `--layers albedo,normal,...`. `bounces=N` says how many bounce
-// planes, the last of which holds all further ones.
+// Passes that a render writes beside the beauty: `--layers albedo,normal,...`. `bounces=N` is the number of bounce planes, the
+// last of which contains all further bounces.
 #pragma once
 
 #include "core/result.h"
@@ -11,16 +11,16 @@ namespace blush {
 
 struct Layers {
     bool albedo = false, normal = false, depth = false, error = false, samples = false, ids = false;
-    bool film = false; // sums in full, to go on from and to merge
-    bool groups = false; // light by the group of lights that it came from
-    int bounces = 0; // planes of light by the number of scatterings
+    bool film = false; // full sums, for --continue and merge
+    bool groups = false; // one plane per light group
+    int bounces = 0; // number of planes by bounce
     bool any() const { return *this != Layers{}; }
     bool operator==(const Layers&) const = default;
 };
 
-// Errors: an unknown layer.
+// Errors: unknown layer.
 Result<Layers> parse_layers(std::string_view text);
-// What the film must hold for them.
+// The film planes that they need.
 PlaneSet planes_of(const Layers& layers);
 
 } // namespace blush

@@ -1,4 +1,4 @@
-// A scene file as the command line asked for it.
+// Loads a scene file with the options of the command line.
 #pragma once
 
 #include "app/scene_overrides.h"
@@ -12,10 +12,10 @@ namespace blush {
 class Progress;
 
 struct LoadedScene {
-    Scene imported; // as it is in the file
+    Scene imported; // as in the file
     Scene scene;    // with the overrides
     ImportReport report;
-    // Width over height of the camera's frame: that which was saved with the scene, else that of the camera that is looked through; 0: not known.
+    // Aspect ratio (width / height) of the camera's frame: the one saved with the scene, else the camera's own; 0: unknown.
     float camera_aspect = 0;
 };
 

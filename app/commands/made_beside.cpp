@@ -9,7 +9,7 @@
 namespace blush {
 namespace {
 
-// Seconds; nothing if `make` fails.
+// Seconds; nullopt if `make` fails.
 template <class Make> std::optional<double> seconds_to(const Make& make) {
     const auto begin = std::chrono::steady_clock::now();
     if (!make()) return std::nullopt;
@@ -21,7 +21,7 @@ template <class Make> std::optional<double> seconds_to(const Make& make) {
 Ledger with_made_beside(const Ledger& renderer, const MadeBeside& made) {
     Ledger ledger = renderer;
     ledger.push_back({"display", "view transform", made.display,
-                      made.display ? "the picture is written as a display shows it" : "no picture is written as a display shows it"});
+                      made.display ? "the output is display-encoded" : "the output is scene-linear"});
     ledger.back().seconds = made.display_seconds;
     std::array<bool, denoise_qualities> loaded{};
     if (made.denoiser) loaded[size_t(*made.denoiser)] = true;

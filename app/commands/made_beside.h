@@ -1,4 +1,4 @@
-// What a command makes beside the renderer, as lines of the ledger.
+// Features that a command uses in addition to the renderer, as lines of the feature report.
 #pragma once
 
 #include "render/denoiser.h"
@@ -9,15 +9,15 @@
 namespace blush {
 
 struct MadeBeside {
-    bool display = false; // a view transform
+    bool display = false; // view transform used
     std::optional<DenoiseQuality> denoiser;
-    std::optional<double> display_seconds, denoiser_seconds; // that they took, or would have: of the fast network
+    std::optional<double> display_seconds, denoiser_seconds; // measured start-up times; of the fast network
 };
 // The renderer's lines, then these.
 Ledger with_made_beside(const Ledger& renderer, const MadeBeside& made);
 
-// Makes the default view's processor and the denoiser's fast network for one pixel, to see what leaving them out saves. What cannot be
-// made has no figure.
+// Measures the start-up of the default view's processor and of the denoiser's fast network with one pixel, to show what their
+// absence saves. No time if one fails.
 MadeBeside measure_made_beside(unsigned threads);
 
 } // namespace blush

@@ -32,7 +32,7 @@ struct Input {
 struct Merged {
     SnapshotMetadata metadata;
     int width = 0, height = 0;
-    bool exact = false; // from sums, not from means
+    bool exact = false; // from sums instead of means
 };
 
 Result<Input> read_input(const std::string& file) {
@@ -41,8 +41,8 @@ Result<Input> read_input(const std::string& file) {
     const Result<SnapshotMetadata> metadata = read_snapshot_metadata(image->metadata);
     if (!metadata) return in_file(metadata.error(), file);
     Input input{file, *std::move(image), *metadata, {}};
-    if (metadata->spp < 1) return Error{file, "does not say how many samples it holds", "blush:spp"};
-    if (metadata->settings.adaptive) return Error{file, "adaptive sampling decides from all samples: such renders do not add up", ""};
+    if (metadata->spp < 1) return Error{file, "has no number of samples", "blush:spp"};
+    if (metadata->settings.adaptive) return Error{file, "adaptive renders cannot be merged: the sampling of each depends on all its samples", ""};
     if (metadata->film.empty()) return input;
     Result<FilmState> film = film_in_file(input.image, *metadata);
     if (!film) return in_file(film.error(), file);
@@ -50,7 +50,7 @@ Result<Input> read_input(const std::string& file) {
     return input;
 }
 
-// Another range of samples of the same image.
+// Checks that `b` is another sample range of the same image.
 Result<void> expect_same_image(const Input& a, const Input& b) {
     const auto differs = [&](const char* what) { return Error{b.file, fmt::format("{} than that of {}", what, a.file), ""}; };
     const SnapshotMetadata &m = a.metadata, &n = b.metadata;
@@ -59,9 +59,9 @@ Result<void> expect_same_image(const Input& a, const Input& b) {
     settings.first_sample = n.settings.first_sample;
     if (!same_image(settings, n.settings)) return differs("was rendered with other settings");
     if (a.image.width != b.image.width || a.image.height != b.image.height) return differs("has another size");
-    if (n.first_sample < m.last_sample) return Error{b.file, fmt::format("holds sample {}, as {} does", n.first_sample, a.file), ""};
+    if (n.first_sample < m.last_sample) return Error{b.file, fmt::format("contains sample {}, as does {}", n.first_sample, a.file), ""};
     if (n.first_sample > m.last_sample)
-        return Error{b.file, fmt::format("begins with sample {}, {} ends before {}: those between are missing", n.first_sample, a.file, m.last_sample),
+        return Error{b.file, fmt::format("begins with sample {}, but {} ends before {}: the samples between are missing", n.first_sample, a.file, m.last_sample),
                      ""};
     return {};
 }
@@ -97,7 +97,7 @@ SnapshotMetadata merged_metadata(const std::vector<Input>& inputs) {
     return m;
 }
 
-// ---- from the sums of all
+// ---- merging sums
 
 Result<void> write_sum(const MergeCommand& c, std::vector<Input>& inputs, SnapshotMetadata& metadata) {
     FilmState sum = *std::move(inputs.front().film);
@@ -127,19 +127,19 @@ Result<void> write_sum(const MergeCommand& c, std::vector<Input>& inputs, Snapsh
     return written ? Result<void>() : written.error();
 }
 
-// ---- from the means of all
+// ---- merging means
 
-// What of a channel its mean over samples is not the merged one.
+// How a channel is merged, if not by its mean.
 enum class Rule { mean, sum, root_of_squares, first };
 std::optional<Rule> rule_of(const LayeredImage::Channel& channel) {
     const std::string_view name = channel.name;
-    if (name.starts_with("denoised.") || name.starts_with("film.")) return std::nullopt; // of the parts alone
+    if (name.starts_with("denoised.") || name.starts_with("film.")) return std::nullopt; // only valid for a single input
     if (channel.is_uint || name == "depth.Z") return Rule::first;
     if (name == "samples.Y") return Rule::sum;
     return name.starts_with("error.") ? Rule::root_of_squares : Rule::mean;
 }
 
-// In double precision, rounded once: the standard error of the mean is that of independent parts.
+// In double precision, rounded once. Standard errors are combined as for independent inputs.
 Result<LayeredImage::Channel> mean_channel(const std::vector<Input>& inputs, const LayeredImage::Channel& first, Rule rule, int64_t spp) {
     LayeredImage::Channel merged = first;
     if (rule == Rule::first) return merged;
@@ -211,13 +211,13 @@ int run_merge(const MergeCommand& c) {
 
 void add_merge_command(CLI::App& app, std::function<int()>& run) {
     const auto command = std::make_shared<MergeCommand>();
-    CLI::App* sub = app.add_subcommand("merge", "One picture of renders of the same scene with different sample ranges");
-    sub->add_option("inputs", command->inputs, "EXR files whose --samples ranges follow one another, in any order; with the layer film in all "
-                                               "of them it is their sums that are added, and one can go on with the result")
+    CLI::App* sub = app.add_subcommand("merge", "Merge renders of the same scene with different sample ranges");
+    sub->add_option("inputs", command->inputs, "EXR files with consecutive --samples ranges, in any order; if all have the layer film, "
+                                               "their sums are added, and the result can be resumed")
         ->required()
         ->expected(2, 100000)
         ->type_name("EXR");
-    sub->add_option("-o,--output", command->output, "Where to write the picture")->required()->type_name("OUT");
+    sub->add_option("-o,--output", command->output, "Output file")->required()->type_name("OUT");
     add_common_options(*sub, command->common);
     sub->callback([command, &run] { run = [command] { return run_merge(*command); }; });
 }

@@ -17,7 +17,7 @@ double seconds_between(std::chrono::steady_clock::time_point a, std::chrono::ste
 int percent(double fraction) { return fraction >= 1 ? 100 : std::min(99, int(100 * std::max(0.0, fraction))); }
 
 std::string time_left(double fraction, double elapsed) {
-    // Too early to tell.
+    // too early for a prediction
     if (fraction < 0.01 || elapsed < 0.5 || fraction >= 1) return {};
     return duration_text(elapsed * (1 - fraction) / fraction) + " left";
 }

@@ -1,4 +1,4 @@
-// How far long work is: a bar on a terminal, plain lines elsewhere, always on stderr.
+// Progress of long work on stderr: a bar on a terminal, else plain lines.
 #pragma once
 
 #include <chrono>
@@ -9,19 +9,19 @@ namespace blush {
 
 // "42 s", "3 min 05 s", "2 h 07 min"
 std::string duration_text(double seconds);
-// "[#######-------------]  35 %  1 min 02 s left  23 spp", cut to `columns`. 100 % is shown for a fraction of 1 alone.
+// "[#######-------------]  35 %  1 min 02 s left  23 spp", cut to `columns`. Shows 100 % only for a fraction of 1.
 std::string progress_bar(double fraction, double elapsed_seconds, std::string_view note, int columns);
 
 class Progress {
 public:
-    // Looks whether stderr is a terminal.
+    // Checks whether stderr is a terminal.
     explicit Progress(bool quiet);
     // Clears the bar.
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    // Call as often as you like: a bar is redrawn ten times a second, a line printed every tenth of the way or ten seconds.
+    // Can be called often: a bar is redrawn ten times a second; a line is printed every 10 % or ten seconds.
     void update(double fraction, std::string_view note);
 
 private:

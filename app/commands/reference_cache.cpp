@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* key_attribute = "blush:reference";
 
-// 64 bits of FNV-1a (Fowler, Noll, Vo): a file name, the key itself is in the file.
+// 64-bit FNV-1a (Fowler, Noll, Vo) for the file name; the key itself is stored in the file.
 std::string short_name(const std::string& key) {
     uint64_t hash = 0xcbf29ce484222325u;
     for (const unsigned char c : key) hash = (hash ^ c) * 0x100000001b3u;
@@ -34,7 +34,7 @@ bool all_finite(const std::vector<Vec3>& values) {
     return std::ranges::all_of(values, [](const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); });
 }
 
-// Without an error layer its own error counts as none.
+// Without an error layer, the reference's own error is assumed to be zero.
 Reference reference_of(const LayeredImage& image) {
     Reference r;
     r.measured.image = {image.width, image.height, vectors(image, "")};
@@ -104,7 +104,7 @@ Result<void> cache_reference(const std::filesystem::path& folder, const std::str
     if (folder.empty()) return {};
     std::error_code code;
     std::filesystem::create_directories(folder, code);
-    if (code) return Error{.file = folder.string(), .what = "cannot be made: " + code.message()};
+    if (code) return Error{.file = folder.string(), .what = "cannot be created: " + code.message()};
     const MeasuredImage& m = reference.measured;
     std::vector<float> rgba;
     rgba.reserve(4 * m.image.pixels.size());
@@ -135,9 +135,9 @@ Result<Reference> read_reference_file(const std::filesystem::path& file, int wid
     if (r.measured.image.pixels.empty()) return Error{.file = file.string(), .what = "a reference must be an EXR with channels R, G and B"};
     if (image->width != width || image->height != height)
         return Error{.file = file.string(),
-                     .what = fmt::format("the reference has {}x{} pixels, the pictures {}x{}", image->width, image->height, width, height)};
+                     .what = fmt::format("the reference has {}x{} pixels, but the pictures have {}x{}", image->width, image->height, width, height)};
     if (!all_finite(r.measured.image.pixels) || !all_finite(r.measured.error))
-        return Error{.file = file.string(), .what = "the reference holds values that are not finite"};
+        return Error{.file = file.string(), .what = "the reference has non-finite values"};
     return r;
 }
 

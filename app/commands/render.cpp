@@ -55,7 +55,7 @@ Result<PixelRequest> parse_pixel(std::string_view text, const RenderSettings& se
     return pixel;
 }
 
-// Everything about the command line that can be wrong before any work is done.
+// Result of checking the command line, before any work is done.
 struct Plan {
     RenderSettings settings;
     Layers layers;
@@ -64,14 +64,14 @@ struct Plan {
     std::optional<BegunPicture> begun; // --continue
 };
 
-// What a render came to.
+// Result of a render.
 struct Rendered {
     LoopResult loop;
     CompiledInfo info;
     std::optional<Denoised> denoised;
-    std::vector<Diagnostic> warnings; // of the file, the compiled scene and the picture
-    std::vector<Vec3> error;       // if that layer is wanted
-    std::optional<FilmState> film; // and that one
+    std::vector<Diagnostic> warnings; // from the import, the compilation and the render
+    std::vector<Vec3> error;       // if the layer error is requested
+    std::optional<FilmState> film; // if the layer film is requested
 };
 
 Result<Plan> plan_of(const RenderCommand& c) {
@@ -80,7 +80,7 @@ Result<Plan> plan_of(const RenderCommand& c) {
     if (!settings) return settings.error();
     plan.settings = *settings;
     if (!c.begun.empty() && !same_image(*settings, recommended_settings()))
-        return Error{.what = "with --continue the picture says how it is rendered: only --spp, --time and --error go with it"};
+        return Error{.what = "--continue takes all settings from the image; only --spp, --time and --error may be given"};
     if (!c.layers.empty()) {
         const Result<Layers> layers = parse_layers(c.layers);
         if (!layers) return layers.error();
@@ -104,8 +104,8 @@ Result<Plan> plan_of(const RenderCommand& c) {
 
 bool is_warning(const Diagnostic& d) { return d.severity == Diagnostic::Severity::warning; }
 
-// No camera ray meets a surface. A picture whose rays went on or looked for lights has met some; else, as of surfaces that only glow, a small
-// picture of distances tells.
+// True if no camera ray hits a surface. Bounce or shadow rays prove hits; otherwise, for example for purely emissive surfaces, a
+// small depth picture decides.
 bool sees_nothing(const Scene& scene, const RenderSettings& settings, const RayCounts& rays, unsigned threads) {
     if (rays.bounce > 0 || rays.shadow > 0) return false;
     RenderSettings small;
@@ -205,7 +205,7 @@ void print_summary(const RenderCommand& c, const Rendered& rendered) {
     if (rendered.denoised) fmt::print(", {}", denoised_summary(*rendered.denoised));
     fmt::print("{}\n", r.complete ? "" : ", partial");
     if (r.frame.clamp.samples > 0)
-        fmt::print("clamping took {:.3g} % of the light, from {} samples\n", 100 * r.frame.clamp.share, r.frame.clamp.samples);
+        fmt::print("clamping removed {:.3g} % of the light, from {} samples\n", 100 * r.frame.clamp.share, r.frame.clamp.samples);
     if (r.frame.health.dropped() > 0)
         fmt::print("{} samples dropped, the first: {}\n", r.frame.health.dropped(), describe(r.frame.health.first.front()));
 }
@@ -235,7 +235,7 @@ Result<void> write_picture(const RenderCommand& c, const Plan& plan, const Rende
                                  {frame.albedo, coverage}, opacity_of(frame));
 }
 
-// Renders, denoises if that is asked for, and writes. What was rendered is written even if it then cannot be denoised.
+// Renders, denoises if requested, and writes the output. The raw render is written even if denoising fails.
 Result<Rendered> render_picture(const RenderCommand& c, const Plan& plan, const LoadedScene& loaded, const ColorManagement* color,
                                 Denoiser& denoiser, const std::atomic<bool>& interrupted) {
     Renderer renderer({.threads = c.common.threads, .planes = planes_for(c, plan)});
@@ -259,13 +259,13 @@ Result<Rendered> render_picture(const RenderCommand& c, const Plan& plan, const 
     }
     if (rendered.loop.samples == 0) return Error{.file = c.scene, .what = "interrupted before the first sample"};
     if (sees_nothing(loaded.scene, plan.settings, rendered.loop.frame.rays, c.common.threads)) {
-        const Diagnostic nothing{Diagnostic::Severity::warning, "the camera sees nothing of the scene: the picture shows what lies behind it", ""};
+        const Diagnostic nothing{Diagnostic::Severity::warning, "the camera sees no object of the scene: the picture shows only the background", ""};
         if (!c.common.quiet) print_warnings(c.scene, {nothing});
         rendered.warnings.push_back(nothing);
     }
     Result<void> denoised;
     if (c.options.denoise) {
-        // The Ctrl-C that ended the samples does not end this as well; a first one that comes now does.
+        // The Ctrl-C that stopped the samples does not stop the denoiser; a new one does.
         const std::atomic<bool> never{false};
         const Frame& frame = rendered.loop.frame;
         Result<std::vector<Denoised>> result = denoise_with_progress(denoiser, denoise_inputs(frame), *c.options.denoise, c.common.quiet,
@@ -284,11 +284,11 @@ Result<Rendered> render_picture(const RenderCommand& c, const Plan& plan, const 
     }
     const Result<void> written = write_picture(c, plan, rendered, metadata_of(c, plan, loaded, rendered), color);
     if (!written) return in_file(written.error(), c.output);
-    if (!denoised) return Error{c.output, "written without denoising: " + denoised.error().text(), ""};
+    if (!denoised) return Error{c.output, "written without denoising because of an error: " + denoised.error().text(), ""};
     return rendered;
 }
 
-// The picture says how it is rendered, the command line for how long.
+// Settings come from the image, stop rules from the command line.
 Result<void> go_on_with(const std::string& file, Plan& plan) {
     Result<BegunPicture> begun = read_begun_picture(file);
     if (!begun) return begun.error();
@@ -300,14 +300,14 @@ Result<void> go_on_with(const std::string& file, Plan& plan) {
     return {};
 }
 
-// What is not said of the size follows the camera; an explicit size that gives the picture another frame is said.
+// A missing side of the size follows the camera's aspect ratio; prints a note if an explicit size has another aspect ratio.
 Result<void> fit_size(RenderCommand& c, Plan& plan, float camera_aspect) {
     if (!(camera_aspect > 0) || plan.begun) return {};
     const RenderSettings& s = plan.settings;
     if (c.options.width_given && c.options.height_given) {
         const float aspect = float(s.width) / float(s.height);
         if (!c.common.quiet && std::abs(aspect / camera_aspect - 1) > 0.02f)
-            fmt::print(stderr, "blush: note: {}x{} is {:.3g}:1, the camera's frame is {:.3g}:1: the height of the view is the camera's\n", s.width, s.height, aspect, camera_aspect);
+            fmt::print(stderr, "blush: note: {}x{} is {:.3g}:1, the camera's frame is {:.3g}:1; the vertical field of view is the camera's\n", s.width, s.height, aspect, camera_aspect);
         return {};
     }
     follow_aspect(c.options, camera_aspect);
@@ -363,11 +363,11 @@ void add_render_command(CLI::App& app, std::function<int()>& run) {
     sub->add_option("-o,--output", command->output, "EXR keeps scene-linear values; PNG and JPEG go through the view transform")
         ->type_name("FILE");
     add_render_options(*sub, command->options);
-    sub->add_option("--layers", command->layers, "Planes beside the beauty, EXR only: albedo,normal,depth,error,samples,id,groups,bounces[=N],film: sums to go on from")
+    sub->add_option("--layers", command->layers, "Additional passes, EXR only: albedo,normal,depth,error,samples,id,groups,bounces[=N],film (sums, for --continue and merge)")
         ->type_name("LIST");
-    sub->add_option("--continue", command->begun, "Go on with a picture that has the layer film, up to --spp, --time or --error")
+    sub->add_option("--continue", command->begun, "Resume a render that was saved with the layer film, up to --spp, --time or --error")
         ->type_name("EXR");
-    sub->add_option("--pixel", command->pixel, "Trace that one sample and print every vertex, instead of a picture")
+    sub->add_option("--pixel", command->pixel, "Trace a single sample and print every vertex, instead of rendering")
         ->type_name("X,Y[,SAMPLE]");
     add_common_options(*sub, command->common);
     sub->callback([command, &run] { run = [command] { return run_render(*command); }; });

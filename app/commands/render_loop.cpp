@@ -9,7 +9,7 @@ namespace blush {
 namespace {
 
 constexpr double batch_seconds = 0.25;
-// Without a limit on samples; no picture gets there.
+// No limit on samples; never reached.
 constexpr int64_t endless = int64_t(1) << 40;
 
 class Stopwatch {
@@ -40,7 +40,7 @@ double stop_progress(const RenderSettings& settings, int64_t samples, double sec
     double fraction = 0;
     if (settings.spp > 0) fraction = std::max(fraction, double(samples) / double(settings.spp - settings.first_sample));
     if (settings.seconds > 0) fraction = std::max(fraction, seconds / settings.seconds);
-    // The squared error falls with the number of samples.
+    // The MSE is inversely proportional to the number of samples.
     if (settings.error > 0 && error.known)
         fraction = std::max(fraction, error.relmse > settings.error ? settings.error / error.relmse : 1.0);
     return std::min(fraction, 1.0);
@@ -55,13 +55,13 @@ LoopResult run_render_loop(Renderer& renderer, const RenderSettings& settings, c
     int64_t count = 0, next_look = next_error_look(begin.samples);
     double batch_began = begin.seconds;
     while (progress.fraction < 1 && !interrupted) {
-        // Looks at the error come after so many samples whatever the time, so that the picture does not depend on it.
+        // Error estimates are made at fixed sample counts, independent of time, so that the result is deterministic.
         const int64_t end = settings.error > 0 ? std::min(limit, next_look) : limit;
         count = next_batch(count, progress.seconds - batch_began, end - progress.samples);
         batch_began = progress.seconds;
         renderer.render(settings.first_sample + progress.samples, count);
         progress.samples += count;
-        // Reads the whole film: only as often as the answer can have changed.
+        // Reads the whole film, so only when the result can have changed.
         if (settings.error > 0 && progress.samples >= next_look) {
             progress.error = renderer.estimate_error();
             next_look = next_error_look(progress.samples);

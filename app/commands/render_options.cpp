@@ -15,7 +15,7 @@
 namespace blush {
 namespace {
 
-// An option whose text `parse` turns into a value for `target`.
+// Adds an option whose text is parsed by `parse` and stored in `target`.
 template <class T> CLI::Option* add_parsed(CLI::App& app, const std::string& name, T& target, Result<T> (*parse)(std::string_view),
                                            const std::string& description, bool* given = nullptr) {
     return app.add_option_function<std::string>(
@@ -29,9 +29,9 @@ template <class T> CLI::Option* add_parsed(CLI::App& app, const std::string& nam
         description);
 }
 
-constexpr float usual_aspect = 16.f / 9; // of the size without --size
+constexpr float usual_aspect = 16.f / 9; // aspect ratio of the size without --size
 
-// A side that is not said is 0.
+// 0: side not given
 struct Size {
     int width = 0, height = 0;
 };
@@ -39,7 +39,7 @@ struct Size {
 Result<Size> parse_size(std::string_view text) {
     Size size;
     const std::vector<std::string_view> sides = split(text, 'x');
-    bool zero = false; // said, where it would mean that it is not
+    bool zero = false; // 0 was given explicitly, which is invalid
     const auto side = [&](std::string_view digits, int& pixels) {
         if (digits.empty()) return true;
         const bool read = parse_number(digits, pixels);
@@ -70,7 +70,7 @@ Result<std::optional<PixelRect>> parse_region(std::string_view text) {
     int x = 0, y = 0, width = 0, height = 0;
     const bool numbers = parts.size() == 4 && parse_number(parts[0], x) && parse_number(parts[1], y) && parse_number(parts[2], width) &&
                          parse_number(parts[3], height);
-    constexpr int most = 65536; // pixels of a picture's side
+    constexpr int most = 65536; // maximum width and height in pixels
     if (numbers && x >= 0 && y >= 0 && width > 0 && height > 0 && std::max({x, y, width, height}) <= most)
         return std::optional(PixelRect{x, y, x + width, y + height});
     return Error{.what = fmt::format("a region must be X,Y,WIDTH,HEIGHT in pixels, not \"{}\"", text)};
@@ -102,14 +102,14 @@ void add_picture_options(CLI::App& app, RenderOptions& o) {
                if (o.height_given) o.settings.height = size->height;
                if (!o.width_given || !o.height_given) follow_aspect(o, usual_aspect);
            },
-           "Pixels; of Wx and xH the other side follows the camera's aspect [1280 wide]")
+           "Size in pixels; for Wx or xH the other side follows the camera's aspect ratio [1280 wide]")
         ->type_name("WxH");
-    add_parsed(app, "--region", o.region, parse_region, "Render these pixels of the picture alone; the rest stays empty [all]")
+    add_parsed(app, "--region", o.region, parse_region, "Render only these pixels; the rest of the picture stays empty [all]")
         ->type_name("X,Y,W,H");
-    app.add_option("--camera", o.overrides.camera, "Which camera [the first; without any, one is framed around the scene]")
+    app.add_option("--camera", o.overrides.camera, "Camera [the first; in a scene without cameras, one is framed around the scene]")
         ->type_name("NAME|INDEX");
     app.add_option("--aperture", o.overrides.aperture, "Radius of the thin lens in metres; 0 is a pinhole [the camera's]")->type_name("M");
-    app.add_option("--focus", o.overrides.focus, "Distance in focus in metres [the camera's]")->type_name("M");
+    app.add_option("--focus", o.overrides.focus, "Focus distance in metres [the camera's]")->type_name("M");
     app.add_option_function<std::string>(
            "--env",
            [&o](const std::string& text) {
@@ -120,17 +120,17 @@ void add_picture_options(CLI::App& app, RenderOptions& o) {
            "Environment: a lat-long HDR or EXR file, none, or constant=R,G,B [the scene's]")
         ->type_name("FILE[,intensity=X][,rotate=DEG]");
     app.add_option("--texture-memory", o.overrides.texture_mib,
-                   "Memory of all textures as decoded; the largest are halved until they fit, and named [4096]")
+                   "Memory limit of all decoded textures; the largest are halved until they fit, with a warning [4096]")
         ->check(CLI::Range(int64_t(1), int64_t(1) << 30))
         ->type_name("MIB");
 }
 
 void add_light_options(CLI::App& app, RenderOptions& o) {
     add_parsed(app, "--light", o.overrides.light, parse_light,
-               "Light for a scene without any: three softboxes and a studio map, or a sky, both for exposure 0 [none, with a warning]")
+               "Lighting for a scene without lights: three softboxes and a studio panorama, or a sky, both for exposure 0 [none, with a warning]")
         ->type_name("studio|sky|none");
     add_parsed(app, "--groups", o.overrides.groups, parse_grouping,
-               "Which lights share a plane of the layer \"groups\" and a gain of the light mix [the scene's; by-light for that layer]")
+               "Light groups: which lights share a plane of the layer \"groups\" and a gain of the light mix [the scene's; by-light for that layer]")
         ->type_name("off|by-light|by-object|by-material|by-hand");
 }
 
@@ -155,33 +155,33 @@ void add_stop_options(CLI::App& app, RenderOptions& o) {
                o.settings.spp = range->last;
                o.samples_given = true;
            },
-           "Render the sample indices from A up to B alone [0:spp]")
+           "Render only the sample indices A to B - 1 [0:spp]")
         ->type_name("A:B");
 }
 
 void add_integrator_options(CLI::App& app, RenderOptions& o) {
-    app.add_option("--seed", o.settings.seed, "Randomisation: same seed, same image [0]")->type_name("K");
-    add_parsed(app, "--max-bounces", o.settings.max_bounces, parse_max_bounces, "Scattering events a path may have [unlimited]")
+    app.add_option("--seed", o.settings.seed, "Random seed: same seed, same image [0]")->type_name("K");
+    add_parsed(app, "--max-bounces", o.settings.max_bounces, parse_max_bounces, "Maximum number of scattering events of a path [unlimited]")
         ->type_name("N|unlimited");
     add_parsed(app, "--roulette", o.settings.roulette, parse_roulette,
-               "How paths end at random: off, max, luminance, sqrt, constant=P, biased-cut=T [sqrt,start=3]")
+               "Russian roulette: off, max, luminance, sqrt, constant=P, biased-cut=T [sqrt,start=3]")
         ->type_name("RULE[,start=N][,floor=P][,cap=P]");
-    add_parsed(app, "--strategy", o.settings.strategy, parse_strategy, "Direct light by both, light or BSDF sampling [mis]")
+    add_parsed(app, "--strategy", o.settings.strategy, parse_strategy, "Direct light by MIS, light sampling (NEE) or BSDF sampling [mis]")
         ->type_name("mis|light|bsdf");
-    add_parsed(app, "--energy-compensation", o.settings.energy_compensation, parse_switch, "Multiple scattering between microfacets [off]")
+    add_parsed(app, "--energy-compensation", o.settings.energy_compensation, parse_switch, "Energy compensation for multiple scattering between microfacets [off]")
         ->type_name("on|off");
-    add_parsed(app, "--adaptive", o.settings.adaptive, parse_switch, "More samples where the noise is, N per pixel on average [on]",
+    add_parsed(app, "--adaptive", o.settings.adaptive, parse_switch, "Adaptive sampling: more samples in noisy pixels, N per pixel on average [on]",
                &o.adaptive_given)
         ->type_name("on|off");
-    add_parsed(app, "--reuse", o.settings.reuse, parse_reuse, "Pixels that share what their paths find at a second matte surface [8]",
+    add_parsed(app, "--reuse", o.settings.reuse, parse_reuse, "Path reuse: number of pixels that share light at a second diffuse surface [8]",
                &o.reuse_given)
         ->type_name("off|4|8|16");
     add_parsed(app, "--clamp", o.settings.clamp, parse_clamp,
-               "Limit samples to X nits in light scattered more than once, or in all: loses light, the summary says how much [off]")
+               "Clamp samples of indirect light, or of all light, to X nits: biased, the summary prints the removed light [off]")
         ->type_name("off|X[,all]");
     add_parsed(app, "--filter", o.settings.filter, parse_filter, "Pixel filter [blackman-harris]")->type_name("blackman-harris|box");
     add_parsed(app, "--sampler", o.settings.sampler, parse_sampler,
-               "Well distributed points, or independent random numbers to compare with [sobol]")
+               "Sobol points (stratified), or independent random numbers for comparison [sobol]")
         ->type_name("sobol|random");
 }
 
@@ -189,19 +189,19 @@ void add_integrator_options(CLI::App& app, RenderOptions& o) {
 
 void add_view_options(CLI::App& app, ViewSettings& view) {
     add_parsed(app, "--auto-exposure", view.auto_exposure, parse_auto_exposure,
-               "Exposure by the picture, for display alone: its mean becomes middle grey, or its highlights white; --exposure is added [off]")
+               "Auto exposure, only for display output: log-average to middle grey, or highlights to white; --exposure is added [off]")
         ->type_name("off|average|highlights");
-    add_parsed(app, "--white", view.white, parse_white, "Scene-linear colour that is to look neutral, for display alone [1,1,1]")
+    add_parsed(app, "--white", view.white, parse_white, "White balance, only for display output: scene-linear colour that becomes neutral [1,1,1]")
         ->type_name("R,G,B");
     add_parsed(app, "--false-color", view.false_color, parse_false_color,
-               "Colours for steps of luminance, for display alone: stops from middle grey, nits, or lux on matte surfaces [off]")
+               "False colours, only for display output: stops from middle grey, nits, or lux on diffuse surfaces [off]")
         ->type_name("off|stops|nits|lux[=LOW:HIGH]");
     app.add_flag("--background-as-it-is", view.background_as_it_is,
-                 "Leave what the camera sees past all objects out of exposure, white balance, look and view, for display alone");
-    app.add_option("--exposure", view.exposure_ev, "Stops, for display alone: never in an EXR [0]")->type_name("EV");
-    app.add_option("--view", view.view, "View transform, for display alone [the config's default]")->type_name("NAME");
-    app.add_option("--look", view.look, "Look, for display alone [the view's own]")->type_name("NAME");
-    app.add_option("--display", view.display, "Display, for display alone [the config's default]")->type_name("NAME");
+                 "Do not apply exposure, white balance, look and view to the background, only for display output");
+    app.add_option("--exposure", view.exposure_ev, "Exposure in stops, only for display output: never in an EXR [0]")->type_name("EV");
+    app.add_option("--view", view.view, "View transform, only for display output [the config's default]")->type_name("NAME");
+    app.add_option("--look", view.look, "Look, only for display output [the view's default]")->type_name("NAME");
+    app.add_option("--display", view.display, "Display, only for display output [the config's default]")->type_name("NAME");
 }
 
 void add_render_options(CLI::App& app, RenderOptions& options) {
@@ -212,13 +212,13 @@ void add_render_options(CLI::App& app, RenderOptions& options) {
     add_integrator_options(app, options);
     add_view_options(app, options.view);
     add_parsed(app, "--denoise", options.denoise, parse_denoise,
-               "Denoise in the end: a layer \"denoised\" beside the beauty of an EXR, the picture shown in a PNG or JPEG [off]")
+               "Denoise the result: an additional layer \"denoised\" in an EXR; a PNG or JPEG shows the denoised picture [off]")
         ->type_name("off|fast|high");
 }
 
 void follow_aspect(RenderOptions& options, float aspect) {
     if (!(aspect > 0) || (options.width_given && options.height_given)) return;
-    static constexpr double most = 1e6; // which validate() refuses
+    static constexpr double most = 1e6; // rejected by validate()
     const auto pixels = [](double side) { return int(std::lround(std::clamp(side, 1.0, most))); };
     RenderSettings& s = options.settings;
     if (options.height_given)
@@ -229,17 +229,17 @@ void follow_aspect(RenderOptions& options, float aspect) {
 
 Result<RenderSettings> settings_of(const RenderOptions& options) {
     RenderSettings settings = options.settings;
-    if (options.spp_given && options.samples_given) return Error{.what = "--spp and --samples both say which samples to render; give one"};
+    if (options.spp_given && options.samples_given) return Error{.what = "--spp and --samples exclude each other"};
     if (options.samples_given && !options.adaptive_given) settings.adaptive = false;
     if (settings.adaptive && options.samples_given)
-        return Error{.what = "--samples names sample indices, --adaptive decides by itself how many a pixel has; give one"};
+        return Error{.what = "--samples and --adaptive exclude each other: adaptive sampling chooses the samples per pixel itself"};
     if (const auto& r = options.region) {
         const float w = float(settings.width), h = float(settings.height);
         if (r->x1 > settings.width || r->y1 > settings.height)
-            return Error{.what = fmt::format("--region reaches out of a picture of {}x{}", settings.width, settings.height)};
+            return Error{.what = fmt::format("--region is outside of the picture of {}x{}", settings.width, settings.height)};
         settings.region = {float(r->x0) / w, float(r->y0) / h, float(r->x1 - r->x0) / w, float(r->y1 - r->y0) / h};
         if (options.adaptive_given && settings.adaptive)
-            return Error{.what = "--adaptive is of whole pictures, --region of a part; give one"};
+            return Error{.what = "--adaptive and --region exclude each other: adaptive sampling needs the whole picture"};
         settings = carried_out(settings);
     }
     const bool other_limit = settings.seconds > 0 || settings.error > 0;

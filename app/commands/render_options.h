@@ -1,4 +1,4 @@
-// The options of `blush render`, which the window and every command that renders take too: one parser, one struct.
+// The options of `blush render`, also used by the window and all other commands that render: one parser, one struct.
 #pragma once
 
 #include "app/scene_overrides.h"
@@ -20,23 +20,22 @@ struct RenderOptions {
     ViewSettings view;
     SceneOverrides overrides;
     std::optional<DenoiseQuality> denoise; // empty: off
-    std::optional<PixelRect> region;       // of a picture of the size asked for; empty: all of it
-    bool width_given = false, height_given = false; // by --size; a side that is not follows the camera's aspect
+    std::optional<PixelRect> region;       // of a picture of the requested size; empty: all of it
+    bool width_given = false, height_given = false; // by --size; a missing side follows the camera's aspect ratio
     bool size_given = false, spp_given = false, samples_given = false, adaptive_given = false, reuse_given = false;
 };
 
-// Text that makes no sense ends parsing with CLI::ValidationError.
+// Invalid text ends parsing with CLI::ValidationError.
 void add_render_options(CLI::App& app, RenderOptions& options);
-// Of those, how a picture is shown: --exposure, --view, --look, --display and their like.
+// The display options among them: --exposure, --view, --look, --display etc.
 void add_view_options(CLI::App& app, ViewSettings& view);
 
-// The size of a picture for a camera of that aspect (width over height; 0: not known): what --size does not say follows from what it says, or
-// from the width that there is without it.
+// Completes the size for a camera of this aspect ratio (width / height; 0: unknown): a side missing in --size is computed from
+// the other; without --size, the height from the default width.
 void follow_aspect(RenderOptions& options, float aspect);
 
-// The settings that the options together ask for: a time or error limit alone lifts the default limit on samples, and named samples are not
-// spread adaptively.
-// Errors: options that contradict each other, numbers out of range (validate.h).
+// Combines the options: a time or error limit without --spp removes the default sample limit; --samples disables adaptive
+// sampling. Errors: contradicting options, numbers out of range (validate.h).
 Result<RenderSettings> settings_of(const RenderOptions& options);
 
 } // namespace blush

@@ -129,7 +129,7 @@ TEST(AovView, ShowsPlanesAsColoursOfTheScreen) {
     const Vec3 normal = shown_at(f, {Show::normal}, 1);
     EXPECT_NEAR(double(encoded(normal.x)), 0.5, 1e-4);
     EXPECT_NEAR(double(encoded(normal.z)), 0, 1e-4);
-    EXPECT_EQ(shown_at(f, {Show::normal}, 2), (Vec3{0, 0, 0})) << "nothing is hit";
+    EXPECT_EQ(shown_at(f, {Show::normal}, 2), (Vec3{0, 0, 0})) << "no hit";
     EXPECT_NEAR(double(encoded(shown_at(f, {Show::depth}, 0).x)), 0, 1e-4) << "the nearest";
     EXPECT_NEAR(double(encoded(shown_at(f, {Show::depth}, 3).x)), 0.5, 1e-4);
     EXPECT_NEAR(double(encoded(shown_at(f, {Show::depth}, 1).x)), 1, 1e-4) << "the furthest";

@@ -155,7 +155,7 @@ TEST(Said, NothingIsSeen) {
     const TemporaryFolder folder;
     for (const double z : {2.0, -2.0}) {
         const Json json = test::blush_json({"render", triangle_file(folder, z), "-o", folder / "a.exr", "--size", "32x32", "--spp", "1", "--env", "constant=1,1,1"});
-        EXPECT_EQ(json["warnings"].dump().find("sees nothing") != std::string::npos, z < 0) << json["warnings"];
+        EXPECT_EQ(json["warnings"].dump().find("sees no object") != std::string::npos, z < 0) << json["warnings"];
     }
 }
 

@@ -168,8 +168,8 @@ TEST(Merge, RefusesWhatDoesNotBelongTogether) {
     render("sky.exr", {"--samples", "2:4", "--env", "constant=1,1,1"});
     render("adaptive.exr", {"--spp", "2", "--adaptive", "on"});
     const std::pair<const char*, const char*> wrong[] = {
-        {"gap.exr", "missing"},          {"overlap.exr", "holds sample 1"}, {"seed.exr", "other settings"},
-        {"sky.exr", "another scene"},    {"adaptive.exr", "do not add up"}, {"nowhere.exr", "nowhere.exr"},
+        {"gap.exr", "missing"},          {"overlap.exr", "contains sample 1"}, {"seed.exr", "other settings"},
+        {"sky.exr", "another scene"},    {"adaptive.exr", "cannot be merged"}, {"nowhere.exr", "nowhere.exr"},
     };
     for (const auto& [name, why] : wrong) {
         const Finished finished = blush({"merge", folder / "a.exr", folder / name, "-o", folder / "out.exr"});

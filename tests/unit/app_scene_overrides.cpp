@@ -102,7 +102,7 @@ TEST(Overrides, WhatThereIsNotToChooseIsSaid) {
     EXPECT_EQ(error({.animation = "Jump"}), "there is no animation \"Jump\" (there are \"Swing\")");
     EXPECT_EQ(error({.scene = "1"}), "there is no scene \"1\" (the file has none)");
     EXPECT_EQ(error({.variant = "Blue"}), "there is no variant of materials \"Blue\" (there are \"As it is\", \"All grey\")");
-    EXPECT_EQ(error({.seconds = 1.f}), "a time of which animation? --animation says");
+    EXPECT_EQ(error({.seconds = 1.f}), "--animation-time needs --animation");
     EXPECT_FALSE(error({.animation = "Swing", .seconds = -1.f}).empty());
 }
 
