@@ -1,4 +1,4 @@
-// Projection and camera controller against geometry worked out by hand and against each other.
+// Projection and camera navigation, against analytic results and against each other.
 #include "ui/orbit_camera.h"
 #include "ui/projection.h"
 #include "ui/rotation.h"
@@ -25,7 +25,7 @@ View sample_view() {
     return view;
 }
 
-TEST(Projection, MiddleOfThePictureIsTheViewAxis) {
+TEST(Projection, CentreOfThePictureIsOnTheViewAxis) {
     const Projection p(sample_view(), 1.5);
     const auto point = p.project({1, 2, 0});
     ASSERT_TRUE(point);
@@ -34,7 +34,7 @@ TEST(Projection, MiddleOfThePictureIsTheViewAxis) {
     EXPECT_NEAR(point->distance, 5, close);
 }
 
-TEST(Projection, CornersOfA90DegreeViewLieWhereTheTangentIsOne) {
+TEST(Projection, CornersOfA90DegreeViewHaveTangentOne) {
     const Projection p(sample_view(), 2);
     const auto top_right = p.project({1 + 2 * 3, 2 + 3, 2}); // three metres ahead
     ASSERT_TRUE(top_right);
@@ -43,9 +43,9 @@ TEST(Projection, CornersOfA90DegreeViewLieWhereTheTangentIsOne) {
     EXPECT_NEAR(p.height_at(3), 6, close);
 }
 
-TEST(Projection, BehindTheEyeIsNowhere) { EXPECT_FALSE(Projection(sample_view(), 1).project({1, 2, 6})); }
+TEST(Projection, PointBehindTheCameraHasNoProjection) { EXPECT_FALSE(Projection(sample_view(), 1).project({1, 2, 6})); }
 
-TEST(Projection, RaysGoThroughThePointsThatProjectThere) {
+TEST(Projection, RayPassesThroughTheProjectedPoint) {
     for (const bool orthographic : {false, true}) {
         View view = sample_view();
         view.lens.orthographic = orthographic;
@@ -75,7 +75,7 @@ TEST(Orbit, KeepsPivotAndDistance) {
     EXPECT_GT(turned.position.y, view.position.y) << "positive pitch carries the eye up";
 }
 
-TEST(Orbit, StopsShortOfThePolesAndStaysUpright) {
+TEST(Orbit, IsClampedAtThePolesAndStaysUpright) {
     View view = sample_view();
     for (int i = 0; i < 50; ++i) view = orbit(view, 0.1, 0.2);
     expect_near(pivot(view), pivot(sample_view()), 1e-3);
@@ -87,7 +87,7 @@ TEST(Orbit, StopsShortOfThePolesAndStaysUpright) {
     EXPECT_GT(rotate(view.rotation, {0, 0, -1}).y, 0.99);
 }
 
-TEST(LookAround, TurnsAboutTheEye) {
+TEST(LookAround, RotatesAboutTheCameraPosition) {
     const View view = sample_view(), turned = look_around(view, 0.5, 0.2);
     EXPECT_EQ(turned.position, view.position);
     const Vec3d forward = rotate(turned.rotation, {0, 0, -1});
@@ -130,7 +130,7 @@ TEST(Fly, MovesAlongTheViewsAxes) {
     expect_near(to_double(fly(view, {1, 2, 3}).position), {2, 4, 2});
 }
 
-TEST(Rotation, EulerAnglesComeBack) {
+TEST(Rotation, EulerAnglesRoundTrip) {
     for (const Vec3d& degrees : {Vec3d{10, 20, 30}, Vec3d{-170, 45, 5}, Vec3d{0, 90, 0}, Vec3d{25, -90, 0}}) {
         const Quat q = from_euler_degrees(degrees), again = from_euler_degrees(euler_degrees(q));
         const double same = std::abs(q.x * again.x + q.y * again.y + q.z * again.z + q.w * again.w);

@@ -1,4 +1,4 @@
-// Text that cannot be read in what ImGui has drawn: cut off at a side of its clip rectangle, or written over other text.
+// Finds unreadable text in ImGui draw data: cut off at a side of its clip rectangle, or drawn over other text.
 #pragma once
 
 #include <imgui.h>
@@ -12,9 +12,9 @@ namespace blush::test {
 
 // A letter on the screen.
 struct DrawnGlyph {
-    float x0, y0, x1, y1; // what is drawn of it
+    float x0, y0, x1, y1; // the visible part
     ImWchar code = 0;
-    bool cut = false; // at its left or right
+    bool cut = false; // at its left or right side
 };
 
 class GlyphFinder {
@@ -26,7 +26,7 @@ public:
         std::ranges::sort(glyphs_, {}, &ImFontGlyph::V0);
     }
 
-    // Of one list of draw commands, in the order of drawing.
+    // From one draw list, in drawing order.
     std::vector<DrawnGlyph> glyphs_of(const ImDrawList& list) const {
         std::vector<DrawnGlyph> drawn;
         for (const ImDrawCmd& cmd : list.CmdBuffer) {
@@ -52,7 +52,7 @@ private:
         return i[1] == i[0] + 1 && i[2] == i[0] + 2 && i[3] == i[0] && i[4] == i[2] && i[5] == i[0] + 3;
     }
 
-    // Where the letter lies in the atlas says which it is; less of it than there is says that it is cut.
+    // The texture coordinates identify the glyph; a partial glyph is cut.
     DrawnGlyph drawn_glyph(const ImDrawVert& low, const ImDrawVert& high, const ImVec4& clip) const {
         constexpr float e = 1e-5f;
         DrawnGlyph drawn{low.pos.x, low.pos.y, high.pos.x, high.pos.y};
@@ -72,7 +72,7 @@ private:
     std::vector<ImFontGlyph> glyphs_; // by V0
 };
 
-// The line of text that a letter is in.
+// The line of text of a glyph.
 inline std::string line_around(const std::vector<DrawnGlyph>& glyphs, size_t i) {
     std::string text;
     const size_t from = i > 40 ? i - 40 : 0;
@@ -84,7 +84,8 @@ inline std::string line_around(const std::vector<DrawnGlyph>& glyphs, size_t i) 
     return text;
 }
 
-// One sentence for each place; nothing: all can be read. Lists whose name holds `scrolled` may be cut: they scroll sideways.
+// One sentence per unreadable text; empty: all is readable. Lists whose name contains `scrolled` may be cut, because they scroll
+// horizontally.
 inline std::vector<std::string> unreadable_text(const ImDrawData& data, const std::vector<std::string>& scrolled = {}) {
     const GlyphFinder finder;
     std::vector<std::string> found;

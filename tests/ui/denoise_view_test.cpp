@@ -1,4 +1,4 @@
-// Looking at raw and denoised pictures together.
+// View modes of raw and denoised pictures.
 #include "ui/denoise_view.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ DenoisedPicture denoised_of(int width, int height, float value) {
     return picture;
 }
 
-TEST(DenoiseView, TheToggleGoesBetweenRawAndDenoised) {
+TEST(DenoiseView, ToggleSwitchesBetweenRawAndDenoised) {
     DenoiseView view;
     EXPECT_FALSE(view.wants_denoised());
     view.toggle();
@@ -35,7 +35,7 @@ TEST(DenoiseView, TheToggleGoesBetweenRawAndDenoised) {
     EXPECT_EQ(view.show, Show::raw);
 }
 
-TEST(DenoiseView, EachWayOfLookingIsItsMixture) {
+TEST(DenoiseView, EachModeHasItsWeights) {
     const Frame frame = frame_of(3, 2);
     const DenoisedPicture denoised = denoised_of(3, 2, 10);
     const auto middle = [&](Show show) { return mixed_pixel(frame, &denoised, mix_of({show, 0.25f}, true), 1, 1); };
@@ -54,7 +54,7 @@ TEST(DenoiseView, WithoutADenoisedPictureTheRawOneIsShown) {
     }
 }
 
-TEST(DenoiseView, ACoarserDenoisedPictureIsStretched) {
+TEST(DenoiseView, CoarserDenoisedPictureIsUpscaled) {
     const Frame frame = frame_of(5, 4);
     const DenoisedPicture coarse = denoised_of(2, 2, 0);
     EXPECT_EQ(denoised_pixel(frame, coarse, 0, 0).x, 0);
@@ -66,7 +66,7 @@ TEST(DenoiseView, ACoarserDenoisedPictureIsStretched) {
     EXPECT_EQ(mixed_picture(frame, &coarse, mix_of({Show::denoised, 0}, true)).size(), 5u * 4 * 3);
 }
 
-TEST(DenoiseView, SaysWhatIsShownAndHowOldItIs) {
+TEST(DenoiseView, TextNamesThePictureAndItsDelay) {
     Frame frame = frame_of(4, 4);
     frame.samples = 48;
     frame.seconds = 7.5;

@@ -1,5 +1,5 @@
-// What the graphics card shows is what the processor writes into files: the shader against ColorManagement::apply_display, pixel by pixel,
-// for every display, view and look. Needs a display; window_display_test gives it one.
+// The display shader against ColorManagement::apply_display (used for files), pixel by pixel, for every display, view and look.
+// Needs a display, which window_display_test provides.
 #include "color/white_balance.h"
 #include "core/math.h"
 #include "ui/display_pass.h"
@@ -16,7 +16,7 @@ namespace {
 
 constexpr int width = 96, height = 48;
 
-// A step of the 8 bits that the picture is drawn with, and what the arithmetic of a graphics card may differ by.
+// One step of 8 bits, plus the tolerance for GPU arithmetic.
 constexpr double tolerance = 1.0 / 255 + 2e-3;
 
 // Scene-linear values from -10 to +10 stops about middle grey in all hues, with alpha for coverage.
@@ -84,19 +84,19 @@ protected:
     static inline std::unique_ptr<ColorManagement> color;
 };
 
-TEST_F(DisplayPassTest, ShowsEveryViewAndLookAsFilesHaveIt) {
+TEST_F(DisplayPassTest, EveryViewAndLookMatchesFiles) {
     const DisplayNumbers numbers{.exposure_ev = -0.7f, .gamma = 1.2f, .white_balance = white_balance({1, 0.7f, 0.35f})};
     for (const auto& display : color->displays())
         for (const auto& view : color->views(display)) expect_twins(test_picture(), {display, view}, numbers);
     for (const auto& look : color->looks()) expect_twins(test_picture(), {"", "", look}, numbers);
 }
 
-TEST_F(DisplayPassTest, LeavesTheBackgroundAsItIsLikeFilesDo) {
+TEST_F(DisplayPassTest, UnprocessedBackgroundMatchesFiles) {
     expect_twins(test_picture(), {},
                  {.exposure_ev = 2, .gamma = 0.8f, .white_balance = white_balance({1, 0.4f, 0.1f}), .background_as_it_is = true});
 }
 
-TEST_F(DisplayPassTest, ShowsFalseColoursAsFilesHaveThem) {
+TEST_F(DisplayPassTest, FalseColoursMatchFiles) {
     const std::vector<float> picture = test_picture();
     for (const auto of : {FalseColorScale::Of::scene, FalseColorScale::Of::exposed}) {
         const DisplayNumbers numbers{
@@ -108,7 +108,7 @@ TEST_F(DisplayPassTest, ShowsFalseColoursAsFilesHaveThem) {
             const float y =
                 luminance(of == FalseColorScale::Of::scene ? scene : transform_vector(numbers.white_balance, scene) * std::exp2(1.3f));
             const float at = (std::log2(y) + 7.1f) / 12 * false_color_bands;
-            if (std::abs(at - std::round(at)) < 1e-3f) continue; // two logarithms may disagree on which side of an edge it lies
+            if (std::abs(at - std::round(at)) < 1e-3f) continue; // rounding of the logarithm may differ at a band edge
             ++compared;
             for (size_t k = 0; k < 3; ++k) ASSERT_NEAR(card[3 * i + k], processor[3 * i + k], 0.5 / 255 + 1e-6) << y;
         }

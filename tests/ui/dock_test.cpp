@@ -1,4 +1,4 @@
-// Instruments in the docks: their order and sides, and what is remembered of them.
+// Docks of the instruments: sides, order, and saved state.
 #include "imgui_test.h"
 #include "our_colors.h"
 #include "support/sample_project.h"
@@ -20,7 +20,7 @@ Dock three() {
     return dock;
 }
 
-TEST(Dock, EachInstrumentHasItsSideAndOrder) {
+TEST(Dock, InstrumentsHaveSideAndOrder) {
     Dock dock = three();
     const Ids open{"c", "b", "a"};
     EXPECT_EQ(tabs_on(dock, DockSide::right, open, true), (Ids{"a", "c"}));
@@ -36,7 +36,7 @@ TEST(Dock, EachInstrumentHasItsSideAndOrder) {
     EXPECT_EQ(tabs_on(dock, DockSide::right, open, true), (Ids{"a", "c"})) << "back on its side";
 }
 
-TEST(Dock, TabsTakeTheOrderTheyAreDraggedTo) {
+TEST(Dock, DraggingReordersTabs) {
     Dock dock = three();
     reorder(dock, Ids{"c", "a"});
     EXPECT_EQ(tabs_on(dock, DockSide::right, Ids{"a", "b", "c"}, true), (Ids{"c", "a"}));
@@ -45,7 +45,7 @@ TEST(Dock, TabsTakeTheOrderTheyAreDraggedTo) {
     EXPECT_EQ(dock.tabs.size(), 3u);
 }
 
-TEST(Instruments, HaveNamesOfTheirOwn) {
+TEST(Instruments, HaveUniqueNames) {
     for (const Instrument& a : instruments())
         for (const Instrument& b : instruments()) {
             if (&a == &b) continue;
@@ -84,7 +84,7 @@ protected:
     Layout layout;
 };
 
-TEST_F(Docks, AKeyOpensBringsToTheFrontAndCloses) {
+TEST_F(Docks, KeyOpensBringsToFrontOrCloses) {
     frames();
     EXPECT_EQ(layout.viewport, layout.room) << "nothing is open";
     toggle("scopes");
@@ -93,11 +93,11 @@ TEST_F(Docks, AKeyOpensBringsToTheFrontAndCloses) {
     EXPECT_GT(layout.bottom_dock.height, 0);
     toggle("light_table");
     frames();
-    EXPECT_TRUE(ui.docks.in_sight.contains("light_table")) << "what is opened comes to the front";
+    EXPECT_TRUE(ui.docks.in_sight.contains("light_table")) << "an opened instrument comes to the front";
     EXPECT_FALSE(ui.docks.in_sight.contains("scopes"));
     toggle("scopes");
     frames();
-    EXPECT_TRUE(ui.scopes.open) << "a tab that is hidden comes to the front";
+    EXPECT_TRUE(ui.scopes.open) << "a hidden tab comes to the front";
     EXPECT_TRUE(ui.docks.in_sight.contains("scopes"));
     toggle("scopes");
     frames();
@@ -108,7 +108,7 @@ TEST_F(Docks, AKeyOpensBringsToTheFrontAndCloses) {
     EXPECT_EQ(layout.viewport, layout.room);
 }
 
-TEST_F(Docks, WhatIsTornOffFloatsAndLeavesItsPlace) {
+TEST_F(Docks, UndockedInstrumentFloats) {
     toggle("history");
     frames();
     EXPECT_GT(layout.right_dock.width, 0);
@@ -122,7 +122,7 @@ TEST_F(Docks, WhatIsTornOffFloatsAndLeavesItsPlace) {
     EXPECT_FALSE(ImGui::FindWindowByName("History")->WasActive);
 }
 
-TEST_F(Docks, EveryInstrumentOpensAndClosesInEitherDockAndAlone) {
+TEST_F(Docks, EveryInstrumentOpensAndClosesDockedAndFloating) {
     for (const Instrument& i : instruments()) {
         if (std::string(i.id) == "comparison" || std::string(i.id) == "snapshot") continue; // there is no snapshot
         PanelContext c = context();
@@ -140,10 +140,10 @@ TEST_F(Docks, EveryInstrumentOpensAndClosesInEitherDockAndAlone) {
         frames();
         EXPECT_EQ(layout.viewport, layout.room) << i.id;
     }
-    EXPECT_FALSE(document.can_undo()) << "looking edits nothing";
+    EXPECT_FALSE(document.can_undo()) << "drawing edits nothing";
 }
 
-TEST_F(Docks, OpenAgainWithTheirSceneAndNotOverAnother) {
+TEST_F(Docks, ReopenOnlyWithTheirScene) {
     toggle("scopes");
     toggle("history");
     frames();

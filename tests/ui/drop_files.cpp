@@ -26,7 +26,7 @@ constexpr auto patience = std::chrono::seconds(30);
     std::exit(1);
 }
 
-// RFC 2483 and 8089: a line for each file, what is not plain in a path as %XX.
+// RFC 2483 and 8089: one line per file, percent-encoded.
 std::string uri_list(int count, char** files) {
     std::string list;
     for (int i = 0; i < count; ++i) {
@@ -66,7 +66,7 @@ bool Source::takes_drops(Window w) const {
     return aware;
 }
 
-// From the root down through what lies under the point, as a window manager nests it.
+// Descends from the root to the innermost window at the point.
 Window Source::find_target(int x, int y) const {
     const Window root = DefaultRootWindow(display);
     for (Window w = root, child = None; w != None; w = child) {
@@ -89,7 +89,7 @@ void Source::tell_target(const char* message, const long (&words)[4]) const {
     XFlush(display);
 }
 
-// The target asks for what is dropped as for any selection.
+// The target requests the data like any selection.
 void Source::hand_over(const XSelectionRequestEvent& request) const {
     XChangeProperty(display, request.requestor, request.property, request.target, 8, PropModeReplace,
                     reinterpret_cast<const unsigned char*>(data.data()), int(data.size()));
@@ -138,7 +138,7 @@ int main(int argc, char** argv) {
     source.tell_target("XdndPosition", {0, here, CurrentTime, copy});
     if (!(source.wait_for("XdndStatus").data.l[1] & 1)) fail("the window does not want these files");
     source.tell_target("XdndDrop", {0, CurrentTime, 0, 0});
-    // Bit 0 by the book; GLFW 3.3 sends how many bytes it read.
+    // Bit 0 according to the specification; GLFW 3.3 sends the number of bytes instead.
     if (source.wait_for("XdndFinished").data.l[1] == 0) fail("the window did not take the files");
     return 0;
 }

@@ -1,5 +1,4 @@
-// What the editor does for the Convergence panel, fed with frames by hand: which pictures count, what becomes of runs, denoised pictures,
-// references and files.
+// EditorConvergence with synthetic frames: recorded pictures, runs, denoised pictures, references and files.
 #include "app/editor_convergence.h"
 #include "app/run_name.h"
 #include "core/files.h"
@@ -18,7 +17,7 @@ using Kind = ConvergencePoint::Kind;
 
 constexpr int width = 40, height = 30;
 
-// A picture of ones, off by `error` everywhere, which is what it says of itself.
+// A picture of ones with a constant `error`, which is also its error estimate.
 std::shared_ptr<Frame> frame_of(uint64_t revision, int64_t samples, double error) {
     auto f = std::make_shared<Frame>();
     f->revision = revision;
@@ -48,7 +47,7 @@ class Convergence : public test::ImGuiTest {
 protected:
     void SetUp() override {
         ImGuiTest::SetUp();
-        in_window([] {}); // what is drawn later takes its style from a frame
+        in_window([] {}); // later drawing uses the style of this frame
         ::setenv("XDG_CACHE_HOME", (folder.path() / "cache").c_str(), 1);
         project.render.width = width;
         project.render.height = height;
@@ -63,7 +62,7 @@ protected:
     void converge(uint64_t revision, int64_t up_to) {
         for (int64_t n = 1; n <= up_to; n *= 2) editor.look(view, {frame_of(revision, n, 0.5 / std::sqrt(double(n))), nullptr});
     }
-    // Looks at the same pictures until it is so.
+    // Repeats with the same pictures until the condition is true.
     template <class Done> bool look_until(const Pictures& pictures, Done done) {
         for (int i = 0; i < 3000 && !done(); ++i) {
             editor.look(view, pictures);
@@ -89,7 +88,7 @@ protected:
     EditorConvergence editor{[] {}, 1};
 };
 
-TEST_F(Convergence, RecordsTheRunsOwnPicturesInFullResolution) {
+TEST_F(Convergence, RecordsOnlyFullResolutionPicturesOfTheRun) {
     editor.look(view, {frame_of(1, 4, 1), nullptr});
     EXPECT_FALSE(view.runs.live());
     begin("Opened", 2);
@@ -112,7 +111,7 @@ TEST_F(Convergence, RecordsTheRunsOwnPicturesInFullResolution) {
     EXPECT_EQ(view.cost.recorder_share(), 0);
 }
 
-TEST_F(Convergence, AnotherImageIsAnotherRunAndOtherStopRulesAreAMark) {
+TEST_F(Convergence, NewImageStartsARunAndNewStopRulesAddAMark) {
     Document document(project);
     RenderSettings settings = project.render;
     PlaneSet planes;
@@ -143,7 +142,7 @@ TEST_F(Convergence, AnotherImageIsAnotherRunAndOtherStopRulesAreAMark) {
     EXPECT_EQ(view.runs.all().size(), 1u) << "another scene has other errors";
 }
 
-TEST_F(Convergence, AnotherMixOfTheSameSamplesIsAMark) {
+TEST_F(Convergence, NewMixOfTheSameSamplesAddsAMark) {
     project.scene.mix.grouping = LightMix::Grouping::by_light;
     Document document(project);
     uint64_t revision = 0;
@@ -159,10 +158,10 @@ TEST_F(Convergence, AnotherMixOfTheSameSamplesIsAMark) {
         editor.look(view, {frame_of(revision - 1, 64, 0.1), nullptr}); // not mixed yet
         editor.look(view, {frame_of(revision, 64, 0.1 * double(intensity)), nullptr});
     }
-    ASSERT_EQ(view.runs.all().size(), 1u) << "nothing begins";
+    ASSERT_EQ(view.runs.all().size(), 1u) << "no new run";
     const ConvergenceRecord& record = view.runs.live()->record;
     EXPECT_EQ(record.points().size(), points);
-    EXPECT_DOUBLE_EQ(record.points().back().rmse.value, 0.1 * 3.0) << "the error of what is seen";
+    EXPECT_DOUBLE_EQ(record.points().back().rmse.value, 0.1 * 3.0) << "the error of the displayed mix";
     ASSERT_EQ(record.marks().size(), 1u) << "one for the whole drag";
     EXPECT_TRUE(record.marks()[0].other_mix);
     EXPECT_EQ(record.marks()[0].spp, 64);
@@ -172,7 +171,7 @@ TEST_F(Convergence, AnotherMixOfTheSameSamplesIsAMark) {
     EXPECT_EQ(view.runs.all().size(), 2u) << "other groups are another image";
 }
 
-TEST_F(Convergence, DenoisedPicturesAreJudgedByTheRawOneOnceThatIsBetter) {
+TEST_F(Convergence, DenoisedPicturesAreMeasuredAgainstABetterRawOne) {
     view.open = view.denoised = true;
     begin("Opened", 1);
     converge(1, 4);
@@ -181,14 +180,14 @@ TEST_F(Convergence, DenoisedPicturesAreJudgedByTheRawOneOnceThatIsBetter) {
     EXPECT_EQ(view.waiting, 1u);
     const auto points = [&] { return view.runs.live()->record.points(Kind::denoised); };
     ASSERT_TRUE(look_until({frame_of(1, 16, 0.1), denoised}, [&] { return view.cost.measuring > 0; }));
-    EXPECT_TRUE(points().empty()) << "a raw picture that is no better says nothing";
+    EXPECT_TRUE(points().empty()) << "a raw picture that is not better is not used";
     ASSERT_TRUE(look_until({frame_of(1, 4096, 0.001), denoised}, [&] { return !points().empty(); }));
     EXPECT_EQ(points()[0].spp, 4);
     EXPECT_LE(points()[0].rmse.low, 0.1);
     EXPECT_GE(points()[0].rmse.high, 0.1);
 }
 
-TEST_F(Convergence, AReferenceIsRenderedStoredFoundAgainAndMeasuredAgainst) {
+TEST_F(Convergence, ReferenceIsRenderedStoredFoundAndUsed) {
     view.open = view.reference = true;
     begin("Opened", 1);
     converge(1, 16);
@@ -208,12 +207,12 @@ TEST_F(Convergence, AReferenceIsRenderedStoredFoundAgainAndMeasuredAgainst) {
     // The same picture again, after another one.
     begin("edit", 2);
     editor.look(view, {frame_of(2, 1, 1), nullptr});
-    EXPECT_EQ(view.news.state, State::none) << "not looked for before the picture has settled";
+    EXPECT_EQ(view.news.state, State::none) << "no search before the picture has settled";
     converge(2, 16);
     EXPECT_TRUE(look_until({frame_of(2, 32, 0.1), nullptr}, [&] { return view.news.state == State::there; }));
 }
 
-TEST_F(Convergence, SavesWhatIsShownAndLoadsItAgain) {
+TEST_F(Convergence, SavesVisibleRunsAndLoadsThem) {
     begin("Opened", 1);
     EXPECT_EQ(saved(ConvergenceView::Export::csv), "") << "nothing to save yet";
     converge(1, 64);
@@ -232,7 +231,7 @@ TEST_F(Convergence, SavesWhatIsShownAndLoadsItAgain) {
     ASSERT_EQ(view.runs.all().size(), 3u);
     const ConvergenceRun& stored = view.runs.all().back();
     EXPECT_EQ(stored.origin, ConvergenceRun::Origin::stored);
-    EXPECT_EQ(stored.record.name, "Opened 2") << "the name is taken";
+    EXPECT_EQ(stored.record.name, "Opened 2") << "the name is in use";
     EXPECT_EQ(stored.record.points().size(), 7u);
     EXPECT_EQ(stored.record.marks().size(), 1u);
     EXPECT_TRUE(view.open);
@@ -241,7 +240,7 @@ TEST_F(Convergence, SavesWhatIsShownAndLoadsItAgain) {
     EXPECT_EQ(ui.toasts.all().back().kind, Toast::Kind::failure);
 }
 
-TEST(RunName, SaysWhatWasChanged) {
+TEST(RunName, NamesTheEdit) {
     const test::Sample sample = test::sample_project();
     Document document(sample.project);
     const RenderSettings before = sample.project.render;

@@ -1,4 +1,4 @@
-// A scene that is opened is there to be looked at before its textures are, and the document stays what it was until all is there.
+// Preview of a scene whose textures are loading; the document is unchanged until the import is complete.
 #include "app/editor_files.h"
 #include "unit/io_gltf_builder.h"
 
@@ -14,7 +14,7 @@
 namespace blush {
 namespace {
 
-// Where the importing thread waits when it wakes the window for the first time, so that what it has handed over can be looked at in peace.
+// Blocks the importing thread at its first wake(), so that the preview can be checked.
 class Gate {
 public:
     void arrive() {
@@ -39,7 +39,7 @@ private:
     bool arrived_ = false, open_ = false;
 };
 
-// A square with large textures, no two alike.
+// A square with large, different textures.
 std::filesystem::path write_scene(const test::TempFolder& folder) {
     test::GltfBuilder b;
     for (int i = 0; i < 8; ++i) {
@@ -63,7 +63,7 @@ struct Opening {
     UiState ui;
 
     ~Opening() { gate.open(); }
-    // Until there is a preview, which is when this is true, or all is done.
+    // Polls until there is a preview (returns true), or the import is complete.
     bool reaches_preview(const std::filesystem::path& file) {
         files.open(file);
         gate.wait_for_arrival();
@@ -80,7 +80,7 @@ struct Opening {
     }
 };
 
-// Calls look(opening) of one that has reached its preview. A machine may be so busy elsewhere that textures are there before the rest.
+// Calls look(opening) when the preview is ready. On a busy machine, the textures may be loaded first; then retries.
 template <class Look> void look_at_preview(const Look& look) {
     const test::TempFolder folder;
     const std::filesystem::path file = write_scene(folder);
@@ -91,7 +91,7 @@ template <class Look> void look_at_preview(const Look& look) {
     FAIL() << "no preview in twenty attempts";
 }
 
-TEST(EditorFiles, ASceneIsSeenBeforeItsTexturesAndThenReplacesTheDocument) {
+TEST(EditorFiles, PreviewIsShownThenTheSceneReplacesTheDocument) {
     look_at_preview([](Opening& o) {
         const Scene& early = o.files.preview()->project().scene;
         EXPECT_EQ(early.meshes.size(), 1u);
@@ -110,7 +110,7 @@ TEST(EditorFiles, ASceneIsSeenBeforeItsTexturesAndThenReplacesTheDocument) {
     });
 }
 
-TEST(EditorFiles, CancelledWithAPreviewInSightTheDocumentIsBack) {
+TEST(EditorFiles, CancellingAPreviewRestoresTheDocument) {
     look_at_preview([](Opening& o) {
         o.files.cancel();
         EXPECT_FALSE(o.files.preview());
@@ -121,7 +121,7 @@ TEST(EditorFiles, CancelledWithAPreviewInSightTheDocumentIsBack) {
     });
 }
 
-TEST(EditorFiles, AnotherFileTakesThePreviewsPlace) {
+TEST(EditorFiles, AnotherFileReplacesThePreview) {
     look_at_preview([](Opening& o) {
         o.gate.open();
         o.files.open("/nowhere.gltf");

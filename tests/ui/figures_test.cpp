@@ -1,4 +1,4 @@
-// Figures about the picture that is shown: region statistics and scopes against what one adds up by hand.
+// Statistics of the displayed picture: region statistics and scopes against manual sums.
 #include "core/text.h"
 #include "io/displayed.h"
 #include "our_colors.h"
@@ -45,7 +45,7 @@ protected:
     const ColorManagement color = test::our_colors();
 };
 
-TEST_F(Figures, OfARegionAreThoseOfItsPixels) {
+TEST_F(Figures, RegionHasTheStatisticsOfItsPixels) {
     ShownPicture p = picture();
     p.view.exposure_ev = 1.5f;
     p.view.white = {1, 0.8f, 0.6f};
@@ -86,7 +86,7 @@ TEST_F(Figures, OfARegionAreThoseOfItsPixels) {
     }
 }
 
-TEST_F(Figures, OfARegionThatIsLessThanAPixelAreOfThatPixel) {
+TEST_F(Figures, RegionSmallerThanAPixelHasThatPixel) {
     ShownPicture p = picture();
     p.view.measured = PictureRegion{0.999f, 0.999f, 0.0005f, 0.0005f};
     const RegionStatistics s = region_statistics(p);
@@ -96,7 +96,7 @@ TEST_F(Figures, OfARegionThatIsLessThanAPixelAreOfThatPixel) {
     EXPECT_EQ(s.nits.count, 1);
 }
 
-TEST_F(Figures, OfScopesCountEveryPixelOfASmallPicture) {
+TEST_F(Figures, ScopesCountEveryPixelOfASmallPicture) {
     const Scopes s = scopes_of(picture());
     EXPECT_EQ(s.step, 1);
     for (const Histogram* h : {&s.scene, &s.displayed})
@@ -107,7 +107,7 @@ TEST_F(Figures, OfScopesCountEveryPixelOfASmallPicture) {
     EXPECT_EQ(s.displayed_wave.columns, 8);
 }
 
-TEST_F(Figures, OfScopesOfALargePictureAreOfAGridOfItsPixels) {
+TEST_F(Figures, ScopesOfALargePictureUseAGridOfPixels) {
     auto frame = std::make_shared<Frame>();
     frame->width = 1280;
     frame->height = 720;
@@ -118,35 +118,35 @@ TEST_F(Figures, OfScopesOfALargePictureAreOfAGridOfItsPixels) {
     EXPECT_EQ(s.scene.counts[3][64], uint32_t(640 * 360)) << "middle grey is in the middle";
 }
 
-TEST_F(Figures, OfAWaveformAreDrawnHighestFirst) {
+TEST_F(Figures, WaveformRowsStartWithTheHighestLevel) {
     const float rgb[] = {1, 0, 0, 0, 0, 1}; // a red pixel beside a blue one
     const std::vector<uint32_t> texels = waveform_texels(waveform(rgb, 2, {false, 0, 1}, 2, 4));
     ASSERT_EQ(texels.size(), 8u);
     EXPECT_EQ(texels[0], IM_COL32(70, 0, 0, 255));
     EXPECT_EQ(texels[1], IM_COL32(0, 0, 70, 255));
-    EXPECT_EQ(texels[2], 0u) << "nothing lies between";
+    EXPECT_EQ(texels[2], 0u) << "empty between";
     EXPECT_EQ(texels[6], IM_COL32(0, 70, 70, 255)) << "what is missing in the left column is at black";
     EXPECT_EQ(texels[7], IM_COL32(70, 70, 0, 255));
 }
 
-TEST_F(Figures, PickedColoursAreMeansOfAFewPixels) {
+TEST_F(Figures, PickedColourIsAMeanOfPixels) {
     const ShownPicture p = picture();
     const Vec3 c = picked_color(*p.frame, nullptr, {}, 3.5 / 8, 1.5 / 4, 1);
     EXPECT_FLOAT_EQ(c.x, 3);
     EXPECT_FLOAT_EQ(c.y, 1);
     const Vec3 corner = picked_color(*p.frame, nullptr, {}, 0, 0, 1);
-    EXPECT_FLOAT_EQ(corner.x, 0.5f) << "of those that there are";
+    EXPECT_FLOAT_EQ(corner.x, 0.5f) << "of the existing pixels";
 }
 
 TEST(Coverage, IsWhereObjectsAre) {
     Frame f;
     f.rgba = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0.25f};
-    EXPECT_EQ(coverage_of(f), (std::vector<float>{1, 1, 0.25f})) << "without ids all is object";
+    EXPECT_EQ(coverage_of(f), (std::vector<float>{1, 1, 0.25f})) << "without ids everything is an object";
     f.object_id = {0, 7, 0};
     EXPECT_EQ(coverage_of(f), (std::vector<float>{0, 1, 0.25f})) << "alpha is exact where there is one";
 }
 
-TEST(Meters, AreReadAsPreciselyAsTheyAreKnown) {
+TEST(Meters, ReadingHasTheDecimalsOfItsInterval) {
     EXPECT_EQ(reading_text({.rounds = 9, .lux = {true, 342.345, 338.2, 346.6}}), "342.3 ± 4.2 lx");
     EXPECT_EQ(reading_text({.rounds = 9, .lux = {true, 34234.4, 34100, 34368}}), "34234 ± 134 lx");
     EXPECT_EQ(reading_text({}), "...");

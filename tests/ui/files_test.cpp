@@ -1,4 +1,4 @@
-// What the window remembers and lists: damaged settings, recent files, folders.
+// Saved UI settings: damaged files, recent files; folder listings.
 #include "ui/file_listing.h"
 #include "ui/window_settings.h"
 
@@ -27,7 +27,7 @@ protected:
     std::filesystem::path folder;
 };
 
-TEST_F(Files, SettingsComeBack) {
+TEST_F(Files, SettingsRoundTrip) {
     WindowSettings s;
     s.width = 1600;
     s.maximized = true;
@@ -53,7 +53,7 @@ TEST_F(Files, DamagedSettingsGiveTheDefaults) {
         EXPECT_EQ(read_window_settings(write("broken.json", text)), WindowSettings{}) << text;
 }
 
-TEST_F(Files, ADamagedEntryGivesItsDefaultAndLeavesTheOthers) {
+TEST_F(Files, DamagedEntryGetsItsDefaultOthersAreKept) {
     const auto file =
         write("odd.json",
               R"({"width": "wide", "height": 1e300, "outliner": -5, "maximized": 1, "recent": [1, "ok.glb", null], "inspector": 30,
@@ -75,14 +75,14 @@ TEST_F(Files, ADamagedEntryGivesItsDefaultAndLeavesTheOthers) {
     EXPECT_EQ(s.scenes[1].selected, std::vector<uint32_t>{5});
 }
 
-TEST_F(Files, WritingFailsWithAMessageWhereNothingCanBeWritten) {
+TEST_F(Files, WritingToAReadOnlyPlaceIsAnError) {
     write("file", "");
     const auto written = write_window_settings(folder / "file" / "window.json", {});
     ASSERT_FALSE(written);
     EXPECT_FALSE(written.error().text().empty());
 }
 
-TEST_F(Files, SettingsLieInTheConfigFolder) {
+TEST_F(Files, SettingsAreInTheConfigFolder) {
     setenv("XDG_CONFIG_HOME", folder.c_str(), 1);
     EXPECT_EQ(window_settings_file(), folder / "blush" / "window.json");
     unsetenv("XDG_CONFIG_HOME");
@@ -102,7 +102,7 @@ TEST_F(Files, RecentFilesAreUniqueNewestFirstAndLimited) {
     EXPECT_EQ(std::ranges::count(recent, "10"), 1);
 }
 
-TEST_F(Files, ListsFoldersFirstThenWhatFits) {
+TEST_F(Files, ListsFoldersFirstThenMatchingFiles) {
     write("b.GLB", "12345");
     write("a.gltf", "");
     write("picture.png", "");
@@ -121,7 +121,7 @@ TEST_F(Files, ListsFoldersFirstThenWhatFits) {
     EXPECT_GT(folders->left_out, list->left_out) << "files of the kind do not count as left out";
 }
 
-TEST_F(Files, APathIsCompletedAsFarAsItsFolderTells) {
+TEST_F(Files, PathIsCompletedToTheCommonPrefix) {
     const std::filesystem::path place = folder / "complete";
     std::filesystem::create_directories(place / "scenes");
     for (const char* name : {"helmet.gltf", "helmet2.gltf", "notes.txt"}) std::ofstream(place / name) << "x";
@@ -133,7 +133,7 @@ TEST_F(Files, APathIsCompletedAsFarAsItsFolderTells) {
     EXPECT_EQ(completed_path("nowhere/x", scene_files), "nowhere/x");
 }
 
-TEST_F(Files, AFolderThatIsNotThereIsAnError) { EXPECT_FALSE(list_folder(folder / "none", scene_files)); }
+TEST_F(Files, MissingFolderIsAnError) { EXPECT_FALSE(list_folder(folder / "none", scene_files)); }
 
 TEST(BytesText, ThreeDigitsAtMost) {
     EXPECT_EQ(bytes_text(0), "0 B");

@@ -1,4 +1,4 @@
-// Handles: where they are grabbed, where they carry a node, whatever its parents are.
+// Gizmo handles: hit testing, and transforms of nodes with arbitrary parents.
 #include "ui/gizmo.h"
 #include "ui/rotation.h"
 
@@ -34,7 +34,7 @@ const HandleShape* shape_of(const std::vector<HandleShape>& shapes, Handle handl
     return nullptr;
 }
 
-TEST(Handles, LieOnTheAxesAndLeaveOutTheOneThatPointsAtTheEye) {
+TEST(Handles, AreOnTheAxesExceptTheOneTowardsTheCamera) {
     const Setting s;
     const auto shapes = handle_shapes(s.projection(), s.image, at({0, 0, 0}), {});
     const HandleShape *x = shape_of(shapes, Handle::move_x), *y = shape_of(shapes, Handle::move_y);
@@ -47,12 +47,12 @@ TEST(Handles, LieOnTheAxesAndLeaveOutTheOneThatPointsAtTheEye) {
     EXPECT_FALSE(shape_of(shapes, Handle::aim));
 }
 
-TEST(Handles, NoneForWhatIsBehindTheEye) {
+TEST(Handles, NoneBehindTheCamera) {
     const Setting s;
     EXPECT_TRUE(handle_shapes(s.projection(), s.image, at({0, 0, 11}), Vec3d{0, 0, 0}).empty());
 }
 
-TEST(Handles, GripsWinOverLines) {
+TEST(Handles, GripsHavePriorityOverLines) {
     const Setting s;
     const auto shapes = handle_shapes(s.projection(), s.image, at({0, 0, 0}), Vec3d{2, 2, 0});
     EXPECT_EQ(handle_under(shapes, {500, 350}, 12), Handle::move);
@@ -64,7 +64,7 @@ TEST(Handles, GripsWinOverLines) {
     EXPECT_EQ(handle_under(shapes, aim->grip, 12), Handle::aim);
 }
 
-TEST(Rings, ShowTheirNearHalvesAndAreGrabbedOnTheirLines) {
+TEST(Rings, ShowTheirNearHalfAndAreHitOnTheirLine) {
     Setting s;
     s.view.position = {6, 5, 7};
     s.view.rotation = looking_along({-6, -5, -7});
@@ -74,7 +74,7 @@ TEST(Rings, ShowTheirNearHalvesAndAreGrabbedOnTheirLines) {
         ASSERT_TRUE(ring);
         EXPECT_LT(ring->ring.size(), 60u); // of 97 points
         EXPECT_GT(ring->ring.size(), 40u);
-        // Between two others' crossings it is its own; the middle is none's.
+        // A point away from the crossings hits this ring; the centre hits none.
         EXPECT_EQ(handle_under(shapes, ring->ring[ring->ring.size() / 2], 12), handle);
     }
     EXPECT_EQ(handle_under(shapes, {500, 350}, 12), Handle::none);
@@ -103,14 +103,14 @@ TEST(Rings, TheAngleUnderTheMouseIsRightHandedAboutTheAxis) {
     EXPECT_FALSE(ring_angle({{0, 0, 10}, {0, 0, -1}}, {0, 0, 0}, {1, 0, 0})) << "edge-on";
 }
 
-TEST(Rings, SeenEdgeOnTheNearSideIsPulled) {
+TEST(Rings, EdgeOnRingFollowsADragOfItsNearSide) {
     const Setting s;
     // About +Y, seen from +Z: the near side goes to the right.
     EXPECT_NEAR(pulled_angle(s.projection(), {0, 0, 0}, {0, 1, 0}, {500, 350}, {540, 300}, 80), 0.5, 1e-6);
     EXPECT_NEAR(pulled_angle(s.projection(), {0, 0, 0}, {1, 0, 0}, {500, 350}, {540, 390}, 80), 0.5, 1e-6) << "about +X it goes down";
 }
 
-TEST(ScaleBoxes, HaveAUniformMiddleAndAxesWhereTheyMeanSomething) {
+TEST(ScaleBoxes, HaveAUniformHandleAndValidAxisHandles) {
     Setting s;
     GizmoPlace place = at({0, 0, 0}, TransformMode::scale);
     place.axes = {{{0, 1, 0}, {-1, 0, 0}, {0, 0, 1}}}; // turned by 90 degrees
@@ -131,7 +131,7 @@ TEST(MeetPlane, NothingBehindOrParallel) {
     expect_near(*p, {1, 2, -5});
 }
 
-// A child under a parent that is moved, turned and scaled unevenly.
+// A child of a translated, rotated and non-uniformly scaled parent.
 struct Family {
     Scene scene;
     Id<Node> parent, child;
@@ -151,13 +151,13 @@ struct Family {
     }
 };
 
-TEST(Place, ANodeGoesWhereItIsPutWhateverItsParent) {
+TEST(Place, NodeIsPlacedUnderAnyParent) {
     Family f;
     f.place(moved_to(f.scene, f.child, {-4, 5, 6}));
     expect_near(world_from_node(f.scene, f.child).t, {-4, 5, 6});
 }
 
-TEST(Place, ANodeLooksWhereItIsAimedWhateverItsParent) {
+TEST(Place, NodeIsAimedUnderAnyParent) {
     Family f;
     const Vec3d origin = world_from_node(f.scene, f.child).t, direction = normalize(Vec3d{1, -2, 0.5});
     f.place(rotated_to(f.scene, f.child, looking_along(direction)));
@@ -165,7 +165,7 @@ TEST(Place, ANodeLooksWhereItIsAimedWhateverItsParent) {
     expect_near(rotate(world_rotation(f.scene, f.child), {0, 0, -1}), direction);
 }
 
-TEST(Place, UnderAParentScaledToNothingItStays) {
+TEST(Place, NodeUnderAParentOfScaleZeroStays) {
     Family f;
     Node p = *f.scene.nodes.find(f.parent);
     p.local.scale = {0, 1, 1};

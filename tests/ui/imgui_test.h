@@ -1,4 +1,4 @@
-// ImGui without a window: enough to draw panels and to drag their widgets with a simulated mouse.
+// ImGui without a window: draws panels and drags widgets with a simulated mouse.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ protected:
     }
     void TearDown() override { ImGui::DestroyContext(); }
 
-    // One frame in which `draw` fills a window of its own.
+    // One frame; `draw` fills a window.
     template <class Draw> void in_window(const Draw& draw) {
         ImGui::NewFrame();
         ImGui::SetNextWindowPos({0, 0});

@@ -1,4 +1,4 @@
-// The window's regions: they cover it without a gap and leave the viewport room.
+// The window's regions: no gaps or overlaps, and a minimum size of the viewport.
 #include "ui/layout.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ TEST(Layout, RegionsCoverTheWindowWithoutGapOrOverlap) {
     }
 }
 
-TEST(Layout, ARowBelowThePictureTakesItsHeightFromIt) {
+TEST(Layout, RowBelowThePictureReducesItsHeight) {
     const Layout without = lay_out(1280, 801, 22, 27, 15, {}), with = lay_out(1280, 801, 22, 27, 15, {}, {.time = 30});
     EXPECT_EQ(without.time.height, 0);
     EXPECT_EQ(with.time.height, 30);
@@ -34,12 +34,12 @@ TEST(Layout, ARowBelowThePictureTakesItsHeightFromIt) {
     EXPECT_EQ(with.inspector, without.inspector);
 }
 
-TEST(Layout, TheViewportKeepsSomeRoom) {
+TEST(Layout, ViewportKeepsAMinimumWidth) {
     const Layout l = lay_out(480, 400, 22, 27, 15, {45, 45});
     EXPECT_GE(l.viewport.width, 15 * 16 - 2);
 }
 
-TEST(Layout, ATinyWindowStillHasAViewport) {
+TEST(Layout, TinyWindowHasAViewport) {
     const Layout l = lay_out(10, 10, 22, 27, 15, {});
     EXPECT_GE(l.viewport.width, 1);
     EXPECT_GE(l.viewport.height, 1);
@@ -52,7 +52,7 @@ bool overlap(const Region& a, const Region& b) {
 }
 float area(const Region& r) { return r.width * r.height; }
 
-TEST(Layout, DocksAndStripTakeTheirPlacesFromThePicture) {
+TEST(Layout, DocksAndStripReduceThePicture) {
     for (const float width : {480.f, 800.f, 1280.f, 1720.f, 2560.f})
         for (const float height : {320.f, 720.f, 960.f, 1440.f})
             for (const float font : {12.f, 15.f, 30.f, 60.f})
@@ -66,7 +66,7 @@ TEST(Layout, DocksAndStripTakeTheirPlacesFromThePicture) {
                         for (const Region& b : all)
                             EXPECT_TRUE(&a == &b || !overlap(a, b)) << width << " x " << height << " font " << font << " open " << open;
                     }
-                    // Nothing between them is left over.
+                    // No gap between them.
                     const float body = l.room.width * (l.status.y - l.room.y);
                     EXPECT_NEAR(area(l.viewport) + area(l.strip) + area(l.time) + area(l.right_dock) + area(l.bottom_dock), body,
                                 1e-3f * body);
@@ -74,7 +74,7 @@ TEST(Layout, DocksAndStripTakeTheirPlacesFromThePicture) {
                 }
 }
 
-TEST(Layout, TheImageKeepsItsSizeWhateverIsOpen) {
+TEST(Layout, ImageSizeDoesNotDependOnOpenDocks) {
     const Layout closed = lay_out(1720, 960, 22, 27, 15, {}), open = lay_out(1720, 960, 22, 27, 15, {}, {true, true, {}, 150, 0});
     EXPECT_EQ(closed.viewport, closed.room) << "nothing changes while no instrument is open";
     EXPECT_EQ(open.room, closed.room);
@@ -82,7 +82,7 @@ TEST(Layout, TheImageKeepsItsSizeWhateverIsOpen) {
     EXPECT_LT(open.viewport.height, closed.viewport.height);
 }
 
-TEST(Layout, ANarrowRoomHasNoDockOnTheRight) {
+TEST(Layout, NarrowRoomHasNoRightDock) {
     const Layout narrow = lay_out(1280, 720, 44, 54, 30, {}, everything), wide = lay_out(1280, 720, 22, 27, 15, {}, everything);
     EXPECT_FALSE(has_right_dock(narrow.room, 30));
     EXPECT_EQ(narrow.right_dock.width, 0);
@@ -91,7 +91,7 @@ TEST(Layout, ANarrowRoomHasNoDockOnTheRight) {
     EXPECT_GE(wide.viewport.width, 15 * 16);
 }
 
-TEST(DockRegions, AreDraggedWithinWhatTheWindowHas) {
+TEST(DockRegions, SizesAreClampedToTheWindow) {
     const Layout l = lay_out(1720, 960, 22, 27, 15, {}, everything);
     const float right = l.right_dock.x + l.right_dock.width, bottom = l.bottom_dock.y + l.bottom_dock.height;
     EXPECT_FLOAT_EQ(drag_right_dock({}, right - 450, l, 15).right, 30);
@@ -106,7 +106,7 @@ TEST(DockRegions, AreDraggedWithinWhatTheWindowHas) {
     }
 }
 
-TEST(DockRegions, TakeWhatIsDroppedOnTheirTabsOrAtTheEdge) {
+TEST(DockRegions, AcceptDropsOnTabsAndAtEdges) {
     const Layout closed = lay_out(1720, 960, 22, 27, 15, {}), open = lay_out(1720, 960, 22, 27, 15, {}, everything);
     const Region& v = closed.viewport;
     EXPECT_EQ(dock_at(closed, v.x + v.width - 5, v.y + 200, 15), DockSide::right);

@@ -1,4 +1,4 @@
-// Handles that resize lights: what is dragged stays under the mouse.
+// Handles that resize lights: the dragged point stays under the mouse.
 #include "core/math.h"
 #include "scene/affine.h"
 #include "ui/light_handles.h"
@@ -63,7 +63,7 @@ Light of_kind(Light::Kind kind) {
     return light;
 }
 
-// Dragging a handle to where it would be for another size gives that size: for each size, from each side, under a scale.
+// Dragging a handle to its position for another size gives that size: for each size and side, with a scaled node.
 TEST(SizeHandles, FollowTheMouse) {
     struct Case {
         Light::Kind kind;
@@ -96,7 +96,7 @@ TEST(SizeHandles, FollowTheMouse) {
             }
 }
 
-TEST(SizeHandles, ConesSeenEndOnFollowTheMouseToo) {
+TEST(SizeHandles, ConesSeenAlongTheAxisFollowTheMouse) {
     for (const Vec3d& forward : {Vec3d{0, 0, 1}, Vec3d{0.1, 0.05, 1}, Vec3d{0, 0, -1}}) {
         Light wide = of_kind(Light::Kind::spot);
         wide.outer_cone_radians = 0.9f;
@@ -105,7 +105,7 @@ TEST(SizeHandles, ConesSeenEndOnFollowTheMouseToo) {
     }
 }
 
-TEST(SizeHandles, SizesStaySensible) {
+TEST(SizeHandles, SizesStayInRange) {
     for (const Vec3d& eye : eyes) {
         const Seen panel(of_kind(Light::Kind::rectangle), eye);
         EXPECT_GT(
@@ -128,7 +128,7 @@ TEST(SizeHandles, SizesStaySensible) {
     }
 }
 
-TEST(SizeHandles, KeepTheFluxWhereTheLightAsksForIt) {
+TEST(SizeHandles, KeepTheFluxIfKeepPowerIsSet) {
     Light panel = of_kind(Light::Kind::rectangle);
     panel.intensity = 100;
     for (const bool keep : {false, true}) {
@@ -145,12 +145,12 @@ TEST(SizeHandles, KeepTheFluxWhereTheLightAsksForIt) {
     }
 }
 
-TEST(SunDial, GoesBothWays) {
+TEST(SunDial, IsInvertible) {
     for (const double degrees : {0.0, 0.1, 0.53, 5.0, 60.0, 180.0}) {
         const double radians = degrees * pi_d / 180;
         EXPECT_NEAR(angle_of_dial(dial_of_angle(radians)), radians, 1e-9);
     }
-    EXPECT_GT(dial_of_angle(0.00925), dial_of_angle(0) + 0.5) << "the real sun can be told from parallel light";
+    EXPECT_GT(dial_of_angle(0.00925), dial_of_angle(0) + 0.5) << "the real sun differs from parallel light";
     EXPECT_EQ(angle_of_dial(-3), 0);
     EXPECT_EQ(angle_of_dial(99), pi_d);
 }
@@ -176,7 +176,7 @@ TEST(LightOutline, ShowsTheSize) {
     EXPECT_TRUE(light_outline(scene, id, point, projection, 1).empty());
 }
 
-TEST(LightOutline, AConeOpensByItsAngle) {
+TEST(LightOutline, ConeHasItsAngle) {
     Scene scene;
     Node node;
     node.light = scene.lights.add(of_kind(Light::Kind::spot));

@@ -1,4 +1,4 @@
-// Placing by effect: after it, light goes the way it was asked to go.
+// Placing lights by highlight and by shadow.
 #include "core/math.h"
 #include "scene/affine.h"
 #include "ui/environment_dial.h"
@@ -35,13 +35,13 @@ struct Random {
 Vec3d forward_of(const LightPose& pose) { return rotate(pose.rotation, {0, 0, -1}); }
 Vec3d mirrored(const Vec3d& direction, const Vec3d& normal) { return direction - normal * (2 * dot(direction, normal)); }
 
-// From a ray's origin on, the distance at which it passes a point.
+// Distance of a point to a ray.
 double miss(const Vec3d& origin, const Vec3d& direction, const Vec3d& point) {
     const Vec3d to = point - origin;
     return dot(to, direction) > 0 ? length(to - direction * dot(to, direction)) : 1e9;
 }
 
-TEST(PlacingByHighlight, TheMirroredRayMeetsTheLight) {
+TEST(PlacingByHighlight, MirroredRayHitsTheLight) {
     Random random;
     for (const auto kind : all_kinds)
         for (int i = 0; i < 100; ++i) {
@@ -56,20 +56,20 @@ TEST(PlacingByHighlight, TheMirroredRayMeetsTheLight) {
             EXPECT_NEAR(length(after.position - spot.position), distance, close) << "the distance is kept";
             EXPECT_TRUE(faces(spot, after.position));
             if (has_direction(kind)) {
-                EXPECT_LT(miss(after.position, forward_of(after), spot.position), close * (1 + distance)) << "it shines at the spot";
+                EXPECT_LT(miss(after.position, forward_of(after), spot.position), close * (1 + distance)) << "it emits towards the spot";
             } else {
                 EXPECT_EQ(after.rotation, before.rotation);
             }
         }
 }
 
-TEST(PlacingByHighlight, ANormalSeenFromBehindCountsAsTurned) {
+TEST(PlacingByHighlight, NormalOfABackFaceIsFlipped) {
     const SurfaceSpot spot{{0, 0, 0}, {0, -1, 0}, {}};
     const LightPose after = with_highlight_at(of_kind(Light::Kind::point), {{0, 3, 0}, {}}, spot, normalize(Vec3d{1, -1, 0}), 2);
     EXPECT_NEAR(length(after.position - normalize(Vec3d{1, 1, 0}) * 2.0), 0, close);
 }
 
-TEST(PlacingByShadow, TheShadowRayPassesTheOccluder) {
+TEST(PlacingByShadow, ShadowRayPassesTheOccluder) {
     Random random;
     for (const auto kind : all_kinds)
         for (int i = 0; i < 100; ++i) {
@@ -85,19 +85,19 @@ TEST(PlacingByShadow, TheShadowRayPassesTheOccluder) {
         }
 }
 
-// A sun's place means nothing: its direction alone must throw the shadow.
-TEST(PlacingByShadow, ASunsDirectionThrowsIt) {
+// A sun has no position: its direction alone must cast the shadow.
+TEST(PlacingByShadow, DirectionOfASunCastsTheShadow) {
     const Vec3d occluder{0, 1, 0}, target{2, 0, 1};
     const LightPose after = with_shadow_at(of_kind(Light::Kind::sun), {}, occluder, target, 4);
     EXPECT_LT(miss(occluder, forward_of(after), target), close);
 }
 
-TEST(PlacingByShadow, OnTheOccluderItselfNothingMoves) {
+TEST(PlacingByShadow, TargetOnTheOccluderHasNoEffect) {
     const LightPose before{{1, 2, 3}, {}};
     EXPECT_EQ(with_shadow_at(of_kind(Light::Kind::spot), before, {4, 5, 6}, {4, 5, 6}, 1).position, before.position);
 }
 
-TEST(WithPose, PutsTheNodeThereBelowATurnedAndScaledParent) {
+TEST(WithPose, PlacesTheNodeUnderARotatedAndScaledParent) {
     Scene scene;
     Node parent;
     parent.local.translation = {1, 2, 3};
@@ -115,7 +115,7 @@ TEST(WithPose, PutsTheNodeThereBelowATurnedAndScaledParent) {
     EXPECT_NEAR(scene.nodes.find(id)->local.scale.y, 3, 1e-4);
 }
 
-// Seen from above, with what the view looks at above the middle.
+// Top view; the view direction is up.
 TEST(EnvironmentDial, ShowsDirectionsFromAbove) {
     const auto expect_at = [](const Vec3d& direction, const Vec3d& forward, float x, float y) {
         const ScreenPoint p = dial_point(direction, forward);

@@ -1,4 +1,4 @@
-// What the light table lists, and its groups.
+// Rows and groups of the light table.
 #include "ui/light_rows.h"
 
 #include "scene/document.h"
@@ -51,20 +51,20 @@ std::vector<std::string> names(const LightRows& rows) {
     return all;
 }
 
-TEST(LightRows, ListEverythingThatShinesByItsGroup) {
+TEST(LightRows, ListAllLightsByGroup) {
     const Studio s;
     const auto groups = light_rows(s.scene);
     ASSERT_EQ(groups.size(), 2u);
     EXPECT_EQ(groups[0].group, "Warm");
     EXPECT_EQ(names(groups[0]), (std::vector<std::string>{"Key"}));
-    EXPECT_EQ(names(groups[1]), (std::vector<std::string>{"Fill", "Neon", "Environment"})) << "a glowing material once, a dark one not";
+    EXPECT_EQ(names(groups[1]), (std::vector<std::string>{"Fill", "Neon", "Environment"})) << "an emissive material once, others not";
     EXPECT_EQ(groups[1].rows[1].material, s.neon);
     EXPECT_EQ(groups[1].rows[1].intensity, 40);
     EXPECT_TRUE(groups[1].rows[2].environment);
     EXPECT_TRUE(light_rows(Scene()).empty());
 }
 
-TEST(LightRows, SayWhatShines) {
+TEST(LightRows, TellWhichLightsAreOn) {
     Studio s;
     Light key = s.light(s.key);
     key.solo = true;
@@ -76,7 +76,7 @@ TEST(LightRows, SayWhatShines) {
     EXPECT_FALSE(light_rows(s.scene)[0].rows[0].shines) << "mute wins";
 }
 
-TEST(LightRows, AreAllMutedAndMadeSoloAlike) {
+TEST(LightRows, MuteAndSoloWorkForAllRows) {
     for (const char* name : {"Key", "Neon", "Environment"}) {
         Studio s;
         const auto row_called = [&](const std::string& wanted) {
@@ -96,7 +96,7 @@ TEST(LightRows, AreAllMutedAndMadeSoloAlike) {
     }
 }
 
-TEST(LightRows, AHiddenLightIsListedAsDark) {
+TEST(LightRows, HiddenLightIsListedAsOff) {
     Studio s;
     Node key = *s.scene.nodes.find(s.key);
     key.visible = false;
@@ -106,7 +106,7 @@ TEST(LightRows, AHiddenLightIsListedAsDark) {
     EXPECT_FALSE(groups[0].rows[0].shines);
 }
 
-TEST(LightRows, SharesAreTheirGroups) {
+TEST(LightRows, SharesAreThoseOfTheGroup) {
     Studio s;
     s.scene.mix.grouping = LightMix::Grouping::by_light;
     const LightGroups groups = make_light_groups(s.scene);
@@ -119,7 +119,7 @@ TEST(LightRows, SharesAreTheirGroups) {
     EXPECT_EQ(key->energy, groups.of_light(s.key));
     EXPECT_EQ(fill->noise, 10 + groups.of_light(s.fill));
     s.lamp("Late", "");
-    EXPECT_FALSE(share_of(light_rows(s.scene)[1].rows[1], groups, reports)) << "the frame knows nothing of it";
+    EXPECT_FALSE(share_of(light_rows(s.scene)[1].rows[1], groups, reports)) << "it is not in the frame";
 
     s.lamp("Rim", "Warm");
     s.scene.mix.grouping = LightMix::Grouping::by_hand;
@@ -130,7 +130,7 @@ TEST(LightRows, SharesAreTheirGroups) {
     EXPECT_FALSE(together->alone);
 }
 
-TEST(LightRows, GroupsAreJoinedLeftAndRenamed) {
+TEST(LightRows, GroupsCanBeJoinedLeftAndRenamed) {
     Studio s;
     s.apply(put_into_group(s.scene, std::vector{s.scene.nodes.find(s.fill)->light}, true, "Warm"));
     EXPECT_EQ(s.light(s.fill).group, "Warm");

@@ -1,4 +1,4 @@
-// Units and new lights: equal illuminance where a light changes its kind, angles there and back.
+// Light units, conversion between types (equal illuminance), new lights, and angles.
 #include "scene/light_units.h"
 #include "ui/light_tools.h"
 #include "ui/new_light.h"
@@ -14,7 +14,7 @@ constexpr double pi_d = 3.14159265358979323846;
 constexpr Light::Kind kinds[] = {Light::Kind::point, Light::Kind::spot, Light::Kind::sun, Light::Kind::rectangle, Light::Kind::disk,
                                  Light::Kind::sphere};
 
-// Illuminance in lux on a surface far enough away to see the light as a point, facing it.
+// Illuminance in lux on a surface facing the light, far enough away to treat the light as a point.
 double illuminance(const Light& light, double distance) {
     switch (light.kind) {
     case Light::Kind::sun: return light.intensity;
@@ -25,7 +25,7 @@ double illuminance(const Light& light, double distance) {
     }
 }
 
-TEST(LightKind, ChangingItKeepsTheIlluminance) {
+TEST(LightKind, ConversionKeepsTheIlluminance) {
     for (const Light::Kind from : kinds) {
         for (const Light::Kind to : kinds) {
             Light light;
@@ -41,7 +41,7 @@ TEST(LightKind, ChangingItKeepsTheIlluminance) {
     }
 }
 
-TEST(LuminousFlux, OfTheKindsThatHaveOne) {
+TEST(LuminousFlux, OfAllTypesExceptSun) {
     Light light;
     light.intensity = 2;
     EXPECT_NEAR(luminous_flux(light), 8 * pi_d, 1e-5);
@@ -55,7 +55,7 @@ TEST(LuminousFlux, OfTheKindsThatHaveOne) {
     EXPECT_NEAR(luminous_flux(light), 24 * pi_d, 1e-4);
 }
 
-TEST(NewLight, ShowsAWhiteSurfaceAtThePivotAsWhite) {
+TEST(NewLight, DisplaysAWhiteSurfaceAtThePivotAsWhite) {
     View view;
     view.position = {3, 1, 8};
     view.pivot_distance = 6;
@@ -71,7 +71,7 @@ TEST(NewLight, ShowsAWhiteSurfaceAtThePivotAsWhite) {
     }
 }
 
-// A camera's view of a sphere of radius 1 at the origin.
+// The view of a sphere of radius 1 at the origin.
 View view_of_subject() {
     View view;
     view.position = {0, 1, 5};
@@ -80,7 +80,7 @@ View view_of_subject() {
     return view;
 }
 
-TEST(NewLight, KeyFillAndRimGoRoundTheSubjectInTurnAndNeverIntoEachOther) {
+TEST(NewLight, KeyFillAndRimAreAroundTheSubjectWithoutOverlap) {
     Bounds subject;
     subject.include({-1, -1, -1});
     subject.include({1, 1, 1});
@@ -106,7 +106,7 @@ TEST(NewLight, KeyFillAndRimGoRoundTheSubjectInTurnAndNeverIntoEachOther) {
     EXPECT_LT(spots[2].position.z, -0.3) << "the rim from behind";
 }
 
-// A box open towards the viewer, whose walls face inwards, with a ball's shell around the pivot.
+// A box open towards the viewer with walls facing inwards, and a shell around the pivot.
 TEST(NewLight, StaysInARoomThatIsSeenFromOutside) {
     const auto quad = [](Scene& scene, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
         Geometry g;
@@ -145,7 +145,7 @@ TEST(NewLight, LightsTheSurfaceUnderTheCursorFromTheViewersSide) {
     EXPECT_GT(dot(spot.position - surface.position, surface.normal), 0.1);
     EXPECT_EQ(spot.target, surface.position);
     const LightSpot behind = spot_over_surface({}, view, {{0.2, 0, 0}, {0, -1, 0}, {}});
-    EXPECT_GT(behind.position.y, 0) << "a back face is lit on the side that is seen";
+    EXPECT_GT(behind.position.y, 0) << "a back face is lit on the visible side";
 }
 
 TEST(Heading, KnownDirections) {
@@ -154,14 +154,14 @@ TEST(Heading, KnownDirections) {
     EXPECT_NEAR(heading_of({0, -1, 0}).tilt, -90, 1e-4);
 }
 
-TEST(Heading, ThereAndBack) {
+TEST(Heading, RoundTrips) {
     for (const Vec3d& d : {Vec3d{1, 2, 3}, Vec3d{-1, -0.2, 0.4}, Vec3d{0.1, 0.9, -3}, Vec3d{0, 1, 0}}) {
         const Vec3d back = direction_of(heading_of(d));
         EXPECT_NEAR(dot(back, normalize(d)), 1, 1e-6);
     }
 }
 
-// The roll is told by how far the light's X axis is from level.
+// The roll is measured by the tilt of the light's X axis.
 TEST(Heading, TurnsAboutTheVerticalWithoutRoll) {
     for (const Vec3d& euler : {Vec3d{0, 0, 0}, Vec3d{-40, 25, 0}, Vec3d{10, 40, 25}, Vec3d{-90, 0, 0}, Vec3d{-90, 0, 70}, Vec3d{89.5, 10, 0}}) {
         const Quat start = from_euler_degrees(euler);
@@ -175,7 +175,7 @@ TEST(Heading, TurnsAboutTheVerticalWithoutRoll) {
             EXPECT_NEAR(rotate(rotation, {1, 0, 0}).y, rotate(start, {1, 0, 0}).y, 1e-4) << "it rolls";
         }
         const Vec3d back = rotate(rotation, {1, 0, 0}), was = rotate(start, {1, 0, 0});
-        EXPECT_NEAR(dot(back, was), 1, 1e-4) << "a full turn is none";
+        EXPECT_NEAR(dot(back, was), 1, 1e-4) << "a full turn changes nothing";
     }
 }
 
@@ -187,13 +187,13 @@ TEST(Heading, TiltGoesThroughStraightDownAndBack) {
     for (const Vec3d& axis : {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}}) EXPECT_NEAR(dot(rotate(back, axis), rotate(start, axis)), 1, 1e-5);
 }
 
-TEST(TurnedTo, LooksThereAndKeepsTheRoll) {
+TEST(TurnedTo, PointsThereAndKeepsTheRoll) {
     const Quat start = from_euler_degrees({10, 40, 25});
     for (const Vec3d& d : {Vec3d{1, 2, 3}, Vec3d{0, -1, 0}, rotate(start, {0, 0, -1}), rotate(start, {0, 0, 1})}) {
         const Vec3d forward = rotate(turned_to(start, d), {0, 0, -1});
         EXPECT_NEAR(dot(forward, normalize(d)), 1, 1e-6);
     }
-    // The shortest turn leaves the axis it turns about where it was.
+    // The shortest rotation does not change its own axis.
     const Vec3d target{1, 2, 3}, axis = normalize(cross(rotate(start, {0, 0, -1}), target));
     const Vec3d local = rotate(Quat{-start.x, -start.y, -start.z, start.w}, axis);
     EXPECT_NEAR(dot(rotate(turned_to(start, target), local), axis), 1, 1e-6);

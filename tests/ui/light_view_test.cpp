@@ -1,4 +1,4 @@
-// Looking through a light: eye and light are one, whichever of them is moved.
+// Light camera: view and light move together, whichever of them is moved.
 #include "core/math.h"
 #include "scene/affine.h"
 #include "ui/light_tools.h"
@@ -42,7 +42,7 @@ INSTANTIATE_TEST_SUITE_P(LookThrough, EveryKind,
                          testing::Values(Light::Kind::point, Light::Kind::spot, Light::Kind::sun, Light::Kind::rectangle, Light::Kind::disk,
                                          Light::Kind::sphere));
 
-TEST_P(EveryKind, TheViewIsTheLights) {
+TEST_P(EveryKind, ViewMatchesTheLight) {
     const Lamp lamp(GetParam());
     const View view = lamp.first();
     if (has_direction(GetParam())) expect_near(forward(view.rotation), forward(lamp.pose().rotation));
@@ -52,17 +52,17 @@ TEST_P(EveryKind, TheViewIsTheLights) {
         expect_near(to_double(view.position), lamp.pose().position + forward(view.rotation) * clearance(lamp.scene, lamp.id));
         EXPECT_NEAR(view.pivot_distance, length(pivot(lamp.scene.view) - lamp.pose().position), 1e-5);
     }
-    if (!has_direction(GetParam())) expect_near(pivot(view), pivot(lamp.scene.view), 0.3); // within what the body takes
+    if (!has_direction(GetParam())) expect_near(pivot(view), pivot(lamp.scene.view), 0.3); // within the size of the light
 }
 
-// Else the picture would begin anew in every frame of the window.
-TEST_P(EveryKind, LookingAgainMovesNothing) {
+// Otherwise the render would restart in every frame of the window.
+TEST_P(EveryKind, RepeatingItChangesNothing) {
     const Lamp lamp(GetParam());
     const View view = lamp.first();
     EXPECT_EQ(lamp.through(view), view);
 }
 
-TEST_P(EveryKind, TheLightFollowsTheView) {
+TEST_P(EveryKind, LightFollowsTheView) {
     Lamp lamp(GetParam());
     for (const View& moved :
          {orbit(lamp.first(), 0.4, 0.2), pan(lamp.first(), 0.1, -0.2), dolly(lamp.first(), 0.7), fly(lamp.first(), {1, 2, 3})}) {
@@ -76,7 +76,7 @@ TEST_P(EveryKind, TheLightFollowsTheView) {
     }
 }
 
-TEST(LookThrough, TheEyeIsOutsideOfTheBody) {
+TEST(LookThrough, ViewPositionIsOutsideTheLight) {
     for (const auto kind : {Light::Kind::sphere, Light::Kind::point}) {
         const Lamp lamp(kind);
         EXPECT_GT(length(to_double(lamp.first().position) - lamp.pose().position), 0.25);

@@ -1,4 +1,4 @@
-// No text is cut off, whatever things are called: every panel with names of sixty letters and more, at scales 1 and 2.
+// No text is cut off: every panel with names of sixty letters and more, at scales 1 and 2.
 #include "app/editor_panels.h"
 #include "cut_text.h"
 #include "imgui_test.h"
@@ -123,7 +123,7 @@ protected:
         ui.docks = {};
     }
 
-    // The window as it is drawn, some frames long; what of the last cannot be read.
+    // Draws some frames of the window; returns the unreadable texts of the last one.
     void expect_readable(const std::string& what) {
         const std::optional<Mixing> mixing = mixing_of(*frame->light_groups, document.project().scene);
         for (int i = 0; i < 4; ++i) {
@@ -184,7 +184,7 @@ TEST_F(LongNames, InspectorAndOutliner) {
 }
 
 TEST_F(LongNames, EveryInstrumentInEitherDock) {
-    ui.snapshots.list = {snapshot(1, document.project())}; // one: the strip scrolls sideways
+    ui.snapshots.list = {snapshot(1, document.project())}; // only one: the strip scrolls horizontally
     ImportReport report;
     report.extensions_used = {"KHR_" + long_name("extension")};
     report.extensions_honoured = report.extensions_used;
@@ -203,7 +203,7 @@ TEST_F(LongNames, EveryInstrumentInEitherDock) {
     }
     at_all_sizes([&] {
         for (const Instrument& i : instruments()) {
-            if (std::string(i.id) == "roulette") continue; // it renders for as long as it is open; its names are its own
+            if (std::string(i.id) == "roulette") continue; // it renders while it is open; it has no user-defined names
             PanelContext c{document, ui, color, frame, SessionStatus(), 640, 480};
             const bool was_open = i.is_open(c);
             if (std::string(i.id) == "comparison") ui.snapshots.compare = {Comparison::Mode::difference, 1, live_image};
@@ -221,7 +221,7 @@ TEST_F(LongNames, EveryInstrumentInEitherDock) {
     });
 }
 
-TEST_F(LongNames, WhatLiesOnTop) {
+TEST_F(LongNames, PopupsAndDialogs) {
     const RunningJob job{.title = "Opening " + long_name("File") + ".gltf", .what = long_name("what"), .fraction = 0.5, .can_cancel = true};
     extra = [&](PanelContext& c, const Layout& l) {
         draw_cards(c, l.viewport, &job);

@@ -1,4 +1,4 @@
-// Images on materials: put there as one step, kept by a saved file, small enough to look at.
+// Textures of materials: one undo step, saved with the scene, and thumbnails.
 #include "core/files.h"
 #include "io/gltf_import.h"
 #include "io/gltf_save.h"
@@ -14,7 +14,7 @@
 namespace blush {
 namespace {
 
-// Deleted with its files.
+// A temporary folder, deleted with its files.
 class Folder {
 public:
     Folder() : path_(std::filesystem::temp_directory_path() / ("blush-maps-" + std::to_string(getpid()))) { std::filesystem::create_directories(path_); }
@@ -42,7 +42,7 @@ Document opened() {
 
 const Material& first_material(const Document& d) { return d.project().scene.materials.begin()->value; }
 
-TEST(Maps, AreOneStepThatUndoTakesBack) {
+TEST(Maps, SettingATextureIsOneUndoStep) {
     Document d = opened();
     const Id<Material> id = d.project().scene.materials.begin()->id;
     const size_t textures = d.project().scene.textures.size();
@@ -56,7 +56,7 @@ TEST(Maps, AreOneStepThatUndoTakesBack) {
     EXPECT_EQ(d.project().scene.textures.size(), textures);
 }
 
-TEST(Maps, ReplacingKeepsHowTheImageLies) {
+TEST(Maps, ReplacingKeepsTheUvTransform) {
     Document d = opened();
     const Id<Material> id = d.project().scene.materials.begin()->id;
     Material m = first_material(d);
@@ -70,7 +70,7 @@ TEST(Maps, ReplacingKeepsHowTheImageLies) {
     EXPECT_FALSE(set_map(d, Id<Material>{9999}, &Material::base_color_texture, "Base colour map", {.name = "c", .source = "embedded", .image = checks(2, 2)}, 3));
 }
 
-TEST(Maps, AreThereWhenTheSavedSceneIsOpenedAgain) {
+TEST(Maps, SurviveSaveAndLoad) {
     const Folder folder;
     const auto imported = import_gltf(std::filesystem::path(BLUSH_ASSETS) / "scenes" / "card-and-mug.gltf");
     ASSERT_TRUE(imported);
@@ -94,7 +94,7 @@ TEST(Maps, AreThereWhenTheSavedSceneIsOpenedAgain) {
     }
 }
 
-TEST(Maps, HostileImagesAreErrors) {
+TEST(Maps, InvalidImagesAreErrors) {
     const Folder folder;
     const auto refused = [&](const char* name, const std::string& bytes) {
         std::ofstream(folder / name, std::ios::binary) << bytes;
@@ -112,7 +112,7 @@ TEST(Maps, HostileImagesAreErrors) {
     EXPECT_FALSE(read_image(folder / "missing.png"));
 }
 
-TEST(MapPreview, IsSmallAndTheMeanOfThePixels) {
+TEST(MapPreview, AveragesThePixels) {
     const SmallImage small = small_image(*checks(2048, 1024));
     EXPECT_EQ(small.width, map_preview_side);
     EXPECT_EQ(small.height, map_preview_side / 2);

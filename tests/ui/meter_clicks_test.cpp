@@ -1,4 +1,4 @@
-// A light meter reads the light that falls on the very point that was clicked: on edges and slants too, of all shipped scenes.
+// A light meter measures the illuminance at exactly the clicked point, also at edges and on slopes, in all shipped scenes.
 #include "core/math.h"
 #include "io/gltf_import.h"
 #include "measure/light_meter.h"
@@ -25,8 +25,8 @@ struct EmissiveTriangle {
     double nits, area;
 };
 
-// Direct illumination by its definition, in double precision and without a line of the renderer: emissive triangles, suns, and a sky that is the same
-// everywhere, each seen or not by cast_ray.
+// Direct illumination from its definition, in double precision and independent of the renderer: emissive triangles, suns, and a
+// constant sky, with visibility from cast_ray.
 class DirectLight {
 public:
     explicit DirectLight(const Scene& scene) : scene_(scene) {
@@ -46,7 +46,7 @@ public:
         }
     }
 
-    // Lux by `samples` random estimates a source, and the standard error.
+    // Estimates lux with `samples` random samples per source, and the standard error.
     std::pair<double, double> at(const Vec3d& x, const Vec3d& n, int samples, std::mt19937_64& random) const {
         std::uniform_real_distribution<double> uniform;
         double sum = 0, variance = 0;
@@ -72,7 +72,7 @@ public:
         for (const Sun& sun : suns_)
             add([&](double, double u, double v) {
                 const Vec3d s = any_perpendicular(sun.towards), t = cross(sun.towards, s);
-                const double angle = sun.half_angle * std::sqrt(u), phi = 2 * pi * v; // a disk this small is flat
+                const double angle = sun.half_angle * std::sqrt(u), phi = 2 * pi * v; // a disk this small can be treated as flat
                 const Vec3d wi = normalize(sun.towards + (s * std::cos(phi) + t * std::sin(phi)) * std::tan(angle));
                 return std::max(0.0, dot(n, wi)) * sun.lux * sees(x, wi);
             });
@@ -108,21 +108,21 @@ private:
 
     const Scene& scene_;
     std::vector<EmissiveTriangle> triangles_;
-    std::vector<double> until_; // sums of nits * area
+    std::vector<double> until_; // prefix sums of nits * area
     std::vector<Sun> suns_;
     double power_ = 0;
 };
 
 class MeterClicks : public testing::TestWithParam<std::string> {};
 
-TEST_P(MeterClicks, ReadWhatFallsOnTheClickedPoint) {
+TEST_P(MeterClicks, MeasureTheClickedPoint) {
     auto imported = import_gltf(std::string(BLUSH_ASSETS) + "/scenes/" + GetParam() + ".gltf");
     ASSERT_TRUE(imported) << imported.error().what;
     const Scene& scene = imported->scene;
     RenderSettings settings;
     settings.width = width;
     settings.height = height;
-    settings.max_bounces = 1; // direct light alone
+    settings.max_bounces = 1; // only direct light
     Renderer renderer({.threads = 1, .planes = {.normal = true, .depth = true, .ids = true}});
     renderer.update(scene, settings);
     renderer.render(0, 4);
@@ -161,7 +161,7 @@ TEST_P(MeterClicks, ReadWhatFallsOnTheClickedPoint) {
                                           statistics::sidak(statistics::significance, 5 * clicks)))
             << GetParam() << " at " << u << ", " << v;
     }
-    // All that is seen of the corridor is lit from round the corner.
+    // The visible part of the corridor only has indirect light.
     if (GetParam() != "corridor") EXPECT_GT(lit, clicks / 2) << "most of a shipped scene is lit";
     else EXPECT_EQ(lit, 0);
 }

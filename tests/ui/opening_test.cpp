@@ -1,4 +1,4 @@
-// What a file looks like when it opens: the exposure that its subject is metered to, the camera that it is composed for, and its frame.
+// Opening a file: auto exposure for the subject, home camera, and camera frame.
 #include "our_colors.h"
 #include "scene/document.h"
 #include "scene/ground_plane.h"
@@ -21,7 +21,7 @@
 namespace blush {
 namespace {
 
-// Objects on the left half, backdrop on the right; each half of one grey.
+// Objects on the left half, background on the right; both uniformly grey.
 Frame halves(float object, float backdrop) {
     Frame f;
     f.width = 80;
@@ -41,7 +41,7 @@ protected:
     ColorManagement color = test::our_colors();
     Scene scene;
     std::optional<float> metered(const Frame& f, std::vector<Id<Node>> selected = {}) { return subject_exposure(f, scene, selected, {}, color); }
-    // Mean of the encoded picture.
+    // Mean of the display-encoded picture.
     double shown_mean(const Frame& f, float exposure_ev) {
         std::vector<float> rgb;
         for (size_t i = 0; i < f.rgba.size(); i += 4) rgb.insert(rgb.end(), {f.rgba[i], f.rgba[i + 1], f.rgba[i + 2]});
@@ -54,7 +54,7 @@ protected:
     }
 };
 
-TEST_F(SubjectExposure, BringsObjectsToMiddleGreyWhateverTheBackdrop) {
+TEST_F(SubjectExposure, ObjectsBecomeMiddleGreyWithAnyBackground) {
     for (const float grey : {1e-4f, 0.18f, 3000.f}) {
         const Frame black = halves(grey, 0), same = halves(grey, grey);
         ASSERT_TRUE(metered(black));
@@ -64,34 +64,34 @@ TEST_F(SubjectExposure, BringsObjectsToMiddleGreyWhateverTheBackdrop) {
         EXPECT_GT(mean, 0.1);
         EXPECT_LT(mean, 0.6);
     }
-    EXPECT_FALSE(metered(halves(0, 1))) << "a black object says nothing";
+    EXPECT_FALSE(metered(halves(0, 1))) << "a black object cannot be metered";
 }
 
-TEST_F(SubjectExposure, ABrightBackdropLowersItByOneAndAHalfStopsAtMost) {
+TEST_F(SubjectExposure, BrightBackgroundLowersItByOneAndAHalfStopsAtMost) {
     const float alone = *metered(halves(0.18f, 0)), beside = *metered(halves(0.18f, 1000));
     EXPECT_NEAR(beside, alone - 1.5f, 1e-3);
 }
 
-TEST_F(SubjectExposure, ADarkSubjectBeforeABrightBackdropDoesNotGlare) {
-    const Frame f = halves(0.02f, 0.3f); // the backdrop comes near the display's white, and is not clipped
+TEST_F(SubjectExposure, DarkSubjectWithBrightBackgroundIsLimited) {
+    const Frame f = halves(0.02f, 0.3f); // the background is close to display white, but not clipped
     EXPECT_GT(shown_mean(f, *metered(halves(0.02f, 0))), 0.6);
     EXPECT_LE(shown_mean(f, *metered(f)), 0.56);
     EXPECT_GT(shown_mean(f, *metered(f)), 0.45);
 }
 
-TEST_F(SubjectExposure, LooksAtWhatIsSelected) {
+TEST_F(SubjectExposure, UsesTheSelection) {
     Node node;
     node.mesh = scene.meshes.add({});
     const Id<Node> first = scene.nodes.add(node), second = scene.nodes.add(node);
     Frame f = halves(0.5f, 0.001f);
     for (size_t i = 0; i < f.object_id.size(); ++i) f.object_id[i] = f.object_id[i] ? first.value : second.value;
     EXPECT_NEAR(*metered(f, {first}), std::log2(0.18f / 0.5f), 1e-3);
-    // The first would be clipped; the whole picture may take one and a half stops of that back.
+    // The selection would be clipped; the whole picture can lower the exposure by at most 1.5 stops.
     EXPECT_LE(*metered(f, {second}), std::log2(0.18f / 0.001f) + 1e-3);
     EXPECT_GE(*metered(f, {second}), std::log2(0.18f / 0.001f) - 1.5f - 1e-3);
 }
 
-TEST_F(SubjectExposure, LooksAtWhatIsInFocus) {
+TEST_F(SubjectExposure, UsesWhatIsInFocus) {
     Frame f = halves(0.02f, 0.3f);
     for (size_t i = 0; i < f.object_id.size(); ++i) {
         if (f.object_id[i] == 0) f.depth[i] = 50;
@@ -104,7 +104,7 @@ TEST_F(SubjectExposure, LooksAtWhatIsInFocus) {
     EXPECT_NEAR(*metered(f), std::log2(0.18f / 0.02f), 1.5f + 1e-3);
 }
 
-TEST(DocumentMeter, IsNoStepOfTheHistory) {
+TEST(DocumentMeter, IsNoUndoStep) {
     const test::Sample s = test::sample_project();
     Document document(s.project);
     document.meter(3, true);
@@ -116,7 +116,7 @@ TEST(DocumentMeter, IsNoStepOfTheHistory) {
     ASSERT_TRUE(document.apply(SetEnvironment{sky}));
     document.meter(-9, false);
     document.undo();
-    EXPECT_EQ(document.project().view.exposure_ev, 3) << "taken back with the edit that it belongs to";
+    EXPECT_EQ(document.project().view.exposure_ev, 3) << "undone together with its edit";
     document.redo();
     EXPECT_EQ(document.project().view.exposure_ev, -9);
 }
@@ -125,7 +125,7 @@ TEST(CameraFrame, PictureAndFrameHaveTheAspect) {
     CameraFrame frame;
     EXPECT_EQ(picture_size(frame, 900, 600).width, 900);
     frame.aspect = 1;
-    EXPECT_EQ(picture_size(frame, 900, 600).width, 900) << "goes on beside the frame";
+    EXPECT_EQ(picture_size(frame, 900, 600).width, 900) << "extends beyond the frame";
     const ImageRect inside = frame_in_picture(frame, {10, 20, 900, 600});
     EXPECT_EQ(inside.width, 600);
     EXPECT_EQ(inside.x, 160);
@@ -133,11 +133,11 @@ TEST(CameraFrame, PictureAndFrameHaveTheAspect) {
     EXPECT_EQ(picture_size(frame, 900, 600).width, 600);
     EXPECT_EQ(picture_size(frame, 900, 600).height, 600);
     frame = {.aspect = 2};
-    EXPECT_EQ(picture_size(frame, 900, 600).height, 450) << "wider than the window: all of it shows";
+    EXPECT_EQ(picture_size(frame, 900, 600).height, 450) << "wider than the window: fully visible";
     EXPECT_EQ(frame_in_picture(frame, {0, 0, 900, 450}).width, 900);
 }
 
-TEST(CameraFrame, IsThatOfTheSettingsElseThatOfTheFile) {
+TEST(CameraFrame, AspectIsFromTheSettingsElseFromTheFile) {
     Scene scene;
     Node node;
     node.camera = scene.cameras.add({"camera", {}});
@@ -154,10 +154,10 @@ TEST(CameraFrame, IsThatOfTheSettingsElseThatOfTheFile) {
     EXPECT_TRUE(frame.lock);
     view.frame_aspect = 0.f;
     settle(frame, view, scene, id);
-    EXPECT_EQ(frame.aspect, 0) << "no frame, whatever the file says";
+    EXPECT_EQ(frame.aspect, 0) << "no frame, even if the file has one";
 }
 
-// Pixels of planes that hold their own number.
+// Each pixel of the planes holds its own index.
 Frame numbered_frame(int width, int height) {
     Frame f;
     f.width = width;
@@ -173,7 +173,7 @@ Frame numbered_frame(int width, int height) {
     return f;
 }
 
-TEST(CameraFrame, IsCutOutOfAllPlanes) {
+TEST(CameraFrame, CropsAllPlanes) {
     const Frame part = cropped(numbered_frame(5, 3), {1, 0, 4, 3});
     EXPECT_EQ(part.width, 3);
     EXPECT_EQ(part.height, 3);
@@ -187,14 +187,14 @@ TEST(CameraFrame, IsCutOutOfAllPlanes) {
     EXPECT_EQ(cropped(DenoisedPtr(), {0, 0, 1, 1}), nullptr);
 }
 
-TEST(RegionSurroundings, LieAroundTheRegion) {
+TEST(RegionSurroundings, SurroundTheRegion) {
     float area = 0;
     for (const PictureRegion& part : around({0.25f, 0.5f, 0.5f, 0.25f})) area += part.width * part.height;
     EXPECT_FLOAT_EQ(area, 1 - 0.5f * 0.25f);
     for (const PictureRegion& part : around({})) EXPECT_EQ(part.width * part.height, 0);
 }
 
-TEST(HomeView, IsTheCameraThatTheViewLooksThrough) {
+TEST(HomeView, IsTheCameraOfTheView) {
     Scene scene;
     const Id<Camera> camera = scene.cameras.add({"camera", {}});
     Node node;
@@ -212,10 +212,10 @@ TEST(HomeView, IsTheCameraThatTheViewLooksThrough) {
     EXPECT_EQ(home_view(scene, home).position.x, 4);
     EXPECT_EQ(home_at_opening(scene).camera, first) << "a free view: the first camera";
     scene.nodes.remove(second);
-    EXPECT_TRUE(is_at_home(scene, home)) << "the camera is gone";
+    EXPECT_TRUE(is_at_home(scene, home)) << "the camera was deleted";
 }
 
-TEST(LightPresence, MutedLightsAreThere) {
+TEST(LightPresence, MutedLightsCount) {
     Scene scene;
     LightPresence presence;
     Node node;
@@ -230,7 +230,7 @@ TEST(LightPresence, MutedLightsAreThere) {
     EXPECT_TRUE(presence.in(scene));
 }
 
-TEST(GroundPlane, LiesJustBelowTheModel) {
+TEST(GroundPlane, IsJustBelowTheModel) {
     Bounds box;
     box.include({-1, 2, -1});
     box.include({3, 4, 1});
@@ -242,7 +242,7 @@ TEST(GroundPlane, LiesJustBelowTheModel) {
     EXPECT_NEAR(plane.center().x, 1, 1e-5);
 }
 
-TEST(FilePlaces, EachFolderOnceAndOnlyThoseThatAreThere) {
+TEST(FilePlaces, ListsExistingFoldersOnce) {
     const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("blush-places-" + std::to_string(getpid()));
     std::filesystem::create_directories(folder / "scenes");
     WindowSettings settings;

@@ -1,4 +1,4 @@
-// The colour configuration that Blush comes with, for tests.
+// The OCIO configuration shipped with Blush, for tests.
 #pragma once
 
 #include "color/color_management.h"
@@ -7,7 +7,7 @@
 
 namespace blush::test {
 
-// Throws where it cannot be had, which fails the test.
+// Throws if it cannot be loaded, which fails the test.
 inline ColorManagement our_colors() {
     auto loaded = ColorManagement::load(BLUSH_ASSETS);
     if (!loaded) throw std::runtime_error(loaded.error().text());

@@ -1,4 +1,4 @@
-// Every panel, for everything there is to select: drawing alone edits nothing, whatever the values are.
+// Every panel with every type of selection: drawing must not edit the document, for any values.
 #include "imgui_test.h"
 #include "io/gltf_import.h"
 #include "our_colors.h"
@@ -19,7 +19,7 @@ namespace {
 
 class Panels : public test::ImGuiTest {
 protected:
-    // A few frames of everything, with this selected.
+    // Draws a few frames of all panels with this selection.
     void draw_all(Document& document, Id<Node> selected) {
         ui.selected = selected;
         ui.show_shortcuts = true;
@@ -60,8 +60,8 @@ protected:
     FramePtr frame;
 };
 
-// Some frames, until all cards know how large they are.
-TEST_F(Panels, CardsLieOneAboveTheOther) {
+// Draws several frames, until the sizes of all cards are known.
+TEST_F(Panels, CardsAreStacked) {
     Document document;
     ui.toasts.fail(std::string(200, 'w'), std::string(400, 'd'));
     ui.toasts.note("short");
@@ -82,7 +82,7 @@ TEST_F(Panels, CardsLieOneAboveTheOther) {
     EXPECT_LE(cards[1]->Pos.y + cards[1]->Size.y, cards[2]->Pos.y);
 }
 
-// One of everything, twice: as it comes, and with values at the ends of what the panels' sliders reach and beyond.
+// A scene with all types of records, twice: with defaults, and with values at and beyond the ends of the sliders.
 Project with_odd_values(Project project) {
     Scene& scene = project.scene;
     for (const auto& [id, record] : Table<Light>(scene.lights)) {
@@ -127,7 +127,7 @@ TEST_F(Panels, DrawingEditsNothing) {
         draw_all(document, {});
         for (const auto& entry : project.scene.nodes) ui.toggle(entry.id); // all at once
         draw_all(document, ui.selected);
-        draw_all(document, {999}); // deleted since
+        draw_all(document, {999}); // a deleted node
         EXPECT_TRUE(document.project() == project);
         EXPECT_FALSE(document.can_undo());
         EXPECT_TRUE(ui.commands.empty());
@@ -135,8 +135,8 @@ TEST_F(Panels, DrawingEditsNothing) {
     }
 }
 
-// More sets of shadow casters than rays can carry.
-TEST_F(Panels, SayWhoseShadowsCannotBeLinked) {
+// More sets of shadow casters than the renderer supports.
+TEST_F(Panels, WarnIfShadowLinkingIsIgnored) {
     Project project;
     std::vector<Id<Node>> objects, lamps;
     for (int i = 0; i <= most_caster_sets; ++i) {
@@ -165,13 +165,13 @@ TEST_F(Panels, SayWhoseShadowsCannotBeLinked) {
         return std::string(std::istreambuf_iterator<char>(in), {});
     };
     for (int i = 0; i < most_caster_sets; ++i) add_lamp(objects[size_t(i)]);
-    EXPECT_EQ(widgets_with(lamps.back()).find("eft out\""), std::string::npos) << "there is room for so many";
+    EXPECT_EQ(widgets_with(lamps.back()).find("eft out\""), std::string::npos) << "this many are supported";
     add_lamp(objects.back());
     EXPECT_NE(widgets_with(lamps.back()).find("Linking/Left out\""), std::string::npos);
     EXPECT_NE(widgets_with(lamps.front()).find("Linking/Others left out\""), std::string::npos);
 }
 
-TEST_F(Panels, EveryEnvironmentKindAndLightKind) {
+TEST_F(Panels, EveryEnvironmentAndLightType) {
     const test::Sample sample = test::sample_project();
     for (const auto kind :
          {Light::Kind::point, Light::Kind::spot, Light::Kind::sun, Light::Kind::rectangle, Light::Kind::disk, Light::Kind::sphere}) {
@@ -192,7 +192,7 @@ TEST_F(Panels, EveryEnvironmentKindAndLightKind) {
     }
 }
 
-TEST_F(Panels, EveryWayOfLookingAtADenoisedPicture) {
+TEST_F(Panels, EveryModeOfTheDenoiseView) {
     Document document(test::sample_project().project);
     auto raw = std::make_shared<Frame>();
     raw->width = raw->height = 2;
@@ -270,8 +270,8 @@ TEST_F(Panels, EachUnusedFeatureHasALine) {
     EXPECT_FALSE(document.can_undo());
 }
 
-// What can be shown without a rendering behind it, whatever is chosen in it.
-TEST_F(Panels, EveryWayOfLookingAtBounces) {
+// All modes, without a render.
+TEST_F(Panels, EveryModeOfTheBouncesPanel) {
     auto three = std::make_shared<Frame>();
     three->width = three->height = 1;
     three->rgba = {1, 1, 1, 1};
@@ -287,7 +287,7 @@ TEST_F(Panels, EveryWayOfLookingAtBounces) {
     EXPECT_EQ(ui.bounces.gains, std::vector<float>(3, 1.f));
 }
 
-// Whatever was recorded, and whatever becomes of the reference.
+// With any data and any state of the reference.
 TEST_F(Panels, EveryStateOfTheConvergencePanel) {
     Document document(test::sample_project().project);
     ConvergenceView& view = ui.convergence;
@@ -328,7 +328,7 @@ TEST_F(Panels, EveryStateOfTheConvergencePanel) {
     EXPECT_EQ(view.wanted_reference, ConvergenceView::ReferenceRequest::none);
 }
 
-// A picture of groups, and the panel over it: nothing is edited by looking.
+// A frame with groups and the panel: drawing does not edit.
 TEST_F(Panels, TheLightMixShowsItsGroups) {
     test::Sample sample = test::sample_project();
     sample.project.scene.mix.grouping = LightMix::Grouping::by_light;
@@ -369,7 +369,7 @@ TEST_F(Panels, TheRouletteLabMeasuresWhileItIsOpen) {
     ASSERT_TRUE(ui.roulette.runner);
     while (ui.roulette.runner->state().answer.rounds < 20) draw();
     draw();
-    EXPECT_FALSE(document.can_undo()) << "looking edits nothing";
+    EXPECT_FALSE(document.can_undo()) << "drawing edits nothing";
     PanelContext c{document, ui, color, frame, {}, 64, 48};
     find_instrument("roulette")->set_open(c, false);
     EXPECT_FALSE(ui.roulette.runner);

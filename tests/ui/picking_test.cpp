@@ -1,4 +1,4 @@
-// What a frame's planes say under the mouse.
+// Picking from a frame's planes.
 #include "ui/picking.h"
 
 #include "core/math.h"
@@ -8,7 +8,7 @@
 namespace blush {
 namespace {
 
-// 2 x 2: nothing but the lower right pixel was hit, 4 metres away.
+// 2 x 2: only the lower right pixel has a hit, at 4 metres.
 Frame sample_frame() {
     Frame f;
     f.width = f.height = 2;
@@ -26,13 +26,13 @@ TEST(Pick, ReadsThePixelUnderTheMouse) {
     EXPECT_EQ(*p.depth, 4);
 }
 
-TEST(Pick, AMissIsNothing) {
+TEST(Pick, MissIsEmpty) {
     const Picked p = pick(sample_frame(), 0.25, 0.6);
     EXPECT_FALSE(p.node);
     EXPECT_FALSE(p.depth);
 }
 
-TEST(Pick, OutsideOfThePictureOrOfItsPlanesIsNothing) {
+TEST(Pick, OutsideThePictureOrItsPlanesIsEmpty) {
     for (const auto& [u, v] : {std::pair{-0.1, 0.5}, {1.0, 0.5}, {0.5, 1.0}, {0.5, -1e-9}}) EXPECT_FALSE(pick(sample_frame(), u, v).node);
     EXPECT_FALSE(pick(Frame{}, 0.5, 0.5).depth);
     Frame bare = sample_frame();
@@ -42,7 +42,7 @@ TEST(Pick, OutsideOfThePictureOrOfItsPlanesIsNothing) {
     EXPECT_FALSE(seen_point(bare, Projection(View{}, 1), 0.75, 0.75));
 }
 
-TEST(SeenPoint, LiesOnTheRayAtTheDepth) {
+TEST(SeenPoint, IsOnTheRayAtItsDepth) {
     const Projection projection(View{}, 1);
     const auto point = seen_point(sample_frame(), projection, 0.75, 0.75);
     ASSERT_TRUE(point);

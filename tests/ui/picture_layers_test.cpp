@@ -1,4 +1,4 @@
-// Pictures of other programs: which channels make a layer, how layers are shown, and files that are broken.
+// EXR files from other programs: grouping channels to layers, display of layers, and invalid files.
 #include "core/files.h"
 #include "ui/picture_layers.h"
 #include "ui/snapshots_view.h"
@@ -30,7 +30,7 @@ std::vector<std::string> names_of(const std::vector<PictureLayer>& layers) {
 }
 using Names = std::vector<std::string>;
 
-TEST(PictureLayers, GroupChannelsByTheirNames) {
+TEST(PictureLayers, GroupChannelsByName) {
     const std::vector<PictureLayer> layers =
         layers_of({image_of({"Z", "diffuse.B", "diffuse.G", "diffuse.R", "A", "B", "G", "R", "N.X", "N.Y", "N.Z", "crypto00.r", "crypto00.g", "crypto00.b",
                              "crypto00.a", "beauty.R", "mask.Y"})});
@@ -51,7 +51,7 @@ TEST(PictureLayers, NamePartsOfAFile) {
     EXPECT_EQ(layers_of(parts)[0].part, 1u);
 }
 
-TEST(PictureLayers, AreShownByTheirKind) {
+TEST(PictureLayers, AreDisplayedByKind) {
     PictureLayers p{"picture.exr", {image_of({"R", "G", "B", "Z", "P.X", "P.Y", "P.Z"})}, {}};
     p.parts[0].channels[3].values = {5, 9};
     p.parts[0].channels[0].values[1] = std::numeric_limits<float>::quiet_NaN();
@@ -62,7 +62,7 @@ TEST(PictureLayers, AreShownByTheirKind) {
     EXPECT_EQ(frame_of(p)->rgba, (std::vector<float>{0, 0, 0, 1, 1, 1, 1, 1}));
     EXPECT_EQ(range_text(p), "from 5 to 9");
     p.parts[0].channels[3].values = {1e30f, std::numeric_limits<float>::infinity()};
-    EXPECT_EQ(range_text(p), "no numbers") << "what lies infinitely far away";
+    EXPECT_EQ(range_text(p), "no numbers") << "infinite depth";
     EXPECT_EQ(frame_of(p)->rgba[4], 0);
     p.chosen = 2;
     EXPECT_EQ(frame_of(p)->rgba[0], 4.5f) << "8 / 2 + 1 / 2";
@@ -75,7 +75,7 @@ TEST(PictureLayers, AreShownByTheirKind) {
     EXPECT_NE(frame_of(q)->rgba[4], 0);
 }
 
-TEST(PictureLayers, KnowAPanorama) {
+TEST(PictureLayers, RecogniseAPanorama) {
     const auto picture = [](LayeredImage image) { return PictureLayers{"p.exr", {image}, layers_of({image})}; };
     EXPECT_TRUE(is_panorama(picture(image_of({"R", "G", "B"}, 4, 2))));
     EXPECT_TRUE(is_panorama(picture(image_of({"R", "G", "B", "A"}, 4, 2))));
@@ -97,7 +97,7 @@ TEST_F(PictureFile, OpensWithAllItsChannels) {
     ASSERT_TRUE(write_exr(file_, image));
     const auto opened = open_picture_layers(file_);
     ASSERT_TRUE(opened) << opened.error().text();
-    EXPECT_EQ(names_of((*opened)->layers), (Names{"Beauty", "id", "depth.Z"})) << "integers stand first in the file";
+    EXPECT_EQ(names_of((*opened)->layers), (Names{"Beauty", "id", "depth.Z"})) << "integers are first in the file";
     EXPECT_EQ((*opened)->parts[0].channels.size(), 5u);
     Snapshot s;
     s.layers = *opened;
@@ -106,7 +106,7 @@ TEST_F(PictureFile, OpensWithAllItsChannels) {
     EXPECT_NE(s.figures().find("3 layers"), std::string::npos);
 }
 
-TEST_F(PictureFile, SaysWhatOfItIsThePicture) {
+TEST_F(PictureFile, HasADisplayWindow) {
     LayeredImage image = image_of({"R", "G", "B"}, 8, 4);
     ASSERT_TRUE(write_exr(file_, image));
     EXPECT_FALSE(read_layers(file_)->display_window);
@@ -120,7 +120,7 @@ TEST_F(PictureFile, SaysWhatOfItIsThePicture) {
     EXPECT_EQ(read_layers(file_)->display_window, image.display_window);
 }
 
-TEST_F(PictureFile, IsRefusedWithOneMessageWhereItIsBroken) {
+TEST_F(PictureFile, InvalidFileIsOneError) {
     ASSERT_TRUE(write_exr(file_, image_of({"R", "G", "B", "Z"}, 16, 16)));
     const Result<std::vector<uint8_t>> bytes = read_file(file_, 1 << 20);
     ASSERT_TRUE(bytes);

@@ -1,5 +1,4 @@
-// Charts in the window and in files: the same layout, drawn by ImGui and turned into pixels without OpenGL; and what the panel says in
-// words.
+// Charts in the window and in files: same layout, drawn by ImGui and rasterized without OpenGL; texts of the Convergence panel.
 #include "imgui_test.h"
 #include "ui/convergence_picture.h"
 #include "ui/draw_list_image.h"
@@ -38,14 +37,14 @@ protected:
 TEST_F(PlotDrawing, ARectangleCoversItsPixelsOnce) {
     const std::vector<float> rgb = drawn([](ImDrawList& list) {
         list.Flags = ImDrawListFlags_None;
-        list.AddRectFilled({5, 7}, {25, 22}, IM_COL32(255, 255, 255, 128)); // two triangles: twice along the diagonal would be brighter
+        list.AddRectFilled({5, 7}, {25, 22}, IM_COL32(255, 255, 255, 128)); // two triangles: the diagonal must not be drawn twice
     });
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x)
             EXPECT_NEAR(red(rgb, x, y), x >= 5 && x < 25 && y >= 7 && y < 22 ? 128 / 255.f : 0.f, 1e-5f) << x << ", " << y;
 }
 
-TEST_F(PlotDrawing, ClipRectanglesAndThePictureItselfCutOff) {
+TEST_F(PlotDrawing, ClipsToClipRectanglesAndThePicture) {
     const std::vector<float> rgb = drawn([](ImDrawList& list) {
         list.PushClipRect({10, 10}, {20, 20}, true);
         list.AddRectFilled({-1e6f, -1e6f}, {1e6f, 1e6f}, IM_COL32_WHITE);
@@ -57,13 +56,13 @@ TEST_F(PlotDrawing, ClipRectanglesAndThePictureItselfCutOff) {
     EXPECT_NEAR(sum, 100, 1e-3f);
 }
 
-TEST_F(PlotDrawing, LettersLeaveInk) {
+TEST_F(PlotDrawing, DrawsText) {
     const std::vector<float> rgb = drawn([](ImDrawList& list) { list.AddText({2, 2}, IM_COL32_WHITE, "1"); });
     EXPECT_GT(*std::max_element(rgb.begin(), rgb.end()), 0.9f);
     EXPECT_EQ(red(rgb, width - 1, height - 1), 0);
 }
 
-TEST_F(PlotDrawing, AChartShowsItsPointsWhereTheLayoutHasThem) {
+TEST_F(PlotDrawing, ChartPointsMatchTheLayout) {
     Plot plot{"title",          "x", "y", {{"a", "#ff0000", {{1, 1}, {10, 0.3}, {100, 0.1, 0.05, 0.2}}}}, {{5, "edit", "#00ff00"}},
               {{0.2, "target"}}};
     const ChartPicture picture = draw_chart_picture(plot);
@@ -86,7 +85,7 @@ TEST(PlotColors, AreParsedOrBlack) {
     for (const char* bad : {"", "#12", "0180ff7", "#01 0ff", "#0180ff0"}) EXPECT_EQ(parse_color(bad), IM_COL32(0, 0, 0, 255)) << bad;
 }
 
-TEST(ConvergenceTexts, SayWhatIsKnownAndNoMore) {
+TEST(ConvergenceTexts, ShowUnknownValuesAsUnknown) {
     using State = TimeLeft::State;
     EXPECT_EQ(error_text({}), "not known yet");
     EXPECT_EQ(error_text({false, 0.01234, 0, 0}), "0.0123");

@@ -1,4 +1,4 @@
-// The polar plot has the light's own candela in each direction.
+// The polar plot shows the light's candela per direction.
 #include "ui/polar_plot.h"
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 namespace blush {
 namespace {
 
-TEST(PolarPlot, PutsCandelaWhereTheyGo) {
+TEST(PolarPlot, HasTheCandelaPerDirection) {
     IesProfile p;
     p.vertical = {0, 90, 180};
     p.horizontal = {0, 90, 180, 270, 360};

@@ -1,4 +1,4 @@
-// The desktop's file dialog, asked over a session bus of the test's own with a portal that answers as told.
+// The desktop's file dialog on a private session bus with a fake portal.
 #include "app/desktop_file_dialog.h"
 
 #include <sdbus-c++/sdbus-c++.h>
@@ -22,7 +22,7 @@ namespace {
 using Outcome = PortalAnswer::Outcome;
 using Options = std::map<std::string, sdbus::Variant>;
 
-// A bus without any service; the environment names it while this lives.
+// A bus without services; set in the environment during the object's lifetime.
 class Bus {
 public:
     Bus() {
@@ -59,7 +59,7 @@ private:
     pid_t daemon_ = 0;
 };
 
-// What was asked, and what is answered: a code and URIs, or nothing at all while `code` is empty.
+// The received request, and the reply: a code and URIs, or no reply while `code` is empty.
 class Portal {
 public:
     std::optional<uint32_t> code = 0;
@@ -81,7 +81,7 @@ public:
         object_->finishRegistration();
         connection_->enterEventLoopAsync();
     }
-    // Ends it as a portal ends that crashes.
+    // Ends without a reply, like a crash.
     void vanish() {
         connection_->leaveEventLoop();
         request_.reset();
@@ -114,14 +114,14 @@ protected:
     std::atomic<bool> cancel = false;
 };
 
-TEST(PathOfUri, IsAPathOfThisMachineOrNothing) {
+TEST(PathOfUri, AcceptsOnlyLocalPaths) {
     EXPECT_EQ(path_of_uri("file:///home/a%20b/l%C3%A4mp.gltf"), "/home/a b/l\u00e4mp.gltf");
     EXPECT_EQ(path_of_uri("file://localhost/tmp/x"), "/tmp/x");
     for (const char* bad : {"", "file://", "http://x/y", "file://elsewhere/y", "file:///a%2", "file:///a%", "file:///a%zz", "file:///a%00b", "/a"})
         EXPECT_TRUE(path_of_uri(bad).empty()) << bad;
 }
 
-TEST_F(PortalDialog, AnswersWithTheChosenFile) {
+TEST_F(PortalDialog, ReturnsTheChosenFile) {
     Portal portal;
     portal.uris = {"file:///scenes/red%20mug.glb"};
     const PortalAnswer answer = ask_portal({FileRequest::Use::open, "/scenes", ""}, cancel);
@@ -139,7 +139,7 @@ TEST_F(PortalDialog, AnswersWithTheChosenFile) {
     EXPECT_EQ(filters[0].get<1>()[1].get<1>(), "*.[gG][lL][bB]");
 }
 
-TEST_F(PortalDialog, AsksForFoldersAndForNames) {
+TEST_F(PortalDialog, RequestsFoldersAndNames) {
     Portal portal;
     portal.uris = {"file:///pictures"};
     EXPECT_EQ(ask_portal({FileRequest::Use::snapshot_folder, "/", ""}, cancel).path, "/pictures");
@@ -150,7 +150,7 @@ TEST_F(PortalDialog, AsksForFoldersAndForNames) {
     EXPECT_EQ(portal.options.at("current_name").get<std::string>(), "mug.gltf");
 }
 
-TEST_F(PortalDialog, IsCancelledByTheUserOrByTheProgram) {
+TEST_F(PortalDialog, CanBeCancelledByUserAndProgram) {
     Portal portal;
     portal.code = 1;
     EXPECT_EQ(ask_portal({}, cancel).outcome, Outcome::cancelled);
@@ -169,8 +169,8 @@ TEST_F(PortalDialog, IsCancelledByTheUserOrByTheProgram) {
     EXPECT_EQ(portal.closed, 1) << "the dialog stays open on the desktop";
 }
 
-TEST_F(PortalDialog, WithoutAPortalThereIsNoAnswer) {
-    EXPECT_EQ(ask_portal({}, cancel).outcome, Outcome::no_portal) << "a bus, but nothing on it";
+TEST_F(PortalDialog, WithoutAPortalReturnsNoPortal) {
+    EXPECT_EQ(ask_portal({}, cancel).outcome, Outcome::no_portal) << "a bus without services";
     Portal portal;
     portal.code.reset();
     std::thread crash([&] {
@@ -186,7 +186,7 @@ TEST_F(PortalDialog, WithoutAPortalThereIsNoAnswer) {
     EXPECT_FALSE(may_have_session_bus());
 }
 
-// Frames of the editor until the dialog has answered.
+// Runs frames of the editor until the dialog has returned.
 void poll_until(DesktopFileDialog& dialog, UiState& ui, const std::function<bool()>& done) {
     for (int frame = 0; frame < 2000 && !done(); ++frame) {
         dialog.poll(ui);
@@ -195,7 +195,7 @@ void poll_until(DesktopFileDialog& dialog, UiState& ui, const std::function<bool
     EXPECT_TRUE(done());
 }
 
-TEST_F(PortalDialog, TakesTheWindowsPlace) {
+TEST_F(PortalDialog, ReplacesTheFileBrowser) {
     Portal portal;
     portal.uris = {"file:///scenes/mug"};
     UiState ui;
@@ -203,7 +203,7 @@ TEST_F(PortalDialog, TakesTheWindowsPlace) {
     ui.browser = FileBrowser{FileRequest::Use::save_scene, "/scenes", "/scenes/mug.gltf"};
     dialog.poll(ui);
     ASSERT_TRUE(ui.browser);
-    EXPECT_TRUE(ui.browser->on_desktop) << "the window's own is not drawn";
+    EXPECT_TRUE(ui.browser->on_desktop) << "the file browser is not drawn";
     poll_until(dialog, ui, [&] { return !ui.browser; });
     ASSERT_EQ(ui.files.size(), 1u);
     EXPECT_EQ(ui.files[0].path, "/scenes/mug.gltf");
@@ -221,7 +221,7 @@ TEST_F(PortalDialog, TakesTheWindowsPlace) {
     dialog.poll(ui);
     EXPECT_TRUE(ui.browser->on_desktop);
     poll_until(dialog, ui, [&] { return !ui.browser->on_desktop; });
-    EXPECT_TRUE(ui.browser->just_opened) << "the window's own dialog opens instead";
+    EXPECT_TRUE(ui.browser->just_opened) << "the file browser opens instead";
     dialog.poll(ui);
     EXPECT_FALSE(ui.browser->on_desktop) << "and the desktop is not asked again";
 }

@@ -1,4 +1,4 @@
-// What the window remembers of panels and of scenes.
+// Saved UI state of panels and scenes.
 #include "ui/remembered.h"
 
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 namespace blush {
 namespace {
 
-TEST(Remembered, PanelsComeBackAsTheyWereSet) {
+TEST(Remembered, PanelsRoundTrip) {
     UiState ui;
     ui.tab = InspectorTab::render;
     ui.denoise = {DenoiseView::Show::blend, 0.25f};
@@ -36,10 +36,10 @@ TEST(Remembered, PanelsComeBackAsTheyWereSet) {
     remember_panels(again, twice);
     UiState fewer;
     recall_panels(twice, fewer);
-    EXPECT_EQ(fewer.bounces.gains, again.bounces.gains) << "of a gain that is gone nothing is left";
+    EXPECT_EQ(fewer.bounces.gains, again.bounces.gains) << "a removed gain is not kept";
 }
 
-TEST(Remembered, WhatMakesNoSenseChangesNothing) {
+TEST(Remembered, InvalidValuesAreIgnored) {
     WindowSettings settings;
     settings.panels = {{"tab", 99},           {"denoise", -1},    {"denoise.blend", 7}, {"bounces.bounce", 1e30},
                        {"bounces.gain.0", 5}, {"denoise", 1e300}, {"unknown", 3}};
@@ -57,7 +57,7 @@ struct TwoNodes {
     Id<Material> material = scene.materials.add(Material());
 };
 
-TEST(Remembered, ASceneIsLookedAtAsItWasLeft) {
+TEST(Remembered, SceneStateRoundTrips) {
     const TwoNodes s;
     UiState ui;
     ui.zoom = {3, 0.25, 0.75};
@@ -85,7 +85,7 @@ TEST(Remembered, ASceneIsLookedAtAsItWasLeft) {
     EXPECT_EQ(ui.zoom, PictureZoom());
     EXPECT_TRUE(!ui.selected && !ui.selected_material && ui.turned.empty() && ui.light_mix.unfolded.empty());
     recall_scene(settings, "/a.gltf", Scene(), ui);
-    EXPECT_TRUE(!ui.selected && ui.also_selected.empty() && !ui.selected_material && ui.turned.empty()) << "nodes that are gone";
+    EXPECT_TRUE(!ui.selected && ui.also_selected.empty() && !ui.selected_material && ui.turned.empty()) << "deleted nodes";
     recall_scene(settings, "/never.gltf", s.scene, ui);
     EXPECT_EQ(ui.zoom, PictureZoom());
 }

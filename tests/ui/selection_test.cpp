@@ -1,4 +1,4 @@
-// Several things selected, and what an edit of one light means for the others.
+// Multi-selection, and multi-edit of lights.
 #include "ui/edit_together.h"
 #include "ui/light_groups.h"
 #include "ui/light_tools.h"
@@ -20,13 +20,13 @@ Scene three_nodes() {
     return scene;
 }
 
-TEST(Selection, CtrlClicksAddAndTakeAway) {
+TEST(Selection, CtrlClickToggles) {
     const Scene scene = three_nodes();
     UiState ui;
     ui.select({1});
     ui.toggle({2});
     ui.toggle({3});
-    EXPECT_EQ(ui.selection(scene), (Ids{{3}, {1}, {2}})) << "the last one is what handles and inspector are for";
+    EXPECT_EQ(ui.selection(scene), (Ids{{3}, {1}, {2}})) << "the last one is the active node";
     ui.toggle({1});
     EXPECT_EQ(ui.selection(scene), (Ids{{3}, {2}}));
     ui.toggle({3});
@@ -38,7 +38,7 @@ TEST(Selection, CtrlClicksAddAndTakeAway) {
     EXPECT_FALSE(ui.is_selected({}));
 }
 
-TEST(Selection, APlainClickEndsItAndTheDeletedAreNotInIt) {
+TEST(Selection, PlainClickReplacesAndDeletedNodesAreSkipped) {
     Scene scene = three_nodes();
     UiState ui;
     ui.select({1});
@@ -49,7 +49,7 @@ TEST(Selection, APlainClickEndsItAndTheDeletedAreNotInIt) {
     EXPECT_EQ(ui.selection(scene), (Ids{{3}}));
 }
 
-TEST(Selection, ShiftClicksSelectAllBetweenInTheOrderShown) {
+TEST(Selection, ShiftClickSelectsARange) {
     const Scene scene = three_nodes();
     const Ids listed{{3}, {1}, {2}};
     UiState ui;
@@ -57,13 +57,13 @@ TEST(Selection, ShiftClicksSelectAllBetweenInTheOrderShown) {
     ui.select_range(listed, {3});
     EXPECT_EQ(ui.selection(scene), (Ids{{2}, {3}, {1}}));
     ui.select_range(listed, {1});
-    EXPECT_EQ(ui.selection(scene), (Ids{{2}, {1}})) << "from where it began";
+    EXPECT_EQ(ui.selection(scene), (Ids{{2}, {1}})) << "from the anchor";
     ui.select({});
     ui.select_range(listed, {1});
     EXPECT_EQ(ui.selection(scene), (Ids{{1}}));
 }
 
-TEST(EditTogether, EveryFieldGoesAlongButNameAndBalance) {
+TEST(EditTogether, CopiesFieldsExceptNameAndKeepsBalance) {
     Light before, after, other;
     other.name = "Fill";
     before.intensity = 10;
@@ -80,10 +80,10 @@ TEST(EditTogether, EveryFieldGoesAlongButNameAndBalance) {
     EXPECT_EQ(edited.color, after.color);
     EXPECT_EQ(edited.group, "Warm");
     EXPECT_EQ(edited.radius, 0.5f);
-    EXPECT_EQ(edited_alike(other, before, before), other) << "what is not edited stays";
+    EXPECT_EQ(edited_alike(other, before, before), other) << "fields that are not edited stay";
 }
 
-TEST(EditTogether, SizesPassBetweenLightsOfOneKindOnly) {
+TEST(EditTogether, CopiesSizesOnlyBetweenLightsOfOneType) {
     Light before, after, sun;
     sun.kind = Light::Kind::sun;
     after.radius = 0.5f;
@@ -93,7 +93,7 @@ TEST(EditTogether, SizesPassBetweenLightsOfOneKindOnly) {
     EXPECT_EQ(edited.kelvin, 3000);
 }
 
-TEST(EditTogether, FromDarknessThereIsNoFactor) {
+TEST(EditTogether, IntensityFromZeroIsCopied) {
     Light before, after, other;
     before.intensity = 0;
     after.intensity = 5;
@@ -120,13 +120,13 @@ struct Rig {
     }
 };
 
-TEST(EditTogether, FindsTheLightsOfBranchesEachOnce) {
+TEST(EditTogether, FindsLightsOfSubtreesOnce) {
     const Rig r;
     EXPECT_EQ(lights_of(r.scene, Ids{r.stand, r.key, r.fill, {99}}), (std::vector<Id<Light>>{{1}, {2}}));
     EXPECT_EQ(topmost(r.scene, Ids{r.key, r.stand, r.fill}), (Ids{r.stand, r.fill}));
 }
 
-TEST(EditTogether, OneStepAndAnEditForEachThatChanges) {
+TEST(EditTogether, IsOneStepWithOneEditPerChangedLight) {
     const Rig r;
     const std::vector<Id<Light>> lights{{1}, {2}};
     const auto mute = [](Light& light) { light.enabled = light.name == "Key"; };
@@ -141,7 +141,7 @@ TEST(EditTogether, OneStepAndAnEditForEachThatChanges) {
     EXPECT_EQ(label_for("Mute", r.scene, std::vector<Id<Light>>{{1}}), "Mute light Key");
 }
 
-TEST(EditTogether, SaysWhereTheyDiffer) {
+TEST(EditTogether, ListsDifferingFields) {
     Rig r;
     const std::vector<Id<Light>> lights{{1}, {2}};
     EXPECT_TRUE(differing_fields(r.scene, lights).empty());
@@ -152,7 +152,7 @@ TEST(EditTogether, SaysWhereTheyDiffer) {
     EXPECT_EQ(differing_fields(r.scene, lights), (std::vector<std::string>{"intensity", "group"}));
 }
 
-TEST(LightGroups, NewNamesAreFree) {
+TEST(LightGroups, NewNamesAreUnique) {
     Rig r;
     EXPECT_TRUE(group_names(r.scene).empty());
     Light key = *r.scene.lights.find({1});
@@ -166,7 +166,7 @@ TEST(LightGroups, NewNamesAreFree) {
 TEST(TurnedSurroundings, FollowTheMouse) {
     Lens lens;
     lens.yfov_radians = 1.2f;
-    // A hundredth of the picture in its middle, as an angle.
+    // One per cent of the picture in its centre, as an angle.
     const double angle = std::atan(0.01 * 2 * std::tan(0.6)) * 180 / 3.14159265;
     EXPECT_NEAR(turned_rotation(10, 0.01, lens), 10 - angle, 1e-3) << "to the right is clockwise seen from above";
     EXPECT_NEAR(turned_rotation(-179, 0.1, lens), 173.2, 0.1) << "around";

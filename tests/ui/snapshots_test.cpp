@@ -1,4 +1,4 @@
-// Snapshots as the window has them: the list, what is compared, thumbnails, differences, and the panels that show them.
+// Snapshots in the window: list, comparison, thumbnails, differences and panels.
 #include "ui/snapshots_view.h"
 
 #include "imgui_test.h"
@@ -41,7 +41,7 @@ TEST(Snapshots, AreNumberedAndNeverTheLiveImage) {
     EXPECT_EQ(v.find(second)->name, "Snapshot 2");
     v.remove(first);
     EXPECT_FALSE(v.find(first));
-    EXPECT_NE(v.add(snapshot(3)), first) << "an id is not given out again";
+    EXPECT_NE(v.add(snapshot(3)), first) << "ids are not reused";
     EXPECT_EQ(v.find(second)->figures(), "16 spp, 12:34");
 }
 
@@ -59,12 +59,12 @@ TEST(Snapshots, TheNewestIsComparedWithTheLiveImage) {
     EXPECT_TRUE(v.toggle(Mode::flicker));
     EXPECT_FALSE(v.compare.shows_b);
     EXPECT_TRUE(v.toggle(Mode::flicker));
-    EXPECT_TRUE(v.compare.shows_b) << "the key goes on";
+    EXPECT_TRUE(v.compare.shows_b) << "the key toggles";
     v.remove(newest);
-    EXPECT_EQ(v.compare.mode, Mode::off) << "what is compared is gone";
+    EXPECT_EQ(v.compare.mode, Mode::off) << "the compared snapshot was deleted";
 }
 
-TEST(Snapshots, TheLastOneDeletedCanBePutBackInItsPlace) {
+TEST(Snapshots, LastDeletedOneCanBeRestored) {
     SnapshotsView v;
     EXPECT_FALSE(v.can_put_back());
     const uint64_t first = v.add(snapshot(1)), second = v.add(snapshot(2));
@@ -77,7 +77,7 @@ TEST(Snapshots, TheLastOneDeletedCanBePutBackInItsPlace) {
     EXPECT_EQ(v.list[1]->id, second);
 }
 
-TEST(SnapshotMemory, CountsWhatIsThere) {
+TEST(SnapshotMemory, CountsBytes) {
     Snapshot s = snapshot(1, 10, 10);
     EXPECT_EQ(bytes_of(s), 100 * 4 * sizeof(float));
     auto film = std::make_shared<FilmState>();
@@ -91,10 +91,10 @@ TEST(SnapshotMemory, CountsWhatIsThere) {
     const std::string figures = s.figures();
     s.let_go();
     EXPECT_EQ(bytes_of(s), 0u);
-    EXPECT_EQ(s.figures(), figures) << "what is in the file is told as before";
+    EXPECT_EQ(s.figures(), figures) << "unloaded snapshots keep their figures";
 }
 
-TEST(SnapshotMemory, ThoseNotUsedForLongestGoFirst) {
+TEST(SnapshotMemory, UnloadsLeastRecentlyUsedFirst) {
     SnapshotsView v;
     for (int i = 0; i < 4; ++i) v.add(snapshot(float(i)));
     const size_t each = bytes_of(*v.list[0]);
@@ -112,10 +112,10 @@ TEST(SnapshotMemory, ThoseNotUsedForLongestGoFirst) {
     v.compare = {Mode::wipe, 3, live_image};
     EXPECT_EQ(leaving(0), (std::vector<uint64_t>{4})) << "pinned, compared and last used ones stay";
     v.list[3]->let_go();
-    EXPECT_TRUE(leaving(0).empty()) << "it has nothing more to let go of";
+    EXPECT_TRUE(leaving(0).empty()) << "it has nothing more to unload";
 }
 
-TEST(Snapshots, ThumbnailsKeepShapeAndMean) {
+TEST(Snapshots, ThumbnailsKeepAspectAndMean) {
     const auto wide = plain_frame(640, 100, 0.5f);
     const Thumbnail t = thumbnail_of(*wide);
     ASSERT_EQ(t.rgba.size(), size_t(Thumbnail::width * Thumbnail::height * 4));
@@ -126,7 +126,7 @@ TEST(Snapshots, ThumbnailsKeepShapeAndMean) {
     EXPECT_EQ(t.rgba[0], 0) << "bars above and below";
 }
 
-TEST(Differences, AreWhatTheySay) {
+TEST(Differences, MatchTheirDefinition) {
     DifferenceQuestion q;
     q.a = plain_frame(16, 16, 3);
     q.b = plain_frame(16, 16, 1);
@@ -157,7 +157,7 @@ protected:
             draw_snapshot_panel(c);
         });
     }
-    // Where a card of the strip is, its letters apart.
+    // Position of a card, outside of its buttons.
     void click_first_card() {
         ImGuiIO& io = ImGui::GetIO();
         io.MousePos = {550, 450};
@@ -175,7 +175,7 @@ protected:
     FramePtr frame = plain_frame(32, 20, 1);
 };
 
-TEST_F(SnapshotPanels, DrawingAsksForNothing) {
+TEST_F(SnapshotPanels, DrawingRequestsNothing) {
     draw();
     const uint64_t id = ui.snapshots.add(snapshot(1));
     ui.snapshots.add(snapshot(2));
@@ -193,7 +193,7 @@ TEST_F(SnapshotPanels, DrawingAsksForNothing) {
     EXPECT_EQ(ui.snapshots.list.size(), 2u);
 }
 
-TEST_F(SnapshotPanels, AClickAsksForTheState) {
+TEST_F(SnapshotPanels, ClickRequestsARestore) {
     const uint64_t id = ui.snapshots.add(snapshot(1));
     click_first_card();
     ASSERT_EQ(ui.snapshots.requests.size(), 1u);
@@ -202,10 +202,10 @@ TEST_F(SnapshotPanels, AClickAsksForTheState) {
     ui.snapshots.requests.clear();
     ui.snapshots.open = false;
     click_first_card();
-    EXPECT_TRUE(ui.snapshots.requests.empty()) << "a strip that is closed";
+    EXPECT_TRUE(ui.snapshots.requests.empty()) << "a closed strip";
 }
 
-TEST(RestoreEdit, IsOneStepThatIsUndone) {
+TEST(RestoreEdit, IsOneUndoStep) {
     const Project before = test::sample_project().project;
     Project kept = before;
     kept.scene.environment.intensity = 7;

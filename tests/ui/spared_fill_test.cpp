@@ -1,4 +1,4 @@
-// What is left out of drawing is what nobody sees: rectangles painted one by one, before and after.
+// Overdraw reduction: draws rectangles in software, with and without it, and compares the pixels.
 #include "imgui_test.h"
 #include "ui/spared_fill.h"
 
@@ -11,8 +11,7 @@ namespace {
 
 constexpr int width = 120, height = 90;
 
-// What is on the screen, and how many pixels were filled for it, cleared or drawn over. Everything drawn here is rectangles on whole
-// pixels.
+// The screen, and the number of pixels filled by clears and draws. All shapes here are rectangles on whole pixels.
 struct Painted {
     std::vector<ImU32> pixels = std::vector<ImU32>(size_t(width) * height);
     int filled = 0, cleared = 0;
@@ -25,7 +24,7 @@ struct Painted {
                 if (color >> IM_COL32_A_SHIFT == 255)
                     to = color;
                 else
-                    to = to * 31 + color; // blending, in that it depends on what was there
+                    to = to * 31 + color; // a stand-in for blending: depends on the old value
             }
         return count;
     }
@@ -67,7 +66,7 @@ protected:
         ImGuiTest::TearDown();
     }
     ImDrawList& list(size_t i) { return *lists_[i]; }
-    // Before and after.
+    // Pixels filled before and after.
     std::array<Painted, 2> spared() {
         ImDrawData data;
         data.CmdLists = lists_.data();
@@ -83,7 +82,7 @@ private:
 
 constexpr ImU32 grey = IM_COL32(60, 60, 60, 255), red = IM_COL32(200, 0, 0, 255), veil = IM_COL32(0, 90, 0, 100);
 
-TEST_F(SparedFill, GroundsAreClearedAndWhatTheyCoverIsNotDrawn) {
+TEST_F(SparedFill, BackgroundsAreClearedAndCoveredDrawsSkipped) {
     list(0).AddRectFilled({0, 0}, {width, height}, red); // a picture, say
     list(0).AddRectFilled({5, 5}, {50, 50}, veil);
     list(1).AddRectFilled({20, 10}, {80, 60}, grey);
@@ -91,21 +90,21 @@ TEST_F(SparedFill, GroundsAreClearedAndWhatTheyCoverIsNotDrawn) {
     list(2).AddRectFilled({60, 30}, {110, 85}, grey);
     const auto [before, after] = spared();
     EXPECT_EQ(after.pixels, before.pixels);
-    EXPECT_EQ(after.cleared, width * height) << "each pixel once: the grounds cover it all";
-    EXPECT_EQ(after.filled, 45 * 45 - 30 * 40 + 15 * 5) << "the veils, where they are seen";
+    EXPECT_EQ(after.cleared, width * height) << "each pixel once: the backgrounds cover everything";
+    EXPECT_EQ(after.filled, 45 * 45 - 30 * 40 + 15 * 5) << "the transparent rectangles, where visible";
 }
 
-TEST_F(SparedFill, WhatLetsLightThroughCoversNothing) {
+TEST_F(SparedFill, TransparentRectanglesCoverNothing) {
     list(0).AddRectFilled({3, 3}, {90, 70}, veil);
     list(1).AddRectFilled({20, 10}, {80, 60}, veil);
-    list(2).AddRectFilled({10.5f, 10}, {80, 60}, grey); // on half a pixel
+    list(2).AddRectFilled({10.5f, 10}, {80, 60}, grey); // not on whole pixels
     const auto [before, after] = spared();
     EXPECT_EQ(after.pixels, before.pixels);
     EXPECT_EQ(after.filled, before.filled);
     EXPECT_EQ(after.cleared, 0);
 }
 
-TEST_F(SparedFill, ManyTrianglesAreDrawnOnceUnlessAllIsCovered) {
+TEST_F(SparedFill, LargeCommandsAreDrawnOnceUnlessCovered) {
     for (int i = 0; i < 20; ++i) list(0).AddRectFilled({float(i), 0}, {float(i) + 30, 30}, veil);
     list(1).AddRectFilled({5, 5}, {15, 15}, grey);
     list(2).AddRectFilled({0, 0}, {10, 10}, grey);
@@ -116,7 +115,7 @@ TEST_F(SparedFill, ManyTrianglesAreDrawnOnceUnlessAllIsCovered) {
     EXPECT_EQ(list(0).CmdBuffer.Size, 1);
 }
 
-TEST_F(SparedFill, WhollyCoveredListsHaveNothingToDraw) {
+TEST_F(SparedFill, CoveredListsDrawNothing) {
     for (int i = 0; i < 20; ++i) list(0).AddRectFilled({float(i) + 30, 30}, {float(i) + 40, 50}, veil);
     list(0).CmdBuffer[0].ClipRect = {30, 30, 60, 50};
     list(1).AddRectFilled({20, 20}, {70, 60}, grey);
@@ -126,7 +125,7 @@ TEST_F(SparedFill, WhollyCoveredListsHaveNothingToDraw) {
     EXPECT_EQ(after.filled, 100);
 }
 
-// Callbacks keep their place among what is drawn.
+// Callbacks keep their order.
 TEST_F(SparedFill, CallbacksStay) {
     const auto nothing = [](const ImDrawList*, const ImDrawCmd*) {};
     list(0).AddRectFilled({0, 0}, {50, 50}, grey);
@@ -135,7 +134,7 @@ TEST_F(SparedFill, CallbacksStay) {
     list(1).AddRectFilled({0, 0}, {width, height}, grey);
     list(2).AddRectFilled({0, 0}, {10, 10}, veil);
     spared();
-    ASSERT_EQ(list(0).CmdBuffer.Size, 1) << "all else is covered";
+    ASSERT_EQ(list(0).CmdBuffer.Size, 1) << "everything else is covered";
     EXPECT_TRUE(list(0).CmdBuffer[0].UserCallback);
     EXPECT_FALSE(is_clearing(list(0).CmdBuffer[0]));
 }

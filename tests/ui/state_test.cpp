@@ -1,4 +1,4 @@
-// Shortcuts, gestures, toasts, statistics: the window's bookkeeping.
+// Shortcuts, gestures, toasts, statistics and background jobs.
 #include "ui/automation.h"
 #include "ui/background_job.h"
 #include "ui/frame_pace.h"
@@ -17,7 +17,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-TEST(Shortcuts, NoKeyMeansTwoThings) {
+TEST(Shortcuts, KeysAreUnique) {
     for (const Shortcut& a : shortcuts()) {
         for (const KeyPress& press : {a.press, a.also}) {
             if (press.key == key::none) continue;
@@ -31,7 +31,7 @@ TEST(Shortcuts, EveryCommandIsListedOnce) {
     for (int c = 0; c <= int(Command::history); ++c) EXPECT_EQ(std::ranges::count(shortcuts(), Command(c), &Shortcut::command), 1) << c;
 }
 
-TEST(Shortcuts, AreFoundByTheirKeysAndNoOthers) {
+TEST(Shortcuts, AreFoundByTheirKeysOnly) {
     const Shortcut* undo = find_shortcut({'Z', true, false, false});
     ASSERT_TRUE(undo);
     EXPECT_EQ(undo->command, Command::undo);
@@ -44,7 +44,7 @@ TEST(Shortcuts, AreFoundByTheirKeysAndNoOthers) {
     EXPECT_EQ(find_shortcut({}), nullptr);
 }
 
-TEST(Shortcuts, ReadAsPeopleWriteThem) {
+TEST(Shortcuts, AreFormatted) {
     EXPECT_EQ(to_string({'Z', true, true, false}), "Ctrl+Shift+Z");
     EXPECT_EQ(to_string({key::f1, false, false, false}), "F1");
     EXPECT_EQ(to_string({key::remove, false, false, false}), "Del");
@@ -53,8 +53,8 @@ TEST(Shortcuts, ReadAsPeopleWriteThem) {
     EXPECT_EQ(keys_of(shortcut(Command::full_screen)), "F11");
 }
 
-// What Fields does for a widget that is grabbed, dragged and let go.
-TEST(Gestures, OneDragIsOneStepOfTheHistory) {
+// As Fields does for a widget that is grabbed, dragged and released.
+TEST(Gestures, OneDragIsOneUndoStep) {
     Document document;
     GestureTracker gestures;
     const auto drag = [&](float from, float to) {
@@ -77,7 +77,7 @@ TEST(Gestures, OneDragIsOneStepOfTheHistory) {
     EXPECT_EQ(document.redo_labels().size(), 2u);
 }
 
-TEST(Toasts, GoAwayByThemselvesFailuresLast) {
+TEST(Toasts, ExpireAndFailuresLast) {
     Toasts toasts;
     toasts.note("saved");
     toasts.fail("broken");
@@ -89,7 +89,7 @@ TEST(Toasts, GoAwayByThemselvesFailuresLast) {
     EXPECT_TRUE(toasts.all().empty());
 }
 
-TEST(Toasts, TheSameAgainReplacesTheOlderAndTheyDoNotPileUp) {
+TEST(Toasts, DuplicatesReplaceAndTheListIsLimited) {
     Toasts toasts;
     toasts.note("a");
     toasts.note("b");
@@ -110,11 +110,11 @@ TEST(FrameStats, PercentilesByNearestRank) {
     EXPECT_EQ(percentile({}, 0.5), 0);
 }
 
-TEST(FramePace, ThePictureGetsWhatTheRestOfAFrameLeaves) {
+TEST(FramePace, PictureGetsTheRemainingTime) {
     FramePace pace;
     const FramePace::TimePoint start{};
     pace.begin(start);
-    EXPECT_NEAR(pace.left(20, start + 3ms), 17, 1e-9) << "nothing is known of the rest yet";
+    EXPECT_NEAR(pace.left(20, start + 3ms), 17, 1e-9) << "the rest of the frame is not measured yet";
     pace.begin_picture(start + 3ms);
     pace.end_picture(start + 5ms);
     const FrameTimes times = pace.end(start + 17ms);
@@ -123,7 +123,7 @@ TEST(FramePace, ThePictureGetsWhatTheRestOfAFrameLeaves) {
     EXPECT_NEAR(times.after_picture, 12, 1e-9);
     pace.begin(start + 100ms);
     EXPECT_NEAR(pace.left(20, start + 101ms), 7, 1e-9);
-    EXPECT_GT(pace.left(20, start + 130ms), 0) << "however late a frame is, its picture goes on";
+    EXPECT_GT(pace.left(20, start + 130ms), 0) << "a late frame still draws its picture";
     pace.begin_picture(start + 101ms);
     pace.end_picture(start + 102ms);
     pace.end(start + 103ms);
@@ -133,7 +133,7 @@ TEST(FramePace, ThePictureGetsWhatTheRestOfAFrameLeaves) {
     EXPECT_LT(later, 19) << "but not at once";
 }
 
-TEST(FrameStats, CountsWhatIsShownInTheFrameThatItWasAskedForIn) {
+TEST(FrameStats, CountsEditsShownInTheSameFrame) {
     FrameStats stats;
     const FrameStats::Clock::time_point start{};
     stats.submitted(1, start);
@@ -152,7 +152,7 @@ TEST(FrameStats, CountsWhatIsShownInTheFrameThatItWasAskedForIn) {
     EXPECT_EQ(json["edits_at_once"], 1);
 }
 
-TEST(FrameStats, SaysWhenFramesWereLateAndWhereTheirTimeWent) {
+TEST(FrameStats, ListsLateFramesWithTheirTimes) {
     FrameStats stats;
     const FrameStats::Clock::time_point start{};
     stats.add_frame({5, 6, 7}, start + 20ms);
@@ -173,18 +173,18 @@ TEST(FrameStats, SaysWhenFramesWereLateAndWhereTheirTimeWent) {
     EXPECT_EQ(json["late_frames"][1]["after_picture_ms"], 3.0);
 }
 
-TEST(FrameStats, AnotherLookIsCountedOnceItIsShown) {
+TEST(FrameStats, ViewChangesCountWhenDisplayed) {
     FrameStats stats;
     const FrameStats::Clock::time_point start{};
     stats.look_shown(start);
-    EXPECT_TRUE(stats.looks().empty()) << "nobody asked for one";
+    EXPECT_TRUE(stats.looks().empty()) << "no view change was requested";
     stats.looked(start + 10ms);
     stats.look_shown(start + 42ms);
     stats.look_shown(start + 99ms);
     EXPECT_EQ(stats.looks(), std::vector<double>{32});
 }
 
-TEST(FrameStats, APictureAnswersItsOwnSubmitAndClearsTheOlder) {
+TEST(FrameStats, PictureAnswersItsSubmitAndClearsOlderOnes) {
     FrameStats stats;
     const FrameStats::Clock::time_point start{};
     stats.submitted(1, start);
@@ -198,7 +198,7 @@ TEST(FrameStats, APictureAnswersItsOwnSubmitAndClearsTheOlder) {
     EXPECT_NEAR(stats.latencies()[1], 80, 1e-9);
 }
 
-TEST(BackgroundJob, GivesItsResultOnceAndWakes) {
+TEST(BackgroundJob, ReturnsItsResultOnceAndWakes) {
     std::atomic<bool> woken = false;
     BackgroundJob<int> job(
         "work",
@@ -228,7 +228,7 @@ TEST(BackgroundJob, DestructionCancelsAndWaits) {
     EXPECT_TRUE(ended);
 }
 
-TEST(Automation, SizesAreParsedWhollyOrNotAtAll) {
+TEST(Automation, RejectsPartiallyValidSizes) {
     int w = 1, h = 2;
     EXPECT_TRUE(parse_size("800x600", w, h));
     EXPECT_EQ(w, 800);

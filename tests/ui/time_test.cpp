@@ -1,4 +1,4 @@
-// The row below the picture that says which moment of which animation is seen.
+// The timeline.
 #include "imgui_test.h"
 #include "our_colors.h"
 #include "support/sample_project.h"
@@ -35,7 +35,7 @@ protected:
     UiState ui;
 };
 
-TEST_F(Time, ADragOfTheSliderIsOneStep) {
+TEST_F(Time, SliderDragIsOneUndoStep) {
     const size_t steps = document.undo_labels().size();
     mouse(220, false);
     mouse(220, true);
@@ -57,7 +57,7 @@ TEST_F(Time, ADragOfTheSliderIsOneStep) {
     EXPECT_EQ(document.undo_labels().size(), steps + 2) << "another drag, another step";
 }
 
-TEST_F(Time, PlayingGoesRoundAndIsOneStep) {
+TEST_F(Time, PlaybackLoopsAndIsOneUndoStep) {
     const size_t steps = document.undo_labels().size();
     ui.time = {.playing = true, .gesture = ui.gestures.begin()};
     ui.gestures.end();
@@ -65,16 +65,16 @@ TEST_F(Time, PlayingGoesRoundAndIsOneStep) {
     for (const float t : {0.75f, 1.5f, 0.25f}) {
         frame();
         EXPECT_FLOAT_EQ(seconds(), t) << "of 2 s";
-        EXPECT_LT(ui.next_frame_in, 0.1) << "the next moment comes by itself";
+        EXPECT_LT(ui.next_frame_in, 0.1) << "the next frame is requested";
     }
     EXPECT_EQ(document.undo_labels().size(), steps + 1);
     ui.time = {};
     frame();
     EXPECT_EQ(seconds(), 0.25f);
-    EXPECT_EQ(ui.next_frame_in, 1) << "nothing moves any more";
+    EXPECT_EQ(ui.next_frame_in, 1) << "playback has stopped";
 }
 
-TEST_F(Time, AtRestThereIsNothingToPlay) {
+TEST_F(Time, RestPoseCannotBePlayed) {
     ui.time.playing = true;
     ASSERT_TRUE(document.apply(SetStaging{}));
     frame();

@@ -1,4 +1,4 @@
-// G, R and S: what mouse and keys amount to, and what that does to nodes and lights.
+// Modal transforms (G, R, S): input handling, and the resulting edits of nodes and lights.
 #include "scene/document.h"
 #include "ui/rotation.h"
 #include "ui/transform_edits.h"
@@ -19,7 +19,7 @@ void expect_near(const Vec3d& a, const Vec3d& b, double within = close) {
     EXPECT_NEAR(a.z, b.z, within);
 }
 
-// Seen from +Z; the pivot in the middle of a picture of 800 x 600, 1 m being about 55 pixels there.
+// Seen from +Z; the pivot is at the centre of a picture of 800 x 600, where 1 m is about 55 pixels.
 struct Bench {
     View view;
     ImageRect image{0, 0, 800, 600};
@@ -38,7 +38,7 @@ struct Bench {
     }
 };
 
-// Each character as a keyboard gives it: capitals with Shift.
+// The key presses for each character; capitals with Shift.
 void type(TransformTool& tool, const std::string& text) {
     for (const char c : text)
         EXPECT_EQ(tool.press({.key = std::toupper(c), .shift = std::isupper(c) != 0, .typed = char32_t(c)}), Answer::taken) << c;
@@ -55,7 +55,7 @@ TEST(Grab, FollowsTheMouseInThePlaneOfTheScreen) {
     EXPECT_NEAR(by.z, 0, close);
 }
 
-TEST(Grab, AxisThenLocalAxisThenFree) {
+TEST(Grab, AxisKeyCyclesWorldLocalFree) {
     TransformTool tool = Bench().tool(TransformMode::grab);
     tool.point_at({600, 240}, false, false);
     type(tool, "x");
@@ -70,7 +70,7 @@ TEST(Grab, AxisThenLocalAxisThenFree) {
     EXPECT_GT(tool.motion().by.y, 0.5) << "free again";
 }
 
-TEST(Grab, ShiftAndAnAxisIsThePlaneWithoutIt) {
+TEST(Grab, ShiftAndAxisLocksToThePlane) {
     TransformTool tool = Bench().tool(TransformMode::grab);
     type(tool, "X2");
     expect_near(tool.motion().by, {0, 2, 0});
@@ -90,7 +90,7 @@ TEST(Typing, SetsTheAmountWithMinusPointAndBackspace) {
     EXPECT_NE(tool.text().find("-12.5|"), std::string::npos) << tool.text();
     tool.press({.key = key::backspace});
     expect_near(tool.motion().by, {0, -12, 0});
-    type(tool, ".5.5"); // a second point is none
+    type(tool, ".5.5"); // a second decimal point is ignored
     expect_near(tool.motion().by, {0, -12.55, 0});
     for (int i = 0; i < 10; ++i) tool.press({.key = key::backspace});
     EXPECT_NE(tool.motion().by.y, 0) << "the mouse again";
@@ -98,14 +98,14 @@ TEST(Typing, SetsTheAmountWithMinusPointAndBackspace) {
     EXPECT_LE(tool.motion().by.y, 1e9);
 }
 
-TEST(Typing, TheNumberPadTypesToo) {
+TEST(Typing, AcceptsTheNumberPad) {
     TransformTool tool = Bench().tool(TransformMode::grab);
     for (const int code : {key::pad_zero + 4, key::pad_point, key::pad_zero + 2, key::pad_minus}) tool.press({.key = code});
     expect_near(tool.motion().by, {-4.2, 0, 0});
     EXPECT_EQ(tool.press({.key = key::pad_enter}), Answer::confirmed);
 }
 
-TEST(Keys, ConfirmCancelAndOtherModes) {
+TEST(Keys, ConfirmCancelAndSwitchModes) {
     TransformTool tool = Bench().tool(TransformMode::grab);
     EXPECT_EQ(tool.press({.key = key::escape}), Answer::cancelled);
     EXPECT_EQ(tool.press({.key = key::enter}), Answer::confirmed);
@@ -118,7 +118,7 @@ TEST(Keys, ConfirmCancelAndOtherModes) {
     EXPECT_NEAR(tool.motion().radians, 90 * degree, close);
 }
 
-TEST(Keys, LettersCountByWhatTheyType) {
+TEST(Keys, UseTheKeyboardLayout) {
     TransformTool tool = Bench().tool(TransformMode::grab);
     tool.press({.key = 'Y', .typed = 'z'}); // on a German keyboard
     EXPECT_EQ(tool.lock().axis, 2);
@@ -148,7 +148,7 @@ TEST(Rotate, TurnsCounterClockwiseWithTheMouse) {
     EXPECT_NEAR(tool.motion().radians, 365 * degree, 1e-4);
 }
 
-TEST(Rotate, AboutAnAxisThatPointsAwayTheSenseFollowsTheMouse) {
+TEST(Rotate, AboutAnAxisPointingAwayFollowsTheMouse) {
     Bench bench;
     bench.view.position = {0, 0, -10};
     bench.view.rotation = looking_along({0, 0, 1});
@@ -199,7 +199,7 @@ Node placed(const Vec3& at, const Vec3d& degrees = {0, 0, 0}) {
     return node;
 }
 
-TEST(Edits, AChildUnderATurnedParentMovesInTheWorld) {
+TEST(Edits, ChildOfARotatedParentMovesInWorldSpace) {
     Stage s;
     Node parent = placed({1, 2, 3}, {20, 130, -40});
     parent.local.scale = {2, 0.5f, 3};
@@ -210,11 +210,11 @@ TEST(Edits, AChildUnderATurnedParentMovesInTheWorld) {
     const Vec3d before = s.world(id).t;
     s.apply({id}, {.by = {1, -2, 0.5}});
     expect_near(s.world(id).t, before + Vec3d{1, -2, 0.5});
-    s.apply({above, id}, {.by = {1, 0, 0}}); // the child is carried, not moved twice
+    s.apply({above, id}, {.by = {1, 0, 0}}); // the child moves with its parent, not twice
     expect_near(s.world(id).t, before + Vec3d{2, -2, 0.5});
 }
 
-TEST(Edits, RotationTurnsPlacesAndAxesAboutThePivot) {
+TEST(Edits, RotationIsAboutThePivot) {
     Stage s;
     const Id<Node> a = s.add(placed({1, 0, 0})), b = s.add(placed({3, 0, 0}, {0, 90, 0}));
     s.apply({a, b}, {.mode = TransformMode::rotate, .pivot = {2, 0, 0}, .axis = {0, 0, 1}, .radians = 90 * degree});
@@ -224,7 +224,7 @@ TEST(Edits, RotationTurnsPlacesAndAxesAboutThePivot) {
     expect_near(s.world(b).x, {0, 0, -1}); // -Z: the axis of the turn
 }
 
-TEST(Edits, ScalingStretchesLocalAxesAndShearsNothing) {
+TEST(Edits, ScaleStretchesLocalAxesWithoutShear) {
     Stage s;
     const Id<Node> a = s.add(placed({1, 0, 0}, {0, 0, 90})), b = s.add(placed({1, 0, 0}, {0, 0, 45}));
     const Motion wide{.mode = TransformMode::scale, .factors = {3, 1, 1}};
@@ -239,7 +239,7 @@ TEST(Edits, ScalingStretchesLocalAxesAndShearsNothing) {
     EXPECT_NEAR(length(s.world(a).y), 0, close);
 }
 
-TEST(Edits, LightsOfAllKindsScaleInSize) {
+TEST(Edits, LightsOfAllTypesScaleInSize) {
     using Kind = Light::Kind;
     for (const Kind kind : {Kind::point, Kind::spot, Kind::sun, Kind::rectangle, Kind::disk, Kind::sphere}) {
         Stage s;
@@ -251,7 +251,7 @@ TEST(Edits, LightsOfAllKindsScaleInSize) {
         EXPECT_NEAR(light.radius, kind == Kind::sun || kind == Kind::rectangle ? 0.5f : 1.f, 1e-5);
         EXPECT_NEAR(light.angle_radians, kind == Kind::sun ? 0.02f : 0.01f, 1e-5);
         EXPECT_NEAR(light.width, kind == Kind::rectangle ? 4 : 2, 1e-5);
-        // Along the world's X alone: its own Y, since it is turned.
+        // Only along the world's X, which is the light's own Y, because it is rotated.
         s.apply({id}, {.mode = TransformMode::scale, .pivot = {1, 2, 3}, .factors = {3, 1, 1}});
         if (kind == Kind::rectangle) {
             EXPECT_NEAR(s.light(id).width, 4, 1e-5);
@@ -260,7 +260,7 @@ TEST(Edits, LightsOfAllKindsScaleInSize) {
     }
 }
 
-TEST(Edits, ALightThatTwoNodesShareIsScaledOnce) {
+TEST(Edits, SharedLightIsScaledOnce) {
     Stage s;
     const Id<Node> a = s.add(Light{.kind = Light::Kind::sphere, .radius = 1});
     Node twin = placed({5, 0, 0});
@@ -271,7 +271,7 @@ TEST(Edits, ALightThatTwoNodesShareIsScaledOnce) {
     expect_near(s.world(b).t, {10, 0, 0});
 }
 
-TEST(Targets, WhatCannotBeTransformedSaysWhy) {
+TEST(Targets, RefusalHasAReason) {
     Stage s;
     const Id<Node> point = s.add(Light{.name = "Bulb", .kind = Light::Kind::point}), spot = s.add(Light{.kind = Light::Kind::spot});
     const Scene& scene = s.project.scene;
@@ -283,7 +283,7 @@ TEST(Targets, WhatCannotBeTransformedSaysWhy) {
     EXPECT_NE(why_not(scene, {}, TransformMode::grab), "");
 }
 
-TEST(Withdraw, TakesTheStepOfItsGestureBackAndNoOther) {
+TEST(Withdraw, RevertsOnlyTheStepOfItsGesture) {
     Stage s;
     const Id<Node> id = s.add(placed({1, 0, 0}));
     Document document(s.project);

@@ -1,4 +1,4 @@
-// Ways of looking at a frame: what they make of its planes, and that they say so.
+// Special views of a frame (bounces, AOVs, heat maps) and their captions.
 #include "core/srgb.h"
 #include "ui/aov_pixels.h"
 #include "ui/aov_view.h"
@@ -42,7 +42,7 @@ TEST(BouncesView, MixesThePlanes) {
     EXPECT_EQ(pixels_of(f, picture_view(gains, 3)).size(), f.rgba.size());
 }
 
-TEST(BouncesView, ShowsThePictureWhenAllOfItIsThere) {
+TEST(BouncesView, AllGainsOneIsThePicture) {
     const Frame f = frame_with_bounces();
     EXPECT_FALSE(is_special(f, picture_view(view_of(Mode::picture), 3)));
     EXPECT_FALSE(is_special(f, picture_view(view_of(Mode::cumulative, 2), 3)));
@@ -54,7 +54,7 @@ TEST(BouncesView, ShowsThePictureWhenAllOfItIsThere) {
     EXPECT_FALSE(is_special(f, picture_view(closed, 3)));
 }
 
-TEST(BouncesView, SaysThatItIsNotThePicture) {
+TEST(BouncesView, CaptionSaysNotTheWholePicture) {
     Frame f = frame_with_bounces();
     EXPECT_EQ(caption_of(f, picture_view(view_of(Mode::single, 1), 3)), "Bounce 1 only: not the whole picture");
     EXPECT_EQ(caption_of(f, picture_view(view_of(Mode::indirect), 3)), "Bounce 2+ only: not the whole picture");
@@ -68,7 +68,7 @@ TEST(BouncesView, SaysThatItIsNotThePicture) {
     EXPECT_EQ(caption_of(f, picture_view(gains, 3)), "Bounces with gains: not the physical picture, without the light mix");
 }
 
-TEST(BouncesView, PlaysInSequenceAndStartsOver) {
+TEST(BouncesView, PlaysInALoop) {
     BouncesView v = view_of(Mode::single, 1);
     v.step_due = 10;
     EXPECT_NEAR(play(v, 9.5, 3), 0.5, 1e-9);
@@ -79,7 +79,7 @@ TEST(BouncesView, PlaysInSequenceAndStartsOver) {
     EXPECT_EQ(v.bounce, 0);
 }
 
-TEST(Maps, RunFromDarkToBright) {
+TEST(Maps, LuminanceIncreases) {
     Frame f = frame_with_bounces();
     f.path_length = {1, 5};
     f.survival = {0.25f, 1};
@@ -92,12 +92,12 @@ TEST(Maps, RunFromDarkToBright) {
     EXPECT_EQ(pixels_of(f, {Show::survival})[5], 1);
     EXPECT_NE(caption_of(f, {Show::path_length}).find("5.0"), std::string::npos);
     EXPECT_NE(caption_of(f, {Show::dropped}).find("3 per pixel"), std::string::npos);
-    // Nothing dropped is a black map, not none.
+    // No dropped samples: a black map.
     EXPECT_TRUE(is_special(frame_with_bounces(), {Show::dropped}));
     EXPECT_EQ(pixels_of(frame_with_bounces(), {Show::dropped})[4], 0);
 }
 
-// ---- planes of the film
+// ---- AOVs
 
 Frame frame_with_planes() {
     Frame f;
@@ -123,7 +123,7 @@ Vec3 shown_at(const Frame& f, const PictureView& view, size_t pixel) {
 }
 float encoded(float linear) { return srgb_from_linear(linear); }
 
-TEST(AovView, ShowsPlanesAsColoursOfTheScreen) {
+TEST(AovView, DataPassesAreDisplayValues) {
     const Frame f = frame_with_planes();
     EXPECT_EQ(shown_at(f, {Show::albedo}, 0), (Vec3{0.2f, 0.4f, 0.6f}));
     const Vec3 normal = shown_at(f, {Show::normal}, 1);
@@ -137,14 +137,14 @@ TEST(AovView, ShowsPlanesAsColoursOfTheScreen) {
     for (const Show show : {Show::albedo, Show::normal, Show::depth, Show::object_id, Show::material_id, Show::error, Show::samples}) {
         EXPECT_TRUE(is_special(f, {show}));
         EXPECT_TRUE(is_data({show}));
-        EXPECT_EQ(pixels_of(f, {show})[3], 0) << "all of it is encoded alone";
+        EXPECT_EQ(pixels_of(f, {show})[3], 0) << "only the sRGB curve is applied";
         EXPECT_FALSE(caption_of(f, {show}).empty());
     }
     EXPECT_FALSE(is_special(Frame{}, {Show::depth}));
     EXPECT_FALSE(is_data({Show::group}));
 }
 
-TEST(AovView, GivesEachIdAColourThatStays) {
+TEST(AovView, IdsHaveFixedColours) {
     Frame f = frame_with_planes();
     const Vec3 seven = shown_at(f, {Show::object_id}, 0), eight = shown_at(f, {Show::object_id}, 3);
     EXPECT_EQ(shown_at(f, {Show::object_id}, 1), seven);
@@ -170,18 +170,18 @@ TEST(AovView, MapsErrorAndSamplesWithAScale) {
     EXPECT_FALSE(map_scale(f, Show::albedo));
 }
 
-TEST(AovView, ListsWhatThereIsAndSaysWhatThereIsNot) {
+TEST(AovView, ListsPassesAndWhatTheyNeed) {
     const Frame f = frame_with_planes();
     const auto find = [](const std::vector<AovEntry>& list, const AovView& v) { return *std::ranges::find(list, v, &AovEntry::view); };
     const Frame bounced = frame_with_bounces();
     const std::vector<AovEntry> list = aov_list(&f);
     EXPECT_EQ(find(list, {Show::group, 1}).name, "Group Fill");
-    EXPECT_EQ(shown_at(f, picture_view(AovView{Show::group, 1}, 0), 1), (Vec3{1, 1, 1})) << "as the mix has it";
+    EXPECT_EQ(shown_at(f, picture_view(AovView{Show::group, 1}, 0), 1), (Vec3{1, 1, 1})) << "in the current mix";
     EXPECT_FALSE(find(list, {Show::bounces, 2}).needs.empty());
     EXPECT_FALSE(find(aov_list(nullptr), {Show::group}).possible);
     EXPECT_TRUE(find(aov_list(&bounced), {Show::bounces, 2}).needs.empty());
 
-    EXPECT_EQ(planes_of(AovView{}), PlaneSet{}) << "nothing is paid for the beauty";
+    EXPECT_EQ(planes_of(AovView{}), PlaneSet{}) << "the beauty needs no extra planes";
     EXPECT_EQ(planes_of(AovView{Show::depth}), PlaneSet{});
     EXPECT_EQ(planes_of(AovView{Show::bounces, 3}).bounces, usual_bounce_planes);
     EXPECT_TRUE(planes_of(AovView{Show::error}).error);
@@ -189,9 +189,9 @@ TEST(AovView, ListsWhatThereIsAndSaysWhatThereIsNot) {
 
     AovView at;
     for (size_t i = 0; i < list.size(); ++i) at = stepped(at, &f, 1);
-    EXPECT_EQ(at, AovView{}) << "round its end";
+    EXPECT_EQ(at, AovView{}) << "cyclic";
     EXPECT_EQ(stepped(AovView{}, &f, -1), list.back().view);
-    for (size_t i = 0; i < 100; ++i) EXPECT_NE(at = stepped(at, nullptr, 1), (AovView{Show::group, 0})) << "there are none to step to";
+    for (size_t i = 0; i < 100; ++i) EXPECT_NE(at = stepped(at, nullptr, 1), (AovView{Show::group, 0})) << "impossible ones are skipped";
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-// Value editors driven by a simulated mouse and keyboard, without a window: ImGui needs neither.
+// Value fields with simulated mouse and keyboard, without a window.
 #include "imgui_test.h"
 #include "ui/value_menu.h"
 #include "ui/widgets.h"
@@ -12,11 +12,11 @@ class Widgets : public test::ImGuiTest {
 protected:
     void SetUp() override {
         ImGuiTest::SetUp();
-        frame(); // ImGui lays a window out in its first frame
+        frame(); // ImGui computes a window's layout in its first frame
         frame();
     }
 
-    // One frame of a panel that edits the exposure, as panels do.
+    // One frame of a panel that edits the exposure.
     void frame() {
         in_window([&] {
             ViewSettings v = document.project().view;
@@ -55,7 +55,7 @@ protected:
         frame();
     }
     float middle() const { return (low.x + high.x) / 2; }
-    // Long enough for the next press not to make a double-click with the last.
+    // Waits, so that the next press is not a double-click.
     void rest() {
         for (int i = 0; i < 60; ++i) frame();
     }
@@ -73,7 +73,7 @@ protected:
     UiState ui;
     NumberStyle style{.min = -10, .max = 10, .reset = 2.5f, .step = 0.01f};
     ImVec2 low, high;
-    bool second = false; // field below the first
+    bool second = false; // a field below the first
 };
 
 class ColorField : public test::ImGuiTest {
@@ -109,7 +109,7 @@ protected:
     bool changed = false;
 };
 
-TEST_F(ColorField, TakesEachOfTheWaysToWriteAColour) {
+TEST_F(ColorField, AcceptsEachColourFormat) {
     wish(ValueWish::copy_hex);
     EXPECT_STREQ(ImGui::GetClipboardText(), "#89bc47");
     paste("#ff0080");
@@ -127,7 +127,7 @@ TEST_F(ColorField, TakesEachOfTheWaysToWriteAColour) {
     EXPECT_NEAR(value.z, 0.0625, 1e-5);
 }
 
-TEST_F(ColorField, RefusesWhatIsNone) {
+TEST_F(ColorField, RejectsInvalidColours) {
     const Vec3 before = value;
     for (const char* text : {"", "#12345", "#gggggg", "red", "1, 2", "1, 2, 3, 4", "-1, 0, 0", "nan, 0, 0", "1e30, 0, 0", "srgb(", "(((1,1,1)))"}) {
         const auto said = ui.toasts.added();
@@ -138,7 +138,7 @@ TEST_F(ColorField, RefusesWhatIsNone) {
     }
 }
 
-TEST_F(ColorField, TheEyedropperPutsIntoItWhatWasPicked) {
+TEST_F(ColorField, EyedropperSetsThePickedColour) {
     wish(ValueWish::pick);
     EXPECT_EQ(ui.tool, ViewTool::pick_color);
     ui.values.picked = Vec3{0.1f, 7.f, -0.5f};
@@ -151,8 +151,8 @@ TEST_F(ColorField, TheEyedropperPutsIntoItWhatWasPicked) {
     EXPECT_FALSE(changed) << "once";
 }
 
-// The window draws only the frames that somebody asks for.
-TEST_F(Widgets, ATipAppearsOverAMouseAtRest) {
+// The window only draws requested frames.
+TEST_F(Widgets, TooltipAppearsAtRest) {
     constexpr double idle = 1;
     style.tip = "Stops of exposure.";
     ui.next_frame_in = idle;
@@ -162,13 +162,13 @@ TEST_F(Widgets, ATipAppearsOverAMouseAtRest) {
         ui.next_frame_in = idle;
         frame();
     }
-    EXPECT_EQ(ui.next_frame_in, idle) << "frames without end";
+    EXPECT_EQ(ui.next_frame_in, idle) << "endless frames";
     const ImGuiWindow* tip = ImGui::FindWindowByName("##Tooltip_00");
     ASSERT_TRUE(tip);
     EXPECT_TRUE(tip->WasActive && !tip->Hidden);
 }
 
-TEST_F(Widgets, ATipWaitsForHalfASecondOfRest) {
+TEST_F(Widgets, TooltipHasADelayOfHalfASecond) {
     style.tip = "Stops of exposure.";
     const auto tip_shown = [] {
         const ImGuiWindow* tip = ImGui::FindWindowByName("##Tooltip_00");
@@ -182,7 +182,7 @@ TEST_F(Widgets, ATipWaitsForHalfASecondOfRest) {
     }
     for (int i = 0; i < 4; ++i) frame();
     EXPECT_TRUE(tip_shown());
-    // The row below can be read and clicked.
+    // The row below stays readable and clickable.
     const ImGuiWindow* tip = ImGui::FindWindowByName("##Tooltip_00");
     const float row = high.y - low.y;
     EXPECT_TRUE(tip->Pos.x >= 400 || tip->Pos.y >= high.y + 2 * row || tip->Pos.y + tip->Size.y <= high.y)
@@ -190,13 +190,13 @@ TEST_F(Widgets, ATipWaitsForHalfASecondOfRest) {
     press(true);
     for (int i = 0; i < 20; ++i) move(middle() + float(i % 3));
     for (int i = 0; i < 20; ++i) frame();
-    EXPECT_FALSE(tip_shown()) << "while a drag goes on";
+    EXPECT_FALSE(tip_shown()) << "during a drag";
     press(false);
     frame();
     EXPECT_FALSE(tip_shown()) << "right after it";
 }
 
-TEST_F(Widgets, ADragIsOneStepAndTheNextDragAnother) {
+TEST_F(Widgets, EachDragIsOneUndoStep) {
     drag(60);
     const float first = value();
     EXPECT_GT(first, 0.3f);
@@ -207,7 +207,7 @@ TEST_F(Widgets, ADragIsOneStepAndTheNextDragAnother) {
     EXPECT_EQ(value(), first);
 }
 
-TEST_F(Widgets, AClickAloneChangesNothing) {
+TEST_F(Widgets, ClickWithoutDragChangesNothing) {
     for (const bool bar : {false, true}) {
         style.bar = bar;
         drag(0);
@@ -215,13 +215,13 @@ TEST_F(Widgets, AClickAloneChangesNothing) {
     }
 }
 
-TEST_F(Widgets, TheEndOfABarFollowsTheMouse) {
+TEST_F(Widgets, BarFollowsTheMouse) {
     style.bar = true;
     drag((high.x - low.x) / 4);
-    EXPECT_NEAR(value(), 5, 0.5); // a quarter of 20, less the threshold that tells a drag from a click
+    EXPECT_NEAR(value(), 5, 0.5); // a quarter of 20, minus ImGui's drag threshold
 }
 
-TEST_F(Widgets, ShiftDragsATenthAsFar) {
+TEST_F(Widgets, ShiftDragsTenTimesFiner) {
     for (const bool bar : {false, true}) {
         style.bar = bar;
         ASSERT_TRUE(document.apply(SetView{}));
@@ -235,7 +235,7 @@ TEST_F(Widgets, ShiftDragsATenthAsFar) {
     }
 }
 
-TEST_F(Widgets, ADoubleClickTypes) {
+TEST_F(Widgets, DoubleClickStartsTyping) {
     for (const bool bar : {false, true}) {
         style.bar = bar;
         rest();
@@ -248,7 +248,7 @@ TEST_F(Widgets, ADoubleClickTypes) {
     EXPECT_EQ(document.undo_labels().size(), 2u);
 }
 
-TEST_F(Widgets, TabGoesToTheNextFieldAndEachIsOneStep) {
+TEST_F(Widgets, TabMovesToTheNextField) {
     constexpr int tab = 258;
     ImGui::GetIO().KeyMap[ImGuiKey_Tab] = tab;
     second = true;
@@ -279,7 +279,7 @@ TEST_F(Widgets, KeysOverAFieldCopyPasteAndReset) {
     ImGui::SetClipboardText(" -1e30\n");
     wish(ValueWish::paste);
     EXPECT_EQ(value(), -10) << "within the limits";
-    EXPECT_EQ(document.undo_labels().size(), 4u) << "each is a step of its own";
+    EXPECT_EQ(document.undo_labels().size(), 4u) << "each is its own undo step";
     rest();
     move(-100);
     ImGui::SetClipboardText("3");
@@ -287,7 +287,7 @@ TEST_F(Widgets, KeysOverAFieldCopyPasteAndReset) {
     EXPECT_EQ(value(), -10) << "the mouse is elsewhere";
 }
 
-TEST_F(Widgets, WhatIsNoNumberIsRefusedWithAMessage) {
+TEST_F(Widgets, InvalidNumbersAreRejected) {
     move(middle());
     const std::string huge(100000, '9');
     for (const char* text : {"", "nan", "inf", "1e999", "two", "1 2", "#ff0000", "%s%n%s%n", "\x01\x02\xff", "--1", huge.c_str()}) {
@@ -303,7 +303,7 @@ TEST_F(Widgets, WhatIsNoNumberIsRefusedWithAMessage) {
     EXPECT_FALSE(document.can_undo());
 }
 
-TEST_F(Widgets, LimitsHold) {
+TEST_F(Widgets, LimitsApply) {
     style.step = 1;
     drag(200);
     EXPECT_EQ(value(), 10);
@@ -311,7 +311,7 @@ TEST_F(Widgets, LimitsHold) {
     EXPECT_EQ(value(), -10);
 }
 
-TEST_F(Widgets, TypedValuesAreTakenAndKeptWithinTheLimits) {
+TEST_F(Widgets, TypedValuesAreClamped) {
     ImGuiIO& io = ImGui::GetIO();
     move(middle());
     io.KeyCtrl = true;

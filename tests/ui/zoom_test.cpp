@@ -1,4 +1,4 @@
-// Where the zoomed picture lies.
+// Zoom and pan of the picture.
 #include "imgui_test.h"
 #include "ui/picture_zoom.h"
 #include "ui/pixel_grid.h"
@@ -17,7 +17,7 @@ void expect_rect(const ImageRect& got, const ImageRect& wanted) {
     EXPECT_EQ(got.height, wanted.height);
 }
 
-TEST(PictureZoom, FitsOrIsOneToOneInTheMiddle) {
+TEST(PictureZoom, TogglesFitAndOneToOne) {
     expect_rect(placed_picture({}, region, 1600, 900), {100, 125, 800, 450});
     const PictureZoom one = toggled({});
     expect_rect(placed_picture(one, region, 1600, 900), {-300, -100, 1600, 900});
@@ -25,7 +25,7 @@ TEST(PictureZoom, FitsOrIsOneToOneInTheMiddle) {
     EXPECT_EQ(toggled(one), PictureZoom{});
 }
 
-TEST(PictureZoom, KeepsWhatIsUnderTheMouseThere) {
+TEST(PictureZoom, ZoomsAboutTheMouse) {
     PictureZoom zoom;
     const ScreenPoint mouse{333, 222};
     const ImageRect before = placed_picture(zoom, region, 1600, 900);
@@ -39,7 +39,7 @@ TEST(PictureZoom, KeepsWhatIsUnderTheMouseThere) {
     EXPECT_GT(zoom.scale, 60);
 }
 
-TEST(PictureZoom, EndsAtWhatFitsAndAtTheLargest) {
+TEST(PictureZoom, IsClampedToFitAndMaximum) {
     PictureZoom zoom;
     for (int i = 0; i < 100; ++i) zoom = zoomed(zoom, region, 1600, 900, {500, 350}, 2);
     EXPECT_EQ(zoom.scale, most_zoom);
@@ -47,17 +47,17 @@ TEST(PictureZoom, EndsAtWhatFitsAndAtTheLargest) {
     EXPECT_EQ(zoom, PictureZoom{});
 }
 
-TEST(PictureZoom, IsDraggedAndItsMiddleStaysWithinThePicture) {
+TEST(PictureZoom, PanKeepsTheCentreInsideThePicture) {
     const PictureZoom one = toggled({});
     const PictureZoom moved = shifted(one, region, 1600, 900, -160, 90);
     const ImageRect before = placed_picture(one, region, 1600, 900), after = placed_picture(moved, region, 1600, 900);
     EXPECT_EQ(after.x, before.x - 160);
     EXPECT_EQ(after.y, before.y + 90);
     EXPECT_EQ(shifted(one, region, 1600, 900, -1e6, 1e6), (PictureZoom{1, 1, 0}));
-    EXPECT_EQ(shifted({}, region, 1600, 900, 50, 50), PictureZoom{}) << "what fits stays";
+    EXPECT_EQ(shifted({}, region, 1600, 900, 50, 50), PictureZoom{}) << "fit is not panned";
 }
 
-// Pixels of a coarse preview are not those of the picture.
+// Pixels of a coarse preview have no grid.
 class PixelGrid : public test::ImGuiTest {
 protected:
     int lines_over(int divider) {
@@ -76,7 +76,7 @@ protected:
     }
 };
 
-TEST_F(PixelGrid, LiesOverFullResolutionAlone) {
+TEST_F(PixelGrid, IsDrawnOnlyAtFullResolution) {
     EXPECT_GT(lines_over(1), 40);
     for (const int divider : {2, 4, 8}) EXPECT_EQ(lines_over(divider), 0);
 }
