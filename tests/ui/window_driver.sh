@@ -1,4 +1,4 @@
-# Sourced by the tests of the window: a virtual display, the editor on it, and a user's hands.
+# Sourced by the window tests: starts a virtual display and the editor, and simulates user input.
 # Expects BLUSH ASSETS as the first two arguments of the test.
 set -u
 blush=$1
@@ -55,8 +55,8 @@ start_display() {
 }
 
 overlays_off() { xdotool key h; }
-# open_file FILE [unanswered]: until it has converged, overlays off; or, with a second argument, until there is a window. An empty FILE:
-# none is named.
+# open_file FILE [unanswered]: waits until it has converged, overlays off; with a second argument, only until there is a window.
+# With an empty FILE, none is given.
 open_file() {
     rm -rf "$XDG_CONFIG_HOME"
     [ -z "$settings" ] || { mkdir -p "$XDG_CONFIG_HOME/blush" && echo "$settings" >"$XDG_CONFIG_HOME/blush/window.json"; }
@@ -71,7 +71,7 @@ open_file() {
 open_editor() { open_file "$assets/scenes/$1.gltf"; }
 
 gone() { ! kill -0 "$editor" 2>/dev/null; }
-# leaves WHY_NOT COMMAND: until the window is gone, doing that again and again.
+# leaves WHY_NOT COMMAND: repeats the command until the window is closed.
 leaves() {
     local end=$((SECONDS + 60))
     until gone; do
@@ -89,7 +89,7 @@ close_editor() {
     leaves "Ctrl+Q does not close the window" discard_if_asked
 }
 
-# The probe's first line holds the state, each further one a widget.
+# The probe's first line is the state, each further one a widget.
 state() { head -n 1 "$probe" | grep -q "\"$1\":$2[,}]"; }
 number() { sed -n "$1s/.*\"$2\":\\(-\\{0,1\\}[0-9.]*\\).*/\\1/p" "$probe"; }
 widget() { grep -F "  \"$1\": {" "$probe"; }
@@ -99,7 +99,7 @@ says() { head -n 1 "$probe" | grep -qF "\"toast\":\"$1"; }
 converged() { state complete true && state up_to_date true; }
 edited_since() { [ "$(number 1 revision)" != "$1" ] && converged; }
 
-# after_edit COMMAND...: does something that changes the picture, and waits until that has converged.
+# after_edit COMMAND...: runs a command that changes the picture, and waits until the picture has converged.
 after_edit() {
     local revision
     revision=$(number 1 revision)
@@ -107,7 +107,7 @@ after_edit() {
     until_true 120 edited_since "$revision" || fail "no new picture converges after: $*"
 }
 
-# middle WIDGET [PER_CENT]: a point at that share of the widget's width, half-way down.
+# middle WIDGET [PER_CENT]: a point at this fraction of the widget's width, vertically centred.
 middle() {
     echo "$(field "$1" x) $(field "$1" width) $(field "$1" y) $(field "$1" height) ${2:-50}" |
         awk '{ printf "%d %d", $1 + $2 * $5 / 100, $3 + $4 / 2 }'
@@ -116,7 +116,7 @@ click() {
     until_true 30 has_widget "$1" || fail "there is no $1 to click"
     xdotool mousemove $(middle "$1") && sleep 0.3 && xdotool click 1 && sleep 0.3
 }
-# click_choice WIDGET NAME: opens a list of choices and takes one.
+# click_choice WIDGET NAME: selects an entry of a combo box.
 click_choice() { click "$1" && click "$1/$2"; }
 # click_menu MENU COMMAND
 click_menu() { click "Menu bar/$1" && click "Menu/$2"; }
@@ -141,7 +141,7 @@ drag_by() {
 
 image_size() { sed -n "1s/.*\"image\":{[^}]*\"$1\":\([0-9.]*\).*/\1/p" "$probe"; }
 image_middle() { echo "$(number 1 x) $(image_size width) $(number 1 y) $(image_size height)" | awk '{ printf "%d %d", $1 + $2 / 2, $3 + $4 / 2 }'; }
-# The picture on the screen, the mouse out of its way.
+# Takes a screenshot of the picture, with the mouse outside of it.
 take_picture() {
     xdotool mousemove $rest
     sleep 0.7
@@ -149,15 +149,15 @@ take_picture() {
     x=$(number 1 x) y=$(number 1 y) w=$(image_size width) h=$(image_size height)
     import -window root -crop "${w%.*}x${h%.*}+${x%.*}+${y%.*}" +repage "$1" || fail "no screenshot"
 }
-# at U V: the place in per cent of the picture's width and height, on the screen.
+# at U V: screen position of a point in per cent of the picture's width and height.
 at() { echo "$(number 1 x) $(image_size width) $(number 1 y) $(image_size height) $1 $2" | awk '{ printf "%d %d", $1 + $2 * $5 / 100, $3 + $4 * $6 / 100 }'; }
 click_at() { xdotool mousemove $(at "$1" "$2") && sleep 0.3 && xdotool click 1 && sleep 0.3; }
 # drag_over U V U V
 drag_over() { drag_from $(at "$1" "$2") $(at "$3" "$4"); }
 press() { xdotool key "$@" && sleep 0.3; }
-# As press, but held for longer than a frame takes on a busy machine: fields see only what is down when a frame begins.
+# As press, but held for longer than a frame on a busy machine: fields only see keys that are down at the start of a frame.
 hold() { xdotool keydown "$1" && sleep 0.2 && xdotool keyup "$1" && sleep 0.3; }
-# type_into FIELD TEXT: in place of what it says.
+# type_into FIELD TEXT: replaces the field's text.
 type_into() { click "$1" && hold ctrl+a && xdotool type --delay 50 "$2" && sleep 0.3 && hold Return; }
 # holding KEYS... -- COMMAND...
 holding() {
@@ -169,23 +169,23 @@ holding() {
     for key in "${keys[@]}"; do xdotool keyup "$key"; done
     sleep 0.3
 }
-# Pixels in which two pictures differ.
+# Number of pixels in which two pictures differ.
 differing() { compare -metric AE "$1" "$2" null: 2>&1 | awk '{ printf "%d", $1 }'; }
 expect_changed() { [ "$(differing "$1" "$2")" -gt 1000 ] || fail "$3 changes nothing"; }
 expect_same() { [ "$(differing "$1" "$2")" = 0 ] || fail "$3 does not restore the picture: $(differing "$1" "$2") pixels differ"; }
-# restores WHAT PICTURE STEPS: so many undos bring the picture back.
+# restores WHAT PICTURE STEPS: this many undo steps restore the picture.
 restores() {
     local i
     for i in $(seq "$3"); do after_edit press ctrl+z; done
     take_picture undone.png
     expect_same "$2" undone.png "undoing $1"
 }
-# brightest PICTURE: where it is brightest, blurred so that one stray pixel is none, as x and y from its upper left corner.
+# brightest PICTURE: position of its brightest point after blurring, as x and y from its upper left corner.
 brightest() {
     convert "$1" -colorspace Gray -blur 0x2 -depth 16 txt:- |
         awk -F'[,:() ]+' 'NR > 1 && $3 + 0 > best { best = $3 + 0; x = $1; y = $2 } END { print x, y }'
 }
-# expect_brightest PICTURE U V: there, in per cent of its width and height.
+# expect_brightest PICTURE U V: it is at this position, in per cent of width and height.
 expect_brightest() {
     local x y
     read -r x y <<<"$(brightest "$1")"
