@@ -51,7 +51,7 @@ def picture():
         weight += solid_angle * WIDTH
         rows.append(row)
     scale = weight / total
-    # Six digits: what the last bits of a library's sine are is not seen.
+    # Rounded to six digits, so that the sine of different C libraries gives the same file.
     return [[tuple(float(f"{c * scale:.5e}") for c in texel) for texel in row] for row in rows]
 
 
@@ -62,7 +62,7 @@ def rgbe(texel):
 
 
 def encoded(values):
-    """Runs of four or more equal bytes, and stretches of others."""
+    """Run-length encoding: runs of four or more equal bytes, and literal bytes."""
     out, i = bytearray(), 0
     while i < len(values):
         run = 1

@@ -26,7 +26,7 @@ def mug_body():
 
 
 def mug_handle():
-    """Half an ellipse whose ends are buried in the wall, which leans outwards by 1.2 mm between them."""
+    """Half an ellipse whose ends are inside the wall; the wall tilts outwards by 1.2 mm between them."""
     def path(t):
         phi = math.pi * (0.5 - t)
         x = 0.0378 + 0.0012 * (1 - t) + 0.031 * math.cos(phi)
@@ -37,7 +37,7 @@ def mug_handle():
 
 
 def card():
-    """A card of 12 x 17 cm and 0.6 mm that stands because it is bent, by 4 mm over its width. Its hollow side faces +Z."""
+    """An upright card of 12 x 17 cm and 0.6 mm, curved by 4 mm over its width. Its concave side faces +Z."""
     width, height, thickness, radius = 0.12, 0.17, 0.0006, 0.5
     columns = 32
 
@@ -51,7 +51,7 @@ def card():
 
     front, back = side(thickness, 1), side(0, -1)
     mesh = Mesh().add(front).add(back)
-    # The four edges: strips between the borders of the two sides, which run in opposite directions.
+    # The four edges: strips between the borders of the two sides, whose orders are reversed.
     row = columns + 1
     for i in range(columns):
         f0, f1 = front.points[i], front.points[i + 1]
@@ -103,11 +103,11 @@ def cornell():
     scene.object("floor", quad(*millimetres((552.8, 0, 0), (0, 0, 0), (0, 0, 559.2), (549.6, 0, 559.2))), white, "sheet")
     scene.object("back wall", quad(*millimetres((549.6, 0, 559.2), (0, 0, 559.2), (0, 548.8, 559.2), (556, 548.8, 559.2))), white, "sheet")
     scene.object("green wall", quad(*millimetres((0, 0, 559.2), (0, 0, 0), (0, 548.8, 0), (0, 548.8, 559.2))), green, "sheet")
-    # As measured, its four corners are not quite in one plane.
+    # In the measured data, its four corners are not exactly coplanar.
     red_wall = quad(*millimetres((552.8, 0, 0), (549.6, 0, 559.2), (556, 548.8, 559.2), (556, 548.8, 0)))
     scene.object("red wall", faceted(red_wall), red, "sheet")
 
-    # The light lies in the plane of the ceiling, so the ceiling is left open there.
+    # The light is in the plane of the ceiling, so the ceiling has a hole there.
     x0, x1, z0, z1 = 213, 343, 227, 332
     ceiling = Mesh()
     for left, right, near, far in ((0, 556, 0, z0), (0, 556, z1, 559.2), (0, x0, z0, z1), (x1, 556, z0, z1)):
@@ -131,7 +131,7 @@ def furnace():
     scene = SceneWriter("furnace", "A white sphere in a uniform white world: nothing is to be seen.",
                         environment={"kind": "constant", "color": [1, 1, 1], "intensity": 1})
     white = scene.material("perfect white", (1, 1, 1), lambertian=True)
-    # Flat facets: normals bent between corners would tilt hemispheres below the surface, and that light would be missed.
+    # Flat facets: interpolated normals would tilt hemispheres below the surface and lose light.
     scene.object("sphere", faceted(sphere((0, 0, 0), 0.5, 32, 64)), white)
     scene.camera("camera", (0, 0.6, 2.2), (0, 0, 0), yfov_degrees=35)
     return scene
@@ -164,7 +164,7 @@ def veach_mis():
         material = scene.material(f"light {i + 1}", (0, 0, 0), lambertian=True, emission=(radiance,) * 3)
         scene.object(f"light {i + 1}", ball, material, translation=(-0.375 + 0.25 * i, 0, 0))
 
-    # Each plate is tilted so that its middle mirrors the row of lights into the camera.
+    # Each plate is tilted so that its centre reflects the row of lights to the camera.
     for i, (center, roughness) in enumerate((
             ((0, -0.240, -0.020), 0.06), ((0, -0.305, 0.090), 0.14), ((0, -0.357, 0.220), 0.22), ((0, -0.390, 0.360), 0.34))):
         metal = scene.material(f"plate {i + 1}", (0.62, 0.62, 0.62), roughness=roughness, metallic=1)
@@ -194,7 +194,7 @@ def corridor():
     lamp = scene.material("lamp", (0.8, 0.8, 0.8), lambertian=True, emission=(135, 146, 160))
     height = 2.4
 
-    # Clockwise seen from above, so that the walls face inwards: (x, z) of each corner and the paint of the wall after it.
+    # Clockwise from above, so that the walls face inwards: (x, z) of each corner and the colour of the wall after it.
     plan = [((0, 0), white), ((2.8, 0), white), ((2.8, -3), white), ((4.4, -3), ochre),
             ((4.4, 1.6), white), ((1.6, 1.6), white), ((1.6, 4.4), white), ((0, 4.4), white)]
     painted = {white: Mesh(), ochre: Mesh()}

@@ -15,7 +15,7 @@ def to_float32(x):
 
 
 def short_float(x):
-    """The shortest decimal that is the same float32."""
+    """The shortest decimal text that parses to the same float32."""
     for digits in range(1, 10):
         text = float(f"{x:.{digits}g}")
         if to_float32(text) == to_float32(x):
@@ -28,8 +28,8 @@ def numbers(values):
 
 
 def check(name, mesh, kind):
-    """Unit normals, triangles that have area and face the way of their normals. A "solid" has no open edge and is not inside
-    out; one that is "standing" may be open where it touches y = 0; a "sheet" may be open anywhere."""
+    """Checks unit normals, triangle areas and winding. A "solid" is closed and not inside
+    out; a "standing" mesh may be open at y = 0; a "sheet" may be open anywhere."""
     for n in mesh.normals:
         assert abs(dot(n, n) - 1) < 1e-9, f"{name}: a normal is not of unit length"
     edges = {}
@@ -86,7 +86,7 @@ class SceneWriter:
         return len(self.json[key]) - 1
 
     def material(self, name, color, roughness=1.0, metallic=0.0, lambertian=False, emission=None, double_sided=False):
-        """color: linear reflectance. emission: nits. lambertian: without the glossy layer of glTF's dielectrics."""
+        """color: linear reflectance. emission: nits. lambertian: without the specular layer of glTF's dielectrics."""
         m = {
             "name": name,
             "pbrMetallicRoughness": {
@@ -127,7 +127,7 @@ class SceneWriter:
     def mesh(self, name, mesh, material, kind="solid"):
         check(f"{self.name}/{name}", mesh, kind)
         index_type = UNSIGNED_SHORT if len(mesh.points) < 65535 else UNSIGNED_INT
-        # Adding zero turns -0.0 into 0.0, which keeps the files free of a difference that means nothing.
+        # Adding zero turns -0.0 into 0.0, which avoids meaningless differences in the files.
         primitive = {
             "attributes": {
                 "POSITION": self.accessor([tuple(x + 0.0 for x in p) for p in mesh.points], FLOAT, "VEC3", ARRAY_BUFFER, bounds=True),
@@ -165,7 +165,7 @@ class SceneWriter:
         return self.node(name, camera=self.append("cameras", camera), translation=eye, rotation=looking_along(sub(target, eye)))
 
     def sun(self, name, toward_sun, color, lux, angle_degrees, translation=None):
-        """A directional light; it shines from toward_sun. Where its node is matters to editors only."""
+        """A directional light from the direction toward_sun. The position of its node only matters in editors."""
         self.uses("KHR_lights_punctual")
         lights = self.json.setdefault("extensions", {}).setdefault("KHR_lights_punctual", {"lights": []})["lights"]
         lights.append({
@@ -176,16 +176,16 @@ class SceneWriter:
         return self.node(name, translation=translation, rotation=rotation, extensions={"KHR_lights_punctual": {"light": len(lights) - 1}})
 
     def files(self):
-        """Name to content of the two files."""
+        """Maps the names of the two files to their content."""
         self.json["buffers"] = [{"uri": f"{self.name}.bin", "byteLength": len(self.bytes)}]
         text = json.dumps({k: v for k, v in self.json.items() if v != []}, indent=2)
-        # Arrays of numbers on one line each.
+        # Number arrays on one line each.
         text = re.sub(r"\[\s+([-\d.,\se+]+?)\s+\]", lambda m: "[" + re.sub(r"\s+", " ", m[1]) + "]", text)
         return {f"{self.name}.gltf": (text + "\n").encode(), f"{self.name}.bin": bytes(self.bytes)}
 
 
 def looking_along(direction, up=(0, 1, 0)):
-    """Quaternion (x, y, z, w) that turns -Z to the direction and keeps +Y up."""
+    """Quaternion (x, y, z, w) that rotates -Z to the direction and keeps +Y up."""
     z = unit(tuple(-x for x in direction))
     x = unit(cross(up, z))
     y = cross(z, x)

@@ -39,13 +39,13 @@ def unit(a):
 
 
 def quad(a, b, c, d):
-    """Four corners counter-clockwise seen from the side that the normal points to; flat, one normal."""
+    """A flat quad; four corners, counter-clockwise seen from the side of the normal."""
     n = unit(cross(sub(b, a), sub(d, a)))
     return Mesh([a, b, c, d], [n] * 4, [(0, 1, 2), (0, 2, 3)])
 
 
 def prism(base, height):
-    """Solid over a polygon of (x, z) at y = 0, counter-clockwise seen from above; four corners, without its bottom."""
+    """Prism over a polygon of (x, z) at y = 0, counter-clockwise seen from above; four corners, without its bottom."""
     up = [(x, height, z) for x, z in base]
     down = [(x, 0.0, z) for x, z in base]
     mesh = quad(*up)
@@ -67,7 +67,7 @@ def box(low, high):
 
 def grid(rows, columns, point_and_normal, wrap_columns=False):
     """Smooth surface: point_and_normal(row, column) for row <= rows, column <= columns. Columns run to the right and rows
-    upwards seen from outside. Triangles without area, at poles, are left out."""
+    upwards seen from outside. Degenerate triangles, at poles, are skipped."""
     mesh = Mesh()
     width = columns if wrap_columns else columns + 1
     for row in range(rows + 1):
@@ -97,7 +97,7 @@ def sphere(center, radius, rows, columns):
 
 
 def faceted(mesh):
-    """The same triangles, each with its own flat normal."""
+    """The same triangles with flat normals."""
     flat = Mesh()
     for t in mesh.triangles:
         a, b, c = (mesh.points[i] for i in t)
@@ -107,7 +107,7 @@ def faceted(mesh):
 
 
 def rounded(corners, arc_steps):
-    """(point, unit normal) along a polyline of (r, y, fillet radius) whose inner corners are rounded. The normal is to
+    """(point, unit normal) along a polyline of (r, y, fillet radius) with rounded inner corners. The normal is to
     the right of the direction of travel."""
     out = []
 
