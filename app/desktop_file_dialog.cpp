@@ -9,7 +9,8 @@ void request(UiState& ui, FileRequest::Use use, std::filesystem::path path) {
         // The desktop has asked about replacing the name without the extension.
         std::error_code unreadable;
         if (std::filesystem::exists(path, unreadable))
-            return ui.toasts.fail("The scene was not saved: the file " + path.filename().string() + " exists", "Choose that file in the dialog to replace it.");
+            return ui.toasts.fail("The scene was not saved: the file " + path.filename().string() + " exists",
+                                  "Choose that file in the dialog to replace it.");
     }
     ui.settings.browser_folder = (use == FileRequest::Use::snapshot_folder ? path : path.parent_path()).string();
     ui.files.push_back({use, std::move(path)});

@@ -113,7 +113,7 @@ private:
     bool instruments_recalled_ = false;
     ImageRect image_;
     enum class SnapshotDue { none, keep, png } snapshot_due_ = SnapshotDue::none; // pending until a picture in full resolution exists
-    std::string not_continued_; // last message
+    std::string not_continued_;                                                   // last message
     Clock::time_point frame_begin_{};
 };
 
@@ -139,7 +139,8 @@ Editor::Editor(const EditorOptions& options, std::unique_ptr<Window> window, Col
     remembered_follow_viewport_ = ui_.settings.follow_viewport;
     if (!options.follow_viewport) ui_.settings.follow_viewport = false;
     ui_.probe = Probe(automation.probe_file);
-    if (!color_.warning().empty()) ui_.toasts.warn("The OCIO configuration cannot be used: the default one is used instead", color_.warning());
+    if (!color_.warning().empty())
+        ui_.toasts.warn("The OCIO configuration cannot be used: the default one is used instead", color_.warning());
     document_.reset(Project{{}, options.render, options.view});
     if (const auto loaded = viewport_.load(); !loaded) ui_.toasts.fail(loaded.error().text());
     files_.open(options.scene.empty() ? options.assets / "scenes" / "card-and-mug.gltf" : options.scene,
@@ -359,7 +360,8 @@ void Editor::keep_size(const RenderSettings& kept) {
     const RenderSettings r = render_settings();
     if (!ui_.settings.follow_viewport || (r.width == kept.width && r.height == kept.height)) return;
     ui_.settings.follow_viewport = false;
-    ui_.toasts.note(fmt::format("The image keeps the snapshot's {} × {} pixels", kept.width, kept.height), "To render at the window's size again, switch on Fit viewport in the Render tab.");
+    ui_.toasts.note(fmt::format("The image keeps the snapshot's {} × {} pixels", kept.width, kept.height),
+                    "To render at the window's size again, switch on Fit viewport in the Render tab.");
 }
 
 // Not if the displayed picture is the same image with more samples.

@@ -168,7 +168,9 @@ void reset_white(PanelContext& c) {
 }
 
 void compare(PanelContext& c, Comparison::Mode mode) {
-    if (!c.ui.snapshots.toggle(mode)) c.ui.toasts.note("There is no snapshot to compare", keys_of(shortcut(Command::snapshot_exr)) + " takes a snapshot of the current picture.");
+    if (!c.ui.snapshots.toggle(mode))
+        c.ui.toasts.note("There is no snapshot to compare",
+                         keys_of(shortcut(Command::snapshot_exr)) + " takes a snapshot of the current picture.");
 }
 
 void toggle_denoise(PanelContext& c) {

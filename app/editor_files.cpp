@@ -114,7 +114,8 @@ Result<EditorFiles::Opened> EditorFiles::import_file(const std::filesystem::path
     Result<RecoveredEdits> recovered = recover_edits(*sidecar, opened.imported.scene, *opened.imported.origin.json);
     if (!recovered) return in_file(recovered.error(), file.string());
     opened.recovered = std::move(recovered->project);
-    if (recovered->file_changed) list_conflicts(recovered->conflicts, "The file has changed after these edits: they were reapplied by name", opened.imported.report);
+    if (recovered->file_changed)
+        list_conflicts(recovered->conflicts, "The file has changed after these edits: they were reapplied by name", opened.imported.report);
     return opened;
 }
 

@@ -39,7 +39,7 @@ private:
 // Command line options for the first file.
 struct OpenOptions {
     SceneOverrides overrides = {};
-    float aspect = 1.6f;        // for framing a scene without a camera
+    float aspect = 1.6f;                           // for framing a scene without a camera
     bool keep_settings = false, keep_view = false; // keep them instead of those saved with the scene
 };
 
@@ -138,7 +138,7 @@ private:
     Purpose purpose_ = Purpose::open;
     std::filesystem::path importing_, environment_, map_file_;
     bool keep_settings_ = false, keep_view_ = false;
-    bool keep_edits_ = false; // for a reload
+    bool keep_edits_ = false;           // for a reload
     std::shared_ptr<EarlyScene> early_; // of the running import
     std::optional<Document> preview_;
     Project saving_; // the document when the save started

@@ -17,9 +17,9 @@ struct SnapshotJob {
     Snapshot snapshot;
     DenoiseView view; // its view mode
     std::filesystem::path folder;
-    std::filesystem::path file = {}; // to overwrite; empty: a new file in the folder
+    std::filesystem::path file = {};               // to overwrite; empty: a new file in the folder
     std::optional<SnapshotMetadata> metadata = {}; // from its file, for a snapshot without state
-    bool half = false, film = true; // EXR: colours in 16 bits; samples to resume rendering
+    bool half = false, film = true;                // EXR: colours in 16 bits; samples to resume rendering
 };
 
 struct SavedSnapshot {

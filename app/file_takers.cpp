@@ -60,8 +60,9 @@ void FileTakers::take_dropped(const std::filesystem::path& file) {
     else if (matches(photometric_files, file))
         files.load_ies(file, document, ui);
     else
-        ui.toasts.fail(file.filename().string() + ": neither a glTF scene (.gltf, .glb), nor an environment image (.hdr, .exr), nor a picture "
-                                                                                              "(.exr), nor an IES file (.ies), nor a convergence table (.csv)");
+        ui.toasts.fail(file.filename().string() +
+                       ": neither a glTF scene (.gltf, .glb), nor an environment image (.hdr, .exr), nor a picture "
+                       "(.exr), nor an IES file (.ies), nor a convergence table (.csv)");
 }
 
 } // namespace blush

@@ -55,7 +55,8 @@ const Light* light_of(PanelContext& c, Id<Node> id) {
 
 void add_light_rig(PanelContext& c, LightRig rig) {
     const Environment studio = rig == LightRig::studio ? studio_map() : Environment{};
-    if (c.apply(light_rig_edits(c.scene(), rig, studio), rig == LightRig::studio ? "Studio lighting" : "Sky lighting")) c.ui.meter_exposure = true;
+    if (c.apply(light_rig_edits(c.scene(), rig, studio), rig == LightRig::studio ? "Studio lighting" : "Sky lighting"))
+        c.ui.meter_exposure = true;
 }
 
 void toggle_mute(PanelContext& c) {

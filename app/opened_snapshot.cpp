@@ -98,7 +98,8 @@ Result<OpenedSnapshot> open_snapshot(const std::filesystem::path& file, const st
     if (!frame) return in_file(frame.error(), file.string());
     s.pictures.denoised = denoised_from_layer(*image, *metadata, frame->samples);
     s.pictures.frame = std::make_shared<const Frame>(*std::move(frame));
-    if (s.scene_file.empty()) s.no_state = fmt::format("Its scene file {} was not found, neither at its old path nor beside the picture.", metadata->scene);
+    if (s.scene_file.empty())
+        s.no_state = fmt::format("Its scene file {} was not found, neither at its old path nor beside the picture.", metadata->scene);
     return opened;
 }
 
@@ -107,10 +108,12 @@ Result<SnapshotState> state_of(const SnapshotMetadata& m, const Scene& imported,
     if (!scene) return scene.error();
     SnapshotState state{{*std::move(scene), m.settings, m.view.value_or(ViewSettings{})}, {}};
     if (scene_hash(imported) != m.scene_hash)
-        state.warning = fmt::format("{} has changed since the snapshot: the edits were applied to the new file, and it is rendered from the start.",
-                                    scene_file.filename().string());
+        state.warning =
+            fmt::format("{} has changed since the snapshot: the edits were applied to the new file, and it is rendered from the start.",
+                        scene_file.filename().string());
     else if (edits_left_out(m.edits) > 0)
-        state.warning = "Some edits, such as added objects, are not stored in the snapshot. The others were restored, and it is rendered from the start.";
+        state.warning = "Some edits, such as added objects, are not stored in the snapshot. The others were restored, and it is rendered "
+                        "from the start.";
     return state;
 }
 

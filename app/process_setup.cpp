@@ -26,7 +26,8 @@ namespace {
     } catch (const std::system_error& e) { // thrown if a thread cannot be started
         cause = "not enough threads or memory";
         what = e.what();
-    } catch (const std::exception& e) { what = e.what(); } catch (...) {}
+    } catch (const std::exception& e) { what = e.what(); } catch (...) {
+    }
     char line[400];
     const int length = std::snprintf(line, sizeof line, "blush: error: %s: %s\n", cause, what);
     if (length > 0) (void)!::write(STDERR_FILENO, line, std::strlen(line));

@@ -109,7 +109,8 @@ std::string aov_caption(const Frame& frame, Show show) {
     case Show::material_id: return "Material ids: one colour per id";
     case Show::error: return "Error: standard error of each pixel divided by its value";
     case Show::samples:
-        return frame.pixel_samples.empty() ? fmt::format("Samples: {} in each pixel", frame.samples) : std::string("Samples: number per pixel");
+        return frame.pixel_samples.empty() ? fmt::format("Samples: {} in each pixel", frame.samples)
+                                           : std::string("Samples: number per pixel");
     default: return {};
     }
 }

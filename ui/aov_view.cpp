@@ -25,7 +25,8 @@ std::vector<AovEntry> aov_list(const Frame* frame) {
         list.push_back({{Show::group}, "Light groups", "Needs light groups: open the light mix (Ctrl+M)", false});
     const bool has_bounces = frame && !frame->bounces.empty();
     const int bounces = has_bounces ? int(frame->bounces.size()) : usual_bounce_planes;
-    for (int k = 0; k < bounces; ++k) list.push_back({{Show::bounces, k}, bounce_name(k), has_bounces ? "" : "Needs bounce passes: the render restarts"});
+    for (int k = 0; k < bounces; ++k)
+        list.push_back({{Show::bounces, k}, bounce_name(k), has_bounces ? "" : "Needs bounce passes: the render restarts"});
     return list;
 }
 

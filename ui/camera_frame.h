@@ -11,9 +11,9 @@
 namespace blush {
 
 struct CameraFrame {
-    float aspect = 0;  // width / height; 0: the frame is the whole picture; set by settle()
-    bool fit = false;  // render only the frame; otherwise the picture extends beyond it
-    bool lock = false; // navigating moves the camera; set by settle()
+    float aspect = 0;                      // width / height; 0: the frame is the whole picture; set by settle()
+    bool fit = false;                      // render only the frame; otherwise the picture extends beyond it
+    bool lock = false;                     // navigating moves the camera; set by settle()
     std::map<Id<Camera>, float> from_file; // aspect ratios of the file's cameras
 };
 

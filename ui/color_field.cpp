@@ -99,7 +99,8 @@ bool Fields::color(const char* label, Vec3& value, const Vec3& reset, const char
             ImGui::CloseCurrentPopup();
         }
         ui_.probe.record_last_item(path + "/Pick");
-        tip_for_last_item(ui_, "Pick the colour of a pixel in the picture: scene-linear, before exposure, white balance and view transform.");
+        tip_for_last_item(ui_,
+                          "Pick the colour of a pixel in the picture: scene-linear, before exposure, white balance and view transform.");
         ImGui::EndPopup();
     }
     static constexpr const char* ids[] = {"##R", "##G", "##B"};

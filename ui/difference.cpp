@@ -44,7 +44,8 @@ Difference difference_of(const DifferenceQuestion& q) {
     Difference d{.kind = q.kind};
     const Frame &a = *q.a, &b = *q.b;
     if (a.width != b.width || a.height != b.height) {
-        d.problem = fmt::format("A has {} × {} pixels, B {} × {}. Only pictures of the same size can be compared.", a.width, a.height, b.width, b.height);
+        d.problem = fmt::format("A has {} × {} pixels, B {} × {}. Only pictures of the same size can be compared.", a.width, a.height,
+                                b.width, b.height);
         return d;
     }
     try {

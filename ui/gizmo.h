@@ -30,10 +30,27 @@ struct ImageRect {
 enum class TransformMode { grab, rotate, scale };
 
 enum class Handle {
-    none, move, move_x, move_y, move_z, aim,
-    rotate, rotate_x, rotate_y, rotate_z, // rotate: about the view direction
-    scale, scale_x, scale_y, scale_z,     // scale: uniform
-    width, height, radius, outer_cone, inner_cone, spread, sun_angle
+    none,
+    move,
+    move_x,
+    move_y,
+    move_z,
+    aim,
+    rotate,
+    rotate_x,
+    rotate_y,
+    rotate_z, // rotate: about the view direction
+    scale,
+    scale_x,
+    scale_y,
+    scale_z, // scale: uniform
+    width,
+    height,
+    radius,
+    outer_cone,
+    inner_cone,
+    spread,
+    sun_angle
 };
 
 // True for handles that change a light's size or cone.
@@ -55,8 +72,8 @@ struct GizmoPlace {
     TransformMode mode = TransformMode::grab;
     Vec3d position;
     std::array<Vec3d, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}; // orthonormal
-    float size = 80;            // pixels, length of axes and radius of rings; the ring about the view direction is larger
-    bool along_axes = true;     // false: only the handle without an axis
+    float size = 80;        // pixels, length of axes and radius of rings; the ring about the view direction is larger
+    bool along_axes = true; // false: only the handle without an axis
 };
 
 // The handles of a gizmo, plus an aim handle if `aim_at` is given. Axis handles are at most `size` pixels long on the screen.

@@ -10,14 +10,14 @@ namespace blush {
 
 // The user's input to the viewport in this frame.
 struct NavigationResult {
-    std::optional<View> view;                          // the new view
+    std::optional<View> view;                                                 // the new view
     std::optional<ScreenPoint> select, toggle, toggle_shadow, focus, inspect; // clicks: plain, with Shift, Alt+Shift, Ctrl, right button
-    double turned = 0;                                 // drag of the environment to the right, as a fraction of the image's height
-    bool flying = false;                               // moves continuously while a key is held
-    float brighter = 0;                                // change of exposure in stops
-    bool begins_exposure = false;                      // this is a new gesture
-    double zoom = 1;                                   // factor, about the mouse position
-    double shift_x = 0, shift_y = 0;                   // shift of the picture in screen pixels
+    double turned = 0;               // drag of the environment to the right, as a fraction of the image's height
+    bool flying = false;             // moves continuously while a key is held
+    float brighter = 0;              // change of exposure in stops
+    bool begins_exposure = false;    // this is a new gesture
+    double zoom = 1;                 // factor, about the mouse position
+    double shift_x = 0, shift_y = 0; // shift of the picture in screen pixels
 };
 
 class Navigation {

@@ -23,9 +23,9 @@ struct PictureView {
         depth,
         object_id,
         material_id,
-        error,       // standard error of each pixel, relative to its value
-        samples,     // per pixel
-        group,       // a light group, in the current light mix
+        error,   // standard error of each pixel, relative to its value
+        samples, // per pixel
+        group,   // a light group, in the current light mix
     };
     Show show = Show::beauty;
     std::vector<float> gains = {}; // per bounce

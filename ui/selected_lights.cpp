@@ -38,9 +38,8 @@ bool toggle_link(PanelContext& c, Id<Node> object, ObjectSet Light::*set) {
 std::string about_selected_lights(const PanelContext& c) {
     const std::vector<Id<Light>> lights = lights_of(c.scene(), c.ui.selection(c.scene()));
     if (lights.size() < 2) return {};
-    std::string text = std::to_string(lights.size()) +
-                       " lights are edited together: edits apply to all of them, intensities are scaled by "
-                       "the same factor.";
+    std::string text = std::to_string(lights.size()) + " lights are edited together: edits apply to all of them, intensities are scaled by "
+                                                       "the same factor.";
     const std::vector<std::string> fields = differing_fields(c.scene(), lights);
     for (size_t i = 0; i < fields.size(); ++i) text += (i == 0 ? " They differ in " : i + 1 < fields.size() ? ", " : " and ") + fields[i];
     return fields.empty() ? text : text + ".";

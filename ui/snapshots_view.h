@@ -45,7 +45,7 @@ struct Snapshot {
     std::shared_ptr<PictureLayers> layers; // picture from another program; such a snapshot has no state, samples or own file; else null
 
     // Memory management (snapshot_memory.h).
-    bool pinned = false;                          // never unloaded
+    bool pinned = false; // never unloaded
     uint64_t last_used = 0;
     enum class Place { memory, file, lost } place = Place::memory; // of pictures and samples; lost: the file is missing or invalid
 

@@ -86,7 +86,8 @@ std::string why_not(const Scene& scene, std::span<const TransformTarget> targets
     if (targets.empty()) return "The selection cannot be transformed: it is driven by an animation or a skin";
     if (targets.size() != 1 || !targets[0].light || mode == TransformMode::grab) return {};
     const Light& light = *scene.lights.find(targets[0].light);
-    if (mode == TransformMode::rotate && looks_the_same_from_all_sides(light)) return light.name + " emits uniformly: rotation has no effect";
+    if (mode == TransformMode::rotate && looks_the_same_from_all_sides(light))
+        return light.name + " emits uniformly: rotation has no effect";
     if (mode == TransformMode::scale && !has_size(light))
         return light.name + (light.kind == Light::Kind::sun ? " has no angle to scale: set its Angle first" : " has no size to scale: set its Radius first");
     return {};

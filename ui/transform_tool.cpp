@@ -12,7 +12,7 @@ namespace blush {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
-constexpr double least_reach = 8;      // minimum distance from the pivot for scaling, pixels
+constexpr double least_reach = 8; // minimum distance from the pivot for scaling, pixels
 constexpr double most_amount = 1e9;
 constexpr double degrees_step = 5, factor_step = 0.1;
 constexpr std::array<Vec3d, 3> world_axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};

@@ -42,8 +42,8 @@ struct TransformStart {
     ImageRect image;
     ScreenPoint mouse;
     AxisLock lock = {};
-    bool local_first = false;  // the first press of X selects the local axis, the second the world axis
-    float ring = 0;            // pixels: radius of the dragged ring; 0: none
+    bool local_first = false; // the first press of X selects the local axis, the second the world axis
+    float ring = 0;           // pixels: radius of the dragged ring; 0: none
 };
 
 class TransformTool {

@@ -18,7 +18,7 @@ struct TransformRequest {
 
 struct TransformView {
     TransformMode gizmo = TransformMode::grab;
-    bool local = false; // the gizmo has the axes of the selection, and X selects the local axis first
+    bool local = false;                     // the gizmo has the axes of the selection, and X selects the local axis first
     std::optional<TransformRequest> wanted; // starts in the next frame of the viewport
     bool active = false;
     std::vector<KeyPress> keys; // pressed since the last frame, for the transform

@@ -66,7 +66,7 @@ struct FileBrowser {
     std::string chosen;
     bool just_opened = true;
     std::filesystem::path scene_folder = {}; // of the open scene
-    bool on_desktop = false; // the desktop's dialog is open: the file browser is not drawn
+    bool on_desktop = false;                 // the desktop's dialog is open: the file browser is not drawn
 };
 
 // The pixel whose values are shown.
@@ -137,18 +137,18 @@ struct UiState {
     std::optional<PicturePoint> cursor; // while the mouse is over the picture and no other window
     ViewTool tool = ViewTool::none;
     std::optional<ToolStart> tool_start; // while the tool's drag is active
-    DenoiseView denoise; // view setting: not part of the document and its history
+    DenoiseView denoise;                 // view setting: not part of the document and its history
     bool paused = false;
     double next_frame_in = 1e9; // seconds until a frame is needed without input, for example for toasts and tooltips
     PlacingBy placing_by = PlacingBy::hand;
     std::optional<LookedThrough> looked_through;
     LightTableView light_table;
     bool show_shortcuts = false;
-    bool studio_at_opening = false;  // the file has no light and was opened with studio lighting; the banner is still shown
-    bool opening_page = false;       // shown after a start without a scene
-    std::vector<std::string> demos;  // scene files shipped with the program
-    bool panels_hidden = false; // hides everything except menu, picture and status bar
-    HomeView home;              // target of the command Camera view
+    bool studio_at_opening = false; // the file has no light and was opened with studio lighting; the banner is still shown
+    bool opening_page = false;      // shown after a start without a scene
+    std::vector<std::string> demos; // scene files shipped with the program
+    bool panels_hidden = false;     // hides everything except menu, picture and status bar
+    HomeView home;                  // target of the command Camera view
     CameraFrame frame;          // of that camera
     TransformView transform;    // of the selection, by gizmo or keys
     bool show_history = false;

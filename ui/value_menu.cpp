@@ -70,7 +70,8 @@ void copy_text(UiState& ui, const std::string& text) {
 
 void refuse_pasted(UiState& ui, const std::string& field, const char* wanted) {
     const std::string text = shown_of(pasted_text());
-    ui.toasts.warn(text.empty() ? "The clipboard has no text that " + field + " accepts" : "\"" + text + "\" is not a value for " + field, wanted);
+    ui.toasts.warn(text.empty() ? "The clipboard has no text that " + field + " accepts" : "\"" + text + "\" is not a value for " + field,
+                   wanted);
 }
 
 } // namespace blush

@@ -65,15 +65,15 @@ private:
     FramePtr uploaded_frame_, shown_frame_;
     PictureView uploaded_view_;
     DenoisedPtr uploaded_denoised_;
-    Gains uploaded_gains_, shown_gains_; // of raw and denoised picture
+    Gains uploaded_gains_, shown_gains_;        // of raw and denoised picture
     int thinned_by_ = 1, shown_thinned_by_ = 1; // only every n-th pixel of a row, and every n-th row, of both
-    FramePace::TimePoint mix_moved_{}; // last edit of the mix
+    FramePace::TimePoint mix_moved_{};          // last edit of the mix
     MixPreview preview_;
     std::shared_ptr<std::vector<float>> mixed_, mixed_denoised_; // mixed pictures, kept to reuse their memory
-    Workers workers_{0};   // for mixing planes
+    Workers workers_{0};                                         // for mixing planes
     DisplayLook look_;
     bool shader_changed_ = false, begun_ = false;
-    bool answers_ = false; // the picture in progress has the last requested view settings
+    bool answers_ = false;      // the picture in progress has the last requested view settings
     bool drew_display_ = false; // in this UI frame
     struct Outlined {
         FramePtr frame;

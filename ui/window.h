@@ -70,7 +70,7 @@ private:
 
     GLFWwindow* window_ = nullptr;
     bool imgui_ = false;
-    Size windowed_{};                  // size before full screen
+    Size windowed_{}; // size before full screen
     int windowed_x_ = 0, windowed_y_ = 0;
     float display_scale_ = 1, scale_ = 1; // of the display; of fonts and spacing, relative to 96 dpi
     int text_size_ = 100;                 // per cent

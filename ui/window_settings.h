@@ -42,10 +42,10 @@ struct WindowSettings {
     bool snapshot_film = true;       // with samples, to resume rendering
     int64_t snapshot_memory = 2048;  // MiB limit for the strip's snapshots; above it the oldest are unloaded
     std::vector<std::string> bookmarks; // folders of the file browser
-    bool desktop_file_dialog = true; // use the desktop's file dialog, if available
-    std::string browser_folder;      // last folder of the file browser
+    bool desktop_file_dialog = true;    // use the desktop's file dialog, if available
+    std::string browser_folder;         // last folder of the file browser
     std::map<std::string, double> panels; // open panels and their settings (remembered.h), and sections of the inspector
-    std::string floating;            // ImGui's text with the positions of floating windows
+    std::string floating;                 // ImGui's text with the positions of floating windows
     std::vector<SceneMemory> scenes; // newest first
     bool operator==(const WindowSettings&) const = default;
 };

@@ -54,8 +54,8 @@ void print_report(const BatteryReport& report, double seconds) {
         print_row(r, r.pass ? "holds" : "limit");
         fmt::print("    {}\n", r.limit);
     }
-    fmt::print("\n{} of {} cases passed in {:.0f} s; probability of a false alarm: {:.0f} % for the whole battery\n",
-               report.passed, report.passed + report.failed, seconds, 100 * family_wise_level);
+    fmt::print("\n{} of {} cases passed in {:.0f} s; probability of a false alarm: {:.0f} % for the whole battery\n", report.passed,
+               report.passed + report.failed, seconds, 100 * family_wise_level);
 }
 
 OrderedJson row_json(const CaseResult& r) {

@@ -78,8 +78,10 @@ void print_table(const Metrics& m) {
 // Printed even with --quiet: the metrics do not cover all pixels.
 void warn_of_non_finite(const std::string& file, int64_t pixels) {
     if (pixels > 0)
-        print_warnings(file, {{Diagnostic::Severity::warning, fmt::format("{} pixel{} not finite: the metrics ignore {}", pixels,
-                                                                          pixels == 1 ? " is" : "s are", pixels == 1 ? "it" : "them"), ""}});
+        print_warnings(file, {{Diagnostic::Severity::warning,
+                               fmt::format("{} pixel{} not finite: the metrics ignore {}", pixels, pixels == 1 ? " is" : "s are",
+                                           pixels == 1 ? "it" : "them"),
+                               ""}});
 }
 
 int run_compare(const CompareCommand& c) {

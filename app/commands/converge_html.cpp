@@ -110,8 +110,8 @@ std::string bias_cell(const VariantResult& v) {
                                                             w.height, w.x, w.y, w.percent(), signed_number(w.z(), 1));
     const std::string pooled = std::abs(p.z()) <= std::abs(b.whole.z())
                                    ? std::string()
-                                   : fmt::format("<small>weighted by the precision of the reference {:+.3g} % ± {:.2g}, z {}</small>", p.percent(),
-                                                 1.96 * p.percent_error(), signed_number(p.z(), 1));
+                                   : fmt::format("<small>weighted by the precision of the reference {:+.3g} % ± {:.2g}, z {}</small>",
+                                                 p.percent(), 1.96 * p.percent_error(), signed_number(p.z(), 1));
     std::string bounces = bias_by_bounce_text(v);
     if (!bounces.empty()) bounces = fmt::format("<small>{}</small>", bounces);
     return fmt::format("<td{}>{}<small>whole picture {:+.3g} % ± {:.2g}, z {}</small>{}{}{}</td>",
@@ -155,14 +155,16 @@ std::string how_to_read(const ConvergeReport& report) {
         "alternating slices of a tenth of a second, so that other load on the machine affected all equally; each was rendered {} "
         "times. The time to measure is not included. Efficiency is 1 / (MSE × seconds): twice the efficiency is the same "
         "error in half the time. "
-        "Intervals are 95 % confidence intervals, over the repeats for efficiency. Fits exclude points at which the reference is not clearly better.</p>\n",
+        "Intervals are 95 % confidence intervals, over the repeats for efficiency. Fits exclude points at which the reference is not "
+        "clearly better.</p>\n",
         report.input.repeats);
     html += fmt::format(
         "<p>The bias test compares the means of the whole picture and of a grid of regions with the reference, in units of the standard "
         "error of the "
         "difference. Its false positive rate over all regions of a variant is {:g} % (Šidák correction). A picture is "
         "not called biased "
-        "if its missing light can be explained by rare bright samples, as bright as the brightest it has found. The bias per bounce of a biased "
+        "if its missing light can be explained by rare bright samples, as bright as the brightest it has found. The bias per bounce of a "
+        "biased "
         "variant is measured separately, with the same random numbers and without roulette and limit, in per cent of all light."
         "</p>\n",
         100 * bias_significance);

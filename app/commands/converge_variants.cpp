@@ -66,8 +66,7 @@ Result<Variant> parse_variant(const std::string& text, const RenderOptions& base
         app.parse(variant.options);
     } catch (const CLI::ParseError& error) { return Error{.what = fmt::format("variant \"{}\": {}", variant.name, error.what())}; }
     if (const char* shared = shared_option(options.settings, base.settings, options, base))
-        return Error{
-            .what = fmt::format("variant \"{}\" must not set {}: all variants share one reference", variant.name, shared)};
+        return Error{.what = fmt::format("variant \"{}\" must not set {}: all variants share one reference", variant.name, shared)};
     const Result<RenderSettings> settings = settings_of(options);
     if (!settings) return Error{.what = fmt::format("variant \"{}\": {}", variant.name, settings.error().text())};
     variant.settings = *settings;

@@ -147,8 +147,7 @@ void add_denoise_command(CLI::App& app, std::function<int()>& run) {
     const auto command = std::make_shared<DenoiseCommand>();
     CLI::App* sub = app.add_subcommand("denoise", "Denoise an image; uses the channels albedo.{R,G,B} and normal.{X,Y,Z} if it has both");
     sub->add_option("input", command->input, "EXR, HDR, PNG or JPEG file")->required()->type_name("IN");
-    sub->add_option("-o,--output", command->output,
-                    "EXR: all channels of IN and a layer \"denoised\"; PNG and JPEG: the denoised picture")
+    sub->add_option("-o,--output", command->output, "EXR: all channels of IN and a layer \"denoised\"; PNG and JPEG: the denoised picture")
         ->required()
         ->type_name("OUT");
     sub->add_option_function<std::string>(

@@ -181,10 +181,10 @@ void add_info_command(CLI::App& app, std::function<int()>& run) {
     const auto command = std::make_shared<InfoCommand>();
     CLI::App* sub = app.add_subcommand("info", "Print the content of a scene, what is ignored, and the kernel that it needs");
     sub->add_option("scene", command->scene, "glTF file (.gltf, .glb)")->required()->type_name("SCENE");
-    sub->add_flag(
-        "--measure", command->measure,
-        "Measure the effect of specialisation: the speed of this scene's kernel and of the kernel with all features, in turns for a few seconds, and "
-        "the start-up time of the view transform and of the denoiser");
+    sub->add_flag("--measure", command->measure,
+                  "Measure the effect of specialisation: the speed of this scene's kernel and of the kernel with all features, in turns "
+                  "for a few seconds, and "
+                  "the start-up time of the view transform and of the denoiser");
     add_staging_options(*sub, command->overrides.staging);
     add_common_options(*sub, command->common);
     sub->callback([command, &run] { run = [command] { return run_info(*command); }; });

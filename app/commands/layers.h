@@ -11,9 +11,9 @@ namespace blush {
 
 struct Layers {
     bool albedo = false, normal = false, depth = false, error = false, samples = false, ids = false;
-    bool film = false; // full sums, for --continue and merge
+    bool film = false;   // full sums, for --continue and merge
     bool groups = false; // one plane per light group
-    int bounces = 0; // number of planes by bounce
+    int bounces = 0;     // number of planes by bounce
     bool any() const { return *this != Layers{}; }
     bool operator==(const Layers&) const = default;
 };

@@ -20,8 +20,8 @@ template <class Make> std::optional<double> seconds_to(const Make& make) {
 
 Ledger with_made_beside(const Ledger& renderer, const MadeBeside& made) {
     Ledger ledger = renderer;
-    ledger.push_back({"display", "view transform", made.display,
-                      made.display ? "the output is display-encoded" : "the output is scene-linear"});
+    ledger.push_back(
+        {"display", "view transform", made.display, made.display ? "the output is display-encoded" : "the output is scene-linear"});
     ledger.back().seconds = made.display_seconds;
     std::array<bool, denoise_qualities> loaded{};
     if (made.denoiser) loaded[size_t(*made.denoiser)] = true;

@@ -42,7 +42,8 @@ Result<Input> read_input(const std::string& file) {
     if (!metadata) return in_file(metadata.error(), file);
     Input input{file, *std::move(image), *metadata, {}};
     if (metadata->spp < 1) return Error{file, "has no number of samples", "blush:spp"};
-    if (metadata->settings.adaptive) return Error{file, "adaptive renders cannot be merged: the sampling of each depends on all its samples", ""};
+    if (metadata->settings.adaptive)
+        return Error{file, "adaptive renders cannot be merged: the sampling of each depends on all its samples", ""};
     if (metadata->film.empty()) return input;
     Result<FilmState> film = film_in_file(input.image, *metadata);
     if (!film) return in_file(film.error(), file);
@@ -61,7 +62,9 @@ Result<void> expect_same_image(const Input& a, const Input& b) {
     if (a.image.width != b.image.width || a.image.height != b.image.height) return differs("has another size");
     if (n.first_sample < m.last_sample) return Error{b.file, fmt::format("contains sample {}, as does {}", n.first_sample, a.file), ""};
     if (n.first_sample > m.last_sample)
-        return Error{b.file, fmt::format("begins with sample {}, but {} ends before {}: the samples between are missing", n.first_sample, a.file, m.last_sample),
+        return Error{b.file,
+                     fmt::format("begins with sample {}, but {} ends before {}: the samples between are missing", n.first_sample, a.file,
+                                 m.last_sample),
                      ""};
     return {};
 }
@@ -212,8 +215,9 @@ int run_merge(const MergeCommand& c) {
 void add_merge_command(CLI::App& app, std::function<int()>& run) {
     const auto command = std::make_shared<MergeCommand>();
     CLI::App* sub = app.add_subcommand("merge", "Merge renders of the same scene with different sample ranges");
-    sub->add_option("inputs", command->inputs, "EXR files with consecutive --samples ranges, in any order; if all have the layer film, "
-                                               "their sums are added, and the result can be resumed")
+    sub->add_option("inputs", command->inputs,
+                    "EXR files with consecutive --samples ranges, in any order; if all have the layer film, "
+                    "their sums are added, and the result can be resumed")
         ->required()
         ->expected(2, 100000)
         ->type_name("EXR");

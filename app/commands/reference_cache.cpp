@@ -134,8 +134,9 @@ Result<Reference> read_reference_file(const std::filesystem::path& file, int wid
     Reference r = reference_of(*image);
     if (r.measured.image.pixels.empty()) return Error{.file = file.string(), .what = "a reference must be an EXR with channels R, G and B"};
     if (image->width != width || image->height != height)
-        return Error{.file = file.string(),
-                     .what = fmt::format("the reference has {}x{} pixels, but the pictures have {}x{}", image->width, image->height, width, height)};
+        return Error{
+            .file = file.string(),
+            .what = fmt::format("the reference has {}x{} pixels, but the pictures have {}x{}", image->width, image->height, width, height)};
     if (!all_finite(r.measured.image.pixels) || !all_finite(r.measured.error))
         return Error{.file = file.string(), .what = "the reference has non-finite values"};
     return r;

@@ -70,8 +70,8 @@ struct Rendered {
     CompiledInfo info;
     std::optional<Denoised> denoised;
     std::vector<Diagnostic> warnings; // from the import, the compilation and the render
-    std::vector<Vec3> error;       // if the layer error is requested
-    std::optional<FilmState> film; // if the layer film is requested
+    std::vector<Vec3> error;          // if the layer error is requested
+    std::optional<FilmState> film;    // if the layer film is requested
 };
 
 Result<Plan> plan_of(const RenderCommand& c) {
@@ -259,7 +259,8 @@ Result<Rendered> render_picture(const RenderCommand& c, const Plan& plan, const 
     }
     if (rendered.loop.samples == 0) return Error{.file = c.scene, .what = "interrupted before the first sample"};
     if (sees_nothing(loaded.scene, plan.settings, rendered.loop.frame.rays, c.common.threads)) {
-        const Diagnostic nothing{Diagnostic::Severity::warning, "the camera sees no object of the scene: the picture shows only the background", ""};
+        const Diagnostic nothing{Diagnostic::Severity::warning,
+                                 "the camera sees no object of the scene: the picture shows only the background", ""};
         if (!c.common.quiet) print_warnings(c.scene, {nothing});
         rendered.warnings.push_back(nothing);
     }
@@ -307,7 +308,9 @@ Result<void> fit_size(RenderCommand& c, Plan& plan, float camera_aspect) {
     if (c.options.width_given && c.options.height_given) {
         const float aspect = float(s.width) / float(s.height);
         if (!c.common.quiet && std::abs(aspect / camera_aspect - 1) > 0.02f)
-            fmt::print(stderr, "blush: note: {}x{} is {:.3g}:1, the camera's frame is {:.3g}:1; the vertical field of view is the camera's\n", s.width, s.height, aspect, camera_aspect);
+            fmt::print(stderr,
+                       "blush: note: {}x{} is {:.3g}:1, the camera's frame is {:.3g}:1; the vertical field of view is the camera's\n",
+                       s.width, s.height, aspect, camera_aspect);
         return {};
     }
     follow_aspect(c.options, camera_aspect);
@@ -363,7 +366,9 @@ void add_render_command(CLI::App& app, std::function<int()>& run) {
     sub->add_option("-o,--output", command->output, "EXR keeps scene-linear values; PNG and JPEG go through the view transform")
         ->type_name("FILE");
     add_render_options(*sub, command->options);
-    sub->add_option("--layers", command->layers, "Additional passes, EXR only: albedo,normal,depth,error,samples,id,groups,bounces[=N],film (sums, for --continue and merge)")
+    sub->add_option(
+           "--layers", command->layers,
+           "Additional passes, EXR only: albedo,normal,depth,error,samples,id,groups,bounces[=N],film (sums, for --continue and merge)")
         ->type_name("LIST");
     sub->add_option("--continue", command->begun, "Resume a render that was saved with the layer film, up to --spp, --time or --error")
         ->type_name("EXR");

@@ -126,11 +126,13 @@ void add_picture_options(CLI::App& app, RenderOptions& o) {
 }
 
 void add_light_options(CLI::App& app, RenderOptions& o) {
-    add_parsed(app, "--light", o.overrides.light, parse_light,
-               "Lighting for a scene without lights: three softboxes and a studio panorama, or a sky, both for exposure 0 [none, with a warning]")
+    add_parsed(
+        app, "--light", o.overrides.light, parse_light,
+        "Lighting for a scene without lights: three softboxes and a studio panorama, or a sky, both for exposure 0 [none, with a warning]")
         ->type_name("studio|sky|none");
     add_parsed(app, "--groups", o.overrides.groups, parse_grouping,
-               "Light groups: which lights share a plane of the layer \"groups\" and a gain of the light mix [the scene's; by-light for that layer]")
+               "Light groups: which lights share a plane of the layer \"groups\" and a gain of the light mix [the scene's; by-light for "
+               "that layer]")
         ->type_name("off|by-light|by-object|by-material|by-hand");
 }
 
@@ -168,13 +170,14 @@ void add_integrator_options(CLI::App& app, RenderOptions& o) {
         ->type_name("RULE[,start=N][,floor=P][,cap=P]");
     add_parsed(app, "--strategy", o.settings.strategy, parse_strategy, "Direct light by MIS, light sampling (NEE) or BSDF sampling [mis]")
         ->type_name("mis|light|bsdf");
-    add_parsed(app, "--energy-compensation", o.settings.energy_compensation, parse_switch, "Energy compensation for multiple scattering between microfacets [off]")
+    add_parsed(app, "--energy-compensation", o.settings.energy_compensation, parse_switch,
+               "Energy compensation for multiple scattering between microfacets [off]")
         ->type_name("on|off");
-    add_parsed(app, "--adaptive", o.settings.adaptive, parse_switch, "Adaptive sampling: more samples in noisy pixels, N per pixel on average [on]",
-               &o.adaptive_given)
+    add_parsed(app, "--adaptive", o.settings.adaptive, parse_switch,
+               "Adaptive sampling: more samples in noisy pixels, N per pixel on average [on]", &o.adaptive_given)
         ->type_name("on|off");
-    add_parsed(app, "--reuse", o.settings.reuse, parse_reuse, "Path reuse: number of pixels that share light at a second diffuse surface [8]",
-               &o.reuse_given)
+    add_parsed(app, "--reuse", o.settings.reuse, parse_reuse,
+               "Path reuse: number of pixels that share light at a second diffuse surface [8]", &o.reuse_given)
         ->type_name("off|4|8|16");
     add_parsed(app, "--clamp", o.settings.clamp, parse_clamp,
                "Clamp samples of indirect light, or of all light, to X nits: biased, the summary prints the removed light [off]")
@@ -191,7 +194,8 @@ void add_view_options(CLI::App& app, ViewSettings& view) {
     add_parsed(app, "--auto-exposure", view.auto_exposure, parse_auto_exposure,
                "Auto exposure, only for display output: log-average to middle grey, or highlights to white; --exposure is added [off]")
         ->type_name("off|average|highlights");
-    add_parsed(app, "--white", view.white, parse_white, "White balance, only for display output: scene-linear colour that becomes neutral [1,1,1]")
+    add_parsed(app, "--white", view.white, parse_white,
+               "White balance, only for display output: scene-linear colour that becomes neutral [1,1,1]")
         ->type_name("R,G,B");
     add_parsed(app, "--false-color", view.false_color, parse_false_color,
                "False colours, only for display output: stops from middle grey, nits, or lux on diffuse surfaces [off]")

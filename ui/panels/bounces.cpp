@@ -30,7 +30,13 @@ void draw_gains(Fields& f, BouncesView& view, const std::vector<BounceEnergy>& e
     view.gains.resize(energies.size(), 1.f);
     for (size_t k = 0; k < energies.size(); ++k)
         f.number(fmt::format("Bounce {}", energies[k].name).c_str(), view.gains[k],
-                 {.min = 0, .max = most_bounce_gain, .reset = 1, .unit = "×", .bar = true, .tip = "Gain of this bounce, for demonstration. Only 1 is physically correct.", .format = "%.2f"});
+                 {.min = 0,
+                  .max = most_bounce_gain,
+                  .reset = 1,
+                  .unit = "×",
+                  .bar = true,
+                  .tip = "Gain of this bounce, for demonstration. Only 1 is physically correct.",
+                  .format = "%.2f"});
     if (f.button("All 1", "Reset all gains to 1.")) view.gains.assign(energies.size(), 1.f);
 }
 
@@ -50,8 +56,7 @@ void draw_energy(PanelContext& c, BouncesView& view, const std::vector<BounceEne
         view.bounce = clicked;
         view.playing = false;
     }
-    if (is_mixed(c.mixing ? c.mixing->gains : c.frame->gains))
-        quiet_text("The bounce passes do not include the light mix.");
+    if (is_mixed(c.mixing ? c.mixing->gains : c.frame->gains)) quiet_text("The bounce passes do not include the light mix.");
     quiet_text(fmt::format("Direct {:.1f} %, indirect {:.1f} % of the picture's light.", 100 * direct, 100 * (1 - direct)));
 }
 
@@ -63,8 +68,7 @@ void draw_bounces_panel(PanelContext& c) {
     if (energies.empty()) return quiet_text("Waiting for a render with bounce passes.");
     Fields f(c.ui, "Bounces");
     int mode = int(view.mode);
-    if (f.choice("Show", mode, BouncesView::names,
-                 "What the viewport shows. It does not restart the render and is not saved.")) {
+    if (f.choice("Show", mode, BouncesView::names, "What the viewport shows. It does not restart the render and is not saved.")) {
         view.mode = Mode(mode);
         view.playing = false;
     }

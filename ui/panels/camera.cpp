@@ -48,7 +48,12 @@ void draw_projection(Fields& f, Lens& lens) {
             {.min = 1, .max = 170, .reset = 39.6f, .bar = true, .tip = "Vertical angle of the picture."});
     float millimetres = focal_length(lens) * 1000;
     if (f.number("Focal length", millimetres,
-                 {.min = 0.14f, .max = 1375, .reset = 33.3f, .unit = "mm", .step = 0.1f, .tip = "Focal length for this field of view on full frame (36 x 24 mm)."}))
+                 {.min = 0.14f,
+                  .max = 1375,
+                  .reset = 33.3f,
+                  .unit = "mm",
+                  .step = 0.1f,
+                  .tip = "Focal length for this field of view on full frame (36 x 24 mm)."}))
         lens.yfov_radians = 2 * std::atan(full_frame_height / 2 * 1000 / millimetres);
 }
 
@@ -65,7 +70,12 @@ void draw_focus(Fields& f, Lens& lens) {
     if (!lens.orthographic) {
         float f_number = f_number_of(lens);
         if (f.number("f-number", f_number,
-                     {.min = 0, .max = 1e6f, .reset = 0, .step = 0.05f, .tip = "Focal length divided by the diameter of the aperture, on full frame. 0 is a pinhole.", .format = f_number > 0 ? "f/%.3g" : "pinhole (%.0f)"}))
+                     {.min = 0,
+                      .max = 1e6f,
+                      .reset = 0,
+                      .step = 0.05f,
+                      .tip = "Focal length divided by the diameter of the aperture, on full frame. 0 is a pinhole.",
+                      .format = f_number > 0 ? "f/%.3g" : "pinhole (%.0f)"}))
             lens.aperture_radius = f_number > 0 ? focal_length(lens) / (2 * f_number) : 0;
     }
     f.number("Focus", lens.focus_distance,
@@ -80,8 +90,8 @@ struct AspectPreset {
     const char* name;
     float aspect;
 };
-constexpr AspectPreset presets[] = {{"Viewport", 0}, {"16:9", 16.f / 9}, {"3:2", 1.5f}, {"4:3", 4.f / 3}, {"1:1", 1},
-                                    {"4:5", 0.8f}, {"9:16", 9.f / 16}, {"1.85:1", 1.85f}, {"2.39:1", 2.39f}};
+constexpr AspectPreset presets[] = {{"Viewport", 0}, {"16:9", 16.f / 9}, {"3:2", 1.5f},     {"4:3", 4.f / 3}, {"1:1", 1},
+                                    {"4:5", 0.8f},   {"9:16", 9.f / 16}, {"1.85:1", 1.85f}, {"2.39:1", 2.39f}};
 
 void draw_frame(PanelContext& c) {
     Fields f(c.ui, "Frame");
@@ -94,7 +104,9 @@ void draw_frame(PanelContext& c) {
     for (const AspectPreset& preset : presets) names.push_back(preset.name), aspects.push_back(preset.aspect);
     const auto chosen = std::ranges::find_if(aspects, [&](float a) { return std::abs(a - frame.aspect) < 1e-4f; });
     std::string name = chosen == aspects.end() ? fmt::format("{:.3g}:1", frame.aspect) : names[size_t(chosen - aspects.begin())];
-    if (f.choice("Aspect", name, names, "Width / height of the camera's frame. In the camera view, the picture outside the frame is dimmed. Saved with the scene.")) {
+    if (f.choice(
+            "Aspect", name, names,
+            "Width / height of the camera's frame. In the camera view, the picture outside the frame is dimmed. Saved with the scene.")) {
         const auto at = size_t(std::ranges::find(names, name) - names.begin());
         settings.frame_aspect.reset();
         if (own <= 0 || at > 0) settings.frame_aspect = aspects[at]; // index 0 is the camera's own aspect
@@ -103,7 +115,8 @@ void draw_frame(PanelContext& c) {
     f.checkbox("Fit camera", frame.fit, "Render only the frame, as large as the window allows.");
     ImGui::EndDisabled();
     ImGui::BeginDisabled(!c.scene().nodes.contains(c.ui.home.camera));
-    f.checkbox("Lock to view", settings.lock_camera, "Lock camera to view: orbiting, panning and flying move the camera itself. Each drag is one undo step.");
+    f.checkbox("Lock to view", settings.lock_camera,
+               "Lock camera to view: orbiting, panning and flying move the camera itself. Each drag is one undo step.");
     ImGui::EndDisabled();
     if (settings != c.project().view) c.apply(SetView{settings});
 }
@@ -135,7 +148,12 @@ void draw_camera_exposure(PanelContext& c, Fields& f, ViewSettings& settings) {
     bool changed = false;
     ImGui::BeginDisabled(lens_f_number > 0);
     changed |= f.number("f-number", f_number,
-                        {.min = 0.1f, .max = 1000, .reset = 8, .step = 0.05f, .tip = "With a pinhole it sets only the exposure; otherwise it is the f-number of the lens.", .format = "f/%.3g"});
+                        {.min = 0.1f,
+                         .max = 1000,
+                         .reset = 8,
+                         .step = 0.05f,
+                         .tip = "With a pinhole it sets only the exposure; otherwise it is the f-number of the lens.",
+                         .format = "f/%.3g"});
     ImGui::EndDisabled();
     changed |= draw_shutter(f, per_second);
     changed |= f.number("ISO", iso, {.min = 1, .max = 1e7f, .reset = 100, .tip = "Sensitivity of the sensor or film.", .format = "%.0f"});

@@ -34,11 +34,13 @@ std::string stops(const std::array<double, 3>& a, const std::array<double, 3>& b
 
 void draw_numbers(PanelContext& c, Fields& f, const Difference& d) {
     const Metrics& m = d.numbers;
-    f.info("relMSE", fmt::format("{:.3g}   {:.2g} %", m.relmse, 100 * std::sqrt(m.relmse)), "Mean of (a - b)² / (b² + 0.01), and its square root.");
+    f.info("relMSE", fmt::format("{:.3g}   {:.2g} %", m.relmse, 100 * std::sqrt(m.relmse)),
+           "Mean of (a - b)² / (b² + 0.01), and its square root.");
     f.info("RMSE", fmt::format("{:.3g} nits", m.rmse), "Root mean square difference.");
     f.info("Mean |A - B|", fmt::format("{:.3g} nits", m.mae), "Mean absolute difference.");
     f.info("Largest", fmt::format("{:.3g} nits", m.max_abs), "Largest absolute difference of a channel.");
-    f.info("PSNR", std::isfinite(m.psnr) ? fmt::format("{:.1f} dB", m.psnr) : "equal", "Computed on sRGB-encoded values clamped to 0 .. 1.");
+    f.info("PSNR", std::isfinite(m.psnr) ? fmt::format("{:.1f} dB", m.psnr) : "equal",
+           "Computed on sRGB-encoded values clamped to 0 .. 1.");
     f.info("A is brighter by", stops(m.mean_a, m.mean_b), "Ratio of the means of all channels, in stops.");
     c.ui.probe.record_last_item(std::string("Compare/Numbers/") + (d.has_flip ? "FLIP" : "difference"));
     if (!d.has_flip) return;
@@ -72,7 +74,8 @@ void draw_comparison_panel(PanelContext& c) {
     draw_side(c, f, "B", compare.b);
     constexpr const char* modes[] = {"Wipe", "Flicker", "Difference"};
     int mode = int(compare.mode) - 1;
-    if (f.choice("Show", mode, modes, "Wipe: both, with a movable bar between them. Flicker: one after the other. Difference: a map of the differences."))
+    if (f.choice("Show", mode, modes,
+                 "Wipe: both, with a movable bar between them. Flicker: one after the other. Difference: a map of the differences."))
         compare.mode = Mode(mode + 1);
     if (compare.mode == Mode::flicker) {
         if (f.button(compare.shows_b ? "Show A" : "Show B", "Shortcut: J.")) compare.shows_b = !compare.shows_b;

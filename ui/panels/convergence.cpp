@@ -62,11 +62,10 @@ void draw_settings(PanelContext& c, ConvergenceView& view) {
     tip_for_last_item(c.ui,
                       "Target error. The panel predicts from the fitted slope when it is reached. Drag, or Ctrl+click to type; 0 is none.");
     ImGui::BeginDisabled(!c.denoiser_problem.empty());
-    toggle(
-        c, "Denoised", view.denoised,
-        "Adds a curve of the denoised picture, over render time without denoising time. Its error cannot be estimated from the half "
-        "buffers. It is measured against the reference or, without one, against a later raw picture of this run that is accurate "
-        "enough.");
+    toggle(c, "Denoised", view.denoised,
+           "Adds a curve of the denoised picture, over render time without denoising time. Its error cannot be estimated from the half "
+           "buffers. It is measured against the reference or, without one, against a later raw picture of this run that is accurate "
+           "enough.");
     ImGui::EndDisabled();
     toggle(c, "Reference", view.reference,
            "Measure against a reference: a picture with many samples and another seed. References stored by `blush converge` for "
@@ -105,7 +104,8 @@ void draw_reference(PanelContext& c, ConvergenceView& view) {
         view.wanted_reference =
             news.state == State::rendering ? ConvergenceView::ReferenceRequest::stop : ConvergenceView::ReferenceRequest::render;
     c.ui.probe.record_last_item("Convergence/Reference/Render");
-    tip_for_last_item(c.ui, "Renders twice as many samples as the picture or the current reference has. The reference is stored for later runs.");
+    tip_for_last_item(c.ui,
+                      "Renders twice as many samples as the picture or the current reference has. The reference is stored for later runs.");
 }
 
 // Draws crosshair lines through the point under the mouse, with its values beside it.

@@ -54,16 +54,19 @@ void draw_transform_fields(PanelContext& c, Fields& f, ViewSettings& v) {
         v.view.clear();
     }
     std::string view = v.view.empty() ? c.color.default_view(display) : v.view;
-    if (f.choice("View", view, c.color.views(display), "The view transform: from scene-linear to display values, with tone mapping or without.")) v.view = view;
+    if (f.choice("View", view, c.color.views(display),
+                 "The view transform: from scene-linear to display values, with tone mapping or without."))
+        v.view = view;
     static constexpr const char* no_look = "View's default";
     std::vector<std::string> looks = c.color.looks();
     looks.insert(looks.begin(), no_look);
     std::string look = v.look.empty() ? no_look : v.look;
-    if (f.choice("Look", look, looks, "A grade that is applied before the view transform, for example contrast.")) v.look = look == no_look ? "" : look;
-    f.checkbox(
-        "Backdrop as it is", v.background_as_it_is,
-        "Do not apply exposure, white balance, look and view transform to the background: a backdrop image keeps its own colours.");
-    f.info("Colours from", c.color.config_name(), "The OpenColorIO configuration in use. Set the environment variable OCIO to use another.");
+    if (f.choice("Look", look, looks, "A grade that is applied before the view transform, for example contrast."))
+        v.look = look == no_look ? "" : look;
+    f.checkbox("Backdrop as it is", v.background_as_it_is,
+               "Do not apply exposure, white balance, look and view transform to the background: a backdrop image keeps its own colours.");
+    f.info("Colours from", c.color.config_name(),
+           "The OpenColorIO configuration in use. Set the environment variable OCIO to use another.");
 }
 
 void draw_exposure_fields(PanelContext& c, Fields& f, ViewSettings& v) {
@@ -78,10 +81,10 @@ void draw_exposure_fields(PanelContext& c, Fields& f, ViewSettings& v) {
               .tip = "Each EV doubles the displayed brightness. In the viewport: E+drag or Alt+wheel.",
               .format = "%+.2f"});
     int rule = int(v.auto_exposure);
-    if (f.choice(
-            "Auto exposure", rule, names,
-            "Manual, or computed from the current picture: its log-average luminance becomes middle grey (0.18), or the brightest one per cent "
-            "of its pixels is above white (1).")) {
+    if (f.choice("Auto exposure", rule, names,
+                 "Manual, or computed from the current picture: its log-average luminance becomes middle grey (0.18), or the brightest one "
+                 "per cent "
+                 "of its pixels is above white (1).")) {
         if (by_hand || rule == int(AutoExposure::off)) v.exposure_ev = rule == int(AutoExposure::off) ? c.shown_view().exposure_ev : 0;
         v.auto_exposure = AutoExposure(rule);
     }
@@ -103,14 +106,15 @@ void draw_white_temperature(PanelContext& c, Fields& f, ViewSettings& v) {
         const ColorTemperature t = temperature_of(v.white);
         white = {v.white, t.kelvin, t.green_tint};
     }
-    bool changed = f.number("Temperature", white.kelvin,
-                            {.min = min_kelvin,
-                             .max = max_kelvin,
-                             .reset = ColorTemperature{}.kelvin,
-                             .unit = "K",
-                             .step = 10,
-                             .tip = "Colour temperature that is shown as white: bulbs 2700 K, noon sun 5500 K, shade 8000 K. 6504 K is no white balance.",
-                             .format = "%.0f"});
+    bool changed = f.number(
+        "Temperature", white.kelvin,
+        {.min = min_kelvin,
+         .max = max_kelvin,
+         .reset = ColorTemperature{}.kelvin,
+         .unit = "K",
+         .step = 10,
+         .tip = "Colour temperature that is shown as white: bulbs 2700 K, noon sun 5500 K, shade 8000 K. 6504 K is no white balance.",
+         .format = "%.0f"});
     changed |= f.number("Green tint", white.green_tint,
                         {.min = -0.05f,
                          .max = 0.05f,
@@ -127,10 +131,10 @@ void draw_white_temperature(PanelContext& c, Fields& f, ViewSettings& v) {
 
 void draw_white_fields(PanelContext& c, Fields& f, ViewSettings& v) {
     draw_white_temperature(c, f, v);
-    f.color("White", v.white, {1, 1, 1},
-            "The colour that is shown as neutral white (chromatic adaptation). EXR files do not change.");
+    f.color("White", v.white, {1, 1, 1}, "The colour that is shown as neutral white (chromatic adaptation). EXR files do not change.");
     if (v.white.x + v.white.y + v.white.z <= 0) v.white = {1, 1, 1};
-    if (f.button("Pick in the picture", "Click a place in the picture that should be white or grey.")) c.ui.commands.push_back(Command::pick_white);
+    if (f.button("Pick in the picture", "Click a place in the picture that should be white or grey."))
+        c.ui.commands.push_back(Command::pick_white);
     if (v.white != Vec3{1, 1, 1} && f.button("As rendered", "No white balance.")) c.ui.commands.push_back(Command::reset_white);
 }
 
@@ -144,15 +148,20 @@ void draw_false_color_fields(PanelContext& c, Fields& f, ViewSettings& v) {
     FalseColor& scale = v.false_color;
     constexpr const char* names[] = {"Off", "Stops from grey", "Luminance", "Illuminance"};
     int of = int(scale.of);
-    if (f.choice("Show", of, names,
-                 "Stops from middle grey after exposure, luminance in nits, or illuminance in lux. Illuminance is computed from luminance and "
-                 "albedo: it "
-                 "is valid for diffuse surfaces."))
+    if (f.choice(
+            "Show", of, names,
+            "Stops from middle grey after exposure, luminance in nits, or illuminance in lux. Illuminance is computed from luminance and "
+            "albedo: it "
+            "is valid for diffuse surfaces."))
         scale.of = FalseColor::Of(of);
     if (scale.of != FalseColor::Of::nits && scale.of != FalseColor::Of::lux) return;
     const char* unit = scale.of == FalseColor::Of::nits ? "nits" : "lux";
-    f.number("From", scale.low, {.min = 1e-6f, .max = scale.high * 0.999f, .reset = 1, .unit = unit, .tip = "Lower end of the scale. Smaller values are black."});
-    f.number("To", scale.high, {.min = scale.low * 1.001f, .max = 1e9f, .reset = 1000, .unit = unit, .tip = "Upper end of the scale. Larger values are white."});
+    f.number(
+        "From", scale.low,
+        {.min = 1e-6f, .max = scale.high * 0.999f, .reset = 1, .unit = unit, .tip = "Lower end of the scale. Smaller values are black."});
+    f.number(
+        "To", scale.high,
+        {.min = scale.low * 1.001f, .max = 1e9f, .reset = 1000, .unit = unit, .tip = "Upper end of the scale. Larger values are white."});
     if (f.button("Fit to the picture", "Sets the range without the darkest and the brightest one per cent of the pixels.") &&
         c.has_picture()) {
         v.false_color = fitted_to_picture(c, scale);

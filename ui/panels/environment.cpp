@@ -46,8 +46,9 @@ void draw_place_and_time(Fields& f, Sky& sky) {
 }
 
 void draw_angles(Fields& f, Sky& sky) {
-    f.number("Elevation", sky.elevation_degrees,
-             {.min = -10, .max = 90, .reset = 35, .unit = "°", .bar = true, .tip = "Elevation of the sun above the horizon.", .format = "%.1f"});
+    f.number(
+        "Elevation", sky.elevation_degrees,
+        {.min = -10, .max = 90, .reset = 35, .unit = "°", .bar = true, .tip = "Elevation of the sun above the horizon.", .format = "%.1f"});
     f.number("Azimuth", sky.azimuth_degrees,
              {.min = 0,
               .max = 360,
@@ -59,7 +60,8 @@ void draw_angles(Fields& f, Sky& sky) {
 }
 
 void draw_sky(Fields& f, Sky& sky) {
-    f.checkbox("By place and time", sky.by_place_and_time, "Compute the sun's direction from place and time. Otherwise set elevation and azimuth directly.");
+    f.checkbox("By place and time", sky.by_place_and_time,
+               "Compute the sun's direction from place and time. Otherwise set elevation and azimuth directly.");
     if (sky.by_place_and_time) draw_place_and_time(f, sky);
     else draw_angles(f, sky);
     f.number("Turbidity", sky.turbidity,
@@ -70,12 +72,19 @@ void draw_sky(Fields& f, Sky& sky) {
               .tip = "How hazy the air is: 2 is very clear, 3 clear, 6 a warm moist day, 10 hazy. (Preetham, Shirley and Smits 1999.)",
               .format = "%.2f"});
     f.number("Ground albedo", sky.ground_albedo,
-             {.min = 0, .max = 1, .reset = 0.3f, .bar = true, .tip = "Fraction of the daylight that the ground below the horizon reflects.", .format = "%.2f"});
+             {.min = 0,
+              .max = 1,
+              .reset = 0.3f,
+              .bar = true,
+              .tip = "Fraction of the daylight that the ground below the horizon reflects.",
+              .format = "%.2f"});
     f.checkbox("Sun", sky.sun_disk, "Add the sun disk, with its light attenuated by the atmosphere.");
     const SkyModel model(sky);
     const auto lux = [](const Vec3d& c) { return 0.2126729 * c.x + 0.7151522 * c.y + 0.0721750 * c.z; };
-    f.info("Skylight", fmt::format("{:.3g} klx", lux(model.sky_illuminance()) / 1000), "Illuminance of the sky without the sun, on a horizontal surface.");
-    f.info("Sunlight", fmt::format("{:.3g} klx", lux(model.sun_illuminance()) / 1000), "Illuminance of the sun without the sky, on a surface that faces it.");
+    f.info("Skylight", fmt::format("{:.3g} klx", lux(model.sky_illuminance()) / 1000),
+           "Illuminance of the sky without the sun, on a horizontal surface.");
+    f.info("Sunlight", fmt::format("{:.3g} klx", lux(model.sun_illuminance()) / 1000),
+           "Illuminance of the sun without the sky, on a surface that faces it.");
 }
 
 } // namespace
@@ -85,8 +94,7 @@ void draw_environment_panel(PanelContext& c) {
     Environment e = c.scene().environment;
     Fields f(c.ui, "Environment");
     int kind = int(e.kind);
-    if (f.choice("Type", kind, kinds,
-                 "Light from all directions: none, one colour, a panorama image (HDRI), or a clear sky.")) {
+    if (f.choice("Type", kind, kinds, "Light from all directions: none, one colour, a panorama image (HDRI), or a clear sky.")) {
         if (Environment::Kind(kind) == Environment::Kind::image && !e.image)
             c.ui.commands.push_back(Command::environment);
         else
@@ -116,7 +124,8 @@ void draw_environment_panel(PanelContext& c) {
                       .tip = "Rotation about the vertical axis.",
                       .format = "%.1f"});
         f.checkbox("Seen by camera", e.visible_to_camera, "Show the environment behind the scene.");
-        f.checkbox("Lights the scene", e.lights_scene, "If off, the environment is only a backdrop that the camera sees. The sun of a sky is then off as well.");
+        f.checkbox("Lights the scene", e.lights_scene,
+                   "If off, the environment is only a backdrop that the camera sees. The sun of a sky is then off as well.");
     }
     if (f.changed()) c.apply(SetEnvironment{e}, f.gesture());
 }

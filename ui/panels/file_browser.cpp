@@ -158,7 +158,9 @@ void draw_list(PanelContext& c, float height) {
         ImGui::EndTable();
     }
     if (list && list->left_out > 0) {
-        ImGui::TextDisabled("%s", fmt::format("{} of other types hidden", list->left_out == 1 ? "1 file" : fmt::format("{} files", list->left_out)).c_str());
+        ImGui::TextDisabled(
+            "%s",
+            fmt::format("{} of other types hidden", list->left_out == 1 ? "1 file" : fmt::format("{} files", list->left_out)).c_str());
         if (c.ui.browser) c.ui.probe.record_last_item("Browser/Left out");
     }
     ImGui::EndChild();

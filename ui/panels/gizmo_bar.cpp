@@ -34,8 +34,9 @@ void draw_gizmo_bar(PanelContext& c, const Region& picture) {
         if (ImGui::IsWindowAppearing()) c.ui.next_frame_in = 0; // becomes visible in the frame after the one that measures its size
         TransformView& view = c.ui.transform;
         const auto choose = [&](TransformMode mode, const char* name, Icon icon, Command key) {
-            const std::string tip = fmt::format("Gizmo to {} the selection. {} does it with the mouse alone; {} switches to the next gizmo.", name,
-                                                keys_of(shortcut(key)), keys_of(shortcut(Command::next_gizmo)));
+            const std::string tip =
+                fmt::format("Gizmo to {} the selection. {} does it with the mouse alone; {} switches to the next gizmo.", name,
+                            keys_of(shortcut(key)), keys_of(shortcut(Command::next_gizmo)));
             if (button(c, name, icon, view.gizmo == mode, tip)) view.gizmo = mode;
         };
         choose(TransformMode::grab, "move", Icon::move, Command::grab);

@@ -104,16 +104,12 @@ void draw_clamping(PanelContext& c) {
     RenderSettings r = c.project().render;
     Fields f(c.ui, "Health");
     bool on = r.clamp.limit > 0;
-    if (f.checkbox("Clamp", on,
-                   "Limit the radiance of bright samples. It hides fireflies but is biased: the picture gets too dark."))
+    if (f.checkbox("Clamp", on, "Limit the radiance of bright samples. It hides fireflies but is biased: the picture gets too dark."))
         r.clamp.limit = on ? 10.f : 0.f;
     if (on) {
-        f.number("Limit", r.clamp.limit,
-                 {.min = 1e-3f,
-                  .max = 1e6f,
-                  .reset = 10,
-                  .unit = "nits",
-                  .tip = "Maximum component of a sample. Its hue does not change."});
+        f.number(
+            "Limit", r.clamp.limit,
+            {.min = 1e-3f, .max = 1e6f, .reset = 10, .unit = "nits", .tip = "Maximum component of a sample. Its hue does not change."});
         f.checkbox("All light", r.clamp.all, "Clamp all light. Otherwise only indirect light is clamped.");
     }
     if (f.changed()) c.apply(SetRender{r}, f.gesture());

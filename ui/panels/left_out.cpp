@@ -46,10 +46,9 @@ void draw_left_out_section(PanelContext& c) {
     if (!c.frame || !c.frame->ledger) return quiet_text("Nothing rendered yet.");
     Ledger ledger = *c.frame->ledger;
     if (c.window_ledger) ledger.insert(ledger.end(), c.window_ledger->begin(), c.window_ledger->end());
-    quiet_text(
-        fmt::format("{} of {} optional features are not compiled in or not built, because this scene does not need them. Kernel {}; "
-                    "`blush info --measure` measures how much faster it is than the kernel with all features.",
-                    count(ledger, false), ledger.size(), c.frame->kernel));
+    quiet_text(fmt::format("{} of {} optional features are not compiled in or not built, because this scene does not need them. Kernel {}; "
+                           "`blush info --measure` measures how much faster it is than the kernel with all features.",
+                           count(ledger, false), ledger.size(), c.frame->kernel));
     draw_lines(ledger, false);
     if (section(c.ui, "In use", false)) draw_lines(ledger, true);
 }

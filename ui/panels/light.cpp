@@ -21,8 +21,7 @@ constexpr const char* kinds[] = {"Point", "Spot", "Sun", "Rectangle", "Disk", "S
 
 void draw_kind(Fields& f, PanelContext& c, Light& light, const Vec3d& position) {
     int kind = int(light.kind);
-    if (!f.choice("Type", kind, kinds, "Type of the light. A change keeps the illuminance at the view's pivot."))
-        return;
+    if (!f.choice("Type", kind, kinds, "Type of the light. A change keeps the illuminance at the view's pivot.")) return;
     const double distance = std::max(length(pivot(c.scene().view) - position), 1e-3);
     light = converted(light, Light::Kind(kind), distance);
 }

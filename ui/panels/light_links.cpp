@@ -72,9 +72,10 @@ void draw_limit(PanelContext& c, const Light& light) {
     const bool left_out = sets.ray_mask(c.scene(), light) == CasterSets().ray_mask(c.scene(), light);
     ImGui::PushStyleColor(ImGuiCol_Text, tone::warning);
     ImGui::PushTextWrapPos(0);
-    ImGui::TextUnformatted(fmt::format("More than {} different sets of shadow casters. Shadow linking is ignored for {}: everything casts its shadows.",
-                                       most_caster_sets, left_out ? "this light" : fmt::format("{} other lights", sets.left_out()))
-                               .c_str());
+    ImGui::TextUnformatted(
+        fmt::format("More than {} different sets of shadow casters. Shadow linking is ignored for {}: everything casts its shadows.",
+                    most_caster_sets, left_out ? "this light" : fmt::format("{} other lights", sets.left_out()))
+            .c_str());
     ImGui::PopTextWrapPos();
     ImGui::PopStyleColor();
     c.ui.probe.record_last_item(left_out ? "Linking/Left out" : "Linking/Others left out");
@@ -92,10 +93,12 @@ void draw_light_links_panel(PanelContext& c, Id<Node> id) {
     if (!section(c.ui, "Linking", false)) return;
     const Id<Light> light_id = node->light;
     Light light = *record;
-    bool changed = draw_set(c, "Lights", light.lit_objects, "Objects that this light illuminates. Shift+click an object in the picture to remove or add it.");
-    changed |= draw_set(c, "Shadows of", light.shadow_casters,
-                        "Objects that cast shadows of this light. Other objects let its light through. Alt+Shift+click an object in the picture "
-                        "to remove or add it.");
+    bool changed = draw_set(c, "Lights", light.lit_objects,
+                            "Objects that this light illuminates. Shift+click an object in the picture to remove or add it.");
+    changed |=
+        draw_set(c, "Shadows of", light.shadow_casters,
+                 "Objects that cast shadows of this light. Other objects let its light through. Alt+Shift+click an object in the picture "
+                 "to remove or add it.");
     draw_limit(c, *record);
     if (changed) set_light(c, light_id, light, no_gesture);
 }

@@ -171,7 +171,8 @@ void draw_light_mix_panel(PanelContext& c) {
     // Bake stays visible, however long the list of groups is.
     if (ImGui::BeginChild("groups", {0, -ImGui::GetFrameHeightWithSpacing()})) {
         if (c.mixing) draw_groups(c);
-        else quiet_text("Waiting for a render with these groups.");
+        else
+            quiet_text("Waiting for a render with these groups.");
     }
     ImGui::EndChild();
     draw_bake(c);

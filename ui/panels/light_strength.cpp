@@ -38,11 +38,13 @@ UnitText text_of(Light::Unit unit, Light::Kind kind) {
                       : UnitText{"Lux at 1 m", "lx", "Illuminance of a surface that faces the light one metre away, as if the light were small."};
     case Light::Unit::nits:
         return is_sun ? UnitText{"Nits", "nits", "Luminance of the sun's disk. The sun at noon has 1.6e9 nits."}
-                      : UnitText{"Nits", "nits",
-                                 "Luminance of the surface in candela per square metre. A larger light of the same luminance gives more light."};
+                      : UnitText{
+                            "Nits", "nits",
+                            "Luminance of the surface in candela per square metre. A larger light of the same luminance gives more light."};
     case Light::Unit::ev:
         return {"EV", "EV",
-                "Exposure value at ISO 100 that shows the light, or a surface it lights at one metre, as medium grey. One EV more doubles the light."};
+                "Exposure value at ISO 100 that shows the light, or a surface it lights at one metre, as medium grey. One EV more doubles "
+                "the light."};
     case Light::Unit::own: break;
     }
     return {"", "", ""};

@@ -64,7 +64,8 @@ void draw_switches(PanelContext& c, const LightRow& row, const std::string& scop
     if (letter_button(c, "M", !row.on, tone::failure, scope + "/Mute", "Mute: the light is off. Mute overrides solo."))
         set_switches(c, row, !row.on, row.solo);
     ImGui::SameLine(0, 0);
-    if (letter_button(c, "S", row.solo, tone::warning, scope + "/Solo", "Solo: while a light is solo, all lights that are not solo are off."))
+    if (letter_button(c, "S", row.solo, tone::warning, scope + "/Solo",
+                      "Solo: while a light is solo, all lights that are not solo are off."))
         set_switches(c, row, row.on, !row.solo);
 }
 

@@ -26,13 +26,14 @@ void draw_surface(Fields& f, Material& m) {
              unit_interval(1, "Strength of the specular reflection of a dielectric. 0 is purely diffuse, like chalk."));
     f.color("Specular tint", m.specular_color, {1, 1, 1},
             "Colour of a dielectric's specular reflection at normal incidence. White for nearly all real materials.");
-    f.number("Index of refraction", m.ior,
-             {.min = 1,
-              .max = 4,
-              .reset = 1.5f,
-              .step = 0.002f,
-              .tip = "Ratio of the speed of light in vacuum to that in the material: water 1.33, glass 1.5, diamond 2.42. It sets the strength "
-                     "of reflection and refraction."});
+    f.number(
+        "Index of refraction", m.ior,
+        {.min = 1,
+         .max = 4,
+         .reset = 1.5f,
+         .step = 0.002f,
+         .tip = "Ratio of the speed of light in vacuum to that in the material: water 1.33, glass 1.5, diamond 2.42. It sets the strength "
+                "of reflection and refraction."});
     f.checkbox("Double-sided", m.double_sided, "Emit from the back as well. Reflection is always double-sided.");
     f.checkbox("Unlit", m.unlit, "Show the base colour without lighting.");
 }
@@ -52,13 +53,14 @@ void draw_transmission(Fields& f, Material& m) {
                    "Solid: refraction, and absorption by depth. Otherwise the surface is thin-walled, such as a window pane."))
         m.thickness = solid ? 1.f : 0.f;
     if (!solid) return;
-    f.number("Dispersion", m.dispersion,
-             {.min = 0,
-              .max = 10,
-              .reset = 0,
-              .step = 0.002f,
-              .tip = "How strongly the index of refraction varies with wavelength: 20 / Abbe number. Water and diamond 0.36, crown glass 0.33, "
-                     "rutile 2."});
+    f.number(
+        "Dispersion", m.dispersion,
+        {.min = 0,
+         .max = 10,
+         .reset = 0,
+         .step = 0.002f,
+         .tip = "How strongly the index of refraction varies with wavelength: 20 / Abbe number. Water and diamond 0.36, crown glass 0.33, "
+                "rutile 2."});
     f.color("Absorption colour", m.attenuation_color, {1, 1, 1}, "Colour of white light after the absorption distance.");
     f.number("Absorption distance", m.attenuation_distance,
              {.min = 0,
@@ -71,7 +73,8 @@ void draw_transmission(Fields& f, Material& m) {
 
 void draw_opacity(Fields& f, Material& m) {
     int alpha = int(m.alpha);
-    if (f.choice("Alpha", alpha, alpha_modes, "Opaque: alpha is ignored. Mask: visible or not, by the cut-off. Blend: alpha is the coverage."))
+    if (f.choice("Alpha", alpha, alpha_modes,
+                 "Opaque: alpha is ignored. Mask: visible or not, by the cut-off. Blend: alpha is the coverage."))
         m.alpha = Material::Alpha(alpha);
     if (m.alpha == Material::Alpha::opaque) return;
     f.number("Opacity", m.opacity, unit_interval(1, "Multiplies the alpha of the base colour texture."));
@@ -95,7 +98,8 @@ Id<Material> draw_assignment(PanelContext& c, const Node& node) {
     Fields f(c.ui, "Assignment");
     if (mesh->parts.size() > 1) {
         int64_t shown = int64_t(part) + 1;
-        if (f.integer("Part", shown, 1, int64_t(mesh->parts.size()), 1, "Part (glTF primitive) of the mesh. Each part has its own material."))
+        if (f.integer("Part", shown, 1, int64_t(mesh->parts.size()), 1,
+                      "Part (glTF primitive) of the mesh. Each part has its own material."))
             c.ui.selected_material = mesh->parts[size_t(shown - 1)].material;
     }
     std::vector<std::string> names{material_name(c.scene(), {})};
@@ -117,8 +121,7 @@ void draw_material_panel(PanelContext& c, Id<Node> node_id) {
     const Id<Material> id = node ? draw_assignment(c, Node(*node)) : c.ui.selected_material;
     const Material* record = c.scene().materials.find(id);
     if (!record) {
-        quiet_text(
-            "glTF's default material: white and fully metallic. It cannot be edited: choose one of the scene's materials.");
+        quiet_text("glTF's default material: white and fully metallic. It cannot be edited: choose one of the scene's materials.");
         return;
     }
     Material m = *record;

@@ -22,7 +22,11 @@ void draw_anisotropy(Fields& f, Material& m) {
              unit_interval(0, "Stretches highlights along one direction, as fine parallel scratches do: brushed metal, records, hair. "
                               "The direction comes from the mesh's tangents; without tangents highlights stay round."));
     f.angle("Direction", m.anisotropy_rotation_radians,
-            {.min = -360, .max = 360, .reset = 0, .step = 0.25f, .tip = "Rotation of the stretch direction, counter-clockwise from the mesh's tangent."});
+            {.min = -360,
+             .max = 360,
+             .reset = 0,
+             .step = 0.25f,
+             .tip = "Rotation of the stretch direction, counter-clockwise from the mesh's tangent."});
 }
 
 void draw_film(Fields& f, Material& m) {
@@ -34,17 +38,18 @@ void draw_film(Fields& f, Material& m) {
                               "as on soap bubbles, oil and tempered steel."));
     f.number("Film IOR", m.iridescence_ior,
              {.min = 1, .max = 4, .reset = 1.3f, .step = 0.002f, .tip = "Index of refraction of the film: soap 1.33, oil 1.5."});
-    f.number("Film thickness", m.iridescence_thickness_maximum,
-             nanometres(400, "Thickness of the film. Colours change most between 100 and 1000 nm. With a thickness map: the thickness for white."));
+    f.number(
+        "Film thickness", m.iridescence_thickness_maximum,
+        nanometres(400,
+                   "Thickness of the film. Colours change most between 100 and 1000 nm. With a thickness map: the thickness for white."));
     if (m.iridescence_thickness_texture.texture)
         f.number("Min. thickness", m.iridescence_thickness_minimum, nanometres(100, "Thickness for black in the thickness map."));
 }
 
 void draw_translucency(Fields& f, Material& m) {
     f.number("Translucency", m.diffuse_transmission,
-             unit_interval(0,
-                           "Fraction of the light not reflected at the surface that is transmitted diffusely: leaves, paper, "
-                           "lampshades, wax."));
+             unit_interval(0, "Fraction of the light not reflected at the surface that is transmitted diffusely: leaves, paper, "
+                              "lampshades, wax."));
     f.color("Tint", m.diffuse_transmission_color, {1, 1, 1}, "Colour of the transmitted light.");
 }
 

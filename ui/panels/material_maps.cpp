@@ -134,7 +134,8 @@ void draw_placement(Fields& f, TextureRef& ref) {
     f.number("Scale V", ref.scale.y, {.reset = 1, .step = 0.005f, .tip = "How many times the image repeats over one unit of V."});
     f.angle("Rotation", ref.rotation_radians,
             {.min = -360, .max = 360, .reset = 0, .step = 0.25f, .tip = "Rotates the image counter-clockwise about its corner."});
-    if (f.integer("UV set", uv_set, 0, most_uv_set, 0, "Set of texture coordinates of the mesh (TEXCOORD_n).")) ref.uv_set = uint8_t(uv_set);
+    if (f.integer("UV set", uv_set, 0, most_uv_set, 0, "Set of texture coordinates of the mesh (TEXCOORD_n)."))
+        ref.uv_set = uint8_t(uv_set);
 }
 
 void draw_map(Fields& f, PanelContext& c, Id<Material> id, const Slot& slot, Material& m) {
@@ -165,8 +166,7 @@ void draw_material_maps(Fields& f, PanelContext& c, Id<Material> id, Material& m
     if (!section(c.ui, "Maps", open)) return;
     for (const Slot& slot : usual) draw_map(f, c, id, slot, m);
     if (m.normal_texture.texture)
-        f.number("Normal strength", m.normal_scale,
-                 {.min = -10, .max = 10, .reset = 1, .step = 0.005f, .tip = "Scale of the normal map."});
+        f.number("Normal strength", m.normal_scale, {.min = -10, .max = 10, .reset = 1, .step = 0.005f, .tip = "Scale of the normal map."});
     for (const Slot& slot : all)
         if (has_image(slot)) draw_map(f, c, id, slot, m);
     if (m.clearcoat_normal_texture.texture)

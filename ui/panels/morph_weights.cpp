@@ -32,13 +32,9 @@ void draw_morph_weights_panel(PanelContext& c, Id<Node> id) {
     for (size_t i = 0; i < count; ++i) {
         const bool named = i < mesh->target_names.size() && !mesh->target_names[i].empty();
         const std::string name = named ? mesh->target_names[i] : fmt::format("Target {}", i);
-        f.number(name.c_str(), node.morph_weights[i],
-                 {.min = -10,
-                  .max = 10,
-                  .reset = 0,
-                  .step = 0.005f,
-                  .tip = "Weight of this morph target: 0 none, 1 full.",
-                  .format = "%.3f"});
+        f.number(
+            name.c_str(), node.morph_weights[i],
+            {.min = -10, .max = 10, .reset = 0, .step = 0.005f, .tip = "Weight of this morph target: 0 none, 1 full.", .format = "%.3f"});
     }
     if (f.changed()) c.apply(SetNode{id, node}, f.gesture());
 }

@@ -53,8 +53,7 @@ void draw_stop_rules(Fields& f, RenderSettings& r) {
     for (const QualityPreset& preset : quality_presets) names.push_back(preset.name);
     names.push_back("Custom");
     int preset = int(preset_of_quality(r));
-    if (f.choice("Quality", preset, names,
-                 "Stop rules: 32, 256 or 1024 samples per pixel, or until the estimated relMSE is 0.01 %.") &&
+    if (f.choice("Quality", preset, names, "Stop rules: 32, 256 or 1024 samples per pixel, or until the estimated relMSE is 0.01 %.") &&
         size_t(preset) < quality_presets.size()) {
         r.spp = quality_presets[size_t(preset)].spp;
         r.error = quality_presets[size_t(preset)].error;
@@ -62,13 +61,9 @@ void draw_stop_rules(Fields& f, RenderSettings& r) {
     f.integer("Samples", r.spp, 0, int64_t(1) << 40, 1024,
               "Stop at this many samples per pixel. 0: no limit. Four times the samples halve the noise.");
     float seconds = float(r.seconds), per_cent = float(r.error * 100);
-    if (f.number("Time", seconds,
-                 {.min = 0,
-                  .max = 1e7f,
-                  .reset = 0,
-                  .unit = "s",
-                  .step = 0.5f,
-                  .tip = "Stop after this render time in seconds. 0: no limit."}))
+    if (f.number(
+            "Time", seconds,
+            {.min = 0, .max = 1e7f, .reset = 0, .unit = "s", .step = 0.5f, .tip = "Stop after this render time in seconds. 0: no limit."}))
         r.seconds = seconds;
     if (f.number("Error", per_cent,
                  {.min = 0,
@@ -76,8 +71,9 @@ void draw_stop_rules(Fields& f, RenderSettings& r) {
                   .reset = 0,
                   .unit = "%",
                   .step = 0.001f,
-                  .tip = "Stop when the estimated relative mean squared error (relMSE) is below this. 0: no limit. It is estimated from two "
-                         "independent halves of the samples."}))
+                  .tip =
+                      "Stop when the estimated relative mean squared error (relMSE) is below this. 0: no limit. It is estimated from two "
+                      "independent halves of the samples."}))
         r.error = per_cent / 100;
 }
 
@@ -102,19 +98,18 @@ void draw_paths(Fields& f, RenderSettings& r) {
                  "How direct light is sampled: light sampling (NEE), BSDF sampling, or both combined by multiple importance "
                  "sampling (MIS). All are unbiased; the noise differs."))
         r.strategy = Strategy(strategy);
-    if (f.choice("Pixel filter", filter, filters,
-                 "Reconstruction filter: Blackman-Harris, 1.5 pixels wide, or a box of one pixel."))
+    if (f.choice("Pixel filter", filter, filters, "Reconstruction filter: Blackman-Harris, 1.5 pixels wide, or a box of one pixel."))
         r.filter = PixelFilter(filter);
-    if (f.choice(
-            "Sampler", sampler, samplers,
-            "Source of the random numbers: Sobol points, which are stratified, or independent random numbers, for comparison. "
-            "Both are unbiased; the noise differs."))
+    if (f.choice("Sampler", sampler, samplers,
+                 "Source of the random numbers: Sobol points, which are stratified, or independent random numbers, for comparison. "
+                 "Both are unbiased; the noise differs."))
         r.sampler = SampleNumbers(sampler);
     f.checkbox("Multiscatter", r.energy_compensation,
                "Compensate the energy that rough metal and glass lose by multiple scattering between microfacets. Off is "
                "what glTF specifies.");
     f.checkbox("Adaptive", r.adaptive,
-               "Adaptive sampling: after 16 samples per pixel, noisy regions get more samples and others fewer, the same number on average. Each half "
+               "Adaptive sampling: after 16 samples per pixel, noisy regions get more samples and others fewer, the same number on "
+               "average. Each half "
                "buffer controls the samples of the other, so it is unbiased.");
     draw_reuse(f, r);
     int64_t seed = r.seed;

@@ -57,15 +57,16 @@ void draw_figures(PanelContext& c, const RouletteReport& r) {
         figure_row(name, fmt::format(fmt::runtime(format), scale * (r.rule.*field)),
                    fmt::format(fmt::runtime(format), scale * (r.none.*field)), tip, c.ui);
     };
-    row("Path length", &RouletteSide::path_length, "{:.2f} vertices", 1, "Mean number of vertices, including the one where the path leaves the scene.");
+    row("Path length", &RouletteSide::path_length, "{:.2f} vertices", 1,
+        "Mean number of vertices, including the one where the path leaves the scene.");
     row("Rays per pixel", &RouletteSide::rays_per_path, "{:.2f}", 1, "Rays of one sample: camera, bounce and shadow rays.");
     row("Time per path", &RouletteSide::path_seconds, "{:.3f} µs", 1e6, "Time of one thread.");
     row("Variance", &RouletteSide::variance, "{:.4g}", 1, "Variance of the luminance of one path, mean over the pixels.");
     row("Efficiency", &RouletteSide::efficiency, "{:.4g}", 1, "1 / (variance x time). Higher is better.");
     ImGui::EndTable();
     if (r.efficiency_gain > 0)
-        quiet_text(fmt::format("{:.2f} ± {:.2f} times as efficient as without roulette, over {} rounds of {} × {} pixels.", r.efficiency_gain,
-                               2 * r.gain_error, r.rounds, r.width, r.height));
+        quiet_text(fmt::format("{:.2f} ± {:.2f} times as efficient as without roulette, over {} rounds of {} × {} pixels.",
+                               r.efficiency_gain, 2 * r.gain_error, r.rounds, r.width, r.height));
     else
         quiet_text(fmt::format("Round {}: not enough data to compare efficiency yet.", r.rounds));
 }

@@ -21,7 +21,8 @@ void draw_roulette_fields(Fields& f, Roulette& r) {
     }
     if (r.rule == Roulette::Rule::constant) share("Chance", r.probability, 0.8f, "Survival probability after every bounce.");
     share("At least", r.floor, 0, "Minimum survival probability.");
-    share("At most", r.cap, 1, "Maximum survival probability. In a closed room, the variance is infinite if this is below the reflectance of the walls.");
+    share("At most", r.cap, 1,
+          "Maximum survival probability. In a closed room, the variance is infinite if this is below the reflectance of the walls.");
 }
 
 void draw_bounce_limit_fields(Fields& f, RenderSettings& r) {
@@ -30,7 +31,8 @@ void draw_bounce_limit_fields(Fields& f, RenderSettings& r) {
         r.max_bounces = unlimited ? unlimited_bounces : 8;
     if (unlimited) return;
     int64_t bounces = r.max_bounces;
-    if (f.integer("Bounces", bounces, 0, 100000, 8, "Maximum number of bounces. 0: emission only. 1: direct light. 2: first indirect bounce."))
+    if (f.integer("Bounces", bounces, 0, 100000, 8,
+                  "Maximum number of bounces. 0: emission only. 1: direct light. 2: first indirect bounce."))
         r.max_bounces = int(bounces);
 }
 

@@ -25,7 +25,8 @@ void draw_facts(Fields& f, const Snapshot& s) {
 
 void draw_memory(PanelContext& c, Fields& f, Snapshot& s) {
     constexpr double mib = 1 << 20;
-    f.checkbox("Stay in memory", s.pinned, "Keep picture and samples in memory. Otherwise they can be unloaded and are read from the file when needed.");
+    f.checkbox("Stay in memory", s.pinned,
+               "Keep picture and samples in memory. Otherwise they can be unloaded and are read from the file when needed.");
     f.integer("Memory, MiB", c.ui.settings.snapshot_memory, 1, int64_t(1) << 30, 2048,
               "Memory limit for all snapshots of the strip. Above it, those not used for longest are written, if they are not yet, and "
               "unloaded.");
@@ -51,7 +52,8 @@ void draw_snapshot_panel(PanelContext& c) {
     }
     if (!s->no_state.empty()) quiet_text(s->no_state);
     ImGui::BeginDisabled(s->layers != nullptr); // the file was made by another program
-    f.checkbox("16 bits", c.ui.settings.snapshot_half, "Colours, albedo, normals and errors as half floats: smaller files with three significant digits.");
+    f.checkbox("16 bits", c.ui.settings.snapshot_half,
+               "Colours, albedo, normals and errors as half floats: smaller files with three significant digits.");
     f.checkbox("With samples", c.ui.settings.snapshot_film,
                "Save the sums of the samples, so that rendering can be resumed. Larger files.");
     f.checkbox("Save each", c.ui.settings.snapshot_files,

@@ -80,20 +80,16 @@ void add_denoised_cells(const PanelContext& c, Cells& cells, const Frame& frame)
     const DenoiseView& view = c.ui.denoise;
     if (!view.wants_denoised()) return cells.push_back({4, "raw", "The raw image is shown, without denoising.", tone::dim_text, 6});
     const DenoisedPicture* denoised = c.denoised.get();
-    cells.push_back({19, shown_text(view, frame, denoised),
-                     "What is shown, and how far the denoised picture is behind the raw one.", tone::text, 7});
+    cells.push_back(
+        {19, shown_text(view, frame, denoised), "What is shown, and how far the denoised picture is behind the raw one.", tone::text, 7});
     if (!denoised) return;
     cells.push_back({9, fmt::format("energy {} %", signed_number(energy_change_percent(denoised->denoised), 2)),
-                     "Change of the mean luminance by the denoiser. The estimated error is that of the raw image.",
-                     tone::text, 3});
+                     "Change of the mean luminance by the denoiser. The estimated error is that of the raw image.", tone::text, 3});
 }
 
 Cell error_cell(const Frame& frame) {
     const ErrorEstimate& e = frame.error;
-    if (!e.known)
-        return {9, "error not known yet",
-                "Not enough samples yet to estimate the error.",
-                tone::text, 8};
+    if (!e.known) return {9, "error not known yet", "Not enough samples yet to estimate the error.", tone::text, 8};
     const bool older = frame.error_samples < frame.samples;
     const std::string of = older ? fmt::format("the picture as it was after {} samples per pixel", frame.error_samples) : "the picture";
     return {older ? 14.f : 9.f,
@@ -113,8 +109,8 @@ void add_frame_cells(const PanelContext& c, Cells& cells, const Frame& frame) {
     const bool mix_is_new = c.mixing && c.mixing->gains != frame.gains;
     if (mix_is_new)
         cells.push_back({9, "error pending",
-                         "The light mix is shown immediately. Its error is estimated with the next frame of the render thread.", tone::dim_text,
-                         8});
+                         "The light mix is shown immediately. Its error is estimated with the next frame of the render thread.",
+                         tone::dim_text, 8});
     else
         cells.push_back(error_cell(frame));
     if (!frame.missing_light.empty())

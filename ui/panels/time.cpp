@@ -55,8 +55,7 @@ void draw_play(PanelContext& c) {
         c.ui.gestures.end();
     }
     c.ui.probe.record_last_item("Time/Play");
-    tip_for_last_item(c.ui,
-                      time.playing ? "Pause" : "Loop playback. Each frame is rendered for as long as the frame rate allows.");
+    tip_for_last_item(c.ui, time.playing ? "Pause" : "Loop playback. Each frame is rendered for as long as the frame rate allows.");
 }
 
 void draw_slider(PanelContext& c, const Clip& clip) {
