@@ -61,7 +61,7 @@ void EditorSnapshots::finish_keeping(UiState& ui, RenderSession& session) {
     if (ui.settings.snapshot_files)
         write(snapshot, ui, Why::asked);
     else
-        ui.toasts.note("Kept as " + snapshot->name, snapshot->film ? "" : "Without its samples: " + kept->why_none);
+        ui.toasts.note("Took snapshot " + snapshot->name, snapshot->film ? "" : "Without samples: " + kept->why_none);
 }
 
 // ---- files

@@ -1,4 +1,4 @@
-// The current light mix of a frame with light groups: applied to the picture at once if gains are sufficient, whatever the
+// The current light mix of a frame with light groups: applied to the picture at once if gains are sufficient, independent of the
 // session does.
 #pragma once
 

@@ -24,7 +24,7 @@ struct PictureMix {
     float raw_weight = 1, denoised_weight = 0;
     bool operator==(const PictureMix&) const = default;
 };
-// Without a denoised picture the raw one is shown, whatever the setting.
+// Without a denoised picture the raw one is shown.
 PictureMix mix_of(const DenoiseView& view, bool has_denoised);
 
 // The pixel of the (possibly coarser) denoised picture at pixel (x, y) of the frame.

@@ -168,7 +168,7 @@ void DisplayPass::draw_rows(int first, int count) {
     target.end();
 }
 
-// Uploads some rows first if an upload is pending.
+// One small step: uploads some rows if an upload is pending, else draws some rows.
 void DisplayPass::step(double milliseconds) {
     Picture* const comes = image_.coming ? &image_ : denoised_.coming ? &denoised_ : nullptr;
     const int width = comes ? comes->width : width_, left = comes ? comes->height - comes->next_row : height_ - next_row_;

@@ -14,7 +14,7 @@ namespace blush {
 // down, rim 1.
 ScreenPoint dial_point(const Vec3d& direction, const Vec3d& view_forward);
 
-// Draws it; a click opens the Environment section. Returns true if the dial uses the left button. `seen`: the visible part of the
+// Draws it; a click opens the World tab. Returns true if the dial uses the left button. `seen`: the visible part of the
 // picture.
 bool draw_environment_dial(PanelContext& c, ImDrawList& draw, const Projection& projection, const ImageRect& seen, bool hovered);
 

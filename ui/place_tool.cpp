@@ -72,7 +72,7 @@ void PlaceTool::say_what_blocks(PanelContext& c) const {
     if (!blocker) return;
     const std::string name = c.scene().nodes.find(*blocker)->name;
     c.ui.toasts.warn((name.empty() ? "Another object" : name) + " is in the way",
-                     by_ == PlacingBy::highlight ? "It blocks the light at the position of the highlight."
+                     by_ == PlacingBy::highlight ? "The light does not reach the position of the highlight."
                                                  : "Another object on the line to the light casts a shadow there as well.");
 }
 

@@ -73,7 +73,7 @@ void draw_limit(PanelContext& c, const Light& light) {
     ImGui::PushStyleColor(ImGuiCol_Text, tone::warning);
     ImGui::PushTextWrapPos(0);
     ImGui::TextUnformatted(
-        fmt::format("More than {} different sets of shadow casters. Shadow linking is ignored for {}: everything casts its shadows.",
+        fmt::format("More than {} different sets of shadow casters. Shadow linking is ignored for {}: all objects cast shadows.",
                     most_caster_sets, left_out ? "this light" : fmt::format("{} other lights", sets.left_out()))
             .c_str());
     ImGui::PopTextWrapPos();
