@@ -21,7 +21,7 @@ Snapshot snapshot_of(EditorSnapshots::Shown shown) {
     Snapshot s;
     s.time = time_of_day();
     s.pictures = std::move(shown.pictures);
-    // A coarse one, of the moment after an edit, is no layer.
+    // A denoised picture at reduced resolution is not saved as a layer.
     if (s.pictures.denoised && s.pictures.denoised->divider != 1) s.pictures.denoised = nullptr;
     s.project = std::move(shown.project);
     s.settings = shown.settings;
@@ -38,7 +38,7 @@ bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
 
 } // namespace
 
-// ---- keeping
+// ---- taking snapshots
 
 void EditorSnapshots::keep(Shown shown, RenderSession& session) {
     session.keep_film(shown.revision);
@@ -93,7 +93,7 @@ void EditorSnapshots::make_room(UiState& ui) {
 }
 
 void EditorSnapshots::finish_all() {
-    writing_.reset(); // waits
+    writing_.reset(); // waits for the running job
     for (const Writing& left : std::exchange(to_write_, {}))
         if (const auto written = guarded<SavedSnapshot>(left.write); !written) fmt::print(stderr, "blush: warning: {}\n", written.error().text());
 }
@@ -106,7 +106,7 @@ void EditorSnapshots::finish_writing(UiState& ui) {
         const SnapshotPtr snapshot = ui.snapshots.find(writing_id_);
         if (!*result) {
             ui.toasts.fail(result->error().text());
-            if (snapshot) snapshot->pinned = true; // where it is safe
+            if (snapshot) snapshot->pinned = true; // not unloaded, because it is not saved
         } else {
             const SavedSnapshot& saved = **result;
             if (snapshot) {
@@ -181,21 +181,21 @@ void EditorSnapshots::finish_opening(Document& document, UiState& ui, EditorFile
     if (!(**result).snapshot) return files.load_environment(opening_file_);
     const SnapshotPtr snapshot = add_to_strip(*std::move((**result).snapshot), ui);
     ui.snapshots.open = true;
-    if (!snapshot->no_state.empty()) return ui.toasts.warn(snapshot->name + " is in the strip, without its state", snapshot->no_state);
+    if (!snapshot->no_state.empty()) return ui.toasts.warn(snapshot->name + " was added to the strip without its state", snapshot->no_state);
     restore(snapshot, document, ui, files);
 }
 
-// Into the strip, and at once in the comparison's place, alone.
+// Adds it to the strip and shows it in the comparison view.
 void EditorSnapshots::show_picture(std::shared_ptr<PictureLayers> layers, UiState& ui) {
     Snapshot s;
     s.name = layers->file.filename().string();
     s.time = time_of_day();
-    s.no_state = "It is a picture of another program: there is no scene to go back to.";
+    s.no_state = "It is a picture from another program: it has no scene to restore.";
     s.pinned = true;
     const size_t count = layers->layers.size();
     s.layers = std::move(layers);
     s.choose_layer(0);
-    ui.toasts.note(s.name, fmt::format("{} layer{}, to be chosen in the Comparison panel. J goes back and forth to the live image.", count, count == 1 ? "" : "s"));
+    ui.toasts.note(s.name, fmt::format("{} layer{}: choose one in the Comparison panel. J switches to the live image and back.", count, count == 1 ? "" : "s"));
     ui.snapshots.open = true;
     Comparison& compare = ui.snapshots.compare;
     compare = {.mode = Comparison::Mode::flicker, .a = ui.snapshots.add(std::move(s)), .b = live_image, .kind = compare.kind};
@@ -211,21 +211,21 @@ SnapshotPtr EditorSnapshots::add_to_strip(OpenedSnapshot opened, UiState& ui) {
     return ui.snapshots.find(id);
 }
 
-// ---- going back
+// ---- restoring states
 
 void EditorSnapshots::restore(const SnapshotPtr& snapshot, Document& document, UiState& ui, EditorFiles& files) {
-    if (!snapshot->no_state.empty()) return ui.toasts.warn(snapshot->name + " has no state to go back to", snapshot->no_state);
+    if (!snapshot->no_state.empty()) return ui.toasts.warn(snapshot->name + " has no state to restore", snapshot->no_state);
     if (!same_file(snapshot->scene_file, files.scene_file())) {
         return before_leaving_([this, snapshot, &files] {
             waiting_ = snapshot;
-            files.open(snapshot->scene_file); // goes on when it is there
+            files.open(snapshot->scene_file); // continues when the scene is loaded
         });
     }
     waiting_ = snapshot;
     go_on(document, ui, files);
 }
 
-// Its scene is open.
+// Continues a restore: its scene is open.
 void EditorSnapshots::go_on(Document& document, UiState& ui, const EditorFiles& files) {
     if (stateless_.contains(waiting_->id)) return work_out_state(files);
     go_back(*std::exchange(waiting_, nullptr), document, ui);
@@ -248,8 +248,8 @@ void EditorSnapshots::finish_state(Document& document, UiState& ui) {
     state_job_.reset();
     const SnapshotPtr snapshot = std::exchange(waiting_, nullptr);
     if (!*result) {
-        snapshot->no_state = "Its edits do not fit the scene file as it is now: " + result->error().text();
-        return ui.toasts.warn(snapshot->name + " is in the strip, without its state", snapshot->no_state);
+        snapshot->no_state = "Its edits do not fit the current scene file: " + result->error().text();
+        return ui.toasts.warn(snapshot->name + " was added to the strip without its state", snapshot->no_state);
     }
     stateless_.erase(snapshot->id);
     snapshot->project = std::move((**result).project);
@@ -262,7 +262,7 @@ void EditorSnapshots::finish_state(Document& document, UiState& ui) {
 
 void EditorSnapshots::go_back(const Snapshot& snapshot, Document& document, UiState& ui) {
     Project project = snapshot.project;
-    // The window may have been of another size: the picture is the one that was kept.
+    // Keeps the snapshot's size, even if the window had another size.
     project.render.width = snapshot.settings.width;
     project.render.height = snapshot.settings.height;
     if (const auto done = document.apply(Restore{std::move(project), snapshot.name}); !done) return ui.toasts.fail(done.error().text());
@@ -279,7 +279,7 @@ void EditorSnapshots::obey(Document& document, UiState& ui, EditorFiles& files) 
         const SnapshotPtr snapshot = view.find(request.id);
         if (!snapshot) continue;
         if (!store_.has(snapshot)) {
-            view.requests.push_back(request); // once it has
+            view.requests.push_back(request); // retry when it is read
             continue;
         }
         view.use(*snapshot);
@@ -307,7 +307,7 @@ void EditorSnapshots::poll(bool opened, Document& document, UiState& ui, EditorF
     make_room(ui);
     if (!waiting_ || state_job_) return;
     if (opened && same_file(waiting_->scene_file, files.scene_file())) go_on(document, ui, files);
-    else if (!files.running()) waiting_.reset(); // its scene could not be read, as a toast says
+    else if (!files.running()) waiting_.reset(); // its scene could not be read; a toast has reported it
 }
 
 std::optional<RunningJob> EditorSnapshots::running() const {

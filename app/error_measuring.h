@@ -40,11 +40,11 @@ private:
     // A denoised picture; oldest first.
     struct Waiting {
         DenoisedPtr picture;
-        int64_t judged_at = 0; // samples of the raw picture that it was last held against
+        int64_t judged_at = 0; // samples of the raw picture in its last measurement
     };
     struct Measured {
         ConvergencePoint point;
-        DenoisedPtr settled; // its error is known as well as it can be
+        DenoisedPtr settled; // its error estimate is final
         double pixels = 0, seconds = 0;
     };
     using Work = std::function<Measured(JobProgress&)>;
@@ -56,7 +56,7 @@ private:
     std::function<void()> wake_;
     int run_ = 0, measured_run_ = 0;
     TimeBudget budget_{measuring_share};
-    FramePtr raw_; // the newest that waits
+    FramePtr raw_; // the newest pending one
     std::vector<Waiting> denoised_;
     std::unique_ptr<BackgroundJob<Measured>> job_;
 };

@@ -1,5 +1,5 @@
-// The current light mix of a frame with light groups: applied to the picture at once if gains are sufficient, independent of the
-// session does.
+// The current light mix of a frame with light groups: applied to the displayed picture at once if gains are sufficient, independent of the
+// render session.
 #pragma once
 
 #include "render/frame.h"

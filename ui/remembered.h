@@ -4,20 +4,20 @@
 // |-------------------------------------------------------------|--------------------------------------------|---------------------|
 // | scene, render and display settings, light mix, meters,      | the scene file (glTF, extras.blush), the   | undo                |
 // |   measured and rendered region, links, groups, mute, solo   |   recovery sidecar, every snapshot         |                     |
-// | camera pose                                                 | the same; no step of the history           | moving, frame, look |
-// | snapshots: picture, state, samples, name, note              | layered EXR in the snapshot folder         | restoring is undone |
+// | camera pose                                                 | the same; not an undo step                 | moving, frame, look |
+// | snapshots: picture, state, samples, name, note              | layered EXR in the snapshot folder         | undo of the restore |
 // | size, splitters and docks, text size, folder, recent files, | window.json                                | the same control    |
 // |   overlays, snapshot settings                               |                                            |                     |
-// | what panels are set to, where those that are torn off lie;  | window.json, written here                  | the same control    |
+// | settings of panels, positions of floating windows,          | window.json, written here                  | the same control    |
 // |   sections, tab, raw or denoised                            |                                            |                     |
-// | of a scene: zoom and pan, selection, folded rows of the     | window.json, for the last ten scenes       | zoom, select, "Put  |
-// |   outliner, unfolded group of the mix, which snapshots are  |                                            |   back"             |
-// |   in the strip, which instruments are open                  |                                            |                     |
-// | curves of convergence                                       | CSV, SVG or PNG, by its Export             | the panel's own     |
-// | import report, health, what the roulette lab and the meters | nothing: read again from the file, or      |                     |
+// | per scene: zoom and pan, selection, folded rows of the      | window.json, for the last ten scenes       | zoom, select,       |
+// |   outliner, unfolded group of the mix, snapshots            |                                            |   restore snapshot  |
+// |   in the strip, open instruments                            |                                            |                     |
+// | convergence runs                                            | CSV, SVG or PNG, by its Export             | the panel's own     |
+// | import report, health, results of roulette lab and meters   | not saved: read again from the file, or    |                     |
 // |   measured                                                  |   measured again                           |                     |
-// | tool, drag, placing, looking through a light, questions,    | nothing: they are on their way to an edit  | Esc                 |
-// |   comparison, pause, playing, a name or path being typed,   |   or a look                                |                     |
+// | tool, drag, placing, light camera, dialogs,                 | not saved: temporary                       | Esc                 |
+// |   comparison, pause, playback, text being typed,            |                                            |                     |
 // |   pixel popup, sheet of shortcuts, toasts                   |                                            |                     |
 #pragma once
 
