@@ -102,7 +102,7 @@ void PlaceTool::draw_preview(ImDrawList& draw, const Projection& projection, con
 std::string PlaceTool::hint(const std::string& light) const {
     if (by_ == PlacingBy::highlight) return "Click or drag where the highlight of " + light + " should be.  Esc ends";
     if (!occluder_)
-        return "Click the object that should cast a shadow of " + light + ", or drag from it to the place of the shadow.  Esc ends";
+        return "Click the object that casts the shadow of " + light + ", or drag from it to the shadow's place.  Esc ends";
     return "Click or drag where that shadow should fall.  Esc ends";
 }
 

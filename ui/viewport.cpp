@@ -398,7 +398,7 @@ bool Viewport::draw_overlays(PanelContext& c, const Projection& projection, cons
         taken |= draw_environment_dial(c, draw, projection, seen, hovered && !taken);
     }
     if (const Light* light = looked_through_light(c); light && c.ui.placing_by == PlacingBy::hand)
-        draw_hint(draw, "Looking through " + light->name + ": moving the view moves the light.  L or Esc: back to the camera");
+        draw_hint(draw, "Looking through " + light->name + ": moving the view moves the light.  L or Esc: back");
     taken |= place_tool_.update(c, draw, projection, image, hovered);
     taken |= transformer_.update(c, draw, projection, image);
     draw.PopClipRect();

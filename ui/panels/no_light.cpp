@@ -36,7 +36,7 @@ void draw_choices(PanelContext& c) {
 
 // Other lighting replaces the studio: the step that added it is undone first.
 void draw_choices_in_studio(PanelContext& c) {
-    ImGui::TextUnformatted("No light in this file: shown with studio lighting");
+    ImGui::TextUnformatted("No light in this file: shown in a studio");
     draw_button(c, "Keep", {}, "Keep the three softboxes and the panorama as lights of the scene. They are saved with it.");
     draw_button(c, "Sky", {Command::undo, Command::light_by_sky}, sky_tip);
     draw_button(c, "Environment...", {Command::undo, Command::environment}, environment_tip);
