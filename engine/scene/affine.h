@@ -1,4 +1,4 @@
-// Rotations, and the step between the float of records and the double in which things are placed in the world.
+// Rotations, and conversion between the float of scene records and the double of world transforms.
 // The arithmetic itself is core/math.h's, at T = double.
 #pragma once
 
@@ -13,12 +13,12 @@ Affined to_double(const Affine& a);
 Affine to_float(const Affined& a);
 bool is_finite(const Affined& m);
 
-// Some unit vector at right angles to a unit vector.
+// Returns a unit vector perpendicular to the unit vector `a`; its rotation about `a` is arbitrary.
 Vec3d any_perpendicular(const Vec3d& a);
 
-// Columns of the rotation; the quaternion is normalised first, a zero one is no rotation.
+// Rotation matrix of the quaternion, which is normalised first; a zero quaternion gives the identity.
 Affined to_affine(const Quat& rotation);
-// Of a matrix with orthonormal, right-handed columns (the translation is not looked at). w >= 0.
+// Quaternion with w >= 0 of a matrix with orthonormal, right-handed columns. Ignores the translation.
 Quat to_quat(const Affined& rotation);
 
 } // namespace blush

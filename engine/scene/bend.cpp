@@ -13,7 +13,7 @@ namespace {
 
 bool is_zero(float weight) { return weight == 0; }
 
-// Adds each target's offsets, scaled by its weight.
+// Morphing: adds each target's offsets, scaled by its weight.
 void morph(std::vector<Vec3d>& vectors, const Geometry& g, const std::vector<float>& weights, std::vector<Vec3> MorphTarget::*offsets) {
     for (size_t t = 0; t < std::min(g.targets.size(), weights.size()); ++t) {
         const std::vector<Vec3>& by = (*g.targets[t]).*offsets;
@@ -29,7 +29,7 @@ std::vector<Vec3d> in_double(const PlacedVector<Vec3>& vectors) {
     return result;
 }
 
-// The joints' maps, each as heavy as its influence on the vertex.
+// Linear blend skinning: the joint matrices, weighted by their influences on the vertex.
 Affined blended(const Geometry& g, const Bend& bend, size_t vertex) {
     const size_t per_vertex = g.influences.size() / g.positions.size();
     Affined sum{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
@@ -45,13 +45,13 @@ Affined blended(const Geometry& g, const Bend& bend, size_t vertex) {
 
 bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-// As floats and of length 1; `otherwise` for what has no direction.
+// Normalised, as floats; `otherwise` if the vector has no direction.
 Vec3 unit(const Vec3d& v, const Vec3& otherwise) {
     const double size = length(v);
     return size > 0 && std::isfinite(size) ? to_float(v * (1 / size)) : otherwise;
 }
 
-// The triangles' own normals, for vertices that belong to one triangle each.
+// Face normals, for vertices that belong to one triangle each.
 void face_normals(Geometry& g) {
     for (size_t i = 0; i + 2 < g.indices.size(); i += 3) {
         const Vec3d a = to_double(g.positions[g.indices[i]]);
@@ -60,7 +60,7 @@ void face_normals(Geometry& g) {
     }
 }
 
-// Of the mesh's frame to the one about the first joint.
+// From mesh space to the space around the first joint.
 std::vector<Affined> joint_maps(const Skin& skin, Placements& placements, const Vec3d& origin) {
     std::vector<Affined> maps;
     maps.reserve(skin.joints.size());

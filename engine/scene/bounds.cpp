@@ -14,7 +14,7 @@ void include_parts(const std::vector<MeshPart>& parts, const Affined& world_from
     }
 }
 
-// Boxes around the mesh's box for copies, which are many.
+// Uses the mesh's bounding box for instances: visiting the vertices of every instance would be slow.
 void include_node(const Scene& scene, Placements& placements, Id<Node> id, const Node& node, Bounds& bounds) {
     const PlacedMesh mesh = placed_mesh(scene, placements, id, node);
     if (!node.instances) return include_parts(mesh.parts, mesh.world_from_mesh, bounds);

@@ -11,7 +11,7 @@ template <class T> bool same_payload(const std::shared_ptr<const T>& a, const st
     return a == b || (a && b && a->serial == b->serial);
 }
 
-// What follows answers "does the image see a difference", for two records under one id.
+// same_to_image: true if two records with the same id render the same.
 
 template <class T> bool same_but_for_name(T before, const T& after) {
     before.name = after.name;
@@ -85,7 +85,7 @@ void diff_environment(const Environment& a, const Environment& b, Changes& chang
                                      a.solo != b.solo;
 }
 
-// What groups of lights may go by.
+// Names that light groups can be made from.
 template <class T> bool same_names(const Table<T>& before, const Table<T>& after) {
     return std::ranges::none_of(Table<T>::changed(before, after), [&](Id<T> id) {
         const T *a = before.find(id), *b = after.find(id);
@@ -129,10 +129,10 @@ bool Changes::only_light() const {
 
 Changes diff(const Scene& before, const RenderSettings& before_settings, const Scene& after, const RenderSettings& after_settings) {
     Changes changes;
-    // The pivot is what orbiting turns about: no ray knows it.
+    // The pivot is only used for orbiting; rays do not depend on it.
     View view = before.view;
     view.pivot_distance = after.view.pivot_distance;
-    // Through a pinhole everything is in focus.
+    // The focus distance has no effect on a pinhole.
     if (view.lens.aperture_radius == 0 && after.view.lens.aperture_radius == 0) view.lens.focus_distance = after.view.lens.focus_distance;
     changes.view = view != after.view;
     diff_settings(before_settings, after_settings, changes);

@@ -9,7 +9,7 @@
 namespace blush {
 namespace {
 
-// Planck's law up to a factor: only the colour matters here.
+// Planck's law without its constant factor; only the chromaticity is used.
 double planck(double nm, double kelvin) {
     constexpr double second_radiation_constant = 1.438776877e7; // h c / k in nm K
     return std::pow(nm * 1e-3, -5) / std::expm1(second_radiation_constant / (nm * kelvin));
@@ -29,13 +29,13 @@ Chromaticity chromaticity_of(const Vec3d& xyz) {
     const double d = xyz.x + 15 * xyz.y + 3 * xyz.z;
     return {4 * xyz.x / d, 6 * xyz.y / d};
 }
-// Of luminance Y.
+// XYZ with luminance Y.
 Vec3d to_xyz(const Chromaticity& c, double luminance) {
     const double d = 6 * luminance / c.v, x = c.u * d / 4;
     return {x, luminance, (d - x - 15 * luminance) / 3};
 }
 
-// Moved by `distance` at right angles to the locus, towards greater v.
+// Moved by `distance` perpendicular to the locus, towards greater v.
 Vec3d off_locus(const Vec3d& xyz, double kelvin, double distance) {
     const Chromaticity here = chromaticity_of(xyz), hotter = chromaticity_of(black_body_xyz(kelvin * 1.001));
     const double du = hotter.u - here.u, dv = hotter.v - here.v, step = distance / std::hypot(du, dv);

@@ -1,5 +1,5 @@
 // Copy-on-write table with stable ids. Copying a Table copies one pointer; tables that share storage are
-// known to be equal without looking inside, which is what makes diff(before, after) cheap.
+// equal without a comparison of their records, so that diff(before, after) is cheap.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace blush {
 
-// Stable name of a record in a Table<T>; 0 names nothing. Ids are never reused within a table's life.
+// Stable id of a record in a Table<T>; 0 is no record. A table never reuses an id.
 template <class T> struct Id {
     uint32_t value = 0;
     explicit operator bool() const { return value != 0; }
@@ -50,7 +50,7 @@ public:
         d.entries.push_back({id, std::move(value)});
         return id;
     }
-    // Adds under a given id, as undoing a removal or merging an import does. False if the id is taken or 0.
+    // Adds a record with a given id (to undo a removal or merge an import). False if the id is 0 or in use.
     bool insert(Id<T> id, T value) {
         if (!id || contains(id)) return false;
         Data& d = unshare();

@@ -5,12 +5,12 @@
 namespace blush {
 namespace {
 
-// What navigation moves; the rest of a view (its lens) is edited.
+// Copies the part of a view that navigation changes; the lens is changed by edits only.
 void set_pose(View& view, const View& pose) {
     view.position = pose.position;
     view.rotation = pose.rotation;
     view.pivot_distance = pose.pivot_distance;
-    view.lens.ymag = pose.lens.ymag; // an orthographic view comes closer by growing
+    view.lens.ymag = pose.lens.ymag; // dolly of an orthographic view
 }
 
 } // namespace
@@ -75,8 +75,7 @@ void Document::navigate(const View& view) {
     set_pose(moved, view);
     if (moved == project_.scene.view) return;
     project_.scene.view = moved;
-    // As if every earlier and later step had been seen from here: undo and redo then leave the camera where it is, unless the step
-    // itself moved it.
+    // Sets the pose in all steps, so that undo and redo do not move the camera unless the step itself did.
     for (Step& step : past_) set_pose(step.project.scene.view, view);
     for (Step& step : future_) set_pose(step.project.scene.view, view);
     set_pose(saved_.scene.view, view);
@@ -113,7 +112,8 @@ std::vector<std::string> Document::redo_labels() const {
     return labels;
 }
 
-// A step holds the project on its far side: going through it swaps that with the present one and puts the step on the other stack.
+// Each step stores the project on its other side: undo and redo swap it with the current project and move the step to the other
+// stack.
 bool Document::travel(std::deque<Step>& from, std::deque<Step>& to) {
     if (from.empty()) return false;
     Step step = std::move(from.back());
@@ -129,7 +129,7 @@ bool Document::redo() { return travel(future_, past_); }
 
 void Document::mark_saved(const Project& project) {
     saved_ = project;
-    set_pose(saved_.scene.view, project_.scene.view); // navigating is no modification
+    set_pose(saved_.scene.view, project_.scene.view); // navigation does not modify the project
 }
 
 bool Document::modified() const { return project_ != saved_; }

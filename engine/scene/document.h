@@ -1,4 +1,4 @@
-// The project with its labelled history. Lives on the UI thread.
+// The project with its undo history. Used on the UI thread only.
 #pragma once
 
 #include "scene/edit.h"
@@ -12,11 +12,11 @@
 
 namespace blush {
 
-// Edits with the same non-zero gesture are one step of history: a whole drag of a slider.
+// Edits with the same non-zero gesture form one undo step: for example one drag of a slider.
 using Gesture = uint64_t;
 constexpr Gesture no_gesture = 0;
 
-// The oldest steps are forgotten when there are more; the last one stays, whatever it weighs.
+// Above these limits the oldest undo steps are dropped; the last step is kept whatever its size.
 struct HistoryLimits {
     size_t steps = 500;
     size_t bytes = size_t(1) << 29;
@@ -31,40 +31,40 @@ public:
     // Grows with every change of the project, undo and navigation included.
     uint64_t revision() const { return revision_; }
 
-    // Replaces everything and forgets the history: opening a file.
+    // Replaces the project and clears the history, as when a file is opened.
     void reset(Project project);
-    // An edit that changes nothing leaves no step.
+    // Applies an edit as an undo step. An edit that changes nothing makes no step. Errors: as of apply() in edit.h.
     Result<void> apply(const Edit& edit, Gesture gesture = no_gesture);
-    // Several edits as one step under one label; all of them, or none where one of them is refused.
+    // Applies several edits as one undo step with one label. If one fails, none is applied.
     Result<void> apply(std::span<const Edit> edits, const std::string& label, Gesture gesture = no_gesture);
-    // Takes back the step that a gesture has begun, if it is the last one: it leaves nothing to redo.
+    // Reverts the step that a gesture has begun, if it is the last one. It cannot be redone.
     void withdraw(Gesture gesture);
-    // Camera navigation: changes the view's pose (position, rotation, pivot, orthographic height), not the history, and is no modification;
-    // undo leaves it where it is.
+    // Camera navigation: sets the view's pose (position, rotation, pivot, orthographic height). Makes no undo step, does not mark
+    // the project as modified, and undo does not revert it.
     void navigate(const View& view);
 
-    // The exposure that a picture was metered to: no step of the history. `from_opening`: as if the file had been opened with it, so that
-    // earlier and later steps, and what counts as saved, have it where they had the project's own; else the project alone, so that undoing
-    // the last step takes the exposure back with it.
+    // Sets the exposure that auto exposure metered, without an undo step. `from_opening`: all steps and the saved project that
+    // have the current exposure get the new one, as if the file had been opened with it. Otherwise only the current project gets
+    // it, and undoing the last step reverts it.
     void meter(float exposure_ev, bool from_opening);
 
     bool can_undo() const { return !past_.empty(); }
     bool can_redo() const { return !future_.empty(); }
-    // The label of the step that undo (redo) would take back (repeat); empty if none.
+    // Label of the step that undo would revert (redo would repeat); empty if there is none.
     std::string undo_label() const;
     std::string redo_label() const;
-    // All of them for a history list: steps taken, oldest first; steps undone, the next to repeat first.
+    // All labels for a history list: done steps, oldest first; undone steps, the next to redo first.
     std::vector<std::string> undo_labels() const;
     std::vector<std::string> redo_labels() const;
     bool undo();
     bool redo();
 
-    // Differs from the project last marked as saved (or opened).
+    // True if the project differs from the one last saved or opened.
     bool modified() const;
     void mark_saved() { saved_ = project_; }
-    // Of a project that was handed to a save that has finished since.
+    // Marks a project as saved that was passed to a background save.
     void mark_saved(const Project& project);
-    // Replaces everything as one step that can be undone.
+    // Replaces the project as one undo step.
     void replace(Project project, std::string label);
 
 private:
@@ -72,7 +72,7 @@ private:
         Project project;
         std::string label;
         Gesture gesture = no_gesture;
-        size_t bytes = 0; // that the step alone keeps alive, estimated
+        size_t bytes = 0; // estimate of the memory that only this step holds
     };
 
     void step_to(Project next, std::string label, Gesture gesture);

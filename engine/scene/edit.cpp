@@ -24,12 +24,12 @@ template <class T> Result<void> set_record(Table<T>& table, Id<T> id, const T& v
     return {};
 }
 
-// One overload per edit; `p` is thrown away when an error comes back.
+// One overload per edit; the caller discards `p` after an error.
 
 Result<void> apply_to(Project& p, const SetNode& e) {
     if (auto known = check_references(p.scene, e.node); !known) return known;
     if (is_below(p.scene, e.node.parent, e.id))
-        return Error{.what = "a node cannot hang below itself", .where = fmt::format("node \"{}\"", e.node.name)};
+        return Error{.what = "a node cannot be its own ancestor", .where = fmt::format("node \"{}\"", e.node.name)};
     return set_record(p.scene.nodes, e.id, e.node, "node");
 }
 
@@ -58,7 +58,7 @@ Result<void> apply_to(Project& p, const MakeEmissive& e) {
     const Node* record = p.scene.nodes.find(e.node);
     if (!record) return missing("node", e.node);
     const Mesh* shape = p.scene.meshes.find(record->mesh);
-    if (!shape) return Error{.what = "there is no mesh to make a light of", .where = fmt::format("node \"{}\"", record->name)};
+    if (!shape) return Error{.what = "the node has no mesh to make emissive", .where = fmt::format("node \"{}\"", record->name)};
     Node node = *record;
     Mesh mesh = *shape;
     std::map<Id<Material>, Id<Material>> copies;
@@ -135,7 +135,7 @@ Result<void> apply_to(Project& p, const LookThrough& e) {
     const Node* node = p.scene.nodes.find(e.camera_node);
     if (!node) return missing("node", e.camera_node);
     if (!p.scene.cameras.contains(node->camera))
-        return Error{.what = "there is no camera on this node", .where = fmt::format("node \"{}\"", node->name)};
+        return Error{.what = "the node has no camera", .where = fmt::format("node \"{}\"", node->name)};
     p.scene.view = view_through(p.scene, e.camera_node);
     return {};
 }

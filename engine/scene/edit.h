@@ -1,4 +1,4 @@
-// An Edit is a sentence about the project: a value, with a label, that apply() turns into the next project.
+// Edits of the project as values: apply() computes the next project, label() names the undo step.
 #pragma once
 
 #include "core/result.h"
@@ -24,20 +24,20 @@ struct SetLight { Id<Light> id; Light light; };
 struct SetCamera { Id<Camera> id; Camera camera; };
 struct SetTexture { Id<Texture> id; Texture texture; };
 struct AssignMaterial { Id<Mesh> mesh; int part = 0; Id<Material> material; };
-struct MakeEmissive { Id<Node> node; float nits = 1; }; // its mesh and materials become its own, and shine
+struct MakeEmissive { Id<Node> node; float nits = 1; }; // makes its mesh and materials unique and emissive
 struct SetEnvironment { Environment environment; };
 struct SetMix { LightMix mix; };
 struct BakeMix { Scene scene; };        // the same scene with the mix in its lights (render/bake_mix.h)
 struct SetLens { Lens lens; };          // of the view
-struct SetStaging { Staging staging; }; // a view through a camera that moves goes along
+struct SetStaging { Staging staging; }; // a view through an animated camera follows it
 struct SetRender { RenderSettings settings; };
 struct SetView { ViewSettings settings; };
-struct AddLight { Node node; Light light; }; // node.light is filled in by apply
+struct AddLight { Node node; Light light; }; // apply sets node.light
 struct DuplicateNode { Id<Node> id; };       // with its subtree; lights are copied, meshes are shared
-struct RemoveNode { Id<Node> id; };          // with its subtree; records nobody uses any more stay, unreferenced
-struct Import { Scene scene; std::string name; }; // merges the nodes of another scene under fresh ids
+struct RemoveNode { Id<Node> id; };          // with its subtree; unreferenced records stay in their tables
+struct Import { Scene scene; std::string name; }; // merges the nodes of another scene with new ids
 struct LookThrough { Id<Node> camera_node; };
-struct Restore { Project project; std::string name; }; // all of it, as it was kept in the snapshot of that name
+struct Restore { Project project; std::string name; }; // the whole project, from the snapshot of that name
 
 using Edit = std::variant<SetNode, SetMaterial, SetLight, SetCamera, SetTexture, AssignMaterial, MakeEmissive, SetEnvironment, SetMix, BakeMix, SetLens,
                           SetStaging, SetRender, SetView, AddLight, DuplicateNode, RemoveNode, Import, LookThrough, Restore>;
@@ -45,7 +45,8 @@ using Edit = std::variant<SetNode, SetMaterial, SetLight, SetCamera, SetTexture,
 // "Change light Key", for the history menu.
 std::string label(const Edit& edit, const Project& project);
 
-// The next project. Errors: an id that does not exist, a parent cycle, a number that is not finite or out of its range (validate.h).
+// Returns the next project. Errors: an id that does not exist, a parent cycle, a number that is not finite or out of range
+// (validate.h).
 // Called as blush::apply, since an Edit is a std::variant and brings std::apply along.
 Result<Project> apply(const Project& project, const Edit& edit);
 

@@ -13,7 +13,7 @@
 namespace blush {
 namespace {
 
-// From the ids of one scene to those of another.
+// Maps the ids of one scene to those of another.
 template <class T> class IdMap {
 public:
     void set(Id<T> from, Id<T> to) { to_[from.value] = to; }
@@ -26,7 +26,7 @@ public:
     }
 
 private:
-    std::map<uint32_t, Id<T>> to_; // in order, so that what is made of it is the same each time
+    std::map<uint32_t, Id<T>> to_; // ordered, so that results are deterministic
 };
 
 template <class T, class Fix> IdMap<T> merge_table(Table<T>& table, const Table<T>& other, const Fix& fix) {
@@ -41,7 +41,7 @@ template <class T, class Fix> IdMap<T> merge_table(Table<T>& table, const Table<
 
 constexpr auto unchanged = [](const auto&) {};
 
-// Without what other scenes of its file have.
+// Removes the nodes of scenes that are not chosen.
 Scene shown_scene(Scene scene) {
     if (scene.scene_names.empty()) return scene;
     const Table<Node> nodes = scene.nodes;
@@ -58,7 +58,7 @@ template <class T> Id<T> copy_record(Table<T>& table, Id<T> id) {
     return record ? table.add(T(*record)) : Id<T>{};
 }
 
-// "Lamp" -> "Lamp 2", "Lamp 2" -> "Lamp 3": the first that no node has.
+// Unique node name: "Lamp" -> "Lamp 2", "Lamp 2" -> "Lamp 3", the first that is free.
 std::string fresh_name(const Scene& scene, const std::string& name) {
     const size_t digits = name.find_last_not_of("0123456789");
     const bool numbered = digits != name.npos && digits + 1 < name.size() && name[digits] == ' ';
@@ -69,7 +69,7 @@ std::string fresh_name(const Scene& scene, const std::string& name) {
         if (std::string candidate = fmt::format("{} {}", stem, n); !taken.contains(candidate)) return candidate;
 }
 
-// Copies of nodes that bring the joints of their skin along hang on those.
+// Duplicates use the duplicated joints if their skin's joints are in the subtree.
 void copy_skins(Scene& scene, const IdMap<Node>& copies) {
     IdMap<Skin> skins;
     for (const auto& [original, copy] : copies) {
@@ -91,7 +91,7 @@ void sort_channels(Clip& clip) {
     std::ranges::sort(clip.channels, {}, [](const Channel& c) { return std::pair(c.node, c.property); });
 }
 
-// Copies move as their originals do.
+// Duplicates are animated like their originals.
 void copy_channels(Scene& scene, const IdMap<Node>& copies) {
     const Table<Clip> clips = scene.clips;
     for (auto [id, clip] : clips) {
@@ -144,7 +144,7 @@ void merge(Scene& scene, const Scene& whole) {
     const IdMap<Mesh> meshes = merge_table(scene.meshes, other.meshes, [&](Mesh& mesh) {
         for (MeshPart& part : mesh.parts) {
             part.material = materials(part.material);
-            part.by_variant.clear(); // as it is dressed now: the scenes have their own lists of variants
+            part.by_variant.clear(); // keeps the current materials: variant indices differ between scenes
         }
     });
     const IdMap<Light> lights = merge_table(scene.lights, other.lights, unchanged);
@@ -156,7 +156,7 @@ void merge(Scene& scene, const Scene& whole) {
         node.light = lights(node.light);
         node.camera = cameras(node.camera);
     });
-    // A child may come before its parent, so parents are known only now.
+    // A child may precede its parent in the table, so parents are set in a second pass.
     for (const auto& [old_id, old_node] : other.nodes) {
         Node node = *scene.nodes.find(nodes(old_id));
         node.parent = nodes(old_node.parent);

@@ -1,4 +1,4 @@
-// The edits that add and remove whole branches of the node tree.
+// Edits of subtrees of the node tree: duplicate, remove, merge.
 #pragma once
 
 #include "scene/scene.h"
@@ -7,12 +7,13 @@
 
 namespace blush {
 
-// The node and all below it, parents before children. Empty if there is no such node.
+// The node and its descendants, parents before children. Empty if there is no such node.
 std::vector<Id<Node>> subtree(const Scene& scene, Id<Node> root);
-// Lights and cameras are copied, so that the copy can be changed alone; meshes are shared. The copy hangs beside the original.
+// Duplicates a node and its descendants as a sibling. Lights and cameras are copied, so that the duplicate can be edited on its
+// own; meshes are shared.
 void duplicate_subtree(Scene& scene, Id<Node> root);
 void remove_subtree(Scene& scene, Id<Node> root);
-// Adds every record of `other` under fresh ids. Ids that `other` does not hold come out as none.
+// Adds every record of `other` with new ids. Ids that do not exist in `other` become none.
 void merge(Scene& scene, const Scene& other);
 
 } // namespace blush

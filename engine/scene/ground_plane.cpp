@@ -7,7 +7,7 @@
 namespace blush {
 
 Scene ground_plane_under(const Bounds& box, bool catches_shadows) {
-    constexpr double sides = 10, gap = 1e-4; // of the radius: what stands on it must not share its plane
+    constexpr double sides = 10, gap = 1e-4; // in radii; the gap avoids coplanar surfaces
     constexpr float grey = 0.5f;
     const double radius = box.empty ? 1 : std::max(box.radius(), 1e-3);
     const float half = float(sides * radius);

@@ -1,4 +1,4 @@
-// How much memory a step of history keeps alive.
+// Memory that an undo step keeps alive.
 #pragma once
 
 #include "scene/edit.h"
@@ -7,8 +7,8 @@
 
 namespace blush {
 
-// Estimate of what `kept` holds in memory that `neighbour` does not share: whole tables (they are copied when one record changes), and
-// pixels that have no other owner left.
+// Estimated bytes that `kept` holds and `neighbour` does not share: whole tables (copied when one record changes), and pixels
+// without another owner.
 size_t bytes_held(const Project& kept, const Project& neighbour);
 
 } // namespace blush

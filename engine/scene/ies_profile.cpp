@@ -9,7 +9,7 @@ namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
 
-// The interval of `angles` around `at`, and where in it; nothing if `at` is beyond them.
+// The interval of `angles` that contains `at`, and the position in it; none if `at` is outside.
 struct Place {
     size_t below = 0, above = 0;
     double fraction = 0;
@@ -23,7 +23,7 @@ Place place_of(const std::vector<float>& angles, double at) {
     return {above - 1, above, (at - low) / (high - low), true};
 }
 
-// Steps of at most 10 degrees between which the integral is smooth; one angle stands for a full turn, and none is beyond one.
+// Integration steps of at most 10 degrees, in each of which the integrand is smooth; a single angle means a full turn.
 std::vector<double> borders(const std::vector<float>& angles) {
     const double first = angles.size() < 2 ? 0 : double(angles.front()), last = angles.size() < 2 ? 360 : double(angles.back());
     std::vector<double> ends{std::max(first, last > 180 ? 0.0 : first)};
@@ -56,7 +56,8 @@ double candela_towards(const IesProfile& p, const Vec3d& d) {
 }
 
 double luminous_flux(const IesProfile& p) {
-    // Bilinear times the sine or cosine of the polar angle: three points leave an error far below what instruments resolve.
+    // The integrand is bilinear times sine or cosine of the polar angle; the error of three points is far below that of the
+    // measurement.
     constexpr double node[] = {-0.7745966692414834, 0, 0.7745966692414834}, weight[] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
     const std::vector<double> vs = borders(p.vertical), hs = borders(p.horizontal);
     double sum = 0;

@@ -1,4 +1,4 @@
-// What a luminaire sends where, as measured on a goniophotometer (ANSI/IES LM-63).
+// IES profile: luminous intensity distribution of a luminaire, measured with a goniophotometer (ANSI/IES LM-63).
 #pragma once
 
 #include "scene/scene.h"
@@ -7,11 +7,12 @@
 
 namespace blush {
 
-// Candela over two angles, interpolated linearly in both. Directions are those of the light's own frame: it shines along -Z, X is to its
-// side, Y above. Immutable once shared.
+// Candela over two angles, interpolated linearly in both. Directions are in the light's space: it emits along -Z, X is to its
+// side, Y up. Immutable once shared.
 //   Type C (polar axis along the light): vertical is the angle from -Z, 0 .. 180; horizontal turns about it from +X towards +Y, 0 .. 360.
 //   Type B (polar axis X): horizontal is the angle towards +X, -90 .. 90; vertical turns about X from -Z towards +Y, -90 .. 90.
-// Beyond the vertical angles, and for type B beyond the horizontal ones, it is dark. One horizontal angle stands for all.
+// The intensity is 0 outside the vertical angles and, for type B, outside the horizontal angles. A single horizontal angle means
+// rotational symmetry.
 struct IesProfile {
     enum class Type : uint8_t { b, c };
     uint64_t serial = next_payload_serial();
@@ -23,9 +24,9 @@ struct IesProfile {
 
 // Candela at two angles of the profile, in degrees.
 double candela_at(const IesProfile& profile, double vertical, double horizontal);
-// Candela in a direction (of any length) of the light's frame.
+// Candela in a direction (of any length) in the light's space.
 double candela_towards(const IesProfile& profile, const Vec3d& direction);
-// Lumens: the integral of candela over all directions, by Gauss's rule within each cell of the table.
+// Lumens: the integral of candela over all directions, by Gauss quadrature in each cell of the table.
 double luminous_flux(const IesProfile& profile);
 
 } // namespace blush

@@ -10,11 +10,11 @@ using Interpolation = Keyframes::Interpolation;
 
 size_t floats_per_key(const Keyframes& k) { return k.values.size() / k.times.size(); }
 
-// Between two neighbouring keyframes, or on one: then both are the same.
+// Two neighbouring keyframes; the same one twice if the time is on or outside them.
 struct Moment {
     size_t before = 0, after = 0;
-    double fraction = 0; // of the way
-    double seconds = 0;  // from one to the other
+    double fraction = 0; // position between them, 0 .. 1
+    double seconds = 0;  // between the two
 };
 
 Moment find(const Keyframes& k, float seconds) {
@@ -26,7 +26,7 @@ Moment find(const Keyframes& k, float seconds) {
     return {before, before + 1, (seconds - begin) / length, length};
 }
 
-// Of the three parts of a spline's key: 0 the tangent that comes in, 1 the value, 2 the tangent that goes out.
+// Parts of a cubic spline key: 0 in-tangent, 1 value, 2 out-tangent.
 const float* part_of(const Keyframes& k, size_t key, size_t part) {
     const float* values = k.values.data() + key * floats_per_key(k);
     return k.interpolation == Interpolation::cubic_spline ? values + part * width_of(k) : values;
@@ -38,7 +38,7 @@ double spline(const Keyframes& k, const Moment& m, size_t i) {
            (3 * t2 - 2 * t3) * part_of(k, m.after, 1)[i] + m.seconds * (t3 - t2) * part_of(k, m.after, 0)[i];
 }
 
-// A unit quaternion; what has no direction is no rotation.
+// Normalised quaternion; zero and non-finite input gives the identity.
 Quat unit(double x, double y, double z, double w) {
     const double size = std::sqrt(x * x + y * y + z * z + w * w);
     if (!(size > 0) || !std::isfinite(size)) return {};
@@ -50,7 +50,7 @@ Quat slerp(const float* a, const float* b, double t) {
     for (int i = 0; i < 4; ++i) d += double(a[i]) * b[i], aa += double(a[i]) * a[i], bb += double(b[i]) * b[i];
     const double cosine = std::min(1.0, std::abs(d) / std::sqrt(aa * bb));
     const double angle = std::acos(cosine), sine = std::sin(angle);
-    // Directions that (nearly) agree: the arc is a line.
+    // Nearly equal rotations: slerp is replaced by linear interpolation.
     const bool straight = !(sine > 1e-9);
     const double from = straight ? 1 - t : std::sin((1 - t) * angle) / sine;
     const double to = (straight ? t : std::sin(t * angle) / sine) * (d < 0 ? -1 : 1);

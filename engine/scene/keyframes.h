@@ -1,4 +1,4 @@
-// The value of keyframes at a moment: glTF 2.0, appendix C.
+// Interpolates keyframes (glTF 2.0, appendix C).
 #pragma once
 
 #include "core/vec.h"
@@ -9,12 +9,13 @@
 
 namespace blush {
 
-// Floats in one value.
+// Number of floats in one value.
 size_t width_of(const Keyframes& keyframes);
 
-// At `seconds`, held before the first keyframe and after the last. Component by component; a spline's times its tangents are per second.
+// The value at `seconds`, interpolated by component. Constant before the first keyframe and after the last. Tangents of cubic
+// splines are per second.
 std::vector<float> value_at(const Keyframes& keyframes, float seconds);
-// Of four floats per value, a unit quaternion: linear interpolation is spherical, by the shorter arc.
+// The same for unit quaternions (four floats per value): linear interpolation is spherical (slerp), along the shorter arc.
 Quat rotation_at(const Keyframes& keyframes, float seconds);
 
 } // namespace blush

@@ -13,7 +13,7 @@ Affined world_of(const Scene& scene, Id<Node> node) { return scene.nodes.contain
 PlacedMeter placed(const Scene& scene, const LightMeter& meter) {
     const Affined world = world_of(scene, meter.node);
     Vec3d normal = transform_vector(cofactor(world), to_double(meter.normal));
-    // A mirrored node turns its inside out, and the cofactors with it.
+    // A mirroring transform flips the orientation, and the sign of the cofactors.
     if (determinant(world) < 0) normal = -normal;
     const double l = length(normal);
     return {transform_point(world, to_double(meter.position)), l > 0 ? normal / l : to_double(meter.normal)};

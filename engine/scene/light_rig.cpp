@@ -27,7 +27,7 @@ bool gives_light(const Environment& e) {
                        std::ranges::any_of(e.image->bytes, [](uint8_t v) { return v > 0; }));
 }
 
-// What the visible nodes say about light.
+// Which sources of light the visible nodes have.
 struct Census {
     bool light = false, lit_surface = false, unlit_surface = false;
 };
@@ -56,11 +56,11 @@ Census census_of(const Scene& scene) {
     return census;
 }
 
-// What the rig stands about.
+// Sphere that the rig is placed around.
 struct Subject {
     Vec3d center{0, 0, 0};
     double radius = 1;
-    bool from_inside = false; // the eye is among what it looks at
+    bool from_inside = false; // the camera is inside the scene
 };
 
 Subject subject_of(const Scene& scene) {
@@ -73,7 +73,7 @@ Subject subject_of(const Scene& scene) {
     const Vec3d beyond_low = eye - bounds.low, beyond_high = bounds.high - eye;
     subject.from_inside = std::min({beyond_low.x, beyond_low.y, beyond_low.z, beyond_high.x, beyond_high.y, beyond_high.z}) > 0;
     if (!subject.from_inside) return subject;
-    // Where the view looks, in front of what is there.
+    // The view's pivot, in front of the geometry.
     const Vec3d forward = to_affine(scene.view.rotation).z * -1;
     const auto all = [](Id<Node>) { return true; };
     const double reach = std::clamp(double(scene.view.pivot_distance), 0.05 * subject.radius, 2 * subject.radius);
@@ -83,7 +83,7 @@ Subject subject_of(const Scene& scene) {
     return subject;
 }
 
-// Directions in the level frame of the view: right, up and towards the eye.
+// Axes of the levelled view: right, up, towards the camera.
 struct LevelFrame {
     Vec3d right, up{0, 1, 0}, back;
     Vec3d direction(double azimuth_degrees, double elevation_degrees) const {
@@ -96,7 +96,7 @@ LevelFrame level_frame(const View& view) {
     const Affined eye = to_affine(view.rotation);
     LevelFrame frame;
     const Vec3d level{eye.z.x, 0, eye.z.z}, beside{eye.x.x, 0, eye.x.z};
-    // A view straight up or down is level along its own right.
+    // A view straight up or down keeps its own right axis.
     if (length(level) > 1e-3) frame.back = normalize(level);
     else frame.back = length(beside) > 1e-3 ? cross(normalize(beside), frame.up) : Vec3d{0, 0, 1};
     frame.right = cross(frame.up, frame.back);
@@ -105,16 +105,17 @@ LevelFrame level_frame(const View& view) {
 
 struct Softbox {
     const char* name;
-    double azimuth_degrees, elevation_degrees; // from the subject: 0 is towards the eye, positive to the right; above the horizon
-    double width, height;                      // of the subject's radius
+    double azimuth_degrees, elevation_degrees; // azimuth from the camera, positive to the right
+    double width, height;                      // in radii of the subject
     double lux;                                // at the subject, on a surface that faces it
 };
 constexpr std::array<Softbox, 3> softboxes{{{"Key softbox", -40, 35, 2.8, 2.8, rig_key_lux},
                                             {"Fill softbox", 50, 12, 3.4, 3.4, rig_fill_lux},
                                             {"Rim softbox", 160, 45, 2.2, 2.2, rig_rim_lux}}};
-constexpr double softbox_distance = 3.5; // of the subject's radius
+constexpr double softbox_distance = 3.5; // in radii of the subject
 
-// Illuminance at `distance` on the axis of a rectangle of 1 nit, on a surface that faces it (Lambert 1760; four quarter rectangles).
+// Illuminance (lux) at `distance` on the axis of a rectangle of 1 nit, on a surface that faces it (Lambert 1760; four quarter
+// rectangles).
 double lux_of_rectangle(double width, double height, double distance) {
     const double a = 0.5 * width / distance, b = 0.5 * height / distance, p = std::hypot(1, a), q = std::hypot(1, b);
     return 2 * (a / p * std::atan(b / p) + b / q * std::atan(a / q));
@@ -124,7 +125,7 @@ AddLight softbox_at(const Scene& scene, const Subject& subject, const LevelFrame
     const Vec3d outward = frame.direction(box.azimuth_degrees, box.elevation_degrees);
     const double wanted = softbox_distance * subject.radius;
     const auto all = [](Id<Node>) { return true; };
-    // From outside, the subject itself is no obstacle: the line begins where its sphere ends.
+    // If the camera is outside, the line of sight starts at the subject's bounding sphere: the subject is no obstacle.
     const double from = subject.from_inside ? 0 : 1.001 * subject.radius;
     const double free = free_share(scene, subject.center + outward * from, subject.center + outward * wanted, all);
     const double distance = free < 1 ? from + 0.9 * free * (wanted - from) : wanted;

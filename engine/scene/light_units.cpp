@@ -11,7 +11,7 @@ namespace {
 
 using std::numbers::pi;
 
-// Of the light as seen from straight ahead and far away, m^2.
+// Projected area along the light's axis, m^2.
 double face_area(const Light& light, double area_scale) {
     const double r = double(light.radius);
     return (light.kind == Light::Kind::rectangle ? double(light.width) * double(light.height) : pi * r * r) * area_scale;
@@ -21,7 +21,7 @@ bool has_spread(const Light& light) {
     return (light.kind == Light::Kind::rectangle || light.kind == Light::Kind::disk) && light.spread_radians < float(pi);
 }
 
-// How much brighter than on average its spread makes a panel straight ahead.
+// Ratio of the on-axis radiance to Light::intensity: above 1 if the spread narrows the emission.
 double spread_gain(const Light& light) {
     const double half = 0.5 * double(light.spread_radians);
     return has_spread(light) ? std::tan(half) / (std::tan(half) - half) : 1;
@@ -34,7 +34,7 @@ double cone_factor(const Light& light, double cosine) {
     return f * f;
 }
 
-// Integral over the sphere of what multiplies the candela of a point or a spot.
+// Integral over the sphere of the factor (cone or IES profile) on the candela of a point or spot light.
 double directional_share(const Light& light) {
     const bool is_spot = light.kind == Light::Kind::spot;
     if (!is_spot) return light.ies ? luminous_flux(*light.ies) / double(light.ies->peak) : 4 * pi;
@@ -68,20 +68,20 @@ double flux_of_one(const Light& light, double area_scale) {
     return 0;
 }
 
-// Candela straight ahead of a light of intensity 1; of a sun, which is infinitely far away, what gives its lux at unit_distance.
+// On-axis candela of a light of intensity 1; for a sun (infinitely far), the candela that gives its lux at unit_distance.
 double candela_of_one(const Light& light, double area_scale) {
     if (light.kind == Light::Kind::sun) return unit_distance * unit_distance;
     return is_per_area(light.kind) ? face_area(light, area_scale) * spread_gain(light) : 1;
 }
 
-// What the disk of a sun of one lux shines.
+// Luminance of the disk of a sun of one lux, nits.
 double nits_of_one(const Light& light) {
     if (light.kind != Light::Kind::sun) return 1;
     const double sine = std::sin(0.5 * double(light.angle_radians));
     return 1 / (pi * sine * sine);
 }
 
-// The strength of a light of intensity 1 in a unit that is not ev; of ev, what it is the logarithm of.
+// Strength of a light of intensity 1 in a unit; for ev, the linear value whose logarithm it is.
 double of_one(const Light& light, Light::Unit unit, double area_scale) {
     switch (unit) {
     case Light::Unit::own: return 1;

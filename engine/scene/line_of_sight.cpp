@@ -12,20 +12,20 @@ namespace {
 
 constexpr double left_out = 1e-4;
 
-// A straight line, in multiples t of its way: what it meets counts for begin < t < end.
+// A line segment with parameter t; hits count for begin < t < end.
 struct Line {
     Vec3d origin, way;
     double begin, end;
 };
 struct TriangleHit {
     double t;
-    const Geometry* geometry = nullptr; // null: nothing was hit
+    const Geometry* geometry = nullptr; // null: no hit
     size_t first_index = 0;             // of the triangle, into geometry->indices
     Affined world_from_mesh{};
     Id<Node> node = {};
 };
 
-// Where it meets a triangle: Möller and Trumbore 1997.
+// Ray-triangle intersection: Möller and Trumbore 1997.
 std::optional<double> meet(const Line& line, const Vec3d& a, const Vec3d& b, const Vec3d& c) {
     const auto& [origin, way, begin, end] = line;
     const Vec3d e = b - a, f = c - a, p = cross(way, f);
@@ -37,7 +37,7 @@ std::optional<double> meet(const Line& line, const Vec3d& a, const Vec3d& b, con
     return t;
 }
 
-// Replaces `nearest` by what the line meets before it; corner(i) is that of the part's i-th index in the line's space.
+// Updates `nearest` with closer hits; corner(i) is the position of the part's i-th index in the line's space.
 template <class Corner> void look_in(const Geometry& g, const Corner& corner, Line line, TriangleHit& nearest) {
     for (size_t i = 0; i + 2 < g.indices.size(); i += 3) {
         line.end = std::min(line.end, nearest.t);
@@ -45,12 +45,12 @@ template <class Corner> void look_in(const Geometry& g, const Corner& corner, Li
     }
 }
 
-// The same in the part's own space.
+// The same in the part's object space.
 void look_in(const Geometry& g, const Line& line, TriangleHit& nearest) {
     look_in(g, [&](size_t i) { return to_double(g.positions[g.indices[i]]); }, line, nearest);
 }
 
-// Of parts that their transform flattens: it has no inverse, so the triangles are taken into the world.
+// For singular transforms, which have no inverse: the triangles are transformed to world space.
 void look_in_flattened(const std::vector<const Geometry*>& parts, const Affined& world_from_parts, const Line& line, TriangleHit& nearest) {
     const double before = nearest.t;
     for (const Geometry* g : parts)
@@ -58,13 +58,13 @@ void look_in_flattened(const std::vector<const Geometry*>& parts, const Affined&
     if (nearest.t < before) nearest.world_from_mesh = world_from_parts;
 }
 
-// Glass, and what is partly or in places not there: whether its textures let this very line through is not asked.
+// True for materials with transmission or alpha. Textures are not evaluated at the hit point.
 bool lets_light_through(const Material* m) {
     return m && (m->transmission > 0 || m->alpha == Material::Alpha::mask ||
                  (m->alpha == Material::Alpha::blend && (m->opacity < 1 || m->base_color_texture.texture)));
 }
 
-// The parts of a mesh, or those that are in the way of light.
+// The parts of a mesh, or only those that block light.
 std::vector<const Geometry*> parts_of(const Scene& scene, const PlacedMesh& mesh, bool opaque_only) {
     std::vector<const Geometry*> parts;
     for (const MeshPart& part : mesh.parts)
@@ -94,7 +94,7 @@ bool meets(const Bounds& box, const Line& line) {
     return begin <= end * (1 + 1e-12);
 }
 
-// The same for parts that lie somewhere, `box` around them in their own space; null: not worth looking at.
+// The same for transformed parts. `box`: their bounds in object space; null: skip the bounds test.
 void look_in(const std::vector<const Geometry*>& parts, const Affined& world_from_parts, const Bounds* box, const Line& line, TriangleHit& nearest) {
     if (!(std::abs(determinant(world_from_parts)) > 0)) return look_in_flattened(parts, world_from_parts, line, nearest);
     const Affined parts_from_world = inverse(world_from_parts);
@@ -106,7 +106,7 @@ void look_in(const std::vector<const Geometry*>& parts, const Affined& world_fro
     if (nearest.t < before) nearest.world_from_mesh = world_from_parts;
 }
 
-// In the meshes of all visible nodes that count, and all copies of them.
+// Intersects the meshes of all visible nodes that count, and all their instances.
 TriangleHit nearest_hit(const Scene& scene, const Line& line, bool opaque_only, const std::function<bool(Id<Node>)>& counts) {
     Placements placements(scene);
     TriangleHit nearest{line.end};

@@ -1,4 +1,4 @@
-// Rays in double precision, one at a time, without a BVH: what stands between two points, and the surface under a click.
+// Single ray casts in double precision without a BVH: occlusion between two points, and picking.
 #pragma once
 
 #include "scene/scene.h"
@@ -9,21 +9,21 @@
 
 namespace blush {
 
-// The visible object that the straight line from one point to another meets first, among those that `counts`; none where it meets nothing.
-// What lets light through, as glass or by its alpha, is not met. A
-// ten-thousandth of the line at either end is left out, which is where the surfaces are that it begins and ends on. Looks at every triangle of
-// what the line may meet: milliseconds for a million.
+// The first visible object on the straight line from one point to another for which `counts` is true; none if there is none.
+// Objects that transmit light by transmission or alpha are ignored. A ten-thousandth of the line at either end is left out, since
+// the line usually begins and ends on surfaces. Tests every triangle whose bounding box the line meets: milliseconds for a
+// million.
 std::optional<Id<Node>> first_between(const Scene& scene, const Vec3d& from, const Vec3d& to, const std::function<bool(Id<Node>)>& counts);
-// The share of the line from `from` to `to` that is free of all of those: 1 where it meets nothing.
+// Fraction of the line from `from` to `to` before its first such object: 1 if there is none.
 double free_share(const Scene& scene, const Vec3d& from, const Vec3d& to, const std::function<bool(Id<Node>)>& counts);
 
-// Where a ray meets the surface of a visible object among those that `counts`, of any material, seen from either side.
+// First hit of a ray with a visible object for which `counts` is true, of any material, from either side.
 struct RayHit {
     Id<Node> node;
     Vec3d position;
-    Vec3d normal;    // of the plane, unit length, towards the ray's origin
-    std::array<Vec3d, 3> corners; // of the triangle, in the world
-    double largest_term; // metres: of the products that place its corners about their node
+    Vec3d normal;    // geometric normal, unit length, on the side of the ray's origin
+    std::array<Vec3d, 3> corners; // of the triangle, world space
+    double largest_term; // metres: largest term of the products that transform the corners; bounds the rounding error
 };
 std::optional<RayHit> cast_ray(const Scene& scene, const Vec3d& origin, const Vec3d& direction, const std::function<bool(Id<Node>)>& counts);
 

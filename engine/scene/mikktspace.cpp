@@ -17,7 +17,8 @@ namespace {
 
 constexpr int none = -1;
 
-// Around a vertex with more triangles all of them count: comparing each with each would take for ever where a file joins a million.
+// At a vertex with more triangles the angular test is skipped: it is quadratic, and a file may join a million triangles at one
+// vertex.
 constexpr size_t most_compared = 64;
 
 bool not_zero(double x) { return std::abs(x) > double(FLT_MIN); }
@@ -31,10 +32,10 @@ struct Triangle {
     std::array<uint32_t, 3> vertices{};         // welded
     std::array<int, 3> neighbors{none, none, none}; // across the edge from corner k to k + 1
     std::array<int, 3> groups{none, none, none};    // of each corner
-    Vec3d along_u{0, 0, 0}, along_v{0, 0, 0};   // where u and v grow: unit length, or 0
-    bool keeps_orientation = false;             // else the texture is mirrored
-    bool follows = false;                       // its UVs say nothing: it joins whom it meets
-    bool degenerate = false;                    // two corners in one place
+    Vec3d along_u{0, 0, 0}, along_v{0, 0, 0};   // directions of increasing u and v: unit length, or 0
+    bool keeps_orientation = false;             // false: UVs are mirrored
+    bool follows = false;                       // degenerate UVs: joins the group of a neighbour
+    bool degenerate = false;                    // two corners coincide
 
     size_t corner_of(uint32_t vertex) const { return size_t(std::ranges::find(vertices, vertex) - vertices.begin()); }
 };
@@ -73,7 +74,7 @@ private:
     Vec3d position(uint32_t vertex) const { return to_double(g_.positions[vertex]); }
     Vec3d normal(uint32_t vertex) const { return unit_or_same(to_double(g_.normals[vertex])); }
 
-    // The first of vertices that are alike stands for all of them.
+    // Welds equal vertices to the first of them.
     void weld() {
         const auto key = [&](uint32_t i) {
             const Vec3 &p = g_.positions[i], &n = g_.normals[i];
@@ -92,7 +93,8 @@ private:
         const auto [a, b, c] = triangle.vertices;
         const Vec3 &pa = g_.positions[a], &pb = g_.positions[b], &pc = g_.positions[c];
         triangle.degenerate = pa == pb || pa == pc || pb == pc;
-        // In single precision, so that what hardly has an area in the texture is mirrored or not as the makers of its map saw it.
+        // In single precision like the reference implementation, so that triangles of tiny UV area get the same orientation as in
+        // the baker.
         const float u1 = uv_[b].x - uv_[a].x, v1 = uv_[b].y - uv_[a].y, u2 = uv_[c].x - uv_[a].x, v2 = uv_[c].y - uv_[a].y;
         const float area = u1 * v2 - v1 * u2;
         triangle.keeps_orientation = area > 0;
@@ -104,7 +106,7 @@ private:
         triangle.along_v = unit_or_same(along_v) * (area > 0 ? 1.0 : -1.0);
     }
 
-    // Each edge joins the two triangles that run along it in opposite directions; of more than two, those that come first.
+    // An edge connects two triangles that traverse it in opposite directions; of more than two, the first ones.
     void connect() {
         struct Edge {
             uint32_t low, high, triangle;
@@ -123,7 +125,7 @@ private:
         std::ranges::sort(edges, {}, key);
         for (size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
             while (end < edges.size() && edges[end].low == edges[begin].low && edges[end].high == edges[begin].high) ++end;
-            // The k-th that runs up and the k-th that runs down.
+            // Pairs the k-th ascending with the k-th descending edge.
             const std::span same(edges.data() + begin, end - begin);
             auto up = same.begin(), down = same.begin();
             while (true) {
@@ -146,7 +148,7 @@ private:
         }
     }
 
-    // A new group: all that can be reached from triangle `seed` over edges that end at the vertex.
+    // New group: all triangles that are connected to triangle `seed` by edges at the vertex.
     void gather(uint32_t seed, uint32_t vertex, bool keeps_orientation) {
         const int index = int(groups_.size());
         Group& group = groups_.emplace_back(Group{vertex, keeps_orientation, {}});
@@ -168,14 +170,14 @@ private:
         std::ranges::sort(group.triangles);
     }
 
-    // One triangle of a group as it is seen along the vertex' normal.
+    // A triangle of a group, projected along the vertex normal.
     struct Member {
         size_t corner; // into the geometry's indices
         bool follows;
         Vec3d along_u, along_v;
         double angle;
 
-        // Opposite directions have no mean.
+        // Opposite directions are not averaged.
         bool mixes_with(const Member& other) const {
             const auto opposite = [](const Vec3d& a, const Vec3d& b) { return float(dot(a, b)) <= -1; };
             return follows || other.follows || (!opposite(along_u, other.along_u) && !opposite(along_v, other.along_v));
@@ -196,7 +198,7 @@ private:
         return members;
     }
 
-    // The tangents of the group's corners; of none whose directions cancel.
+    // Tangents of the group's corners; none where the directions cancel.
     void mean(const Group& group, std::vector<std::optional<Vec4>>& tangents) const {
         const std::vector<Member> all = members(group);
         const auto of_those = [&](auto&& counts) -> std::optional<Vec4> {
@@ -215,7 +217,8 @@ private:
         }
     }
 
-    // By vertex, the first corner in a group. For triangles without area, which are seen by nobody but must not bend their neighbours' frames.
+    // First grouped corner of each vertex. Degenerate triangles copy its tangent: they are invisible, but must not split vertices
+    // of their neighbours.
     std::vector<int> corners_by_vertex() const {
         std::vector<int> corners(g_.positions.size(), none);
         for (size_t i = 0; i < g_.indices.size(); ++i)

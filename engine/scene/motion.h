@@ -1,7 +1,6 @@
-// What moves in a scene: vertices that follow joints and morph targets, and the clips that lead nodes through time.
-//
-// Nodes keep their place at rest; where a clip has them at a moment is computed whenever somebody asks (scene/pose.h), so that going
-// back to rest, undoing and saving need nothing.
+// Animation data of a scene: skins, morph targets, and clips that animate nodes.
+// Nodes store their rest pose; animated poses are computed on demand (scene/pose.h). Undo, saving and returning to rest therefore
+// need no extra state.
 #pragma once
 
 #include "core/vec.h"
@@ -16,36 +15,36 @@ namespace blush {
 
 struct Node;
 
-// What a weight of 1 adds to the vertices of a mesh. Each array is empty or has an element per vertex.
+// Offsets that a morph weight of 1 adds to the vertices of a mesh. Each array is empty or has one element per vertex.
 struct MorphTarget {
     std::vector<Vec3> positions, normals, tangents;
 };
 using MorphTargetPtr = std::shared_ptr<const MorphTarget>;
 
-// How much of a vertex follows a joint.
+// Skinning weight of a joint on a vertex.
 struct Influence {
     uint16_t joint = 0; // index into the skin's joints
     float weight = 0;
 };
 
-// The skeleton that a node's mesh hangs on. The mesh is where the joints are; the node's own transform does not move it (glTF 2.0, 3.7.3.3).
+// Skeleton of a node's mesh. The joints place the mesh; the transform of the node is ignored (glTF 2.0, 3.7.3.3).
 struct Skin {
     std::string name;
-    std::vector<Id<Node>> joints;        // none: one that is not in the scene, which stays where the world's origin is
+    std::vector<Id<Node>> joints;        // none: a joint that is not in the scene, fixed at the world origin
     std::vector<Affine> joint_from_mesh; // inverse bind matrices, one per joint
     bool operator==(const Skin&) const = default;
 };
 
-// One property over time.
+// Keyframes of one property.
 struct Keyframes {
     enum class Interpolation : uint8_t { step, linear, cubic_spline };
     Interpolation interpolation = Interpolation::linear;
-    std::vector<float> times;  // seconds from 0, not falling, at least one
-    std::vector<float> values; // per time one value of as many floats as the property has; of a cubic spline in-tangent, value, out-tangent
+    std::vector<float> times;  // seconds >= 0, non-decreasing, at least one
+    std::vector<float> values; // one value per time, of as many floats as the property has; spline: in-tangent, value, out-tangent
 };
 using KeyframesPtr = std::shared_ptr<const Keyframes>;
 
-// What a clip does to one property of a node.
+// Animation of one property of a node.
 struct Channel {
     enum class Property : uint8_t { translation, rotation, scale, morph_weights };
     Id<Node> node;
@@ -54,18 +53,18 @@ struct Channel {
     bool operator==(const Channel&) const = default;
 };
 
-// An animation of a file.
+// An animation clip.
 struct Clip {
     std::string name;
-    float seconds = 0;             // until the last keyframe
-    std::vector<Channel> channels; // by node and property, each pair once
+    float seconds = 0;             // time of the last keyframe
+    std::vector<Channel> channels; // sorted by node and property, each pair once
     bool operator==(const Clip&) const = default;
 };
 
-// What is chosen of what a file offers: a moment of one of its animations, one of its scenes, one of its sets of materials.
+// Scene selection: the chosen animation clip and time, scene and material variant of a file.
 struct Staging {
-    Id<Clip> clip = {};   // none: everything at rest
-    float seconds = 0;    // since the clip's beginning
+    Id<Clip> clip = {};   // none: rest pose
+    float seconds = 0;    // from the start of the clip
     int32_t scene = 0;    // index into Scene::scene_names; nodes of others are hidden
     int32_t variant = -1; // index into Scene::variants (KHR_materials_variants); -1: none
     bool operator==(const Staging&) const = default;

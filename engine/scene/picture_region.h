@@ -1,4 +1,4 @@
-// A rectangle of a picture of any size.
+// A rectangular region of an image in relative coordinates, independent of the resolution.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ struct PixelRect {
     bool operator==(const PixelRect&) const = default;
 };
 
-// The region in a picture of width x height pixels, its edges rounded to the nearest pixel's; one pixel at least.
+// The region in pixels of a width x height image; edges are rounded to the nearest pixel edge, at least one pixel.
 inline PixelRect pixels_of(const PictureRegion& r, int width, int height) {
     const auto edge = [](double at, int count, int least, int most) { return std::clamp(int(std::lround(at * count)), least, most); };
     PixelRect p;

@@ -3,7 +3,7 @@
 namespace blush {
 namespace {
 
-// Calls visit(array, attribute) for each attribute that the shape has; false as soon as one of them is.
+// Calls visit(array, attribute) for each attribute that the mesh has; stops and returns false at the first false.
 template <class G, class Visit> bool all_attributes(G& g, const Visit& visit) {
     const auto absent_or = [&](auto& array, Attribute attribute) { return array.empty() || visit(array, attribute); };
     bool good = absent_or(g.positions, Attribute::positions) && absent_or(g.normals, Attribute::normals) &&

@@ -1,4 +1,4 @@
-// Large shapes whose arrays lie where kernels read them (core/numbered_arrays.h): they are held in memory once.
+// Stores large meshes in the geometry arena (core/numbered_arrays.h), where kernels read them without a copy.
 #pragma once
 
 #include "scene/scene.h"
@@ -7,18 +7,18 @@
 
 namespace blush {
 
-// Fewer vertices are cheap to copy, and a range of numbers for each shape would be waste.
+// Smaller meshes are copied when the scene is compiled: cheap, and saves arena ranges.
 constexpr size_t fewest_placed_vertices = size_t(1) << 14;
 
-// Moves the arrays of a large shape there, one after the other; the last thing that is done to it before it is shared. Small ones, and all if there
-// are no numbers left, stay as they are.
+// Moves the arrays of a large mesh into the arena. Call it last, before the mesh is shared. Does nothing for small meshes or if
+// the arena is full.
 void place_arrays(Geometry& geometry);
 
-// The number of the shape's first vertex in all of its arrays and of its first index.
+// Arena offsets, in elements: of the first vertex (the same in all vertex arrays) and of the first index.
 struct PlacedAt {
     int32_t first_vertex = 0, first_index = 0;
 };
-// None if any of its arrays lies elsewhere: of a small one, or a copy.
+// None if any of the arrays is not in the arena: of a small mesh, or a copy.
 std::optional<PlacedAt> placed_at(const Geometry& geometry);
 
 } // namespace blush

@@ -10,7 +10,7 @@ const Placement& Placements::operator()(Id<Node> id) {
         uint32_t id;
         const Node* node;
     };
-    std::vector<Link> unknown; // from the node up to what is known, or to its root
+    std::vector<Link> unknown; // from the node up to a cached ancestor or the root
     const Placement* above = nullptr;
     while (const Node* node = scene_.nodes.find(id)) {
         if (const auto found = known_.find(id.value); found != known_.end()) {
@@ -21,7 +21,7 @@ const Placement& Placements::operator()(Id<Node> id) {
         unknown.push_back({id.value, node});
         id = node->parent;
     }
-    // Multiplied from the root down, whatever is known already: the product is the same to the last bit.
+    // Always multiplied from the root down, so that cached and uncached products are bit-identical.
     for (auto link = unknown.rbegin(); link != unknown.rend(); ++link) {
         const Affined local = to_affine(posed_transform(scene_, Id<Node>{link->id}, *link->node));
         const bool shown = link->node->visible && !is_of_other_scene(scene_, *link->node);
@@ -35,7 +35,7 @@ const Placement& Placements::operator()(Id<Node> id) {
 Affined world_from_node(const Scene& scene, Id<Node> node) { return Placements(scene)(node).world_from_node; }
 
 bool is_shadow_catcher(const Scene& scene, Id<Node> node) {
-    size_t steps = 0; // no more than a tree has
+    size_t steps = 0; // ends cycles
     for (const Node* n = scene.nodes.find(node); n && steps <= scene.nodes.size(); n = scene.nodes.find(n->parent), ++steps)
         if (n->shadow_catcher) return true;
     return false;

@@ -1,4 +1,4 @@
-// Where the nodes of a scene are and whether they show, for whoever asks about many of them.
+// Cache of world transforms and visibility of nodes, for queries of many nodes.
 #pragma once
 
 #include "scene/scene.h"
@@ -12,12 +12,11 @@ struct Placement {
     bool visible = false; // the node and all its ancestors
 };
 
-// Remembers what it has multiplied, so that asking for every node of a chain is as cheap as asking for its end. The scene must
-// outlive it.
+// Caches the transforms of ancestors: querying all nodes of a chain costs O(length). The scene must outlive the cache.
 class Placements {
 public:
     explicit Placements(const Scene& scene) : scene_(scene) {}
-    // What world_from_node and is_visible say, bit for bit. Valid until the object goes.
+    // Bit-identical to world_from_node and is_visible. The reference is valid for the lifetime of the cache.
     const Placement& operator()(Id<Node> node);
 
 private:

@@ -16,7 +16,7 @@ Vec3 vector_at(const Channel& channel, float seconds) {
     return {v[0], v[1], v[2]};
 }
 
-// Nodes that the clip leads to where no number is.
+// True if the animated transform is not finite.
 std::vector<Id<Node>> carried_off(const Scene& scene) {
     std::vector<Id<Node>> nodes;
     const Clip* clip = scene.staging.clip ? scene.clips.find(scene.staging.clip) : nullptr;

@@ -1,4 +1,4 @@
-// Where the chosen clip has the nodes of a scene at the chosen moment.
+// Evaluates the chosen animation clip at the chosen time: animated transforms and morph weights of nodes.
 #pragma once
 
 #include "scene/scene.h"
@@ -7,26 +7,27 @@
 
 namespace blush {
 
-// What the chosen clip does to a node; empty where it leaves it at rest.
+// Channels of the chosen clip that animate a node; empty if there are none.
 std::span<const Channel> channels_of(const Scene& scene, Id<Node> node);
-// The chosen clip leads this property of the node: what the node itself says of it is not seen.
+// True if the chosen clip animates this property of the node: the node's own value is then not used.
 bool is_led(const Scene& scene, Id<Node> node, Channel::Property property);
 
-// It leads its place, rotation or scale.
+// True if the chosen clip animates the node's translation, rotation or scale.
 bool is_placed_by_clip(const Scene& scene, Id<Node> node);
 
-// As chosen; what no channel leads is the node's own. A node that is led lets go of its matrix, of which glTF has none there.
+// Animated transform; properties without a channel are the node's own. The matrix of an animated node is ignored: glTF forbids
+// it.
 Transform posed_transform(const Scene& scene, Id<Node> id, const Node& node);
 std::vector<float> posed_morph_weights(const Scene& scene, Id<Node> id, const Node& node);
 
-// A root of another scene of the file than the chosen one.
+// True if the node is a root that does not belong to the chosen scene.
 bool is_of_other_scene(const Scene& scene, const Node& node);
 
-// Neither the node nor what it hangs below is.
+// True if neither the node nor an ancestor is such a root.
 bool is_in_chosen_scene(const Scene& scene, Id<Node> node);
 
-// The scene with clip, moment and choice of scene spelled out in its nodes, and then forgotten: it looks the same. Nodes that the clip carries
-// beyond all numbers are hidden.
+// The scene with the animated pose and the chosen scene baked into its nodes and the selection reset: it looks the same. Nodes
+// whose animated transform is not finite are hidden.
 Scene with_pose_applied(const Scene& scene);
 
 } // namespace blush

@@ -1,4 +1,4 @@
-// Who names whom: every id in a scene is none or names a record that is there, and nodes form a forest.
+// Reference check: every id in a scene is none or names an existing record, and nodes form a forest.
 #pragma once
 
 #include "core/result.h"
@@ -6,12 +6,12 @@
 
 namespace blush {
 
-// Errors name the record that holds a stale id and what the id should have named.
+// Errors name the record with the dangling id and the kind of record that it should reference.
 Result<void> check_references(const Scene& scene, const Node& node);
 Result<void> check_references(const Scene& scene, const Mesh& mesh);
 Result<void> check_references(const Scene& scene, const Material& material);
 
-// `node` is `ancestor` or hangs somewhere below it. Ends on a cycle, too.
+// True if `node` is `ancestor` or a descendant of it. Terminates on a cycle.
 bool is_below(const Scene& scene, Id<Node> node, Id<Node> ancestor);
 
 } // namespace blush

@@ -1,4 +1,4 @@
-// What the command line and the Render panel set: one struct, one parser.
+// Render settings, shared by the command line and the Render panel, and their parsers.
 #pragma once
 
 #include "core/result.h"
@@ -10,8 +10,8 @@
 
 namespace blush {
 
-// Which survival probability q a path has after a bounce, given its throughput beta relative to the camera.
-// Russian roulette: Arvo and Kirk 1990. Survivors are divided by q, so every rule but biased_cut is unbiased.
+// Russian roulette: rule for the survival probability q of a path after a bounce, given its throughput beta from the camera on.
+// Arvo and Kirk 1990. Survivors are divided by q, so every rule except biased_cut is unbiased.
 struct Roulette {
     enum class Rule : uint8_t {
         off,        // q = 1
@@ -19,7 +19,7 @@ struct Roulette {
         luminance,  // q = luminance of beta
         sqrt,       // q = sqrt(largest component)
         constant,   // q = probability
-        biased_cut, // ends paths with max(beta) < threshold and gives nothing back: wrong on purpose, for teaching
+        biased_cut, // ends paths with max(beta) < threshold without compensation: biased on purpose, for teaching
     };
     Rule rule = Rule::sqrt;
     int start = 3;           // first bounce at which it may end a path
@@ -30,16 +30,16 @@ struct Roulette {
     bool operator==(const Roulette&) const = default;
 };
 
-// Limits samples to `limit` in their largest component: biased, it takes light away; the Frame says how much. Off by default.
+// Clamping: limits the largest component of a sample. Biased: it removes energy; Frame reports how much. Off by default.
 struct Clamp {
     float limit = 0;  // nits; 0: off
-    bool all = false; // of all light; else of what was scattered more than once
+    bool all = false; // all light; else only indirect light (scattered more than once)
     bool operator==(const Clamp&) const = default;
 };
 
 enum class Strategy : uint8_t { mis, light, bsdf };
 enum class PixelFilter : uint8_t { blackman_harris, box };
-// Where samples get their numbers from: well distributed points, or independent random numbers.
+// Sampler: scrambled Sobol points, or independent random numbers.
 enum class SampleNumbers : uint8_t { sobol, random };
 
 constexpr int unlimited_bounces = -1;
@@ -47,7 +47,7 @@ constexpr int unlimited_bounces = -1;
 struct RenderSettings {
     int width = 1280, height = 720; // pixels, 1 .. 65536
     float resolution_scale = 1;     // the window renders width x height times this
-    // Stop rules, whichever comes first. 0 means no limit.
+    // Stop rules; the first that is met ends the render. 0 means no limit.
     int64_t spp = 64;
     double seconds = 0;
     double error = 0;               // estimated relMSE
@@ -59,21 +59,22 @@ struct RenderSettings {
     PixelFilter filter = PixelFilter::blackman_harris;
     SampleNumbers sampler = SampleNumbers::sobol;
     bool energy_compensation = false;
-    bool adaptive = false;          // spp is a mean: more samples where the noise is. Starts at sample 0
-    int reuse = 1;                  // pixels that share their second path vertices: 4, 8, 16 or, alone, 1
+    bool adaptive = false;          // adaptive sampling; spp is then the mean. Requires first_sample = 0
+    int reuse = 1;                  // path reuse: pixels that share their second path vertices: 4, 8, 16, or 1 (off)
     Clamp clamp = {};
-    PictureRegion region = {};      // alone is rendered, evenly whatever adaptive says; the rest of the picture stays empty
+    PictureRegion region = {};      // only this is rendered, without adaptive sampling; the rest of the image stays empty
     bool operator==(const RenderSettings&) const = default;
 };
 
-// What the command line and the window begin with. RenderSettings{} is the plain path tracer that is taught and tested against; this adds what
-// gives less error for the time on the scenes measured (README).
+// Defaults of the command line and the window. RenderSettings{} is the plain path tracer for teaching and tests; this adds the
+// options that reduce the error at equal time on the measured scenes (README).
 RenderSettings recommended_settings();
 
-// As they are carried out: a region is not sampled adaptively, so that it is the same as in a whole picture that is not.
+// Effective settings: a region turns adaptive sampling off, so that its pixels equal those of the whole image without adaptive
+// sampling.
 RenderSettings carried_out(RenderSettings settings);
 
-// True if an image accumulated under `before` is still the one `after` asks for: they differ in stop rules alone.
+// True if samples accumulated with `before` are valid for `after`: they differ in stop rules only.
 bool same_image(const RenderSettings& before, const RenderSettings& after);
 
 // "sqrt,start=3", "constant=0.7,start=1", "biased-cut=0.05", ... as in `blush render --roulette`.
@@ -85,7 +86,7 @@ std::string to_string(const Clamp& clamp);
 Result<int> parse_max_bounces(std::string_view text); // a number or "unlimited"
 std::string max_bounces_text(int max_bounces);
 Result<int> parse_reuse(std::string_view text); // "4", "8", "16" or "off"
-std::string_view reuse_text(int reuse); // empty for another number
+std::string_view reuse_text(int reuse); // empty for other numbers
 Result<Strategy> parse_strategy(std::string_view text);
 std::string_view to_string(Strategy strategy);
 Result<PixelFilter> parse_filter(std::string_view text);

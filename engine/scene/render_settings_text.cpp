@@ -1,4 +1,4 @@
-// The command line's words for render settings, and back.
+// Text form of render settings on the command line: parsing and printing.
 #include "core/text.h"
 #include "scene/render_settings.h"
 #include "scene/words.h"
@@ -52,7 +52,7 @@ Item split_item(std::string_view text) {
     return {text.substr(0, equals), text.substr(equals + 1), true};
 }
 
-// The part before the first comma: the rule, with its number if it has one.
+// The part before the first comma: the rule, with its parameter if it has one.
 Result<void> parse_rule(const Item& item, Roulette& roulette) {
     const Result<Roulette::Rule> rule = value_of(roulette_words, item.name, "roulette rule");
     if (!rule) return rule.error();

@@ -33,7 +33,7 @@ void apply_to_materials(Scene& scene, bool some_solo) {
 bool any_solo(const Scene& scene) {
     const Environment& e = scene.environment;
     if (e.solo && e.kind != Environment::Kind::none) return true;
-    // Few lights, many nodes: most scenes are answered without looking at the latter.
+    // Checks the few records first: most scenes need no pass over the many nodes.
     const auto solo = [](const auto& entry) { return entry.value.solo; };
     const bool lights = std::ranges::any_of(scene.lights, solo), materials = std::ranges::any_of(scene.materials, solo);
     return (lights || materials) && std::ranges::any_of(scene.nodes, [&](const auto& entry) {
@@ -48,7 +48,7 @@ Scene with_solo_applied(const Scene& scene) {
     Scene applied = scene;
     apply_to_materials(applied, some_solo);
     if (!some_solo) return applied;
-    // Intensity 0 instead of no environment: its importance map stays and is there again when solo ends.
+    // Intensity 0 instead of no environment, so that its importance map stays valid for when solo ends.
     if (!scene.environment.solo) applied.environment.intensity = 0;
     applied.environment.solo = false;
     for (auto [id, light] : scene.lights) {

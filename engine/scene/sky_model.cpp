@@ -17,7 +17,7 @@ constexpr double pi_d = std::numbers::pi;
 constexpr double solar_illuminance = 133'300; // lux, outside the atmosphere
 constexpr double end_of_twilight = -6;        // degrees
 
-// The solar spectrum of Preetham's table 2, 380 to 750 nm by 10, up to a factor.
+// Relative solar spectrum of Preetham's table 2, 380 to 750 nm in steps of 10.
 constexpr double solar_spectrum[] = {165.5, 162.3, 211.2, 258.8, 258.2, 242.3, 267.6, 296.6, 305.4, 300.6, 306.6, 288.3, 287.1,
                                      278.2, 271.0, 272.3, 263.6, 255.0, 250.6, 253.1, 253.5, 251.3, 246.3, 241.7, 236.8, 232.1,
                                      228.2, 223.4, 219.7, 215.3, 211.0, 207.3, 202.4, 198.7, 194.3, 190.7, 186.3, 182.6};

@@ -8,7 +8,7 @@
 namespace blush {
 namespace {
 
-// Where a part keeps the material that it wears under a variant.
+// Index into by_variant of the part's material for a variant.
 size_t slot_of(const MeshPart& part, int32_t variant) {
     const size_t slot = size_t(variant + 1);
     return slot < part.by_variant.size() && part.by_variant[slot] ? slot : 0;
@@ -25,7 +25,7 @@ void dress(Scene& scene) {
     }
 }
 
-// The camera node that the view is at; none if it is free.
+// The camera node that the view looks through; none if the view was navigated away.
 Id<Node> camera_looked_through(const Scene& scene) {
     for (const auto& [id, node] : scene.nodes) {
         if (!node.camera) continue;
@@ -78,7 +78,7 @@ void wear(const Scene& scene, MeshPart& part, Id<Material> material) {
     part.material = material;
     if (part.by_variant.empty()) return;
     part.by_variant[slot_of(part, scene.staging.variant)] = material;
-    part.material = part.by_variant[slot_of(part, scene.staging.variant)]; // without one of its own again
+    part.material = part.by_variant[slot_of(part, scene.staging.variant)]; // the default if the variant has no material
 }
 
 } // namespace blush

@@ -1,4 +1,4 @@
-// Choosing among what a file offers: a moment of a clip, one of its scenes, a variant of its materials.
+// Scene selection: chooses clip and time, scene, and material variant among those of a file.
 #pragma once
 
 #include "core/result.h"
@@ -8,16 +8,16 @@
 
 namespace blush {
 
-// Errors: a clip, scene or variant that is not there, a time that is no number.
+// Errors: a clip, scene or variant that does not exist, a time that is negative or not finite.
 Result<void> check_staging(const Scene& scene, const Staging& staging);
 
-// The scene under another staging, which check_staging accepts. Parts of meshes wear the materials of the variant, and a view that looks through
-// a camera stays with it.
+// The scene with another selection, which check_staging must accept. Assigns the materials of the variant; a view through a
+// camera follows the camera.
 Scene staged(const Scene& scene, const Staging& staging);
-// "Choose variant Blue", "Move to 1.5 s", ...: what is another than now.
+// Label of the undo step: "Choose variant Blue", "Change time", ...
 std::string staging_label(const Scene& scene, const Staging& staging);
 
-// Gives a part a material: as that of the chosen variant where the part has one for it, else of all variants that have none.
+// Assigns a material to a part: to the chosen variant if the part has a material for it, else as the default of all variants.
 void wear(const Scene& scene, MeshPart& part, Id<Material> material);
 
 } // namespace blush

@@ -42,8 +42,8 @@ void add_tangents(Geometry& g, int uv_set) {
     const std::vector<Vec4> corners = mikktspace_tangents(g, g.uv[size_t(uv_set)]);
     const auto count = uint32_t(g.positions.size());
     constexpr uint32_t nobody = UINT32_MAX;
-    g.tangents.assign(count, Vec4{0, 0, 0, 0}); // a length of 0: not spoken for
-    std::vector<uint32_t> next(count, nobody);  // by vertex, another one that differs in its tangent alone
+    g.tangents.assign(count, Vec4{0, 0, 0, 0}); // zero: not assigned yet
+    std::vector<uint32_t> next(count, nobody);  // linked list of copies of a vertex that differ in their tangent
     std::vector<uint32_t> copied;
     for (size_t i = 0; i < corners.size(); ++i) {
         const bool is_free = g.tangents[g.indices[i]] == Vec4{0, 0, 0, 0};
@@ -60,7 +60,7 @@ void add_tangents(Geometry& g, int uv_set) {
         g.indices[i] = vertex;
     }
     for (Vec4& t : g.tangents)
-        if (t == Vec4{0, 0, 0, 0}) t = {1, 0, 0, 1}; // of vertices that no triangle uses
+        if (t == Vec4{0, 0, 0, 0}) t = {1, 0, 0, 1}; // unused vertices
     g.made_tangents = MadeTangents{uv_set, copied};
     if (copied.empty()) return;
     for (MorphTargetPtr& target : g.targets) {

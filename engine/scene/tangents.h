@@ -1,22 +1,22 @@
-// Tangent frames for meshes whose materials need them and that have none.
+// Generates tangents for meshes without them whose materials need them.
 #pragma once
 
 #include "scene/scene.h"
 
 namespace blush {
 
-// By which of its UV sets a part's normal maps and stretched reflections are laid out, -1: it has none. Its material says so, or else the
-// first that a variant puts in its place, whichever is chosen.
+// UV set that a part's tangents follow, for normal maps and anisotropy; -1 if it needs none. From its material, or else from the
+// first variant material that needs tangents, independent of the chosen variant.
 int tangent_uv_set(const Scene& scene, const MeshPart& part);
-// Some material needs tangents.
+// True if any material needs tangents.
 bool any_needs_tangents(const Scene& scene);
 
-// Gives the geometry the tangents that MikkTSpace computes from one of its UV sets, which it must have beside normals. A vertex whose
-// triangles do not agree, as where the halves of a mirrored texture meet, becomes several: copies are added behind all others, and bend as
-// it does. Those that it has must not be made ones.
+// Adds MikkTSpace tangents computed from a UV set, which the geometry must have beside normals. A vertex whose triangles have
+// different tangents, as at the seam of a mirrored texture, is split: copies are appended to the arrays and are deformed like it.
+// The geometry must not have generated tangents already.
 void add_tangents(Geometry& geometry, int uv_set);
 
-// As it was before add_tangents; itself if none were made.
+// The geometry as it was before add_tangents; the same pointer if no tangents were generated.
 GeometryPtr without_made_tangents(const GeometryPtr& geometry);
 
 } // namespace blush

@@ -1,4 +1,4 @@
-// The places where a material can hold a texture, as a list to loop over.
+// Table of all texture references of a material, for loops over them.
 #pragma once
 
 #include "scene/scene.h"
@@ -34,7 +34,7 @@ inline constexpr std::array<TextureSlot, 17> texture_slots{{
     {"diffuse transmission colour texture", &Material::diffuse_transmission_color_texture},
 }};
 
-// The UV sets that a material's textures are laid out by.
+// UV sets that a material's textures use.
 inline std::set<int> uv_sets_read(const Material& material) {
     std::set<int> sets;
     for (const TextureSlot& slot : texture_slots)

@@ -1,4 +1,4 @@
-// Local transforms as matrices and back, and the view through a camera.
+// Converts local transforms to matrices and back; views through cameras.
 #include "scene/affine.h"
 #include "scene/scene.h"
 
@@ -10,8 +10,8 @@ namespace {
 
 Vec3d normalized_or_zero(const Vec3d& a) { return length(a) > 0 ? normalize(a) : Vec3d{0, 0, 0}; }
 
-// Axis directions of a matrix, made right-handed and orthonormal. A column that a zero scale wiped out is filled in from the others,
-// so that flattened objects keep their rotation.
+// Axes of a matrix, made right-handed and orthonormal. Columns of zero scale are reconstructed from the others, so that flattened
+// objects keep their rotation.
 Affined rotation_of(const Affined& m) {
     Vec3d z = normalized_or_zero(m.z), y = normalized_or_zero(m.y);
     const Vec3d x = normalized_or_zero(m.x);
@@ -23,7 +23,7 @@ Affined rotation_of(const Affined& m) {
     return {right, cross(z, right), z, {0, 0, 0}};
 }
 
-// Largest deviation of `m` from the matrix `trs` stands for, relative to the size of what it moves.
+// Largest deviation of `m` from the matrix of `trs`, relative to the size of its columns.
 double relative_error(const Affined& m, const Transform& trs) {
     const Affined n = to_affine(trs);
     const double scale = std::max({length(m.x), length(m.y), length(m.z)});
@@ -48,7 +48,7 @@ Transform to_transform(const Affined& matrix) {
     const Affined rotation = rotation_of(matrix);
     trs.translation = to_float(matrix.t);
     trs.rotation = to_quat(rotation);
-    // Signed lengths: a mirrored axis comes out as a negative scale.
+    // Signed lengths: a mirrored axis gives a negative scale.
     trs.scale = to_float(Vec3d{dot(matrix.x, rotation.x), dot(matrix.y, rotation.y), dot(matrix.z, rotation.z)});
     Transform without_matrix = trs;
     without_matrix.matrix.reset();
@@ -72,7 +72,7 @@ View view_through(const Scene& scene, Id<Node> camera_node) {
     if (!node || !scene.cameras.contains(node->camera)) return scene.view;
     const Vec3d eye = world_from_node(scene, camera_node).t;
     View view = eye_of(scene, camera_node);
-    // Orbiting turns about what is in the picture: the point of the axis beside the middle of the scene.
+    // Pivot for orbiting: the point on the view axis nearest to the centre of the scene.
     const Bounds bounds = world_bounds(scene);
     const Vec3d forward = to_affine(view.rotation).z * -1;
     const double to_middle = bounds.empty ? 0 : dot(bounds.center() - eye, forward);

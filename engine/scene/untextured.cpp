@@ -7,8 +7,8 @@
 namespace blush {
 namespace {
 
-constexpr float middle = 0.5f;     // of a texture that holds numbers
-constexpr float middle_grey = 0.21404f; // of one that holds colours: sRGB's 0.5 as light
+constexpr float middle = 0.5f;     // mean texel of a linear texture
+constexpr float middle_grey = 0.21404f; // mean texel of a colour texture: sRGB 0.5, linear
 
 Material untextured(Material m) {
     const auto dim = [](const TextureRef& texture, float& factor) {

@@ -13,7 +13,7 @@
 namespace blush {
 namespace {
 
-// Collects the first thing wrong with one record.
+// Keeps the first error of a record.
 class Check {
 public:
     explicit Check(std::string where) : where_(std::move(where)) {}
@@ -90,7 +90,7 @@ Result<void> validate(const Material& material) {
     check.not_negative("emissive strength", material.emissive_strength);
     check.finite("normal scale", material.normal_scale);
     check.not_negative("alpha cutoff", material.alpha_cutoff);
-    // KHR_materials_ior: 0 stands for an infinite index, everything else is at least that of a vacuum.
+    // KHR_materials_ior: 0 means an infinite index; other values are at least 1 (vacuum).
     if (material.ior != 0) check.between("index of refraction", material.ior, 1, 1000);
     check.between("specular", material.specular, 0, 1);
     check.color("specular colour", material.specular_color);
@@ -107,8 +107,8 @@ Result<void> validate(const Material& material) {
     check.finite("anisotropy rotation", material.anisotropy_rotation_radians);
     check.between("iridescence", material.iridescence, 0, 1);
     check.between("iridescence index of refraction", material.iridescence_ior, 1, 1000);
-    check.not_negative("least iridescence thickness", material.iridescence_thickness_minimum);
-    check.not_negative("largest iridescence thickness", material.iridescence_thickness_maximum);
+    check.not_negative("minimum iridescence thickness", material.iridescence_thickness_minimum);
+    check.not_negative("maximum iridescence thickness", material.iridescence_thickness_maximum);
     check.not_negative("dispersion", material.dispersion);
     check.between("diffuse transmission", material.diffuse_transmission, 0, 1);
     check.color("diffuse transmission colour", material.diffuse_transmission_color);

@@ -1,4 +1,4 @@
-// What every value in a project must keep, whoever made it: finite numbers in ranges that mean something.
+// Validation of every value in a project, whatever its source: finite numbers in meaningful ranges.
 #pragma once
 
 #include "core/result.h"
@@ -8,7 +8,7 @@
 
 namespace blush {
 
-// Errors name the field, its range and its value; `where` says which record: "light \"Key\"".
+// Errors name the field, its range and its value; Error::where names the record: "light \"Key\"".
 Result<void> validate(const Node& node);
 Result<void> validate(const Material& material);
 Result<void> validate(const Light& light);
@@ -19,11 +19,11 @@ Result<void> validate(const Environment& environment);
 Result<void> validate(const LightMix& mix);
 Result<void> validate(const RenderSettings& settings);
 Result<void> validate(const ViewSettings& settings);
-// Array sizes and indices; the numbers themselves are the renderer's business, which drops what it cannot use.
+// Checks array sizes and indices only. The renderer skips values that it cannot use.
 Result<void> validate(const Mesh& mesh);
 Result<void> validate(const Skin& skin);
 Result<void> validate(const Clip& clip);
-// Every record, every id (references.h), and that nodes form a forest.
+// Checks every record, every id (references.h), and that nodes form a forest.
 Result<void> validate(const Scene& scene);
 
 } // namespace blush

@@ -47,9 +47,9 @@ bool is_whole(const Channel& channel) {
     return width_of(*k) == (channel.property == Property::rotation ? 4 : 3);
 }
 
-// A node that is its own ancestor, or none; all parents exist. No node is looked at twice.
+// Returns a node that is its own ancestor, or none. All parents must exist. O(n): visits each node once.
 Id<Node> find_cycle(const Scene& scene) {
-    std::unordered_map<uint32_t, Id<Node>> seen_from; // the node whose walk towards the root came by first
+    std::unordered_map<uint32_t, Id<Node>> seen_from; // the node whose walk to the root visited this one first
     for (const auto& [start, unused] : scene.nodes)
         for (Id<Node> id = start; id; id = scene.nodes.find(id)->parent) {
             const auto [seen, is_new] = seen_from.try_emplace(id.value, start);
@@ -64,7 +64,7 @@ Id<Node> find_cycle(const Scene& scene) {
 Result<void> validate(const Mesh& mesh) {
     for (const MeshPart& part : mesh.parts)
         if (!part.geometry || !is_whole(*part.geometry))
-            return Error{.what = "geometry's arrays and indices do not fit together", .where = fmt::format("mesh \"{}\"", mesh.name)};
+            return Error{.what = "inconsistent array sizes or indices", .where = fmt::format("mesh \"{}\"", mesh.name)};
     return {};
 }
 
@@ -72,7 +72,7 @@ Result<void> validate(const Skin& skin) {
     const bool good = skin.joints.size() == skin.joint_from_mesh.size() &&
                       std::ranges::all_of(skin.joint_from_mesh, [](const Affine& m) { return is_finite(to_double(m)); });
     if (good) return {};
-    return Error{.what = "each joint needs a matrix of finite numbers", .where = fmt::format("skin \"{}\"", skin.name)};
+    return Error{.what = "each joint needs a finite inverse bind matrix", .where = fmt::format("skin \"{}\"", skin.name)};
 }
 
 Result<void> validate(const Clip& clip) {
@@ -80,7 +80,7 @@ Result<void> validate(const Clip& clip) {
     const bool good = clip.seconds >= 0 && std::isfinite(clip.seconds) && std::ranges::is_sorted(clip.channels, order) &&
                       std::ranges::all_of(clip.channels, [](const Channel& channel) { return is_whole(channel); });
     if (good) return {};
-    return Error{.what = "times, keyframes and channels do not fit together", .where = fmt::format("clip \"{}\"", clip.name)};
+    return Error{.what = "times, keyframes and channels are inconsistent", .where = fmt::format("clip \"{}\"", clip.name)};
 }
 
 Result<void> validate(const Scene& scene) {
@@ -100,7 +100,7 @@ Result<void> validate(const Scene& scene) {
     if (auto known = check_all_references(scene, scene.meshes); !known) return known;
     if (auto known = check_all_references(scene, scene.materials); !known) return known;
     if (const Node* node = scene.nodes.find(find_cycle(scene)))
-        return Error{.what = "a node cannot hang below itself", .where = fmt::format("node \"{}\"", node->name)};
+        return Error{.what = "a node cannot be its own ancestor", .where = fmt::format("node \"{}\"", node->name)};
     return {};
 }
 

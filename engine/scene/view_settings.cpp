@@ -1,4 +1,4 @@
-// The command line's words for view settings, and back.
+// Text form of view settings on the command line: parsing and printing.
 #include "scene/view_settings.h"
 
 #include "core/text.h"

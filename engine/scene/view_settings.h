@@ -1,4 +1,4 @@
-// How the finished image is looked at. The render session never receives these: changing them restarts nothing.
+// Display settings of the rendered image. They do not reach the render session, so that changes never restart rendering.
 #pragma once
 
 #include "core/result.h"
@@ -14,20 +14,20 @@
 
 namespace blush {
 
-// Who sets the exposure. If not the user, `exposure_ev` is added to what is metered: a compensation.
+// Auto exposure. Unless off, `exposure_ev` is a compensation that is added to the metered exposure.
 enum class AutoExposure : uint8_t {
     off,
-    average,    // the log-average luminance becomes middle grey
-    highlights, // the brightest one per cent lies above white
+    average,    // log-average luminance maps to middle grey
+    highlights, // the brightest 1 % of pixels lies above white
 };
 
-// One colour for each step of luminance in place of the picture's own.
+// False colour: maps luminance or illuminance to a colour scale.
 struct FalseColor {
     enum class Of : uint8_t {
         off,
-        stops, // from middle grey, as exposed: -6.5 .. +6.5
+        stops, // stops from middle grey after exposure: -6.5 .. +6.5
         nits,  // luminance
-        lux,   // illuminance, from luminance and albedo: true of matte surfaces
+        lux,   // illuminance from luminance and albedo: valid for diffuse surfaces
     };
     Of of = Of::off;
     float low = 1, high = 1000; // ends of the scale of nits and lux
@@ -39,15 +39,15 @@ struct ViewSettings {
     float gamma = 1;
     std::string display = {}; // empty: the config's default
     std::string view = {};    // empty: the display's default
-    std::string look = {};    // empty: what the view has of itself
+    std::string look = {};    // empty: the view's default
     AutoExposure auto_exposure = AutoExposure::off;
-    Vec3 white{1, 1, 1}; // scene-linear: the colour that is to look neutral
+    Vec3 white{1, 1, 1}; // white balance: scene-linear colour that is shown neutral
     FalseColor false_color = {};
-    bool background_as_it_is = false; // the environment as the camera sees it is only encoded: no exposure, white balance, look or view
-    std::optional<PictureRegion> measured = {}; // whose statistics are shown
+    bool background_as_it_is = false; // backdrop pixels are only encoded: no exposure, white balance, look or view transform
+    std::optional<PictureRegion> measured = {}; // region whose statistics are shown
     std::vector<LightMeter> meters = {};
-    std::optional<float> frame_aspect = {}; // width over height of the camera's frame, 0: no frame; empty: what the camera has of itself
-    bool lock_camera = false;               // navigating moves the camera that is looked through
+    std::optional<float> frame_aspect = {}; // width / height of the camera frame; 0: no frame; empty: the camera's own
+    bool lock_camera = false;               // navigation moves the camera that the view looks through
     bool operator==(const ViewSettings&) const = default;
 };
 

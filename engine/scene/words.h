@@ -1,4 +1,4 @@
-// Words of the command line for the values of an enumeration, and back.
+// Converts between enumerators and their names on the command line.
 #pragma once
 
 #include "core/result.h"
@@ -16,14 +16,14 @@ template <class E> struct Word {
     std::string_view text;
 };
 
-// Empty for a value without a word.
+// Empty for a value without a name.
 template <class E, size_t n> std::string_view word_of(const std::array<Word<E>, n>& words, E value) {
     for (const Word<E>& w : words)
         if (w.value == value) return w.text;
     return {};
 }
 
-// Errors: no such word; the message lists those there are.
+// Error: unknown name; the message lists the known ones.
 template <class E, size_t n> Result<E> value_of(const std::array<Word<E>, n>& words, std::string_view text, std::string_view kind) {
     std::string known;
     for (const Word<E>& w : words) {

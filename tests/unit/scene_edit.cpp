@@ -50,7 +50,7 @@ TEST(Apply, RefusesReferencesToNothing) {
     Node below;
     below.parent = {99};
     EXPECT_TRUE(refused(s.project, AddLight{below, {}}, "no parent node 99"));
-    EXPECT_TRUE(refused(s.project, LookThrough{s.mug}, "no camera on this node"));
+    EXPECT_TRUE(refused(s.project, LookThrough{s.mug}, "the node has no camera"));
 }
 
 TEST(Apply, RefusesCycles) {
