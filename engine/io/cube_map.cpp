@@ -13,7 +13,7 @@ namespace {
 
 constexpr int widest = 4096;
 
-// Which face is seen in a direction, and where in it: right and up from its middle, in half sides.
+// The face that a direction hits, and the position on it: right and up from its centre, in half sides.
 struct FacePoint {
     size_t face = 0;
     double right = 0, up = 0;
@@ -30,7 +30,7 @@ Vec3d texel(const Image& face, int x, int y) {
     return {double(t[0]), double(t[1]), double(t[2])};
 }
 
-// Bilinear within a face.
+// Bilinear lookup within a face.
 Vec3d seen(const CubeFaces& faces, const Vec3d& direction) {
     const FacePoint p = face_point(direction);
     const Image& face = *faces[p.face];

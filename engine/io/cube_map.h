@@ -1,4 +1,4 @@
-// Environments from cube maps, six pictures of what one sees from within a cube.
+// Converts cube maps to lat-long environment maps.
 #pragma once
 
 #include "core/result.h"
@@ -8,12 +8,12 @@
 
 namespace blush {
 
-// Looking along +X, -X, +Y, -Y, +Z, -Z: float, 3 or 4 channels, square, of one size. Up is +Y, but -Z looking along +Y and +Z along -Y; they
-// are not mirrored, which is how EXT_lights_image_based has them: flipped from what graphics cards have.
+// Faces towards +X, -X, +Y, -Y, +Z, -Z: float, 3 or 4 channels, square, of equal size. Up is +Y; for the +Y face -Z, for the -Y
+// face +Z. Not mirrored, as in EXT_lights_image_based: flipped relative to the OpenGL convention.
 using CubeFaces = std::array<ImagePtr, 6>;
 
-// The lat-long map (Environment::image) of the cube after it has been turned. Texels are means of four bilinear look-ups; as many to the
-// right angle as a face has, but no more than 4096 all around. Errors: faces that are no cube.
+// Lat-long map (Environment::image) of the rotated cube. Each texel is the mean of four bilinear lookups. Resolution: the texels
+// of a face per 90 degrees, at most 4096 wide. Errors: faces that do not form a cube.
 Result<ImagePtr> lat_long_of(const CubeFaces& faces, const Quat& rotation);
 
 } // namespace blush

@@ -10,7 +10,7 @@
 namespace blush {
 namespace {
 
-constexpr float stops_from_grey = 6.5f; // to either end of the scale of stops
+constexpr float stops_from_grey = 6.5f; // half range of the scale in stops
 
 FalseColorScale scale_of(const FalseColor& f) {
     switch (f.of) {
@@ -25,7 +25,7 @@ FalseColorScale scale_of(const FalseColor& f) {
     return {};
 }
 
-// 1, 2, 5, 10, 20, ...: the largest of them that is at most x, and the one after x, which is one of them.
+// Steps 1, 2, 5, 10, 20, ...: the largest step <= x, and the next step after a step x.
 float round_number_below(float x) {
     const float power = std::pow(10.f, std::floor(std::log10(x)));
     for (const float digit : {5.f, 2.f})
@@ -77,7 +77,8 @@ FalseColor fitted(const FalseColor& scale, std::span<const float> values, int ch
 Result<void> show(const ColorManagement& color, const ViewSettings& view, std::span<float> rgb, const ShownWith& with) {
     const ViewSettings v = settled(view, metered_exposure(view.auto_exposure, rgb, 3));
     if (v.false_color.of == FalseColor::Of::lux) {
-        if (with.albedo.size() != rgb.size() / 3) return Error{.what = "there is no albedo, without which lux cannot be told"};
+        if (with.albedo.size() != rgb.size() / 3)
+            return Error{.what = "the image has no albedo, which false colour in lux needs"};
         to_illuminance(rgb, with.albedo);
     }
     const float* coverage = with.coverage.size() == rgb.size() / 3 ? with.coverage.data() : nullptr;

@@ -1,4 +1,4 @@
-// View settings as the display stage takes them, and pictures as they are shown: the one place that knows both.
+// Applies view settings to images: converts them to the parameters of the display transform.
 #pragma once
 
 #include "color/color_management.h"
@@ -11,26 +11,26 @@ namespace blush {
 DisplayTransform transform_of(const ViewSettings& view);
 DisplayNumbers numbers_of(const ViewSettings& view);
 
-// What auto exposure makes of a picture of `channels` values a pixel (exposure_meter.h); 0 if it is off.
+// Exposure in stops that auto exposure meters from an image of `channels` values per pixel (exposure_meter.h); 0 if off.
 float metered_exposure(AutoExposure rule, std::span<const float> values, int channels);
-// The same look without auto exposure: `metered_ev` added to the exposure.
+// The same settings without auto exposure: `metered_ev` is added to the exposure.
 ViewSettings settled(const ViewSettings& view, float metered_ev);
 
-// Stops of a scene-linear colour's luminance from middle grey, 0.18, as `numbers` balance and expose it: what false colours of stops show.
-// Minus infinity or not a number for black and below.
+// Stops of a scene-linear colour's luminance from middle grey (0.18), after white balance and exposure of `numbers`: the value
+// that false colour in stops shows. -infinity or NaN for black and negative values.
 float stops_from_grey(const DisplayNumbers& numbers, const Vec3& scene);
 
-// The same scale with ends that hold nearly all of a picture (exposure_meter.h) whose values are in its unit, rounded outwards to 1, 2 or 5
-// times a power of ten. As it is if the picture is black.
+// The same scale with ends fitted to the values of an image in its unit (exposure_meter.h), rounded outwards to 1, 2 or 5 times a
+// power of ten. Unchanged if the image is black.
 FalseColor fitted(const FalseColor& scale, std::span<const float> values, int channels);
 
-// What some looks read beside the picture, a value a pixel; empty: not there.
+// Additional planes that some view settings need, one value per pixel; empty if missing.
 struct ShownWith {
-    std::span<const Vec3> albedo = {};    // false colours of lux
-    std::span<const float> coverage = {}; // by objects (coverage.h): a background as it is. Without it everything is object
+    std::span<const Vec3> albedo = {};    // for false colour in lux
+    std::span<const float> coverage = {}; // of objects (coverage.h), for background_as_it_is; empty: all objects
 };
 
-// Scene-linear `rgb`, 3 values a pixel, as it is shown, in place.
+// Applies the display transform to scene-linear `rgb` (3 values per pixel) in place.
 // Errors: unknown display, view or look; lux without albedo.
 Result<void> show(const ColorManagement& color, const ViewSettings& view, std::span<float> rgb, const ShownWith& with = {});
 

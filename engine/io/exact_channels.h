@@ -1,4 +1,4 @@
-// Numbers that must survive to the last bit, as channels of an EXR: 32-bit unsigned ones, of which a double takes two.
+// Lossless storage of doubles and integers in EXR: as 32-bit unsigned channels, two per double.
 #pragma once
 
 #include "core/exact_plane.h"
@@ -9,9 +9,9 @@
 
 namespace blush {
 
-// LAYER.NAME.high and LAYER.NAME.low for sums, the halves of their bits; LAYER.NAME.word for whole numbers.
+// Channel names: LAYER.NAME.high and LAYER.NAME.low hold the bits of a double, LAYER.NAME.word an integer.
 void add_exact_plane(LayeredImage& image, const std::string& layer, const ExactPlane& plane);
-// All that was added to that layer, in the order of the file's channels. Channels that are not of these kinds are left out.
+// All planes of the layer, in the order of the file's channels. Ignores channels with other names.
 std::vector<ExactPlane> exact_planes(const LayeredImage& image, const std::string& layer);
 
 } // namespace blush

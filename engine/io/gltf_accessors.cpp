@@ -7,12 +7,12 @@
 namespace blush {
 namespace {
 
-// An accessor without a buffer view is all zeros (before sparse values): its count costs the file nothing, so it is bounded.
+// An accessor without a buffer view is all zeros (before sparse values). Its count needs no bytes in the file, so it is limited.
 constexpr uint64_t max_count_without_bytes = uint64_t(1) << 24;
 
 struct ComponentType {
     size_t size = 0;
-    double scale = 1; // of normalised values
+    double scale = 1; // for normalised values
     double low = 0;
 };
 
@@ -34,7 +34,7 @@ int component_count(int type) {
     case TINYGLTF_TYPE_VEC2: return 2;
     case TINYGLTF_TYPE_VEC3: return 3;
     case TINYGLTF_TYPE_VEC4: return 4;
-    case TINYGLTF_TYPE_MAT4: return 16; // of columns that need no padding, whatever the components
+    case TINYGLTF_TYPE_MAT4: return 16; // only matrices whose columns need no padding
     default: return 0;
     }
 }
@@ -89,7 +89,7 @@ Result<const tinygltf::Accessor*> find_accessor(const GltfContext& context, int 
     return &accessor;
 }
 
-// Calls set(i, bytes) for every element that the accessor's bytes, then its sparse values, give.
+// Calls set(i, bytes) for every element of the buffer view, then for every sparse value.
 template <class Set>
 Result<void> for_each_element(const GltfContext& context, const tinygltf::Accessor& accessor, const std::string& where, Set&& set) {
     const uint64_t element = component_type(accessor.componentType).size * uint64_t(component_count(accessor.type));
@@ -123,7 +123,7 @@ Result<void> for_each_element(const GltfContext& context, const tinygltf::Access
     return {};
 }
 
-// Before anything is allocated: the count must be covered by bytes that exist.
+// Checked before allocation: the buffer must hold the bytes of all elements.
 Result<void> check_count(const GltfContext& context, const tinygltf::Accessor& accessor, const std::string& where) {
     if (accessor.bufferView < 0)
         return accessor.count <= max_count_without_bytes

@@ -17,7 +17,7 @@ using Property = Channel::Property;
 struct Path {
     std::string_view name;
     Property property;
-    int components; // of the output accessor's elements
+    int components; // per element of the output accessor
 };
 constexpr std::array paths{Path{"translation", Property::translation, 3}, Path{"rotation", Property::rotation, 4},
                            Path{"scale", Property::scale, 3}, Path{"weights", Property::morph_weights, 1}};
@@ -26,7 +26,7 @@ bool finite(const std::vector<float>& values) {
     return std::ranges::all_of(values, [](float v) { return std::isfinite(v); });
 }
 
-// Quaternions among the values that are not of unit length, 0 where they are none. Those of a spline have their tangents beside.
+// Number of quaternions that are not of unit length; 0 for other properties. Skips the tangents of cubic splines.
 size_t odd_rotations(const Keyframes& k, int components) {
     if (components != 4) return 0;
     const size_t parts = k.interpolation == Interpolation::cubic_spline ? 3 : 1;
@@ -34,7 +34,7 @@ size_t odd_rotations(const Keyframes& k, int components) {
     for (size_t i = 4 * (parts / 2); i + 4 <= k.values.size(); i += 4 * parts) {
         const float* q = k.values.data() + i;
         const double size = std::sqrt(double(q[0]) * q[0] + double(q[1]) * q[1] + double(q[2]) * q[2] + double(q[3]) * q[3]);
-        odd += !(std::abs(size - 1) <= 0.00769); // what 8 bits a number can be off
+        odd += !(std::abs(size - 1) <= 0.00769); // rounding error of 8-bit components
     }
     return odd;
 }
@@ -69,18 +69,18 @@ public:
         std::ranges::stable_sort(clip.channels, {}, key);
         const auto repeated = std::ranges::unique(clip.channels, {}, key);
         if (!repeated.empty())
-            context_.warn(fmt::format("ignored: {} channels of what other channels lead already", repeated.size()),
+            context_.warn(fmt::format("ignored: {} channels whose property another channel animates", repeated.size()),
                           fmt::format("animations[{}].channels", index));
         clip.channels.erase(repeated.begin(), repeated.end());
         return clip;
     }
 
 private:
-    // Without a node: one that there is nothing to say about.
+    // A channel without a node: skipped without a warning.
     Result<Channel> read_channel(const tinygltf::Animation& animation, const tinygltf::AnimationChannel& source, const std::string& where) {
         const auto path = std::ranges::find(paths, source.target_path, &Path::name);
-        if (source.target_node < 0 && path != paths.end()) return Channel{}; // glTF 2.0, 3.11: nothing to do without extensions
-        if (path == paths.end()) return error(fmt::format("what it animates, \"{}\"", source.target_path.substr(0, 100)));
+        if (source.target_node < 0 && path != paths.end()) return Channel{}; // glTF 2.0, 3.11: ignored without extensions
+        if (path == paths.end()) return error(fmt::format("unknown target path \"{}\"", source.target_path.substr(0, 100)));
         if (size_t(source.target_node) >= nodes_.size())
             return error(fmt::format("node {} does not exist; there are {}", source.target_node, nodes_.size()));
         if (source.sampler < 0 || size_t(source.sampler) >= animation.samplers.size())
@@ -112,10 +112,11 @@ private:
         if (keyframes.times.empty() || width == 0) return error("nothing to animate");
         if (!finite(keyframes.times) || !finite(keyframes.values)) return error("keyframes that are not finite numbers");
         if (!std::ranges::is_sorted(keyframes.times) || keyframes.times.front() < 0)
-            return error("times that are not in order, or below 0");
+            return error("times that are negative or not in order");
         if (std::ranges::adjacent_find(keyframes.times) != keyframes.times.end())
-            context_.warn("several keyframes at one time: the last of them counts from there on", where);
-        if (const size_t odd = odd_rotations(keyframes, components)) context_.warn(fmt::format("{} rotations not of length 1 are scaled to it", odd), where);
+            context_.warn("several keyframes at the same time: the last one is used", where);
+        if (const size_t odd = odd_rotations(keyframes, components))
+            context_.warn(fmt::format("{} rotations were not of unit length and are normalised", odd), where);
         const size_t wanted = keyframes.times.size() * width * (keyframes.interpolation == Interpolation::cubic_spline ? 3 : 1);
         if (keyframes.values.size() != wanted)
             return error(
@@ -126,7 +127,7 @@ private:
     static Error error(std::string what) { return Error{.what = std::move(what)}; }
 
     const GltfContext& context_;
-    std::vector<Id<Node>> nodes_; // by index; none: not shown
+    std::vector<Id<Node>> nodes_; // by index; none: not in a scene
 };
 
 } // namespace

@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: animations of nodes.
+// Internal to gltf_*.cpp: imports animations.
 #pragma once
 
 #include "io/gltf_source.h"
@@ -7,8 +7,8 @@
 
 namespace blush {
 
-// Adds a clip for each animation; result[i] is that of animations[i]. Channels whose keyframes make no sense, or of nodes that are not
-// shown, are left out, with a warning where the file is to blame. Of a document that is read without its buffers the clips are empty.
+// Adds a clip for each animation; result[i] is the id of animations[i]. Skips channels with invalid keyframes (with a warning)
+// and channels of nodes outside all scenes. Clips are empty if the document is read without its buffers.
 std::vector<Id<Clip>> import_animations(const GltfContext& context, const GltfIndices& indices, Scene& scene);
 
 } // namespace blush

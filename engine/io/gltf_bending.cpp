@@ -11,7 +11,7 @@
 namespace blush {
 namespace {
 
-// Vectors of an accessor, one per vertex.
+// Reads an accessor with one vector per vertex.
 Result<FloatArray> read_per_vertex(const GltfContext& context, int accessor, int components, size_t vertices, const std::string& where) {
     Result<FloatArray> array = read_floats(context, accessor, components, components, where);
     if (array && array->count() != vertices)
@@ -19,7 +19,7 @@ Result<FloatArray> read_per_vertex(const GltfContext& context, int accessor, int
     return array;
 }
 
-// Returns how many there were.
+// Returns the number of values that were not finite.
 size_t zero_non_finite(std::vector<float>& values) {
     size_t bad = 0;
     for (float& v : values) {
@@ -37,7 +37,8 @@ Result<std::vector<Vec3>> read_offsets(const GltfContext& context, const std::ma
     if (accessor == target.end()) return offsets;
     Result<FloatArray> array = read_per_vertex(context, accessor->second, 3, vertices, where);
     if (!array) return array.error();
-    if (const size_t bad = zero_non_finite(array->values)) context.warn(fmt::format("{} offsets that are not finite are 0", bad), where);
+    if (const size_t bad = zero_non_finite(array->values))
+        context.warn(fmt::format("{} non-finite offsets are replaced by 0", bad), where);
     for (size_t i = 0; i < vertices; ++i) offsets.push_back({array->values[3 * i], array->values[3 * i + 1], array->values[3 * i + 2]});
     return offsets;
 }
@@ -54,13 +55,15 @@ Result<void> read_targets(const GltfContext& context, const tinygltf::Primitive&
         }
         for (const auto& [name, accessor] : primitive.targets[t])
             if (name != "POSITION" && name != "NORMAL" && name != "TANGENT")
-                context.note(fmt::format("ignored: {} of a morph target; only the shape changes", name.substr(0, 100)), target_where);
+                context.note(fmt::format("ignored: {} of a morph target; only positions, normals and tangents are morphed",
+                                         name.substr(0, 100)),
+                             target_where);
         g.targets.push_back(std::move(target));
     }
     return {};
 }
 
-// Of one vertex; returns false if they had to be changed by more than storing them in 8 bits does.
+// Normalises the weights of one vertex; false if they change by more than 8-bit rounding.
 bool normalize(Influence* influences, size_t count) {
     double sum = 0;
     for (size_t k = 0; k < count; ++k) sum += influences[k].weight;
@@ -68,7 +71,7 @@ bool normalize(Influence* influences, size_t count) {
         influences[0] = {0, 1};
         return false;
     }
-    // As well as floats can: then they stay as they are, and so survive any number of saves.
+    // Normalised within float precision: kept as they are, so that repeated saves do not change them.
     if (std::abs(sum - 1) <= 1e-6) return true;
     for (size_t k = 0; k < count; ++k) influences[k].weight = float(influences[k].weight / sum);
     return std::abs(sum - 1) <= double(count) / 255;
@@ -89,7 +92,7 @@ Result<void> read_influences(const GltfContext& context, const tinygltf::Primiti
         weights.push_back(*std::move(weight));
     }
     const size_t lone = size_t(std::ranges::count_if(primitive.attributes, [](const auto& a) { return is_influence(a.first); })) - 2 * joints.size();
-    if (lone > 0) context.warn(fmt::format("ignored: {} sets of joints or weights without the other", lone), where);
+    if (lone > 0) context.warn(fmt::format("ignored: {} sets of JOINTS_n or WEIGHTS_n without their counterpart", lone), where);
     const size_t per_vertex = 4 * joints.size();
     if (per_vertex == 0) return {};
     size_t bad = 0, unequal = 0;
@@ -102,12 +105,13 @@ Result<void> read_influences(const GltfContext& context, const tinygltf::Primiti
         }
         unequal += !normalize(g.influences.data() + i * per_vertex, per_vertex);
     }
-    if (bad) context.warn(fmt::format("{} joints or weights that make no sense are left out", bad), where);
-    if (unequal) context.warn(fmt::format("the weights of {} vertices do not sum to 1 and are scaled", unequal), where);
+    if (bad) context.warn(fmt::format("ignored: {} invalid joints or weights", bad), where);
+    if (unequal)
+        context.warn(fmt::format("the skinning weights of {} vertices do not sum to 1 and are normalised", unequal), where);
     return {};
 }
 
-// Values of the vertices `of`, which have so many each.
+// Values of the vertices `of`, `per_vertex` each.
 template <class V> std::vector<V> picked(const std::vector<V>& values, std::span<const uint32_t> of, size_t per_vertex = 1) {
     std::vector<V> result;
     if (values.empty()) return result;
@@ -155,9 +159,9 @@ void limit_bending(const GltfContext& context, Scene& scene) {
                       [&](const Channel& c) { return c.property == Channel::Property::morph_weights && at_rest.contains(c.node); });
         scene.clips.set(id, std::move(clip));
     }
-    context.warn(
-        fmt::format("ignored: skins and morph targets of {} nodes; no more than {} vertices bend", at_rest.size(), most_bent_vertices),
-        "nodes");
+    context.warn(fmt::format("ignored: skins and morph targets of {} nodes; the limit is {} deformed vertices", at_rest.size(),
+                             most_bent_vertices),
+                 "nodes");
 }
 
 void unweld_bending(Geometry& g) {

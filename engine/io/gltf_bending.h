@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: morph targets of primitives, and the joints that their vertices follow.
+// Internal to gltf_*.cpp: imports morph targets and skinning weights of primitives.
 #pragma once
 
 #include "io/gltf_source.h"
@@ -7,18 +7,19 @@
 
 namespace blush {
 
-// JOINTS_0, WEIGHTS_1, ...
+// True for JOINTS_0, WEIGHTS_1, ...
 bool is_influence(const std::string& attribute);
 
-// Fills in targets and influences of a geometry that has its positions. Weights are made to sum to 1, numbers that are not finite to be 0,
-// with a warning. Errors: an accessor out of range or of another size than the positions.
+// Sets targets and influences of a geometry that already has positions. Weights are normalised to sum 1 and non-finite numbers
+// set to 0, with a warning. Errors: an accessor out of range or of another size than the positions.
 Result<void> read_bending(const GltfContext& context, const tinygltf::Primitive& primitive, Geometry& geometry, const std::string& where);
 
-// A small file may hang a large mesh on any number of nodes: beyond this many vertices in all they stay at rest, with a warning.
+// Limit of deformed vertices, summed over nodes, since a small file may use a large mesh on many nodes. Nodes beyond it keep the
+// rest pose, with a warning.
 constexpr size_t most_bent_vertices = size_t(1) << 24;
 void limit_bending(const GltfContext& context, Scene& scene);
 
-// For vertices that are about to be listed anew, one for each index.
+// Expands targets and influences to one vertex per index, for geometry that is about to be unwelded.
 void unweld_bending(Geometry& geometry);
 
 } // namespace blush

@@ -24,7 +24,7 @@ std::map<Id<Camera>, float> camera_aspects(const GltfOrigin& origin) {
     constexpr double narrowest = 0.01, widest = 100;
     std::map<Id<Camera>, float> aspects;
     if (!origin.json || origin.indices.cameras.empty()) return aspects;
-    // Of the root's members only the cameras are kept.
+    // Keeps only the root's member "cameras" while parsing.
     const auto keep = [](int depth, ParsedGltf::parse_event_t event, ParsedGltf& parsed) {
         return depth != 1 || event != ParsedGltf::parse_event_t::key || parsed == "cameras";
     };

@@ -1,4 +1,4 @@
-// The aspect ratios of a file's cameras, which Lens does not hold: the picture's size decides what is rendered.
+// Reads the aspect ratios of a file's cameras. Lens does not store them, since the image size determines the rendered aspect.
 #pragma once
 
 #include "io/gltf_indices.h"
@@ -7,7 +7,7 @@
 
 namespace blush {
 
-// Width over height of the cameras that say it (perspective.aspectRatio; xmag over ymag), within 0.01 .. 100. Reads the document's text.
+// Width / height of the cameras that state it (perspective.aspectRatio; xmag / ymag), within 0.01 .. 100. Parses the JSON text.
 std::map<Id<Camera>, float> camera_aspects(const GltfOrigin& origin);
 
 } // namespace blush

@@ -18,8 +18,9 @@ Lens read_lens(const GltfContext& context, const tinygltf::Camera& source, const
     Lens lens;
     lens.orthographic = source.type == "orthographic";
     if (lens.orthographic) {
-        // The sign of a magnification mirrors the picture; the specification discourages it.
-        if (source.orthographic.ymag < 0) context.warn("negative magnification: its size is used", where + ".orthographic.ymag");
+        // A negative magnification mirrors the image; the specification discourages it.
+        if (source.orthographic.ymag < 0)
+            context.warn("negative magnification: the absolute value is used", where + ".orthographic.ymag");
         lens.ymag = checked(context, std::abs(source.orthographic.ymag), 1, smallest_length, any_float, where + ".orthographic.ymag");
     } else {
         constexpr float narrowest = 1e-4f, widest = std::numbers::pi_v<float> - 1e-4f;
@@ -31,7 +32,7 @@ Lens read_lens(const GltfContext& context, const tinygltf::Camera& source, const
     return lens;
 }
 
-// From the right and a little above: three sides of a box show.
+// From the right and slightly above, so that three sides of a box are visible.
 Quat three_quarter_rotation() {
     constexpr double yaw = 35 * std::numbers::pi / 180, pitch = -20 * std::numbers::pi / 180;
     const double cy = std::cos(yaw / 2), sy = std::sin(yaw / 2), cp = std::cos(pitch / 2), sp = std::sin(pitch / 2);
@@ -53,7 +54,10 @@ std::vector<Id<Camera>> import_cameras(const GltfContext& context, Scene& scene)
         wanted.push_back(wanted_id(object));
     }
     const std::vector<Id<Camera>> ids = add_numbered(scene.cameras, std::move(cameras), wanted);
-    if (!ids.empty()) context.note("ignored: clipping planes of cameras; their aspect ratio is a frame in the window, and the size of the picture decides what is rendered", "cameras");
+    if (!ids.empty())
+        context.note("ignored: clipping planes of cameras; their aspect ratio is only a frame in the window, the image size sets "
+                     "the rendered aspect",
+                     "cameras");
     return ids;
 }
 

@@ -1,11 +1,11 @@
-// Internal to gltf_*.cpp: a parsed document to a scene.
+// Internal to gltf_*.cpp: converts a parsed document to a scene.
 #pragma once
 
 #include "io/gltf_source.h"
 
 namespace blush {
 
-// Fills in everything but the origin's file and text. Errors as import_gltf's.
+// Sets everything except the file and text of the origin. Errors: as of import_gltf.
 Result<void> convert_gltf(const GltfContext& context, ImportedScene& imported);
 
 } // namespace blush

@@ -24,7 +24,7 @@
 namespace blush {
 namespace {
 
-// One file's worth of bytes, whichever images of the glTF file it is.
+// One encoded image, shared by all glTF images with the same bytes.
 struct Encoded {
     std::vector<size_t> images;
     std::span<const uint8_t> bytes;
@@ -37,7 +37,7 @@ struct Encoded {
 constexpr std::array color_slots = {"baseColorTexture", "emissiveTexture", "specularColorTexture", "sheenColorTexture",
                                     "diffuseTransmissionColorTexture", "diffuseTexture", "specularGlossinessTexture"};
 
-// The textures that a material's object reads as sRGB-encoded colour.
+// Adds the textures that a material object reads as sRGB colour.
 void add_color_textures(const nlohmann::json& object, std::set<int>& textures) {
     if (!object.is_object()) return;
     for (const char* slot : color_slots) {
@@ -63,7 +63,7 @@ std::set<int> color_images(const GltfContext& context) {
 
 std::string where(size_t image) { return fmt::format("images[{}]", image); }
 
-// Those that are there, each once.
+// Collects the images that exist, each once.
 Result<std::vector<Encoded>> encoded_images(const GltfContext& context, std::span<const int> wanted) {
     const std::set<int> images(wanted.begin(), wanted.end()), colors = color_images(context);
     const auto count = int64_t(context.model().images.size());
@@ -82,7 +82,7 @@ Result<std::vector<Encoded>> encoded_images(const GltfContext& context, std::spa
     return files;
 }
 
-// What the file says about an image's format, empty if nothing: its MIME type, else the ending of its name.
+// Declared format of an image: from its MIME type, else its file extension; empty if unknown.
 std::string declared_format(const tinygltf::Image& image) {
     if (image.mimeType.starts_with("image/")) return image.mimeType.substr(6);
     const std::string ending = is_data_uri(image.uri) ? "" : std::filesystem::path(percent_decoded(image.uri)).extension().string();
@@ -96,11 +96,11 @@ void report_wrong_formats(const GltfContext& context, const std::vector<Encoded>
         for (const size_t i : file.images) {
             const std::string declared = declared_format(context.model().images[i]);
             if (file.info.format.empty() || declared == file.info.format || std::ranges::find(formats, declared) == formats.end()) continue;
-            context.warn(fmt::format("said to be {} but is {}: read as what it is", declared, file.info.format), where(i));
+            context.warn(fmt::format("declared as {} but is {}: decoded as the latter", declared, file.info.format), where(i));
         }
 }
 
-// Halves the largest until all fit.
+// Halves the largest image until all fit.
 void fit_into_memory(const GltfContext& context, std::vector<Encoded>& files) {
     const auto smaller = [](const Encoded* a, const Encoded* b) { return a->info.bytes(a->halvings) < b->info.bytes(b->halvings); };
     std::priority_queue<Encoded*, std::vector<Encoded*>, decltype(smaller)> largest(smaller);
@@ -129,14 +129,14 @@ void fit_into_memory(const GltfContext& context, std::vector<Encoded>& files) {
 
 void decode(const GltfContext& context, Encoded& file) {
     const std::string name = image_name(context, file.images[0]);
-    // More than 8 bits are encoded colour in a PNG and linear elsewhere.
+    // Images of more than 8 bits are sRGB in a PNG and linear in other formats.
     const bool is_srgb = file.is_color && (!file.info.is_float || file.info.format == "png");
     Result<ImagePtr> image = file.halvings == 0 ? read_image(file.bytes, name) : read_smaller_image(file.bytes, name, file.halvings, is_srgb);
     if (image) image = with_color_channels(*image);
     file.decoded = std::move(image);
 }
 
-// What the headers say.
+// Reads the headers.
 void read_infos(const GltfContext& context, std::vector<Encoded>& files) {
     for (Encoded& file : files) {
         const Result<ImageInfo> info = read_image_info(file.bytes, image_name(context, file.images[0]));
@@ -156,7 +156,7 @@ struct ImageDecoding::State {
     std::vector<bool> expected;
     std::atomic<size_t> done = 0;
     std::atomic<bool> waited_for = false, given_up = false;
-    HelpingThreads helpers; // the last to come: what they work at is there for as long as they are
+    HelpingThreads helpers; // declared last, so that the threads end before the data they use
 
     explicit State(const GltfContext& c)
         : context(c), images(c.model().images.size()), expected(images.size()), helpers(c.options.threads) {}

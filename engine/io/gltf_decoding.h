@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: the pixels of a file's textures, decoded beside whatever else is done, and within a limit of memory.
+// Internal to gltf_*.cpp: decodes the images of a file in the background, within a memory limit.
 #pragma once
 
 #include "io/gltf_source.h"
@@ -10,21 +10,22 @@ namespace blush {
 
 class ImageDecoding {
 public:
-    // Looks at the headers of `wanted`, indices of images, where those of none are passed over, and begins to decode. Files with the same bytes
-    // become one image. Where all would exceed ImportOptions::texture_bytes, the largest are halved until they do not, with a warning each. Grey
-    // images become RGB. The context must outlive this. Errors: a buffer view that is none.
+    // Reads the headers of the images `wanted` (negative indices are skipped) and starts decoding. Images with identical bytes
+    // are decoded once. If the total would exceed ImportOptions::texture_bytes, the largest are halved until it fits, with a
+    // warning each. Grey images become RGB. The context must outlive this object. Errors: a buffer view that does not exist.
     static Result<ImageDecoding> begin(const GltfContext& context, std::span<const int> wanted);
     ImageDecoding(ImageDecoding&&) noexcept;
-    ~ImageDecoding(); // what has not been begun by then is left
+    ~ImageDecoding(); // drops images whose decoding has not started
 
-    // Its header promises pixels.
+    // True if the header is valid, so that decoding will probably succeed.
     bool is_expected(int image) const;
     bool is_done() const;
-    // Waits for what is left, reporting progress from 0.6 to 1; what cannot be decoded is a warning. Errors: cancelled.
+    // Waits for the remaining images and reports progress from 0.6 to 1. An image that cannot be decoded is a warning. Errors:
+    // cancelled.
     Result<void> finish();
-    // Once finished: all that were expected could be decoded.
+    // After finish(): true if all expected images could be decoded.
     bool is_as_promised() const;
-    // Once finished, those that could be decoded; else null.
+    // After finish(): the image; null if it could not be decoded.
     ImagePtr image(int index) const;
 
 private:

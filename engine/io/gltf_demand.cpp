@@ -7,11 +7,11 @@
 namespace blush {
 namespace {
 
-// Of bytes asked for: what anybody may, and how often all buffers may be read over. Files whose primitives share one array of vertices do so
-// dozens of times.
+// Limits of the decoded size: always allowed, and as a multiple of the buffers' size. Valid files whose primitives share one
+// vertex array reach dozens.
 constexpr double free_bytes = 128e6, most_readings = 64;
 
-// Any component as a float, which is what it becomes. What cannot be read at all is an error when it is.
+// Every component is decoded to a float. Unreadable accessors are reported when they are read.
 double bytes_of(const GltfContext& context, int index) {
     const auto& accessors = context.model().accessors;
     if (index < 0 || size_t(index) >= accessors.size()) return 0;
@@ -45,7 +45,9 @@ Result<void> check_demand(const GltfContext& context, const std::vector<int>& no
     for (const tinygltf::Skin& skin : model.skins) asked += bytes_of(context, skin.inverseBindMatrices);
     for (const tinygltf::Buffer& buffer : model.buffers) there += double(buffer.data.size());
     if (asked <= free_bytes + most_readings * there) return {};
-    return context.error(fmt::format("its meshes and animations ask for {:.0f} MB, but its buffers have {:.3g}", asked / 1e6, there / 1e6), "accessors");
+    return context.error(fmt::format("its meshes and animations need {:.0f} MB when decoded, but its buffers have only {:.3g} MB",
+                                     asked / 1e6, there / 1e6),
+                         "accessors");
 }
 
 } // namespace blush

@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: how much a file asks for before anything is made of it.
+// Internal to gltf_*.cpp: size limits. Rejects files whose decoded size is out of proportion to their bytes.
 #pragma once
 
 #include "io/gltf_source.h"
@@ -7,11 +7,11 @@
 
 namespace blush {
 
-// Primitives and animations may name the same bytes again and again, and accessors need none at all, so that a small file could ask for all the memory there
-// is. Errors: the meshes of `nodes`, animations and skins ask for more than an honest file of this one's size.
+// Primitives and animations may share bytes, and accessors may have none, so that a small file could need any amount of memory.
+// Errors: the meshes of `nodes`, animations and skins need more memory than plausible for the size of the file.
 Result<void> check_demand(const GltfContext& context, const std::vector<int>& nodes);
 
-// What the numbers of a primitive take, as floats, in bytes; 0 for those that cannot be read.
+// Decoded size of a primitive's attributes as floats, in bytes; unreadable ones count 0.
 double bytes_asked_by(const GltfContext& context, const tinygltf::Primitive& primitive);
 
 } // namespace blush

@@ -19,31 +19,32 @@ namespace {
 
 constexpr const char* extension_name = "KHR_draco_mesh_compression";
 
-// The library believes what the first bytes say and makes room for it. Even a flat regular grid, its best case, takes more bytes than this.
+// The library allocates what the header announces. Even a flat regular grid, the best case, needs more bytes per triangle than
+// this.
 constexpr uint64_t most_faces_per_byte = 1024;
 
-// The first fields of a mesh (Draco bitstream 2.2, sections 2 and 3), as far as its number of faces.
+// Reads the header of a mesh (Draco bitstream 2.2, sections 2 and 3) up to the number of faces.
 class Header {
 public:
     explicit Header(std::span<const uint8_t> bytes) : bytes_(bytes) {}
 
     std::optional<uint64_t> faces() {
         constexpr uint8_t mesh = 1, edgebreaker = 1;
-        constexpr uint16_t has_metadata = 0x8000; // would stand before the number of faces; no exporter of glTF writes any
+        constexpr uint16_t has_metadata = 0x8000; // metadata would precede the number of faces; glTF exporters write none
         if (bytes_.size() < 12 || std::string_view(reinterpret_cast<const char*>(bytes_.data()), 5) != "DRACO") return {};
         if (bytes_[5] != 2 || bytes_[6] != 2 || bytes_[7] != mesh) return {};
         const uint8_t method = bytes_[8];
         if (uint16_t(bytes_[9] | bytes_[10] << 8) & has_metadata) return {};
         at_ = 11;
         if (method == edgebreaker) {
-            ++at_;                    // the traversal's kind
-            if (!number()) return {}; // of vertices
+            ++at_;                    // traversal method
+            if (!number()) return {}; // number of vertices
         }
         return number();
     }
 
 private:
-    // Seven bits a byte, the lowest first.
+    // Varint: seven bits per byte, lowest first.
     std::optional<uint64_t> number() {
         uint64_t value = 0;
         for (int shift = 0; shift < 35 && at_ < bytes_.size(); shift += 7) {
@@ -69,7 +70,7 @@ template <class T> bool convert(const draco::PointAttribute& attribute, uint32_t
 }
 
 bool convert(const draco::PointAttribute& attribute, uint32_t points, int components, int component_type, std::vector<uint8_t>& out) {
-    if (attribute.data_type() == draco::DT_BOOL) return false; // glTF has none, and Draco reads whatever byte is there as one
+    if (attribute.data_type() == draco::DT_BOOL) return false; // not in glTF; Draco reads any byte value as a bool
     switch (component_type) {
     case TINYGLTF_COMPONENT_TYPE_BYTE: return convert<int8_t>(attribute, points, components, out);
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return convert<uint8_t>(attribute, points, components, out);
@@ -83,11 +84,11 @@ bool convert(const draco::PointAttribute& attribute, uint32_t points, int compon
 
 struct Attribute {
     std::string name;
-    int accessor = 0, id = 0; // the one that describes it; which of the Draco mesh
+    int accessor = 0, id = 0; // glTF accessor; attribute id in the Draco mesh
     std::vector<uint8_t> unpacked = {};
 };
 
-// A primitive that has to be unpacked, and what became of it.
+// A primitive to decompress, and the result.
 struct Packed {
     tinygltf::Primitive* primitive;
     std::string where;
@@ -110,19 +111,19 @@ bool needs_unpacking(const tinygltf::Model& model, const tinygltf::Primitive& pr
            !std::ranges::all_of(primitive.attributes, [&](const auto& attribute) { return has_bytes(attribute.second); });
 }
 
-// How many bytes a vertex takes in an accessor; none if it is not one that a mesh may have.
+// Bytes per vertex of an accessor; none if its type is not allowed for a mesh.
 size_t element_bytes(const tinygltf::Accessor& accessor) {
     const int components = tinygltf::GetNumComponentsInType(uint32_t(accessor.type));
     const int size = tinygltf::GetComponentSizeInBytes(uint32_t(accessor.componentType));
     return components < 1 || components > 4 || size < 1 ? 0 : size_t(components) * size_t(size);
 }
 
-// What the JSON and the first bytes say, before room is made for it.
+// Checks the JSON and the Draco header before allocation.
 struct PackedMeshes {
     const GltfContext& context;
     UnpackingRoom& room;
     std::vector<Packed> found = {};
-    std::vector<int64_t> sizes = {}; // unpacked, if there are as many vertices as triangles; the library allows three times as many
+    std::vector<int64_t> sizes = {}; // decompressed, for as many vertices as triangles; the library allows three times as many
 
     Result<void> add(tinygltf::Primitive& primitive, const std::string& where) {
         const GltfObject extension = GltfObject(context, primitive.extensions, where + ".extensions").object(extension_name);
@@ -162,7 +163,7 @@ std::vector<uint8_t> indices_of(const draco::Mesh& mesh) {
     return bytes;
 }
 
-// Any thread may unpack any.
+// Thread-safe for distinct primitives.
 Result<void> unpack(const GltfContext& context, Packed& packed) {
     draco::DecoderBuffer buffer;
     buffer.Init(reinterpret_cast<const char*>(packed.bytes.data()), packed.bytes.size());
@@ -178,7 +179,7 @@ Result<void> unpack(const GltfContext& context, Packed& packed) {
         const tinygltf::Accessor& described = *accessor_at(context.model(), attribute.accessor);
         const int components = tinygltf::GetNumComponentsInType(uint32_t(described.type));
         if (element_bytes(described) == 0 || !convert(*values, mesh.num_points(), components, described.componentType, attribute.unpacked))
-            return context.error("the Draco attribute does not fit its accessor", where);
+            return context.error("the Draco attribute does not match its accessor", where);
     }
     packed.indices = indices_of(mesh);
     packed.points = mesh.num_points();
@@ -194,7 +195,7 @@ int add(GltfSource& source, tinygltf::Accessor accessor, size_t count, std::vect
     return int(source.model.accessors.size()) - 1;
 }
 
-// Accessors of its own: primitives that share one need not have their vertices in the same order.
+// Adds new accessors: primitives that share one may have different vertex orders.
 void take_unpacked(GltfSource& source, Packed& packed) {
     for (Attribute& attribute : packed.attributes)
         packed.primitive->attributes[attribute.name] =

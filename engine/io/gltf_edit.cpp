@@ -16,7 +16,7 @@
 namespace blush {
 namespace {
 
-// Names of the extensions in use anywhere in the document. Nesting was limited when it was imported.
+// Names of all extensions used in the document. Recursion is safe: the import limits nesting.
 void find_extensions(const Json& value, std::set<std::string>& names) {
     for (auto it = value.begin(); it != value.end(); ++it) {
         if (!it->is_structured()) continue;
@@ -33,7 +33,8 @@ std::set<std::string> extensions_in(const Json& root) {
     return names;
 }
 
-// Declares what is new in use, and no longer what went out of use. What was declared without a use stays so.
+// Declares newly used extensions and removes declarations of extensions that are no longer used. Declarations that were unused
+// before are kept.
 void declare_extensions(Json& root, const std::set<std::string>& before) {
     const std::set<std::string> now = extensions_in(root);
     const auto gone = [&](const Json& name) {
@@ -99,7 +100,7 @@ void write_nodes(GltfDocument& document, const Scene& read, const Scene& scene) 
     }
 }
 
-// Where the copies of nodes' meshes are, if the document has them elsewhere or not at all.
+// Writes instance transforms that the document lacks or has different.
 void write_copies(GltfDocument& document, const GltfOrigin& has, const Scene& scene) {
     for (const auto& [id, index] : document.indices.nodes) {
         const Node* old = has.nodes.find(id);
@@ -114,7 +115,7 @@ template <class T, class Index> Table<T> kept(Table<T> table, const std::map<Id<
     return table;
 }
 
-// What an import of the document gives, with the triangles and pixels of `scene`.
+// The scene that an import of the document gives, with the triangles and pixels of `scene`.
 Scene as_saved(Scene scene, const GltfIndices& indices, const Scene& read) {
     scene.meshes = kept(scene.meshes, indices.meshes);
     scene.materials = kept(scene.materials, indices.materials);
@@ -130,7 +131,7 @@ Scene as_saved(Scene scene, const GltfIndices& indices, const Scene& read) {
             named.source = texture.source;
             scene.textures.set(id, std::move(named));
         }
-    // What names nothing that is there names nothing.
+    // Sets dangling ids to none.
     const Table<Node> nodes = scene.nodes;
     for (auto [id, node] : nodes) {
         if (!scene.meshes.contains(node.mesh)) node.mesh = {};
@@ -161,17 +162,18 @@ Scene as_saved(Scene scene, const GltfIndices& indices, const Scene& read) {
     return scene;
 }
 
-// Records whose import differs from what was meant: none, unless an extension says something that the writers do not know of.
+// Reports records that would be read back differently: only possible if an unknown extension changes them.
 template <class T> void report_differences(const char* what, const Table<T>& read, const Table<T>& wanted, std::vector<Diagnostic>& found) {
     for (const Id<T> id : Table<T>::changed(read, wanted)) {
         const T* record = wanted.find(id);
-        found.push_back({Diagnostic::Severity::warning,
-                         fmt::format("{} \"{}\" will not be read as it is", what, record ? record->name : std::to_string(id.value)), ""});
+        found.push_back(
+            {Diagnostic::Severity::warning,
+             fmt::format("{} \"{}\" will be read back differently", what, record ? record->name : std::to_string(id.value)), ""});
     }
 }
 
 void report_differences(const Scene& read, Scene wanted, std::vector<Diagnostic>& found) {
-    // Read without triangles, pixels, places of copies and measured distributions.
+    // Read back without triangles, pixels, instance transforms and IES profiles.
     for (const auto& [id, node] : Table<Node>(wanted.nodes)) {
         Node flat = node;
         flat.instances = nullptr;
@@ -229,8 +231,8 @@ Result<EditedGltf> edited_gltf(const GltfOrigin& origin, const Project& project)
     if (const int unused = remove_unused(document, used_before, counts_before))
         edited.diagnostics.push_back(
             {Diagnostic::Severity::note,
-             fmt::format("{} objects without a use stay in the file: it has extensions that may refer to them", unused), ""});
-    // Meshes that no node uses are not imported, even where they had to stay.
+             fmt::format("{} unused objects stay in the file: it has unknown extensions that may refer to them", unused), ""});
+    // Unused meshes are not imported, even if they had to stay in the document.
     std::erase_if(document.indices.meshes, [&](const auto& entry) { return !used.meshes.contains(entry.first); });
     write_ids(document);
     const Result<ImportedScene> plain = read_back(document);

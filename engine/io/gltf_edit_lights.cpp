@@ -13,7 +13,7 @@ namespace {
 
 using List = GltfLight::List;
 
-// As the importer gives it from the document alone, without the measured distribution itself.
+// The light as read from the document alone, without the data of its IES profile.
 bool has_changed(const Scene& read, Id<Light> id, Light light) {
     light.ies = nullptr;
     const Light* before = read.lights.find(id);
@@ -28,7 +28,7 @@ void append_profile(GltfDocument& document, Id<Light> id, Json profile, float pe
     document.indices.profile_peaks[index] = peak;
 }
 
-// Lights that differ in nothing but what their nodes say share a profile's entry. Once one of them is edited each gets its own.
+// Lights that differ only in values stored at their nodes share a profile entry. After an edit of one, each gets its own entry.
 void part_profiles(GltfDocument& document, const Scene& read, const Scene& scene, const UsedRecords& used) {
     const auto is_measured = [](const auto& entry) { return entry.second.list == List::measured; };
     const bool edited = std::ranges::any_of(document.indices.lights, [&](const auto& entry) {
@@ -44,7 +44,7 @@ void part_profiles(GltfDocument& document, const Scene& read, const Scene& scene
     }
 }
 
-// The entry that a light's profile has or may have: its file, or what another light with the same one has in this document.
+// Entry of a light's profile: by its file, or the entry of another light with the same profile.
 std::optional<Json> profile_entry(GltfDocument& document, const Scene& scene, const Light& light) {
     Json entry{{"name", light.name}};
     if (!light.ies_file.empty()) return entry;
@@ -58,7 +58,7 @@ std::optional<Json> profile_entry(GltfDocument& document, const Scene& scene, co
     return std::nullopt;
 }
 
-// Where the light belongs; there already, or appended.
+// Index of the light in its list, appended if missing.
 GltfLight place(GltfDocument& document, const Scene& scene, Id<Light> id, const Light& light, std::vector<Diagnostic>& lost) {
     const auto now = document.indices.lights.find(id);
     const auto there = [&](List list) { return now != document.indices.lights.end() && now->second.list == list; };
@@ -70,8 +70,9 @@ GltfLight place(GltfDocument& document, const Scene& scene, Id<Light> id, const 
         }
     }
     if (light.ies && light.ies_file.empty())
-        lost.push_back({Diagnostic::Severity::warning,
-                        fmt::format("the measured distribution of light \"{}\" is not saved: it came inside of a document", light.name), ""});
+        lost.push_back(
+            {Diagnostic::Severity::warning,
+             fmt::format("the IES profile of light \"{}\" is not saved: it was embedded in another document", light.name), ""});
     const List list = list_for(light.kind);
     if (there(list)) return now->second;
     return document.indices.lights[id] = {list, document.append(list_name(list), Json{{"name", light.name}})};
@@ -81,7 +82,7 @@ GltfLight place(GltfDocument& document, const Scene& scene, Id<Light> id, const 
 
 void write_lights(GltfDocument& document, const Scene& read, const Scene& scene, const UsedRecords& used, std::vector<Diagnostic>& lost) {
     part_profiles(document, read, scene, used);
-    // They are there by being used.
+    // IES lights exist only through the nodes that use them.
     std::erase_if(document.indices.lights,
                   [&](const auto& entry) { return entry.second.list == List::measured && !used.lights.contains(entry.first); });
     for (const auto& [id, light] : scene.lights) {

@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: the lights of an edited scene in the lists of their extensions.
+// Internal to gltf_*.cpp: writes the lights of an edited scene into the lists of their extensions.
 #pragma once
 
 #include "io/gltf_document.h"
@@ -8,8 +8,8 @@
 
 namespace blush {
 
-// Each light in the list of its kind, and what has changed of it since it was `read`. A light whose distribution came inside of another
-// document cannot take it along: `lost` says so.
+// Puts each light into the list of its kind and writes what differs from `read`. The IES profile of a light that was embedded in
+// another document cannot be saved: reported in `lost`.
 void write_lights(GltfDocument& document, const Scene& read, const Scene& scene, const UsedRecords& used, std::vector<Diagnostic>& lost);
 
 } // namespace blush

@@ -1,4 +1,4 @@
-// What this version makes of each glTF extension.
+// Support table of glTF extensions.
 #pragma once
 
 #include <string_view>
@@ -9,13 +9,13 @@ namespace blush {
 struct ExtensionSupport {
     enum class Kind { honoured, approximated, ignored };
     Kind kind = Kind::ignored;
-    std::string_view why; // what is approximate, or what the picture lacks
+    std::string_view why; // what is approximated or missing
 };
 
-// Unknown names are ignored, with a general reason.
+// Unknown extensions are `ignored`, with a generic reason.
 ExtensionSupport extension_support(std::string_view name);
 
-// Those that this version has something to say about.
+// Extensions with an entry in the table.
 std::vector<std::string_view> known_extensions();
 
 } // namespace blush

@@ -5,7 +5,7 @@ namespace {
 
 constexpr size_t most_values = 10000; // in the fields of one record
 
-// Values inside of `json`, counted no further than to `limit`. Nesting is limited before this is asked.
+// Number of values inside `json`, counted up to `limit`. Recursion is safe: nesting is limited before.
 size_t values_in(const ParsedGltf& json, size_t limit) {
     size_t count = 1;
     if (!json.is_structured()) return count;
@@ -48,7 +48,7 @@ Json blush_fields(const GltfContext& context, const ParsedGltf& object, const ch
     const ParsedGltf& fields = gltf_member(blush_extras(object), key);
     if (fields.is_null()) return {};
     if (!fields.is_object() || values_in(fields, most_values) >= most_values) {
-        context.warn("ignored: not an object, or more in it than any record needs", where);
+        context.warn("ignored: not an object, or too large", where);
         return {};
     }
     return Json(fields);

@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: what glTF cannot say of a record, in `extras.blush` of its object.
+// Internal to gltf_*.cpp: reads properties without a glTF equivalent from `extras.blush` of an object.
 //
 //   "id": 7                                              the record's id, where counting would give another
 //   "fields": {"kind": "rectangle", "two_sided": true}   members by the names of scene_fields.h
@@ -15,9 +15,9 @@
 
 namespace blush {
 
-using ParsedGltf = nlohmann::json; // unordered: a hostile file cannot make looking things up slow
+using ParsedGltf = nlohmann::json; // a hash or tree map: lookups stay fast for hostile files
 
-// Members and elements, or null where there is none of that name, that index or that type.
+// Member or element; JSON null if missing or of the wrong type.
 const ParsedGltf& gltf_member(const ParsedGltf& object, std::string_view key);
 const ParsedGltf& gltf_element(const ParsedGltf& list, size_t index);
 // root[list][index]
@@ -28,17 +28,17 @@ inline const ParsedGltf& gltf_item(const ParsedGltf& root, std::string_view list
 const ParsedGltf& gltf_light(const ParsedGltf& root, std::string_view extension, size_t index);
 
 const ParsedGltf& blush_extras(const ParsedGltf& object);
-// 0: none.
+// The id that extras.blush.id asks for; 0: none.
 uint32_t wanted_id(const ParsedGltf& object);
 bool is_fallback(const ParsedGltf& object);
 
-// extras.blush[key], small enough to be read field by field; null if absent or, with a warning, absurdly large.
+// extras.blush[key]; null if absent or, with a warning, too large.
 Json blush_fields(const GltfContext& context, const ParsedGltf& object, const char* key, const std::string& where);
 
 template <class T> inline constexpr bool is_id = false;
 template <class T> inline constexpr bool is_id<Id<T>> = true;
 
-// Sets the fields that `json` names. References between records are not read: the document itself says them.
+// Sets the fields that `json` contains. Ids are skipped: the glTF document holds the references.
 template <Fielded T> void read_extra_fields(const GltfContext& context, const Json& json, T& record, const std::string& where) {
     if (!json.is_object()) return;
     size_t known = 0;
@@ -59,7 +59,7 @@ template <Fielded T> void read_extra_fields(const GltfContext& context, const Js
     if (known < json.size()) context.note(fmt::format("ignored: {} members that this version does not know", json.size() - known), where);
 }
 
-// extras.blush.fields of an object, applied to what the rest of it says. Values that make no sense leave the record as it was.
+// Applies extras.blush.fields of an object to a record. Ignores all of them, with a warning, if the result is not valid.
 template <Fielded T> void read_extras(const GltfContext& context, const ParsedGltf& object, T& record, const std::string& where) {
     const std::string fields_where = where + ".extras.blush.fields";
     const Json fields = blush_fields(context, object, "fields", fields_where);
@@ -72,7 +72,7 @@ template <Fielded T> void read_extras(const GltfContext& context, const ParsedGl
         context.warn("ignored: " + valid.error().what, fields_where);
 }
 
-// What read_extra_fields needs to make `wanted` of `read`, both as to_json gives them: empty if nothing.
+// The fields in which `wanted` differs from `read` (both from to_json), as input of read_extra_fields; empty if none.
 Json extra_fields(const Json& read, const Json& wanted);
 
 } // namespace blush

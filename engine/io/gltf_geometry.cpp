@@ -32,7 +32,7 @@ Vec4 element(const FloatArray& a, size_t i, Vec4*) {
     return {v[0], v[1], v[2], a.components == 4 ? v[3] : 1.0f};
 }
 
-// One attribute as vectors, empty if the primitive has none.
+// Reads an attribute as vectors; empty if the primitive does not have it.
 template <class V>
 Result<PlacedVector<V>> read_attribute(const GltfContext& context, const tinygltf::Primitive& primitive, const std::string& name, int min_components,
                                        int max_components, const std::string& where) {
@@ -42,7 +42,7 @@ Result<PlacedVector<V>> read_attribute(const GltfContext& context, const tinyglt
     const Result<FloatArray> array = read_floats(context, it->second, min_components, max_components, where + "." + name);
     if (!array) return array.error();
     PlacedVector<V> vectors;
-    vectors.reserve(array->count() + 1); // positions with room behind them are shared with the ray tracer (AccelTriangles)
+    vectors.reserve(array->count() + 1); // Embree needs padding behind shared positions (AccelTriangles)
     vectors.resize(array->count());
     for (size_t i = 0; i < vectors.size(); ++i) vectors[i] = element(*array, i, static_cast<V*>(nullptr));
     return vectors;
@@ -116,7 +116,7 @@ Result<std::vector<uint32_t>> vertex_order(const GltfContext& context, const tin
     return order;
 }
 
-// Drops triangles with a non-finite corner, and makes the vertices that nobody uses any more harmless.
+// Removes triangles with a non-finite corner, and sets the vertices that become unused to finite values.
 Result<void> drop_non_finite_triangles(const GltfContext& context, Geometry& g, const std::string& where) {
     if (std::ranges::all_of(g.positions, [](const Vec3& p) { return finite(p); })) return {};
     auto kept = g.indices.begin();
@@ -132,7 +132,7 @@ Result<void> drop_non_finite_triangles(const GltfContext& context, Geometry& g, 
     return {};
 }
 
-// Twice the triangle's area along its normal.
+// Face normal scaled by twice the area.
 Vec3d area_normal(const Geometry& g, size_t triangle) {
     const Vec3d a = to_double(g.positions[g.indices[3 * triangle]]);
     return cross(to_double(g.positions[g.indices[3 * triangle + 1]]) - a, to_double(g.positions[g.indices[3 * triangle + 2]]) - a);
@@ -155,7 +155,7 @@ void make_flat(Geometry& g) {
     unweld(g.positions);
     for (PlacedVector<Vec2>& uv : g.uv) unweld(uv);
     unweld(g.colors);
-    g.tangents.clear(); // of normals that are not there: the specification says to ignore them
+    g.tangents.clear(); // the specification requires tangents without normals to be ignored
     std::iota(g.indices.begin(), g.indices.end(), 0u);
     g.normals.resize(g.indices.size());
     g.flat = true;
@@ -163,7 +163,7 @@ void make_flat(Geometry& g) {
         std::fill_n(g.normals.begin() + std::ptrdiff_t(3 * t), 3, unit_or_up(area_normal(g, t)));
 }
 
-// Normals that are zero or non-finite are replaced by the mean of the triangles around, weighted by area.
+// Replaces zero and non-finite normals by the area-weighted mean of the adjacent face normals.
 void repair_normals(const GltfContext& context, Geometry& g, const std::string& where) {
     const auto usable = [](const Vec3& n) { return finite(n) && length(to_double(n)) > 1e-12; };
     const auto bad = size_t(std::count_if(g.normals.begin(), g.normals.end(), [&](const Vec3& n) { return !usable(n); }));
@@ -176,14 +176,14 @@ void repair_normals(const GltfContext& context, Geometry& g, const std::string& 
         }
     for (size_t i = 0; i < sums.size(); ++i)
         if (!usable(g.normals[i])) g.normals[i] = unit_or_up(sums[i]);
-    context.warn(fmt::format("{} normals without a direction computed from the triangles around them", bad), where);
+    context.warn(fmt::format("{} zero or non-finite normals replaced by those of adjacent triangles", bad), where);
 }
 
 void provide_tangents(const GltfContext& context, Geometry& g, int uv_set, const std::string& where) {
     const bool usable = !g.tangents.empty() && std::all_of(g.tangents.begin(), g.tangents.end(), [](const Vec4& t) {
         return finite(t) && t.x * t.x + t.y * t.y + t.z * t.z > 0;
     });
-    if (!usable && !g.tangents.empty()) context.warn("tangents without a direction", where);
+    if (!usable && !g.tangents.empty()) context.warn("tangents of zero or non-finite length", where);
     if (!usable) g.tangents.clear();
     size_t sides = 0;
     for (Vec4& t : g.tangents) {
@@ -191,24 +191,27 @@ void provide_tangents(const GltfContext& context, Geometry& g, int uv_set, const
         t.w = t.w < 0 ? -1.0f : 1.0f;
         ++sides;
     }
-    if (sides) context.warn(fmt::format("{} tangents whose handedness is neither 1 nor -1; the one with its sign is used", sides), where);
+    if (sides) context.warn(fmt::format("{} tangents have a handedness other than 1 or -1; its sign is used", sides), where);
     if (usable || uv_set < 0) return;
     if (!g.has_uv_set(uv_set)) {
-        context.warn("a normal map, but no texture coordinates to place it: it has no effect", where);
+        context.warn("the normal map has no effect: the primitive lacks its texture coordinates", where);
         return;
     }
     add_tangents(g, uv_set);
     context.note("tangents are missing: computed from texture coordinates as MikkTSpace does", where);
     if (!g.targets.empty() || !g.influences.empty())
-        context.note("approximated: tangents that were computed bend with the shape, instead of being computed of each anew", where);
+        context.note("approximated: generated tangents are deformed with the mesh instead of being recomputed for each pose",
+                     where);
 }
 
 GeometryPtr solids(const GltfContext& context, const Geometry& vertices, const std::vector<uint32_t>& order, int mode, const std::string& where) {
     Solids made = solids_of(vertices, order, mode);
     const char* what = mode == TINYGLTF_MODE_POINTS ? "points" : "lines";
-    if (made.left_out > 0) context.warn(fmt::format("ignored: {} {} that are nowhere, of no length or too many", made.left_out, what), where);
+    if (made.left_out > 0)
+        context.warn(fmt::format("ignored: {} {} that are not finite, of zero length or beyond the limit", made.left_out, what),
+                     where);
     if (made.shown == 0) return {};
-    context.note(fmt::format("approximated: {} {} as {} of radius {:.3g}: they have no surface of their own", made.shown, what,
+    context.note(fmt::format("approximated: {} {} shown as {} of radius {:.3g}, since they have no surface", made.shown, what,
                              mode == TINYGLTF_MODE_POINTS ? "balls" : "tubes", made.radius),
                  where);
     place_arrays(made.geometry);
@@ -226,7 +229,7 @@ void report_ignored(const GltfContext& context, const tinygltf::Primitive& primi
         if (name.starts_with("_") || name.starts_with("TEXCOORD_") || name.starts_with("COLOR_"))
             context.note(what, where);
         else
-            context.warn(what + ", which glTF does not know", where);
+            context.warn(what + ", which is not a glTF attribute", where);
     }
 }
 
@@ -247,7 +250,7 @@ Result<GeometryPtr> import_primitive(const GltfContext& context, const tinygltf:
     if (!order) return order.error();
     if (primitive.mode < TINYGLTF_MODE_TRIANGLES) return solids(context, g, *order, primitive.mode, where);
     if (primitive.mode == TINYGLTF_MODE_TRIANGLES && order->size() % 3 != 0)
-        context.warn("the last triangle lacks a corner and is left out", where);
+        context.warn("the last triangle is incomplete and is skipped", where);
     g.indices = triangulate(*order, primitive.mode);
     if (g.indices.empty()) {
         context.warn("ignored: a primitive without triangles", where);

@@ -16,11 +16,11 @@ using nlohmann::json;
 enum class Kind { text, boolean, number, natural };
 
 struct Member {
-    const char *list, *path; // path: as a JSON pointer into an element of the list
+    const char *list, *path; // path: JSON pointer within an element of the list
     Kind kind;
 };
 
-// Those that can be read as absent; of others the parser has something to say itself.
+// Members that are read as absent if invalid; the parser reports the others.
 constexpr std::array members{
     Member{"nodes", "/name", Kind::text},
     Member{"nodes", "/mesh", Kind::natural},
@@ -86,7 +86,7 @@ void report_member(const GltfContext& context, const json& object, const Member&
         context.warn(fmt::format("'{}' is not {}; its default is used", path.back(), name_of(member.kind)), where);
 }
 
-// Of all objects but what is the user's own.
+// Visits all objects except extras.
 void collect_extensions(const json& value, std::set<std::string>& names) {
     for (const auto& [key, member] : value.items()) {
         if (!member.is_structured() || (value.is_object() && key == "extras")) continue;
@@ -116,11 +116,11 @@ void report_grammar(const GltfContext& context) {
     const json& nodes = array_of(root, "nodes");
     for (size_t n = 0; n < nodes.size(); ++n)
         if (nodes[n].contains("matrix") && (nodes[n].contains("translation") || nodes[n].contains("rotation") || nodes[n].contains("scale")))
-            context.warn("a matrix, and translation, rotation or scale: the matrix is used", fmt::format("nodes[{}]", n));
+            context.warn("has a matrix and also translation, rotation or scale: the matrix is used", fmt::format("nodes[{}]", n));
     const json& meshes = array_of(root, "meshes");
     for (size_t m = 0; m < meshes.size(); ++m) {
         const json& primitives = array_of(meshes[m], "primitives");
-        if (primitives.empty()) context.warn("a mesh without primitives", fmt::format("meshes[{}]", m));
+        if (primitives.empty()) context.warn("the mesh has no primitives", fmt::format("meshes[{}]", m));
         for (size_t p = 0; p < primitives.size(); ++p)
             for (const Member& member : members_of_primitives)
                 report_member(context, primitives[p], member, json::json_pointer(member.path), fmt::format("meshes[{}].primitives[{}]", m, p));

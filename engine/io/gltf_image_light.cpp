@@ -23,7 +23,7 @@ const ParsedGltf& light_of(const ParsedGltf& root, const ParsedGltf& gltf_scene)
     return index.is_number_unsigned() ? gltf_light(root, extension, index.get<size_t>()) : null;
 }
 
-// The file's quaternion; no rotation where it has none that means one.
+// The rotation of the file; identity if missing or invalid.
 Quat rotation_of(const ParsedGltf& light) {
     Quat q;
     if (!read_json(Json(gltf_member(light, "rotation")), std::array{&q.x, &q.y, &q.z, &q.w})) return {};
@@ -33,7 +33,7 @@ Quat rotation_of(const ParsedGltf& light) {
 }
 bool is_about_y(const Quat& q) { return q.x == 0 && q.z == 0; }
 
-// 8-bit values are sRGB. Those with four channels are RGBD: divided by the fourth they may exceed 1.
+// 8-bit values are sRGB. Four channels are RGBD: RGB divided by D, which may exceed 1.
 Result<ImagePtr> read_face(const GltfContext& context, const ParsedGltf& index) {
     const size_t images = context.model().images.size();
     if (!index.is_number_unsigned() || index.get<size_t>() >= images) return Error{"", fmt::format("an image that does not exist; there are {}", images), ""};

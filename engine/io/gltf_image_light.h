@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: EXT_lights_image_based, an environment as a cube map that is filtered for programs that cannot trace rays.
+// Internal to gltf_*.cpp: EXT_lights_image_based, an environment as a cube map that is prefiltered for rasterizers.
 #pragma once
 
 #include "io/gltf_document.h"
@@ -6,13 +6,13 @@
 
 namespace blush {
 
-// The environment that a glTF scene names: the sharpest level of the cube, as a lat-long map without a file's name. A turn about +Y becomes the
-// map's rotation, any other is in its pixels. Without one, or, with a warning, where it cannot be read, no environment. Of a document that is
-// being saved: without pixels.
+// The environment of a glTF scene: the finest mip level of the cube as a lat-long map without a file name. A rotation about +Y
+// becomes the environment's rotation; any other is baked into the pixels. Returns no environment if the scene has none or, with a
+// warning, if it cannot be read. Without pixels for a document that is being saved.
 Environment import_image_light(const GltfContext& context, const nlohmann::json& gltf_scene, const std::string& where);
 
-// Into the image-based light of the scene that is shown, what has changed of it since it was `read`, as far as it can say that. If the
-// environment is another one by now, the scene names it no more.
+// Writes the changes since `read` into the image-based light of the default scene, as far as the extension can express them. If
+// the environment was replaced, removes the reference from the scene.
 void write_image_light(GltfDocument& document, const Environment& read, const Environment& wanted);
 
 } // namespace blush

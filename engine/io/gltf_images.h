@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: which images textures show, and where their bytes are.
+// Internal to gltf_*.cpp: finds the image of a texture and its encoded bytes.
 #pragma once
 
 #include "io/gltf_source.h"
@@ -8,12 +8,12 @@
 
 namespace blush {
 
-// The bytes of an image's file, none if that is missing. `index` must be that of an image. Errors: a buffer view that is none.
+// The encoded bytes of an image; empty if its file is missing. `index` must be valid. Errors: a buffer view that does not exist.
 Result<std::span<const uint8_t>> encoded_image(const GltfContext& context, size_t index);
-// Index of the image that a texture shows, as far as the file can be trusted; -1: none that can be decoded. EXT_texture_webp goes before the
-// PNG or JPEG that stands in for it.
+// Index of a texture's image (not range-checked); -1: none that can be decoded. Prefers EXT_texture_webp to the PNG or JPEG
+// fallback.
 int texture_image(const GltfContext& context, size_t texture);
-// What to call it in messages.
+// Name for messages.
 std::string image_name(const GltfContext& context, size_t index);
 
 } // namespace blush

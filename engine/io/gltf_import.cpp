@@ -30,7 +30,7 @@
 namespace blush {
 namespace {
 
-// By id, the places of those that are not none.
+// Maps each id that is not none to its index.
 template <class T> std::map<Id<T>, int> indices_of(const std::vector<Id<T>>& ids) {
     std::map<Id<T>, int> indices;
     for (size_t i = 0; i < ids.size(); ++i)
@@ -38,7 +38,7 @@ template <class T> std::map<Id<T>, int> indices_of(const std::vector<Id<T>>& ids
     return indices;
 }
 
-// What saving wrote beside the scene. Settings that make no sense are left as they are.
+// Reads the data that saving wrote besides the scene. Invalid settings are ignored.
 template <class Settings>
 std::optional<Settings> saved_settings(const GltfContext& context, const nlohmann::json& gltf_scene, const char* key,
                                        Result<ParsedSettings<Settings>> (*parse)(std::string_view, const Settings&)) {
@@ -75,7 +75,7 @@ Result<void> import_scene_extras(const GltfContext& context, size_t index, Impor
     return {};
 }
 
-// All but what comes from pixels.
+// Converts everything that does not need pixels.
 Result<void> convert(const GltfContext& context, const std::vector<int>& nodes, const TextureImport& textures, ImportedScene& imported) {
     Scene& scene = imported.scene;
     GltfIndices& indices = imported.origin.indices;
@@ -114,7 +114,7 @@ Result<void> convert(const GltfContext& context, const std::vector<int>& nodes, 
     return {};
 }
 
-// What is known once there are pixels, of a scene that has been converted without.
+// Completes a scene that was converted without pixels.
 Result<void> take_pixels(const GltfContext& context, const TextureImport& textures, ImportedScene& imported) {
     Scene& scene = imported.scene;
     scene.textures = {};
@@ -146,8 +146,8 @@ Result<void> convert_gltf(const GltfContext& context, ImportedScene& imported) {
         context.options.on_untextured(shown);
     }
     if (const auto ok = textures->finish(context); !ok) return ok;
-    if (!textures->are_as_promised()) { // meshes have been made for some that cannot be decoded
-        ImportOptions silent = context.options; // it was said how far that is
+    if (!textures->are_as_promised()) { // meshes were converted for textures that cannot be decoded
+        ImportOptions silent = context.options; // progress was reported already
         silent.on_progress = {};
         scene = {};
         converted = convert({context.source, silent, scene.report, context.known}, *nodes, *textures, scene);

@@ -1,4 +1,4 @@
-// Which object of a glTF document each record of a scene was read from: what saving needs to write it back there.
+// Maps the records of a scene to the objects of its glTF document, so that saving writes them back there.
 #pragma once
 
 #include "scene/scene.h"
@@ -11,8 +11,8 @@
 
 namespace blush {
 
-// Lights are in the list of one of three extensions: KHR_lights_punctual, EXT_lights_area or, those with a measured distribution,
-// EXT_lights_ies. Of the last, several may be at one index: nodes say in which strength and colour.
+// A light is in the list of one of three extensions: KHR_lights_punctual, EXT_lights_area or, with an IES profile,
+// EXT_lights_ies. Several lights may share an index of EXT_lights_ies, since nodes hold the strength and colour.
 struct GltfLight {
     enum class List : uint8_t { punctual, area, measured };
     List list = List::punctual;
@@ -29,12 +29,12 @@ struct GltfIndices {
     std::map<Id<Skin>, int> skins;
     std::map<Id<Clip>, int> clips;
     std::map<Id<Light>, GltfLight> lights;
-    std::map<int, float> profile_peaks; // by index in EXT_lights_ies: the largest candela of those profiles that were read
-    ImagePtr image_light; // the scene's environment as EXT_lights_image_based has it; null: it has none that is shown
-    std::map<Id<Mesh>, std::vector<int>> primitives; // of each part of a mesh: primitives without triangles are no parts
+    std::map<int, float> profile_peaks; // by index in EXT_lights_ies: peak candela of each profile that was read
+    ImagePtr image_light; // environment of EXT_lights_image_based; null if none is used
+    std::map<Id<Mesh>, std::vector<int>> primitives; // of each part of a mesh; primitives without triangles have no part
 };
 
-// The other way round, none where a record is not in the scene. `count` objects.
+// Inverse map for `count` objects; none for objects without a record.
 template <class T> std::vector<Id<T>> ids_by_index(const std::map<Id<T>, int>& indices, size_t count) {
     std::vector<Id<T>> ids(count);
     for (const auto& [id, index] : indices)
@@ -42,12 +42,12 @@ template <class T> std::vector<Id<T>> ids_by_index(const std::map<Id<T>, int>& i
     return ids;
 }
 
-// The document that a scene came from. Copies are cheap.
+// The document that a scene was read from. Copies are cheap.
 struct GltfOrigin {
     std::filesystem::path file;
-    std::shared_ptr<const std::string> json; // its text, as it was read
+    std::shared_ptr<const std::string> json; // its text as read
     GltfIndices indices;
-    // Triangles, pixels and places of copies that the document has already.
+    // Triangles, pixels and instance transforms that the document holds already.
     Table<Mesh> meshes;
     Table<Texture> textures;
     Table<Node> nodes;

@@ -21,7 +21,7 @@ struct Attribute {
 };
 constexpr Attribute attributes[] = {{"TRANSLATION", 3, {0, 0, 0}}, {"ROTATION", 4, {0, 0, 0, 1}}, {"SCALE", 3, {1, 1, 1}}};
 
-// By attribute; those that are absent are empty.
+// By attribute; empty if absent.
 using Arrays = std::array<FloatArray, std::size(attributes)>;
 
 Result<Arrays> read_arrays(const GltfContext& context, const GltfObject& object) {
@@ -37,7 +37,7 @@ Result<Arrays> read_arrays(const GltfContext& context, const GltfObject& object)
     return arrays;
 }
 
-// An accessor without bytes costs the file nothing and says that everything is at one place.
+// An accessor without bytes puts all instances at one point and takes no space in the file.
 bool has_bytes(const GltfContext& context, const GltfObject& object) {
     return std::ranges::any_of(attributes, [&](const Attribute& a) {
         const int index = object.has(a.name) ? object.integer(a.name).value_or(-1) : -1;

@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: EXT_mesh_gpu_instancing, many copies of a node's mesh by arrays of translations, rotations and scales.
+// Internal to gltf_*.cpp: EXT_mesh_gpu_instancing, instances of a node's mesh from arrays of translations, rotations and scales.
 #pragma once
 
 #include "io/gltf_document.h"
@@ -6,15 +6,15 @@
 
 namespace blush {
 
-// Copies of meshes in one file, each counted once for every primitive: beyond, a small file would ask for all the memory there is.
+// Limit of instances in a file, counted per primitive, since a small file could ask for any amount of memory.
 constexpr uint64_t most_instances = uint64_t(1) << 23;
 
-// Where the copies of a node's mesh are; null if the node has none of the extension, or if all that it says is that they are where the node
-// is. Copies that are nowhere (NaN, infinite) are left out with a warning, attributes of the user's own (`_ID`) reported as ignored.
-// Errors: an accessor out of range or of the wrong type, attributes of unlike lengths.
+// Transforms of the instances of a node's mesh; null if the node lacks the extension or all instances are at the node. Non-finite
+// instances are skipped with a warning; custom attributes (`_ID`) are reported as ignored. Errors: an accessor out of range or of
+// the wrong type, attributes of different lengths.
 Result<InstancesPtr> import_instances(const GltfContext& context, const tinygltf::Node& node, const std::string& where);
 
-// What the document says of a node becomes `now`; it has `had` already.
+// Changes the instances of a node in the document from `had` to `now`.
 void write_instances(GltfDocument& document, Json& object, const InstancesPtr& had, const InstancesPtr& now);
 
 } // namespace blush

@@ -1,4 +1,4 @@
-// What must hold of a glTF's JSON before a parser that trusts its input may see it.
+// Checks the JSON of a glTF file before tinygltf, which trusts its input, parses it.
 #pragma once
 
 #include "core/result.h"
@@ -17,15 +17,15 @@ namespace blush {
 // The JSON text of a .gltf (the whole file) or a .glb (its first chunk, header and chunk lengths checked).
 Result<std::string_view> gltf_json_text(std::span<const uint8_t> file_bytes);
 
-// The second chunk of a .glb whose chunks gltf_json_text has accepted; empty if it has none or is a .gltf.
+// The binary chunk of a .glb that gltf_json_text has accepted; empty if there is none or for a .gltf.
 std::span<const uint8_t> glb_binary(std::span<const uint8_t> file_bytes);
 
-// A .glb of both chunks, the second left out if it is empty; empty for more than a GLB can hold (glTF 2.0, 4.4).
+// A .glb of both chunks; an empty binary chunk is omitted. Empty if too large for a GLB (glTF 2.0, 4.4).
 std::vector<uint8_t> glb_bytes(std::string text, std::vector<uint8_t> binary);
 
-// The parsed text. Errors, each with its JSON path: nested too deeply for a recursive reader, an object of more members than one that keeps
-// their order can look up in reasonable time, not JSON, not glTF 2.x, a required extension that is not supported, a buffer or image whose
-// URI is not a file in or below `folder`.
+// Parses the text. Errors, each with its JSON path: nesting too deep for a recursive parser, an object with too many members for
+// linear lookup, not JSON, not glTF 2.x, a required extension that is not supported, a buffer or image whose URI is not a file in
+// or below `folder`.
 Result<nlohmann::json> check_gltf_json(std::string_view text, const std::filesystem::path& folder);
 
 } // namespace blush

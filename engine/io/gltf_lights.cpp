@@ -53,11 +53,11 @@ void read_map(const GltfContext& context, const std::filesystem::path& file, Env
         environment.image = *image;
         return;
     }
-    context.warn("environment map not read, its colour is used alone: " + image.error().what, where);
+    context.warn("environment map not read, its colour is used instead: " + image.error().what, where);
     environment.kind = Environment::Kind::constant;
 }
 
-// The measured distribution that extras name, in or below the scene's folder; without it the light shines as it would with none.
+// Reads the IES profile that extras name, in or below the scene's folder. If it cannot be read, the light has no profile.
 void read_profile(const GltfContext& context, Light& light, const std::string& where) {
     if (light.ies_file.empty() || context.known) return;
     const auto file = resolve_uri(context.source.folder, light.ies_file);
@@ -65,7 +65,7 @@ void read_profile(const GltfContext& context, Light& light, const std::string& w
     if (profile)
         light.ies = *profile;
     else
-        context.warn("measured distribution not read: " + profile.error().text(), where);
+        context.warn("IES profile not read: " + profile.error().text(), where);
 }
 
 std::optional<Light> read_punctual(const GltfContext& context, size_t i) {
@@ -82,14 +82,14 @@ std::optional<Light> read_punctual(const GltfContext& context, size_t i) {
     light.color = checked(context, source.color, {1, 1, 1}, 0, any_float, where + ".color");
     light.intensity = checked(context, source.intensity, 1, 0, any_float, where + ".intensity");
     if (*kind == Light::Kind::spot) read_cone(context, source.spot, light, where);
-    if (source.range != 0) context.note("ignored: the light's range; light falls off with the square of the distance for ever", where);
+    if (source.range != 0) context.note("ignored: the light's range; light falls off with the square of the distance", where);
     read_legacy_extras(GltfObject(context, source.extras, where + ".extras").object("blush"), light);
     read_extras(context, gltf_light(context.json(), "KHR_lights_punctual", i), light, where);
     read_profile(context, light, where);
     return light;
 }
 
-// EXT_lights_area is a draft of Khronos's: https://github.com/KhronosGroup/glTF/pull/2525
+// EXT_lights_area is a Khronos draft: https://github.com/KhronosGroup/glTF/pull/2525
 std::optional<Light> read_area(const GltfContext& context, const ParsedGltf& source, size_t i) {
     const std::string where = fmt::format("extensions.EXT_lights_area.lights[{}]", i);
     const auto number = [&](const ParsedGltf& object, const char* key, double otherwise) {
@@ -166,7 +166,7 @@ Result<Environment> import_environment(const GltfContext& context, const ParsedG
     const std::string where = scene_where + ".extras.blush.environment";
     Environment environment = otherwise;
     read_extra_fields(context, blush_fields(context, gltf_scene, "environment", where), environment, where);
-    // Its image is read only now, and only if the rest makes sense.
+    // The image is read last, and only if the rest is valid.
     const Environment::Kind kind = std::exchange(environment.kind, Environment::Kind::none);
     if (const auto valid = validate(environment); !valid) {
         context.warn("ignored: " + valid.error().what, where);

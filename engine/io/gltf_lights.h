@@ -1,4 +1,5 @@
-// Internal to gltf_*.cpp: KHR_lights_punctual, EXT_lights_area, EXT_lights_ies, and what extras.blush adds to them.
+// Internal to gltf_*.cpp: imports lights of KHR_lights_punctual, EXT_lights_area and EXT_lights_ies with extras.blush, and the
+// environment.
 #pragma once
 
 #include "io/gltf_measured_lights.h"
@@ -7,18 +8,18 @@
 
 namespace blush {
 
-// Ids of the lights in the lists of the extensions, and of those with a measured distribution; none for what cannot be shown.
+// Ids of the lights in the lists of the extensions; none for lights that are not supported.
 struct LightIds {
     std::vector<Id<Light>> punctual, area, measured;
     MeasuredLights measured_as;
 };
-// `nodes`: indices of those that are shown. Errors: as of read_measured_lights.
+// `nodes`: indices of all nodes in scenes. Errors: as of read_measured_lights.
 Result<LightIds> import_lights(const GltfContext& context, const std::vector<int>& nodes, Scene& scene);
-// Where each of them is.
+// Records the list and index of each light.
 void index_lights(const LightIds& ids, GltfIndices& indices);
 
-// The environment as extras.blush.environment of a glTF scene changes it. Where it is an image without a file its pixels stay. A map that
-// cannot be read is a warning and leaves a constant of the same colour. Errors: its path leaves the scene's folder.
+// `otherwise` with the changes of extras.blush.environment of a glTF scene. An image without a file keeps its pixels. A map that
+// cannot be read is a warning and becomes a constant environment of the same colour. Errors: its path leaves the scene's folder.
 Result<Environment> import_environment(const GltfContext& context, const nlohmann::json& gltf_scene, const std::string& where,
                                        const Environment& otherwise);
 

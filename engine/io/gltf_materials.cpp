@@ -56,7 +56,8 @@ private:
         const GltfObject transform = extensions.object("KHR_texture_transform");
         uv_set = transform.integer("texCoord").value_or(uv_set);
         if (uv_set < 0 || uv_set > most_uv_set) {
-            context_.warn(fmt::format("ignored: a texture on TEXCOORD_{}; numbers reach from 0 to {}", uv_set, most_uv_set), where);
+            context_.warn(fmt::format("ignored: a texture on TEXCOORD_{}; UV sets range from 0 to {}", uv_set, most_uv_set),
+                          where);
             return ref;
         }
         ref.texture = textures_[size_t(index)];
@@ -67,12 +68,12 @@ private:
         ref.rotation_radians = transform.number("rotation", 0, -any_float, any_float);
         return ref;
     }
-    // Of tinygltf's TextureInfo and its kin.
+    // From tinygltf's TextureInfo and similar types.
     template <class Info> TextureRef texture(const Info& info, const char* key) {
         const std::string where = where_ + "." + key;
         return texture(info.index, info.texCoord, GltfObject(context_, info.extensions, where + ".extensions"), where);
     }
-    // Of a textureInfo inside an extension.
+    // From a textureInfo inside an extension.
     TextureRef texture(const GltfObject& info) {
         return info ? texture(info.integer("index").value_or(-1), info.integer("texCoord").value_or(0), info.object("extensions"),
                               info.where())
@@ -111,14 +112,15 @@ private:
 
     void read_emission(const GltfObject& extensions) {
         if (std::ranges::any_of(source_.emissiveFactor, [](double v) { return v > 1; }))
-            context_.warn("more than 1, which KHR_materials_emissive_strength is for; it is taken as it is", where_ + ".emissiveFactor");
+            context_.warn("above 1, which requires KHR_materials_emissive_strength; the value is used unchanged",
+                          where_ + ".emissiveFactor");
         material_.emissive = checked(context_, source_.emissiveFactor, {0, 0, 0}, 0, any_float, where_ + ".emissiveFactor");
         material_.emissive_texture = texture(source_.emissiveTexture, "emissiveTexture");
         material_.emissive_strength = extensions.object("KHR_materials_emissive_strength").number("emissiveStrength", 1, 0, any_float);
     }
 
     void read_dielectric(const GltfObject& extensions) {
-        // 0 stands for an infinite index (a mirror); everything else is at least that of a vacuum.
+        // 0 means an infinite index (a mirror); other values are at least 1 (vacuum).
         const float ior = extensions.object("KHR_materials_ior").number("ior", 1.5f, 0, 1000);
         material_.ior = ior == 0 ? 0 : checked(context_, ior, 1.5f, 1, 1000, where_ + ".extensions.KHR_materials_ior.ior");
         const GltfObject specular = extensions.object("KHR_materials_specular");
@@ -137,7 +139,7 @@ private:
         material_.attenuation_color = volume.vector3("attenuationColor", {1, 1, 1}, 0, 1);
         material_.attenuation_distance = volume.number("attenuationDistance", 0, 0, any_float);
         if (volume.has("attenuationDistance") && material_.attenuation_distance == 0)
-            context_.warn("light that goes no distance: nothing is absorbed", volume.where() + ".attenuationDistance");
+            context_.warn("an attenuation distance of 0: absorption is ignored", volume.where() + ".attenuationDistance");
         if (volume.has("thicknessTexture")) context_.note("ignored: thickness texture; light travels through the mesh itself", where_);
     }
 
@@ -184,9 +186,9 @@ private:
         material_.diffuse_transmission_color_texture = texture(diffuse.object("diffuseTransmissionColorTexture"));
     }
 
-    // The archived model as a dielectric of index 1.5 whose specular colour, which may exceed 1, makes up for F0. Its diffuse part is
-    // diffuse * (1 - max(specular)); with a texture of specular colours that factor is left out, for what is bright in it is dark in the
-    // diffuse texture already. Glossiness is an alpha channel, which no roughness texture can refer to.
+    // Converts the archived model to a dielectric of index 1.5 whose specular colour, which may exceed 1, gives the same F0. Its
+    // diffuse part is diffuse * (1 - max(specular)). With a specular texture that factor is omitted, since the diffuse texture is
+    // usually dark where the specular texture is bright. Glossiness is an alpha channel, which no roughness texture can refer to.
     void read_specular_glossiness(const GltfObject& model) {
         constexpr float f0 = 0.04f;
         const Vec3 specular = model.vector3("specularFactor", {1, 1, 1}, 0, 1);
@@ -206,7 +208,7 @@ private:
         material_.specular_color_texture = map;
     }
 
-    // 1 without an image or an alpha channel in it.
+    // Mean alpha; 1 without an image or alpha channel.
     float mean_alpha(const TextureRef& ref) const {
         const Texture* texture = pixels_.find(ref.texture);
         const Image* image = texture ? texture->image.get() : nullptr;
@@ -226,7 +228,7 @@ private:
     std::optional<Error> error_;
 };
 
-// A path tracer needs the far sides of walls: culled, they would let the light of the outdoors in.
+// A path tracer needs back faces of walls: culled ones would let light from outside in.
 void report_back_faces(const GltfContext& context) {
     const auto& materials = context.model().materials;
     const auto count = std::count_if(materials.begin(), materials.end(), [](const tinygltf::Material& m) { return !m.doubleSided; });

@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: materials and the extensions they carry.
+// Internal to gltf_*.cpp: imports materials and their extensions.
 #pragma once
 
 #include "io/gltf_source.h"
@@ -11,7 +11,7 @@ namespace blush {
 // Values outside of their range are clamped with a warning. Errors: a texture index out of range.
 Result<std::vector<Id<Material>>> import_materials(const GltfContext& context, const std::vector<Id<Texture>>& textures, Scene& scene);
 
-// Do some need the texels of their textures, beside their numbers?
+// True if the conversion of some material needs the texels of its textures.
 bool depend_on_pixels(const GltfContext& context);
 
 } // namespace blush

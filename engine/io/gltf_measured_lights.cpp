@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* extension = "EXT_lights_ies";
 
-// What a node says of its light.
+// Light properties of a node.
 struct Instance {
     int node = 0, profile = 0;
     float multiplier = 1;
@@ -30,7 +30,7 @@ std::string uri_of(const ParsedGltf& profile) {
 }
 
 Result<IesPtr> parse_embedded(const std::string& data_uri) {
-    // The parser decodes data of types that it knows.
+    // tinygltf decodes data URIs of known MIME types.
     const size_t comma = data_uri.find(',');
     std::vector<uint8_t> bytes;
     std::string type;
@@ -62,16 +62,16 @@ Result<std::vector<Instance>> instances_of(const GltfContext& context, const std
         const int profile = object.integer("light").value_or(-1);
         if (profile < 0) continue;
         if (size_t(profile) >= profiles)
-            return context.error(fmt::format("measured light {} does not exist; there are {}", profile, profiles), where);
+            return context.error(fmt::format("IES light {} does not exist; there are {}", profile, profiles), where);
         instances.push_back({node, profile, object.number("multiplier", 1, 0, any_float), object.vector3("color", {1, 1, 1}, 0, 1)});
     }
     std::ranges::stable_sort(instances, {}, &Instance::profile);
     return instances;
 }
 
-// The profile's largest candela and, unless a document is being saved, all of it.
+// Peak candela of the profile, and its data unless a document is being saved.
 struct Profile {
-    float peak = 0; // 0: it is not shown
+    float peak = 0; // 0: not read
     IesPtr ies;
 };
 Profile profile_of(const GltfContext& context, const ParsedGltf& json, int index, const std::string& where) {
@@ -81,7 +81,7 @@ Profile profile_of(const GltfContext& context, const ParsedGltf& json, int index
     }
     const Result<IesPtr> ies = read_profile(context, json, where);
     if (ies) return {(*ies)->peak, *ies};
-    context.warn("a measured light is not shown: " + ies.error().text(), where);
+    context.warn("ignored: a light whose IES profile cannot be read: " + ies.error().text(), where);
     return {};
 }
 

@@ -1,5 +1,5 @@
-// Internal to gltf_*.cpp: EXT_lights_ies, luminaires as they were measured. A profile is in a list; how bright it shines and in which colour
-// is said by the nodes that name it.
+// Internal to gltf_*.cpp: imports EXT_lights_ies. The extension lists profiles; the nodes that use them hold intensity factor and
+// colour.
 #pragma once
 
 #include "io/gltf_source.h"
@@ -10,15 +10,15 @@
 
 namespace blush {
 
-// One light for each profile, factor and colour that reachable nodes ask for, in the order of profiles, then of nodes.
+// One light per distinct profile, factor and colour that reachable nodes use, sorted by profile, then by node.
 struct MeasuredLights {
-    std::vector<std::optional<Light>> lights; // none where its profile cannot be read
+    std::vector<std::optional<Light>> lights; // none if the profile cannot be read
     std::vector<int> profiles;                // by light: index of its profile
-    std::map<int, size_t> by_node;            // by index of the node: its light
-    std::map<int, float> peaks;               // by index of the profile: its largest candela; of those that were read
+    std::map<int, size_t> by_node;            // node index to light
+    std::map<int, float> peaks;               // profile index to peak candela, for profiles that were read
 };
 
-// `nodes`: indices of those that are shown. A profile that cannot be read is a warning. Errors: a profile that does not exist.
+// `nodes`: indices of all nodes in scenes. A profile that cannot be read is a warning. Errors: a profile that does not exist.
 Result<MeasuredLights> read_measured_lights(const GltfContext& context, const std::vector<int>& nodes);
 
 } // namespace blush

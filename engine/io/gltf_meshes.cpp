@@ -20,10 +20,10 @@ struct MeshReader {
     const GltfContext& context;
     const std::vector<Id<Material>>& materials;
     const Scene& scene;
-    std::vector<int> uv_sets; // that are kept
+    std::vector<int> uv_sets; // to keep
     std::vector<Id<Mesh>> known; // by index, for a document that is read without its triangles
 
-    // None if there is nothing to show. Any thread may read any primitive.
+    // Returns none if there is nothing to render. Thread-safe.
     Result<std::optional<MeshPart>> read(const GltfContext& own, size_t index, size_t p) const {
         const tinygltf::Primitive& primitive = own.model().meshes[index].primitives[p];
         const std::string where = fmt::format("meshes[{}].primitives[{}]", index, p);
@@ -38,7 +38,7 @@ struct MeshReader {
         return std::optional(MeshPart{*std::move(geometry), material, *std::move(worn)});
     }
 
-    // Without its parts.
+    // The mesh without its parts.
     Mesh named(size_t index) const {
         const tinygltf::Mesh& source = context.model().meshes[index];
         Mesh mesh;
@@ -48,7 +48,7 @@ struct MeshReader {
     }
 
 private:
-    // Where everybody writes them.
+    // Conventional place of the target names.
     std::vector<std::string> target_names(size_t index) const {
         std::vector<std::string> names;
         const size_t targets = context.model().meshes[index].primitives.empty() ? 0 : context.model().meshes[index].primitives.front().targets.size();
@@ -71,13 +71,14 @@ private:
         if (!geometry || !*geometry || !found) return geometry;
         for (const int set : uv_sets_read(*found))
             if (!(*geometry)->has_uv_set(set))
-                own.warn(fmt::format("textures on TEXCOORD_{}, which is not there: one texel covers all of the surface", set), where);
+                own.warn(fmt::format("textures use TEXCOORD_{}, which is missing: one texel covers the whole surface", set),
+                         where);
         return geometry;
     }
 };
 
-// The first two, so that textures can be put on a surface that has none yet, and others that textures lie on now. Only so many: meshes that
-// share their data would otherwise multiply a small file.
+// UV sets to keep: the first two, so that textures can be assigned later, and those that textures use. Limited, since meshes with
+// shared data could multiply the size of a small file.
 std::vector<int> kept_uv_sets(const GltfContext& context, const Scene& scene) {
     constexpr size_t most_sets = 8;
     std::set<int> sets{0, 1};
@@ -86,11 +87,11 @@ std::vector<int> kept_uv_sets(const GltfContext& context, const Scene& scene) {
             if (sets.size() < most_sets || sets.contains(set))
                 sets.insert(set);
             else
-                context.warn(fmt::format("ignored: TEXCOORD_{}; textures lie on more than {} UV sets", set, most_sets), "materials");
+                context.warn(fmt::format("ignored: TEXCOORD_{}; textures use more than {} UV sets", set, most_sets), "materials");
     return {sets.begin(), sets.end()};
 }
 
-// One primitive, and what became of it.
+// A primitive and its converted part.
 struct Part {
     size_t mesh = 0, primitive = 0;
     std::optional<MeshPart> read = {};

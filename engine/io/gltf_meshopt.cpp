@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* extension_name = "EXT_meshopt_compression";
 
-// The densest code is that of equal vertices: two bits for sixteen bytes. What claims to be denser is not made room for.
+// Highest compression ratio: equal vertices take two bits per sixteen bytes. Higher ratios are rejected before allocation.
 constexpr uint64_t most_bytes_per_byte = 64;
 
 constexpr int64_t large = int64_t(1) << 28; // bytes: decoding needs hardly more
@@ -32,7 +32,7 @@ struct PackedView {
     std::vector<uint8_t> unpacked;
 };
 
-// As the extension's specification has them ("Specifying compressed views").
+// Names from the specification of the extension ("Specifying compressed views").
 bool is_valid(const Stream& s) {
     if (s.mode == "ATTRIBUTES") {
         if (s.stride == 0 || s.stride > 256 || s.stride % 4 != 0) return false;
@@ -70,8 +70,8 @@ Result<Stream> read_stream(const GltfContext& context, const GltfObject& extensi
     Stream stream{bytes.subspan(size_t(offset), size_t(length)), uint64_t(count), uint64_t(stride), extension.text("mode"),
                   extension.text("filter")};
     if (count < 0 || stride < 0 || !is_valid(stream))
-        return context.error(fmt::format("{} elements of {} bytes, mode '{}', filter '{}' are not what the extension knows", count, stride,
-                                         stream.mode.substr(0, 40), stream.filter.substr(0, 40)),
+        return context.error(fmt::format("{} elements of {} bytes, mode '{}', filter '{}' are not valid for the extension", count,
+                                         stride, stream.mode.substr(0, 40), stream.filter.substr(0, 40)),
                              extension.where());
     if (stream.unpacked_bytes() > most_bytes_per_byte * stream.bytes.size())
         return context.error(fmt::format("{} bytes cannot describe {} elements of {} bytes", length, count, stride), extension.where());

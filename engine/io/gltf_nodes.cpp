@@ -20,7 +20,7 @@ std::string node_name(const GltfContext& context, int index) {
     return name.empty() ? fmt::format("Node {}", index) : name;
 }
 
-// parent[i], or -1. Each node having at most one parent is what makes the walk below terminate.
+// parent[i], or -1. At most one parent per node ensures that the traversal below terminates.
 Result<std::vector<int>> find_parents(const GltfContext& context) {
     const auto& nodes = context.model().nodes;
     std::vector<int> parents(nodes.size(), -1);
@@ -37,7 +37,7 @@ Result<std::vector<int>> find_parents(const GltfContext& context) {
     return parents;
 }
 
-// Depth first, children in the file's order, with a stack of our own.
+// Depth first with an explicit stack, children in file order.
 void walk(const GltfContext& context, int root, bool skip_fallbacks, std::vector<int>& order) {
     std::vector<int> stack{root};
     while (!stack.empty()) {
@@ -50,11 +50,11 @@ void walk(const GltfContext& context, int root, bool skip_fallbacks, std::vector
     }
 }
 
-// Those of all scenes, each once.
+// Nodes of all scenes, each once.
 Result<std::vector<int>> roots_of_scenes(const GltfContext& context, const std::vector<int>& parents) {
     const tinygltf::Model& model = context.model();
     std::vector<int> roots;
-    std::vector<size_t> last_scene(model.nodes.size()); // that listed it, counted from 1
+    std::vector<size_t> last_scene(model.nodes.size()); // that lists it, 1-based
     for (size_t s = 0; s < model.scenes.size(); ++s)
         for (const int root : model.scenes[s].nodes) {
             if (root < 0 || size_t(root) >= model.nodes.size())
@@ -68,7 +68,7 @@ Result<std::vector<int>> roots_of_scenes(const GltfContext& context, const std::
     return roots;
 }
 
-// By node: the scenes that list it, none where that is all of them.
+// By node: the scenes that list it; empty if all do.
 std::vector<std::vector<int32_t>> scenes_by_root(const tinygltf::Model& model) {
     std::vector<std::vector<int32_t>> scenes(model.nodes.size());
     if (model.scenes.size() < 2) return scenes;
@@ -92,7 +92,7 @@ Result<Transform> read_transform(const GltfContext& context, int index) {
     for (const std::vector<double>* values : {&node.matrix, &node.translation, &node.rotation, &node.scale})
         if (!std::all_of(values->begin(), values->end(), finite_float)) return broken("a transform that is not finite");
 
-    if (!node.matrix.empty()) { // column by column
+    if (!node.matrix.empty()) { // column-major
         const std::vector<double>& m = node.matrix;
         if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1)
             context.warn("the matrix is not affine; its last row is ignored", node_where(index));
@@ -103,19 +103,20 @@ Result<Transform> read_transform(const GltfContext& context, int index) {
     if (const auto& s = node.scale; !s.empty()) local.scale = {float(s[0]), float(s[1]), float(s[2])};
     if (const auto& r = node.rotation; !r.empty()) {
         const double size = std::sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2] + r[3] * r[3]);
-        // One that is normalised as well as floats can be stays as it is, and so survives any number of saves.
+        // Normalised within float precision: kept as it is, so that repeated saves do not change it.
         if (std::abs(size - 1) <= 1e-6)
             local.rotation = {float(r[0]), float(r[1]), float(r[2]), float(r[3])};
         else if (size > 1e-6)
             local.rotation = {float(r[0] / size), float(r[1] / size), float(r[2] / size), float(r[3] / size)};
         else
-            context.warn("a rotation of length zero is no rotation", node_where(index));
-        if (std::abs(size - 1) > 0.005 && size > 1e-6) context.warn(fmt::format("a rotation of length {:.3g} is scaled to 1", size), node_where(index));
+            context.warn("a rotation of zero length is replaced by the identity", node_where(index));
+        if (std::abs(size - 1) > 0.005 && size > 1e-6)
+            context.warn(fmt::format("a rotation of length {:.3g} is normalised", size), node_where(index));
     }
     return local;
 }
 
-// The node's own, or else its mesh's.
+// Morph weights of the node, or else of its mesh.
 std::vector<float> read_weights(const GltfContext& context, int index) {
     const tinygltf::Node& node = context.model().nodes[size_t(index)];
     const tinygltf::Mesh& mesh = context.model().meshes[size_t(node.mesh)];
@@ -128,7 +129,7 @@ std::vector<float> read_weights(const GltfContext& context, int index) {
     return weights;
 }
 
-// ids[index], or an error; a negative index is no reference.
+// ids[index], or an error if out of range; none for a negative index.
 template <class T> Result<Id<T>> target(const GltfContext& context, const std::vector<Id<T>>& ids, int index, const char* kind, int node) {
     if (index < 0) return Id<T>();
     if (size_t(index) >= ids.size())
@@ -158,7 +159,7 @@ Result<Node> read_node(const GltfContext& context, int index, const NodeTargets&
     Result<InstancesPtr> instances = import_instances(context, source, node_where(index));
     if (!instances) return instances.error();
     node.instances = *std::move(instances);
-    // A measured one knows more than what else the node may have for programs that do not know of such.
+    // An IES light takes precedence over the fallback that the node may have for other programs.
     node.light = measured == targets.lights.measured_as.by_node.end() ? *light : targets.lights.measured[measured->second];
     node.camera = *camera;
     if (node.mesh) {
@@ -229,12 +230,12 @@ Result<std::vector<Id<Node>>> import_nodes(const GltfContext& context, const std
         if (!node) return node.error();
         instances += count_instances(scene, *node);
         if (instances > most_instances)
-            return context.error(fmt::format("more than {} copies of meshes, each of their primitives counted", most_instances),
+            return context.error(fmt::format("more than {} instances of primitives", most_instances),
                                  node_where(index));
         read.push_back(*std::move(node));
         wanted.push_back(wanted_id(gltf_item(context.json(), "nodes", size_t(index))));
     }
-    // Their ids are known before any is added, since a child may have a lower one than its parent.
+    // Ids are assigned before nodes are added, since a child may have a lower id than its parent.
     const std::vector<uint32_t> ids = number_records(wanted);
     std::vector<Id<Node>> parent_of(count);
     std::vector<Affined> world_from_parent(count);
@@ -244,7 +245,7 @@ Result<std::vector<Id<Node>>> import_nodes(const GltfContext& context, const std
         node.parent = parent_of[index];
         const Affined world_from_node = world_from_parent[index] * to_affine(node.local);
         if (!is_finite(world_from_node))
-            return context.error(fmt::format("node '{}': its transform and its ancestors' multiply to infinity", node.name),
+            return context.error(fmt::format("node '{}': its world transform is not finite", node.name),
                                  node_where(nodes[i]));
         for (const int child : context.model().nodes[index].children) {
             parent_of[size_t(child)] = Id<Node>{ids[i]};

@@ -1,5 +1,4 @@
-// Internal to gltf_*.cpp: the node hierarchy of one glTF scene. Nothing here recurses: a chain of nodes may be as long as
-// the file is large.
+// Internal to gltf_*.cpp: imports the node hierarchy. Uses no recursion, since a hostile file may have very deep hierarchies.
 #pragma once
 
 #include "io/gltf_lights.h"
@@ -10,11 +9,11 @@
 
 namespace blush {
 
-// Indices of the nodes of all scenes (or, if the file has no scenes, all), scene by scene and each once, every parent before its
-// children, without stand-ins for lights (gltf_extras.h). Errors: an index out of range, a node with two parents, a cycle.
+// Indices of the nodes of all scenes (all nodes if the file has no scenes), ordered by scene, each once, parents before children,
+// without light fallbacks (gltf_extras.h). Errors: an index out of range, a node with two parents, a cycle.
 Result<std::vector<int>> reachable_nodes(const GltfContext& context);
 
-// Ids of what nodes refer to, by glTF index.
+// Ids of the records that nodes reference, by glTF index.
 struct NodeTargets {
     std::vector<Id<Mesh>> meshes;
     LightIds lights;
@@ -27,7 +26,7 @@ struct NodeTargets {
 Result<std::vector<Id<Node>>> import_nodes(const GltfContext& context, const std::vector<int>& nodes, const NodeTargets& targets,
                                            Scene& scene);
 
-// The index of the glTF scene that is shown; none if there are no scenes.
+// Index of the default glTF scene; none if there are no scenes.
 std::optional<size_t> default_scene(const GltfContext& context);
 
 } // namespace blush

@@ -1,5 +1,5 @@
-// Internal to gltf_*.cpp: ids of records read from a file. They stay the same from one save to the next load, because an object
-// whose record is not simply "the next one" names it in extras.blush.id.
+// Internal to gltf_*.cpp: assigns ids to imported records. Ids survive saving and loading: objects whose id is not the next in
+// sequence store it in extras.blush.id.
 #pragma once
 
 #include "scene/scene.h"
@@ -12,14 +12,14 @@
 
 namespace blush {
 
-// Ids above are not taken from files: counting on from them must not overflow, and EXR ids end at 2^24.
+// Larger ids in files are ignored: ids after them must not overflow, and EXR ids end at 2^24.
 constexpr uint32_t max_id_in_file = 1u << 22;
 
-// Ids for records in the order of the file: the wanted one (0: none wanted) where no record before wants the same, else one more
-// than that of the record before, or, where that is taken, one more than all.
+// Ids for records in file order: the wanted id (0: none) if no earlier record wants it, else the id of the previous record + 1
+// or, if that is taken, the largest id + 1.
 std::vector<uint32_t> number_records(const std::vector<uint32_t>& wanted);
 
-// Adds the records that are there; result[i] is the id of records[i], or none.
+// Adds the records that are present; result[i] is the id of records[i], or none.
 template <class T>
 std::vector<Id<T>> add_numbered(Table<T>& table, std::vector<std::optional<T>> records, const std::vector<uint32_t>& wanted) {
     std::vector<uint32_t> wanted_by_present;

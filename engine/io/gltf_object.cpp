@@ -12,7 +12,7 @@ float checked(const GltfContext& context, double value, float otherwise, float l
         return otherwise;
     }
     const double clamped = std::clamp(value, double(low), double(high));
-    if (clamped != value) context.warn(fmt::format("{} is outside of what it may be; {} is used", value, clamped), where);
+    if (clamped != value) context.warn(fmt::format("{} is out of range; {} is used", value, clamped), where);
     return float(clamped);
 }
 
@@ -88,7 +88,7 @@ std::vector<double> GltfObject::numbers(const char* key, size_t count) const {
     for (size_t i = 0; i < value->ArrayLen(); ++i)
         if (const tinygltf::Value& element = value->Get(int(i)); element.IsNumber()) numbers.push_back(element.GetNumberAsDouble());
     if (value->ArrayLen() == count && numbers.size() == count) return numbers;
-    wrong_type(key, "an array of as many numbers as it needs");
+    wrong_type(key, "an array of the right number of numbers");
     return {};
 }
 

@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: reading members of the free-form JSON of extensions and extras, with checked types and ranges.
+// Internal to gltf_*.cpp: reads members of extensions and extras with checked types and ranges.
 #pragma once
 
 #include "core/vec.h"
@@ -12,13 +12,13 @@ namespace blush {
 
 constexpr float any_float = std::numeric_limits<float>::max();
 
-// Finite and within [low, high], else clamped (or `otherwise`, if it is not a number at all) with a warning.
+// Clamps to [low, high] with a warning; `otherwise` if the value is not finite.
 float checked(const GltfContext& context, double value, float otherwise, float low, float high, const std::string& where);
-// Three such numbers; `otherwise` if there are not three.
+// The same for three numbers; `otherwise` if there are not three.
 Vec3 checked(const GltfContext& context, const std::vector<double>& values, Vec3 otherwise, float low, float high,
              const std::string& where);
 
-// A JSON object or the absence of one: an absent object has no members, so chains need no tests in between.
+// A JSON object that may be absent. An absent object has no members, so that chained lookups need no tests.
 class GltfObject {
 public:
     GltfObject(const GltfContext& context, const tinygltf::Value& value, std::string where);
@@ -31,7 +31,7 @@ public:
 
     bool has(const char* key) const { return find(key) != nullptr; }
     GltfObject object(const char* key) const;
-    // Members of the wrong type are warned about and read as absent.
+    // Members of the wrong type give a warning and are read as absent.
     float number(const char* key, float otherwise, float low, float high) const;
     std::optional<int> integer(const char* key) const;
     bool boolean(const char* key, bool otherwise) const;

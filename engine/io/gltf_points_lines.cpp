@@ -18,7 +18,7 @@ constexpr uint32_t sides = 6;
 
 bool finite(const Vec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
-// Vertices of solids, each with the vertex of the primitive that it has its attributes from.
+// Vertices of solids, each with its source vertex for the attributes.
 struct Builder {
     Geometry solids;
     std::vector<uint32_t> origins;
@@ -45,7 +45,7 @@ void add_ball(Builder& b, uint32_t vertex, const Vec3d& center, double radius) {
         for (const uint32_t corner : face) b.solids.indices.push_back(first + corner);
 }
 
-// A prism closed by a pyramid at each end, so that tubes that meet leave no gap and glass has an inside.
+// A prism with a pyramid at each end, so that connected tubes leave no gap and the mesh is closed.
 void add_tube(Builder& b, uint32_t from, uint32_t to, const Vec3d& a, const Vec3d& c, double radius) {
     const Vec3d along = normalize(c - a), u = any_perpendicular(along), v = cross(along, u);
     const uint32_t first = b.next();
@@ -63,7 +63,7 @@ void add_tube(Builder& b, uint32_t from, uint32_t to, const Vec3d& a, const Vec3
     }
 }
 
-// Pairs of ends.
+// Vertex pairs of the segments.
 std::vector<std::pair<uint32_t, uint32_t>> segments_of(const std::vector<uint32_t>& order, int mode) {
     std::vector<std::pair<uint32_t, uint32_t>> segments;
     for (size_t i = 0; i + 1 < order.size(); i += mode == 1 ? 2 : 1) segments.emplace_back(order[i], order[i + 1]);

@@ -6,7 +6,7 @@
 namespace blush {
 namespace {
 
-// In objects of `list`, the values at `path` ("*": every member or element) are indices of `target`.
+// Values at `path` in objects of `list` are indices into `target` ("*": every member or element).
 struct Reference {
     std::string_view list, path, target;
 };
@@ -47,7 +47,7 @@ constexpr Reference references[] = {
     {"animations", "samplers/*/output", "accessors"},
 };
 
-// Beside every KHR_materials_*, whose textures are found wherever they are.
+// In addition to all KHR_materials_*, whose textures are found by name.
 constexpr std::array known_extensions = {
     "KHR_lights_punctual",        "KHR_node_visibility",     "KHR_texture_transform", "KHR_texture_basisu",
     "KHR_draco_mesh_compression", "KHR_xmp_json_ld",         "KHR_mesh_quantization", "EXT_lights_area",
@@ -72,7 +72,7 @@ void visit_path(Json& value, std::string_view path, const Visit& visit) {
     }
 }
 
-// A textureInfo is the value of a member whose name ends with "Texture", in materials and in whatever extends them.
+// A textureInfo is any member of a material or its extensions whose name ends with "Texture".
 void visit_textures(Json& object, const Visit& visit) {
     for (auto it = object.begin(); it != object.end(); ++it) {
         if (!it->is_object() || it.key() == "extras") continue;

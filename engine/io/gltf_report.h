@@ -1,11 +1,11 @@
-// Internal to gltf_*.cpp: what the file asks for that the picture will not show.
+// Internal to gltf_*.cpp: reports which extensions of the file are supported.
 #pragma once
 
 #include "io/gltf_source.h"
 
 namespace blush {
 
-// Sorts the extensions in use into honoured, approximated and ignored, and lists what the parser said.
+// Sorts the used extensions into honoured, approximated and ignored, and adds the messages of the parser.
 void report_file(const GltfContext& context);
 
 } // namespace blush

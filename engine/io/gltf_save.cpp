@@ -12,7 +12,7 @@
 namespace blush {
 namespace {
 
-// The file that is about to be replaced is not the one that was opened: somebody else's work is in it.
+// True if the file to be replaced was changed by another program since it was opened.
 bool has_changed_on_disk(const GltfOrigin& origin, const std::filesystem::path& file) {
     std::error_code missing;
     if (!std::filesystem::equivalent(origin.file, file, missing)) return false;
@@ -22,14 +22,15 @@ bool has_changed_on_disk(const GltfOrigin& origin, const std::filesystem::path& 
     return !text || !text->starts_with(*origin.json) || text->find_first_not_of(' ', origin.json->size()) != text->npos;
 }
 
-// A measured distribution is that of its file; without one a light has none when it is read again.
+// IES profiles are saved as files; without one the light has no profile after loading.
 void add_profiles(SavedFiles& files, Table<Light>& lights, std::vector<Diagnostic>& lost) {
     const Table<Light> before = lights;
     for (auto [id, light] : before) {
         if (!light.ies || light.ies_file.empty()) continue;
         if (const auto added = files.add_file(light.ies_file); !added)
             lost.push_back({Diagnostic::Severity::warning,
-                            fmt::format("the measured distribution of light \"{}\" is not saved: {}", light.name, added.error().text()), ""});
+                            fmt::format("the IES profile of light \"{}\" is not saved: {}", light.name, added.error().text()),
+                            ""});
         lights.set(id, std::move(light));
     }
 }
@@ -37,11 +38,11 @@ void add_profiles(SavedFiles& files, Table<Light>& lights, std::vector<Diagnosti
 Result<SavedGltf> save(const GltfOrigin& origin, const Project& project, const std::filesystem::path& file) {
     if (has_changed_on_disk(origin, file))
         return Error{file.string(), "has changed on disk since it was opened: reload it, or save under another name", ""};
-    // Files that records name come first: their names are in the document.
+    // Referenced files are written first, since the document holds their names.
     SavedFiles files(origin.file, file);
     Project named = project;
     std::vector<Diagnostic> lost;
-    // Pixels of an image-based light are in the document.
+    // The document contains the pixels of an image-based light.
     if (named.scene.environment.image != origin.indices.image_light)
         if (const auto ok = files.add_environment(named.scene.environment); !ok) return ok.error();
     add_profiles(files, named.scene.lights, lost);

@@ -13,7 +13,7 @@
 namespace blush {
 namespace {
 
-constexpr uint64_t max_file_bytes = std::numeric_limits<uint32_t>::max(); // as GLB counts
+constexpr uint64_t max_file_bytes = std::numeric_limits<uint32_t>::max(); // 32-bit length field of GLB
 
 bool has_file(const Json& object) {
     const Json& uri = child_or_null(object, "uri");
@@ -29,7 +29,7 @@ void append(std::vector<uint8_t>& bytes, std::span<const uint8_t> more) {
     bytes.insert(bytes.end(), more.begin(), more.end());
 }
 
-// Every reference to a buffer, with the offset that it goes with.
+// Every reference to a buffer, with its byte offset.
 template <class Visit> void visit_buffer_ranges(Json& root, const Visit& visit) {
     const auto views = root.find("bufferViews");
     if (views == root.end()) return;
@@ -77,7 +77,7 @@ Result<std::string> SavedFiles::place(const std::string& wanted, std::span<const
         made_.push_back(file);
         return name.string();
     }
-    return Error{(to_ / path).string(), "cannot save: every name like this is taken", ""};
+    return Error{(to_ / path).string(), "cannot save: no free file name", ""};
 }
 
 Result<std::string> SavedFiles::place_copy(const std::string& relative) {
@@ -110,7 +110,7 @@ Result<void> SavedFiles::add_environment(Environment& environment) {
         for (size_t i = 0; i < values.size(); ++i) values[i] = image.floats[i * size_t(image.channels) + size_t(c)];
         layers.channels.push_back({channels[c], std::move(values)});
     }
-    // Under a name of its own first: what it is placed as depends on what is there.
+    // Written to a temporary name first: the final name depends on existing files.
     const std::string name = target_.stem().string() + "-environment.exr";
     const std::filesystem::path temporary = to_ / ("." + name);
     if (const auto written = write_exr(temporary, layers); !written) return written.error();
@@ -177,7 +177,7 @@ Result<void> SavedFiles::write_beside(GltfDocument& document, const std::string&
     return {};
 }
 
-// All buffers and images in one; what has no bytes stays a buffer of its own behind it.
+// Merges all buffers and images into one; buffers without bytes are kept behind it.
 Result<std::vector<uint8_t>> SavedFiles::binary_of(GltfDocument& document, const std::string& original) {
     std::vector<uint8_t> binary;
     std::vector<size_t> offsets;
@@ -235,16 +235,16 @@ Result<std::string> SavedFiles::write(GltfDocument& document, const std::string&
         if (!binary) return binary.error();
         text = json_text(document.root);
         const std::vector<uint8_t> bytes = glb_bytes(text, *std::move(binary));
-        if (bytes.empty()) return Error{target_.string(), "cannot save: more than a .glb can hold", ""};
+        if (bytes.empty()) return Error{target_.string(), "cannot save: too large for a .glb", ""};
         written = write_file(target_, bytes);
     } else if (extension == ".gltf" || extension == ".GLTF") {
         if (const auto ok = write_beside(document, original); !ok) return ok.error();
-        // As legible as it was.
+        // Keeps the indentation of the original.
         const bool lines = original.find('\n') != original.npos;
         text = document.root.dump(lines ? 2 : -1, ' ', false, Json::error_handler_t::replace) + (lines ? "\n" : "");
         written = write_file(target_, text);
     } else {
-        return Error{target_.string(), "cannot save: a scene is a .gltf or a .glb", ""};
+        return Error{target_.string(), "cannot save: the file extension must be .gltf or .glb", ""};
     }
     if (!written) return written.error();
     made_.clear();

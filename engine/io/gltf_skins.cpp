@@ -16,7 +16,9 @@ Result<std::vector<Affine>> read_inverse_binds(const GltfContext& context, const
     const Result<FloatArray> array = read_floats(context, source.inverseBindMatrices, 16, 16, where + ".inverseBindMatrices");
     if (!array) return array.error();
     if (array->count() < matrices.size())
-        context.warn(fmt::format("{} matrices for {} joints: the rest bind where they are", array->count(), matrices.size()), where);
+        context.warn(
+            fmt::format("{} inverse bind matrices for {} joints: the others are the identity", array->count(), matrices.size()),
+            where);
     size_t bad = 0, skewed = 0;
     for (size_t j = 0; j < std::min(matrices.size(), array->count()); ++j) {
         const float* elements = array->values.data() + 16 * j;
@@ -26,12 +28,12 @@ Result<std::vector<Affine>> read_inverse_binds(const GltfContext& context, const
         bad += !good;
         if (good) matrices[j] = m;
     }
-    if (bad) context.warn(fmt::format("{} inverse bind matrices that are not finite are none", bad), where);
+    if (bad) context.warn(fmt::format("{} non-finite inverse bind matrices are replaced by the identity", bad), where);
     if (skewed) context.warn(fmt::format("{} inverse bind matrices are not affine; their last row is ignored", skewed), where);
     return matrices;
 }
 
-// The last joint that a vertex of each mesh follows, counted from 1.
+// Number of joints that the vertices of each mesh need: the largest joint index + 1.
 std::map<Id<Mesh>, size_t> joints_named(const Scene& scene) {
     std::map<Id<Mesh>, size_t> named;
     for (const auto& [id, mesh] : scene.meshes)
@@ -42,18 +44,19 @@ std::map<Id<Mesh>, size_t> joints_named(const Scene& scene) {
     return named;
 }
 
-// Vertices that name joints beyond those of the skin that their node hangs them on.
+// Warns about vertices that use joints beyond those of their node's skin.
 void report_stray_vertices(const GltfContext& context, const Scene& scene) {
     const std::map<Id<Mesh>, size_t> named = joints_named(scene);
     for (const auto& [id, node] : scene.nodes) {
         const Skin* skin = node.skin ? scene.skins.find(node.skin) : nullptr;
         const auto joints = named.find(node.mesh);
         if (skin && joints == named.end())
-            context.warn(fmt::format("hangs on skin '{}', but none of its vertices follows a joint", skin->name), fmt::format("node '{}'", node.name));
+            context.warn(fmt::format("uses skin '{}', but none of its vertices has joint weights", skin->name),
+                         fmt::format("node '{}'", node.name));
         if (skin && joints != named.end() && joints->second > skin->joints.size())
-            context.warn(
-                fmt::format("vertices follow joints beyond the {} of skin '{}': they stay with the node", skin->joints.size(), skin->name),
-                fmt::format("node '{}'", node.name));
+            context.warn(fmt::format("vertices use joints beyond the {} of skin '{}': they follow the node", skin->joints.size(),
+                                     skin->name),
+                         fmt::format("node '{}'", node.name));
     }
 }
 
@@ -81,7 +84,7 @@ Result<void> import_skins(const GltfContext& context, const GltfIndices& indices
             skin.joints.push_back(nodes[size_t(joint)]);
             missing += !nodes[size_t(joint)];
         }
-        if (missing) context.warn(fmt::format("{} joints are in no scene: they stay where the origin is", missing), where);
+        if (missing) context.warn(fmt::format("{} joints are in no scene: they are fixed at the origin", missing), where);
         Result<std::vector<Affine>> matrices = read_inverse_binds(context, source, where);
         if (!matrices) return matrices.error();
         skin.joint_from_mesh = *std::move(matrices);

@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: skins.
+// Internal to gltf_*.cpp: imports skins.
 #pragma once
 
 #include "io/gltf_source.h"
@@ -7,11 +7,11 @@
 
 namespace blush {
 
-// The ids that skins will have, by index: nodes name them before joints, which are nodes, have ids.
+// Assigns ids to skins by index, before import_skins: nodes need skin ids, and skins need node ids of their joints.
 std::vector<Id<Skin>> number_skins(const GltfContext& context);
 
-// Adds the skins under the ids in `indices`, which has the nodes as well. Of a document that is read without its buffers, joints are
-// at rest where the mesh is. Errors: a joint or accessor out of range.
+// Adds the skins with the ids in `indices`, which must hold the nodes as well. If the document is read without its buffers,
+// inverse bind matrices are the identity. Errors: a joint or accessor out of range.
 Result<void> import_skins(const GltfContext& context, const GltfIndices& indices, Scene& scene);
 
 } // namespace blush

@@ -14,12 +14,11 @@
 namespace blush {
 namespace {
 
-// GLB's own length field has 32 bits, and so has the parser's.
+// The length fields of GLB and of the parser have 32 bits.
 constexpr uint64_t max_file_bytes = std::numeric_limits<uint32_t>::max();
 constexpr size_t max_findings = 500;
 
-// The parser's only door to the file system. It passes URIs through unjoined (its base folder is empty), so that what
-// comes here is what the file says.
+// The parser's only access to the file system. Its base folder is empty, so that it passes URIs as they are in the file.
 Result<std::filesystem::path> resolve(const std::string& uri, void* folder) {
     return resolve_uri(*static_cast<const std::filesystem::path*>(folder), uri);
 }
@@ -48,8 +47,8 @@ bool refuse_to_write(std::string* error, const std::string&, const std::vector<u
     return false;
 }
 
-// Keeps the encoded bytes; decoding is image_io's. An image in a buffer view is left where it is: the pointer that the
-// parser computes for it has not been checked against the buffer's size.
+// Keeps the encoded bytes; image_io decodes them. Ignores images in buffer views: the parser does not check their pointer against
+// the size of the buffer.
 bool keep_encoded(tinygltf::Image* image, int, std::string*, std::string*, int, int, const unsigned char* bytes, int size, void*) {
     if (image->bufferView < 0) image->image.assign(bytes, bytes + size);
     return true;
@@ -60,7 +59,7 @@ std::string first_line(const std::string& text) { return text.substr(0, std::min
 bool nothing_exists(const std::string&, void*) { return false; }
 bool read_nothing(std::vector<unsigned char>*, std::string*, const std::string&, void*) { return false; }
 
-// The same document in which primitives have materials but no vertices, and images a name but no bytes.
+// The document with primitives without vertices and images without bytes.
 nlohmann::json without_payloads(nlohmann::json root) {
     for (const char* list : {"buffers", "bufferViews", "accessors"}) root.erase(list);
     if (const auto meshes = root.find("meshes"); meshes != root.end())
@@ -68,7 +67,7 @@ nlohmann::json without_payloads(nlohmann::json root) {
             for (nlohmann::json& primitive : mesh["primitives"]) {
                 primitive["attributes"] = nlohmann::json::object();
                 for (const char* payload : {"indices", "extensions"}) primitive.erase(payload);
-                // How many there are says how many weights nodes have.
+                // Keeps the number of morph targets, which determines the number of weights.
                 if (const auto targets = primitive.find("targets"); targets != primitive.end() && targets->is_array())
                     for (nlohmann::json& target : *targets) target = nlohmann::json::object();
             }
@@ -80,7 +79,7 @@ nlohmann::json without_payloads(nlohmann::json root) {
     return root;
 }
 
-// The file as the parser takes it, if it does not as it is.
+// The file converted for the parser, if it would reject the original.
 std::optional<std::vector<uint8_t>> without_packed_references(const nlohmann::json& root, const std::vector<uint8_t>& file, bool binary) {
     const std::optional<nlohmann::json> changed = parsable(root);
     if (!changed) return {};
@@ -90,7 +89,7 @@ std::optional<std::vector<uint8_t>> without_packed_references(const nlohmann::js
     return glb_bytes(text, {chunk.begin(), chunk.end()});
 }
 
-// Runs tinygltf by `load(parser, &error, &warning)`, and keeps what it has to say.
+// Runs tinygltf by `load(parser, &error, &warning)` and keeps its messages.
 template <class Load> Result<void> parse(GltfSource& source, const Load& load) {
     tinygltf::TinyGLTF parser;
     parser.SetImageLoader(keep_encoded, nullptr);

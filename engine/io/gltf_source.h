@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: the parsed file, and what every step of the import needs beside it.
+// Internal to gltf_*.cpp: the parsed file, and the context that is passed to every step of the import.
 #pragma once
 
 #include "core/result.h"
@@ -15,32 +15,32 @@ namespace blush {
 
 struct GltfSource {
     std::filesystem::path file, folder;
-    tinygltf::Model model;                      // images hold their encoded bytes, or none if they live in a buffer view or are missing
-    std::string parser_notes;                   // what tinygltf complained about without giving up
+    tinygltf::Model model;                      // images hold their encoded bytes; none if they are in a buffer view or missing
+    std::string parser_notes;                   // warnings of tinygltf
     std::shared_ptr<const std::string> text;    // the JSON
     std::shared_ptr<const nlohmann::json> json; // parsed: extras and extensions are read from here
 };
 
-// Reads and checks the file and the buffers and images beside it. Nothing else is opened, whatever the file says.
+// Reads and checks the file and its external buffers and images. Opens no other files.
 Result<GltfSource> load_gltf(const std::filesystem::path& file);
 
-// Of a document that is being saved: all but its triangles and pixels. Nothing is opened.
+// For a document that is being saved: everything except triangles and pixels. Opens no files.
 Result<GltfSource> load_gltf_records(const std::string& text);
 
 struct GltfContext {
     const GltfSource& source;
     const ImportOptions& options;
     ImportReport& report;
-    // If set, neither triangles nor pixels are read: which primitives and textures are shown is taken from here.
+    // If set, triangles and pixels are not read, and primitives and textures are taken from here.
     const GltfIndices* known = nullptr;
 
     const tinygltf::Model& model() const { return source.model; }
     const nlohmann::json& json() const { return *source.json; }
     Error error(std::string what, std::string where) const { return {source.file.string(), std::move(what), std::move(where)}; }
-    // Findings beyond a few hundred are dropped: one broken exporter repeats itself for every triangle.
+    // Diagnostics beyond a few hundred are dropped: a broken exporter may cause one per triangle.
     void warn(std::string what, std::string where) const { add(Diagnostic::Severity::warning, std::move(what), std::move(where)); }
     void note(std::string what, std::string where) const { add(Diagnostic::Severity::note, std::move(what), std::move(where)); }
-    // What another context of the same import had to say.
+    // Appends the diagnostics of another context of the same import.
     void add_all(const std::vector<Diagnostic>& findings) const {
         for (const Diagnostic& d : findings) add(d.severity, d.what, d.where);
     }

@@ -1,6 +1,6 @@
-// Internal to gltf_*.cpp: what was chosen of what the file offers, in `extras.blush.staging` of the scene that is shown by default:
+// Internal to gltf_*.cpp: reads and writes the scene selection, in `extras.blush.staging` of the default scene:
 //
-//   {"animation": 0, "seconds": 1.5, "scene": 1, "variant": 2}     indices; what is absent is not chosen
+//   {"animation": 0, "seconds": 1.5, "scene": 1, "variant": 2}     indices; absent: not chosen
 #pragma once
 
 #include "io/gltf_source.h"
@@ -8,9 +8,9 @@
 
 namespace blush {
 
-// What there is to choose from, and which of them the file shows.
+// Reads the names of the scenes and the default scene.
 void import_scene_names(const GltfContext& context, Scene& scene);
-// Sets scene.staging. What makes no sense is left as the file has it, with a warning.
+// Sets scene.staging. Invalid values are ignored with a warning.
 void import_staging(const GltfContext& context, size_t gltf_scene, const GltfIndices& indices, Scene& scene);
 
 Json staging_json(const Scene& scene, const GltfIndices& indices);

@@ -18,7 +18,7 @@ constexpr double dimmest_sun = 50;          // lux: of a day; many viewers of th
 constexpr double brightest_surface = 1e7;   // nits: a bulb's filament
 constexpr double largest_scene = 50'000, smallest_scene = 0.001; // metres across
 
-// Byte-sized normals are off by less.
+// Above the rounding error of 8-bit normals.
 constexpr double unit_tolerance = 0.00674;
 
 bool is_unit(const Vec3d& v) { return std::abs(length(v) - 1) <= unit_tolerance; }
@@ -43,13 +43,14 @@ void report_light(const GltfContext& context, const Light& light, const std::str
                      where);
 }
 
-// A camera's scale changes nothing, but an axis of length 0 has no direction.
+// The scale of a camera has no effect, but an axis of length 0 has no direction.
 void report_cameras(const GltfContext& context, const Scene& scene) {
     for (const auto& [id, node] : scene.nodes) {
         if (!node.camera) continue;
         const Affined m = world_from_node(scene, id);
         const double size = length(m.x) * length(m.y) * length(m.z);
-        if (!is_finite(m)) context.warn("a camera is at no finite place: it sees nothing", "camera node \"" + node.name + "\"");
+        if (!is_finite(m))
+            context.warn("the camera's world transform is not finite: it sees nothing", "camera node \"" + node.name + "\"");
         else if (!(std::abs(determinant(m)) > 1e-12 * size) || !(size > 0))
             context.warn("the transform of a camera flattens an axis: its direction follows from the others", "camera node \"" + node.name + "\"");
     }
@@ -85,10 +86,12 @@ void report_geometry(const GltfContext& context, const Geometry& g, const std::s
     }
     if (flat > 0) context.warn(fmt::format("{} of {} triangles have no area and cannot be seen", flat, g.triangle_count()), where);
     const auto odd = std::ranges::count_if(g.normals, [](const Vec3& n) { return !is_unit(to_double(n)); });
-    if (odd > 0) context.warn(fmt::format("{} of {} normals are not of unit length; they are where they are read", odd, g.normals.size()), where);
+    if (odd > 0)
+        context.warn(fmt::format("{} of {} normals are not of unit length; they are normalised", odd, g.normals.size()), where);
     const auto stretched = std::ranges::count_if(g.tangents, [](const Vec4& t) { return !is_unit({t.x, t.y, t.z}); });
     if (stretched > 0)
-        context.warn(fmt::format("{} of {} tangents are not of unit length; they are where they are read", stretched, g.tangents.size()), where);
+        context.warn(fmt::format("{} of {} tangents are not of unit length; they are normalised", stretched, g.tangents.size()),
+                     where);
 }
 
 } // namespace blush

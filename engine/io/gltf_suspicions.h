@@ -1,17 +1,18 @@
-// Internal to gltf_*.cpp: what a file may say and hardly anybody means.
+// Internal to gltf_*.cpp: lint. Reports legal but probably unintended content.
 #pragma once
 
 #include "io/gltf_source.h"
 
 namespace blush {
 
-// Strengths that no lamp has, as of watts taken for candela; cameras whose transform flattens an axis; a scene as large as a country or smaller than a pinhead.
+// Implausible light intensities (such as watts stored as candela), cameras with a singular transform, scenes of implausible size.
 void report_units(const GltfContext& context, const Scene& scene, const GltfIndices& indices);
 
-// Images that are read as colour here and as data there, data in an image that is marked as sRGB, and normal maps that do not look like any.
+// Images that are used both as colour and as data, data in images that are marked as sRGB, and normal maps that do not look like
+// normals.
 void report_textures(const GltfContext& context, const Scene& scene, const GltfIndices& indices);
 
-// Of one primitive, as it was read: triangles without area, normals and tangents that are not of unit length.
+// For one primitive as read: degenerate triangles, normals and tangents that are not of unit length.
 void report_geometry(const GltfContext& context, const Geometry& geometry, const std::string& where);
 
 } // namespace blush

@@ -18,7 +18,7 @@ bool holds_color(const TextureSlot& slot) {
 }
 bool holds_normals(const TextureSlot& slot) { return slot.name.find("normal") != slot.name.npos; }
 
-// A PNG whose header says that its values are sRGB-encoded, by an `sRGB` chunk.
+// True for a PNG with an `sRGB` chunk.
 bool is_marked_srgb(std::span<const uint8_t> png) {
     constexpr uint8_t signature[8] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
     if (png.size() < sizeof signature || std::memcmp(png.data(), signature, sizeof signature) != 0) return false;
@@ -32,7 +32,7 @@ bool is_marked_srgb(std::span<const uint8_t> png) {
     return false;
 }
 
-// Unit vectors that mostly lean little from +Z: a mean that is not, or pixels that look down, are something else.
+// True if at least three quarters of the sampled pixels decode to vectors of about unit length with z > 0.
 bool looks_like_normals(const Image& image) {
     if (image.channels < 3) return false;
     const size_t pixels = size_t(image.width) * size_t(image.height), step = std::max<size_t>(1, pixels / 4096);
@@ -55,7 +55,7 @@ struct Uses {
     bool as_normals = false;
 };
 
-// By glTF image.
+// Uses of each glTF image.
 std::map<int, Uses> uses_of(const GltfContext& context, const Scene& scene, const GltfIndices& indices) {
     std::map<int, Uses> uses;
     for (const auto& [id, material] : scene.materials)

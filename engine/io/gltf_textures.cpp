@@ -24,7 +24,7 @@ Texture::Wrap wrap_mode(const GltfContext& context, int mode, const std::string&
     }
 }
 
-// The name of a minification filter, or "" of what is none.
+// Name of a minification filter; "" for unknown values.
 std::string_view minification_name(int filter) {
     switch (filter) {
     case TINYGLTF_TEXTURE_FILTER_NEAREST: return "NEAREST";
@@ -37,8 +37,8 @@ std::string_view minification_name(int filter) {
     }
 }
 
-// Seen from afar, a texture is its mean over the path's cone, whatever the file asks for: what the others give is the same mean with noise,
-// once a pixel has many samples. Without a word in the file, the choice is ours.
+// Minified textures are always averaged over the ray cone: other filters converge to the same mean, with more noise. No note if
+// the file does not set a filter.
 void report_filters(const GltfContext& context, const std::set<int>& samplers) {
     for (const int index : samplers) {
         const tinygltf::Sampler& sampler = context.model().samplers[size_t(index)];
@@ -65,14 +65,14 @@ Result<void> apply_sampler(const GltfContext& context, int index, Texture& textu
     return {};
 }
 
-// By texture, -1 for none.
+// Image by texture, -1 for none.
 std::vector<int> texture_images(const GltfContext& context) {
     std::vector<int> images(context.model().textures.size());
     for (size_t i = 0; i < images.size(); ++i) images[i] = texture_image(context, i);
     return images;
 }
 
-// All but its image; none if there is nothing that can be shown.
+// The texture without its image; none if it is not supported.
 Result<std::optional<Texture>> read_texture(const GltfContext& context, size_t index) {
     const tinygltf::Texture& source = context.model().textures[index];
     const std::vector<tinygltf::Image>& images = context.model().images;

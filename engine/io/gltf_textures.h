@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: textures with their samplers.
+// Internal to gltf_*.cpp: imports textures and their samplers.
 #pragma once
 
 #include "io/gltf_decoding.h"
@@ -9,19 +9,19 @@
 
 namespace blush {
 
-// A file's textures, whose pixels are decoded while the rest of the file is converted.
+// The textures of a file. Images are decoded in the background while the rest of the file is converted.
 class TextureImport {
 public:
-    // Begins with the headers. Errors: an index out of range.
+    // Reads the image headers and starts decoding. Errors: an index out of range.
     static Result<TextureImport> begin(const GltfContext& context);
 
-    // Adds the textures to the scene; result[i] is the id of glTF texture i, or none if its image is missing or cannot be decoded. Before
-    // finish() they are without pixels, and what the headers promise is believed.
+    // Adds the textures to the scene; result[i] is the id of glTF texture i, or none if its image is missing or cannot be
+    // decoded. Before finish() they have no pixels, and images with a valid header count as decodable.
     std::vector<Id<Texture>> add_to(Scene& scene) const;
     bool is_done() const;
-    // Waits for the pixels; what is missing or cannot be decoded is a warning. Errors: cancelled.
+    // Waits for the images. A missing image or one that cannot be decoded is a warning. Errors: cancelled.
     Result<void> finish(const GltfContext& context);
-    // Once finished: headers promised no more than there is.
+    // After finish(): true if all images with a valid header could be decoded.
     bool are_as_promised() const { return !decoding_ || decoding_->is_as_promised(); }
 
 private:
@@ -31,11 +31,11 @@ private:
     bool is_there(size_t index) const;
 
     std::vector<int> images_; // by texture, -1 for none
-    std::vector<std::optional<Texture>> textures_; // without their images; none if there is nothing that can be shown
+    std::vector<std::optional<Texture>> textures_; // without their images; none if not supported
     std::vector<uint32_t> wanted_; // ids
-    std::vector<Id<Texture>> known_; // of a document that is read without its pixels
-    std::optional<ImageDecoding> decoding_; // none of such a document
-    ImportReport report_; // what comes after the images'
+    std::vector<Id<Texture>> known_; // for a document that is read without its pixels
+    std::optional<ImageDecoding> decoding_; // none for such a document
+    ImportReport report_; // diagnostics to append after those of the images
     bool finished_ = false;
 };
 

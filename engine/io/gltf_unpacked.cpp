@@ -26,7 +26,7 @@ template <class Root, class Visit> void each(Root& object, const char* list, con
     for (auto& element : *found) visit(element);
 }
 
-// Which buffers have no bytes: those that say so, and those without a URI that only compressed views name, as placeholders.
+// Placeholder buffers without bytes: those marked as fallback, and those without a URI that only compressed views use.
 std::vector<bool> placeholder_buffers(const ParsedGltf& root) {
     const ParsedGltf& buffers = gltf_member(root, "buffers");
     std::vector<bool> compressed_use(buffers.size()), own_use(buffers.size());
@@ -46,21 +46,21 @@ std::vector<bool> placeholder_buffers(const ParsedGltf& root) {
     return placeholders;
 }
 
-// A compressed view that names no buffer of the file. The parser wants one; unpacking gives it another.
+// A compressed view without a valid buffer. The parser requires one; decompression replaces it.
 bool lacks_buffer(const ParsedGltf& root, const ParsedGltf& view) {
     const ParsedGltf& buffer = gltf_member(view, "buffer");
     return extension(view, meshopt_extension).is_object() &&
            !(buffer.is_number_unsigned() && buffer.get<size_t>() < gltf_member(root, "buffers").size());
 }
 
-// The parser wants the indices' accessor to have bytes. Unpacking gives new ones.
+// The parser requires the index accessor to have bytes; decompression adds new indices.
 bool has_packed_indices(const ParsedGltf& root, const ParsedGltf& primitive) {
     const ParsedGltf& indices = gltf_member(primitive, "indices");
     return extension(primitive, "KHR_draco_mesh_compression").is_object() && indices.is_number_unsigned() &&
            gltf_member(gltf_item(root, "accessors", indices.get<size_t>()), "bufferView").is_null();
 }
 
-// The parser knows few kinds of data URI, and takes others for names of files. What is in them is told by their bytes.
+// The parser takes data URIs of unknown MIME types for file names. The image format is detected from the bytes.
 constexpr std::string_view data_scheme = "data:", data_encoding = ";base64,", data_of_no_kind = "data:application/octet-stream;base64,";
 bool has_strange_data(const ParsedGltf& object) {
     const ParsedGltf& uri = gltf_member(object, "uri");
@@ -118,11 +118,12 @@ UnpackingRoom::UnpackingRoom(const tinygltf::Model& model) {
 }
 
 Result<void> UnpackingRoom::take(const GltfContext& context, double bytes, const char* where) {
-    constexpr double free_bytes = 512e6, most_per_byte = 128; // scans take one byte in forty, flat grids hardly any
+    constexpr double free_bytes = 512e6, most_per_byte = 128; // scans reach a ratio of 40, flat grids far more
     taken_ += bytes;
     if (taken_ <= free_bytes + most_per_byte * packed_) return {};
-    return context.error(
-        fmt::format("its compressed data would unpack to {:.0f} MB, but its buffers have {:.3g}", taken_ / 1e6, packed_ / 1e6), where);
+    return context.error(fmt::format("its compressed data would decompress to {:.0f} MB, but its buffers have only {:.3g} MB",
+                                     taken_ / 1e6, packed_ / 1e6),
+                         where);
 }
 
 int add_unpacked_buffer(GltfSource& source, std::vector<uint8_t> bytes) {

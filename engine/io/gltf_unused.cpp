@@ -30,7 +30,7 @@ bool all_references_known(const Json& root) {
                                [](const Json& name) { return name.is_string() && knows_references(name.get_ref<const std::string&>()); });
 }
 
-// Where each object of a list goes; -1: away.
+// New index of each object of a list; -1: removed.
 using Moves = std::map<std::string_view, std::vector<int>>;
 
 template <class Key> void move(std::map<Id<Key>, int>& indices, const std::vector<int>& moves) {
@@ -57,7 +57,7 @@ void move_indices(GltfDocument& document, Moves& moves) {
     if (document.added_buffer >= 0) document.added_buffer = moves["buffers"][size_t(document.added_buffer)];
 }
 
-// glTF knows no empty lists.
+// glTF does not allow empty lists.
 void erase_empty_list(GltfDocument& document, std::string_view list) {
     const Json* objects = document.find_list(list);
     if (!objects || !objects->empty()) return;

@@ -12,7 +12,7 @@ int hex_digit(char c) {
     return -1;
 }
 
-// A colon before the first slash begins a scheme (RFC 3986) or names a drive.
+// A colon before the first slash ends a scheme (RFC 3986) or a drive letter.
 bool has_scheme(std::string_view uri) { return uri.substr(0, uri.find('/')).find(':') != std::string_view::npos; }
 
 bool is_below(const std::filesystem::path& file, const std::filesystem::path& folder) {
@@ -59,7 +59,7 @@ Result<std::filesystem::path> resolve_uri(const std::filesystem::path& folder, c
     if (relative.is_absolute()) return Error{"", shown + " is an absolute path", ""};
     if (std::find(relative.begin(), relative.end(), "..") != relative.end()) return Error{"", shown + " leaves the scene's folder", ""};
 
-    // Both sides with symbolic links followed, as far as the path exists.
+    // Resolves symbolic links on both sides, as far as the path exists.
     std::error_code failed;
     const std::filesystem::path root = std::filesystem::weakly_canonical(folder.empty() ? std::filesystem::path(".") : folder, failed);
     if (failed) return Error{"", shown + " cannot be resolved: " + failed.message(), ""};

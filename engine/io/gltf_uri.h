@@ -1,4 +1,4 @@
-// URIs inside a scene file name only plain files in or below the scene's folder.
+// Resolves URIs in a scene file. Only files in or below the scene's folder are allowed.
 #pragma once
 
 #include "core/result.h"
@@ -9,16 +9,16 @@
 
 namespace blush {
 
-// "%20" and the like decoded; a % that is not followed by two hexadecimal digits stays as it is.
+// Decodes %XX; a % without two hexadecimal digits is kept.
 std::string percent_decoded(std::string_view uri);
 
-// What RFC 3986 lets stand in a path stays, slashes too; every other byte becomes %XX.
+// Keeps the characters that RFC 3986 allows in a path, including slashes; encodes other bytes as %XX.
 std::string percent_encoded(std::string_view path);
 
 bool is_data_uri(std::string_view uri);
 
-// The file that a decoded URI means. Errors: empty, absolute, has a scheme ("http:", "file:", "C:"), a backslash or a NUL,
-// leaves `folder` by "..", or by a symbolic link. Whether the file exists is not asked.
+// The file of a decoded URI, which need not exist. Errors: empty, absolute, has a scheme ("http:", "file:", "C:"), a backslash or
+// a NUL, leaves `folder` by ".." or by a symbolic link.
 Result<std::filesystem::path> resolve_uri(const std::filesystem::path& folder, const std::string& decoded_uri);
 
 } // namespace blush

@@ -8,7 +8,7 @@ namespace {
 constexpr const char* extension = "KHR_materials_variants";
 constexpr size_t most_variants = 1000;
 
-// By variant, the index of the material that the primitive says; later mappings do not change what earlier ones say.
+// Material index by variant; the first mapping of a variant wins.
 std::map<int, int> said_by(const Json& primitive) {
     std::map<int, int> said;
     for (const Json& mapping : child_or_null(child_or_null(child_or_null(primitive, "extensions"), extension), "mappings")) {

@@ -1,22 +1,22 @@
-// Internal to gltf_*.cpp: records into objects of a document, as far as glTF and its extensions can say them. Only values that differ
-// from what the object says are written. Whatever a record has beyond that, gltf_write_extras.h adds.
+// Internal to gltf_*.cpp: writes records into objects of a document, as far as glTF and its extensions can express them. Writes
+// only values that differ from the object. gltf_write_extras.h adds the rest.
 #pragma once
 
 #include "io/gltf_document.h"
 
 namespace blush {
 
-// KHR_lights_punctual; what shines on a surface like it, for a kind that the extension lacks.
+// KHR_lights_punctual; kinds that the extension lacks are approximated.
 void write_punctual_light(Json& object, const Light& light);
 // EXT_lights_area.
 void write_area_light(Json& object, const Light& light);
-// EXT_lights_ies: the file of a profile; of one that came inside of a document, what that says stays.
+// EXT_lights_ies: the file of a profile; an embedded profile is kept.
 void write_profile(Json& object, const Light& light);
-// What a node says of a light that shines with a profile of so many candela.
+// Node properties of a light with an IES profile of the given peak candela.
 void write_measured_instance(Json& extension, const Light& light, float peak);
-// The list in which lights of this kind are, if they have no measured distribution.
+// The list for lights of this kind without an IES profile.
 GltfLight::List list_for(Light::Kind kind);
-// Its colour with the temperature in it, and its intensity, 0 if it is off, as other programs want them: the colour within [0, 1].
+// Colour including the temperature, scaled to [0, 1], and intensity (0 if disabled), as other programs expect them.
 struct PlainEmission {
     Vec3 color;
     float intensity;
@@ -30,8 +30,8 @@ void write_node(Json& object, const Node& node);
 // Wrap modes and filter, in a sampler that may be shared or new.
 void write_sampler(GltfDocument& document, Json& object, const Texture& texture);
 
-// References between nodes, and from them to what they carry. Nodes that the document lacks are added, in the order of their ids;
-// those that the scene lacks are taken out of the tree.
+// Writes the references of nodes. Adds missing nodes in the order of their ids and removes nodes that the scene lacks from the
+// tree.
 void write_tree(GltfDocument& document, const Scene& scene);
 
 } // namespace blush

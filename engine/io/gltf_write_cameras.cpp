@@ -3,7 +3,7 @@
 namespace blush {
 namespace {
 
-// Planes of the other projection: there is no default for an orthographic camera's.
+// Clipping planes after a change of projection: an orthographic camera has no defaults.
 float plane(const Json& object, const char* key, float otherwise) {
     for (const char* projection : {"perspective", "orthographic"}) {
         float value = 0;

@@ -27,7 +27,7 @@ void write_name(Json& object, const std::string& read, const std::string& wanted
     if (read != wanted && !wanted.empty()) object["name"] = wanted;
 }
 
-// Names are the document's own members, unless they are empty, which there means something else.
+// Names are members of the glTF objects; an empty name is written to extras, since glTF treats it as absent.
 template <Fielded T> void write_record_fields(Json& object, const T& read, const T& wanted) {
     write_name(object, read.name, wanted.name);
     Json fields = extra_fields(to_json(read), to_json(wanted));
@@ -39,7 +39,7 @@ template <class T, class Object> void write_table_fields(const Table<T>& read, c
     for (const Id<T> id : Table<T>::changed(read, wanted)) {
         const T* before = read.find(id);
         const T* now = wanted.find(id);
-        if (!before || !now) continue; // a record that nobody uses
+        if (!before || !now) continue; // unused record
         if constexpr (Fielded<T>)
             write_record_fields(object_of(id), *before, *now);
         else
@@ -47,16 +47,16 @@ template <class T, class Object> void write_table_fields(const Table<T>& read, c
     }
 }
 
-// In the order in which the importer numbers them.
+// In the order in which the importer assigns ids.
 struct Numbered {
-    Json* object; // null: it cannot say, and need not
+    Json* object; // null: has no place for an id and needs none
     uint32_t id;
 };
 void write_ids_of(const std::vector<Numbered>& records) {
     uint32_t before = 0;
     for (const auto& [object, id] : records) {
         if (!object) {
-            // The next one, as the importer counts.
+            // Next id in the importer's sequence.
         } else if (id == before + 1)
             erase_blush(*object, "id");
         else if (const Json& now = child_or_null(child_or_null(child_or_null(*object, "extras"), "blush"), "id"); now != id)
@@ -82,7 +82,7 @@ std::map<Id<Light>, int> lights_in(const GltfDocument& document, GltfLight::List
     return indices;
 }
 
-// Parents before their children, as the importer walks.
+// Parents before children, as in the importer.
 std::vector<Numbered> nodes_in_order(GltfDocument& document) {
     std::vector<Numbered> records;
     const std::vector<Id<Node>> ids = ids_by_index(document.indices.nodes, document.list("nodes").size());
@@ -93,7 +93,7 @@ std::vector<Numbered> nodes_in_order(GltfDocument& document) {
     document.scene(); // there is one
     const Json& scenes = document.list("scenes");
     for (auto scene = scenes.rbegin(); scene != scenes.rend(); ++scene) push_all(child_or_null(*scene, "nodes"));
-    std::set<int> seen; // roots of several scenes are read where they are met first
+    std::set<int> seen; // a root of several scenes is read at its first occurrence
     while (!waiting.empty()) {
         const int index = waiting.back();
         waiting.pop_back();
@@ -105,7 +105,7 @@ std::vector<Numbered> nodes_in_order(GltfDocument& document) {
     return records;
 }
 
-// A member of the scene's extras.blush, where what it was read as differs.
+// Writes a member of the scene's extras.blush if it differs from the value read.
 template <class T> void write_scene_member(Json& scene, const char* key, const T& read, const T& wanted, const Json& json) {
     if (!(read == wanted)) blush_of(scene)[key] = json;
 }
@@ -135,7 +135,7 @@ void write_ids(GltfDocument& document) {
     write_ids_of(document, "cameras", document.indices.cameras);
     write_ids_of(document, "skins", document.indices.skins);
     write_ids_of(document, "animations", document.indices.clips);
-    // The importer numbers the lights of all lists in one go.
+    // The importer assigns ids of all light lists in one sequence.
     std::vector<Numbered> lights;
     for (const auto list : light_lists) {
         std::set<std::pair<int, Id<Light>>> by_index;
@@ -168,11 +168,11 @@ void write_extra_fields(GltfDocument& document, const Scene& read, const Scene& 
 void write_scene_extras(GltfDocument& document, const ImportedScene& read, const Project& project) {
     Json& scene = document.scene();
     Environment environment = project.scene.environment;
-    environment.image = read.scene.environment.image; // its pixels are its file's
+    environment.image = read.scene.environment.image; // pixels are compared by file
     write_scene_member(scene, "environment", read.scene.environment, environment, to_json(environment));
     write_scene_member(scene, "staging", read.scene.staging, project.scene.staging, staging_json(project.scene, document.indices));
     write_scene_member(scene, "mix", read.scene.mix, project.scene.mix, to_json(project.scene.mix));
-    // Without a saved one the importer makes a view of what there is to see.
+    // Without a saved view the importer computes one from the scene.
     Scene seen = read.scene;
     seen.meshes = project.scene.meshes;
     seen.clips = project.scene.clips;

@@ -1,5 +1,5 @@
-// Internal to gltf_*.cpp: what a document does not say of its records, added to extras.blush (gltf_extras.h) by looking at what
-// the importer makes of it. No field can be forgotten: whatever does not come back is written there.
+// Internal to gltf_*.cpp: adds values that glTF cannot express to extras.blush (gltf_extras.h). Imports the document and writes
+// every field that is not read back correctly, so that no field is lost.
 #pragma once
 
 #include "core/result.h"
@@ -9,17 +9,17 @@
 
 namespace blush {
 
-// What the importer makes of a document: all but triangles and pixels. Its ids are those of document.indices if write_ids has run.
+// Imports the document without triangles and pixels. Its ids are those of document.indices if write_ids has run.
 Result<ImportedScene> read_back(const GltfDocument& document);
 
-// Takes out what earlier saves, or we by hand, have written beside a record, before it is written anew.
+// Removes existing extras.blush entries of a record before they are written again.
 void clear_extras(Json& object);
 
-// Ids of the records, where counting would give others.
+// Writes the ids of records that are not the next in sequence.
 void write_ids(GltfDocument& document);
-// Names, and fields that did not come back in `read`. Records must have the ids of `scene`.
+// Writes names, and fields that differ in `read`. Records must have the ids of `scene`.
 void write_extra_fields(GltfDocument& document, const Scene& read, const Scene& scene);
-// Environment, light mix, view and settings, where they differ from what was read.
+// Writes environment, light mix, view and settings where they differ from `read`.
 void write_scene_extras(GltfDocument& document, const ImportedScene& read, const Project& project);
 
 } // namespace blush

@@ -14,14 +14,14 @@ bool is_fallback(const Json& object) { return child_or_null(child_or_null(child_
 
 const Json marked{{"blush", {{"fallback", true}}}};
 
-// list[index], nullptr if it is not there.
+// list[index]; nullptr if missing.
 Json* find(GltfDocument& document, std::string_view list, const Json& index) {
     Json* const objects = document.find_list(list);
     size_t i = 0;
     return objects && read_json(index, i) && i < objects->size() ? &(*objects)[i] : nullptr;
 }
 
-// The one primitive of a fallback; nullptr if somebody has changed what it is made of.
+// The only primitive of a fallback; nullptr if another program has changed its structure.
 Json* primitive_of(GltfDocument& document, const Json& node) {
     Json* const mesh = is_fallback(node) ? find(document, "meshes", child_or_null(node, "mesh")) : nullptr;
     const auto primitives = mesh ? mesh->find("primitives") : Json::iterator();
@@ -29,11 +29,11 @@ Json* primitive_of(GltfDocument& document, const Json& node) {
     return one && find(document, "materials", child_or_null(primitives->front(), "material")) ? &primitives->front() : nullptr;
 }
 
-// Corners of the polygons that stand in for the two kinds.
+// Number of polygon corners for each kind.
 constexpr size_t square = 4, round = 32;
 size_t corners_of(const Light& light) { return light.kind == Light::Kind::disk ? round : square; }
 
-// A regular polygon around the origin of the plane z = 0 that faces -Z: the unit square, or one with the area of the disk of radius 1.
+// A regular polygon in the plane z = 0, facing -Z: the unit square, or a polygon with the area of the unit disk.
 Json polygon(GltfDocument& document, size_t corners) {
     constexpr float pi = std::numbers::pi_v<float>;
     const float step = 2 * pi / float(corners);
@@ -51,7 +51,7 @@ Json polygon(GltfDocument& document, size_t corners) {
     return {{"attributes", std::move(attributes)}, {"indices", append_indices(document, indices)}};
 }
 
-// One that has as many corners; its mesh's accessors serve another light too.
+// Finds a polygon with that many corners whose accessors can be shared.
 bool has_corners(GltfDocument& document, const Json& primitive, size_t corners) {
     const Json* positions = find(document, "accessors", child_or_null(child_or_null(primitive, "attributes"), "POSITION"));
     return positions && child_or_null(*positions, "count") == corners;
@@ -94,7 +94,7 @@ bool glows(const Light* light) {
     return e.intensity > 0 && std::max({e.color.x, e.color.y, e.color.z}) > 0;
 }
 
-// The fallback child of that many corners, or -1; all others leave the list.
+// The fallback child with that many corners, or -1; removes all other fallbacks from the list.
 int take_fallback(GltfDocument& document, Json& node, size_t corners) {
     int found = -1;
     Json left = Json::array();

@@ -1,12 +1,12 @@
-// Internal to gltf_*.cpp: surfaces that glow like area lights, for programs that know neither EXT_lights_area nor us.
+// Internal to gltf_*.cpp: writes emissive meshes as fallbacks of area lights, for programs without EXT_lights_area.
 #pragma once
 
 #include "io/gltf_document.h"
 
 namespace blush {
 
-// Each node with a rectangle or disk that is on gets a child with a glowing polygon, marked as a fallback (gltf_extras.h); a child that is
-// there already is put right; one whose light is gone, off or of another kind goes.
+// Each node with an enabled rectangle or disk light gets a child with an emissive polygon, marked as a fallback (gltf_extras.h).
+// Existing children are updated, or removed if the light is gone, disabled or of another kind.
 void write_fallbacks(GltfDocument& document, const Scene& scene);
 
 } // namespace blush

@@ -42,7 +42,7 @@ PlainEmission plain_emission(const Light& light) {
     const Vec3 color = light.use_temperature ? light.color * black_body_color(light.kelvin, light.green_tint) : light.color;
     const float largest = std::max({color.x, color.y, color.z});
     const float scale = largest > 1 ? largest : 1;
-    // A sphere of radiance L looks like a point of intensity L times its disk's area from afar.
+    // A distant sphere of radiance L is a point light of intensity L times the area of its disk.
     const float area = light.kind == Light::Kind::sphere ? pi * light.radius * light.radius : 1;
     return {{color.x / scale, color.y / scale, color.z / scale}, light.enabled ? light.intensity * area * scale : 0};
 }
@@ -55,7 +55,7 @@ GltfLight::List list_for(Light::Kind kind) {
 void write_punctual_light(Json& object, const Light& light) {
     write_type(object, type_of(light.kind));
     write_emission(object, light, 1);
-    if (light.kind == Light::Kind::sun) erase(object, "range"); // a distance means nothing there
+    if (light.kind == Light::Kind::sun) erase(object, "range"); // not allowed for directional lights
     if (light.kind == Light::Kind::spot)
         write_cone(object, light);
     else

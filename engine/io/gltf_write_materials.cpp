@@ -5,13 +5,13 @@
 namespace blush {
 namespace {
 
-// One material into its object.
+// Writes a material into its object.
 class MaterialWriter {
 public:
     MaterialWriter(GltfDocument& document, Json& object, const Material& material) : document_(document), object_(object), m_(material) {}
 
     void write() {
-        // Once it is edited, the material is what it was converted to.
+        // An edited material is written in its converted form.
         erase_extension(object_, "KHR_materials_pbrSpecularGlossiness");
         write_core();
         write_alpha();
@@ -28,12 +28,12 @@ public:
 
 private:
     const Json& existing(const char* name) const { return child_or_null(child_or_null(object_, "extensions"), name); }
-    // The extension if it is there or there is something to say in it.
+    // The extension object, created if `wanted` and the material is not unlit; null if absent.
     Json* extension(const char* name, bool wanted) {
         return (wanted && !m_.unlit) || existing(name).is_object() ? &extension_of(object_, name) : nullptr;
     }
 
-    // A reference to a texture that could not be shown is left as it is.
+    // Keeps references to textures that could not be imported.
     void texture(Json& parent, const char* key, const TextureRef& ref) {
         const auto index = document_.indices.textures.find(ref.texture);
         if (index == document_.indices.textures.end()) {
@@ -73,7 +73,7 @@ private:
         const char* const mode = m_.alpha == Material::Alpha::mask ? "MASK" : m_.alpha == Material::Alpha::blend ? "BLEND" : "OPAQUE";
         const Json& now = child_or_null(object_, "alphaMode");
         if (now != mode && !(now.is_null() && m_.alpha == Material::Alpha::opaque)) object_["alphaMode"] = mode;
-        // A cut-off belongs to that mode alone.
+        // alphaCutoff is allowed in MASK mode only.
         if (m_.alpha == Material::Alpha::mask)
             set_number(object_, "alphaCutoff", m_.alpha_cutoff, 0.5f);
         else
@@ -82,7 +82,7 @@ private:
         if (!existing("KHR_materials_volume").is_object()) set_flag(object_, "doubleSided", m_.double_sided);
     }
 
-    // A factor above 1 goes into the strength; without a factor a strength has nothing to act upon.
+    // A factor above 1 is moved into the strength; a strength without a factor has no effect.
     void write_emission() {
         const float largest = std::max({m_.emissive.x, m_.emissive.y, m_.emissive.z}), scale = std::max(largest, 1.0f);
         set_vector(object_, "emissiveFactor", {m_.emissive.x / scale, m_.emissive.y / scale, m_.emissive.z / scale}, {0, 0, 0});
@@ -122,7 +122,7 @@ private:
             else
                 erase(*e, "attenuationDistance");
         }
-        // Dispersion is of volumes.
+        // Dispersion requires a volume.
         const bool disperses = m_.dispersion != 0 && existing("KHR_materials_volume").is_object();
         if (Json* e = extension("KHR_materials_dispersion", disperses)) set_number(*e, "dispersion", m_.dispersion, 0);
     }
@@ -190,7 +190,7 @@ private:
         }
     }
 
-    // It is meant to stand alone.
+    // KHR_materials_unlit must not be combined with other material extensions.
     void write_unlit() {
         constexpr const char* unlit = "KHR_materials_unlit";
         if (existing(unlit).is_object() == m_.unlit) return;
@@ -226,7 +226,7 @@ void write_sampler(GltfDocument& document, Json& object, const Texture& texture)
     set("wrapT", wraps[size_t(texture.wrap_v)], wraps[0]);
     set("magFilter", texture.filter == Texture::Filter::nearest ? nearest : linear, linear);
     if (sampler == before) return;
-    // Other textures may use the same sampler, so it is left as it is.
+    // Other textures may share the sampler, so it is not changed.
     const Json& all = document.list("samplers");
     const auto same = std::find(all.begin(), all.end(), sampler);
     const int chosen = same != all.end() ? int(same - all.begin()) : document.append("samplers", std::move(sampler));

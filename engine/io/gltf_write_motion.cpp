@@ -29,14 +29,14 @@ constexpr std::string_view word_of(Keyframes::Interpolation interpolation) {
     return {};
 }
 
-// What is no vertex attribute: its view has no target.
+// Not a vertex attribute: its buffer view has no target.
 int append_plain(GltfDocument& document, const float* values, size_t count, int components, bool with_bounds) {
     const int accessor = append_floats(document, values, count, components, with_bounds);
     erase(document.object("bufferViews", document.object("accessors", accessor).at("bufferView").get<int>()), "target");
     return accessor;
 }
 
-// One whose joints were deleted cannot be said.
+// A skin with deleted joints cannot be written.
 bool has_all_joints(const GltfDocument& document, const Skin& skin) {
     return !skin.joints.empty() && std::ranges::all_of(skin.joints, [&](Id<Node> joint) { return document.indices.nodes.contains(joint); });
 }
@@ -64,7 +64,7 @@ Json sampler_of(GltfDocument& document, const Channel& channel) {
 
 using Target = std::pair<int, std::string>; // node and path
 
-// Which sampler leads what, as the animation says.
+// Sampler of each target in the animation.
 std::map<Target, int> samplers_in(const Json& animation) {
     std::map<Target, int> samplers;
     for (const Json& channel : child_or_null(animation, "channels")) {
@@ -78,7 +78,7 @@ std::map<Target, int> samplers_in(const Json& animation) {
     return samplers;
 }
 
-// Adds the channels that the animation lacks; those that move alike share a sampler. Returns whether there was one.
+// Adds missing channels; channels with equal keyframes share a sampler. True if any was added.
 bool add_channels(GltfDocument& document, const Clip& clip, Json& animation) {
     const std::map<Target, int> said = samplers_in(animation);
     std::map<const Keyframes*, int> samplers;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* visibility = "KHR_node_visibility";
 
-// A unit quaternion, as glTF demands; one that has no direction is no rotation.
+// glTF requires a unit quaternion; a zero quaternion becomes the identity.
 Quat normalized(const Quat& q) {
     const double size = std::sqrt(double(q.x) * q.x + double(q.y) * q.y + double(q.z) * q.z + double(q.w) * q.w);
     if (std::abs(size - 1) <= 1e-6) return q;
@@ -29,7 +29,7 @@ bool is_fallback_object(const Json& object) {
     return child_or_null(child_or_null(child_or_null(object, "extras"), "blush"), "fallback") == true;
 }
 
-// Programs may take a node that carries nothing for an accident; a group that edits have emptied says that it is none.
+// True for a node without any content, which validators and other programs may treat as an error.
 bool is_bare(const Json& object) {
     return std::ranges::none_of(std::array{"children", "mesh", "camera", "extensions", "extras"},
                                 [&](const char* key) { return object.contains(key); });
@@ -40,8 +40,7 @@ template <class T> int index_of(const std::map<Id<T>, int>& indices, Id<T> id) {
     return it == indices.end() ? -1 : it->second;
 }
 
-// The list `parent[key]` becomes what it was without the nodes that are elsewhere now, followed by the new ones. Stand-ins
-// for lights stay with their node.
+// Removes the nodes that have moved from the list `parent[key]` and appends the new ones. Light fallbacks stay with their node.
 void write_children(GltfDocument& document, Json& parent, const char* key, const std::vector<int>& wanted) {
     const Json before = child_or_null(parent, key);
     const std::set<int> wanted_set(wanted.begin(), wanted.end());
@@ -74,13 +73,13 @@ void write_light_reference(GltfDocument& document, Json& object, const Scene& sc
         }
         int now = -1;
         if (!read_json(child_or_null(child_or_null(child_or_null(object, "extensions"), list_name(list)), "light"), now)) continue;
-        // A light of a type that is not shown stays.
+        // Keeps lights of unsupported types.
         const bool shown = std::ranges::any_of(document.indices.lights, [&](const auto& e) { return e.second == GltfLight{list, now}; });
         if (shown || light != document.indices.lights.end()) erase_extension(object, list_name(list));
     }
 }
 
-// The node's own where its mesh does not say the same.
+// Writes the node's weights if they differ from those of the mesh.
 void write_weights(GltfDocument& document, Json& object, const Node& node) {
     const auto same = [&](const Json& weights) {
         std::vector<float> now;
@@ -130,7 +129,7 @@ void write_node(Json& object, const Node& node) {
 }
 
 void write_tree(GltfDocument& document, const Scene& scene) {
-    // What was removed lets go of what lives on.
+    // Detaches the remaining children of removed nodes.
     for (const auto& [id, index] : document.indices.nodes)
         if (!scene.nodes.contains(id)) write_children(document, document.object("nodes", index), "children", {});
     std::erase_if(document.indices.nodes, [&](const auto& entry) { return !scene.nodes.contains(entry.first); });

@@ -46,7 +46,7 @@ Json primitive_of(GltfDocument& document, const Geometry& g) {
     const auto add = [&](const std::string& name, const auto& vectors) {
         if (!vectors.empty()) attributes[name] = append_vectors(document, vectors);
     };
-    // Normals that follow from the triangles are made anew by whoever bends them.
+    // Face normals of deformed meshes are not written: they are recomputed after deformation.
     if (const bool bends = !g.targets.empty() || !g.influences.empty(); !(g.flat && bends)) {
         add("NORMAL", g.normals);
         add("TANGENT", g.tangents);
@@ -65,7 +65,7 @@ Json primitive_of(GltfDocument& document, const Geometry& g) {
     return primitive;
 }
 
-// Parts that share triangles share accessors, as after the import of a file that is in the scene already.
+// Parts with the same geometry share accessors.
 using Primitives = std::map<uint64_t, Json>; // by the geometry's serial
 
 void append_mesh(GltfDocument& document, Id<Mesh> id, const Mesh& mesh, Primitives& primitives) {
@@ -74,7 +74,8 @@ void append_mesh(GltfDocument& document, Id<Mesh> id, const Mesh& mesh, Primitiv
     parts.clear();
     for (const MeshPart& part : mesh.parts) {
         const auto [primitive, is_new] = primitives.try_emplace(part.geometry->serial);
-        if (is_new) primitive->second = primitive_of(document, *without_made_tangents(part.geometry)); // they are made anew
+        // Without generated tangents: they are generated again on import.
+        if (is_new) primitive->second = primitive_of(document, *without_made_tangents(part.geometry));
         parts.push_back(int(object["primitives"].size()));
         object["primitives"].push_back(primitive->second);
     }
@@ -110,19 +111,19 @@ Result<void> write_textures(GltfDocument& document, const GltfOrigin& has, const
         if (!known) document.indices.textures[id] = document.append("textures", Json::object());
         Json& object = document.object("textures", document.indices.textures.at(id));
         set_index(object, "source", image->second);
-        erase(object, "extensions"); // other encodings of the old pixels
+        erase(object, "extensions"); // they refer to the old pixels in other formats
     }
     return {};
 }
 
-// The UV sets that a mesh with this material must have: glTF numbers them without gaps.
+// Number of UV sets that the material needs: glTF does not allow gaps.
 int uv_sets_of(const Scene& scene, Id<Material> id) {
     const Material* material = scene.materials.find(id);
     return material && !uv_sets_read(*material).empty() ? *uv_sets_read(*material).rbegin() + 1 : 0;
 }
 
-// A texture on a surface without texture coordinates is all of one colour, but not glTF: the document gets coordinates of
-// zero, marked as a fallback so that they are none of ours.
+// glTF requires texture coordinates for textures: missing ones are written as zeros and marked as a fallback, so that they are
+// not imported.
 void provide_uv_sets(GltfDocument& document, Json& primitive, int sets) {
     for (int set = 0; set <= most_uv_set; ++set) {
         const std::string name = fmt::format("TEXCOORD_{}", set);
@@ -141,7 +142,7 @@ void provide_uv_sets(GltfDocument& document, Json& primitive, int sets) {
     }
 }
 
-// The first without a variant.
+// Index 0 is the default material.
 std::vector<Id<Material>> worn_by(const MeshPart& part) { return part.by_variant.empty() ? std::vector{part.material} : part.by_variant; }
 
 } // namespace
@@ -171,7 +172,8 @@ Result<void> write_payloads(GltfDocument& document, const GltfOrigin& has, const
     Primitives primitives;
     for (const Id<Mesh> id : used.meshes) {
         const Mesh& mesh = *scene.meshes.find(id);
-        if (mesh.parts.empty() && !document.indices.meshes.contains(id)) continue; // glTF has no meshes without primitives
+        if (mesh.parts.empty() && !document.indices.meshes.contains(id))
+            continue; // glTF does not allow meshes without primitives
         if (!has_triangles(document, has, id, mesh)) append_mesh(document, id, mesh, primitives);
         Json& object = document.object("meshes", document.indices.meshes.at(id));
         for (size_t part = 0; part < mesh.parts.size(); ++part) {

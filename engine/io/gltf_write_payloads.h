@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: triangles and pixels that a document does not have yet.
+// Internal to gltf_*.cpp: writes triangles and pixels that a document does not contain yet.
 #pragma once
 
 #include "core/result.h"
@@ -9,7 +9,7 @@
 
 namespace blush {
 
-// Which records of a scene something in it uses: a node, or a mesh or material that is used.
+// Records that are used by nodes, directly or through used meshes and materials.
 struct UsedRecords {
     std::set<Id<Mesh>> meshes;
     std::set<Id<Material>> materials;
@@ -19,11 +19,11 @@ struct UsedRecords {
 };
 UsedRecords used_records(const Scene& scene);
 
-// Objects for the used meshes, materials and textures that the document lacks or has with other triangles or pixels than `has`;
-// and the materials of all meshes. Errors: an image that cannot be encoded.
+// Writes the used meshes, materials and textures that the document lacks or whose triangles or pixels differ from `has`, and the
+// materials of all meshes. Errors: an image that cannot be encoded.
 Result<void> write_payloads(GltfDocument& document, const GltfOrigin& has, const Scene& scene, const UsedRecords& used);
 
-// Accessors of views of their own; `components` per element. Bounds are what positions must have.
+// Appends an accessor with its own buffer view; `components` per element. `with_bounds`: min and max, required for positions.
 int append_floats(GltfDocument& document, const float* values, size_t count, int components, bool with_bounds);
 int append_indices(GltfDocument& document, std::span<const uint32_t> indices);
 

@@ -15,7 +15,7 @@ namespace {
 constexpr int64_t most_values = 1 << 20;
 constexpr uint64_t most_bytes = 16 << 20;
 
-// Lines, then numbers that may be spread over lines as anybody likes; remembers the first thing that went wrong.
+// Reads lines, then numbers with arbitrary line breaks; keeps the first error.
 class Reader {
 public:
     explicit Reader(std::string_view text) : text_(text) {}
@@ -71,7 +71,7 @@ private:
     std::optional<Error> error_;
 };
 
-// Degrees, ascending.
+// Reads ascending angles in degrees.
 std::vector<float> read_angles(Reader& r, int count, const char* what, double low, double high) {
     std::vector<float> angles;
     for (int i = 0; i < count && !r.error(); ++i) {
@@ -83,7 +83,7 @@ std::vector<float> read_angles(Reader& r, int count, const char* what, double lo
     return angles;
 }
 
-// The lamp's output by its tilt, at no tilt: the first pair, as angles begin at 0.
+// TILT=INCLUDE: the factor at angle 0, which is the first pair.
 double read_tilt(Reader& r) {
     r.count("the lamp's position", 0, 3);
     const int pairs = r.count("the number of tilt angles", 1, 1000);
@@ -96,7 +96,7 @@ double read_tilt(Reader& r) {
     return first;
 }
 
-// One horizontal angle and its row of the table.
+// A horizontal angle and its row of the table.
 struct Row {
     float horizontal;
     std::vector<float> candela;
@@ -107,21 +107,21 @@ void sort_by_angle(std::vector<Row>& rows) {
     const auto same = std::ranges::unique(rows, {}, &Row::horizontal);
     rows.erase(same.begin(), same.end());
 }
-// The rows and their mirror images at angles mirrored(horizontal).
+// Adds mirrored rows at the angles mirrored(horizontal).
 template <class Mirror> void mirror_rows(std::vector<Row>& rows, Mirror mirrored) {
     const std::vector<Row> half = rows;
     for (const Row& row : half) rows.push_back({mirrored(row.horizontal), row.candela});
     sort_by_angle(rows);
 }
 
-// Rows around the circle that stop short of 360 degrees go on with the first, and begin with the last where none is at 0.
+// Closes the circle: repeats the first row at 360 degrees, and the last one before 0 if no row is at 0.
 void close_circle(std::vector<Row>& rows) {
     const Row first = rows.front(), last = rows.back();
     rows.push_back({first.horizontal + 360, first.candela});
     if (first.horizontal > 0) rows.insert(rows.begin(), {last.horizontal - 360, last.candela});
 }
 
-// Type C: angles of a quarter, a half or all of the turn; files that stop short of 360 degrees mean the whole turn as well.
+// Type C: angles cover a quarter, half or full turn; a range that ends before 360 degrees also means the full turn.
 void unfold_type_c(Reader& r, std::vector<Row>& rows) {
     const float first = rows.front().horizontal, last = rows.back().horizontal;
     if (rows.size() == 1) return;
@@ -142,7 +142,7 @@ void unfold_type_c(Reader& r, std::vector<Row>& rows) {
     }
 }
 
-// Type B: what is given from 0 on is the same on the other side.
+// Type B: angles from 0 on are mirrored to negative angles.
 void unfold_type_b(std::vector<float>& vertical, std::vector<Row>& rows) {
     if (rows.size() > 1 && rows.front().horizontal == 0) mirror_rows(rows, [](float h) { return -h; });
     if (vertical.size() < 2 || vertical.front() != 0) return;
@@ -156,7 +156,7 @@ void unfold_type_b(std::vector<float>& vertical, std::vector<Row>& rows) {
     for (Row& row : rows) mirror(row.candela, 1);
 }
 
-// The header up to TILT; whether it is of a standard before 1995, which counts the ballast-lamp factor.
+// Reads the header up to TILT, and whether the standard is older than 1995 and uses the ballast-lamp factor.
 struct Header {
     bool is_old = true;
     std::string_view tilt;
@@ -169,7 +169,7 @@ Header read_header(Reader& r) {
         header.tilt = line->substr(5);
         return header;
     }
-    r.fail("is not LM-63: there is no TILT line");
+    r.fail("not an LM-63 file: no TILT line");
     return header;
 }
 
@@ -194,7 +194,7 @@ Result<IesPtr> parse_ies(std::string_view text) {
     const double ballast_lamp = r.factor("the ballast-lamp factor");
     if (header.is_old) scale *= ballast_lamp;
     r.number("the watts");
-    if (type == 3) r.fail("type A photometry, of headlamps, is not supported");
+    if (type == 3) r.fail("type A photometry (headlamps) is not supported");
     if (int64_t(verticals) * horizontals > most_values) r.fail(fmt::format("has more than {} values", most_values));
     if (r.error()) return *r.error();
 
@@ -207,10 +207,10 @@ Result<IesPtr> parse_ies(std::string_view text) {
     for (Row& row : rows)
         for (int i = 0; i < verticals && !r.error(); ++i) {
             row.candela.push_back(float(r.factor("a candela value") * scale));
-            if (!std::isfinite(row.candela.back())) r.fail("a candela value is beyond all numbers");
+            if (!std::isfinite(row.candela.back())) r.fail("a candela value is not finite");
             profile->peak = std::max(profile->peak, row.candela.back());
         }
-    if (!r.error() && !(profile->peak > 0)) r.fail("the luminaire is dark all over");
+    if (!r.error() && !(profile->peak > 0)) r.fail("all candela values are 0");
     if (!r.error() && is_c) unfold_type_c(r, rows);
     if (r.error()) return *r.error();
     if (!is_c) unfold_type_b(profile->vertical, rows);

@@ -1,11 +1,11 @@
-// Grey images as colour images, so that whoever asks for a colour or for "the G channel" finds one.
+// Converts grey images to RGB, so that every image has a colour and a G channel.
 #pragma once
 
 #include "scene/scene.h"
 
 namespace blush {
 
-// The image itself if it has 3 or 4 channels; else grey spread over R, G, B, with the alpha of a grey-and-alpha image kept.
+// Returns the image itself if it has 3 or 4 channels; else grey copied to R, G and B, with alpha kept.
 inline ImagePtr with_color_channels(const ImagePtr& image) {
     if (image->channels >= 3) return image;
     auto spread_image = std::make_shared<Image>();

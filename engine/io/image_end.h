@@ -1,7 +1,6 @@
-// Does a JPEG or PNG file reach its end marker?
-//
-// The question is answered before a decoder sees the bytes: libjpeg fills in the missing part of a truncated file with grey
-// and only warns; at the end of a truncated PNG, OpenImageIO's reader leaks. JPEG markers: ITU-T T.81, annex B; PNG chunks:
+// Detects truncated JPEG and PNG files: checks for the end marker.
+// Checked before decoding: libjpeg fills the missing part of a truncated file with grey and only warns; OpenImageIO's PNG reader
+// leaks memory. JPEG markers: ITU-T T.81, annex B; PNG chunks:
 // ISO/IEC 15948, clause 5.
 #pragma once
 
@@ -11,13 +10,13 @@
 
 namespace blush {
 
-// Walks from segment to segment; a thumbnail inside a segment, which has an end marker of its own, is skipped with it.
+// Walks the segments; skips thumbnails inside a segment, which have their own end marker.
 inline bool jpeg_reaches_its_end(std::span<const uint8_t> bytes) {
     constexpr uint8_t end_of_image = 0xd9, first_standalone = 0xd0, last_standalone = 0xd8, temporary = 0x01;
     size_t i = 0;
     while (i + 1 < bytes.size()) {
         const uint8_t marker = bytes[i + 1];
-        // Between markers: entropy-coded data, in which 0xff is followed by 0x00; 0xff itself may be repeated as fill.
+        // Entropy-coded data: 0xff is followed by 0x00; 0xff may be repeated as fill.
         if (bytes[i] != 0xff || marker == 0x00 || marker == 0xff) {
             ++i;
             continue;
@@ -33,7 +32,7 @@ inline bool jpeg_reaches_its_end(std::span<const uint8_t> bytes) {
     return false;
 }
 
-// Walks from chunk to chunk: big-endian length, type, that many bytes, checksum.
+// Walks the chunks: big-endian length, type, data, checksum.
 inline bool png_reaches_its_end(std::span<const uint8_t> bytes) {
     constexpr size_t signature = 8, around_data = 12;
     size_t i = signature;

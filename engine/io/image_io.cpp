@@ -29,13 +29,14 @@ namespace {
 
 constexpr uint64_t max_file_bytes = uint64_t(4) << 30;
 constexpr int max_channels = 256;
-constexpr uint64_t max_layers_bytes = uint64_t(4) << 30; // of all channels of a layered image: zeros compress to nothing
+constexpr uint64_t max_layers_bytes = uint64_t(4)
+                                      << 30; // limit of all channels of a layered image: zeros compress to almost nothing
 
-// Pixels of a file that is honest: deflate makes a thousandth of what is all alike, at most. Small pictures may do what they like.
+// Limit of the compression ratio: deflate reaches about 1000 for constant images. Small images are always decoded.
 constexpr uint64_t most_compression = 4096, always_decoded = uint64_t(64) << 20; // bytes
 
-// Only these decoders ever see a file: fewer of them is less to attack, and names such as "x.null" mean nothing. TIFF is not
-// among them because its decoder fills in what a truncated file lacks with black and reports success.
+// The only decoders that are used: reduces the attack surface, and special names such as "x.null" have no effect. TIFF is
+// excluded since its decoder fills truncated files with black and reports success.
 const char* format_of(std::span<const uint8_t> bytes) {
     const std::string_view head(reinterpret_cast<const char*>(bytes.data()), std::min<size_t>(bytes.size(), 16));
     if (head.starts_with("\x89PNG\r\n\x1a\n")) return "png";
@@ -47,13 +48,13 @@ const char* format_of(std::span<const uint8_t> bytes) {
     return nullptr;
 }
 
-// Khronos' container of textures compressed for graphics hardware.
+// True for KTX2, Khronos' container of GPU-compressed textures.
 bool is_ktx2(std::span<const uint8_t> bytes) {
     constexpr std::string_view magic = "\xabKTX 20\xbb\r\n\x1a\n";
     return std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()).starts_with(magic);
 }
 
-// A second net below our own header checks, for what a decoder allocates before it shows us the header.
+// A second limit besides our header checks, for allocations of a decoder before it returns the header.
 void lower_library_limits() {
     static std::once_flag once;
     std::call_once(once, [] {
@@ -62,14 +63,14 @@ void lower_library_limits() {
     });
 }
 
-// OpenImageIO's messages run over several lines.
+// OpenImageIO's messages have several lines; keeps the first.
 std::string one_line(std::string text) {
     std::replace(text.begin(), text.end(), '\n', ' ');
     while (!text.empty() && text.back() == ' ') text.pop_back();
     return text.empty() ? "unknown reason" : text;
 }
 
-// Whatever OpenImageIO or the allocator throws becomes an Error.
+// Converts exceptions of OpenImageIO and the allocator to an Error.
 template <class F> auto guarded(const std::string& name, F&& work) -> decltype(work()) {
     try {
         return work();
@@ -82,8 +83,8 @@ struct Decoder {
     std::unique_ptr<OIIO::Filesystem::IOMemReader> bytes; // must outlive the input
     std::unique_ptr<OIIO::ImageInput> input;
     std::string name;
-    std::string_view format; // as format_of has it
-    int part = 0;            // of a file of several images
+    std::string_view format; // as from format_of
+    int part = 0;            // index in a multi-part file
 
     const OIIO::ImageSpec& spec() const { return input->spec(); }
     Error error() const { return {name, "cannot decode: " + one_line(input->geterror()), ""}; }
@@ -96,7 +97,7 @@ struct Decoder {
     }
 };
 
-// Of the image that the decoder is at.
+// Checks the current part of the decoder.
 Result<void> within_limits(const Decoder& decoder, size_t bytes, const ImageLimits& limits) {
     const OIIO::ImageSpec& spec = decoder.spec();
     if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1 || spec.nchannels > max_channels || spec.deep)
@@ -155,7 +156,7 @@ ImageInfo info_of(const Decoder& decoder) {
     return {decoder.format, spec.width, spec.height, std::min(spec.nchannels, 4), spec.format != OIIO::TypeDesc::UINT8};
 }
 
-// Hands over the rows of an image from the top, a few at a time.
+// Passes the rows of an image from the top, a few at a time.
 template <class T> Result<void> read_rows(Decoder& decoder, int channels, OIIO::TypeDesc type, ImageShrinker& shrinker) {
     const OIIO::ImageSpec& spec = decoder.spec();
     const int band = spec.tile_width > 0 ? spec.height : 16;
@@ -197,7 +198,8 @@ std::optional<PixelRect> display_window_of(const OIIO::ImageSpec& spec) {
 
 bool is_uint_channel(const OIIO::ImageSpec& spec, int channel) { return spec.channelformat(channel) == OIIO::TypeDesc::UINT32; }
 
-// Channels of one kind that stand side by side are decoded in one go. Read as float, 32-bit integers would be scaled to [0, 1].
+// Adjacent channels of the same type are decoded together. 32-bit integers are not read as float, since that would scale them to
+// [0, 1].
 // `taken`: bytes of parts that were decoded before.
 Result<LayeredImage> decode_part(Decoder& decoder, uint64_t& taken) {
     const OIIO::ImageSpec spec = decoder.spec();
@@ -212,7 +214,7 @@ Result<LayeredImage> decode_part(Decoder& decoder, uint64_t& taken) {
     for (int begin = 0, end = 0; begin < spec.nchannels; begin = end) {
         const bool is_uint = is_uint_channel(spec, begin);
         while (end < spec.nchannels && is_uint_channel(spec, end) == is_uint) ++end;
-        // Both kinds are four bytes wide: one buffer serves, reinterpreted per value.
+        // Both types have four bytes: they share a buffer, reinterpreted per value.
         Result<std::vector<uint32_t>> values =
             decoder.read<uint32_t>(begin, end, is_uint ? OIIO::TypeDesc::UINT32 : OIIO::TypeDesc::FLOAT);
         if (!values) return values.error();
@@ -257,7 +259,7 @@ Result<std::vector<LayeredImage>> decode_parts(std::span<const uint8_t> bytes, c
     return parts;
 }
 
-// Encodes into memory, so that a full disk or an unwritable folder is met by write_file alone, the same for every format. `name` is for messages.
+// Encodes into memory, so that write_file handles disk errors for all formats. `name` is for messages.
 Result<std::vector<uint8_t>> encode(const std::string& name, const char* format, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
                                     const void* pixels) {
     std::vector<unsigned char> bytes;
@@ -276,14 +278,14 @@ Result<void> encode_to_file(const std::filesystem::path& file, const char* forma
     return write_file(file, *bytes);
 }
 
-// The comparison is false for NaN, which becomes black.
+// The comparison is false for NaN, which becomes 0.
 std::vector<uint8_t> display_bytes(std::span<const float> rgb) {
     std::vector<uint8_t> bytes(rgb.size());
     std::transform(rgb.begin(), rgb.end(), bytes.begin(), [](float v) { return v > 0 ? uint8_t(std::min(v, 1.0f) * 255 + 0.5f) : uint8_t(0); });
     return bytes;
 }
 
-// Pixels of three and of one channel, as pixels of four.
+// Interleaves RGB and alpha to RGBA.
 std::vector<uint8_t> with_alpha(const std::vector<uint8_t>& rgb, const std::vector<uint8_t>& alpha) {
     std::vector<uint8_t> rgba(4 * alpha.size());
     for (size_t i = 0; i < alpha.size(); ++i) {
@@ -298,7 +300,7 @@ OIIO::TypeDesc stored_as(const LayeredImage::Channel& channel) {
     return channel.is_half ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT;
 }
 
-// Pixel by pixel, each channel in as many bytes as it is stored in.
+// Interleaves the channels, each in its storage type.
 std::vector<uint8_t> in_native_layout(const LayeredImage& image, const OIIO::ImageSpec& spec, size_t pixels) {
     const size_t stride = spec.pixel_bytes(true);
     std::vector<uint8_t> packed(pixels * stride);
@@ -335,7 +337,7 @@ OIIO::ImageSpec display_spec(int width, int height, const char* compression) {
     return spec;
 }
 
-// What a file that was read said of itself, except for how its pixels were stored.
+// Copies the header attributes of a file that was read, except its storage format.
 void keep_header(OIIO::ImageSpec& spec, const OIIO::ImageSpec& read) {
     spec.x = read.x;
     spec.y = read.y;
@@ -421,7 +423,7 @@ Result<std::map<std::string, std::string>> read_metadata(const std::filesystem::
 Result<void> expect_jpeg_size(const std::filesystem::path& file, int width, int height) {
     if (std::max(width, height) > max_jpeg_side)
         return Error{file.string(), fmt::format("a JPEG has at most {} pixels a side, not {} x {}", max_jpeg_side, width, height), ""};
-    // What the encoder and the file need, at worst: it ends the process where it gets none.
+    // Worst-case memory of the encoder and the file: libjpeg ends the process if allocation fails.
     const double needed = 8e6 + 16.0 * width * height;
     if (const MemoryRoom room = memory_room(); needed > double(room.left))
         return Error{file.string(), fmt::format("a JPEG of {} x {} pixels needs {:.2g} GB of memory: {}", width, height, needed / 1e9, room.text()), ""};
@@ -468,7 +470,7 @@ Result<void> write_display_image(const std::filesystem::path& file, int width, i
             spec.attribute("oiio:UnassociatedAlpha", 1);
         }
         spec.attribute("jpeg:subsampling", "4:4:4"); // saturated edges keep their colour
-        if (!is_jpeg) set_metadata(spec, metadata); // segments of a JPEG hold 64 KB, and its encoder ends the process over more
+        if (!is_jpeg) set_metadata(spec, metadata); // JPEG segments hold 64 KB; its encoder ends the process above that
         return encode_to_file(file, format, spec, OIIO::TypeDesc::UINT8, bytes.data());
     });
 }

@@ -1,4 +1,4 @@
-// Reading and writing images: the only file that knows OpenImageIO. Any input may be hostile.
+// Reads and writes images. The only file that uses OpenImageIO. Treats any input as hostile.
 #pragma once
 
 #include "core/result.h"
@@ -20,83 +20,83 @@ namespace blush {
 
 struct ImageLimits {
     int max_side = 65536;
-    int64_t max_pixels = int64_t(1) << 28; // checked against the header before anything is decoded
+    int64_t max_pixels = int64_t(1) << 28; // checked with the header, before decoding
 };
 
-// PNG, JPEG, EXR, HDR, WebP and BMP, told apart by their first bytes. 8-bit files stay bytes, everything else becomes
-// float; at most 4 channels (more are cut). Values are not converted between colour spaces, alpha is not multiplied in.
-// Errors: unreadable, unknown format, beyond the limits, truncated, more pixels than a file of its size can hold.
+// Reads PNG, JPEG, EXR, HDR, WebP and BMP, detected by their first bytes. 8-bit files stay bytes, others become float; channels
+// beyond 4 are dropped. Colour spaces are not converted, alpha is not premultiplied. Errors: unreadable, unknown format, beyond
+// the limits, truncated, more pixels than the file size allows.
 Result<ImagePtr> read_image(const std::filesystem::path& file, const ImageLimits& limits = {});
 // The same from memory; `name` is for messages.
 Result<ImagePtr> read_image(std::span<const uint8_t> bytes, const std::string& name, const ImageLimits& limits = {});
 
-// What the header says.
+// Header data of an image.
 struct ImageInfo {
-    std::string_view format; // "png", "jpeg", ... whatever the file is called
+    std::string_view format; // "png", "jpeg", ... detected from the bytes
     int width = 0, height = 0, channels = 0;
-    bool is_float = false; // of more than 8 bits
+    bool is_float = false; // more than 8 bits per channel
 
-    // Of the Image that becomes of it, with sides halved that often.
+    // Size of the decoded Image after so many halvings of its sides.
     int64_t bytes(int halvings = 0) const;
 };
-// Decodes no pixel. Errors as in read_image.
+// Reads the header only. Errors as in read_image.
 Result<ImageInfo> read_image_info(std::span<const uint8_t> bytes, const std::string& name, const ImageLimits& limits = {});
-// The image with its sides halved that often; pixels become the mean of those that they replace, of their light where the colour is
-// sRGB-encoded. Memory beside the result: a few rows, if the format can be read by rows.
+// The image with its sides halved `halvings` times, box filtered (in linear light if `is_srgb`). Needs only a few rows of memory
+// besides the result, if the format can be read by rows.
 Result<ImagePtr> read_smaller_image(std::span<const uint8_t> bytes, const std::string& name, int halvings, bool is_srgb,
                                     const ImageLimits& limits = {});
 
-// What a file says of itself besides pixels and text: its windows, numbers, matrices.
+// Header attributes of a file besides pixels and text: windows, numbers, matrices.
 struct ImageHeader;
 
 // Longest side of a JPEG that can be written, in pixels: the encoder's limit.
 constexpr int max_jpeg_side = 65500;
 
-// Named channels of one size, as in an EXR: "R", "albedo.R", "id.object", ... and string metadata ("blush:spp").
+// Named channels of equal size, as in an EXR: "R", "albedo.R", "id.object", ... and string metadata ("blush:spp").
 struct LayeredImage {
     struct Channel {
         std::string name;
         std::vector<float> values; // width * height, top row first
         bool is_uint = false;      // stored as 32-bit unsigned (ids): values hold exact integers below 2^24
-        std::vector<uint32_t> words = {}; // of such a channel, exactly: read as well, and written in place of values if there are any
-        bool is_half = false;             // written as 16-bit float; what is beyond its range becomes its largest number
+        std::vector<uint32_t> words = {}; // exact values of a uint channel: set when read, written instead of `values`
+        bool is_half = false;             // written as 16-bit float; larger values are clamped to its maximum
     };
     int width = 0, height = 0;
     std::vector<Channel> channels;
     std::map<std::string, std::string> metadata;
-    std::shared_ptr<const ImageHeader> header = {}; // of an EXR that was read; write_exr keeps it
-    bool more_parts = false;                        // the file holds other images, which were not read
-    std::string part = {};                          // the name of the image in a file of several
-    std::optional<PixelRect> display_window = {};   // of an EXR: what of it, or around it, is the picture; empty: all of it
+    std::shared_ptr<const ImageHeader> header = {}; // of an EXR that was read; write_exr writes it back
+    bool more_parts = false;                        // the file has other parts, which were not read
+    std::string part = {};                          // name of the part in a multi-part file
+    std::optional<PixelRect> display_window = {};   // of an EXR, relative to the data window; empty: equal to it
 
     const Channel* find(std::string_view name) const;
-    // The three channels of a layer ("denoised"; "" is the beauty), or its Y three times; nullptr thrice if there are none.
+    // R, G and B of a layer ("denoised"; "" is the beauty), or its Y three times; three nullptr if missing.
     std::array<const Channel*, 3> find_color(std::string_view layer = {}) const;
-    // Replaces the channel of that name, or adds it behind `behind` (behind all, if there is none of that name).
+    // Replaces the channel of that name, or inserts it after the channel `behind` (at the end if there is none).
     void set(Channel channel, std::string_view behind = {});
 };
 
-// Every channel of the file under its own name, as float, and its text metadata. Errors as in read_image.
+// Reads every channel of the file as float, and its text metadata. Errors as in read_image.
 Result<LayeredImage> read_layers(const std::filesystem::path& file, const ImageLimits& limits = {});
-// Every image of a file of several parts. Errors as above; all parts together may not be larger than one may.
+// Reads every part of a multi-part file. Errors as above; the size limits apply to the sum of all parts.
 Result<std::vector<LayeredImage>> read_parts(const std::filesystem::path& file, const ImageLimits& limits = {});
-// Its text metadata alone: nothing is decoded.
+// Reads the text metadata only.
 Result<std::map<std::string, std::string>> read_metadata(const std::filesystem::path& file, const ImageLimits& limits = {});
 constexpr float largest_half = 65504;
-// Written to a temporary name beside the target and renamed: the file is whole or not there. EXR: float32 but for what is said to be uint or
-// half, ZIP.
+// Writes an EXR: float32 unless a channel is uint or half, ZIP compression. Atomic: written to a temporary name beside the target
+// and renamed.
 Result<void> write_exr(const std::filesystem::path& file, const LayeredImage& image);
-// Can a JPEG of that size be written? libjpeg ends the process over one that cannot, so this is asked before. Errors: sides above max_jpeg_side,
-// not enough memory.
+// Checks whether a JPEG of that size can be written; call it first, since libjpeg ends the process otherwise. Errors: sides above
+// max_jpeg_side, not enough memory.
 Result<void> expect_jpeg_size(const std::filesystem::path& file, int width, int height);
-// Display-encoded RGB in [0, 1], width * height * 3; .png or .jpg by extension; text metadata survive in .png only. Atomic too.
-// `alpha`: width * height, of colours that are not multiplied by it (straight), as PNG has it; empty: opaque. A JPEG has none.
+// Writes display-encoded RGB in [0, 1], width * height * 3; .png or .jpg by extension; text metadata is written to .png only.
+// Atomic. `alpha`: width * height, straight (not premultiplied); empty: opaque. JPEG ignores it.
 Result<void> write_display_image(const std::filesystem::path& file, int width, int height, std::span<const float> rgb,
                                  const std::map<std::string, std::string>& metadata = {}, std::span<const float> alpha = {});
 
-// The same as the bytes of a .png, for documents that carry their pictures with them.
+// Encodes a .png in memory, for embedding in other documents.
 Result<std::vector<uint8_t>> encode_png(int width, int height, std::span<const float> rgb);
-// An image as it is, whatever its channels mean: bytes come back the same, floats within [0, 1] are rounded to 16 bits.
+// Encodes an image without colour conversion: bytes are lossless, floats in [0, 1] are rounded to 16 bits.
 Result<std::vector<uint8_t>> encode_png(const Image& image);
 
 } // namespace blush

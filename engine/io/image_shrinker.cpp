@@ -45,7 +45,7 @@ template <class T> void ImageShrinker::add_row(const T* row) {
                 across_[size_t(x * channels + c)] += share * value(row[size_t(from) * size_t(channels) + size_t(c)], c);
         });
     const int current = int(int64_t(rows_) * image_.height / source_.height);
-    const float size = float(double(image_.height) / source_.height); // of a row of the source in rows of the result
+    const float size = float(double(image_.height) / source_.height); // height of a source row in result rows
     for_each_overlap(rows_, image_.height, source_.height, [&](int y, float share) {
         std::vector<float>& sums = y == current ? now_ : next_;
         for (size_t i = 0; i < sums.size(); ++i) sums[i] += share * size * across_[i];

@@ -1,4 +1,4 @@
-// Makes an image smaller while its rows arrive, so that it need not be in memory as a whole.
+// Downscales an image row by row, so that the full image need not be in memory.
 #pragma once
 
 #include "scene/scene.h"
@@ -13,17 +13,17 @@ namespace blush {
 class ImageShrinker {
 public:
     struct Source {
-        int width = 0, height = 0, channels = 0; // 1..4; the second of two and the fourth of four is alpha
+        int width = 0, height = 0, channels = 0; // 1..4; the last of 2 or 4 is alpha
         bool is_float = false;
-        bool is_srgb = false; // its colour, not its alpha
+        bool is_srgb = false; // colour only, not alpha
     };
-    // Sides are halved that often, not below one pixel.
+    // Halves the sides `halvings` times, not below one pixel.
     ImageShrinker(const Source& source, int halvings);
 
-    // Further rows of the source, from the top: whole ones, of its type.
+    // Adds further complete rows of the source, from the top, in its type.
     void add(std::span<const uint8_t> rows);
     void add(std::span<const float> rows);
-    // When all rows have been added.
+    // The result; call it after all rows were added.
     ImagePtr image() &&;
 
 private:
@@ -35,9 +35,9 @@ private:
     Source source_;
     Image image_;
     int rows_ = 0;                  // added
-    std::array<float, 256> byte_values_{}; // of colour
-    std::vector<float> across_;     // the row at hand, at the new width
-    std::vector<float> now_, next_; // rows of the result as far as they are known: a row of the source lies on two at most
+    std::array<float, 256> byte_values_{}; // decoded colour values
+    std::vector<float> across_;     // current source row at the new width
+    std::vector<float> now_, next_; // partial sums of result rows: a source row overlaps at most two
 };
 
 } // namespace blush

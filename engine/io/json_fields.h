@@ -1,4 +1,4 @@
-// Internal to *_json.cpp: reading typed members of a JSON object that may hold anything.
+// Internal to *_json.cpp: reads typed members of untrusted JSON objects.
 #pragma once
 
 #include "core/result.h"
@@ -17,7 +17,7 @@ namespace blush {
 
 using Json = nlohmann::ordered_json;
 
-// Names may hold any bytes; what is not UTF-8 is replaced rather than thrown about.
+// Names may hold any bytes; invalid UTF-8 is replaced instead of throwing.
 inline std::string json_text(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
 // Errors: not JSON, not an object.
@@ -28,7 +28,7 @@ inline Result<Json> parse_json_object(std::string_view text) {
     return json;
 }
 
-// Each assigns `value` and returns true, or returns false and leaves it alone, if the JSON is not of that type and range.
+// Each assigns `value` and returns true; or returns false without a change if the JSON has another type or is out of range.
 inline bool read_json(const Json& json, bool& value) {
     if (json.is_boolean()) value = json.get<bool>();
     return json.is_boolean();

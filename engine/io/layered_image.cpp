@@ -1,4 +1,4 @@
-// The channels of a layered image by their names.
+// Lookup of the channels of a layered image by name.
 #include "io/image_io.h"
 
 #include <algorithm>

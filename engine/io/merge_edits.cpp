@@ -11,7 +11,7 @@
 namespace blush {
 namespace {
 
-// ---- records of mine and base with the ids that they have in theirs
+// ---- maps ids of mine and base to ids of theirs
 
 Material mapped(Material m, const RecordMap& map) {
     for (const TextureSlot& slot : texture_slots) (m.*slot.ref).texture = map.textures((m.*slot.ref).texture);
@@ -54,7 +54,7 @@ Clip mapped(Clip clip, const RecordMap& map) {
 Texture mapped(Texture texture, const RecordMap&) { return texture; }
 Camera mapped(Camera camera, const RecordMap&) { return camera; }
 
-// ---- one record
+// ---- merge of one record
 
 class Merge {
 public:
@@ -62,7 +62,7 @@ public:
 
     void conflict(std::string sentence) { out_.conflicts.push_back(std::move(sentence)); }
 
-    // Fields as they have names, and then what is behind pointers.
+    // Merges the named fields, then payloads behind pointers.
     template <Fielded T> void fields(const T& base, const T& mine, T& theirs, const std::string& what) {
         const Json b = to_json(base), m = to_json(mine), t = to_json(theirs);
         Json set = Json::object();
@@ -74,7 +74,7 @@ public:
         }
         read_json(set, theirs);
     }
-    // Of a value that is none of the fields. The file has it again, so that `changed_in_file` is for the caller to tell.
+    // Merges a value that is not a field. The caller passes `changed_in_file`, since reloaded payloads are different objects.
     template <class T> void value(const T& base, const T& mine, T& theirs, bool changed_in_file, const std::string& what, const char* name) {
         if (mine == base) return;
         if (changed_in_file) conflict(fmt::format("{}: {} changed here and in the file; yours is kept", what, name));
@@ -90,7 +90,7 @@ public:
     void record(const Light& base, const Light& mine, Light& theirs, const std::string& what) {
         const bool other_file = theirs.ies_file != base.ies_file;
         fields(base, mine, theirs, what);
-        value(base.ies, mine.ies, theirs.ies, other_file, what, "its measured distribution");
+        value(base.ies, mine.ies, theirs.ies, other_file, what, "its IES profile");
     }
     void record(const Node& base, const Node& mine, Node& theirs, const std::string& what) {
         fields(base, mine, theirs, what);
@@ -100,7 +100,7 @@ public:
     }
     void record(const Mesh& base, const Mesh& mine, Mesh& theirs, const std::string& what) {
         if (mine.parts.size() != theirs.parts.size() || base.parts.size() != mine.parts.size())
-            return conflict(what + " has other parts in the file; its materials are the file's");
+            return conflict(what + " has different parts in the file; the file's materials are used");
         value(base.name, mine.name, theirs.name, theirs.name != base.name && theirs.name != mine.name, what, "the name");
         for (size_t i = 0; i < mine.parts.size(); ++i) {
             const std::string part = mine.parts.size() == 1 ? what : fmt::format("{}, part {}", what, i + 1);
@@ -110,7 +110,7 @@ public:
             merge(base.parts[i].by_variant, mine.parts[i].by_variant, in_file.by_variant, "the materials of variants");
         }
     }
-    // Edits change these as a whole, if at all.
+    // Edits replace these as a whole.
     template <class Whole> void record(const Whole& base, const Whole& mine, Whole& theirs, const std::string& what) {
         value(base, mine, theirs, theirs != base && theirs != mine, what, "it");
     }
@@ -119,14 +119,14 @@ private:
     MergedEdits& out_;
 };
 
-// ---- tables
+// ---- merge of tables
 
 template <class T> std::string called(const char* kind, const Scene& scene, Id<T> id, const T& record) {
     if constexpr (std::same_as<T, Node>) return fmt::format("{} \"{}\"", kind, path_of(scene, id));
     else return fmt::format("{} \"{}\"", kind, record.name);
 }
 
-// Gives the records that were added here their ids in theirs, the same where they are free, so that others can refer to them.
+// Assigns ids in theirs to records added in mine (the same id if free), so that other records can refer to them.
 template <class T> void reserve_added(const Table<T>& base, const Table<T>& mine, Table<T>& theirs, IdMap<T>& map) {
     for (const auto& [id, record] : mine) {
         if (base.contains(id)) continue;
@@ -148,7 +148,7 @@ void merge_table(Merge& merge, const char* kind, const Scene& base_scene, Table<
         }
         const std::string what = called(kind, base_scene, id, *before);
         if (!in_file) {
-            if (now) merge.conflict(what + " is no longer in the file; what was changed of it here is lost");
+            if (now) merge.conflict(what + " was removed from the file; its edits are lost");
             continue;
         }
         if (!now) {
@@ -161,7 +161,7 @@ void merge_table(Merge& merge, const char* kind, const Scene& base_scene, Table<
     }
 }
 
-// What refers to records that are gone refers to none; nodes below one that is gone go with it.
+// Sets references to removed records to none; removes nodes whose parent was removed.
 void drop_dangling(Scene& scene) {
     for (bool again = true; std::exchange(again, false);) {
         const Table<Node> nodes = scene.nodes;
@@ -236,7 +236,8 @@ MergedEdits merge_edits(const Scene& base, const Scene& mine, const Scene& their
 
     drop_dangling(scene);
     if (const auto valid = validate(scene); !valid) {
-        out.conflicts.push_back("the edits do not fit the file any more (" + valid.error().text() + "); the file's scene is shown without them");
+        out.conflicts.push_back("the edits cannot be applied to the file any more (" + valid.error().text() +
+                                "); the file is shown without them");
         out.scene = theirs;
     }
     return out;

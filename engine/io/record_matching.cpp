@@ -8,7 +8,7 @@
 namespace blush {
 namespace {
 
-// What each record is called, and how many before it are called the same.
+// Match key: name, and number of earlier records with that name.
 template <class T, class NameOf> std::map<std::pair<std::string, int>, Id<T>> named(const Table<T>& table, const NameOf& name_of) {
     std::map<std::string, int> count;
     std::map<std::pair<std::string, int>, Id<T>> keys;
@@ -28,7 +28,7 @@ IdMap<T> match(const Table<T>& from, const Table<T>& to, const NameFrom& name_fr
     return map;
 }
 
-// A record by its name, or by the path of the first node that uses it.
+// Name of a record, or the path of the first node that uses it.
 template <class T> auto name_or_user(const Scene& scene, Id<T> Node::*use) {
     std::map<Id<T>, std::string> users;
     for (const auto& [id, node] : scene.nodes)
@@ -36,7 +36,7 @@ template <class T> auto name_or_user(const Scene& scene, Id<T> Node::*use) {
     return [users = std::move(users)](Id<T> id, const T& record) {
         if (!record.name.empty()) return record.name;
         const auto it = users.find(id);
-        return it == users.end() ? std::string() : "\n" + it->second; // no name has a line break where a path begins
+        return it == users.end() ? std::string() : "\n" + it->second; // the line break separates paths from names
     };
 }
 template <class T> std::string plain_name(Id<T>, const T& record) { return record.name; }
@@ -46,7 +46,7 @@ std::string texture_name(Id<Texture>, const Texture& texture) { return texture.n
 
 std::string path_of(const Scene& scene, Id<Node> node) {
     std::string path;
-    // Loops, which no scene has, end at the table's size.
+    // Limited by the table size, so that a cycle ends.
     for (size_t depth = 0; depth <= scene.nodes.size(); ++depth) {
         const Node* n = scene.nodes.find(node);
         if (!n) break;

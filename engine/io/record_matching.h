@@ -1,4 +1,4 @@
-// Internal to merge_edits.cpp: which record of one scene is which of another, by what they are called.
+// Internal to merge_edits.cpp: matches the records of two scenes by name.
 #pragma once
 
 #include "scene/scene.h"
@@ -8,7 +8,7 @@
 
 namespace blush {
 
-// Ids of one scene and the other's; ids without a partner name nothing there.
+// Maps ids of one scene to the other; ids without a match map to none.
 template <class T> struct IdMap {
     std::unordered_map<uint32_t, uint32_t> to;
 
@@ -29,10 +29,10 @@ struct RecordMap {
     IdMap<Clip> clips;
 };
 
-// From the records of `from` to those of `to`.
+// Maps the records of `from` to those of `to`.
 RecordMap match_records(const Scene& from, const Scene& to);
 
-// "Room/Lamp/Bulb": names from the root down.
+// Names from the root down: "Room/Lamp/Bulb".
 std::string path_of(const Scene& scene, Id<Node> node);
 
 } // namespace blush

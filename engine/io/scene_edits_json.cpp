@@ -16,13 +16,13 @@ constexpr int format_version = 1;
 
 // --- differences -------------------------------------------------------------------------------------------------
 
-// A mesh's materials are the only part of it that an edit changes and text can keep.
+// Of a mesh only the material assignments are stored.
 Json mesh_materials(const Mesh& mesh) {
     Json materials = Json::array();
     for (const MeshPart& part : mesh.parts) materials.push_back(to_json(part.material));
     return materials;
 }
-// By part, those of its variants.
+// By part: the materials of its variants.
 Json mesh_variants(const Mesh& mesh) {
     Json variants = Json::array();
     for (const MeshPart& part : mesh.parts) variants.push_back(to_json(part.by_variant));
@@ -36,7 +36,7 @@ Json changed_fields(const Mesh& before, const Mesh& now) {
     return changed;
 }
 
-// The imported mesh that has the same triangles; none if there is none. An object that was made a light has a copy with another material.
+// The imported mesh with the same triangles, if any. An object that was made emissive has a copy with another material.
 Id<Mesh> mesh_like(const Table<Mesh>& imported, const Mesh& mesh) {
     const auto same_triangles = [](const MeshPart& a, const MeshPart& b) { return a.geometry == b.geometry; };
     for (const auto& [id, candidate] : imported)
@@ -44,20 +44,20 @@ Id<Mesh> mesh_like(const Table<Mesh>& imported, const Mesh& mesh) {
     return {};
 }
 
-// The imported node whose mesh has copies at the same places, which are no text either.
+// The imported node with the same instance transforms, which are not stored either.
 Id<Node> node_like(const Table<Node>& imported, const Node& node) {
     for (const auto& [id, candidate] : imported)
         if (candidate.instances == node.instances) return id;
     return {};
 }
 
-// As text may name it: by a relative path that does not climb.
+// True for a relative path without "..".
 bool is_below_the_scene(const std::filesystem::path& file) {
     return !file.empty() && file.is_relative() && std::find(file.begin(), file.end(), "..") == file.end();
 }
 
-// `now` without what text cannot hold, so that what is written can be read back: meshes and textures that the file does not
-// have, references to them, an environment map that is no file's, a measured distribution that is none of the scene's folder.
+// `now` without content that JSON cannot store, so that the text can be read back: meshes and textures that the file lacks,
+// references to them, an environment map without a file, an IES profile outside the scene's folder.
 Scene without_payloads(const Scene& imported, Scene now, Json& left_out) {
     const Table<Mesh> meshes = now.meshes;
     for (const auto& [id, mesh] : meshes) {
@@ -74,7 +74,8 @@ Scene without_payloads(const Scene& imported, Scene now, Json& left_out) {
     }
     for (const Id<Clip> id : Table<Clip>::changed(imported.clips, now.clips))
         if (const Clip* clip = now.clips.find(id))
-            left_out.push_back(fmt::format("animation \"{}\" leads other objects than the file's: keyframes are not kept as text", clip->name));
+            left_out.push_back(
+                fmt::format("animation \"{}\" has other targets than in the file: keyframes are not kept as text", clip->name));
     if (!imported.clips.contains(now.staging.clip)) now.staging.clip = {};
     now.clips = imported.clips;
     now.skins = imported.skins;
@@ -82,7 +83,8 @@ Scene without_payloads(const Scene& imported, Scene now, Json& left_out) {
     for (auto [id, node] : nodes) {
         if (!now.meshes.contains(node.mesh)) node.mesh = {};
         if (node.instances && !node_like(imported.nodes, node)) {
-            left_out.push_back(fmt::format("node \"{}\" has copies of its mesh: their places are not kept as text", node.name));
+            left_out.push_back(
+                fmt::format("node \"{}\" has instances of its mesh: their transforms are not kept as text", node.name));
             node.instances = nullptr;
         }
         if (!now.skins.contains(node.skin)) node.skin = {};
@@ -98,14 +100,14 @@ Scene without_payloads(const Scene& imported, Scene now, Json& left_out) {
     for (auto [id, light] : lights) {
         const Light* old_light = imported.lights.find(id);
         if (!light.ies || is_below_the_scene(light.ies_file) || (old_light && old_light->ies == light.ies)) continue;
-        left_out.push_back(fmt::format("light \"{}\" has a measured distribution that is not a file of the scene's folder", light.name));
+        left_out.push_back(fmt::format("light \"{}\" has an IES profile that is not a file in the scene's folder", light.name));
         light.ies = nullptr;
         light.ies_file.clear();
         now.lights.set(id, std::move(light));
     }
     const Environment& e = now.environment;
     if (e.kind == Environment::Kind::image && e.file.empty() && e.image != imported.environment.image) {
-        left_out.push_back("the environment map is not a file's: pixels are not kept as text");
+        left_out.push_back("the environment map has no file: pixels are not kept as text");
         now.environment = imported.environment;
     }
     return now;
@@ -134,7 +136,7 @@ template <class T> Json table_edits(const Table<T>& before, const Table<T>& now)
     return edits;
 }
 
-// --- and back ------------------------------------------------------------------------------------------------------
+// --- apply -----------------------------------------------------------------------------------------------------------
 
 bool set_fields(const Json& json, Mesh& mesh) {
     size_t understood = 0;
@@ -234,7 +236,7 @@ Result<void> apply_environment(const Json& edits, Environment& environment, cons
     return {};
 }
 
-// Lights name the files of their measured distributions, in or below the scene's folder.
+// Reads the IES profiles of lights, in or below the scene's folder.
 Result<void> read_named_profiles(const Table<Light>& before, Table<Light>& lights, const std::filesystem::path& folder) {
     const Table<Light> named = lights;
     for (auto [id, light] : named) {

@@ -1,4 +1,4 @@
-// What an editing session changed, as text: the values of a scene that differ from the file it was imported from.
+// Edits as JSON: the values of a scene that differ from the file it was imported from.
 //
 //   {"format": 1,
 //    "lights": {"changed": [{"id": 1, "name": "Key", "set": {"intensity": 80.0}}],
@@ -8,9 +8,8 @@
 //    "meshes": {"changed": [{"id": 4, "name": "Vase", "set": {"materials": [2, 0]}}]},
 //    "environment": {"rotation_degrees": 90.0}, "view": {"lens": {...}}, "staging": {"clip": 1, "seconds": 1.5},
 //    "left_out": ["mesh \"Chair\" was added: triangles are not kept as text"]}
-//
-// Ids are those of the import, which numbers a file's records the same each time; names are for people. Absent parts are
-// unchanged. An environment map and a light's measured distribution are named by their files and read again. What is left out is left out of everything that refers to it.
+// Ids are those of the import, which are deterministic; names are informative. Absent parts are unchanged. Environment maps and
+// IES profiles are stored as file names and read again. References to records listed in left_out are omitted.
 #pragma once
 
 #include "core/result.h"
@@ -24,12 +23,12 @@ namespace blush {
 
 std::string edits_json(const Scene& imported, const Scene& now);
 
-// How many things it lists as left out; 0 for what is no such text.
+// Number of entries in left_out; 0 if the text is not valid.
 size_t edits_left_out(std::string_view json);
 
-// The scene that edits_json was given as `now`, apart from what it lists as left out. `folder` is where a relative path of an
-// environment map begins; measured distributions lie in or below it. Errors: not such text, an id that the import does not have, a value
-// of the wrong type or out of range, an environment map or a measured distribution that cannot be read.
+// Restores the scene that edits_json was given as `now`, except for left_out. `folder`: base of a relative environment map path;
+// IES profiles must be in or below it. Errors: invalid text, an id that the import does not have, a value of the wrong type or
+// out of range, an environment map or IES profile that cannot be read.
 Result<Scene> apply_edits_json(Scene imported, std::string_view json, const std::filesystem::path& folder = {});
 
 } // namespace blush

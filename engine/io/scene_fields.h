@@ -1,7 +1,6 @@
-// Internal to io: the members of each record, listed once for everything that must not forget one: hashing, writing, reading.
-//
-// visit_fields(record, visit) calls visit("name", member) in a fixed order, for const and mutable records alike. Payloads
-// (triangles, pixels) are not among them.
+// Internal to io: reflection of the scene records. Lists the members of each record once, for hashing, writing and reading.
+// visit_fields(record, visit) calls visit("name", member) in a fixed order, for const and mutable records. Payloads (triangles,
+// pixels) are not visited.
 #pragma once
 
 #include "scene/scene.h"
@@ -209,13 +208,13 @@ template <Is<View> T, class V> void visit_fields(T& r, V&& visit) {
     visit("lens", r.lens);
 }
 
-// A record that lists its fields.
+// A record with visit_fields.
 template <class T>
 concept Fielded = requires(T& record) {
     visit_fields(record, [](std::string_view, auto&) {});
 };
 
-// The words of an enumeration, in the order of its values.
+// JSON names of an enumeration, in the order of its values.
 template <class E> constexpr std::array<std::string_view, 0> enum_words = {};
 template <>
 inline constexpr std::array<std::string_view, 6> enum_words<Light::Kind> = {"point", "spot", "sun", "rectangle", "disk", "sphere"};

@@ -34,7 +34,7 @@ public:
     }
     template <class Values> void array(const Values& values) { bytes(std::as_bytes(std::span(values))); }
 
-    // Fields, by type. Texts are names and origins; which camera node there is shows only in the view.
+    // Hashes fields by type. Skips strings (names and paths) and camera ids, which affect the image only through the view.
     void operator()(std::string_view, const std::string&) {}
     void operator()(std::string_view, const Id<Camera>&) {}
     void operator()(std::string_view, const float& v) { word(std::bit_cast<uint32_t>(v)); }
@@ -84,7 +84,7 @@ void hash_mesh(Hasher& hash, const Mesh& mesh) {
         hash.word(part.material.value);
         hash.word(part.geometry != nullptr);
         if (!part.geometry) continue;
-        const GeometryPtr geometry = without_made_tangents(part.geometry); // they follow from the rest
+        const GeometryPtr geometry = without_made_tangents(part.geometry); // generated tangents follow from the other attributes
         const Geometry& g = *geometry;
         hash.array(g.positions);
         hash.array(g.normals);
@@ -153,7 +153,7 @@ std::string scene_hash(const Scene& scene) {
     visit_fields(scene.staging, hash);
     visit_fields(scene.environment, hash);
     if (scene.environment.kind == Environment::Kind::image) hash_image(hash, scene.environment.image);
-    // Where the eye turns about is not seen; where it is and what it looks through are.
+    // The pivot does not affect the image; position, rotation and lens do.
     hash("position", scene.view.position);
     hash("rotation", scene.view.rotation);
     hash("lens", scene.view.lens);

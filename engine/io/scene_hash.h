@@ -1,4 +1,4 @@
-// One number for everything in a scene that reaches the image.
+// Hash of everything in a scene that affects the image.
 #pragma once
 
 #include "scene/scene.h"
@@ -7,8 +7,8 @@
 
 namespace blush {
 
-// 64 bits as 16 hexadecimal digits. Equal for two imports of one file; names, sources, cameras and payload serials do not
-// count, triangles and pixels do. Not cryptographic: it finds mistakes, not forgeries. Time is that of reading all payloads once.
+// 64 bits as 16 hexadecimal digits. Equal for two imports of one file; ignores names, sources, cameras and payload serials,
+// includes triangles and pixels. Not cryptographic. Reads all payloads once.
 std::string scene_hash(const Scene& scene);
 
 } // namespace blush

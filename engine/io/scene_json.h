@@ -1,4 +1,4 @@
-// Internal to *_json.cpp: any record of a scene as JSON, field by field.
+// Internal to *_json.cpp: converts scene records to JSON and back, by field.
 #pragma once
 
 #include "io/json_fields.h"
@@ -22,7 +22,7 @@ template <class T> Json to_json(const Id<T>& id) { return id.value; }
 inline Json to_json(const Vec2& v) { return Json::array({v.x, v.y}); }
 inline Json to_json(const Vec3& v) { return Json::array({v.x, v.y, v.z}); }
 inline Json to_json(const Quat& q) { return Json::array({q.x, q.y, q.z, q.w}); }
-// Four columns of three, or null.
+// Four columns of three numbers, or null.
 inline Json to_json(const std::optional<Affine>& m) {
     return m ? Json::array({to_json(m->x), to_json(m->y), to_json(m->z), to_json(m->t)}) : Json();
 }
@@ -47,7 +47,7 @@ template <Fielded T> Json changed_fields(const T& before, const T& now) {
     return changed;
 }
 
-// --- JSON to values: false if the JSON does not fit, the value is then unspecified -----------------------------
+// --- JSON to values: false if the JSON is invalid; the value is then unspecified -----------------------------
 
 template <class E>
 requires std::is_enum_v<E>
@@ -78,7 +78,7 @@ inline bool read_json(const Json& json, std::optional<Affine>& m) {
 }
 
 template <class T> bool read_json(const Json& json, std::vector<T>& list);
-// Sets the fields that the JSON names; every name must be a field.
+// Sets the fields in the JSON; false for an unknown name.
 template <Fielded T> bool read_json(const Json& json, T& record) {
     if (!json.is_object()) return false;
     size_t understood = 0;

@@ -6,7 +6,7 @@
 namespace blush {
 namespace {
 
-// --- to text
+// --- write
 
 template <Fielded T> Json record_json(const T& record) { return {{"set", changed_fields(T{}, record)}}; }
 Json record_json(const Mesh& mesh) {
@@ -17,7 +17,7 @@ Json record_json(const Mesh& mesh) {
     }
     return {{"name", mesh.name}, {"materials", materials}, {"variants", variants}, {"targets", mesh.target_names}};
 }
-// What these are is not edited, only which of them is used.
+// The contents of these cannot be edited, only the choice.
 Json record_json(const Skin& skin) { return {{"name", skin.name}}; }
 Json record_json(const Clip& clip) { return {{"name", clip.name}}; }
 
@@ -31,7 +31,7 @@ template <class T> Json table_json(const Table<T>& table) {
     return list;
 }
 
-// --- and back
+// --- read
 
 template <class T> bool read_member(const Json& object, const char* key, T& value) {
     const auto it = object.find(key);
@@ -62,7 +62,7 @@ template <class T> bool read_table(const Json& object, const char* key, Table<T>
     return true;
 }
 
-// --- what is no text, from the file as it is now
+// --- payloads, taken from the current file
 
 void take_payloads(Scene& scene, const Scene& file) {
     const RecordMap there = match_records(scene, file);
@@ -93,7 +93,8 @@ void take_payloads(Scene& scene, const Scene& file) {
     Environment& e = scene.environment;
     if (e.kind != Environment::Kind::image) return;
     e.image = file.environment.image;
-    // An environment map has pixels in a valid scene; these are never shown, for edits do not change them.
+    // Placeholder pixels: validation requires an environment map to have some. They are never shown, since edits do not change
+    // them.
     if (!e.image) e.image = std::make_shared<const Image>(Image{.width = 1, .height = 1, .channels = 3, .floats = {0, 0, 0}});
 }
 
@@ -127,7 +128,7 @@ Result<Scene> scene_of_records(std::string_view text, const Scene& file) {
                        read_member(*json, "scene_names", scene.scene_names) && read_member(*json, "variants", scene.variants) &&
                        read_member(*json, "staging", scene.staging) && read_member(*json, "environment", scene.environment) &&
                        read_member(*json, "mix", scene.mix) && read_member(*json, "view", scene.view);
-    if (!whole) return Error{"", "not the records of a scene, or an id that occurs twice", ""};
+    if (!whole) return Error{"", "not the records of a scene, or a duplicate id", ""};
     take_payloads(scene, file);
     return scene;
 }

@@ -1,4 +1,4 @@
-// A scene's records as text, without triangles, pixels and keyframes: what edits are compared with when their file has changed since.
+// The records of a scene as JSON without triangles, pixels and keyframes: base of a three-way merge if the file has changed.
 //
 //   {"nodes": [{"id": 1, "set": {"name": "Lamp", "light": 2}}], "meshes": [{"id": 1, "name": "Vase", "materials": [3], "variants": [[]]}],
 //    "materials": ..., "textures": ..., "lights": ..., "cameras": ..., "skins": [{"id": 1, "name": "Fox"}], "clips": ...,
@@ -17,8 +17,8 @@ namespace blush {
 
 std::string records_json(const Scene& scene);
 
-// The scene that records_json was given. Triangles, pixels, copies and measured distributions are those of the records of `file` that have the
-// same name or path (as merge_edits matches them); without such a record they are absent. Errors: not such text, an id that occurs twice.
+// Restores the scene that records_json was given. Triangles, pixels, instances and IES profiles come from the matching records of
+// `file` (matched as in merge_edits); absent without a match. Errors: invalid text, a duplicate id.
 Result<Scene> scene_of_records(std::string_view json, const Scene& file);
 
 } // namespace blush

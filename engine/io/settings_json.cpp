@@ -12,7 +12,7 @@
 namespace blush {
 namespace {
 
-// One reader per key: what to do with its value, or an error.
+// One reader per key: assigns its value, or returns an error.
 using Readers = std::map<std::string, std::function<Result<void>(const Json&)>, std::less<>>;
 
 // Assigns a value of a plain type.
@@ -22,7 +22,7 @@ template <class T> auto plain(T& target) {
     };
 }
 
-// Assigns what a parser of the command line makes of a text.
+// Assigns the result of a command line parser.
 template <class T, class Parse> auto word(T& target, Parse parse) {
     return [&target, parse](const Json& json) -> Result<void> {
         std::string text;
@@ -34,7 +34,7 @@ template <class T, class Parse> auto word(T& target, Parse parse) {
     };
 }
 
-// Hands over an array of so many numbers.
+// Passes on an array of a fixed number of numbers.
 template <size_t n, class Take> auto numbers(Take take) {
     return [take](const Json& json) -> Result<void> {
         std::array<float, n> values{};

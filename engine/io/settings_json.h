@@ -1,4 +1,4 @@
-// Render and view settings as JSON, with the command line's names and words: what EXR metadata and the converge command hold.
+// Render and view settings as JSON, with the names and values of the command line. Used in EXR metadata and by `blush converge`.
 #pragma once
 
 #include "core/result.h"
@@ -23,10 +23,10 @@ std::string view_settings_json(const ViewSettings& settings);
 
 template <class T> struct ParsedSettings {
     T settings;
-    std::vector<Diagnostic> diagnostics; // keys that mean nothing here
+    std::vector<Diagnostic> diagnostics; // unknown keys
 };
 
-// Keys that are absent keep their value in `defaults`. max_bounces may be a number too.
+// Absent keys keep their value in `defaults`. max_bounces may also be a number.
 // Errors: not a JSON object, a value of the wrong type or out of range (validate.h).
 Result<ParsedSettings<RenderSettings>> parse_render_settings(std::string_view json, const RenderSettings& defaults = {});
 Result<ParsedSettings<ViewSettings>> parse_view_settings(std::string_view json, const ViewSettings& defaults = {});

@@ -36,7 +36,7 @@ Result<Sidecar> parse_sidecar(std::string_view text) {
         return Error{"", fmt::format("a recovery file of a format other than {}", format_version), "format"};
     if (!json->contains("scene") || !read_json((*json)["scene"], scene) || !json->contains("document_hash") ||
         !read_json((*json)["document_hash"], s.document_hash) || !has("edits") || !has("render") || !has("display"))
-        return Error{"", "not a whole recovery file", ""};
+        return Error{"", "incomplete recovery file", ""};
     s.scene = scene;
     s.edits = json_text((*json)["edits"]);
     if (has("imported")) s.imported = json_text((*json)["imported"]);
@@ -65,7 +65,10 @@ Result<RecoveredEdits> recover_edits(const Sidecar& sidecar, const Scene& file, 
         return recovered;
     }
     if (sidecar.imported.empty())
-        return Error{"", "has changed since, and the recovery file does not say what it was like: put the former version back to recover the edits", ""};
+        return Error{
+            "",
+            "has changed since, and the recovery file lacks its former contents: restore the former version to recover the edits",
+            ""};
     const Result<Scene> base = scene_of_records(sidecar.imported, file);
     if (!base) return base.error();
     const Result<Scene> mine = apply_edits_json(*base, sidecar.edits, folder);

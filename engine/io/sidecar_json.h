@@ -1,4 +1,4 @@
-// Edits that are not saved yet, as a text that outlives a crash.
+// Recovery file: unsaved edits as JSON, to restore them after a crash.
 #pragma once
 
 #include "core/result.h"
@@ -13,9 +13,9 @@ namespace blush {
 
 struct Sidecar {
     std::filesystem::path scene; // absolute
-    std::string document_hash;   // hash_text of the scene file's JSON, which the edits belong to
+    std::string document_hash;   // hash_text of the JSON of the scene file at the time of the edits
     std::string edits;           // scene_edits_json.h
-    std::string imported;        // records of the scene that was edited (scene_records_json.h); empty: not kept, for there are too many
+    std::string imported;        // records of the scene as imported (scene_records_json.h); empty if too many
     RenderSettings render;
     ViewSettings view;
     bool operator==(const Sidecar&) const = default;
@@ -23,16 +23,16 @@ struct Sidecar {
 
 // {"format": 1, "scene": "/home/.../room.gltf", "document_hash": "...", "edits": {...}, "imported": {...}, "render": {...}, "display": {...}}
 std::string sidecar_json(const Sidecar& sidecar);
-// Errors: not such text, another format, settings that make no sense. Edits are checked when they are applied.
+// Errors: invalid text, another format, invalid settings. Edits are checked when they are applied.
 Result<Sidecar> parse_sidecar(std::string_view text);
 
-// Of the edits of `now` to what was imported from a file with that JSON. Scenes of more than 100 000 nodes keep no `imported`: it would be
-// written again with each autosave.
+// Recovery data for the edits from `imported` to `now`. Above 100 000 nodes `imported` stays empty, since every autosave would
+// write it again.
 Sidecar sidecar_of(const std::filesystem::path& file, std::string_view document_json, const Scene& imported, const Project& now);
 
-// The project with the edits, where `file` is the scene as it is in the file now and `document_json` its JSON. If the file is not the one that was
-// edited, edits are merged by name and path (merge_edits.h) and `conflicts` says what does not fit. Errors: edits that cannot be read; a file that
-// changed since, where the sidecar has no records to compare it with.
+// Applies the edits to `file`, the scene in the file now, whose JSON is `document_json`. If the file has changed, edits are
+// merged by name and path (merge_edits.h) with `conflicts`. Errors: edits that cannot be read; a changed file if the sidecar has
+// no `imported` records.
 struct RecoveredEdits {
     Project project;
     bool file_changed = false;
@@ -40,7 +40,7 @@ struct RecoveredEdits {
 };
 Result<RecoveredEdits> recover_edits(const Sidecar& sidecar, const Scene& file, std::string_view document_json);
 
-// 64 bits (FNV-1a) as 16 hexadecimal digits: finds changes, not forgeries.
+// FNV-1a, 64 bits as 16 hexadecimal digits. Not cryptographic.
 std::string hash_text(std::string_view text);
 
 } // namespace blush

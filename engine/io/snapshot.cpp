@@ -17,7 +17,7 @@ namespace {
 
 constexpr uint32_t first_inexact_id = 1u << 24;
 
-// Adds planes and keeps the first thing that is wrong with one.
+// Adds planes and keeps the first error.
 class Builder {
 public:
     Builder(int width, int height, bool half) : half_(half), pixels_(size_t(std::max(width, 0)) * size_t(std::max(height, 0))) {
@@ -25,7 +25,7 @@ public:
         image_.height = height;
     }
 
-    // One channel of interleaved values.
+    // Extracts a channel of interleaved values.
     void channel(const std::string& name, std::span<const float> values, size_t stride, size_t offset, bool half = false) {
         LayeredImage::Channel channel{name, std::vector<float>(pixels_), false, {}, half};
         for (size_t i = 0; i < pixels_; ++i) channel.values[i] = values[i * stride + offset];
@@ -34,7 +34,7 @@ public:
     void scalars(const std::string& name, std::span<const float> values) {
         if (wanted(name, values.size(), 1)) channel(name, values, 1, 0);
     }
-    // Interleaved values under one letter each.
+    // Adds interleaved values as channels of one letter each.
     void interleaved(const std::string& layer, std::string_view letters, std::span<const float> values) {
         if (!wanted(layer, values.size(), letters.size())) return;
         for (size_t c = 0; c < letters.size(); ++c) channel(layer + letters[c], values, letters.size(), c, half_);
@@ -46,7 +46,7 @@ public:
     void ids(const std::string& name, std::span<const uint32_t> values) {
         if (!wanted(name, values.size(), 1)) return;
         if (std::any_of(values.begin(), values.end(), [](uint32_t id) { return id >= first_inexact_id; }))
-            fail("an id is too large to be kept", name);
+            fail("an id is too large to be stored", name);
         image_.channels.push_back({name, std::vector<float>(values.begin(), values.end()), true});
     }
 
@@ -76,9 +76,9 @@ private:
     std::optional<Error> error_;
 };
 
-// Printable, without the dot that separates layers, of bounded length, and no two alike.
+// Channel-safe group names: printable, without dots, of limited length, unique.
 std::vector<std::string> channel_names(std::span<const std::string> names) {
-    constexpr size_t longest = 180; // OpenEXR's limit is 255 for all of it
+    constexpr size_t longest = 180; // OpenEXR's limit for the full channel name is 255
     std::vector<std::string> channels;
     std::set<std::string> taken;
     for (const std::string& name : names) {
@@ -92,7 +92,7 @@ std::vector<std::string> channel_names(std::span<const std::string> names) {
     return channels;
 }
 
-// The attribute as a number, its default if it is absent or empty; false if it is neither.
+// Reads an attribute as a number; the default if absent or empty; false if invalid.
 template <class T> bool read_number(std::string_view text, T& number) {
     if (text.empty()) return true;
     const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -165,7 +165,7 @@ Result<SnapshotMetadata> read_snapshot_metadata(const std::map<std::string, std:
         const auto it = texts.find(key);
         return it == texts.end() ? std::string() : it->second;
     };
-    if (!texts.contains("blush:version")) return Error{"", "not a picture of ours: it has no blush:version", ""};
+    if (!texts.contains("blush:version")) return Error{"", "not an image of Blush: it has no blush:version", ""};
     SnapshotMetadata m;
     m.version = text("blush:version");
     m.scene = text("blush:scene");

@@ -1,4 +1,4 @@
-// A picture with everything needed to make it again: channels and metadata as every EXR of ours has them.
+// Snapshot: an image with everything needed to render it again. Defines the channels and metadata of all EXR files of Blush.
 #pragma once
 
 #include "core/exact_plane.h"
@@ -16,25 +16,25 @@
 
 namespace blush {
 
-// The text beside the pixels, as "blush:KEY" attributes.
+// Text metadata, stored as "blush:KEY" attributes.
 struct SnapshotMetadata {
     std::string version;                       // of the program
     std::string scene;                         // the scene file's name
     std::string scene_hash;                    // scene_hash.h
-    std::string camera;                        // name of the camera node, or a free view
-    int64_t spp = 0;                           // samples per pixel that the picture holds
+    std::string camera;                        // name of the camera node, or of a free view
+    int64_t spp = 0;                           // samples per pixel in the image
     int64_t first_sample = 0, last_sample = 0; // sample indices [first, last)
     uint32_t seed = 0;
-    double seconds = 0; // of rendering
+    double seconds = 0; // render time
     std::string error;    // estimated relative error as text, empty if unknown
-    std::string denoised; // what made the layer of that name: network, precision, samples; empty without one
+    std::string denoised; // how the layer "denoised" was made: network, precision, samples; empty without one
     RenderSettings settings;
     std::string edits;    // scene_edits_json.h, empty if nothing differs from the file
     bool partial = false; // ended before any stop rule was reached
-    std::optional<ViewSettings> view; // how it was looked at; of the window's snapshots
-    std::string scene_file;           // path of the scene, relative to the folder of the picture; empty if not known
-    std::string name, note;           // as the user calls it
-    std::string film;                 // JSON of the film state beside its planes; empty without one
+    std::optional<ViewSettings> view; // display settings, for snapshots of the window
+    std::string scene_file;           // path of the scene relative to the folder of the image; empty if unknown
+    std::string name, note;           // given by the user
+    std::string film;                 // film state as JSON, without its planes; empty if none
     bool operator==(const SnapshotMetadata&) const = default;
 };
 
@@ -49,29 +49,29 @@ struct SnapshotInput {
     std::span<const Vec3> error;    // standard error of the mean
     std::span<const float> samples; // per pixel
     std::span<const uint32_t> object_id, material_id;
-    std::span<const std::vector<Vec3>> bounces; // light by the number of scatterings
-    // Light by the group of lights that it came from: the groups sum to the beauty. As many names; characters that channels cannot have in
-    // theirs become underscores.
+    std::span<const std::vector<Vec3>> bounces; // light by number of bounces
+    // Light by light group; the groups sum to the beauty. One name per group; characters that are not allowed in channel names
+    // become underscores.
     std::span<const std::vector<Vec3>> groups;
     std::span<const std::string> group_names;
-    std::span<const ExactPlane> film;           // what rendering goes on from
-    bool half = false;                          // colours, albedo, normals and errors in 16 bits: half the size
+    std::span<const ExactPlane> film;           // film state to resume from
+    bool half = false;                          // stores colours, albedo, normals and errors as 16-bit floats
     SnapshotMetadata metadata;
 };
 
 // Channels R G B A, then denoised.{R,G,B}, albedo.{R,G,B}, normal.{X,Y,Z}, depth.Z, error.{R,G,B}, samples.Y, bounce.N.{R,G,B},
 // group.NAME.{R,G,B}, id.object, id.material, film.* (exact_channels.h).
-// Errors: a plane of the wrong size, an id of 2^24 or more, which a float channel cannot carry.
+// Errors: a plane of the wrong size, an id of 2^24 or more, which a float channel cannot represent.
 Result<LayeredImage> make_snapshot(const SnapshotInput& input);
 
-// Values of the picture that 16 bits cannot hold.
+// Number of values that exceed the range of 16-bit floats.
 int64_t beyond_half(const LayeredImage& image);
 
-// Was it made by the window or to be gone on with: does it say more than what it is a picture of?
+// True if the window made it or if it can be resumed: it holds more than a plain render.
 bool is_snapshot(const std::map<std::string, std::string>& metadata);
-// What make_snapshot wrote. Errors: not one of our pictures, or metadata that do not make sense.
+// Reads the metadata that make_snapshot wrote. Errors: not an image of Blush, or invalid metadata.
 Result<SnapshotMetadata> read_snapshot_metadata(const std::map<std::string, std::string>& texts);
-// And back, as make_snapshot writes them.
+// The metadata as texts, as make_snapshot writes them.
 std::map<std::string, std::string> snapshot_texts(const SnapshotMetadata& metadata);
 
 } // namespace blush

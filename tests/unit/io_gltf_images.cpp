@@ -83,7 +83,7 @@ TEST(GltfImages, AreReadAsWhatTheyAreNotAsWhatTheyAreSaidToBe) {
     const auto imported = import_built(b);
     ASSERT_TRUE(imported) << error_text(imported);
     EXPECT_EQ(image_of(imported, 0)->bytes, red_green);
-    EXPECT_TRUE(reports(imported->report, "said to be jpeg but is webp"));
+    EXPECT_TRUE(reports(imported->report, "declared as jpeg but is webp"));
 }
 
 TEST(GltfImages, TheSameBytesAreOneImage) {

@@ -154,7 +154,7 @@ TEST(MeasuredLights, HostileOnesAreRefusedOrReported) {
     };
     const std::string data = "data:application/x-ies-lm-63;base64," + base64(text_of(downlight));
     EXPECT_EQ(imported_with({{"uri", data}}, shines(0))->scene.lights.size(), 1u);
-    EXPECT_NE(error_text(imported_with({{"uri", data}}, shines(1))).find("measured light 1 does not exist; there are 1"), std::string::npos);
+    EXPECT_NE(error_text(imported_with({{"uri", data}}, shines(1))).find("IES light 1 does not exist; there are 1"), std::string::npos);
     const Json profiles[] = {Json::object(),
                              7,
                              {{"uri", "none.ies"}},
@@ -166,7 +166,7 @@ TEST(MeasuredLights, HostileOnesAreRefusedOrReported) {
     for (const Json& profile : profiles) {
         const auto imported = imported_with(profile, shines(0));
         ASSERT_TRUE(imported) << error_text(imported);
-        EXPECT_TRUE(reports(imported->report, "a measured light is not shown")) << profile;
+        EXPECT_TRUE(reports(imported->report, "ignored: a light whose IES profile cannot be read")) << profile;
         EXPECT_EQ(imported->scene.lights.size(), 0u) << profile;
         EXPECT_FALSE(imported->scene.nodes.entries()[0].value.light);
         saved_and_loaded(folder, *imported, imported->scene);

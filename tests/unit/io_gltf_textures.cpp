@@ -133,8 +133,8 @@ TEST(GltfTextures, LieOnAnyUvSet) {
     EXPECT_EQ(g.uv[3], (PlacedVector<Vec2>{{0, 0}, {3, 0}, {0, 1}}));
     EXPECT_TRUE(g.has_uv_set(0) && !g.has_uv_set(1) && !g.has_uv_set(2)) << "the first two are kept, and what textures lie on";
     EXPECT_TRUE(reports(imported->report, "TEXCOORD_2, which no texture uses"));
-    EXPECT_TRUE(reports(imported->report, "TEXCOORD_70, which is not there"));
-    EXPECT_TRUE(reports(imported->report, "TEXCOORD_256; numbers reach from 0 to 255"));
+    EXPECT_TRUE(reports(imported->report, "TEXCOORD_70, which is missing"));
+    EXPECT_TRUE(reports(imported->report, "TEXCOORD_256; UV sets range from 0 to 255"));
 }
 
 TEST(GltfTextures, EveryUseOfATextureIsRead) {
@@ -254,7 +254,7 @@ TEST(GltfTangents, OfDegenerateTextureCoordinatesAreSomePerpendicular) {
     }
     const auto without = import_normal_mapped({});
     ASSERT_TRUE(without) << error_text(without);
-    EXPECT_TRUE(reports(without->report, "no texture coordinates"));
+    EXPECT_TRUE(reports(without->report, "lacks its texture coordinates"));
 }
 
 } // namespace

@@ -105,7 +105,7 @@ TEST(GltfUnpacking, MoreIsNotMadeOfAFileThanItCanHold) {
     EXPECT_EQ(error_with(draco, 2), "");
     const Json primitive = draco.json["meshes"][0]["primitives"][0];
     for (int i = 0; i < 300; ++i) draco.json["meshes"][0]["primitives"].push_back(primitive);
-    EXPECT_NE(error_with(draco, 2).find("would unpack to"), std::string::npos) << error_with(draco, 2);
+    EXPECT_NE(error_with(draco, 2).find("would decompress to"), std::string::npos) << error_with(draco, 2);
 
     const std::vector<float> zeros(3 << 20);
     GltfBuilder meshopt = packed_by_meshopt(sheet, packed_indices(sheet, false, 4));
@@ -113,7 +113,7 @@ TEST(GltfUnpacking, MoreIsNotMadeOfAFileThanItCanHold) {
     EXPECT_EQ(error_with(meshopt, 2), "");
     const Json view = meshopt.json["bufferViews"].back();
     for (int i = 0; i < 100; ++i) meshopt.json["bufferViews"].push_back(view);
-    EXPECT_NE(error_with(meshopt, 2).find("would unpack to"), std::string::npos) << error_with(meshopt, 2);
+    EXPECT_NE(error_with(meshopt, 2).find("would decompress to"), std::string::npos) << error_with(meshopt, 2);
 }
 
 } // namespace

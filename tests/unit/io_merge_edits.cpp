@@ -153,7 +153,7 @@ TEST(MergeEdits, NameWhatAnEditNoLongerFinds) {
     const auto [scene, conflicts] = merge_edits(base.scene, mine.scene, theirs.scene);
     EXPECT_EQ(scene.nodes.size(), theirs.scene.nodes.size());
     ASSERT_EQ(conflicts.size(), 2u);
-    EXPECT_EQ(conflicts[0], "object \"Stand/Lamp\" is no longer in the file; what was changed of it here is lost");
+    EXPECT_EQ(conflicts[0], "object \"Stand/Lamp\" was removed from the file; its edits are lost");
     EXPECT_TRUE(validate(scene));
 }
 
