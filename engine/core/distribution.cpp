@@ -12,7 +12,7 @@ std::vector<uint32_t> make_thresholds(std::span<const double> weights) {
     for (const double w : weights) total += w;
     const bool uniform = !(total > 0);
 
-    // First give every positive weight one unit, then share out the rest by the running sum, which is monotone.
+    // Every positive weight gets one unit; the rest is distributed by the cumulative sum, which is monotone.
     size_t positive = 0;
     for (const double w : weights) positive += uniform || w > 0;
     const double share = 0x1p32 - double(positive);

@@ -1,4 +1,4 @@
-// Numbers that must survive to the last bit, one for each pixel: sums in double precision, or whole numbers.
+// Plane of values that are stored without loss, one per pixel: double precision sums or integers.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace blush {
 
-// One of the two vectors is filled.
+// Exactly one of the two vectors is used.
 struct ExactPlane {
     std::string name;
     std::vector<double> sums = {};

@@ -17,7 +17,7 @@
 namespace blush {
 namespace {
 
-// A file descriptor that closes itself.
+// RAII file descriptor.
 struct Descriptor {
     int fd = -1;
     explicit Descriptor(int value) : fd(value) {}
@@ -26,7 +26,7 @@ struct Descriptor {
     ~Descriptor() {
         if (fd >= 0) ::close(fd);
     }
-    // Some file systems report a full disk only here.
+    // Some file systems report a full disk only on close.
     bool close() { return ::close(std::exchange(fd, -1)) == 0; }
 };
 
@@ -34,15 +34,15 @@ Error system_error(const std::filesystem::path& file, const char* doing) {
     return {file.string(), fmt::format("cannot {}: {}", doing, std::strerror(errno)), ""};
 }
 
-// Beside the target, so that the rename stays within one file system; unique in this process and among processes.
+// In the target's folder, so that the rename stays within one file system; unique within and across processes.
 std::filesystem::path temporary_beside(const std::filesystem::path& file) {
     static std::atomic<unsigned> counter = 0;
     return file.parent_path() / fmt::format(".{}.{}-{}.tmp", file.filename().string(), ::getpid(), counter++);
 }
 
-// The file that a name stands for: where a chain of symbolic links ends, which need not exist; one of the links if there is no end.
+// Resolves symbolic links; the target need not exist. Returns one of the links for a cycle.
 std::filesystem::path behind_links(std::filesystem::path file) {
-    constexpr int max_links = 40; // as the kernel follows
+    constexpr int max_links = 40; // same limit as the kernel
     std::error_code code;
     for (int i = 0; i < max_links && std::filesystem::is_symlink(file, code); ++i) {
         const std::filesystem::path target = std::filesystem::read_symlink(file, code);
@@ -54,7 +54,7 @@ std::filesystem::path behind_links(std::filesystem::path file) {
 
 bool is_running(pid_t pid) { return ::kill(pid, 0) == 0 || errno != ESRCH; }
 
-// The process that a temporary file of write_file() is of, by a name like ".NAME.PID-NUMBER.tmp"; 0: it is no such file.
+// Process id in the name ".NAME.PID-NUMBER.tmp" of a temporary file of write_file(); 0 for other files.
 pid_t writer_of(const std::string& name, const std::string& target) {
     const std::string begin = "." + target + ".", end = ".tmp";
     if (name.size() <= begin.size() + end.size() || !name.starts_with(begin) || !name.ends_with(end)) return 0;
@@ -65,7 +65,7 @@ pid_t writer_of(const std::string& name, const std::string& target) {
     return parts.size() == 2 && parse_number(parts[0], pid) && parse_number(parts[1], number) && pid > 0 ? pid : 0;
 }
 
-// Removes what earlier writes of this file left behind when their process was killed.
+// Removes temporary files of earlier writes whose process was killed.
 void sweep_temporaries(const std::filesystem::path& file) {
     std::error_code code;
     const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
@@ -91,7 +91,7 @@ bool write_all(int fd, std::span<const uint8_t> bytes) {
 } // namespace
 
 Result<std::vector<uint8_t>> read_file(const std::filesystem::path& file, uint64_t max_bytes) {
-    // Non-blocking: opening a pipe that nobody writes to must not wait for ever.
+    // Non-blocking: opening a pipe without a writer would block.
     Descriptor source(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
     struct stat status {};
     if (source.fd < 0 || ::fstat(source.fd, &status) != 0) return system_error(file, "read");
@@ -104,7 +104,7 @@ Result<std::vector<uint8_t>> read_file(const std::filesystem::path& file, uint64
         const ssize_t count = ::read(source.fd, bytes.data() + filled, bytes.size() - filled);
         if (count < 0 && errno == EINTR) continue;
         if (count < 0) return system_error(file, "read");
-        if (count == 0) break; // shrank while we read: what follows sees a truncated file
+        if (count == 0) break; // the file shrank during the read: treated as truncated
         filled += size_t(count);
     }
     bytes.resize(filled);

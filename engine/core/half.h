@@ -1,11 +1,11 @@
-// IEEE 754 half precision, of numbers from 0 on: 11 significant bits from 2^-14 to 65504, fewer down to 2^-24.
+// IEEE 754 half precision for non-negative numbers: 11 significant bits from 2^-14 to 65504, fewer down to 2^-24.
 #pragma once
 
 #include "core/lanes.h"
 
 namespace blush {
 
-// Bits of the nearest half, to even from the middle; what is above 65504 becomes that. x is a number from 0 on.
+// Bits of the nearest half, ties to even; larger values are clamped to 65504. x >= 0.
 inline uint32_t half_bits(float x) {
     if (!(x < 65504.f)) return 0x7bff;
     if (x < 0x1p-14f) return uint32_t(std::lrint(x * 0x1p24f));
@@ -17,7 +17,7 @@ inline uint32_t half_bits(float x) {
 
 namespace blush::inline BLUSH_ISA {
 
-// The number that the low 15 bits are. Exact where denormals are flushed to zero, too.
+// Value of the low 15 bits. Exact even if denormals are flushed to zero.
 template <class F> F half_value(const Int<F>& bits) {
     const Int<F> shifted = bits << 13;
     const F normal = float_from_bits(Int<F>(shifted + (112 << 23)));

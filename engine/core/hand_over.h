@@ -1,5 +1,5 @@
-// Internal to core: what was written before give() may be read after receive(). TBB sees to it; this tells ThreadSanitizer, which cannot look
-// into TBB. For files that are compiled without it (see CMakeLists.txt).
+// Internal to core: ThreadSanitizer annotations. Writes before give() happen before reads after receive(). TBB guarantees this,
+// but ThreadSanitizer cannot see it, since TBB is not instrumented. Also for files compiled without TSan (see CMakeLists.txt).
 #pragma once
 
 #ifdef BLUSH_TSAN

@@ -46,14 +46,14 @@ private:
 
 struct HelpingThreads::State {
     unsigned threads;
-    std::vector<std::function<void()>> waiting; // where nobody helps
+    std::vector<std::function<void()>> waiting; // used without other threads
     tbb::task_arena arena;
     SamePriority priority;
     tbb::task_group group;
     HandOver to_helpers, from_helpers;
 
     explicit State(unsigned count) : threads(count), arena(int(count)), priority(arena) {
-        if (!alone()) arena.initialize(); // here and now: it keeps this thread's floating-point settings
+        if (!alone()) arena.initialize(); // initialised here to capture this thread's floating-point settings
     }
 
     bool alone() const { return threads == 1; }
@@ -66,11 +66,11 @@ struct HelpingThreads::State {
             try {
                 (*held)();
             } catch (...) {
-                from_helpers.give(); // what is thrown, too
+                from_helpers.give(); // also after an exception
                 throw;
             }
             from_helpers.give();
-            *held = nullptr; // rather than when TBB ends the task, after which nobody knows in which order things go
+            *held = nullptr; // released here, since the order of destruction in TBB is undefined
         });
     }
 };
@@ -81,13 +81,13 @@ HelpingThreads::HelpingThreads(unsigned threads)
 HelpingThreads::~HelpingThreads() {
     try {
         finish();
-    } catch (...) {} // as promised
+    } catch (...) {} // exceptions are dropped, see the header
 }
 
 void HelpingThreads::begin(const std::vector<int64_t>& sizes, int64_t large, std::function<void(size_t)> task) {
     using Task = std::function<void(size_t)>;
     const auto forget = [state = state_.get()](const Task* done) {
-        state->from_helpers.receive(); // whoever is the last to let go of it
+        state->from_helpers.receive(); // the last owner
         delete done;
     };
     const std::shared_ptr<const Task> shared(new Task(std::move(task)), forget);
@@ -98,7 +98,7 @@ void HelpingThreads::begin(const std::vector<int64_t>& sizes, int64_t large, std
             state_->begin([shared, one_by_one] {
                 for (const size_t i : one_by_one) (*shared)(i);
             });
-        // Many pieces of work, so that threads come and go, but not millions.
+        // Enough chunks to balance the load, but not millions.
         const size_t piece = side_by_side.size() / (64 * size_t(state_->threads)) + 1;
         for (size_t first = 0; first < side_by_side.size(); first += piece) {
             const auto begin = side_by_side.begin() + std::ptrdiff_t(first), end = begin + std::ptrdiff_t(std::min(piece, side_by_side.size() - first));

@@ -1,4 +1,4 @@
-// Work that other threads begin while the one that wants it does something else.
+// Task queue: runs tasks on other threads while the calling thread continues.
 #pragma once
 
 #include <cstddef>
@@ -9,21 +9,21 @@
 
 namespace blush {
 
-// Threads that help the one that makes them, at its priority (beside a window: a low one) and with its floating-point settings, so that a
-// result does not depend on who computed it.
+// Threads of a task queue. They have the priority of the creating thread (low beside a window) and its floating-point settings,
+// so that results do not depend on the thread.
 class HelpingThreads {
 public:
-    // Together with the one that makes them; 0: one per core. With 1 nothing is done before finish().
+    // `threads` includes the calling one; 0: one per core. With 1 all tasks run in finish().
     explicit HelpingThreads(unsigned threads = 0);
-    // Waits for what has been begun; what throws is lost.
+    // Waits for running tasks; exceptions are dropped.
     ~HelpingThreads();
     HelpingThreads(const HelpingThreads&) = delete;
     HelpingThreads& operator=(const HelpingThreads&) = delete;
 
-    // Calls task(i) once for each of `sizes`, in any order, and returns at once. Those larger than `large` are done one after another, beside
-    // the others: what they need at the same time stays bounded.
+    // Queues task(i) for each of `sizes`, in any order, and returns immediately. Tasks larger than `large` run one at a time
+    // beside the others, which limits memory.
     void begin(const std::vector<int64_t>& sizes, int64_t large, std::function<void(size_t)> task);
-    // Works along until all is done. Throws what a task has thrown.
+    // Runs tasks on this thread too until all are done. Rethrows an exception of a task.
     void finish();
 
 private:

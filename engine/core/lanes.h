@@ -1,6 +1,6 @@
-// One vocabulary for "a number per path". F is float (one path: the oracle in tests) or Wide, a register of
-// lanes. Shading is written once over F: `select` in place of if, `if (any(mask))` around what few lanes need.
-// Intrinsics, where std::experimental::simd has no word for them (gather, compress), live in this file only.
+// SIMD lanes: "a number per path". F is float (one path, the reference in tests) or Wide, a SIMD register. Shading is templated
+// on F: `select` replaces if, and `if (any(mask))` skips work that no lane needs. Intrinsics that std::experimental::simd lacks
+// (gather, compress) are used in this file only.
 #pragma once
 
 #include "core/isa.h"
@@ -50,7 +50,7 @@ inline unsigned bits(bool m) { return m; }
 inline unsigned bits(WideMask m) { return unsigned(m.__to_bitset().to_ulong()); }
 inline int count(bool m) { return m; }
 inline int count(WideMask m) { return std::popcount(bits(m)); }
-// A comparison of integers as a mask of F.
+// Converts a mask of integers to a mask of F.
 inline bool as_mask(bool m) { return m; }
 template <class T, class A> WideMask as_mask(stdx::simd_mask<T, A> m) { return stdx::__proposed::static_simd_cast<WideMask>(m); }
 

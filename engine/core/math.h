@@ -1,5 +1,5 @@
-// Vectors, frames and elementary functions over a lane type. The approximations give the same bits for every
-// lane type and instruction set: they use +, -, *, /, sqrt alone, and nothing is contracted.
+// Vectors, frames and elementary functions over a lane type. The approximations are bit-identical for every lane type and
+// instruction set: they use only +, -, *, / and sqrt, without FMA contraction.
 #pragma once
 
 #include "core/lanes.h"
@@ -65,7 +65,7 @@ template <class T> AffineT<T> operator*(const AffineT<T>& a, const AffineT<T>& b
     return {transform_vector(a, b.x), transform_vector(a, b.y), transform_vector(a, b.z), transform_point(a, b.t)};
 }
 template <class T> T determinant(const AffineT<T>& m) { return dot(m.x, cross(m.y, m.z)); }
-// The transpose of the inverse of the linear part times the determinant: maps normals, up to length.
+// Cofactor matrix: inverse transpose of the linear part times the determinant. Transforms normals, up to length.
 template <class T> AffineT<T> cofactor(const AffineT<T>& m) {
     return {cross(m.y, m.z), cross(m.z, m.x), cross(m.x, m.y), {0, 0, 0}};
 }
@@ -113,7 +113,7 @@ template <class F> SinCos<F> sincos_turns(const F& u) {
 }
 
 // e^x: 2^k e^r with |r| <= ln2 / 2, Taylor to r^7; relative error below 2e-7. 0 below -87, e^88 above 88.
-// Call it blush::exp: an unqualified call of a register finds simd's own, the C library's per lane, which has other bits.
+// Call it as blush::exp: an unqualified call with a register finds that of std::experimental::simd, which gives other bits.
 template <class F> F exp(const F& x) {
     const F c = min(max(x, F(-88.f)), F(88.f));
     const F k = floor(c * 1.44269504f + 0.5f);
@@ -123,8 +123,8 @@ template <class F> F exp(const F& x) {
     return select(x < F(-87.f), F(0.f), p * scale);
 }
 
-// Natural logarithm of x > 0: exponent and series of atanh around 1; error below 2e-7 relatively, or absolutely near x = 1. Call it
-// blush::log, as exp.
+// Natural logarithm of x > 0: exponent and series of atanh around 1; relative error below 2e-7, absolute near x = 1. Call it as
+// blush::log, like exp.
 template <class F> F log(const F& x) {
     const Int<F> bits = float_bits(x);
     const Int<F> k = (bits - 0x3f3504f3) >> 23; // so that the mantissa is in [sqrt(1/2), sqrt(2))
@@ -135,7 +135,7 @@ template <class F> F log(const F& x) {
     return e * 0.693359375f + (e * -2.12194440e-4f + series);
 }
 
-// Arc tangent of y / x in the right quadrant, in turns, [-0.5, 0.5]; atan2(0, 0) = 0. Minimax odd polynomial on
+// Four-quadrant arc tangent of y / x in turns, [-0.5, 0.5]; atan2(0, 0) = 0. Minimax odd polynomial on
 // [0, 1], error below 1.4e-7 turns.
 template <class F> F atan2_turns(const F& y, const F& x) {
     const F ax = abs(x), ay = abs(y);

@@ -24,7 +24,7 @@ std::optional<uint64_t> number_in(const fs::path& file) {
     return value;
 }
 
-// Of lines "KEY VALUE" or "KEY: VALUE kB".
+// Value of a key in lines "KEY VALUE" or "KEY: VALUE kB".
 std::optional<uint64_t> value_of(const fs::path& file, std::string_view key) {
     std::ifstream in(file);
     std::string word;
@@ -50,7 +50,7 @@ struct GroupFiles {
 constexpr GroupFiles group_v1{"memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file"};
 constexpr GroupFiles group_v2{"memory.max", "memory.current", "inactive_file"};
 
-// A group and all above it; inside a container the group's own path may not be there, but its root is.
+// A group and its ancestors. In a container the path of the group may be missing, but its root exists.
 void tighten_by_groups(MemoryRoom& room, const fs::path& mount, const fs::path& group, const GroupFiles& files) {
     for (fs::path at = group.relative_path();; at = at.parent_path()) {
         const fs::path folder = mount / at;
@@ -61,7 +61,7 @@ void tighten_by_groups(MemoryRoom& room, const fs::path& mount, const fs::path& 
     }
 }
 
-// Lines "0::/path" of the unified hierarchy and "N:memory:/path" of the old one.
+// Lines "0::/path" of cgroup v2 and "N:memory:/path" of v1.
 void tighten_by_groups(MemoryRoom& room, const fs::path& root) {
     std::ifstream in(root / "proc/self/cgroup");
     for (std::string line; std::getline(in, line);) {

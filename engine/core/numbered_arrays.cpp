@@ -9,7 +9,7 @@
 namespace blush {
 namespace {
 
-// Ranges begin at multiples of this: then they begin with a page in every attribute, whose elements are of four bytes or a multiple.
+// Alignment of ranges, in elements: they begin at a page boundary in every attribute, whose elements are multiples of four bytes.
 constexpr int64_t granule = 1024;
 constexpr size_t page = 4096;
 
@@ -29,7 +29,7 @@ private:
     std::byte* base_ = nullptr;
 };
 
-// The free ones of a numbering, by their first number.
+// Free ranges by first offset.
 class FreeNumbers {
 public:
     explicit FreeNumbers(int64_t count) : free_{{0, count}} {}
@@ -60,7 +60,7 @@ private:
     std::map<int64_t, int64_t> free_;
 };
 
-// Never destroyed: payloads that end with the process give back to it.
+// Never destroyed: payloads with static lifetime return their ranges at exit.
 struct Addresses {
     std::mutex mutex;
     FreeNumbers vertices{most_numbers(Numbering::vertices)}, indices{most_numbers(Numbering::indices)};

@@ -1,6 +1,6 @@
-// Arrays that lie where numbers find them: for each attribute of vertices, and for the indices of triangles, one stretch of addresses that is
-// reserved once for the whole process. Kernels read all shapes by one base address an attribute and one 32-bit number for all of them; large arrays
-// of the document lie there from the start, so that they are rendered where they are, without a copy. Memory is taken only for what is written.
+// Geometry arena: reserves one virtual address range per vertex attribute and one for triangle indices, for the whole process.
+// Kernels address all meshes by one base pointer per attribute and a 32-bit element offset. Large arrays of the document are
+// allocated in the arena, so that they are rendered without a copy. Physical memory is used only for pages that are written.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ namespace blush {
 
 enum class Numbering { vertices, indices };
 
-// So many numbers that nobody else has; given back, with the memory that was taken for them, when this ends. Thread-safe.
+// A range of element offsets that is owned exclusively. The destructor returns the offsets and their memory. Thread-safe.
 class NumberRange {
 public:
     NumberRange(Numbering numbering, int64_t first, int64_t count) : numbering_(numbering), first_(first), count_(count) {}
@@ -29,12 +29,13 @@ private:
 };
 using NumbersPtr = std::shared_ptr<const NumberRange>;
 
-// Null if no stretch of so many is left, or if addresses cannot be reserved at all (ulimit -v): arrays then lie on the heap and are copied.
+// Reserves `count` offsets. Null if no free range is large enough or if addresses cannot be reserved (ulimit -v): arrays are then
+// on the heap and are copied.
 NumbersPtr take_numbers(Numbering numbering, size_t count);
-// Numbers in all: vertices times four and indices stay below 2^31, as kernels need it.
+// Size of the arena in elements: vertices * 4 and indices stay below 2^31, as kernels require.
 constexpr int64_t most_numbers(Numbering numbering) { return numbering == Numbering::vertices ? int64_t(1) << 29 : (int64_t(1) << 31) - 4096; }
 
-// Attributes of vertices; texture coordinates of set n are first_uv + n.
+// Vertex attributes; UV set n is first_uv + n.
 enum class Attribute : int { positions, normals, tangents, colors, first_uv };
 constexpr Attribute uv_attribute_of(int set) { return Attribute(int(Attribute::first_uv) + set); }
 
@@ -43,13 +44,13 @@ void* attribute_base(Attribute attribute, size_t element_bytes);
 void* index_base();
 } // namespace detail
 
-// Where number 0 of an attribute would be; what no array was written to reads as zeros, and 16 bytes behind the last one may be read too. Null if its
-// addresses cannot be reserved.
+// Base address of an attribute (offset 0). Unwritten elements read as zeros; 16 bytes of padding behind the last one are
+// readable. Null if the addresses cannot be reserved.
 template <class T> T* attribute_base(Attribute attribute) { return static_cast<T*>(detail::attribute_base(attribute, sizeof(T))); }
 inline uint32_t* index_base() { return static_cast<uint32_t*>(detail::index_base()); }
 
-// A vector's memory: at a place of its own if it asks for exactly as many elements as that was made for, else from the heap. Copies of vectors go to
-// the heap, moved ones stay.
+// Vector allocator: uses its arena address if exactly the expected number of elements is requested, else the heap. Copied vectors
+// go to the heap, moved ones stay in the arena.
 template <class T> class PlacedAllocator {
 public:
     using value_type = T;

@@ -41,13 +41,13 @@ private:
 
 void lower_priority_of_this_thread() {
 #ifdef __linux__
-    // On Linux a nice value belongs to a thread. Failure only costs smoothness.
+    // On Linux the nice value is per thread. Failure is harmless: the UI is only less smooth.
     constexpr int nice = 10;
     (void)setpriority(PRIO_PROCESS, id_t(syscall(SYS_gettid)), nice);
-    // From 6.12 on, a thread that wakes up takes the processor at once from one that asked for longer slices than its own; else it may wait
-    // for a slice to end, several times a frame. Before, this changes nothing.
-    constexpr uint64_t slice_nanoseconds = 4'000'000; // the usual ones are up to 2.8 ms
-    // Linux' struct sched_attr in its first version, whose own header does not go together with glibc's.
+    // Since Linux 6.12 a waking thread preempts threads with longer time slices immediately; otherwise it may wait for the end of
+    // a slice several times per frame. No effect on older kernels.
+    constexpr uint64_t slice_nanoseconds = 4'000'000; // default slices are up to 2.8 ms
+    // First version of Linux' struct sched_attr; its header conflicts with that of glibc.
     struct {
         uint32_t size = 48, policy = SCHED_OTHER;
         uint64_t flags = 0;
@@ -76,8 +76,8 @@ Workers::Workers(unsigned threads, bool low_priority)
 Workers::~Workers() = default;
 
 bool Workers::for_each(int64_t count, const std::function<bool()>& wanted, const std::function<void(int64_t, unsigned)>& task) const {
-    // One long-lived task per worker that takes the next item from a counter: the items are coarse, and a worker that owns
-    // scratch memory needs to know that nobody else has its number.
+    // One long-running task per worker that takes items from a counter: items are coarse, and a worker index must be unique since
+    // workers own scratch memory.
     std::atomic<int64_t> next{0}, done{0};
     const HandOver to_workers, from_workers;
     to_workers.give();

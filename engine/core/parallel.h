@@ -1,4 +1,4 @@
-// Work over tiles in parallel, in an arena of a given size, while it is still wanted.
+// Parallel loops with a given number of threads and cancellation.
 #pragma once
 
 #include <cstdint>
@@ -7,11 +7,11 @@
 
 namespace blush {
 
-// For work that the thread that draws the window must not wait for.
+// Lowers the priority of background threads, so that they do not delay the UI thread.
 void lower_priority_of_this_thread();
 
-// A bounded group of worker threads. Denormals are flushed to zero in all of them (Embree asks for it, and results must
-// not depend on which thread computed them); at low priority they never starve the thread that draws the window.
+// A group of worker threads. All of them flush denormals to zero (Embree requires it, and results must not depend on the thread).
+// With low priority they do not starve the UI thread.
 class Workers {
 public:
     // 0 threads: one per core.
@@ -21,10 +21,10 @@ public:
     Workers& operator=(const Workers&) = delete;
 
     unsigned threads() const { return threads_; }
-    // Calls task(i, worker) for every i in [0, count), worker < threads(); items not begun when `wanted` turns false are left
-    // out. True if all were done.
+    // Calls task(i, worker) for every i in [0, count), worker < threads(). Items that have not started when `wanted` returns
+    // false are skipped. True if all items were done.
     bool for_each(int64_t count, const std::function<bool()>& wanted, const std::function<void(int64_t i, unsigned worker)>& task) const;
-    // Runs `task` inside the arena: what it hands to TBB (an Embree build) uses these threads.
+    // Runs `task` inside the TBB arena: nested TBB work (an Embree build) uses these threads.
     void run(const std::function<void()>& task) const;
 
 private:

@@ -1,4 +1,4 @@
-// Errors as values: Result<T> is a T or an Error; only main turns an Error into an exit code.
+// Errors as values: Result<T> holds a T or an Error. Only main converts an Error to an exit code.
 #pragma once
 
 #include <cassert>
@@ -16,7 +16,7 @@ struct Error {
     std::string what = {};
     std::string where = {};
 
-    // "FILE: what, where" with absent parts left out: the line after "blush: error: ".
+    // "FILE: what, where" without absent parts: the text after "blush: error: ".
     std::string text() const {
         std::string s;
         if (!file.empty()) s += file + ": ";
@@ -26,7 +26,7 @@ struct Error {
     }
 };
 
-// A finding that did not stop the work, collected and shown once.
+// A warning or note that does not stop the operation.
 struct Diagnostic {
     enum class Severity { note, warning };
     Severity severity = Severity::warning;

@@ -1,4 +1,4 @@
-// Randomness as a function, not a stream: Owen-scrambled Sobol points keyed on (pixel, sample, dimension, seed).
+// Sampler: stateless Owen-scrambled Sobol points, a function of (pixel, sample, dimension, seed).
 // Pairs of dimensions are padded: each pair is the (0,2)-sequence of Sobol's first two dimensions, its index shuffled
 // and its values scrambled by hashes of the key (Burley 2020, "Practical Hash-based Owen Scrambling"; hash of Vegdahl 2021).
 #pragma once
@@ -33,7 +33,7 @@ template <class U> U scramble_reversed(U x, U seed) {
     x ^= x * 0x53a22864u;
     return x;
 }
-// Second Sobol dimension of a bit-reversed index, bit-reversed: the Pascal matrix mod 2 as shifts.
+// Second Sobol dimension of a bit-reversed index, bit-reversed: multiplication by the Pascal matrix mod 2.
 template <class U> U sobol1_reversed(U i) {
     i ^= (i & 0xaaaaaaaau) >> 1;
     i ^= (i & 0xccccccccu) >> 2;
@@ -62,14 +62,14 @@ template <class F> struct Sampler {
     }
 };
 
-// Key of a pixel under one randomisation of the sampler. A pixel draws from two independent ones, so that their difference
-// measures the error: sample s is point s / 2 of randomisation s % 2.
+// Key of a pixel for one randomisation of the sampler. Each pixel uses two independent randomisations (A/B buffers), whose
+// difference measures the error: sample s is point s / 2 of randomisation s % 2.
 inline uint32_t randomisation(uint32_t seed, uint32_t half) { return pcg_hash(pcg_hash(seed) ^ (half * 0x68e31da4u)); }
 template <class F> UInt<F> pixel_key(const UInt<F>& x, const UInt<F>& y, const UInt<F>& randomisation) {
     return pcg_hash(UInt<F>(pcg_hash(UInt<F>(x ^ randomisation)) + y));
 }
 
-// Independent random numbers instead of points that know of each other: each sample has a key of its own, and is point 0 of it.
+// Independent random numbers instead of stratified points: each sample has its own key and uses point 0.
 template <class U> U independent_key(const U& key, const U& sample) { return pcg_hash(U(pcg_hash(U(sample ^ 0x5bd1e995u)) ^ key)); }
 
 } // namespace blush::inline BLUSH_ISA

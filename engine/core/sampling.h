@@ -1,12 +1,12 @@
-// Warps from the unit square with their densities, and the power heuristic.
+// Sampling warps from the unit square with their densities, and the power heuristic.
 #pragma once
 
 #include "core/math.h"
 
 namespace blush::inline BLUSH_ISA {
 
-// Weight of a sample drawn with density `pdf` when another strategy would have drawn it with `other`: Veach and Guibas
-// 1995, power heuristic with exponent 2. Written as a ratio so that huge densities do not overflow; pdf > 0.
+// MIS weight of a sample of density `pdf`, which another strategy samples with density `other`: power heuristic with exponent 2
+// (Veach and Guibas 1995). Computed from the ratio, so that huge densities do not overflow; pdf > 0.
 template <class F> F power_heuristic(const F& pdf, const F& other) {
     const F r = other / pdf;
     return 1.f / (1.f + r * r);
@@ -26,8 +26,8 @@ template <class F> Vec<F> sample_cosine_hemisphere(const F& u, const F& v) {
 }
 template <class F> F cosine_hemisphere_pdf(const F& cos_theta) { return max(cos_theta, F(0.f)) * inv_pi; }
 
-// Direction uniform over the cone about +z whose solid angle is 2 pi `height`, height = 1 - cos(half angle): given as a
-// height because 1 - cos loses all digits for a sun. Density 1 / (2 pi height).
+// Uniform direction in the cone around +z of solid angle 2 pi `height`, height = 1 - cos(half angle). Takes the height, since 1 -
+// cos cancels for small angles such as the sun's. Density 1 / (2 pi height).
 template <class F> Vec<F> sample_cone(const F& height, const F& u, const F& v) {
     const F h = u * height; // 1 - cos
     const F sin_theta = sqrt(max(F(0.f), h * (2.f - h)));
@@ -35,7 +35,7 @@ template <class F> Vec<F> sample_cone(const F& height, const F& u, const F& v) {
     return {sin_theta * a.cos, sin_theta * a.sin, 1.f - h};
 }
 
-// Barycentric coordinates of vertices 1 and 2 of a point uniform over a triangle: the folding of Heitz 2019,
+// Barycentric coordinates (vertices 1 and 2) of a uniform point on a triangle: Heitz 2019,
 // "A Low-Distortion Map Between Triangle and Square".
 template <class F> Vec2T<F> sample_triangle(const F& u, const F& v) {
     const Mask<F> upper = v > u;

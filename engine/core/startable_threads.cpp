@@ -11,7 +11,7 @@
 
 namespace blush {
 
-// TBB has no more workers than these, and says so on stderr.
+// TBB's maximum; it prints a warning above it.
 unsigned startable_threads_limit() { return std::max(256u, std::thread::hardware_concurrency()); }
 
 unsigned startable_threads(unsigned wanted) {

@@ -1,13 +1,13 @@
-// How many threads the process may start.
+// Number of threads that the process can start.
 #pragma once
 
 namespace blush {
 
-// `wanted`, or fewer: 256 or one per core at most, and where limits on processes or memory allow no more at the moment, as many as they do; this thread is one of them. A thread that TBB cannot start
-// ends the process. Tries it out, once for each larger number: some 20 us a thread.
+// `wanted`, limited by startable_threads_limit() and by the current limits on processes and memory; includes the calling thread.
+// TBB ends the process if it cannot start a thread, so this tries to start them: about 20 us per thread, once per larger number.
 unsigned startable_threads(unsigned wanted);
 
-// 256, or one per core if those are more.
+// 256 or the number of cores, whichever is larger.
 unsigned startable_threads_limit();
 
 } // namespace blush

@@ -1,4 +1,4 @@
-// Small readers for text that people type, the same whatever the locale and never half of a word; and numbers as people read them.
+// Locale-independent parsing of user input, and formatting of numbers.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace blush {
 
-// True if all of `text` is one number that T holds; `number` is then set.
+// True if the whole text is a number that T can represent; sets `number`.
 template <class T> bool parse_number(std::string_view text, T& number) {
     T parsed{};
     const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), parsed);
@@ -30,7 +30,7 @@ inline std::vector<std::string_view> split(std::string_view text, char separator
     }
 }
 
-// A number of which only zeros are shown has no sign: "-0.00 %" becomes "0.00 %".
+// Removes the minus sign of a number that is shown as zero: "-0.00 %" becomes "0.00 %".
 inline std::string without_sign_of_zero(std::string text) {
     const size_t sign = text.find_first_not_of(' ');
     if (sign == text.npos || (text[sign] != '-' && text[sign] != '+')) return text;
@@ -39,7 +39,7 @@ inline std::string without_sign_of_zero(std::string text) {
     return text.erase(sign, 1);
 }
 
-// With that many decimals and its sign: "+0.25", "-1.00", "0.00".
+// Number with a sign and so many decimals: "+0.25", "-1.00", "0.00".
 inline std::string signed_number(double value, int decimals) {
     char text[400]; // the largest double has 309 digits before its point
     std::snprintf(text, sizeof text, "%+.*f", decimals, value);

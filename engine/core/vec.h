@@ -1,5 +1,5 @@
 // Plain vector data over a lane type F: float, double, or a SIMD register of lanes.
-// Only data here; arithmetic is in math.h.
+// Data only; arithmetic is in math.h.
 #pragma once
 
 #include <cstdint>
@@ -26,14 +26,14 @@ using Vec3 = Vec<float>;
 using Vec4 = Vec4T<float>;
 using Vec3d = Vec<double>;
 
-// Unit quaternion x, y, z, w as in glTF; {0, 0, 0, 1} is no rotation.
+// Unit quaternion x, y, z, w as in glTF; {0, 0, 0, 1} is the identity.
 struct Quat {
     float x = 0, y = 0, z = 0, w = 1;
     bool operator==(const Quat&) const = default;
 };
 
 // Affine map p -> x * p.x + y * p.y + z * p.z + t: three columns and a translation.
-// Named after the frames it joins, `world_from_light`, so that products read like dominoes.
+// Variables are named after the two spaces, `world_from_light`, so that adjacent names of a product match.
 template <class T> struct AffineT {
     Vec<T> x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1}, t{0, 0, 0};
     bool operator==(const AffineT&) const = default;
