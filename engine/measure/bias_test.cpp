@@ -19,16 +19,16 @@ struct Rectangle {
     double pixels() const { return double(right - left) * double(bottom - top); }
 };
 
-// Of the variances of a region's pixels: their sum, and that of their squares.
+// Sum of the pixel variances of a region, and sum of their squares.
 struct Variances {
     double sum = 0, squares = 0;
     void add(double v) { sum += v, squares += v * v; }
 };
 
-// Two pictures of one size.
+// Two images of equal size.
 class Comparison {
 public:
-    // `weights`: what pixels count for, 1 on average over what is measured.
+    // `weights` of pixels, with mean 1 over the region.
     Comparison(const MeasuredImage& image, const MeasuredImage& reference, double level, std::vector<double> weights)
         : image_(image), reference_(reference), events_(-std::log(level)), weights_(std::move(weights)) {}
 
@@ -56,7 +56,7 @@ private:
     }
     double difference(size_t i) const { return luminance(image_.image.pixels[i]) - luminance(reference_.image.pixels[i]); }
 
-    // The largest of the three.
+    // The maximum of the three estimates.
     Variances variances(const Rectangle& r, double mean_difference) const {
         const double fewer = double(reference_.samples) / double(std::max<int64_t>(1, image_.samples));
         Variances own, as_reference, seen;
@@ -68,13 +68,13 @@ private:
             seen.add(w * off * off);
         });
         Variances v = std::max({own, as_reference, seen}, [](const Variances& a, const Variances& b) { return a.sum < b.sum; });
-        // So many pixels err as one.
+        // Accounts for pixels with common errors.
         v.sum *= image_.sharing;
         v.squares *= image_.sharing * image_.sharing * image_.sharing;
         return v;
     }
 
-    // By how much the brightest pixel of a region and its neighbours is above the reference, beyond normal noise.
+    // Excess of the brightest pixel of a region and its neighbours over the reference, beyond normal noise.
     double brightest_around(const Rectangle& r) const {
         const int w = r.right - r.left, h = r.bottom - r.top;
         const Rectangle around{std::max(0, r.left - w), std::max(0, r.top - h), std::min(image_.image.width, r.right + w),
@@ -96,10 +96,10 @@ private:
     std::vector<double> weights_;
 };
 
-// The least that a region's variance is taken for, of the mean of them: no region alone is the picture.
+// Lower bound of a region's variance, relative to the mean of all: no region may dominate.
 constexpr double least_variance = 0.1;
 
-// Of pixels, by the inverse of the variance of the region they are in, as the reference has it; 1 on average.
+// Pixel weights: the inverse variance of their region in the reference, normalised to mean 1.
 std::vector<double> inverse_variances(const MeasuredImage& reference, const std::vector<Rectangle>& regions) {
     std::vector<double> weights(reference.error.size(), 1);
     const auto each_pixel = [&](const Rectangle& r, const auto& visit) {

@@ -1,4 +1,4 @@
-// Is one way of rendering wrong, or only noisy? Means of regions against a reference, in units of the standard error of their difference.
+// Bias test: compares means of image regions with a reference, in units of the standard error of their difference.
 #pragma once
 
 #include "core/vec.h"
@@ -10,61 +10,61 @@
 
 namespace blush {
 
-// A picture and what its pixels may be off: the standard error of each pixel's mean, RGB.
+// An image with the standard error of each pixel's mean, RGB.
 struct MeasuredImage {
     RgbImage image;
     std::vector<Vec3> error; // width * height
     int64_t samples = 0;     // per pixel
-    double sharing = 1;      // times which the variance of a mean over pixels is what it would be if they erred independently
+    double sharing = 1;      // factor on the variance of a mean over pixels due to covariance of pixels (path reuse)
 };
 
-// The mean of two pictures weighted by their samples, and its error. Same size; an empty one counts for nothing.
+// Mean of two images weighted by their sample counts, with its error. Sizes must agree; an empty image is ignored.
 MeasuredImage merged(const MeasuredImage& a, const MeasuredImage& b);
 
 struct RegionBias {
     int x = 0, y = 0, width = 0, height = 0; // pixels
     double mean = 0, reference = 0;          // luminance
     double error = 0;                        // standard error of their difference
-    double degrees = 0;                      // of freedom of that error: how many pixels carry it
-    double unseen = 0; // by how much the mean may be too dark for want of rare bright samples
-    // What is left of the difference when that is granted.
+    double degrees = 0;                      // degrees of freedom of that error
+    double unseen = 0; // possible deficit of the mean due to rare bright samples that were not found
+    // The difference after subtraction of `unseen`.
     double difference() const;
-    // In standard errors, as a normal deviate that is as unlikely.
+    // Normal deviate with the same p-value as the difference.
     double z() const;
-    // Of the reference's mean; 0 where it is black.
+    // Relative to the reference's mean; 0 if it is black.
     double percent() const { return reference > 0 ? 100 * (mean - reference) / reference : 0; }
     double percent_error() const { return reference > 0 ? 100 * error / reference : 0; }
 };
 
 struct BiasTest {
-    RegionBias whole;                // the picture
-    RegionBias pooled;               // again, regions counting for the more, the less noise the reference has in them
-    std::vector<RegionBias> regions; // of a grid, by rows
-    RegionBias worst;                // of all these, the one that is furthest off in standard errors
-    double threshold = 0;            // of |z| beyond which it cannot be noise
+    RegionBias whole;                // the whole image
+    RegionBias pooled;               // the same with regions weighted by the inverse variance of the reference
+    std::vector<RegionBias> regions; // grid, by rows
+    RegionBias worst;                // the largest deviation of all, in standard errors
+    double threshold = 0;            // significance threshold of |z|
     bool biased = false;
     std::string_view verdict() const { return biased ? "biased" : "unbiased-within-noise"; }
 };
 
-// Chance that a test of a right picture says "biased".
+// Probability that the test of an unbiased image reports bias.
 constexpr double bias_significance = 0.01;
 
-// Tests the whole picture, plainly and pooled, and a grid of regions of about 16 x 16 pixels and more, at most 8 x 8 of them, each at such a
-// level that all together err with probability bias_significance (Sidak 1967). Pooled, regions are weighted by the inverse of their variance,
-// so that a lamp's edge does not hide what is missing everywhere. The reference alone says which: a picture that has missed bright samples
-// looks quiet where it is too dark. The variance of a region's mean is the largest of three: the sum of its
-// pixels' own, colours taken to err together, which is nearly so and never too small; what the reference would have with as few samples,
-// for a picture that has met no bright sample knows of none; and that by which its pixels do differ from the reference's. Student's t with
-// as many degrees of freedom as there are pixels that carry it (Satterthwaite 1946) allows for its being uncertain.
+// Tests the whole image, unweighted and pooled, and a grid of at most 8 x 8 regions of at least about 16 x 16 pixels. The levels
+// are such that all tests together report bias of an unbiased image with probability bias_significance (Sidak 1967). Pooled
+// regions are weighted by the inverse of their variance, so that noise at the edge of a light does not hide a bias elsewhere.
+// Only the reference determines the weights: an image that missed bright samples has little noise where it is too dark. The
+// variance of a region's mean is the maximum of three estimates: the sum of the variances of its pixels (with fully correlated
+// colour channels, a close upper bound); the variance of the reference at the same sample count, since an image without bright
+// samples underestimates its variance; and the variance of the differences between image and reference. Student's t with degrees
+// of freedom by Satterthwaite (1946) accounts for the uncertainty of the variance.
 //
-// Where rare bright samples carry the light, as where lights nearby are aimed at or small ones are met by chance, means are mostly too dark
-// and no statistic of a picture that has not met them tells. If samples as bright as the brightest around were due, so many that to see
-// none of them is as unlikely as the test's level, -log(level) of them, they would add as much as `unseen` says: a picture that lacks no
-// more is not called biased. The brightest is taken above what normal noise of so many pixels comes to, so that this costs nothing where
-// noise is normal.
+// If rare bright samples carry the light (small or nearby lights), means are mostly too dark, and no statistic of an image
+// without such samples shows it. `unseen` bounds the deficit: -log(level) samples as bright as the brightest nearby, the number
+// for which seeing none is as unlikely as the level of the test. A smaller deficit is not reported as bias. Only the excess of
+// the brightest over the expected maximum of normal noise counts, so that the bound is 0 for normal noise.
 //
-// Differences below `rounding` of the reference's mean are not bias: what sums of floats may be off. Errors: sizes differ or are 0: an
-// empty result.
+// Differences below `rounding` times the reference's mean are treated as float rounding. Returns an empty result if sizes differ
+// or are 0.
 BiasTest test_bias(const MeasuredImage& image, const MeasuredImage& reference, double rounding = 1e-5);
 
 } // namespace blush

@@ -8,9 +8,9 @@ namespace {
 
 using Kind = ConvergencePoint::Kind;
 
-constexpr double growth = 1.1;        // of samples between two points
-constexpr int64_t fitted_growth = 64; // of samples, that a slope is told from
-constexpr double furthest = 1000;     // how many times the run's length its slope is believed
+constexpr double growth = 1.1;        // growth of samples between two points
+constexpr int64_t fitted_growth = 64; // range of samples for the slope
+constexpr double furthest = 1000;     // limit of extrapolation, relative to the run's length
 
 } // namespace
 

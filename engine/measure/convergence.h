@@ -1,4 +1,4 @@
-// Error against run time: what is recorded while a picture converges, and what a series of such records says.
+// Convergence records: error over render time or samples, slopes and time to a target error.
 #pragma once
 
 #include "measure/intervals.h"
@@ -13,46 +13,46 @@ namespace blush {
 enum class ErrorMetric { rmse, relmse };
 enum class ProgressAxis { seconds, spp };
 
-// The error of a picture at one moment.
+// The error of an image at one point of a render.
 struct ConvergencePoint {
     enum class Kind {
-        estimated, // of the raw picture, from its two halves
-        measured,  // of the raw picture, against a reference
-        denoised,  // of the denoised one, against a reference or, less surely, against the raw picture later on
+        estimated, // of the raw image, from its A/B buffers
+        measured,  // of the raw image, against a reference
+        denoised,  // of the denoised image, against a reference or, less accurately, a later raw image
     };
     Kind kind = Kind::estimated;
-    double seconds = 0; // of rendering, measuring not included
+    double seconds = 0; // render time without measuring
     int64_t spp = 0;
-    Interval rmse, relmse; // value but not `known`: no interval
+    Interval rmse, relmse; // not `known`: value without an interval
 
     double at(ProgressAxis axis) const { return axis == ProgressAxis::seconds ? seconds : double(spp); }
     const Interval& error(ErrorMetric metric) const { return metric == ErrorMetric::rmse ? rmse : relmse; }
 };
 std::string_view to_string(ConvergencePoint::Kind kind); // "estimated", "measured", "denoised"
 
-// A moment worth a mark in the plot: an edit, a change of settings.
+// A mark in the plot: an edit or a change of settings.
 struct ConvergenceMark {
     double seconds = 0;
     int64_t spp = 0;
     std::string label;
-    bool other_mix = false; // points before it are of the same samples mixed in another way: no slope is told from them
+    bool other_mix = false; // earlier points use another light mix of the same samples: excluded from slopes
 
     double at(ProgressAxis axis) const { return axis == ProgressAxis::seconds ? seconds : double(spp); }
 };
 
-// The curves of one run. Points are kept when the samples have grown by a tenth since the last one of their kind: evenly in a log-log
-// plot, and about two hundred of them however long it runs.
+// The curves of one run. A point is kept if the sample count has grown by 10 % since the last one of its kind: evenly spaced in a
+// log-log plot, about two hundred points for any run length.
 class ConvergenceRecord {
 public:
     std::string name;
 
-    // Would add() keep a point of this kind?
+    // True if add() would keep a point of this kind.
     bool is_due(ConvergencePoint::Kind kind, int64_t spp) const;
-    // False if the point was left out.
+    // False if the point was skipped.
     bool add(const ConvergencePoint& point);
-    // In place of the point of the same kind and number of samples; among the others if there is none.
+    // Replaces the point of the same kind and sample count, or inserts it.
     void set(const ConvergencePoint& point);
-    // Of the steps of a drag through other mixes the last one is marked.
+    // Consecutive marks of light mix changes (a drag) are merged to the last one.
     void mark(const ConvergenceMark& mark);
 
     const std::vector<ConvergencePoint>& points() const { return points_; }
@@ -64,36 +64,36 @@ private:
     std::vector<ConvergenceMark> marks_;
 };
 
-// The slope of one kind's error over its last 64-fold growth in samples, from the last other mix on, which is what matters for how it goes on. Points of one run share
-// samples: see fit_running().
+// Slope of the error over the last 64-fold growth in samples since the last light mix change, for extrapolation. Points of a run
+// share samples: see fit_running().
 PowerFit fit(const ConvergenceRecord& record, ConvergencePoint::Kind kind, ErrorMetric metric, ProgressAxis axis);
 
-// How long until the error is `target`, if it goes on as it fell.
+// Extrapolated time until the error is `target`.
 struct TimeLeft {
     enum class State {
         reached,
-        known,    // seconds, low and high are; high may be infinite
-        too_few,  // points to tell a slope from
-        no_trend, // the error does not fall for sure
-        too_far,  // more than 1000 times as long as the run so far: nobody knows whether it goes on like this
+        known,    // seconds, low and high are valid; high may be infinite
+        too_few,  // too few points for a slope
+        no_trend, // no significant downward trend
+        too_far,  // more than 1000 times the run so far: the extrapolation is not reliable
     };
     State state = State::too_few;
     double seconds = 0, low = 0, high = 0;
 };
-// From the last point on, not from the fitted line, along its slope. Low and high take the ends of both intervals, the slope's and the last
-// point's, so that they hold more often than 95 %.
+// Extrapolates from the last point along the fitted slope. Low and high combine the interval ends of the slope and of the last
+// point, so that the coverage exceeds 95 %.
 TimeLeft time_left(const ConvergenceRecord& record, ConvergencePoint::Kind kind, ErrorMetric metric, double target);
 
-// ---- fair measuring of several settings side by side
+// ---- fair comparison of several settings, rendered alternately
 
-// Whose turn it is: the one that has rendered for the shortest time among those not done, so that whatever slows the machine down slows all
-// alike. `seconds` so far; -1 for those that are done. -1 if all are.
+// Index of the next variant to render: the one with the shortest time so far, so that machine load affects all alike. `seconds`:
+// time so far, -1 for finished variants. Returns -1 if all are finished.
 int next_turn(const std::vector<double>& seconds);
 
-// When to look at the error: first when something is there, then whenever time has doubled.
+// Schedule of error measurements: at the first samples, then whenever the time has doubled.
 class DoublingTimes {
 public:
-    // True if now, at this much time, it is due; the next is then due at twice that.
+    // True if a measurement is due; the next one is then due at twice the time.
     bool due(double seconds);
 
 private:

@@ -23,7 +23,7 @@ std::string interval_fields(const Interval& i) {
     return i.known ? fmt::format("{:.6g},{:.6g},{:.6g}", i.value, i.low, i.high) : fmt::format("{:.6g},,", i.value);
 }
 
-// The fields of the next line, quotes undone; line ends within quotes belong to the field. Nothing if a quote is not closed.
+// The unquoted fields of the next line; quoted fields may contain line breaks. None if a quote is not closed.
 std::optional<Row> next_row(std::string_view& rest) {
     Row row(1);
     bool quoted = false;
@@ -52,7 +52,7 @@ std::optional<Row> next_row(std::string_view& rest) {
     return row;
 }
 
-// One line's fields by the names of their columns.
+// The fields of a line by column name.
 class Line {
 public:
     Line(const std::map<std::string, size_t>& columns, const Row& row, size_t number) : columns_(columns), row_(row), number_(number) {}
@@ -61,14 +61,14 @@ public:
         const auto at = columns_.find(column);
         return at != columns_.end() && at->second < row_.size() ? row_[at->second] : std::string();
     }
-    // 0 where the field is empty or not there.
+    // 0 if the field is empty or missing.
     Result<double> value(const char* column) const {
         const std::string field = text(column);
         if (field.empty()) return 0.0;
         double v = 0;
         const auto read = std::from_chars(field.data(), field.data() + field.size(), v);
         if (read.ec != std::errc{} || read.ptr != field.data() + field.size() || !std::isfinite(v) || v < 0)
-            return error(fmt::format("{} is not a number from 0 on", column));
+            return error(fmt::format("{} is not a number >= 0", column));
         return v;
     }
     Error error(std::string what) const { return {.what = std::move(what), .where = line_number(number_)}; }
@@ -94,7 +94,7 @@ Result<ConvergencePoint> point_of(const Line& line, Kind kind) {
         if (!*v) return v->error();
     for (const auto* v : {&rmse, &relmse})
         if (!*v) return v->error();
-    if (*spp > 1e15) return line.error("more samples than there can be");
+    if (*spp > 1e15) return line.error("too many samples");
     ConvergencePoint p{kind, *seconds, int64_t(*spp), *rmse, *relmse};
     if (!(p.rmse.value > 0) && *mse > 0) p.rmse = {false, std::sqrt(*mse), 0, 0};
     return p;
@@ -109,7 +109,7 @@ std::string name_of(const Line& line) {
     return name;
 }
 
-// One line into the record of its name.
+// Adds a line to the record of its name.
 Result<void> take(const Line& line, ConvergenceRecord& record) {
     const std::string kind = line.text("kind");
     for (const Kind k : {Kind::estimated, Kind::measured, Kind::denoised}) {
@@ -158,24 +158,24 @@ Result<std::vector<ConvergenceRecord>> parse_convergence_csv(std::string_view te
     const bool named = columns.contains("name") || columns.contains("variant");
     const bool has_error = columns.contains("rmse") || columns.contains("relmse") || columns.contains("mse");
     if (!named || !has_error || !columns.contains("seconds") || !columns.contains("spp"))
-        return Error{.what = "is no convergence table: it needs the columns name, seconds, spp, rmse and relmse"};
+        return Error{.what = "not a convergence table: it needs the columns name, seconds, spp, rmse and relmse"};
     std::vector<ConvergenceRecord> records;
     for (size_t number = 2; !text.empty(); ++number) {
         const std::optional<Row> row = next_row(text);
         if (!row) return Error{.what = "a quote is not closed", .where = line_number(number)};
         const Line line(columns, *row, number);
-        if (number > most_lines) return line.error("is too long");
+        if (number > most_lines) return line.error("too many lines");
         if (row->size() == 1 && row->front().empty()) continue;
         const std::string name = name_of(line);
         auto record = std::ranges::find(records, name, &ConvergenceRecord::name);
         if (record == records.end()) {
-            if (records.size() == most_records) return line.error("holds too many runs");
+            if (records.size() == most_records) return line.error("too many runs");
             records.emplace_back().name = name;
             record = records.end() - 1;
         }
         if (const Result<void> taken = take(line, *record); !taken) return taken.error();
     }
-    if (records.empty()) return Error{.what = "holds no run"};
+    if (records.empty()) return Error{.what = "no runs"};
     return records;
 }
 

@@ -1,4 +1,4 @@
-// Convergence records as CSV, ours and those of `blush converge`.
+// Convergence records as CSV: reads and writes those of the window, reads those of `blush converge`.
 #pragma once
 
 #include "core/result.h"
@@ -10,16 +10,16 @@
 
 namespace blush {
 
-// name,seconds,spp,relmse,relmse_low,relmse_high,rmse,rmse_low,rmse_high,kind,label; one line per point, and one of kind "mark" with a
-// label for each mark. What is not known is empty.
+// name,seconds,spp,relmse,relmse_low,relmse_high,rmse,rmse_low,rmse_high,kind,label; one line per point, and one of kind "mark"
+// with a label for each mark. Unknown values are empty.
 std::string to_csv(const std::vector<ConvergenceRecord>& records);
 
 // Reads what to_csv() wrote, and the convergence.csv of `blush converge`: each variant and repeat is a record of measured points, whose
-// RMSE is the root of `mse`. Columns go by their names, unknown ones are ignored. At most 64 records and 20000 lines. Errors name the
-// line: no such columns, a number that is none, negative or not finite, an unfinished quote, nothing in it.
+// RMSE is the root of `mse`. Columns are found by name, unknown ones are ignored. At most 64 records and 20000 lines. Errors name
+// the line: missing columns, an invalid, negative or non-finite number, an unclosed quote, no data.
 Result<std::vector<ConvergenceRecord>> parse_convergence_csv(std::string_view text);
 
-// A name as one field of a CSV line.
+// Quotes a text as a CSV field.
 std::string csv_field(const std::string& text);
 
 } // namespace blush

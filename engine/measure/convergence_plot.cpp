@@ -14,7 +14,7 @@ PlotCurve style_of(Kind kind, const std::string& name, std::string color) {
     return {};
 }
 
-// What a curve of this kind would be without a run that was estimated: a stored one was measured from the first.
+// Style of a measured curve in a run without estimates: stored runs have measured points only.
 bool is_plain(Kind kind, const ConvergenceRecord& record) {
     return kind == Kind::estimated || (kind == Kind::measured && record.points(Kind::estimated).empty());
 }

@@ -1,4 +1,4 @@
-// The runs as a chart: one curve for each kind of error that each shown run has, the guide, marks and the target.
+// Convergence runs as a chart: one curve per run and kind of error, a guide line, marks and the target.
 #pragma once
 
 #include "measure/convergence_runs.h"
@@ -12,21 +12,22 @@ struct ConvergencePlotOptions {
     ErrorMetric metric = ErrorMetric::rmse;
     ProgressAxis axis = ProgressAxis::seconds;
     double target = 0;    // of the metric; 0: none
-    bool on_dark = false; // colours for a dark ground
+    bool on_dark = false; // colours for a dark background
 };
 
 struct ConvergencePlot {
     Plot plot;
-    // What each curve of the plot shows; the guide, the last one, shows nothing and has none.
+    // Source of each curve of the plot, except the guide, which is the last curve.
     struct Source {
         int run = 0;
         ConvergencePoint::Kind kind = ConvergencePoint::Kind::estimated;
-        std::vector<ConvergencePoint> points; // of the curve, one for one
+        std::vector<ConvergencePoint> points; // one per point of the curve
     };
     std::vector<Source> sources;
 };
 
-// The guide falls like 1/sqrt(N) for RMSE, 1/N for relMSE, through the first raw point of the live run, or of the first one shown.
+// The guide has slope 1/sqrt(N) for RMSE, 1/N for relMSE, and starts at the first raw point of the live run or, without one, of
+// the first shown run.
 ConvergencePlot convergence_plot(const ConvergenceRuns& runs, const ConvergencePlotOptions& options);
 
 } // namespace blush

@@ -26,7 +26,7 @@ const ConvergenceRun* ConvergenceRuns::live() const {
 }
 ConvergenceRun* ConvergenceRuns::live() { return const_cast<ConvergenceRun*>(std::as_const(*this).live()); }
 
-// The one that the fewest runs have, the first of several.
+// The colour used by the fewest runs, the first of several.
 size_t ConvergenceRuns::free_color() const {
     std::array<size_t, colors> used{};
     for (const ConvergenceRun& r : runs_) ++used[r.color % colors];

@@ -1,5 +1,5 @@
-// The runs that are looked at side by side: the one that goes on, those that edits have ended, and stored ones. No two have the same name:
-// one that is taken gets a number.
+// Convergence runs for comparison: the live run, earlier ones that edits have ended, and stored ones. Names are made unique with
+// a number.
 #pragma once
 
 #include "measure/convergence.h"
@@ -11,35 +11,35 @@ namespace blush {
 
 struct ConvergenceRun {
     enum class Origin { live, earlier, stored };
-    int id = 0; // never used again
+    int id = 0; // never reused
     Origin origin = Origin::live;
     ConvergenceRecord record;
     bool shown = true;
-    bool kept = false; // stays when newer ones push out the earlier ones
-    size_t color = 0;  // of the plot's colours; none that another run has, while there are enough
+    bool kept = false; // not removed by newer runs
+    size_t color = 0;  // index of the plot colour; unique while there are enough colours
 };
 
 class ConvergenceRuns {
 public:
-    static constexpr size_t most_earlier = 4;  // not counting those kept
-    static constexpr size_t fewest_points = 2; // of a run that is worth remembering; they come as far apart as their cost allows
+    static constexpr size_t most_earlier = 4;  // not counting kept runs
+    static constexpr size_t fewest_points = 2; // runs with fewer points are dropped
 
-    // In the order of their beginning; the live one, if any, is the last of them, stored ones come behind it.
+    // In order of creation; the live run comes after earlier runs, stored runs come last.
     const std::vector<ConvergenceRun>& all() const { return runs_; }
     const ConvergenceRun* find(int id) const;
     ConvergenceRun* find(int id);
     ConvergenceRun* live();
     const ConvergenceRun* live() const;
 
-    // Another image is rendered from now on. The live run ends, with a mark named like what begins, unless it has too few points and is
-    // not kept: of a drag that nobody waited for nothing remains. Returns the new one's id.
+    // Starts a new live run, when another image is rendered. The previous one ends with a mark of the new name; it is dropped if
+    // it has too few points and is not kept, as during a drag. Returns the new id.
     int begin(const std::string& name);
-    // A mark where the live run is: an edit after which it goes on.
+    // Adds a mark to the live run, for an edit that does not end it.
     void mark(const std::string& label);
     void add_stored(ConvergenceRecord record);
-    void rename(int id, const std::string& name); // to nothing: it keeps the one it has
+    void rename(int id, const std::string& name); // an empty name is ignored
     void remove(int id); // the live one cannot be removed
-    void clear();        // all but the stored ones: another scene
+    void clear();        // removes all except stored runs, for another scene
 
 private:
     ConvergenceRun& add(ConvergenceRun::Origin origin, ConvergenceRecord record);

@@ -26,7 +26,8 @@ Taps normalized(std::vector<double> taps) {
     return result;
 }
 
-// ---- what the eye blurs: contrast sensitivity as sums of Gaussians a sqrt(pi / b) exp(-pi^2 d^2 / b), d in degrees (HPG 2020, table 1)
+// ---- spatial filter: contrast sensitivity as sums of Gaussians a sqrt(pi / b) exp(-pi^2 d^2 / b), d in degrees (HPG 2020, table
+// 1)
 
 struct Sensitivity {
     double a, b;
@@ -34,12 +35,12 @@ struct Sensitivity {
 constexpr Sensitivity achromatic{1, 0.0047}, red_green{1, 0.0053}, blue_yellow[] = {{34.1, 0.04}, {13.5, 0.025}};
 
 struct Gaussian {
-    Taps taps;         // of one dimension, sum 1
-    double weight = 0; // of the two-dimensional kernel before it was normalised
+    Taps taps;         // 1D filter, sum 1
+    double weight = 0; // sum of the 2D kernel before normalisation
 };
 
 Gaussian gaussian(const Sensitivity& s) {
-    // One radius for all channels: three standard deviations of the widest.
+    // Common radius of all channels: three standard deviations of the widest.
     const int radius = int(std::ceil(3 * std::sqrt(blue_yellow[0].b / (2 * pi * pi)) * pixels_per_degree));
     std::vector<double> taps;
     for (int x = -radius; x <= radius; ++x) taps.push_back(std::exp(-pi * pi * x * x / (pixels_per_degree * pixels_per_degree * s.b)));
@@ -52,7 +53,7 @@ Plane blurred(const Plane& plane, const Sensitivity& s) {
     return filtered(plane, g.taps, g.taps);
 }
 
-// A sum of two Gaussians is not separable, but each of them is.
+// A sum of two Gaussians is not separable, but each Gaussian is.
 Plane blurred(const Plane& plane, const Sensitivity& s, const Sensitivity& t) {
     const Gaussian g = gaussian(s), h = gaussian(t);
     Plane result = filtered(plane, g.taps, g.taps);
@@ -62,13 +63,13 @@ Plane blurred(const Plane& plane, const Sensitivity& s, const Sensitivity& t) {
     return result;
 }
 
-// ---- what the eye picks out: edges and points, by derivatives of a Gaussian 0.082 degrees from peak to trough
+// ---- feature detection: edges and points, by derivatives of a Gaussian, 0.082 degrees from peak to trough
 
 struct FeatureTaps {
     Taps smooth, edge, point;
 };
 
-// Positive taps sum to 1, negative ones to -1.
+// Normalised: positive taps sum to 1, negative ones to -1.
 Taps balanced(const std::vector<double>& taps) {
     double positive = 0, negative = 0;
     for (const double t : taps) (t > 0 ? positive : negative) += std::abs(t);
@@ -98,10 +99,10 @@ Plane feature_strength(const Plane& lightness, const Taps& derivative, const Tap
     return x;
 }
 
-// ---- one image as the metric sees it
+// ---- preprocessing of one image
 
 struct Seen {
-    std::vector<Vec3> colors; // blurred, in Hunt-adjusted CIELAB
+    std::vector<Vec3> colors; // filtered, in Hunt-adjusted CIELAB
     Plane edges, points;
 };
 
@@ -129,14 +130,14 @@ Seen see(const RgbImage& linear) {
     return seen;
 }
 
-// ---- the two pipelines and their union
+// ---- color and feature pipelines, and their combination
 
 float color_error(const Vec3& lab_a, const Vec3& lab_b) {
     constexpr float exponent = 0.7f;
     static const float largest = std::pow(flip::hyab_distance(flip::hunt_lab_from_xyz(flip::xyz_from_linear({0, 1, 0})),
                                                               flip::hunt_lab_from_xyz(flip::xyz_from_linear({0, 0, 1}))),
                                           exponent);
-    // Distances up to 0.4 of the largest take the lower 0.95 of the range.
+    // Distances up to 0.4 of the maximum map to the lower 0.95 of the range.
     constexpr float knee = 0.4f, knee_value = 0.95f;
     const float e = std::pow(flip::hyab_distance(lab_a, lab_b), exponent) / largest;
     return e < knee ? knee_value / knee * e : std::min(1.f, knee_value + (e - knee) / (1 - knee) * (1 - knee_value));
@@ -204,7 +205,7 @@ ExposureRange hdr_flip_exposures(const RgbImage& reference) {
     if (!(brightest > 0)) return {};
     double middle = median(luminances);
     if (!(middle > 0)) {
-        // More than half of the picture is black: no exposure lifts that, so the rest decides.
+        // The median is black and cannot be exposed to white: use the median of the other pixels.
         std::erase_if(luminances, [](float y) { return !(y > 0); });
         middle = median(luminances);
     }

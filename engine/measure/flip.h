@@ -1,4 +1,4 @@
-// FLIP: how strongly a viewer sees a difference when two images are flipped back and forth.
+// FLIP: perceived difference of two images when a viewer alternates between them.
 //
 // Andersson, Nilsson, Akenine-Moller, Oskarsson, Astrom and Fairchild, "FLIP: A Difference Evaluator for Alternating Images" (HPG 2020),
 // and Andersson, Nilsson, Shirley and Akenine-Moller, "Visualizing Errors in Rendered High Dynamic Range Images" (Eurographics 2021). The
@@ -15,18 +15,19 @@ namespace blush {
 // One value in [0, 1] per pixel. Images of the same size, finite; sRGB-encoded, clamped to [0, 1].
 std::vector<float> ldr_flip(const RgbImage& reference, const RgbImage& test);
 
-// The largest LDR-FLIP over exposures from where the reference's brightest pixel is just below white to where its median is, a stop or less
-// apart, tone mapped by the ACES curve. Images of the same size, finite, scene-linear; negative values count as 0.
+// HDR-FLIP: maximum of LDR-FLIP over exposures at most a stop apart, from the one that maps the reference's maximum just below
+// white to the one that does so for its median; tone mapped with the ACES curve. Images of the same size, finite, scene-linear;
+// negative values count as 0.
 std::vector<float> hdr_flip(const RgbImage& reference, const RgbImage& test);
 
-// A map in numbers, as the papers' own tool gives them: quartiles are weighted, each value by itself, so that the many pixels without a
-// difference do not hide the others.
+// Statistics of a FLIP map, as printed by the reference tool: quartiles are weighted by value, so that pixels without a
+// difference do not dominate.
 struct FlipNumbers {
     static constexpr float noticeable = 0.1f;
     double mean = 0;
-    double first_quartile = 0, median = 0, third_quartile = 0; // a quarter, half, three quarters of the map's sum is in values up to this one
+    double first_quartile = 0, median = 0, third_quartile = 0; // values up to this sum to 1/4, 1/2, 3/4 of the total
     double largest = 0;
-    double share_noticeable = 0; // of pixels above `noticeable`, 0 .. 1
+    double share_noticeable = 0; // fraction of pixels above `noticeable`, 0 .. 1
 };
 FlipNumbers flip_numbers(std::span<const float> map);
 

@@ -9,14 +9,14 @@ namespace blush::flip {
 Vec3 xyz_from_linear(const Vec3& rgb);
 Vec3 linear_from_xyz(const Vec3& xyz);
 
-// Linearised CIELAB, in which filtering is meaningful: Y, Cx, Cz.
+// YCxCz: linearised CIELAB, in which filtering is valid.
 Vec3 ycxcz_from_xyz(const Vec3& xyz);
 Vec3 xyz_from_ycxcz(const Vec3& ycxcz);
 
 // CIELAB with a and b scaled by lightness, since dark colours look less colourful (Hunt 1952).
 Vec3 hunt_lab_from_xyz(const Vec3& xyz);
 
-// Lightness in city blocks, chroma as the crow flies (Abasi, Amani Tehran and Fairchild 2020, HyAB).
+// HyAB distance: city-block in lightness plus Euclidean in chroma (Abasi, Amani Tehran and Fairchild 2020).
 float hyab_distance(const Vec3& lab_a, const Vec3& lab_b);
 
 } // namespace blush::flip

@@ -9,12 +9,12 @@
 namespace blush {
 namespace {
 
-// y = one * log at_one + x * slope, up to an error as large as in all the others.
+// y = one * log at_one + x * slope, with errors of equal variance.
 struct Equation {
     double one = 0, x = 0, y = 0;
 };
 
-// By least squares.
+// Least squares.
 PowerFit solve(std::span<const Equation> equations) {
     if (equations.size() < 3) return {};
     double one_one = 0, one_x = 0, one_y = 0, xx = 0, xy = 0;
@@ -23,7 +23,7 @@ PowerFit solve(std::span<const Equation> equations) {
         one_x += e.one * e.x;
         one_y += e.one * e.y;
     }
-    // Of what is left of x when the constant has taken its part: the difference of large sums would lose digits.
+    // Uses the residual of x after projection on the constant: a difference of large sums would lose precision.
     for (const Equation& e : equations) {
         const double dx = e.x - e.one * one_x / one_one;
         xx += dx * dx;
@@ -89,7 +89,7 @@ PowerFit fit_running(std::span<const double> x, std::span<const double> y, std::
             equations.push_back(own);
             continue;
         }
-        // What is new since the last one, in units of its own deviation.
+        // Innovation since the previous point, divided by its standard deviation.
         const double shared = samples[i - 1] / samples[i];
         if (!(shared < 1)) continue;
         const double scale = 1 / std::sqrt(1 - shared * shared);

@@ -9,9 +9,9 @@ namespace blush {
 struct LightMeters::State {
     explicit State(const RendererOptions& options) : renderer(options) {}
     Renderer renderer;
-    bool gives_light = false; // something in the scene shines
+    bool gives_light = false; // the scene has light
     std::vector<MeterPlace> places;
-    std::vector<std::vector<double>> lux; // of each place, a value a round
+    std::vector<std::vector<double>> lux; // by place, one value per round
     std::vector<MeterReading> readings;
 };
 
@@ -20,7 +20,7 @@ LightMeters::~LightMeters() = default;
 
 void LightMeters::begin(const Scene& scene, const RenderSettings& settings, std::span<const MeterPlace> places) {
     RenderSettings alone = settings;
-    alone.width = alone.height = 1; // there is no picture
+    alone.width = alone.height = 1; // no image is needed
     alone.region = {};
     state_->renderer.update(scene, alone);
     state_->gives_light = state_->renderer.has_light();
@@ -42,7 +42,7 @@ bool LightMeters::round(int samples, const std::function<bool()>& wanted) {
         r.rgb = (r.rgb * double(r.rounds) + irradiance[i]) / double(r.rounds + 1);
         ++r.rounds;
         r.lux = mean_interval(s.lux[i]);
-        // Estimates that have all found nothing do not say how much there is.
+        // All estimates are 0 although the scene has light: the value is unknown.
         if (r.lux.value == 0 && s.gives_light) r.lux.known = false;
     }
     return true;

@@ -1,4 +1,4 @@
-// Light meters: illuminance at places, measured in rounds beside the renderer, each reading with its 95 % interval.
+// Light meters: illuminance at points on surfaces, measured in rounds besides the render, with 95 % confidence intervals.
 #pragma once
 
 #include "measure/intervals.h"
@@ -13,22 +13,22 @@ namespace blush {
 
 struct MeterReading {
     int64_t rounds = 0; // independent estimates so far
-    Interval lux;       // illuminance: the luminance of the irradiance; its interval is Student's, of the rounds; not known while a scene that
-                        // gives light has shown none here
+    Interval lux;       // illuminance (luminance of the irradiance) with Student's interval over the rounds; unknown while all
+                        // estimates are 0 in a scene that has light
     Vec3d rgb{0, 0, 0}; // irradiance, linear Rec.709
 };
 
-// A scene of its own, so that it can run beside others.
+// Holds its own compiled scene, so that it can run in parallel with other renders.
 class LightMeters {
 public:
     explicit LightMeters(const RendererOptions& options);
     ~LightMeters();
 
-    // Starts anew. Throws as Renderer::update does.
+    // Restarts the measurement. Throws as Renderer::update does.
     void begin(const Scene& scene, const RenderSettings& settings, std::span<const MeterPlace> places);
-    // One more estimate at each place, `samples` paths each. False if `wanted` said so and the round was given up; it counts for nothing.
+    // Adds an estimate of `samples` paths at each place. False if `wanted` returned false: the round is then discarded.
     bool round(int samples, const std::function<bool()>& wanted = {});
-    // In the order of the places.
+    // Readings in the order of the places.
     const std::vector<MeterReading>& readings() const;
 
 private:

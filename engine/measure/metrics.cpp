@@ -16,7 +16,7 @@ constexpr float Vec3::*channels[] = {&Vec3::x, &Vec3::y, &Vec3::z};
 
 bool is_finite(const Vec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
-// Sums of one row; rows are added in order, so that the result does not depend on threads.
+// Sums of one row; rows are added in order, so that the result does not depend on the threads.
 struct Sums {
     double squared = 0, relative = 0, absolute = 0, display_squared = 0, largest = 0;
     std::array<double, 3> a{}, b{};
@@ -90,7 +90,8 @@ FlipNumbers measured_flip(const RgbImage& a, const RgbImage& b, Encoding encodin
 Result<Metrics> compare(const RgbImage& a, const RgbImage& b, Encoding encoding, bool with_flip) {
     if (a.width != b.width || a.height != b.height)
         return Error{.what = fmt::format("the images differ in size: {}x{} and {}x{}", a.width, a.height, b.width, b.height)};
-    // Where one image has no number, both are made black, so that no filter of FLIP spreads it or sees an edge there.
+    // Pixels that are not finite in one image are set to black in both, so that FLIP's filters neither spread them nor detect an
+    // edge.
     RgbImage clean_a = a, clean_b = b;
     std::vector<uint8_t> left_out(a.pixels.size(), 0);
     const Sums sums = sum_rows(clean_a, clean_b, encoding, left_out);

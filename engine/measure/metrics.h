@@ -1,4 +1,4 @@
-// The difference of two images, in numbers.
+// Image metrics: MSE, relMSE, MAE, PSNR and FLIP of two images.
 #pragma once
 
 #include "core/result.h"
@@ -15,11 +15,11 @@ enum class Encoding {
     display,      // PNG, JPEG: sRGB-encoded in [0, 1]; FLIP is LDR-FLIP
 };
 
-// Over all pixels and channels, of the values as they are in the files. Pixels that are not finite in either image are counted and left
-// out of everything else.
+// Over all pixels and channels of the values in the files. Pixels that are not finite in either image are counted and excluded
+// from all metrics.
 struct Metrics {
     double mse = 0;    // mean of (a - b)^2
-    double rmse = 0;   // its root
+    double rmse = 0;   // square root of mse
     double relmse = 0; // mean of (a - b)^2 / (b^2 + 0.01)
     double mae = 0;    // mean of |a - b|
     double psnr = 0;   // dB; infinite for equal images
@@ -29,7 +29,8 @@ struct Metrics {
     int64_t nonfinite_a = 0, nonfinite_b = 0; // pixels
 };
 
-// `b` is the reference. FLIP takes far longer than the rest: without it, its numbers stay 0. Errors: sizes differ, no pixel is finite in both.
+// Compares `a` with the reference `b`. FLIP is much slower than the rest; its numbers are 0 without `with_flip`. Errors: sizes
+// differ, no pixel is finite in both.
 Result<Metrics> compare(const RgbImage& a, const RgbImage& b, Encoding encoding, bool with_flip = true);
 
 } // namespace blush

@@ -1,11 +1,11 @@
-// Two estimators of the same picture, run side by side in rounds with the same random numbers: how their differences scatter.
+// Paired comparison of two estimators of the same image, run in rounds with common random numbers: mean and variance.
 #pragma once
 
 #include <cstdint>
 
 namespace blush {
 
-// Mean and spread of what rounds measured.
+// Mean and variance over the rounds.
 class Trials {
 public:
     void add(double x);
@@ -16,7 +16,7 @@ public:
 
 private:
     int64_t count_ = 0;
-    double mean_ = 0, squares_ = 0; // Welford's recurrence
+    double mean_ = 0, squares_ = 0; // Welford's algorithm
 };
 
 } // namespace blush

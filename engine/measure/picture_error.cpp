@@ -8,7 +8,7 @@ namespace {
 
 constexpr double floor_of_relmse = 0.01; // as in metrics.h
 
-// A sum over pixels and its scatter.
+// Sum over pixels and its variance.
 struct Scatter {
     double sum = 0, squares = 0;
     void add(double v) { sum += v, squares += v * v; }
@@ -22,7 +22,7 @@ size_t count_of(const PixelView& picture) { return picture.values.size() / size_
 
 Interval root(const Interval& i) { return {i.known, std::sqrt(i.value), std::sqrt(i.low), std::sqrt(i.high)}; }
 
-// distance -+ reach, both of a norm.
+// Interval distance -+ reach of a norm.
 Interval about(double distance, double reach) { return {2 * reach < distance, distance, distance - reach, distance + reach}; }
 Interval squared(const Interval& i) { return {i.known, i.value * i.value, i.low * i.low, i.high * i.high}; }
 

@@ -1,4 +1,4 @@
-// The error of one picture, held against another whose own error is known.
+// Error of an image against another image of known error.
 #pragma once
 
 #include "measure/bias_test.h"
@@ -8,26 +8,26 @@
 
 namespace blush {
 
-// Of the time that rendering takes: how much of it measuring pictures meanwhile may take.
+// Maximum share of the render time for measuring errors during a render.
 constexpr double measuring_share = 0.005;
 
 struct PictureError {
-    Interval rmse, relmse; // known: there is an interval that says something
+    Interval rmse, relmse; // known: the interval is meaningful
 };
 
-// Against a reference whose samples the picture does not share. With p a pixel of the picture, t the truth, r the reference's and e its
-// standard error, whose square is an unbiased estimate of r's variance, (p - r)^2 - e^2 has the mean (p - t)^2 exactly, however good the
-// reference is. Intervals come from the scatter of that over the pixels, of which what the picture itself adds is no uncertainty: they hold
-// more often than 95 %. Not known if 0 is within: the reference tells too little. relMSE divides by the reference's own values. Pixels that
-// are not finite are left out. Sizes must agree.
+// Error against a reference with independent samples. With pixel p, truth t, reference value r and its standard error e (e^2 is
+// an unbiased estimate of r's variance), (p - r)^2 - e^2 has the mean (p - t)^2 exactly, whatever the quality of the reference.
+// Intervals come from the scatter of this value over the pixels. The image's own noise is part of the error, not an uncertainty,
+// so the coverage exceeds 95 %. Unknown if the interval contains 0: the reference is not accurate enough. relMSE divides by the
+// reference's values. Excludes pixels that are not finite. Sizes must agree.
 PictureError error_against(const PixelView& picture, const MeasuredImage& reference);
 
-// Against a later picture of the very run that the picture was made from, whose error is `raw_error`. The two share samples, so nothing is
-// taken for independent: by the triangle inequality, the error lies within the later picture's own error of their distance. Not known
-// unless that is less than half of it.
+// Error against a later image `raw` of the same run, whose error is `raw_error`. The two share samples, so independence is not
+// assumed: by the triangle inequality the error differs from their distance by at most `raw_error`. Unknown unless that is less
+// than half of the distance.
 PictureError error_against(const PixelView& picture, const PixelView& raw, const ErrorEstimate& raw_error);
 
-// What a frame says of itself, or of what it was when that was estimated.
+// The error estimate of a frame, at the sample count for which it was computed.
 ConvergencePoint estimated_point(const Frame& frame);
 
 } // namespace blush

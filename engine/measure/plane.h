@@ -16,8 +16,8 @@ struct Plane {
     const float* row(int y) const { return values.data() + size_t(y) * size_t(width); }
 };
 
-// Filtered along x by `across` and along y by `down`, both of odd length and centred (correlation: nothing is mirrored). Beyond the border
-// the border's values go on.
+// Separable filter: `across` along x, `down` along y, both of odd length and centred (correlation, kernels not mirrored). Border
+// values are repeated.
 Plane filtered(const Plane& plane, std::span<const float> across, std::span<const float> down);
 
 } // namespace blush

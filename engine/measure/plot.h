@@ -1,4 +1,4 @@
-// A log-log chart as plain data: whoever draws it asks plot_layout.h where things go.
+// A log-log chart as plain data; plot_layout.h computes the layout for drawing.
 #pragma once
 
 #include <cstddef>
@@ -10,25 +10,25 @@ namespace blush {
 struct PlotCurve {
     struct Point {
         double x = 0, y = 0;
-        double low = 0, high = 0; // 95 % interval of y, drawn as a band; both 0 for none
+        double low = 0, high = 0; // 95 % interval of y, drawn as a band; both 0: none
     };
     enum class Line { solid, dashed, dotted };
-    enum class Dots { none, filled, hollow }; // one at each point; guides have none, and cannot be picked
-    std::string name;                         // in the legend; empty: not there
+    enum class Dots { none, filled, hollow }; // markers of the points; guides have none and cannot be picked
+    std::string name;                         // in the legend; empty: not listed
     std::string color;                        // "#rrggbb"
-    std::vector<Point> points;                // those that are not positive are left out
+    std::vector<Point> points;                // points that are not positive are skipped
     Line line = Line::solid;
     Dots dots = Dots::filled;
 };
 
-// A vertical line at x: an edit, say.
+// A vertical line at x, such as an edit.
 struct PlotMark {
     double x = 0;
     std::string label;
     std::string color = "#888888";
 };
 
-// A horizontal line at y: a target.
+// A horizontal line at y, such as a target.
 struct PlotLevel {
     double y = 0;
     std::string label;
@@ -42,13 +42,13 @@ struct Plot {
     int width = 640, height = 420; // CSS pixels
 };
 
-// The colour of the i-th of a few curves on white: told apart by people who do not see red from green too (Okabe and Ito 2008).
+// Colour of the i-th curve on white, distinguishable with colour blindness (Okabe and Ito 2008).
 std::string plot_color(size_t i);
-// The same for a dark ground: the same hues, in the same order, as light as they have to be.
+// The same hues for a dark background, lightened as needed.
 std::string plot_color_on_dark(size_t i);
 
-// y = y0 (x / x0)^slope over the range of the curves' x, dashed, through the first point of `along`, or of all: the guide to compare
-// slopes with.
+// Guide line for slopes: y = y0 (x / x0)^slope over the x range of the curves, dashed, through the first point of `along` or,
+// without it, of all curves.
 PlotCurve plot_guide(const Plot& plot, double slope, const std::string& name, const PlotCurve* along = nullptr);
 
 } // namespace blush

@@ -8,13 +8,13 @@
 namespace blush {
 namespace {
 
-constexpr double longest_with_minor = 12, longest_with_twos = 2.5; // decades that still get minor lines, and numbers at 2 and 5
-constexpr double narrowest = 0.5;                                  // decades: there is a 1, a 2 or a 5 in any half of one
-constexpr int label_rows = 3;                                      // of marks
+constexpr double longest_with_minor = 12, longest_with_twos = 2.5; // maximum decades for minor lines, and for labels at 2 and 5
+constexpr double narrowest = 0.5;                                  // decades: any half decade contains a 1, 2 or 5
+constexpr int label_rows = 3;                                      // for marks
 
 bool is_shown(const PlotCurve::Point& p) { return p.x > 0 && p.y > 0 && std::isfinite(p.x) && std::isfinite(p.y); }
 
-// The logarithm of the nearest 1, 2 or 5 times a power of ten that is not above.
+// Logarithm of the largest 1, 2 or 5 times a power of ten that is not above.
 double round_down(double logarithm) {
     const double decade = std::floor(logarithm), rest = logarithm - decade, two = std::log10(2), five = std::log10(5);
     return decade + (rest >= five ? five : rest >= two ? two : 0);
@@ -33,8 +33,8 @@ std::string tick_text(int digit, int power) {
     return fmt::format("{}e{}", digit, power);
 }
 
-// Lines at 1, 2, ... 9 times each power of ten; numbers at the powers, and at 2 and 5 where there are few. `size_of`: of a number along
-// the axis, pixels.
+// Lines at 1, 2, ... 9 times each power of ten; labels at the powers, and at 2 and 5 for few decades. `size_of`: extent of a
+// label along the axis, pixels.
 template <class At, class Size> std::vector<PlotTick> ticks_of(const LogAxis& axis, At at, Size size_of) {
     const double decades = axis.high - axis.low, slack = 1e-9;
     std::vector<PlotTick> ticks;
@@ -47,7 +47,7 @@ template <class At, class Size> std::vector<PlotTick> ticks_of(const LogAxis& ax
             ticks.push_back({value, at(value), m == 1, numbered ? tick_text(m, e) : ""});
         }
     }
-    // Powers of ten first, then what still finds room between them.
+    // Powers of ten first, then others if there is room between them.
     std::vector<std::pair<double, double>> taken;
     for (const bool major : {true, false}) {
         for (PlotTick& t : ticks) {
@@ -63,7 +63,7 @@ template <class At, class Size> std::vector<PlotTick> ticks_of(const LogAxis& ax
     return ticks;
 }
 
-// Axes over all points that can be shown, marks and levels included where there are points.
+// Axis ranges over all valid points, and over marks and levels if there are points.
 void set_axes(PlotLayout& l, const Plot& plot) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     double x_low = infinity, x_high = -infinity, y_low = infinity, y_high = -infinity;
@@ -109,7 +109,7 @@ PlotLayout::Curve lay_out_curve(const PlotLayout& l, const PlotCurve& curve, siz
     return c;
 }
 
-// Labels right of their lines, in the first row that is free there.
+// Labels right of their lines, in the first free row.
 void lay_out_marks(PlotLayout& l, const Plot& plot, double em, const std::function<double(std::string_view)>& width) {
     std::vector<const PlotMark*> marks;
     for (const PlotMark& m : plot.marks)
@@ -131,9 +131,9 @@ void lay_out_marks(PlotLayout& l, const Plot& plot, double em, const std::functi
     }
 }
 
-// How many pixels of the curves' lines are within a box, guides left out.
+// Number of pixels of the curves' lines within a box, without guides.
 double covered(const PlotLayout& l, const Plot& plot, double left, double top, double right, double bottom) {
-    constexpr double step = 4; // pixels between two looks
+    constexpr double step = 4; // pixels between two tests
     double length = 0;
     for (const PlotLayout::Curve& c : l.curves) {
         if (plot.curves[c.index].dots == PlotCurve::Dots::none) continue;
@@ -150,7 +150,7 @@ double covered(const PlotLayout& l, const Plot& plot, double left, double top, d
     return length;
 }
 
-// In the lower left if no other corner is emptier: curves fall.
+// Prefers the lower left corner, since curves fall.
 void lay_out_legend(PlotLayout& l, const Plot& plot, double em, const std::function<double(std::string_view)>& width) {
     std::vector<size_t> named;
     double widest = 0;

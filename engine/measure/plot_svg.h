@@ -1,4 +1,4 @@
-// A chart as SVG: for reports and for the window's export.
+// Writes a chart as SVG, for reports and for export from the window.
 #pragma once
 
 #include "measure/plot.h"
@@ -7,10 +7,10 @@
 
 namespace blush {
 
-// An <svg> element that stands alone: its own text sizes and colours, no script, no outside resource.
+// A self-contained <svg> element: no scripts or external resources.
 std::string to_svg(const Plot& plot);
 
-// Text inside HTML or SVG, quotes too; control characters, which XML does not allow, become spaces.
+// Escapes text and quotes for HTML and SVG; control characters, which XML does not allow, become spaces.
 std::string escaped_markup(const std::string& text);
 
 } // namespace blush

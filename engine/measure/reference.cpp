@@ -6,7 +6,7 @@
 namespace blush {
 namespace {
 
-constexpr int64_t batch = 8; // samples between two looks at the clock and the wish to go on; even, so that both halves hold as many
+constexpr int64_t batch = 8; // samples between checks of time and cancellation; even, so that both half buffers have as many
 
 } // namespace
 
@@ -23,7 +23,7 @@ MeasuredImage measured_image(const Renderer& renderer) {
 }
 
 RenderSettings reference_settings(const RenderSettings& settings) {
-    // All that an expectation depends on; everything else as it is by default, which is known to be right.
+    // Copies the settings that change the expected value; others keep their unbiased defaults.
     RenderSettings r;
     r.width = settings.width;
     r.height = settings.height;

@@ -1,4 +1,4 @@
-// Three floats per pixel, top row first: what the metrics look at.
+// RGB image for the metrics: three floats per pixel, top row first.
 #pragma once
 
 #include "core/vec.h"

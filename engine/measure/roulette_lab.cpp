@@ -15,18 +15,18 @@ namespace {
 
 constexpr int bounce_planes = 12;
 constexpr double false_alarm = 1e-3;
-constexpr int64_t fewest_rounds = 8; // before anything is called biased
-constexpr int batches = 8;           // of rounds, among which the gain's error is measured
+constexpr int64_t fewest_rounds = 8; // before bias is reported
+constexpr int batches = 8;           // batches of rounds, for the standard error of the gain
 
 double luminance_at(const Frame& f, size_t pixel) {
     return luminance(Vec3d{double(f.rgba[4 * pixel]), double(f.rgba[4 * pixel + 1]), double(f.rgba[4 * pixel + 2])});
 }
 
-// Of all rounds of one side in a batch.
+// All rounds of one side in a batch.
 struct Batch {
     std::vector<Trials> pixels; // luminance
     double seconds = 0;
-    // Mean over pixels of the variance between rounds, times time: the inverse of efficiency, up to the samples in a round.
+    // Mean over pixels of the variance between rounds, times time: inverse efficiency up to the samples per round.
     double cost() const { return variance() * seconds / double(std::max<int64_t>(1, pixels.empty() ? 0 : pixels[0].count())); }
     double variance() const {
         double sum = 0;
@@ -38,7 +38,7 @@ struct Batch {
 struct Side {
     std::unique_ptr<Renderer> renderer;
     RenderSettings settings;
-    Frame frame; // of the last round
+    Frame frame; // last round
     std::vector<PathCounts> counts;
     RayCounts rays;
     double seconds = 0;
@@ -120,7 +120,7 @@ struct RouletteLab::State {
     RendererOptions options;
     Scene scene;
     Side rule, none;
-    std::array<Trials, 1 + bounce_planes> differences, levels; // the whole image, then by bounce: luminance
+    std::array<Trials, 1 + bounce_planes> differences, levels; // luminance: whole image, then by bounce
     RouletteReport report;
 
     void compare_means() {
@@ -144,14 +144,14 @@ struct RouletteLab::State {
             bias.share = levels[i].mean() / whole;
             bias.difference = differences[i].mean() / whole;
             bias.error = differences[i].error() / whole;
-            // Without any scatter, as where a limit takes all of a bounce's light, what differs differs.
+            // Without variance (a limit removes all light of a bounce) any difference is significant.
             const double z = normal_deviate(bias.difference / bias.error, double(report.rounds - 1));
             bias.significant = report.rounds >= fewest_rounds && (bias.error > 0 ? std::abs(z) > threshold : bias.difference != 0);
         }
     }
 
     void measure_gain() {
-        Trials gains; // logarithms: a ratio and its inverse are alike
+        Trials gains; // logarithms, so that a ratio and its inverse are symmetric
         for (int i = 0; i < batches; ++i) {
             const double with = rule.by_batch[size_t(i)].cost(), without = none.by_batch[size_t(i)].cost();
             if (report.rounds >= 2 * batches && with > 0 && without > 0) gains.add(std::log(without / with));

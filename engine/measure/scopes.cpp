@@ -9,13 +9,13 @@
 namespace blush {
 namespace {
 
-// Of pixel i: red, green, blue, luminance.
+// Red, green, blue and luminance of pixel i.
 std::array<float, scope_channels> channels_of(std::span<const float> rgb, size_t i) {
     const Vec3 c{rgb[3 * i], rgb[3 * i + 1], rgb[3 * i + 2]};
     return {c.x, c.y, c.z, luminance(c)};
 }
 
-// The cell of [0, 1] that t lies in; the upper end belongs to the last. -1 below, `count` above.
+// Bin of t in [0, 1]; 1 belongs to the last bin. -1 below, `count` above.
 int cell_of(float t, int count) {
     if (!(t >= 0)) return -1;
     return t > 1 ? count : std::min(int(t * float(count)), count - 1);

@@ -1,4 +1,4 @@
-// Solids from all but clear to all but black, from a hundred million metres thick to a millionth of a millimetre.
+// Stability cases of absorption: from almost clear to almost black solids, 1e8 m to 1e-9 m thick.
 #include "measure/stability/findings.h"
 #include "measure/stability/groups.h"
 
@@ -10,7 +10,7 @@ namespace {
 
 constexpr int thin_solids = 20, output_range = 22;
 
-// A slab that does not refract, seen straight through in a world of radiance 1: Beer and Lambert's exp(-depth per_metre).
+// A slab without refraction, viewed perpendicularly in an environment of radiance 1: exp(-depth per_metre) (Beer-Lambert).
 Findings slab(float per_metre, float depth) {
     Scene scene;
     Material solid = glass(0, 1);
@@ -24,11 +24,11 @@ Findings slab(float per_metre, float depth) {
     scene.view = looking_down(depth, 2 * depth);
     const double exponent = -std::log(double(color)) / double(solid.attenuation_distance) * double(depth);
     const double expected = std::exp(-exponent);
-    // A relative error of the exponent is one of the result times the exponent.
+    // The relative error of the result is that of the exponent times the exponent.
     return every_pixel(render(scene, settings_for(8, 8, 2)), expected, float_rounding * exponent * expected);
 }
 
-// Light to and fro within a pane of glass, absorbed at each passage: what is reflected and what goes through, in a white world.
+// Interreflection within an absorbing pane of glass: reflection plus transmission in a white environment.
 Findings pane(float passage) {
     Scene scene;
     Material solid = glass(0, 1.5f);

@@ -1,4 +1,4 @@
-// Cameras in odd places and of odd shapes.
+// Stability cases of cameras: extreme positions, fields of view, apertures and image sizes.
 #include "core/math.h"
 #include "measure/stability/findings.h"
 #include "measure/stability/groups.h"
@@ -13,18 +13,18 @@ namespace {
 
 constexpr int leaving_surfaces = 1, scales = 3, ranges = 22;
 
-// A square of light that covers a quarter of a square picture, whatever the angle of view.
+// An emissive square that covers a quarter of a square image at any field of view.
 Findings quarter_of_the_view(double degrees, float distance) {
     Scene scene;
     scene.view = looking({0, 0, 0}, {0, 0, -1}, float(degrees * std::numbers::pi / 180));
     const float half = float(0.5 * double(distance) * std::tan(double(scene.view.lens.yfov_radians) / 2));
     place(scene, quad({-half, -half, -distance}, {half, -half, -distance}, {half, half, -distance}, {-half, half, -distance}), emitter(1));
     const double edge = double(half) / (double(distance) * std::tan(double(scene.view.lens.yfov_radians) / 2));
-    // The square's own size is rounded to single precision.
+    // The size of the square is rounded to single precision.
     return whole(render(scene, settings_for(18, 18, 64)), edge * edge, 0x1p-22);
 }
 
-// Of a plane that the eye lies in nothing is seen; of what is beyond it, all.
+// A plane that contains the camera is invisible and does not occlude what is behind it.
 Findings on_a_floor(const Vec3& direction) {
     Scene scene;
     place(scene, floor_quad(10), lambert(0.5f));
@@ -35,7 +35,7 @@ Findings on_a_floor(const Vec3& direction) {
     return every_pixel(render(scene, settings_for(8, 8, 4)), direction.y > 0 ? 3 : 2);
 }
 
-// Under the sun alone a matte floor is lit evenly: every pixel of a picture of any shape shows the same.
+// A diffuse floor under the sun is lit evenly: every pixel has the same value at any image size.
 Findings shape(int width, int height) {
     Scene scene;
     place(scene, floor_quad(1e5f), lambert(0.8f));
@@ -54,7 +54,7 @@ Findings shape(int width, int height) {
     return ends;
 }
 
-// What is in focus stays sharp, whatever the aperture.
+// An edge in the focal plane is sharp at any aperture.
 Findings lens(float aperture) {
     Scene scene;
     place(scene, ceiling_quad(1, 4), emitter(1), at({-1, 0, 0}));
@@ -63,7 +63,7 @@ Findings lens(float aperture) {
     scene.view.lens.focus_distance = 4;
     const Picture picture = render(scene, settings_for(16, 16, 64));
     Findings halves;
-    // The edge runs between the eighth and the ninth row: rounding may take a sample across.
+    // The edge is between rows 8 and 9: rounding may move a sample across it.
     halves.push_back(compare(picture.region(0, 0, 16, 7), 1));
     halves.push_back(compare(picture.region(0, 9, 16, 7), 0));
     return halves;

@@ -1,4 +1,4 @@
-// Glass: from an index of refraction of 1 to 2.5, at the critical angle, through fifty interfaces.
+// Stability cases of dielectrics: index of refraction 1 to 2.5, the critical angle, fifty interfaces.
 #include "core/math.h"
 #include "measure/stability/findings.h"
 #include "measure/stability/groups.h"
@@ -13,7 +13,7 @@ namespace {
 
 constexpr int towards_vacuum = 7, nested = 20, critical_angle = 21;
 
-// Fresnel's reflectance for unpolarised light that meets an interface of index ratio eta under a cosine.
+// Fresnel reflectance for unpolarised light at an interface of index ratio eta.
 double fresnel(double eta, double cos) {
     const double sin2 = (1 - cos * cos) / (eta * eta);
     if (sin2 >= 1) return 1;
@@ -42,7 +42,7 @@ Findings ball_in_furnace(const Material& material) {
     return whole(render(scene, settings_for(16, 16, 64)), 1);
 }
 
-// Shells of glass around each other, their facets parallel.
+// Nested shells of glass with parallel facets.
 Findings shells_in_furnace(int shells) {
     Scene scene;
     const Material material = glass(0, 1.5f);
@@ -56,7 +56,7 @@ Findings shells_in_furnace(int shells) {
     return whole(render(scene, settings_for(16, 16, 32)), 1);
 }
 
-// A camera within glass sees the world n^2 times as bright.
+// A camera within glass sees the environment n^2 times as bright.
 Findings within_glass(float ior) {
     Scene scene;
     place(scene, cube(false), glass(0, ior), box({0, 0, 0}, {100, 1, 100}));
@@ -67,7 +67,7 @@ Findings within_glass(float ior) {
 
 // ---- panes before a bright floor
 
-// Seen through n interfaces of reflectance r, which add up without interfering: (1 - r) / (1 + (n - 1) r).
+// Transmittance of n interfaces of reflectance r without interference: (1 - r) / (1 + (n - 1) r).
 double through(int interfaces, double r) { return (1 - r) / (1 + (interfaces - 1) * r); }
 
 Scene panes(int count, float ior, const View& view) {
@@ -91,7 +91,7 @@ Findings stack_of_panes(int count) {
     return whole(render(panes(count, 1.5f, looking_down(1, 1)), settings_for(16, 16, 64)), through(2 * count, 0.04));
 }
 
-// ---- from within, above a black floor, at an angle to the critical one
+// ---- from within, above a black floor, near the critical angle
 
 Findings beside_the_critical_angle(float ior, double off_degrees) {
     const double degrees = std::asin(1 / double(ior)) * 180 / std::numbers::pi + off_degrees;
@@ -104,7 +104,7 @@ Findings beside_the_critical_angle(float ior, double off_degrees) {
     scene.view.lens.ymag = 0.1f;
     const double n = double(ior), cos = -to_affine(scene.view.rotation).z.y;
     const auto seen = [&](double c) { return n * n * (1 - fresnel(1 / n, c)); };
-    // The square root at the critical angle magnifies what single precision rounds of the cosine.
+    // The square root at the critical angle amplifies the rounding error of the cosine.
     const double rounding = std::abs(seen(cos + 0x1p-22) - seen(cos - 0x1p-22));
     return whole(render(scene, settings_for(16, 16, 128)), seen(cos), rounding);
 }

@@ -1,4 +1,5 @@
-// Sums: a million samples without drift, radiance from 1e-30 to 1e30, the dark, and the honesty of the error that all other cases trust.
+// Stability cases of the film: a million samples without drift, radiance from 1e-30 to 1e30, black scenes, and correctness of the
+// error estimate that all other cases use.
 #include "render/film.h"
 #include "core/math.h"
 #include "measure/stability/findings.h"
@@ -29,7 +30,7 @@ Findings constant_for(int64_t spp) {
     return every_pixel(render(scene, settings_for(1, 1, spp)), double(0.1f));
 }
 
-// The film alone: one sample of 2^24, then ones. In single precision the sum would stand still after the first.
+// The film only: one sample of 2^24, then ones. A single precision sum would not change after the first.
 Findings film_fed(int64_t samples) {
     const auto tile = std::make_unique<TileScratch>();
     Film film;
@@ -63,7 +64,7 @@ Findings late_samples(int64_t first) {
     return whole(render(room(1), settings), 2);
 }
 
-// The same samples on two threads, taken up in pieces.
+// The same samples on two threads, rendered in pieces.
 Findings threads_and_pieces() {
     const RenderSettings settings = settings_for(64, 64, 12);
     const Picture one = render(room(1), settings);
@@ -76,8 +77,8 @@ Findings threads_and_pieces() {
     return {count_of(differ, "values that differ")};
 }
 
-// Over many seeds the means scatter as much as their standard errors say: the ratio of the two variances is 1. Of n independent means it
-// has the variance 2 / (n - 1).
+// Over many seeds the variance of the means equals the mean squared standard error: the ratio is 1, with variance 2 / (n - 1) for
+// n independent means.
 Findings honest_error(int seeds) {
     double sum = 0, squares = 0, stated = 0;
     for (int seed = 0; seed < seeds; ++seed) {

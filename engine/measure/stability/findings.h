@@ -1,4 +1,4 @@
-// From pictures to findings.
+// Converts rendered images to findings.
 #pragma once
 
 #include "measure/stability/irradiance.h"
@@ -7,17 +7,17 @@
 
 namespace blush::stability {
 
-// Of grey pictures: red stands for all.
+// For grey images: only the red channel is used.
 Finding compare(const Measured& seen, double expected, double rounding = 0);
-// The picture's mean.
+// Mean of the image.
 Findings whole(const Picture& picture, double expected, double rounding = 0);
-// Every pixel by itself, where nothing is random.
+// Each pixel separately, for images without noise.
 Findings every_pixel(const Picture& picture, double expected, double rounding = 0);
-// The quarters of a photograph of the floor.
+// The quarters of an image of the floor.
 Findings quarters(const Scene& scene, const FloorIrradiance& irradiance, const RenderSettings& settings = settings_for(16, 16, 64));
-// Two pictures of the same thing with independent seeds, block by block of half x half pixels.
+// Two images of a scene with independent seeds, compared in blocks of half x half pixels.
 Findings same_blocks(const Picture& a, const Picture& b, int block);
-// How many numbers differ at all, which none should.
+// Number of differing values, which must be 0.
 Finding count_of(double wrong, std::string where = {});
 
 } // namespace blush::stability

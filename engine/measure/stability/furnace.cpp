@@ -1,5 +1,5 @@
-// Worlds and closed rooms that shine evenly: what loses nothing cannot be seen, and what reflects rho of everything shows the sum of a
-// geometric series, of thousands of terms where rho is close to 1.
+// Stability cases of furnaces: constant environments and closed emissive rooms. A white object is invisible in a white furnace; a
+// room of albedo rho has the radiance of a geometric series, with thousands of terms for rho close to 1.
 #include "measure/stability/findings.h"
 #include "measure/stability/groups.h"
 
@@ -12,7 +12,7 @@ namespace {
 
 constexpr int closed_rooms = 15;
 constexpr float emission = 2;
-// Vertices a path has at most (render/estimator_settings.h says 100000 scattering events).
+// Maximum vertices of a path (render/estimator_settings.h limits it to 100000 scattering events).
 constexpr double longest = 100001;
 
 Scene room(const GeometryPtr& walls, float albedo) {
@@ -27,8 +27,8 @@ double series(float albedo, double vertices) {
     return double(emission) * -std::expm1(vertices * std::log(double(albedo))) / (1 - double(albedo));
 }
 
-// Light found by BSDF sampling alone: every path carries the same sum, so a handful of them will do, and what is off is arithmetic. Of n
-// roundings one expects sqrt(n) times one of them (Higham and Mary 2019); n is the number of terms that matter.
+// BSDF sampling only: all paths have the same value, so few samples suffice, and deviations are rounding errors. Their expected
+// size is sqrt(n) times a single one (Higham and Mary 2019), n being the number of significant terms.
 Findings without_roulette(const GeometryPtr& walls, float albedo) {
     RenderSettings settings = settings_for(4, 4, 1);
     settings.roulette.rule = Roulette::Rule::off;
@@ -51,7 +51,7 @@ Findings white_furnace(const Material& material) {
     return whole(render(scene, settings_for(16, 16, 64)), double(material.base_color.x));
 }
 
-// Roulette's budget: the longer the paths, the fewer of them.
+// Samples with Russian roulette: fewer for longer paths.
 struct Closed {
     float albedo;
     int64_t spp;

@@ -1,4 +1,4 @@
-// Triangles as bad as files have them, and transforms that turn, squash and mirror.
+// Stability cases of geometry: degenerate and coincident triangles; rotating, non-uniform and mirroring transforms.
 #include "core/math.h"
 #include "measure/stability/findings.h"
 #include "measure/stability/groups.h"
@@ -30,12 +30,12 @@ void add_sun(Scene& scene, const Vec3& direction) {
     shine(scene, sun, aimed({0, 0, 0}, direction));
 }
 
-// What every pixel of a floor under the sun shows.
+// Pixel value of a floor under the sun.
 constexpr double sunlit = double(albedo) * double(lux) / pi_d;
 
 // ---- bad triangles
 
-// A room of two cones with n sides each, all its triangles slivers of aspect n / 2 pi.
+// A room of two cones with n sides each; all triangles are slivers of aspect n / 2 pi.
 GeometryPtr needle_room(int sides) {
     Geometry g;
     g.positions = {{0, 1, 0}, {0, -1, 0}};
@@ -57,7 +57,7 @@ Findings slivers(int sides) {
     return whole(render(scene, settings_for(16, 16, 64)), 2);
 }
 
-// A closed room in bright sun and sky is dark within.
+// A closed room in bright sun and sky is black inside.
 Findings dark_room(const GeometryPtr& walls, const Vec3& centre) {
     Scene scene;
     place(scene, walls, lambert(albedo), at(centre));
@@ -71,13 +71,13 @@ Findings dark_room(const GeometryPtr& walls, const Vec3& centre) {
     return {count_of(render(scene, settings).whole().mean.x)};
 }
 
-// A lamp whose mesh is full of triangles without area.
+// An emissive mesh with many degenerate triangles.
 Findings degenerate_lamp() {
     Scene scene;
     const GeometryPtr lamp = changed(ceiling_quad(0.5f, 1), [](Geometry& g) {
         for (int i = 0; i < 100; ++i) {
             for (const uint32_t k : {0u, 0u, 1u, 2u, 2u, 2u}) g.indices.push_back(k);
-            const uint32_t n = uint32_t(g.positions.size()); // three corners in a line
+            const uint32_t n = uint32_t(g.positions.size()); // three collinear corners
             for (const float x : {-0.5f, 0.f, 0.5f}) g.positions.push_back({x, 1, 0.1f});
             for (const uint32_t k : {n, n + 1, n + 2}) g.indices.push_back(k);
         }
@@ -110,7 +110,7 @@ Findings duplicates(int copies) {
     place(scene, floor, lambert(albedo));
     return sunlit_floor(scene);
 }
-// Floors in one plane that overlap, wound either way.
+// Coplanar overlapping floors of both windings.
 Findings coplanar() {
     Scene scene;
     place(scene, floor_quad(1), lambert(albedo));
@@ -118,7 +118,7 @@ Findings coplanar() {
     place(scene, quad({-0.5f, 0, -1}, {1, 0, -0.5f}, {0.5f, 0, 1}, {-1, 0, 0.5f}), lambert(albedo));
     return sunlit_floor(scene);
 }
-// Sheets of which each lets 98 % through, all in one plane.
+// Coincident sheets with 98 % transmittance each.
 Findings coincident_sheets(int sheets) {
     Scene scene;
     Material sheet = lambert(0.f);
@@ -138,7 +138,7 @@ Findings squashed_ball(const Vec3& scale) {
     t.rotation = {0.1f, 0.3f, 0.2f, 0.9f};
     place(scene, sphere(false), lambert(albedo), t);
     constant_world(scene, 1);
-    // From within its shadow: along the ball's shortest axis.
+    // Seen along the ball's shortest axis, from its shadow side.
     const Vec3d axis = normalize(to_affine(t.rotation).y);
     const float away = 4 * std::max({std::abs(scale.x), std::abs(scale.y), std::abs(scale.z)});
     scene.view = looking(to_float(axis * double(away)), {0, 0, 0}, 1);
@@ -160,7 +160,7 @@ Findings scaled_panel(const Vec3& scale) {
     return quarters(scene, [&](const Vec3d& x) { return shines_down ? 3 * polygon_irradiance(x, up, corners) : 0; });
 }
 
-// A floor whose vertex normals lean, under a shear: they follow the inverse of its transpose.
+// A floor with tilted vertex normals under a shear: normals transform by the inverse transpose.
 Findings sheared_normals(float shear) {
     const Vec3d n = normalize(Vec3d{0.3, 1, -0.2});
     const GeometryPtr floor = changed(floor_quad(1), [&](Geometry& g) { g.normals.assign(4, to_float(n)); });

@@ -1,4 +1,4 @@
-// Light and views that skim a surface.
+// Stability cases of grazing light and view directions.
 #include "core/math.h"
 #include "measure/stability/findings.h"
 #include "measure/stability/groups.h"
@@ -19,7 +19,7 @@ Vec3 skimming(double degrees) {
     return {float(std::sin(a)), float(std::cos(a)), 0};
 }
 
-// A floor of albedo 0.8 under a parallel sun of 3 lux: the cosine is that of the direction as the scene holds it.
+// A floor of albedo 0.8 under a parallel sun of 3 lux; uses the cosine of the rounded direction in the scene.
 Findings sunlit(double degrees) {
     Scene scene;
     place(scene, floor_quad(1), lambert(0.8f));
@@ -33,7 +33,7 @@ Findings sunlit(double degrees) {
     return every_pixel(render(scene, settings_for(8, 8, 1)), double(0.8f) / pi_d * 3 * cos);
 }
 
-// A parallel view of a floor from 5 m away.
+// An orthographic view of a floor from 5 m away.
 View view_at(double degrees, float half_height) {
     View view = looking({0, 0, 0}, -skimming(degrees), 1);
     view.position = skimming(degrees) * 5.f;
@@ -42,7 +42,7 @@ View view_at(double degrees, float half_height) {
     return view;
 }
 
-// Black lacquer in a white world shows its Fresnel reflection alone: Schlick's, as glTF's Appendix B has it.
+// Black lacquer in a white environment shows only its Fresnel reflection: Schlick's approximation as in glTF, Appendix B.
 Findings lacquer(double degrees) {
     Scene scene;
     Material black = plastic(0);
@@ -70,7 +70,7 @@ std::vector<StabilityCase> grazing_cases() {
         cases.push_back({fmt::format("sun at {} degrees", degrees), grazing_angles, [degrees] { return sunlit(degrees); }});
         cases.push_back({fmt::format("lacquer seen at {} degrees", degrees), grazing_angles, [degrees] { return lacquer(degrees); }});
     }
-    cases.push_back({"matte floor seen at 89.9999 degrees", grazing_angles, [] { return matte(89.9999); }});
+    cases.push_back({"diffuse floor seen at 89.9999 degrees", grazing_angles, [] { return matte(89.9999); }});
     return cases;
 }
 

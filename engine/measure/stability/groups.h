@@ -1,4 +1,4 @@
-// The cases, group by group: each in the file of its name.
+// The groups of cases; each group is in the file of its name.
 #pragma once
 
 #include "measure/stability/battery.h"
@@ -18,7 +18,7 @@ std::vector<StabilityCase> grazing_cases();
 std::vector<StabilityCase> health_cases();
 std::vector<StabilityCase> light_cases();
 std::vector<StabilityCase> limit_cases();
-// Of those, the one whose figure a test holds to a quadrature.
+// The known limit whose value a test compares with a quadrature.
 constexpr std::string_view grazing_gain_case = "white smooth dielectric in a furnace, seen at 75 degrees";
 std::vector<StabilityCase> microfacet_cases();
 std::vector<StabilityCase> mirror_cases();

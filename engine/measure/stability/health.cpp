@@ -1,4 +1,4 @@
-// Numbers that are none: what holds one is left out, and all around it is as if it were not there.
+// Stability cases of non-finite input: the affected element is skipped without an effect on others.
 #include "core/math.h"
 #include "measure/stability/findings.h"
 #include "measure/stability/groups.h"
@@ -14,7 +14,7 @@ constexpr int not_numbers = 8;
 constexpr float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
 constexpr double pi_d = std::numbers::pi;
 
-// For a floor that it covers: the right half of a picture from above shows texels of 1.
+// For a floor it covers: the right half of an image from above shows texels of 1.
 ImagePtr one_bad(float bad) { return float_picture(2, 2, std::vector<Vec3>{{bad, bad, bad}, {1, 1, 1}, {1, 1, 1}, {1, 1, 1}}); }
 
 Findings sound(const Scene& scene, double expected) {
@@ -43,7 +43,7 @@ Findings bad_emission(float bad) {
     scene.view = looking_down(1, 1);
     return sound(scene, 3);
 }
-// Below the horizon, where the floor does not see it.
+// Below the horizon, invisible to the floor.
 Findings bad_world(float bad) {
     Scene scene;
     place(scene, floor_quad(1), lambert(0.5f));
@@ -55,7 +55,7 @@ Findings bad_world(float bad) {
     return sound(scene, 0.5);
 }
 
-// A floor under the sun, with something broken beside it.
+// A floor under the sun, with a broken object beside it.
 Findings beside(auto&& add_broken) {
     Scene scene;
     place(scene, floor_quad(1), lambert(0.5f));

@@ -1,4 +1,4 @@
-// Where renderers lose their numbers: what every case of the battery stands guard over.
+// Numerical weak points of renderers, which the cases of the battery test.
 #pragma once
 
 #include <span>
@@ -9,11 +9,11 @@ namespace blush::stability {
 struct HotSpot {
     int number;
     std::string_view name;
-    std::string_view remedy; // what guards it here, and whose idea that is
+    std::string_view remedy; // the remedy used here, with its source
 };
 
 std::span<const HotSpot> hot_spots();
-// By number; the empty one for 0.
+// By number; empty for 0.
 const HotSpot& hot_spot(int number);
 
 } // namespace blush::stability

@@ -1,4 +1,4 @@
-// Lights of all sizes and strengths above a matte floor, against closed forms.
+// Stability cases of lights: all sizes and intensities above a diffuse floor, against closed forms.
 #include "core/math.h"
 #include "measure/stability/findings.h"
 #include "measure/stability/groups.h"
@@ -64,7 +64,7 @@ Findings sun(float angle) {
     return quarters(scene, [cos](const Vec3d&) { return 7 * cos; });
 }
 
-// Two black walls at height 1, `width` apart, below a panel of 2 x 2 at height 2: a point of the floor sees a strip of it.
+// Two black plates at height 1, `width` apart, below a panel of 2 x 2 at height 2: a floor point sees a strip of the panel.
 Findings slit(float width, int64_t spp) {
     Scene scene;
     const Light light = square(2, 100);
@@ -81,7 +81,7 @@ Findings slit(float width, int64_t spp) {
     return quarters(scene, through, settings_for(16, 16, spp));
 }
 
-// Under a roof that keeps the sun out: of all the scene's light the candle gives less than a millionth of a millionth.
+// A roof blocks the sun; the candle has less than 1e-12 of the scene's power.
 Findings candle_under_a_roof() {
     Scene scene;
     place(scene, floor_quad(1000, 3), lambert(0.f));
@@ -90,7 +90,7 @@ Findings candle_under_a_roof() {
     return quarters(scene, of_point({0, 1, 0}, 1), settings_for(16, 16, 1024));
 }
 
-// The weak panel is all that lights the floor: the strong one faces away.
+// Only the weak panel lights the floor: the strong one faces away.
 Findings strong_and_weak() {
     Scene scene;
     const Light weak = square(1, 1e-6f);
@@ -101,7 +101,7 @@ Findings strong_and_weak() {
         scene, [&](const Vec3d& x) { return 1e-6f * polygon_irradiance(x, up, corners); }, settings_for(16, 16, 256));
 }
 
-// Stands on the floor's edge: next to it the floor sees it at right angles to its own normal.
+// At the edge of the floor, perpendicular to it.
 Findings upright_panel(float scale) {
     Light light = square(2 * scale, 3);
     return panel(light, aimed({-1, scale, 0}, {1, 0, 0}));

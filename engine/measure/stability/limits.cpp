@@ -1,4 +1,5 @@
-// What is known not to hold, with its reason and by how much. A limit that holds one day fails the tests: it belongs to its group then.
+// Known limits of the renderer, with reason and size. A limit that starts to pass fails the tests: it must then be moved to its
+// group.
 #include "core/math.h"
 #include "measure/stability/findings.h"
 #include "measure/stability/groups.h"
@@ -12,7 +13,7 @@ namespace {
 
 constexpr double pi_d = std::numbers::pi;
 
-// The sum of all bounces, not of the first hundred thousand.
+// The sum of all bounces, not only of the first 100000.
 Findings longest_path() {
     constexpr float albedo = 1 - 1e-4f;
     Scene scene;
@@ -24,7 +25,7 @@ Findings longest_path() {
     return whole(render_anything(scene, settings), 2 / (1 - double(albedo)));
 }
 
-// As the index goes to 1 a rough ball should vanish, as it does at 1.
+// A rough ball should become invisible as its index approaches 1.
 Findings rough_glass_towards_vacuum() {
     Scene scene;
     place(scene, sphere(false), glass(0.5f, 1.001f));
@@ -33,7 +34,7 @@ Findings rough_glass_towards_vacuum() {
     return whole(render(scene, settings_for(16, 16, 64)), 1);
 }
 
-// A ball of glass within a block of the same glass should be invisible: the block alone shows as much of the lamp.
+// A ball of glass within a block of the same glass should be invisible: compares with the block alone.
 Findings glass_within_glass() {
     const auto block = [](bool with_ball) {
         Scene scene;
@@ -49,7 +50,7 @@ Findings glass_within_glass() {
     return {f};
 }
 
-// A sheet a ten-millionth as thick as it is wide: a ray that enters it is moved past its other face.
+// A sheet 1e-7 as thick as wide: the offset of a ray that enters it moves the origin past its other face.
 Findings wafer() {
     Scene scene;
     Material solid = glass(0, 1);
@@ -63,7 +64,7 @@ Findings wafer() {
     return whole(render(scene, settings_for(16, 16, 4)), 0.5);
 }
 
-// Of a ball with shading normals, what those see of the sun but its facets do not is dark.
+// Shading terminator: parts of a ball whose shading normals face the sun but whose facets do not are black.
 Findings terminator() {
     Geometry g = *sphere(false);
     g.serial = next_payload_serial();
@@ -85,7 +86,7 @@ Findings terminator() {
     return whole(picture, expected / double(picture.frame.normal.size()));
 }
 
-// Two lamps in the same place: light sampling sees both, a ray that meets them only one. Which is right nobody can say.
+// Two coincident lights: NEE sees both, a ray hits only one. The correct result is undefined.
 Findings coincident_lamps() {
     Scene scene;
     for (int i = 0; i < 2; ++i) place(scene, ceiling_quad(0.5f, 1), emitter(3));
@@ -93,8 +94,7 @@ Findings coincident_lamps() {
     return quarters(scene, [&](const Vec3d& x) { return 3 * polygon_irradiance(x, Vec3d{0, 1, 0}, corners); });
 }
 
-// A room of one metre in a world that reaches a thousand kilometres: there is one origin for all, and single precision steps by 0.06 m
-// there.
+// A room of one metre in a scene of 1000 km: the scene has a single origin, and single precision has steps of 0.06 m there.
 Findings room_in_a_wide_world() {
     Scene scene;
     place(scene, cube(true), lambert(0.8f), at({1e6f, 0, 0}));
@@ -108,7 +108,7 @@ Findings room_in_a_wide_world() {
     return {count_of(render(scene, settings).whole().mean.x)};
 }
 
-// Triangles whose area squared single precision cannot hold have no normal.
+// Triangles whose squared area exceeds the range of single precision have no normal.
 Findings closed_ball(float scale) {
     Scene scene;
     place(scene, sphere(true), emitter(1, 0.5f), at({0, 0, 0}, scale));
@@ -117,7 +117,7 @@ Findings closed_ball(float scale) {
     return {compare(picture.whole(), 2), count_of(double(picture.frame.health.dropped()), "samples dropped")};
 }
 
-// A camera 0.3 m from where single precision can put it.
+// A camera 0.3 m from the nearest single precision position.
 Findings camera_between_floats() {
     const Vec3 away{1e7f, 0, 0};
     Scene scene;
@@ -130,11 +130,11 @@ Findings camera_between_floats() {
     scene.nodes.set(half, node);
     scene.view = looking_down(1, 1);
     scene.view.position = Vec3{0.3f, 1, 0} + away;
-    // The floor's edge lies below the eye.
+    // The floor's edge is below the camera.
     return whole(render(scene, settings_for(16, 16, 16)), 0.5);
 }
 
-// glTF hides the back of a surface that is not double-sided.
+// glTF culls back faces of single-sided materials.
 Findings back_of_a_surface() {
     Scene scene;
     place(scene, ceiling_quad(10, 0), lambert(0.5f));
@@ -143,7 +143,7 @@ Findings back_of_a_surface() {
     return whole(render(scene, settings_for(8, 8, 16)), 1);
 }
 
-// glTF's layering of a reflection over a matte base, seen at that angle in a white furnace: it gives back more than it gets.
+// glTF's specular layer over a diffuse base, viewed at that angle in a white furnace: it gains energy.
 Findings white_dielectric(double degrees) {
     Scene scene;
     place(scene, floor_quad(1000), plastic(0));
@@ -155,8 +155,8 @@ Findings white_dielectric(double degrees) {
     return whole(render(scene, settings_for(16, 16, 64)), 1);
 }
 
-// A floor under a plate of solid glass and a parallel sun: what the sun sends through both faces, reflections between them included, is
-// (1 - F) / (1 + F) with F = 0.04. No strategy finds it.
+// A floor under a plate of solid glass and a parallel sun: the transmittance of both faces with interreflections is (1 - F) / (1
+// + F), F = 0.04. No sampling strategy finds this light.
 Findings sun_through_solid_glass() {
     constexpr double reflectance = 0.04, passes = (1 - reflectance) / (1 + reflectance);
     Scene scene;
@@ -179,22 +179,22 @@ Findings sun_through_solid_glass() {
 std::vector<StabilityCase> limit_cases() {
     return {
         {std::string(grazing_gain_case), 5, [] { return white_dielectric(75); },
-         "appendix B of the glTF specification weighs the matte base by 1 - F at the half vector, which lies nearer to the viewer than the "
-         "normal: at grazing angles base and reflection together exceed 1"},
+         "appendix B of the glTF specification weights the diffuse base by 1 - F at the half vector, which is nearer to the viewer than "
+         "the normal: at grazing angles base and reflection together exceed 1"},
         {"closed room of rho 0.9999 without roulette: all bounces", 15, longest_path,
-         "paths end after 100000 scattering events, which is counted and reported; with roulette the sum is complete"},
+         "paths end after 100000 scattering events, which is counted and reported; with Russian roulette the sum is complete"},
         {"rough glass of ior 1.001 in a furnace", 7, rough_glass_towards_vacuum,
-         "facets shadow each other in the microfacet model however little they refract; from an index of 1 + 1e-5 / alpha down light "
+         "the microfacet model applies masking however small the refraction is; below an index of 1 + 1e-5 / alpha light "
          "passes straight"},
         {"ball of glass within a block of the same glass", 20, glass_within_glass,
-         "every interface is one with vacuum: no list of the media around a point is kept"},
+         "every interface is treated as one with vacuum: there is no stack of nested media"},
         {"absorbing sheet 1e-7 as thick as wide", 20, wafer,
-         "rays start off a surface by a bound on its rounding error, which follows its largest coordinate: keep solids thicker than 1e-6 "
-         "of their extent"},
+         "ray origins are offset by a bound on the rounding error, which scales with the largest coordinate: keep solids thicker than "
+         "1e-6 of their extent"},
         {"coarse ball with shading normals, half lit", 5, terminator,
-         "the shading terminator is not softened: where facets face away from a light it does not reach, whatever their normals say"},
-        {"two lamps in one place", 4, coincident_lamps,
-         "light sampling adds both, a ray finds one: scenes with coincident emitters have no single answer"},
+         "the shading terminator is not softened: facets that face away from a light are black, whatever their normals"},
+        {"two coincident lamps", 4, coincident_lamps,
+         "NEE adds both, a ray hits one: scenes with coincident emitters have no unique result"},
         {"dark room at the edge of a wide world", 2, room_in_a_wide_world,
          "one origin serves the whole scene: parts far smaller than their distance from its middle, in units of 1e-6, leak at their "
          "corners"},
@@ -202,12 +202,12 @@ std::vector<StabilityCase> limit_cases() {
          "normals are normalised cross products in single precision: keep triangles between 1e-9 and 1e9 m across"},
         {"closed ball of radius 1e12 m", 3, [] { return closed_ball(1e12f); }, "as for the ball of 1e-10 m"},
         {"camera 0.3 m beside the metres at 1e7 m", 2, camera_between_floats,
-         "nodes and the camera are placed in single precision; hang them from a node that is far away"},
+         "node and camera positions are in single precision; make them children of a distant node"},
         {"floor under solid glass and a parallel sun", 4, sun_through_solid_glass,
-         "a unidirectional path tracer finds lights without size neither by sampling nor by rays through delta lobes; thin panes pass them, and "
-         "an angle of the sun lets rays find it"},
+         "a unidirectional path tracer cannot find lights without size through delta lobes; thin panes transmit shadow rays, and "
+         "a sun with an angle can be hit by rays"},
         {"back of a surface that is not double-sided", 20, back_of_a_surface,
-         "both sides of a surface reflect, as light on its way through a room needs it; glTF's culling of backs is for rasterisers"},
+         "both sides of a surface reflect, as light transport requires; back-face culling of glTF is for rasterizers"},
     };
 }
 

@@ -1,4 +1,4 @@
-// Facets from smoother than single precision resolves to as rough as they get.
+// Stability cases of microfacet BSDFs: from roughness below single precision to the maximum.
 #include "core/math.h"
 #include "measure/stability/findings.h"
 #include "measure/stability/groups.h"
@@ -20,8 +20,8 @@ double masking(double alpha, const Vec3d& w) {
     return 2 / (1 + std::sqrt(1 + alpha * alpha * tan2));
 }
 
-// What a white metal reflects of a uniform world: the masking of the reflected direction over normals drawn as seen (Heitz 2018), by
-// the midpoint rule.
+// Directional albedo of a white metal in a constant environment: masking of the reflected direction, averaged over visible
+// normals (Heitz 2018) by the midpoint rule.
 double directional_albedo(double alpha, double cos) {
     const Vec3d wo{std::sqrt(1 - cos * cos), 0, cos};
     const Vec3d o = normalize(Vec3d{alpha * wo.x, alpha * wo.y, wo.z});
@@ -55,22 +55,22 @@ Findings white_metal(double alpha, double degrees) {
     place(scene, floor_quad(100), metal(roughness_of(alpha)));
     constant_world(scene, 1);
     scene.view = parallel_view(degrees, 0.3f);
-    // The midpoint rule's own error where the integrand ends at the horizon: 1 / steps of what is cut off there.
+    // Error of the midpoint rule at the discontinuity at the horizon: 1 / steps of the part that is cut off.
     return whole(render(scene, settings_for(16, 16, 256)), directional_albedo(alpha, std::cos(degrees * pi_d / 180)), 1e-4);
 }
 
-// A wall that shines up to the height whose reflection crosses the middle of the picture: half of it is lit, whatever blurs the edge
-// evenly.
+// An emissive wall whose reflected edge is at the centre of the image: half of the light is visible under any symmetric blur of
+// the edge.
 Findings edge_in_a_mirror(double alpha) {
     Scene scene;
     place(scene, floor_quad(10), metal(roughness_of(alpha)));
     place(scene, quad({-3, 0, 50}, {-3, 0, -50}, {-3, 3, -50}, {-3, 3, 50}), emitter(1));
     scene.view = parallel_view(45, 0.5f);
-    // Of lobes of width alpha the masked and the skewed part is of second order.
+    // Masking and asymmetry of a lobe of width alpha are of second order.
     return whole(render(scene, settings_for(16, 16, 256)), 0.5, 4 * alpha * alpha);
 }
 
-// A lamp of one millimetre in a mirror that is all but smooth: found by either way of sampling, never counted twice.
+// A lamp of 1 mm in an almost smooth mirror: found by both sampling strategies, counted once.
 Findings lamp_in_a_mirror(double alpha, Strategy strategy) {
     Scene scene;
     place(scene, floor_quad(10), metal(roughness_of(alpha)));
@@ -79,7 +79,7 @@ Findings lamp_in_a_mirror(double alpha, Strategy strategy) {
     RenderSettings settings = settings_for(32, 32, 256);
     settings.strategy = strategy;
     const Picture blurred = render(scene, settings);
-    // Its image in a perfect mirror: a square of one millimetre, 1.5 m away.
+    // Its image in a perfect mirror: a square of 1 mm, 1.5 m away.
     const double edge = 2 * std::tan(double(scene.view.lens.yfov_radians) / 2) * 1.5;
     return whole(blurred, 1e6 * 1e-6 / (edge * edge), 4 * alpha * alpha);
 }
@@ -92,7 +92,7 @@ std::vector<StabilityCase> microfacet_cases() {
         for (const double degrees : {60.0, 85.0})
             cases.push_back({fmt::format("white metal of alpha {:g} at {} degrees", alpha, degrees), alpha < 1e-2 ? smooth_limit : frames,
                              [alpha, degrees] { return white_metal(alpha, degrees); }});
-    // On both sides of the roughness below which a surface counts as smooth.
+    // On both sides of the roughness threshold of a delta lobe.
     for (const double alpha : {1e-5, 0.99e-4, 1.01e-4, 1e-3})
         cases.push_back(
             {fmt::format("edge of light in a metal of alpha {:g}", alpha), smooth_limit, [alpha] { return edge_in_a_mirror(alpha); }});

@@ -1,4 +1,4 @@
-// Two mirrors that face each other and shine: after n reflections exactly n + 1 terms of a geometric series.
+// Stability cases of parallel emissive mirrors: after n reflections exactly n + 1 terms of a geometric series.
 #include "measure/stability/findings.h"
 #include "measure/stability/groups.h"
 
@@ -22,7 +22,7 @@ Findings corridor(float albedo, int bounces) {
     settings.max_bounces = bounces;
     settings.roulette.rule = Roulette::Rule::off;
     const double rho = double(albedo), expected = (1 - std::pow(rho, bounces + 1)) / (1 - rho);
-    // Each term is a product of one more factor.
+    // Each term has one more factor.
     return every_pixel(render(scene, settings), expected, 4 * std::sqrt(double(bounces)) * 0x1p-24 * expected);
 }
 

@@ -64,7 +64,7 @@ Picture render(const Scene& scene, const RenderSettings& settings, const PlaneSe
     const Health& health = p.frame.health;
     if (health.dropped() > 0 || health.truncated > 0)
         throw std::runtime_error(
-            fmt::format("{} samples were not finite or negative, {} paths were cut off", health.dropped(), health.truncated));
+            fmt::format("{} samples were not finite or negative, {} paths were truncated", health.dropped(), health.truncated));
     return p;
 }
 

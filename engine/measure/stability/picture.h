@@ -1,4 +1,4 @@
-// A rendered picture as a measurement: what its regions are on average, and how sure that is.
+// A rendered image as a measurement: means of regions with standard errors.
 #pragma once
 
 #include "render/renderer.h"
@@ -14,24 +14,24 @@ struct Measured {
 
 struct Picture {
     int width = 0, height = 0;
-    std::vector<Vec3d> pixels, errors; // errors: of each pixel's mean, from its two halves; empty for a single sample
+    std::vector<Vec3d> pixels, errors; // errors: standard error of each pixel from its A/B buffers; empty for a single sample
     Frame frame;
 
     const Vec3d& at(int x, int y) const { return pixels[size_t(y) * size_t(width) + size_t(x)]; }
-    // Pixels are independent, so variances add up. Each is estimated from one difference: take regions of 64 pixels and more.
+    // Pixels are independent, so variances are added. Each is estimated from one difference: use regions of at least 64 pixels.
     Measured region(int x, int y, int w, int h) const;
     Measured whole() const { return region(0, 0, width, height); }
-    // Regions of w x h pixels side by side, by rows.
+    // Adjacent regions of w x h pixels, by rows.
     std::vector<Measured> blocks(int w, int h) const;
 };
 
-// Of width x height with spp samples and a filter one pixel wide: a pixel is the mean over its square.
+// Settings for width x height pixels and spp samples with a box filter: a pixel is the mean over its area.
 RenderSettings settings_for(int width, int height, int64_t spp);
-// Samples [first_sample, spp) of the settings on one thread, sound or not.
+// Renders samples [first_sample, spp) on one thread, without checks.
 Picture render_anything(const Scene& scene, const RenderSettings& settings, const PlaneSet& planes = {});
-// The same; throws std::runtime_error if samples were dropped or paths cut off, because then the picture is no measurement.
+// The same; throws std::runtime_error if samples were dropped or paths truncated, which invalidates the measurement.
 Picture render(const Scene& scene, const RenderSettings& settings, const PlaneSet& planes = {});
-// Of what a renderer holds.
+// The current image of a renderer.
 Picture picture_of(const Renderer& renderer);
 
 } // namespace blush::stability

@@ -1,4 +1,4 @@
-// One still life at all scales and places: the picture must not know where the world's origin is nor what a metre is.
+// Stability cases of scale and position: the image of a scene must not depend on its scale or its distance from the origin.
 #include "core/math.h"
 #include "measure/stability/findings.h"
 #include "measure/stability/groups.h"
@@ -12,8 +12,8 @@ namespace {
 
 constexpr int leaving_surfaces = 1, far_away = 2, scales = 3;
 
-// Everything hangs from one node, so that what stands on fractions of a metre does so far away as well: only the root and the camera are
-// placed by numbers that single precision holds exactly there.
+// All objects are children of one node, so that fractions of a metre are kept far from the origin: only the root and the camera
+// have positions there, which are exact in single precision.
 Scene still_life(float scale, const Vec3& away) {
     Scene scene;
     Node root;
@@ -50,7 +50,7 @@ const Picture& original() {
     return picture;
 }
 
-// Where no number is rounded otherwise, no bit may differ.
+// If all numbers round identically, images must be bit-identical.
 Findings same_bits(float scale, const Vec3& away) {
     const Picture other = still_life_picture(scale, away, 0);
     int differ = 0;
@@ -59,7 +59,7 @@ Findings same_bits(float scale, const Vec3& away) {
 }
 Findings same_picture(float scale, const Vec3& away) { return same_blocks(original(), still_life_picture(scale, away, 1), block); }
 
-// A ball under a parallel sun: of the pixels that see it each is lit by exactly its cosine, or is in its own shadow.
+// A ball under a parallel sun: each pixel has exactly the cosine term or is in shadow.
 Findings sunlit_ball(float scale, const Vec3& centre) {
     constexpr float albedo = 0.8f, lux = 3;
     Scene scene;
@@ -79,7 +79,7 @@ Findings sunlit_ball(float scale, const Vec3& centre) {
     for (size_t i = 0; i < picture.pixels.size(); ++i) {
         if (picture.frame.depth[i] == 0) continue;
         const double cos = dot(to_double(picture.frame.normal[i]), to_sun);
-        if (std::abs(cos) < 1e-4) continue; // rounding decides which side it is
+        if (std::abs(cos) < 1e-4) continue; // the side depends on rounding
         const double expected = cos > 0 ? double(albedo) / 3.14159265358979 * double(lux) * cos : 0;
         wrong += !(std::abs(picture.pixels[i].x - expected) <= 1e-5);
         lit += cos > 0;
@@ -87,7 +87,7 @@ Findings sunlit_ball(float scale, const Vec3& centre) {
     return {count_of(wrong, "pixels that are lit wrongly"), count_of(lit < 200, "too few pixels are lit")};
 }
 
-// Two balls that share a mesh are traced through instances.
+// Two balls with a shared mesh are traced as instances.
 Findings instanced_balls(float scale) {
     Scene scene;
     const Id<Mesh> mesh = scene.meshes.add({"", {{sphere(true), scene.materials.add(emitter(1, 0.5f))}}});

@@ -1,4 +1,4 @@
-// Scenes small enough that their pictures are known: shapes, materials and cameras to put together. +Y is up.
+// Building blocks of test scenes with known results: shapes, materials and cameras. +Y is up.
 #pragma once
 
 #include "core/vec.h"
@@ -8,31 +8,31 @@
 
 namespace blush::stability {
 
-// ---- shapes, without vertex normals: what they reflect follows from their planes alone
+// ---- shapes without vertex normals: shading uses geometric normals
 
-// Of four corners, counter-clockwise as seen from its front; its UV set 0 runs from (0, 0) at the first corner to (1, 1) at the third.
+// Quad of four corners, counter-clockwise seen from the front; UV set 0 is (0, 0) at the first corner and (1, 1) at the third.
 GeometryPtr quad(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 // [-half, half]^2 at height y, facing up.
 GeometryPtr floor_quad(float half, float y = 0);
 // The same, facing down.
 GeometryPtr ceiling_quad(float half, float y);
-// [-1, 1]^3; `inward`: a room.
+// [-1, 1]^3; `inward`: faces point inwards.
 GeometryPtr cube(bool inward);
-// Inscribed in the unit sphere, 512 triangles, none of them parallel to an axis plane.
+// Inscribed in the unit sphere, 512 triangles, none parallel to an axis plane.
 GeometryPtr sphere(bool inward);
 
-// ---- materials; all are as plain as can be but for what the name says
+// ---- materials; other properties have neutral values
 
 Material lambert(const Vec3& albedo);
 Material lambert(float albedo);
 Material metal(float roughness);            // white
 Material plastic(float roughness);          // white base, ior 1.5
-Material glass(float roughness, float ior); // a solid that absorbs nothing
-Material gel(const Vec3& color);            // a thin sheet that reflects nothing
+Material glass(float roughness, float ior); // solid without absorption
+Material gel(const Vec3& color);            // thin sheet without reflection
 Material emitter(float nits, float albedo = 0);
 Material unlit(const Vec3& color);
 
-// ---- putting together
+// ---- scene assembly
 
 Id<Node> place(Scene& scene, const GeometryPtr& geometry, const Material& material, const Transform& transform = {});
 Id<Node> shine(Scene& scene, const Light& light, const Transform& transform);
@@ -42,7 +42,7 @@ void constant_world(Scene& scene, float nits);
 ImagePtr float_picture(int width, int height, std::span<const Vec3> texels);
 
 Transform at(const Vec3& position, float scale = 1);
-// -Z, the way lights shine and cameras look, towards `direction`.
+// Rotation of -Z (emission and view axis) to `direction`.
 Transform aimed(const Vec3& position, const Vec3& direction);
 Vec3 unit(const Vec3& v);
 

@@ -11,7 +11,7 @@ double strain(const Finding& f, double k) {
     if (!std::isfinite(f.measured) || !std::isfinite(f.sigma)) return std::numeric_limits<double>::infinity();
     const double deviation = std::abs(f.measured - f.expected);
     if (deviation == 0) return 0;
-    return deviation / tolerance(f, k); // infinite if nothing is tolerated
+    return deviation / tolerance(f, k); // infinite for zero tolerance
 }
 
 } // namespace

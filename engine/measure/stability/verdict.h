@@ -1,4 +1,4 @@
-// What a case compares, and how far apart the two may be.
+// Comparison of a case: expected and measured value, with tolerance.
 #pragma once
 
 #include <cstdint>
@@ -7,29 +7,29 @@
 
 namespace blush::stability {
 
-// One number that is known against one that was measured.
+// A known value and a measured one.
 struct Finding {
     double expected = 0, measured = 0;
-    double sigma = 0;    // standard error of `measured`, from its own variance; 0 where nothing is random
-    double rounding = 0; // how far arithmetic, or the conditioning of the question, may take `measured` from `expected`
-    std::string where;   // which of a case's findings it is
+    double sigma = 0;    // standard error of `measured`; 0 without randomness
+    double rounding = 0; // tolerance for rounding errors and conditioning
+    std::string where;   // name of the finding within the case
 };
 using Findings = std::vector<Finding>;
 
-// What a chain of some dozen single-precision operations may be off, relatively: allowed to every finding.
+// Relative rounding error of some dozen single-precision operations, allowed for every finding.
 constexpr double float_rounding = 64 * 0x1p-24;
 
-// Chance that the battery fails though nothing is wrong. Seeds are fixed, so it was taken once, when a case was written.
+// Probability of a false failure of the battery. Seeds are fixed, so it applied once, when a case was written.
 constexpr double family_wise_level = 0.01;
 
 // Level of each of `count` independent tests that together have `overall` (Sidak 1967).
 double sidak(double overall, int64_t count);
 
-// rounding + k sigma + what single precision rounds.
+// rounding + k sigma + single precision rounding.
 double tolerance(const Finding& finding, double k);
-// |measured - expected| <= tolerance. Nothing that is not finite holds.
+// |measured - expected| <= tolerance. False for non-finite values.
 bool holds(const Finding& finding, double k);
-// The finding that comes closest to its tolerance or exceeds it the furthest; of none an empty one that does not hold.
+// The finding with the largest deviation relative to its tolerance; for no findings an empty one that fails.
 const Finding& worst_of(const Findings& findings, double k);
 
 } // namespace blush::stability

@@ -1,4 +1,4 @@
-// Light from far away: worlds whose brightness is a single texel's, and suns seen in mirrors.
+// Stability cases of environments: single bright texels, and suns in mirrors.
 #include "core/math.h"
 #include "measure/stability/findings.h"
 #include "measure/stability/groups.h"
@@ -21,8 +21,8 @@ std::vector<Vec3> black_but_for(int column, int row, float background, float bri
     return texels;
 }
 
-// Irradiance of a floor that looks up at the map, interpolated linearly between texel centres, above the first row's as in it: by
-// the midpoint rule with `steps` points along each side of a texel. The centre column looks along -Z, the top row along +Y.
+// Irradiance of a floor by the bilinearly interpolated map (constant above the centres of the first row), by the midpoint rule
+// with `steps` points along each side of a texel. The centre column looks along -Z, the top row along +Y.
 double irradiance_of(const std::vector<Vec3>& texels, int steps) {
     const auto texel = [&](int c, int r) {
         return double(texels[size_t(std::clamp(r, 0, rows - 1)) * columns + size_t((c + columns) % columns)].x);
@@ -49,7 +49,7 @@ Findings bright_texel(int column, int row, float background, float bright) {
     scene.environment.image = float_picture(columns, rows, texels);
     const double coarse = irradiance_of(texels, 16), expected = irradiance_of(texels, 32);
     Findings all = quarters(scene, [&](const Vec3d&) { return expected; });
-    // The midpoint rule's own error is a third of what the finer steps changed.
+    // Error of the midpoint rule: a third of the change by the finer steps.
     for (Finding& f : all) f.rounding += std::abs(coarse - expected) / expected * f.expected;
     return all;
 }
@@ -60,7 +60,7 @@ Findings constant(float nits) {
     return quarters(scene, [&](const Vec3d&) { return pi_d * double(nits); });
 }
 
-// A parallel mirror shows a sun of the given angle where its disk is: the picture's mean is lux over the solid angle of the pixels.
+// A mirror reflects the disk of a sun of the given angle: the mean of the image is lux over the solid angle of the pixels.
 Findings sun_in_a_mirror(float angle) {
     Scene scene;
     place(scene, floor_quad(1), metal(0));
@@ -69,11 +69,11 @@ Findings sun_in_a_mirror(float angle) {
     sun.intensity = 5;
     sun.angle_radians = angle;
     shine(scene, sun, aimed({0, 0, 0}, {0, -1, 0}));
-    // Looks down from 1 m, with the disk's image filling about a quarter of the picture.
+    // Looks down from 1 m; the reflected disk covers about a quarter of the image.
     const float half = angle;
     scene.view = looking({0, 1, 0}, {0, 0, 0}, 2 * half);
     const Picture picture = render(scene, settings_for(32, 32, 64));
-    // Disk over picture, both as areas on the plane at distance 1.
+    // Area of the disk over that of the image, both on the plane at distance 1.
     const double radius = std::tan(double(angle) / 2), edge = 2 * std::tan(double(scene.view.lens.yfov_radians) / 2);
     const double radiance = 5 / (pi_d * std::pow(std::sin(double(angle) / 2), 2));
     return whole(picture, radiance * pi_d * radius * radius / (edge * edge));
