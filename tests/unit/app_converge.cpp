@@ -1,4 +1,4 @@
-// `blush converge`: what it takes, what it writes, and that it tells right from wrong.
+// `blush converge`: options, output files, and detection of bias.
 #include "app/commands/converge_variants.h"
 #include "app/commands/reference_cache.h"
 #include "app_program.h"
@@ -12,7 +12,7 @@
 namespace blush::test {
 namespace {
 
-// A folder of its own, and the cache in it.
+// A temporary folder with its own cache.
 class Converge : public testing::Test {
 protected:
     TemporaryFolder temporary;
@@ -86,7 +86,7 @@ TEST_F(Converge, CatchesWhatIsWrongAndByHowMuch) {
     EXPECT_LT(j["variants"][1]["bias"]["percent"], -2);
     EXPECT_EQ(j["variants"][2]["bias"]["verdict"], "unbiased-within-noise");
     EXPECT_TRUE(j["variants"][2]["bias"]["bounces"].empty());
-    // At which bounces: all light beyond two, and none of what is before; the cut takes from several.
+    // Bias by bounce: the limit removes all light after two bounces and none before; the biased cut affects several bounces.
     int cut_from = 0;
     for (const auto& b : j["variants"][0]["bias"]["bounces"]) {
         cut_from += b["significant"].get<bool>();
@@ -112,7 +112,7 @@ TEST_F(Converge, KeepsItsReferenceAndMakesItBetter) {
     ASSERT_EQ(run_converge(few).exit_code, 0);
     EXPECT_EQ(json()["reference"]["spp"], 128);
     EXPECT_EQ(json()["reference"]["source"], "from the cache");
-    // Another length of paths converges to another picture.
+    // Another bounce limit converges to another image.
     ASSERT_EQ(run_converge({"--size", "24x24", "--spp", "4", "--repeats", "1", "--max-bounces", "2"}).exit_code, 0);
     EXPECT_EQ(json()["reference"]["source"], "rendered");
 }
@@ -139,7 +139,7 @@ TEST_F(Converge, ReferencesNeverShareSamplesWithWhatTheyJudge) {
     EXPECT_EQ(cached_reference(cache, "key", other)->measured.samples, 8);
     EXPECT_FALSE(cached_reference(cache, "key", same));
     EXPECT_FALSE(cached_reference(cache, "another key", other));
-    // A bound on their size takes those not used for longest.
+    // A size limit removes the least recently used entries.
     ASSERT_TRUE(cache_reference(cache, "newer", r, 1));
     EXPECT_FALSE(cached_reference(cache, "key", other));
 }

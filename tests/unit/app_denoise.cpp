@@ -1,4 +1,4 @@
-// `blush denoise` and `blush render --denoise`, driven as a script would. What the networks give is tested elsewhere.
+// `blush denoise` and `blush render --denoise` as a script calls them. The networks are tested elsewhere.
 #include "app_program.h"
 #include "core/srgb.h"
 #include "io/image_io.h"
@@ -20,7 +20,7 @@ using test::scene_file;
 using test::TemporaryFolder;
 using Json = nlohmann::json;
 
-// Sets a variable for the programs that are started while it lives.
+// Sets an environment variable for child processes during its lifetime.
 class Environment {
 public:
     Environment(const char* name, const std::string& value) : name_(name) { setenv(name, value.c_str(), 1); }
@@ -33,7 +33,7 @@ private:
 constexpr int width = 24, height = 17;
 constexpr size_t pixels = size_t(width) * height;
 
-// Grey with noise, guides if asked for, and channels that are nobody's business here.
+// Noisy grey, optional auxiliary channels, and unrelated channels.
 LayeredImage noisy_image(bool guides) {
     LayeredImage image{width, height, {}, {{"artist", "somebody"}}};
     uint32_t state = 1;
@@ -187,7 +187,7 @@ TEST(DenoiseCommand, DamagedWeightsAreFoundOutBeforeRendering) {
     std::filesystem::copy(std::filesystem::path(BLUSH_BINARY).parent_path() / "weights", folder / "weights");
     std::filesystem::resize_file(folder / "weights/rt_hdr_alb_nrm_small.tza", 5000);
     const Environment damaged("BLUSH_WEIGHTS", folder / "weights");
-    // A render of hours, if it began.
+    // The render would take hours if it started.
     const Finished finished =
         test::blush({"render", scene_file("cornell"), "-o", folder / "out.exr", "--spp", "100000000", "--denoise", "fast", "--quiet"});
     EXPECT_EQ(finished.exit_code, 1);
@@ -218,10 +218,10 @@ TEST(RenderDenoised, TheLayerStandsBesideTheUntouchedBeauty) {
     EXPECT_EQ(read_snapshot_metadata(after.metadata)->denoised.substr(0, 16), "rt_hdr_calb_cnrm");
 }
 
-// Each group of lights by itself, then mixed, as in the window: what the networks see does not depend on the mix.
+// Light groups are denoised separately and then mixed, as in the window: the input of the networks does not depend on the mix.
 TEST(RenderDenoised, GroupsAreDenoisedBeforeTheyAreMixed) {
     const TemporaryFolder folder;
-    // Light 1 alone, and the others alone, with the same samples: the mix comes after the aiming.
+    // Light 1 only and the others only, with the same samples: the mix is applied after light sampling.
     const auto denoised = [&](const std::string& name, const std::vector<std::string>& off) {
         Json mix{{"grouping", "by_light"}, {"channels", Json::array()}};
         for (const std::string& group : off) mix["channels"].push_back({{"group", group}, {"enabled", false}});

@@ -29,7 +29,7 @@ TEST(InfoCommand, JsonHasTheKeysOfTheContract) {
     for (const Json& left_out : json["kernel"]["left_out"]) EXPECT_FALSE(left_out["why"].get<std::string>().empty()) << left_out;
 }
 
-// The ledger is that of a render with the same options, which are none.
+// The feature report equals that of a render with default options.
 TEST(InfoCommand, HasTheDefaultsOfRender) {
     const test::TemporaryFolder folder;
     const Json info = blush_json({"info", scene_file("furnace")})["kernel"];

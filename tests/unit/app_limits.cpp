@@ -1,4 +1,4 @@
-// Running out of memory, threads or room for files ends in one line and exit code 1; what a picture cannot show is said.
+// Lack of memory, threads or disk space ends with one error line and exit code 1; warnings about what an image cannot show.
 #include "app_program.h"
 #include "io/image_io.h"
 
@@ -16,7 +16,7 @@ using test::scene_file;
 using test::TemporaryFolder;
 using Json = nlohmann::json;
 
-// By a shell, which sets limits and variables first.
+// Runs in a shell that sets limits and variables first.
 Finished in_shell(const std::string& before, const std::vector<std::string>& arguments) {
     std::string line = before + " exec \"$0\" \"$@\"";
     std::vector<std::string> command{"/bin/sh", "-c", line, BLUSH_BINARY};
@@ -34,7 +34,7 @@ std::vector<std::string> small_render(const std::string& output, const std::stri
     return {"render", scene, "-o", output, "--size", "64x48", "--spp", "2", "--quiet"};
 }
 
-// Sanitizers reserve more addresses than any of these limits.
+// Sanitizers reserve more address space than these limits.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 TEST(Limits, LittleMemoryEndsInOneLine) {
     const TemporaryFolder folder;
@@ -42,7 +42,7 @@ TEST(Limits, LittleMemoryEndsInOneLine) {
     for (int mib = 180; mib <= 1000; mib += 40) {
         const Finished finished = in_shell("ulimit -v " + std::to_string(mib * 1024) + ";", small_render(folder / "a.exr"));
         if (finished.exit_code == 0) continue; // enough
-        if (finished.exit_code == 127) continue; // not even the program's libraries could be loaded, as the loader says
+        if (finished.exit_code == 127) continue; // the loader could not load the program's libraries
         ++refused;
         EXPECT_TRUE(ends_in_one_line(finished)) << mib << " MiB";
         EXPECT_EQ(finished.err.find("processor"), std::string::npos) << mib << " MiB: " << finished.err;
@@ -92,7 +92,7 @@ TEST(Limits, AJpegThatCannotBeIsRefusedBeforeRendering) {
         EXPECT_TRUE(test::is_one_line(finished.err)) << finished.err;
         EXPECT_NE(finished.err.find("at most 65500 pixels a side"), std::string::npos) << finished.err;
     }
-    // And where it is written, in this process, which goes on.
+    // And when it is written, in this process, which continues.
     const std::vector<float> row(size_t(65501) * 3, 0.5f);
     const Result<void> written = write_display_image(folder / "a.jpg", 65501, 1, row);
     ASSERT_FALSE(written);
@@ -100,9 +100,9 @@ TEST(Limits, AJpegThatCannotBeIsRefusedBeforeRendering) {
     ASSERT_TRUE(write_display_image(folder / "a.jpg", 65500, 1, std::span(row).first(size_t(65500) * 3), {{"long", std::string(200000, 'x')}}));
 }
 
-// ---- what is said of a picture
+// ---- warnings about an image
 
-// One triangle before the camera, or behind it.
+// One triangle in front of or behind the camera.
 std::string triangle_file(const TemporaryFolder& folder, double z) {
     const std::string file = folder / "triangle.gltf";
     const Json json = {

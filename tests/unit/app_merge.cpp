@@ -1,4 +1,4 @@
-// `blush merge` and `blush render --continue`: samples in pieces are the samples of one render.
+// `blush merge` and `blush render --continue`: partial renders combine to the samples of one render.
 #include "app_program.h"
 #include "io/snapshot.h"
 
@@ -29,7 +29,7 @@ void expect_done(const Arguments& arguments) {
     ASSERT_EQ(finished.exit_code, 0) << finished.err;
 }
 
-// Every channel of `expected`, to the last bit; `ulps`: but for so many units in the last place.
+// Every channel equals `expected` within `ulps` units in the last place.
 void expect_same_channels(const std::string& file, const std::string& expected_file, int ulps = 0) {
     const Result<LayeredImage> image = read_layers(file), expected = read_layers(expected_file);
     ASSERT_TRUE(image && expected);
@@ -42,7 +42,7 @@ void expect_same_channels(const std::string& file, const std::string& expected_f
             EXPECT_EQ(found->words, channel.words) << channel.name;
             continue;
         }
-        if (channel.is_uint) continue; // of sums, which may differ in bits that no picture shows
+        if (channel.is_uint) continue; // of sums, which may differ in bits that do not affect the image
         for (size_t i = 0; i < channel.values.size(); ++i) {
             float low = channel.values[i], high = low;
             for (int k = 0; k < ulps; ++k) {
@@ -115,14 +115,14 @@ TEST(Merge, OfSumsIsTheWholeRender) {
     EXPECT_EQ(metadata->spp, 14);
     EXPECT_EQ(metadata->error, read_snapshot_metadata(read_layers(folder / "whole.exr")->metadata)->error);
 
-    // And it is something to go on with.
+    // And it can be resumed.
     expect_done(with(with(tiny(folder / "longer.exr"), all_layers), {"--spp", "20", "--adaptive", "off"}));
     expect_done(with({"render", scene_file("cornell"), "--continue", folder / "merged.exr", "--spp", "20", "-o", folder / "on.exr", "--quiet"},
                      all_layers));
     expect_same_channels(folder / "on.exr", folder / "longer.exr", 1);
 }
 
-// Sums know nothing of the light mix; the picture of them does.
+// The sums do not depend on the light mix; the image does.
 TEST(Merge, OfSumsIsMixedAsTheWholeRender) {
     const TemporaryFolder folder;
     const nlohmann::json channel{{"group", "light 2"}, {"intensity", 3}, {"color", {1, 0.5, 0.25}}};
@@ -149,7 +149,7 @@ TEST(Merge, OfMeansWeighsThemByTheirSamples) {
     const LayeredImage merged = *read_layers(folder / "merged.exr"), whole = *read_layers(folder / "whole.exr"),
                        a = *read_layers(folder / "a.exr"), b = *read_layers(folder / "b.exr");
     for (size_t i = 0; i < 24 * 16; ++i) {
-        // Three roundings to single precision against one.
+        // Three roundings to single precision instead of one.
         EXPECT_NEAR(merged.find("G")->values[i], whole.find("G")->values[i], 3e-7 * whole.find("G")->values[i]);
         const double ea = 9.0 * a.find("error.R")->values[i], eb = 3.0 * b.find("error.R")->values[i];
         EXPECT_FLOAT_EQ(merged.find("error.R")->values[i], float(std::hypot(ea, eb) / 12));

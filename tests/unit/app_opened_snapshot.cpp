@@ -1,4 +1,4 @@
-// Snapshots from files: all that was kept is back, and no file makes it do harm.
+// Opening snapshot files: all stored state is restored, and hostile files are rejected.
 #include "app/commands/film_json.h"
 #include "app/opened_snapshot.h"
 #include "app_program.h"
@@ -15,7 +15,7 @@ namespace {
 
 using test::TemporaryFolder;
 
-// A picture of the Cornell box with its film, as the window would have kept it.
+// An image of the Cornell box with its film state, as the window stores it.
 LayeredImage picture(const TemporaryFolder& folder) {
     const auto finished = test::blush({"render", test::scene_file("cornell"), "-o", folder / "p.exr", "--size", "16x12", "--spp", "4", "--quiet",
                                        "--layers", "albedo,normal,depth,id,film"});
@@ -108,14 +108,14 @@ TEST(OpenedSnapshot, HostileMetadataDoNoHarm) {
         ASSERT_TRUE(write_exr(folder / "h.exr", broken));
         EXPECT_FALSE(open_snapshot(folder / "h.exr", {})) << key;
     }
-    // Settings of another size, and planes that are not there: the samples fit nothing.
+    // Settings of another size and missing planes: the film state is not usable.
     LayeredImage fewer = image;
     std::erase_if(fewer.channels, [](const LayeredImage::Channel& c) { return c.name == "film.odd.R.low"; });
     ASSERT_TRUE(write_exr(folder / "h.exr", fewer));
     const auto opened = open_snapshot(folder / "h.exr", {});
     ASSERT_TRUE(opened);
     EXPECT_FALSE(opened->snapshot.film);
-    // A file cut short.
+    // A truncated file.
     std::ifstream in(folder / "p.exr", std::ios::binary);
     const std::string bytes{std::istreambuf_iterator<char>(in), {}};
     std::ofstream(folder / "cut.exr", std::ios::binary) << bytes.substr(0, bytes.size() / 2);

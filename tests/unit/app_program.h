@@ -1,4 +1,4 @@
-// The built program and the shipped scenes, for tests that drive them.
+// The built program and the shipped scenes, for tests of the command line.
 #pragma once
 
 #include "support/process.h"

@@ -1,4 +1,4 @@
-// `blush render`, driven as a script would.
+// `blush render` as a script calls it.
 #include "app_program.h"
 #include "io/image_io.h"
 #include "io/snapshot.h"
@@ -55,7 +55,7 @@ TEST(Render, WritesAnExrWithItsMetadata) {
     EXPECT_EQ(metadata->settings.seed, 5u);
     EXPECT_FALSE(metadata->partial);
     EXPECT_FALSE(metadata->scene_hash.empty());
-    // Nothing but the picture is left behind.
+    // Only the image remains.
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
 }
 
@@ -67,7 +67,7 @@ TEST(Render, WritesTheLayersAskedFor) {
     for (const char* name : {"albedo.R", "normal.X", "normal.Z", "depth.Z", "error.G", "samples.Y", "id.object", "id.material"})
         EXPECT_NE(image.find(name), nullptr) << name;
     EXPECT_EQ(image.find("samples.Y")->values[0], 4);
-    // The middle of the picture looks into the box, at something that has an id.
+    // The centre of the image shows an object inside the box, which has an id.
     const size_t middle = 24 * 8 + 12;
     EXPECT_GT(image.find("depth.Z")->values[middle], 0);
     EXPECT_GE(image.find("id.object")->values[middle], 1);
@@ -110,7 +110,7 @@ TEST(Render, GroupsSumToTheBeautyInFileAndJson) {
             double sum = 0;
             for (const Json& group : json["groups"]) sum += double(image.find("group." + std::string(group["group"]) + "." + channel)->values[i]);
             const double whole = double(image.find(channel)->values[i]);
-            EXPECT_NEAR(sum, whole, whole * 0x1p-18) << channel << i; // shared paths are summed in single precision
+            EXPECT_NEAR(sum, whole, whole * 0x1p-18) << channel << i; // reused paths are summed in single precision
         }
     }
     EXPECT_EQ(blush_json(with(tiny("cornell", folder / "one.exr"), {"--layers", "groups", "--quiet"}))["groups"].size(), 1u) << "by light";
@@ -222,7 +222,7 @@ TEST(Render, TheHeightFollowsTheCamera) {
     EXPECT_EQ(err, "");
 }
 
-// A ground that catches shadows: the picture is what is to be laid over another.
+// A shadow catcher: the image is for compositing over another.
 TEST(Render, ShadowCatchersGivePngsAnAlpha) {
     const TemporaryFolder folder;
     const std::string scene = folder / "caught.gltf";
@@ -263,7 +263,7 @@ TEST(Render, ShadowCatchersGivePngsAnAlpha) {
 
 TEST(Render, TheEnvironmentCanBeReplaced) {
     const TemporaryFolder folder;
-    // Nothing emits in the furnace but its world: without it the picture is black, with another it has another colour.
+    // Only the environment emits in the furnace: without it the image is black, with another it has another colour.
     ASSERT_EQ(test::blush(with(tiny("furnace", folder / "black.exr"), {"--env", "none"})).exit_code, 0);
     for (const float v : beauty(*read_layers(folder / "black.exr"))) EXPECT_EQ(v, 0);
     ASSERT_EQ(test::blush(with(tiny("furnace", folder / "blue.exr"), {"--env", "constant=0,0,3"})).exit_code, 0);
@@ -313,8 +313,8 @@ TEST(Render, PixelPrintsEveryVertex) {
     EXPECT_EQ(finished.out, test::blush({"render", scene_file("cornell"), "--size", "24x16", "--pixel", "12,8,3"}).out);
 }
 
-// Ctrl-C once the bar, or without a terminal a line two seconds later, shows that samples are coming in: the picture is written, and
-// says that it is partial.
+// Ctrl-C after the progress bar (or the progress line without a terminal) shows samples: the image is written and marked as
+// partial.
 TEST(Render, CtrlCKeepsWhatThereIs) {
     const TemporaryFolder folder;
     bool sent = false;

@@ -108,7 +108,7 @@ TEST(RenderLoop, AnErrorLimitStopsIt) {
     EXPECT_LE(result.frame.error.relmse, settings.error);
 }
 
-// Else the picture that an error limit gives would depend on how fast the machine is.
+// Otherwise the image of an error limit would depend on the speed of the machine.
 TEST(RenderLoop, LooksAtTheErrorAfterTheSameSamplesHoweverFastItIs) {
     const std::atomic<bool> no{false};
     Renderer renderer;

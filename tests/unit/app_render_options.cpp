@@ -11,7 +11,7 @@ RenderOptions parsed(std::vector<std::string> arguments) {
     CLI::App app;
     RenderOptions options;
     add_render_options(app, options);
-    std::ranges::reverse(arguments); // as CLI11 wants a vector
+    std::ranges::reverse(arguments); // CLI11 expects a reversed vector
     app.parse(arguments);
     return options;
 }

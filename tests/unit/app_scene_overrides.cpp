@@ -106,7 +106,7 @@ TEST(Overrides, WhatThereIsNotToChooseIsSaid) {
     EXPECT_FALSE(error({.animation = "Swing", .seconds = -1.f}).empty());
 }
 
-// The camera is where the animation has it.
+// The camera has its animated transform.
 TEST(Overrides, ACameraIsChosenInThePose) {
     Sample s = sample_project();
     Clip clip = *s.project.scene.clips.find(s.swing);

@@ -1,4 +1,4 @@
-// Exit codes and error lines, which scripts rely on.
+// Exit codes and error lines that scripts depend on.
 #include "app_program.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Which config is used, what is in it, and what happens when it is broken.
+// OCIO configs: selection, contents, and handling of broken files.
 #include "unit/color_test.h"
 
 #include <fmt/format.h>
@@ -37,7 +37,7 @@ protected:
     std::filesystem::path folder_;
 };
 
-// A config of somebody else's: `extra_role` and `spaces` are spliced in. Its one view is linear.
+// A third-party config with `extra_role` and `spaces` inserted. Its only view is linear.
 std::string foreign_config(const std::string& extra_role, const std::string& spaces) {
     return "ocio_profile_version: 2\nname: foreign\nsearch_path: .\nroles:\n  default: working\n  scene_linear: working\n" + extra_role +
            "file_rules:\n  - !<Rule> {name: Default, colorspace: default}\n"
@@ -88,8 +88,8 @@ TEST_F(ConfigFiles, BrokenOnesFallBackToOurs) {
         "ocio_profile_version: [",
         std::string("\0\xff binary", 9),
         "ocio_profile_version: 99\n",
-        foreign_config("", working),                 // its view names a space that is not there
-        foreign_config("", working + missing_table), // its view needs a file that is not there
+        foreign_config("", working),                 // its view names a missing color space
+        foreign_config("", working + missing_table), // its view needs a missing file
     };
     for (const auto& text : broken) {
         const auto file = write(text);
@@ -105,7 +105,7 @@ TEST_F(ConfigFiles, BrokenOnesFallBackToOurs) {
     EXPECT_NE(absent->warning().find("absent.ocio"), std::string::npos);
 }
 
-// Whatever is in place of a config, there is one to see the picture with.
+// With any invalid config there is a fallback config.
 TEST_F(ConfigFiles, AnyBytesEndInAConfig) {
     std::ifstream shipped(std::filesystem::path(BLUSH_ASSETS) / "ocio" / "config.ocio");
     const std::string whole(std::istreambuf_iterator<char>(shipped), {});
@@ -121,7 +121,7 @@ TEST_F(ConfigFiles, AnyBytesEndInAConfig) {
     }
     EXPECT_GT(as_they_are, 0);
     EXPECT_LT(as_they_are, tries);
-    // Nested without end, aliases of aliases, too large, and no file at all.
+    // Infinite nesting, aliases of aliases, too large, missing file.
     std::string laughs = "a0: &a0 [x, x, x, x, x, x, x, x, x, x]\n";
     for (int i = 1; i < 12; ++i) {
         laughs += fmt::format("a{}: &a{} [", i, i);
@@ -157,7 +157,7 @@ TEST_F(ConfigFiles, EnvironmentIsRespectedAndAnArgumentWins) {
 }
 
 // The working space is Rec.709 whatever the config works in: where the config says how to reach ACES2065-1, white
-// stays white and red becomes that red; where it says nothing, numbers pass as they are.
+// stays white and red becomes that red; otherwise values pass unchanged.
 TEST_F(ConfigFiles, WorkingSpaceIsFoundInOtherConfigs) {
     const std::string acescg = "  - !<ColorSpace> {name: working, to_scene_reference: !<BuiltinTransform> {style: ACEScg_to_ACES2065-1}}\n"
                                "  - !<ColorSpace> {name: ap0}\n";

@@ -1,4 +1,4 @@
-// What the display stage does beside the views: looks, white balance, meters, false colours, and a background left alone.
+// Display stage besides the views: looks, white balance, metering, false colour, and unmodified background.
 #include "color/exposure_meter.h"
 #include "color/illuminance.h"
 #include "color/white_balance.h"
@@ -26,7 +26,7 @@ TEST(Looks, TurnAboutMiddleGreyOrTakeTheColourAway) {
         const Pixel same = standard(look, grey(0.18f));
         for (size_t i = 0; i < 3; ++i) EXPECT_NEAR(same[i], standard("", grey(0.18f))[i], 1e-4) << look;
     }
-    // ACEScct has 17.52 stops in its unit, so contrast multiplies stops from grey.
+    // The unit range of ACEScct is 17.52 stops, so contrast scales stops from grey.
     EXPECT_NEAR(standard("High contrast", grey(0.18f * 2))[0], srgb_encoded(0.18 * std::exp2(1.2)), 1e-3);
     EXPECT_NEAR(standard("Low contrast", grey(0.18f / 2))[0], srgb_encoded(0.18 * std::exp2(-1 / 1.2)), 1e-3);
     const Pixel mixed{0.8f, 0.3f, 0.05f}, plain = standard("Black and white", mixed);

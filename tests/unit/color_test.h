@@ -1,4 +1,4 @@
-// What the colour tests share: the shipped config whatever $OCIO says, and one pixel through a view.
+// Helpers of the colour tests: the shipped config independent of $OCIO, and one pixel through a view.
 #pragma once
 
 #include "color/color_management.h"
@@ -14,7 +14,7 @@ namespace blush {
 
 using Pixel = std::array<float, 3>;
 
-// Half a step of a 16-bit file: what no image that is saved can show.
+// Half a step of a 16-bit file: invisible in saved images.
 constexpr double invisible = 0.5 / 65535;
 
 inline Pixel grey(float x) { return {x, x, x}; }

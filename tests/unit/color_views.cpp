@@ -1,4 +1,4 @@
-// The views of the shipped config: known values, shapes that a view must have, and inputs that must not poison one.
+// Views of the shipped config: known values, required curve properties, and non-finite input.
 #include "unit/color_test.h"
 
 #include <cmath>
@@ -110,7 +110,7 @@ TEST(HostilePixels, GiveFiniteOutputInRange) {
                     ASSERT_TRUE(color.apply_display({display, view}, {.exposure_ev = ev, .gamma = gamma}, shown.data(), shown.size() / 3));
                     for (const float x : shown) ASSERT_TRUE(x >= 0 && x <= 1) << display << ' ' << view << ' ' << x;
                 }
-    expect_near(show(color, "sRGB", "Standard", {nan, 1, nan}), {0, 1, 0}); // not a number is black, its neighbours stay
+    expect_near(show(color, "sRGB", "Standard", {nan, 1, nan}), {0, 1, 0}); // NaN becomes 0, other channels are unchanged
 }
 
 TEST(Images, EveryPixelIsTreatedAlike) {

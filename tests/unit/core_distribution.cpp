@@ -1,4 +1,4 @@
-// Discrete sampling: the probability that is reported is, to the last bit, the one with which an index is drawn.
+// Discrete sampling: the reported probability of an index is bit-exact.
 #include "core/distribution.h"
 
 #include "statistics.h"
@@ -31,7 +31,7 @@ std::vector<std::vector<double>> examples() {
 
 } // namespace
 
-// Bits run through each index's interval [thresholds[i], thresholds[i + 1]): its ends decide what is drawn within.
+// Tests the ends of each index's interval [thresholds[i], thresholds[i + 1]).
 TEST(Distribution, IntervalsAreDrawnAndReportedExactly) {
     for (const std::vector<double>& weights : examples()) {
         const std::vector<uint32_t> thresholds = make_thresholds(weights);
@@ -126,7 +126,7 @@ TEST(Distribution, LargestTableStillGivesEveryWeightItsTurn) {
 TEST(Distribution, LanesEqualOnePathBitForBit) {
     const std::vector<double> weights = examples().back();
     std::vector<uint32_t> thresholds = make_thresholds(weights);
-    // Several tables in one array, as lights have them: lanes draw from different ones.
+    // Several tables in one array, as for lights: lanes sample from different tables.
     const int n = int(thresholds.size());
     const std::vector<uint32_t> second = make_thresholds(std::vector<double>(weights.rbegin(), weights.rend()));
     thresholds.insert(thresholds.end(), second.begin(), second.end());

@@ -1,4 +1,4 @@
-// Threads that help: each piece of work once, errors, priority, rounding.
+// Task queue: each task runs once, exceptions, priority, floating-point mode.
 #include "core/helping_threads.h"
 #include "core/parallel.h"
 
@@ -57,7 +57,7 @@ TEST(HelpingThreads, PassOnWhatIsThrownAndGoOnAfterIt) {
     left_alone.begin({1, 1}, 1, [](size_t) { throw std::runtime_error("nobody asks"); });
 }
 
-// A nice value cannot be lowered again: threads of their own, which end with the test.
+// A nice value cannot be lowered again: uses separate threads that end with the test.
 TEST(HelpingThreads, HaveThePriorityOfWhomTheyHelp) {
     std::atomic<int> lowest = std::numeric_limits<int>::max(), own = 0;
     std::thread([&] {
@@ -75,7 +75,7 @@ TEST(HelpingThreads, HaveThePriorityOfWhomTheyHelp) {
 }
 
 TEST(HelpingThreads, RoundAsWhomTheyHelp) {
-    // Leaves helpers, and its own thread, behind that flush denormals to zero.
+    // Uses a separate thread that flushes denormals to zero.
     std::thread([] { Workers(4, false).for_each(100, {}, [](int64_t, unsigned) { pause_a_little(); }); }).join();
     std::atomic<int> flushed = 0;
     std::thread([&] {

@@ -1,4 +1,4 @@
-// The elementary functions keep their stated errors, measured against double precision, and give every lane what one path gets.
+// Elementary functions: error bounds against double precision, and equal results for all lanes.
 #include "core/math.h"
 #include "core/sampling.h"
 
@@ -17,7 +17,7 @@ constexpr double ulp_of_1 = 0x1p-23;
 // x_i evenly over [low, high].
 float at(int i, double low, double high) { return float(low + (high - low) * i / (steps - 1)); }
 
-// Does fn(x...) of a register equal fn of each of its lanes, bit for bit? Arguments are drawn from [low, high].
+// Checks that fn(x...) of a register is bit-identical to fn of each lane. Random arguments in [low, high].
 template <int arity, class Fn> void expect_same_in_lanes(float low, float high, Fn fn) {
     std::mt19937 random(1);
     std::uniform_real_distribution<float> uniform(low, high);

@@ -1,4 +1,4 @@
-// Memory that the process may have, by files as the kernel writes them.
+// Memory limits from files in the kernel's format.
 #include "core/memory_room.h"
 #include "support/process.h"
 
@@ -51,7 +51,7 @@ TEST(MemoryRoom, IsThatOfAControlGroupAboveTheProcess) {
     EXPECT_EQ(room.text(), "1.5 GB are left, the limit is 3 GB of its control group");
 }
 
-// In a container the group's path is one of the host, and its own files lie at the root of what is mounted.
+// In a container the path of the group is that of the host, and its files are at the root of the mount.
 TEST(MemoryRoom, IsThatOfAnOldControlGroupInAContainer) {
     Root root;
     root.write("proc/self/cgroup", "12:cpuset:/docker/x\n5:cpu,memory:/docker/x\n");

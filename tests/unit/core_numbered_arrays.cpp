@@ -1,4 +1,4 @@
-// Numbers of vertices and indices are given out once, and the memory behind them is taken and given back with what is written there.
+// Geometry arena: ranges are exclusive, memory is committed when written and returned with the range.
 #include "core/numbered_arrays.h"
 
 #include "core/vec.h"
@@ -92,9 +92,9 @@ TEST(NumberedArrays, AVectorTakesItsPlaceOnlyForAsManyAsWereAskedFor) {
     EXPECT_EQ(assigned, copy);
 }
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) // which need more addresses than that for themselves
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) // which need more address space themselves
 TEST(NumberedArraysDeathTest, WhereAddressesAreFewThereAreNoNumbers) {
-    GTEST_FLAG_SET(death_test_style, "threadsafe"); // a process of its own, in which none are reserved yet
+    GTEST_FLAG_SET(death_test_style, "threadsafe"); // a separate process without reserved addresses
     const auto with_few_addresses = [] {
         rlimit few{};
         few.rlim_cur = few.rlim_max = rlim_t(1) << 30;

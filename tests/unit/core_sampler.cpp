@@ -1,4 +1,4 @@
-// The sampler's promises: each pair of dimensions is a (0,2)-sequence in base 2, and pairs and pixels know nothing of each other.
+// Sampler: each pair of dimensions is a (0,2)-sequence in base 2; pairs and pixels are independent.
 #include "core/sampler.h"
 
 #include "statistics.h"
@@ -14,7 +14,7 @@ Sampler<float> sampler(uint32_t x, uint32_t y, uint32_t index, uint32_t seed = 7
     return {pixel_key<float>(x, y, randomisation(seed, 0)), index};
 }
 
-// Does every elementary interval of area 2^-k hold exactly one of the 2^k points from `first`?
+// True if every elementary interval of area 2^-k holds exactly one of the 2^k points from `first`.
 bool is_net(uint32_t x, uint32_t y, uint32_t dimension, uint32_t first, int k) {
     for (int a = 0; a <= k; ++a) {
         std::vector<bool> taken(size_t(1) << k);
@@ -29,7 +29,7 @@ bool is_net(uint32_t x, uint32_t y, uint32_t dimension, uint32_t first, int k) {
     return true;
 }
 
-// Sample `sample` of a pixel where samples know nothing of each other.
+// Sample `sample` of a pixel with independent samples.
 Sampler<float> independent(uint32_t x, uint32_t y, uint32_t sample) {
     return {independent_key(pixel_key<float>(x, y, randomisation(7, 0)), sample), 0};
 }
@@ -151,7 +151,7 @@ TEST(Sampler, DimensionsOfAPixelAreUncorrelated) {
     EXPECT_LT(correlation.variance(), 2.0 / 64);
 }
 
-// Means of n independent numbers scatter with variance 1 / (12 n), as random ones do; those of points that fill the interval evenly do not.
+// Means of n independent numbers have variance 1 / (12 n); stratified points have less.
 TEST(Sampler, IndependentSamplesScatterAsRandomNumbersDo) {
     constexpr uint32_t n = 64, pixels = 4000;
     Moments squares, of_points;

@@ -1,4 +1,4 @@
-// Every warp has the density it claims, and the power heuristic shares out exactly 1.
+// Sampling warps have their stated density, and the weights of the power heuristic sum to 1.
 #include "core/sampling.h"
 
 #include "statistics.h"

@@ -1,4 +1,4 @@
-// The judges themselves: p-values against tabulated quantiles, and wrong claims that must be caught.
+// Statistical tests: p-values against tabulated quantiles, and detection of wrong densities.
 #include "statistics.h"
 
 #include <random>

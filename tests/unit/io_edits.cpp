@@ -14,14 +14,14 @@
 namespace blush::test {
 namespace {
 
-// What text can hold of it: pixels are those of the import.
+// The part that JSON can store: pixels are those of the import.
 Scene with_imported_pixels(const Scene& imported, Scene now) {
     const Table<Texture> textures = now.textures;
     for (auto [id, texture] : textures) {
         texture.image = imported.textures.find(id)->image;
         now.textures.set(id, texture);
     }
-    // Measured distributions of random lights are no file's.
+    // IES profiles of random lights have no file.
     const Table<Light> lights = now.lights;
     for (auto [id, light] : lights) {
         light.ies = nullptr;
@@ -169,7 +169,7 @@ TEST(SceneHash, TellsImagesApartAndNothingElse) {
     EXPECT_NE(scene_hash(reshaped), hash);
 }
 
-// A light's measured distribution is read again from its file, in or below the scene's folder and from nowhere else.
+// A light's IES profile is read again from its file, only in or below the scene's folder.
 TEST(SceneEdits, MeasuredDistributionsAreNamedByTheirFiles) {
     const std::filesystem::path folder = std::filesystem::path(BLUSH_ASSETS) / "ies";
     const Sample sample = sample_project();

@@ -20,7 +20,7 @@ TEST(EnvironmentImage, EightBitFilesBecomeLinear) {
     EXPECT_NEAR((*image)->floats[2], std::pow((188 / 255.0 + 0.055) / 1.055, 2.4), 1e-6);
 }
 
-// What is no radiance stays, so that the renderer, which reads it as black, can say how much there is.
+// Invalid radiance is kept, so that the renderer, which reads it as black, can report its amount.
 TEST(EnvironmentImage, GreyIsSpreadAndNonsenseStays) {
     const TempFolder folder;
     const float nan = std::numeric_limits<float>::quiet_NaN();

@@ -35,7 +35,7 @@ TEST(Files, FailedWritesNameTheFileAndLeaveNothing) {
     const TempFolder folder;
     std::filesystem::create_directory(folder / "target");
     write_bytes(folder / "target/inside", "kept");
-    // The last is in a folder in which not even root may write.
+    // The last folder is not writable even for root.
     for (const std::filesystem::path& file :
          {folder / "none/a.txt", folder / "target", std::filesystem::path("/dev/null"), std::filesystem::path("/proc/a.txt")}) {
         const auto written = write_file(file, "text");
@@ -64,7 +64,7 @@ TEST(Files, ThroughALinkTheTargetIsWritten) {
     EXPECT_FALSE(write_file(folder / "loop", "text"));
 }
 
-// A killed process leaves its temporary file; the next to write the same target removes it, and nothing else.
+// The temporary file of a killed process is removed by the next write to the same target; other files are kept.
 TEST(Files, TemporariesOfKilledProcessesAreSwept) {
     const TempFolder folder;
     const pid_t dead = fork();

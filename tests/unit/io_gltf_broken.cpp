@@ -10,10 +10,10 @@ namespace {
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
 
-// Accessors of the sound file.
+// Accessors of the valid file.
 enum Accessor : int { positions, normals, tangents, uvs, corners, joints, weights, binds, times, turns };
 
-// One triangle with all that there is: a texture, a skin, an animation, a camera and a lamp.
+// One triangle with a texture, a skin, an animation, a camera and a light.
 GltfBuilder sound() {
     GltfBuilder b;
     b.triangle_positions();

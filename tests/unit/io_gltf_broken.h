@@ -1,4 +1,4 @@
-// Small files of which each is broken in one way, and some that are not, for those who judge files.
+// Small files with one fault each, and valid ones, for tests of the import report.
 #pragma once
 
 #include "io_gltf_builder.h"

@@ -1,5 +1,5 @@
-// Tiny glTF files made in memory: JSON assembled piece by piece beside one buffer, written as .gltf with the buffer in a
-// data URI, or as .glb. Nothing is checked, so that a test can break what it likes.
+// Builds small glTF files in memory: JSON and one buffer, written as .gltf with a data URI or as .glb. Does no checks, so that
+// tests can create invalid files.
 #pragma once
 
 #include "io/gltf_import.h"
@@ -20,7 +20,7 @@ namespace blush::test {
 
 using Json = nlohmann::json;
 
-// A folder of this test's own, gone when it ends.
+// A temporary folder of this test.
 class TempFolder {
 public:
     TempFolder() {

@@ -21,7 +21,7 @@ std::vector<std::string> shown_names(const Scene& scene) {
     return names;
 }
 
-// A floor in both scenes, a lamp with a shade by day and a candle by night, which is what the file shows.
+// A floor in both scenes, a lamp with a shade by day, a candle by night (the default scene).
 GltfBuilder day_and_night() {
     GltfBuilder b;
     const int positions = b.triangle_positions();
@@ -84,7 +84,7 @@ TEST(GltfScenes, BrokenRootsAreRefused) {
     EXPECT_NE(error_text(import_built(beyond)).find("node 50 does not exist"), std::string::npos);
 }
 
-// A chair whose cloth is red, blue under the second variant and green under the third.
+// A chair with red cloth, blue in the second variant and green in the third.
 GltfBuilder chair() {
     GltfBuilder b;
     for (const char* name : {"red", "blue", "green"}) b.add("materials", {{"name", name}});

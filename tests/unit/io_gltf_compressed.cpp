@@ -1,4 +1,4 @@
-// Compressed meshes and buffer views: what they unpack to is what was packed, by either library's own encoder.
+// Compressed meshes and buffer views: round trip through the encoder of each library.
 #include "io/gltf_save.h"
 #include "io_gltf_packed.h"
 #include "scene/validate.h"
@@ -16,7 +16,7 @@ namespace {
 using Corner = std::array<float, 8>; // position, normal, texture coordinates
 using Triangle = std::array<Corner, 3>;
 
-// In an order that does not depend on how vertices and triangles were numbered.
+// Sorted, independent of the order of vertices and triangles.
 std::vector<Triangle> sorted(std::vector<Triangle> triangles) {
     for (Triangle& t : triangles) std::ranges::rotate(t, std::ranges::min_element(t));
     std::ranges::sort(triangles);
@@ -63,7 +63,7 @@ TEST(DracoMesh, IsReadToTheBit) {
     for (const int speed : {10, 5, 0}) expect_read(packed_by_draco(sheet, draco_bytes(sheet, speed, 0)), sheet);
 }
 
-// No coordinate is off by more than half a step of the grid that it was rounded to.
+// Coordinates differ by at most half a quantisation step.
 TEST(DracoMesh, IsAsPreciseAsItWasQuantised) {
     const Sheet sheet(9);
     constexpr int bits = 12;
@@ -117,7 +117,7 @@ TEST(MeshoptViews, AreReadToTheBit) {
             expect_read(packed_by_meshopt(sheet, packed_indices(sheet, sequence, stride)), sheet);
 }
 
-// Some writers leave the placeholder unmarked, or name a buffer that is not there.
+// Some exporters do not mark the placeholder, or reference a missing buffer.
 TEST(MeshoptViews, NeedNoFallback) {
     const Sheet sheet(11);
     GltfBuilder unmarked = packed_by_meshopt(sheet, packed_indices(sheet, false, 4));
@@ -164,7 +164,7 @@ TEST(MeshoptViews, OfFilteredNumbersAreReadAsTheEncoderRoundedThem) {
     }
 }
 
-// Whatever becomes of a packed byte, it is an error or a scene that can be shown.
+// Any change of a compressed byte gives an error or a valid scene.
 TEST(CompressedGltf, RandomBytesFlipped) {
     const TempFolder folder;
     const Sheet sheet(4);

@@ -1,4 +1,4 @@
-// tests/gltf_coverage.md, held against the importer and against the tests that there are.
+// Checks tests/gltf_coverage.md against the importer and the existing tests.
 #include "io/gltf_extensions.h"
 #include "io_gltf_builder.h"
 
@@ -55,7 +55,7 @@ std::vector<Row> coverage() {
     return rows;
 }
 
-// As gtest knows them, of every source file below tests/.
+// gtest names of all source files below tests/.
 std::set<std::string> tests_there_are() {
     std::set<std::string> tests;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(BLUSH_TESTS))

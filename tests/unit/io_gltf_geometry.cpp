@@ -10,7 +10,7 @@ namespace {
 
 const Geometry& only_geometry(const Scene& scene) { return *scene.meshes.begin()->value.parts.at(0).geometry; }
 
-// Normal of a triangle's winding.
+// Face normal by winding.
 Vec3 winding(const Geometry& g, size_t t) {
     const Vec3 a = g.positions[g.indices[3 * t]], b = g.positions[g.indices[3 * t + 1]], c = g.positions[g.indices[3 * t + 2]];
     const Vec3 u{b.x - a.x, b.y - a.y, b.z - a.z}, v{c.x - a.x, c.y - a.y, c.z - a.z};

@@ -1,5 +1,5 @@
-// Files that were made to break the importer. What counts is that each ends in an error or a warning that names its cause;
-// the sanitizer build is what proves that nothing else happens on the way.
+// Files that try to break the importer. Each must end in an error or warning that names its cause; the sanitizer build detects
+// other faults.
 #include "io/gltf_uri.h"
 #include "io/image_io.h"
 #include "io_gltf_builder.h"
@@ -190,7 +190,7 @@ TEST(HostileGltf, EveryPositionNonFiniteIsAnError) {
     EXPECT_NE(error_text(import_built(b)).find("every triangle has a NaN"), std::string::npos);
 }
 
-// A hundred primitives, each of an array of zeros that needs no bytes: 20 GB from a file of a few kilobytes.
+// A hundred primitives with arrays of zeros that need no bytes: 20 GB from a file of a few kilobytes.
 TEST(HostileGltf, MoreIsNotMadeOfAFileThanItCanHold) {
     GltfBuilder b = triangle();
     for (int i = 0; i < 100; ++i) {
@@ -250,7 +250,7 @@ TEST(HostileGltf, RandomBytesFlipped) {
         const auto valid = validate(imported->scene);
         ASSERT_TRUE(valid) << "iteration " << i << ": " << error_text(valid);
     }
-    // Both ends are met: files that are refused and files in which the damage does not matter.
+    // Both outcomes occur: rejected files, and files whose damage has no effect.
     EXPECT_GT(imported_count, 0);
     EXPECT_LT(imported_count, 2000);
 }
@@ -264,7 +264,7 @@ TEST(HostileGltf, GlbWithFalseLengths) {
             std::memcpy(broken.data() + field, &value, sizeof value);
             EXPECT_FALSE(import_text(folder, broken)) << field << " " << value;
         }
-    // A file of no length whose chunk has all lengths that there are.
+    // A zero-length file with all values of the chunk length.
     std::string both = whole;
     std::fill_n(both.begin() + 8, 4, '\0');
     std::fill_n(both.begin() + 12, 4, '\xff');

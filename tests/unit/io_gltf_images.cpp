@@ -1,4 +1,4 @@
-// Pixels of textures: formats, sharing, the limit of memory.
+// Texture images: formats, sharing, memory limit.
 #include "core/box_filter.h"
 #include "core/srgb.h"
 #include "io/image_io.h"
@@ -104,7 +104,7 @@ TEST(GltfImages, SixteenBitsStaySixteenBits) {
 }
 
 TEST(GltfImages, TheLargestAreHalvedUntilAllFitIntoMemory) {
-    // 12288 bytes of colour, 12288 of numbers, 192 more: into 6400 they go when both large ones are halved once.
+    // 12288 bytes of colour, 12288 of data and 192 more fit into 6400 if both large images are halved once.
     const GltfBuilder b = with_images({png_uri(stripes(64, 64)), png_uri(stripes(128, 32)), png_uri(stripes(8, 8))});
     ImportOptions options;
     options.texture_bytes = 6400;

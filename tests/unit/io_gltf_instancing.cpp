@@ -1,4 +1,4 @@
-// EXT_mesh_gpu_instancing: where copies are, that they are saved as they were read, and what a file may get wrong.
+// EXT_mesh_gpu_instancing: instance transforms, round trip through a save, and invalid files.
 #include "io/gltf_save.h"
 #include "io/scene_edits_json.h"
 #include "io/scene_hash.h"
@@ -82,7 +82,7 @@ TEST(GltfInstancing, HostileOnesAreRefusedOrReported) {
     EXPECT_EQ(places_of(lost->scene).size(), 2u);
     EXPECT_TRUE(reports(lost->report, "1 copies at places that are not finite"));
 
-    // Sixteen million copies that cost the file nothing, and nothing at all.
+    // Sixteen million instances that need no bytes in the file, and zero instances.
     const auto nowhere = with([](GltfBuilder& b, int, int) {
         return Json{{"TRANSLATION", b.add("accessors", {{"componentType", 5126}, {"count", 1 << 24}, {"type", "VEC3"}})}};
     });
@@ -99,7 +99,7 @@ TEST(GltfInstancing, HostileOnesAreRefusedOrReported) {
     EXPECT_TRUE(reports(without_mesh->report, "copies of a mesh on a node that has none"));
 }
 
-// Many nodes may name one array: what counts is how many copies there are in all.
+// Many nodes may share an array: the limit is on the total number of instances.
 TEST(GltfInstancing, CopiesAreCountedOverAllNodes) {
     GltfBuilder b;
     const std::vector<int8_t> turns(4 << 20, 127);
@@ -129,7 +129,7 @@ TEST(GltfInstancing, StayAsTheyAreWhenTheSceneIsSaved) {
     EXPECT_EQ(scene_hash(loaded.scene), scene_hash(project.scene));
 }
 
-// A duplicate's, and those of a scene that was imported into another, are not in the document yet.
+// Instances of a duplicate and of an imported scene are not in the document yet.
 TEST(GltfInstancing, AreWrittenWhereTheyAreNew) {
     const TempFolder folder;
     write_bytes(folder / "scene.gltf", three_copies().gltf());
@@ -149,7 +149,7 @@ TEST(GltfInstancing, AreWrittenWhereTheyAreNew) {
             for (const auto column : {&Affine::x, &Affine::y, &Affine::z, &Affine::t})
                 EXPECT_LT(length(places[i].*column - wanted[i].*column), 1e-5f) << node << " " << i;
     }
-    // What has been written is in the document from then on.
+    // After the save they are in the document.
     const auto again = save_gltf(saved->origin, {saved->scene, {}, {}}, folder / "again.glb");
     ASSERT_TRUE(again) << error_text(again);
     EXPECT_EQ(scene_hash(load(folder / "again.glb").scene), scene_hash(loaded.scene));

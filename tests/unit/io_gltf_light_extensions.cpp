@@ -1,4 +1,4 @@
-// EXT_lights_ies and EXT_lights_image_based: what they say is shown, comes back after saving, and stays theirs while nobody edits it.
+// EXT_lights_ies and EXT_lights_image_based: import, round trip through a save, and preservation of unedited lights.
 #include "core/math.h"
 #include "io/gltf_save.h"
 #include "io/ies.h"
@@ -78,7 +78,7 @@ TEST(MeasuredLights, ComeBackFieldByField) {
             SCOPED_TRACE(name);
             Scene scene = original->scene;
             scene.lights.set(id, edited);
-            // A profile that came within this document cannot go with a light of another kind.
+            // A profile embedded in this document cannot be kept for a light of another kind.
             if (edited.kind != Light::Kind::point && edited.ies_file.empty()) return;
             const Scene loaded = saved_and_loaded(folder, *original, scene).scene;
             Light found = *loaded.lights.find(id);
@@ -106,7 +106,7 @@ TEST(MeasuredLights, AreWrittenForOthersToRead) {
     auto [id, node] = *scene.nodes.begin();
     node.light = scene.lights.add(light);
     scene.nodes.set(id, node);
-    Node second = node; // with a light of its own, but of the same measured distribution
+    Node second = node; // with its own light of the same IES profile
     second.light = scene.lights.add(light);
     scene.nodes.add(second);
     const ImportedScene loaded = saved_and_loaded(folder, *original, scene);
@@ -179,7 +179,7 @@ TEST(MeasuredLights, HostileOnesAreRefusedOrReported) {
 
 // ---- image-based lights
 
-// What the environment's map has in a direction, as the renderer looks it up.
+// Environment map lookup in a direction, as in the renderer.
 Vec3 seen(const Environment& e, const Vec3& d) {
     const double turn = double(e.rotation_degrees) / 360;
     double u = std::atan2(double(d.x), -double(d.z)) / (2 * std::numbers::pi) + 0.5 + turn;
@@ -206,7 +206,7 @@ TEST(ImageLight, FacesAreWhereTheyLook) {
     for (size_t i = 0; i < 6; ++i) EXPECT_EQ(seen(e, axes[i]), face_colors[i]) << i;
 }
 
-// A face is seen from within as it is, not mirrored: its right half is to the right of who looks along it.
+// Faces are not mirrored when seen from inside: the right half is on the right.
 TEST(ImageLight, FacesAreNotMirrored) {
     const TempFolder folder;
     std::array<Image, 6> faces;
@@ -278,7 +278,7 @@ TEST(ImageLight, ComesBackAndIsWrittenForOthersToRead) {
     EXPECT_EQ(light["intensity"], 3);
     EXPECT_NEAR(light["rotation"][1].get<double>(), std::sin(33 * std::numbers::pi / 360), 1e-6);
 
-    // Another environment: the light is no longer named, and its images go.
+    // Another environment: the reference and its images are removed.
     scene.environment = {};
     scene.environment.kind = Environment::Kind::constant;
     EXPECT_EQ(saved_and_loaded(folder, *original, scene).scene.environment, scene.environment);

@@ -97,7 +97,7 @@ TEST(GltfMaterials, LayersAreRead) {
     EXPECT_EQ(m.diffuse_transmission_color, (Vec3{1, 0.25f, 0.5f}));
 }
 
-// What the archived model reflects: diffuse * (1 - max(specular)) and F0 = specular, at roughness 1 - glossiness.
+// Reflectance of the archived model: diffuse * (1 - max(specular)) and F0 = specular, at roughness 1 - glossiness.
 TEST(GltfMaterials, SpecularGlossinessIsConverted) {
     const Json model = {{"diffuseFactor", {0.5, 0.25, 1.0, 0.75}}, {"specularFactor", {0.25, 0.5, 0.125}}, {"glossinessFactor", 0.75}};
     const Material m = import_material({{"pbrMetallicRoughness", {{"baseColorFactor", {0, 0, 0, 0}}}},

@@ -1,4 +1,4 @@
-// Animations, skins and morph targets as files have them, sound and broken, and through a save.
+// Animations, skins and morph targets: valid and broken files, and round trip through a save.
 #include "io/gltf_save.h"
 #include "io/scene_hash.h"
 #include "io_gltf_saving.h"
@@ -42,7 +42,7 @@ ImportedScene imported(const GltfBuilder& builder) {
 
 const Clip& only_clip(const ImportedScene& s) { return s.scene.clips.begin()->value; }
 
-// The first node's transform that far into the only clip.
+// Transform of the first node at a time of the only clip.
 Transform at(const ImportedScene& s, float seconds) {
     const Scene scene = staged(s.scene, {.clip = s.scene.clips.begin()->id, .seconds = seconds});
     return posed_transform(scene, scene.nodes.begin()->id, scene.nodes.begin()->value);
@@ -94,7 +94,7 @@ TEST(GltfAnimations, SparseKeyframesAreRead) {
     EXPECT_EQ(at(imported(a.builder), 2).translation, (Vec3{0, 0, 0}));
 }
 
-// What makes no sense is left out with a word about it; the scene opens.
+// Invalid parts are skipped with a warning; the scene opens.
 TEST(GltfAnimations, BrokenOnesAreLeftOut) {
     const auto refused = [](Animated a, const char* why) {
         const ImportedScene s = imported(a.builder);
@@ -130,7 +130,7 @@ TEST(GltfAnimations, BrokenOnesAreLeftOut) {
 
 TEST(GltfAnimations, AreBoundedInMemory) {
     Animated a;
-    // Keyframes that cost the file nothing, named over and over.
+    // Keyframes that need no bytes in the file, referenced many times.
     const int input = a.builder.add("accessors", {{"componentType", 5126}, {"count", 1 << 21}, {"type", "SCALAR"}});
     const int output = a.builder.add("accessors", {{"componentType", 5126}, {"count", 1 << 21}, {"type", "VEC4"}});
     Json samplers = Json::array(), channels = Json::array();
@@ -228,7 +228,7 @@ Json morphing(GltfBuilder& builder) {
     return {{"attributes", {{"POSITION", positions}}}, {"targets", {{{"POSITION", offsets}}, {{"POSITION", offsets}}}}};
 }
 
-// A large mesh on many nodes: neither memory nor time without end.
+// A large mesh on many nodes: memory and time are limited.
 TEST(GltfSkins, NoMoreVerticesBendThanMemoryHolds) {
     GltfBuilder b;
     constexpr int vertices = 3 << 16, nodes = 200;
@@ -278,7 +278,7 @@ TEST(GltfMorphTargets, BrokenOnesAreSaid) {
     EXPECT_NE(error_text(import_built(builder)).find("accessor 99"), std::string::npos);
 }
 
-// Everything that moves, in one file.
+// All kinds of animation in one file.
 GltfBuilder moving() {
     Skinned made;
     GltfBuilder& b = made.builder;
@@ -296,7 +296,7 @@ GltfBuilder moving() {
     return b;
 }
 
-// Saved and loaded, both by their numbers.
+// Saved and loaded by index.
 void expect_comes_back(const ImportedScene& original, const Scene& edited, const char* what) {
     const TempFolder folder;
     for (const char* name : {"saved.gltf", "saved.glb"}) {
@@ -334,7 +334,7 @@ TEST(GltfMotion, ComesBackFromASave) {
     expect_comes_back(original, edited, "moved");
 }
 
-// A copy brings skin, weights and movement along, and so does what is imported.
+// Duplicates and imports include skin, weights and animation.
 TEST(GltfMotion, CopiesMoveAsTheirOriginalsDo) {
     const TempFolder folder;
     write_bytes(folder / "moving.gltf", moving().gltf());

@@ -18,7 +18,7 @@ inline std::string node_program() {
     return {};
 }
 
-// Why the validator cannot be asked, or "".
+// Reason why the validator cannot run, or "".
 inline std::string why_no_validator() {
     if (!std::filesystem::exists(BLUSH_VALIDATOR "/index.js")) return "no glTF validator: packaging/setup fetches it";
     return node_program().empty() ? "no node to run the glTF validator with" : "";

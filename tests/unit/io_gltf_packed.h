@@ -1,4 +1,4 @@
-// Files whose meshes are packed by the encoders of Draco and meshoptimizer.
+// Files with meshes compressed by the encoders of Draco and meshoptimizer.
 #pragma once
 
 #include "core/math.h"
@@ -110,7 +110,7 @@ inline Stream packed_indices(const Sheet& sheet, bool sequence, size_t stride) {
     return {bytes, sequence ? "INDICES" : "TRIANGLES", count, stride};
 }
 
-// A view that says what it unpacks to, of a buffer that is not there.
+// A compressed view of a placeholder buffer.
 inline int add_packed_view(GltfBuilder& b, const Stream& s) {
     Json view = b.json["bufferViews"].at(size_t(b.buffer_view(s.bytes)));
     b.json["bufferViews"].erase(b.json["bufferViews"].size() - 1);

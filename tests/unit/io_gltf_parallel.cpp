@@ -1,4 +1,4 @@
-// Loading in parallel: what comes of it does not depend on the threads, and the scene that is there before its textures are.
+// Parallel import: the result does not depend on the threads; preview scene before the textures are decoded.
 #include "io/image_io.h"
 #include "io/scene_hash.h"
 #include "io_gltf_builder.h"
@@ -51,7 +51,7 @@ Json grid(GltfBuilder& b, int side, float phase, int material) {
             {"material", material}};
 }
 
-// Meshes of several primitives, most of which have something to say, a lamp, a camera, and textures.
+// Meshes with several primitives, most of which cause diagnostics, a light, a camera, and textures.
 GltfBuilder busy_file(int meshes = 12) {
     GltfBuilder b;
     for (unsigned i = 0; i < 6; ++i) add_texture(b, noisy_png(64, i));
@@ -86,7 +86,7 @@ bool same_vertices(const Geometry& a, const Geometry& b) {
            same_numbers(a.colors, b.colors) && a.indices == b.indices && a.flat == b.flat && same_numbers(a.uv, b.uv);
 }
 
-// Payloads of two imports have serials of their own: they are compared by what is in them.
+// Payloads of two imports have different serials: compared by content.
 void expect_same(const ImportedScene& a, const ImportedScene& b) {
     EXPECT_EQ(a.report.diagnostics, b.report.diagnostics);
     EXPECT_EQ(a.report.extensions_used, b.report.extensions_used);
@@ -170,7 +170,7 @@ TEST(GltfParallel, TheFirstErrorInTheFileIsTold) {
     }
 }
 
-// Its header promises an image, so that meshes get tangents for a normal map, which then cannot be read.
+// The header is valid, so that meshes get tangents for a normal map that then cannot be decoded.
 TEST(GltfParallel, TexturesThatTurnOutToBeBrokenLeaveNoTrace) {
     GltfBuilder b = busy_file(), without = busy_file();
     const size_t offset = b.json["bufferViews"][2]["byteOffset"], length = b.json["bufferViews"][2]["byteLength"];
@@ -203,7 +203,7 @@ TEST(GltfParallel, CanBeCancelledAnywhere) {
                 reached_the_end |= fraction == 1;
             };
             const auto imported = import_built(b, options);
-            // Helpers may have left nothing to tell between that moment and the end.
+            // Other threads may have finished all work by then.
             if (imported) {
                 EXPECT_TRUE(reached_the_end);
                 EXPECT_GT(when, 0.35);
@@ -217,14 +217,14 @@ TEST(GltfParallel, TheSceneIsThereBeforeItsTextures) {
     const GltfBuilder b = busy_file();
     std::vector<ImportedScene> early;
     ImportOptions options;
-    options.threads = 1; // nobody decodes before the rest is there
+    options.threads = 1; // no decoding before the rest is converted
     options.on_untextured = [&](const ImportedScene& scene) { early.push_back(scene); };
     const auto whole = import_built(b, options);
     ASSERT_TRUE(whole) << error_text(whole);
     ASSERT_EQ(early.size(), 1u);
     const Scene& scene = early[0].scene;
     EXPECT_TRUE(validate(scene));
-    EXPECT_TRUE(scene.meshes.shares_storage(whole->scene.meshes)); // nothing is converted, or built, twice
+    EXPECT_TRUE(scene.meshes.shares_storage(whole->scene.meshes)); // meshes are converted only once
     EXPECT_EQ(scene.nodes, whole->scene.nodes);
     EXPECT_EQ(scene.lights, whole->scene.lights);
     EXPECT_EQ(scene.cameras, whole->scene.cameras);

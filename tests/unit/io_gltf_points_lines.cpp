@@ -1,4 +1,4 @@
-// Points and lines as small solids: closed, wound outwards, as large as the rule says.
+// Points and lines as small solids: closed, wound outwards, of the documented radius.
 #include "io/gltf_points_lines.h"
 
 #include "core/math.h"
@@ -23,7 +23,7 @@ Geometry corners() {
     return g;
 }
 
-// Of what the triangles enclose; positive if they wind outwards.
+// Enclosed volume; positive if wound outwards.
 double volume(const Geometry& g) {
     double sum = 0;
     for (size_t i = 0; i < g.indices.size(); i += 3) {
@@ -33,7 +33,7 @@ double volume(const Geometry& g) {
     return sum;
 }
 
-// Every edge is walked once in either direction.
+// Every edge is used once in each direction.
 bool is_closed(const Geometry& g) {
     std::map<std::pair<uint32_t, uint32_t>, int> edges;
     for (size_t i = 0; i < g.indices.size(); i += 3)

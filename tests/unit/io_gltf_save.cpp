@@ -1,4 +1,4 @@
-// load(save(x)) is x: for edits of every kind, in both formats, through any number of saves.
+// load(save(x)) == x for edits of every kind, in both formats, for repeated saves.
 #include "io/gltf_numbering.h"
 #include "io/gltf_save.h"
 #include "io/ies.h"
@@ -16,7 +16,7 @@
 namespace blush::test {
 namespace {
 
-// Every record and every number in it comes back; triangles and pixels by their values.
+// Compares every record and field; triangles and pixels by value.
 void expect_same(const ImportedScene& loaded, const SavedGltf& saved, const Project& project, const std::string& what) {
     EXPECT_EQ(loaded.scene.view, project.scene.view) << what;
     Scene expected = saved.scene;
@@ -62,7 +62,7 @@ TEST_P(GltfSave, RandomEditsOfShippedScenesComeBack) {
     }
 }
 
-// Each save starts from what the one before has written, as in the window.
+// Each save starts from the previous one, as in the window.
 TEST_P(GltfSave, SavingOverAndOverLosesNothing) {
     const TempFolder folder;
     Rng rng(6);
@@ -77,7 +77,7 @@ TEST_P(GltfSave, SavingOverAndOverLosesNothing) {
         for (const Diagnostic& d : saved->diagnostics) ADD_FAILURE() << save << ": " << d.what;
         const ImportedScene loaded = load(file);
         expect_same(loaded, *saved, project, fmt::format("save {}", save));
-        // Every other time from the file that was saved, as after a restart.
+        // Every other time from the saved file, as after a restart.
         origin = saved->origin;
         if (save % 2 == 0) continue;
         origin = loaded.origin;
@@ -88,7 +88,7 @@ TEST_P(GltfSave, SavingOverAndOverLosesNothing) {
 INSTANTIATE_TEST_SUITE_P(Formats, GltfSave, testing::Values("gltf", "glb"),
                          [](const auto& instance) { return std::string(instance.param); });
 
-// Whatever member of a record is changed comes back: a new one cannot be forgotten.
+// Changes each member of a record and checks that it is read back: detects fields that are not saved.
 template <class T, class Round> void each_field_comes_back(const std::string& what, const Table<T>& table, const Round& set_and_load) {
     const auto [id, record] = *table.begin();
     size_t fields = 0;
@@ -240,7 +240,7 @@ TEST(GltfExtras, NonsenseIsIgnoredAndTheRestRead) {
 TEST(GltfSaveFiles, AFailedSaveLeavesEverythingAsItWas) {
     const TempFolder folder;
     const ImportedScene original = load(shipped("cornell"));
-    // The document's name is taken by a folder, which is found out when all else is written.
+    // A folder has the name of the document, which is detected after everything else is written.
     std::filesystem::create_directory(folder / "scene.gltf");
     write_bytes(folder / "scene.gltf/inside", "kept");
     EXPECT_FALSE(save_gltf(original.origin, {original.scene, {}, {}}, folder / "scene.gltf"));

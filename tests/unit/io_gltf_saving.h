@@ -1,4 +1,4 @@
-// What tests of saving share: scenes to save, and every field of a record, one after the other.
+// Helpers of the save tests: scenes to save, and iteration over every field of a record.
 #pragma once
 
 #include "core/files.h"
@@ -32,7 +32,7 @@ inline std::string text_of(const std::filesystem::path& file) {
     return bytes ? std::string(bytes->begin(), bytes->end()) : bytes.error().text();
 }
 
-// A scene with one of everything and things that we know nothing of, in an order of its own: a light, a camera, a textured triangle whose
+// A scene with all kinds of records and unknown extensions, in an unusual order: a light, a camera, a textured triangle whose
 // buffer and image are files beside it.
 inline std::filesystem::path rich_gltf(const TempFolder& folder) {
     constexpr std::string_view text = R"({
@@ -75,7 +75,7 @@ inline std::filesystem::path rich_gltf(const TempFolder& folder) {
 
 // --- every field ----------------------------------------------------------------------------------------------------
 
-// Some other value of the same type, or the same if a test can make none up (references).
+// Another value of the same type; unchanged for references.
 template <class T> void change(T& value) {
     if constexpr (std::same_as<T, bool>)
         value = !value;

@@ -1,4 +1,4 @@
-// What a file says and hardly anybody means is in the report, with its place; what is as it should be is not.
+// Lint: probably unintended content is reported with its location; intended content is not.
 #include "io/image_io.h"
 #include "io_gltf_builder.h"
 
@@ -9,7 +9,7 @@
 namespace blush::test {
 namespace {
 
-// The place of the diagnostic that contains `part`, or "none".
+// Location of the diagnostic that contains `part`, or "none".
 std::string place_of(const Result<ImportedScene>& imported, std::string_view part) {
     if (!imported) return imported.error().text();
     for (const Diagnostic& d : imported->report.diagnostics)

@@ -1,4 +1,4 @@
-// Unpacking side by side: what comes of it does not depend on the threads, and no more than a file can hold.
+// Parallel decompression: the result does not depend on the threads; size limits.
 #include "io/scene_hash.h"
 #include "io_gltf_packed.h"
 
@@ -10,7 +10,7 @@
 namespace blush::test {
 namespace {
 
-// Meshes of many sizes, packed in turns by either, one of which names an attribute by no number.
+// Meshes of many sizes, compressed alternately by both libraries, one with an invalid attribute id.
 GltfBuilder packed_by_both(uint32_t meshes = 16) {
     GltfBuilder b;
     begin_meshopt(b);
@@ -98,7 +98,7 @@ TEST(GltfUnpacking, CanBeCancelledAnywhere) {
         }
 }
 
-// Packed bytes that are named again and again would unpack to all the memory there is. It is told before any is.
+// Compressed bytes that are referenced many times would exceed the memory: detected before decompression.
 TEST(GltfUnpacking, MoreIsNotMadeOfAFileThanItCanHold) {
     const Sheet sheet(200);
     GltfBuilder draco = packed_by_draco(sheet, draco_bytes(sheet, 10, 8));

@@ -1,4 +1,4 @@
-// What the Khronos validator says of saved files: nothing that it did not say of the original.
+// The Khronos validator reports no new issues for saved files.
 #include "io/gltf_save.h"
 #include "io_gltf_lit.h"
 #include "io_gltf_node.h"
@@ -17,7 +17,7 @@ TEST(GltfValidator, SavingAddsNoMessages) {
     std::vector<std::string> command{node_program(), BLUSH_VALIDATE_SCRIPT, BLUSH_VALIDATOR};
     Rng rng(3);
     int number = 0;
-    // With an extension that nobody knows, what loses its use would stay.
+    // An unknown extension would prevent pruning.
     OrderedJson rich = OrderedJson::parse(text_of(rich_gltf(folder)));
     rich["extensionsUsed"] = {"KHR_lights_punctual"};
     rich["extensions"].erase("ACME_tag");

@@ -1,5 +1,5 @@
-// The import report against the verdicts of the Khronos validator: what that calls an error is refused or warned about, and what it has
-// nothing to say of is read without a warning.
+// Import report against the Khronos validator: its errors are rejected or warned about, and valid files are read without
+// warnings.
 #include "io_gltf_broken.h"
 #include "io_gltf_node.h"
 #include "support/process.h"
@@ -17,7 +17,7 @@ struct Exception {
     const char *file, *why;
 };
 
-// Files with an error that nothing needs to be said of.
+// Files with an error that needs no warning.
 constexpr Exception harmless[] = {
     {"bounds that are not there.gltf", "bounds are computed from the vertices, not read"},
     {"bounds that are others.gltf", "bounds are computed from the vertices, not read"},
@@ -31,7 +31,7 @@ constexpr Exception harmless[] = {
     {"view for corners that holds positions.gltf", "targets are a hint to graphics processors"},
 };
 
-// Files that the validator finds neither error nor warning in, of which something is to be said.
+// Files without errors and warnings of the validator, for which the importer warns.
 constexpr Exception suspicious[] = {
     {"extension that nobody knows is required.gltf", "it says that it cannot be read without"},
     {"triangle without area.gltf", "it cannot be seen"},
@@ -40,12 +40,12 @@ constexpr Exception suspicious[] = {
 enum Severity : int { error, warning, information, hint };
 
 struct Verdict {
-    bool wrong = false; // it has errors
-    bool clean = true;  // it has neither these nor warnings
+    bool wrong = false; // has errors
+    bool clean = true;  // has neither errors nor warnings
     std::string text;
 };
 
-// By name, of files that are written to the folder.
+// By name of the files in the folder.
 std::map<std::string, Verdict> verdicts_of(const GltfFiles& files, const TempFolder& folder) {
     std::vector<std::string> command{node_program(), BLUSH_JUDGE_SCRIPT, BLUSH_VALIDATOR};
     for (const auto& [name, bytes] : files) {
@@ -71,7 +71,7 @@ std::map<std::string, Verdict> verdicts_of(const GltfFiles& files, const TempFol
     return verdicts;
 }
 
-// What the importer warns of or refuses, a line each.
+// Warnings and errors of the importer, one per line.
 std::string complaints(const std::filesystem::path& file) {
     const Result<ImportedScene> imported = import_gltf(file);
     if (!imported) return imported.error().text() + "\n";

@@ -1,4 +1,4 @@
-// Photometric files: what the standard says, in all its symmetries, and nothing that would hurt.
+// IES files: all symmetries of the standard, and hostile files.
 #include "io/ies.h"
 
 #include <gtest/gtest.h>
@@ -63,7 +63,7 @@ TEST(Ies, FactorsMultiply) {
     EXPECT_NEAR(double(file.read()->peak), 90, 1e-4);
 }
 
-// Candela of each direction that the file leaves out, by what its angles say of symmetry.
+// Candela of directions that follow by symmetry.
 TEST(Ies, SymmetriesOfTypeC) {
     Photometry quarter;
     quarter.horizontal = "0 45 90";
@@ -170,7 +170,7 @@ TEST(Ies, SaysWhatIsWrong) {
     EXPECT_NE(problem([](Photometry& f) { f.tilt = "TILT=INCLUDE\n1\n2\n0 90\n1\n"; }), "") << "a factor is missing: numbers slip";
 }
 
-// Counts that promise more than any file holds do not ask for the memory.
+// Counts beyond the size of the file do not allocate memory.
 TEST(Ies, CountsAreBounded) {
     const auto with_counts = [](const char* counts) {
         return fmt::format("IESNA:LM-63-1995\nTILT=NONE\n1 1000 1 {} 1 2 0 0 0\n1 1 100\n0\n0\n100\n", counts);

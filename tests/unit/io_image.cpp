@@ -20,7 +20,7 @@ Result<ImagePtr> decode(const std::string& bytes) {
     return read_image(std::span(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()), "memory");
 }
 
-// Noise, so that no part of the file can be left out.
+// Noise, so that every part of the file matters.
 std::vector<float> noise(size_t count) {
     std::mt19937 random(7);
     std::vector<float> values(count);
@@ -130,7 +130,7 @@ TEST(ImageIo, LimitsHoldBeforePixelsAreDecoded) {
     EXPECT_TRUE(read_image(folder / "a.png", {.max_side = 8, .max_pixels = 32}));
     EXPECT_NE(error_text(read_image(folder / "a.png", {.max_side = 7})).find("larger than the limit"), std::string::npos);
     EXPECT_NE(error_text(read_image(folder / "a.png", {.max_pixels = 31})).find("larger than the limit"), std::string::npos);
-    // A header that promises 65535 x 65535 pixels over a body of a few bytes.
+    // A header for 65535 x 65535 pixels with a few bytes of data.
     std::string png = bytes_of(folder / "a.png");
     std::fill_n(png.begin() + 18, 2, '\xff');
     std::fill_n(png.begin() + 22, 2, '\xff');

@@ -1,4 +1,4 @@
-// Reloading a file that changed keeps what was edited here, by name and path, and says where both sides changed one thing.
+// Reloading a changed file keeps local edits, matched by name and path, and reports conflicts.
 #include "io/merge_edits.h"
 #include "scene/document.h"
 #include "scene/validate.h"
@@ -10,7 +10,7 @@
 namespace blush::test {
 namespace {
 
-// A room with a lamp on a stand and a vase, as a file has it: `shift` records of each kind come first, so that ids differ.
+// A room with a lamp on a stand and a vase. `shift` records of each kind are added first, so that ids differ.
 struct File {
     Scene scene;
     Id<Node> stand, lamp, vase;
@@ -157,7 +157,7 @@ TEST(MergeEdits, NameWhatAnEditNoLongerFinds) {
     EXPECT_TRUE(validate(scene));
 }
 
-// What was added here below something that the file no longer has goes with it; nothing refers to what is gone.
+// Nodes added below a removed node are removed with it; no dangling references.
 TEST(MergeEdits, LeaveNothingDangling) {
     const File base;
     File mine, theirs(1);
@@ -168,7 +168,7 @@ TEST(MergeEdits, LeaveNothingDangling) {
     theirs.scene.nodes.remove(theirs.stand);
     const auto [scene, conflicts] = merge_edits(base.scene, mine.scene, theirs.scene);
     EXPECT_TRUE(validate(scene));
-    // Random edits on either side of files that differ by other random edits: never an invalid scene.
+    // Random edits on both sides never give an invalid scene.
     const Project imported = sample_project().project;
     Rng rng(8);
     for (int i = 0; i < 100; ++i) {

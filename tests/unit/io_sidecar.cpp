@@ -1,4 +1,4 @@
-// Recovery files: what comes back, and what does not come through.
+// Recovery files: restored state and rejected input.
 #include "io/scene_edits_json.h"
 #include "io/scene_records_json.h"
 #include "io/sidecar_json.h"
@@ -49,7 +49,7 @@ void expect_same_tables(const Scene& a, const Scene& b, int sequence) {
     EXPECT_TRUE(a.staging == b.staging) << sequence;
 }
 
-// A file whose text changed in nothing that the scene shows: merging by name leads where applying by id leads.
+// A file whose JSON changed without a change of the scene: merging by name equals applying by id.
 TEST(Sidecar, EditsComeBackIntoARewrittenFile) {
     const Project imported = sample_project().project;
     Rng rng(9);
@@ -118,7 +118,7 @@ TEST(Sidecar, HashesTellTextsApart) {
     EXPECT_EQ(hash_text("foobar"), "85944171f73967e8");
 }
 
-// Any prefix of a file, any changed byte: an error or a whole sidecar, never a crash.
+// Any prefix and any changed byte gives an error or a complete sidecar, never a crash.
 TEST(Sidecar, DamagedOnesAreErrors) {
     const Scene scene = sample_project().project.scene;
     const std::string whole = sidecar_json({"/scene.gltf", hash_text(""), R"({"format":1})", records_json(scene), {}, {}});

@@ -101,7 +101,7 @@ TEST(Snapshot, ForeignAndBrokenMetadataAreErrors) {
     }
 }
 
-// What sums of samples may come to, and bit patterns that nobody asked for.
+// Possible sums of samples, and unusual bit patterns.
 const std::vector<double> awkward_sums{0.0, -0.0, 1.0 / 3, 1e300, 5e-324, -1e-200, std::numeric_limits<double>::infinity(), 4503599627370497.5};
 
 TEST(Snapshot, ExactPlanesSurviveAFileToTheLastBit) {
@@ -175,7 +175,7 @@ TEST(Snapshot, TellsItselfFromOtherPictures) {
     EXPECT_FALSE(read_snapshot_metadata(broken));
 }
 
-// Zeros compress to nothing: what a small file asks for is checked before it is given.
+// Zeros compress to almost nothing: sizes are checked before allocation.
 TEST(Snapshot, AFileOfTooManyPixelsIsRefusedUnread) {
     const Planes planes;
     const TempFolder folder;

@@ -1,4 +1,4 @@
-// The bias test on pictures made of known noise and known bias.
+// The bias test on synthetic images of known noise and bias.
 #include "measure/bias_test.h"
 #include "measure/significance.h"
 #include "statistics.h"
@@ -50,8 +50,8 @@ TEST(BiasTest, SeesTwoPercentMissingEverywhereAndSaysHowMuch) {
     EXPECT_LT(t.whole.z(), -5);
 }
 
-// A lamp in a corner, whose edge is noisier than all the rest together: what a hundredth less everywhere is hidden behind, but not from the
-// pooled test. And that errs no more often for it.
+// A light in a corner whose edge is noisier than the rest of the image hides a global bias of 1 %, except from the pooled test,
+// whose false alarm rate does not increase.
 TEST(BiasTest, SeesWhatIsMissingEverywhereBehindANoisyLamp) {
     std::mt19937 bits(12);
     const auto with_lamp = [&](float level, float noise, int64_t samples) {
@@ -75,7 +75,7 @@ TEST(BiasTest, SeesWhatIsMissingEverywhereBehindANoisyLamp) {
     EXPECT_LT(found_without, runs / 2) << "or the lamp would hide nothing";
 }
 
-// Too little for the whole picture's mean, but not for the region's.
+// Not significant for the whole image, but for the region.
 TEST(BiasTest, SeesACornerThatIsWrong) {
     std::mt19937 bits(3);
     const auto corner = [](int x, int y) { return x < 16 && y < 16 ? 0.6f : 0.5f; };
@@ -95,7 +95,7 @@ TEST(BiasTest, PicturesWithoutNoiseMayDifferByRoundingAlone) {
     EXPECT_TRUE(test_bias(noisy(bits, 0, 16, [](int, int) { return 0.501f; }), exact).biased);
 }
 
-// A picture that has not met the rare bright samples yet does not know its own noise; the reference does.
+// An image without rare bright samples underestimates its noise; the reference does not.
 TEST(BiasTest, APictureThatMissedRareLightIsNotCalledWrong) {
     std::mt19937 bits(5);
     const MeasuredImage missed = noisy(bits, 0.001f, 16, [](int, int) { return 0.497f; });
@@ -103,10 +103,10 @@ TEST(BiasTest, APictureThatMissedRareLightIsNotCalledWrong) {
     EXPECT_TRUE(test_bias(missed, noisy(bits, 0.001f, 256, even)).biased);
 }
 
-// Light that one pixel in two hundred has met, all of it: much of what there was to be met may be missing by chance.
+// All light is in one pixel of two hundred: much of it may be missing by chance.
 TEST(BiasTest, FewBrightPixelsAreNoEvidence) {
     std::mt19937 bits(8);
-    const MeasuredImage reference = noisy(bits, 0.01f, 8'000'000, even); // as noisy as the pictures, but for its samples
+    const MeasuredImage reference = noisy(bits, 0.01f, 8'000'000, even); // noise as of the images, scaled by its samples
     Moments wrong;
     std::bernoulli_distribution met(0.005);
     for (int run = 0; run < 500; ++run) {
@@ -114,15 +114,15 @@ TEST(BiasTest, FewBrightPixelsAreNoEvidence) {
         for (size_t i = 0; i < image.image.pixels.size(); ++i) {
             if (!met(bits)) continue;
             image.image.pixels[i] = {100, 100, 100}; // 0.5 / 0.005
-            image.error[i] = {100, 100, 100};        // the other half has met none
+            image.error[i] = {100, 100, 100};        // the other half buffer has none
         }
         wrong.add(test_bias(image, reference).biased);
     }
     EXPECT_TRUE(z_test_at_most(wrong, bias_significance));
 }
 
-// Light that three pixels of a region have on average, and many a region none: too dark by a tenth then, and with hardly any noise to say
-// so.
+// Light in three pixels of a region on average and in none of many regions: these are 10 % too dark, with almost no visible
+// noise.
 TEST(BiasTest, RareBrightLightThatIsMissingIsNotBias) {
     std::mt19937 bits(9);
     const MeasuredImage reference = noisy(bits, 0.001f, 100'000, [](int, int) { return 0.55f; });
@@ -153,8 +153,7 @@ TEST(BiasTest, OnePixelIsNoEvidence) {
     EXPECT_FALSE(t.biased) << t.worst.z();
 }
 
-// Groups of 16 pixels that err as one: who counts them as 16 is wrong far too
-// often.
+// Groups of 16 fully correlated pixels: treating them as independent gives far too many false alarms.
 TEST(BiasTest, PixelsThatErrTogetherCountOnce) {
     std::mt19937 bits(11);
     const auto in_groups = [&](double sharing) {

@@ -1,4 +1,4 @@
-// Fits, intervals, the recorder and the order of turns, on data whose answers are known.
+// Fits, intervals, convergence records and scheduling of variants, on data with known results.
 #include "measure/convergence.h"
 #include "statistics.h"
 
@@ -69,7 +69,7 @@ TEST(PowerFit, SaysWhereACurveArrives) {
     EXPECT_FALSE(fit_power(flat, y).slope.known);
 }
 
-// Errors of running means: what the points of one run have in common must not make the interval of their slope too narrow.
+// Errors of running means: the correlation of the points must not make the interval of the slope too narrow.
 TEST(PowerFit, OfARunningMeanHoldsTheSlopeInNineteenOfTwentyRuns) {
     std::mt19937 bits(3);
     std::normal_distribution<double> normal;
@@ -147,7 +147,7 @@ TEST(TimeLeft, IsToldFromTheSlopeWithItsInterval) {
     EXPECT_EQ(left(1e-9).state, State::too_far);
 }
 
-// What says nothing promises nothing.
+// Without information there is no prediction.
 TEST(TimeLeft, IsNotToldWhereTheErrorDoesNotFall) {
     ConvergenceRecord flat, scattered;
     for (const int64_t spp : {2, 4, 8, 16, 32}) {
@@ -166,7 +166,7 @@ TEST(Turns, GoToWhoHadTheLeastTime) {
     EXPECT_EQ(next_turn({-1, -1, 2}), 2);
     EXPECT_EQ(next_turn({-1, -1}), -1);
     EXPECT_EQ(next_turn({}), -1);
-    // One that takes ten times as long for a turn has no more time than the others, to within a turn.
+    // A variant with ten times longer turns gets no more time than the others, within one turn.
     std::vector<double> seconds{0, 0, 0};
     const double turn[]{0.1, 1, 0.1};
     for (int i = 0; i < 500; ++i) {

@@ -1,4 +1,4 @@
-// Convergence tables: what is written is read again, and what is no table is refused with the place.
+// Convergence tables: round trip, and errors with line numbers for invalid files.
 #include "measure/convergence_csv.h"
 
 #include <gtest/gtest.h>

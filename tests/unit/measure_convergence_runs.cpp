@@ -1,4 +1,4 @@
-// Runs side by side: which are kept, what marks them, and what the chart of them shows.
+// Comparison of runs: kept runs, marks, and the chart.
 #include "measure/convergence_plot.h"
 
 #include <gtest/gtest.h>
@@ -98,7 +98,7 @@ TEST(ConvergenceRuns, NewerOnesPushOutTheOldestButThoseThatAreKept) {
     EXPECT_EQ(names(runs), (std::vector<std::string>{"stored"}));
 }
 
-// Names are what a table tells runs apart by.
+// Names must be unique, since a table identifies runs by name.
 TEST(ConvergenceRuns, NoTwoHaveTheSameName) {
     ConvergenceRuns runs;
     ConvergenceRecord stored;
@@ -125,7 +125,7 @@ TEST(ConvergencePlot, HasACurveForEachKindOfEachShownRunAndTheGuide) {
     const int second = runs.begin("Change light sun");
     record(runs, 6);
     runs.live()->record.add(at(4, Kind::denoised, 0.1));
-    runs.live()->record.add({Kind::measured, 0.4, 4, {true, 0.5, 0.4, 0.6}, {}}); // relmse not known
+    runs.live()->record.add({Kind::measured, 0.4, 4, {true, 0.5, 0.4, 0.6}, {}}); // relmse unknown
     const ConvergencePlot p = convergence_plot(runs, {ErrorMetric::rmse, ProgressAxis::spp, 0.01, false});
     ASSERT_EQ(p.plot.curves.size(), 5u);
     ASSERT_EQ(p.sources.size(), 4u);

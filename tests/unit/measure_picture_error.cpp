@@ -1,4 +1,4 @@
-// The error of a picture against another one that is itself noisy: right in the mean, and its interval holds the truth.
+// Error of an image against a noisy reference: unbiased, and the interval covers the true value.
 #include "measure/metrics.h"
 #include "measure/picture_error.h"
 #include "statistics.h"
@@ -21,7 +21,7 @@ struct Noise {
 
 double truth(size_t i) { return 0.2 + double(i % 7) * 0.3; }
 
-// A picture that is off by a known pattern: a denoised one is blurred, not noisy.
+// An image with a known error pattern: a denoised image is blurred, not noisy.
 std::vector<float> blurred() {
     std::vector<float> rgb;
     for (size_t i = 0; i < pixels; ++i)
@@ -83,7 +83,7 @@ TEST(PictureError, AgainstAPerfectReferenceIsTheMetric) {
     EXPECT_NEAR(e.relmse.value, compare(image, perfect.image, Encoding::scene_linear, false)->relmse, 1e-6);
 }
 
-// A later picture shares its samples with what is measured: whatever they have in common, the interval holds.
+// A later image shares samples with the measured one: the interval covers the true value for any correlation.
 TEST(PictureError, AgainstItsOwnRunHoldsWhateverTheyShare) {
     Noise noise{std::mt19937(8), {}};
     for (const double shared : {-1.0, 0.0, 1.0}) {

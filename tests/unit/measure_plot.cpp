@@ -1,4 +1,4 @@
-// Charts: where things go, and as SVG. Whatever numbers and names come in, what comes out can be drawn.
+// Chart layout and SVG: any numbers and names give a drawable result.
 #include "measure/plot_layout.h"
 #include "measure/plot_svg.h"
 
@@ -92,7 +92,7 @@ TEST(PlotLayout, AxesEndAtRoundNumbersAndHoldStillWhileACurveGrows) {
     EXPECT_EQ(axis(22).high, axis(40).high);
 }
 
-// Any range has a number or two on it, and no two numbers touch.
+// Any range has at least one label, and labels do not overlap.
 TEST(PlotLayout, NumbersNeverTouchAndAreNeverMissing) {
     for (const double span : {1.0001, 1.5, 3.0, 20.0, 1e3, 1e7, 1e15}) {
         for (const double width : {200.0, 640.0}) {

@@ -1,4 +1,4 @@
-// Scopes count every pixel once, where it belongs.
+// Scopes count every pixel once, in the right bin.
 #include "measure/scopes.h"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ TEST(Histogram, CountsEveryPixelOnceInEveryChannel) {
 }
 
 TEST(Histogram, BinsAreWhereTheirValuesAre) {
-    // A bin to a stop: grey is at the border of two, and belongs to the upper.
+    // One bin per stop: grey is at a border and belongs to the upper bin.
     const Histogram h = histogram(std::vector<float>{0.18f * 1.01f, 0.18f / 1.5f, 0.18f * 200}, stops, 16);
     EXPECT_EQ(h.counts[0][8], 1u);
     EXPECT_EQ(h.counts[1][7], 1u);
@@ -96,7 +96,7 @@ TEST(Spread, IsMeanEndsAndDeviation) {
     EXPECT_EQ(spread_of({}).count, 0);
 }
 
-// About a large mean the deviation does not drown.
+// The deviation is accurate for a large mean.
 TEST(Spread, HoldsForSmallDifferencesOfLargeValues) {
     const Spread s = spread_of(std::vector<float>{1e6f + 1, 1e6f - 1, 1e6f + 1, 1e6f - 1});
     EXPECT_DOUBLE_EQ(s.deviation, 1);

@@ -1,4 +1,4 @@
-// Morph targets and skins against positions worked out by hand.
+// Morphing and skinning against positions computed by hand.
 #include "core/math.h"
 #include "scene/affine.h"
 #include "scene/bend.h"
@@ -82,7 +82,7 @@ TEST(Skins, AtRestAreWhereTheMeshIs) {
 
 TEST(Skins, AJointBendsWhatFollowsIt) {
     Strip strip;
-    // A quarter turn about Z at height 1: what was above it lies to the left.
+    // A quarter turn about Z at height 1: vertices above it move to the left.
     strip.change(strip.upper, [](Node& n) { n.local.rotation = {0, 0, half_sqrt2, half_sqrt2}; });
     const auto corners = strip.positions();
     expect_near(corners[0], {-0.5, 0, 0}, "the lower joint holds still");

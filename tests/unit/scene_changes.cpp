@@ -1,4 +1,4 @@
-// diff(before, after): each kind of edit gives exactly its row of the table, nothing more.
+// diff(before, after): each kind of edit gives exactly its row of the table.
 #include "scene/changes.h"
 #include "support/random_edits.h"
 #include "support/sample_project.h"
@@ -39,7 +39,7 @@ void PrintTo(const Seen& s, std::ostream* out) {
 
 Changes diff(const Project& a, const Project& b) { return blush::diff(a.scene, a.render, b.scene, b.render); }
 
-// What `edit` on the sample project is seen to change.
+// Changes of the sample project by `edit`.
 Changes changes_of(const Sample& s, const Edit& edit) {
     const Result<Project> after = blush::apply(s.project, edit);
     EXPECT_TRUE(after) << after.error().text();
@@ -160,7 +160,7 @@ TEST(Diff, PayloadsAreComparedBySerial) {
     quad.parts[0].geometry = std::make_shared<const Geometry>(*quad.parts[0].geometry);
     after.scene.meshes.set(s.quad, quad);
     EXPECT_EQ(seen(diff(s.project, after)), nothing);
-    quad.parts[0].geometry = test::quad_geometry(); // equal content, but nobody looks
+    quad.parts[0].geometry = test::quad_geometry(); // equal content, which is not compared
     after.scene.meshes.set(s.quad, quad);
     EXPECT_EQ(seen(diff(s.project, after)), only([&](Changes& c) { c.meshes = {s.quad}; }));
 }
@@ -192,7 +192,7 @@ TEST(Diff, ViewAndSettings) {
     moved.scene.view.position.x += 1;
     EXPECT_EQ(seen(diff(s.project, moved)), only([](Changes& c) { c.view = true; }));
 
-    // Through a pinhole everything is in focus.
+    // The focus distance has no effect on a pinhole.
     for (const float aperture : {0.f, 0.01f}) {
         Project near = s.project;
         near.scene.view.lens.aperture_radius = aperture;
@@ -234,7 +234,7 @@ TEST(Diff, ViewAndSettings) {
     EXPECT_EQ(seen(changes_of(s, SetView{{.exposure_ev = 1}})), nothing);
 }
 
-// What reached the image on the way there is undone on the way back: diff names the same ids in both directions.
+// diff is symmetric: it reports the same ids in both directions.
 TEST(Diff, IsSymmetric) {
     test::Rng rng(3);
     Project project = sample_project().project;

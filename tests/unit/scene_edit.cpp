@@ -141,7 +141,7 @@ TEST(Apply, ImportKeepsTheImportedTreeTogether) {
     EXPECT_EQ(scene.environment, s.project.scene.environment);
 }
 
-// Nothing else that wears the material, or has the same shape, begins to shine.
+// Other objects with the same material or mesh do not become emissive.
 TEST(Apply, MakeEmissiveTouchesOneObjectAlone) {
     const Sample s = sample_project();
     const Scene once = blush::apply(s.project, MakeEmissive{s.mug, 50})->scene;

@@ -1,4 +1,4 @@
-// Light for scenes that have none: when it is offered, and what the rig is.
+// Light rigs: when they are offered, and their lights.
 #include "core/math.h"
 #include "scene/affine.h"
 #include "scene/light_rig.h"
@@ -101,7 +101,7 @@ TEST(LightRig, IsOfferedWhereTheEnvironmentIsBlack) {
     EXPECT_FALSE(has_light(model.scene)) << "a backdrop";
 }
 
-// By quadrature over the softbox: what it gives the middle of the scene, on a surface that faces it.
+// Illuminance at the centre of the scene on a surface that faces the softbox, by quadrature.
 double lux_at(const Scene& scene, Id<Node> id, const Vec3d& point) {
     const Light& light = *scene.lights.find(scene.nodes.find(id)->light);
     const Affined world = world_from_node(scene, id);
@@ -158,7 +158,7 @@ TEST(LightRig, StudioFollowsTheView) {
     }
 }
 
-// In a closed room the softboxes stand inside of its walls and give the same light.
+// In a closed room the softboxes are inside the walls and give the same illuminance.
 TEST(LightRig, StudioStaysInsideOfARoom) {
     Model room({3, 1.5f, 4});
     room.scene.view.position = {0, 0, 3};

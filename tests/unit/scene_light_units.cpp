@@ -1,4 +1,4 @@
-// Units of light: known values, and the same light whatever it is stated in.
+// Units of light: known values, and conversions that do not change the light.
 #include "scene/ies_profile.h"
 #include "scene/light_units.h"
 
@@ -47,7 +47,7 @@ TEST(LightUnits, KnownValues) {
     EXPECT_NEAR(in_unit(light_of(Kind::sun), Unit::nits) / (2 / (pi * sine * sine)), 1, 1e-6);
 }
 
-// The flux of a spot is the integral of its falloff, which is no upper bound.
+// The flux of a spot is the integral of its falloff, not an upper bound.
 TEST(LightUnits, ASpotsFluxIsThatOfItsFalloff) {
     for (const auto& [inner, outer] : {std::pair{0.f, 0.7f}, {0.3f, 0.5f}, {0.5f, 0.5f}, {0.f, 1.5707963f}, {0.2f, 0.21f}}) {
         Light spot = light_of(Kind::spot, 1);

@@ -1,4 +1,4 @@
-// What stands between two points.
+// Occlusion queries between two points.
 #include "scene/line_of_sight.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Tangents against what the definition of MikkTSpace says of small meshes.
+// Tangents of small meshes against the definition of MikkTSpace.
 #include "core/math.h"
 #include "scene/mikktspace.h"
 #include "scene/tangents.h"

@@ -70,7 +70,7 @@ TEST(Shining, SoloAppliedIsSaidByEnabledAlone) {
     EXPECT_TRUE(with_solo_applied(applied) == applied);
 }
 
-// A lamp, a surface that glows and an environment.
+// A light, an emissive surface and an environment.
 struct AllKinds : TwoLamps {
     Id<Material> glowing;
     AllKinds() {

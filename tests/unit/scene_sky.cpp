@@ -1,4 +1,5 @@
-// The sky is the published model's: zenith and horizontal illuminance by independent quadrature; the sun stands where the almanac has it.
+// The sky is the published model's: zenith and horizontal illuminance by independent quadrature; the sun position matches the
+// almanac.
 #include "core/math.h"
 #include "scene/scene.h"
 #include "scene/sky_model.h"
@@ -113,7 +114,7 @@ TEST(SkyModel, HorizontalIlluminanceIsTheIntegral) {
     }
 }
 
-// Ordinary clear days: what meters show, within what weather does to it.
+// Ordinary clear days: typical measured illuminance, within the variation of the weather.
 TEST(SkyModel, IsAsBrightAsDaylight) {
     const SkyModel noon(sky_of(2.5f, 60));
     EXPECT_GT(luminance_of(noon.sun_illuminance()), 80e3);

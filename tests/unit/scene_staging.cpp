@@ -1,4 +1,4 @@
-// Clips, scenes and variants as choices that are edits like any other.
+// Selection of clips, scenes and variants as undoable edits.
 #include "scene/document.h"
 #include "scene/placements.h"
 #include "scene/pose.h"
@@ -98,7 +98,7 @@ TEST(Staging, VariantsDressTheMeshesAndKeepTheirOwnMaterials) {
     ASSERT_TRUE(document.apply(SetStaging{{.variant = 0}}));
     EXPECT_EQ(worn(0), s.red) << "has none for this variant";
 
-    // What is assigned under a variant is the variant's where it has one of its own.
+    // A material is assigned to the chosen variant if the part has a material for it.
     ASSERT_TRUE(document.apply(SetStaging{{.variant = 1}}));
     const Id<Material> checker = document.project().scene.materials.begin()->id;
     ASSERT_TRUE(document.apply(AssignMaterial{s.quad, 0, checker}));
@@ -125,7 +125,7 @@ TEST(Staging, OfSeveralScenesTheChosenOneShows) {
     EXPECT_TRUE(is_visible(night, s.mug));
     for (const Scene& whole : {scene, night})
         for (const auto& [id, node] : whole.nodes) EXPECT_EQ(is_visible(with_pose_applied(whole), id), is_visible(whole, id)) << node.name;
-    // What is imported into another scene is what it shows.
+    // Import into another scene takes the chosen scene and variant.
     const Project merged = *blush::apply(sample_project().project, Import{scene, "day"});
     EXPECT_EQ(merged.scene.nodes.size(), 2 * scene.nodes.size() - 3) << "without root, mug and lamp";
 }

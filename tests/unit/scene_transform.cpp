@@ -114,7 +114,7 @@ TEST(WorldFromNode, EndsOnACycle) {
     EXPECT_TRUE(is_visible(scene, id));
 }
 
-// A chain so deep that whoever walks it once for each of its nodes does not come to an end.
+// A chain so deep that an algorithm of quadratic time does not finish.
 TEST(Placements, OfADeepChainTakeOneWalk) {
     constexpr int depth = 100'000;
     Scene scene;

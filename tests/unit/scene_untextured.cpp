@@ -1,4 +1,4 @@
-// What stands in for textures that are still being read.
+// Preview scene while textures load.
 #include "scene/texture_slots.h"
 #include "scene/untextured.h"
 #include "scene/validate.h"

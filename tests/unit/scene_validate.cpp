@@ -129,7 +129,7 @@ TEST(Validate, RenderSettingsRanges) {
     EXPECT_FALSE(roulette([](Roulette& r) { r.start = -1; }));
 }
 
-// What edits make of a valid scene is valid again.
+// Edits of a valid scene give a valid scene.
 TEST(Validate, HoldsThroughRandomEdits) {
     test::Rng rng(11);
     Project project = test::sample_project().project;

@@ -1,4 +1,4 @@
-// Where light goes: white furnaces, the table of what facets lose, and its compensation.
+// Energy conservation: white furnaces, the table of microfacet energy loss, and its compensation.
 #include "shading_reference.h"
 #include "statistics.h"
 
@@ -85,7 +85,7 @@ TEST(Furnace, CoatsNeverGain) {
                     << "roughness " << roughness << ", " << describe(m, v);
 }
 
-// What the coat's facets throw onto each other comes back, and what it does not reflect the base does.
+// Energy compensation of the coat: its multiple scattering is restored, and the base reflects the rest.
 TEST(Energy, CompensatedCoatsOnWhiteLoseNothing) {
     const EnergyTable table = make_energy_table();
     for (const float roughness : roughnesses)

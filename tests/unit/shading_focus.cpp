@@ -1,4 +1,4 @@
-// Aiming at what focuses light: directions have the density that they are weighted by, and nothing is lost to it.
+// Caustic guiding: directions have their stated density, and no energy is lost.
 #include "shading/focus.h"
 
 #include "statistics.h"
@@ -72,7 +72,7 @@ TEST(Focus, ABallIsFoundManyTimesAsOftenAsByChance) {
     int found = 0;
     constexpr int count = 400'000;
     for (const Drawn& d : draw({&ball, 1}, count)) found += within(d.w, ball);
-    // The rest of the paths, fewer by the share that is aimed, find it by chance still.
+    // The other paths, fewer by the guided fraction, still find it by BSDF sampling.
     const double expected = focus_boost * cosine_part(ball) * count;
     EXPECT_NEAR(found, expected, 5 * std::sqrt(expected));
 }

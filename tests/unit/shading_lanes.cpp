@@ -1,4 +1,4 @@
-// The same bits whatever shades them: any superset of the features a material needs, one path or a register of them.
+// Bit-identical shading for any superset of the required features, and for one path or a SIMD register.
 #include "shading_materials.h"
 #include "shading_numbers.h"
 

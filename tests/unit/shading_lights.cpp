@@ -1,4 +1,4 @@
-// Samplers of lights follow the densities they claim.
+// Light sampling has its stated densities.
 #include "shading/light.h"
 #include "shading/sphere_light.h"
 #include "statistics.h"

@@ -1,4 +1,4 @@
-// The model is the one of the specification: compared with its formulas in double precision, and with optics' known answers.
+// Material model against the formulas of the specification in double precision, and known results of optics.
 #include "shading_reference.h"
 #include "statistics.h"
 

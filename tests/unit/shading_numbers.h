@@ -1,4 +1,4 @@
-// Every number of the parameters of scattering, for tests that pack them into lanes and compare their bits.
+// All BSDF parameters as numbers, for tests that pack them into lanes and compare bits.
 #pragma once
 
 #include "shading/bsdf_types.h"

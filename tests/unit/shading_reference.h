@@ -1,4 +1,4 @@
-// The model a second time, in double precision, as its sources print it and without a thought for numerics: glTF 2.0 Appendix B,
+// Reference implementation of the material model in double precision, as published: glTF 2.0 Appendix B,
 // KHR_materials_specular and _transmission, and Walter et al. 2007 for refraction. What the lanes compute is compared with it.
 #pragma once
 
@@ -142,7 +142,7 @@ inline Vec3d coat_over(const Vec3d& base, const Params& p, Vec3d wo, Vec3d wi) {
     if (p.layers.clearcoat == 0) return base;
     Vec3d n = to_double(p.layers.clearcoat_normal);
     if (is_solid(p) && wo.z < 0) wo.z = -wo.z, wi.z = -wi.z, n.x = -n.x, n.y = -n.y;
-    if (dot(n, wo) <= double(least_facing)) n = {0, 0, 1}; // nobody looks at the back of a tilted normal
+    if (dot(n, wo) <= double(least_facing)) n = {0, 0, 1}; // tilted normals must face the viewer
     const Frame frame(n);
     const Vec3d o = frame.to_local(wo), i = frame.to_local(wi);
     const double share = p.layers.clearcoat * (0.04 + 0.96 * std::pow(1 - o.z, 5));

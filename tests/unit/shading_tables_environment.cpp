@@ -1,4 +1,4 @@
-// The environment: what is seen, what is drawn, and that the two agree.
+// Environment: lookup, importance sampling, and their consistency.
 #include "render/environment_table.h"
 #include "statistics.h"
 #include "unit/shading_tables.h"
@@ -248,7 +248,7 @@ TEST(EnvironmentSampling, DensityIntegratesToOne) {
     }
 }
 
-// What makes it worth the search: a cell's share of the samples is its share of the light.
+// A cell's share of the samples equals its share of the light.
 TEST(EnvironmentSampling, CellsAreDrawnByTheLightOfTheFilteredMap) {
     for (const NamedMap& map : maps()) {
         const EnvironmentTable table = build_environment_table(map.environment);
@@ -271,7 +271,7 @@ TEST(EnvironmentSampling, CellsAreDrawnByTheLightOfTheFilteredMap) {
             for (int column = 0; column < table.width; ++column) {
                 const statistics::Chart::Point center = model.point((row + 0.5) / (table.height + 1), (column + 0.5) / table.width);
                 const double coarse = mean(row, column, 8), fine = mean(row, column, 16);
-                // Thresholds are whole 2^-32ths, one of them given to every cell that shines at all.
+                // Thresholds are multiples of 2^-32; every cell with light gets at least one.
                 const double quantum =
                     (table.width + table.height + 3) * 0x1p-32 / (center.solid_angle / ((table.height + 1) * table.width));
                 const double expected = fine / total;

@@ -1,4 +1,4 @@
-// Everything the tables answer, for many points at once: instantiated per lane type and instruction set to compare bits.
+// All table lookups for many points, instantiated per lane type and instruction set to compare bits.
 #pragma once
 
 #include "shading/environment.h"

@@ -1,4 +1,4 @@
-// Lane by lane and instruction set by instruction set, the tables answer with the same bits.
+// Table lookups are bit-identical across lanes and instruction sets.
 #include "render/environment_table.h"
 #include "render/material_table.h"
 #include "scene/texture_slots.h"

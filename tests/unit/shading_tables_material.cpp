@@ -1,4 +1,4 @@
-// Materials from the document to what the estimator sees at a point.
+// Materials from the document to the BSDF parameters at a shading point.
 #include "render/material_table.h"
 #include "scene/texture_slots.h"
 #include "unit/shading_numbers.h"
@@ -381,7 +381,7 @@ TEST(MaterialTable, FeaturesAreWhatTheMaterialUses) {
 
 namespace {
 
-// What a material without some features looks like to kernels with and without them.
+// A material without some features in kernels with and without them.
 template <uint32_t Bits> void expect_same_bits(const Scene& scene, const MaterialTable& table, Random& random, int& compared) {
     constexpr Features kernel{Bits};
     for (const auto& [id, material] : scene.materials) {

@@ -1,4 +1,4 @@
-// Smaller versions of images, and looks that take in more than a texel.
+// Mip levels, and lookups with a footprint.
 #include "core/half.h"
 #include "core/srgb.h"
 #include "render/material_table.h"
