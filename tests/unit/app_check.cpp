@@ -40,7 +40,7 @@ TEST(CheckCommand, ListsWithoutRunning) {
         EXPECT_NE(list.out.find(word), std::string::npos) << word;
 }
 
-TEST(CheckCommand, AnUnknownGroupIsBadUsage) {
+TEST(CheckCommand, UnknownGroupIsAUsageError) {
     const Finished finished = test::blush({"check", "--group", "no such group"});
     EXPECT_EQ(finished.exit_code, 2);
     EXPECT_TRUE(test::is_one_line(finished.err)) << finished.err;

@@ -31,7 +31,7 @@ TEST(CompareCommand, AnImageEqualsItself) {
     EXPECT_NEAR(json["mean_a"][2].get<double>(), 3, 1e-6);
 }
 
-TEST(CompareCommand, TheTableSaysTheSame) {
+TEST(CompareCommand, TableAgreesWithJson) {
     const TemporaryFolder folder;
     write_constant_exr(folder / "a.exr", 16, 8, {1, 1, 1});
     write_constant_exr(folder / "b.exr", 16, 8, {0.5f, 0.5f, 0.5f});
@@ -57,7 +57,7 @@ TEST(CompareCommand, DisplayImages) {
     EXPECT_NEAR(json["mean_b"][0].get<double>(), 1, 1e-6);
 }
 
-TEST(CompareCommand, WhatCannotBeComparedIsAnError) {
+TEST(CompareCommand, IncomparableImagesAreErrors) {
     const TemporaryFolder folder;
     write_constant_exr(folder / "a.exr", 16, 8, {1, 1, 1});
     write_constant_exr(folder / "b.exr", 8, 16, {1, 1, 1});

@@ -54,7 +54,7 @@ TEST(Variants, PresetsAllParse) {
     EXPECT_FALSE(preset_variants("all", {}));
 }
 
-TEST_F(Converge, WritesCsvJsonAndAReportThatNeedsNothingElse) {
+TEST_F(Converge, WritesCsvJsonAndASelfContainedReport) {
     const Finished f = run_converge({"--size", "40x40", "--spp", "16", "--repeats", "2", "--preset", "strategies"});
     ASSERT_EQ(f.exit_code, 0) << f.err;
     const auto j = json();
@@ -75,7 +75,7 @@ TEST_F(Converge, WritesCsvJsonAndAReportThatNeedsNothingElse) {
     for (const char* outside : {"src='http", "href=", "<script", "url("}) EXPECT_EQ(html.find(outside), html.npos) << outside;
 }
 
-TEST_F(Converge, CatchesWhatIsWrongAndByHowMuch) {
+TEST_F(Converge, DetectsBiasAndItsSize) {
     const Finished f = run_converge({"--size", "40x40", "--spp", "64", "--repeats", "2", "--variant", "cut: --roulette biased-cut=0.3",
                                      "--variant", "two: --max-bounces 2", "--variant", "right: --roulette luminance"});
     ASSERT_EQ(f.exit_code, 0) << f.err;
@@ -100,7 +100,7 @@ TEST_F(Converge, CatchesWhatIsWrongAndByHowMuch) {
     }
 }
 
-TEST_F(Converge, KeepsItsReferenceAndMakesItBetter) {
+TEST_F(Converge, CachesAndExtendsItsReference) {
     const std::vector<std::string> few{"--size", "24x24", "--spp", "4", "--repeats", "1"},
         more{"--size", "24x24", "--spp", "8", "--repeats", "1"};
     ASSERT_EQ(run_converge(few).exit_code, 0);
@@ -117,7 +117,7 @@ TEST_F(Converge, KeepsItsReferenceAndMakesItBetter) {
     EXPECT_EQ(json()["reference"]["source"], "rendered");
 }
 
-TEST_F(Converge, ABrokenCacheIsMadeAnew) {
+TEST_F(Converge, RebuildsABrokenCache) {
     const std::vector<std::string> options{"--size", "24x24", "--spp", "4", "--repeats", "1"};
     ASSERT_EQ(run_converge(options).exit_code, 0);
     for (const auto& file : std::filesystem::directory_iterator(folder / "cache/blush/references"))
@@ -126,7 +126,7 @@ TEST_F(Converge, ABrokenCacheIsMadeAnew) {
     EXPECT_EQ(json()["reference"]["source"], "rendered");
 }
 
-TEST_F(Converge, ReferencesNeverShareSamplesWithWhatTheyJudge) {
+TEST_F(Converge, ReferencesShareNoSamplesWithVariants) {
     Reference r;
     r.measured.image = {1, 1, {{1, 1, 1}}};
     r.measured.error = {{0.1f, 0.1f, 0.1f}};
@@ -158,7 +158,7 @@ TEST_F(Converge, TakesAReferenceFromAFile) {
     EXPECT_TRUE(is_one_line(wrong.err)) << wrong.err;
 }
 
-TEST_F(Converge, RefusesWhatMakesNoSense) {
+TEST_F(Converge, RefusesInvalidOptions) {
     for (const std::vector<std::string>& options :
          std::vector<std::vector<std::string>>{{"--variant", "nameless"},
                                                {"--preset", "all"},

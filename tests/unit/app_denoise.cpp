@@ -96,7 +96,7 @@ TEST(DenoiseCommand, AddsALayerAndKeepsEverythingElse) {
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 2) << "nothing else is left behind";
 }
 
-TEST(DenoiseCommand, OnceMoreGivesTheSame) {
+TEST(DenoiseCommand, IsIdempotent) {
     const TemporaryFolder folder;
     write(folder / "in.exr", noisy_image(false));
     ASSERT_EQ(test::blush({"denoise", folder / "in.exr", "-o", folder / "once.exr", "--threads", "1"}).exit_code, 0);
@@ -119,7 +119,7 @@ TEST(DenoiseCommand, QualitiesAndGuidesChooseTheNetwork) {
     EXPECT_EQ(network("guided.exr", "high"), "rt_hdr_calb_cnrm");
 }
 
-TEST(DenoiseCommand, DisplayImagesAreDenoisedAsLightAndStayAsBright) {
+TEST(DenoiseCommand, DisplayImagesAreDenoisedLinearlyAndKeepBrightness) {
     const TemporaryFolder folder;
     ASSERT_TRUE(write_display_image(folder / "in.png", width, height, std::vector<float>(pixels * 3, 0.5f)));
     for (const char* name : {"out.png", "out.jpg"}) {
@@ -140,7 +140,7 @@ TEST(DenoiseCommand, SceneLinearImagesGoThroughTheViewIntoPictures) {
     EXPECT_EQ(read_layers(folder / "a.png")->metadata.at("blush:denoised").substr(0, 16), "rt_hdr_calb_cnrm");
 }
 
-TEST(DenoiseCommand, WhatIsNotANumberIsCountedAndGone) {
+TEST(DenoiseCommand, NonFinitePixelsAreCountedAndReplaced) {
     const TemporaryFolder folder;
     LayeredImage in = noisy_image(true);
     in.channels[0].values[5] = std::numeric_limits<float>::quiet_NaN();
@@ -157,7 +157,7 @@ TEST(DenoiseCommand, WhatIsNotANumberIsCountedAndGone) {
     }
 }
 
-TEST(DenoiseCommand, WhatCannotBeDoneIsOneLine) {
+TEST(DenoiseCommand, ErrorsAreOneLine) {
     const TemporaryFolder folder;
     write(folder / "in.exr", noisy_image(false));
     LayeredImage no_color{2, 2, {{"depth.Z", {1, 2, 3, 4}}}, {}};
@@ -182,7 +182,7 @@ TEST(DenoiseCommand, WhatCannotBeDoneIsOneLine) {
         << "rendering needs no weights";
 }
 
-TEST(DenoiseCommand, DamagedWeightsAreFoundOutBeforeRendering) {
+TEST(DenoiseCommand, DamagedWeightsAreDetectedBeforeRendering) {
     const TemporaryFolder folder;
     std::filesystem::copy(std::filesystem::path(BLUSH_BINARY).parent_path() / "weights", folder / "weights");
     std::filesystem::resize_file(folder / "weights/rt_hdr_alb_nrm_small.tza", 5000);
@@ -196,7 +196,7 @@ TEST(DenoiseCommand, DamagedWeightsAreFoundOutBeforeRendering) {
     EXPECT_FALSE(std::filesystem::exists(folder / "out.exr"));
 }
 
-TEST(RenderDenoised, TheLayerStandsBesideTheUntouchedBeauty) {
+TEST(RenderDenoised, AddsALayerAndKeepsTheBeauty) {
     const TemporaryFolder folder;
     const std::vector<std::string> common{"--size", "64x48", "--spp", "4"};
     const auto render = [&](std::vector<std::string> more) {

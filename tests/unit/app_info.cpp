@@ -38,14 +38,14 @@ TEST(InfoCommand, HasTheDefaultsOfRender) {
     EXPECT_EQ(std::ranges::count(info["features"], Json("path reuse")), 1) << info["features"];
 }
 
-TEST(InfoCommand, SaysWhatASceneNeeds) {
+TEST(InfoCommand, ListsTheFeaturesOfAScene) {
     const Finished finished = test::blush({"info", scene_file("furnace")});
     EXPECT_EQ(finished.exit_code, 0) << finished.err;
     for (const char* word : {"geometry", "an environment", "kernel", "left out", "saves"})
         EXPECT_NE(finished.out.find(word), std::string::npos) << word;
 }
 
-TEST(InfoCommand, MeasuresTheKernelBesideTheOneWithEverything) {
+TEST(InfoCommand, ComparesTheKernelWithTheFullKernel) {
     const Json speed = blush_json({"info", scene_file("cornell"), "--measure"})["kernel"]["speed"];
     ASSERT_TRUE(speed.is_object());
     EXPECT_NE(speed["own"], speed["full"]);

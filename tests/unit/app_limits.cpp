@@ -36,7 +36,7 @@ std::vector<std::string> small_render(const std::string& output, const std::stri
 
 // Sanitizers reserve more address space than these limits.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-TEST(Limits, LittleMemoryEndsInOneLine) {
+TEST(Limits, OutOfMemoryIsOneLine) {
     const TemporaryFolder folder;
     int refused = 0;
     for (int mib = 180; mib <= 1000; mib += 40) {
@@ -51,7 +51,7 @@ TEST(Limits, LittleMemoryEndsInOneLine) {
     EXPECT_GT(refused, 0) << "some of these limits must be too low, or nothing was tested";
 }
 
-TEST(Limits, APictureThatIsTooLargeSaysHowMuchItWants) {
+TEST(Limits, TooLargeImagesStateTheirMemory) {
     const TemporaryFolder folder;
     const Finished finished = in_shell("ulimit -v 4000000;", {"render", scene_file("cornell"), "-o", folder / "a.exr", "--size", "20000x20000", "--spp", "1", "--quiet"});
     EXPECT_TRUE(ends_in_one_line(finished));
@@ -84,7 +84,7 @@ TEST(Limits, LibrariesStayQuiet) {
         }
 }
 
-TEST(Limits, AJpegThatCannotBeIsRefusedBeforeRendering) {
+TEST(Limits, ImpossibleJpegsAreRefusedBeforeRendering) {
     const TemporaryFolder folder;
     for (const char* size : {"65501x1", "1x65536"}) {
         const Finished finished = test::blush({"render", folder / "not-there.gltf", "-o", folder / "a.jpg", "--size", size});
@@ -126,7 +126,7 @@ double mean_of(const std::string& exr) {
     return sum / double(image.find("G")->values.size());
 }
 
-TEST(Said, NoLightInAFileAndLightForIt) {
+TEST(Said, NoLightInAFileSuggestsALightRig) {
     const TemporaryFolder folder;
     const std::string scene = triangle_file(folder, 2);
     const std::vector<std::string> arguments{"render", scene, "-o", folder / "a.exr", "--size", "64x48", "--spp", "16"};
@@ -151,7 +151,7 @@ TEST(Said, NoLightInAFileAndLightForIt) {
     EXPECT_NE(own.err.find("has light of its own"), std::string::npos) << own.err;
 }
 
-TEST(Said, NothingIsSeen) {
+TEST(Said, NothingIsVisible) {
     const TemporaryFolder folder;
     for (const double z : {2.0, -2.0}) {
         const Json json = test::blush_json({"render", triangle_file(folder, z), "-o", folder / "a.exr", "--size", "32x32", "--spp", "1", "--env", "constant=1,1,1"});
@@ -159,7 +159,7 @@ TEST(Said, NothingIsSeen) {
     }
 }
 
-TEST(Said, AnEnvironmentWithValuesThatAreNoRadiance) {
+TEST(Said, EnvironmentsWithInvalidRadiance) {
     const TemporaryFolder folder;
     const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
     ASSERT_TRUE(write_exr(folder / "sky.exr", {2, 1, {{"R", {1, nan}}, {"G", {1, inf}}, {"B", {1, -1}}}, {}}));

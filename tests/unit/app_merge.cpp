@@ -54,7 +54,7 @@ void expect_same_channels(const std::string& file, const std::string& expected_f
     }
 }
 
-TEST(Continue, EndsAsIfItHadNeverStopped) {
+TEST(Continue, EqualsAnUninterruptedRender) {
     const TemporaryFolder folder;
     expect_done(with(with(tiny(folder / "whole.exr"), all_layers), {"--spp", "24", "--seed", "3", "--max-bounces", "4"}));
     expect_done(with(with(tiny(folder / "begun.exr"), all_layers), {"--spp", "11", "--seed", "3", "--max-bounces", "4"}));
@@ -68,7 +68,7 @@ TEST(Continue, EndsAsIfItHadNeverStopped) {
     EXPECT_EQ(metadata->settings.seed, 3u);
 }
 
-TEST(Continue, GoesOnWithAdaptiveSamplingAndAnotherEnvironment) {
+TEST(Continue, ResumesAdaptiveSamplingAndAnotherEnvironment) {
     const TemporaryFolder folder;
     const Arguments options{"--adaptive", "on", "--env", "constant=0.2,0.3,0.4", "--layers", "samples,film"};
     expect_done(with(with(tiny(folder / "whole.exr"), options), {"--spp", "40"}));
@@ -78,7 +78,7 @@ TEST(Continue, GoesOnWithAdaptiveSamplingAndAnotherEnvironment) {
     expect_same_channels(folder / "done.exr", folder / "whole.exr");
 }
 
-TEST(Continue, SaysWhyItCannot) {
+TEST(Continue, ErrorsNameTheReason) {
     const TemporaryFolder folder;
     const auto fails = [&](const Arguments& arguments, int code, const std::string& why) {
         const Finished finished = blush(arguments);
@@ -98,7 +98,7 @@ TEST(Continue, SaysWhyItCannot) {
     fails(with(go_on("cornell", "film.exr"), {"--layers", "albedo"}), 1, "without the plane \"albedo.R\"");
 }
 
-TEST(Merge, OfSumsIsTheWholeRender) {
+TEST(Merge, OfFilmStatesIsTheWholeRender) {
     const TemporaryFolder folder;
     expect_done(with(with(tiny(folder / "whole.exr"), all_layers), {"--samples", "0:14"}));
     Arguments merge{"merge", "--quiet", "-o", folder / "merged.exr"};
@@ -123,7 +123,7 @@ TEST(Merge, OfSumsIsTheWholeRender) {
 }
 
 // The sums do not depend on the light mix; the image does.
-TEST(Merge, OfSumsIsMixedAsTheWholeRender) {
+TEST(Merge, OfFilmStatesAppliesTheLightMix) {
     const TemporaryFolder folder;
     const nlohmann::json channel{{"group", "light 2"}, {"intensity", 3}, {"color", {1, 0.5, 0.25}}};
     const std::string scene = test::scene_with_mix(folder, "veach-mis", {{"grouping", "by_light"}, {"channels", {channel}}});
@@ -158,7 +158,7 @@ TEST(Merge, OfMeansWeighsThemByTheirSamples) {
     }
 }
 
-TEST(Merge, RefusesWhatDoesNotBelongTogether) {
+TEST(Merge, RefusesImagesOfDifferentRenders) {
     const TemporaryFolder folder;
     const auto render = [&](const std::string& name, const Arguments& more) { expect_done(with(tiny(folder / name), more)); };
     render("a.exr", {"--samples", "0:2"});

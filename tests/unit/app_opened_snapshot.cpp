@@ -27,7 +27,7 @@ LayeredImage picture(const TemporaryFolder& folder) {
 
 Scene cornell() { return import_gltf(test::scene_file("cornell"), {})->scene; }
 
-TEST(OpenedSnapshot, HasPicturesSamplesAndState) {
+TEST(OpenedSnapshot, RestoresImageSamplesAndState) {
     const TemporaryFolder folder;
     LayeredImage image = picture(folder);
     const Scene imported = cornell();
@@ -58,7 +58,7 @@ TEST(OpenedSnapshot, HasPicturesSamplesAndState) {
     EXPECT_EQ(state->project.view.exposure_ev, 1.5f);
 }
 
-TEST(OpenedSnapshot, SaysWhatItCannotBringBack) {
+TEST(OpenedSnapshot, ReportsWhatCannotBeRestored) {
     const TemporaryFolder folder;
     LayeredImage image = picture(folder);
     image.metadata["blush:scene"] = "gone.gltf";

@@ -5,7 +5,7 @@
 namespace blush {
 namespace {
 
-TEST(Progress, DurationsReadWell) {
+TEST(Progress, DurationsAreReadable) {
     EXPECT_EQ(duration_text(0), "0 s");
     EXPECT_EQ(duration_text(41.2), "42 s");
     EXPECT_EQ(duration_text(59.9), "1 min 00 s");
@@ -20,7 +20,7 @@ TEST(Progress, TheBarFills) {
     EXPECT_EQ(progress_bar(1, 10, "64 spp", 80), "[####################] 100 %  64 spp");
 }
 
-TEST(Progress, AHundredPerCentIsSaidOnlyWhenReached) {
+TEST(Progress, ShowsHundredPercentOnlyAtTheEnd) {
     EXPECT_NE(progress_bar(0.9999, 10, "", 80).find(" 99 %"), std::string::npos);
     EXPECT_EQ(progress_bar(0.9999, 10, "", 80).find("100"), std::string::npos);
 }

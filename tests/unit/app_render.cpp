@@ -131,7 +131,7 @@ TEST(Render, AdaptiveSamplingIsRecordedAndItsLayerHoldsTheSamplesOfEachPixel) {
     EXPECT_EQ(metadata->spp, 40);
 }
 
-TEST(Render, ClampingSaysWhatItTakes) {
+TEST(Render, ClampingReportsLostEnergy) {
     const TemporaryFolder folder;
     const Json plain = blush_json(with(tiny("cornell", folder / "plain.exr"), {"--quiet"}));
     EXPECT_FALSE(plain.contains("clamp")) << "off unless asked for";
@@ -175,7 +175,7 @@ TEST(Render, ExposureBrightensPicturesAndLeavesExrsAlone) {
     EXPECT_EQ(beauty(*read_layers(folder / "plain.exr")), beauty(*read_layers(folder / "bright.exr")));
 }
 
-TEST(Render, TheSameSeedGivesTheSameImageWhateverTheThreads) {
+TEST(Render, ImageDoesNotDependOnThreads) {
     const TemporaryFolder folder;
     ASSERT_EQ(test::blush(with(tiny("cornell", folder / "one.exr"), {"--threads", "1"})).exit_code, 0);
     ASSERT_EQ(test::blush(with(tiny("cornell", folder / "three.exr"), {"--threads", "3"})).exit_code, 0);
@@ -315,7 +315,7 @@ TEST(Render, PixelPrintsEveryVertex) {
 
 // Ctrl-C after the progress bar (or the progress line without a terminal) shows samples: the image is written and marked as
 // partial.
-TEST(Render, CtrlCKeepsWhatThereIs) {
+TEST(Render, CtrlCSavesThePartialImage) {
     const TemporaryFolder folder;
     bool sent = false;
     test::RunOptions options;

@@ -71,7 +71,7 @@ TEST(RenderLoop, RendersAsManySamplesAsAskedFor) {
     EXPECT_EQ(result.frame.rgba.size(), size_t(16 * 12 * 4));
 }
 
-TEST(RenderLoop, BatchesDoNotShowInTheImage) {
+TEST(RenderLoop, ImageDoesNotDependOnBatches) {
     const std::atomic<bool> no{false};
     const RenderSettings settings = tiny(16);
     const Scene scene = test::sample_project().project.scene;
@@ -83,7 +83,7 @@ TEST(RenderLoop, BatchesDoNotShowInTheImage) {
     EXPECT_EQ(result.frame.rgba, at_once.resolve().rgba);
 }
 
-TEST(RenderLoop, AnInterruptKeepsWhatThereIs) {
+TEST(RenderLoop, AnInterruptKeepsThePartialImage) {
     std::atomic<bool> interrupted{false};
     Renderer renderer;
     const RenderSettings settings = tiny(plenty);
@@ -109,7 +109,7 @@ TEST(RenderLoop, AnErrorLimitStopsIt) {
 }
 
 // Otherwise the image of an error limit would depend on the speed of the machine.
-TEST(RenderLoop, LooksAtTheErrorAfterTheSameSamplesHoweverFastItIs) {
+TEST(RenderLoop, ChecksTheErrorAtFixedSampleCounts) {
     const std::atomic<bool> no{false};
     Renderer renderer;
     RenderSettings settings = tiny(40);

@@ -23,7 +23,7 @@ bool refused(const std::vector<std::string>& arguments) {
     return false;
 }
 
-TEST(RenderOptions, NothingGivenIsTheDefault) {
+TEST(RenderOptions, NoOptionsGiveTheDefaults) {
     const RenderOptions options = parsed({});
     EXPECT_EQ(*settings_of(options), recommended_settings());
     EXPECT_EQ(options.view, ViewSettings{});
@@ -116,7 +116,7 @@ TEST(RenderOptions, EachOptionSetsItsField) {
     EXPECT_EQ(options.overrides.camera, "Top");
 }
 
-TEST(RenderOptions, ASideThatIsNotSaidFollowsTheAspect) {
+TEST(RenderOptions, AMissingSideFollowsTheAspect) {
     const auto size_for = [](std::vector<std::string> arguments, float aspect) {
         RenderOptions options = parsed(arguments);
         follow_aspect(options, aspect);
@@ -158,7 +158,7 @@ TEST(RenderOptions, AdaptiveSamplingTakesNoRange) {
     }
 }
 
-TEST(RenderOptions, AnotherLimitLiftsTheDefaultOne) {
+TEST(RenderOptions, AnotherLimitRemovesTheDefaultLimit) {
     EXPECT_EQ(settings_of(parsed({"--time", "5"}))->spp, 0);
     EXPECT_EQ(settings_of(parsed({"--error", "0.01"}))->spp, 0);
     EXPECT_EQ(settings_of(parsed({"--time", "5", "--spp", "64"}))->spp, 64);

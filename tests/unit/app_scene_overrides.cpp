@@ -48,7 +48,7 @@ float eye_x_of(const std::string& camera) {
     return scene.view.position.x;
 }
 
-TEST(Overrides, CamerasGoByNameOrNumber) {
+TEST(Overrides, CamerasAreFoundByNameOrNumber) {
     EXPECT_EQ(eye_x_of("Camera"), 0);
     EXPECT_EQ(eye_x_of("0"), 0);
     EXPECT_EQ(eye_x_of("1"), 3);
@@ -74,7 +74,7 @@ TEST(Overrides, WithoutACameraTheSceneIsFramed) {
     EXPECT_EQ(apply_overrides({.camera = "A"}, scene, 1).error().text(), "there is no camera \"A\": the scene has none");
 }
 
-TEST(Overrides, AnimationsScenesAndVariantsGoByNameOrNumber) {
+TEST(Overrides, AnimationsScenesAndVariantsAreFoundByNameOrNumber) {
     Sample s = sample_project();
     s.project.scene.scene_names = {"Day", "Night"};
     const auto staging = [&](const StagingChoice& choice) {
@@ -93,7 +93,7 @@ TEST(Overrides, AnimationsScenesAndVariantsGoByNameOrNumber) {
     EXPECT_EQ(staging({.animation = "none", .variant = "none"}), Staging{});
 }
 
-TEST(Overrides, WhatThereIsNotToChooseIsSaid) {
+TEST(Overrides, UnknownChoicesAreErrors) {
     const auto error = [](const StagingChoice& choice) {
         Scene scene = sample_project().project.scene;
         const Result<void> applied = apply_overrides({.staging = choice}, scene, 1);
@@ -107,7 +107,7 @@ TEST(Overrides, WhatThereIsNotToChooseIsSaid) {
 }
 
 // The camera has its animated transform.
-TEST(Overrides, ACameraIsChosenInThePose) {
+TEST(Overrides, CamerasUseTheAnimatedPose) {
     Sample s = sample_project();
     Clip clip = *s.project.scene.clips.find(s.swing);
     clip.channels.push_back({s.camera_node, Channel::Property::translation, clip.channels.back().keyframes});

@@ -35,7 +35,7 @@ TEST(Usage, HelpAndVersionAreOnStdout) {
     EXPECT_TRUE(version.out.starts_with("blush ") && is_one_line(version.out)) << version.out;
 }
 
-TEST(Usage, BadUsageIsTwo) {
+TEST(Usage, UsageErrorsExitWithTwo) {
     const std::string scene = scene_file("cornell");
     EXPECT_TRUE(refused(2, {"render"}, "scene is required"));
     EXPECT_TRUE(refused(2, {"render", scene}, "render needs -o"));
@@ -61,7 +61,7 @@ TEST(Usage, BadUsageIsTwo) {
     EXPECT_TRUE(refused(2, {"a.gltf", "b.gltf"}, "b.gltf"));
 }
 
-TEST(Usage, FailuresAreOneAndNameTheFile) {
+TEST(Usage, FailuresExitWithOneAndNameTheFile) {
     const TemporaryFolder folder;
     std::ofstream(folder / "broken.gltf") << "{ \"asset\": ";
     const std::string scene = scene_file("cornell"), output = folder / "x.exr";

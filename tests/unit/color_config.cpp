@@ -65,7 +65,7 @@ TEST(Config, EmptyNamesMeanTheDefaults) {
     EXPECT_EQ(color.display_shader({})->text, color.display_shader({"sRGB", "ACES SDR"})->text);
 }
 
-TEST(Config, UnknownNamesAreAnsweredWithTheKnownOnes) {
+TEST(Config, ErrorsOfUnknownNamesListTheKnownOnes) {
     const auto color = shipped_config();
     Pixel p = grey(0.5f);
     const auto view = color.apply_display({"sRGB", "Sepia"}, {}, p.data(), 1);
@@ -80,7 +80,7 @@ TEST(Config, UnknownNamesAreAnsweredWithTheKnownOnes) {
     EXPECT_EQ(p, grey(0.5f));
 }
 
-TEST_F(ConfigFiles, BrokenOnesFallBackToOurs) {
+TEST_F(ConfigFiles, BrokenConfigsFallBackToTheShippedOne) {
     const std::string working = "  - !<ColorSpace> {name: working}\n";
     const std::string missing_table = "  - !<ColorSpace> {name: shown, from_scene_reference: !<FileTransform> {src: absent.spi1d}}\n";
     const std::string broken[] = {
@@ -106,7 +106,7 @@ TEST_F(ConfigFiles, BrokenOnesFallBackToOurs) {
 }
 
 // With any invalid config there is a fallback config.
-TEST_F(ConfigFiles, AnyBytesEndInAConfig) {
+TEST_F(ConfigFiles, AnyBytesGiveAConfig) {
     std::ifstream shipped(std::filesystem::path(BLUSH_ASSETS) / "ocio" / "config.ocio");
     const std::string whole(std::istreambuf_iterator<char>(shipped), {});
     std::mt19937 random(4);
@@ -133,7 +133,7 @@ TEST_F(ConfigFiles, AnyBytesEndInAConfig) {
     EXPECT_NE(ColorManagement::load(BLUSH_ASSETS, "/dev/zero")->warning(), "");
 }
 
-TEST_F(ConfigFiles, OursBrokenIsAnError) {
+TEST_F(ConfigFiles, ABrokenShippedConfigIsAnError) {
     const auto color = ColorManagement::load(folder_);
     ASSERT_FALSE(color);
     EXPECT_NE(color.error().text().find("config.ocio"), std::string::npos);

@@ -19,7 +19,7 @@ Pixel show_with(const ColorManagement& color, const DisplayTransform& transform,
     return pixel;
 }
 
-TEST(Looks, TurnAboutMiddleGreyOrTakeTheColourAway) {
+TEST(Looks, PivotAtMiddleGreyOrDesaturate) {
     const auto color = shipped_config();
     const auto standard = [&](const char* look, const Pixel& p) { return show_with(color, {"sRGB", "Standard", look}, {}, p); };
     for (const char* look : {"Low contrast", "High contrast"}) {
@@ -33,7 +33,7 @@ TEST(Looks, TurnAboutMiddleGreyOrTakeTheColourAway) {
     for (size_t i = 0; i < 3; ++i) EXPECT_NEAR(plain[i], srgb_encoded(luminance(mixed)), 1e-3);
 }
 
-TEST(Looks, AreOneMoreNameOfEveryView) {
+TEST(Looks, AreAvailableInEveryView) {
     const auto color = shipped_config();
     EXPECT_EQ(color.looks(), (std::vector<std::string>{"Low contrast", "High contrast", "Black and white"}));
     for (const auto& look : color.looks())
@@ -70,7 +70,7 @@ TEST(WhiteBalance, IsTheBradfordAdaptation) {
     }
 }
 
-TEST(WhiteBalance, LeavesGreysAndWhatIsNoColourAlone) {
+TEST(WhiteBalance, IgnoresGreysAndInvalidColours) {
     for (const Vec3& p : {Vec3{1, 1, 1}, Vec3{0.3f, 0.3f, 0.3f}, Vec3{0, 0, 0}, Vec3{-1, 1, 1}, Vec3{nan, 1, 1}, Vec3{inf, 1, 1}})
         EXPECT_EQ(white_balance(p), Affine{});
 }
@@ -136,12 +136,12 @@ TEST(FalseColor, BandsLieBetweenTheirEdges) {
     }
 }
 
-TEST(FalseColor, ColoursAreToldApart) {
+TEST(FalseColor, ColoursAreDistinguishable) {
     for (size_t i = 0; i < false_colors.size(); ++i)
         for (size_t j = 0; j < i; ++j) EXPECT_GT(length(false_colors[i] - false_colors[j]), 30.0f / 255) << i << ' ' << j;
 }
 
-TEST(FalseColor, TakeThePlaceOfTheViewOnEveryDisplay) {
+TEST(FalseColor, ReplacesTheViewOnEveryDisplay) {
     const auto color = shipped_config();
     for (const auto& display : color.displays()) {
         DisplayNumbers numbers{.exposure_ev = 3, .gamma = 2, .false_color = one_to_thousand};
@@ -157,7 +157,7 @@ TEST(FalseColor, TakeThePlaceOfTheViewOnEveryDisplay) {
     }
 }
 
-TEST(Background, AsItIsIsClippedAndEncodedAndNothingElse) {
+TEST(Background, AsItIsIsOnlyClippedAndEncoded) {
     const auto color = shipped_config();
     const DisplayNumbers numbers{
         .exposure_ev = -3, .gamma = 2, .white_balance = white_balance({1, 0.5f, 0.2f}), .background_as_it_is = true};

@@ -32,7 +32,7 @@ std::vector<std::vector<double>> examples() {
 } // namespace
 
 // Tests the ends of each index's interval [thresholds[i], thresholds[i + 1]).
-TEST(Distribution, IntervalsAreDrawnAndReportedExactly) {
+TEST(Distribution, ProbabilitiesAreBitExact) {
     for (const std::vector<double>& weights : examples()) {
         const std::vector<uint32_t> thresholds = make_thresholds(weights);
         const size_t n = weights.size();
@@ -91,7 +91,7 @@ TEST(Distribution, OneWeightIsCertain) {
     }
 }
 
-TEST(Distribution, DrawsFollowTheWeights) {
+TEST(Distribution, SamplesFollowTheWeights) {
     const std::vector<double> weights = {3, 0, 1, 0.5, 0, 7, 2, 0.01};
     const std::vector<uint32_t> thresholds = make_thresholds(weights);
     std::mt19937 random(5);
@@ -109,7 +109,7 @@ TEST(Distribution, DrawsFollowTheWeights) {
     EXPECT_TRUE(z_test(remainder, 0.5));
 }
 
-TEST(Distribution, LargestTableStillGivesEveryWeightItsTurn) {
+TEST(Distribution, EveryWeightOfTheLargestTableIsSampled) {
     constexpr int n = 1 << 24;
     std::vector<double> weights(n, 1e-9);
     weights[12345] = 1;

@@ -16,7 +16,7 @@ namespace {
 
 void pause_a_little() { std::this_thread::sleep_for(std::chrono::microseconds(100)); }
 
-TEST(HelpingThreads, DoEachPieceOnceHoweverManyThereAre) {
+TEST(HelpingThreads, RunEachTaskOnce) {
     for (const unsigned threads : {0u, 1u, 2u, 7u})
         for (const size_t count : {0, 1, 5, 3000}) {
             std::vector<std::atomic<int>> done(count);
@@ -29,7 +29,7 @@ TEST(HelpingThreads, DoEachPieceOnceHoweverManyThereAre) {
         }
 }
 
-TEST(HelpingThreads, DoLargePiecesOneAfterAnother) {
+TEST(HelpingThreads, RunLargeTasksOneAtATime) {
     std::atomic<int> at_once = 0, most = 0;
     HelpingThreads helpers(4);
     helpers.begin(std::vector<int64_t>(50, 11), 10, [&](size_t) {
@@ -41,7 +41,7 @@ TEST(HelpingThreads, DoLargePiecesOneAfterAnother) {
     EXPECT_EQ(most, 1);
 }
 
-TEST(HelpingThreads, PassOnWhatIsThrownAndGoOnAfterIt) {
+TEST(HelpingThreads, RethrowExceptionsAndContinue) {
     for (const unsigned threads : {1u, 4u}) {
         HelpingThreads helpers(threads);
         helpers.begin(std::vector<int64_t>(100, 1), 1, [](size_t i) {
@@ -58,7 +58,7 @@ TEST(HelpingThreads, PassOnWhatIsThrownAndGoOnAfterIt) {
 }
 
 // A nice value cannot be lowered again: uses separate threads that end with the test.
-TEST(HelpingThreads, HaveThePriorityOfWhomTheyHelp) {
+TEST(HelpingThreads, InheritThePriority) {
     std::atomic<int> lowest = std::numeric_limits<int>::max(), own = 0;
     std::thread([&] {
         lower_priority_of_this_thread();
@@ -74,7 +74,7 @@ TEST(HelpingThreads, HaveThePriorityOfWhomTheyHelp) {
     EXPECT_GE(lowest, own);
 }
 
-TEST(HelpingThreads, RoundAsWhomTheyHelp) {
+TEST(HelpingThreads, InheritTheFloatingPointMode) {
     // Uses a separate thread that flushes denormals to zero.
     std::thread([] { Workers(4, false).for_each(100, {}, [](int64_t, unsigned) { pause_a_little(); }); }).join();
     std::atomic<int> flushed = 0;

@@ -28,14 +28,14 @@ private:
     test::TemporaryFolder folder_;
 };
 
-TEST(MemoryRoom, IsThatOfTheMachine) {
+TEST(MemoryRoom, UsesPhysicalMemory) {
     const MemoryRoom room = Root().room();
     EXPECT_EQ(room.limit, 16000000ull << 10);
     EXPECT_EQ(room.left, 8000000ull << 10);
     EXPECT_EQ(room.limit_of, "of this machine");
 }
 
-TEST(MemoryRoom, IsThatOfAControlGroupAboveTheProcess) {
+TEST(MemoryRoom, UsesAncestorControlGroups) {
     Root root;
     root.write("proc/self/cgroup", "0::/user/one\n");
     root.write("sys/fs/cgroup/user/one/memory.max", "max\n");
@@ -52,7 +52,7 @@ TEST(MemoryRoom, IsThatOfAControlGroupAboveTheProcess) {
 }
 
 // In a container the path of the group is that of the host, and its files are at the root of the mount.
-TEST(MemoryRoom, IsThatOfAnOldControlGroupInAContainer) {
+TEST(MemoryRoom, UsesControlGroupsV1InAContainer) {
     Root root;
     root.write("proc/self/cgroup", "12:cpuset:/docker/x\n5:cpu,memory:/docker/x\n");
     root.write("sys/fs/cgroup/memory/memory.limit_in_bytes", "1000000000\n");

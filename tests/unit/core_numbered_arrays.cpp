@@ -17,7 +17,7 @@ namespace {
 using Floats = PlacedVector<float>;
 constexpr auto attribute = Attribute(200); // whose elements here are single floats
 
-TEST(NumberedArrays, RangesDoNotOverlapAndComeBack) {
+TEST(NumberedArrays, RangesDoNotOverlapAndAreReused) {
     std::vector<std::pair<int64_t, NumbersPtr>> taken;
     for (const size_t count : {1, 5000, 1024, 70000}) taken.emplace_back(int64_t(count), take_numbers(Numbering::vertices, count));
     for (const auto& [count, numbers] : taken) {
@@ -31,7 +31,7 @@ TEST(NumberedArrays, RangesDoNotOverlapAndComeBack) {
     EXPECT_EQ(take_numbers(Numbering::vertices, 5000)->first(), first) << "a hole is filled again";
 }
 
-TEST(NumberedArrays, NeighboursThatComeBackAreOneHole) {
+TEST(NumberedArrays, AdjacentFreeRangesAreMerged) {
     for (const std::array<int, 3>& order : {std::array{0, 1, 2}, {2, 1, 0}, {0, 2, 1}, {1, 0, 2}}) {
         std::array<NumbersPtr, 3> three;
         for (NumbersPtr& numbers : three) numbers = take_numbers(Numbering::indices, 4096);
@@ -42,7 +42,7 @@ TEST(NumberedArrays, NeighboursThatComeBackAreOneHole) {
     }
 }
 
-TEST(NumberedArrays, MoreThanThereAreAreRefused) {
+TEST(NumberedArrays, TooLargeRangesAreRefused) {
     EXPECT_FALSE(take_numbers(Numbering::vertices, size_t(most_numbers(Numbering::vertices)) + 1));
     EXPECT_FALSE(take_numbers(Numbering::indices, SIZE_MAX));
     const NumbersPtr all_but_few = take_numbers(Numbering::vertices, size_t(most_numbers(Numbering::vertices)) - (1 << 20));
@@ -50,7 +50,7 @@ TEST(NumberedArrays, MoreThanThereAreAreRefused) {
     EXPECT_FALSE(take_numbers(Numbering::vertices, 1 << 20 | 1));
 }
 
-TEST(NumberedArrays, WhatIsGivenBackIsZeroAgain) {
+TEST(NumberedArrays, ReturnedMemoryIsZero) {
     float* base = attribute_base<float>(attribute);
     ASSERT_TRUE(base);
     NumbersPtr numbers = take_numbers(Numbering::vertices, 3000);
@@ -61,13 +61,13 @@ TEST(NumberedArrays, WhatIsGivenBackIsZeroAgain) {
     EXPECT_TRUE(std::all_of(base + first, base + first + 3000, [](float f) { return f == 0; }));
 }
 
-TEST(NumberedArrays, TheLastNumberHasAnAddress) {
+TEST(NumberedArrays, TheLastElementHasAnAddress) {
     const auto last = most_numbers(Numbering::vertices) - 1;
     EXPECT_EQ(attribute_base<float>(attribute)[last], 0);
     EXPECT_EQ(index_base()[most_numbers(Numbering::indices) - 1], 0u);
 }
 
-TEST(NumberedArrays, AVectorTakesItsPlaceOnlyForAsManyAsWereAskedFor) {
+TEST(NumberedArrays, VectorsUseTheArenaOnlyForTheReservedSize) {
     const NumbersPtr numbers = take_numbers(Numbering::vertices, 100);
     float* place = attribute_base<float>(attribute) + numbers->first();
     Floats placed{PlacedAllocator<float>(place, 100)};
@@ -93,7 +93,7 @@ TEST(NumberedArrays, AVectorTakesItsPlaceOnlyForAsManyAsWereAskedFor) {
 }
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) // which need more address space themselves
-TEST(NumberedArraysDeathTest, WhereAddressesAreFewThereAreNoNumbers) {
+TEST(NumberedArraysDeathTest, NoRangesWithoutAddressSpace) {
     GTEST_FLAG_SET(death_test_style, "threadsafe"); // a separate process without reserved addresses
     const auto with_few_addresses = [] {
         rlimit few{};

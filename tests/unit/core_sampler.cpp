@@ -56,7 +56,7 @@ TEST(Sampler, IsAFunctionOfItsKeyAndStaysBelowOne) {
     EXPECT_EQ(unit_float<float>(0u), 0.f);
 }
 
-TEST(Sampler, LastIndexIsAsGoodAsTheFirst) {
+TEST(Sampler, LargeIndicesAreStratified) {
     std::vector<int64_t> counts(256);
     for (uint32_t i = 0; i < 256; ++i) counts[sampler(3, 5, 0xffffff00u + i).pair(2).bits_x >> 24]++;
     for (const int64_t c : counts) EXPECT_EQ(c, 1);
@@ -152,7 +152,7 @@ TEST(Sampler, DimensionsOfAPixelAreUncorrelated) {
 }
 
 // Means of n independent numbers have variance 1 / (12 n); stratified points have less.
-TEST(Sampler, IndependentSamplesScatterAsRandomNumbersDo) {
+TEST(Sampler, IndependentSamplesHaveRandomVariance) {
     constexpr uint32_t n = 64, pixels = 4000;
     Moments squares, of_points;
     for (uint32_t pixel = 0; pixel < pixels; ++pixel) {

@@ -93,7 +93,7 @@ TEST(Sampling, TriangleIsUniform) {
     EXPECT_TRUE(chi_squared_test(counts, expected));
 }
 
-TEST(Sampling, PowerHeuristicSharesOutExactlyOne) {
+TEST(Sampling, PowerHeuristicWeightsSumToOne) {
     const std::vector<float> densities = {1e-38f, 1e-20f, 1e-3f, 0.3f, 1.f, 7.f, 1e5f, 1e20f, 3e38f};
     for (const float a : densities) {
         EXPECT_EQ(power_heuristic(a, 0.f), 1.f);

@@ -36,7 +36,7 @@ bool text_can_hold(const Edit& edit) {
     return !std::holds_alternative<Import>(edit);
 }
 
-TEST(SceneEdits, NothingChangedIsNothingButTheFormat) {
+TEST(SceneEdits, NoChangeGivesOnlyTheFormat) {
     const Scene scene = sample_project().project.scene;
     EXPECT_EQ(edits_json(scene, scene), R"({"format":1})");
     const auto applied = apply_edits_json(scene, R"({"format":1})");
@@ -44,7 +44,7 @@ TEST(SceneEdits, NothingChangedIsNothingButTheFormat) {
     EXPECT_EQ(*applied, scene);
 }
 
-TEST(SceneEdits, RandomSequencesComeBack) {
+TEST(SceneEdits, RandomEditsRoundTrip) {
     const Project imported = sample_project().project;
     Rng rng(11);
     for (int sequence = 0; sequence < 50; ++sequence) {
@@ -132,7 +132,7 @@ TEST(SceneEdits, WrongTextIsAnError) {
     }
 }
 
-TEST(SceneHash, TellsImagesApartAndNothingElse) {
+TEST(SceneHash, DiffersOnlyIfTheImageDiffers) {
     const Sample sample = sample_project();
     const Scene& scene = sample.project.scene;
     const std::string hash = scene_hash(scene);
@@ -170,7 +170,7 @@ TEST(SceneHash, TellsImagesApartAndNothingElse) {
 }
 
 // A light's IES profile is read again from its file, only in or below the scene's folder.
-TEST(SceneEdits, MeasuredDistributionsAreNamedByTheirFiles) {
+TEST(SceneEdits, IesProfilesAreStoredAsFileNames) {
     const std::filesystem::path folder = std::filesystem::path(BLUSH_ASSETS) / "ies";
     const Sample sample = sample_project();
     Scene now = sample.project.scene;

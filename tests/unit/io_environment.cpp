@@ -21,7 +21,7 @@ TEST(EnvironmentImage, EightBitFilesBecomeLinear) {
 }
 
 // Invalid radiance is kept, so that the renderer, which reads it as black, can report its amount.
-TEST(EnvironmentImage, GreyIsSpreadAndNonsenseStays) {
+TEST(EnvironmentImage, GreyBecomesRgbAndInvalidValuesAreKept) {
     const TempFolder folder;
     const float nan = std::numeric_limits<float>::quiet_NaN();
     ASSERT_TRUE(write_exr(folder / "a.exr", LayeredImage{3, 1, {{"Y", {0.5f, nan, -1}}}, {}}));

@@ -13,7 +13,7 @@ std::string text_of(const std::filesystem::path& file) {
     return bytes ? std::string(bytes->begin(), bytes->end()) : bytes.error().text();
 }
 
-TEST(Files, WhatIsWrittenIsRead) {
+TEST(Files, RoundTrip) {
     const TempFolder folder;
     ASSERT_TRUE(write_file(folder / "a.txt", "one"));
     ASSERT_TRUE(write_file(folder / "a.txt", "two"));
@@ -65,7 +65,7 @@ TEST(Files, ThroughALinkTheTargetIsWritten) {
 }
 
 // The temporary file of a killed process is removed by the next write to the same target; other files are kept.
-TEST(Files, TemporariesOfKilledProcessesAreSwept) {
+TEST(Files, TemporaryFilesOfKilledProcessesAreRemoved) {
     const TempFolder folder;
     const pid_t dead = fork();
     if (dead == 0) _exit(0);

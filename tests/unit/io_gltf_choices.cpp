@@ -35,7 +35,7 @@ GltfBuilder day_and_night() {
     return b;
 }
 
-TEST(GltfScenes, TheFileSaysWhichShows) {
+TEST(GltfScenes, TheDefaultSceneIsShown) {
     const ImportedScene s = imported(day_and_night());
     EXPECT_EQ(s.scene.scene_names, (std::vector<std::string>{"Day", "Scene 1"}));
     EXPECT_EQ(s.scene.staging.scene, 1);
@@ -55,7 +55,7 @@ TEST(GltfScenes, OneSceneIsNoChoice) {
     for (const auto& [id, node] : s.scene.nodes) EXPECT_TRUE(node.only_in_scenes.empty());
 }
 
-TEST(GltfScenes, ComeBackFromASaveWithTheChoice) {
+TEST(GltfScenes, SurviveASaveWithTheChoice) {
     const TempFolder folder;
     write_bytes(folder / "scenes.gltf", day_and_night().gltf());
     const ImportedScene original = load(folder / "scenes.gltf");
@@ -103,7 +103,7 @@ std::string worn(const Scene& scene) {
     return material ? material->name : "";
 }
 
-TEST(GltfVariants, DressTheMesh) {
+TEST(GltfVariants, AssignMaterials) {
     const ImportedScene s = imported(chair());
     EXPECT_EQ(s.scene.variants, (std::vector<std::string>{"Plain", "Sea", "Forest"}));
     EXPECT_EQ(s.report.extensions_honoured, (std::vector<std::string>{"KHR_materials_variants"}));
@@ -114,7 +114,7 @@ TEST(GltfVariants, DressTheMesh) {
     EXPECT_EQ(worn(staged(staged(s.scene, {.variant = 1}), {})), "red");
 }
 
-TEST(GltfVariants, ComeBackFromASaveWithTheChoiceAndWhatWasAssigned) {
+TEST(GltfVariants, SurviveASaveWithChoiceAndAssignments) {
     const TempFolder folder;
     write_bytes(folder / "chair.gltf", chair().gltf());
     const ImportedScene original = load(folder / "chair.gltf");
@@ -135,7 +135,7 @@ TEST(GltfVariants, ComeBackFromASaveWithTheChoiceAndWhatWasAssigned) {
     }
 }
 
-TEST(GltfVariants, BrokenMappingsAreSaid) {
+TEST(GltfVariants, BrokenMappingsAreReported) {
     GltfBuilder no_material = chair(), no_variant = chair(), many = chair();
     const Json::json_pointer mapping("/meshes/0/primitives/0/extensions/KHR_materials_variants/mappings/0");
     no_material.json[mapping]["material"] = 9;

@@ -58,13 +58,13 @@ void expect_read(const GltfBuilder& built, const Sheet& sheet) {
     }
 }
 
-TEST(DracoMesh, IsReadToTheBit) {
+TEST(DracoMesh, IsDecompressedLosslessly) {
     const Sheet sheet(9);
     for (const int speed : {10, 5, 0}) expect_read(packed_by_draco(sheet, draco_bytes(sheet, speed, 0)), sheet);
 }
 
 // Coordinates differ by at most half a quantisation step.
-TEST(DracoMesh, IsAsPreciseAsItWasQuantised) {
+TEST(DracoMesh, HasThePrecisionOfItsQuantisation) {
     const Sheet sheet(9);
     constexpr int bits = 12;
     const auto imported = import_built(packed_by_draco(sheet, draco_bytes(sheet, 3, bits)));
@@ -78,7 +78,7 @@ TEST(DracoMesh, IsAsPreciseAsItWasQuantised) {
     }
 }
 
-TEST(DracoMesh, GivesWayToPlainBytes) {
+TEST(DracoMesh, UncompressedDataTakesPrecedence) {
     const Sheet sheet(3);
     GltfBuilder b = packed_by_draco(sheet, "these are not read");
     Json& primitive = b.json["meshes"][0]["primitives"][0];
@@ -89,7 +89,7 @@ TEST(DracoMesh, GivesWayToPlainBytes) {
     expect_read(b, sheet);
 }
 
-TEST(DracoMesh, StaysPackedWhenItIsSaved) {
+TEST(DracoMesh, StaysCompressedWhenSaved) {
     const TempFolder folder;
     const Sheet sheet(5);
     const auto imported = import_text(folder, packed_by_draco(sheet, draco_bytes(sheet, 3, 0)).glb());
@@ -110,7 +110,7 @@ TEST(DracoMesh, StaysPackedWhenItIsSaved) {
     }
 }
 
-TEST(MeshoptViews, AreReadToTheBit) {
+TEST(MeshoptViews, AreDecompressedLosslessly) {
     const Sheet sheet(11);
     for (const bool sequence : {false, true})
         for (const size_t stride : {size_t(2), size_t(4)})
@@ -132,7 +132,7 @@ TEST(MeshoptViews, NeedNoFallback) {
 }
 
 // Unit vectors as octahedra of 8 bits with a stride of 4, positions as exponents and mantissas of 24 bits.
-TEST(MeshoptViews, OfFilteredNumbersAreReadAsTheEncoderRoundedThem) {
+TEST(MeshoptViews, FiltersAreDecoded) {
     const Sheet sheet(11);
     const size_t n = sheet.vertices();
     std::vector<float> directions;
@@ -185,7 +185,7 @@ TEST(CompressedGltf, RandomBytesFlipped) {
     }
 }
 
-TEST(CompressedGltf, SaysWhatItsBytesCannotHold) {
+TEST(CompressedGltf, RefusesImpossibleSizes) {
     const Sheet sheet(4);
     const auto refused = [](const GltfBuilder& b, const char* why) {
         const std::string error = error_text(import_built(b));

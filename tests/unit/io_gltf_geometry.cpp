@@ -153,7 +153,7 @@ TEST(GltfGeometry, TrianglesWithNonFiniteCornersAreLeftOut) {
     for (const Vec3& p : only_geometry(imported->scene).positions) EXPECT_TRUE(std::isfinite(p.x) && std::isfinite(p.y));
 }
 
-TEST(GltfGeometry, NormalsWithoutADirectionAreRepaired) {
+TEST(GltfGeometry, ZeroNormalsAreRepaired) {
     GltfBuilder b;
     b.show({{"attributes", {{"POSITION", b.triangle_positions()}, {"NORMAL", b.accessor<float>({0, 0, 0, 0, 0, 1, 0, 0, 1}, "VEC3")}}}});
     const auto imported = import_built(b);

@@ -173,7 +173,7 @@ const Break breaks[] = {
 };
 INSTANTIATE_TEST_SUITE_P(, HostileField, testing::ValuesIn(breaks), [](const auto& test) { return std::string(test.param.name); });
 
-TEST(HostileGltf, UnbrokenItIsRead) {
+TEST(HostileGltf, TheIntactFileIsRead) {
     const auto imported = import_built(everything());
     ASSERT_TRUE(imported) << error_text(imported);
     EXPECT_EQ(imported->scene.textures.size(), 1u);
@@ -191,7 +191,7 @@ TEST(HostileGltf, EveryPositionNonFiniteIsAnError) {
 }
 
 // A hundred primitives with arrays of zeros that need no bytes: 20 GB from a file of a few kilobytes.
-TEST(HostileGltf, MoreIsNotMadeOfAFileThanItCanHold) {
+TEST(HostileGltf, DecodedSizeIsLimited) {
     GltfBuilder b = triangle();
     for (int i = 0; i < 100; ++i) {
         const int zeros = b.add("accessors", {{"componentType", 5126}, {"count", 1 << 24}, {"type", "VEC3"}});

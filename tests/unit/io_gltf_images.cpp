@@ -42,7 +42,7 @@ GltfBuilder with_images(const std::vector<Json>& images) {
 Json png_uri(const Image& image) { return {{"uri", "data:image/png;base64," + base64(png_of(image))}}; }
 ImagePtr image_of(const Result<ImportedScene>& imported, size_t texture) { return imported->scene.textures.entries()[texture].value.image; }
 
-TEST(GltfImages, WebpGoesBeforeItsFallback) {
+TEST(GltfImages, WebpIsPreferredToItsFallback) {
     GltfBuilder b = with_images({png_uri(stripes(4, 4)), {{"uri", std::string("data:image/webp;base64,") + webp_base64}}});
     b.json["textures"][0]["extensions"] = {{"EXT_texture_webp", {{"source", 1}}}};
     b.json["extensionsUsed"] = b.json["extensionsRequired"] = {"EXT_texture_webp"};
@@ -71,7 +71,7 @@ TEST(GltfImages, Ktx2IsReportedAndItsFallbackRead) {
     EXPECT_TRUE(reports(shown->report, "KTX2 cannot be decoded: images[0]"));
 }
 
-TEST(GltfImages, AreReadAsWhatTheyAreNotAsWhatTheyAreSaidToBe) {
+TEST(GltfImages, FormatIsDetectedFromTheBytes) {
     GltfBuilder b;
     std::string webp;
     for (const uint8_t byte : std::initializer_list<uint8_t>{
@@ -86,7 +86,7 @@ TEST(GltfImages, AreReadAsWhatTheyAreNotAsWhatTheyAreSaidToBe) {
     EXPECT_TRUE(reports(imported->report, "declared as jpeg but is webp"));
 }
 
-TEST(GltfImages, TheSameBytesAreOneImage) {
+TEST(GltfImages, EqualBytesShareAnImage) {
     const auto imported = import_built(with_images({png_uri(stripes(8, 8)), png_uri(stripes(8, 8)), png_uri(stripes(8, 4))}));
     ASSERT_TRUE(imported) << error_text(imported);
     EXPECT_EQ(image_of(imported, 0), image_of(imported, 1));
@@ -103,7 +103,7 @@ TEST(GltfImages, SixteenBitsStaySixteenBits) {
     for (size_t i = 0; i < std::size(words); ++i) EXPECT_EQ(std::lround(double(image_of(imported, 0)->floats[i]) * 65535), words[i]);
 }
 
-TEST(GltfImages, TheLargestAreHalvedUntilAllFitIntoMemory) {
+TEST(GltfImages, LargestAreHalvedUntilAllFitIntoMemory) {
     // 12288 bytes of colour, 12288 of data and 192 more fit into 6400 if both large images are halved once.
     const GltfBuilder b = with_images({png_uri(stripes(64, 64)), png_uri(stripes(128, 32)), png_uri(stripes(8, 8))});
     ImportOptions options;
@@ -125,7 +125,7 @@ TEST(GltfImages, TheLargestAreHalvedUntilAllFitIntoMemory) {
     EXPECT_FALSE(reports(import_built(b)->report, "reduced"));
 }
 
-TEST(GltfImages, ProgressIsCountedAndToldByTheImportingThread) {
+TEST(GltfImages, ProgressIsReportedOnTheImportingThread) {
     std::vector<Json> images;
     for (int i = 1; i <= 12; ++i) images.push_back(png_uri(stripes(i, i)));
     const std::thread::id here = std::this_thread::get_id();

@@ -35,7 +35,7 @@ std::vector<Affine> places_of(const Scene& scene, size_t node = 0) {
     return instances ? instances->node_from_copy : std::vector<Affine>();
 }
 
-TEST(GltfInstancing, PlacesAreProductsOfTheirParts) {
+TEST(GltfInstancing, TransformsAreProductsOfTheirParts) {
     const auto imported = import_built(three_copies());
     ASSERT_TRUE(imported) << error_text(imported);
     const std::vector<Affine> places = places_of(imported->scene);
@@ -62,7 +62,7 @@ TEST(GltfInstancing, QuantisedRotationsAreRead) {
     EXPECT_EQ(places[1], Affine{});
 }
 
-TEST(GltfInstancing, HostileOnesAreRefusedOrReported) {
+TEST(GltfInstancing, HostileInstancesAreRefusedOrReported) {
     const auto with = [](const auto& attributes) {
         GltfBuilder b;
         const int two = b.accessor<float>({0, 0, 0, 1, 1, 1}, "VEC3"), three = b.accessor<float>({0, 0, 0, 1, 1, 1, 2, 2, 2}, "VEC3");
@@ -100,7 +100,7 @@ TEST(GltfInstancing, HostileOnesAreRefusedOrReported) {
 }
 
 // Many nodes may share an array: the limit is on the total number of instances.
-TEST(GltfInstancing, CopiesAreCountedOverAllNodes) {
+TEST(GltfInstancing, InstancesAreCountedOverAllNodes) {
     GltfBuilder b;
     const std::vector<int8_t> turns(4 << 20, 127);
     const int rotations = b.accessor<int8_t>(turns, "VEC4", true);
@@ -109,7 +109,7 @@ TEST(GltfInstancing, CopiesAreCountedOverAllNodes) {
     EXPECT_NE(error_text(import_built(b)).find("more than 8388608 copies"), std::string::npos);
 }
 
-TEST(GltfInstancing, StayAsTheyAreWhenTheSceneIsSaved) {
+TEST(GltfInstancing, AreUnchangedByASave) {
     const TempFolder folder;
     write_bytes(folder / "scene.gltf", three_copies().gltf());
     const ImportedScene original = load(folder / "scene.gltf");
@@ -130,7 +130,7 @@ TEST(GltfInstancing, StayAsTheyAreWhenTheSceneIsSaved) {
 }
 
 // Instances of a duplicate and of an imported scene are not in the document yet.
-TEST(GltfInstancing, AreWrittenWhereTheyAreNew) {
+TEST(GltfInstancing, NewInstancesAreWritten) {
     const TempFolder folder;
     write_bytes(folder / "scene.gltf", three_copies().gltf());
     const ImportedScene original = load(folder / "scene.gltf");
@@ -155,7 +155,7 @@ TEST(GltfInstancing, AreWrittenWhereTheyAreNew) {
     EXPECT_EQ(scene_hash(load(folder / "again.glb").scene), scene_hash(loaded.scene));
 }
 
-TEST(GltfInstancing, EditsAsTextNameThem) {
+TEST(GltfInstancing, EditsAsJsonListThemAsLeftOut) {
     const auto imported = import_built(three_copies());
     ASSERT_TRUE(imported) << error_text(imported);
     const Project before{imported->scene, {}, {}};

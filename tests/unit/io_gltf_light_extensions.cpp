@@ -33,7 +33,7 @@ OrderedJson written(const TempFolder& folder) { return OrderedJson::parse(text_o
 
 const Light& light_on(const Scene& scene, size_t node) { return *scene.lights.find(scene.nodes.entries()[node].value.light); }
 
-TEST(MeasuredLights, ShineAsTheirNodesSay) {
+TEST(MeasuredLights, UseTheIntensityOfTheirNodes) {
     const TempFolder folder;
     const auto imported = import_text(folder, with_luminaires(folder).gltf());
     ASSERT_TRUE(imported) << error_text(imported);
@@ -59,7 +59,7 @@ TEST(MeasuredLights, ShineAsTheirNodesSay) {
     EXPECT_EQ(light_on(scene, 3).intensity, 3 * profile->peak);
 }
 
-TEST(MeasuredLights, StayAsTheyAreWhileNobodyEditsThem) {
+TEST(MeasuredLights, AreUnchangedWithoutAnEdit) {
     const TempFolder folder;
     const auto original = import_text(folder, with_luminaires(folder).gltf());
     ASSERT_TRUE(original) << error_text(original);
@@ -67,7 +67,7 @@ TEST(MeasuredLights, StayAsTheyAreWhileNobodyEditsThem) {
     EXPECT_EQ(written(folder), OrderedJson::parse(*original->origin.json));
 }
 
-TEST(MeasuredLights, ComeBackFieldByField) {
+TEST(MeasuredLights, EachFieldRoundTrips) {
     const TempFolder folder;
     const auto original = import_text(folder, with_luminaires(folder).gltf());
     ASSERT_TRUE(original) << error_text(original);
@@ -90,7 +90,7 @@ TEST(MeasuredLights, ComeBackFieldByField) {
     }
 }
 
-TEST(MeasuredLights, AreWrittenForOthersToRead) {
+TEST(MeasuredLights, AreWrittenInTheStandardForm) {
     const TempFolder folder;
     GltfBuilder b;
     b.add("nodes", {{"name", "a place"}});
@@ -121,7 +121,7 @@ TEST(MeasuredLights, AreWrittenForOthersToRead) {
     EXPECT_EQ(text_of(folder / "downlight.ies"), text_of(downlight));
 }
 
-TEST(MeasuredLights, OfOneProfilePartWhenOneOfThemIsEditedOrGoes) {
+TEST(MeasuredLights, SplitTheirProfileEntryWhenOneIsEditedOrRemoved) {
     const TempFolder folder;
     const auto original = import_text(folder, with_luminaires(folder).gltf());
     ASSERT_TRUE(original) << error_text(original);
@@ -143,7 +143,7 @@ TEST(MeasuredLights, OfOneProfilePartWhenOneOfThemIsEditedOrGoes) {
     EXPECT_EQ(last.lights.find(kept)->radius, 0.1f);
 }
 
-TEST(MeasuredLights, HostileOnesAreRefusedOrReported) {
+TEST(MeasuredLights, HostileLightsAreRefusedOrReported) {
     const TempFolder folder;
     const auto imported_with = [&](const Json& profile, const Json& node) {
         GltfBuilder b;
@@ -192,7 +192,7 @@ Vec3 seen(const Environment& e, const Vec3& d) {
 
 constexpr Vec3 axes[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
 
-TEST(ImageLight, FacesAreWhereTheyLook) {
+TEST(ImageLight, FacesHaveTheirDirections) {
     const TempFolder folder;
     const auto imported = import_text(folder, with_image_light(coloured_faces(16), {{"intensity", 2.5}}).gltf());
     ASSERT_TRUE(imported) << error_text(imported);
@@ -231,7 +231,7 @@ TEST(ImageLight, FacesAreNotMirrored) {
     }
 }
 
-TEST(ImageLight, FourChannelsHoldMoreThanOne) {
+TEST(ImageLight, RgbdExceedsOne) {
     const TempFolder folder;
     std::array<Image, 6> faces;
     for (Image& face : faces) face = face_image(4, 4, {1, 0, 0}, 51);
@@ -257,7 +257,7 @@ TEST(ImageLight, TurnsTheCube) {
     EXPECT_EQ(seen(about_x->scene.environment, {0, 0, 1}), face_colors[2]) << "+Y goes to +Z";
 }
 
-TEST(ImageLight, ComesBackAndIsWrittenForOthersToRead) {
+TEST(ImageLight, RoundTripsInTheStandardForm) {
     const TempFolder folder;
     const auto original = import_text(folder, with_image_light(coloured_faces(8), {{"name", "studio"}}).gltf());
     ASSERT_TRUE(original) << error_text(original);
@@ -286,7 +286,7 @@ TEST(ImageLight, ComesBackAndIsWrittenForOthersToRead) {
     EXPECT_FALSE(written(folder).contains("extensions"));
 }
 
-TEST(ImageLight, HostileOnesAreReported) {
+TEST(ImageLight, HostileImagesAreReported) {
     const TempFolder folder;
     const auto broken = [&](const auto& damage) {
         GltfBuilder b = with_image_light(coloured_faces(4));

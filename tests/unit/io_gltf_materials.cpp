@@ -125,7 +125,7 @@ TEST(GltfMaterials, ValuesOutOfRangeAreClampedWithAWarning) {
     EXPECT_EQ(report.diagnostics.size(), 4u);
 }
 
-TEST(GltfMaterials, ThatBackFacesAreNotCulledIsReported) {
+TEST(GltfMaterials, UnculledBackFacesAreReported) {
     for (const bool double_sided : {false, true}) {
         ImportReport report;
         import_material({{"doubleSided", double_sided}}, &report);
@@ -145,7 +145,7 @@ TEST(GltfMaterials, ValuesOfTheWrongTypeAreReported) {
     EXPECT_TRUE(reports(report, "'transmissionFactor' is not a number"));
 }
 
-TEST(GltfMaterials, ExtensionsAreSortedByWhatBecomesOfThem) {
+TEST(GltfMaterials, ExtensionsAreSortedBySupport) {
     GltfBuilder b;
     b.json["extensionsUsed"] = {"KHR_materials_ior", "KHR_materials_volume", "VENDOR_unheard_of"};
     const auto imported = import_built(b);

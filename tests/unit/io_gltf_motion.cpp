@@ -48,7 +48,7 @@ Transform at(const ImportedScene& s, float seconds) {
     return posed_transform(scene, scene.nodes.begin()->id, scene.nodes.begin()->value);
 }
 
-TEST(GltfAnimations, LeadNodes) {
+TEST(GltfAnimations, AnimateNodes) {
     Animated a;
     a.animate("translation", {0, 2}, {0, 0, 0, 4, 6, 8});
     const ImportedScene s = imported(a.builder);
@@ -60,7 +60,7 @@ TEST(GltfAnimations, LeadNodes) {
     EXPECT_EQ(s.scene.nodes.begin()->value.local.translation, (Vec3{0, 0, 0}));
 }
 
-TEST(GltfAnimations, OfAllInterpolations) {
+TEST(GltfAnimations, AllInterpolationsAreRead) {
     Animated step, spline;
     step.animate("scale", {0, 1}, {1, 1, 1, 5, 5, 5}, "STEP");
     EXPECT_EQ(at(imported(step.builder), 0.9f).scale, (Vec3{1, 1, 1}));
@@ -95,7 +95,7 @@ TEST(GltfAnimations, SparseKeyframesAreRead) {
 }
 
 // Invalid parts are skipped with a warning; the scene opens.
-TEST(GltfAnimations, BrokenOnesAreLeftOut) {
+TEST(GltfAnimations, BrokenChannelsAreSkipped) {
     const auto refused = [](Animated a, const char* why) {
         const ImportedScene s = imported(a.builder);
         EXPECT_TRUE(reports(s.report, why)) << why;
@@ -128,7 +128,7 @@ TEST(GltfAnimations, BrokenOnesAreLeftOut) {
     refused(changed("/channels/0/target/path", "weights"), "components");
 }
 
-TEST(GltfAnimations, AreBoundedInMemory) {
+TEST(GltfAnimations, MemoryIsLimited) {
     Animated a;
     // Keyframes that need no bytes in the file, referenced many times.
     const int input = a.builder.add("accessors", {{"componentType", 5126}, {"count", 1 << 21}, {"type", "SCALAR"}});
@@ -142,7 +142,7 @@ TEST(GltfAnimations, AreBoundedInMemory) {
     EXPECT_NE(error_text(import_built(a.builder)).find("when decoded"), std::string::npos);
 }
 
-TEST(GltfAnimations, OneChannelLeadsAProperty) {
+TEST(GltfAnimations, OneChannelAnimatesAProperty) {
     Animated a;
     a.animate("translation", {0, 2}, {0, 0, 0, 4, 6, 8});
     Json& channels = a.builder.json["animations"][0]["channels"];
@@ -194,7 +194,7 @@ TEST(GltfSkins, AreRead) {
     EXPECT_FALSE(reports(s.report, "ignored"));
 }
 
-TEST(GltfSkins, WeightsAreMadeToSumToOne) {
+TEST(GltfSkins, WeightsAreNormalised) {
     const ImportedScene s = imported(Skinned({2, 2, 0, 0, 0, 0, 0, 0, nan, 1, -3, 0}).builder);
     EXPECT_TRUE(reports(s.report, "the skinning weights of 2 vertices do not sum to 1"));
     EXPECT_TRUE(reports(s.report, "2 invalid joints or weights"));
@@ -205,7 +205,7 @@ TEST(GltfSkins, WeightsAreMadeToSumToOne) {
     EXPECT_EQ(by[9].weight, 1);
 }
 
-TEST(GltfSkins, BrokenOnesAreSaid) {
+TEST(GltfSkins, BrokenSkinsAreReported) {
     const ImportedScene stray = imported(Skinned({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, {0, 0, 0, 0, 200, 0, 0, 0, 0, 0, 0, 0}).builder);
     EXPECT_TRUE(reports(stray.report, "joints beyond the 2 of skin"));
     Skinned no_joint;
@@ -229,7 +229,7 @@ Json morphing(GltfBuilder& builder) {
 }
 
 // A large mesh on many nodes: memory and time are limited.
-TEST(GltfSkins, NoMoreVerticesBendThanMemoryHolds) {
+TEST(GltfSkins, DeformedVerticesAreLimited) {
     GltfBuilder b;
     constexpr int vertices = 3 << 16, nodes = 200;
     const auto zeros = [&](const char* type) { return b.add("accessors", {{"componentType", 5126}, {"count", vertices}, {"type", type}}); };
@@ -264,7 +264,7 @@ TEST(GltfMorphTargets, AreReadWithNamesAndWeights) {
     EXPECT_EQ(world_bounds(s.scene).high.z, 3);
 }
 
-TEST(GltfMorphTargets, BrokenOnesAreSaid) {
+TEST(GltfMorphTargets, BrokenTargetsAreReported) {
     GltfBuilder builder;
     builder.show(morphing(builder));
     builder.json["nodes"][0]["weights"] = {1, 2, 3};
@@ -315,7 +315,7 @@ void expect_comes_back(const ImportedScene& original, const Scene& edited, const
     }
 }
 
-TEST(GltfMotion, ComesBackFromASave) {
+TEST(GltfMotion, SurvivesASave) {
     const TempFolder folder;
     write_bytes(folder / "moving.gltf", moving().gltf());
     const ImportedScene original = load(folder / "moving.gltf");
@@ -335,7 +335,7 @@ TEST(GltfMotion, ComesBackFromASave) {
 }
 
 // Duplicates and imports include skin, weights and animation.
-TEST(GltfMotion, CopiesMoveAsTheirOriginalsDo) {
+TEST(GltfMotion, DuplicatesAreAnimated) {
     const TempFolder folder;
     write_bytes(folder / "moving.gltf", moving().gltf());
     const ImportedScene original = load(folder / "moving.gltf");

@@ -124,7 +124,7 @@ Result<ImportedScene> import_with(const GltfBuilder& b, unsigned threads) {
     return import_built(b, options);
 }
 
-TEST(GltfParallel, ManyThreadsGiveWhatOneGives) {
+TEST(GltfParallel, ResultDoesNotDependOnThreads) {
     const GltfBuilder b = busy_file();
     const auto serial = import_with(b, 1);
     ASSERT_TRUE(serial) << error_text(serial);
@@ -137,7 +137,7 @@ TEST(GltfParallel, ManyThreadsGiveWhatOneGives) {
     }
 }
 
-TEST(GltfParallel, FindingsComeInTheOrderOfTheFile) {
+TEST(GltfParallel, DiagnosticsAreInFileOrder) {
     const auto imported = import_with(busy_file(), 8);
     ASSERT_TRUE(imported) << error_text(imported);
     int mesh = 0, last = 0;
@@ -149,7 +149,7 @@ TEST(GltfParallel, FindingsComeInTheOrderOfTheFile) {
     EXPECT_EQ(last, 11);
 }
 
-TEST(GltfParallel, TooManyFindingsEndInTheSameLine) {
+TEST(GltfParallel, TooManyDiagnosticsEndInTheSameLine) {
     const GltfBuilder b = busy_file(200);
     const auto serial = import_with(b, 1), parallel = import_with(b, 8);
     ASSERT_TRUE(serial && parallel);
@@ -157,7 +157,7 @@ TEST(GltfParallel, TooManyFindingsEndInTheSameLine) {
     EXPECT_EQ(serial->report.diagnostics.back().what, "more findings than can be listed");
 }
 
-TEST(GltfParallel, TheFirstErrorInTheFileIsTold) {
+TEST(GltfParallel, TheFirstErrorInTheFileIsReported) {
     GltfBuilder b = busy_file();
     b.json["meshes"][4]["primitives"][1]["material"] = 97;
     b.json["meshes"][3]["primitives"][2]["material"] = 99;
@@ -171,7 +171,7 @@ TEST(GltfParallel, TheFirstErrorInTheFileIsTold) {
 }
 
 // The header is valid, so that meshes get tangents for a normal map that then cannot be decoded.
-TEST(GltfParallel, TexturesThatTurnOutToBeBrokenLeaveNoTrace) {
+TEST(GltfParallel, BrokenTexturesDoNotAffectMeshes) {
     GltfBuilder b = busy_file(), without = busy_file();
     const size_t offset = b.json["bufferViews"][2]["byteOffset"], length = b.json["bufferViews"][2]["byteLength"];
     std::fill_n(b.buffer.begin() + std::ptrdiff_t(offset + 60), length - 60, '\0');
@@ -213,7 +213,7 @@ TEST(GltfParallel, CanBeCancelledAnywhere) {
         }
 }
 
-TEST(GltfParallel, TheSceneIsThereBeforeItsTextures) {
+TEST(GltfParallel, PreviewSceneComesBeforeTheTextures) {
     const GltfBuilder b = busy_file();
     std::vector<ImportedScene> early;
     ImportOptions options;
@@ -233,7 +233,7 @@ TEST(GltfParallel, TheSceneIsThereBeforeItsTextures) {
     EXPECT_EQ(scene, untextured(whole->scene));
 }
 
-TEST(GltfParallel, AFileWithoutTexturesIsNotShownTwice) {
+TEST(GltfParallel, NoPreviewWithoutTextures) {
     GltfBuilder b;
     b.show({{"attributes", {{"POSITION", b.triangle_positions()}}}});
     ImportOptions options;

@@ -41,7 +41,7 @@ bool is_closed(const Geometry& g) {
     return std::ranges::all_of(edges, [&](const auto& e) { return e.second == 1 && edges.contains({e.first.second, e.first.first}); });
 }
 
-TEST(GltfPointsLines, AreClosedAroundWhatTheyStandFor) {
+TEST(GltfPointsLines, SolidsAreClosed) {
     const Geometry source = corners();
     const Solids ball = solids_of(source, {1}, 0), tube = solids_of(source, {0, 2}, 1);
     for (const Solids* made : {&ball, &tube}) {
@@ -78,7 +78,7 @@ TEST(GltfPointsLines, ModesAreThoseOfGltf) {
     }
 }
 
-TEST(GltfPointsLines, WhatCannotBeShownIsCounted) {
+TEST(GltfPointsLines, SkippedPointsAndLinesAreCounted) {
     Geometry g = corners();
     g.positions[3] = {std::numeric_limits<float>::quiet_NaN(), 0, 0};
     EXPECT_EQ(solids_of(g, {0, 3, 1}, 0).left_out, 1u);

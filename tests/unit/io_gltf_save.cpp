@@ -40,7 +40,7 @@ void expect_same(const ImportedScene& loaded, const SavedGltf& saved, const Proj
 
 class GltfSave : public testing::TestWithParam<const char*> {};
 
-TEST_P(GltfSave, RandomEditsOfShippedScenesComeBack) {
+TEST_P(GltfSave, RandomEditsOfShippedScenesRoundTrip) {
     const TempFolder folder;
     Rng rng(5);
     int number = 0;
@@ -63,7 +63,7 @@ TEST_P(GltfSave, RandomEditsOfShippedScenesComeBack) {
 }
 
 // Each save starts from the previous one, as in the window.
-TEST_P(GltfSave, SavingOverAndOverLosesNothing) {
+TEST_P(GltfSave, RepeatedSavesAreLossless) {
     const TempFolder folder;
     Rng rng(6);
     const ImportedScene original = load(shipped("card-and-mug"));
@@ -104,7 +104,7 @@ template <class T, class Round> void each_field_comes_back(const std::string& wh
     EXPECT_GT(fields, 3u);
 }
 
-TEST(GltfSaveFields, EachComesBackByItself) {
+TEST(GltfSaveFields, EachFieldRoundTrips) {
     const TempFolder folder;
     const ImportedScene original = load(rich_gltf(folder));
     const auto round_trip = [&](const Scene& scene) {
@@ -140,7 +140,7 @@ TEST(GltfSaveFields, EachComesBackByItself) {
     });
 }
 
-TEST(GltfSaveDocument, NothingEditedIsNothingWritten) {
+TEST(GltfSaveDocument, NoEditsLeaveTheDocumentUnchanged) {
     const TempFolder folder;
     for (const char* name : shipped_scenes) {
         const ImportedScene original = load(shipped(name));
@@ -169,7 +169,7 @@ TEST(GltfSaveDocument, UnknownThingsAndTheirOrderAreKept) {
     EXPECT_EQ(OrderedJson::parse(*saved->origin.json).dump(1), expected.dump(1));
 }
 
-TEST(GltfSaveDocument, WhatLosesItsUseGoesUnlessSomethingUnknownMayReferToIt) {
+TEST(GltfSaveDocument, UnusedObjectsArePrunedUnlessAnUnknownExtensionMayReferToThem) {
     const TempFolder folder;
     const ImportedScene original = load(shipped("card-and-mug"));
     Project project{original.scene, {}, {}};
@@ -196,7 +196,7 @@ TEST(GltfSaveDocument, WhatLosesItsUseGoesUnlessSomethingUnknownMayReferToIt) {
     EXPECT_EQ(load(folder / "with.gltf").scene.nodes, saved->scene.nodes);
 }
 
-TEST(GltfExtras, NonsenseIsIgnoredAndTheRestRead) {
+TEST(GltfExtras, InvalidFieldsAreIgnoredAndTheRestRead) {
     GltfBuilder b;
     const auto node = [&](Json blush) { return b.add("nodes", {{"extras", {{"blush", std::move(blush)}}}}); };
     node({{"id", 7}});
@@ -237,7 +237,7 @@ TEST(GltfExtras, NonsenseIsIgnoredAndTheRestRead) {
     EXPECT_GE(imported->report.diagnostics.size(), 10u);
 }
 
-TEST(GltfSaveFiles, AFailedSaveLeavesEverythingAsItWas) {
+TEST(GltfSaveFiles, AFailedSaveChangesNothing) {
     const TempFolder folder;
     const ImportedScene original = load(shipped("cornell"));
     // A folder has the name of the document, which is detected after everything else is written.
@@ -256,7 +256,7 @@ TEST(GltfSaveFiles, AFailedSaveLeavesEverythingAsItWas) {
     EXPECT_EQ(text_of(folder / "old.gltf"), "the old one");
 }
 
-TEST(GltfSaveFiles, OtherPeoplesFilesAreNotOverwritten) {
+TEST(GltfSaveFiles, OtherFilesAreNotOverwritten) {
     const TempFolder folder;
     write_bytes(folder / "cornell.bin", "somebody else's");
     const ImportedScene original = load(shipped("cornell"));
@@ -267,7 +267,7 @@ TEST(GltfSaveFiles, OtherPeoplesFilesAreNotOverwritten) {
     EXPECT_EQ(scene_hash(load(folder / "cornell.gltf").scene), scene_hash(original.scene));
 }
 
-TEST(GltfSaveFiles, AGlbNeedsNothingBesideIt) {
+TEST(GltfSaveFiles, AGlbIsSelfContained) {
     const TempFolder folder, elsewhere;
     const ImportedScene original = load(rich_gltf(folder));
     const auto saved = save_gltf(original.origin, {original.scene, {}, {}}, elsewhere / "scene.glb");
@@ -282,7 +282,7 @@ TEST(GltfSaveFiles, AGlbNeedsNothingBesideIt) {
     EXPECT_EQ(scene_hash(load(back / "scene.gltf").scene), scene_hash(original.scene));
 }
 
-TEST(GltfSaveFiles, CopiesWhatTheDocumentNames) {
+TEST(GltfSaveFiles, CopiesReferencedFiles) {
     const TempFolder folder, elsewhere;
     const ImportedScene original = load(rich_gltf(folder));
     const auto saved = save_gltf(original.origin, {original.scene, {}, {}}, elsewhere / "scene.gltf");
@@ -292,7 +292,7 @@ TEST(GltfSaveFiles, CopiesWhatTheDocumentNames) {
     EXPECT_EQ(OrderedJson::parse(*saved->origin.json), OrderedJson::parse(*original.origin.json));
 }
 
-TEST(GltfSaveFiles, MeasuredDistributionsGoAlong) {
+TEST(GltfSaveFiles, CopiesIesProfiles) {
     const TempFolder folder;
     const ImportedScene original = load(rich_gltf(folder));
     const std::filesystem::path profile = std::filesystem::path(BLUSH_ASSETS) / "ies" / "downlight.ies";

@@ -87,7 +87,7 @@ Result<ImportedScene> with_sampler(const Json& sampler) {
     return import_built(b);
 }
 
-TEST(GltfTextures, OtherMinificationThanTheMeanIsReportedOnceASampler) {
+TEST(GltfTextures, OtherMinificationFiltersAreReportedOncePerSampler) {
     const auto said = [](const Json& sampler, std::string_view part) {
         const auto imported = with_sampler(sampler);
         EXPECT_TRUE(imported) << error_text(imported);
@@ -115,7 +115,7 @@ TEST(GltfTextures, TransformAndTexCoordOverride) {
     EXPECT_EQ(ref.uv_set, 1);
 }
 
-TEST(GltfTextures, LieOnAnyUvSet) {
+TEST(GltfTextures, UseAnyUvSet) {
     GltfBuilder b = embedded_texture({{"texCoord", 3}});
     b.add("materials", {{"emissiveTexture", {{"index", 0}, {"texCoord", 70}}}});
     b.add("materials", {{"emissiveTexture", {{"index", 0}, {"texCoord", 256}}}});
@@ -244,7 +244,7 @@ TEST(GltfTangents, AreComputedForNormalMaps) {
     EXPECT_TRUE(reports(straight->report, "tangents are missing: computed"));
 }
 
-TEST(GltfTangents, OfDegenerateTextureCoordinatesAreSomePerpendicular) {
+TEST(GltfTangents, DegenerateUvsGiveAPerpendicular) {
     const auto imported = import_normal_mapped({0.5, 0.5, 0.5, 0.5, 0.5, 0.5});
     ASSERT_TRUE(imported) << error_text(imported);
     for (const Vec4& t : imported->scene.meshes.begin()->value.parts[0].geometry->tangents) {

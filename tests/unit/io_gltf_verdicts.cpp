@@ -83,7 +83,7 @@ std::string complaints(const std::filesystem::path& file) {
 
 template <size_t N> bool is_among(const Exception (&exceptions)[N], const std::string& file) { return std::ranges::count(exceptions, file, &Exception::file) > 0; }
 
-TEST(GltfVerdicts, WhatTheValidatorCallsAnErrorIsRefusedOrReported) {
+TEST(GltfVerdicts, ErrorsOfTheValidatorAreRefusedOrReported) {
     if (const std::string why = why_no_validator(); !why.empty()) GTEST_SKIP() << why;
     const TempFolder folder;
     size_t wrong = 0;
@@ -95,7 +95,7 @@ TEST(GltfVerdicts, WhatTheValidatorCallsAnErrorIsRefusedOrReported) {
     EXPECT_GT(wrong, 100u);
 }
 
-TEST(GltfVerdicts, WhatTheValidatorHasNothingToSayOfIsReadWithoutAWarning) {
+TEST(GltfVerdicts, ValidFilesAreReadWithoutWarnings) {
     if (const std::string why = why_no_validator(); !why.empty()) GTEST_SKIP() << why;
     const TempFolder folder;
     const GltfFiles sound = sound_files();

@@ -133,7 +133,7 @@ TEST(Ies, TypesBAndCAgreeOnDirections) {
     EXPECT_EQ(candela_towards(*p, {0, 0, 1}), 0) << "behind";
 }
 
-TEST(Ies, NumbersMayStandAnywhere) {
+TEST(Ies, LineBreaksDoNotMatter) {
     Photometry file;
     std::string text = file.text();
     for (char& c : text)
@@ -147,7 +147,7 @@ TEST(Ies, NumbersMayStandAnywhere) {
     EXPECT_TRUE(parse_ies(file.text() + "\x1a"));
 }
 
-TEST(Ies, SaysWhatIsWrong) {
+TEST(Ies, ErrorsNameTheFault) {
     EXPECT_NE(Result<IesPtr>(parse_ies("")).error().text().find("TILT"), std::string::npos);
     const auto problem = [](auto&& change) {
         Photometry file;
@@ -171,7 +171,7 @@ TEST(Ies, SaysWhatIsWrong) {
 }
 
 // Counts beyond the size of the file do not allocate memory.
-TEST(Ies, CountsAreBounded) {
+TEST(Ies, CountsAreLimited) {
     const auto with_counts = [](const char* counts) {
         return fmt::format("IESNA:LM-63-1995\nTILT=NONE\n1 1000 1 {} 1 2 0 0 0\n1 1 100\n0\n0\n100\n", counts);
     };

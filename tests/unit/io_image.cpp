@@ -106,7 +106,7 @@ TEST(ImageIo, JpegIsCloseForASmoothImage) {
     for (const uint8_t v : (*image)->bytes) EXPECT_NEAR(v, 128, 1); // constant: one coefficient per block, quantised finely
 }
 
-TEST(ImageIo, PartsOfFilesAreErrors) {
+TEST(ImageIo, TruncatedFilesAreErrors) {
     const TempFolder folder;
     const std::vector<float> rgb = noise(32 * 32 * 3);
     ASSERT_TRUE(write_display_image(folder / "a.png", 32, 32, rgb));

@@ -71,7 +71,7 @@ Table<Clip> clips_that_move_something(const Scene& scene) {
 }
 
 // Merging into an unchanged file gives back every edit.
-TEST(MergeEdits, OfAnUnchangedFileAreTheEdits) {
+TEST(MergeEdits, IntoAnUnchangedFileAppliesTheEdits) {
     const Project imported = sample_project().project;
     Rng rng(5);
     for (int sequence = 0; sequence < 50; ++sequence) {
@@ -112,7 +112,7 @@ TEST(MergeEdits, FindRecordsByNameWhereverTheyAreNow) {
     EXPECT_EQ(scene.nodes.size(), theirs.scene.nodes.size());
 }
 
-TEST(MergeEdits, KeepMineWhereBothChangedAndSayIt) {
+TEST(MergeEdits, ConflictsKeepMineAndAreReported) {
     const File base;
     File mine, theirs(1);
     mine.brighten(80);
@@ -143,7 +143,7 @@ TEST(MergeEdits, AddWhatWasAddedAndRemoveWhatWasRemoved) {
     EXPECT_EQ(scene.lights.find(added->value.light)->name, "Rim");
 }
 
-TEST(MergeEdits, NameWhatAnEditNoLongerFinds) {
+TEST(MergeEdits, ReportEditsOfRemovedRecords) {
     const File base;
     File mine, theirs(1);
     mine.brighten(80);
@@ -158,7 +158,7 @@ TEST(MergeEdits, NameWhatAnEditNoLongerFinds) {
 }
 
 // Nodes added below a removed node are removed with it; no dangling references.
-TEST(MergeEdits, LeaveNothingDangling) {
+TEST(MergeEdits, LeaveNoDanglingReferences) {
     const File base;
     File mine, theirs(1);
     Node child{.name = "Child"};

@@ -28,7 +28,7 @@ RenderSettings unusual_settings() {
     return s;
 }
 
-TEST(SettingsJson, RenderSettingsComeBack) {
+TEST(SettingsJson, RenderSettingsRoundTrip) {
     RenderSettings adaptive;
     adaptive.adaptive = true;
     for (const RenderSettings& s : {RenderSettings{}, unusual_settings(), adaptive}) {
@@ -39,7 +39,7 @@ TEST(SettingsJson, RenderSettingsComeBack) {
     }
 }
 
-TEST(SettingsJson, ViewSettingsComeBack) {
+TEST(SettingsJson, ViewSettingsRoundTrip) {
     ViewSettings unusual{-1.5f, 2.2f, "sRGB", "ACES SDR", "High contrast", AutoExposure::highlights, {1, 0.7f, 0.4f}};
     unusual.false_color = {FalseColor::Of::lux, 10, 20000};
     unusual.background_as_it_is = true;

@@ -11,7 +11,7 @@
 namespace blush::test {
 namespace {
 
-TEST(Sidecar, ComesBack) {
+TEST(Sidecar, RoundTrips) {
     const Project imported = sample_project().project;
     Rng rng(2);
     for (int sequence = 0; sequence < 20; ++sequence) {
@@ -50,7 +50,7 @@ void expect_same_tables(const Scene& a, const Scene& b, int sequence) {
 }
 
 // A file whose JSON changed without a change of the scene: merging by name equals applying by id.
-TEST(Sidecar, EditsComeBackIntoARewrittenFile) {
+TEST(Sidecar, EditsApplyToARewrittenFile) {
     const Project imported = sample_project().project;
     Rng rng(9);
     for (int sequence = 0; sequence < 50; ++sequence) {
@@ -69,7 +69,7 @@ TEST(Sidecar, EditsComeBackIntoARewrittenFile) {
     }
 }
 
-TEST(Sidecar, EditsFollowTheirNamesIntoAChangedFile) {
+TEST(Sidecar, EditsAreMergedByNameIntoAChangedFile) {
     const auto room = [](int shift, float intensity) {
         Scene scene;
         for (int i = 0; i < shift; ++i) {
@@ -113,13 +113,13 @@ TEST(Sidecar, EditsFollowTheirNamesIntoAChangedFile) {
     EXPECT_TRUE(recover_edits(without, before, "before"));
 }
 
-TEST(Sidecar, HashesTellTextsApart) {
+TEST(Sidecar, HashesMatchTestVectors) {
     EXPECT_EQ(hash_text("a"), "af63dc4c8601ec8c"); // published test vectors of FNV-1a, 64 bits
     EXPECT_EQ(hash_text("foobar"), "85944171f73967e8");
 }
 
 // Any prefix and any changed byte gives an error or a complete sidecar, never a crash.
-TEST(Sidecar, DamagedOnesAreErrors) {
+TEST(Sidecar, DamagedFilesAreErrors) {
     const Scene scene = sample_project().project.scene;
     const std::string whole = sidecar_json({"/scene.gltf", hash_text(""), R"({"format":1})", records_json(scene), {}, {}});
     ASSERT_TRUE(parse_sidecar(whole));

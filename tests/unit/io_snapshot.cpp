@@ -40,7 +40,7 @@ SnapshotInput full_input(const Planes& p) {
     return input;
 }
 
-TEST(Snapshot, ChannelsAndMetadataAreThoseOfTheContractAndComeBackFromAFile) {
+TEST(Snapshot, ChannelsAndMetadataRoundTrip) {
     const Planes planes;
     const SnapshotInput input = full_input(planes);
     const auto image = make_snapshot(input);
@@ -104,7 +104,7 @@ TEST(Snapshot, ForeignAndBrokenMetadataAreErrors) {
 // Possible sums of samples, and unusual bit patterns.
 const std::vector<double> awkward_sums{0.0, -0.0, 1.0 / 3, 1e300, 5e-324, -1e-200, std::numeric_limits<double>::infinity(), 4503599627370497.5};
 
-TEST(Snapshot, ExactPlanesSurviveAFileToTheLastBit) {
+TEST(Snapshot, LosslessPlanesRoundTripExactly) {
     const std::vector<ExactPlane> planes{{"even.R", awkward_sums, {}}, {"even.count", {}, {0, 1, 16777217, 4294967295u, 5, 6, 7, 8}}};
     const std::vector<float> rgba(8 * 4, 0.5f);
     SnapshotInput input;
@@ -158,7 +158,7 @@ TEST(Snapshot, HalfIsForColoursAlone) {
     EXPECT_EQ(*metadata, half->metadata);
 }
 
-TEST(Snapshot, TellsItselfFromOtherPictures) {
+TEST(Snapshot, IsDistinguishedFromPlainRenders) {
     SnapshotMetadata m = full_input({}).metadata;
     EXPECT_FALSE(is_snapshot(snapshot_texts(m))) << "a render may be dropped as a panorama";
     EXPECT_FALSE(is_snapshot({}));

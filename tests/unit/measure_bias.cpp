@@ -34,14 +34,14 @@ template <class Level> MeasuredImage noisy(std::mt19937& bits, float sigma, int6
 }
 float even(int, int) { return 0.5f; }
 
-TEST(BiasTest, CallsRightPicturesBiasedAsOftenAsItSays) {
+TEST(BiasTest, FalseAlarmRateIsTheStatedLevel) {
     std::mt19937 bits(1);
     Moments wrong;
     for (int run = 0; run < 3000; ++run) wrong.add(test_bias(noisy(bits, 0.1f, 16, even), noisy(bits, 0.025f, 256, even)).biased);
     EXPECT_TRUE(z_test(wrong, bias_significance));
 }
 
-TEST(BiasTest, SeesTwoPercentMissingEverywhereAndSaysHowMuch) {
+TEST(BiasTest, DetectsTwoPercentGlobalBias) {
     std::mt19937 bits(2);
     const BiasTest t = test_bias(noisy(bits, 0.1f, 16, [](int, int) { return 0.49f; }), noisy(bits, 0.025f, 256, even));
     EXPECT_TRUE(t.biased);
@@ -52,7 +52,7 @@ TEST(BiasTest, SeesTwoPercentMissingEverywhereAndSaysHowMuch) {
 
 // A light in a corner whose edge is noisier than the rest of the image hides a global bias of 1 %, except from the pooled test,
 // whose false alarm rate does not increase.
-TEST(BiasTest, SeesWhatIsMissingEverywhereBehindANoisyLamp) {
+TEST(BiasTest, DetectsGlobalBiasBesideANoisyLight) {
     std::mt19937 bits(12);
     const auto with_lamp = [&](float level, float noise, int64_t samples) {
         const auto at_lamp = [](int x, int y) { return x < 16 && y < 16; };
@@ -76,7 +76,7 @@ TEST(BiasTest, SeesWhatIsMissingEverywhereBehindANoisyLamp) {
 }
 
 // Not significant for the whole image, but for the region.
-TEST(BiasTest, SeesACornerThatIsWrong) {
+TEST(BiasTest, DetectsLocalBias) {
     std::mt19937 bits(3);
     const auto corner = [](int x, int y) { return x < 16 && y < 16 ? 0.6f : 0.5f; };
     const BiasTest t = test_bias(noisy(bits, 0.1f, 16, corner), noisy(bits, 0.025f, 256, even));
@@ -87,7 +87,7 @@ TEST(BiasTest, SeesACornerThatIsWrong) {
     EXPECT_EQ(t.regions.size(), 16u);
 }
 
-TEST(BiasTest, PicturesWithoutNoiseMayDifferByRoundingAlone) {
+TEST(BiasTest, NoiseFreeImagesMayDifferByRounding) {
     std::mt19937 bits(4);
     const MeasuredImage exact = noisy(bits, 0, 16, even);
     EXPECT_FALSE(test_bias(exact, exact).biased);
@@ -96,7 +96,7 @@ TEST(BiasTest, PicturesWithoutNoiseMayDifferByRoundingAlone) {
 }
 
 // An image without rare bright samples underestimates its noise; the reference does not.
-TEST(BiasTest, APictureThatMissedRareLightIsNotCalledWrong) {
+TEST(BiasTest, MissedRareLightIsNotBias) {
     std::mt19937 bits(5);
     const MeasuredImage missed = noisy(bits, 0.001f, 16, [](int, int) { return 0.497f; });
     EXPECT_FALSE(test_bias(missed, noisy(bits, 0.05f, 256, even)).biased);
@@ -104,7 +104,7 @@ TEST(BiasTest, APictureThatMissedRareLightIsNotCalledWrong) {
 }
 
 // All light is in one pixel of two hundred: much of it may be missing by chance.
-TEST(BiasTest, FewBrightPixelsAreNoEvidence) {
+TEST(BiasTest, FewBrightPixelsAreNotSignificant) {
     std::mt19937 bits(8);
     const MeasuredImage reference = noisy(bits, 0.01f, 8'000'000, even); // noise as of the images, scaled by its samples
     Moments wrong;
@@ -145,7 +145,7 @@ TEST(BiasTest, RareBrightLightThatIsMissingIsNotBias) {
 
 // One pixel in which a picture has nothing and the reference by chance a
 // firefly, of which its own error knows nothing.
-TEST(BiasTest, OnePixelIsNoEvidence) {
+TEST(BiasTest, OnePixelIsNotSignificant) {
     std::mt19937 bits(10);
     MeasuredImage reference = noisy(bits, 0.001f, 256, even);
     reference.image.pixels[500] = {1.5f, 1.5f, 1.5f};
@@ -154,7 +154,7 @@ TEST(BiasTest, OnePixelIsNoEvidence) {
 }
 
 // Groups of 16 fully correlated pixels: treating them as independent gives far too many false alarms.
-TEST(BiasTest, PixelsThatErrTogetherCountOnce) {
+TEST(BiasTest, CorrelatedPixelsAreAccountedFor) {
     std::mt19937 bits(11);
     const auto in_groups = [&](double sharing) {
         std::array<float, side * side / 16> common;
@@ -175,7 +175,7 @@ TEST(BiasTest, PixelsThatErrTogetherCountOnce) {
     EXPECT_GT(naive.mean, 0.5);
 }
 
-TEST(Significance, DeviatesAreStudents) {
+TEST(Significance, DeviatesMatchStudentsT) {
     // Two-sided quantiles of Student's distribution: 5 % with 10 and 30, 0.1 %
     // with 20 degrees of freedom.
     EXPECT_NEAR(normal_deviate(2.2281, 10), 1.96, 0.01);
@@ -194,7 +194,7 @@ TEST(BiasTest, MergingWeighsBySamples) {
     EXPECT_EQ(merged({}, b).samples, 30);
 }
 
-TEST(BiasTest, DifferentSizesGiveNoVerdict) {
+TEST(BiasTest, DifferentSizesGiveAnEmptyResult) {
     std::mt19937 bits(7);
     EXPECT_TRUE(test_bias(noisy(bits, 0.1f, 16, even), {}).regions.empty());
 }

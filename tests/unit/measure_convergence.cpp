@@ -20,7 +20,7 @@ TEST(Intervals, NormalQuantileUndoesTheProbability) {
     for (const double p : {0.5, 0.05, 1e-3, 1e-6}) EXPECT_NEAR(normal_two_sided(normal_quantile_two_sided(p)) / p, 1, 1e-9);
 }
 
-TEST(Intervals, OfAMeanHoldsItInNineteenOfTwentyCases) {
+TEST(Intervals, CoverageOfTheMeanIs95Percent) {
     std::mt19937 bits(1);
     std::normal_distribution<double> normal(3, 2);
     Moments inside;
@@ -33,14 +33,14 @@ TEST(Intervals, OfAMeanHoldsItInNineteenOfTwentyCases) {
     EXPECT_TRUE(z_test(inside, 0.95));
 }
 
-TEST(Intervals, OfOneValueIsNotKnown) {
+TEST(Intervals, OneValueHasNoInterval) {
     const double one[]{7};
     EXPECT_FALSE(mean_interval(one).known);
     EXPECT_EQ(mean_interval(one).value, 7);
     EXPECT_FALSE(mean_interval({}).known);
 }
 
-TEST(PowerFit, FindsAKnownSlopeAndItsIntervalHoldsIt) {
+TEST(PowerFit, FindsAKnownSlopeWithinItsInterval) {
     std::mt19937 bits(2);
     std::normal_distribution<double> noise(0, 0.1);
     Moments slopes, inside;
@@ -58,7 +58,7 @@ TEST(PowerFit, FindsAKnownSlopeAndItsIntervalHoldsIt) {
     EXPECT_TRUE(z_test(inside, 0.95, sidak(significance, 2)));
 }
 
-TEST(PowerFit, SaysWhereACurveArrives) {
+TEST(PowerFit, PredictsWhereACurveReachesAValue) {
     const double x[]{1, 4, 16}, y[]{1, 0.5, 0.25};
     const PowerFit fit = fit_power(x, y);
     EXPECT_NEAR(fit.slope.value, -0.5, 1e-12);
@@ -70,7 +70,7 @@ TEST(PowerFit, SaysWhereACurveArrives) {
 }
 
 // Errors of running means: the correlation of the points must not make the interval of the slope too narrow.
-TEST(PowerFit, OfARunningMeanHoldsTheSlopeInNineteenOfTwentyRuns) {
+TEST(PowerFit, CoverageOfRunningMeansIs95Percent) {
     std::mt19937 bits(3);
     std::normal_distribution<double> normal;
     constexpr int pixels = 60, longest = 400;
@@ -104,7 +104,7 @@ ConvergencePoint at(double seconds, int64_t spp, Kind kind = Kind::estimated) {
         kind, seconds, spp, {true, std::sqrt(relmse), 0.9 * std::sqrt(relmse), 1.1 * std::sqrt(relmse)}, {true, relmse, relmse, relmse}};
 }
 
-TEST(ConvergenceRecord, KeepsPointsATenthApartForEachKind) {
+TEST(ConvergenceRecord, KeepsPointsTenPercentApartForEachKind) {
     ConvergenceRecord record;
     int kept = 0;
     for (int64_t spp = 1; spp <= 100000; ++spp) kept += record.add(at(double(spp), spp));
@@ -118,7 +118,7 @@ TEST(ConvergenceRecord, KeepsPointsATenthApartForEachKind) {
     EXPECT_FALSE(fit(record, Kind::denoised, ErrorMetric::rmse, ProgressAxis::spp).slope.known);
 }
 
-TEST(ConvergenceRecord, APointIsReplacedByABetterOneOfTheSamePicture) {
+TEST(ConvergenceRecord, APointIsReplacedAtTheSameSampleCount) {
     ConvergenceRecord record;
     for (const int64_t spp : {4, 16, 8, 16}) record.set(at(spp == 16 ? double(record.points().size()) : 1.0, spp, Kind::denoised));
     ASSERT_EQ(record.points().size(), 3u);
@@ -126,7 +126,7 @@ TEST(ConvergenceRecord, APointIsReplacedByABetterOneOfTheSamePicture) {
     EXPECT_EQ(record.points()[2].seconds, 3) << "the later one";
 }
 
-TEST(TimeLeft, IsToldFromTheSlopeWithItsInterval) {
+TEST(TimeLeft, IsExtrapolatedWithAnInterval) {
     using State = TimeLeft::State;
     ConvergenceRecord record;
     const auto left = [&](double target) { return time_left(record, Kind::estimated, ErrorMetric::relmse, target); };
@@ -148,7 +148,7 @@ TEST(TimeLeft, IsToldFromTheSlopeWithItsInterval) {
 }
 
 // Without information there is no prediction.
-TEST(TimeLeft, IsNotToldWhereTheErrorDoesNotFall) {
+TEST(TimeLeft, IsUnknownWithoutATrend) {
     ConvergenceRecord flat, scattered;
     for (const int64_t spp : {2, 4, 8, 16, 32}) {
         ConvergencePoint p = at(double(spp), spp);
@@ -161,7 +161,7 @@ TEST(TimeLeft, IsNotToldWhereTheErrorDoesNotFall) {
     EXPECT_EQ(time_left(scattered, Kind::estimated, ErrorMetric::rmse, 0.1).state, TimeLeft::State::no_trend);
 }
 
-TEST(Turns, GoToWhoHadTheLeastTime) {
+TEST(Turns, GoToTheVariantWithTheLeastTime) {
     EXPECT_EQ(next_turn({3, 1, 2}), 1);
     EXPECT_EQ(next_turn({-1, -1, 2}), 2);
     EXPECT_EQ(next_turn({-1, -1}), -1);

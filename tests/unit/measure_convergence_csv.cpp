@@ -8,7 +8,7 @@ namespace {
 
 using Kind = ConvergencePoint::Kind;
 
-TEST(ConvergenceCsv, IsReadAsItWasWritten) {
+TEST(ConvergenceCsv, RoundTrips) {
     ConvergenceRecord a, b;
     a.name = "a \"fast\", small one\nof two lines";
     a.set({Kind::estimated, 0.5, 2, {true, 0.25, 0.2, 0.3}, {true, 0.5, 0.25, 0.75}});
@@ -50,7 +50,7 @@ TEST(ConvergenceCsv, ReadsWhatConvergeWrites) {
     EXPECT_FALSE(points[1].rmse.known);
 }
 
-TEST(ConvergenceCsv, RefusesWhatIsNoTable) {
+TEST(ConvergenceCsv, RefusesInvalidTables) {
     const std::string header = "name,seconds,spp,rmse,kind\n";
     const auto refused = [](const std::string& text, const char* where) {
         const auto read = parse_convergence_csv(text);

@@ -47,7 +47,7 @@ TEST(ConvergenceRuns, AnEditEndsARunWithAMarkAndBeginsAnother) {
     EXPECT_NE(runs.find(first)->color, runs.find(second)->color);
 }
 
-TEST(ConvergenceRuns, AnEditThatTheRunSurvivesOnlyMarksIt) {
+TEST(ConvergenceRuns, EditsThatKeepTheRunAddAMark) {
     ConvergenceRuns runs;
     runs.begin("Opened");
     runs.mark("too early");
@@ -58,7 +58,7 @@ TEST(ConvergenceRuns, AnEditThatTheRunSurvivesOnlyMarksIt) {
     EXPECT_EQ(runs.live()->record.marks()[0].spp, 4);
 }
 
-TEST(ConvergenceRuns, OfADragNothingRemains) {
+TEST(ConvergenceRuns, RunsOfADragAreDropped) {
     ConvergenceRuns runs;
     const int first = runs.begin("Opened");
     record(runs, 8);
@@ -71,7 +71,7 @@ TEST(ConvergenceRuns, OfADragNothingRemains) {
     EXPECT_EQ(runs.find(first)->record.marks().size(), 1u);
 }
 
-TEST(ConvergenceRuns, NewerOnesPushOutTheOldestButThoseThatAreKept) {
+TEST(ConvergenceRuns, OldestRunsAreRemovedUnlessKept) {
     ConvergenceRuns runs;
     runs.begin("0");
     record(runs, 8);
@@ -99,7 +99,7 @@ TEST(ConvergenceRuns, NewerOnesPushOutTheOldestButThoseThatAreKept) {
 }
 
 // Names must be unique, since a table identifies runs by name.
-TEST(ConvergenceRuns, NoTwoHaveTheSameName) {
+TEST(ConvergenceRuns, NamesAreUnique) {
     ConvergenceRuns runs;
     ConvergenceRecord stored;
     stored.name = "a";

@@ -177,7 +177,7 @@ RgbImage with_noise(const RgbImage& image, double sigma, unsigned seed) {
     return noisy;
 }
 
-TEST(Flip, AgreesWithTheSecondImplementation) {
+TEST(Flip, AgreesWithAnIndependentImplementation) {
     for (const auto& [width, height] : {std::pair{31, 18}, {1, 25}, {3, 1}}) {
         const RgbImage reference = random_image(width, height, 1);
         RgbImage test = random_image(width, height, 2);
@@ -255,7 +255,7 @@ TEST(HdrFlip, SeesDifferencesFarAboveWhite) {
     EXPECT_GT(hdr_flip(reference, test)[16], 0.1);
 }
 
-TEST(HdrFlip, BlackPicturesAreNoTrouble) {
+TEST(HdrFlip, BlackImagesAreHandled) {
     const RgbImage black = constant_image(8, 8, {0, 0, 0});
     RgbImage mostly_black = black;
     mostly_black.pixels[3] = {5, 5, 5};
@@ -265,7 +265,7 @@ TEST(HdrFlip, BlackPicturesAreNoTrouble) {
     EXPECT_TRUE(std::isfinite(mean(hdr_flip(black, mostly_black))));
 }
 
-TEST(FlipNumbers, QuartilesAreOfTheSumAndNotOfThePixels) {
+TEST(FlipNumbers, QuartilesAreWeighted) {
     // 90 pixels of nothing, 8 of 0.05, 1 of 0.25, 1 of 0.6: the sum is 1.25.
     std::vector<float> map(90, 0.f);
     map.insert(map.begin() + 40, 8, 0.05f);
@@ -287,7 +287,7 @@ TEST(FlipNumbers, OfNoDifferenceAreZero) {
     }
 }
 
-TEST(FlipNumbers, WhatIsTheSameEverywhereIsEveryQuartile) {
+TEST(FlipNumbers, ConstantMapsHaveEqualQuartiles) {
     const FlipNumbers n = flip_numbers(std::vector<float>(1000, 0.3f));
     for (const double value : {n.mean, n.first_quartile, n.median, n.third_quartile, n.largest}) EXPECT_NEAR(value, 0.3, 1e-6);
     EXPECT_EQ(n.share_noticeable, 1);

@@ -91,13 +91,13 @@ TEST(Compare, NanInBothImagesIsNoDifference) {
     EXPECT_EQ(m.nonfinite_a, 1);
 }
 
-TEST(Compare, RefusesWhatCannotBeCompared) {
+TEST(Compare, RefusesIncomparableImages) {
     EXPECT_EQ(compare(constant_image(4, 3, {}), constant_image(3, 4, {}), Encoding::display).error().text(),
               "the images differ in size: 4x3 and 3x4");
     EXPECT_FALSE(compare(constant_image(4, 3, {nan, 0, 0}), constant_image(4, 3, {}), Encoding::display));
 }
 
-TEST(Compare, DoesNotDependOnHowThreadsShareTheRows) {
+TEST(Compare, DoesNotDependOnThreads) {
     const RgbImage a = random_image(64, 500, 5), b = random_image(64, 500, 6);
     const Metrics first = *compare(a, b, Encoding::display);
     for (int i = 0; i < 5; ++i) {

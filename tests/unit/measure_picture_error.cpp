@@ -49,7 +49,7 @@ MeasuredImage noisy_reference(Noise& noise, double sigma) {
     return m;
 }
 
-TEST(PictureError, AgainstAReferenceNoBetterThanThePictureIsRightInTheMean) {
+TEST(PictureError, IsUnbiasedForANoisyReference) {
     Noise noise{std::mt19937(5), {}};
     const std::vector<float> picture = blurred();
     const double rmse = true_rmse(picture);
@@ -64,7 +64,7 @@ TEST(PictureError, AgainstAReferenceNoBetterThanThePictureIsRightInTheMean) {
     EXPECT_TRUE(z_test_at_most(missed, 0.05, sidak(significance, 2)));
 }
 
-TEST(PictureError, IsNotKnownAgainstAReferenceThatIsFarWorse) {
+TEST(PictureError, IsUnknownForAMuchWorseReference) {
     Noise noise{std::mt19937(6), {}};
     const std::vector<float> picture = blurred();
     int known = 0;
@@ -84,7 +84,7 @@ TEST(PictureError, AgainstAPerfectReferenceIsTheMetric) {
 }
 
 // A later image shares samples with the measured one: the interval covers the true value for any correlation.
-TEST(PictureError, AgainstItsOwnRunHoldsWhateverTheyShare) {
+TEST(PictureError, IntervalCoversForSharedSamples) {
     Noise noise{std::mt19937(8), {}};
     for (const double shared : {-1.0, 0.0, 1.0}) {
         std::vector<float> picture, raw;

@@ -28,7 +28,7 @@ TEST(Plot, DrawsEachPointOfEachCurve) {
     for (const char* number : {">1<", ">10<", ">100<", ">0.1<", ">seconds<", ">RMSE<"}) EXPECT_GE(count_of(svg, number), 1u) << number;
 }
 
-TEST(Plot, LeavesOutWhatALogarithmCannotShow) {
+TEST(Plot, SkipsValuesWithoutALogarithm) {
     const double inf = std::numeric_limits<double>::infinity(), nan = std::nan("");
     Plot plot{"", "", "", {{"a", "#000", {{0, 1}, {1, 0}, {-1, 1}, {nan, 1}, {1, nan}, {1, inf}, {2, 2}}}}, {{0, "never"}}, {}};
     const std::string svg = to_svg(plot);
@@ -39,7 +39,7 @@ TEST(Plot, LeavesOutWhatALogarithmCannotShow) {
     EXPECT_EQ(count_of(to_svg({}), "nan"), 0u);
 }
 
-TEST(Plot, NamesCannotBreakOutOfTheMarkup) {
+TEST(Plot, NamesAreEscaped) {
     EXPECT_EQ(escaped_markup("<b>\"x\" & 'y'\x01"), "&lt;b&gt;&quot;x&quot; &amp; &#39;y&#39; ");
     Plot plot{"<script>", "", "", {{"<i>", "#000", {{1, 1}}}}, {}, {}};
     EXPECT_EQ(count_of(to_svg(plot), "<script>") + count_of(to_svg(plot), "<i>"), 0u);
@@ -78,7 +78,7 @@ TEST(PlotLayout, MapsPowersOfTenEvenlyAndBack) {
     EXPECT_LT(l.curves[0].band[0].y, l.curves[0].band[3].y);
 }
 
-TEST(PlotLayout, AxesEndAtRoundNumbersAndHoldStillWhileACurveGrows) {
+TEST(PlotLayout, AxesEndAtRoundNumbersAndAreStable) {
     const auto axis = [](double last) { return lay_out({"", "", "", {{"", "#000", {{1, 1}, {last, 0.5}}}}, {}, {}}, {}).x_axis; };
     for (double last = 1.1; last < 1e6; last *= 1.37) {
         const LogAxis x = axis(last);
@@ -93,7 +93,7 @@ TEST(PlotLayout, AxesEndAtRoundNumbersAndHoldStillWhileACurveGrows) {
 }
 
 // Any range has at least one label, and labels do not overlap.
-TEST(PlotLayout, NumbersNeverTouchAndAreNeverMissing) {
+TEST(PlotLayout, LabelsDoNotOverlapAndAlwaysExist) {
     for (const double span : {1.0001, 1.5, 3.0, 20.0, 1e3, 1e7, 1e15}) {
         for (const double width : {200.0, 640.0}) {
             for (double from = 1e-9; from < 1e5; from *= 7.3) {
@@ -135,7 +135,7 @@ TEST(PlotLayout, LabelsOfMarksDoNotOverlap) {
     EXPECT_EQ(labelled, 5u) << "the fourth of four in one place has no room";
 }
 
-TEST(PlotLayout, TheLegendKeepsOffTheCurves) {
+TEST(PlotLayout, TheLegendAvoidsTheCurves) {
     Plot plot{"", "", "", {{"falls", "#000", {}}}, {}, {}};
     for (double x = 1; x < 1e4; x *= 1.3) plot.curves[0].points.push_back({x, 1 / x});
     const PlotLayout falling = lay_out(plot, {});
@@ -146,7 +146,7 @@ TEST(PlotLayout, TheLegendKeepsOffTheCurves) {
     EXPECT_TRUE(lay_out(plot, {640, 420, 12, false, {}}).legend.empty());
 }
 
-TEST(PlotLayout, PicksTheNearestPointOfWhatCanBePicked) {
+TEST(PlotLayout, PicksTheNearestPoint) {
     Plot plot = two_curves();
     plot.curves.push_back(plot_guide(plot, -0.5, "guide"));
     plot.curves[0].points.insert(plot.curves[0].points.begin(), {-1, 1});

@@ -79,14 +79,14 @@ TEST(Waveform, LaysAGradientOutAsALine) {
         for (int level = 0; level < 8; ++level) EXPECT_EQ(w.counts[1][size_t(level * 8 + x)], x == level ? 3u : 0u);
 }
 
-TEST(Waveform, KeepsWhatLiesBeyondAtTheEnds) {
+TEST(Waveform, CountsValuesBeyondInTheEndLevels) {
     const Waveform w = waveform(std::vector<float>{-5, 7, nan}, 1, unit, 1, 4);
     EXPECT_EQ(w.counts[0][0], 1u);
     EXPECT_EQ(w.counts[1][3], 1u);
     EXPECT_EQ(w.counts[2][0], 1u);
 }
 
-TEST(Spread, IsMeanEndsAndDeviation) {
+TEST(Spread, IsMeanRangeAndDeviation) {
     const Spread s = spread_of(std::vector<float>{2, 4, 4, 4, 5, 5, 7, 9, nan, inf});
     EXPECT_EQ(s.count, 8);
     EXPECT_DOUBLE_EQ(s.mean, 5);
@@ -97,7 +97,7 @@ TEST(Spread, IsMeanEndsAndDeviation) {
 }
 
 // The deviation is accurate for a large mean.
-TEST(Spread, HoldsForSmallDifferencesOfLargeValues) {
+TEST(Spread, IsAccurateForSmallDifferencesOfLargeValues) {
     const Spread s = spread_of(std::vector<float>{1e6f + 1, 1e6f - 1, 1e6f + 1, 1e6f - 1});
     EXPECT_DOUBLE_EQ(s.deviation, 1);
 }

@@ -80,7 +80,7 @@ TEST(Skins, AtRestAreWhereTheMeshIs) {
     for (size_t i = 0; i < corners.size(); ++i) expect_near(corners[i], {i % 2 ? 0.5 : -0.5, double(i / 2), 0}, "corner");
 }
 
-TEST(Skins, AJointBendsWhatFollowsIt) {
+TEST(Skins, AJointDeformsItsVertices) {
     Strip strip;
     // A quarter turn about Z at height 1: vertices above it move to the left.
     strip.change(strip.upper, [](Node& n) { n.local.rotation = {0, 0, half_sqrt2, half_sqrt2}; });
@@ -134,7 +134,7 @@ TEST(MorphTargets, ComeBeforeSkins) {
     expect_near(strip.positions()[5], {-2, 1.5, 0}, "(0.5, 3) about (0, 1)");
 }
 
-TEST(MorphTargets, WithoutWeightLeaveTheMeshItself) {
+TEST(MorphTargets, ZeroWeightsReturnTheMeshItself) {
     Strip strip;
     const GeometryPtr rest = strip.scene.meshes.begin()->value.parts[0].geometry;
     strip.change(strip.body, [](Node& n) { n.skin = {}, n.morph_weights = {0}; });
@@ -159,7 +159,7 @@ TEST(Bend, FlatNormalsFollowTheTriangles) {
     for (const Vec3& n : folded->normals) EXPECT_EQ(n, (Vec3{0, -1, 0}));
 }
 
-TEST(Bend, WhatIsNotFiniteStaysAtRest) {
+TEST(Bend, NonFiniteVerticesKeepTheRestPose) {
     Strip strip;
     strip.change(strip.body, [](Node& n) { n.skin = {}, n.morph_weights = {3e38f}; });
     auto huge = std::make_shared<Geometry>(*strip.scene.meshes.begin()->value.parts[0].geometry);
@@ -170,7 +170,7 @@ TEST(Bend, WhatIsNotFiniteStaysAtRest) {
     for (const Vec3d& p : strip.positions()) EXPECT_LE(std::abs(p.x), 0.5);
 }
 
-TEST(Bend, JointsThatAreGoneOrBeyondTheSkinHarmNobody) {
+TEST(Bend, MissingJointsAreHandled) {
     Strip strip;
     strip.scene.nodes.remove(strip.upper);
     expect_near(strip.positions()[0], {-0.5, 0, 0}, "the other joint is there");

@@ -99,7 +99,7 @@ TEST(Diff, StagingEdits) {
     EXPECT_FALSE(changes_of(s, SetStaging{{}}).only_light());
 }
 
-TEST(Diff, HangingANodeBelowAHiddenOneHidesIt) {
+TEST(Diff, ReparentingBelowAHiddenNodeHidesIt) {
     Sample s = sample_project();
     s.project = *blush::apply(s.project, SetNode{s.table, changed(s, s.table, [](Node& n) { n.visible = false; })});
     EXPECT_EQ(seen(changes_of(s, SetNode{s.mug, changed(s, s.mug, [&](Node& n) { n.parent = s.table; })})), only([&](Changes& c) {

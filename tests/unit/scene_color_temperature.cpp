@@ -54,7 +54,7 @@ TEST(BlackBody, GoesFromRedToBlue) {
 }
 
 // Off the locus by what was asked for, at right angles to it, upwards for green.
-TEST(BlackBody, GreenTintLeavesTheLocusAtRightAngles) {
+TEST(BlackBody, GreenTintIsPerpendicularToTheLocus) {
     const auto uv = [](const Vec3& c) {
         const Chromaticity xy = chromaticity(c);
         const double d = -2 * xy.x + 12 * xy.y + 3;
@@ -71,12 +71,12 @@ TEST(BlackBody, GreenTintLeavesTheLocusAtRightAngles) {
         }
 }
 
-TEST(BlackBody, ClampsWhatNoLampReaches) {
+TEST(BlackBody, ClampsOutOfRangeTemperatures) {
     EXPECT_EQ(black_body_color(0), black_body_color(min_kelvin));
     EXPECT_EQ(black_body_color(1e9f), black_body_color(max_kelvin));
 }
 
-TEST(TemperatureOf, ComesBackFromTheColour) {
+TEST(TemperatureOf, InvertsBlackBodyColor) {
     for (const float kelvin : {2000.f, 2856.f, 4000.f, 6504.f, 12000.f, 25000.f})
         for (const float tint : {-0.01f, 0.f, 0.01f}) {
             const Vec3 color = black_body_color(kelvin, tint);

@@ -87,7 +87,7 @@ TEST(Document, AGestureThatGoesOnAfterUndoIsANewStep) {
     EXPECT_EQ(document.project().scene.lights.find(s.lamp)->intensity, 1);
 }
 
-TEST(Document, AnEditThatChangesNothingLeavesNoTrace) {
+TEST(Document, AnEditWithoutAChangeMakesNoStep) {
     const Sample s = sample_project();
     Document document(s.project);
     const uint64_t revision = document.revision();
@@ -96,7 +96,7 @@ TEST(Document, AnEditThatChangesNothingLeavesNoTrace) {
     EXPECT_EQ(document.revision(), revision);
 }
 
-TEST(Document, ARefusedEditLeavesNoTrace) {
+TEST(Document, ARefusedEditChangesNothing) {
     const Sample s = sample_project();
     Document document(s.project);
     const uint64_t revision = document.revision();
@@ -153,7 +153,7 @@ TEST(Document, TheLensIsEditedNotNavigated) {
     EXPECT_EQ(document.project().scene.view.position.x, 3);
 }
 
-TEST(Document, UndoingLookThroughGoesBackToThePlaceBefore) {
+TEST(Document, UndoingLookThroughRestoresTheView) {
     const Sample s = sample_project();
     Document document(s.project);
     document.navigate(moved_view(document, 3));
@@ -180,7 +180,7 @@ TEST(Document, ModifiedComparesValues) {
     EXPECT_TRUE(document.modified());
 }
 
-TEST(Document, HistoryForgetsItsOldestSteps) {
+TEST(Document, HistoryDropsItsOldestSteps) {
     const Sample s = sample_project();
     Document document(s.project);
     for (int i = 1; i <= 600; ++i) ASSERT_TRUE(document.apply(SetLight{s.lamp, lamp_of(s, float(i))}));
@@ -190,7 +190,7 @@ TEST(Document, HistoryForgetsItsOldestSteps) {
     EXPECT_EQ(document.project().scene.lights.find(s.lamp)->intensity, 100);
 }
 
-TEST(Document, HistoryForgetsWhatWeighsTooMuch) {
+TEST(Document, HistoryIsLimitedInMemory) {
     // 64 x 32 pixels of three floats are 24 KiB, and a step is a few KiB more: three of them fit, a fourth does not.
     constexpr size_t image_bytes = 64 * 32 * 3 * sizeof(float);
     Document document(sample_project().project, {.bytes = 4 * image_bytes});
@@ -205,7 +205,7 @@ TEST(Document, HistoryForgetsWhatWeighsTooMuch) {
     EXPECT_EQ(steps, 3);
 }
 
-TEST(Document, TheLastStepStaysWhateverItWeighs) {
+TEST(Document, TheLastStepIsAlwaysKept) {
     Document document(sample_project().project, {.bytes = 1});
     ASSERT_TRUE(document.apply(SetView{{.exposure_ev = 1}}));
     ASSERT_TRUE(document.apply(SetView{{.exposure_ev = 2}}));

@@ -35,7 +35,7 @@ TEST(Apply, RefusesIdsThatDoNotExist) {
     EXPECT_TRUE(refused(p, LookThrough{{99}}, "no node 99"));
 }
 
-TEST(Apply, RefusesReferencesToNothing) {
+TEST(Apply, RefusesDanglingReferences) {
     const Sample s = sample_project();
     Node node = *s.project.scene.nodes.find(s.mug);
     node.mesh = {99};
@@ -109,7 +109,7 @@ TEST(Apply, DuplicateCopiesLightsAndSharesMeshes) {
     EXPECT_EQ((again.nodes.end() - 3)->value.name, "Root 3");
 }
 
-TEST(Apply, RemoveTakesTheWholeBranchAndNothingElse) {
+TEST(Apply, RemoveDeletesExactlyTheSubtree) {
     const Sample s = sample_project();
     const Scene scene = blush::apply(s.project, RemoveNode{s.root})->scene;
     EXPECT_FALSE(scene.nodes.contains(s.root));

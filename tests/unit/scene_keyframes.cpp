@@ -58,7 +58,7 @@ TEST(Keyframes, SphericalInterpolationTurnsAtConstantSpeed) {
     for (const float t : {0.f, 0.25f, 0.5f, 0.9f, 1.f}) EXPECT_NEAR(between(rotation_at(k, t), about_z(10 + 90 * double(t))), 0, 1e-3) << t;
 }
 
-TEST(Keyframes, RotationsTakeTheShorterWay) {
+TEST(Keyframes, RotationsTakeTheShorterArc) {
     Quat far = about_z(90);
     far = {-far.x, -far.y, -far.z, -far.w}; // the same rotation
     EXPECT_NEAR(between(rotation_at(turning({}, far), 0.5f), about_z(45)), 0, 1e-3);

@@ -33,7 +33,7 @@ struct Placed {
     }
 };
 
-TEST(LightMeters, AreWhereTheyWerePut) {
+TEST(LightMeters, KeepTheirPosition) {
     const Placed p;
     const Vec3d position{1, 2, 3}, normal = normalize(Vec3d{1, -2, 0.5});
     const PlacedMeter m = placed(p.scene, meter_on(p.scene, p.node, position, normal, ""));
@@ -58,7 +58,7 @@ TEST(LightMeters, MoveAndTurnWithTheirNode) {
     EXPECT_NEAR(length(m.normal), 1, 1e-6);
 }
 
-TEST(LightMeters, OfANodeThatIsGoneStayInTheWorld) {
+TEST(LightMeters, OfARemovedNodeStayInTheWorld) {
     const PlacedMeter m = placed(Scene{}, {"", {99}, {1, 2, 3}, {0, 0, 1}, 0});
     expect_near(m.position, {1, 2, 3});
     expect_near(m.normal, {0, 0, 1});

@@ -40,7 +40,7 @@ struct Model {
     }
 };
 
-TEST(LightRig, IsOfferedWhereNothingShines) {
+TEST(LightRig, IsOfferedWithoutLight) {
     EXPECT_FALSE(has_light(Scene{}));
     EXPECT_FALSE(has_light(Model().scene));
 
@@ -80,7 +80,7 @@ TEST(LightRig, IsOfferedWhereNothingShines) {
     EXPECT_TRUE(has_light(picture.scene)) << "unlit surfaces need none";
 }
 
-TEST(LightRig, IsOfferedWhereTheEnvironmentIsBlack) {
+TEST(LightRig, IsOfferedForABlackEnvironment) {
     Model model;
     Environment& e = model.scene.environment;
     e.kind = Environment::Kind::constant;
@@ -118,7 +118,7 @@ double lux_at(const Scene& scene, Id<Node> id, const Vec3d& point) {
     return lux * light.intensity * light.width * light.height / (n * n);
 }
 
-TEST(LightRig, StudioLightsTheMiddleAsItSays) {
+TEST(LightRig, StudioGivesTheStatedIlluminance) {
     for (const float size : {1e-3f, 1.f, 500.f}) {
         Model model({size, 2 * size, size});
         model.scene.view.position = {3 * size, size, 9 * size};
@@ -172,7 +172,7 @@ TEST(LightRig, StudioStaysInsideOfARoom) {
     }
 }
 
-TEST(LightRig, SkyGivesTheGroundWhatItSays) {
+TEST(LightRig, SkyGivesTheStatedIlluminance) {
     const Result<Scene> lit = with_light_rig(Model().scene, LightRig::sky, {});
     ASSERT_TRUE(lit);
     EXPECT_TRUE(has_light(*lit));
@@ -184,7 +184,7 @@ TEST(LightRig, SkyGivesTheGroundWhatItSays) {
 }
 
 // Scenes without anything, of one point, and with the eye in the middle or straight above.
-TEST(LightRig, OfOddScenesIsValid) {
+TEST(LightRig, OfUnusualScenesIsValid) {
     Model point({0, 0, 0}), above;
     above.scene.view.position = {0, 9, 0};
     above.scene.view.rotation = {-std::sqrt(0.5f), 0, 0, std::sqrt(0.5f)};
@@ -199,7 +199,7 @@ TEST(LightRig, OfOddScenesIsValid) {
     EXPECT_EQ(*with_light_rig(above.scene, LightRig::none, {}), above.scene);
 }
 
-TEST(LightRig, HasWords) {
+TEST(LightRig, HasNames) {
     for (const LightRig rig : {LightRig::none, LightRig::studio, LightRig::sky}) EXPECT_EQ(*parse_light_rig(to_string(rig)), rig);
     EXPECT_FALSE(parse_light_rig("moon"));
 }

@@ -64,7 +64,7 @@ TEST(LightUnits, ASpotsFluxIsThatOfItsFalloff) {
     }
 }
 
-TEST(LightUnits, SpreadKeepsTheFluxAndGathersTheCandela) {
+TEST(LightUnits, SpreadKeepsTheFluxAndRaisesTheCandela) {
     Light panel = light_of(Kind::disk);
     const double flux = in_unit(panel, Unit::lumen), candela = in_unit(panel, Unit::candela);
     panel.spread_radians = 1;
@@ -72,7 +72,7 @@ TEST(LightUnits, SpreadKeepsTheFluxAndGathersTheCandela) {
     EXPECT_NEAR(in_unit(panel, Unit::candela) / candela, std::tan(0.5) / (std::tan(0.5) - 0.5), 1e-9);
 }
 
-TEST(LightUnits, AMeasuredDistributionHasItsOwnFlux) {
+TEST(LightUnits, AnIesProfileHasItsOwnFlux) {
     IesProfile half;
     half.vertical = {0, 90};
     half.horizontal = {0};
@@ -87,7 +87,7 @@ TEST(LightUnits, AMeasuredDistributionHasItsOwnFlux) {
     }
 }
 
-TEST(LightUnits, ThereAndBack) {
+TEST(LightUnits, RoundTrip) {
     for (const Kind kind : kinds)
         for (const Unit unit : units) {
             const Light light = light_of(kind, 0.37f);
@@ -97,7 +97,7 @@ TEST(LightUnits, ThereAndBack) {
     for (const Kind kind : kinds) EXPECT_DOUBLE_EQ(in_unit(light_of(kind), own_unit(kind)), 2);
 }
 
-TEST(LightUnits, WhatIsNoStrengthIsNone) {
+TEST(LightUnits, InvalidStrengthsAreZero) {
     EXPECT_FALSE(has_unit(light_of(Kind::sun), Unit::lumen));
     EXPECT_FALSE(has_unit(light_of(Kind::point), Unit::nits));
     EXPECT_EQ(intensity_of(light_of(Kind::sun), Unit::lumen, 5), 0);

@@ -30,7 +30,7 @@ struct Screens {
     }
 };
 
-TEST(LineOfSight, TheFirstOnTheWayIsFoundFromEitherSide) {
+TEST(LineOfSight, FindsTheFirstOccluderFromEitherSide) {
     Screens s;
     const Id<Node> far = s.put(3), near = s.put(1);
     EXPECT_EQ(s.between({0, 0.2, 0.1}, {5, 0.2, 0.1}), near);
@@ -40,7 +40,7 @@ TEST(LineOfSight, TheFirstOnTheWayIsFoundFromEitherSide) {
     EXPECT_FALSE(s.between({0, 1.2, 0}, {5, 1.2, 0})) << "past the edge";
 }
 
-TEST(LineOfSight, WhatItBeginsAndEndsOnDoesNotStandInItsWay) {
+TEST(LineOfSight, EndPointSurfacesDoNotOcclude) {
     Screens s;
     s.put(0);
     s.put(5);
@@ -59,13 +59,13 @@ TEST(LineOfSight, ParentsScaleAndHidingCount) {
     EXPECT_FALSE(s.between({8, 0.05, 0}, {12, 0.05, 0})) << "hidden";
 }
 
-TEST(LineOfSight, WhatHasNoExtentIsPassed) {
+TEST(LineOfSight, DegenerateGeometryDoesNotOcclude) {
     Screens s;
     s.put(1, 0);
     EXPECT_FALSE(s.between({0, 0, 0}, {5, 0, 0}));
 }
 
-TEST(LineOfSight, GlassAndWhatIsPartlyThereIsPassed) {
+TEST(LineOfSight, TransmissionAndAlphaDoNotOcclude) {
     Screens s;
     s.put(1);
     Material paint;

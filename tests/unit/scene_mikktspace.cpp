@@ -57,7 +57,7 @@ TEST(Mikktspace, TrianglesCountByTheirAngleNotByTheirSize) {
     }
 }
 
-TEST(Mikktspace, CornersThatAreAlikeAreOneVertex) {
+TEST(Mikktspace, EqualCornersAreWelded) {
     const Geometry shared = fan(1);
     Geometry apart = shared;
     apart.positions.clear();
@@ -92,7 +92,7 @@ TEST(Mikktspace, FansThatTouchInAPointDoNotMix) {
     expect_tangent(corners[3], {0, 1, 0}, -1);
 }
 
-TEST(Mikktspace, TrianglesWhoseUvsSayNothingFollowTheirNeighbours) {
+TEST(Mikktspace, DegenerateUvsFollowTheirNeighbours) {
     // The third corner of the second triangle lies on the line between the others in the texture.
     const Geometry g = flat({{{0, 0, 0}, {0, 0}}, {{1, 0, 0}, {0, 1}}, {{1, 1, 0}, {-1, 1}}, {{0, 1, 0}, {-0.5f, 0.5f}}}, {0, 1, 2, 0, 2, 3});
     const std::vector<Vec4> corners = mikktspace_tangents(g, g.uv[0]);
@@ -125,7 +125,7 @@ TEST(Mikktspace, NormalsThatDifferKeepVerticesApart) {
     }
 }
 
-TEST(GltfTangents, VerticesWhoseTrianglesDisagreeAreSplit) {
+TEST(GltfTangents, VerticesWithDifferentTangentsAreSplit) {
     Geometry g = mirrored();
     g.colors.assign(6, {1, 1, 1, 1});
     g.colors[0] = {0.5f, 1, 1, 1};
@@ -146,7 +146,7 @@ TEST(GltfTangents, VerticesWhoseTrianglesDisagreeAreSplit) {
     EXPECT_TRUE(regular.made_tangents->copies.empty()) << "nothing to split";
 }
 
-TEST(GltfTangents, ThatWereMadeCanBeUnmade) {
+TEST(GltfTangents, GeneratedTangentsCanBeRemoved) {
     Geometry before = mirrored();
     before.colors.assign(6, {1, 0, 1, 1});
     for (uint16_t i = 0; i < 12; ++i) before.influences.push_back({i, 0.5f});

@@ -36,7 +36,7 @@ TEST(Roulette, ReadsWhatTheManualShows) {
     EXPECT_EQ(cut.threshold, 0.05f);
 }
 
-TEST(Roulette, TextGoesThereAndBack) {
+TEST(Roulette, TextRoundTrips) {
     EXPECT_EQ(to_string(Roulette{}), "sqrt,start=3");
     std::mt19937 rng(5);
     std::uniform_real_distribution<float> u(0.001f, 1);
@@ -74,18 +74,18 @@ TEST(Roulette, BadTextIsRefusedWithTheReason) {
     EXPECT_EQ(error("max,start=99999999999"), "roulette's start must be a whole number from 0, not \"99999999999\"");
 }
 
-TEST(Reuse, TextGoesThereAndBack) {
+TEST(Reuse, TextRoundTrips) {
     for (const int n : {1, 4, 8, 16}) EXPECT_EQ(*parse_reuse(reuse_text(n)), n);
     for (const char* bad : {"", "1", "on", "5", "16x"}) EXPECT_FALSE(parse_reuse(bad)) << bad;
     EXPECT_TRUE(reuse_text(3).empty());
 }
 
-TEST(MaxBounces, TextGoesThereAndBack) {
+TEST(MaxBounces, TextRoundTrips) {
     for (const int n : {0, 1, 17, unlimited_bounces}) EXPECT_EQ(*parse_max_bounces(max_bounces_text(n)), n);
     for (const char* bad : {"", "-1", "many", "3x", "1.5", "99999999999"}) EXPECT_FALSE(parse_max_bounces(bad)) << bad;
 }
 
-TEST(Words, GoThereAndBack) {
+TEST(Words, RoundTrip) {
     for (const Strategy s : {Strategy::mis, Strategy::light, Strategy::bsdf}) EXPECT_EQ(*parse_strategy(to_string(s)), s);
     for (const PixelFilter f : {PixelFilter::blackman_harris, PixelFilter::box}) EXPECT_EQ(*parse_filter(to_string(f)), f);
     for (const SampleNumbers n : {SampleNumbers::sobol, SampleNumbers::random}) EXPECT_EQ(*parse_sampler(to_string(n)), n);

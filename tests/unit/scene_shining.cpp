@@ -28,7 +28,7 @@ struct TwoLamps {
     bool shine(Id<Light> id) const { return shines(*scene.lights.find(id), any_solo(scene)); }
 };
 
-TEST(Shining, SoloSilencesTheOthersAndMuteWins) {
+TEST(Shining, SoloMutesOthersAndMuteTakesPrecedence) {
     for (const bool key_on : {false, true})
         for (const bool key_solo : {false, true})
             for (const bool fill_on : {false, true})
@@ -40,7 +40,7 @@ TEST(Shining, SoloSilencesTheOthersAndMuteWins) {
                 }
 }
 
-TEST(Shining, ASoloLightThatWasDeletedSilencesNobody) {
+TEST(Shining, ADeletedSoloLightIsIgnored) {
     TwoLamps s;
     s.set(s.key, true, true);
     s.scene.nodes.remove(s.scene.nodes.begin()->id);
@@ -54,7 +54,7 @@ TEST(Shining, WithoutSoloTheSceneIsTheSame) {
     EXPECT_TRUE(with_solo_applied(s.scene) == s.scene);
 }
 
-TEST(Shining, SoloAppliedIsSaidByEnabledAlone) {
+TEST(Shining, AppliedSoloUsesOnlyEnabled) {
     TwoLamps s;
     s.set(s.key, true, true);
     Material glow;

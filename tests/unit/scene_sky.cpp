@@ -127,7 +127,7 @@ TEST(SkyModel, IsAsBrightAsDaylight) {
     EXPECT_GT(noon.radiance({0, 1, 0}).z, noon.radiance({0, 1, 0}).x) << "blue above";
 }
 
-TEST(SkyModel, GroundIsMatteAndNightIsDark) {
+TEST(SkyModel, GroundIsDiffuseAndNightIsBlack) {
     Sky sky = sky_of(3, 40);
     const SkyModel day(sky);
     const Vec3d lux = day.sky_illuminance() + day.sun_illuminance() * day.sun_direction().y;

@@ -15,7 +15,7 @@ using test::sample_project;
 
 Staging swing_at(const Sample& s, float seconds) { return {.clip = s.swing, .seconds = seconds}; }
 
-TEST(Staging, AClipMovesWhatItLeadsAndAllBelow) {
+TEST(Staging, AClipMovesItsNodesAndTheirDescendants) {
     Sample s = sample_project();
     Document document(s.project);
     ASSERT_TRUE(document.apply(SetStaging{swing_at(s, 1)}));
@@ -46,7 +46,7 @@ TEST(Staging, ADragOfTheTimeIsOneStepThatCanBeUndone) {
     EXPECT_EQ(document.project().scene.staging, swing_at(s, 1.5f));
 }
 
-TEST(Staging, WhatAClipCarriesBeyondAllNumbersIsHidden) {
+TEST(Staging, NonFiniteAnimatedNodesAreHidden) {
     Sample s = sample_project();
     Scene& scene = s.project.scene;
     Clip clip = *scene.clips.find(s.swing);
@@ -66,7 +66,7 @@ TEST(Staging, WhatAClipCarriesBeyondAllNumbersIsHidden) {
     EXPECT_TRUE(is_visible(applied, s.table));
 }
 
-TEST(Staging, WhatIsNotThereCannotBeChosen) {
+TEST(Staging, MissingChoicesAreRefused) {
     const Sample s = sample_project();
     const float nan = std::numeric_limits<float>::quiet_NaN();
     for (const Staging& bad : {Staging{.clip = Id<Clip>{99}}, swing_at(s, -1), swing_at(s, nan), Staging{.scene = 1}, Staging{.scene = -1},
@@ -74,7 +74,7 @@ TEST(Staging, WhatIsNotThereCannotBeChosen) {
         EXPECT_FALSE(blush::apply(s.project, SetStaging{bad}));
 }
 
-TEST(Staging, AViewThroughACameraGoesAlong) {
+TEST(Staging, AViewThroughACameraFollowsIt) {
     Sample s = sample_project();
     Scene& scene = s.project.scene;
     Clip clip = *scene.clips.find(s.swing);
@@ -88,7 +88,7 @@ TEST(Staging, AViewThroughACameraGoesAlong) {
     EXPECT_EQ(staged(scene, swing_at(s, 1)).view, scene.view);
 }
 
-TEST(Staging, VariantsDressTheMeshesAndKeepTheirOwnMaterials) {
+TEST(Staging, VariantsAssignAndKeepTheirMaterials) {
     Sample s = sample_project();
     Document document(s.project);
     const auto worn = [&](size_t part) { return document.project().scene.meshes.find(s.quad)->parts[part].material; };

@@ -39,7 +39,7 @@ TEST(Transform, AppliesScaleThenRotationThenTranslation) {
     EXPECT_NEAR(p.z, 3 + 4, 1e-6);
 }
 
-TEST(Transform, MatricesOfThreePartsGoThereAndBack) {
+TEST(Transform, DecomposedMatricesRoundTrip) {
     std::mt19937 rng(1);
     for (int i = 0; i < 2000; ++i) {
         const Affined m = to_affine(random_trs(rng));
@@ -75,7 +75,7 @@ TEST(Transform, NonFiniteMatricesDoNotBecomeRotations) {
     EXPECT_TRUE(to_transform(m).matrix);
 }
 
-TEST(Quaternions, GoThereAndBack) {
+TEST(Quaternions, RoundTrip) {
     std::mt19937 rng(3);
     std::normal_distribution<double> n;
     for (int i = 0; i < 2000; ++i) {
@@ -115,7 +115,7 @@ TEST(WorldFromNode, EndsOnACycle) {
 }
 
 // A chain so deep that an algorithm of quadratic time does not finish.
-TEST(Placements, OfADeepChainTakeOneWalk) {
+TEST(Placements, DeepChainsTakeLinearTime) {
     constexpr int depth = 100'000;
     Scene scene;
     Node node;
@@ -161,7 +161,7 @@ TEST(WorldBounds, HoldTheVisibleGeometry) {
     EXPECT_TRUE(world_bounds(s.project.scene, s.lamp_node).empty);
 }
 
-TEST(WorldBounds, LeaveOutWhatIsNotANumber) {
+TEST(WorldBounds, IgnoreNonFiniteValues) {
     Bounds b;
     b.include({NAN, 0, 0});
     EXPECT_TRUE(b.empty);
@@ -217,7 +217,7 @@ TEST(Framed, APointIsSeenFromOutside) {
     EXPECT_GT(framed(View{}, point, 1).pivot_distance, 0);
 }
 
-TEST(ViewThrough, TakesPlaceAndLensAndTurnsAboutTheScene) {
+TEST(ViewThrough, TakesPoseAndLensAndOrbitsTheScene) {
     const Sample s = sample_project();
     const View view = view_through(s.project.scene, s.camera_node);
     EXPECT_EQ(view.position, (Vec3{0, 0, 4}));

@@ -19,7 +19,7 @@ Material untextured_of(const Material& material) {
     return *untextured(with_material(material)).materials.find(sample.red);
 }
 
-TEST(Untextured, NothingOfATextureIsLeft) {
+TEST(Untextured, NoTexturesRemain) {
     const test::Sample sample = test::sample_project();
     Material material;
     for (const TextureSlot& slot : texture_slots) (material.*slot.ref).texture = sample.checker;
@@ -44,7 +44,7 @@ TEST(Untextured, TexturedColoursAreDimmedAndTexturedMetalIsNone) {
     EXPECT_EQ(shown.roughness, material.roughness);
 }
 
-TEST(Untextured, WhatHasNoTextureStaysAsItIs) {
+TEST(Untextured, UntexturedMaterialsAreUnchanged) {
     Material material;
     material.base_color = {0.3f, 0.2f, 0.1f};
     material.emissive = {5, 5, 5};

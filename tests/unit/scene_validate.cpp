@@ -90,7 +90,7 @@ TEST(Validate, PixelsMustBeThere) {
     EXPECT_TRUE(validate(environment));
 }
 
-TEST(Validate, GeometryMustFitTogether) {
+TEST(Validate, GeometryMustBeConsistent) {
     const auto with = [](auto&& change) {
         Geometry g = *test::quad_geometry();
         change(g);

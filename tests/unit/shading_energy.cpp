@@ -42,7 +42,7 @@ TEST(Furnace, WhiteSurfacesThatLoseNothingAreInvisible) {
             EXPECT_TRUE(z_test(furnace(m.params, v, 1), 1, sidak(significance, 90))) << describe(m, v);
 }
 
-TEST(Furnace, RoughMetalLosesWhatItsFacetsMask) {
+TEST(Furnace, RoughMetalLosesMaskedEnergy) {
     for (const float roughness : roughnesses)
         for (const Viewer& v : viewers(metal(roughness))) {
             const double expected = reference::mirror_albedo(reference::sqr(roughness), v.wo().z);

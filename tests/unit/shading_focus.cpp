@@ -56,7 +56,7 @@ template <class Value> Moments moments(const std::vector<Drawn>& drawn, const Va
 } // namespace
 
 // Two balls apart, one of them small and far away; and two that hide each other.
-TEST(Focus, EveryPartOfTheHemisphereKeepsItsWeight) {
+TEST(Focus, EstimatorIsUnbiasedOverTheHemisphere) {
     const std::vector<std::vector<FocusBall>> scenes = {{{{1, 0, 2}, 0.5f}, {{-30, 20, 40}, 0.5f}}, {{{0, 0, 2}, 1}, {{0.1f, 0, 5}, 1}}};
     for (const std::vector<FocusBall>& balls : scenes) {
         const std::vector<Drawn> drawn = draw({balls.data(), int32_t(balls.size())}, 400'000);
@@ -67,7 +67,7 @@ TEST(Focus, EveryPartOfTheHemisphereKeepsItsWeight) {
     }
 }
 
-TEST(Focus, ABallIsFoundManyTimesAsOftenAsByChance) {
+TEST(Focus, GuidingFindsABallMoreOften) {
     const FocusBall ball{{-30, 20, 40}, 0.5f};
     int found = 0;
     constexpr int count = 400'000;
@@ -77,7 +77,7 @@ TEST(Focus, ABallIsFoundManyTimesAsOftenAsByChance) {
     EXPECT_NEAR(found, expected, 5 * std::sqrt(expected));
 }
 
-TEST(Focus, NobodyAimsFromWithinABallBelowTheHorizonOrAtNothing) {
+TEST(Focus, NoGuidingFromInsideBelowTheHorizonOrWithoutCasters) {
     const FocusBall around{{0, 0, 0.5f}, 1}, below{{0, 1, -2}, 1}, speck{{0, 0, 5000}, 1};
     for (const FocusBall& ball : {around, below, speck}) EXPECT_EQ(focus_at<float>({&ball, 1}, {0, 0, 0}, up, true).share, 0);
     const FocusBall ahead{{0, 0, 2}, 1};

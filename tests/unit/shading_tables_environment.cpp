@@ -249,7 +249,7 @@ TEST(EnvironmentSampling, DensityIntegratesToOne) {
 }
 
 // A cell's share of the samples equals its share of the light.
-TEST(EnvironmentSampling, CellsAreDrawnByTheLightOfTheFilteredMap) {
+TEST(EnvironmentSampling, CellProbabilitiesFollowTheFilteredMap) {
     for (const NamedMap& map : maps()) {
         const EnvironmentTable table = build_environment_table(map.environment);
         const Model model(table);
@@ -283,7 +283,7 @@ TEST(EnvironmentSampling, CellsAreDrawnByTheLightOfTheFilteredMap) {
     }
 }
 
-TEST(EnvironmentSampling, WhatShinesCanBeDrawn) {
+TEST(EnvironmentSampling, EveryEmissiveCellCanBeSampled) {
     Random random(7);
     for (const NamedMap& map : maps()) {
         const EnvironmentTable table = build_environment_table(map.environment);
@@ -342,7 +342,7 @@ TEST(EnvironmentSampling, EstimatesTheIrradianceOfEveryMap) {
 }
 
 // A row may be rarer than the 24 bits of the number that picks it.
-TEST(EnvironmentSampling, RareRowsAreDrawn) {
+TEST(EnvironmentSampling, RareRowsAreSampled) {
     int next = 0;
     const EnvironmentTable table = build_environment_table(map_of(1, 3, 0, [&] {
         const int texel = next++ / 3;
@@ -360,7 +360,7 @@ TEST(EnvironmentSampling, RareRowsAreDrawn) {
     EXPECT_TRUE(statistics::z_test(m, p_rare * 0x1p24));
 }
 
-TEST(EnvironmentSampling, AGuideDrawsWhatPlainBisectionDraws) {
+TEST(EnvironmentSampling, GuideTableEqualsPlainBisection) {
     Random random(11);
     for (const int n : {1, 2, 3, 7, 64, 1000}) {
         for (int guide_bits = 1; guide_bits <= 11; guide_bits += 2) {
@@ -384,7 +384,7 @@ TEST(EnvironmentSampling, AGuideDrawsWhatPlainBisectionDraws) {
     }
 }
 
-TEST(EnvironmentTable, ReplacesBadTexelsAndSaysHowMany) {
+TEST(EnvironmentTable, ReplacesAndCountsBadTexels) {
     const float values[] = {nan, infinite, -1.f, 1.f, 2.f, 3.f};
     size_t next = 0;
     Environment e = map_of(2, 1, 0, [&] { return values[next++]; });

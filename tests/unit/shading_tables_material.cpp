@@ -435,7 +435,7 @@ TEST(MaterialTable, EmissionAloneIsTheEmissionOfThePoint) {
     }
 }
 
-TEST(MaterialTable, OneMaterialRewrittenEqualsAllBuiltAnew) {
+TEST(MaterialTable, UpdatingOneMaterialEqualsARebuild) {
     Random random(7);
     Scene scene;
     const std::vector<Id<Texture>> textures = add_textures(scene, random);
@@ -462,7 +462,7 @@ TEST(MaterialTable, OneMaterialRewrittenEqualsAllBuiltAnew) {
     EXPECT_GT(rewritten, 0);
 }
 
-TEST(MaterialTable, ANewTextureOrMaterialAsksForANewTable) {
+TEST(MaterialTable, NewTexturesOrMaterialsRequireANewTable) {
     Random random(8);
     Scene scene;
     const std::vector<Id<Texture>> textures = add_textures(scene, random);

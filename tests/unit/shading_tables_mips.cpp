@@ -15,7 +15,7 @@
 namespace blush {
 namespace {
 
-TEST(Half, EveryNumberComesBack) {
+TEST(Half, EveryValueRoundTrips) {
     for (uint32_t bits = 0; bits < 0x7c00; ++bits) {
         const float value = half_value<float>(int32_t(bits));
         const int exponent = int(bits >> 10);
@@ -101,7 +101,7 @@ TEST(TextureFilter, UpToATexelItIsTheImageItselfBitForBit) {
     }
 }
 
-TEST(TextureFilter, WidestLooksSeeTheMean) {
+TEST(TextureFilter, WidestFootprintsGiveTheMean) {
     Random random(3);
     for (const bool floats : {false, true})
         for (const auto& [width, height] : {std::pair{8, 8}, {5, 9}}) {
@@ -123,7 +123,7 @@ TEST(TextureFilter, WidestLooksSeeTheMean) {
         }
 }
 
-TEST(TextureFilter, EachDoublingSeesTheMeanOfFourTimesAsManyTexels) {
+TEST(TextureFilter, EachDoublingAveragesFourTimesAsManyTexels) {
     Random random(4);
     const Texture texture = noise(16, 16, true, random);
     const Filtered filtered(texture);
@@ -144,7 +144,7 @@ TEST(TextureFilter, EachDoublingSeesTheMeanOfFourTimesAsManyTexels) {
     for (const float share : {0.25f, 0.5f, 0.75f}) EXPECT_NEAR(filtered.read(false, uv, (2 + 2 * share) / 16).x, two + share * (four - two), 1e-6);
 }
 
-TEST(TextureFilter, WhateverTheWidthATexelIsRead) {
+TEST(TextureFilter, AnyFootprintReadsTexels) {
     Random random(5);
     Texture texture = noise(7, 3, false, random);
     texture.filter = Texture::Filter::nearest;

@@ -299,7 +299,7 @@ TEST(TextureTable, StoresAnImageOnceHoweverItIsRead) {
     EXPECT_TRUE(table.textures.warnings.empty());
 }
 
-TEST(TextureTable, LeavesOutWhatNoMeshReads) {
+TEST(TextureTable, SkipsUnusedTextures) {
     Scene scene;
     const Id<Texture> texture =
         scene.textures.add({.name = "", .source = "", .image = make_byte_image(2, 2, 3, [] { return uint8_t(7); })});
@@ -315,7 +315,7 @@ TEST(TextureTable, LeavesOutWhatNoMeshReads) {
     EXPECT_EQ(table.records[2].transmission_texture, -1);
 }
 
-TEST(TextureTable, ReplacesBadTexelsAndSaysHowMany) {
+TEST(TextureTable, ReplacesAndCountsBadTexels) {
     Texture texture{.name = "burnt", .source = "", .image = {}};
     const float values[] = {nan, infinite, -1.f, 0.25f, 8.f, 1.f};
     size_t next = 0;
@@ -329,7 +329,7 @@ TEST(TextureTable, ReplacesBadTexelsAndSaysHowMany) {
     EXPECT_EQ(textured.table.textures.warnings[0].where, "texture \"burnt\"");
 }
 
-TEST(TextureTable, AnImageThatLiesAboutItsSizeIsWhite) {
+TEST(TextureTable, ImagesOfInconsistentSizeAreWhite) {
     auto image = std::make_shared<Image>();
     image->width = image->height = 1000;
     image->channels = 4;
