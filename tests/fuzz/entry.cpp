@@ -1,4 +1,4 @@
-// Where libFuzzer comes in: one program for each target.
+// Entry point of libFuzzer: one program per target.
 #include "targets.h"
 
 #include <cstddef>

@@ -11,7 +11,7 @@
 namespace blush::fuzz {
 namespace {
 
-// A folder of this process with what the corpus's scenes name, gone when it ends.
+// A temporary folder with the files that the scenes of the corpus reference.
 class Folder {
 public:
     Folder() {

@@ -7,10 +7,10 @@
 
 namespace blush::fuzz {
 
-// Ends the process, as fuzzers want it, with the words of what went wrong.
+// Aborts the process with the error message, as fuzzers require, if an invariant is violated.
 template <class T> void promise(const Result<T>& holds) {
     if (holds) return;
-    std::fprintf(stderr, "a promise is broken: %s\n", holds.error().text().c_str());
+    std::fprintf(stderr, "invariant violated: %s\n", holds.error().text().c_str());
     std::abort();
 }
 

@@ -1,4 +1,4 @@
-// The corpora once more, without a fuzzer: what it has found stays mended.
+// Replays the fuzz corpora without a fuzzer, as regression tests.
 #include "targets.h"
 
 #include "core/files.h"
@@ -20,7 +20,7 @@ void PrintTo(const Corpus& corpus, std::ostream* out) { *out << corpus.name; }
 
 class FuzzCorpus : public testing::TestWithParam<Corpus> {};
 
-// Every file whole, and without its last half.
+// Every file complete, and truncated to its first half.
 TEST_P(FuzzCorpus, DoesNoHarm) {
     int files = 0;
     for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(BLUSH_CORPUS) / GetParam().name)) {

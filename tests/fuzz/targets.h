@@ -1,5 +1,5 @@
-// What a fuzzer feeds. Each takes any bytes at all and ends the process where a promise about them is broken: readers return a result or an
-// error, and what they return is valid.
+// Fuzz targets. Each takes arbitrary bytes and aborts the process if an invariant is violated: readers return an error or a valid
+// result.
 #pragma once
 
 #include <cstdint>
@@ -9,13 +9,13 @@ namespace blush::fuzz {
 
 using Target = void(std::span<const uint8_t>);
 
-// A scene file, .gltf or .glb; beside it lie the files of corpus/beside.
+// A scene file, .gltf or .glb, with the files of corpus/beside in its folder.
 void importer(std::span<const uint8_t> bytes);
-// A photometric profile, LM-63.
+// An IES profile (LM-63).
 void ies(std::span<const uint8_t> bytes);
-// Render settings, view settings and the edits of a scene, as snapshots and saved scenes carry them.
+// Render settings, view settings and scene edits, as in snapshots and saved scenes.
 void settings(std::span<const uint8_t> bytes);
-// The denoiser's weights.
+// Weights of the denoiser.
 void weights(std::span<const uint8_t> bytes);
 
 } // namespace blush::fuzz

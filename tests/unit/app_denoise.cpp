@@ -93,14 +93,14 @@ TEST(DenoiseCommand, AddsALayerAndKeepsEverythingElse) {
         ASSERT_TRUE(denoised) << name;
         EXPECT_LT(deviation(denoised->values), 0.3 * deviation(in.find(name)->values)) << name;
     }
-    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 2) << "nothing else is left behind";
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 2) << "no other files remain";
 }
 
 TEST(DenoiseCommand, IsIdempotent) {
     const TemporaryFolder folder;
     write(folder / "in.exr", noisy_image(false));
     ASSERT_EQ(test::blush({"denoise", folder / "in.exr", "-o", folder / "once.exr", "--threads", "1"}).exit_code, 0);
-    ASSERT_EQ(test::blush({"denoise", folder / "once.exr", "-o", folder / "once.exr"}).exit_code, 0) << "onto itself, too";
+    ASSERT_EQ(test::blush({"denoise", folder / "once.exr", "-o", folder / "once.exr"}).exit_code, 0) << "also in place";
     ASSERT_EQ(test::blush({"denoise", folder / "once.exr", "-o", folder / "twice.exr", "--threads", "3"}).exit_code, 0);
     const LayeredImage once = *read_layers(folder / "once.exr"), twice = *read_layers(folder / "twice.exr");
     ASSERT_EQ(once.channels.size(), twice.channels.size()) << "the layer is replaced";
@@ -179,7 +179,7 @@ TEST(DenoiseCommand, ErrorsAreOneLine) {
     refused({"denoise", folder / "in.exr", "-o", out, "--quiet"}, "nowhere/rt_hdr.tza");
     refused({"render", scene_file("cornell"), "-o", out, "--denoise", "fast", "--quiet"}, "nowhere/rt_hdr_alb_nrm_small.tza");
     EXPECT_EQ(test::blush({"render", scene_file("cornell"), "-o", folder / "raw.exr", "--size", "8x8", "--spp", "1"}).exit_code, 0)
-        << "rendering needs no weights";
+        << "rendering does not need weights";
 }
 
 TEST(DenoiseCommand, DamagedWeightsAreDetectedBeforeRendering) {

@@ -145,7 +145,7 @@ TEST(Said, NoLightInAFileSuggestsALightRig) {
     }
     std::vector<std::string> as_it_is = arguments;
     as_it_is.insert(as_it_is.end(), {"--light", "none"});
-    EXPECT_EQ(test::blush(as_it_is).err.find("no light"), std::string::npos) << "it was asked for";
+    EXPECT_EQ(test::blush(as_it_is).err.find("no light"), std::string::npos) << "it was requested";
     EXPECT_EQ(test::blush({"render", scene, "-o", folder / "a.exr", "--light", "moon"}).exit_code, 2);
     const Finished own = test::blush({"render", scene_file("cornell"), "-o", folder / "a.exr", "--size", "16x16", "--spp", "1", "--light", "studio"});
     EXPECT_NE(own.err.find("has light of its own"), std::string::npos) << own.err;

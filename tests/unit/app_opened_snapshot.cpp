@@ -66,7 +66,7 @@ TEST(OpenedSnapshot, ReportsWhatCannotBeRestored) {
     const auto opened = open_snapshot(folder / "s.exr", test::scene_file("cornell"));
     ASSERT_TRUE(opened);
     EXPECT_NE(opened->snapshot.no_state.find("gone.gltf"), std::string::npos);
-    EXPECT_TRUE(opened->snapshot.pictures.frame) << "the picture is there all the same";
+    EXPECT_TRUE(opened->snapshot.pictures.frame) << "the image is still available";
 
     SnapshotMetadata m = opened->metadata;
     m.scene_hash = "0123456789abcdef";
@@ -74,7 +74,7 @@ TEST(OpenedSnapshot, ReportsWhatCannotBeRestored) {
     ASSERT_TRUE(changed);
     EXPECT_NE(changed->warning.find("cornell.gltf has changed"), std::string::npos);
     m.edits = R"({"format": 1, "lights": {"removed": [77]}})";
-    EXPECT_FALSE(state_of(m, cornell(), test::scene_file("cornell"))) << "edits of something that is not there";
+    EXPECT_FALSE(state_of(m, cornell(), test::scene_file("cornell"))) << "edits of a missing record";
 }
 
 TEST(OpenedSnapshot, HostileMetadataDoNoHarm) {

@@ -134,7 +134,7 @@ TEST(Render, AdaptiveSamplingIsRecordedAndItsLayerHoldsTheSamplesOfEachPixel) {
 TEST(Render, ClampingReportsLostEnergy) {
     const TemporaryFolder folder;
     const Json plain = blush_json(with(tiny("cornell", folder / "plain.exr"), {"--quiet"}));
-    EXPECT_FALSE(plain.contains("clamp")) << "off unless asked for";
+    EXPECT_FALSE(plain.contains("clamp")) << "off by default";
     const Finished finished = test::blush(with(tiny("cornell", folder / "out.exr"), {"--clamp", "0.2,all", "--json", folder / "out.json"}));
     ASSERT_EQ(finished.exit_code, 0) << finished.err;
     EXPECT_NE(finished.out.find("clamping removed "), std::string::npos) << finished.out;

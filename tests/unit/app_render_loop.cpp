@@ -35,7 +35,7 @@ TEST(StopProgress, TheNearestRuleCounts) {
     EXPECT_DOUBLE_EQ(stop_progress(settings, 25, 1, {true, 0.1, 0.05, 0.15}), 0.25);
     EXPECT_DOUBLE_EQ(stop_progress(settings, 25, 1, {true, 0.02, 0.01, 0.03}), 0.5);
     EXPECT_EQ(stop_progress(settings, 25, 1, {true, 0.01, 0, 0.02}), 1);
-    EXPECT_DOUBLE_EQ(stop_progress(settings, 25, 1, {false, 0, 0, 0}), 0.25) << "an unknown error stops nothing";
+    EXPECT_DOUBLE_EQ(stop_progress(settings, 25, 1, {false, 0, 0, 0}), 0.25) << "an unknown error does not stop the render";
     EXPECT_EQ(stop_progress(settings, 100, 1, {}), 1);
 }
 

@@ -123,11 +123,11 @@ TEST(RenderOptions, AMissingSideFollowsTheAspect) {
         return std::pair(options.settings.width, options.settings.height);
     };
     EXPECT_EQ(size_for({}, 1), std::pair(1280, 1280));
-    EXPECT_EQ(size_for({}, 0), std::pair(1280, 720)) << "not known";
+    EXPECT_EQ(size_for({}, 0), std::pair(1280, 720)) << "unknown";
     EXPECT_EQ(size_for({"--size", "600x"}, 1.5f), std::pair(600, 400));
     EXPECT_EQ(size_for({"--size", "640x"}, 0), std::pair(640, 360));
     EXPECT_EQ(size_for({"--size", "x300"}, 2), std::pair(600, 300));
-    EXPECT_EQ(size_for({"--size", "600x300"}, 1), std::pair(600, 300)) << "what is said wins";
+    EXPECT_EQ(size_for({"--size", "600x300"}, 1), std::pair(600, 300)) << "explicit values take precedence";
     for (const char* wrong : {"x", "", "0x5", "5x0", "600x400x3", "wide", "600", "600xh"}) EXPECT_ANY_THROW(parsed({"--size", wrong})) << wrong;
 }
 
@@ -150,7 +150,7 @@ TEST(RenderOptions, AdaptiveSamplingTakesNoRange) {
     EXPECT_TRUE(settings_of(parsed({}))->adaptive);
     EXPECT_FALSE(settings_of(parsed({"--adaptive", "off"}))->adaptive);
     EXPECT_FALSE(settings_of(parsed({"--adaptive", "off", "--samples", "16:48"}))->adaptive);
-    EXPECT_FALSE(settings_of(parsed({"--samples", "16:48"}))->adaptive) << "the default gives way";
+    EXPECT_FALSE(settings_of(parsed({"--samples", "16:48"}))->adaptive) << "the default is removed";
     for (const char* range : {"16:48", "0:48"}) {
         const Result<RenderSettings> both = settings_of(parsed({"--adaptive", "on", "--samples", range}));
         ASSERT_FALSE(both);

@@ -89,7 +89,7 @@ TEST(Overrides, AnimationsScenesAndVariantsAreFoundByNameOrNumber) {
     EXPECT_EQ(staging({.scene = "Night"}).scene, 1);
     EXPECT_EQ(staging({.variant = "All grey"}).variant, 1);
     s.project.scene.staging = {.clip = s.swing, .seconds = 1, .variant = 1};
-    EXPECT_EQ(staging({.seconds = 0.5f}), (Staging{.clip = s.swing, .seconds = 0.5f, .variant = 1})) << "of what the file chose";
+    EXPECT_EQ(staging({.seconds = 0.5f}), (Staging{.clip = s.swing, .seconds = 0.5f, .variant = 1})) << "of the file's choice";
     EXPECT_EQ(staging({.animation = "none", .variant = "none"}), Staging{});
 }
 

@@ -92,14 +92,14 @@ TEST(ExposureMeter, AverageBringsTheGeometricMeanToMiddleGrey) {
     EXPECT_NEAR(average_exposure(picture({{100, 0.18f}}), 3), 0, 1e-6);
     EXPECT_NEAR(average_exposure(picture({{100, 0.72f}}), 3), -2, 1e-6);
     EXPECT_NEAR(average_exposure(picture({{50, 0.18f * 16}, {50, 0.18f / 4}}), 3), -1, 1e-5); // (4 - 2) / 2 stops above grey
-    EXPECT_NEAR(average_exposure(picture({{50, 0.36f}, {70, 0}, {10, nan}, {10, -1}}), 3), -1, 1e-6) << "what is black says nothing";
+    EXPECT_NEAR(average_exposure(picture({{50, 0.36f}, {70, 0}, {10, nan}, {10, -1}}), 3), -1, 1e-6) << "black pixels are ignored";
     EXPECT_EQ(average_exposure(picture({{10, 0}}), 3), 0);
     EXPECT_EQ(average_exposure({}, 3), 0);
 }
 
 TEST(ExposureMeter, HighlightsBringsThe99thPercentileToWhite) {
     EXPECT_NEAR(highlight_exposure(picture({{970, 0.1f}, {30, 8}}), 3), -3, 1e-6);
-    EXPECT_NEAR(highlight_exposure(picture({{995, 0.25f}, {5, 1000}}), 3), 2, 1e-6) << "half a per cent is no more than a sparkle";
+    EXPECT_NEAR(highlight_exposure(picture({{995, 0.25f}, {5, 1000}}), 3), 2, 1e-6) << "half a per cent of pixels is ignored";
     EXPECT_EQ(highlight_exposure({}, 4), 0);
 }
 
@@ -181,7 +181,7 @@ TEST(Illuminance, IsPiTimesRadianceOverAlbedo) {
     to_illuminance(rgb, albedo);
     EXPECT_FLOAT_EQ(rgb[0], 2 * pi);
     EXPECT_NEAR(rgb[4], pi / 2, 1e-6);
-    EXPECT_EQ(rgb[8], 0) << "a black surface tells nothing";
+    EXPECT_EQ(rgb[8], 0) << "a black surface gives no illuminance";
 }
 
 } // namespace

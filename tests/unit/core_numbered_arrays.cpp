@@ -28,7 +28,7 @@ TEST(NumberedArrays, RangesDoNotOverlapAndAreReused) {
     }
     const int64_t first = taken[1].second->first();
     taken[1].second.reset();
-    EXPECT_EQ(take_numbers(Numbering::vertices, 5000)->first(), first) << "a hole is filled again";
+    EXPECT_EQ(take_numbers(Numbering::vertices, 5000)->first(), first) << "a free range is reused";
 }
 
 TEST(NumberedArrays, AdjacentFreeRangesAreMerged) {
@@ -87,7 +87,7 @@ TEST(NumberedArrays, VectorsUseTheArenaOnlyForTheReservedSize) {
     EXPECT_EQ(assigned.data(), place);
 
     assigned.push_back(0);
-    EXPECT_NE(assigned.data(), place) << "one that grows leaves";
+    EXPECT_NE(assigned.data(), place) << "a vector that grows moves to the heap";
     assigned.pop_back();
     EXPECT_EQ(assigned, copy);
 }

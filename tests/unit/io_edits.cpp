@@ -183,7 +183,7 @@ TEST(SceneEdits, IesProfilesAreStoredAsFileNames) {
     const auto applied = apply_edits_json(sample.project.scene, text, folder);
     ASSERT_TRUE(applied) << error_text(applied);
     EXPECT_EQ(scene_hash(*applied), scene_hash(now));
-    EXPECT_NE(scene_hash(*applied), scene_hash(sample.project.scene)) << "a distribution is part of the scene";
+    EXPECT_NE(scene_hash(*applied), scene_hash(sample.project.scene)) << "an IES profile is part of the scene";
 
     for (const char* file : {"../ies/downlight.ies", "/etc/passwd", "nowhere.ies", "file:downlight.ies"}) {
         std::string elsewhere = text;

@@ -70,7 +70,7 @@ TEST(GltfScenes, SurviveASaveWithTheChoice) {
         EXPECT_EQ(loaded.scene.staging.scene, chosen);
         EXPECT_EQ(loaded.scene.nodes, saved->scene.nodes);
         EXPECT_EQ(shown_names(loaded.scene), shown_names(saved->scene)) << "the new light is in both scenes";
-        EXPECT_EQ(Json::parse(text_of(folder / "saved.gltf"))["scene"], 1) << "what others show stays";
+        EXPECT_EQ(Json::parse(text_of(folder / "saved.gltf"))["scene"], 1) << "other scenes are unchanged";
     }
 }
 

@@ -170,7 +170,7 @@ TEST(MeasuredLights, HostileLightsAreRefusedOrReported) {
         EXPECT_EQ(imported->scene.lights.size(), 0u) << profile;
         EXPECT_FALSE(imported->scene.nodes.entries()[0].value.light);
         saved_and_loaded(folder, *imported, imported->scene);
-        EXPECT_EQ(written(folder), OrderedJson::parse(*imported->origin.json)) << "what is not shown stays";
+        EXPECT_EQ(written(folder), OrderedJson::parse(*imported->origin.json)) << "unsupported parts are kept";
     }
     const auto odd = imported_with({{"uri", data}}, shines(0, {{"multiplier", -3}, {"color", {2, "red", 0}}}));
     ASSERT_TRUE(odd) << error_text(odd);
@@ -249,7 +249,7 @@ TEST(ImageLight, TurnsTheCube) {
     const float h = std::numbers::sqrt2_v<float> / 2;
     const auto about_y = import_text(folder, with_image_light(coloured_faces(8), {{"rotation", {0, h, 0, h}}}).gltf());
     ASSERT_TRUE(about_y) << error_text(about_y);
-    EXPECT_NEAR(about_y->scene.environment.rotation_degrees, 90, 1e-4) << "which the artist may go on turning";
+    EXPECT_NEAR(about_y->scene.environment.rotation_degrees, 90, 1e-4) << "which can still be edited";
     EXPECT_EQ(seen(about_y->scene.environment, {0, 0, -1}), face_colors[0]) << "counter-clockwise from above, +X goes to -Z";
     const auto about_x = import_text(folder, with_image_light(coloured_faces(8), {{"rotation", {h, 0, 0, h}}}).gltf());
     ASSERT_TRUE(about_x) << error_text(about_x);
@@ -263,7 +263,7 @@ TEST(ImageLight, RoundTripsInTheStandardForm) {
     ASSERT_TRUE(original) << error_text(original);
     const size_t files = folder.entries();
     EXPECT_EQ(scene_hash(saved_and_loaded(folder, *original, original->scene).scene), scene_hash(original->scene));
-    EXPECT_EQ(written(folder), OrderedJson::parse(*original->origin.json)) << "nothing edited";
+    EXPECT_EQ(written(folder), OrderedJson::parse(*original->origin.json)) << "no edits";
     EXPECT_EQ(folder.entries(), files + 1) << "no other copy of the pixels";
 
     Scene scene = original->scene;
@@ -296,7 +296,7 @@ TEST(ImageLight, HostileImagesAreReported) {
         EXPECT_TRUE(reports(imported->report, "the image-based light is not shown"));
         EXPECT_EQ(imported->scene.environment, Environment{});
         saved_and_loaded(folder, *imported, imported->scene);
-        EXPECT_EQ(written(folder), OrderedJson::parse(*imported->origin.json)) << "what is not shown stays";
+        EXPECT_EQ(written(folder), OrderedJson::parse(*imported->origin.json)) << "unsupported parts are kept";
     };
     broken([](Json&, Json& light) { light.erase("specularImages"); });
     broken([](Json&, Json& light) { light["specularImages"] = Json::array({Json::array({0, 1, 2})}); });

@@ -55,7 +55,7 @@ TEST(GltfAnimations, AnimateNodes) {
     ASSERT_EQ(s.scene.clips.size(), 1u);
     EXPECT_EQ(only_clip(s).name, "Move");
     EXPECT_EQ(only_clip(s).seconds, 2);
-    EXPECT_FALSE(s.scene.staging.clip) << "at rest, until somebody chooses";
+    EXPECT_FALSE(s.scene.staging.clip) << "rest pose until a clip is chosen";
     EXPECT_EQ(at(s, 0.5f).translation, (Vec3{1, 1.5f, 2}));
     EXPECT_EQ(s.scene.nodes.begin()->value.local.translation, (Vec3{0, 0, 0}));
 }
@@ -260,7 +260,7 @@ TEST(GltfMorphTargets, AreReadWithNamesAndWeights) {
     EXPECT_EQ(world_bounds(s.scene).high.z, 0.5) << "a quarter of 2";
     builder.json["nodes"][0]["weights"] = {1, 0.5};
     s = imported(builder);
-    EXPECT_EQ(s.scene.nodes.begin()->value.morph_weights, (std::vector<float>{1, 0.5f})) << "a node's own go before its mesh's";
+    EXPECT_EQ(s.scene.nodes.begin()->value.morph_weights, (std::vector<float>{1, 0.5f})) << "weights of the node take precedence over those of the mesh";
     EXPECT_EQ(world_bounds(s.scene).high.z, 3);
 }
 

@@ -128,7 +128,7 @@ TEST(GltfParallel, ResultDoesNotDependOnThreads) {
     const GltfBuilder b = busy_file();
     const auto serial = import_with(b, 1);
     ASSERT_TRUE(serial) << error_text(serial);
-    EXPECT_TRUE(reports(serial->report, "NaN")) << "the file has things to say";
+    EXPECT_TRUE(reports(serial->report, "NaN")) << "the file causes diagnostics";
     EXPECT_GE(serial->report.diagnostics.size(), 48u);
     for (const unsigned threads : {0u, 2u, 3u, 8u}) {
         const auto parallel = import_with(b, threads);

@@ -52,7 +52,7 @@ TEST(GltfPointsLines, SolidsAreClosed) {
         ASSERT_EQ(g.normals.size(), g.positions.size());
         for (size_t i = 0; i < g.indices.size(); i += 3) {
             const auto p = [&](size_t k) { return to_double(g.positions[g.indices[i + k]]); };
-            EXPECT_GT(dot(cross(p(1) - p(0), p(2) - p(0)), to_double(g.normals[g.indices[i]])), 0) << "faces look where their normals do";
+            EXPECT_GT(dot(cross(p(1) - p(0), p(2) - p(0)), to_double(g.normals[g.indices[i]])), 0) << "faces agree with their normals";
         }
     }
     for (const Vec3& p : ball.geometry.positions) EXPECT_NEAR(length(p - source.positions[1]), 1, 1e-5);
@@ -86,7 +86,7 @@ TEST(GltfPointsLines, SkippedPointsAndLinesAreCounted) {
     const Solids many = solids_of(g, std::vector<uint32_t>(most_points_and_segments + 5, 1), 0);
     EXPECT_EQ(many.shown, most_points_and_segments);
     EXPECT_EQ(many.left_out, 5u);
-    EXPECT_EQ(mark_radius({{1, 2, 3}}), 0.005f) << "a single place has no extent";
+    EXPECT_EQ(mark_radius({{1, 2, 3}}), 0.005f) << "a single position has no extent";
 
     GltfBuilder b;
     b.show({{"attributes", {{"POSITION", b.accessor<float>({1, 2, 3, 1, 2, 3}, "VEC3")}}}, {"mode", 1}});

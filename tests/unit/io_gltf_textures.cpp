@@ -98,8 +98,8 @@ TEST(GltfTextures, OtherMinificationFiltersAreReportedOncePerSampler) {
         {9728, "NEAREST"}, {9729, "LINEAR"}, {9984, "NEAREST_MIPMAP_NEAREST"}, {9985, "LINEAR_MIPMAP_NEAREST"}, {9986, "NEAREST_MIPMAP_LINEAR"}};
     for (const auto& [filter, name] : others)
         EXPECT_EQ(said({{"minFilter", filter}}, fmt::format("approximated: minification filter {}:", name)), 1) << name;
-    EXPECT_EQ(said({{"minFilter", 9987}, {"magFilter", 9728}}, "filter"), 0) << "as it is done";
-    EXPECT_EQ(said({{"wrapS", 33071}}, "filter"), 0) << "left to us";
+    EXPECT_EQ(said({{"minFilter", 9987}, {"magFilter", 9728}}, "filter"), 0) << "the filter that is used";
+    EXPECT_EQ(said({{"wrapS", 33071}}, "filter"), 0) << "no filter in the file";
     EXPECT_EQ(said({{"minFilter", 5}}, "unknown minification filter 5"), 1);
     EXPECT_EQ(said({{"magFilter", 9987}}, "unknown magnification filter 9987"), 1);
 }
@@ -131,7 +131,7 @@ TEST(GltfTextures, UseAnyUvSet) {
     const Geometry& g = *scene.meshes.begin()->value.parts[0].geometry;
     ASSERT_EQ(g.uv.size(), 4u);
     EXPECT_EQ(g.uv[3], (PlacedVector<Vec2>{{0, 0}, {3, 0}, {0, 1}}));
-    EXPECT_TRUE(g.has_uv_set(0) && !g.has_uv_set(1) && !g.has_uv_set(2)) << "the first two are kept, and what textures lie on";
+    EXPECT_TRUE(g.has_uv_set(0) && !g.has_uv_set(1) && !g.has_uv_set(2)) << "the first two sets and those used by textures are kept";
     EXPECT_TRUE(reports(imported->report, "TEXCOORD_2, which no texture uses"));
     EXPECT_TRUE(reports(imported->report, "TEXCOORD_70, which is missing"));
     EXPECT_TRUE(reports(imported->report, "TEXCOORD_256; UV sets range from 0 to 255"));

@@ -93,7 +93,7 @@ TEST(GltfUnpacking, CanBeCancelledAnywhere) {
             ASSERT_FALSE(imported);
             EXPECT_EQ(imported.error().what, "cancelled");
             if (threads == 1) {
-                EXPECT_LT(reached, when + 0.05) << "nobody else is at work";
+                EXPECT_LT(reached, when + 0.05) << "no other threads";
             }
         }
 }

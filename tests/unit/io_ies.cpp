@@ -44,7 +44,7 @@ TEST(Ies, AnAxiallySymmetricLamp) {
     for (const double turn : {0.0, 77.0, 359.0}) {
         EXPECT_NEAR(candela_at(*p, 0, turn), 100, 1e-9);
         EXPECT_NEAR(candela_at(*p, 22.5, turn), 75, 1e-9) << "linear between the angles";
-        EXPECT_EQ(candela_at(*p, 91, turn), 0) << "dark beyond them";
+        EXPECT_EQ(candela_at(*p, 91, turn), 0) << "0 outside them";
     }
     // 2 pi times the integral of 100 (1 - theta / 90 degrees) sin theta.
     EXPECT_NEAR(luminous_flux(*p), 2 * pi_d * 100 * (1 - 2 / pi_d), 0.05);
@@ -167,7 +167,7 @@ TEST(Ies, ErrorsNameTheFault) {
     EXPECT_NE(problem([](Photometry& f) { f.vertical = "0 90 270"; }), "");
     EXPECT_NE(problem([](Photometry& f) { f.horizontal = "10 90", f.candela = "1 1 1 1 1 1"; }), "");
     EXPECT_NE(problem([](Photometry& f) { f.horizontal = "0 60", f.candela = "1 1 1 1 1 1"; }), "");
-    EXPECT_NE(problem([](Photometry& f) { f.tilt = "TILT=INCLUDE\n1\n2\n0 90\n1\n"; }), "") << "a factor is missing: numbers slip";
+    EXPECT_NE(problem([](Photometry& f) { f.tilt = "TILT=INCLUDE\n1\n2\n0 90\n1\n"; }), "") << "a factor is missing: numbers are shifted";
 }
 
 // Counts beyond the size of the file do not allocate memory.

@@ -65,7 +65,7 @@ TEST(ImageIo, ExrKeepsEveryLayerAndTextBitForBit) {
 TEST(ImageIo, ColorsAndLayersAreFoundAndSetByName) {
     LayeredImage image{1, 1, {{"R", {1}}, {"G", {2}}, {"B", {3}}, {"depth.Z", {4}}, {"denoised.Y", {5}}}, {}};
     EXPECT_EQ(image.find_color()[1]->name, "G");
-    for (const LayeredImage::Channel* channel : image.find_color("denoised")) EXPECT_EQ(channel->name, "denoised.Y") << "grey stands for all three";
+    for (const LayeredImage::Channel* channel : image.find_color("denoised")) EXPECT_EQ(channel->name, "denoised.Y") << "grey is used for R, G and B";
     EXPECT_EQ(image.find_color("albedo")[0], nullptr);
     image.set({"depth.Z", {6}}, "R");
     image.set({"A", {7}}, "B");
@@ -73,7 +73,7 @@ TEST(ImageIo, ColorsAndLayersAreFoundAndSetByName) {
     std::vector<std::string> names;
     for (const LayeredImage::Channel& channel : image.channels) names.push_back(channel.name);
     EXPECT_EQ(names, (std::vector<std::string>{"R", "G", "B", "A", "depth.Z", "denoised.Y", "last"}));
-    EXPECT_EQ(image.find("depth.Z")->values[0], 6) << "replaced where it stood";
+    EXPECT_EQ(image.find("depth.Z")->values[0], 6) << "replaced in place";
 }
 
 TEST(ImageIo, ExrAsImageIsFloat) {

@@ -160,7 +160,7 @@ TEST(Snapshot, HalfIsForColoursAlone) {
 
 TEST(Snapshot, IsDistinguishedFromPlainRenders) {
     SnapshotMetadata m = full_input({}).metadata;
-    EXPECT_FALSE(is_snapshot(snapshot_texts(m))) << "a render may be dropped as a panorama";
+    EXPECT_FALSE(is_snapshot(snapshot_texts(m))) << "a plain render may be used as an environment map";
     EXPECT_FALSE(is_snapshot({}));
     m.view = ViewSettings{.exposure_ev = 1.5f, .gamma = 1.1f, .display = {}, .view = "Raw"};
     m.name = "Key only";

@@ -72,7 +72,7 @@ TEST(BiasTest, DetectsGlobalBiasBesideANoisyLight) {
     }
     EXPECT_TRUE(z_test_at_most(wrong, bias_significance));
     EXPECT_GT(found, runs * 19 / 20);
-    EXPECT_LT(found_without, runs / 2) << "or the lamp would hide nothing";
+    EXPECT_LT(found_without, runs / 2) << "otherwise the light would not hide the bias";
 }
 
 // Not significant for the whole image, but for the region.

@@ -139,7 +139,7 @@ TEST(TimeLeft, IsExtrapolatedWithAnInterval) {
     const TimeLeft t = left(1.0 / 64);
     EXPECT_EQ(t.state, State::known);
     EXPECT_NEAR(t.seconds, 32 - 8, 1e-9);
-    EXPECT_NEAR(t.low, t.seconds, 1e-6) << "neither slope nor point are in doubt";
+    EXPECT_NEAR(t.low, t.seconds, 1e-6) << "slope and point have no uncertainty";
     const TimeLeft of_rmse = time_left(record, Kind::estimated, ErrorMetric::rmse, 1.0 / 8);
     EXPECT_NEAR(of_rmse.seconds, 32 - 8, 1e-9);
     EXPECT_NEAR(of_rmse.low, 32 * 0.81 - 8, 1e-6) << "the point's own interval counts";

@@ -59,14 +59,14 @@ TEST(ConvergenceCsv, RefusesInvalidTables) {
     EXPECT_TRUE(refused("", ""));
     EXPECT_TRUE(refused(std::string(100, '\0'), ""));
     EXPECT_TRUE(refused("name,seconds,rmse\na,1,1\n", ""));
-    EXPECT_TRUE(refused(header, "")) << "holds nothing";
+    EXPECT_TRUE(refused(header, "")) << "empty";
     EXPECT_TRUE(refused(header + "a,1,1,1,estimated\nb,x,1,1,estimated\n", "line 3"));
     EXPECT_TRUE(refused(header + "a,nan,1,1,estimated\n", "line 2"));
     EXPECT_TRUE(refused(header + "a,1,1,-1,estimated\n", "line 2"));
     EXPECT_TRUE(refused(header + "a,1,1,1e999,estimated\n", "line 2"));
     EXPECT_TRUE(refused(header + "a,1,1e300,1,estimated\n", "line 2"));
     EXPECT_TRUE(refused(header + "a,1,1,1,guessed\n", "line 2"));
-    EXPECT_TRUE(refused(header + "\"a,1,1,1,estimated\n", "line 2")) << "a quote that does not end";
+    EXPECT_TRUE(refused(header + "\"a,1,1,1,estimated\n", "line 2")) << "an unclosed quote";
     std::string many = header;
     for (int i = 0; i < 65; ++i) many += std::to_string(i) + ",1,1,1,estimated\n";
     EXPECT_TRUE(refused(many, "line 66"));

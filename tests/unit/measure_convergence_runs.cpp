@@ -54,7 +54,7 @@ TEST(ConvergenceRuns, EditsThatKeepTheRunAddAMark) {
     record(runs, 3);
     runs.mark("Change display settings");
     EXPECT_EQ(runs.all().size(), 1u);
-    ASSERT_EQ(runs.live()->record.marks().size(), 1u) << "nothing is marked before there is a point";
+    ASSERT_EQ(runs.live()->record.marks().size(), 1u) << "no mark before the first point";
     EXPECT_EQ(runs.live()->record.marks()[0].spp, 4);
 }
 
@@ -91,7 +91,7 @@ TEST(ConvergenceRuns, OldestRunsAreRemovedUnlessKept) {
     EXPECT_EQ(colors.size(), runs.all().size());
     const int live = runs.live()->id;
     runs.remove(live);
-    EXPECT_TRUE(runs.live()) << "what goes on cannot be removed";
+    EXPECT_TRUE(runs.live()) << "the live run cannot be removed";
     runs.remove(runs.all().front().id);
     EXPECT_EQ(names(runs).front(), "3");
     runs.clear();
@@ -141,7 +141,7 @@ TEST(ConvergencePlot, HasACurveForEachKindOfEachShownRunAndTheGuide) {
     EXPECT_NEAR(guide.points[0].y, 1, 1e-9) << "through the live run's first point";
     EXPECT_NEAR(guide.points[1].y, std::pow(32, -0.5), 1e-9);
     const ConvergencePlot relative = convergence_plot(runs, {ErrorMetric::relmse, ProgressAxis::seconds, 0, true});
-    EXPECT_EQ(relative.plot.curves.size(), 4u) << "what has no relMSE has no curve of it";
+    EXPECT_EQ(relative.plot.curves.size(), 4u) << "no relMSE, no curve";
     EXPECT_NEAR(relative.plot.curves.back().points[1].y / relative.plot.curves.back().points[0].y, 1.0 / 32, 1e-9);
     EXPECT_TRUE(relative.plot.levels.empty());
     runs.find(second)->shown = false;

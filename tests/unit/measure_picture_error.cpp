@@ -103,11 +103,11 @@ TEST(PictureError, IntervalCoversForSharedSamples) {
         const ErrorEstimate known{false, 0, 0, 0, true, raw_rmse, raw_rmse, raw_rmse * (1 + 1e-6)};
         const PictureError e = error_against({picture, 3}, {raw, 4}, known);
         EXPECT_TRUE(e.rmse.known);
-        EXPECT_FALSE(e.relmse.known) << "nor is the raw picture's";
+        EXPECT_FALSE(e.relmse.known) << "nor is that of the raw image";
         EXPECT_LE(e.rmse.low, true_rmse(picture)) << shared;
         EXPECT_GE(e.rmse.high, true_rmse(picture)) << shared;
         const ErrorEstimate poor{false, 0, 0, 0, true, 0.06, 0.05, 0.07};
-        EXPECT_FALSE(error_against({picture, 3}, {raw, 4}, poor).rmse.known) << "no better than what it is to judge";
+        EXPECT_FALSE(error_against({picture, 3}, {raw, 4}, poor).rmse.known) << "no better than the measured image";
     }
 }
 
@@ -116,7 +116,7 @@ TEST(PictureError, LeavesOutWhatIsNotFinite) {
     MeasuredImage m;
     m.image = {3, 1, {{1, 1, 1}, {1, 1, 1}, {inf, 1, 1}}};
     m.error.resize(3);
-    EXPECT_EQ(error_against({std::vector<float>{2, 2, 2, inf, 1, 1, 1, 1, 1}, 3}, m).rmse.value, 0) << "one pixel is no picture";
+    EXPECT_EQ(error_against({std::vector<float>{2, 2, 2, inf, 1, 1, 1, 1, 1}, 3}, m).rmse.value, 0) << "a single pixel is not enough";
     m.image.pixels[2] = {1, 1, 1};
     EXPECT_NEAR(error_against({std::vector<float>{2, 2, 2, inf, 1, 1, 2, 2, 2}, 3}, m).rmse.value, 1, 1e-9);
     EXPECT_FALSE(error_against({{}, 3}, m).rmse.known);

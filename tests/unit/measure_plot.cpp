@@ -67,7 +67,7 @@ TEST(PlotLayout, MapsPowersOfTenEvenlyAndBack) {
     const PlotLayout l = lay_out(two_curves(), {});
     EXPECT_NEAR(l.px(10) - l.px(1), l.px(100) - l.px(10), 1e-9);
     EXPECT_NEAR(l.py(1) - l.py(10), l.py(0.1) - l.py(1), 1e-9);
-    EXPECT_LT(l.py(10), l.py(1)) << "up is more";
+    EXPECT_LT(l.py(10), l.py(1)) << "larger values are higher";
     for (const double x : {1.0, 7.0, 99.0}) EXPECT_NEAR(l.x_axis.value(l.x_axis.fraction(x)) / x, 1, 1e-12);
     for (const PlotLayout::Curve& c : l.curves)
         for (const PlotPixel& p : c.line) {
@@ -132,7 +132,7 @@ TEST(PlotLayout, LabelsOfMarksDoNotOverlap) {
             EXPECT_GE(std::abs(l.marks[k].text.x - l.marks[i].text.x), width);
         }
     }
-    EXPECT_EQ(labelled, 5u) << "the fourth of four in one place has no room";
+    EXPECT_EQ(labelled, 5u) << "the fourth label at the same x has no room";
 }
 
 TEST(PlotLayout, TheLegendAvoidsTheCurves) {
@@ -154,7 +154,7 @@ TEST(PlotLayout, PicksTheNearestPoint) {
     const auto at = pick(plot, l, l.px(10) + 3, l.py(0.3) - 2, 10);
     ASSERT_TRUE(at);
     EXPECT_EQ(at->curve, 0u);
-    EXPECT_EQ(at->point, 2u) << "counted with those that cannot be shown";
+    EXPECT_EQ(at->point, 2u) << "counted with skipped points";
     EXPECT_NEAR(at->at.x, l.px(10), 1e-9);
     EXPECT_FALSE(pick(plot, l, l.px(30), l.py(2), 10));
     EXPECT_EQ(pick(plot, l, l.px(1), l.py(2), 10)->curve, 1u) << "the guide passes here too";

@@ -90,7 +90,7 @@ TEST(Diff, StagingEdits) {
     const Seen motion = only([](Changes& c) { c.motion = true; });
     EXPECT_EQ(of({.clip = s.swing}), motion);
     EXPECT_EQ(of({.seconds = 1}), nothing) << "of no clip";
-    EXPECT_EQ(of({.variant = 0}), nothing) << "wears the same";
+    EXPECT_EQ(of({.variant = 0}), nothing) << "has the same material";
     EXPECT_EQ(of({.variant = 1}), only([&](Changes& c) { c.meshes = {s.quad}; }));
     s.project.scene.staging = {.clip = s.swing, .seconds = 1};
     EXPECT_EQ(of({.clip = s.swing, .seconds = 1.5f}), motion);

@@ -168,7 +168,7 @@ TEST(Document, ModifiedComparesValues) {
     Document document(s.project);
     EXPECT_FALSE(document.modified());
     document.navigate(moved_view(document, 3));
-    EXPECT_FALSE(document.modified()) << "looking around modifies nothing";
+    EXPECT_FALSE(document.modified()) << "navigation is not a modification";
     ASSERT_TRUE(document.apply(SetLight{s.lamp, lamp_of(s, 5)}));
     EXPECT_TRUE(document.modified());
     document.undo();

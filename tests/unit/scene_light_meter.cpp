@@ -66,7 +66,7 @@ TEST(LightMeters, OfARemovedNodeStayInTheWorld) {
     Node node;
     node.local.scale = {1, 0, 1};
     const Id<Node> id = flat.nodes.add(node);
-    EXPECT_FALSE(meter_on(flat, id, {1, 2, 3}, {0, 1, 0}, "").node) << "nothing can be told in a flattened node's coordinates";
+    EXPECT_FALSE(meter_on(flat, id, {1, 2, 3}, {0, 1, 0}, "").node) << "a flattened node has no inverse transform";
 }
 
 TEST(PictureRegions, AreWholePixels) {

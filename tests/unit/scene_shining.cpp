@@ -96,7 +96,7 @@ TEST(Shining, ASurfaceMayBeSoloAndMuted) {
     AllKinds s;
     s.set_glow(false, false);
     EXPECT_EQ(s.glow_applied(), 0);
-    EXPECT_EQ(s.environment_applied(), 1) << "a muted surface silences nobody else";
+    EXPECT_EQ(s.environment_applied(), 1) << "a muted surface does not mute others";
     EXPECT_TRUE(s.shine(s.key));
     s.set_glow(true, true);
     EXPECT_EQ(s.glow_applied(), 1);

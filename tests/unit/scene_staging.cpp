@@ -22,7 +22,7 @@ TEST(Staging, AClipMovesItsNodesAndTheirDescendants) {
     const Scene& scene = document.project().scene;
     // Half way from (0, 0, 3) to (2, 0, 3).
     EXPECT_EQ(world_from_node(scene, s.lamp_node).t, (Vec3d{1, 0, 3}));
-    EXPECT_EQ(scene.nodes, s.project.scene.nodes) << "nodes keep their place at rest";
+    EXPECT_EQ(scene.nodes, s.project.scene.nodes) << "nodes keep their rest transform";
     EXPECT_TRUE(is_led(scene, s.lamp_node, Channel::Property::translation));
     EXPECT_FALSE(is_led(scene, s.lamp_node, Channel::Property::rotation));
     EXPECT_FALSE(is_led(s.project.scene, s.lamp_node, Channel::Property::translation)) << "at rest";
@@ -118,7 +118,7 @@ TEST(Staging, OfSeveralScenesTheChosenOneShows) {
     root.only_in_scenes = {1};
     scene.nodes.set(s.root, root);
     EXPECT_FALSE(is_visible(scene, s.root));
-    EXPECT_FALSE(is_visible(scene, s.mug)) << "hangs below it";
+    EXPECT_FALSE(is_visible(scene, s.mug)) << "is its child";
     EXPECT_FALSE(is_in_chosen_scene(scene, s.mug));
     EXPECT_TRUE(is_visible(scene, s.table)) << "in all of them";
     const Scene night = staged(scene, {.scene = 1});

@@ -81,7 +81,7 @@ TEST(Focus, NoGuidingFromInsideBelowTheHorizonOrWithoutCasters) {
     const FocusBall around{{0, 0, 0.5f}, 1}, below{{0, 1, -2}, 1}, speck{{0, 0, 5000}, 1};
     for (const FocusBall& ball : {around, below, speck}) EXPECT_EQ(focus_at<float>({&ball, 1}, {0, 0, 0}, up, true).share, 0);
     const FocusBall ahead{{0, 0, 2}, 1};
-    EXPECT_EQ(focus_at<float>({&ahead, 1}, {0, 0, 0}, up, false).share, 0) << "not matte";
+    EXPECT_EQ(focus_at<float>({&ahead, 1}, {0, 0, 0}, up, false).share, 0) << "not diffuse";
     const Focus<float> near = focus_at<float>({&ahead, 1}, {0, 0, 0.9f}, up, true);
     EXPECT_EQ(near.share, most_focused);
     EXPECT_EQ(focused_pdf<float>({&below, 1}, focus_at<float>({&below, 1}, {0, 0, 0}, up, true), up, 0.25f), 0.25f);

@@ -33,7 +33,7 @@ TEST(Half, RoundsToTheNearest) {
         ASSERT_LE(std::abs(rounded - x), x < 0x1p-14f ? 0x1p-25 : double(x) * 0x1p-11) << x;
     }
     EXPECT_EQ(half_bits(std::numeric_limits<float>::infinity()), 0x7bffu);
-    EXPECT_EQ(half_bits(1 + 0x1p-11f), half_bits(1.f)) << "from the middle to even";
+    EXPECT_EQ(half_bits(1 + 0x1p-11f), half_bits(1.f)) << "ties to even";
 }
 
 TEST(TextureMips, HaveTheMeanOfTheImageWhateverItsSize) {
