@@ -19,25 +19,25 @@ constexpr std::array rows{
     Row{"KHR_draco_mesh_compression", {Kind::honoured, ""}},
     Row{"KHR_lights_punctual", {Kind::honoured, ""}},
     Row{"KHR_node_visibility", {Kind::honoured, ""}},
-    Row{"EXT_lights_area", {Kind::approximated, "a node's scale acts on width and height each, not the larger on both"}},
+    Row{"EXT_lights_area",
+        {Kind::approximated, "a node's scale applies to width and height separately, not the larger one to both"}},
     Row{"EXT_lights_ies", {Kind::honoured, ""}},
     Row{"EXT_lights_image_based",
-        {Kind::approximated,
-         "the environment is the sharpest level of the cube map; diffuse light comes from it too, not from the coefficients"}},
+        {Kind::approximated, "the environment is the finest mip level of the cube map, also for diffuse light; irradiance "
+                             "coefficients are not used"}},
     Row{"KHR_materials_anisotropy", {Kind::honoured, ""}},
     Row{"KHR_materials_clearcoat", {Kind::honoured, ""}},
     Row{"KHR_materials_diffuse_transmission", {Kind::honoured, ""}},
-    Row{"KHR_materials_dispersion",
-        {Kind::approximated, "wavelengths are shown as far as the working space can: pure spectral colours are paler"}},
+    Row{"KHR_materials_dispersion", {Kind::approximated, "spectral colours are limited to the gamut of the working space"}},
     Row{"KHR_materials_emissive_strength", {Kind::honoured, ""}},
     Row{"KHR_materials_ior", {Kind::honoured, ""}},
     Row{"KHR_materials_iridescence",
         {Kind::approximated, "two orders of interference, without polarisation; below a clear coat as in air"}},
     Row{"KHR_materials_pbrSpecularGlossiness",
-        {Kind::approximated,
-         "converted to metallic-roughness: a glossiness texture counts as its mean, and its colours do not dim the diffuse part"}},
+        {Kind::approximated, "converted to metallic-roughness: a glossiness texture is replaced by its mean, its colours do not "
+                             "reduce the diffuse part"}},
     Row{"KHR_materials_sheen",
-        {Kind::approximated, "under grazing angles no more than the light that arrives, where the model's fit returns more"}},
+        {Kind::approximated, "reflects at most all light at grazing angles, where the model's fit exceeds it"}},
     Row{"KHR_materials_specular", {Kind::honoured, ""}},
     Row{"KHR_materials_transmission", {Kind::honoured, ""}},
     Row{"KHR_materials_unlit", {Kind::honoured, ""}},
@@ -45,12 +45,13 @@ constexpr std::array rows{
     Row{"KHR_mesh_quantization", {Kind::honoured, ""}},
     Row{"KHR_texture_transform", {Kind::honoured, ""}},
     Row{"KHR_materials_volume",
-        {Kind::approximated, "paths through the volume follow the mesh itself; the thickness only tells solid from thin-walled"}},
+        {Kind::approximated, "paths traverse the mesh itself; the thickness only selects solid or thin-walled"}},
     Row{"EXT_texture_webp", {Kind::honoured, ""}},
-    Row{"KHR_animation_pointer", {Kind::ignored, "what it animates beside nodes stays as it is"}},
+    Row{"KHR_animation_pointer", {Kind::ignored, "properties other than those of nodes are not animated"}},
     Row{"KHR_texture_basisu",
-        {Kind::approximated, "KTX2 cannot be decoded; the PNG, JPEG or WebP in its place is read, and without one the factor alone"}},
-    Row{"KHR_xmp_json_ld", {Kind::ignored, "metadata does not change the picture"}},
+        {Kind::approximated,
+         "KTX2 cannot be decoded; the PNG, JPEG or WebP in its place is read, and without one the factor alone"}},
+    Row{"KHR_xmp_json_ld", {Kind::ignored, "metadata does not affect the image"}},
 };
 
 } // namespace
@@ -65,7 +66,7 @@ ExtensionSupport extension_support(std::string_view name) {
     const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.name == name; });
     if (row != rows.end()) return row->support;
     if (name.starts_with("KHR_materials_")) return {Kind::ignored, "the surface is shown without it"};
-    return {Kind::ignored, "not known to this version"};
+    return {Kind::ignored, "unknown extension"};
 }
 
 } // namespace blush

@@ -125,7 +125,7 @@ Result<void> drop_non_finite_triangles(const GltfContext& context, Geometry& g, 
             for (int k = 0; k < 3; ++k) *kept++ = corner[k];
     const auto dropped = (g.indices.end() - kept) / 3;
     if (kept == g.indices.begin()) return context.error("every triangle has a NaN or infinite position", where);
-    if (dropped) context.warn(fmt::format("{} triangles with a NaN or infinite position left out", dropped), where);
+    if (dropped) context.warn(fmt::format("{} triangles with a NaN or infinite position skipped", dropped), where);
     g.indices.erase(kept, g.indices.end());
     for (Vec3& p : g.positions)
         if (!finite(p)) p = {0, 0, 0};

@@ -63,7 +63,7 @@ Affine place(const Arrays& arrays, size_t copy) {
 void report_other_attributes(const GltfContext& context, const GltfObject& object) {
     for (const auto& [name, accessor] : object.members())
         if (std::ranges::none_of(attributes, [&](const Attribute& a) { return name == a.name; }))
-            context.note("ignored: attribute " + name.substr(0, 100) + " of copies: no material reads it", object.where());
+            context.note("ignored: attribute " + name.substr(0, 100) + " of instances: no material reads it", object.where());
 }
 
 } // namespace
@@ -72,13 +72,13 @@ Result<InstancesPtr> import_instances(const GltfContext& context, const tinygltf
     const GltfObject extension = GltfObject(context, node.extensions, where + ".extensions").object(extension_name);
     if (!extension || context.known) return InstancesPtr();
     if (node.mesh < 0) {
-        context.warn("ignored: copies of a mesh on a node that has none", extension.where());
+        context.warn("ignored: instances on a node without a mesh", extension.where());
         return InstancesPtr();
     }
     const GltfObject object = extension.object("attributes");
     report_other_attributes(context, object);
     if (!has_bytes(context, object)) {
-        context.warn("no places for copies: the mesh is shown once", extension.where());
+        context.warn("no instance transforms: the mesh is shown once", extension.where());
         return InstancesPtr();
     }
     const Result<Arrays> arrays = read_arrays(context, object);
@@ -94,7 +94,7 @@ Result<InstancesPtr> import_instances(const GltfContext& context, const tinygltf
     for (size_t copy = 0; copy < count; ++copy)
         if (const Affine here = place(*arrays, copy); is_finite(to_double(here))) instances->node_from_copy.push_back(here);
     if (const size_t lost = count - instances->node_from_copy.size(); lost > 0)
-        context.warn(fmt::format("{} copies at places that are not finite left out", lost), extension.where());
+        context.warn(fmt::format("{} instances with non-finite transforms skipped", lost), extension.where());
     return InstancesPtr(std::move(instances));
 }
 

@@ -43,7 +43,7 @@ bool read_whole_file(std::vector<unsigned char>* out, std::string* error, const 
 }
 
 bool refuse_to_write(std::string* error, const std::string&, const std::vector<unsigned char>&, void*) {
-    if (error) *error += "importing writes nothing";
+    if (error) *error += "importing must not write files";
     return false;
 }
 

@@ -46,7 +46,10 @@ void report_filters(const GltfContext& context, const std::set<int>& samplers) {
         if (const std::string_view name = minification_name(sampler.minFilter); name.empty() && sampler.minFilter >= 0)
             context.warn(fmt::format("unknown minification filter {}; LINEAR_MIPMAP_LINEAR is used", sampler.minFilter), where);
         else if (!name.empty() && sampler.minFilter != TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR)
-            context.note(fmt::format("approximated: minification filter {}: LINEAR_MIPMAP_LINEAR is used, over all that a path sees of the texture", name), where);
+            context.note(
+                fmt::format("approximated: minification filter {}: LINEAR_MIPMAP_LINEAR is used, over the footprint of the path",
+                            name),
+                where);
         if (sampler.magFilter >= 0 && sampler.magFilter != TINYGLTF_TEXTURE_FILTER_NEAREST && sampler.magFilter != TINYGLTF_TEXTURE_FILTER_LINEAR)
             context.warn(fmt::format("unknown magnification filter {}; LINEAR is used", sampler.magFilter), where);
     }
@@ -79,11 +82,11 @@ Result<std::optional<Texture>> read_texture(const GltfContext& context, size_t i
     const std::string where = fmt::format("textures[{}]", index);
     const int image_index = texture_image(context, index);
     if (source.extensions.contains("KHR_texture_basisu"))
-        context.warn(image_index < 0 ? "not shown: KTX2 cannot be decoded, and there is no PNG, JPEG or WebP in its place"
-                                     : "approximated: KTX2 cannot be decoded; the image in its place is read",
+        context.warn(image_index < 0 ? "ignored: KTX2 cannot be decoded, and there is no PNG, JPEG or WebP fallback"
+                                     : "approximated: KTX2 cannot be decoded; the fallback image is read",
                      where);
     else if (image_index < 0)
-        context.warn("a texture without an image in PNG, JPEG or WebP is not shown", where);
+        context.warn("ignored: a texture without a PNG, JPEG or WebP image", where);
     if (image_index < 0) return std::optional<Texture>();
     if (size_t(image_index) >= images.size())
         return context.error(fmt::format("image {} does not exist; there are {}", image_index, images.size()), where);

@@ -200,7 +200,7 @@ template <class T> Result<void> apply_added(const Json& list, const Table<T>& im
         T record;
         if (!read_json(member(list[i], "id"), id) || !read_added(list[i], imported, record))
             return Error{"", "not a record that can be added", item_where};
-        if (!table.insert(id, std::move(record))) return Error{"", "the id is taken", item_where};
+        if (!table.insert(id, std::move(record))) return Error{"", "the id is already in use", item_where};
     }
     return {};
 }

@@ -80,7 +80,7 @@ TEST(GltfInstancing, HostileInstancesAreRefusedOrReported) {
     });
     ASSERT_TRUE(lost) << error_text(lost);
     EXPECT_EQ(places_of(lost->scene).size(), 2u);
-    EXPECT_TRUE(reports(lost->report, "1 copies at places that are not finite"));
+    EXPECT_TRUE(reports(lost->report, "1 instances with non-finite transforms"));
 
     // Sixteen million instances that need no bytes in the file, and zero instances.
     const auto nowhere = with([](GltfBuilder& b, int, int) {
@@ -88,7 +88,7 @@ TEST(GltfInstancing, HostileInstancesAreRefusedOrReported) {
     });
     ASSERT_TRUE(nowhere) << error_text(nowhere);
     EXPECT_FALSE(nowhere->scene.nodes.begin()->value.instances);
-    EXPECT_TRUE(reports(nowhere->report, "no places for copies"));
+    EXPECT_TRUE(reports(nowhere->report, "no instance transforms"));
     EXPECT_TRUE(with([](auto&, int, int) { return Json("attributes"); }));
 
     GltfBuilder bare;
@@ -96,7 +96,7 @@ TEST(GltfInstancing, HostileInstancesAreRefusedOrReported) {
     bare.add("nodes", {{"extensions", {{extension, {{"attributes", {{"TRANSLATION", places}}}}}}}});
     const auto without_mesh = import_built(bare);
     ASSERT_TRUE(without_mesh) << error_text(without_mesh);
-    EXPECT_TRUE(reports(without_mesh->report, "copies of a mesh on a node that has none"));
+    EXPECT_TRUE(reports(without_mesh->report, "instances on a node without a mesh"));
 }
 
 // Many nodes may share an array: the limit is on the total number of instances.
@@ -106,7 +106,7 @@ TEST(GltfInstancing, InstancesAreCountedOverAllNodes) {
     const int rotations = b.accessor<int8_t>(turns, "VEC4", true);
     b = with_copies(std::move(b), {{"ROTATION", rotations}});
     for (int i = 0; i < 8; ++i) b.add("nodes", Json(b.json["nodes"][0]));
-    EXPECT_NE(error_text(import_built(b)).find("more than 8388608 copies"), std::string::npos);
+    EXPECT_NE(error_text(import_built(b)).find("more than 8388608 instances"), std::string::npos);
 }
 
 TEST(GltfInstancing, AreUnchangedByASave) {

@@ -219,7 +219,7 @@ TEST(GltfSkins, BrokenSkinsAreReported) {
     EXPECT_TRUE(reports(imported(elsewhere.builder).report, "2 joints are in no scene"));
     Skinned few;
     few.builder.json["accessors"].back()["count"] = 1;
-    EXPECT_TRUE(reports(imported(few.builder).report, "1 matrices for 2 joints"));
+    EXPECT_TRUE(reports(imported(few.builder).report, "1 inverse bind matrices for 2 joints"));
 }
 
 Json morphing(GltfBuilder& builder) {

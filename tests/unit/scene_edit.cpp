@@ -57,9 +57,9 @@ TEST(Apply, RefusesCycles) {
     const Sample s = sample_project();
     Node root = *s.project.scene.nodes.find(s.root);
     root.parent = s.root;
-    EXPECT_TRUE(refused(s.project, SetNode{s.root, root}, "below itself"));
+    EXPECT_TRUE(refused(s.project, SetNode{s.root, root}, "its own ancestor"));
     root.parent = s.mug;
-    EXPECT_TRUE(refused(s.project, SetNode{s.root, root}, "below itself"));
+    EXPECT_TRUE(refused(s.project, SetNode{s.root, root}, "its own ancestor"));
 }
 
 TEST(Apply, RefusesValuesOutOfRange) {
