@@ -135,8 +135,8 @@ template <class F> F log(const F& x) {
     return e * 0.693359375f + (e * -2.12194440e-4f + series);
 }
 
-// Four-quadrant arc tangent of y / x in turns, [-0.5, 0.5]; atan2(0, 0) = 0. Minimax odd polynomial on
-// [0, 1], error below 1.4e-7 turns.
+// Four-quadrant arc tangent of y / x in turns, [-0.5, 0.5]; atan2(0, 0) = 0. Minimax odd polynomial on [0, 1], error below 1.4e-7
+// turns.
 template <class F> F atan2_turns(const F& y, const F& x) {
     const F ax = abs(x), ay = abs(y);
     const F high = max(ax, ay), low = min(ax, ay);

@@ -35,8 +35,8 @@ template <class F> Vec<F> sample_cone(const F& height, const F& u, const F& v) {
     return {sin_theta * a.cos, sin_theta * a.sin, 1.f - h};
 }
 
-// Barycentric coordinates (vertices 1 and 2) of a uniform point on a triangle: Heitz 2019,
-// "A Low-Distortion Map Between Triangle and Square".
+// Barycentric coordinates (vertices 1 and 2) of a uniform point on a triangle: Heitz 2019, "A Low-Distortion Map Between Triangle
+// and Square".
 template <class F> Vec2T<F> sample_triangle(const F& u, const F& v) {
     const Mask<F> upper = v > u;
     const F b1 = select(upper, u * 0.5f, u - v * 0.5f);

@@ -1,8 +1,8 @@
 // Internal to gltf_*.cpp: reads properties without a glTF equivalent from `extras.blush` of an object.
 //
-//   "id": 7                                              the record's id, where counting would give another
+//   "id": 7                                              the record's id, if it is not the next in sequence
 //   "fields": {"kind": "rectangle", "two_sided": true}   members by the names of scene_fields.h
-//   "fallback": true                                     of a node, material or accessor that is there for other programs alone
+//   "fallback": true                                     marks a node, material or accessor that is only for other programs
 #pragma once
 
 #include "io/gltf_source.h"

@@ -143,7 +143,7 @@ Vec3 unit_or_up(const Vec3d& n) {
     return size > 0 && std::isfinite(size) ? to_float(n * (1 / size)) : Vec3{0, 0, 1};
 }
 
-// glTF 2.0, 3.7.2.1: without normals, flat ones; each triangle then has vertices of its own.
+// glTF 2.0, 3.7.2.1: flat normals if there are none; each triangle then gets its own vertices.
 void make_flat(Geometry& g) {
     const auto unweld = [&](auto& values) {
         if (values.empty()) return;

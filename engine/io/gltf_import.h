@@ -46,8 +46,8 @@ struct ImportOptions {
 
 // Imports the file's default scene, the saved view or that of the first camera (or one framed around the geometry), lights of
 // KHR_lights_punctual, EXT_lights_area and EXT_lights_ies, and `extras.blush`: on the scene `environment` {kind, color,
-// intensity,
-// rotation_degrees, file, visible_to_camera} (its file relative to the scene's folder), on a light `angle_degrees`, `radius`, `rectangle`
+// intensity, rotation_degrees, file, visible_to_camera} (its file relative to the scene's folder), on a light `angle_degrees`,
+// `radius`, `rectangle`
 // {width, height, two_sided}, on a camera `aperture_radius`, `focus_distance`, and on any object the fields that glTF cannot
 // express (gltf_save.h). Ids are deterministic: two imports of a file give the same ids, and saving and loading a scene keeps
 // them.

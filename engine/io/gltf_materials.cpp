@@ -45,7 +45,7 @@ private:
         return checked(context_, value, otherwise, 0, 1, where_ + "." + key);
     }
 
-    // A reference by index, with KHR_texture_transform if it is there.
+    // A reference by index, with KHR_texture_transform if present.
     TextureRef texture(int index, int uv_set, const GltfObject& extensions, const std::string& where) {
         TextureRef ref;
         if (index < 0) return ref;

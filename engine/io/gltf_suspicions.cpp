@@ -14,7 +14,7 @@ namespace {
 
 constexpr double brightest_lamp = 100'000;  // lumens: some sixty bulbs of 100 W
 constexpr double brightest_sun = 200'000;   // lux: the sun in space gives 130,000
-constexpr double dimmest_sun = 50;          // lux: of a day; many viewers of the web take 1 to 10 for daylight
+constexpr double dimmest_sun = 50;          // lux of daylight; many web viewers use 1 to 10
 constexpr double brightest_surface = 1e7;   // nits: a bulb's filament
 constexpr double largest_scene = 50'000, smallest_scene = 0.001; // metres across
 

@@ -90,7 +90,7 @@ std::vector<Numbered> nodes_in_order(GltfDocument& document) {
     const auto push_all = [&](const Json& indices) {
         for (auto it = indices.rbegin(); it != indices.rend(); ++it) waiting.push_back(it->get<int>());
     };
-    document.scene(); // there is one
+    document.scene(); // creates the scene if missing
     const Json& scenes = document.list("scenes");
     for (auto scene = scenes.rbegin(); scene != scenes.rend(); ++scene) push_all(child_or_null(*scene, "nodes"));
     std::set<int> seen; // a root of several scenes is read at its first occurrence

@@ -144,7 +144,7 @@ void write_tree(GltfDocument& document, const Scene& scene) {
         write_attachments(document, object, scene, node);
         if (is_bare(object) && !was_bare) blush_of(object);
     }
-    document.scene(); // there is one
+    document.scene(); // creates the scene if missing
     Json& scenes = document.list("scenes");
     for (size_t s = 0; s < scenes.size(); ++s) {
         std::vector<int> roots;

@@ -184,7 +184,7 @@ Result<IesPtr> parse_ies(std::string_view text) {
     else if (header.tilt != "NONE") r.fail("tilt must be NONE or INCLUDE: other files are not read");
 
     r.number("the number of lamps");
-    r.number("the lumens of a lamp"); // -1: measured as a whole
+    r.number("the lumens of a lamp"); // -1: absolute photometry
     scale *= r.factor("the candela multiplier");
     const int verticals = r.count("the number of vertical angles", 1, most_values), horizontals = r.count("the number of horizontal angles", 1, most_values);
     const int type = r.count("the photometric type", 1, 3);

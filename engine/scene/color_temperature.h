@@ -9,8 +9,7 @@ constexpr float min_kelvin = 1000, max_kelvin = 40000;
 
 // Linear Rec.709 RGB of a black body at `kelvin` (clamped to 1000 .. 40000), scaled to luminance 1, so that changing the
 // temperature does not dim the light: Planck's law, summed over the visible range against the CIE 1931 observer. Components
-// outside Rec.709 are clamped to 0
-// before scaling; below about 1900 K blue is.
+// outside Rec.709 (blue, below about 1900 K) are clamped to 0 before scaling.
 //
 // `green_tint` is the distance from the Planckian locus in CIE 1960 uv, perpendicular to it (Duv of ANSI C78.377): positive
 // towards green, negative towards magenta. White light lies within -0.05 .. 0.05.

@@ -1,5 +1,5 @@
-// Copy-on-write table with stable ids. Copying a Table copies one pointer; tables that share storage are
-// equal without a comparison of their records, so that diff(before, after) is cheap.
+// Copy-on-write table with stable ids. Copying a Table copies one pointer; tables that share storage are equal without a
+// comparison of their records, so that diff(before, after) is cheap.
 #pragma once
 
 #include <algorithm>
@@ -77,7 +77,7 @@ public:
     bool shares_storage(const Table& other) const { return data_ == other.data_; }
     bool operator==(const Table& other) const { return shares_storage(other) || entries() == other.entries(); }
 
-    // Ids in either table whose records differ, are new, or are gone. Pointer-equal tables cost nothing.
+    // Ids of records that were changed, added or removed. O(1) for tables with shared storage.
     static std::vector<Id<T>> changed(const Table& before, const Table& after) {
         std::vector<Id<T>> ids;
         if (before.shares_storage(after)) return ids;

@@ -28,7 +28,7 @@ public:
     explicit Document(Project project, const HistoryLimits& limits = {}) : project_(project), saved_(std::move(project)), limits_(limits) {}
 
     const Project& project() const { return project_; }
-    // Grows with every change of the project, undo and navigation included.
+    // Incremented by every change of the project, including undo and navigation.
     uint64_t revision() const { return revision_; }
 
     // Replaces the project and clears the history, as when a file is opened.

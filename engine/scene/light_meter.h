@@ -10,7 +10,7 @@ namespace blush {
 
 struct LightMeter {
     std::string name;
-    Id<Node> node = {};     // moves with it; none: fixed in the world
+    Id<Node> node = {};     // attached to this node; none: fixed in the world
     Vec3 position{0, 0, 0}; // in the node's coordinates
     Vec3 normal{0, 1, 0};   // of the surface there, in the node's coordinates, unit length
     float clearance = 0;    // world metres above the surface, against rounding errors

@@ -46,7 +46,7 @@ constexpr int unlimited_bounces = -1;
 
 struct RenderSettings {
     int width = 1280, height = 720; // pixels, 1 .. 65536
-    float resolution_scale = 1;     // the window renders width x height times this
+    float resolution_scale = 1;     // factor on width x height in the window
     // Stop rules; the first that is met ends the render. 0 means no limit.
     int64_t spp = 64;
     double seconds = 0;

@@ -1,12 +1,11 @@
 // Sky and sun model: Preetham, Shirley and Smits, "A Practical Analytic Model for Daylight", SIGGRAPH 1999.
 //
-// The clear sky's luminance and chromaticity by Perez's formula, with coefficients linear in the turbidity and values at the zenith by the
-// sun's height (appendix A.2); sunlight as the solar spectrum attenuated by Rayleigh scattering, aerosols, ozone and water vapour
-// (appendix A.1; the absorption of mixed gases begins at 759 nm, outside the visible range). Two things differ from the paper:
-// its solar spectrum is scaled to an illuminance of 133.3 klx outside the atmosphere (Darula, Kittler and Gueymard 2005,
-// "Reference luminous solar constant"),
-// and as the model covers daytime only, the sky of sunset fades to black until the sun is 6 degrees below the horizon.
-// Directions below the horizon see a diffuse ground, lit by sky and sun.
+// The clear sky's luminance and chromaticity by Perez's formula, with coefficients linear in the turbidity and values at the
+// zenith by the sun's height (appendix A.2); sunlight as the solar spectrum attenuated by Rayleigh scattering, aerosols, ozone
+// and water vapour (appendix A.1; the absorption of mixed gases begins at 759 nm, outside the visible range). Two things differ
+// from the paper: its solar spectrum is scaled to an illuminance of 133.3 klx outside the atmosphere (Darula, Kittler and
+// Gueymard 2005, "Reference luminous solar constant"), and as the model covers daytime only, the sky of sunset fades to black
+// until the sun is 6 degrees below the horizon. Directions below the horizon see a diffuse ground, lit by sky and sun.
 #pragma once
 
 #include "scene/scene.h"
