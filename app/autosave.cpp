@@ -32,8 +32,8 @@ std::filesystem::path recovery_folder() {
     return folder.empty() ? folder : folder / "blush" / "recovery";
 }
 
-std::vector<Leftover> find_leftovers(const std::filesystem::path& folder) {
-    std::vector<Leftover> found;
+std::vector<RecoveryFile> find_recovery_files(const std::filesystem::path& folder) {
+    std::vector<RecoveryFile> found;
     std::error_code error;
     for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
         if (entry.path().extension() != ".json" || is_locked(lock_of(entry.path()))) continue;
@@ -42,11 +42,11 @@ std::vector<Leftover> find_leftovers(const std::filesystem::path& folder) {
         Result<Sidecar> sidecar = parse_sidecar({reinterpret_cast<const char*>(text->data()), text->size()});
         if (sidecar) found.push_back({entry.path(), *std::move(sidecar), entry.last_write_time(error)});
     }
-    std::ranges::sort(found, std::ranges::greater{}, &Leftover::written);
+    std::ranges::sort(found, std::ranges::greater{}, &RecoveryFile::written);
     return found;
 }
 
-void remove_leftover(const std::filesystem::path& file) {
+void remove_recovery_file(const std::filesystem::path& file) {
     std::error_code ignored;
     std::filesystem::remove(file, ignored);
     std::filesystem::remove(lock_of(file), ignored);
@@ -127,7 +127,7 @@ void Autosave::adopt(const std::filesystem::path& leftover) {
 void Autosave::forget() {
     if (lock_fd_ < 0) return;
     job_.reset(); // cancel first: the job must not write the file again
-    remove_leftover(file_);
+    remove_recovery_file(file_);
     ::close(std::exchange(lock_fd_, -1));
     changed_ = false;
 }

@@ -19,15 +19,15 @@ namespace blush {
 std::filesystem::path recovery_folder();
 
 // A sidecar left by a process that has ended.
-struct Leftover {
+struct RecoveryFile {
     std::filesystem::path file;
     Sidecar sidecar;
     std::filesystem::file_time_type written;
 };
 // Newest first. Skips files of running processes and unreadable files.
-std::vector<Leftover> find_leftovers(const std::filesystem::path& folder);
+std::vector<RecoveryFile> find_recovery_files(const std::filesystem::path& folder);
 // Removes the sidecar and its lock file.
-void remove_leftover(const std::filesystem::path& file);
+void remove_recovery_file(const std::filesystem::path& file);
 
 class Autosave {
 public:

@@ -37,7 +37,7 @@ namespace {
 
 using Clock = FrameStats::Clock;
 
-constexpr double longest_sleep = 1; // seconds: interval of checks whether the scene file has changed
+constexpr double max_sleep = 1; // seconds: interval of checks whether the scene file has changed
 
 // Writes the settings on exit. A failure is a warning, because the window is already closed.
 void write_at_end(const WindowSettings& settings, const FrameStats& stats, const std::filesystem::path& stats_file) {
@@ -64,9 +64,9 @@ private:
     PanelContext context();
     void draw_regions(PanelContext& c);
     void draw_on_top(PanelContext& c);
-    void obey(PanelContext& c);
+    void handle_requests(PanelContext& c);
     void run_own_command(Command command);
-    FileTakers takers() { return {files_, saving_, snapshots_, convergence_, document_, ui_}; }
+    FileRouter takers() { return {files_, saving_, snapshots_, convergence_, document_, ui_}; }
     void save_due_snapshot();
     void remember();
     Document& document_shown();
@@ -93,17 +93,17 @@ private:
     ThumbnailSheet thumbnails_;
     WaveformSheet waveforms_;
     FrameStats stats_;
-    FramePace pace_;
+    FrameBudget pace_;
     Pictures pictures_;
     PictureMix wanted_mix_;
     EditorConvergence convergence_;
-    FollowedMix mix_;
-    MeteringOnce metering_;
-    OpeningPage opening_page_{options_.assets, &Window::wake};
+    LiveMix mix_;
+    OneShotMetering metering_;
+    StartPage opening_page_{options_.assets, &Window::wake};
     std::string weights_problem_; // why the denoiser's weights cannot be used; empty: they can
     RenderSession session_;
 
-    Submitted submitted_;
+    LastSubmission submitted_;
     uint64_t last_preview_ = 0; // revision of the last scene shown without textures; 0: none
     bool session_paused_ = false, session_denoises_ = false, session_aside_ = false;
 
@@ -113,7 +113,7 @@ private:
     bool instruments_recalled_ = false;
     ImageRect image_;
     enum class SnapshotDue { none, keep, png } snapshot_due_ = SnapshotDue::none; // pending until a picture in full resolution exists
-    std::string not_continued_;                                                   // last message
+    std::string last_not_continued_;                                                   // last message
     Clock::time_point frame_begin_{};
 };
 
@@ -129,7 +129,7 @@ Editor::Editor(const EditorOptions& options, std::unique_ptr<Window> window, Col
                &Window::wake) {
     ui_.settings = std::move(settings);
     ui_.maps.thumbnails = std::make_shared<MapThumbnails>();
-    recall_panels(ui_.settings, ui_);
+    restore_panels(ui_.settings, ui_);
     ImGui::LoadIniSettingsFromMemory(ui_.settings.floating.c_str(), ui_.settings.floating.size());
     if (const auto found = find_denoiser_weights(options.weights); !found)
         weights_problem_ = found.error().text() + ": run packaging/setup to download them";
@@ -152,9 +152,9 @@ Editor::Editor(const EditorOptions& options, std::unique_ptr<Window> window, Col
 
 void Editor::run() {
     while (!leaving_) {
-        ui_.next_frame_in = std::min(ui_.next_frame_in, longest_sleep);
-        const bool asked = window_->wait(ui_.next_frame_in);
-        const bool moves_by_itself = ui_.next_frame_in < longest_sleep;
+        ui_.seconds_to_next_frame = std::min(ui_.seconds_to_next_frame, max_sleep);
+        const bool asked = window_->wait(ui_.seconds_to_next_frame);
+        const bool moves_by_itself = ui_.seconds_to_next_frame < max_sleep;
         frame_begin_ = Clock::now();
         pace_.begin(frame_begin_);
         const uint64_t toasts = ui_.toasts.added();
@@ -181,7 +181,7 @@ void Editor::poll() {
         if (finished.opened) {
             submitted_.forget(); // a new scene is always submitted
             metering_.opened(finished.stored_exposure || std::exchange(options_.exposure_given, false), document_.project());
-            snapshots_.list_kept(ui_, files_.scene_file());
+            snapshots_.load_strip(ui_, files_.scene_file());
             if (!std::exchange(instruments_recalled_, true)) recall_instruments(context(), files_.scene_file().string());
         }
         window_->request_frames(2);
@@ -192,7 +192,7 @@ void Editor::poll() {
         window_->request_frames(2);
         if (!ui_.question) saving_.before_losing_edits("closing the window", [this] { leaving_ = true; });
     }
-    for (const auto& file : window_->take_dropped_files()) takers().take_dropped(file);
+    for (const auto& file : window_->take_dropped_files()) takers().dispatch_dropped(file);
     // While text is edited or a popup is open, it receives the keys. Esc closes menus and combo boxes; dialogs handle it
     // themselves.
     const bool taken = ImGui::GetIO().WantTextInput || ui_.browser || ui_.question, menu = any_popup_open();
@@ -227,7 +227,7 @@ PanelContext Editor::context() {
             std::max(1, int(float(r.height) * r.resolution_scale)),
             pictures_.denoised,
             status.denoiser_failure.empty() ? weights_problem_ : status.denoiser_failure,
-            &display_.ledger(),
+            &display_.feature_report(),
             mix_.mixing(),
             display_.metered_ev()};
 }
@@ -240,13 +240,13 @@ void Editor::panels() {
     display_.meter(view.auto_exposure, pictures_.frame);
     window_->set_text_size(ui_.settings.text_size);
     window_->begin_frame();
-    ui_.next_frame_in = longest_sleep;
+    ui_.seconds_to_next_frame = max_sleep;
     ui_.probe.begin_frame();
     mix_.follow(pictures_.frame, document_shown());
     PanelContext c = context();
     draw_regions(c);
     draw_on_top(c);
-    obey(c);
+    handle_requests(c);
 }
 
 void Editor::draw_regions(PanelContext& c) {
@@ -275,7 +275,7 @@ void Editor::draw_regions(PanelContext& c) {
     begin_region("Status", l.status, {.padded = false});
     draw_status_bar(c);
     end_region();
-    thumbnails_.update(ui_.snapshots.list, numbers_of(c.shown_view()));
+    thumbnails_.update(ui_.snapshots.list, display_parameters_of(c.shown_view()));
     if (panels) draw_snapshot_strip(c, l.strip, [this](size_t i) { return thumbnails_.part(i); });
     ImGui::EndDisabled();
 }
@@ -288,13 +288,13 @@ void Editor::draw_on_top(PanelContext& c) {
     draw_file_browser(c);
     const auto opening = files_.running(), other = snapshots_.running();
     const RunningJob* const job = opening ? &*opening : other ? &*other : nullptr;
-    if (job) ui_.next_frame_in = std::min(ui_.next_frame_in, 0.1);
+    if (job) ui_.seconds_to_next_frame = std::min(ui_.seconds_to_next_frame, 0.1);
     if (draw_cards(c, layout_.viewport, job) && opening) files_.cancel();
     draw_question(c);
 }
 
 // Executes requests of panels, menus and keys.
-void Editor::obey(PanelContext& c) {
+void Editor::handle_requests(PanelContext& c) {
     for (const Command command : std::exchange(ui_.commands, {})) {
         const bool needs_document = command != Command::open && command != Command::quit && command != Command::shortcuts;
         if (needs_document && files_.preview())
@@ -305,17 +305,17 @@ void Editor::obey(PanelContext& c) {
     desktop_file_dialog_.poll(ui_);
     for (const FileRequest& request : std::exchange(ui_.files, {})) takers().take(request);
     if (std::exchange(ui_.meter_exposure, false)) metering_.want(document_.project(), false);
-    saving_.hear_answer();
-    convergence_.obey(ui_, output_folder(ui_.settings.snapshot_folder, files_.scene_file(), options_.assets), files_.scene_file());
-    snapshots_.obey(document_, ui_, files_);
-    const bool paused = ui_.paused || convergence_.renders_reference();
+    saving_.poll_dialog();
+    convergence_.handle_requests(ui_, output_folder(ui_.settings.snapshot_folder, files_.scene_file(), options_.assets), files_.scene_file());
+    snapshots_.handle_requests(document_, ui_, files_);
+    const bool paused = ui_.paused || convergence_.is_rendering_reference();
     if (session_paused_ != paused) session_.pause(session_paused_ = paused);
     // While a mix is edited, only its drawing matters.
-    if (session_aside_ != viewport_.is_thinned()) session_.stand_aside(session_aside_ = viewport_.is_thinned());
+    if (session_aside_ != viewport_.is_thinned()) session_.yield_to_ui(session_aside_ = viewport_.is_thinned());
     const bool denoises = ui_.denoise.wants_denoised() || ui_.convergence.wants_denoised();
     if (session_denoises_ != denoises) session_.want_denoised(session_denoises_ = denoises);
     const PictureMix mix = mix_of(ui_.denoise, pictures_.denoised != nullptr);
-    if (mix != wanted_mix_) stats_.looked(frame_begin_);
+    if (mix != wanted_mix_) stats_.view_changed(frame_begin_);
     wanted_mix_ = mix;
 }
 
@@ -352,7 +352,7 @@ RenderSettings Editor::render_settings() {
         r.width = size.width;
         r.height = size.height;
     }
-    return carried_out(r);
+    return effective_settings(r);
 }
 
 // A restored snapshot keeps its size, even if the window would give another one.
@@ -400,14 +400,14 @@ void Editor::submit_preview(const Scene& scene) {
 void Editor::latest() {
     pictures_ = session_.pictures();
     if (shows_preview() && !files_.preview() && files_.scene_file().empty()) pictures_ = {}; // there is no document to return to
-    if (!shows_preview()) convergence_.look(ui_.convergence, pictures_);
+    if (!shows_preview()) convergence_.current_pictures(ui_.convergence, pictures_);
     if (pictures_.frame && pictures_.frame->revision == submitted_.revision() && !files_.preview()) {
-        metering_.look(document_, pictures_.frame, ui_, color_);
+        metering_.current_pictures(document_, pictures_.frame, ui_, color_);
         opening_page_.keep_thumbnail(files_.scene_file(), pictures_.frame, document_.project().view, color_);
     }
     const SessionStatus status = session_.status();
-    if (std::exchange(not_continued_, status.not_continued) != status.not_continued && !status.not_continued.empty())
-        ui_.toasts.warn("The snapshot is rendered from the start", status.not_continued);
+    if (std::exchange(last_not_continued_, status.restart_reason) != status.restart_reason && !status.restart_reason.empty())
+        ui_.toasts.warn("The snapshot is rendered from the start", status.restart_reason);
     const std::string& failure = status.denoiser_failure;
     if (failure.empty() || !ui_.denoise.wants_denoised()) return;
     ui_.denoise.show = DenoiseView::Show::raw;
@@ -427,7 +427,7 @@ void Editor::draw() {
         state.samples = shown->samples;
         state.complete = shown->complete;
         state.up_to_date = shown->revision == submitted_.revision() && !viewport_.is_thinned();
-        state.look = shown->revision <= last_preview_ ? "without textures" : shown_text(ui_.denoise, *shown, pictures_.denoised.get());
+        state.current_pictures = shown->revision <= last_preview_ ? "without textures" : shown_text(ui_.denoise, *shown, pictures_.denoised.get());
     }
     window_->end_frame();
     const auto now = Clock::now();
@@ -437,15 +437,15 @@ void Editor::draw() {
     mix_.follow(pictures_.frame, document_shown());
     const bool mixed = shown && mix_.is_shown_by(*shown, viewport_.shown_gains());
     if (shown) stats_.shown(mixed ? submitted_.revision() : shown->revision, now);
-    if (viewport_.shows(wanted_mix_)) stats_.look_shown(now);
+    if (viewport_.shows(wanted_mix_)) stats_.view_change_shown(now);
     stats_.end_frame();
     ui_.probe.end_frame(state);
 }
 
 void Editor::remember() {
     WindowSettings& s = ui_.settings;
-    remember_panels(ui_, s);
-    remember_scene(ui_, files_.scene_file().string(), s);
+    save_panels(ui_, s);
+    save_scene_ui(ui_, files_.scene_file().string(), s);
     s.floating = ImGui::SaveIniSettingsToMemory();
     // `--size` is not saved.
     if (!options_.follow_viewport && !s.follow_viewport) s.follow_viewport = remembered_follow_viewport_;

@@ -57,7 +57,7 @@ LightSpot spot_for_new_light(PanelContext& c) {
     const View& view = c.scene().view;
     if (const auto& cursor = c.ui.cursor; cursor && c.frame && c.frame->width > 0) {
         const Projection projection(view, double(c.frame->width) / c.frame->height);
-        if (const auto surface = seen_surface(*c.frame, projection, cursor->u, cursor->v)) return spot_over_surface(c.scene(), view, *surface);
+        if (const auto surface = surface_at_pixel(*c.frame, projection, cursor->u, cursor->v)) return spot_over_surface(c.scene(), view, *surface);
     }
     const Bounds selected = bounds_of_meshes(c.scene(), c.ui.selection(c.scene()));
     return spot_round_subject(c.scene(), view, selected.empty ? world_bounds(c.scene()) : selected);
@@ -120,7 +120,7 @@ void frame(PanelContext& c, const Bounds& bounds) {
 
 // Back to the camera view, with zoom to fit.
 void go_home(PanelContext& c) {
-    c.ui.looked_through.reset();
+    c.ui.light_camera.reset();
     c.ui.zoom = {};
     const View view = home_view(c.scene(), c.ui.home);
     if (view.lens != c.scene().view.lens && c.scene().nodes.contains(c.ui.home.camera)) c.apply(LookThrough{c.ui.home.camera});
@@ -192,7 +192,7 @@ void escape(PanelContext& c) {
         return;
     }
     if (c.ui.pixel) return c.ui.pixel.reset();
-    if (c.ui.looked_through) return toggle_look_through(c);
+    if (c.ui.light_camera) return toggle_look_through(c);
     if (Comparison& compare = c.ui.snapshots.compare; compare.mode != Comparison::Mode::off) {
         compare.mode = Comparison::Mode::off;
         return;
@@ -206,9 +206,9 @@ bool run_command(Command command, PanelContext& c) {
     switch (command) {
     case Command::undo: c.document.undo(); return true;
     case Command::redo: c.document.redo(); return true;
-    case Command::copy_value: wish_of_value(c.ui, ValueWish::copy); return true;
-    case Command::paste_value: wish_of_value(c.ui, ValueWish::paste); return true;
-    case Command::reset_value: wish_of_value(c.ui, ValueWish::reset); return true;
+    case Command::copy_value: request_value_action(c.ui, ValueAction::copy); return true;
+    case Command::paste_value: request_value_action(c.ui, ValueAction::paste); return true;
+    case Command::reset_value: request_value_action(c.ui, ValueAction::reset); return true;
     case Command::duplicate: duplicate(c); return true;
     case Command::remove: remove(c); return true;
     case Command::add_ground: add_ground(c, false); return true;

@@ -18,7 +18,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Kind = ConvergencePoint::Kind;
 
-constexpr uint64_t largest_table = uint64_t(8) << 20; // bytes
+constexpr uint64_t max_table_bytes = uint64_t(8) << 20; // bytes
 
 std::vector<ConvergenceRecord> shown_records(const ConvergenceRuns& runs) {
     std::vector<ConvergenceRecord> records;
@@ -61,7 +61,7 @@ void EditorConvergence::begin(ConvergenceView& view, const std::string& name, ui
     recording_seconds_ = 0;
     view.cost = {};
     measuring_.begin(view.runs.begin(name));
-    keeper_.forget();
+    reference_provider_.forget();
 }
 
 // The same samples with other weights: earlier errors, and the reference, belong to another picture.
@@ -70,10 +70,10 @@ void EditorConvergence::remix(const std::string& name, uint64_t revision, const 
     subject_.scene = scene;
     remixed_by_ = name;
     measuring_.forget_pictures();
-    keeper_.forget();
+    reference_provider_.forget();
 }
 
-void EditorConvergence::look(ConvergenceView& view, const Pictures& pictures) {
+void EditorConvergence::current_pictures(ConvergenceView& view, const Pictures& pictures) {
     const auto begin = Clock::now();
     const FramePtr& frame = pictures.frame;
     // The error of a coarse picture is not comparable.
@@ -97,7 +97,7 @@ void EditorConvergence::record(ConvergenceView& view, const FramePtr& frame) {
     else if (known)
         record.add(point);
     if (known && remixed) record.mark({point.seconds, point.spp, std::exchange(remixed_by_, {}), true});
-    if (view.reference && keeper_.reference() && (frame->complete || record.is_due(Kind::measured, frame->samples))) measuring_.add_raw(frame);
+    if (view.reference && reference_provider_.reference() && (frame->complete || record.is_due(Kind::measured, frame->samples))) measuring_.add_raw(frame);
 }
 
 void EditorConvergence::record_denoised(ConvergenceView& view, const DenoisedPtr& picture) {
@@ -108,26 +108,26 @@ void EditorConvergence::record_denoised(ConvergenceView& view, const DenoisedPtr
 void EditorConvergence::measure(ConvergenceView& view, const FramePtr& frame) {
     const ConvergenceRun* live = view.runs.live();
     // Not while a drag changes the picture: each key would read the whole scene.
-    const bool settled = live && live->record.points(Kind::estimated).size() >= ConvergenceRuns::fewest_points;
+    const bool settled = live && live->record.points(Kind::estimated).size() >= ConvergenceRuns::min_points;
     if (view.open && view.reference && settled && frame) {
         subject_.settings.width = frame->width;
         subject_.settings.height = frame->height;
         subject_.settings.resolution_scale = 1;
-        keeper_.look(subject_);
+        reference_provider_.current_pictures(subject_);
     }
-    if (keeper_.poll() && frame) measuring_.add_raw(frame);
-    measuring_.poll(view.runs, view.reference ? keeper_.reference() : nullptr, frame);
-    view.news = keeper_.news();
+    if (reference_provider_.poll() && frame) measuring_.add_raw(frame);
+    measuring_.poll(view.runs, view.reference ? reference_provider_.reference() : nullptr, frame);
+    view.news = reference_provider_.news();
     view.waiting = live ? measuring_.waiting(live->record) : 0;
 }
 
-void EditorConvergence::obey(UiState& ui, const std::filesystem::path& folder, const std::filesystem::path& scene_file) {
+void EditorConvergence::handle_requests(UiState& ui, const std::filesystem::path& folder, const std::filesystem::path& scene_file) {
     ConvergenceView& view = ui.convergence;
     using Request = ConvergenceView::ReferenceRequest;
     const Request request = std::exchange(view.wanted_reference, Request::none);
-    if (request == Request::stop) keeper_.stop();
-    if (request == Request::render && last_frame_) keeper_.render(subject_, std::max<int64_t>(64, 2 * last_frame_->samples));
-    if (keeper_.renders()) ui.next_frame_in = std::min(ui.next_frame_in, 0.2);
+    if (request == Request::stop) reference_provider_.stop();
+    if (request == Request::render && last_frame_) reference_provider_.render(subject_, std::max<int64_t>(64, 2 * last_frame_->samples));
+    if (reference_provider_.renders()) ui.seconds_to_next_frame = std::min(ui.seconds_to_next_frame, 0.2);
     if (const auto format = std::exchange(view.wanted_export, std::nullopt)) save(ui, *format, folder, scene_file);
     if (!save_job_) return;
     if (const auto saved = save_job_->take()) {
@@ -146,7 +146,7 @@ void EditorConvergence::save(UiState& ui, ConvergenceView::Export format, const 
     if (records.empty()) return ui.toasts.warn("No convergence data to save yet");
     std::function<Result<void>(const std::filesystem::path&)> write;
     const char* extension = "";
-    const ConvergencePlot chart = paper_chart(ui.convergence, scene_file.filename().string());
+    const ConvergencePlot chart = export_chart(ui.convergence, scene_file.filename().string());
     switch (format) {
     case ConvergenceView::Export::csv:
         extension = ".csv";
@@ -166,7 +166,7 @@ void EditorConvergence::save(UiState& ui, ConvergenceView::Export format, const 
     save_job_ = std::make_unique<BackgroundJob<Result<std::filesystem::path>>>(
         "Saving the chart",
         [=, stem = scene_file.stem().string() + "-convergence"](JobProgress&) -> Result<std::filesystem::path> {
-            const auto file = free_name(folder, stem, extension);
+            const auto file = unique_filename(folder, stem, extension);
             if (!file) return file;
             if (const auto written = write(*file); !written) return written.error();
             return *file;
@@ -175,7 +175,7 @@ void EditorConvergence::save(UiState& ui, ConvergenceView::Export format, const 
 }
 
 void EditorConvergence::load(UiState& ui, const std::filesystem::path& file) {
-    const auto bytes = read_file(file, largest_table);
+    const auto bytes = read_file(file, max_table_bytes);
     if (!bytes) return ui.toasts.fail(bytes.error().text());
     auto records = parse_convergence_csv({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
     if (!records) return ui.toasts.fail(file.filename().string() + ": " + records.error().text());

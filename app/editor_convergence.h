@@ -15,7 +15,7 @@ namespace blush {
 
 class EditorConvergence {
 public:
-    EditorConvergence(std::function<void()> wake, unsigned threads) : measuring_(wake), keeper_(wake, threads), wake_(std::move(wake)) {}
+    EditorConvergence(std::function<void()> wake, unsigned threads) : measuring_(wake), reference_provider_(wake, threads), wake_(std::move(wake)) {}
 
     // The next submission to the session.
     struct Submission {
@@ -33,13 +33,13 @@ public:
     // From this revision on, the samples have another light mix.
     void remix(const std::string& name, uint64_t revision, const Scene& scene);
     // Call once per UI frame with the newest pictures.
-    void look(ConvergenceView& view, const Pictures& pictures);
+    void current_pictures(ConvergenceView& view, const Pictures& pictures);
     // Executes requests of the panel. Files are written to `folder`, named after `scene_file`.
-    void obey(UiState& ui, const std::filesystem::path& folder, const std::filesystem::path& scene_file);
+    void handle_requests(UiState& ui, const std::filesystem::path& folder, const std::filesystem::path& scene_file);
     void load(UiState& ui, const std::filesystem::path& file);
 
     // True while the reference uses all cores: the live render should pause, or its times would be wrong.
-    bool renders_reference() const { return keeper_.renders(); }
+    bool is_rendering_reference() const { return reference_provider_.renders(); }
 
 private:
     void record(ConvergenceView& view, const FramePtr& frame);
@@ -47,11 +47,11 @@ private:
     void measure(ConvergenceView& view, const FramePtr& frame);
     void save(UiState& ui, ConvergenceView::Export format, const std::filesystem::path& folder, const std::filesystem::path& scene_file);
 
-    ErrorMeasuring measuring_;
-    ReferenceKeeper keeper_;
+    ErrorMeasurement measuring_;
+    ReferenceProvider reference_provider_;
     std::function<void()> wake_;
     uint64_t first_revision_ = 0; // of the live run
-    ReferenceKeeper::Subject subject_;
+    ReferenceProvider::Subject subject_;
 
     // Of the last submission.
     Scene scene_;

@@ -34,7 +34,7 @@ void EditorDisplay::meter(AutoExposure rule, const FramePtr& frame) {
 void EditorDisplay::update_ledger(const SessionStatus& status) {
     if (!ledger_.empty() && status.denoised_with == denoised_with_) return;
     denoised_with_ = status.denoised_with;
-    ledger_ = denoiser_ledger(weights_, denoised_with_);
+    ledger_ = denoiser_feature_report(weights_, denoised_with_);
     ledger_.insert(ledger_.begin(), view_transform_);
 }
 

@@ -94,9 +94,9 @@ bool FileWatch::changed() {
 
 Result<EditorFiles::Opened> EditorFiles::import_file(const std::filesystem::path& file, const OpenOptions& open,
                                                      const std::optional<Sidecar>& sidecar, JobProgress& progress,
-                                                     std::function<void(const ImportedScene&)> on_untextured) {
+                                                     std::function<void(const ImportedScene&)> on_preview_scene) {
     ImportOptions options;
-    options.on_untextured = std::move(on_untextured);
+    options.on_preview_scene = std::move(on_preview_scene);
     options.cancel = &progress.cancel;
     options.on_progress = [&progress](double fraction, const std::string& what) { progress.report(fraction, what); };
     if (open.overrides.texture_mib) options.texture_bytes = *open.overrides.texture_mib << 20;
@@ -130,9 +130,9 @@ void EditorFiles::start_import(const std::filesystem::path& file, Purpose purpos
     preview_.reset();
     early_ = std::make_shared<EarlyScene>();
     // No preview for imports, reloads and recovery: the open scene stays visible.
-    std::function<void(const ImportedScene&)> on_untextured;
+    std::function<void(const ImportedScene&)> on_preview_scene;
     if (purpose == Purpose::open && !sidecar)
-        on_untextured = [options, early = early_, wake = wake_](const ImportedScene& imported) {
+        on_preview_scene = [options, early = early_, wake = wake_](const ImportedScene& imported) {
             Opened opened{imported, imported.scene, {}, {}, {}};
             if (!apply_overrides(options.overrides, opened.scene, options.aspect, imported.has_view)) return;
             opened.lit = lit_at_opening(imported, opened.scene, options.overrides);
@@ -141,7 +141,7 @@ void EditorFiles::start_import(const std::filesystem::path& file, Purpose purpos
         };
     import_job_ = std::make_unique<BackgroundJob<Result<Opened>>>(
         "Loading " + file.filename().string(),
-        [file, options, sidecar, on_untextured](JobProgress& progress) { return import_file(file, options, sidecar, progress, on_untextured); },
+        [file, options, sidecar, on_preview_scene](JobProgress& progress) { return import_file(file, options, sidecar, progress, on_preview_scene); },
         wake_);
 }
 
@@ -192,7 +192,7 @@ Project EditorFiles::opened_project(const Opened& opened, const Project& before)
 
 void EditorFiles::reset_document(Document& document, UiState& ui, Project project, std::optional<Scene> lit) const {
     document.reset(std::move(project));
-    ui.studio_at_opening = lit.has_value();
+    ui.studio_banner = lit.has_value();
     if (!lit) return;
     Project shown = document.project();
     shown.scene = *std::move(lit);
@@ -230,19 +230,19 @@ EditorFiles::Finished EditorFiles::finish_import(Document& document, UiState& ui
         project.scene.view = document.project().scene.view;
         ui.selected = same_node(document.project().scene, ui.selected, merged ? merged->scene : project.scene);
     } else {
-        remember_scene(ui, scene_file_.string(), ui.settings);
+        save_scene_ui(ui, scene_file_.string(), ui.settings);
         scene_file_ = importing_;
         remember_recent(ui.settings.recent, importing_.string());
     }
     ui.also_selected.clear();
     ui.selected_material = {};
-    ui.looked_through.reset(); // ids may refer to other objects now
+    ui.light_camera.reset(); // ids may refer to other objects now
     ui.placing_by = PlacingBy::hand;
     ui.light_table.renaming = {};
     watch_.watch(scene_file_);
     reset_document(document, ui, std::move(project), purpose_ == Purpose::open ? std::move(opened->lit) : std::nullopt);
     if (purpose_ == Purpose::open) begin_at_camera(ui, document.project(), std::move(opened->camera_aspects));
-    if (purpose_ == Purpose::open) recall_scene(ui.settings, scene_file_.string(), document.project().scene, ui);
+    if (purpose_ == Purpose::open) restore_scene_ui(ui.settings, scene_file_.string(), document.project().scene, ui);
     if (merged) {
         // Undo returns to the unedited file.
         Project edited = document.project();

@@ -116,7 +116,7 @@ private:
     void start_import(const std::filesystem::path& file, Purpose purpose, const OpenOptions& options = {},
                       const std::optional<Sidecar>& sidecar = {});
     static Result<Opened> import_file(const std::filesystem::path& file, const OpenOptions& options, const std::optional<Sidecar>& sidecar,
-                                      JobProgress& progress, std::function<void(const ImportedScene&)> on_untextured);
+                                      JobProgress& progress, std::function<void(const ImportedScene&)> on_preview_scene);
     // Settings of the document when this file is open.
     Project opened_project(const Opened& opened, const Project& before) const;
     // Makes the scene the document, with the studio lighting as an undo step of its own if the file has no light.

@@ -14,7 +14,7 @@ Layout window_layout(PanelContext& c, float width, float height) {
     if (c.ui.panels_hidden) return lay_out(width, height, row, status, em, no_side_panels);
     const Splitters& splitters = c.ui.settings.splitters;
     const float time = c.scene().clips.empty() ? 0 : std::round(row * 1.5f);
-    Beside beside = docks_beside(c, lay_out(width, height, row, status, em, splitters).room);
+    ViewportInsets beside = dock_insets(c, lay_out(width, height, row, status, em, splitters).room);
     beside.strip = snapshot_strip_height(c.ui.snapshots);
     beside.time = time;
     return lay_out(width, height, row, status, em, splitters, beside);

@@ -13,7 +13,7 @@ namespace blush {
 namespace {
 
 // A crash loses less than a minute of work, including the time to write.
-constexpr double usual_interval = 45; // seconds
+constexpr double default_interval = 45; // seconds
 
 // Local time.
 std::string time_text(std::filesystem::file_time_type time) {
@@ -32,7 +32,7 @@ bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
 
 EditorSaving::EditorSaving(EditorFiles& files, Document& document, UiState& ui, std::filesystem::path assets, double interval)
     : files_(files), document_(document), ui_(ui), assets_(std::move(assets)),
-      autosave_(recovery_folder(), std::chrono::duration<double>(interval > 0 ? interval : usual_interval)) {}
+      autosave_(recovery_folder(), std::chrono::duration<double>(interval > 0 ? interval : default_interval)) {}
 
 void EditorSaving::save() {
     if (files_.saving() || files_.scene_file().empty()) return;
@@ -107,15 +107,15 @@ void EditorSaving::before_reloading(std::function<void(bool keep_edits)> go_on) 
 }
 
 void EditorSaving::offer_recovery(const std::filesystem::path& scene) {
-    const std::vector<Leftover> leftovers = find_leftovers(recovery_folder());
+    const std::vector<RecoveryFile> leftovers = find_recovery_files(recovery_folder());
     const auto wanted =
-        std::ranges::find_if(leftovers, [&](const Leftover& l) { return scene.empty() || same_file(l.sidecar.scene, scene); });
+        std::ranges::find_if(leftovers, [&](const RecoveryFile& l) { return scene.empty() || same_file(l.sidecar.scene, scene); });
     if (wanted == leftovers.end()) return;
     ask({fmt::format("Recover the unsaved changes to {}?", wanted->sidecar.scene.filename().string()),
          fmt::format("Blush ended before they were saved. Last edit: {}.\n{}", time_text(wanted->written), wanted->sidecar.scene.string()),
          {"Recover", "Discard", "Not now"}},
         [this, leftover = *wanted](size_t choice) {
-            if (choice == 1) remove_leftover(leftover.file);
+            if (choice == 1) remove_recovery_file(leftover.file);
             if (choice != 0) return;
             recovering_ = leftover;
             files_.recover(leftover.sidecar);
@@ -132,7 +132,7 @@ void EditorSaving::poll(const EditorFiles::Finished& finished) {
     if (const auto failed = autosave_.poll(document_, files_.imported(), files_.origin())) ui_.toasts.warn(failed->text());
 }
 
-void EditorSaving::hear_answer() {
+void EditorSaving::poll_dialog() {
     if (!ui_.question || !ui_.question->chosen) return;
     const size_t choice = *ui_.question->chosen;
     ui_.question.reset();

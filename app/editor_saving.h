@@ -30,7 +30,7 @@ public:
 
     // Call both once per frame: with the result of files.poll(), and after the panels were drawn.
     void poll(const EditorFiles::Finished& finished);
-    void hear_answer();
+    void poll_dialog();
     // The window is closing: removes the sidecar.
     void end() { autosave_.forget(); }
 
@@ -46,7 +46,7 @@ private:
     Autosave autosave_;
     std::function<void(size_t)> answer_;
     std::function<void()> go_on_; // called after a successful save
-    std::optional<Leftover> recovering_;
+    std::optional<RecoveryFile> recovering_;
 };
 
 } // namespace blush

@@ -76,7 +76,7 @@ SnapshotJob cut_out(SnapshotJob job) {
 Result<SavedSnapshot> write_snapshot_exr(const SnapshotJob& job) {
     // With samples all pixels are saved; those outside the frame are overscan.
     if (job.snapshot.frame && !(job.film && job.snapshot.film)) return write_snapshot_exr(cut_out(job));
-    const Result<std::filesystem::path> file = job.file.empty() ? free_name(job.folder, job.snapshot.scene_file.stem().string(), ".exr") : job.file;
+    const Result<std::filesystem::path> file = job.file.empty() ? unique_filename(job.folder, job.snapshot.scene_file.stem().string(), ".exr") : job.file;
     if (!file) return file.error();
     const Snapshot& s = job.snapshot;
     const Layers layers{.albedo = true, .normal = true, .depth = true, .error = true, .samples = true, .ids = true, .groups = true};
@@ -86,20 +86,20 @@ Result<SavedSnapshot> write_snapshot_exr(const SnapshotJob& job) {
     extra.half = job.half;
     extra.display_window = s.frame;
     if (denoised) extra.denoised = denoised->denoised.rgb;
-    std::vector<ExactPlane> film;
+    std::vector<LosslessPlane> film;
     if (job.film && s.film) {
         film = planes_in_file(*s.film);
         metadata.film = film_json(*s.film);
     }
     extra.film = film;
-    const Result<int64_t> beyond_half = write_exr_picture(*file, *s.pictures.frame, extra, layers, metadata);
-    if (!beyond_half) return beyond_half.error();
-    return SavedSnapshot{*file, *beyond_half};
+    const Result<int64_t> count_beyond_half = write_exr_picture(*file, *s.pictures.frame, extra, layers, metadata);
+    if (!count_beyond_half) return count_beyond_half.error();
+    return SavedSnapshot{*file, *count_beyond_half};
 }
 
 Result<SavedSnapshot> write_snapshot_png(const SnapshotJob& job, const ColorManagement& color) {
     if (job.snapshot.frame) return write_snapshot_png(cut_out(job), color);
-    const auto file = free_name(job.folder, job.snapshot.scene_file.stem().string(), ".png");
+    const auto file = unique_filename(job.folder, job.snapshot.scene_file.stem().string(), ".png");
     if (!file) return file.error();
     const Frame& frame = *job.snapshot.pictures.frame;
     const DenoisedPicture* denoised = job.view.wants_denoised() ? job.snapshot.pictures.denoised.get() : nullptr;

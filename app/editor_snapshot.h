@@ -24,7 +24,7 @@ struct SnapshotJob {
 
 struct SavedSnapshot {
     std::filesystem::path file;
-    int64_t beyond_half = 0; // number of values outside the range of 16 bits
+    int64_t count_beyond_half = 0; // number of values outside the range of 16 bits
 };
 
 // If the picture extends beyond the camera's frame, only the frame is saved. An EXR with samples contains all pixels, because the

@@ -41,13 +41,13 @@ bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
 // ---- taking snapshots
 
 void EditorSnapshots::keep(Shown shown, RenderSession& session) {
-    session.keep_film(shown.revision);
+    session.request_film(shown.revision);
     keeping_ = std::move(shown);
 }
 
-void EditorSnapshots::finish_keeping(UiState& ui, RenderSession& session) {
+void EditorSnapshots::finish_capture(UiState& ui, RenderSession& session) {
     if (!keeping_) return;
-    std::optional<KeptFilm> kept = session.take_kept_film();
+    std::optional<RequestedFilm> kept = session.take_requested_film();
     if (!kept || kept->revision != keeping_->revision) return;
     Snapshot s = snapshot_of(*std::exchange(keeping_, std::nullopt));
     if (kept->frame) {
@@ -95,7 +95,7 @@ void EditorSnapshots::make_room(UiState& ui) {
 void EditorSnapshots::finish_all() {
     writing_.reset(); // waits for the running job
     for (const Writing& left : std::exchange(to_write_, {}))
-        if (const auto written = guarded<SavedSnapshot>(left.write); !written) fmt::print(stderr, "blush: warning: {}\n", written.error().text());
+        if (const auto written = catch_as_result<SavedSnapshot>(left.write); !written) fmt::print(stderr, "blush: warning: {}\n", written.error().text());
 }
 
 void EditorSnapshots::finish_writing(UiState& ui) {
@@ -114,8 +114,8 @@ void EditorSnapshots::finish_writing(UiState& ui) {
                 snapshot->film_in_file = writing_film_;
             }
             const std::string text = "Saved " + saved.file.filename().string();
-            if (saved.beyond_half > 0)
-                ui.toasts.warn(text, fmt::format("{} values are too bright for 16 bits and became {:.0f} nits.", saved.beyond_half, largest_half));
+            if (saved.count_beyond_half > 0)
+                ui.toasts.warn(text, fmt::format("{} values are too bright for 16 bits and became {:.0f} nits.", saved.count_beyond_half, max_half));
             else
                 ui.toasts.note(text, saved.file.parent_path().string());
         }
@@ -126,7 +126,7 @@ void EditorSnapshots::finish_writing(UiState& ui) {
     writing_id_ = next.id;
     writing_film_ = next.film;
     writing_ = std::make_unique<BackgroundJob<Result<SavedSnapshot>>>(
-        "Saving the snapshot", [write = std::move(next.write)](JobProgress&) { return guarded<SavedSnapshot>(write); }, wake_);
+        "Saving the snapshot", [write = std::move(next.write)](JobProgress&) { return catch_as_result<SavedSnapshot>(write); }, wake_);
 }
 
 void EditorSnapshots::open(const std::filesystem::path& file, const std::filesystem::path& open_scene, bool panoramas_light) {
@@ -134,7 +134,7 @@ void EditorSnapshots::open(const std::filesystem::path& file, const std::filesys
     read_next(open_scene);
 }
 
-void EditorSnapshots::list_kept(const UiState& ui, const std::filesystem::path& scene_file) {
+void EditorSnapshots::load_strip(const UiState& ui, const std::filesystem::path& scene_file) {
     const auto known = std::ranges::find(ui.settings.scenes, scene_file.string(), &SceneMemory::file);
     const bool listed = std::ranges::any_of(ui.snapshots.list, [&](const SnapshotPtr& s) { return s->scene_file == scene_file; });
     if (known == ui.settings.scenes.end() || listed) return;
@@ -150,7 +150,7 @@ void EditorSnapshots::read_next(const std::filesystem::path& open_scene) {
     opening_ = std::make_unique<BackgroundJob<Result<OpenAnswer>>>(
         "Opening " + file.filename().string(),
         [next, open_scene](JobProgress&) {
-            return guarded<OpenAnswer>([&]() -> Result<OpenAnswer> {
+            return catch_as_result<OpenAnswer>([&]() -> Result<OpenAnswer> {
                 const auto metadata = read_metadata(next.file);
                 if (!metadata) return metadata.error();
                 if (!is_snapshot(*metadata)) {
@@ -227,16 +227,16 @@ void EditorSnapshots::restore(const SnapshotPtr& snapshot, Document& document, U
 
 // Continues a restore: its scene is open.
 void EditorSnapshots::go_on(Document& document, UiState& ui, const EditorFiles& files) {
-    if (stateless_.contains(waiting_->id)) return work_out_state(files);
+    if (stateless_.contains(waiting_->id)) return compute_state(files);
     go_back(*std::exchange(waiting_, nullptr), document, ui);
 }
 
-void EditorSnapshots::work_out_state(const EditorFiles& files) {
+void EditorSnapshots::compute_state(const EditorFiles& files) {
     waiting_->imported = files.imported();
     state_job_ = std::make_unique<BackgroundJob<Result<SnapshotState>>>(
         "Restoring " + waiting_->name,
         [metadata = stateless_.at(waiting_->id), imported = files.imported(), file = files.scene_file()](JobProgress&) {
-            return guarded<SnapshotState>([&] { return state_of(metadata, imported, file); });
+            return catch_as_result<SnapshotState>([&] { return state_of(metadata, imported, file); });
         },
         wake_);
 }
@@ -270,7 +270,7 @@ void EditorSnapshots::go_back(const Snapshot& snapshot, Document& document, UiSt
     restored_ = Restored{snapshot.film, snapshot.settings};
 }
 
-void EditorSnapshots::obey(Document& document, UiState& ui, EditorFiles& files) {
+void EditorSnapshots::handle_requests(Document& document, UiState& ui, EditorFiles& files) {
     SnapshotsView& view = ui.snapshots;
     if (view.compare.mode != Comparison::Mode::off)
         for (const uint64_t id : {view.compare.a, view.compare.b})
@@ -299,7 +299,7 @@ void EditorSnapshots::obey(Document& document, UiState& ui, EditorFiles& files) 
 }
 
 void EditorSnapshots::poll(bool opened, Document& document, UiState& ui, EditorFiles& files, RenderSession& session) {
-    finish_keeping(ui, session);
+    finish_capture(ui, session);
     finish_writing(ui);
     finish_opening(document, ui, files);
     finish_state(document, ui);

@@ -40,12 +40,12 @@ public:
     // Saves it as a PNG.
     void save_png(const Shown& shown, const ColorManagement& color, const UiState& ui);
     // Reads the files that were in the strip when the scene was last closed, one after the other; unreadable ones are skipped.
-    void list_kept(const UiState& ui, const std::filesystem::path& scene_file);
+    void load_strip(const UiState& ui, const std::filesystem::path& scene_file);
     // Opens an EXR. A snapshot is added to the strip and its state is restored. A picture from another program is added to the
     // strip with its layers and shown in the comparison. `panoramas_light`: a panorama becomes the environment instead.
     void open(const std::filesystem::path& file, const std::filesystem::path& open_scene, bool panoramas_light);
     // Executes requests of panels.
-    void obey(Document& document, UiState& ui, EditorFiles& files);
+    void handle_requests(Document& document, UiState& ui, EditorFiles& files);
 
     // Applies finished jobs. `opened`: the scene file has just been read.
     void poll(bool opened, Document& document, UiState& ui, EditorFiles& files, RenderSession& session);
@@ -67,7 +67,7 @@ private:
         std::shared_ptr<PictureLayers> picture = {};
     };
     void show_picture(std::shared_ptr<PictureLayers> layers, UiState& ui);
-    void finish_keeping(UiState& ui, RenderSession& session);
+    void finish_capture(UiState& ui, RenderSession& session);
     void finish_opening(Document& document, UiState& ui, EditorFiles& files);
     void finish_state(Document& document, UiState& ui);
     void finish_writing(UiState& ui);
@@ -79,7 +79,7 @@ private:
     SnapshotPtr add_to_strip(OpenedSnapshot opened, UiState& ui);
     void restore(const SnapshotPtr& snapshot, Document& document, UiState& ui, EditorFiles& files);
     void go_on(Document& document, UiState& ui, const EditorFiles& files);
-    void work_out_state(const EditorFiles& files);
+    void compute_state(const EditorFiles& files);
     void go_back(const Snapshot& snapshot, Document& document, UiState& ui);
 
     std::function<void()> wake_;

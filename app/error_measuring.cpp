@@ -10,8 +10,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Kind = ConvergencePoint::Kind;
 
-constexpr size_t most_denoised_bytes = size_t(256) << 20; // of denoised pictures that wait for a better raw picture
-constexpr double judging_growth = 1.4;                    // factor of the raw picture's samples between two measurements
+constexpr size_t max_denoised_bytes = size_t(256) << 20; // of denoised pictures that wait for a better raw picture
+constexpr double remeasure_growth = 1.4;                    // factor of the raw picture's samples between two measurements
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
@@ -30,32 +30,32 @@ ConvergencePoint only_known(ConvergencePoint p) {
 
 } // namespace
 
-void ErrorMeasuring::begin(int run) {
+void ErrorMeasurement::begin(int run) {
     run_ = run;
     budget_.restart();
     forget_pictures();
 }
 
-void ErrorMeasuring::forget_pictures() {
+void ErrorMeasurement::forget_pictures() {
     raw_.reset();
     denoised_.clear();
 }
 
-void ErrorMeasuring::add_raw(const FramePtr& frame) { raw_ = frame; }
+void ErrorMeasurement::add_raw(const FramePtr& frame) { raw_ = frame; }
 
-void ErrorMeasuring::add_denoised(const DenoisedPtr& picture) {
+void ErrorMeasurement::add_denoised(const DenoisedPtr& picture) {
     const size_t bytes = std::max<size_t>(1, picture->denoised.rgb.size() * sizeof(float));
-    while (!denoised_.empty() && (denoised_.size() + 1) * bytes > most_denoised_bytes) denoised_.erase(denoised_.begin());
+    while (!denoised_.empty() && (denoised_.size() + 1) * bytes > max_denoised_bytes) denoised_.erase(denoised_.begin());
     denoised_.push_back({picture});
 }
 
-size_t ErrorMeasuring::waiting(const ConvergenceRecord& record) const {
+size_t ErrorMeasurement::waiting(const ConvergenceRecord& record) const {
     const std::vector<ConvergencePoint> points = record.points(Kind::denoised);
     return size_t(std::ranges::count_if(
         denoised_, [&](const Waiting& w) { return std::ranges::find(points, w.picture->samples, &ConvergencePoint::spp) == points.end(); }));
 }
 
-void ErrorMeasuring::take(ConvergenceRuns& runs) {
+void ErrorMeasurement::take(ConvergenceRuns& runs) {
     auto measured = job_->take();
     if (!measured) return;
     job_.reset();
@@ -66,7 +66,7 @@ void ErrorMeasuring::take(ConvergenceRuns& runs) {
     if (ConvergenceRun* run = runs.find(measured_run_); run && known(measured->point)) run->record.set(only_known(measured->point));
 }
 
-void ErrorMeasuring::poll(ConvergenceRuns& runs, const std::shared_ptr<const Reference>& reference, const FramePtr& raw) {
+void ErrorMeasurement::poll(ConvergenceRuns& runs, const std::shared_ptr<const Reference>& reference, const FramePtr& raw) {
     if (job_) take(runs);
     if (job_ || !raw) return;
     if (!raw->complete && !budget_.allows(double(raw->width) * double(raw->height), raw->seconds)) return;
@@ -77,7 +77,7 @@ void ErrorMeasuring::poll(ConvergenceRuns& runs, const std::shared_ptr<const Ref
 }
 
 // Each picture once: the reference does not improve by itself. Empty if nothing is pending.
-ErrorMeasuring::Work ErrorMeasuring::against_reference(const std::shared_ptr<const Reference>& reference) {
+ErrorMeasurement::Work ErrorMeasurement::against_reference(const std::shared_ptr<const Reference>& reference) {
     if (const FramePtr frame = std::exchange(raw_, nullptr))
         return [=](JobProgress&) {
             const auto begin = Clock::now();
@@ -95,12 +95,12 @@ ErrorMeasuring::Work ErrorMeasuring::against_reference(const std::shared_ptr<con
 
 // The picture whose last measurement used the fewest raw samples; it stays in the queue for better raw pictures. Empty if the
 // current raw picture would not improve any.
-ErrorMeasuring::Work ErrorMeasuring::against_raw(const FramePtr& raw) {
-    const auto w = std::ranges::min_element(denoised_, {}, &Waiting::judged_at);
+ErrorMeasurement::Work ErrorMeasurement::against_raw(const FramePtr& raw) {
+    const auto w = std::ranges::min_element(denoised_, {}, &Waiting::measured_at);
     if (w == denoised_.end() || w->picture->samples >= raw->samples) return {};
-    const double growth = double(raw->samples) / std::max(1.0, double(w->judged_at));
-    if (raw->complete ? growth <= 1 : growth < judging_growth) return {};
-    w->judged_at = raw->samples;
+    const double growth = double(raw->samples) / std::max(1.0, double(w->measured_at));
+    if (raw->complete ? growth <= 1 : growth < remeasure_growth) return {};
+    w->measured_at = raw->samples;
     return [raw, picture = w->picture](JobProgress&) {
         const auto begin = Clock::now();
         const ConvergencePoint point = point_of(*picture, error_against({picture->denoised.rgb, 3}, {raw->rgba, 4}, raw->error));

@@ -15,10 +15,10 @@
 
 namespace blush {
 
-class ErrorMeasuring {
+class ErrorMeasurement {
 public:
     // `wake` is called on another thread when a result is available.
-    explicit ErrorMeasuring(std::function<void()> wake) : wake_(std::move(wake)) {}
+    explicit ErrorMeasurement(std::function<void()> wake) : wake_(std::move(wake)) {}
 
     // A new run begins: drops pending pictures of the last one.
     void begin(int run);
@@ -40,7 +40,7 @@ private:
     // A denoised picture; oldest first.
     struct Waiting {
         DenoisedPtr picture;
-        int64_t judged_at = 0; // samples of the raw picture in its last measurement
+        int64_t measured_at = 0; // samples of the raw picture in its last measurement
     };
     struct Measured {
         ConvergencePoint point;
@@ -55,7 +55,7 @@ private:
 
     std::function<void()> wake_;
     int run_ = 0, measured_run_ = 0;
-    TimeBudget budget_{measuring_share};
+    TimeBudget budget_{max_measuring_share};
     FramePtr raw_; // the newest pending one
     std::vector<Waiting> denoised_;
     std::unique_ptr<BackgroundJob<Measured>> job_;

@@ -6,7 +6,7 @@
 
 namespace blush {
 
-void FileTakers::browse(FileRequest::Use use) {
+void FileRouter::browse(FileRequest::Use use) {
     std::error_code error;
     std::filesystem::path folder = use == FileRequest::Use::snapshot_folder ? ui.settings.snapshot_folder : ui.settings.browser_folder;
     if (!std::filesystem::is_directory(folder, error)) folder = files.scene_file().parent_path();
@@ -14,7 +14,7 @@ void FileTakers::browse(FileRequest::Use use) {
     ui.browser = FileBrowser{use, std::filesystem::absolute(folder, error), {}, {}, true, files.scene_file().parent_path()};
 }
 
-bool FileTakers::browse_for(Command command) {
+bool FileRouter::browse_for(Command command) {
     using Use = FileRequest::Use;
     constexpr std::pair<Command, Use> asking[] = {{Command::open, Use::open},
                                                   {Command::import_scene, Use::import_scene},
@@ -31,7 +31,7 @@ bool FileTakers::browse_for(Command command) {
     return false;
 }
 
-void FileTakers::take(const FileRequest& request) {
+void FileRouter::take(const FileRequest& request) {
     switch (request.use) {
     case FileRequest::Use::open:
         if (matches(snapshot_files, request.path)) return snapshots.open(request.path, files.scene_file(), false);
@@ -48,7 +48,7 @@ void FileTakers::take(const FileRequest& request) {
     }
 }
 
-void FileTakers::take_dropped(const std::filesystem::path& file) {
+void FileRouter::dispatch_dropped(const std::filesystem::path& file) {
     if (matches(scene_files, file))
         take({FileRequest::Use::open, file});
     else if (matches(snapshot_files, file))

@@ -12,7 +12,7 @@
 namespace blush {
 
 // Holds references: created where it is needed.
-struct FileTakers {
+struct FileRouter {
     EditorFiles& files;
     EditorSaving& saving;
     EditorSnapshots& snapshots;
@@ -26,7 +26,7 @@ struct FileTakers {
     bool browse_for(Command command);
     void take(const FileRequest& request);
     // By its extension; an unknown one gives an error toast.
-    void take_dropped(const std::filesystem::path& file);
+    void dispatch_dropped(const std::filesystem::path& file);
 };
 
 } // namespace blush

@@ -2,7 +2,7 @@
 
 namespace blush {
 
-void FollowedMix::follow(const FramePtr& frame, const Document& document) {
+void LiveMix::follow(const FramePtr& frame, const Document& document) {
     const auto groups = frame ? frame->light_groups : nullptr;
     if (groups == groups_ && document.revision() == revision_) return;
     groups_ = groups;

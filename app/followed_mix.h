@@ -11,7 +11,7 @@
 
 namespace blush {
 
-class FollowedMix {
+class LiveMix {
 public:
     // `frame` may be null.
     void follow(const FramePtr& frame, const Document& document);

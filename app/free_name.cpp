@@ -4,7 +4,7 @@
 
 namespace blush {
 
-Result<std::filesystem::path> free_name(const std::filesystem::path& folder, const std::string& stem, const std::string& extension) {
+Result<std::filesystem::path> unique_filename(const std::filesystem::path& folder, const std::string& stem, const std::string& extension) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error) return Error{folder.string(), "cannot create the folder: " + error.message(), ""};

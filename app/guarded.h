@@ -8,7 +8,7 @@
 namespace blush {
 
 // Returns the result of `work`, or its exception as an error.
-template <class T, class Work> Result<T> guarded(const Work& work) {
+template <class T, class Work> Result<T> catch_as_result(const Work& work) {
     try {
         return work();
     } catch (const std::exception& e) { return Error{"", e.what(), ""}; }

@@ -93,16 +93,16 @@ void toggle_placing(PanelContext& c, PlacingBy by) {
 }
 
 void toggle_look_through(PanelContext& c) {
-    if (c.ui.looked_through) {
-        c.document.navigate(c.ui.looked_through->back);
-        return c.ui.looked_through.reset();
+    if (c.ui.light_camera) {
+        c.document.navigate(c.ui.light_camera->back);
+        return c.ui.light_camera.reset();
     }
     const Id<Node> id = c.ui.selected;
     const Light* light = light_of(c, id);
     if (!light) return c.ui.toasts.note("Select the light to look through first");
-    c.ui.looked_through = LookedThrough{id, c.scene().view};
+    c.ui.light_camera = LookedThrough{id, c.scene().view};
     c.ui.placing_by = PlacingBy::hand;
-    c.document.navigate(first_view_through_light(c.scene().view, *light, pose_of(c.scene(), id), clearance(c.scene(), id)));
+    c.document.navigate(initial_light_view(c.scene().view, *light, pose_of(c.scene(), id), clearance(c.scene(), id)));
 }
 
 } // namespace blush

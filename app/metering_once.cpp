@@ -6,12 +6,12 @@
 
 namespace blush {
 
-void MeteringOnce::want(const Project& project, bool opening) {
+void OneShotMetering::want(const Project& project, bool opening) {
     // An environment chosen before the picture was metered belongs to the opening.
     due_ = Due{opening || (due_ && due_->opening), project.view.exposure_ev, project.scene.environment};
 }
 
-void MeteringOnce::look(Document& document, const FramePtr& frame, const UiState& ui, const ColorManagement& color) {
+void OneShotMetering::current_pictures(Document& document, const FramePtr& frame, const UiState& ui, const ColorManagement& color) {
     if (!due_ || !frame) return;
     const Project& project = document.project();
     const bool taken_back = project.scene.environment.kind != due_->environment.kind || project.scene.environment.image != due_->environment.image;

@@ -10,7 +10,7 @@
 
 namespace blush {
 
-class MeteringOnce {
+class OneShotMetering {
 public:
     // Requests metering for the current document. `opening`: as part of opening the file rather than of the last edit.
     void want(const Project& project, bool opening);
@@ -21,7 +21,7 @@ public:
     }
     // Meters as soon as the frame shows the current document with enough samples. Not if the user has set an exposure, or undone
     // the environment, in the meantime.
-    void look(Document& document, const FramePtr& frame, const UiState& ui, const ColorManagement& color);
+    void current_pictures(Document& document, const FramePtr& frame, const UiState& ui, const ColorManagement& color);
 
 private:
     struct Due {

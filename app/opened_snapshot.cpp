@@ -111,7 +111,7 @@ Result<SnapshotState> state_of(const SnapshotMetadata& m, const Scene& imported,
         state.warning =
             fmt::format("{} has changed since the snapshot: the edits were applied to the new file, and it is rendered from the start.",
                         scene_file.filename().string());
-    else if (edits_left_out(m.edits) > 0)
+    else if (count_left_out(m.edits) > 0)
         state.warning = "Some edits, such as added objects, are not stored in the snapshot. The others were restored, and it is rendered "
                         "from the start.";
     return state;

@@ -5,7 +5,7 @@
 
 namespace blush {
 
-std::vector<std::string> OpeningPage::demos() const {
+std::vector<std::string> StartPage::demos() const {
     std::vector<std::string> files;
     const std::filesystem::path folder = assets_ / "scenes";
     if (const auto listing = list_folder(folder, scene_files))
@@ -14,7 +14,7 @@ std::vector<std::string> OpeningPage::demos() const {
     return files;
 }
 
-void OpeningPage::keep_thumbnail(const std::filesystem::path& scene, const FramePtr& frame, const ViewSettings& view, const ColorManagement& color,
+void StartPage::keep_thumbnail(const std::filesystem::path& scene, const FramePtr& frame, const ViewSettings& view, const ColorManagement& color,
                                  bool leaving) {
     constexpr int64_t enough_samples = 16;
     if (!frame || frame->width <= 0 || frame->divider != 1 || scene.empty() || is_below(scene, assets_)) return;

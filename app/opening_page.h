@@ -9,9 +9,9 @@
 
 namespace blush {
 
-class OpeningPage {
+class StartPage {
 public:
-    OpeningPage(std::filesystem::path assets, std::function<void()> wake) : assets_(std::move(assets)), thumbnails_(assets_, std::move(wake)) {}
+    StartPage(std::filesystem::path assets, std::function<void()> wake) : assets_(std::move(assets)), thumbnails_(assets_, std::move(wake)) {}
     // The shipped scenes, sorted by name.
     std::vector<std::string> demos() const;
     // Thumbnail of a scene or image file; 0: none (yet).

@@ -19,7 +19,7 @@ public:
         if (asking) return;
         asking = true;
         try {
-            const std::string room = blush::memory_room().text();
+            const std::string room = blush::memory_limit().text();
             std::snprintf(text_, sizeof text_, "not enough memory: %.4g MB more were requested, %s", double(wanted) / 1e6, room.c_str());
         } catch (...) {} // the message without the limit
         asking = false;

@@ -9,7 +9,7 @@
 
 namespace blush {
 
-void ReferenceKeeper::forget() {
+void ReferenceProvider::forget() {
     reference_.reset();
     looked_ = false;
     problem_.clear();
@@ -19,7 +19,7 @@ void ReferenceKeeper::forget() {
     outdated_ = true;
 }
 
-void ReferenceKeeper::start(std::function<Found(JobProgress&)> work, bool rendering) {
+void ReferenceProvider::start(std::function<Found(JobProgress&)> work, bool rendering) {
     rendering_ = rendering;
     outdated_ = false;
     problem_.clear();
@@ -27,7 +27,7 @@ void ReferenceKeeper::start(std::function<Found(JobProgress&)> work, bool render
         std::make_unique<BackgroundJob<Found>>(rendering ? "Rendering the reference" : "Searching for a reference", std::move(work), wake_);
 }
 
-void ReferenceKeeper::look(const Subject& subject) {
+void ReferenceProvider::current_pictures(const Subject& subject) {
     if (looked_ || job_) return;
     looked_ = true;
     start(
@@ -40,7 +40,7 @@ void ReferenceKeeper::look(const Subject& subject) {
         false);
 }
 
-void ReferenceKeeper::render(const Subject& subject, int64_t samples) {
+void ReferenceProvider::render(const Subject& subject, int64_t samples) {
     if (job_) return;
     Reference begun;
     const uint32_t seeds[]{subject.settings.seed};
@@ -69,11 +69,11 @@ void ReferenceKeeper::render(const Subject& subject, int64_t samples) {
         true);
 }
 
-void ReferenceKeeper::stop() {
+void ReferenceProvider::stop() {
     if (job_) job_->cancel();
 }
 
-bool ReferenceKeeper::poll() {
+bool ReferenceProvider::poll() {
     if (!job_) return false;
     auto found = job_->take();
     if (!found) return false;
@@ -85,9 +85,9 @@ bool ReferenceKeeper::poll() {
     return true;
 }
 
-ReferenceNews ReferenceKeeper::news() const {
-    using State = ReferenceNews::State;
-    ReferenceNews n;
+ReferenceStatus ReferenceProvider::news() const {
+    using State = ReferenceStatus::State;
+    ReferenceStatus n;
     n.problem = problem_;
     if (job_) {
         n.state = job_->cancelled() ? State::stopping : rendering_ ? State::rendering : State::looking;

@@ -12,7 +12,7 @@
 
 namespace blush {
 
-class ReferenceKeeper {
+class ReferenceProvider {
 public:
     // The picture that a reference belongs to.
     struct Subject {
@@ -20,12 +20,12 @@ public:
         RenderSettings settings; // size of the film, scale 1
     };
 
-    ReferenceKeeper(std::function<void()> wake, unsigned threads) : wake_(std::move(wake)), threads_(threads) {}
+    ReferenceProvider(std::function<void()> wake, unsigned threads) : wake_(std::move(wake)), threads_(threads) {}
 
     // The picture has changed: drops its reference.
     void forget();
     // Searches the cache, once per picture.
-    void look(const Subject& subject);
+    void current_pictures(const Subject& subject);
     // Renders one with `samples` per pixel, or doubles the samples of the current one. No effect while a job is running.
     void render(const Subject& subject, int64_t samples);
     // Stops; the samples rendered so far are used.
@@ -35,7 +35,7 @@ public:
     bool poll();
     bool renders() const { return job_ && rendering_ && !outdated_; }
     const std::shared_ptr<const Reference>& reference() const { return reference_; } // null: none
-    ReferenceNews news() const;
+    ReferenceStatus news() const;
 
 private:
     struct Found {

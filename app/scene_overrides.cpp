@@ -102,7 +102,7 @@ Result<void> light_up(std::optional<LightRig> light, Scene& scene, std::vector<D
 }
 
 // The camera node that has the view's pose; null id: a free view.
-Id<Node> looked_through(const Scene& scene) {
+Id<Node> light_camera(const Scene& scene) {
     for (const Id<Node> id : camera_nodes(scene)) {
         View seen = view_through(scene, id);
         seen.lens = scene.view.lens;
@@ -169,10 +169,10 @@ Result<std::optional<LightRig>> parse_light(std::string_view text) {
 }
 
 Result<void> apply_overrides(const SceneOverrides& overrides, Scene& scene, float aspect, bool has_view, std::vector<Diagnostic>* warnings) {
-    const Result<Staging> staging = find_staging(overrides.staging, scene);
+    const Result<SceneSelection> staging = find_staging(overrides.staging, scene);
     if (!staging) return staging.error();
     const bool other_scene = staging->scene != scene.staging.scene;
-    scene = staged(scene, *staging);
+    scene = with_scene_selection(scene, *staging);
     const std::vector<Id<Node>> cameras = camera_nodes(scene);
     if (!overrides.camera.empty()) {
         const Result<Id<Node>> camera = find_camera(scene, overrides.camera);
@@ -197,13 +197,13 @@ Result<void> apply_overrides(const SceneOverrides& overrides, Scene& scene, floa
 
 float aspect_of_camera(const std::map<Id<Camera>, float>& aspects, const Scene& scene) {
     if (aspects.empty()) return 0;
-    const Id<Node> node = looked_through(scene);
+    const Id<Node> node = light_camera(scene);
     const auto found = node ? aspects.find(scene.nodes.find(node)->camera) : aspects.end();
     return found == aspects.end() ? 0 : found->second;
 }
 
 std::string camera_name(const Scene& scene) {
-    const Id<Node> node = looked_through(scene);
+    const Id<Node> node = light_camera(scene);
     return node ? name_of_camera(scene, node) : std::string();
 }
 

@@ -14,7 +14,7 @@ bool SnapshotStore::has(const SnapshotPtr& snapshot) {
     reading_ = std::make_unique<BackgroundJob<Result<OpenedSnapshot>>>(
         "Reading " + snapshot->file.filename().string(),
         [file = snapshot->file, scene = snapshot->scene_file](JobProgress&) {
-            return guarded<OpenedSnapshot>([&] { return open_snapshot(file, scene); });
+            return catch_as_result<OpenedSnapshot>([&] { return open_snapshot(file, scene); });
         },
         wake_);
     return false;

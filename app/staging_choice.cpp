@@ -43,8 +43,8 @@ Result<size_t> find_scene(const Scene& scene, const std::string& wanted) {
 
 } // namespace
 
-Result<Staging> find_staging(const StagingChoice& choice, const Scene& scene) {
-    Staging staging = scene.staging;
+Result<SceneSelection> find_staging(const SceneSelectionOptions& choice, const Scene& scene) {
+    SceneSelection staging = scene.staging;
     if (!choice.animation.empty()) {
         const Result<Id<Clip>> clip = find_clip(scene, choice.animation);
         if (!clip) return clip.error();
@@ -63,11 +63,11 @@ Result<Staging> find_staging(const StagingChoice& choice, const Scene& scene) {
         if (!index && choice.variant != "none") return index.error();
         staging.variant = index ? int32_t(*index) : -1;
     }
-    if (const Result<void> valid = check_staging(scene, staging); !valid) return valid.error();
+    if (const Result<void> valid = check_scene_selection(scene, staging); !valid) return valid.error();
     return staging;
 }
 
-void add_staging_options(CLI::App& app, StagingChoice& choice) {
+void add_staging_options(CLI::App& app, SceneSelectionOptions& choice) {
     app.add_option("--animation", choice.animation, "Animation clip [none: rest pose]")->type_name("NAME|INDEX|none");
     app.add_option("--animation-time", choice.seconds, "Time of the animation in seconds [0]")->type_name("S");
     app.add_option("--scene", choice.scene, "Scene of the file [its default]")->type_name("NAME|INDEX");

@@ -14,17 +14,17 @@ class App;
 namespace blush {
 
 // Names or indices from 0; a name has priority. Empty: the file's default.
-struct StagingChoice {
+struct SceneSelectionOptions {
     std::string animation = {};          // or "none"
     std::optional<float> seconds = {};   // time in this animation, or in the current one
     std::string scene = {};
     std::string variant = {};            // or "none"
-    bool operator==(const StagingChoice&) const = default;
+    bool operator==(const SceneSelectionOptions&) const = default;
 };
 
 // Errors: unknown name, a time without an animation, an invalid time.
-Result<Staging> find_staging(const StagingChoice& choice, const Scene& scene);
+Result<SceneSelection> find_staging(const SceneSelectionOptions& choice, const Scene& scene);
 
-void add_staging_options(CLI::App& app, StagingChoice& choice);
+void add_staging_options(CLI::App& app, SceneSelectionOptions& choice);
 
 } // namespace blush

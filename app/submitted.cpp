@@ -4,15 +4,15 @@
 
 namespace blush {
 
-bool Submitted::is_new(const Scene& scene, const RenderSettings& settings, PlaneSet planes) const {
+bool LastSubmission::is_new(const Scene& scene, const RenderSettings& settings, PlaneSet planes) const {
     return revision_ == 0 || planes != planes_ || diff(scene_, settings_, scene, settings).any();
 }
 
-bool Submitted::is_same_image(const Scene& scene, const RenderSettings& settings) const {
+bool LastSubmission::is_same_image(const Scene& scene, const RenderSettings& settings) const {
     return revision_ != 0 && !diff(scene_, settings_, scene, settings).affects_image();
 }
 
-uint64_t Submitted::note(const Scene& scene, const RenderSettings& settings, PlaneSet planes) {
+uint64_t LastSubmission::note(const Scene& scene, const RenderSettings& settings, PlaneSet planes) {
     scene_ = scene;
     settings_ = settings;
     planes_ = planes;

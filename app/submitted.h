@@ -9,7 +9,7 @@
 
 namespace blush {
 
-class Submitted {
+class LastSubmission {
 public:
     // The revision that the window expects; 0: none yet.
     uint64_t revision() const { return revision_; }

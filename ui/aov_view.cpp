@@ -9,7 +9,7 @@ namespace {
 using Show = PictureView::Show;
 
 std::string bounce_name(int k) {
-    const bool last = k + 1 == usual_bounce_planes;
+    const bool last = k + 1 == default_bounce_planes;
     return fmt::format("Bounce {}{}", k, last ? "+" : k == 0 ? ": emission" : k == 1 ? ": direct light" : "");
 }
 
@@ -24,7 +24,7 @@ std::vector<AovEntry> aov_list(const Frame* frame) {
     else
         list.push_back({{Show::group}, "Light groups", "Needs light groups: open the light mix (Ctrl+M)", false});
     const bool has_bounces = frame && !frame->bounces.empty();
-    const int bounces = has_bounces ? int(frame->bounces.size()) : usual_bounce_planes;
+    const int bounces = has_bounces ? int(frame->bounces.size()) : default_bounce_planes;
     for (int k = 0; k < bounces; ++k)
         list.push_back({{Show::bounces, k}, bounce_name(k), has_bounces ? "" : "Needs bounce passes: the render restarts"});
     return list;
@@ -53,7 +53,7 @@ PictureView picture_view(const AovView& view, int bounce_planes) {
 }
 
 PlaneSet planes_of(const AovView& view) {
-    return {.bounces = view.show == Show::bounces ? usual_bounce_planes : 0, .error = view.show == Show::error};
+    return {.bounces = view.show == Show::bounces ? default_bounce_planes : 0, .error = view.show == Show::error};
 }
 
 } // namespace blush

@@ -11,7 +11,7 @@
 
 namespace blush {
 
-template <class Question, class Answer> class BackgroundAnswer {
+template <class Question, class Answer> class AsyncQuery {
 public:
     // `answer_it` runs on another thread and must not throw. Answers use at most a fifth of one core's time, which the renderer
     // needs.

@@ -5,7 +5,7 @@
 
 namespace blush {
 
-constexpr float most_bounce_gain = 4;
+constexpr float max_bounce_gain = 4;
 
 struct BouncesView {
     enum class Mode { picture, single, cumulative, direct, indirect, gains };

@@ -21,7 +21,7 @@ void draw_passepartout(ImDrawList& draw, const ImageRect& picture, const ImageRe
 } // namespace
 
 void draw_camera_frame(PanelContext& c, ImDrawList& draw, const ImageRect& picture, const ImageRect& seen) {
-    if (c.ui.looked_through) return;
+    if (c.ui.light_camera) return;
     if (is_at_home(c.scene(), c.ui.home)) {
         const ImageRect frame = frame_in_picture(c.ui.frame, picture);
         if (frame.width == picture.width) return;
@@ -39,23 +39,23 @@ void draw_camera_frame(PanelContext& c, ImDrawList& draw, const ImageRect& pictu
 }
 
 std::optional<PixelRect> camera_frame_of(const UiState& ui, const Scene& scene, const Frame& picture) {
-    if (ui.looked_through || !is_at_home(scene, ui.home)) return {};
+    if (ui.light_camera || !is_at_home(scene, ui.home)) return {};
     const ImageRect frame = frame_in_picture(ui.frame, {0, 0, float(picture.width), float(picture.height)});
     if (int(frame.width) >= picture.width) return {};
     return PixelRect{int(frame.x), 0, int(frame.x) + std::max(int(frame.width), 1), picture.height};
 }
 
-void carry_camera_along(PanelContext& c) {
+void move_camera_to_view(PanelContext& c) {
     const Id<Node> id = c.ui.home.camera;
     const Node* record = c.scene().nodes.find(id);
-    if (!c.ui.frame.lock || c.ui.looked_through || !record || !record->camera || is_placed_by_clip(c.scene(), id)) return;
+    if (!c.ui.frame.lock || c.ui.light_camera || !record || !record->camera || is_transform_animated(c.scene(), id)) return;
     Node node = *record;
     const View view = c.scene().view;
     node.local = placed_at(c.scene(), id, to_double(view.position), view.rotation);
     if (!c.apply(SetNode{id, node}, c.ui.gestures.current())) return;
     // Use the camera's exact pose: its transform is rounded, and the difference would count as a free view.
     View seen = view;
-    const View eye = eye_of(c.scene(), id);
+    const View eye = view_of_camera(c.scene(), id);
     seen.position = eye.position;
     seen.rotation = eye.rotation;
     c.document.navigate(seen);

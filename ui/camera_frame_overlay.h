@@ -18,6 +18,6 @@ void draw_camera_frame(PanelContext& c, ImDrawList& draw, const ImageRect& pictu
 std::optional<PixelRect> camera_frame_of(const UiState& ui, const Scene& scene, const Frame& picture);
 
 // Moves the camera to the view's pose, if it is locked to the view.
-void carry_camera_along(PanelContext& c);
+void move_camera_to_view(PanelContext& c);
 
 } // namespace blush

@@ -11,7 +11,7 @@
 namespace blush {
 namespace {
 
-constexpr float largest_color = 1e6f;
+constexpr float max_color = 1e6f;
 
 ImVec4 shown(const Vec3& linear) { return {srgb_from_linear(linear.x), srgb_from_linear(linear.y), srgb_from_linear(linear.z), 1}; }
 
@@ -29,20 +29,20 @@ bool Fields::obey_color_wish(const char* label, Vec3& value, const Vec3& reset) 
     if (ui_.values.dropper == id && ui_.values.picked) {
         const Vec3 picked = *std::exchange(ui_.values.picked, std::nullopt);
         ui_.values.dropper = 0;
-        const auto clamped = [](float x) { return std::clamp(x, 0.f, largest_color); };
+        const auto clamped = [](float x) { return std::clamp(x, 0.f, max_color); };
         value = {clamped(picked.x), clamped(picked.y), clamped(picked.z)};
         return true;
     }
-    switch (value_wish(ui_, std::string(scope_) + "/" + label, true, false)) {
-    case ValueWish::copy: copy_text(ui_, triple_text(value)); return false;
-    case ValueWish::copy_hex: copy_text(ui_, hex_text(value)); return false;
-    case ValueWish::copy_srgb: copy_text(ui_, srgb_text(value)); return false;
-    case ValueWish::pick: take_dropper(ui_, id); return false;
-    case ValueWish::reset: return std::exchange(value, reset) != reset;
-    case ValueWish::paste: {
+    switch (value_action(ui_, std::string(scope_) + "/" + label, true, false)) {
+    case ValueAction::copy: copy_text(ui_, triple_text(value)); return false;
+    case ValueAction::copy_hex: copy_text(ui_, hex_text(value)); return false;
+    case ValueAction::copy_srgb: copy_text(ui_, srgb_text(value)); return false;
+    case ValueAction::pick: take_dropper(ui_, id); return false;
+    case ValueAction::reset: return std::exchange(value, reset) != reset;
+    case ValueAction::paste: {
         const auto pasted = pasted_color(pasted_text());
         if (!pasted) {
-            refuse_pasted(ui_, label, "Use #rrggbb, srgb(r, g, b), or three linear numbers.");
+            warn_invalid_paste(ui_, label, "Use #rrggbb, srgb(r, g, b), or three linear numbers.");
             return false;
         }
         return std::exchange(value, *pasted) != *pasted;
@@ -104,7 +104,7 @@ bool Fields::color(const char* label, Vec3& value, const Vec3& reset, const char
         ImGui::EndPopup();
     }
     static constexpr const char* ids[] = {"##R", "##G", "##B"};
-    constexpr NumberStyle style{.min = 0, .max = largest_color, .step = 0.002f, .format = "%.3f"};
+    constexpr NumberStyle style{.min = 0, .max = max_color, .step = 0.002f, .format = "%.3f"};
     float* const components[] = {&value.x, &value.y, &value.z};
     const float resets[] = {reset.x, reset.y, reset.z};
     for (int i = 0; i < 3; ++i) {

@@ -12,7 +12,7 @@ namespace {
 
 using Mode = Comparison::Mode;
 
-constexpr double usual_frame = 16; // milliseconds per window frame, as for the live picture
+constexpr double default_frame = 16; // milliseconds per window frame, as for the live picture
 
 std::shared_ptr<const Difference> answer(const DifferenceQuestion& question) {
     return std::make_shared<const Difference>(difference_of(question));
@@ -72,7 +72,7 @@ void CompareView::ask_difference(PanelContext& c, const ComparedSide& a, const C
     const bool denoised = c.ui.denoise.wants_denoised();
     const DifferenceQuestion question{a.pictures.frame, b.pictures.frame, denoised ? a.pictures.denoised : nullptr,
                                       denoised ? b.pictures.denoised : nullptr, c.ui.denoise, compare.kind};
-    if (difference_.ask(question, answer)) c.ui.next_frame_in = std::min(c.ui.next_frame_in, 0.05);
+    if (difference_.ask(question, answer)) c.ui.seconds_to_next_frame = std::min(c.ui.seconds_to_next_frame, 0.05);
     if (difference_.answer()) answer_ = *difference_.answer();
     c.ui.difference = answer_;
 }
@@ -111,7 +111,7 @@ void CompareView::upload_sides(const PanelContext& c, const ComparedSide& a, con
     pass_.upload(width, height, std::move(rgba));
 }
 
-void CompareView::update(PanelContext& c, const ComparedSide& a, const ComparedSide& b, const DisplayLook& look, const FramePace& pace) {
+void CompareView::update(PanelContext& c, const ComparedSide& a, const ComparedSide& b, const DisplayLook& current_pictures, const FrameBudget& pace) {
     if (shader_changed_ && shader_) {
         if (const auto set = pass_.set_shader(*shader_); !set) c.ui.toasts.fail(set.error().text());
     }
@@ -124,7 +124,7 @@ void CompareView::update(PanelContext& c, const ComparedSide& a, const ComparedS
         if (a.id != live_image) wanted.a = a.pictures.frame, wanted.mix_a = mix_of_side(c, a);
         if (b.id != live_image) wanted.b = b.pictures.frame, wanted.mix_b = mix_of_side(c, b);
     }
-    DisplayLook plain = look;
+    DisplayLook plain = current_pictures;
     plain.mix = {};
     if (difference && compare.kind != DifferenceKind::absolute) plain.numbers.false_color = {};
     const bool other_picture = !pass_.busy() && shown_ != wanted;
@@ -141,12 +141,12 @@ void CompareView::update(PanelContext& c, const ComparedSide& a, const ComparedS
         pass_.begin(plain);
     }
     shader_changed_ = false;
-    pass_.advance(pace.left(usual_frame, FramePace::Clock::now()));
+    pass_.advance(pace.left(default_frame, FrameBudget::Clock::now()));
     if (pass_.busy()) {
-        c.ui.next_frame_in = 0;
+        c.ui.seconds_to_next_frame = 0;
     } else if (!drawn_) {
         drawn_ = true;
-        c.ui.next_frame_in = 0;
+        c.ui.seconds_to_next_frame = 0;
     }
 }
 
@@ -178,7 +178,7 @@ void CompareView::draw_wipe(PanelContext& c, const ComparedSide& a, const Compar
     if (drag_bar(c.ui, x, seen)) compare.wipe = std::clamp((ImGui::GetIO().MousePos.x - seen.x) / std::max(seen.width, 1.f), 0.f, 1.f);
 }
 
-void CompareView::draw(PanelContext& c, const ImageRect& image, const ImageRect& seen, const DisplayLook& look, const FramePace& pace) {
+void CompareView::draw(PanelContext& c, const ImageRect& image, const ImageRect& seen, const DisplayLook& current_pictures, const FrameBudget& pace) {
     Comparison& compare = c.ui.snapshots.compare;
     if (compare.mode == Mode::off) {
         c.ui.difference.reset();
@@ -187,7 +187,7 @@ void CompareView::draw(PanelContext& c, const ImageRect& image, const ImageRect&
     const ComparedSide a = compared_side(c, compare.a), b = compared_side(c, compare.b);
     if (a.id == b.id || !a.pictures.frame || !b.pictures.frame) return;
     ask_difference(c, a, b);
-    update(c, a, b, look, pace);
+    update(c, a, b, current_pictures, pace);
     for (Part& part : parts_) part.texture = pass_.texture();
     const float em = ImGui::GetFontSize();
     if (compare.mode == Mode::wipe && drawn_) return draw_wipe(c, a, b, image, seen);

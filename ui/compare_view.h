@@ -26,7 +26,7 @@ class CompareView {
 public:
     void set_shader(const DisplayShader& shader);
     // `image` is the rectangle of the whole picture, `seen` its visible part. The live picture is already drawn, with `look`.
-    void draw(PanelContext& c, const ImageRect& image, const ImageRect& seen, const DisplayLook& look, const FramePace& pace);
+    void draw(PanelContext& c, const ImageRect& image, const ImageRect& seen, const DisplayLook& current_pictures, const FrameBudget& pace);
 
 private:
     // Rectangle of a picture in a texture.
@@ -36,7 +36,7 @@ private:
         float aspect = 0; // of the picture; 0: same as the live one
     };
     void ask_difference(PanelContext& c, const ComparedSide& a, const ComparedSide& b);
-    void update(PanelContext& c, const ComparedSide& a, const ComparedSide& b, const DisplayLook& look, const FramePace& pace);
+    void update(PanelContext& c, const ComparedSide& a, const ComparedSide& b, const DisplayLook& current_pictures, const FrameBudget& pace);
     void upload_sides(const PanelContext& c, const ComparedSide& a, const ComparedSide& b);
     void draw_part(const Part& part, const ImageRect& image, const ImageRect& clip) const;
     void draw_wipe(PanelContext& c, const ComparedSide& a, const ComparedSide& b, const ImageRect& image, const ImageRect& seen);
@@ -54,7 +54,7 @@ private:
         bool operator==(const Shown&) const = default;
     } shown_;
     Part parts_[2];
-    BackgroundAnswer<DifferenceQuestion, std::shared_ptr<const Difference>> difference_;
+    AsyncQuery<DifferenceQuestion, std::shared_ptr<const Difference>> difference_;
     std::shared_ptr<const Difference> answer_;
 };
 

@@ -7,7 +7,7 @@
 
 namespace blush {
 
-ConvergencePlot paper_chart(const ConvergenceView& view, const std::string& scene) {
+ConvergencePlot export_chart(const ConvergenceView& view, const std::string& scene) {
     ConvergencePlot p = convergence_plot(view.runs, view.plot_options(false));
     p.plot.title = fmt::format("Error against {}: {}", view.axis == ProgressAxis::seconds ? "time" : "samples", scene);
     p.plot.width = 960;
@@ -27,7 +27,7 @@ ChartPicture draw_chart_picture(const Plot& chart) {
     list.PushClipRect({0, 0}, {float(picture.width), float(picture.height)});
     list.PushTextureID(ImGui::GetIO().Fonts->TexID);
     const PlotTones tones = plot_tones_paper();
-    const PlotLayout l = lay_out(plot, plot_metrics({float(picture.width), float(picture.height)}, font, size, true));
+    const PlotLayout l = compute_plot_layout(plot, plot_metrics({float(picture.width), float(picture.height)}, font, size, true));
     draw_plot(list, plot, l, {0, 0}, font, size, tones);
     picture.rgb = rasterize(list, picture.width, picture.height, tones.ground);
     return picture;

@@ -9,7 +9,7 @@
 namespace blush {
 
 // With the panel's settings; the title is the scene's name.
-ConvergencePlot paper_chart(const ConvergenceView& view, const std::string& scene);
+ConvergencePlot export_chart(const ConvergenceView& view, const std::string& scene);
 
 // Display-encoded RGB in [0, 1], width * height * 3, drawn with the UI fonts.
 struct ChartPicture {

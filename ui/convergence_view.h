@@ -15,12 +15,12 @@ struct RecorderCost {
     double recording = 0;  // on the UI thread
     double measuring = 0;  // measuring against a reference, or against the raw picture
     double rendering = 0;
-    double recorder_share() const { return rendering > 0 ? (recording + measuring) / rendering : 0; }
-    double estimate_share() const { return rendering > 0 ? estimating / rendering : 0; }
+    double recorder_fraction() const { return rendering > 0 ? (recording + measuring) / rendering : 0; }
+    double estimate_fraction() const { return rendering > 0 ? estimating / rendering : 0; }
 };
 
 // How the panel gets a reference.
-struct ReferenceNews {
+struct ReferenceStatus {
     enum class State { none, looking, absent, rendering, stopping, there };
     State state = State::none;
     double progress = 0; // of rendering it
@@ -45,7 +45,7 @@ struct ConvergenceView {
     // Updated by the editor.
     ConvergenceRuns runs;
     RecorderCost cost;
-    ReferenceNews news;
+    ReferenceStatus news;
     size_t waiting = 0; // number of denoised pictures whose error is not known yet
 
     // Executed by the editor after the panels are drawn.

@@ -30,7 +30,7 @@ void main() {
 
 // Milliseconds between checks of the clock: the time of a step is only predicted from the previous one, and other threads can
 // delay it.
-constexpr double longest_step = 2.5;
+constexpr double max_step = 2.5;
 
 using Clock = std::chrono::steady_clock;
 
@@ -61,7 +61,7 @@ std::pair<GLenum, GlTexture> upload_table(const DisplayShader::Lut& lut) {
 void set(GLuint program, const char* name, float value) { glUniform1f(glGetUniformLocation(program, name), value); }
 void set(GLuint program, const char* name, int value) { glUniform1i(glGetUniformLocation(program, name), value); }
 
-void set_numbers(GLuint program, const DisplayNumbers& n) {
+void set_numbers(GLuint program, const DisplayParameters& n) {
     set(program, "exposure_ev", n.exposure_ev);
     set(program, "gamma", n.gamma);
     const Affine& m = n.white_balance;
@@ -135,8 +135,8 @@ void DisplayPass::upload(int width, int height, Values rgba) {
     height_ = next_row_ = height;
 }
 
-void DisplayPass::begin(const DisplayLook& look) {
-    look_ = look;
+void DisplayPass::begin(const DisplayLook& current_pictures) {
+    look_ = current_pictures;
     if (program_) next_row_ = 0;
 }
 
@@ -186,7 +186,7 @@ void DisplayPass::step(double milliseconds) {
 void DisplayPass::advance(double milliseconds) {
     if (!busy()) return;
     const auto begin = Clock::now();
-    for (double left = milliseconds; busy() && left > 0; left = milliseconds - milliseconds_since(begin)) step(std::min(left, longest_step));
+    for (double left = milliseconds; busy() && left > 0; left = milliseconds - milliseconds_since(begin)) step(std::min(left, max_step));
     if (!busy()) front_ = 1 - front_;
 }
 

@@ -13,7 +13,7 @@ namespace blush {
 
 // All settings that can change without a new upload.
 struct DisplayLook {
-    DisplayNumbers numbers;
+    DisplayParameters numbers;
     PictureMix mix;
     bool over_checker = false; // alpha is the opacity of premultiplied colours; transparent pixels show a checkerboard
     bool operator==(const DisplayLook&) const = default;
@@ -39,7 +39,7 @@ public:
         upload_denoised(width, height, Values(rgb, rgb->data()));
     }
     // Begins a new picture from the last uploads, at the frame's resolution; cancels one that is in progress.
-    void begin(const DisplayLook& look);
+    void begin(const DisplayLook& current_pictures);
     // Continues for the given number of milliseconds, or slightly longer. A GPU finishes at once; with a software rasterizer a
     // large picture takes several UI frames, without blocking any of them.
     void advance(double milliseconds);

@@ -66,7 +66,7 @@ std::optional<float> draw_tab(PanelContext& c, const Instrument& i, DockSide sid
     const bool asked = view.to_front.contains(i.id);
     const bool front = ImGui::BeginTabItem(i.title, &open, asked ? ImGuiTabItemFlags_SetSelected : 0);
     if (front) view.to_front.erase(i.id);
-    if (asked && !front) c.ui.next_frame_in = 0; // it comes to the front in the next frame
+    if (asked && !front) c.ui.seconds_to_next_frame = 0; // it comes to the front in the next frame
     const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
     c.ui.probe.record_last_item(std::string("Dock/") + i.title);
     if (is_dragged_off({region.x, low.y, region.width, high.y - low.y})) tear_off(c, i, true);
@@ -147,7 +147,7 @@ void draw_floating(PanelContext& c, const Instrument& i, const Layout& l) {
         ImGui::StartMouseMovingWindow(ImGui::GetCurrentWindow());
         GImGui->ActiveIdClickOffset = {em * 5, ImGui::GetFrameHeight() / 2}; // not where the tab was clicked
     }
-    if (ImGui::IsWindowAppearing()) c.ui.next_frame_in = 0; // becomes visible in the frame after the one that measures its size
+    if (ImGui::IsWindowAppearing()) c.ui.seconds_to_next_frame = 0; // becomes visible in the frame after the one that measures its size
     const ImVec2 at = ImGui::GetWindowPos();
     c.ui.probe.record(std::string("Window/") + i.title, {at.x, at.y, ImGui::GetWindowWidth(), ImGui::GetFrameHeight()});
     if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) put(c, i, place_of(c, i).side);
@@ -162,7 +162,7 @@ void draw_floating(PanelContext& c, const Instrument& i, const Layout& l) {
 
 } // namespace
 
-Beside docks_beside(PanelContext& c, const Region& room) {
+ViewportInsets dock_insets(PanelContext& c, const Region& room) {
     DockView& view = c.ui.docks;
     const Dock& dock = c.ui.settings.dock;
     const Ids open = open_instruments(c);

@@ -7,7 +7,7 @@ namespace blush {
 
 // Returns which docks have content for a window with this room, and their sizes. Call once per frame, before the layout is
 // computed.
-Beside docks_beside(PanelContext& c, const Region& room);
+ViewportInsets dock_insets(PanelContext& c, const Region& room);
 
 // Draws the open instruments: docked ones in their regions, the others in floating windows.
 void draw_docks(PanelContext& c, const Layout& layout);

@@ -14,7 +14,7 @@ template <class T> void take_over(T Light::*field, Light& light, const Light& be
 
 } // namespace
 
-std::vector<Id<Node>> topmost(const Scene& scene, std::span<const Id<Node>> nodes) {
+std::vector<Id<Node>> subtree_roots(const Scene& scene, std::span<const Id<Node>> nodes) {
     std::vector<Id<Node>> found;
     for (const Id<Node> id : nodes) {
         const auto above = [&](Id<Node> other) { return other != id && is_below(scene, id, other); };
@@ -33,7 +33,7 @@ std::vector<Id<Light>> lights_of(const Scene& scene, std::span<const Id<Node>> n
     return lights;
 }
 
-Light edited_alike(const Light& other, const Light& before, const Light& after) {
+Light apply_same_edit(const Light& other, const Light& before, const Light& after) {
     Light light = other;
     if (before.intensity != after.intensity)
         light.intensity = before.intensity > 0 ? other.intensity * (after.intensity / before.intensity) : after.intensity;

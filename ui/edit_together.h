@@ -9,14 +9,14 @@
 namespace blush {
 
 // The nodes that are not descendants of others in the set: for edits of whole subtrees.
-std::vector<Id<Node>> topmost(const Scene& scene, std::span<const Id<Node>> nodes);
+std::vector<Id<Node>> subtree_roots(const Scene& scene, std::span<const Id<Node>> nodes);
 // The lights of these nodes and all their descendants, without duplicates.
 std::vector<Id<Light>> lights_of(const Scene& scene, std::span<const Id<Node>> nodes);
 
 // Applies the edit `before` -> `after` to `other`: copies every field that differs, except that intensity is scaled by its ratio,
 // which keeps the balance of the lights, and the name is not copied. Sizes and cones are only copied between lights of the same
 // type.
-Light edited_alike(const Light& other, const Light& before, const Light& after);
+Light apply_same_edit(const Light& other, const Light& before, const Light& after);
 
 // One edit for each light that `change` modifies.
 std::vector<Edit> change_lights(const Scene& scene, std::span<const Id<Light>> lights, const std::function<void(Light&)>& change);

@@ -24,7 +24,7 @@ bool draw_environment_dial(PanelContext& c, ImDrawList& draw, const Projection& 
     const ImVec2 centre{seen.x + em * 2.4f, seen.y + seen.height - em * 2.4f}, mouse = ImGui::GetIO().MousePos;
     const bool under = hovered && std::hypot(mouse.x - centre.x, mouse.y - centre.y) < radius * 1.2f;
     const bool chosen = c.ui.environment_chosen();
-    const bool shining = shines(e, any_solo(c.scene()));
+    const bool shining = emits_light(e, any_solo(c.scene()));
     const ImU32 color = hue_of(e.color, shining ? 255 : 110);
     const auto at = [&](const Vec3d& direction, float stretch = 1) {
         const ScreenPoint p = dial_point(direction, projection.forward());

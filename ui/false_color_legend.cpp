@@ -31,7 +31,7 @@ std::string edge_text(const FalseColor& f, const FalseColorScale& scale, int ban
 } // namespace
 
 void draw_false_color_legend(ImDrawList& draw, const ImageRect& image, const ViewSettings& view) {
-    const FalseColorScale scale = numbers_of(view).false_color;
+    const FalseColorScale scale = display_parameters_of(view).false_color;
     if (scale.of == FalseColorScale::Of::off) return;
     const float em = ImGui::GetFontSize();
     const int count = int(false_colors.size());

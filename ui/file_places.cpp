@@ -7,7 +7,7 @@
 namespace blush {
 
 std::vector<FilePlace> file_places(const WindowSettings& settings, const std::filesystem::path& scene_folder) {
-    constexpr size_t most_recent_folders = 5;
+    constexpr size_t max_recent_folders = 5;
     std::vector<FilePlace> places;
     const auto add = [&](std::string name, const std::filesystem::path& folder, bool bookmark = false) {
         std::error_code unreadable;
@@ -24,7 +24,7 @@ std::vector<FilePlace> file_places(const WindowSettings& settings, const std::fi
     size_t recent = 0;
     for (const std::string& file : settings.recent) {
         const std::filesystem::path folder = std::filesystem::path(file).parent_path();
-        if (recent < most_recent_folders && add(name_of(folder), folder)) ++recent;
+        if (recent < max_recent_folders && add(name_of(folder), folder)) ++recent;
     }
     return places;
 }

@@ -32,7 +32,7 @@ std::string elided(const std::string& text, float width) {
     return text.substr(0, fits) + ellipsis + text.substr(length);
 }
 
-void fitting_text(UiState& ui, const std::string& text, ImU32 color, float width) {
+void elided_text(UiState& ui, const std::string& text, ImU32 color, float width) {
     const std::string shown = elided(text, width > 0 ? width : ImGui::GetContentRegionAvail().x);
     ImGui::PushStyleColor(ImGuiCol_Text, color);
     ImGui::TextUnformatted(shown.c_str());
@@ -40,7 +40,7 @@ void fitting_text(UiState& ui, const std::string& text, ImU32 color, float width
     if (shown != text) tip_for_last_item(ui, text.c_str());
 }
 
-bool fitting_input(UiState& ui, const char* id, std::string& text, ImGuiInputTextFlags flags) {
+bool elided_input(UiState& ui, const char* id, std::string& text, ImGuiInputTextFlags flags) {
     const float room = ImGui::CalcItemWidth() - 2 * ImGui::GetStyle().FramePadding.x;
     const bool edited = ImGui::GetActiveID() == ImGui::GetID(id);
     const std::string shown = edited ? text : elided(text, room);

@@ -14,10 +14,10 @@ namespace blush {
 std::string elided(const std::string& text, float width);
 
 // A line of text in the rest of the row, or in `width` pixels. If it is shortened, a tooltip shows all of it.
-void fitting_text(UiState& ui, const std::string& text, ImU32 color, float width = 0);
+void elided_text(UiState& ui, const std::string& text, ImU32 color, float width = 0);
 
 // As ImGui::InputText with the width of the next item; while it is not edited, text that is too long ends with an ellipsis.
-bool fitting_input(UiState& ui, const char* id, std::string& text, ImGuiInputTextFlags flags = 0);
+bool elided_input(UiState& ui, const char* id, std::string& text, ImGuiInputTextFlags flags = 0);
 
 // Continues the row of the last item if `width` pixels fit after `gap` pixels; else the next item begins a new row. A negative
 // gap is the default gap.

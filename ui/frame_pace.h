@@ -8,7 +8,7 @@
 
 namespace blush {
 
-class FramePace {
+class FrameBudget {
 public:
     using Clock = std::chrono::steady_clock;
     using TimePoint = Clock::time_point;

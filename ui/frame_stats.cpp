@@ -16,10 +16,10 @@ double percentile(std::vector<double> values, double fraction) {
 }
 
 void FrameStats::add_frame(const FrameTimes& times, Clock::time_point when) {
-    constexpr size_t most_late = 100;
+    constexpr size_t max_late = 100;
     if (!first_frame_) first_frame_ = when;
     keep(frames_, times.total());
-    if (times.total() > late && late_.size() < most_late) late_.push_back({when, times});
+    if (times.total() > late && late_.size() < max_late) late_.push_back({when, times});
 }
 
 void FrameStats::submitted(uint64_t revision, Clock::time_point when) {
@@ -37,9 +37,9 @@ void FrameStats::shown(uint64_t revision, Clock::time_point when) {
     }
 }
 
-void FrameStats::look_shown(Clock::time_point when) {
-    if (look_begun_) keep(looks_, std::chrono::duration<double, std::milli>(when - *look_begun_).count());
-    look_begun_.reset();
+void FrameStats::view_change_shown(Clock::time_point when) {
+    if (view_change_begun_) keep(looks_, std::chrono::duration<double, std::milli>(when - *view_change_begun_).count());
+    view_change_begun_.reset();
 }
 
 Result<void> FrameStats::write(const std::filesystem::path& file) const {

@@ -36,8 +36,8 @@ public:
     void end_frame() { submitted_in_frame_ = 0; }
 
     // The view settings were changed, and later a picture with them was displayed.
-    void looked(Clock::time_point when) { look_begun_ = when; }
-    void look_shown(Clock::time_point when);
+    void view_changed(Clock::time_point when) { view_change_begun_ = when; }
+    void view_change_shown(Clock::time_point when);
 
     const std::vector<double>& frames() const { return frames_; }
     const std::vector<double>& latencies() const { return latencies_; }
@@ -63,7 +63,7 @@ private:
     };
     std::vector<Late> late_; // the first hundred
     std::optional<Clock::time_point> first_frame_;
-    std::optional<Clock::time_point> look_begun_;
+    std::optional<Clock::time_point> view_change_begun_;
     std::deque<Submit> unanswered_;
     uint64_t submitted_in_frame_ = 0; // 0: none
     size_t at_once_ = 0;

@@ -151,7 +151,7 @@ std::optional<double> ring_angle(const ViewRay& ray, const Vec3d& centre, const 
     return std::atan2(dot(to, y), dot(to, x));
 }
 
-double pulled_angle(const Projection& projection, const Vec3d& centre, const Vec3d& axis, ScreenPoint from, ScreenPoint to, float radius) {
+double edge_on_ring_angle(const Projection& projection, const Vec3d& centre, const Vec3d& axis, ScreenPoint from, ScreenPoint to, float radius) {
     // For a right-handed rotation, the near side moves in this direction.
     const Vec3d way = cross(axis, towards_eye(projection, centre));
     const double x = dot(way, projection.right()), y = -dot(way, projection.up()), n = std::hypot(x, y);

@@ -141,7 +141,7 @@ Vec3d Handles::anchor(const Scene& scene, std::span<const TransformTarget> targe
     return sum / double(targets.size());
 }
 
-void Handles::grab(PanelContext& c, Handle handle, const std::optional<LightSight>& seen, const ViewRay& ray) {
+void Handles::grab(PanelContext& c, Handle handle, const std::optional<LightInView>& seen, const ViewRay& ray) {
     dragged_ = handle;
     start_ray_ = ray;
     start_sight_ = seen;
@@ -190,17 +190,17 @@ void Handles::drag(PanelContext& c, const Projection& projection, const ImageRec
     }
 }
 
-std::optional<LightSight> Handles::sight(const Scene& scene, Id<Node> id, const Projection& projection, const ImageRect& image) const {
+std::optional<LightInView> Handles::sight(const Scene& scene, Id<Node> id, const Projection& projection, const ImageRect& image) const {
     const Light* light = light_of(scene, scene.nodes.find(id));
     const Affined m = world_from_node(scene, id);
     const auto seen = projection.project(m.t);
     if (!light || !seen) return {};
-    return LightSight{*light, m, world_rotation(scene, id), outline_reach(projection, seen->distance),
+    return LightInView{*light, m, world_rotation(scene, id), outline_reach(projection, seen->distance),
                       projection.height_at(seen->distance) * ImGui::GetFontSize() / image.height};
 }
 
 std::vector<HandleShape> Handles::shapes(const PanelContext& c, std::span<const TransformTarget> targets, const Vec3d& position,
-                                         const Projection& projection, const ImageRect& image, const std::optional<LightSight>& seen) const {
+                                         const Projection& projection, const ImageRect& image, const std::optional<LightInView>& seen) const {
     const Scene& scene = c.scene();
     const TransformView& view = c.ui.transform;
     std::optional<Vec3d> aim_at;

@@ -21,12 +21,12 @@ public:
 private:
     // The handles' centre: the mean of the centres of all transformed nodes.
     Vec3d anchor(const Scene& scene, std::span<const TransformTarget> targets);
-    void grab(PanelContext& c, Handle handle, const std::optional<LightSight>& seen, const ViewRay& ray);
+    void grab(PanelContext& c, Handle handle, const std::optional<LightInView>& seen, const ViewRay& ray);
     std::vector<HandleShape> shapes(const PanelContext& c, std::span<const TransformTarget> targets, const Vec3d& position,
-                                    const Projection& projection, const ImageRect& image, const std::optional<LightSight>& seen) const;
+                                    const Projection& projection, const ImageRect& image, const std::optional<LightInView>& seen) const;
     void drag(PanelContext& c, const Projection& projection, const ImageRect& image);
     void aim(PanelContext& c, const Projection& projection, double u, double v);
-    std::optional<LightSight> sight(const Scene& scene, Id<Node> id, const Projection& projection, const ImageRect& image) const;
+    std::optional<LightInView> sight(const Scene& scene, Id<Node> id, const Projection& projection, const ImageRect& image) const;
 
     // The centre of a node's mesh in local space. The key is the node and the first part of its mesh, because after a reload the
     // same id may have another mesh.
@@ -40,7 +40,7 @@ private:
 
     Handle dragged_ = Handle::none;
     ViewRay start_ray_{};
-    std::optional<LightSight> start_sight_;
+    std::optional<LightInView> start_sight_;
     // Selected nodes that are not descendants of other selected ones, with their initial transforms.
     struct Grabbed {
         Id<Node> node;

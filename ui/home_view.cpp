@@ -13,7 +13,7 @@ bool same_place(const View& a, const View& b) {
 
 Id<Node> camera_of_view(const Scene& scene) {
     for (const auto& [id, node] : scene.nodes)
-        if (node.camera && is_in_chosen_scene(scene, id) && same_place(eye_of(scene, id), scene.view)) return id;
+        if (node.camera && is_in_chosen_scene(scene, id) && same_place(view_of_camera(scene, id), scene.view)) return id;
     return {};
 }
 
@@ -32,7 +32,7 @@ View home_view(const Scene& scene, const HomeView& home) {
 
 bool is_at_home(const Scene& scene, const HomeView& home) {
     const Node* node = scene.nodes.find(home.camera);
-    return !node || !scene.cameras.contains(node->camera) || same_place(eye_of(scene, home.camera), scene.view);
+    return !node || !scene.cameras.contains(node->camera) || same_place(view_of_camera(scene, home.camera), scene.view);
 }
 
 } // namespace blush

@@ -7,19 +7,19 @@ namespace blush {
 namespace {
 
 // Font sizes.
-constexpr float narrowest_panel = 10, widest_panel = 45, narrowest_viewport = 16, lowest_viewport = 9, narrowest_dock = 15, lowest_dock = 6;
+constexpr float narrowest_panel = 10, max_panel_width = 45, narrowest_viewport = 16, lowest_viewport = 9, narrowest_dock = 15, lowest_dock = 6;
 
-float widest_dock(const Region& room, float font_size) {
+float max_dock_width(const Region& room, float font_size) {
     return std::max(room.width - narrowest_viewport * font_size, narrowest_dock * font_size);
 }
 
-float right_dock_width(const Region& room, float font_size, const Beside& beside) {
+float right_dock_width(const Region& room, float font_size, const ViewportInsets& beside) {
     if (!beside.right || !has_right_dock(room, font_size)) return 0;
-    return std::clamp(std::round(beside.docks.right * font_size), narrowest_dock * font_size, widest_dock(room, font_size));
+    return std::clamp(std::round(beside.docks.right * font_size), narrowest_dock * font_size, max_dock_width(room, font_size));
 }
 
 // Subtracts docks and strip from the room.
-void divide_room(Layout& l, float bottom_edge, float font_size, const Beside& beside) {
+void divide_room(Layout& l, float bottom_edge, float font_size, const ViewportInsets& beside) {
     const float body = bottom_edge - l.room.y, picture = std::min(lowest_viewport * font_size, std::floor(body * 0.45f));
     float free = std::max(body - beside.time - picture, 0.f);
     float dock = beside.bottom ? std::clamp(std::round(beside.docks.bottom * font_size), 0.f, std::max(free - beside.strip, 0.f)) : 0;
@@ -39,7 +39,7 @@ void divide_room(Layout& l, float bottom_edge, float font_size, const Beside& be
 bool has_right_dock(const Region& room, float font_size) { return room.width >= (narrowest_viewport + narrowest_dock) * font_size; }
 
 Layout lay_out(float width, float height, float menu_height, float status_height, float font_size, const Splitters& splitters,
-               const Beside& beside) {
+               const ViewportInsets& beside) {
     float left = std::round(splitters.outliner * font_size), right = std::round(splitters.inspector * font_size);
     const float available = std::max(width - narrowest_viewport * font_size, 0.f);
     if (left + right > available) {
@@ -48,7 +48,7 @@ Layout lay_out(float width, float height, float menu_height, float status_height
         right = std::floor(right * shrink);
     }
     const float body = std::max(height - menu_height - status_height, 1.f);
-    Beside taken = beside;
+    ViewportInsets taken = beside;
     taken.time = std::min(beside.time, body - 1);
     Layout l;
     l.outliner = {0, menu_height, left, body};
@@ -60,18 +60,18 @@ Layout lay_out(float width, float height, float menu_height, float status_height
 }
 
 Splitters drag_outliner(Splitters splitters, float x, float font_size) {
-    splitters.outliner = std::clamp(x / font_size, narrowest_panel, widest_panel);
+    splitters.outliner = std::clamp(x / font_size, narrowest_panel, max_panel_width);
     return splitters;
 }
 
 Splitters drag_inspector(Splitters splitters, float x, float width, float font_size) {
-    splitters.inspector = std::clamp((width - x) / font_size, narrowest_panel, widest_panel);
+    splitters.inspector = std::clamp((width - x) / font_size, narrowest_panel, max_panel_width);
     return splitters;
 }
 
 DockSizes drag_right_dock(DockSizes sizes, float x, const Layout& layout, float font_size) {
     const Region& room = layout.room;
-    sizes.right = std::clamp((room.x + room.width - x) / font_size, narrowest_dock, widest_dock(room, font_size) / font_size);
+    sizes.right = std::clamp((room.x + room.width - x) / font_size, narrowest_dock, max_dock_width(room, font_size) / font_size);
     return sizes;
 }
 

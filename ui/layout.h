@@ -31,7 +31,7 @@ struct DockSizes {
 };
 
 // What reduces the space of the picture.
-struct Beside {
+struct ViewportInsets {
     bool right = false, bottom = false; // docks that have content
     DockSizes docks = {};
     float strip = 0, time = 0; // heights below the picture, pixels; 0: hidden
@@ -46,7 +46,7 @@ struct Layout {
 // Regions of a window of width x height pixels below a menu bar. To keep the viewport usable, side panels shrink before it gets
 // too narrow, docks and strip before it gets too flat. The bottom dock is as wide as the room; the right dock ends above it.
 Layout lay_out(float width, float height, float menu_height, float status_height, float font_size, const Splitters& splitters,
-               const Beside& beside = {});
+               const ViewportInsets& beside = {});
 
 // True if there is room for a usable dock to the right of a usable viewport. Otherwise the bottom dock has its tabs.
 bool has_right_dock(const Region& room, float font_size);

@@ -35,10 +35,10 @@ void draw_icon_of(ImDrawList& draw, ScreenPoint at, const Light& light, bool shi
 // Calls see(id, light, where, distance) for each visible light in front of the viewer.
 template <class See>
 void for_each_light(const Scene& scene, const Projection& projection, const ImageRect& image, const UiState& ui, const See& see) {
-    Placements placements(scene);
+    WorldTransforms placements(scene);
     for (const auto& [id, node] : scene.nodes) {
         const Light* light = scene.lights.find(node.light);
-        if (!light || !placements(id).visible || (ui.looked_through && ui.looked_through->node == id)) continue;
+        if (!light || !placements(id).visible || (ui.light_camera && ui.light_camera->node == id)) continue;
         const auto point = projection.project(placements(id).world_from_node.t);
         if (point) see(id, *light, image.at(*point), point->distance);
     }
@@ -49,7 +49,7 @@ void for_each_light(const Scene& scene, const Projection& projection, const Imag
 void draw_light_glyphs(ImDrawList& draw, const Scene& scene, const Projection& projection, const ImageRect& image, const UiState& ui) {
     const bool some_solo = any_solo(scene);
     for_each_light(scene, projection, image, ui, [&](Id<Node> id, const Light& light, ScreenPoint at, double distance) {
-        const bool selected = ui.is_selected(id), shining = shines(light, some_solo);
+        const bool selected = ui.is_selected(id), shining = emits_light(light, some_solo);
         const WorldPen pen{draw, projection, image, selected ? tone::accent : color_of(light, shining ? 150 : 70)};
         for (const WorldLine& line : light_outline(scene, id, light, projection, outline_reach(projection, distance)))
             pen.line(line.from, line.to);

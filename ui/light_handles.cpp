@@ -10,13 +10,13 @@ namespace blush {
 namespace {
 
 constexpr double pi_d = std::numbers::pi;
-constexpr float smallest_size = 1e-4f, smallest_spread = 0.002f;
+constexpr float min_size = 1e-4f, min_spread = 0.002f;
 constexpr double dial_start = 1.6, dial_decade = 1.1, dial_finest = 0.05 * pi_d / 180; // ems, ems, radians
 
 // Right and down on the screen, where axis handles are rare.
 Vec3d screen_diagonal(const Projection& projection) { return normalize(projection.right() - projection.up()); }
 
-Vec3d axis_of(const LightSight& sight) { return rotate(sight.rotation, {0, 0, -1}); }
+Vec3d axis_of(const LightInView& sight) { return rotate(sight.rotation, {0, 0, -1}); }
 
 // The silhouette edge of the cone, as seen by the viewer.
 Vec3d silhouette(const Vec3d& axis, const Projection& projection) {
@@ -40,29 +40,29 @@ double dragged_along_screen(const Projection& projection, const Vec3d& origin, c
 // True if the radius is dragged in the screen plane; for a disk, it is dragged in the plane of the disk.
 bool is_ball(Light::Kind kind) { return kind != Light::Kind::disk; }
 
-Vec3d cone_point(const LightSight& sight, const Projection& projection, double angle, double side) {
+Vec3d cone_point(const LightInView& sight, const Projection& projection, double angle, double side) {
     const Vec3d axis = axis_of(sight);
     return sight.world_from_node.t + (axis * std::cos(angle) + silhouette(axis, projection) * (side * std::sin(angle))) * sight.reach;
 }
 
-Light with_radius(const LightSight& start, const Projection& projection, const ViewRay& from, const ViewRay& to) {
+Light with_radius(const LightInView& start, const Projection& projection, const ViewRay& from, const ViewRay& to) {
     Light light = start.light;
     const Affined& m = start.world_from_node;
     const double scale = length(m.x);
     if (!(scale > 0)) return light;
     const double metres = is_ball(light.kind) ? dragged_along_screen(projection, m.t, from, to) : dragged_along(m.x / scale, m.t, from, to);
     const bool may_vanish = !is_per_area(light.kind);
-    light.radius = std::max(light.radius + float(metres / scale), may_vanish ? 0.f : smallest_size);
+    light.radius = std::max(light.radius + float(metres / scale), may_vanish ? 0.f : min_size);
     return light;
 }
 
 float with_side(float side, const Vec3d& axis, const Vec3d& origin, const ViewRay& from, const ViewRay& to) {
     const double scale = length(axis);
     if (!(scale > 0)) return side;
-    return std::max(side + 2 * float(dragged_along(axis / scale, origin, from, to) / scale), smallest_size);
+    return std::max(side + 2 * float(dragged_along(axis / scale, origin, from, to) / scale), min_size);
 }
 
-Light with_cone(const LightSight& start, Handle handle, const Projection& projection, const ViewRay& from, const ViewRay& to) {
+Light with_cone(const LightInView& start, Handle handle, const Projection& projection, const ViewRay& from, const ViewRay& to) {
     Light light = start.light;
     const Vec3d apex = start.world_from_node.t, axis = axis_of(start);
     const auto a = cone_angle_under(from, apex, axis, projection, start.reach),
@@ -70,7 +70,7 @@ Light with_cone(const LightSight& start, Handle handle, const Projection& projec
     if (!a || !b) return light;
     const auto turned = [&](float angle) { return std::clamp(angle + float(*b - *a), 0.f, float(pi_d / 2)); };
     if (handle == Handle::spread) {
-        light.spread_radians = std::max(2 * turned(light.spread_radians / 2), smallest_spread);
+        light.spread_radians = std::max(2 * turned(light.spread_radians / 2), min_spread);
         return light;
     }
     if (handle == Handle::outer_cone) {
@@ -107,7 +107,7 @@ std::optional<double> cone_angle_under(const ViewRay& ray, const Vec3d& apex, co
     return std::atan2(blush::length(p - axis * dot(p, axis)), dot(p, axis));
 }
 
-std::vector<SizeHandle> size_handles(const LightSight& sight, const Projection& projection) {
+std::vector<SizeHandle> size_handles(const LightInView& sight, const Projection& projection) {
     const Light& light = sight.light;
     const Affined& m = sight.world_from_node;
     const auto along = [&](const Vec3d& axis, double half) {
@@ -131,7 +131,7 @@ std::vector<SizeHandle> size_handles(const LightSight& sight, const Projection& 
     return {};
 }
 
-Light resized(const LightSight& start, Handle handle, const Projection& projection, const ViewRay& from, const ViewRay& to) {
+Light resized(const LightInView& start, Handle handle, const Projection& projection, const ViewRay& from, const ViewRay& to) {
     Light light = start.light;
     const Affined& m = start.world_from_node;
     switch (handle) {

@@ -6,7 +6,7 @@
 namespace blush {
 
 // The light of a node, with its world pose as seen by the viewer.
-struct LightSight {
+struct LightInView {
     Light light;
     Affined world_from_node;
     Quat rotation; // in the world, without scale
@@ -19,11 +19,11 @@ struct SizeHandle {
     Vec3d grip; // in the world
 };
 // The handles of this type of light. A radius of 0 also has a handle, at a minimum distance from the centre.
-std::vector<SizeHandle> size_handles(const LightSight& sight, const Projection& projection);
+std::vector<SizeHandle> size_handles(const LightInView& sight, const Projection& projection);
 
 // The light after a size handle is dragged from one ray to another. Sizes stay positive, the radius of a point or spot
 // non-negative, the inner cone within the outer cone. Radiance is preserved, or flux if the light's keep_power is set.
-Light resized(const LightSight& start, Handle handle, const Projection& projection, const ViewRay& from, const ViewRay& to);
+Light resized(const LightInView& start, Handle handle, const Projection& projection, const ViewRay& from, const ViewRay& to);
 
 // Maps a sun's angle to a dial around its glyph: the dial's radius in font sizes, with finer resolution at small angles. The two
 // functions are inverses.

@@ -22,7 +22,7 @@ Node with_pose(const Scene& scene, Id<Node> id, const LightPose& pose) {
     return node;
 }
 
-LightPose with_highlight_at(const Light& light, const LightPose& pose, const SurfaceSpot& spot, const Vec3d& view, double distance) {
+LightPose with_highlight_at(const Light& light, const LightPose& pose, const SurfacePoint& spot, const Vec3d& view, double distance) {
     const Vec3d wo = normalize(-view), n = dot(spot.normal, wo) < 0 ? -spot.normal : spot.normal;
     const Vec3d wi = n * (2 * dot(n, wo)) - wo;
     return shining_at(light, pose, spot.position + wi * distance, -wi);
@@ -35,6 +35,6 @@ LightPose with_shadow_at(const Light& light, const LightPose& pose, const Vec3d&
     return shining_at(light, pose, occluder + wi * distance, -wi);
 }
 
-bool faces(const SurfaceSpot& spot, const Vec3d& position) { return dot(spot.normal, position - spot.position) > 0; }
+bool faces(const SurfacePoint& spot, const Vec3d& position) { return dot(spot.normal, position - spot.position) > 0; }
 
 } // namespace blush

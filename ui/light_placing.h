@@ -17,13 +17,13 @@ Node with_pose(const Scene& scene, Id<Node> node, const LightPose& pose);
 
 // The pose in which a viewer looking along `view` sees the light's mirror reflection at `spot`, `distance` metres from the spot.
 // A light with a direction is turned towards the spot.
-LightPose with_highlight_at(const Light& light, const LightPose& pose, const SurfaceSpot& spot, const Vec3d& view, double distance);
+LightPose with_highlight_at(const Light& light, const LightPose& pose, const SurfacePoint& spot, const Vec3d& view, double distance);
 
 // The pose in which the shadow of `occluder` falls on `target`: on the line through both, `distance` metres beyond the occluder;
 // a light with a direction is turned along the line. Returns the unchanged pose if the two points coincide.
 LightPose with_shadow_at(const Light& light, const LightPose& pose, const Vec3d& occluder, const Vec3d& target, double distance);
 
 // True if the surface at the spot faces the light, so that its light can reach it.
-bool faces(const SurfaceSpot& spot, const Vec3d& position);
+bool faces(const SurfacePoint& spot, const Vec3d& position);
 
 } // namespace blush

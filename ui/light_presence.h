@@ -16,7 +16,7 @@ private:
     Table<Light> lights_;
     Table<Material> materials_;
     Table<Mesh> meshes_;
-    Staging staging_;
+    SceneSelection staging_;
     Environment environment_;
     std::optional<bool> has_light_;
 };

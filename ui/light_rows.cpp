@@ -43,12 +43,12 @@ public:
                                         intensity_unit(light.kind),
                                         light.enabled,
                                         light.solo,
-                                        visible && shines(light, some_solo_)});
+                                        visible && emits_light(light, some_solo_)});
     }
     void materials(Id<Node> id, const Mesh& mesh) {
         for (const MeshPart& part : mesh.parts) {
             const Material* m = scene_.materials.find(part.material);
-            if (!m || !has_glow(*m) || !seen_.insert(part.material).second) continue;
+            if (!m || !has_emission(*m) || !seen_.insert(part.material).second) continue;
             glowing_.push_back({id,
                                 {},
                                 part.material,
@@ -59,7 +59,7 @@ public:
                                 "×",
                                 m->emits,
                                 m->solo,
-                                shines(*m, some_solo_)});
+                                emits_light(*m, some_solo_)});
         }
     }
     std::vector<LightRows> finish() {
@@ -77,7 +77,7 @@ public:
                                         e.kind == Environment::Kind::constant ? "nits" : "×",
                                         e.lights_scene,
                                         e.solo,
-                                        shines(e, some_solo_)});
+                                        emits_light(e, some_solo_)});
         std::vector<LightRows> all;
         for (auto& [group, rows] : groups_)
             if (!group.empty()) all.push_back({group, std::move(rows)});
@@ -97,7 +97,7 @@ private:
 
 std::vector<LightRows> light_rows(const Scene& scene) {
     Collector collector(scene);
-    Placements placements(scene);
+    WorldTransforms placements(scene);
     for (const auto& [id, node] : scene.nodes) {
         const bool visible = placements(id).visible;
         const Light* light = scene.lights.find(node.light);

@@ -39,14 +39,14 @@ View view_through_light(const View& view, const Light& light, const LightPose& p
     return through;
 }
 
-LightPose pose_behind_view(const View& view, const Light& light, const LightPose& pose, double clearance) {
+LightPose light_pose_of_view(const View& view, const Light& light, const LightPose& pose, double clearance) {
     LightPose moved = pose;
     if (has_direction(light.kind)) moved.rotation = view.rotation;
     if (has_place(light)) moved.position = to_double(view.position) - forward_of(view.rotation) * clearance;
     return moved;
 }
 
-View first_view_through_light(const View& view, const Light& light, const LightPose& pose, double clearance) {
+View initial_light_view(const View& view, const Light& light, const LightPose& pose, double clearance) {
     View first = view;
     const Vec3d to_pivot = pivot(view) - pose.position;
     if (has_place(light) && length(to_pivot) > 1e-6) {

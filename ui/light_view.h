@@ -12,8 +12,8 @@ double clearance(const Scene& scene, Id<Node> light_node);
 // have no direction: the view keeps its own. Returns `view` unchanged if it already matches.
 View view_through_light(const View& view, const Light& light, const LightPose& pose, double clearance);
 // The light moved so that `view` is the view from it, as far as it has position and direction.
-LightPose pose_behind_view(const View& view, const Light& light, const LightPose& pose, double clearance);
+LightPose light_pose_of_view(const View& view, const Light& light, const LightPose& pose, double clearance);
 // The view from the light's position towards the current pivot: the start of the light camera.
-View first_view_through_light(const View& view, const Light& light, const LightPose& pose, double clearance);
+View initial_light_view(const View& view, const Light& light, const LightPose& pose, double clearance);
 
 } // namespace blush

@@ -4,29 +4,29 @@
 
 namespace blush {
 
-const Light* looked_through_light(const PanelContext& c) {
-    const Node* node = c.ui.looked_through ? c.scene().nodes.find(c.ui.looked_through->node) : nullptr;
+const Light* light_camera_light(const PanelContext& c) {
+    const Node* node = c.ui.light_camera ? c.scene().nodes.find(c.ui.light_camera->node) : nullptr;
     return node ? c.scene().lights.find(node->light) : nullptr;
 }
 
-void follow_looked_through(PanelContext& c) {
-    if (!c.ui.looked_through) return;
-    const Light* light = looked_through_light(c);
+void move_view_to_light(PanelContext& c) {
+    if (!c.ui.light_camera) return;
+    const Light* light = light_camera_light(c);
     if (!light) { // deleted, or its creation was undone
-        c.document.navigate(c.ui.looked_through->back);
-        return c.ui.looked_through.reset();
+        c.document.navigate(c.ui.light_camera->back);
+        return c.ui.light_camera.reset();
     }
-    const Id<Node> id = c.ui.looked_through->node;
+    const Id<Node> id = c.ui.light_camera->node;
     c.document.navigate(view_through_light(c.scene().view, *light, pose_of(c.scene(), id), clearance(c.scene(), id)));
 }
 
-void carry_light_along(PanelContext& c) {
-    const Light* light = looked_through_light(c);
+void move_light_to_view(PanelContext& c) {
+    const Light* light = light_camera_light(c);
     if (!light) return;
-    const Id<Node> id = c.ui.looked_through->node;
-    const LightPose pose = pose_behind_view(c.scene().view, *light, pose_of(c.scene(), id), clearance(c.scene(), id));
+    const Id<Node> id = c.ui.light_camera->node;
+    const LightPose pose = light_pose_of_view(c.scene().view, *light, pose_of(c.scene(), id), clearance(c.scene(), id));
     c.apply(SetNode{id, with_pose(c.scene(), id, pose)}, c.ui.gestures.current());
-    follow_looked_through(c);
+    move_view_to_light(c);
 }
 
 } // namespace blush

@@ -6,10 +6,10 @@
 namespace blush {
 
 // The light of the light camera; null if the mode is off.
-const Light* looked_through_light(const PanelContext& c);
+const Light* light_camera_light(const PanelContext& c);
 // Moves the view to the light, after any edit of the light. Ends the mode if the light was deleted.
-void follow_looked_through(PanelContext& c);
+void move_view_to_light(PanelContext& c);
 // Moves the light to the view, after navigation.
-void carry_light_along(PanelContext& c);
+void move_light_to_view(PanelContext& c);
 
 } // namespace blush

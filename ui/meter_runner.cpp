@@ -8,7 +8,7 @@ namespace blush {
 namespace {
 
 constexpr int samples_per_round = 256;
-constexpr int64_t least_rounds = 16, most_rounds = 4000;
+constexpr int64_t min_rounds = 16, max_rounds = 4000;
 constexpr double good_enough = 0.002; // half the confidence interval, relative
 
 } // namespace
@@ -30,8 +30,8 @@ bool MeterWork::round(const std::function<bool()>& wanted) { return meters_.roun
 
 bool MeterWork::is_good(const Answer& readings) {
     return std::ranges::all_of(readings, [](const MeterReading& r) {
-        if (r.rounds >= most_rounds) return true;
-        return r.rounds >= least_rounds && r.lux.high - r.lux.low <= 2 * good_enough * r.lux.value;
+        if (r.rounds >= max_rounds) return true;
+        return r.rounds >= min_rounds && r.lux.high - r.lux.low <= 2 * good_enough * r.lux.value;
     });
 }
 

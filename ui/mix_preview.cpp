@@ -15,18 +15,18 @@ double per_millisecond(double pixels, Clock::time_point begin) {
 }
 
 std::vector<float>& room(std::shared_ptr<std::vector<float>>& pixels, size_t size, float value) {
-    std::vector<float>& room = unread(pixels);
+    std::vector<float>& room = writable_buffer(pixels);
     if (room.size() != size) room.assign(size, value);
     return room;
 }
 
 } // namespace
 
-int MovedMix::planes() const {
+int MixPreviewSource::planes() const {
     return (shows_raw ? int(frame->groups.size()) : 0) + (shows_denoised ? int(denoised->groups->planes.size()) : 0);
 }
 
-int MixPreview::step_in_time(const MovedMix& moved, double milliseconds, const std::function<double(double pixels)>& drawing) const {
+int MixPreview::step_in_time(const MixPreviewSource& moved, double milliseconds, const std::function<double(double pixels)>& drawing) const {
     for (int step = 1; step < coarsest; ++step) {
         const double pixels = double(moved.frame->width) * moved.frame->height / (step * step), work = pixels * moved.planes();
         const bool kept = step == 1 || ((!moved.shows_raw || is_kept(raw_, moved.frame, step)) &&
@@ -43,7 +43,7 @@ bool MixPreview::is_kept(const Kept& kept, const std::shared_ptr<const void>& of
 void MixPreview::thin(Kept& kept, const std::shared_ptr<const void>& of, const std::vector<PlaneSpan>& planes, int width, int height, int step) {
     if (is_kept(kept, of, step)) return;
     const auto begin = Clock::now();
-    kept.planes = thinned(planes, width, height, step);
+    kept.planes = subsampled(planes, width, height, step);
     kept.of = of;
     kept.step = step;
     thinning_ = per_millisecond(double(kept.planes.width) * kept.planes.height * double(planes.size()), begin);
@@ -56,7 +56,7 @@ void MixPreview::mix(const Kept& kept, const Gains& gains, std::vector<float>& r
     mixing_ = per_millisecond(double(rgb.size() / 3) * double(gains.size()), begin);
 }
 
-MixPreview::Picture MixPreview::raw(const MovedMix& moved, const Gains& gains, int step) {
+MixPreview::Picture MixPreview::raw(const MixPreviewSource& moved, const Gains& gains, int step) {
     const Frame& frame = *moved.frame;
     const int width = std::max(frame.width / step, 1), height = std::max(frame.height / step, 1);
     const size_t pixels = size_t(width) * size_t(height);
@@ -70,7 +70,7 @@ MixPreview::Picture MixPreview::raw(const MovedMix& moved, const Gains& gains, i
     return {width, height, raw_.rgba};
 }
 
-MixPreview::Picture MixPreview::denoised(const MovedMix& moved, const Gains& gains, int step) {
+MixPreview::Picture MixPreview::denoised(const MixPreviewSource& moved, const Gains& gains, int step) {
     const DenoisedPicture& picture = *moved.denoised;
     thin(denoised_, moved.denoised, planes_of(picture), picture.width, picture.height, step);
     const int width = denoised_.planes.width, height = denoised_.planes.height;

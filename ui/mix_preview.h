@@ -11,7 +11,7 @@
 namespace blush {
 
 // The source: the groups of a frame, of its denoised picture, or of both.
-struct MovedMix {
+struct MixPreviewSource {
     FramePtr frame;
     DenoisedPtr denoised;
     bool shows_raw = true, shows_denoised = false;
@@ -24,16 +24,16 @@ public:
 
     // Step between the pixels that are mixed, per axis, at most `coarsest`: the smallest that can be mixed and drawn within the
     // given milliseconds, at the last measured speed. `drawing`: milliseconds to draw this many pixels.
-    int step_in_time(const MovedMix& moved, double milliseconds, const std::function<double(double pixels)>& drawing) const;
+    int step_in_time(const MixPreviewSource& moved, double milliseconds, const std::function<double(double pixels)>& drawing) const;
 
     struct Picture {
         int width = 0, height = 0;
         std::shared_ptr<const std::vector<float>> values;
     };
     // 4 values per pixel, the last is 1; the others are unspecified if the raw picture is not shown.
-    Picture raw(const MovedMix& moved, const Gains& gains, int step);
+    Picture raw(const MixPreviewSource& moved, const Gains& gains, int step);
     // 3 values per pixel.
-    Picture denoised(const MovedMix& moved, const Gains& gains, int step);
+    Picture denoised(const MixPreviewSource& moved, const Gains& gains, int step);
     // The edit has ended: frees the cached planes.
     void forget() { raw_ = denoised_ = {}; }
 
@@ -42,7 +42,7 @@ private:
     struct Kept {
         std::weak_ptr<const void> of;
         int step = 0;
-        ThinnedPlanes planes = {};
+        SubsampledPlanes planes = {};
         std::vector<float> mixed = {};
         std::shared_ptr<std::vector<float>> rgba = {}, rgb = {};
     };

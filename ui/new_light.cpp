@@ -15,8 +15,8 @@ namespace blush {
 namespace {
 
 constexpr double pi_d = 3.14159265358979323846;
-constexpr double size_of_reach = 0.2, distance_of_reach = 0.45, farthest_of_reach = 1.5;
-constexpr double share_of_room = 0.6; // fraction of the distance to a wall
+constexpr double size_of_reach = 0.2, reach_factor = 0.45, max_reach_factor = 1.5;
+constexpr double room_fraction = 0.6; // fraction of the distance to a wall
 
 // Height of the picture in metres at a distance along the view axis.
 double reach_at(const View& view, double distance) {
@@ -93,16 +93,16 @@ constexpr Direction in_turn[] = {key, fill, rim, {0, 80, 1}, {-120, 35, 1}, {95,
 
 } // namespace
 
-LightSpot spot_over_surface(const Scene& scene, const View& view, const SurfaceSpot& surface) {
+LightSpot spot_over_surface(const Scene& scene, const View& view, const SurfacePoint& surface) {
     const Vec3d eye = to_double(view.position), right = rotate(view.rotation, {1, 0, 0});
     const Vec3d to_eye = view.lens.orthographic ? rotate(view.rotation, {0, 0, 1}) : normalize(eye - surface.position);
     const Vec3d normal = dot(surface.normal, to_eye) < 0 ? -surface.normal : surface.normal;
-    const double reach = reach_at(view, length(eye - surface.position)), distance = distance_of_reach * reach;
+    const double reach = reach_at(view, length(eye - surface.position)), distance = reach_factor * reach;
     std::vector<LightSpot> spots;
     for (const double aside : {0.0, 0.7, -0.7, 1.4, -1.4, 2.8, -2.8}) {
         const Vec3d direction = normalize(normal + to_eye * 0.3 + Vec3d{0, 0.3, 0} + right * aside);
-        const double free = free_share(scene, surface.position, surface.position + direction * distance, [](Id<Node>) { return true; });
-        spots.push_back({surface.position + direction * (distance * (free < 1 ? share_of_room * free : 1)), surface.position, 1});
+        const double free = unoccluded_fraction(scene, surface.position, surface.position + direction * distance, [](Id<Node>) { return true; });
+        spots.push_back({surface.position + direction * (distance * (free < 1 ? room_fraction * free : 1)), surface.position, 1});
     }
     return first_free(scene, spots, size_of_reach * reach);
 }
@@ -116,15 +116,15 @@ LightSpot spot_round_subject(const Scene& scene, const View& view, const Bounds&
     for (const Direction& d : in_turn) {
         const double around = to_viewer + d.around * pi_d / 180, above = d.above * pi_d / 180;
         directions.push_back({std::sin(around) * std::cos(above), std::sin(above), std::cos(around) * std::cos(above)});
-        farthest.push_back(share_of_room * wall_of_room(scene, target, directions.back()));
+        farthest.push_back(room_fraction * wall_of_room(scene, target, directions.back()));
     }
     std::vector<LightSpot> spots;
     for (const double farther : {1.0, 1.4, 2.0})
         for (size_t i = 0; i < directions.size(); ++i) {
             const Vec3d& direction = directions[i];
-            double distance = distance_of_reach * reach;
+            double distance = reach_factor * reach;
             // A floor that extends beyond the picture is not a subject: the light need not be outside of it.
-            if (const double out = in_room ? 0 : 1.1 * way_out(subject, target, direction); out < farthest_of_reach * reach) distance = std::max(distance, out);
+            if (const double out = in_room ? 0 : 1.1 * way_out(subject, target, direction); out < max_reach_factor * reach) distance = std::max(distance, out);
             spots.push_back({target + direction * std::min(distance * farther, farthest[i]), target, in_turn[i].strength});
         }
     return first_free(scene, spots, size_of_reach * reach);

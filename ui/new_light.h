@@ -12,7 +12,7 @@ struct LightSpot {
 };
 
 // In front of the surface, on the viewer's side.
-LightSpot spot_over_surface(const Scene& scene, const View& view, const SurfaceSpot& surface);
+LightSpot spot_over_surface(const Scene& scene, const View& view, const SurfacePoint& surface);
 // Around the view's pivot: key, fill and rim position, then positions between them; the first free one. Outside of `subject`,
 // unless the viewer is inside it (a room). A position is free if the new light does not touch another one.
 LightSpot spot_round_subject(const Scene& scene, const View& view, const Bounds& subject);

@@ -27,13 +27,13 @@ Picked pick(const Frame& frame, double u, double v) {
     return picked;
 }
 
-std::optional<SurfaceSpot> seen_surface(const Frame& frame, const Projection& projection, double u, double v) {
+std::optional<SurfacePoint> surface_at_pixel(const Frame& frame, const Projection& projection, double u, double v) {
     const auto position = seen_point(frame, projection, u, v);
     const auto i = pixel_at(frame, u, v);
     if (!position || *i >= frame.normal.size()) return {};
     const Vec3d normal = to_double(frame.normal[*i]); // a mean over the pixel: nearly zero at the border of surfaces with opposite normals
     if (!(length(normal) > 1e-3)) return {};
-    return SurfaceSpot{*position, normalize(normal), pick(frame, u, v).node};
+    return SurfacePoint{*position, normalize(normal), pick(frame, u, v).node};
 }
 
 std::optional<Vec3d> seen_point(const Frame& frame, const Projection& projection, double u, double v) {

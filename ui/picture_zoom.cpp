@@ -19,7 +19,7 @@ PictureZoom with_at(double scale, const Region& region, int width, int height, d
 
 } // namespace
 
-ImageRect placed_picture(const PictureZoom& zoom, const Region& region, int width, int height) {
+ImageRect picture_rect(const PictureZoom& zoom, const Region& region, int width, int height) {
     if (zoom.scale <= 0) return fitted(region, width, height);
     const double w = std::max(1.0, std::round(zoom.scale * width)), h = std::max(1.0, std::round(zoom.scale * height));
     return {float(std::round(region.x + region.width / 2.0 - zoom.u * w)), float(std::round(region.y + region.height / 2.0 - zoom.v * h)),
@@ -29,7 +29,7 @@ ImageRect placed_picture(const PictureZoom& zoom, const Region& region, int widt
 PictureZoom zoomed(const PictureZoom& zoom, const Region& region, int width, int height, ScreenPoint about, double factor) {
     const ImageRect fit = fitted(region, width, height);
     const double before = zoom.scale > 0 ? zoom.scale : double(fit.width) / width,
-                 scale = std::clamp(before * factor, least_zoom, most_zoom);
+                 scale = std::clamp(before * factor, min_zoom, max_zoom);
     if (factor < 1 && scale * width <= double(fit.width)) return {};
     // Not from the drawn rectangle: its rounding to whole pixels would accumulate to a drift.
     const double u = zoom.u + (about.x - region.x - region.width / 2.0) / (before * width);

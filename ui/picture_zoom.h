@@ -12,10 +12,10 @@ struct PictureZoom {
     bool operator==(const PictureZoom&) const = default;
 };
 
-constexpr double least_zoom = 1.0 / 16, most_zoom = 128;
+constexpr double min_zoom = 1.0 / 16, max_zoom = 128;
 
 // The rectangle of a picture of width x height pixels in a region of the window, in whole pixels.
-ImageRect placed_picture(const PictureZoom& zoom, const Region& region, int width, int height);
+ImageRect picture_rect(const PictureZoom& zoom, const Region& region, int width, int height);
 // Zooms by `factor` about a screen position, which keeps its place in the picture. If the result is smaller than fit, returns
 // fit.
 PictureZoom zoomed(const PictureZoom& zoom, const Region& region, int width, int height, ScreenPoint about, double factor);

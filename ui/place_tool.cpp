@@ -23,16 +23,16 @@ double distance_between(const LightPose& pose, const Vec3d& point) { return std:
 
 } // namespace
 
-std::optional<SurfaceSpot> PlaceTool::spot_under_mouse(PanelContext& c, const Projection& projection, const ImageRect& image) const {
+std::optional<SurfacePoint> PlaceTool::spot_under_mouse(PanelContext& c, const Projection& projection, const ImageRect& image) const {
     const FramePtr& frame = dragging_ ? surfaces_ : c.frame;
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     if (!frame) return {};
-    const auto spot = seen_surface(*frame, projection, image.u(mouse.x), image.v(mouse.y));
+    const auto spot = surface_at_pixel(*frame, projection, image.u(mouse.x), image.v(mouse.y));
     return spot && spot->node != node_ ? spot : std::nullopt;
 }
 
 std::optional<LightPose> PlaceTool::wanted(PanelContext& c, const Projection& projection, const ImageRect& image,
-                                           const SurfaceSpot& spot) const {
+                                           const SurfacePoint& spot) const {
     const Light& light = *light_at(c.scene(), node_);
     const LightPose pose = dragging_ ? start_ : pose_of(c.scene(), node_);
     if (by_ == PlacingBy::highlight) {
@@ -44,7 +44,7 @@ std::optional<LightPose> PlaceTool::wanted(PanelContext& c, const Projection& pr
     return with_shadow_at(light, pose, *occluder_, spot.position, dragging_ ? distance_ : distance_between(pose, *occluder_));
 }
 
-void PlaceTool::press(PanelContext& c, const SurfaceSpot& spot) {
+void PlaceTool::press(PanelContext& c, const SurfacePoint& spot) {
     dragging_ = true;
     placed_ = by_ == PlacingBy::highlight || occluder_; // otherwise this press chooses the occluder, and a drag from it places the light
     surfaces_ = c.frame;
@@ -68,7 +68,7 @@ void PlaceTool::say_what_blocks(PanelContext& c) const {
     };
     Vec3d way = pose_of(c.scene(), node_).position - *effect_at_;
     if (light->kind == Light::Kind::sun) way = way * (1 + 2 * world_bounds(c.scene()).radius() / std::max(length(way), 1e-9));
-    const auto blocker = first_between(c.scene(), *effect_at_, *effect_at_ + way, counts);
+    const auto blocker = first_occluder(c.scene(), *effect_at_, *effect_at_ + way, counts);
     if (!blocker) return;
     const std::string name = c.scene().nodes.find(*blocker)->name;
     c.ui.toasts.warn((name.empty() ? "Another object" : name) + " is in the way",
@@ -85,7 +85,7 @@ void PlaceTool::release(PanelContext& c) {
     c.ui.gestures.end();
 }
 
-void PlaceTool::draw_preview(ImDrawList& draw, const Projection& projection, const ImageRect& image, const SurfaceSpot& spot,
+void PlaceTool::draw_preview(ImDrawList& draw, const Projection& projection, const ImageRect& image, const SurfacePoint& spot,
                              const std::optional<LightPose>& pose) const {
     const bool reached = !pose || faces(spot, pose->position);
     const WorldPen pen{draw, projection, image, reached ? tone::accent : tone::failure};

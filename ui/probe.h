@@ -19,7 +19,7 @@ struct ProbeState {
     uint64_t revision = 0;   // number of edits that affect the picture
     bool up_to_date = false; // the picture shows the latest edit
     std::string toast;       // the newest toast
-    std::string look = {};   // shown_text(): raw, denoised, ...
+    std::string current_pictures = {};   // shown_text(): raw, denoised, ...
     bool operator==(const ProbeState&) const = default;
 };
 

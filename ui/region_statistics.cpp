@@ -10,10 +10,10 @@
 namespace blush {
 namespace {
 
-std::array<Spread, 3> by_channel(const std::vector<float>& rgb) {
+std::array<ValueStatistics, 3> by_channel(const std::vector<float>& rgb) {
     std::array<std::vector<float>, 3> channels;
     for (size_t i = 0; i < rgb.size(); ++i) channels[i % 3].push_back(rgb[i]);
-    return {spread_of(channels[0]), spread_of(channels[1]), spread_of(channels[2])};
+    return {value_statistics(channels[0]), value_statistics(channels[1]), value_statistics(channels[2])};
 }
 
 } // namespace
@@ -27,7 +27,7 @@ RegionStatistics region_statistics(const ShownPicture& picture) {
     s.y = std::clamp(int(region.y * float(frame.height)), 0, frame.height - 1);
     s.width = std::clamp(int(std::ceil((region.x + region.width) * float(frame.width))) - s.x, 1, frame.width - s.x);
     s.height = std::clamp(int(std::ceil((region.y + region.height) * float(frame.height))) - s.y, 1, frame.height - s.y);
-    const DisplayNumbers numbers = numbers_of(view);
+    const DisplayParameters numbers = display_parameters_of(view);
     std::vector<float> rgb, nits, ev, ev100;
     std::vector<Vec3> albedo;
     std::vector<float> coverage;
@@ -45,9 +45,9 @@ RegionStatistics region_statistics(const ShownPicture& picture) {
         }
     }
     s.linear = by_channel(rgb);
-    s.nits = spread_of(nits);
-    s.ev = spread_of(ev);
-    s.ev100 = spread_of(ev100);
+    s.nits = value_statistics(nits);
+    s.ev = value_statistics(ev);
+    s.ev100 = value_statistics(ev100);
     if (show(*picture.color, view, rgb, {albedo, coverage})) s.displayed = by_channel(rgb);
     return s;
 }

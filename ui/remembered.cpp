@@ -17,7 +17,7 @@ template <class Ui, class V> void visit_panels(Ui& ui, const V& visit) {
     visit("exposure.f_number", ui.triangle.f_number, 0.1f, 1000.f);
     visit("exposure.iso", ui.triangle.iso, 1.f, 1e7f);
     visit("bounces.mode", ui.bounces.mode, BouncesView::Mode::picture, BouncesView::Mode::gains);
-    visit("bounces.bounce", ui.bounces.bounce, 0, usual_bounce_planes);
+    visit("bounces.bounce", ui.bounces.bounce, 0, default_bounce_planes);
     visit("health.map", ui.health.map, false, true);
     visit("roulette.map", ui.roulette.map, RouletteView::Map::none, RouletteView::Map::survival);
     visit("snapshots", ui.snapshots.open, false, true);
@@ -33,17 +33,17 @@ template <class Ui, class V> void visit_panels(Ui& ui, const V& visit) {
 
 } // namespace
 
-void remember_panels(const UiState& ui, WindowSettings& settings) {
+void save_panels(const UiState& ui, WindowSettings& settings) {
     std::erase_if(settings.panels, [](const auto& entry) { return entry.first.starts_with(bounce_gain); });
     for (size_t k = 0; k < ui.bounces.gains.size(); ++k) settings.panels[bounce_gain + std::to_string(k)] = double(ui.bounces.gains[k]);
     visit_panels(ui, [&](const char* name, const auto& value, auto, auto) { settings.panels[name] = double(value); });
 }
 
-void recall_panels(const WindowSettings& settings, UiState& ui) {
+void restore_panels(const WindowSettings& settings, UiState& ui) {
     std::vector<float> gains;
-    for (int k = 0; k < most_bounce_planes; ++k) {
+    for (int k = 0; k < max_bounce_planes; ++k) {
         const auto gain = settings.panels.find(bounce_gain + std::to_string(k));
-        if (gain == settings.panels.end() || !(gain->second >= 0 && gain->second <= double(most_bounce_gain))) break;
+        if (gain == settings.panels.end() || !(gain->second >= 0 && gain->second <= double(max_bounce_gain))) break;
         gains.push_back(float(gain->second));
     }
     if (!gains.empty()) ui.bounces.gains = std::move(gains);
@@ -56,7 +56,7 @@ void recall_panels(const WindowSettings& settings, UiState& ui) {
     });
 }
 
-void remember_scene(const UiState& ui, const std::string& file, WindowSettings& settings) {
+void save_scene_ui(const UiState& ui, const std::string& file, WindowSettings& settings) {
     if (file.empty()) return;
     std::erase_if(settings.scenes, [&](const SceneMemory& m) { return m.file == file; });
     SceneMemory memory;
@@ -76,7 +76,7 @@ void remember_scene(const UiState& ui, const std::string& file, WindowSettings& 
     if (settings.scenes.size() > remembered_files) settings.scenes.resize(remembered_files);
 }
 
-void recall_scene(const WindowSettings& settings, const std::string& file, const Scene& scene, UiState& ui) {
+void restore_scene_ui(const WindowSettings& settings, const std::string& file, const Scene& scene, UiState& ui) {
     ui.zoom = {};
     ui.selected = {};
     ui.also_selected.clear();
@@ -87,7 +87,7 @@ void recall_scene(const WindowSettings& settings, const std::string& file, const
     const auto found = std::ranges::find(settings.scenes, file, &SceneMemory::file);
     if (found == settings.scenes.end()) return;
     if (found->zoom > 0)
-        ui.zoom = {std::clamp(found->zoom, least_zoom, most_zoom), std::clamp(found->u, 0.0, 1.0), std::clamp(found->v, 0.0, 1.0)};
+        ui.zoom = {std::clamp(found->zoom, min_zoom, max_zoom), std::clamp(found->u, 0.0, 1.0), std::clamp(found->v, 0.0, 1.0)};
     for (const uint32_t id : found->selected) {
         if (!scene.nodes.contains({id}) || ui.is_selected({id})) continue;
         if (!ui.selected) ui.selected = {id};

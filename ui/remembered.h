@@ -28,11 +28,11 @@
 namespace blush {
 
 // Saves and restores panels, tab and view modes. Missing or invalid entries leave the state unchanged.
-void remember_panels(const UiState& ui, WindowSettings& settings);
-void recall_panels(const WindowSettings& settings, UiState& ui);
+void save_panels(const UiState& ui, WindowSettings& settings);
+void restore_panels(const WindowSettings& settings, UiState& ui);
 
 // The state saved per scene file (above). An unknown file gets zoom to fit, and nothing selected or unfolded.
-void remember_scene(const UiState& ui, const std::string& file, WindowSettings& settings);
-void recall_scene(const WindowSettings& settings, const std::string& file, const Scene& scene, UiState& ui);
+void save_scene_ui(const UiState& ui, const std::string& file, WindowSettings& settings);
+void restore_scene_ui(const WindowSettings& settings, const std::string& file, const Scene& scene, UiState& ui);
 
 } // namespace blush

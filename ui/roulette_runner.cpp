@@ -5,7 +5,7 @@
 namespace blush {
 namespace {
 
-constexpr int64_t most_rounds = 2000; // enough to measure a bias of 0.01 %
+constexpr int64_t max_rounds = 2000; // enough to measure a bias of 0.01 %
 
 } // namespace
 
@@ -13,6 +13,6 @@ bool RouletteWork::Question::asks_the_same(const Question& other) const {
     return !diff(scene, settings, other.scene, other.settings).affects_image();
 }
 
-bool RouletteWork::is_good(const Answer& report) { return report.rounds >= most_rounds; }
+bool RouletteWork::is_good(const Answer& report) { return report.rounds >= max_rounds; }
 
 } // namespace blush

@@ -21,7 +21,7 @@ public:
     static bool is_good(const Answer& report);
 
 private:
-    RouletteLab lab_{{.threads = 1, .low_priority = true, .planes = {}}};
+    RouletteComparison lab_{{.threads = 1, .low_priority = true, .planes = {}}};
 };
 
 using RouletteRunner = RoundRunner<RouletteWork>;

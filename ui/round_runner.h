@@ -64,7 +64,7 @@ public:
     }
 
 private:
-    void work_once(Work& work, const std::optional<Question>& question) {
+    void render_batch(Work& work, const std::optional<Question>& question) {
         State state;
         try {
             if (question) work.begin(*question);
@@ -87,7 +87,7 @@ private:
                 if (quit_) return;
                 question.swap(pending_);
             }
-            work_once(work, question);
+            render_batch(work, question);
         }
     }
 

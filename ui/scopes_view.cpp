@@ -20,7 +20,7 @@ struct Thinned {
     std::vector<Vec3> albedo;
     std::vector<float> coverage;
 };
-Thinned thinned(const ShownPicture& p, int step) {
+Thinned subsampled(const ShownPicture& p, int step) {
     const Frame& f = *p.frame;
     Thinned t;
     for (int y = step / 2; y < f.height; y += step) {
@@ -41,7 +41,7 @@ Thinned thinned(const ShownPicture& p, int step) {
 Scopes scopes_of(const ShownPicture& picture) {
     Scopes s;
     s.step = std::max(1, int(std::sqrt(double(picture.frame->width) * picture.frame->height / enough_pixels)));
-    Thinned t = thinned(picture, s.step);
+    Thinned t = subsampled(picture, s.step);
     s.scene = histogram(t.rgb, stops_axis, stops_bins);
     s.scene_wave = waveform(t.rgb, t.width, stops_axis, wave_columns, wave_levels);
     if (!show(*picture.color, picture.view, t.rgb, {t.albedo, t.coverage})) return s;

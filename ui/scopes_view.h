@@ -18,7 +18,7 @@ Scopes scopes_of(const ShownPicture& picture);
 // State of the panel.
 struct ScopesView {
     bool open = false;
-    BackgroundAnswer<ShownPicture, Scopes> scopes;
+    AsyncQuery<ShownPicture, Scopes> scopes;
 };
 
 } // namespace blush

@@ -15,7 +15,7 @@ bool set_light(PanelContext& c, Id<Light> id, const Light& after, Gesture gestur
     if (!std::ranges::count(lights, id)) lights = {id};
     std::vector<Edit> edits{SetLight{id, after}};
     std::erase(lights, id);
-    for (Edit& edit : change_lights(c.scene(), lights, [&](Light& light) { light = edited_alike(light, before, after); }))
+    for (Edit& edit : change_lights(c.scene(), lights, [&](Light& light) { light = apply_same_edit(light, before, after); }))
         edits.push_back(std::move(edit));
     lights.push_back(id);
     return c.apply(edits, label_for("Change", c.scene(), lights), gesture);

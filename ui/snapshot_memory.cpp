@@ -21,7 +21,7 @@ size_t bytes_of(const DenoisedPicture& d) { return bytes_of(d.denoised.rgb) + (d
 
 size_t bytes_of(const FilmState& f) {
     size_t sum = bytes_of(f.shares[0]) + bytes_of(f.shares[1]) + bytes_of(f.marked);
-    for (const ExactPlane& plane : f.planes) sum += bytes_of(plane.sums) + bytes_of(plane.words);
+    for (const LosslessPlane& plane : f.planes) sum += bytes_of(plane.sums) + bytes_of(plane.words);
     return sum;
 }
 

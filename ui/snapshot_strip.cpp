@@ -150,22 +150,22 @@ void ThumbnailSheet::set_shader(const DisplayShader& shader) {
     shader_changed_ = true;
 }
 
-void ThumbnailSheet::update(const std::vector<SnapshotPtr>& list, const DisplayNumbers& numbers) {
+void ThumbnailSheet::update(const std::vector<SnapshotPtr>& list, const DisplayParameters& numbers) {
     if (list.empty() || !shader_) return;
     const bool other_shader = std::exchange(shader_changed_, false);
     if (other_shader && !pass_.set_shader(*shader_)) return; // the viewport reports the error
     std::vector<uint64_t> ids;
     for (const SnapshotPtr& s : list) ids.push_back(s->id);
-    DisplayLook look{numbers, {}};
-    look.numbers.false_color = {}; // no false colours: thumbnails should be recognisable, and have no albedo for lux
+    DisplayLook current_pictures{numbers, {}};
+    current_pictures.numbers.false_color = {}; // no false colours: thumbnails should be recognisable, and have no albedo for lux
     if (ids != ids_) {
         std::vector<float> rgba;
         for (const SnapshotPtr& s : list) rgba.insert(rgba.end(), s->thumbnail.rgba.begin(), s->thumbnail.rgba.end());
         pass_.upload(Thumbnail::width, Thumbnail::height * int(list.size()), std::move(rgba));
     }
-    if (ids != ids_ || other_shader || look != look_) pass_.begin(look);
+    if (ids != ids_ || other_shader || current_pictures != look_) pass_.begin(current_pictures);
     ids_ = ids;
-    look_ = look;
+    look_ = current_pictures;
     while (pass_.busy()) pass_.advance(1);
 }
 

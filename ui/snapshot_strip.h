@@ -32,7 +32,7 @@ void delete_snapshot(PanelContext& c, const Snapshot& snapshot);
 class ThumbnailSheet {
 public:
     void set_shader(const DisplayShader& shader);
-    void update(const std::vector<SnapshotPtr>& list, const DisplayNumbers& numbers);
+    void update(const std::vector<SnapshotPtr>& list, const DisplayParameters& numbers);
     ThumbnailPart part(size_t index) const;
 
 private:

@@ -99,7 +99,7 @@ void add_seen(ImVector<ImDrawCmd>& seen, const ImDrawCmd& command, const std::ve
 
 } // namespace
 
-void spare_fill(ImDrawData& data) {
+void reduce_overdraw(ImDrawData& data) {
     std::vector<Rect> covered; // covered by windows above
     for (int i = data.CmdListsCount; i-- > 0;) {
         ImDrawList& list = *data.CmdLists[i];

@@ -10,7 +10,7 @@ namespace blush {
 // Changes the draw commands but not the result. The opaque background of each window is cleared by commands that need OpenGL when
 // drawn. In the lists below it, commands that are fully covered are removed; commands with few triangles are clipped to their
 // visible parts. `data` is ImGui's draw data after Render(), drawn before the next frame.
-void spare_fill(ImDrawData& data);
+void reduce_overdraw(ImDrawData& data);
 
 // If the command clears its clip rectangle: the colour.
 bool is_clearing(const ImDrawCmd& command);

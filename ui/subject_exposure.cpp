@@ -14,12 +14,12 @@ namespace blush {
 namespace {
 
 constexpr int cells_across = 40, cells_down = 24;
-constexpr double enough_of_picture = 0.005;  // minimum area of the selection, or of what is in focus, to be the subject
+constexpr double min_subject_area = 0.005;  // minimum area of the selection, or of what is in focus, to be the subject
 constexpr double sharp_blur = 0.01;          // diameter of the circle of confusion divided by the height of the picture
 constexpr double darkest = 1.0 / 256;        // of the mean: darker cells are clamped to this
-constexpr double most_clipped = 0.03;        // of the subject, and of the picture
-constexpr double brightest_picture = 0.55;   // mean display luminance
-constexpr float most_lowered = 6, most_lowered_for_backdrop = 1.5f, step = 0.25f; // stops
+constexpr double max_clipped = 0.03;        // of the subject, and of the picture
+constexpr double max_mean_display = 0.55;   // mean display luminance
+constexpr float max_lowered = 6, max_lowered_for_background = 1.5f, step = 0.25f; // stops
 constexpr float display_white = 0.995f;
 
 struct Cell {
@@ -71,12 +71,12 @@ Cells subject_of(const Frame& f, const Scene& scene, std::span<const Id<Node>> s
                 if (scene.nodes.find(id)->mesh) ids.push_back(id.value); // only objects: the emission of a lamp is not its subject
         std::ranges::sort(ids);
         Cells cells = cells_of(f, [&](size_t i) { return is_object(i) && std::ranges::binary_search(ids, f.object_id[i]); });
-        if (cells.share >= enough_of_picture) return cells;
+        if (cells.share >= min_subject_area) return cells;
     }
     const Lens& lens = scene.view.lens;
     if (lens.aperture_radius > 0 && !lens.orthographic && !f.depth.empty()) {
         Cells cells = cells_of(f, [&](size_t i) { return is_object(i) && f.depth[i] > 0 && blur(lens, double(f.depth[i])) < sharp_blur; });
-        if (cells.share >= enough_of_picture) return cells;
+        if (cells.share >= min_subject_area) return cells;
     }
     return cells_of(f, is_object);
 }
@@ -125,13 +125,13 @@ std::optional<float> subject_exposure(const Frame& frame, const Scene& scene, st
     const auto lowered = [&](const Cells& cells, float from, float most, double brightest_mean) {
         for (shown.exposure_ev = from; shown.exposure_ev > from - most; shown.exposure_ev -= step) {
             const Shown s = shown_as(cells, shown, color);
-            if (s.clipped <= most_clipped && s.mean <= brightest_mean) break;
+            if (s.clipped <= max_clipped && s.mean <= brightest_mean) break;
         }
         return shown.exposure_ev;
     };
-    const float for_subject = lowered(subject, wanted, most_lowered, 1);
+    const float for_subject = lowered(subject, wanted, max_lowered, 1);
     // A dark subject in front of a bright background: limits the exposure so that the whole picture is not too bright.
-    const float for_picture = lowered(cells_of(frame, [](size_t) { return true; }), for_subject, most_lowered_for_backdrop, brightest_picture);
+    const float for_picture = lowered(cells_of(frame, [](size_t) { return true; }), for_subject, max_lowered_for_background, max_mean_display);
     return std::clamp(for_picture, -20.f, 20.f);
 }
 

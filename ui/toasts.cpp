@@ -2,7 +2,7 @@
 
 namespace blush {
 
-constexpr size_t most_toasts = 5;
+constexpr size_t max_toasts = 5;
 
 std::chrono::milliseconds lifetime(const Toast& toast) {
     using namespace std::chrono_literals;
@@ -14,7 +14,7 @@ void Toasts::add(Toast toast) {
     ++added_;
     std::erase_if(toasts_, [&](const Toast& t) { return t.text == toast.text; });
     toasts_.push_back(std::move(toast));
-    if (toasts_.size() > most_toasts) toasts_.erase(toasts_.begin());
+    if (toasts_.size() > max_toasts) toasts_.erase(toasts_.begin());
 }
 
 void Toasts::expire(std::chrono::steady_clock::time_point now) {

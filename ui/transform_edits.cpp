@@ -14,7 +14,7 @@
 namespace blush {
 namespace {
 
-constexpr float smallest_size = 1e-4f;
+constexpr float min_size = 1e-4f;
 
 bool has_children(const Scene& scene, Id<Node> id) {
     return std::ranges::any_of(scene.nodes, [&](const auto& entry) { return entry.value.parent == id; });
@@ -31,7 +31,7 @@ double stretch(const Motion& motion, const Vec3d& axis) {
 Light scaled(const Light& before, const Affined& world_from_node, const Motion& motion) {
     const auto factor = [&](const Vec3d& axis) { return std::abs(stretch(motion, axis)); };
     const double x = factor(world_from_node.x), y = factor(world_from_node.y), all = std::cbrt(x * y * factor(world_from_node.z));
-    const auto size = [](float value, double by) { return value > 0 ? std::max(float(value * by), smallest_size) : value; };
+    const auto size = [](float value, double by) { return value > 0 ? std::max(float(value * by), min_size) : value; };
     Light light = before;
     switch (light.kind) {
     case Light::Kind::rectangle:
@@ -73,7 +73,7 @@ std::vector<TransformTarget> transform_targets(const Scene& scene, std::span<con
     std::vector<TransformTarget> targets;
     for (const Id<Node> id : topmost(scene, selection)) {
         const Node& node = *scene.nodes.find(id);
-        if (node.skin || is_placed_by_clip(scene, id)) continue;
+        if (node.skin || is_transform_animated(scene, id)) continue;
         TransformTarget target{id, world_from_node(scene, id), {}, {}};
         const Light* light = scene.lights.find(node.light);
         if (light && !node.mesh && !has_children(scene, id)) target.light = node.light, target.light_before = *light;

@@ -12,8 +12,8 @@ namespace blush {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
-constexpr double least_reach = 8; // minimum distance from the pivot for scaling, pixels
-constexpr double most_amount = 1e9;
+constexpr double min_reach = 8; // minimum distance from the pivot for scaling, pixels
+constexpr double max_amount = 1e9;
 constexpr double degrees_step = 5, factor_step = 0.1;
 constexpr std::array<Vec3d, 3> world_axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 constexpr const char* axis_names[] = {"X", "Y", "Z"};
@@ -39,7 +39,7 @@ double number_in(const std::string& text, double empty) {
     const bool negative = !text.empty() && text[0] == '-';
     const std::string digits = text.substr(negative ? 1 : 0);
     const double magnitude = digits.find_first_of("0123456789") == std::string::npos ? empty : std::strtod(digits.c_str(), nullptr);
-    return std::min(magnitude, most_amount) * (negative ? -1 : 1);
+    return std::min(magnitude, max_amount) * (negative ? -1 : 1);
 }
 
 // The free axis, and the one after it.
@@ -81,7 +81,7 @@ double TransformTool::turn(ScreenPoint from, ScreenPoint to) const {
     if (start_.ring > 0) {
         const auto a = ring_angle(ray(from), start_.pivot, axis), b = ring_angle(ray(to), start_.pivot, axis);
         if (a && b) return wrapped(*b - *a);
-        return pulled_angle(start_.projection, start_.pivot, axis, from, to, start_.ring);
+        return edge_on_ring_angle(start_.projection, start_.pivot, axis, from, to, start_.ring);
     }
     const ScreenPoint c = centre();
     const double turned = wrapped(angle_of(to, c) - angle_of(from, c));
@@ -120,7 +120,7 @@ double TransformTool::pointed_factor() const {
     const ScreenPoint c = centre();
     const double sx = start_.mouse.x - c.x, sy = start_.mouse.y - c.y, x = at_.x - c.x, y = at_.y - c.y;
     const double reach = std::hypot(sx, sy);
-    if (reach < least_reach) return 1 + (x - sx) / 100; // started on the pivot: dragging to the right enlarges
+    if (reach < min_reach) return 1 + (x - sx) / 100; // started on the pivot: dragging to the right enlarges
     return std::hypot(x, y) / reach * (x * sx + y * sy < 0 ? -1 : 1);
 }
 
@@ -228,7 +228,7 @@ bool TransformTool::type(char c) {
     const char digit = c == ',' ? '.' : c;
     if (digit != '.' && (digit < '0' || digit > '9')) return false;
     const bool second_point = digit == '.' && text.find('.') != std::string::npos;
-    if (!second_point && text.size() < most_typed) text += digit;
+    if (!second_point && text.size() < max_typed) text += digit;
     return true;
 }
 

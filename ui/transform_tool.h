@@ -67,7 +67,7 @@ public:
     std::array<Vec3d, 3> axes() const;
 
 private:
-    static constexpr size_t most_typed = 12; // characters
+    static constexpr size_t max_typed = 12; // characters
     int amount_count() const;
     std::array<double, 3> amounts() const; // current number of amounts, in metres, degrees or as a factor
     std::array<double, 3> pointed_amounts() const;

@@ -16,7 +16,7 @@ public:
     bool update(PanelContext& c, ImDrawList& draw, const Projection& projection, const ImageRect& image);
     // Drops a request and cancels the active transform.
     void abandon(PanelContext& c);
-    bool under_way() const { return tool_.has_value(); }
+    bool is_active() const { return tool_.has_value(); }
 
 private:
     void begin(PanelContext& c, const TransformRequest& request, const Projection& projection, const ImageRect& image);

@@ -139,12 +139,12 @@ struct UiState {
     std::optional<ToolStart> tool_start; // while the tool's drag is active
     DenoiseView denoise;                 // view setting: not part of the document and its history
     bool paused = false;
-    double next_frame_in = 1e9; // seconds until a frame is needed without input, for example for toasts and tooltips
+    double seconds_to_next_frame = 1e9; // seconds until a frame is needed without input, for example for toasts and tooltips
     PlacingBy placing_by = PlacingBy::hand;
-    std::optional<LookedThrough> looked_through;
+    std::optional<LookedThrough> light_camera;
     LightTableView light_table;
     bool show_shortcuts = false;
-    bool studio_at_opening = false; // the file has no light and was opened with studio lighting; the banner is still shown
+    bool studio_banner = false; // the file has no light and was opened with studio lighting; the banner is still shown
     bool opening_page = false;      // shown after a start without a scene
     std::vector<std::string> demos; // scene files shipped with the program
     bool panels_hidden = false;     // hides everything except menu, picture and status bar
@@ -198,7 +198,7 @@ struct UiState {
     // Film planes that open panels need, in addition to the default ones.
     PlaneSet wanted_planes() const {
         PlaneSet planes = planes_of(aov);
-        if (bounces.open) planes.bounces = usual_bounce_planes;
+        if (bounces.open) planes.bounces = default_bounce_planes;
         planes.roulette = roulette.open && roulette.map != RouletteView::Map::none;
         return planes;
     }

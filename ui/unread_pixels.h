@@ -6,7 +6,7 @@
 
 namespace blush {
 
-inline std::vector<float>& unread(std::shared_ptr<std::vector<float>>& pixels) {
+inline std::vector<float>& writable_buffer(std::shared_ptr<std::vector<float>>& pixels) {
     if (!pixels || pixels.use_count() > 1) pixels = std::make_shared<std::vector<float>>();
     return *pixels;
 }

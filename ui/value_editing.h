@@ -8,12 +8,12 @@
 namespace blush {
 
 // A clipboard action for one value, from a key or its context menu.
-enum class ValueWish { none, copy, copy_hex, copy_srgb, copy_all, paste, reset, pick };
+enum class ValueAction { none, copy, copy_hex, copy_srgb, copy_all, paste, reset, pick };
 
 struct ValueEditing {
-    ValueWish wish = ValueWish::none; // for the field under the mouse
-    int wish_frame = -1;              // the frame in which it is valid
-    unsigned in_hand = 0;             // the item of the active gesture
+    ValueAction wish = ValueAction::none; // for the field under the mouse
+    int action_frame = -1;              // the frame in which it is valid
+    unsigned active_item = 0;             // the item of the active gesture
     Vec3 before{1, 1, 1};             // the colour when the picker was opened
 
     // The colour field that uses the eyedropper, and the picked scene-linear colour.

@@ -11,8 +11,8 @@
 namespace blush {
 namespace {
 
-constexpr size_t longest_value = 128; // characters
-constexpr double largest_color = 1e6;
+constexpr size_t max_value_length = 128; // characters
+constexpr double max_color = 1e6;
 
 std::string_view trimmed(std::string_view text) {
     constexpr std::string_view blank = " \t\r\n";
@@ -49,7 +49,7 @@ std::optional<Vec3> hex_color(std::string_view digits) {
 }
 
 bool is_color(const Vec3& c) {
-    const auto fits = [](float x) { return x >= 0 && x <= largest_color; };
+    const auto fits = [](float x) { return x >= 0 && x <= max_color; };
     return fits(c.x) && fits(c.y) && fits(c.z);
 }
 
@@ -75,7 +75,7 @@ std::string hex_text(const Vec3& c) { return fmt::format("#{:02x}{:02x}{:02x}", 
 std::string srgb_text(const Vec3& c) { return "srgb(" + triple_text({srgb_from_linear(c.x), srgb_from_linear(c.y), srgb_from_linear(c.z)}) + ")"; }
 
 std::optional<double> pasted_number(std::string_view text, std::string_view unit) {
-    if (text.size() > longest_value) return {};
+    if (text.size() > max_value_length) return {};
     text = trimmed(text);
     if (!unit.empty() && text.ends_with(unit)) text = trimmed(text.substr(0, text.size() - unit.size()));
     if (const auto value = number_of(text)) return value;
@@ -86,7 +86,7 @@ std::optional<double> pasted_number(std::string_view text, std::string_view unit
 }
 
 std::optional<Vec3> pasted_triple(std::string_view text) {
-    if (text.size() > longest_value) return {};
+    if (text.size() > max_value_length) return {};
     text = trimmed(text);
     for (const std::string_view brackets : {"()", "[]", "{}"})
         if (text.size() > 1 && text.front() == brackets[0] && text.back() == brackets[1]) text = trimmed(text.substr(1, text.size() - 2));
@@ -107,7 +107,7 @@ std::optional<Vec3> pasted_triple(std::string_view text) {
 }
 
 std::optional<Vec3> pasted_color(std::string_view text) {
-    if (text.size() > longest_value) return {};
+    if (text.size() > max_value_length) return {};
     text = trimmed(text);
     if (text.starts_with('#')) return hex_color(text.substr(1));
     std::optional<Vec3> color;

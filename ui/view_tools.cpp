@@ -47,7 +47,7 @@ void pick_color(PanelContext& c, double u, double v) {
     const Vec3 color = picked_color(*c.frame, c.denoised.get(), mix_of(c.ui.denoise, c.denoised != nullptr), u, v, 0);
     if (!is_finite(color)) return c.ui.toasts.note("The colour of this pixel is not finite");
     c.ui.values.picked = color;
-    c.ui.next_frame_in = 0;
+    c.ui.seconds_to_next_frame = 0;
 }
 
 void place_meter(PanelContext& c, const Projection& projection, double u, double v) {

@@ -24,9 +24,9 @@ namespace {
 
 // Milliseconds for a UI frame while a picture is being drawn: normally; while the user waits for changed view settings; and while
 // a light mix is edited, which must be visible in the same frame.
-constexpr double usual_frame = 16, asked_frame = 20, moved_frame = 12;
+constexpr double default_frame = 16, view_change_frame = 20, mix_edit_frame = 12;
 // Time without a change after which an edit of the mix has paused: during a drag, not every UI frame has mouse input.
-constexpr std::chrono::milliseconds mix_rests_after{120};
+constexpr std::chrono::milliseconds mix_pause_after{120};
 
 Region window_region() {
     const ImVec2 at = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
@@ -34,9 +34,9 @@ Region window_region() {
 }
 
 // Rectangle of the picture in the current window; fills the rest of the window.
-ImageRect place_picture(const PanelContext& c) {
+ImageRect viewport_picture_rect(const PanelContext& c) {
     const Region region = window_region();
-    const ImageRect image = placed_picture(c.ui.zoom, region, std::max(c.render_width, 1), std::max(c.render_height, 1));
+    const ImageRect image = picture_rect(c.ui.zoom, region, std::max(c.render_width, 1), std::max(c.render_height, 1));
     const ImVec2 high{region.x + region.width, region.y + region.height};
     const bool covered = image.x <= region.x && image.y <= region.y && image.x + image.width >= high.x && image.y + image.height >= high.y;
     if (!covered) ImGui::GetWindowDrawList()->AddRectFilled({region.x, region.y}, high, tone::surround);
@@ -126,7 +126,7 @@ bool can_be_mixed(const PanelContext& c, const Gains& gains, bool denoised) {
 Result<void> Viewport::set_display_shader(const DisplayShader& shader) {
     shader_changed_ = true;
     compare_.set_shader(shader);
-    surroundings_.set_shader(shader);
+    region_backdrop_.set_shader(shader);
     return display_.set_shader(shader);
 }
 
@@ -135,7 +135,7 @@ void Viewport::upload_frame(const FramePtr& shown, const PictureView& view, cons
     const Frame& frame = *shown;
     const bool special = is_special(frame, view), mixes = !gains.empty() && gains.size() == frame.groups.size() && gains != frame.gains;
     if (mixes && !special && !background_as_it_is) {
-        mix_rgba(frame, gains, unread(mixed_), &workers_);
+        mix_rgba(frame, gains, writable_buffer(mixed_), &workers_);
         return display_.upload(frame.width, frame.height, mixed_);
     }
     if (frame.groups.empty()) mixed_.reset();
@@ -148,13 +148,13 @@ void Viewport::upload_denoised(const DenoisedPtr& denoised, const Gains& gains) 
     if (!denoised->groups) mixed_denoised_.reset();
     const bool mixes = denoised->groups && gains.size() == denoised->groups->planes.size() && gains != denoised->gains;
     if (!mixes) return display_.upload(denoised);
-    std::vector<float>& rgb = unread(mixed_denoised_);
+    std::vector<float>& rgb = writable_buffer(mixed_denoised_);
     rgb.resize(size_t(denoised->width) * size_t(denoised->height) * 3);
     mix_rgb(planes_of(*denoised), gains, rgb, &workers_);
     display_.upload_denoised(denoised->width, denoised->height, mixed_denoised_);
 }
 
-void Viewport::upload_thinned(const MovedMix& moved, const Gains& gains, int step) {
+void Viewport::upload_thinned(const MixPreviewSource& moved, const Gains& gains, int step) {
     const MixPreview::Picture raw = preview_.raw(moved, gains, step);
     display_.upload(raw.width, raw.height, raw.values);
     if (!moved.shows_denoised) return;
@@ -162,28 +162,28 @@ void Viewport::upload_thinned(const MovedMix& moved, const Gains& gains, int ste
     display_.upload_denoised(denoised.width, denoised.height, denoised.values);
 }
 
-void Viewport::take_frame(PanelContext& c, const FramePace& pace) {
+void Viewport::take_frame(PanelContext& c, const FrameBudget& pace) {
     const ViewSettings v = c.shown_view();
     PictureView view = c.ui.picture_view(c.frame ? int(c.frame->bounces.size()) : 0);
     if (view.show == PictureView::Show::beauty && v.false_color.of == FalseColor::Of::lux) view.show = PictureView::Show::illuminance;
     const bool special = c.frame && is_special(*c.frame, view);
-    DisplayNumbers numbers = numbers_of(v);
+    DisplayParameters numbers = display_parameters_of(v);
     if (special && is_map(view)) numbers.false_color = {}; // it has colours of its own
     if (special && is_data(view)) numbers.background_as_it_is = true; // all its pixels count as background
-    const DisplayLook look{numbers, special ? PictureMix{} : mix_of(c.ui.denoise, c.denoised != nullptr), !special && c.frame && c.frame->transparent};
+    const DisplayLook current_pictures{numbers, special ? PictureMix{} : mix_of(c.ui.denoise, c.denoised != nullptr), !special && c.frame && c.frame->transparent};
     const Gains gains = c.mixing ? c.mixing->gains : Gains();
-    const bool new_gains = gains != uploaded_gains_, shows_denoised = look.mix.denoised_weight != 0;
+    const bool new_gains = gains != uploaded_gains_, shows_denoised = current_pictures.mix.denoised_weight != 0;
     // While a mix is edited it is shown at once, at a lower resolution if time is short; full resolution follows when the edit
     // pauses.
     const bool moved = new_gains && can_be_mixed(c, gains, shows_denoised) && !special && !numbers.background_as_it_is;
-    const auto now = FramePace::Clock::now();
-    if (moved) mix_moved_ = now;
-    const MovedMix moving{c.frame, c.denoised, look.mix.raw_weight != 0, shows_denoised};
+    const auto now = FrameBudget::Clock::now();
+    if (moved) mix_edited_at_ = now;
+    const MixPreviewSource moving{c.frame, c.denoised, current_pictures.mix.raw_weight != 0, shows_denoised};
     const auto drawing = [&](double pixels) { return display_.expected_milliseconds(pixels, shows_denoised ? 2 : 1); };
-    const int step = moved ? preview_.step_in_time(moving, pace.left(moved_frame, now), drawing) : 1;
-    const bool thinned = thinned_by_ > 1 && !moved, rests = thinned && now >= mix_moved_ + mix_rests_after;
-    const bool waits = thinned && !rests; // for the next edit of the mix
-    if (waits) c.ui.next_frame_in = std::min(c.ui.next_frame_in, std::chrono::duration<double>(mix_moved_ + mix_rests_after - now).count());
+    const int step = moved ? preview_.step_in_time(moving, pace.left(mix_edit_frame, now), drawing) : 1;
+    const bool subsampled = preview_step_ > 1 && !moved, rests = subsampled && now >= mix_edited_at_ + mix_pause_after;
+    const bool waits = subsampled && !rests; // for the next edit of the mix
+    if (waits) c.ui.seconds_to_next_frame = std::min(c.ui.seconds_to_next_frame, std::chrono::duration<double>(mix_edited_at_ + mix_pause_after - now).count());
     const bool new_frame = c.frame && c.frame->width > 0 && !waits &&
                            (c.frame != uploaded_frame_ || view != uploaded_view_ || new_gains || rests ||
                             numbers.background_as_it_is != look_.numbers.background_as_it_is);
@@ -191,54 +191,54 @@ void Viewport::take_frame(PanelContext& c, const FramePace& pace) {
     // A switch between raw and denoised cancels the picture in progress. The blend slider does not, because each step would
     // restart it.
     const bool toggled =
-        uploaded_frame_ && look.mix != look_.mix && (look.mix.raw_weight == 0 || look.mix.denoised_weight == 0) && !new_denoised;
+        uploaded_frame_ && current_pictures.mix != look_.mix && (current_pictures.mix.raw_weight == 0 || current_pictures.mix.denoised_weight == 0) && !new_denoised;
     if (display_.busy() && toggled) {
-        display_.begin(look);
-        look_ = look;
-        answers_ = true;
+        display_.begin(current_pictures);
+        look_ = current_pictures;
+        shows_requested_view_ = true;
     }
-    const bool free = !display_.busy() || (step > 1 && thinned_by_ == 1);
-    if (free && (new_frame || (uploaded_frame_ && (new_denoised || shader_changed_ || look_ != look)))) {
+    const bool free = !display_.busy() || (step > 1 && preview_step_ == 1);
+    if (free && (new_frame || (uploaded_frame_ && (new_denoised || shader_changed_ || look_ != current_pictures)))) {
         if (step > 1)
             upload_thinned(moving, gains, step);
         else if (new_frame)
             upload_frame(c.frame, view, gains, numbers.background_as_it_is);
         if (new_denoised && step == 1) upload_denoised(c.denoised, gains);
-        if (new_frame) uploaded_frame_ = c.frame, uploaded_view_ = view, thinned_by_ = step;
+        if (new_frame) uploaded_frame_ = c.frame, uploaded_view_ = view, preview_step_ = step;
         if (step == 1) preview_.forget();
         if (new_denoised) uploaded_denoised_ = c.denoised;
         uploaded_gains_ = gains;
-        display_.begin(look);
+        display_.begin(current_pictures);
         begun_ = true;
-        answers_ = look_ != look;
-        look_ = look;
+        shows_requested_view_ = look_ != current_pictures;
+        look_ = current_pictures;
         shader_changed_ = false;
     }
     drew_display_ = display_.busy();
     // After a change of view settings or mix, the user waits for the current picture and for the new one.
-    const bool awaited = look_ != look || answers_ || thinned_by_ > 1;
-    display_.advance(pace.left(awaited ? asked_frame : usual_frame, FramePace::Clock::now()));
+    const bool awaited = look_ != current_pictures || shows_requested_view_ || preview_step_ > 1;
+    display_.advance(pace.left(awaited ? view_change_frame : default_frame, FrameBudget::Clock::now()));
     if (display_.busy()) {
-        c.ui.next_frame_in = 0;
+        c.ui.seconds_to_next_frame = 0;
     } else if (begun_) {
-        begun_ = answers_ = false;
+        begun_ = shows_requested_view_ = false;
         shown_frame_ = uploaded_frame_;
         shown_gains_ = uploaded_gains_;
-        shown_thinned_by_ = thinned_by_;
+        shown_preview_step_ = preview_step_;
         // the next one may be ready
-        c.ui.next_frame_in = thinned_by_ == 1 ? 0 : std::min(c.ui.next_frame_in, std::chrono::duration<double>(mix_rests_after).count());
+        c.ui.seconds_to_next_frame = preview_step_ == 1 ? 0 : std::min(c.ui.seconds_to_next_frame, std::chrono::duration<double>(mix_pause_after).count());
     }
 }
 
 // For a render region.
-void Viewport::draw_surroundings(PanelContext& c, const ImageRect& image, const FramePace& pace) {
+void Viewport::draw_surroundings(PanelContext& c, const ImageRect& image, const FrameBudget& pace) {
     const PictureRegion& region = c.project().render.region;
-    if (shown_frame_->whole) surroundings_.remember(shown_frame_, uploaded_denoised_);
+    if (shown_frame_->whole) region_backdrop_.remember(shown_frame_, uploaded_denoised_);
     if (region == PictureRegion{}) return;
-    if (!surroundings_.update(look_, uploaded_view_, pace)) c.ui.next_frame_in = 0;
+    if (!region_backdrop_.update(look_, uploaded_view_, pace)) c.ui.seconds_to_next_frame = 0;
     ImDrawList& draw = *ImGui::GetWindowDrawList();
-    if (surroundings_.ready()) surroundings_.draw(draw, image, region);
-    draw_rendered_region(draw, image, region, !surroundings_.ready());
+    if (region_backdrop_.ready()) region_backdrop_.draw(draw, image, region);
+    draw_rendered_region(draw, image, region, !region_backdrop_.ready());
 }
 
 // A layer of its own over the picture: blending a full layer would cost as much as the picture.
@@ -263,7 +263,7 @@ void Viewport::draw_outline(const PanelContext& c, const ImageRect& image) {
 void Viewport::draw_picture(PanelContext& c, const ImageRect& image, bool outlined) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const GLuint picture = display_.texture();
-    set_filter(picture, c.ui.zoom.scale >= 1 && shown_frame_->divider == 1 && shown_thinned_by_ == 1 ? GL_NEAREST : GL_LINEAR);
+    set_filter(picture, c.ui.zoom.scale >= 1 && shown_frame_->divider == 1 && shown_preview_step_ == 1 ? GL_NEAREST : GL_LINEAR);
     // opaque: blending would only cost time
     draw.AddCallback([](const ImDrawList*, const ImDrawCmd*) { glDisable(GL_BLEND); }, nullptr);
     // clipped to the window: coordinates far outside lose precision
@@ -291,12 +291,12 @@ void Viewport::draw_caption(const PanelContext& c, const ImageRect& image) const
     write_caption(image, caption_of(*shown_frame_, uploaded_view_).c_str());
 }
 
-void Viewport::obey(PanelContext& c, const NavigationResult& wish, const Projection& projection, const ImageRect& image) {
+void Viewport::handle_requests(PanelContext& c, const NavigationResult& wish, const Projection& projection, const ImageRect& image) {
     if (wish.view) {
         const bool was_home = is_at_home(c.scene(), c.ui.home);
         c.document.navigate(*wish.view);
-        carry_light_along(c);
-        if (was_home) carry_camera_along(c);
+        move_light_to_view(c);
+        if (was_home) move_camera_to_view(c);
     }
     if (wish.begins_exposure) {
         exposure_gesture_ = c.ui.gestures.begin();
@@ -305,7 +305,7 @@ void Viewport::obey(PanelContext& c, const NavigationResult& wish, const Project
     if (wish.brighter != 0) expose(c, wish.brighter, exposure_gesture_);
     zoom_picture(c, wish);
     if (wish.turned != 0) turn_surroundings(c, wish.turned);
-    if (wish.flying) c.ui.next_frame_in = 0;
+    if (wish.flying) c.ui.seconds_to_next_frame = 0;
     if (wish.focus) focus_at(c, projection, image.u(wish.focus->x), image.v(wish.focus->y));
     if (wish.inspect && image.contains(wish.inspect->x, wish.inspect->y)) inspect(c, image.u(wish.inspect->x), image.v(wish.inspect->y));
     if (wish.select) {
@@ -323,9 +323,9 @@ void Viewport::obey(PanelContext& c, const NavigationResult& wish, const Project
     }
 }
 
-ImageRect Viewport::draw(PanelContext& c, const FramePace& pace) {
+ImageRect Viewport::draw(PanelContext& c, const FrameBudget& pace) {
     take_frame(c, pace);
-    const ImageRect image = place_picture(c);
+    const ImageRect image = viewport_picture_rect(c);
     ImGui::SetCursorPos({0, 0});
     ImGui::InvisibleButton("picture", ImGui::GetWindowSize(),
                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
@@ -335,7 +335,7 @@ ImageRect Viewport::draw(PanelContext& c, const FramePace& pace) {
     if (hovered && image.contains(mouse.x, mouse.y)) c.ui.cursor = PicturePoint{image.u(mouse.x), image.v(mouse.y)};
     if (!c.frame) {
         shown_frame_ = uploaded_frame_ = nullptr; // nothing is displayed any more
-        surroundings_.forget();
+        region_backdrop_.forget();
     }
     if (!shown_frame_) {
         transformer_.abandon(c);
@@ -345,7 +345,7 @@ ImageRect Viewport::draw(PanelContext& c, const FramePace& pace) {
         return image;
     }
     draw_picture(c, image, c.ui.settings.overlays && c.scene().nodes.contains(c.ui.selected));
-    follow_looked_through(c);
+    move_view_to_light(c);
     compare_.draw(c, image, visible_part(image), look_, pace);
     const View view = c.scene().view;
     const Projection projection(view, double(image.width) / image.height);
@@ -366,20 +366,20 @@ ImageRect Viewport::draw(PanelContext& c, const FramePace& pace) {
     draw_map_scale(draw, seen, *shown_frame_, uploaded_view_);
     draw_caption(c, seen);
     // the hint of an active transform is at the toolbar's position
-    if (c.ui.settings.overlays && !transformer_.under_way()) draw_aov_bar(c, seen);
+    if (c.ui.settings.overlays && !transformer_.is_active()) draw_aov_bar(c, seen);
     navigate(c, projection, image, hovered, taken);
     return image;
 }
 
-ImageRect Viewport::draw_alone(PanelContext& c, const FramePace& pace, const char* caption) {
+ImageRect Viewport::draw_alone(PanelContext& c, const FrameBudget& pace, const char* caption) {
     transformer_.abandon(c);
     take_frame(c, pace);
-    const ImageRect image = place_picture(c);
+    const ImageRect image = viewport_picture_rect(c);
     if (!shown_frame_) {
         draw_centred("Preparing the first image");
         return image;
     }
-    surroundings_.forget(); // they belong to the previous scene
+    region_backdrop_.forget(); // they belong to the previous scene
     draw_picture(c, image, false);
     write_caption(visible_part(image), caption);
     return image;
@@ -393,11 +393,11 @@ bool Viewport::draw_overlays(PanelContext& c, const Projection& projection, cons
     bool taken = false;
     if (c.ui.settings.overlays) {
         draw_light_glyphs(draw, c.scene(), projection, image, c.ui);
-        const bool by_hand = c.ui.placing_by == PlacingBy::hand && !(c.ui.looked_through && c.ui.looked_through->node == c.ui.selected);
+        const bool by_hand = c.ui.placing_by == PlacingBy::hand && !(c.ui.light_camera && c.ui.light_camera->node == c.ui.selected);
         if (by_hand) taken = handles_.update(c, draw, projection, image, hovered);
         taken |= draw_environment_dial(c, draw, projection, seen, hovered && !taken);
     }
-    if (const Light* light = looked_through_light(c); light && c.ui.placing_by == PlacingBy::hand)
+    if (const Light* light = light_camera_light(c); light && c.ui.placing_by == PlacingBy::hand)
         draw_hint(draw, "Looking through " + light->name + ": moving the view moves the light.  L or Esc: back");
     taken |= place_tool_.update(c, draw, projection, image, hovered);
     taken |= transformer_.update(c, draw, projection, image);
@@ -408,7 +408,7 @@ bool Viewport::draw_overlays(PanelContext& c, const Projection& projection, cons
 void Viewport::navigate(PanelContext& c, const Projection& projection, const ImageRect& image, bool hovered, bool on_handle) {
     const NavigationResult wish = navigation_.update(c.scene().view, image, hovered, !on_handle);
     if (navigation_.busy() && !navigating_) c.ui.gestures.begin();
-    obey(c, wish, projection, image);
+    handle_requests(c, wish, projection, image);
     if (!navigation_.busy() && navigating_) c.ui.gestures.end();
     navigating_ = navigation_.busy();
 }

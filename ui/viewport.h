@@ -25,9 +25,9 @@ public:
 
     // Fills the current ImGui window and returns the picture's rectangle. Continues to draw a new picture as long as `pace` has
     // time.
-    ImageRect draw(PanelContext& c, const FramePace& pace);
+    ImageRect draw(PanelContext& c, const FrameBudget& pace);
     // As draw(), but without interaction and overlays, except for `caption`, which gives the reason.
-    ImageRect draw_alone(PanelContext& c, const FramePace& pace, const char* caption);
+    ImageRect draw_alone(PanelContext& c, const FrameBudget& pace, const char* caption);
     // The displayed frame; null before the first.
     const FramePtr& shown() const { return shown_frame_; }
     // The gains of its light groups as displayed; empty without groups.
@@ -35,25 +35,25 @@ public:
     // True if the pictures are displayed with these gains.
     bool shows(const PictureMix& mix) const { return shown_frame_ && !begun_ && look_.mix == mix; }
     // True if it temporarily shows a lower resolution, while a light mix is edited.
-    bool is_thinned() const { return thinned_by_ > 1 || shown_thinned_by_ > 1; }
+    bool is_thinned() const { return preview_step_ > 1 || shown_preview_step_ > 1; }
 
 private:
-    void take_frame(PanelContext& c, const FramePace& pace);
+    void take_frame(PanelContext& c, const FrameBudget& pace);
     void upload_frame(const FramePtr& shown, const PictureView& view, const Gains& gains, bool background_as_it_is);
     void upload_denoised(const DenoisedPtr& denoised, const Gains& gains);
-    void upload_thinned(const MovedMix& moved, const Gains& gains, int step);
+    void upload_thinned(const MixPreviewSource& moved, const Gains& gains, int step);
     void draw_picture(PanelContext& c, const ImageRect& image, bool outlined);
-    void draw_surroundings(PanelContext& c, const ImageRect& image, const FramePace& pace);
+    void draw_surroundings(PanelContext& c, const ImageRect& image, const FrameBudget& pace);
     void draw_outline(const PanelContext& c, const ImageRect& image);
     void draw_caption(const PanelContext& c, const ImageRect& image) const;
     bool draw_overlays(PanelContext& c, const Projection& projection, const ImageRect& image, bool hovered);
     void navigate(PanelContext& c, const Projection& projection, const ImageRect& image, bool hovered, bool on_handle);
-    void obey(PanelContext& c, const NavigationResult& wish, const Projection& projection, const ImageRect& image);
+    void handle_requests(PanelContext& c, const NavigationResult& wish, const Projection& projection, const ImageRect& image);
 
     DisplayPass display_;
     OutlinePass outline_;
     CompareView compare_;
-    RegionSurroundings surroundings_;
+    RegionBackdrop region_backdrop_;
     Navigation navigation_;
     bool navigating_ = false; // in the last frame; its edits are one undo step
     Handles handles_;
@@ -66,14 +66,14 @@ private:
     PictureView uploaded_view_;
     DenoisedPtr uploaded_denoised_;
     Gains uploaded_gains_, shown_gains_;        // of raw and denoised picture
-    int thinned_by_ = 1, shown_thinned_by_ = 1; // only every n-th pixel of a row, and every n-th row, of both
-    FramePace::TimePoint mix_moved_{};          // last edit of the mix
+    int preview_step_ = 1, shown_preview_step_ = 1; // only every n-th pixel of a row, and every n-th row, of both
+    FrameBudget::TimePoint mix_edited_at_{};          // last edit of the mix
     MixPreview preview_;
     std::shared_ptr<std::vector<float>> mixed_, mixed_denoised_; // mixed pictures, kept to reuse their memory
     Workers workers_{0};                                         // for mixing planes
     DisplayLook look_;
     bool shader_changed_ = false, begun_ = false;
-    bool answers_ = false;      // the picture in progress has the last requested view settings
+    bool shows_requested_view_ = false;      // the picture in progress has the last requested view settings
     bool drew_display_ = false; // in this UI frame
     struct Outlined {
         FramePtr frame;

@@ -67,13 +67,13 @@ bool Fields::finish(const char* label, const char* tip, bool changed) {
     const unsigned id = ImGui::GetItemID();
     if (ImGui::IsItemActivated()) {
         ui_.gestures.begin();
-        ui_.values.in_hand = id;
+        ui_.values.active_item = id;
     }
     if (changed) {
         changed_ = true;
         gesture_ = ui_.gestures.current();
     }
-    if (ImGui::IsItemDeactivated() && ui_.values.in_hand == id) ui_.gestures.end();
+    if (ImGui::IsItemDeactivated() && ui_.values.active_item == id) ui_.gestures.end();
     if (!ImGui::IsItemActive()) tip_for_last_item(ui_, tip);
     ui_.probe.record_last_item(std::string(scope_) + "/" + label);
     return changed;
@@ -81,11 +81,11 @@ bool Fields::finish(const char* label, const char* tip, bool changed) {
 
 bool Fields::obey_wish(const std::string& name, float& value, const NumberStyle& style, float reset, Vec3* all, bool color) {
     const std::string path = std::string(scope_) + "/" + name;
-    switch (value_wish(ui_, path, false, all != nullptr)) {
-    case ValueWish::copy: copy_text(ui_, number_text(value)); return false;
-    case ValueWish::copy_all: copy_text(ui_, triple_text(*all)); return false;
-    case ValueWish::reset: return std::exchange(value, reset) != reset;
-    case ValueWish::paste: {
+    switch (value_action(ui_, path, false, all != nullptr)) {
+    case ValueAction::copy: copy_text(ui_, number_text(value)); return false;
+    case ValueAction::copy_all: copy_text(ui_, triple_text(*all)); return false;
+    case ValueAction::reset: return std::exchange(value, reset) != reset;
+    case ValueAction::paste: {
         const std::string text = pasted_text();
         if (const auto number = pasted_number(text, style.unit)) {
             const float wanted = float(std::clamp(*number, double(style.min), double(style.max)));
@@ -93,7 +93,7 @@ bool Fields::obey_wish(const std::string& name, float& value, const NumberStyle&
         }
         const auto three = !all ? std::nullopt : color ? pasted_color(text) : pasted_triple(text);
         if (!three) {
-            refuse_pasted(ui_, name, all ? "Use a number, or three numbers." : "Use a number.");
+            warn_invalid_paste(ui_, name, all ? "Use a number, or three numbers." : "Use a number.");
             return false;
         }
         const auto clamped = [&](float x) { return std::clamp(x, style.min, style.max); };
@@ -151,14 +151,14 @@ bool Fields::integer(const char* label, int64_t& value, int64_t min, int64_t max
     const float speed = std::max(0.1f, float(std::abs(value)) * 0.01f);
     int64_t edited = value;
     bool changed = ImGui::DragScalar("##value", ImGuiDataType_S64, &edited, drag_speed(speed), &min, &max, "%lld", ImGuiSliderFlags_AlwaysClamp);
-    switch (value_wish(ui_, std::string(scope_) + "/" + label, false, false)) {
-    case ValueWish::copy: copy_text(ui_, std::to_string(value)); break;
-    case ValueWish::reset: edited = reset; break;
-    case ValueWish::paste:
+    switch (value_action(ui_, std::string(scope_) + "/" + label, false, false)) {
+    case ValueAction::copy: copy_text(ui_, std::to_string(value)); break;
+    case ValueAction::reset: edited = reset; break;
+    case ValueAction::paste:
         if (const auto number = pasted_number(pasted_text()))
             edited = int64_t(std::clamp(std::round(*number), -9e18, 9e18));
         else
-            refuse_pasted(ui_, label, "Use a number.");
+            warn_invalid_paste(ui_, label, "Use a number.");
         break;
     default: break;
     }
@@ -243,7 +243,7 @@ bool Fields::text(const char* label, std::string& value, const char* tip) {
     ImGui::PushID(label);
     begin_row(label, tip);
     std::string edited = value;
-    fitting_input(ui_, "##value", edited, ImGuiInputTextFlags_AutoSelectAll);
+    elided_input(ui_, "##value", edited, ImGuiInputTextFlags_AutoSelectAll);
     const bool changed = ImGui::IsItemDeactivatedAfterEdit() && edited != value;
     if (changed) value = edited;
     ImGui::PopID();
@@ -265,7 +265,7 @@ bool Fields::removable(const std::string& name) {
     const float right = ImGui::GetWindowContentRegionMax().x;
     ImGui::SetCursorPosX(label_width() + ImGui::GetStyle().FramePadding.x);
     ImGui::AlignTextToFramePadding();
-    fitting_text(ui_, name, tone::text, ImGui::GetContentRegionAvail().x - ImGui::GetFrameHeight() - ImGui::GetStyle().ItemSpacing.x);
+    elided_text(ui_, name, tone::text, ImGui::GetContentRegionAvail().x - ImGui::GetFrameHeight() - ImGui::GetStyle().ItemSpacing.x);
     ImGui::SameLine(right - ImGui::GetFrameHeight());
     const bool pressed = ImGui::Button("×", {ImGui::GetFrameHeight(), 0});
     ui_.probe.record_last_item(std::string(scope_) + "/Remove " + name);
@@ -329,7 +329,7 @@ bool tip_is_due(UiState& ui) {
     if (ui.tip.item != item || frame > ui.tip.frame + 1) ui.tip = {item, ImGui::GetTime(), frame};
     ui.tip.frame = frame;
     const double rested = ImGui::GetTime() - ui.tip.since;
-    if (rested < tip_delay) ui.next_frame_in = std::min(ui.next_frame_in, tip_delay - rested);
+    if (rested < tip_delay) ui.seconds_to_next_frame = std::min(ui.seconds_to_next_frame, tip_delay - rested);
     return rested >= tip_delay;
 }
 
@@ -343,7 +343,7 @@ void tip_for_last_item(UiState& ui, const char* tip) {
     ImGui::BeginTooltip();
     // ImGui hides a new window for the frame in which it measures it; with the mouse at rest nothing else requests the next
     // frame.
-    if (ImGui::IsWindowAppearing()) ui.next_frame_in = 0;
+    if (ImGui::IsWindowAppearing()) ui.seconds_to_next_frame = 0;
     ImGui::PushTextWrapPos(wrap);
     ImGui::TextUnformatted(tip);
     ImGui::PopTextWrapPos();

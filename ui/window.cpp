@@ -167,7 +167,7 @@ void Window::begin_frame() {
 void Window::end_frame() {
     ImGui::Render();
     ImDrawData& drawn = *ImGui::GetDrawData();
-    spare_fill(drawn);
+    reduce_overdraw(drawn);
     // The size at the start of the frame: another query would wait for the display server.
     glViewport(0, 0, GLsizei(drawn.DisplaySize.x * drawn.FramebufferScale.x), GLsizei(drawn.DisplaySize.y * drawn.FramebufferScale.y));
     glDisable(GL_SCISSOR_TEST);

@@ -10,8 +10,8 @@
 namespace blush {
 namespace {
 
-constexpr size_t most_panel_settings = 1000, most_ids = 100000, most_floating_text = 1 << 16;
-constexpr size_t most_snapshots = 64, most_bookmarks = 64, most_instruments = 64;
+constexpr size_t max_panel_settings = 1000, most_ids = 100000, max_floating_text = 1 << 16;
+constexpr size_t max_snapshots = 64, max_bookmarks = 64, max_instruments = 64;
 
 // Reads the entry if it exists with the right type and range; otherwise `value` is unchanged.
 template <class T> void read(const nlohmann::json& json, const char* key, T& value, T low, T high) {
@@ -54,8 +54,8 @@ SceneMemory read_scene(const nlohmann::json& json) {
     read(json, "material", m.material, 0u, UINT32_MAX);
     read_ids(json, "turned", m.turned);
     read(json, "mix_group", m.mix_group);
-    read_strings(json, "snapshots", m.snapshots, most_snapshots);
-    read_strings(json, "instruments", m.instruments, most_instruments);
+    read_strings(json, "snapshots", m.snapshots, max_snapshots);
+    read_strings(json, "instruments", m.instruments, max_instruments);
     return m;
 }
 
@@ -77,7 +77,7 @@ void read_dock(const nlohmann::json& json, Dock& dock) {
         read(entry, "floats", tab.floats);
         tab.side = bottom ? DockSide::bottom : DockSide::right;
         const bool known = std::ranges::count(dock.tabs, tab.id, &DockTab::id) > 0;
-        if (!tab.id.empty() && !known && dock.tabs.size() < most_instruments) dock.tabs.push_back(std::move(tab));
+        if (!tab.id.empty() && !known && dock.tabs.size() < max_instruments) dock.tabs.push_back(std::move(tab));
     }
 }
 
@@ -95,7 +95,7 @@ void read_panels(const nlohmann::json& json, std::map<std::string, double>& pane
     const auto found = json.find("panels");
     if (found == json.end() || !found->is_object()) return;
     for (const auto& [name, value] : found->items())
-        if (value.is_number() && panels.size() < most_panel_settings) panels[name] = value.get<double>();
+        if (value.is_number() && panels.size() < max_panel_settings) panels[name] = value.get<double>();
 }
 
 nlohmann::json scenes_json(const std::vector<SceneMemory>& scenes) {
@@ -132,7 +132,7 @@ WindowSettings read_window_settings(const std::filesystem::path& file) {
     read(json, "outliner", settings.splitters.outliner, 1.f, 100.f);
     read(json, "inspector", settings.splitters.inspector, 1.f, 100.f);
     read_dock(json, settings.dock);
-    read(json, "text_size", settings.text_size, least_text_size, most_text_size);
+    read(json, "text_size", settings.text_size, min_text_size, max_text_size);
     read(json, "follow_viewport", settings.follow_viewport);
     read(json, "overlays", settings.overlays);
     read(json, "snapshot_folder", settings.snapshot_folder);
@@ -143,13 +143,13 @@ WindowSettings read_window_settings(const std::filesystem::path& file) {
     read(json, "desktop_file_dialog", settings.desktop_file_dialog);
     read(json, "browser_folder", settings.browser_folder);
     read(json, "floating", settings.floating);
-    if (settings.floating.size() > most_floating_text) settings.floating.clear();
+    if (settings.floating.size() > max_floating_text) settings.floating.clear();
     read_panels(json, settings.panels);
     if (const auto scenes = json.find("scenes"); scenes != json.end() && scenes->is_array()) {
         for (const auto& entry : *scenes)
             if (settings.scenes.size() < remembered_files) settings.scenes.push_back(read_scene(entry));
     }
-    read_strings(json, "bookmarks", settings.bookmarks, most_bookmarks);
+    read_strings(json, "bookmarks", settings.bookmarks, max_bookmarks);
     read_strings(json, "recent", settings.recent, remembered_files);
     return settings;
 }

@@ -25,7 +25,7 @@ struct SceneMemory {
     bool operator==(const SceneMemory&) const = default;
 };
 constexpr size_t remembered_files = 10;
-constexpr int least_text_size = 80, most_text_size = 200; // per cent
+constexpr int min_text_size = 80, max_text_size = 200; // per cent
 
 struct WindowSettings {
     int width = 1280, height = 800; // of the window, in screen coordinates

@@ -9,21 +9,21 @@
 
 namespace blush {
 
-Result<BegunPicture> read_begun_picture(const std::string& file) {
+Result<ResumeImage> read_resume_image(const std::string& file) {
     const Result<LayeredImage> image = read_layers(file);
     if (!image) return image.error();
     const Result<SnapshotMetadata> metadata = read_snapshot_metadata(image->metadata);
     if (!metadata) return in_file(metadata.error(), file);
     Result<FilmState> film = film_in_file(*image, *metadata);
     if (!film) return in_file(film.error(), file);
-    return BegunPicture{*metadata, *std::move(film)};
+    return ResumeImage{*metadata, *std::move(film)};
 }
 
-Result<LoadedScene> as_begun(LoadedScene loaded, const std::string& scene_file, const BegunPicture& begun, const std::string& file) {
+Result<LoadedScene> scene_at_save(LoadedScene loaded, const std::string& scene_file, const ResumeImage& begun, const std::string& file) {
     const SnapshotMetadata& m = begun.metadata;
     if (scene_hash(loaded.imported) != m.scene_hash)
         return Error{file, fmt::format("was rendered from another scene than {}, or from an older version of it", scene_file), ""};
-    if (edits_left_out(m.edits) > 0) return Error{file, "its scene had edits that are not stored in the picture", "blush:edits left_out"};
+    if (count_left_out(m.edits) > 0) return Error{file, "its scene had edits that are not stored in the picture", "blush:edits left_out"};
     if (m.edits.empty()) return loaded;
     Result<Scene> edited = apply_edits_json(loaded.imported, m.edits);
     if (!edited) return in_file(edited.error(), file);

@@ -10,16 +10,16 @@
 
 namespace blush {
 
-struct BegunPicture {
+struct ResumeImage {
     SnapshotMetadata metadata;
     FilmState film;
 };
 
 // Errors name the file: unreadable, not written by Blush, saved without its film.
-Result<BegunPicture> read_begun_picture(const std::string& file);
+Result<ResumeImage> read_resume_image(const std::string& file);
 
 // The scene of the picture in `file` when it was rendered: `scene_file` with the edits stored in the picture. Errors: another
 // scene, or not all edits are stored in the picture.
-Result<LoadedScene> as_begun(LoadedScene loaded, const std::string& scene_file, const BegunPicture& begun, const std::string& file);
+Result<LoadedScene> scene_at_save(LoadedScene loaded, const std::string& scene_file, const ResumeImage& begun, const std::string& file);
 
 } // namespace blush

@@ -16,7 +16,7 @@
 namespace blush {
 namespace {
 
-constexpr int widest_thumbnail = 400; // pixels
+constexpr int max_thumbnail_width = 400; // pixels
 
 constexpr const char* style = R"(
 body{font:15px/1.5 system-ui,sans-serif;color:#222;background:#fff;max-width:1340px;margin:2rem auto;padding:0 1.5rem}
@@ -46,7 +46,7 @@ std::string base64(std::span<const uint8_t> bytes) {
 
 // Averages square blocks of pixels, to at most the width of a thumbnail.
 RgbImage shrunk(const RgbImage& image) {
-    const int k = (image.width + widest_thumbnail - 1) / widest_thumbnail;
+    const int k = (image.width + max_thumbnail_width - 1) / max_thumbnail_width;
     RgbImage small{std::max(1, image.width / k), std::max(1, image.height / k), {}};
     for (int y = 0; y < small.height; ++y) {
         for (int x = 0; x < small.width; ++x) {

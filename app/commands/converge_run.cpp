@@ -59,7 +59,7 @@ struct Runner {
     }
 };
 
-MeasuredPoint look(const Runner& runner, int repeat, const MeasuredImage& reference, double reference_mse) {
+MeasuredPoint current_pictures(const Runner& runner, int repeat, const MeasuredImage& reference, double reference_mse) {
     MeasuredPoint p{repeat, runner.seconds, runner.samples, {}, repeat == 0, false};
     const Frame frame = runner.renderer->resolve();
     RgbImage image{frame.width, frame.height, {}};
@@ -100,7 +100,7 @@ void conclude(VariantResult& v, const MeasuredImage& reference) {
 // Renders once more at a low resolution, with the same random numbers but without roulette and limit: the difference per bounce
 // is the bias.
 std::vector<RouletteBias> explain(const ConvergeInput& input, const RenderSettings& settings, const std::atomic<bool>& interrupted) {
-    RouletteLab lab({.threads = input.threads, .low_priority = false, .planes = {}});
+    RouletteComparison lab({.threads = input.threads, .low_priority = false, .planes = {}});
     lab.begin(*input.scene, settings);
     for (int round = 0; round < explaining_rounds && !interrupted; ++round) lab.round([&] { return !interrupted; });
     const RouletteReport& report = lab.report();
@@ -137,12 +137,12 @@ ConvergeResult run_converge(const ConvergeInput& input, const MeasuredImage& ref
                 sum += r.fraction(input);
             }
             progress((repeat + sum / double(runners.size())) / input.repeats, fmt::format("repeat {} of {}", repeat + 1, input.repeats));
-            const int turn = next_turn(clocks);
+            const int turn = next_variant(clocks);
             if (turn < 0) break;
             Runner& runner = runners[size_t(turn)];
             runner.take_turn(input);
             if (runner.looks.due(runner.seconds) || runner.done)
-                result.variants[size_t(turn)].points.push_back(look(runner, repeat, reference, reference_mse));
+                result.variants[size_t(turn)].points.push_back(current_pictures(runner, repeat, reference, reference_mse));
         }
         for (size_t v = 0; v < runners.size(); ++v)
             if (runners[v].samples >= 2)

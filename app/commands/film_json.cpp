@@ -80,7 +80,7 @@ bool read_health(const Json& json, const LayeredImage& image, Health& h) {
 }
 
 bool read_mix(const Json& json, std::vector<FilmState::MixedGroup>& mix) {
-    return read_list(json, most_light_groups, mix, [](const Json& item, FilmState::MixedGroup& g) {
+    return read_list(json, max_light_groups, mix, [](const Json& item, FilmState::MixedGroup& g) {
         const auto is_gain = [](float v) { return std::isfinite(v) && v >= 0; };
         return read_numbers(item, g.name, g.gain.x, g.gain.y, g.gain.z) && is_gain(g.gain.x) && is_gain(g.gain.y) && is_gain(g.gain.z);
     });
@@ -88,30 +88,30 @@ bool read_mix(const Json& json, std::vector<FilmState::MixedGroup>& mix) {
 
 // Extracts the planes that are not part of the film itself.
 void take_health_map(FilmState& film, size_t pixels) {
-    if (const ExactPlane* dropped = film.find(dropped_plane)) film.health.dropped_map = dropped->words;
+    if (const LosslessPlane* dropped = film.find(dropped_plane)) film.health.dropped_map = dropped->words;
     if (!film.health.dropped_map.empty()) film.health.dropped_map.resize(pixels);
-    std::erase_if(film.planes, [](const ExactPlane& plane) { return plane.name == dropped_plane; });
+    std::erase_if(film.planes, [](const LosslessPlane& plane) { return plane.name == dropped_plane; });
 }
 
 void take_pilot(FilmState& film, size_t pixels) {
     std::vector<Vec3d> marked(2 * pixels);
     bool all = true;
     for (size_t k = 0; k < pilot_planes.size(); ++k) {
-        const ExactPlane* plane = film.find(pilot_planes[k]);
+        const LosslessPlane* plane = film.find(pilot_planes[k]);
         all = all && plane && plane->sums.size() == pixels;
         for (size_t i = 0; all && i < pixels; ++i) marked[2 * i + k / 3].*channels[k % 3] = plane->sums[i];
     }
     if (all) film.marked = std::move(marked);
-    std::erase_if(film.planes, [](const ExactPlane& plane) { return plane.name.starts_with("pilot."); });
+    std::erase_if(film.planes, [](const LosslessPlane& plane) { return plane.name.starts_with("pilot."); });
 }
 
 } // namespace
 
-std::vector<ExactPlane> planes_in_file(const FilmState& film) {
-    std::vector<ExactPlane> planes = film.planes;
+std::vector<LosslessPlane> planes_in_file(const FilmState& film) {
+    std::vector<LosslessPlane> planes = film.planes;
     if (!film.health.dropped_map.empty()) planes.push_back({dropped_plane, {}, film.health.dropped_map});
     for (size_t k = 0; k < pilot_planes.size() && !film.marked.empty(); ++k) {
-        ExactPlane plane{pilot_planes[k]};
+        LosslessPlane plane{pilot_planes[k]};
         for (size_t i = 0; i < film.marked.size() / 2; ++i) plane.sums.push_back(film.marked[2 * i + k / 3].*channels[k % 3]);
         planes.push_back(std::move(plane));
     }
@@ -147,7 +147,7 @@ Result<FilmState> film_in_file(const LayeredImage& image, const SnapshotMetadata
     if (!read_json(member(*json, "seconds"), film.seconds) || film.seconds < 0) return bad("seconds");
     if (!read_numbers(member(*json, "rays"), film.rays.camera, film.rays.bounce, film.rays.shadow)) return bad("rays");
     if (!read_json(member(*json, "truncated"), film.truncated)) return bad("truncated");
-    if (!read_list(member(*json, "paths"), most_counted_bounces, film.path_counts,
+    if (!read_list(member(*json, "paths"), max_counted_bounces, film.path_counts,
                    [](const Json& item, PathCounts& c) { return read_numbers(item, c.alive, c.asked, c.survived); }))
         return bad("paths");
     if (!read_health(member(*json, "health"), image, film.health)) return bad("health");
@@ -159,7 +159,7 @@ Result<FilmState> film_in_file(const LayeredImage& image, const SnapshotMetadata
                 return bad("shares");
     }
     if (const Json& mix = member(*json, "mix"); !mix.is_null() && !read_mix(mix, film.mix)) return bad("mix");
-    film.planes = exact_planes(image, "film");
+    film.planes = lossless_planes(image, "film");
     const size_t pixels = size_t(image.width) * size_t(image.height);
     take_health_map(film, pixels);
     take_pilot(film, pixels);

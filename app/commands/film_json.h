@@ -12,7 +12,7 @@ namespace blush {
 
 // Input of make_snapshot(): planes and metadata. The map of dropped samples and the pilot statistics of adaptive sampling are
 // additional planes.
-std::vector<ExactPlane> planes_in_file(const FilmState& film);
+std::vector<LosslessPlane> planes_in_file(const FilmState& film);
 std::string film_json(const FilmState& film);
 
 // Restores the film of a picture. Errors: saved without film, damaged text, invalid numbers.

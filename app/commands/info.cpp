@@ -31,7 +31,7 @@ struct LightCounts {
 
 LightCounts count_lights(const Scene& scene) {
     LightCounts counts;
-    Placements placements(scene);
+    WorldTransforms placements(scene);
     for (const auto& [id, node] : scene.nodes) {
         const Light* light = scene.lights.find(node.light);
         if (!light || !placements(id).visible) continue;
@@ -125,9 +125,9 @@ void print_offers(const Scene& scene) {
 }
 
 // One line each, by part.
-void print_uses(const char* title, const Ledger& ledger, bool used) {
+void print_uses(const char* title, const FeatureReport& feature_report, bool used) {
     fmt::print("{}\n", title);
-    for (const FeatureUse& use : ledger)
+    for (const FeatureUse& use : feature_report)
         if (use.used == used) fmt::print("  {:<9} {:<26} {:<52} {}\n", use.part, use.name, use.why, cost_text(use));
 }
 
@@ -169,7 +169,7 @@ int run_info(const InfoCommand& c) {
     renderer.update(loaded->scene, settings);
     Findings findings{renderer.info(), {}};
     if (c.measure) findings.speed = measure_kernel_speed(loaded->scene, settings);
-    findings.info.features = with_made_beside(findings.info.features, c.measure ? measure_made_beside(c.common.threads) : MadeBeside{});
+    findings.info.features = with_command_features(findings.info.features, c.measure ? measure_command_features(c.common.threads) : CommandFeatures{});
     if (const Result<void> written = write_json(c.common.json, info_json(*loaded, findings)); !written) return failed(written.error());
     if (!c.common.quiet && c.common.json != "-") print_info(c, *loaded, findings);
     return exit_done;

@@ -15,10 +15,10 @@ Result<void> write_json(const std::string& target, const OrderedJson& json) {
     return {};
 }
 
-OrderedJson kernel_json(const std::string& kernel, const Ledger& ledger) {
+OrderedJson kernel_json(const std::string& kernel, const FeatureReport& feature_report) {
     const auto known = [](const auto& value, double scale) { return value ? OrderedJson(double(*value) * scale) : OrderedJson(); };
     OrderedJson features = OrderedJson::array(), left_out = OrderedJson::array(), made = OrderedJson::array();
-    for (const FeatureUse& use : ledger) {
+    for (const FeatureUse& use : feature_report) {
         const OrderedJson mib = known(use.bytes, 1.0 / 1048576), ms = known(use.seconds, 1e3);
         if (!use.used)
             left_out.push_back({{"part", use.part}, {"name", use.name}, {"why", use.why}, {"saves_mib", mib}, {"saves_ms", ms}});

@@ -18,6 +18,6 @@ Result<void> write_json(const std::string& target, const OrderedJson& json);
 
 // {name, features: [names of the kernel's features], left_out: [{part, name, why, saves_mib, saves_ms}], made: [{part, name, why,
 // mib, ms}]}; unknown values are null.
-OrderedJson kernel_json(const std::string& kernel, const Ledger& ledger);
+OrderedJson kernel_json(const std::string& kernel, const FeatureReport& feature_report);
 
 } // namespace blush

@@ -17,12 +17,12 @@ constexpr LayerName known[] = {{"albedo", &Layers::albedo}, {"normal", &Layers::
 
 Result<void> switch_on(Layers& layers, std::string_view name) {
     if (name == "bounces") {
-        layers.bounces = usual_bounce_planes;
+        layers.bounces = default_bounce_planes;
         return {};
     }
     if (name.starts_with("bounces=")) {
-        if (parse_number(name.substr(8), layers.bounces) && layers.bounces >= 2 && layers.bounces <= most_bounce_planes) return {};
-        return Error{.what = fmt::format("bounces=N must be a number from 2 to {}, not \"{}\"", most_bounce_planes, name.substr(8))};
+        if (parse_number(name.substr(8), layers.bounces) && layers.bounces >= 2 && layers.bounces <= max_bounce_planes) return {};
+        return Error{.what = fmt::format("bounces=N must be a number from 2 to {}, not \"{}\"", max_bounce_planes, name.substr(8))};
     }
     std::string names;
     for (const LayerName& layer : known) {

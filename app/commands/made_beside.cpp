@@ -18,21 +18,21 @@ template <class Make> std::optional<double> seconds_to(const Make& make) {
 
 } // namespace
 
-Ledger with_made_beside(const Ledger& renderer, const MadeBeside& made) {
-    Ledger ledger = renderer;
-    ledger.push_back(
+FeatureReport with_command_features(const FeatureReport& renderer, const CommandFeatures& made) {
+    FeatureReport feature_report = renderer;
+    feature_report.push_back(
         {"display", "view transform", made.display, made.display ? "the output is display-encoded" : "the output is scene-linear"});
-    ledger.back().seconds = made.display_seconds;
+    feature_report.back().seconds = made.display_seconds;
     std::array<bool, denoise_qualities> loaded{};
     if (made.denoiser) loaded[size_t(*made.denoiser)] = true;
-    for (FeatureUse& use : denoiser_ledger(weights_dir(), loaded)) ledger.push_back(std::move(use));
-    const auto fast = std::ranges::find(ledger, "fast network", &FeatureUse::name);
-    if (fast != ledger.end()) fast->seconds = made.denoiser_seconds;
-    return ledger;
+    for (FeatureUse& use : denoiser_feature_report(weights_dir(), loaded)) feature_report.push_back(std::move(use));
+    const auto fast = std::ranges::find(feature_report, "fast network", &FeatureUse::name);
+    if (fast != feature_report.end()) fast->seconds = made.denoiser_seconds;
+    return feature_report;
 }
 
-MadeBeside measure_made_beside(unsigned threads) {
-    MadeBeside made;
+CommandFeatures measure_command_features(unsigned threads) {
+    CommandFeatures made;
     made.display_seconds = seconds_to([] {
         const Result<ColorManagement> color = ColorManagement::load(assets_dir());
         float grey[3] = {0.18f, 0.18f, 0.18f};

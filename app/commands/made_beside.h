@@ -8,16 +8,16 @@
 
 namespace blush {
 
-struct MadeBeside {
+struct CommandFeatures {
     bool display = false; // view transform used
     std::optional<DenoiseQuality> denoiser;
     std::optional<double> display_seconds, denoiser_seconds; // measured start-up times; of the fast network
 };
 // The renderer's lines, then these.
-Ledger with_made_beside(const Ledger& renderer, const MadeBeside& made);
+FeatureReport with_command_features(const FeatureReport& renderer, const CommandFeatures& made);
 
 // Measures the start-up of the default view's processor and of the denoiser's fast network with one pixel, to show what their
 // absence saves. No time if one fails.
-MadeBeside measure_made_beside(unsigned threads);
+CommandFeatures measure_command_features(unsigned threads);
 
 } // namespace blush

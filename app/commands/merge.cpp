@@ -123,7 +123,7 @@ Result<void> write_sum(const MergeCommand& c, std::vector<Input>& inputs, Snapsh
                         .ids = has("id.object"),
                         .film = true,
                         .groups = groups};
-    const std::vector<ExactPlane> planes = planes_in_file(sum);
+    const std::vector<LosslessPlane> planes = planes_in_file(sum);
     ExtraLayers extra{.film = planes};
     if (layers.error) extra.error = resolved->error;
     const Result<int64_t> written = write_exr_picture(c.output, resolved->frame, extra, layers, metadata);

@@ -78,7 +78,7 @@ Result<int64_t> write_exr_picture(const std::filesystem::path& file, const Frame
     if (!image) return image.error();
     image->display_window = extra.display_window;
     if (const Result<void> written = write_exr(file, *image); !written) return written.error();
-    return beyond_half(*image);
+    return count_beyond_half(*image);
 }
 
 std::vector<float> beauty_rgb(const Frame& frame) {
@@ -90,7 +90,7 @@ std::vector<float> beauty_rgb(const Frame& frame) {
 
 Result<void> write_display_picture(const std::filesystem::path& file, int width, int height, std::vector<float> rgb,
                                    const ColorManagement& color, const ViewSettings& view,
-                                   const std::map<std::string, std::string>& metadata, const ShownWith& with, std::span<const float> opacity) {
+                                   const std::map<std::string, std::string>& metadata, const DisplayPlanes& with, std::span<const float> opacity) {
     const std::string extension = lower_extension(file);
     if (extension == ".png")
         for (size_t i = 0; i < opacity.size(); ++i)

@@ -36,7 +36,7 @@ Result<void> expect_folder(const std::filesystem::path& file);
 struct ExtraLayers {
     std::span<const float> denoised = {};  // width * height * 3
     std::span<const Vec3> error = {};      // result of Renderer::resolve_error
-    std::span<const ExactPlane> film = {}; // from planes_in_file(); the rest of the film is metadata.film
+    std::span<const LosslessPlane> film = {}; // from planes_in_file(); the rest of the film is metadata.film
     bool half = false;                     // as in SnapshotInput
     std::optional<PixelRect> display_window = {}; // the part that is the picture; empty: all of it
 };
@@ -50,7 +50,7 @@ std::vector<float> beauty_rgb(const Frame& frame);
 // PNG as straight alpha, composited over black for a JPEG. Empty: opaque.
 Result<void> write_display_picture(const std::filesystem::path& file, int width, int height, std::vector<float> rgb,
                                    const ColorManagement& color, const ViewSettings& view,
-                                   const std::map<std::string, std::string>& metadata, const ShownWith& with = {},
+                                   const std::map<std::string, std::string>& metadata, const DisplayPlanes& with = {},
                                    std::span<const float> opacity = {});
 // "0.0012 (0.0010 to 0.0014)": the estimated relative error for metadata; empty if unknown.
 std::string error_text(const ErrorEstimate& error);

@@ -61,7 +61,7 @@ struct Plan {
     Layers layers;
     std::optional<PixelRequest> pixel;
     PictureFormat format = PictureFormat::exr;
-    std::optional<BegunPicture> begun; // --continue
+    std::optional<ResumeImage> begun; // --continue
 };
 
 // Result of a render.
@@ -183,10 +183,10 @@ OrderedJson result_json(const RenderCommand& c, const RenderSettings& settings, 
     if (!r.frame.bounces.empty()) json["bounces"] = bounces_json(r.frame);
     if (!r.frame.groups.empty()) json["groups"] = groups_json(r.frame);
     if (settings.clamp.limit > 0) json["clamp"] = clamp_json(settings.clamp, r.frame.clamp);
-    MadeBeside beside;
+    CommandFeatures beside;
     beside.display = is_display_encoded(c.output);
     if (rendered.denoised) beside.denoiser = c.options.denoise;
-    json["kernel"] = kernel_json(rendered.info.kernel, with_made_beside(rendered.info.features, beside));
+    json["kernel"] = kernel_json(rendered.info.kernel, with_command_features(rendered.info.features, beside));
     if (rendered.denoised) json["denoise"] = denoised_json(*rendered.denoised);
     json["peak_memory_mb"] = peak_memory_mb();
     json["output"] = c.output;
@@ -223,7 +223,7 @@ Result<void> write_picture(const RenderCommand& c, const Plan& plan, const Rende
     const Frame& frame = rendered.loop.frame;
     ExtraLayers extra{.error = rendered.error};
     if (rendered.denoised) extra.denoised = rendered.denoised->rgb;
-    const std::vector<ExactPlane> film = rendered.film ? planes_in_file(*rendered.film) : std::vector<ExactPlane>();
+    const std::vector<LosslessPlane> film = rendered.film ? planes_in_file(*rendered.film) : std::vector<LosslessPlane>();
     extra.film = film;
     if (!color) {
         const Result<int64_t> written = write_exr_picture(c.output, frame, extra, plan.layers, metadata);
@@ -291,7 +291,7 @@ Result<Rendered> render_picture(const RenderCommand& c, const Plan& plan, const 
 
 // Settings come from the image, stop rules from the command line.
 Result<void> go_on_with(const std::string& file, Plan& plan) {
-    Result<BegunPicture> begun = read_begun_picture(file);
+    Result<ResumeImage> begun = read_resume_image(file);
     if (!begun) return begun.error();
     const RenderSettings stop = std::exchange(plan.settings, begun->metadata.settings);
     plan.settings.spp = stop.spp;
@@ -340,7 +340,7 @@ int run_render(RenderCommand c) {
         Progress progress(c.common.quiet);
         return load_scene(c.scene, c.options.overrides, aspect, progress, guard.interrupted());
     }();
-    if (loaded && plan->begun) loaded = as_begun(*std::move(loaded), c.scene, *plan->begun, c.begun);
+    if (loaded && plan->begun) loaded = scene_at_save(*std::move(loaded), c.scene, *plan->begun, c.begun);
     if (!loaded) return failed(loaded.error());
     if (const Result<void> fits = fit_size(c, *plan, loaded->camera_aspect); !fits) return bad_usage(fits.error().text());
     if (!c.common.quiet) print_warnings(c.scene, loaded->report.diagnostics);

@@ -31,9 +31,9 @@ int64_t next_batch(int64_t last_count, double last_seconds, int64_t left) {
 }
 
 int64_t next_error_look(int64_t samples) {
-    int64_t look = 2;
-    while (look <= samples) look = std::max(look + 1, look * 5 / 4);
-    return look;
+    int64_t current_pictures = 2;
+    while (current_pictures <= samples) current_pictures = std::max(current_pictures + 1, current_pictures * 5 / 4);
+    return current_pictures;
 }
 
 double stop_progress(const RenderSettings& settings, int64_t samples, double seconds, const ErrorEstimate& error) {
@@ -52,19 +52,19 @@ LoopResult run_render_loop(Renderer& renderer, const RenderSettings& settings, c
     const Stopwatch watch;
     LoopProgress progress = begin;
     progress.fraction = stop_progress(settings, begin.samples, begin.seconds, begin.error);
-    int64_t count = 0, next_look = next_error_look(begin.samples);
+    int64_t count = 0, next_measurement = next_error_look(begin.samples);
     double batch_began = begin.seconds;
     while (progress.fraction < 1 && !interrupted) {
         // Error estimates are made at fixed sample counts, independent of time, so that the result is deterministic.
-        const int64_t end = settings.error > 0 ? std::min(limit, next_look) : limit;
+        const int64_t end = settings.error > 0 ? std::min(limit, next_measurement) : limit;
         count = next_batch(count, progress.seconds - batch_began, end - progress.samples);
         batch_began = progress.seconds;
         renderer.render(settings.first_sample + progress.samples, count);
         progress.samples += count;
         // Reads the whole film, so only when the result can have changed.
-        if (settings.error > 0 && progress.samples >= next_look) {
+        if (settings.error > 0 && progress.samples >= next_measurement) {
             progress.error = renderer.estimate_error();
-            next_look = next_error_look(progress.samples);
+            next_measurement = next_error_look(progress.samples);
         }
         progress.seconds = begin.seconds + watch.seconds();
         progress.fraction = stop_progress(settings, progress.samples, progress.seconds, progress.error);

@@ -29,7 +29,7 @@ template <class T> CLI::Option* add_parsed(CLI::App& app, const std::string& nam
         description);
 }
 
-constexpr float usual_aspect = 16.f / 9; // aspect ratio of the size without --size
+constexpr float default_aspect = 16.f / 9; // aspect ratio of the size without --size
 
 // 0: side not given
 struct Size {
@@ -100,7 +100,7 @@ void add_picture_options(CLI::App& app, RenderOptions& o) {
                o.size_given = true;
                if (o.width_given) o.settings.width = size->width;
                if (o.height_given) o.settings.height = size->height;
-               if (!o.width_given || !o.height_given) follow_aspect(o, usual_aspect);
+               if (!o.width_given || !o.height_given) follow_aspect(o, default_aspect);
            },
            "Size in pixels; for Wx or xH the other side follows the camera's aspect ratio [1280 wide]")
         ->type_name("WxH");
@@ -204,7 +204,7 @@ void add_view_options(CLI::App& app, ViewSettings& view) {
                  "Do not apply exposure, white balance, look and view to the background, only for display output");
     app.add_option("--exposure", view.exposure_ev, "Exposure in stops, only for display output: never in an EXR [0]")->type_name("EV");
     app.add_option("--view", view.view, "View transform, only for display output [the config's default]")->type_name("NAME");
-    app.add_option("--look", view.look, "Look, only for display output [the view's default]")->type_name("NAME");
+    app.add_option("--look", view.current_pictures, "Look, only for display output [the view's default]")->type_name("NAME");
     app.add_option("--display", view.display, "Display, only for display output [the config's default]")->type_name("NAME");
 }
 
@@ -244,7 +244,7 @@ Result<RenderSettings> settings_of(const RenderOptions& options) {
         settings.region = {float(r->x0) / w, float(r->y0) / h, float(r->x1 - r->x0) / w, float(r->y1 - r->y0) / h};
         if (options.adaptive_given && settings.adaptive)
             return Error{.what = "--adaptive and --region exclude each other: adaptive sampling needs the whole picture"};
-        settings = carried_out(settings);
+        settings = effective_settings(settings);
     }
     const bool other_limit = settings.seconds > 0 || settings.error > 0;
     if (other_limit && !options.spp_given && !options.samples_given) settings.spp = 0;

@@ -30,11 +30,11 @@ constexpr auto exact_arithmetic =
     OCIO::OptimizationFlags(OCIO::OPTIMIZATION_LOSSLESS | OCIO::OPTIMIZATION_LUT_INV_FAST | OCIO::OPTIMIZATION_NO_DYNAMIC_PROPERTIES);
 
 // The largest half float: the end of OCIO's tables for scene-linear values.
-constexpr float largest_half = 65504;
-constexpr float smallest_gamma = 0.01f;
+constexpr float max_half = 65504;
+constexpr float min_gamma = 0.01f;
 
 // Limit of a config's size in bytes: ACES configs have less than two million.
-constexpr uint64_t largest_config = 8 << 20;
+constexpr uint64_t max_config_bytes = 8 << 20;
 
 // Names of our working space in common configs, our own first.
 constexpr const char* working_space_names[] = {"Linear Rec.709",          "lin_rec709",
@@ -82,18 +82,18 @@ OCIO::ConstTransformRcPtr display_transform(const OCIO::Config& config, const Di
     } else if (!source) {
         source = OCIO::ROLE_SCENE_LINEAR;
     }
-    if (!names.look.empty()) {
-        auto look = OCIO::LookTransform::Create();
-        look->setSrc(source);
-        look->setDst(source);
-        look->setLooks(names.look.c_str());
-        group->appendTransform(look);
+    if (!names.current_pictures.empty()) {
+        auto current_pictures = OCIO::LookTransform::Create();
+        current_pictures->setSrc(source);
+        current_pictures->setDst(source);
+        current_pictures->setLooks(names.current_pictures.c_str());
+        group->appendTransform(current_pictures);
     }
     auto to_display = OCIO::DisplayViewTransform::Create();
     to_display->setSrc(source);
     to_display->setDisplay(names.display.c_str());
     to_display->setView(names.view.c_str());
-    to_display->setLooksBypass(!names.look.empty());
+    to_display->setLooksBypass(!names.current_pictures.empty());
     group->appendTransform(to_display);
     return group;
 }
@@ -131,8 +131,8 @@ Result<OCIO::ConstProcessorRcPtr> make_processor(const OCIO::Config& config, Dis
     if (!contains(views, names.view))
         return Error{
             {}, fmt::format("no view \"{}\" for display \"{}\"; there are: {}", names.view, names.display, fmt::join(views, ", ")), {}};
-    if (const auto looks = looks_of(config); !names.look.empty() && !contains(looks, names.look))
-        return Error{{}, fmt::format("no look \"{}\"; there are: {}", names.look, fmt::join(looks, ", ")), {}};
+    if (const auto looks = looks_of(config); !names.current_pictures.empty() && !contains(looks, names.current_pictures))
+        return Error{{}, fmt::format("no look \"{}\"; there are: {}", names.current_pictures, fmt::join(looks, ", ")), {}};
     try {
         return config.getProcessor(display_transform(config, names));
     } catch (const std::exception& e) { return failure(e, {}, fmt::format("view \"{}\" of display \"{}\"", names.view, names.display)); }
@@ -142,7 +142,7 @@ Result<OCIO::ConstProcessorRcPtr> make_processor(const OCIO::Config& config, Dis
 // here and not at the first image.
 Result<OCIO::ConstConfigRcPtr> open_config(const std::filesystem::path& file, bool prove_default_view) {
     try {
-        const Result<std::vector<uint8_t>> bytes = read_file(file, largest_config);
+        const Result<std::vector<uint8_t>> bytes = read_file(file, max_config_bytes);
         if (!bytes) return bytes.error();
         std::istringstream text(std::string(bytes->begin(), bytes->end()));
         const OCIO::ConfigRcPtr config = OCIO::Config::CreateFromStream(text)->createEditableCopy();
@@ -158,11 +158,11 @@ Result<OCIO::ConstConfigRcPtr> open_config(const std::filesystem::path& file, bo
 }
 
 // NaN becomes black, infinities the ends of the range.
-float sanitized(float x, float limit = largest_half) { return std::isnan(x) ? 0.0f : std::clamp(x, -limit, limit); }
-Vec3 sanitized(const Vec3& v, float limit = largest_half) { return {sanitized(v.x, limit), sanitized(v.y, limit), sanitized(v.z, limit)}; }
+float sanitized(float x, float limit = max_half) { return std::isnan(x) ? 0.0f : std::clamp(x, -limit, limit); }
+Vec3 sanitized(const Vec3& v, float limit = max_half) { return {sanitized(v.x, limit), sanitized(v.y, limit), sanitized(v.z, limit)}; }
 
 // Limit of scene values: brighter than any light, and safe from overflow in white balance.
-constexpr float largest_scene = 1e30f;
+constexpr float max_scene_value = 1e30f;
 
 float srgb_encoded(float x) { return x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1 / 2.4f) - 0.055f; }
 
@@ -302,20 +302,20 @@ Result<DisplayShader> ColorManagement::display_shader(const DisplayTransform& tr
         description->setResourcePrefix("ocio_");
         (*processor)->getOptimizedGPUProcessor(exact_arithmetic)->extractGpuShaderInfo(description);
         return DisplayShader{fmt::format(shader_frame, fmt::arg("ocio", description->getShaderText()),
-                                         fmt::arg("limit", fmt::format("{:.1f}", largest_half)), fmt::arg("largest_scene", largest_scene),
-                                         fmt::arg("smallest_gamma", smallest_gamma), fmt::arg("bands", false_color_bands),
+                                         fmt::arg("limit", fmt::format("{:.1f}", max_half)), fmt::arg("largest_scene", max_scene_value),
+                                         fmt::arg("smallest_gamma", min_gamma), fmt::arg("bands", false_color_bands),
                                          fmt::arg("false_colors", false_colors.size()), fmt::arg("false_color_list", false_color_list())),
                              luts_of(*description)};
     } catch (const std::exception& e) { return failure(e, {}, "display shader"); }
 }
 
-Result<void> ColorManagement::apply_display(const DisplayTransform& transform, const DisplayNumbers& numbers, float* rgb, size_t count,
+Result<void> ColorManagement::apply_display(const DisplayTransform& transform, const DisplayParameters& numbers, float* rgb, size_t count,
                                             const float* coverage) const {
     auto processor = make_processor(*state_->config, transform);
     if (!processor) return processor.error();
 
     const float gain = std::exp2(numbers.exposure_ev);
-    const float power = 1 / std::max(smallest_gamma, numbers.gamma);
+    const float power = 1 / std::max(min_gamma, numbers.gamma);
     const FalseColorScale& scale = numbers.false_color;
     const bool background = numbers.background_as_it_is && coverage;
     constexpr size_t chunk = 4096; // pixels: fits the L1 cache
@@ -326,7 +326,7 @@ Result<void> ColorManagement::apply_display(const DisplayTransform& transform, c
             const size_t pixels = std::min(chunk, count - done);
             float* const values = rgb + done * 3;
             for (size_t i = 0; i < pixels; ++i) {
-                scene[i] = sanitized({values[3 * i], values[3 * i + 1], values[3 * i + 2]}, largest_scene);
+                scene[i] = sanitized({values[3 * i], values[3 * i + 1], values[3 * i + 2]}, max_scene_value);
                 shown[i] = sanitized(transform_vector(numbers.white_balance, scene[i]) * gain);
             }
             if (scale.of == FalseColorScale::Of::off) {

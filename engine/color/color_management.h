@@ -48,7 +48,7 @@ public:
     Result<DisplayShader> display_shader(const DisplayTransform& transform) const;
     // CPU version of the shader: rgb is count * 3 floats, scene-linear in, display-encoded out, in place. `coverage` is count
     // floats; null: objects cover everything.
-    Result<void> apply_display(const DisplayTransform& transform, const DisplayNumbers& numbers, float* rgb, size_t count,
+    Result<void> apply_display(const DisplayTransform& transform, const DisplayParameters& numbers, float* rgb, size_t count,
                                const float* coverage = nullptr) const;
 
 private:

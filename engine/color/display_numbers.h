@@ -10,19 +10,19 @@ namespace blush {
 
 // Names that select the shader. Empty: the config's default display, the display's default view, and the view's own looks.
 struct DisplayTransform {
-    std::string display = {}, view = {}, look = {};
+    std::string display = {}, view = {}, current_pictures = {};
     bool operator==(const DisplayTransform&) const = default;
 };
 
 // Uniforms of the shader. Order of operations: white balance, exposure, look
 // and view, gamma; false colours replace everything after the exposure.
-struct DisplayNumbers {
+struct DisplayParameters {
     float exposure_ev = 0;
     float gamma = 1;
     Affine white_balance = {}; // of scene-linear values; its translation is ignored
     FalseColorScale false_color = {};
     bool background_as_it_is = false; // the background behind all objects is only clipped and sRGB-encoded
-    bool operator==(const DisplayNumbers&) const = default;
+    bool operator==(const DisplayParameters&) const = default;
 };
 
 } // namespace blush

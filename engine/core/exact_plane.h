@@ -9,12 +9,12 @@
 namespace blush {
 
 // Exactly one of the two vectors is used.
-struct ExactPlane {
+struct LosslessPlane {
     std::string name;
     std::vector<double> sums = {};
     std::vector<uint32_t> words = {};
     size_t size() const { return sums.empty() ? words.size() : sums.size(); }
-    bool operator==(const ExactPlane&) const = default;
+    bool operator==(const LosslessPlane&) const = default;
 };
 
 } // namespace blush

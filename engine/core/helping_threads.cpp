@@ -44,7 +44,7 @@ private:
 
 } // namespace
 
-struct HelpingThreads::State {
+struct TaskQueue::State {
     unsigned threads;
     std::vector<std::function<void()>> waiting; // used without other threads
     tbb::task_arena arena;
@@ -75,16 +75,16 @@ struct HelpingThreads::State {
     }
 };
 
-HelpingThreads::HelpingThreads(unsigned threads)
+TaskQueue::TaskQueue(unsigned threads)
     : state_(std::make_unique<State>(startable_threads(threads ? threads : std::max(1u, std::thread::hardware_concurrency())))) {}
 
-HelpingThreads::~HelpingThreads() {
+TaskQueue::~TaskQueue() {
     try {
         finish();
     } catch (...) {} // exceptions are dropped, see the header
 }
 
-void HelpingThreads::begin(const std::vector<int64_t>& sizes, int64_t large, std::function<void(size_t)> task) {
+void TaskQueue::begin(const std::vector<int64_t>& sizes, int64_t large, std::function<void(size_t)> task) {
     using Task = std::function<void(size_t)>;
     const auto forget = [state = state_.get()](const Task* done) {
         state->from_helpers.receive(); // the last owner
@@ -113,7 +113,7 @@ void HelpingThreads::begin(const std::vector<int64_t>& sizes, int64_t large, std
         state_->arena.execute(begin_all);
 }
 
-void HelpingThreads::finish() {
+void TaskQueue::finish() {
     for (const auto& work : std::exchange(state_->waiting, {})) work();
     if (state_->alone()) return;
     try {

@@ -11,14 +11,14 @@ namespace blush {
 
 // Threads of a task queue. They have the priority of the creating thread (low beside a window) and its floating-point settings,
 // so that results do not depend on the thread.
-class HelpingThreads {
+class TaskQueue {
 public:
     // `threads` includes the calling one; 0: one per core. With 1 all tasks run in finish().
-    explicit HelpingThreads(unsigned threads = 0);
+    explicit TaskQueue(unsigned threads = 0);
     // Waits for running tasks; exceptions are dropped.
-    ~HelpingThreads();
-    HelpingThreads(const HelpingThreads&) = delete;
-    HelpingThreads& operator=(const HelpingThreads&) = delete;
+    ~TaskQueue();
+    TaskQueue(const TaskQueue&) = delete;
+    TaskQueue& operator=(const TaskQueue&) = delete;
 
     // Queues task(i) for each of `sizes`, in any order, and returns immediately. Tasks larger than `large` run one at a time
     // beside the others, which limits memory.

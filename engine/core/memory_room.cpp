@@ -37,7 +37,7 @@ std::optional<uint64_t> value_of(const fs::path& file, std::string_view key) {
     return {};
 }
 
-void tighten(MemoryRoom& room, uint64_t limit, uint64_t used, std::string_view limit_of) {
+void tighten(MemoryLimit& room, uint64_t limit, uint64_t used, std::string_view limit_of) {
     room.left = std::min(room.left, limit - std::min(used, limit));
     if (limit >= room.limit) return;
     room.limit = limit;
@@ -51,7 +51,7 @@ constexpr GroupFiles group_v1{"memory.limit_in_bytes", "memory.usage_in_bytes", 
 constexpr GroupFiles group_v2{"memory.max", "memory.current", "inactive_file"};
 
 // A group and its ancestors. In a container the path of the group may be missing, but its root exists.
-void tighten_by_groups(MemoryRoom& room, const fs::path& mount, const fs::path& group, const GroupFiles& files) {
+void tighten_by_groups(MemoryLimit& room, const fs::path& mount, const fs::path& group, const GroupFiles& files) {
     for (fs::path at = group.relative_path();; at = at.parent_path()) {
         const fs::path folder = mount / at;
         const auto limit = number_in(folder / files.limit), used = number_in(folder / files.used);
@@ -62,7 +62,7 @@ void tighten_by_groups(MemoryRoom& room, const fs::path& mount, const fs::path& 
 }
 
 // Lines "0::/path" of cgroup v2 and "N:memory:/path" of v1.
-void tighten_by_groups(MemoryRoom& room, const fs::path& root) {
+void tighten_by_groups(MemoryLimit& room, const fs::path& root) {
     std::ifstream in(root / "proc/self/cgroup");
     for (std::string line; std::getline(in, line);) {
         const size_t first = line.find(':'), second = line.find(':', first + 1);
@@ -76,13 +76,13 @@ void tighten_by_groups(MemoryRoom& room, const fs::path& root) {
 
 } // namespace
 
-std::string MemoryRoom::text() const {
+std::string MemoryLimit::text() const {
     return fmt::format("{:.2g} GB are left, the limit is {:.2g} GB {}", double(left) / 1e9, double(limit) / 1e9, limit_of);
 }
 
-MemoryRoom memory_room(const fs::path& root) {
+MemoryLimit memory_limit(const fs::path& root) {
     constexpr uint64_t unknown = std::numeric_limits<uint64_t>::max();
-    MemoryRoom room{unknown, "of this machine", unknown};
+    MemoryLimit room{unknown, "of this machine", unknown};
     const fs::path memory = root / "proc/meminfo";
     if (const auto total = value_of(memory, "MemTotal:"))
         tighten(room, *total << 10, (*total - std::min(*total, value_of(memory, "MemAvailable:").value_or(*total))) << 10, "of this machine");

@@ -8,7 +8,7 @@
 
 namespace blush {
 
-struct MemoryRoom {
+struct MemoryLimit {
     uint64_t limit = 0;        // bytes: the smallest limit
     std::string_view limit_of; // its source: "of this machine", "by ulimit -v", "of its control group"
     uint64_t left = 0;         // bytes available within all limits
@@ -19,6 +19,6 @@ struct MemoryRoom {
 // From physical memory (MemTotal, MemAvailable), RLIMIT_AS minus the address space in use, and the memory limits of the process's
 // control groups (v1 and v2) up to the root; reclaimable page cache counts as free. Reads a few small files: about 50 us. `root`:
 // parent of /proc and /sys, for tests.
-MemoryRoom memory_room(const std::filesystem::path& root = "/");
+MemoryLimit memory_limit(const std::filesystem::path& root = "/");
 
 } // namespace blush

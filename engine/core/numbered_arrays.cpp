@@ -63,16 +63,16 @@ private:
 // Never destroyed: payloads with static lifetime return their ranges at exit.
 struct Addresses {
     std::mutex mutex;
-    FreeNumbers vertices{most_numbers(Numbering::vertices)}, indices{most_numbers(Numbering::indices)};
+    FreeNumbers vertices{arena_capacity(ArenaKind::vertices)}, indices{arena_capacity(ArenaKind::indices)};
     std::map<Attribute, Stretch> attributes;
     std::optional<Stretch> index_stretch;
 
-    FreeNumbers& free(Numbering numbering) { return numbering == Numbering::vertices ? vertices : indices; }
+    FreeNumbers& free(ArenaKind numbering) { return numbering == ArenaKind::vertices ? vertices : indices; }
     void* attribute(Attribute which, size_t element_bytes) {
-        return attributes.try_emplace(which, element_bytes, most_numbers(Numbering::vertices)).first->second.base();
+        return attributes.try_emplace(which, element_bytes, arena_capacity(ArenaKind::vertices)).first->second.base();
     }
     void* index() {
-        if (!index_stretch) index_stretch.emplace(sizeof(uint32_t), most_numbers(Numbering::indices));
+        if (!index_stretch) index_stretch.emplace(sizeof(uint32_t), arena_capacity(ArenaKind::indices));
         return index_stretch->base();
     }
 };
@@ -83,23 +83,23 @@ Addresses& addresses() {
 
 } // namespace
 
-NumbersPtr take_numbers(Numbering numbering, size_t count) {
-    if (count > size_t(most_numbers(numbering))) return {};
+ArenaRangePtr reserve_arena_range(ArenaKind numbering, size_t count) {
+    if (count > size_t(arena_capacity(numbering))) return {};
     Addresses& a = addresses();
     const int64_t rounded = std::max<int64_t>(1, (int64_t(count) + granule - 1) / granule) * granule;
     std::optional<int64_t> first;
     {
         const std::lock_guard lock(a.mutex);
-        const bool reserved = numbering == Numbering::indices ? a.index() : a.attribute(Attribute::positions, 3 * sizeof(float));
+        const bool reserved = numbering == ArenaKind::indices ? a.index() : a.attribute(Attribute::positions, 3 * sizeof(float));
         if (reserved) first = a.free(numbering).take(rounded);
     }
-    return first ? std::make_shared<const NumberRange>(numbering, *first, rounded) : nullptr;
+    return first ? std::make_shared<const ArenaRange>(numbering, *first, rounded) : nullptr;
 }
 
-NumberRange::~NumberRange() {
+ArenaRange::~ArenaRange() {
     Addresses& a = addresses();
     const std::lock_guard lock(a.mutex);
-    if (numbering_ == Numbering::indices)
+    if (numbering_ == ArenaKind::indices)
         a.index_stretch->forget(first_, count_);
     else
         for (const auto& [attribute, stretch] : a.attributes) stretch.forget(first_, count_);

@@ -11,29 +11,29 @@
 
 namespace blush {
 
-enum class Numbering { vertices, indices };
+enum class ArenaKind { vertices, indices };
 
 // A range of element offsets that is owned exclusively. The destructor returns the offsets and their memory. Thread-safe.
-class NumberRange {
+class ArenaRange {
 public:
-    NumberRange(Numbering numbering, int64_t first, int64_t count) : numbering_(numbering), first_(first), count_(count) {}
-    ~NumberRange();
-    NumberRange(const NumberRange&) = delete;
-    NumberRange& operator=(const NumberRange&) = delete;
+    ArenaRange(ArenaKind numbering, int64_t first, int64_t count) : numbering_(numbering), first_(first), count_(count) {}
+    ~ArenaRange();
+    ArenaRange(const ArenaRange&) = delete;
+    ArenaRange& operator=(const ArenaRange&) = delete;
 
     int64_t first() const { return first_; }
 
 private:
-    Numbering numbering_;
+    ArenaKind numbering_;
     int64_t first_, count_;
 };
-using NumbersPtr = std::shared_ptr<const NumberRange>;
+using ArenaRangePtr = std::shared_ptr<const ArenaRange>;
 
 // Reserves `count` offsets. Null if no free range is large enough or if addresses cannot be reserved (ulimit -v): arrays are then
 // on the heap and are copied.
-NumbersPtr take_numbers(Numbering numbering, size_t count);
+ArenaRangePtr reserve_arena_range(ArenaKind numbering, size_t count);
 // Size of the arena in elements: vertices * 4 and indices stay below 2^31, as kernels require.
-constexpr int64_t most_numbers(Numbering numbering) { return numbering == Numbering::vertices ? int64_t(1) << 29 : (int64_t(1) << 31) - 4096; }
+constexpr int64_t arena_capacity(ArenaKind numbering) { return numbering == ArenaKind::vertices ? int64_t(1) << 29 : (int64_t(1) << 31) - 4096; }
 
 // Vertex attributes; UV set n is first_uv + n.
 enum class Attribute : int { positions, normals, tangents, colors, first_uv };
@@ -51,28 +51,28 @@ inline uint32_t* index_base() { return static_cast<uint32_t*>(detail::index_base
 
 // Vector allocator: uses its arena address if exactly the expected number of elements is requested, else the heap. Copied vectors
 // go to the heap, moved ones stay in the arena.
-template <class T> class PlacedAllocator {
+template <class T> class ArenaAllocator {
 public:
     using value_type = T;
     using propagate_on_container_move_assignment = std::true_type;
     using propagate_on_container_swap = std::true_type;
     using is_always_equal = std::false_type;
 
-    PlacedAllocator() = default;
-    PlacedAllocator(T* place, size_t count) : place_(place), count_(count) {}
-    template <class U> PlacedAllocator(const PlacedAllocator<U>&) {}
-    PlacedAllocator select_on_container_copy_construction() const { return {}; }
+    ArenaAllocator() = default;
+    ArenaAllocator(T* place, size_t count) : place_(place), count_(count) {}
+    template <class U> ArenaAllocator(const ArenaAllocator<U>&) {}
+    ArenaAllocator select_on_container_copy_construction() const { return {}; }
 
     T* allocate(size_t n) { return place_ && n == count_ ? place_ : std::allocator<T>().allocate(n); }
     void deallocate(T* p, size_t n) {
         if (p != place_) std::allocator<T>().deallocate(p, n);
     }
-    bool operator==(const PlacedAllocator& other) const { return place_ == other.place_; }
+    bool operator==(const ArenaAllocator& other) const { return place_ == other.place_; }
 
 private:
     T* place_ = nullptr;
     size_t count_ = 0;
 };
-template <class T> using PlacedVector = std::vector<T, PlacedAllocator<T>>;
+template <class T> using ArenaVector = std::vector<T, ArenaAllocator<T>>;
 
 } // namespace blush

@@ -39,9 +39,9 @@ float next_round_number(float x) {
 
 } // namespace
 
-DisplayTransform transform_of(const ViewSettings& view) { return {view.display, view.view, view.look}; }
+DisplayTransform transform_of(const ViewSettings& view) { return {view.display, view.view, view.current_pictures}; }
 
-DisplayNumbers numbers_of(const ViewSettings& view) {
+DisplayParameters display_parameters_of(const ViewSettings& view) {
     return {view.exposure_ev, view.gamma, white_balance(view.white), scale_of(view.false_color), view.background_as_it_is};
 }
 
@@ -61,7 +61,7 @@ ViewSettings settled(const ViewSettings& view, float metered_ev) {
     return v;
 }
 
-float stops_from_grey(const DisplayNumbers& numbers, const Vec3& scene) {
+float stops_from_grey(const DisplayParameters& numbers, const Vec3& scene) {
     return std::log2(luminance(transform_vector(numbers.white_balance, scene)) / 0.18f) + numbers.exposure_ev;
 }
 
@@ -74,7 +74,7 @@ FalseColor fitted(const FalseColor& scale, std::span<const float> values, int ch
     return std::isfinite(f.high) ? f : scale;
 }
 
-Result<void> show(const ColorManagement& color, const ViewSettings& view, std::span<float> rgb, const ShownWith& with) {
+Result<void> show(const ColorManagement& color, const ViewSettings& view, std::span<float> rgb, const DisplayPlanes& with) {
     const ViewSettings v = settled(view, metered_exposure(view.auto_exposure, rgb, 3));
     if (v.false_color.of == FalseColor::Of::lux) {
         if (with.albedo.size() != rgb.size() / 3)
@@ -82,7 +82,7 @@ Result<void> show(const ColorManagement& color, const ViewSettings& view, std::s
         to_illuminance(rgb, with.albedo);
     }
     const float* coverage = with.coverage.size() == rgb.size() / 3 ? with.coverage.data() : nullptr;
-    return color.apply_display(transform_of(v), numbers_of(v), rgb.data(), rgb.size() / 3, coverage);
+    return color.apply_display(transform_of(v), display_parameters_of(v), rgb.data(), rgb.size() / 3, coverage);
 }
 
 } // namespace blush

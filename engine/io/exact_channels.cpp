@@ -15,7 +15,7 @@ void add_words(LayeredImage& image, std::string name, std::vector<uint32_t> word
 
 } // namespace
 
-void add_exact_plane(LayeredImage& image, const std::string& layer, const ExactPlane& plane) {
+void add_lossless_plane(LayeredImage& image, const std::string& layer, const LosslessPlane& plane) {
     const std::string name = layer + "." + plane.name;
     if (plane.sums.empty()) return add_words(image, name + std::string(word), plane.words);
     std::vector<uint32_t> upper, lower;
@@ -30,8 +30,8 @@ void add_exact_plane(LayeredImage& image, const std::string& layer, const ExactP
     add_words(image, name + std::string(low), std::move(lower));
 }
 
-std::vector<ExactPlane> exact_planes(const LayeredImage& image, const std::string& layer) {
-    std::vector<ExactPlane> planes;
+std::vector<LosslessPlane> lossless_planes(const LayeredImage& image, const std::string& layer) {
+    std::vector<LosslessPlane> planes;
     const std::string prefix = layer + ".";
     for (const LayeredImage::Channel& channel : image.channels) {
         const std::string_view name = channel.name;
@@ -42,7 +42,7 @@ std::vector<ExactPlane> exact_planes(const LayeredImage& image, const std::strin
         } else if (name.ends_with(high)) {
             const LayeredImage::Channel* lower = image.find(prefix + without(high) + std::string(low));
             if (!lower || !lower->is_uint) continue;
-            ExactPlane plane{without(high)};
+            LosslessPlane plane{without(high)};
             plane.sums.resize(channel.words.size());
             for (size_t i = 0; i < plane.sums.size(); ++i)
                 plane.sums[i] = std::bit_cast<double>(uint64_t(channel.words[i]) << 32 | lower->words[i]);

@@ -10,8 +10,8 @@
 namespace blush {
 
 // Channel names: LAYER.NAME.high and LAYER.NAME.low hold the bits of a double, LAYER.NAME.word an integer.
-void add_exact_plane(LayeredImage& image, const std::string& layer, const ExactPlane& plane);
+void add_lossless_plane(LayeredImage& image, const std::string& layer, const LosslessPlane& plane);
 // All planes of the layer, in the order of the file's channels. Ignores channels with other names.
-std::vector<ExactPlane> exact_planes(const LayeredImage& image, const std::string& layer);
+std::vector<LosslessPlane> lossless_planes(const LayeredImage& image, const std::string& layer);
 
 } // namespace blush

@@ -138,9 +138,9 @@ std::vector<Id<Clip>> import_animations(const GltfContext& context, const GltfIn
     std::vector<uint32_t> wanted;
     for (size_t i = 0; i < context.model().animations.size(); ++i) {
         clips.push_back(reader.read(i));
-        wanted.push_back(wanted_id(gltf_item(context.json(), "animations", i)));
+        wanted.push_back(requested_id(gltf_item(context.json(), "animations", i)));
     }
-    return add_numbered(scene.clips, std::move(clips), wanted);
+    return add_with_ids(scene.clips, std::move(clips), wanted);
 }
 
 } // namespace blush

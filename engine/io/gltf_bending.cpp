@@ -125,12 +125,12 @@ template <class V> std::vector<V> picked(const std::vector<V>& values, std::span
 
 bool is_influence(const std::string& attribute) { return attribute.starts_with("JOINTS_") || attribute.starts_with("WEIGHTS_"); }
 
-Result<void> read_bending(const GltfContext& context, const tinygltf::Primitive& primitive, Geometry& g, const std::string& where) {
+Result<void> read_deformation(const GltfContext& context, const tinygltf::Primitive& primitive, Geometry& g, const std::string& where) {
     if (const auto ok = read_targets(context, primitive, g, where); !ok) return ok;
     return read_influences(context, primitive, g, where);
 }
 
-void limit_bending(const GltfContext& context, Scene& scene) {
+void limit_deformation(const GltfContext& context, Scene& scene) {
     const auto vertices_that_bend = [&](const Node& node) {
         const Mesh* mesh = scene.meshes.find(node.mesh);
         size_t count = 0;
@@ -144,7 +144,7 @@ void limit_bending(const GltfContext& context, Scene& scene) {
     for (const auto& [id, node] : scene.nodes) {
         const size_t count = vertices_that_bend(node);
         sum += count;
-        if (count > 0 && sum > most_bent_vertices) at_rest.insert(id);
+        if (count > 0 && sum > max_deformed_vertices) at_rest.insert(id);
     }
     if (at_rest.empty()) return;
     for (const Id<Node> id : at_rest) {
@@ -160,11 +160,11 @@ void limit_bending(const GltfContext& context, Scene& scene) {
         scene.clips.set(id, std::move(clip));
     }
     context.warn(fmt::format("ignored: skins and morph targets of {} nodes; the limit is {} deformed vertices", at_rest.size(),
-                             most_bent_vertices),
+                             max_deformed_vertices),
                  "nodes");
 }
 
-void unweld_bending(Geometry& g) {
+void unweld_deformation(Geometry& g) {
     for (MorphTargetPtr& target : g.targets)
         target = std::make_shared<const MorphTarget>(
             MorphTarget{picked(target->positions, g.indices), picked(target->normals, g.indices), picked(target->tangents, g.indices)});

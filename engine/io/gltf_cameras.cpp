@@ -23,8 +23,8 @@ Lens read_lens(const GltfContext& context, const tinygltf::Camera& source, const
             context.warn("negative magnification: the absolute value is used", where + ".orthographic.ymag");
         lens.ymag = checked(context, std::abs(source.orthographic.ymag), 1, smallest_length, any_float, where + ".orthographic.ymag");
     } else {
-        constexpr float narrowest = 1e-4f, widest = std::numbers::pi_v<float> - 1e-4f;
-        lens.yfov_radians = checked(context, source.perspective.yfov, lens.yfov_radians, narrowest, widest, where + ".perspective.yfov");
+        constexpr float min_decades = 1e-4f, max_interval_ratio = std::numbers::pi_v<float> - 1e-4f;
+        lens.yfov_radians = checked(context, source.perspective.yfov, lens.yfov_radians, min_decades, max_interval_ratio, where + ".perspective.yfov");
     }
     const GltfObject blush = GltfObject(context, source.extras, where + ".extras").object("blush");
     lens.aperture_radius = blush.number("aperture_radius", 0, 0, any_float);
@@ -51,9 +51,9 @@ std::vector<Id<Camera>> import_cameras(const GltfContext& context, Scene& scene)
         const ParsedGltf& object = gltf_item(context.json(), "cameras", i);
         read_extras(context, object, camera, where);
         cameras.push_back(std::move(camera));
-        wanted.push_back(wanted_id(object));
+        wanted.push_back(requested_id(object));
     }
-    const std::vector<Id<Camera>> ids = add_numbered(scene.cameras, std::move(cameras), wanted);
+    const std::vector<Id<Camera>> ids = add_with_ids(scene.cameras, std::move(cameras), wanted);
     if (!ids.empty())
         context.note("ignored: clipping planes of cameras; their aspect ratio is only a frame in the window, the image size sets "
                      "the rendered aspect",

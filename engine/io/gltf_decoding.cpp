@@ -156,7 +156,7 @@ struct ImageDecoding::State {
     std::vector<bool> expected;
     std::atomic<size_t> done = 0;
     std::atomic<bool> waited_for = false, given_up = false;
-    HelpingThreads helpers; // declared last, so that the threads end before the data they use
+    TaskQueue helpers; // declared last, so that the threads end before the data they use
 
     explicit State(const GltfContext& c)
         : context(c), images(c.model().images.size()), expected(images.size()), helpers(c.options.threads) {}
@@ -202,7 +202,7 @@ ImagePtr ImageDecoding::image(int index) const { return is_expected(index) ? sta
 
 bool ImageDecoding::is_done() const { return state_->done == state_->files.size(); }
 
-bool ImageDecoding::is_as_promised() const {
+bool ImageDecoding::all_decoded() const {
     for (size_t i = 0; i < state_->images.size(); ++i)
         if (state_->expected[i] && !state_->images[i]) return false;
     return true;

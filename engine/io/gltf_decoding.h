@@ -24,7 +24,7 @@ public:
     // cancelled.
     Result<void> finish();
     // After finish(): true if all expected images could be decoded.
-    bool is_as_promised() const;
+    bool all_decoded() const;
     // After finish(): the image; null if it could not be decoded.
     ImagePtr image(int index) const;
 

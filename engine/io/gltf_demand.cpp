@@ -9,7 +9,7 @@ namespace {
 
 // Limits of the decoded size: always allowed, and as a multiple of the buffers' size. Valid files whose primitives share one
 // vertex array reach dozens.
-constexpr double free_bytes = 128e6, most_readings = 64;
+constexpr double free_bytes = 128e6, max_decoded_ratio = 64;
 
 // Every component is decoded to a float. Unreadable accessors are reported when they are read.
 double bytes_of(const GltfContext& context, int index) {
@@ -22,7 +22,7 @@ double bytes_of(const GltfContext& context, int index) {
 
 } // namespace
 
-double bytes_asked_by(const GltfContext& context, const tinygltf::Primitive& primitive) {
+double decoded_bytes(const GltfContext& context, const tinygltf::Primitive& primitive) {
     double bytes = bytes_of(context, primitive.indices);
     for (const auto& [name, accessor] : primitive.attributes) bytes += bytes_of(context, accessor);
     for (const auto& target : primitive.targets)
@@ -30,7 +30,7 @@ double bytes_asked_by(const GltfContext& context, const tinygltf::Primitive& pri
     return bytes;
 }
 
-Result<void> check_demand(const GltfContext& context, const std::vector<int>& nodes) {
+Result<void> check_size_limits(const GltfContext& context, const std::vector<int>& nodes) {
     const tinygltf::Model& model = context.model();
     std::vector<bool> counted(model.meshes.size());
     double asked = 0, there = 0;
@@ -38,13 +38,13 @@ Result<void> check_demand(const GltfContext& context, const std::vector<int>& no
         const int mesh = model.nodes[size_t(node)].mesh;
         if (mesh < 0 || size_t(mesh) >= counted.size() || counted[size_t(mesh)]) continue;
         counted[size_t(mesh)] = true;
-        for (const tinygltf::Primitive& primitive : model.meshes[size_t(mesh)].primitives) asked += bytes_asked_by(context, primitive);
+        for (const tinygltf::Primitive& primitive : model.meshes[size_t(mesh)].primitives) asked += decoded_bytes(context, primitive);
     }
     for (const tinygltf::Animation& animation : model.animations)
         for (const tinygltf::AnimationSampler& sampler : animation.samplers) asked += bytes_of(context, sampler.input) + bytes_of(context, sampler.output);
     for (const tinygltf::Skin& skin : model.skins) asked += bytes_of(context, skin.inverseBindMatrices);
     for (const tinygltf::Buffer& buffer : model.buffers) there += double(buffer.data.size());
-    if (asked <= free_bytes + most_readings * there) return {};
+    if (asked <= free_bytes + max_decoded_ratio * there) return {};
     return context.error(fmt::format("its meshes and animations need {:.0f} MB when decoded, but its buffers have only {:.3g} MB",
                                      asked / 1e6, there / 1e6),
                          "accessors");

@@ -121,7 +121,7 @@ size_t element_bytes(const tinygltf::Accessor& accessor) {
 // Checks the JSON and the Draco header before allocation.
 struct PackedMeshes {
     const GltfContext& context;
-    UnpackingRoom& room;
+    DecompressionLimit& room;
     std::vector<Packed> found = {};
     std::vector<int64_t> sizes = {}; // decompressed, for as many vertices as triangles; the library allows three times as many
 
@@ -187,7 +187,7 @@ Result<void> unpack(const GltfContext& context, Packed& packed) {
 }
 
 int add(GltfSource& source, tinygltf::Accessor accessor, size_t count, std::vector<uint8_t> bytes) {
-    accessor.bufferView = add_unpacked_view(source, std::move(bytes));
+    accessor.bufferView = add_decompressed_view(source, std::move(bytes));
     accessor.byteOffset = 0;
     accessor.count = count;
     accessor.sparse.isSparse = false;
@@ -210,14 +210,14 @@ void take_unpacked(GltfSource& source, Packed& packed) {
 
 } // namespace
 
-Result<void> unpack_draco(GltfSource& source, const GltfContext& context, UnpackingRoom& room) {
+Result<void> decompress_draco(GltfSource& source, const GltfContext& context, DecompressionLimit& room) {
     constexpr int64_t large = int64_t(1) << 26; // bytes: the decoder needs several times as much
     PackedMeshes packed{context, room};
     for (size_t m = 0; m < source.model.meshes.size(); ++m)
         for (size_t p = 0; p < source.model.meshes[m].primitives.size(); ++p)
             if (const auto ok = packed.add(source.model.meshes[m].primitives[p], fmt::format("meshes[{}].primitives[{}]", m, p)); !ok)
                 return ok;
-    const auto read = read_side_by_side(context, {packed.sizes, large, "unpacking", 0.1, 0.3, context.options.threads},
+    const auto read = read_in_parallel(context, {packed.sizes, large, "unpacking", 0.1, 0.3, context.options.threads},
                                         [&](const GltfContext& own, size_t i) { return unpack(own, packed.found[i]); });
     if (!read) return read;
     for (Packed& each : packed.found) take_unpacked(source, each);

@@ -9,6 +9,6 @@ namespace blush {
 // buffers added to `source`. Primitives whose accessors have bytes use those. `context` must belong to `source`. Reports progress
 // from 0.1 to 0.3. Errors: a buffer view out of range, data that is not a Draco mesh of bitstream 2.2, a missing attribute, a
 // mesh larger than its bytes can describe, more than `room` allows, cancelled.
-Result<void> unpack_draco(GltfSource& source, const GltfContext& context, UnpackingRoom& room);
+Result<void> decompress_draco(GltfSource& source, const GltfContext& context, DecompressionLimit& room);
 
 } // namespace blush

@@ -228,7 +228,7 @@ Result<EditedGltf> edited_gltf(const GltfOrigin& origin, const Project& project)
     write_nodes(document, before->scene, scene);
     write_animations(document, scene);
     write_fallbacks(document, scene);
-    if (const int unused = remove_unused(document, used_before, counts_before))
+    if (const int unused = prune_unused(document, used_before, counts_before))
         edited.diagnostics.push_back(
             {Diagnostic::Severity::note,
              fmt::format("{} unused objects stay in the file: it has unknown extensions that may refer to them", unused), ""});

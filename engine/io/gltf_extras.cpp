@@ -3,7 +3,7 @@
 namespace blush {
 namespace {
 
-constexpr size_t most_values = 10000; // in the fields of one record
+constexpr size_t max_values = 10000; // in the fields of one record
 
 // Number of values inside `json`, counted up to `limit`. Recursion is safe: nesting is limited before.
 size_t values_in(const ParsedGltf& json, size_t limit) {
@@ -32,7 +32,7 @@ const ParsedGltf& gltf_light(const ParsedGltf& root, std::string_view extension,
 
 const ParsedGltf& blush_extras(const ParsedGltf& object) { return gltf_member(gltf_member(object, "extras"), "blush"); }
 
-uint32_t wanted_id(const ParsedGltf& object) {
+uint32_t requested_id(const ParsedGltf& object) {
     const ParsedGltf& id = gltf_member(blush_extras(object), "id");
     if (!id.is_number_unsigned()) return 0;
     const uint64_t value = id.get<uint64_t>();
@@ -47,7 +47,7 @@ bool is_fallback(const ParsedGltf& object) {
 Json blush_fields(const GltfContext& context, const ParsedGltf& object, const char* key, const std::string& where) {
     const ParsedGltf& fields = gltf_member(blush_extras(object), key);
     if (fields.is_null()) return {};
-    if (!fields.is_object() || values_in(fields, most_values) >= most_values) {
+    if (!fields.is_object() || values_in(fields, max_values) >= max_values) {
         context.warn("ignored: not an object, or too large", where);
         return {};
     }

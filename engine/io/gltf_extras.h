@@ -29,7 +29,7 @@ const ParsedGltf& gltf_light(const ParsedGltf& root, std::string_view extension,
 
 const ParsedGltf& blush_extras(const ParsedGltf& object);
 // The id that extras.blush.id asks for; 0: none.
-uint32_t wanted_id(const ParsedGltf& object);
+uint32_t requested_id(const ParsedGltf& object);
 bool is_fallback(const ParsedGltf& object);
 
 // extras.blush[key]; null if absent or, with a warning, too large.

@@ -106,7 +106,7 @@ void report_undeclared(const GltfContext& context) {
 
 } // namespace
 
-void report_grammar(const GltfContext& context) {
+void check_schema(const GltfContext& context) {
     const json& root = context.json();
     for (const Member& member : members) {
         const json::json_pointer path(member.path);

@@ -7,6 +7,6 @@ namespace blush {
 
 // Warns about members of the wrong type (read as absent), extensions that are used but not declared, nodes with both matrix and
 // TRS, and meshes without primitives.
-void report_grammar(const GltfContext& context);
+void check_schema(const GltfContext& context);
 
 } // namespace blush

@@ -87,7 +87,7 @@ Result<void> convert(const GltfContext& context, const std::vector<int>& nodes, 
     if (!meshes) return meshes.error();
     const Result<LightIds> lights = import_lights(context, nodes, scene);
     if (!lights) return lights.error();
-    const NodeTargets targets{meshes->ids, *lights, import_cameras(context, scene), number_skins(context)};
+    const NodeTargets targets{meshes->ids, *lights, import_cameras(context, scene), assign_skin_ids(context)};
     const auto node_ids = import_nodes(context, nodes, targets, scene);
     if (!node_ids) return node_ids.error();
 
@@ -101,12 +101,12 @@ Result<void> convert(const GltfContext& context, const std::vector<int>& nodes, 
     indices.skins = indices_of(targets.skins);
     if (const auto ok = import_skins(context, indices, scene); !ok) return ok;
     indices.clips = indices_of(import_animations(context, indices, scene));
-    limit_bending(context, scene);
+    limit_deformation(context, scene);
 
     if (!context.known) report_units(context, scene, indices);
     const auto shown = default_scene(context);
     import_scene_names(context, scene);
-    if (shown) import_staging(context, *shown, indices, scene);
+    if (shown) import_scene_selection(context, *shown, indices, scene);
     scene.view = initial_view(scene);
     if (shown)
         if (const auto ok = import_scene_extras(context, *shown, imported); !ok) return ok;
@@ -133,20 +133,20 @@ Result<void> convert_gltf(const GltfContext& context, ImportedScene& imported) {
     report_file(context);
     const auto nodes = reachable_nodes(context);
     if (!nodes) return nodes.error();
-    if (const auto ok = check_demand(context, *nodes); !ok) return ok.error();
+    if (const auto ok = check_size_limits(context, *nodes); !ok) return ok.error();
     context.progress(0.3, "meshes");
     Result<TextureImport> textures = TextureImport::begin(context);
     if (!textures) return textures.error();
 
     ImportedScene scene;
     Result<void> converted = convert(context.reporting_to(scene.report), *nodes, *textures, scene);
-    if (converted && context.options.on_untextured && !textures->is_done()) {
+    if (converted && context.options.on_preview_scene && !textures->is_done()) {
         ImportedScene shown = scene;
-        shown.scene = untextured(shown.scene);
-        context.options.on_untextured(shown);
+        shown.scene = preview_scene(shown.scene);
+        context.options.on_preview_scene(shown);
     }
     if (const auto ok = textures->finish(context); !ok) return ok;
-    if (!textures->are_as_promised()) { // meshes were converted for textures that cannot be decoded
+    if (!textures->all_decoded_textures()) { // meshes were converted for textures that cannot be decoded
         ImportOptions silent = context.options; // progress was reported already
         silent.on_progress = {};
         scene = {};

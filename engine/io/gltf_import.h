@@ -41,7 +41,7 @@ struct ImportOptions {
     int64_t texture_bytes = int64_t(4) << 30; // limit of all decoded textures; the largest are halved until they fit
     // Called once on the importing thread if textures take longer than the rest, with the preview scene (untextured.h). Textures
     // may still turn out to be unreadable, and the import may still be cancelled.
-    std::function<void(const ImportedScene&)> on_untextured = {};
+    std::function<void(const ImportedScene&)> on_preview_scene = {};
 };
 
 // Imports the file's default scene, the saved view or that of the first camera (or one framed around the geometry), lights of

@@ -129,23 +129,23 @@ Result<LightIds> import_lights(const GltfContext& context, const std::vector<int
     const size_t punctual = context.model().lights.size();
     for (size_t i = 0; i < punctual; ++i) {
         lights.push_back(read_punctual(context, i));
-        wanted.push_back(wanted_id(gltf_light(context.json(), "KHR_lights_punctual", i)));
+        wanted.push_back(requested_id(gltf_light(context.json(), "KHR_lights_punctual", i)));
     }
     const ParsedGltf& area = gltf_member(gltf_member(gltf_member(context.json(), "extensions"), "EXT_lights_area"), "lights");
     for (size_t i = 0; i < area.size() && area.is_array(); ++i) {
         lights.push_back(read_area(context, area[i], i));
-        wanted.push_back(wanted_id(area[i]));
+        wanted.push_back(requested_id(area[i]));
     }
     const auto first_measured = std::ptrdiff_t(lights.size());
-    Result<MeasuredLights> measured = read_measured_lights(context, nodes);
+    Result<IesLights> measured = read_ies_lights(context, nodes);
     if (!measured) return measured.error();
     const ParsedGltf& profiles = gltf_member(gltf_member(gltf_member(context.json(), "extensions"), "EXT_lights_ies"), "lights");
     for (size_t i = 0; i < measured->lights.size(); ++i) {
         const bool first_of_profile = i == 0 || measured->profiles[i] != measured->profiles[i - 1];
         lights.push_back(std::move(measured->lights[i]));
-        wanted.push_back(first_of_profile ? wanted_id(gltf_element(profiles, size_t(measured->profiles[i]))) : 0);
+        wanted.push_back(first_of_profile ? requested_id(gltf_element(profiles, size_t(measured->profiles[i]))) : 0);
     }
-    const std::vector<Id<Light>> ids = add_numbered(scene.lights, std::move(lights), wanted);
+    const std::vector<Id<Light>> ids = add_with_ids(scene.lights, std::move(lights), wanted);
     const auto middle = ids.begin() + std::ptrdiff_t(punctual), end = ids.begin() + first_measured;
     return LightIds{{ids.begin(), middle}, {middle, end}, {end, ids.end()}, *std::move(measured)};
 }
@@ -157,8 +157,8 @@ void index_lights(const LightIds& ids, GltfIndices& indices) {
     };
     add(ids.punctual, GltfLight::List::punctual, [](size_t i) { return int(i); });
     add(ids.area, GltfLight::List::area, [](size_t i) { return int(i); });
-    add(ids.measured, GltfLight::List::measured, [&](size_t i) { return ids.measured_as.profiles[i]; });
-    indices.profile_peaks = ids.measured_as.peaks;
+    add(ids.measured, GltfLight::List::measured, [&](size_t i) { return ids.ies_lights.profiles[i]; });
+    indices.profile_peaks = ids.ies_lights.peaks;
 }
 
 Result<Environment> import_environment(const GltfContext& context, const ParsedGltf& gltf_scene, const std::string& scene_where,

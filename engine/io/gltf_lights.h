@@ -11,9 +11,9 @@ namespace blush {
 // Ids of the lights in the lists of the extensions; none for lights that are not supported.
 struct LightIds {
     std::vector<Id<Light>> punctual, area, measured;
-    MeasuredLights measured_as;
+    IesLights ies_lights;
 };
-// `nodes`: indices of all nodes in scenes. Errors: as of read_measured_lights.
+// `nodes`: indices of all nodes in scenes. Errors: as of read_ies_lights.
 Result<LightIds> import_lights(const GltfContext& context, const std::vector<int>& nodes, Scene& scene);
 // Records the list and index of each light.
 void index_lights(const LightIds& ids, GltfIndices& indices);

@@ -55,8 +55,8 @@ private:
         }
         const GltfObject transform = extensions.object("KHR_texture_transform");
         uv_set = transform.integer("texCoord").value_or(uv_set);
-        if (uv_set < 0 || uv_set > most_uv_set) {
-            context_.warn(fmt::format("ignored: a texture on TEXCOORD_{}; UV sets range from 0 to {}", uv_set, most_uv_set),
+        if (uv_set < 0 || uv_set > max_uv_set) {
+            context_.warn(fmt::format("ignored: a texture on TEXCOORD_{}; UV sets range from 0 to {}", uv_set, max_uv_set),
                           where);
             return ref;
         }
@@ -255,10 +255,10 @@ Result<std::vector<Id<Material>>> import_materials(const GltfContext& context, c
         if (!material) return material.error();
         read_extras(context, object, *material, fmt::format("materials[{}]", i));
         materials[i] = *std::move(material);
-        wanted[i] = wanted_id(object);
+        wanted[i] = requested_id(object);
     }
     report_back_faces(context);
-    return add_numbered(scene.materials, std::move(materials), wanted);
+    return add_with_ids(scene.materials, std::move(materials), wanted);
 }
 
 } // namespace blush

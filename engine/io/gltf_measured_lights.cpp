@@ -105,8 +105,8 @@ Light light_of(const GltfContext& context, const ParsedGltf& json, const Profile
 
 } // namespace
 
-Result<MeasuredLights> read_measured_lights(const GltfContext& context, const std::vector<int>& nodes) {
-    MeasuredLights measured;
+Result<IesLights> read_ies_lights(const GltfContext& context, const std::vector<int>& nodes) {
+    IesLights measured;
     const ParsedGltf& list = gltf_member(gltf_member(gltf_member(context.json(), "extensions"), extension), "lights");
     const Result<std::vector<Instance>> instances = instances_of(context, nodes, list.is_array() ? list.size() : 0);
     if (!instances) return instances.error();

@@ -11,7 +11,7 @@
 namespace blush {
 
 // One light per distinct profile, factor and colour that reachable nodes use, sorted by profile, then by node.
-struct MeasuredLights {
+struct IesLights {
     std::vector<std::optional<Light>> lights; // none if the profile cannot be read
     std::vector<int> profiles;                // by light: index of its profile
     std::map<int, size_t> by_node;            // node index to light
@@ -19,6 +19,6 @@ struct MeasuredLights {
 };
 
 // `nodes`: indices of all nodes in scenes. A profile that cannot be read is a warning. Errors: a profile that does not exist.
-Result<MeasuredLights> read_measured_lights(const GltfContext& context, const std::vector<int>& nodes);
+Result<IesLights> read_ies_lights(const GltfContext& context, const std::vector<int>& nodes);
 
 } // namespace blush

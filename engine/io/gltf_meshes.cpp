@@ -80,14 +80,14 @@ private:
 // UV sets to keep: the first two, so that textures can be assigned later, and those that textures use. Limited, since meshes with
 // shared data could multiply the size of a small file.
 std::vector<int> kept_uv_sets(const GltfContext& context, const Scene& scene) {
-    constexpr size_t most_sets = 8;
+    constexpr size_t max_kept_uv_sets = 8;
     std::set<int> sets{0, 1};
     for (const auto& [id, material] : scene.materials)
         for (const int set : uv_sets_read(material))
-            if (sets.size() < most_sets || sets.contains(set))
+            if (sets.size() < max_kept_uv_sets || sets.contains(set))
                 sets.insert(set);
             else
-                context.warn(fmt::format("ignored: TEXCOORD_{}; textures use more than {} UV sets", set, most_sets), "materials");
+                context.warn(fmt::format("ignored: TEXCOORD_{}; textures use more than {} UV sets", set, max_kept_uv_sets), "materials");
     return {sets.begin(), sets.end()};
 }
 
@@ -109,8 +109,8 @@ Result<void> read_parts(const MeshReader& reader, std::vector<Part>& parts) {
     const GltfContext& context = reader.context;
     GltfPieces pieces{{}, large, "meshes", 0.3, 0.6, context.known ? 1 : context.options.threads};
     for (const Part& part : parts)
-        pieces.sizes.push_back(int64_t(bytes_asked_by(context, context.model().meshes[part.mesh].primitives[part.primitive])));
-    return read_side_by_side(context, pieces, [&](const GltfContext& own, size_t i) -> Result<void> {
+        pieces.sizes.push_back(int64_t(decoded_bytes(context, context.model().meshes[part.mesh].primitives[part.primitive])));
+    return read_in_parallel(context, pieces, [&](const GltfContext& own, size_t i) -> Result<void> {
         auto read = reader.read(own, parts[i].mesh, parts[i].primitive);
         if (!read) return read.error();
         parts[i].read = *std::move(read);
@@ -140,14 +140,14 @@ Result<ImportedMeshes> import_meshes(const GltfContext& context, const std::vect
     for (size_t i = 0; i < sources.size(); ++i) {
         if (!used[i]) continue;
         meshes[i] = reader.named(i);
-        wanted[i] = wanted_id(gltf_item(context.json(), "meshes", i));
+        wanted[i] = requested_id(gltf_item(context.json(), "meshes", i));
     }
     for (Part& part : parts) {
         if (!part.read) continue;
         meshes[part.mesh]->parts.push_back(*std::move(part.read));
         imported.primitives[part.mesh].push_back(int(part.primitive));
     }
-    imported.ids = add_numbered(scene.meshes, std::move(meshes), wanted);
+    imported.ids = add_with_ids(scene.meshes, std::move(meshes), wanted);
     return imported;
 }
 

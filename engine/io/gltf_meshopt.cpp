@@ -80,7 +80,7 @@ Result<Stream> read_stream(const GltfContext& context, const GltfObject& extensi
 
 } // namespace
 
-Result<void> unpack_meshopt(GltfSource& source, const GltfContext& context, UnpackingRoom& room) {
+Result<void> decompress_meshopt(GltfSource& source, const GltfContext& context, DecompressionLimit& room) {
     std::vector<PackedView> views;
     GltfPieces pieces{{}, large, "unpacking", 0, 0.1, context.options.threads};
     for (size_t i = 0; i < source.model.bufferViews.size(); ++i) {
@@ -94,7 +94,7 @@ Result<void> unpack_meshopt(GltfSource& source, const GltfContext& context, Unpa
         pieces.sizes.push_back(int64_t(stream->unpacked_bytes()));
         views.push_back({i, *std::move(stream), {}});
     }
-    const auto read = read_side_by_side(context, pieces, [&](const GltfContext& own, size_t i) -> Result<void> {
+    const auto read = read_in_parallel(context, pieces, [&](const GltfContext& own, size_t i) -> Result<void> {
         PackedView& view = views[i];
         view.unpacked.resize(size_t(view.stream.unpacked_bytes()));
         if (decode(view.stream, view.unpacked)) return {};
@@ -106,7 +106,7 @@ Result<void> unpack_meshopt(GltfSource& source, const GltfContext& context, Unpa
         if (packed.stream.mode == "ATTRIBUTES") view.byteStride = size_t(packed.stream.stride);
         view.byteLength = packed.unpacked.size();
         view.byteOffset = 0;
-        view.buffer = add_unpacked_buffer(source, std::move(packed.unpacked));
+        view.buffer = add_decompressed_buffer(source, std::move(packed.unpacked));
     }
     return {};
 }

@@ -8,6 +8,6 @@ namespace blush {
 // Decompresses all compressed buffer views in parallel, into buffers added to `source`. `context` must belong to `source`.
 // Reports progress up to 0.1. Errors: a buffer, range or stride that violates the extension, bytes that cannot be decoded, a size
 // beyond what the bytes can describe or `room` allows, cancelled.
-Result<void> unpack_meshopt(GltfSource& source, const GltfContext& context, UnpackingRoom& room);
+Result<void> decompress_meshopt(GltfSource& source, const GltfContext& context, DecompressionLimit& room);
 
 } // namespace blush

@@ -150,7 +150,7 @@ Result<Node> read_node(const GltfContext& context, int index, const NodeTargets&
     const auto mesh = target(context, targets.meshes, source.mesh, "mesh", index);
     const auto light = light_index < 0 ? target(context, targets.lights.area, area_index, "area light", index)
                                        : target(context, targets.lights.punctual, light_index, "light", index);
-    const auto measured = targets.lights.measured_as.by_node.find(index);
+    const auto measured = targets.lights.ies_lights.by_node.find(index);
     const auto camera = target(context, targets.cameras, source.camera, "camera", index);
     if (!mesh) return mesh.error();
     if (!light) return light.error();
@@ -160,7 +160,7 @@ Result<Node> read_node(const GltfContext& context, int index, const NodeTargets&
     if (!instances) return instances.error();
     node.instances = *std::move(instances);
     // An IES light takes precedence over the fallback that the node may have for other programs.
-    node.light = measured == targets.lights.measured_as.by_node.end() ? *light : targets.lights.measured[measured->second];
+    node.light = measured == targets.lights.ies_lights.by_node.end() ? *light : targets.lights.measured[measured->second];
     node.camera = *camera;
     if (node.mesh) {
         const auto skin = target(context, targets.skins, source.skin, "skin", index);
@@ -229,14 +229,14 @@ Result<std::vector<Id<Node>>> import_nodes(const GltfContext& context, const std
         Result<Node> node = read_node(context, index, targets, scenes[size_t(index)]);
         if (!node) return node.error();
         instances += count_instances(scene, *node);
-        if (instances > most_instances)
-            return context.error(fmt::format("more than {} instances of primitives", most_instances),
+        if (instances > max_instances)
+            return context.error(fmt::format("more than {} instances of primitives", max_instances),
                                  node_where(index));
         read.push_back(*std::move(node));
-        wanted.push_back(wanted_id(gltf_item(context.json(), "nodes", size_t(index))));
+        wanted.push_back(requested_id(gltf_item(context.json(), "nodes", size_t(index))));
     }
     // Ids are assigned before nodes are added, since a child may have a lower id than its parent.
-    const std::vector<uint32_t> ids = number_records(wanted);
+    const std::vector<uint32_t> ids = assign_ids(wanted);
     std::vector<Id<Node>> parent_of(count);
     std::vector<Affined> world_from_parent(count);
     for (size_t i = 0; i < nodes.size(); ++i) {
@@ -252,7 +252,7 @@ Result<std::vector<Id<Node>>> import_nodes(const GltfContext& context, const std
             world_from_parent[size_t(child)] = world_from_node;
         }
     }
-    return add_numbered(scene.nodes, std::move(read), wanted);
+    return add_with_ids(scene.nodes, std::move(read), wanted);
 }
 
 } // namespace blush

@@ -4,7 +4,7 @@
 
 namespace blush {
 
-std::vector<uint32_t> number_records(const std::vector<uint32_t>& wanted) {
+std::vector<uint32_t> assign_ids(const std::vector<uint32_t>& wanted) {
     std::unordered_set<uint32_t> claimed;
     std::vector<uint32_t> ids(wanted.size());
     uint32_t largest = 0;

@@ -17,15 +17,15 @@ constexpr uint32_t max_id_in_file = 1u << 22;
 
 // Ids for records in file order: the wanted id (0: none) if no earlier record wants it, else the id of the previous record + 1
 // or, if that is taken, the largest id + 1.
-std::vector<uint32_t> number_records(const std::vector<uint32_t>& wanted);
+std::vector<uint32_t> assign_ids(const std::vector<uint32_t>& wanted);
 
 // Adds the records that are present; result[i] is the id of records[i], or none.
 template <class T>
-std::vector<Id<T>> add_numbered(Table<T>& table, std::vector<std::optional<T>> records, const std::vector<uint32_t>& wanted) {
+std::vector<Id<T>> add_with_ids(Table<T>& table, std::vector<std::optional<T>> records, const std::vector<uint32_t>& wanted) {
     std::vector<uint32_t> wanted_by_present;
     for (size_t i = 0; i < records.size(); ++i)
         if (records[i]) wanted_by_present.push_back(wanted[i]);
-    const std::vector<uint32_t> numbers = number_records(wanted_by_present);
+    const std::vector<uint32_t> numbers = assign_ids(wanted_by_present);
     std::vector<Id<T>> ids(records.size());
     std::vector<std::pair<uint32_t, size_t>> in_id_order;
     for (size_t i = 0, present = 0; i < records.size(); ++i) {

@@ -71,7 +71,7 @@ std::vector<std::pair<uint32_t, uint32_t>> segments_of(const std::vector<uint32_
     return segments;
 }
 
-template <class V> void take(PlacedVector<V>& target, const PlacedVector<V>& source, const std::vector<uint32_t>& origins) {
+template <class V> void take(ArenaVector<V>& target, const ArenaVector<V>& source, const std::vector<uint32_t>& origins) {
     if (source.empty()) return;
     target.reserve(origins.size());
     for (const uint32_t origin : origins) target.push_back(source[origin]);
@@ -79,7 +79,7 @@ template <class V> void take(PlacedVector<V>& target, const PlacedVector<V>& sou
 
 } // namespace
 
-float mark_radius(const PlacedVector<Vec3>& positions) {
+float mark_radius(const ArenaVector<Vec3>& positions) {
     Bounds box;
     for (const Vec3& p : positions) box.include(to_double(p));
     const double diagonal = box.empty ? 0 : length(box.high - box.low);
@@ -96,7 +96,7 @@ Solids solids_of(const Geometry& vertices, const std::vector<uint32_t>& order, i
     size_t asked = 0;
     if (mode == 0) {
         asked = order.size();
-        for (size_t i = 0; i < asked && made.shown < most_points_and_segments; ++i) {
+        for (size_t i = 0; i < asked && made.shown < max_points_and_segments; ++i) {
             if (!is_place(order[i])) continue;
             add_ball(b, order[i], position(order[i]), double(made.radius));
             ++made.shown;
@@ -104,7 +104,7 @@ Solids solids_of(const Geometry& vertices, const std::vector<uint32_t>& order, i
     } else {
         const auto segments = segments_of(order, mode);
         asked = segments.size();
-        for (size_t i = 0; i < asked && made.shown < most_points_and_segments; ++i) {
+        for (size_t i = 0; i < asked && made.shown < max_points_and_segments; ++i) {
             const auto [from, to] = segments[i];
             if (!is_place(from) || !is_place(to) || vertices.positions[from] == vertices.positions[to]) continue;
             add_tube(b, from, to, position(from), position(to), double(made.radius));

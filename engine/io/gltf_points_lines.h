@@ -9,7 +9,7 @@
 namespace blush {
 
 // Limit of points and segments: each becomes about twenty triangles.
-constexpr size_t most_points_and_segments = size_t(1) << 18;
+constexpr size_t max_points_and_segments = size_t(1) << 18;
 
 struct Solids {
     Geometry geometry;  // with smooth normals and the other attributes of the source vertices
@@ -19,7 +19,7 @@ struct Solids {
 };
 
 // Radius relative to the size of the primitive: 1/500 of the diagonal of its bounding box; 5 mm for a single position.
-float mark_radius(const PlacedVector<Vec3>& positions);
+float mark_radius(const ArenaVector<Vec3>& positions);
 
 // Spheres of twenty triangles around the vertices in `order`, or tubes with six sides along its segments; `mode` is glTF's: 0
 // points, 1 lines, 2 a loop, 3 a strip. Indices are below the number of positions.

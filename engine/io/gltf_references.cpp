@@ -89,7 +89,7 @@ void visit_references(std::string_view list_name, Json& object, const std::funct
     if (list_name == "materials" && object.is_object()) visit_textures(object, [&](Json& index) { visit("textures", index); });
 }
 
-bool knows_references(std::string_view extension) {
+bool finds_all_references(std::string_view extension) {
     return extension.starts_with("KHR_materials_") || std::ranges::count(known_extensions, extension) > 0;
 }
 

@@ -15,10 +15,10 @@ inline constexpr std::string_view gltf_lists[] = {"scenes",  "nodes",    "meshes
                                                   "EXT_lights_ies", "EXT_lights_image_based"};
 
 // Calls visit(list, index) for each reference in an object of `list_name`. Finds only references of known extensions: see
-// knows_references.
+// finds_all_references.
 void visit_references(std::string_view list_name, Json& object, const std::function<void(std::string_view list, Json& index)>& visit);
 
 // True if visit_references finds all references that this extension can add.
-bool knows_references(std::string_view extension);
+bool finds_all_references(std::string_view extension);
 
 } // namespace blush

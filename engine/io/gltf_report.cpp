@@ -38,7 +38,7 @@ void report_file(const GltfContext& context) {
     std::istringstream lines(context.source.parser_notes);
     for (std::string line; std::getline(lines, line);)
         if (!line.empty()) context.warn(line.substr(0, 200), "");
-    if (!context.known) report_grammar(context);
+    if (!context.known) check_schema(context);
 }
 
 } // namespace blush

@@ -23,7 +23,7 @@ bool has_changed_on_disk(const GltfOrigin& origin, const std::filesystem::path& 
 }
 
 // IES profiles are saved as files; without one the light has no profile after loading.
-void add_profiles(SavedFiles& files, Table<Light>& lights, std::vector<Diagnostic>& lost) {
+void add_profiles(SaveTransaction& files, Table<Light>& lights, std::vector<Diagnostic>& lost) {
     const Table<Light> before = lights;
     for (auto [id, light] : before) {
         if (!light.ies || light.ies_file.empty()) continue;
@@ -39,7 +39,7 @@ Result<SavedGltf> save(const GltfOrigin& origin, const Project& project, const s
     if (has_changed_on_disk(origin, file))
         return Error{file.string(), "has changed on disk since it was opened: reload it, or save under another name", ""};
     // Referenced files are written first, since the document holds their names.
-    SavedFiles files(origin.file, file);
+    SaveTransaction files(origin.file, file);
     Project named = project;
     std::vector<Diagnostic> lost;
     // The document contains the pixels of an image-based light.

@@ -49,18 +49,18 @@ std::filesystem::path folder_of(const std::filesystem::path& file) {
 
 } // namespace
 
-SavedFiles::SavedFiles(std::filesystem::path origin, std::filesystem::path target)
+SaveTransaction::SaveTransaction(std::filesystem::path origin, std::filesystem::path target)
     : origin_(std::move(origin)), target_(std::move(target)), from_(folder_of(origin_)), to_(folder_of(target_)) {
     std::error_code missing;
     same_folder_ = std::filesystem::equivalent(from_, to_, missing);
 }
 
-SavedFiles::~SavedFiles() {
+SaveTransaction::~SaveTransaction() {
     std::error_code ignored;
     for (const auto& file : made_) std::filesystem::remove(file, ignored);
 }
 
-Result<std::string> SavedFiles::place(const std::string& wanted, std::span<const uint8_t> bytes) {
+Result<std::string> SaveTransaction::place(const std::string& wanted, std::span<const uint8_t> bytes) {
     const std::filesystem::path path(wanted);
     for (int number = 1; number < 10000; ++number) {
         std::filesystem::path name = path;
@@ -80,7 +80,7 @@ Result<std::string> SavedFiles::place(const std::string& wanted, std::span<const
     return Error{(to_ / path).string(), "cannot save: no free file name", ""};
 }
 
-Result<std::string> SavedFiles::place_copy(const std::string& relative) {
+Result<std::string> SaveTransaction::place_copy(const std::string& relative) {
     const Result<std::filesystem::path> source = resolve_uri(from_, relative);
     if (!source) return source.error();
     const auto bytes = read_file(*source, max_file_bytes);
@@ -88,7 +88,7 @@ Result<std::string> SavedFiles::place_copy(const std::string& relative) {
     return place(relative, *bytes);
 }
 
-Result<void> SavedFiles::add_file(std::string& name) {
+Result<void> SaveTransaction::add_file(std::string& name) {
     const std::filesystem::path named(name);
     std::error_code missing;
     if (same_folder_ && resolve_uri(to_, name) && std::filesystem::exists(to_ / named, missing)) return {};
@@ -100,7 +100,7 @@ Result<void> SavedFiles::add_file(std::string& name) {
     return {};
 }
 
-Result<void> SavedFiles::add_environment(Environment& environment) {
+Result<void> SaveTransaction::add_environment(Environment& environment) {
     if (!environment.image || add_file(environment.file)) return {};
     const Image& image = *environment.image;
     LayeredImage layers{image.width, image.height, {}, {}};
@@ -124,7 +124,7 @@ Result<void> SavedFiles::add_environment(Environment& environment) {
     return {};
 }
 
-Result<std::vector<uint8_t>> SavedFiles::buffer_bytes(GltfDocument& document, size_t index, const std::string& original) const {
+Result<std::vector<uint8_t>> SaveTransaction::buffer_bytes(GltfDocument& document, size_t index, const std::string& original) const {
     if (int(index) == document.added_buffer) return document.added;
     const Json& buffer = document.object("buffers", int(index));
     const std::string uri = uri_of(buffer);
@@ -153,7 +153,7 @@ Result<std::vector<uint8_t>> SavedFiles::buffer_bytes(GltfDocument& document, si
     return bytes;
 }
 
-Result<void> SavedFiles::write_beside(GltfDocument& document, const std::string& original) {
+Result<void> SaveTransaction::write_beside(GltfDocument& document, const std::string& original) {
     for (const char* list : {"buffers", "images"}) {
         Json* const objects = document.find_list(list);
         for (size_t i = 0; objects && i < objects->size(); ++i) {
@@ -178,7 +178,7 @@ Result<void> SavedFiles::write_beside(GltfDocument& document, const std::string&
 }
 
 // Merges all buffers and images into one; buffers without bytes are kept behind it.
-Result<std::vector<uint8_t>> SavedFiles::binary_of(GltfDocument& document, const std::string& original) {
+Result<std::vector<uint8_t>> SaveTransaction::binary_of(GltfDocument& document, const std::string& original) {
     std::vector<uint8_t> binary;
     std::vector<size_t> offsets;
     std::vector<int> places;
@@ -226,7 +226,7 @@ Result<std::vector<uint8_t>> SavedFiles::binary_of(GltfDocument& document, const
     return binary;
 }
 
-Result<std::string> SavedFiles::write(GltfDocument& document, const std::string& original) {
+Result<std::string> SaveTransaction::write(GltfDocument& document, const std::string& original) {
     const std::string extension = target_.extension().string();
     std::string text;
     Result<void> written;

@@ -11,13 +11,13 @@
 namespace blush {
 
 // The files of one save. The destructor removes new files unless write() has succeeded.
-class SavedFiles {
+class SaveTransaction {
 public:
     // For a scene that was read from `origin` and is saved as `target`.
-    SavedFiles(std::filesystem::path origin, std::filesystem::path target);
-    ~SavedFiles();
-    SavedFiles(const SavedFiles&) = delete;
-    SavedFiles& operator=(const SavedFiles&) = delete;
+    SaveTransaction(std::filesystem::path origin, std::filesystem::path target);
+    ~SaveTransaction();
+    SaveTransaction(const SaveTransaction&) = delete;
+    SaveTransaction& operator=(const SaveTransaction&) = delete;
 
     // Copies the environment map, if there is one. An image without an existing file is written as EXR.
     Result<void> add_environment(Environment& environment);

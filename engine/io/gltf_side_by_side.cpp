@@ -8,7 +8,7 @@
 
 namespace blush {
 
-Result<void> read_side_by_side(const GltfContext& context, const GltfPieces& pieces,
+Result<void> read_in_parallel(const GltfContext& context, const GltfPieces& pieces,
                                const std::function<Result<void>(const GltfContext& own, size_t i)>& read) {
     struct Outcome {
         ImportReport report;
@@ -18,7 +18,7 @@ Result<void> read_side_by_side(const GltfContext& context, const GltfPieces& pie
     const std::thread::id reporter = std::this_thread::get_id();
     std::vector<Outcome> outcomes(count);
     std::atomic<size_t> done = 0, first_error = count;
-    HelpingThreads helpers(count < 2 ? 1 : pieces.threads);
+    TaskQueue helpers(count < 2 ? 1 : pieces.threads);
     helpers.begin(pieces.sizes, pieces.large, [&](size_t i) {
         if (i > first_error) return;
         const GltfContext own = context.reporting_to(outcomes[i].report);

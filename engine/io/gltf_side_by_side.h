@@ -19,7 +19,7 @@ struct GltfPieces {
 
 // Calls read(own, i) for each piece, where `own` is a context with its own report, and appends the reports to that of `context`
 // in order. After an error later pieces may be skipped. Errors: the first in file order, cancelled.
-Result<void> read_side_by_side(const GltfContext& context, const GltfPieces& pieces,
+Result<void> read_in_parallel(const GltfContext& context, const GltfPieces& pieces,
                                const std::function<Result<void>(const GltfContext& own, size_t i)>& read);
 
 } // namespace blush

@@ -62,11 +62,11 @@ void report_stray_vertices(const GltfContext& context, const Scene& scene) {
 
 } // namespace
 
-std::vector<Id<Skin>> number_skins(const GltfContext& context) {
+std::vector<Id<Skin>> assign_skin_ids(const GltfContext& context) {
     std::vector<uint32_t> wanted;
-    for (size_t i = 0; i < context.model().skins.size(); ++i) wanted.push_back(wanted_id(gltf_item(context.json(), "skins", i)));
+    for (size_t i = 0; i < context.model().skins.size(); ++i) wanted.push_back(requested_id(gltf_item(context.json(), "skins", i)));
     std::vector<Id<Skin>> ids;
-    for (const uint32_t id : number_records(wanted)) ids.push_back({id});
+    for (const uint32_t id : assign_ids(wanted)) ids.push_back({id});
     return ids;
 }
 

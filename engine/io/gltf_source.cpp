@@ -81,7 +81,7 @@ nlohmann::json without_payloads(nlohmann::json root) {
 
 // The file converted for the parser, if it would reject the original.
 std::optional<std::vector<uint8_t>> without_packed_references(const nlohmann::json& root, const std::vector<uint8_t>& file, bool binary) {
-    const std::optional<nlohmann::json> changed = parsable(root);
+    const std::optional<nlohmann::json> changed = parser_compatible(root);
     if (!changed) return {};
     const std::string text = changed->dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     if (!binary) return std::vector<uint8_t>(text.begin(), text.end());
@@ -125,12 +125,12 @@ Result<GltfSource> load_gltf(const std::filesystem::path& file) {
     source.text = std::make_shared<const std::string>(*text);
     const bool binary = text->data() != reinterpret_cast<const char*>(bytes->data());
     const std::optional<std::vector<uint8_t>> changed = without_packed_references(*source.json, *bytes, binary);
-    const std::vector<uint8_t>& parsable = changed ? *changed : *bytes;
-    const auto size = uint32_t(parsable.size());
+    const std::vector<uint8_t>& parser_compatible = changed ? *changed : *bytes;
+    const auto size = uint32_t(parser_compatible.size());
     const auto parsed = parse(source, [&](tinygltf::TinyGLTF& parser, std::string* error, std::string* warning) {
         parser.SetFsCallbacks({file_exists, same_name, read_whole_file, refuse_to_write, &source.folder});
-        return binary ? parser.LoadBinaryFromMemory(&source.model, error, warning, parsable.data(), size)
-                      : parser.LoadASCIIFromString(&source.model, error, warning, reinterpret_cast<const char*>(parsable.data()), size, "");
+        return binary ? parser.LoadBinaryFromMemory(&source.model, error, warning, parser_compatible.data(), size)
+                      : parser.LoadASCIIFromString(&source.model, error, warning, reinterpret_cast<const char*>(parser_compatible.data()), size, "");
     });
     if (!parsed) return parsed.error();
     return source;

@@ -18,11 +18,11 @@ void import_scene_names(const GltfContext& context, Scene& scene) {
     scene.staging.scene = int32_t(*shown);
 }
 
-void import_staging(const GltfContext& context, size_t gltf_scene, const GltfIndices& indices, Scene& scene) {
+void import_scene_selection(const GltfContext& context, size_t gltf_scene, const GltfIndices& indices, Scene& scene) {
     const std::string where = fmt::format("scenes[{}].extras.blush.staging", gltf_scene);
     const Json json = blush_fields(context, gltf_item(context.json(), "scenes", gltf_scene), "staging", where);
     if (json.is_null()) return;
-    Staging staging{.scene = scene.staging.scene};
+    SceneSelection staging{.scene = scene.staging.scene};
     size_t animation = 0, understood = 0;
     for (const auto& [key, value] : json.items()) {
         if (key == "animation" && read_json(value, animation)) {
@@ -34,14 +34,14 @@ void import_staging(const GltfContext& context, size_t gltf_scene, const GltfInd
                           (key == "variant" && read_json(value, staging.variant));
         }
     }
-    const auto valid = check_staging(scene, staging);
+    const auto valid = check_scene_selection(scene, staging);
     if (understood < json.size() || !valid)
         context.warn("ignored: " + (valid ? "not a choice that the file offers" : valid.error().what), where);
-    if (valid) scene = staged(scene, staging);
+    if (valid) scene = with_scene_selection(scene, staging);
 }
 
-Json staging_json(const Scene& scene, const GltfIndices& indices) {
-    const Staging& staging = scene.staging;
+Json scene_selection_json(const Scene& scene, const GltfIndices& indices) {
+    const SceneSelection& staging = scene.staging;
     Json json = Json::object();
     if (const auto clip = indices.clips.find(staging.clip); clip != indices.clips.end())
         json = {{"animation", clip->second}, {"seconds", staging.seconds}};

@@ -12,11 +12,11 @@
 namespace blush {
 namespace {
 
-constexpr double brightest_lamp = 100'000;  // lumens: some sixty bulbs of 100 W
-constexpr double brightest_sun = 200'000;   // lux: the sun in space gives 130,000
-constexpr double dimmest_sun = 50;          // lux of daylight; many web viewers use 1 to 10
-constexpr double brightest_surface = 1e7;   // nits: a bulb's filament
-constexpr double largest_scene = 50'000, smallest_scene = 0.001; // metres across
+constexpr double max_plausible_lumens = 100'000;  // lumens: some sixty bulbs of 100 W
+constexpr double max_plausible_sun_lux = 200'000;   // lux: the sun in space gives 130,000
+constexpr double min_plausible_sun_lux = 50;          // lux of daylight; many web viewers use 1 to 10
+constexpr double max_plausible_nits = 1e7;   // nits: a bulb's filament
+constexpr double max_scene_value = 50'000, smallest_scene = 0.001; // metres across
 
 // Above the rounding error of 8-bit normals.
 constexpr double unit_tolerance = 0.00674;
@@ -26,18 +26,18 @@ bool is_unit(const Vec3d& v) { return std::abs(length(v) - 1) <= unit_tolerance;
 void report_light(const GltfContext& context, const Light& light, const std::string& where) {
     if (light.ies || !light.enabled) return;
     if (light.kind == Light::Kind::sun) {
-        if (light.intensity > brightest_sun)
+        if (light.intensity > max_plausible_sun_lux)
             context.warn(fmt::format("{:.6g} lux is brighter than the sun in space, {:.0f}", light.intensity, 130'000.0), where);
-        else if (light.intensity > 0 && light.intensity < dimmest_sun)
+        else if (light.intensity > 0 && light.intensity < min_plausible_sun_lux)
             context.note(fmt::format("{:.3g} lux is dimmer than a lit room; a cloudy day has 10000", light.intensity), where);
         return;
     }
     if (is_per_area(light.kind)) {
-        if (light.intensity > brightest_surface) context.warn(fmt::format("{:.4g} nits is brighter than a bulb's filament", light.intensity), where);
+        if (light.intensity > max_plausible_nits) context.warn(fmt::format("{:.4g} nits is brighter than a bulb's filament", light.intensity), where);
         return;
     }
     const double lumens = luminous_flux(light);
-    if (lumens > brightest_lamp)
+    if (lumens > max_plausible_lumens)
         context.warn(fmt::format("{:.6g} candela are {:.6g} lumens, as of {:.0f} bulbs of 100 W; glTF's unit is the candela: were they watts?",
                                  light.intensity, lumens, lumens / 1600),
                      where);
@@ -66,12 +66,12 @@ void report_units(const GltfContext& context, const Scene& scene, const GltfIndi
         const Material* m = scene.materials.find(id);
         if (!m) continue;
         const double nits = double(std::max({m->emissive.x, m->emissive.y, m->emissive.z})) * double(m->emissive_strength);
-        if (nits > brightest_surface) context.warn(fmt::format("{:.4g} nits is brighter than a bulb's filament", nits), fmt::format("materials[{}]", index));
+        if (nits > max_plausible_nits) context.warn(fmt::format("{:.4g} nits is brighter than a bulb's filament", nits), fmt::format("materials[{}]", index));
     }
     report_cameras(context, scene);
     const Bounds bounds = world_bounds(scene);
     const double across = 2 * bounds.radius();
-    if (!bounds.empty && across > largest_scene)
+    if (!bounds.empty && across > max_scene_value)
         context.warn(fmt::format("the scene is {:.4g} km across; glTF's unit is the metre: were they millimetres or centimetres?", across / 1000), "scene");
     if (!bounds.empty && across > 0 && across < smallest_scene)
         context.warn(fmt::format("the scene is {:.4g} mm across; glTF's unit is the metre", across * 1000), "scene");

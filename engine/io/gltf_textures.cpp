@@ -118,7 +118,7 @@ Result<TextureImport> TextureImport::read(const GltfContext& context, std::vecto
         Result<std::optional<Texture>> texture = read_texture(own, i);
         if (!texture) return texture.error();
         read.textures_.push_back(*std::move(texture));
-        read.wanted_.push_back(wanted_id(gltf_item(context.json(), "textures", i)));
+        read.wanted_.push_back(requested_id(gltf_item(context.json(), "textures", i)));
     }
     if (context.known) read.known_ = ids_by_index(context.known->textures, read.images_.size());
     return read;
@@ -137,7 +137,7 @@ std::vector<Id<Texture>> TextureImport::add_to(Scene& scene) const {
         textures[i] = textures_[i];
         if (decoding_) textures[i]->image = decoding_->image(images_[i]);
     }
-    return add_numbered(scene.textures, std::move(textures), wanted_);
+    return add_with_ids(scene.textures, std::move(textures), wanted_);
 }
 
 bool TextureImport::is_done() const { return !decoding_ || decoding_->is_done(); }

@@ -22,7 +22,7 @@ public:
     // Waits for the images. A missing image or one that cannot be decoded is a warning. Errors: cancelled.
     Result<void> finish(const GltfContext& context);
     // After finish(): true if all images with a valid header could be decoded.
-    bool are_as_promised() const { return !decoding_ || decoding_->is_as_promised(); }
+    bool all_decoded_textures() const { return !decoding_ || decoding_->all_decoded(); }
 
 private:
     TextureImport(std::vector<int> images, std::optional<ImageDecoding> decoding)

@@ -73,7 +73,7 @@ bool has_strange_data(const ParsedGltf& object) {
 
 } // namespace
 
-std::optional<nlohmann::json> parsable(const nlohmann::json& root) {
+std::optional<nlohmann::json> parser_compatible(const nlohmann::json& root) {
     bool refused = false;
     const std::vector<bool> placeholders = placeholder_buffers(root);
     refused = std::ranges::count(placeholders, true) > 0;
@@ -108,35 +108,35 @@ std::optional<nlohmann::json> parsable(const nlohmann::json& root) {
 
 Result<void> unpack(GltfSource& source, const ImportOptions& options, ImportReport& report) {
     const GltfContext context{source, options, report};
-    UnpackingRoom room(source.model);
-    if (const auto ok = unpack_meshopt(source, context, room); !ok) return ok;
-    return unpack_draco(source, context, room);
+    DecompressionLimit room(source.model);
+    if (const auto ok = decompress_meshopt(source, context, room); !ok) return ok;
+    return decompress_draco(source, context, room);
 }
 
-UnpackingRoom::UnpackingRoom(const tinygltf::Model& model) {
+DecompressionLimit::DecompressionLimit(const tinygltf::Model& model) {
     for (const tinygltf::Buffer& buffer : model.buffers) packed_ += double(buffer.data.size());
 }
 
-Result<void> UnpackingRoom::take(const GltfContext& context, double bytes, const char* where) {
-    constexpr double free_bytes = 512e6, most_per_byte = 128; // scans reach a ratio of 40, flat grids far more
+Result<void> DecompressionLimit::take(const GltfContext& context, double bytes, const char* where) {
+    constexpr double free_bytes = 512e6, max_decompression_ratio = 128; // scans reach a ratio of 40, flat grids far more
     taken_ += bytes;
-    if (taken_ <= free_bytes + most_per_byte * packed_) return {};
+    if (taken_ <= free_bytes + max_decompression_ratio * packed_) return {};
     return context.error(fmt::format("its compressed data would decompress to {:.0f} MB, but its buffers have only {:.3g} MB",
                                      taken_ / 1e6, packed_ / 1e6),
                          where);
 }
 
-int add_unpacked_buffer(GltfSource& source, std::vector<uint8_t> bytes) {
+int add_decompressed_buffer(GltfSource& source, std::vector<uint8_t> bytes) {
     tinygltf::Buffer buffer;
     buffer.data = std::move(bytes);
     source.model.buffers.push_back(std::move(buffer));
     return int(source.model.buffers.size()) - 1;
 }
 
-int add_unpacked_view(GltfSource& source, std::vector<uint8_t> bytes) {
+int add_decompressed_view(GltfSource& source, std::vector<uint8_t> bytes) {
     tinygltf::BufferView view;
     view.byteLength = bytes.size();
-    view.buffer = add_unpacked_buffer(source, std::move(bytes));
+    view.buffer = add_decompressed_buffer(source, std::move(bytes));
     source.model.bufferViews.push_back(std::move(view));
     return int(source.model.bufferViews.size()) - 1;
 }

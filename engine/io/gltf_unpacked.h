@@ -12,17 +12,17 @@ namespace blush {
 
 // A document that tinygltf accepts, for a compressed one that it would reject: placeholder buffers get one byte, compressed
 // primitives lose their indices, data URIs of images get a known MIME type. None if no change is needed.
-std::optional<nlohmann::json> parsable(const nlohmann::json& root);
+std::optional<nlohmann::json> parser_compatible(const nlohmann::json& root);
 
 // Decompresses KHR_draco_mesh_compression and EXT_meshopt_compression.
 Result<void> unpack(GltfSource& source, const ImportOptions& options, ImportReport& report);
 
 // Memory limit of decompression. Compressed bytes may be referenced many times, so that a small file could need any amount of
 // memory.
-class UnpackingRoom {
+class DecompressionLimit {
 public:
     // `model` must not be decompressed yet.
-    explicit UnpackingRoom(const tinygltf::Model& model);
+    explicit DecompressionLimit(const tinygltf::Model& model);
     // Reserves bytes. Errors: the limit is exceeded.
     Result<void> take(const GltfContext& context, double bytes, const char* where);
 
@@ -31,7 +31,7 @@ private:
 };
 
 // Adds a buffer (or a view of a whole buffer) and returns its index.
-int add_unpacked_buffer(GltfSource& source, std::vector<uint8_t> bytes);
-int add_unpacked_view(GltfSource& source, std::vector<uint8_t> bytes);
+int add_decompressed_buffer(GltfSource& source, std::vector<uint8_t> bytes);
+int add_decompressed_view(GltfSource& source, std::vector<uint8_t> bytes);
 
 } // namespace blush

@@ -27,7 +27,7 @@ std::vector<std::pair<std::string_view, int>> all_of(GltfDocument& document, std
 
 bool all_references_known(const Json& root) {
     return std::ranges::all_of(child_or_null(root, "extensionsUsed"),
-                               [](const Json& name) { return name.is_string() && knows_references(name.get_ref<const std::string&>()); });
+                               [](const Json& name) { return name.is_string() && finds_all_references(name.get_ref<const std::string&>()); });
 }
 
 // New index of each object of a list; -1: removed.
@@ -82,7 +82,7 @@ std::map<std::string_view, int> count_objects(GltfDocument& document) {
     return counts;
 }
 
-int remove_unused(GltfDocument& document, const GltfObjects& used_before, const std::map<std::string_view, int>& counts_before) {
+int prune_unused(GltfDocument& document, const GltfObjects& used_before, const std::map<std::string_view, int>& counts_before) {
     GltfObjects kept = used_objects(document);
     for (const std::string_view list : gltf_lists)
         for (int i = 0; i < counts_before.at(list); ++i)

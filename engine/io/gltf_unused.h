@@ -18,7 +18,7 @@ GltfObjects used_objects(GltfDocument& document);
 // Removes objects that are neither reachable now nor from objects that were unreachable before (`used_before` of `counts_before`
 // objects), and updates all indices. Does nothing if the document has extensions with unknown references; returns the number of
 // unused objects that are then kept.
-int remove_unused(GltfDocument& document, const GltfObjects& used_before, const std::map<std::string_view, int>& counts_before);
+int prune_unused(GltfDocument& document, const GltfObjects& used_before, const std::map<std::string_view, int>& counts_before);
 
 // Number of objects per list.
 std::map<std::string_view, int> count_objects(GltfDocument& document);

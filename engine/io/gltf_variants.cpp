@@ -6,7 +6,7 @@ namespace blush {
 namespace {
 
 constexpr const char* extension = "KHR_materials_variants";
-constexpr size_t most_variants = 1000;
+constexpr size_t max_variants = 1000;
 
 // Material index by variant; the first mapping of a variant wins.
 std::map<int, int> said_by(const Json& primitive) {
@@ -26,9 +26,9 @@ std::vector<std::string> import_variants(const GltfContext& context) {
     std::vector<std::string> names;
     const ParsedGltf& list = gltf_member(gltf_member(gltf_member(context.json(), "extensions"), extension), "variants");
     if (!list.is_array()) return names;
-    if (list.size() > most_variants)
-        context.warn(fmt::format("ignored: variants beyond the first {}", most_variants), fmt::format("extensions.{}", extension));
-    for (size_t i = 0; i < std::min(list.size(), most_variants); ++i) {
+    if (list.size() > max_variants)
+        context.warn(fmt::format("ignored: variants beyond the first {}", max_variants), fmt::format("extensions.{}", extension));
+    for (size_t i = 0; i < std::min(list.size(), max_variants); ++i) {
         const ParsedGltf& name = gltf_member(list[i], "name");
         names.push_back(name.is_string() ? name.get<std::string>() : fmt::format("Variant {}", i));
     }

@@ -13,7 +13,7 @@ void write_area_light(Json& object, const Light& light);
 // EXT_lights_ies: the file of a profile; an embedded profile is kept.
 void write_profile(Json& object, const Light& light);
 // Node properties of a light with an IES profile of the given peak candela.
-void write_measured_instance(Json& extension, const Light& light, float peak);
+void write_ies_instance(Json& extension, const Light& light, float peak);
 // The list for lights of this kind without an IES profile.
 GltfLight::List list_for(Light::Kind kind);
 // Colour including the temperature, scaled to [0, 1], and intensity (0 if disabled), as other programs expect them.

@@ -170,7 +170,7 @@ void write_scene_extras(GltfDocument& document, const ImportedScene& read, const
     Environment environment = project.scene.environment;
     environment.image = read.scene.environment.image; // pixels are compared by file
     write_scene_member(scene, "environment", read.scene.environment, environment, to_json(environment));
-    write_scene_member(scene, "staging", read.scene.staging, project.scene.staging, staging_json(project.scene, document.indices));
+    write_scene_member(scene, "staging", read.scene.staging, project.scene.staging, scene_selection_json(project.scene, document.indices));
     write_scene_member(scene, "mix", read.scene.mix, project.scene.mix, to_json(project.scene.mix));
     // Without a saved view the importer computes one from the scene.
     Scene seen = read.scene;

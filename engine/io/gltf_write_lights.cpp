@@ -29,9 +29,9 @@ void write_emission(Json& object, const Light& light, float intensity_otherwise)
 
 // KHR_lights_punctual wants 0 <= inner < outer <= pi / 2.
 void write_cone(Json& object, const Light& light) {
-    constexpr float narrowest = 1e-4f;
+    constexpr float min_decades = 1e-4f;
     Json& spot = child(object, "spot");
-    const float outer = std::clamp(light.outer_cone_radians, narrowest, pi / 2);
+    const float outer = std::clamp(light.outer_cone_radians, min_decades, pi / 2);
     set_number(spot, "outerConeAngle", outer, pi / 4);
     set_number(spot, "innerConeAngle", std::clamp(light.inner_cone_radians, 0.0f, outer * 0.999f), 0);
 }
@@ -69,7 +69,7 @@ void write_profile(Json& object, const Light& light) {
     object["uri"] = percent_encoded(light.ies_file);
 }
 
-void write_measured_instance(Json& extension, const Light& light, float peak) {
+void write_ies_instance(Json& extension, const Light& light, float peak) {
     const PlainEmission e = plain_emission(light);
     float now = 1;
     read_json(child_or_null(extension, "multiplier"), now);

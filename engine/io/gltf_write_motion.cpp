@@ -20,7 +20,7 @@ constexpr std::string_view path_of(Property property) {
     return {};
 }
 
-constexpr std::string_view word_of(Keyframes::Interpolation interpolation) {
+constexpr std::string_view enum_to_string(Keyframes::Interpolation interpolation) {
     switch (interpolation) {
     case Keyframes::Interpolation::step: return "STEP";
     case Keyframes::Interpolation::linear: return "LINEAR";
@@ -59,7 +59,7 @@ Json sampler_of(GltfDocument& document, const Channel& channel) {
     const int components = channel.property == Property::morph_weights ? 1 : channel.property == Property::rotation ? 4 : 3;
     const int input = append_plain(document, k.times.data(), k.times.size(), 1, true);
     const int output = append_plain(document, k.values.data(), k.values.size() / size_t(components), components, false);
-    return {{"input", input}, {"output", output}, {"interpolation", word_of(k.interpolation)}};
+    return {{"input", input}, {"output", output}, {"interpolation", enum_to_string(k.interpolation)}};
 }
 
 using Target = std::pair<int, std::string>; // node and path

@@ -68,7 +68,7 @@ void write_light_reference(GltfDocument& document, Json& object, const Scene& sc
             Json& extension = extension_of(object, list_name(list));
             set_index(extension, "light", light->second.index);
             if (list == GltfLight::List::measured)
-                write_measured_instance(extension, *scene.lights.find(id), document.indices.profile_peaks.at(light->second.index));
+                write_ies_instance(extension, *scene.lights.find(id), document.indices.profile_peaks.at(light->second.index));
             continue;
         }
         int now = -1;

@@ -75,7 +75,7 @@ void append_mesh(GltfDocument& document, Id<Mesh> id, const Mesh& mesh, Primitiv
     for (const MeshPart& part : mesh.parts) {
         const auto [primitive, is_new] = primitives.try_emplace(part.geometry->serial);
         // Without generated tangents: they are generated again on import.
-        if (is_new) primitive->second = primitive_of(document, *without_made_tangents(part.geometry));
+        if (is_new) primitive->second = primitive_of(document, *without_generated_tangents(part.geometry));
         parts.push_back(int(object["primitives"].size()));
         object["primitives"].push_back(primitive->second);
     }
@@ -125,7 +125,7 @@ int uv_sets_of(const Scene& scene, Id<Material> id) {
 // glTF requires texture coordinates for textures: missing ones are written as zeros and marked as a fallback, so that they are
 // not imported.
 void provide_uv_sets(GltfDocument& document, Json& primitive, int sets) {
-    for (int set = 0; set <= most_uv_set; ++set) {
+    for (int set = 0; set <= max_uv_set; ++set) {
         const std::string name = fmt::format("TEXCOORD_{}", set);
         Json& attributes = primitive["attributes"];
         int there = -1;
@@ -143,7 +143,7 @@ void provide_uv_sets(GltfDocument& document, Json& primitive, int sets) {
 }
 
 // Index 0 is the default material.
-std::vector<Id<Material>> worn_by(const MeshPart& part) { return part.by_variant.empty() ? std::vector{part.material} : part.by_variant; }
+std::vector<Id<Material>> materials_of(const MeshPart& part) { return part.by_variant.empty() ? std::vector{part.material} : part.by_variant; }
 
 } // namespace
 
@@ -156,7 +156,7 @@ UsedRecords used_records(const Scene& scene) {
     }
     for (const Id<Mesh> id : used.meshes)
         for (const MeshPart& part : scene.meshes.find(id)->parts)
-            for (const Id<Material> material : worn_by(part))
+            for (const Id<Material> material : materials_of(part))
                 if (scene.materials.contains(material)) used.materials.insert(material);
     for (const Id<Material> id : used.materials)
         for (const TextureSlot& slot : texture_slots)
@@ -177,12 +177,12 @@ Result<void> write_payloads(GltfDocument& document, const GltfOrigin& has, const
         if (!has_triangles(document, has, id, mesh)) append_mesh(document, id, mesh, primitives);
         Json& object = document.object("meshes", document.indices.meshes.at(id));
         for (size_t part = 0; part < mesh.parts.size(); ++part) {
-            const auto material = document.indices.materials.find(worn_by(mesh.parts[part]).front());
+            const auto material = document.indices.materials.find(materials_of(mesh.parts[part]).front());
             Json& primitive = object["primitives"][size_t(document.indices.primitives.at(id)[part])];
             set_index(primitive, "material", material == document.indices.materials.end() ? -1 : material->second);
             write_variants(primitive, mesh.parts[part], document.indices.materials);
             int uv_sets = 0;
-            for (const Id<Material> worn : worn_by(mesh.parts[part])) uv_sets = std::max(uv_sets, uv_sets_of(scene, worn));
+            for (const Id<Material> worn : materials_of(mesh.parts[part])) uv_sets = std::max(uv_sets, uv_sets_of(scene, worn));
             provide_uv_sets(document, primitive, uv_sets);
         }
     }

@@ -12,7 +12,7 @@
 namespace blush {
 namespace {
 
-constexpr int64_t most_values = 1 << 20;
+constexpr int64_t max_values = 1 << 20;
 constexpr uint64_t most_bytes = 16 << 20;
 
 // Reads lines, then numbers with arbitrary line breaks; keeps the first error.
@@ -186,7 +186,7 @@ Result<IesPtr> parse_ies(std::string_view text) {
     r.number("the number of lamps");
     r.number("the lumens of a lamp"); // -1: absolute photometry
     scale *= r.factor("the candela multiplier");
-    const int verticals = r.count("the number of vertical angles", 1, most_values), horizontals = r.count("the number of horizontal angles", 1, most_values);
+    const int verticals = r.count("the number of vertical angles", 1, max_values), horizontals = r.count("the number of horizontal angles", 1, max_values);
     const int type = r.count("the photometric type", 1, 3);
     r.count("the unit of length", 1, 2);
     for (const char* side : {"the width", "the length", "the height"}) r.number(side);
@@ -195,7 +195,7 @@ Result<IesPtr> parse_ies(std::string_view text) {
     if (header.is_old) scale *= ballast_lamp;
     r.number("the watts");
     if (type == 3) r.fail("type A photometry (headlamps) is not supported");
-    if (int64_t(verticals) * horizontals > most_values) r.fail(fmt::format("has more than {} values", most_values));
+    if (int64_t(verticals) * horizontals > max_values) r.fail(fmt::format("has more than {} values", max_values));
     if (r.error()) return *r.error();
 
     auto profile = std::make_shared<IesProfile>();

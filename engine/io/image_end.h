@@ -11,7 +11,7 @@
 namespace blush {
 
 // Walks the segments; skips thumbnails inside a segment, which have their own end marker.
-inline bool jpeg_reaches_its_end(std::span<const uint8_t> bytes) {
+inline bool is_complete_jpeg(std::span<const uint8_t> bytes) {
     constexpr uint8_t end_of_image = 0xd9, first_standalone = 0xd0, last_standalone = 0xd8, temporary = 0x01;
     size_t i = 0;
     while (i + 1 < bytes.size()) {
@@ -33,7 +33,7 @@ inline bool jpeg_reaches_its_end(std::span<const uint8_t> bytes) {
 }
 
 // Walks the chunks: big-endian length, type, data, checksum.
-inline bool png_reaches_its_end(std::span<const uint8_t> bytes) {
+inline bool is_complete_png(std::span<const uint8_t> bytes) {
     constexpr size_t signature = 8, around_data = 12;
     size_t i = signature;
     while (i + around_data <= bytes.size()) {

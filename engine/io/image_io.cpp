@@ -33,7 +33,7 @@ constexpr uint64_t max_layers_bytes = uint64_t(4)
                                       << 30; // limit of all channels of a layered image: zeros compress to almost nothing
 
 // Limit of the compression ratio: deflate reaches about 1000 for constant images. Small images are always decoded.
-constexpr uint64_t most_compression = 4096, always_decoded = uint64_t(64) << 20; // bytes
+constexpr uint64_t max_compression = 4096, always_decoded = uint64_t(64) << 20; // bytes
 
 // The only decoders that are used: reduces the attack surface, and special names such as "x.null" have no effect. TIFF is
 // excluded since its decoder fills truncated files with black and reports success.
@@ -106,7 +106,7 @@ Result<void> within_limits(const Decoder& decoder, size_t bytes, const ImageLimi
     if (spec.width > limits.max_side || spec.height > limits.max_side || int64_t(spec.width) * spec.height > limits.max_pixels)
         return Error{decoder.name, "larger than the limit", fmt::format("{} x {} pixels", spec.width, spec.height)};
     const uint64_t decoded = uint64_t(spec.width) * uint64_t(spec.height) * uint64_t(spec.nchannels) * spec.format.size();
-    if (decoded > always_decoded && decoded / most_compression > bytes)
+    if (decoded > always_decoded && decoded / max_compression > bytes)
         return Error{decoder.name, "more pixels than its bytes can hold", fmt::format("{} x {} pixels in {} bytes", spec.width, spec.height, bytes)};
     return {};
 }
@@ -116,8 +116,8 @@ Result<Decoder> open_decoder(std::span<const uint8_t> bytes, const std::string& 
     const char* format = format_of(bytes);
     if (is_ktx2(bytes)) return Error{name, "KTX2 cannot be decoded", ""};
     if (!format) return Error{name, "not an image in a known format (PNG, JPEG, EXR, HDR, WebP, BMP)", ""};
-    if (std::string_view(format) == "jpeg" && !jpeg_reaches_its_end(bytes)) return Error{name, "truncated JPEG", ""};
-    if (std::string_view(format) == "png" && !png_reaches_its_end(bytes)) return Error{name, "truncated PNG", ""};
+    if (std::string_view(format) == "jpeg" && !is_complete_jpeg(bytes)) return Error{name, "truncated JPEG", ""};
+    if (std::string_view(format) == "png" && !is_complete_png(bytes)) return Error{name, "truncated PNG", ""};
     Decoder decoder;
     decoder.name = name;
     decoder.format = format;
@@ -318,7 +318,7 @@ std::vector<uint8_t> in_native_layout(const LayeredImage& image, const OIIO::Ima
         } else if (channel.is_uint) {
             pack([&](size_t i) { return channel.values[i] > 0 && channel.values[i] < 4294967296.0f ? uint32_t(channel.values[i]) : 0u; });
         } else if (channel.is_half) {
-            pack([&](size_t i) { return half(std::clamp(channel.values[i], -largest_half, largest_half)); });
+            pack([&](size_t i) { return half(std::clamp(channel.values[i], -max_half, max_half)); });
         } else {
             pack([&](size_t i) { return channel.values[i]; });
         }
@@ -425,7 +425,7 @@ Result<void> expect_jpeg_size(const std::filesystem::path& file, int width, int 
         return Error{file.string(), fmt::format("a JPEG has at most {} pixels a side, not {} x {}", max_jpeg_side, width, height), ""};
     // Worst-case memory of the encoder and the file: libjpeg ends the process if allocation fails.
     const double needed = 8e6 + 16.0 * width * height;
-    if (const MemoryRoom room = memory_room(); needed > double(room.left))
+    if (const MemoryLimit room = memory_limit(); needed > double(room.left))
         return Error{file.string(), fmt::format("a JPEG of {} x {} pixels needs {:.2g} GB of memory: {}", width, height, needed / 1e9, room.text()), ""};
     return {};
 }

@@ -82,7 +82,7 @@ Result<LayeredImage> read_layers(const std::filesystem::path& file, const ImageL
 Result<std::vector<LayeredImage>> read_parts(const std::filesystem::path& file, const ImageLimits& limits = {});
 // Reads the text metadata only.
 Result<std::map<std::string, std::string>> read_metadata(const std::filesystem::path& file, const ImageLimits& limits = {});
-constexpr float largest_half = 65504;
+constexpr float max_half = 65504;
 // Writes an EXR: float32 unless a channel is uint or half, ZIP compression. Atomic: written to a temporary name beside the target
 // and renamed.
 Result<void> write_exr(const std::filesystem::path& file, const LayeredImage& image);

@@ -40,13 +40,13 @@ template <class T> void ImageShrinker::add_row(const T* row) {
     const int channels = source_.channels;
     std::ranges::fill(across_, 0.f);
     for (int x = 0; x < image_.width; ++x)
-        for_each_overlap(x, source_.width, image_.width, [&](int from, float share) {
+        for_each_box_weight(x, source_.width, image_.width, [&](int from, float share) {
             for (int c = 0; c < channels; ++c)
                 across_[size_t(x * channels + c)] += share * value(row[size_t(from) * size_t(channels) + size_t(c)], c);
         });
     const int current = int(int64_t(rows_) * image_.height / source_.height);
     const float size = float(double(image_.height) / source_.height); // height of a source row in result rows
-    for_each_overlap(rows_, image_.height, source_.height, [&](int y, float share) {
+    for_each_box_weight(rows_, image_.height, source_.height, [&](int y, float share) {
         std::vector<float>& sums = y == current ? now_ : next_;
         for (size_t i = 0; i < sums.size(); ++i) sums[i] += share * size * across_[i];
     });

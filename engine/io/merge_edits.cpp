@@ -227,7 +227,7 @@ MergedEdits merge_edits(const Scene& base, const Scene& mine, const Scene& their
     merge.value(base.environment.image, mine.environment.image, scene.environment.image, false, "environment", "the image");
     merge.fields(base.mix, mine.mix, scene.mix, "light mix");
     scene.view = mine.view;
-    Staging staging = mine.staging;
+    SceneSelection staging = mine.staging;
     staging.clip = map.clips(staging.clip);
     if (!staging.clip) staging.seconds = 0;
     if (staging.scene >= int32_t(std::max<size_t>(theirs.scene_names.size(), 1))) staging.scene = theirs.staging.scene;

@@ -278,7 +278,7 @@ std::string edits_json(const Scene& imported, const Scene& edited) {
     return json_text(json);
 }
 
-size_t edits_left_out(std::string_view text) {
+size_t count_left_out(std::string_view text) {
     const Result<Json> json = parse_json_object(text);
     return json ? member(*json, "left_out").size() : 0;
 }

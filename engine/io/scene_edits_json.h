@@ -24,7 +24,7 @@ namespace blush {
 std::string edits_json(const Scene& imported, const Scene& now);
 
 // Number of entries in left_out; 0 if the text is not valid.
-size_t edits_left_out(std::string_view json);
+size_t count_left_out(std::string_view json);
 
 // Restores the scene that edits_json was given as `now`, except for left_out. `folder`: base of a relative environment map path;
 // IES profiles must be in or below it. Errors: invalid text, an id that the import does not have, a value of the wrong type or

@@ -152,7 +152,7 @@ template <Is<Node> T, class V> void visit_fields(T& r, V&& visit) {
     visit("shadow_catcher", r.shadow_catcher);
 }
 
-template <Is<Staging> T, class V> void visit_fields(T& r, V&& visit) {
+template <Is<SceneSelection> T, class V> void visit_fields(T& r, V&& visit) {
     visit("clip", r.clip);
     visit("seconds", r.seconds);
     visit("scene", r.scene);

@@ -84,13 +84,13 @@ void hash_mesh(Hasher& hash, const Mesh& mesh) {
         hash.word(part.material.value);
         hash.word(part.geometry != nullptr);
         if (!part.geometry) continue;
-        const GeometryPtr geometry = without_made_tangents(part.geometry); // generated tangents follow from the other attributes
+        const GeometryPtr geometry = without_generated_tangents(part.geometry); // generated tangents follow from the other attributes
         const Geometry& g = *geometry;
         hash.array(g.positions);
         hash.array(g.normals);
         hash.array(g.tangents);
         hash.word(g.uv.size());
-        for (const PlacedVector<Vec2>& uv : g.uv) hash.array(uv);
+        for (const ArenaVector<Vec2>& uv : g.uv) hash.array(uv);
         hash.array(g.colors);
         hash.array(g.indices);
         for (const MorphTargetPtr& target : g.targets) {

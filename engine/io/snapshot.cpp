@@ -50,9 +50,9 @@ public:
         image_.channels.push_back({name, std::vector<float>(values.begin(), values.end()), true});
     }
 
-    void exact(const std::string& layer, std::span<const ExactPlane> planes) {
-        for (const ExactPlane& plane : planes)
-            if (wanted(layer + "." + plane.name, plane.size(), 1)) add_exact_plane(image_, layer, plane);
+    void exact(const std::string& layer, std::span<const LosslessPlane> planes) {
+        for (const LosslessPlane& plane : planes)
+            if (wanted(layer + "." + plane.name, plane.size(), 1)) add_lossless_plane(image_, layer, plane);
     }
 
     Result<LayeredImage> done(std::map<std::string, std::string> metadata) && {
@@ -149,10 +149,10 @@ Result<LayeredImage> make_snapshot(const SnapshotInput& input) {
     return std::move(builder).done(snapshot_texts(input.metadata));
 }
 
-int64_t beyond_half(const LayeredImage& image) {
+int64_t count_beyond_half(const LayeredImage& image) {
     int64_t count = 0;
     for (const LayeredImage::Channel& channel : image.channels)
-        if (channel.is_half) count += std::ranges::count_if(channel.values, [](float v) { return std::abs(v) > largest_half; });
+        if (channel.is_half) count += std::ranges::count_if(channel.values, [](float v) { return std::abs(v) > max_half; });
     return count;
 }
 

@@ -54,7 +54,7 @@ struct SnapshotInput {
     // become underscores.
     std::span<const std::vector<Vec3>> groups;
     std::span<const std::string> group_names;
-    std::span<const ExactPlane> film;           // film state to resume from
+    std::span<const LosslessPlane> film;           // film state to resume from
     bool half = false;                          // stores colours, albedo, normals and errors as 16-bit floats
     SnapshotMetadata metadata;
 };
@@ -65,7 +65,7 @@ struct SnapshotInput {
 Result<LayeredImage> make_snapshot(const SnapshotInput& input);
 
 // Number of values that exceed the range of 16-bit floats.
-int64_t beyond_half(const LayeredImage& image);
+int64_t count_beyond_half(const LayeredImage& image);
 
 // True if the window made it or if it can be resumed: it holds more than a plain render.
 bool is_snapshot(const std::map<std::string, std::string>& metadata);

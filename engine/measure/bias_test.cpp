@@ -10,7 +10,7 @@
 namespace blush {
 namespace {
 
-constexpr int smallest_region = 16, most_regions = 8; // pixels, along each side
+constexpr int min_region = 16, max_regions = 8; // pixels, along each side
 
 double luminance(const Vec3& c) { return 0.2126 * double(c.x) + 0.7152 * double(c.y) + 0.0722 * double(c.z); }
 
@@ -45,7 +45,7 @@ public:
         const Variances v = variances(r, off / n);
         bias.error = std::sqrt(v.sum) / n;
         bias.degrees = v.squares > 0 ? v.sum * v.sum / v.squares : 0;
-        bias.unseen = events_ * brightest_around(r) / n;
+        bias.possible_deficit = events_ * brightest_around(r) / n;
         return bias;
     }
 
@@ -69,8 +69,8 @@ private:
         });
         Variances v = std::max({own, as_reference, seen}, [](const Variances& a, const Variances& b) { return a.sum < b.sum; });
         // Accounts for pixels with common errors.
-        v.sum *= image_.sharing;
-        v.squares *= image_.sharing * image_.sharing * image_.sharing;
+        v.sum *= image_.variance_factor;
+        v.squares *= image_.variance_factor * image_.variance_factor * image_.variance_factor;
         return v;
     }
 
@@ -97,7 +97,7 @@ private:
 };
 
 // Lower bound of a region's variance, relative to the mean of all: no region may dominate.
-constexpr double least_variance = 0.1;
+constexpr double min_variance = 0.1;
 
 // Pixel weights: the inverse variance of their region in the reference, normalised to mean 1.
 std::vector<double> inverse_variances(const MeasuredImage& reference, const std::vector<Rectangle>& regions) {
@@ -117,7 +117,7 @@ std::vector<double> inverse_variances(const MeasuredImage& reference, const std:
     if (!(mean > 0)) return weights;
     double total = 0;
     for (size_t k = 0; k < regions.size(); ++k) {
-        const double weight = 1 / (variances[k] + least_variance * mean);
+        const double weight = 1 / (variances[k] + min_variance * mean);
         each_pixel(regions[k], [&](size_t i) { weights[i] = weight; });
         total += weight * regions[k].pixels();
     }
@@ -125,13 +125,13 @@ std::vector<double> inverse_variances(const MeasuredImage& reference, const std:
     return weights;
 }
 
-int regions_along(int size) { return std::clamp(size / smallest_region, 1, most_regions); }
+int regions_along(int size) { return std::clamp(size / min_region, 1, max_regions); }
 
 } // namespace
 
 double RegionBias::difference() const {
     const double d = mean - reference;
-    return d < 0 ? std::min(0.0, d + unseen) : d;
+    return d < 0 ? std::min(0.0, d + possible_deficit) : d;
 }
 
 double RegionBias::z() const { return error > 0 ? normal_deviate(difference() / error, degrees) : 0; }
@@ -141,7 +141,7 @@ MeasuredImage merged(const MeasuredImage& a, const MeasuredImage& b) {
     if (b.samples == 0) return a;
     MeasuredImage m = a;
     m.samples = a.samples + b.samples;
-    m.sharing = std::max(a.sharing, b.sharing);
+    m.variance_factor = std::max(a.variance_factor, b.variance_factor);
     const float wa = float(double(a.samples) / double(m.samples)), wb = 1 - wa;
     const auto mean = [&](float x, float y) { return wa * x + wb * y; };
     const auto error = [&](float x, float y) { return std::hypot(wa * x, wb * y); };

@@ -10,7 +10,7 @@ using Kind = ConvergencePoint::Kind;
 
 constexpr double growth = 1.1;        // growth of samples between two points
 constexpr int64_t fitted_growth = 64; // range of samples for the slope
-constexpr double furthest = 1000;     // limit of extrapolation, relative to the run's length
+constexpr double max_extrapolation = 1000;     // limit of extrapolation, relative to the run's length
 
 } // namespace
 
@@ -82,10 +82,10 @@ TimeLeft time_left(const ConvergenceRecord& record, Kind kind, ErrorMetric metri
     const auto left = [&](double from, double p) { return last.seconds * std::max(0.0, std::pow(target / from, 1 / p) - 1); };
     const double low = error.known ? error.low : error.value, high = error.known ? error.high : error.value;
     const TimeLeft t{State::known, left(error.value, slope.value), left(low, slope.low), left(high, slope.high)};
-    return t.seconds <= furthest * last.seconds ? t : TimeLeft{State::too_far};
+    return t.seconds <= max_extrapolation * last.seconds ? t : TimeLeft{State::too_far};
 }
 
-int next_turn(const std::vector<double>& seconds) {
+int next_variant(const std::vector<double>& seconds) {
     int next = -1;
     for (size_t i = 0; i < seconds.size(); ++i)
         if (seconds[i] >= 0 && (next < 0 || seconds[i] < seconds[size_t(next)])) next = int(i);

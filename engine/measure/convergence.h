@@ -88,7 +88,7 @@ TimeLeft time_left(const ConvergenceRecord& record, ConvergencePoint::Kind kind,
 
 // Index of the next variant to render: the one with the shortest time so far, so that machine load affects all alike. `seconds`:
 // time so far, -1 for finished variants. Returns -1 if all are finished.
-int next_turn(const std::vector<double>& seconds);
+int next_variant(const std::vector<double>& seconds);
 
 // Schedule of error measurements: at the first samples, then whenever the time has doubled.
 class DoublingTimes {

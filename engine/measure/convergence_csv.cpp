@@ -13,7 +13,7 @@ namespace {
 using Kind = ConvergencePoint::Kind;
 using Row = std::vector<std::string>;
 
-constexpr size_t most_records = 64, most_lines = 20000, longest_name = 120;
+constexpr size_t max_records = 64, max_lines = 20000, longest_name = 120;
 constexpr const char *mark_kind = "mark", *mix_kind = "mix";
 
 std::string line_number(size_t line) { return fmt::format("line {}", line); }
@@ -164,12 +164,12 @@ Result<std::vector<ConvergenceRecord>> parse_convergence_csv(std::string_view te
         const std::optional<Row> row = next_row(text);
         if (!row) return Error{.what = "a quote is not closed", .where = line_number(number)};
         const Line line(columns, *row, number);
-        if (number > most_lines) return line.error("too many lines");
+        if (number > max_lines) return line.error("too many lines");
         if (row->size() == 1 && row->front().empty()) continue;
         const std::string name = name_of(line);
         auto record = std::ranges::find(records, name, &ConvergenceRecord::name);
         if (record == records.end()) {
-            if (records.size() == most_records) return line.error("too many runs");
+            if (records.size() == max_records) return line.error("too many runs");
             records.emplace_back().name = name;
             record = records.end() - 1;
         }

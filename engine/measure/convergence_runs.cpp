@@ -50,7 +50,7 @@ ConvergenceRun& ConvergenceRuns::add(Origin origin, ConvergenceRecord record) {
 
 int ConvergenceRuns::begin(const std::string& name) {
     if (ConvergenceRun* ended = live()) {
-        if (ended->record.points(ConvergencePoint::Kind::estimated).size() < fewest_points && !ended->kept) {
+        if (ended->record.points(ConvergencePoint::Kind::estimated).size() < min_points && !ended->kept) {
             std::erase_if(runs_, [&](const ConvergenceRun& r) { return r.id == ended->id; });
         } else {
             mark(name);
@@ -58,7 +58,7 @@ int ConvergenceRuns::begin(const std::string& name) {
         }
     }
     const auto pushed_out = [](const ConvergenceRun& r) { return r.origin == Origin::earlier && !r.kept; };
-    while (size_t(std::ranges::count_if(runs_, pushed_out)) > most_earlier) runs_.erase(std::ranges::find_if(runs_, pushed_out));
+    while (size_t(std::ranges::count_if(runs_, pushed_out)) > max_earlier) runs_.erase(std::ranges::find_if(runs_, pushed_out));
     ConvergenceRecord record;
     record.name = name;
     return add(Origin::live, std::move(record)).id;

@@ -21,8 +21,8 @@ struct ConvergenceRun {
 
 class ConvergenceRuns {
 public:
-    static constexpr size_t most_earlier = 4;  // not counting kept runs
-    static constexpr size_t fewest_points = 2; // runs with fewer points are dropped
+    static constexpr size_t max_earlier = 4;  // not counting kept runs
+    static constexpr size_t min_points = 2; // runs with fewer points are dropped
 
     // In order of creation; the live run comes after earlier runs, stored runs come last.
     const std::vector<ConvergenceRun>& all() const { return runs_; }

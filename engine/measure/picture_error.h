@@ -9,7 +9,7 @@
 namespace blush {
 
 // Maximum share of the render time for measuring errors during a render.
-constexpr double measuring_share = 0.005;
+constexpr double max_measuring_share = 0.005;
 
 struct PictureError {
     Interval rmse, relmse; // known: the interval is meaningful

@@ -8,8 +8,8 @@
 namespace blush {
 namespace {
 
-constexpr double longest_with_minor = 12, longest_with_twos = 2.5; // maximum decades for minor lines, and for labels at 2 and 5
-constexpr double narrowest = 0.5;                                  // decades: any half decade contains a 1, 2 or 5
+constexpr double max_decades_with_minor = 12, max_decades_with_twos = 2.5; // maximum decades for minor lines, and for labels at 2 and 5
+constexpr double min_decades = 0.5;                                  // decades: any half decade contains a 1, 2 or 5
 constexpr int label_rows = 3;                                      // for marks
 
 bool is_shown(const PlotCurve::Point& p) { return p.x > 0 && p.y > 0 && std::isfinite(p.x) && std::isfinite(p.y); }
@@ -23,7 +23,7 @@ double round_up(double logarithm) { return -round_down(-logarithm); } // 1/2 and
 
 LogAxis axis_over(double low, double high) {
     if (!(low <= high)) return {};
-    const double room = std::max({0.04 * (high - low), 0.03, (narrowest - (high - low)) / 2});
+    const double room = std::max({0.04 * (high - low), 0.03, (min_decades - (high - low)) / 2});
     return {round_down(low - room), round_up(high + room)};
 }
 
@@ -40,10 +40,10 @@ template <class At, class Size> std::vector<PlotTick> ticks_of(const LogAxis& ax
     std::vector<PlotTick> ticks;
     for (int e = int(std::floor(axis.low)); e <= int(std::ceil(axis.high)); ++e) {
         for (int m = 1; m < 10; ++m) {
-            if (m > 1 && decades > longest_with_minor) break;
+            if (m > 1 && decades > max_decades_with_minor) break;
             const double value = m * std::pow(10.0, e), logarithm = std::log10(value);
             if (logarithm < axis.low - slack || logarithm > axis.high + slack) continue;
-            const bool numbered = m == 1 || (decades < longest_with_twos && (m == 2 || m == 5));
+            const bool numbered = m == 1 || (decades < max_decades_with_twos && (m == 2 || m == 5));
             ticks.push_back({value, at(value), m == 1, numbered ? tick_text(m, e) : ""});
         }
     }
@@ -153,13 +153,13 @@ double covered(const PlotLayout& l, const Plot& plot, double left, double top, d
 // Prefers the lower left corner, since curves fall.
 void lay_out_legend(PlotLayout& l, const Plot& plot, double em, const std::function<double(std::string_view)>& width) {
     std::vector<size_t> named;
-    double widest = 0;
+    double max_interval_ratio = 0;
     for (size_t i = 0; i < plot.curves.size(); ++i) {
         if (plot.curves[i].name.empty()) continue;
         named.push_back(i);
-        widest = std::max(widest, width(plot.curves[i].name));
+        max_interval_ratio = std::max(max_interval_ratio, width(plot.curves[i].name));
     }
-    const double line = 1.5 * em, full = 1.25 * l.legend_sample + widest, height = line * double(named.size());
+    const double line = 1.5 * em, full = 1.25 * l.legend_sample + max_interval_ratio, height = line * double(named.size());
     const double lower = l.bottom - 0.6 * em - height, upper = l.top + (l.marks.empty() ? 0.6 : 0.6 + 1.35 * label_rows) * em;
     const double left = l.left + 0.8 * em, right = l.right - 0.8 * em - full;
     const PlotPixel corners[] = {{left, lower}, {right, upper}, {right, lower}, {left, upper}};
@@ -176,7 +176,7 @@ void lay_out_legend(PlotLayout& l, const Plot& plot, double em, const std::funct
 double LogAxis::fraction(double value) const { return (std::log10(value) - low) / (high - low); }
 double LogAxis::value(double fraction) const { return std::pow(10, low + fraction * (high - low)); }
 
-PlotLayout lay_out(const Plot& plot, const PlotMetrics& metrics) {
+PlotLayout compute_plot_layout(const Plot& plot, const PlotMetrics& metrics) {
     const double em = metrics.font_size;
     std::function<double(std::string_view)> width = metrics.text_width;
     if (!width) width = [em](std::string_view text) { return 0.55 * em * double(text.size()); };
@@ -186,9 +186,9 @@ PlotLayout lay_out(const Plot& plot, const PlotMetrics& metrics) {
     l.bottom = std::max(metrics.height - (plot.x_label.empty() ? 1.9 : 4.2) * em, l.top + 1);
     l.y_ticks = ticks_of(
         l.y_axis, [&](double v) { return l.py(v); }, [&](const std::string&) { return 1.4 * em; });
-    double widest = 0;
-    for (const PlotTick& t : l.y_ticks) widest = std::max(widest, width(t.text));
-    l.left = widest + (plot.y_label.empty() ? 1 : 2.6) * em;
+    double max_interval_ratio = 0;
+    for (const PlotTick& t : l.y_ticks) max_interval_ratio = std::max(max_interval_ratio, width(t.text));
+    l.left = max_interval_ratio + (plot.y_label.empty() ? 1 : 2.6) * em;
     l.right = std::max(metrics.width - 1.3 * em, l.left + 1);
     l.x_ticks = ticks_of(
         l.x_axis, [&](double v) { return l.px(v); }, [&](const std::string& text) { return width(text) + em; });

@@ -75,7 +75,7 @@ struct PlotMetrics {
 
 // Axes begin and end at 1, 2 or 5 times a power of ten with a small margin, so that they change rarely while a curve grows, and
 // span at least half a decade. Values that are not positive and finite are skipped.
-PlotLayout lay_out(const Plot& plot, const PlotMetrics& metrics);
+PlotLayout compute_plot_layout(const Plot& plot, const PlotMetrics& metrics);
 
 // The point nearest to (x, y) within `reach` pixels.
 struct PlotPick {

@@ -82,7 +82,7 @@ void draw_legend(std::string& svg, const Plot& plot, const PlotLayout& l) {
 } // namespace
 
 std::string to_svg(const Plot& plot) {
-    const PlotLayout l = lay_out(plot, {double(plot.width), double(plot.height), 12, true, {}});
+    const PlotLayout l = compute_plot_layout(plot, {double(plot.width), double(plot.height), 12, true, {}});
     std::string svg = fmt::format("<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {0} {1}' width='{0}' height='{1}' "
                                   "font-family='system-ui, sans-serif' font-size='12' fill='#333'>\n",
                                   plot.width, plot.height);

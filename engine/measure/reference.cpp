@@ -18,7 +18,7 @@ MeasuredImage measured_image(const Renderer& renderer) {
     for (size_t i = 0; i < frame.rgba.size(); i += 4) m.image.pixels.push_back({frame.rgba[i], frame.rgba[i + 1], frame.rgba[i + 2]});
     m.error = renderer.resolve_error();
     m.samples = frame.samples;
-    m.sharing = renderer.shared_errors().means;
+    m.variance_factor = renderer.reuse_covariance().means;
     return m;
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int bounce_planes = 12;
 constexpr double false_alarm = 1e-3;
-constexpr int64_t fewest_rounds = 8; // before bias is reported
+constexpr int64_t min_bias_rounds = 8; // before bias is reported
 constexpr int batches = 8;           // batches of rounds, for the standard error of the gain
 
 double luminance_at(const Frame& f, size_t pixel) {
@@ -52,7 +52,7 @@ struct Side {
             renderer = std::make_unique<Renderer>(own);
         }
         settings = s;
-        counts.assign(most_counted_bounces, {});
+        counts.assign(max_counted_bounces, {});
         rays = {};
         seconds = 0;
         by_batch = {};
@@ -116,7 +116,7 @@ RenderSettings without_roulette(RenderSettings settings) {
 
 } // namespace
 
-struct RouletteLab::State {
+struct RouletteComparison::State {
     RendererOptions options;
     Scene scene;
     Side rule, none;
@@ -146,7 +146,7 @@ struct RouletteLab::State {
             bias.error = differences[i].error() / whole;
             // Without variance (a limit removes all light of a bounce) any difference is significant.
             const double z = normal_deviate(bias.difference / bias.error, double(report.rounds - 1));
-            bias.significant = report.rounds >= fewest_rounds && (bias.error > 0 ? std::abs(z) > threshold : bias.difference != 0);
+            bias.significant = report.rounds >= min_bias_rounds && (bias.error > 0 ? std::abs(z) > threshold : bias.difference != 0);
         }
     }
 
@@ -163,10 +163,10 @@ struct RouletteLab::State {
 
 bool RouletteReport::biased() const { return std::ranges::any_of(bias, &RouletteBias::significant); }
 
-RouletteLab::RouletteLab(const RendererOptions& options) : state_(std::make_unique<State>()) { state_->options = options; }
-RouletteLab::~RouletteLab() = default;
+RouletteComparison::RouletteComparison(const RendererOptions& options) : state_(std::make_unique<State>()) { state_->options = options; }
+RouletteComparison::~RouletteComparison() = default;
 
-void RouletteLab::begin(const Scene& scene, const RenderSettings& settings, int longest, int spp) {
+void RouletteComparison::begin(const Scene& scene, const RenderSettings& settings, int longest, int spp) {
     State& s = *state_;
     const RenderSettings small = scaled(settings, longest);
     s.scene = scene;
@@ -179,7 +179,7 @@ void RouletteLab::begin(const Scene& scene, const RenderSettings& settings, int 
     s.report.spp = spp;
 }
 
-bool RouletteLab::round(const std::function<bool()>& wanted) {
+bool RouletteComparison::round(const std::function<bool()>& wanted) {
     State& s = *state_;
     Side* const turns[2] = {&s.rule, &s.none};
     const size_t first = size_t(s.report.rounds % 2);
@@ -193,6 +193,6 @@ bool RouletteLab::round(const std::function<bool()>& wanted) {
     return true;
 }
 
-const RouletteReport& RouletteLab::report() const { return state_->report; }
+const RouletteReport& RouletteComparison::report() const { return state_->report; }
 
 } // namespace blush

@@ -42,10 +42,10 @@ struct RouletteReport {
 // Renders in rounds: each side once per round with the same seed, in alternating order, and a new seed per round. Noise and
 // machine load affect both alike, and common parts cancel in the differences. Holds its own compiled scene, so that it can run in
 // parallel with other renders.
-class RouletteLab {
+class RouletteComparison {
 public:
-    explicit RouletteLab(const RendererOptions& options);
-    ~RouletteLab();
+    explicit RouletteComparison(const RendererOptions& options);
+    ~RouletteComparison();
 
     // Restarts. The image is scaled to at most `longest` pixels on its longer side. Throws as Renderer::update does.
     void begin(const Scene& scene, const RenderSettings& settings, int longest = 96, int spp = 4);

@@ -23,7 +23,7 @@ int cell_of(float t, int count) {
 
 } // namespace
 
-float place_on(const ScopeAxis& axis, float value) {
+float axis_position(const ScopeAxis& axis, float value) {
     const float x = axis.stops ? (value > 0 ? std::log2(value / 0.18f) : -std::numeric_limits<float>::infinity()) : value;
     return std::isnan(x) ? -std::numeric_limits<float>::infinity() : (x - axis.low) / (axis.high - axis.low);
 }
@@ -34,7 +34,7 @@ Histogram histogram(std::span<const float> rgb, const ScopeAxis& axis, int bins)
     for (size_t i = 0; i < rgb.size() / 3; ++i) {
         const auto values = channels_of(rgb, i);
         for (size_t k = 0; k < values.size(); ++k) {
-            const int bin = cell_of(place_on(axis, values[k]), bins);
+            const int bin = cell_of(axis_position(axis, values[k]), bins);
             if (bin < 0)
                 ++h.below[k];
             else if (bin == bins)
@@ -53,15 +53,15 @@ Waveform waveform(std::span<const float> rgb, int width, const ScopeAxis& axis, 
         const size_t column = i % size_t(width) * size_t(w.columns) / size_t(width);
         const auto values = channels_of(rgb, i);
         for (size_t k = 0; k < values.size(); ++k) {
-            const int level = std::clamp(cell_of(place_on(axis, values[k]), levels), 0, levels - 1);
+            const int level = std::clamp(cell_of(axis_position(axis, values[k]), levels), 0, levels - 1);
             ++w.counts[k][size_t(level) * size_t(w.columns) + column];
         }
     }
     return w;
 }
 
-Spread spread_of(std::span<const float> values) {
-    Spread s;
+ValueStatistics value_statistics(std::span<const float> values) {
+    ValueStatistics s;
     double sum = 0;
     for (const float x : values) {
         if (!std::isfinite(x)) continue;

@@ -14,7 +14,7 @@ struct ScopeAxis {
     float low = 0, high = 1;
 };
 // 0 at the low end, 1 at the high end; -infinity for NaN, and for values without a logarithm on a logarithmic axis.
-float place_on(const ScopeAxis& axis, float value);
+float axis_position(const ScopeAxis& axis, float value);
 
 // Red, green, blue and luminance (Rec.709; luma for display-encoded values).
 constexpr int scope_channels = 4;
@@ -36,11 +36,11 @@ struct Waveform {
 };
 Waveform waveform(std::span<const float> rgb, int width, const ScopeAxis& axis, int columns, int levels);
 
-struct Spread {
+struct ValueStatistics {
     int64_t count = 0; // of finite values; others are excluded
     double mean = 0, low = 0, high = 0;
     double deviation = 0; // standard deviation of the values, not of the mean
 };
-Spread spread_of(std::span<const float> values);
+ValueStatistics value_statistics(std::span<const float> values);
 
 } // namespace blush

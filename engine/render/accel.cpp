@@ -131,10 +131,10 @@ size_t triangle_count(const AccelInstances& instances) {
 }
 
 // For small meshes, reading the free memory takes longer than building the BVH.
-bool is_short_of_memory(size_t triangles, uint64_t memory_left) {
-    constexpr size_t fewest_asked_for = size_t(1) << 16;
-    if (memory_left == 0 && triangles < fewest_asked_for) return false;
-    return needs_compact_tree(triangles, memory_left ? memory_left : memory_room().left);
+bool needs_compact_bvh_for(size_t triangles, uint64_t memory_left) {
+    constexpr size_t min_checked_triangles = size_t(1) << 16;
+    if (memory_left == 0 && triangles < min_checked_triangles) return false;
+    return needs_compact_bvh(triangles, memory_left ? memory_left : memory_limit().left);
 }
 
 template <int N> struct Packet;
@@ -182,7 +182,7 @@ constexpr float embree_range = 1.8e18f;
 
 // Largest sum of coordinates of a world-space ray that also keeps it within
 // embree_range inside the instance; 0 if the transform is not invertible.
-float reach_through(const Affine& world_from_object) {
+float max_ray_extent(const Affine& world_from_object) {
     const Affined m = to_double(world_from_object), c = cofactor(m);
     const double norm = std::sqrt(dot(c.x, c.x) + dot(c.y, c.y) + dot(c.z, c.z)) / std::abs(determinant(m)); // of the inverse
     const double reach = 0.99 * embree_range / norm - length(m.t);
@@ -191,7 +191,7 @@ float reach_through(const Affine& world_from_object) {
 
 // Marks the first `count` lanes as valid, except rays outside the range that Embree accepts (an Embree built with assertions
 // aborts on them). Such a ray misses everything; its non-finite or huge sample is reported by the film.
-template <int N, class Rays> void sound_lanes(int* valid, const Rays& q, int count, float reach) {
+template <int N, class Rays> void valid_lanes(int* valid, const Rays& q, int count, float reach) {
     for (int i = 0; i < N; ++i) {
         const float size = std::abs(q.org_x[i]) + std::abs(q.org_y[i]) + std::abs(q.org_z[i]) + std::abs(q.dir_x[i]) + std::abs(q.dir_y[i]) +
                            std::abs(q.dir_z[i]);
@@ -207,7 +207,7 @@ template <int N> void intersect_packets(RTCScene scene, RTCIntersectContext& con
         load_rays<N>(q.ray, rays, k);
         std::fill_n(q.hit.geomID, N, RTC_INVALID_GEOMETRY_ID);
         std::fill_n(q.hit.instID[0], N, RTC_INVALID_GEOMETRY_ID);
-        sound_lanes<N>(valid, q.ray, count - k, reach);
+        valid_lanes<N>(valid, q.ray, count - k, reach);
         Packet<N>::intersect(valid, scene, &context, &q);
         const auto copy = [&](auto* to, const auto* from) { std::memcpy(to + k, from, N * sizeof(float)); };
         copy(hits.t, q.ray.tfar);
@@ -224,7 +224,7 @@ template <int N> void occluded_packets(RTCScene scene, RTCIntersectContext& cont
     alignas(64) typename Packet<N>::Ray q;
     for (int k = 0; k < count; k += N) {
         load_rays<N>(q, rays, k);
-        sound_lanes<N>(valid, q, count - k, reach);
+        valid_lanes<N>(valid, q, count - k, reach);
         Packet<N>::occluded(valid, scene, &context, &q);
         const int n = std::min(N, count - k);
         for (int i = 0; i < n; ++i) blocked[k + i] = q.tfar[i] < 0;
@@ -244,7 +244,7 @@ bool count_memory(void* user, ssize_t bytes, bool) {
 
 std::string why_no_device(RTCError error) {
     if (error == RTC_ERROR_UNSUPPORTED_CPU) return "Embree cannot start on this processor";
-    const MemoryRoom room = memory_room();
+    const MemoryLimit room = memory_limit();
     if (error == RTC_ERROR_OUT_OF_MEMORY || room.left < min_memory_of_embree)
         return fmt::format("Embree needs {} MB of memory to start: {}", min_memory_of_embree >> 20, room.text());
     return fmt::format("Embree cannot start (error code {})", int(error));
@@ -253,7 +253,7 @@ std::string why_no_device(RTCError error) {
 std::string why_not_built(RTCError error, int64_t held) {
     if (error != RTC_ERROR_OUT_OF_MEMORY) return "Embree could not build the scene";
     return fmt::format("not enough memory to build the scene's BVHs, which used {:.2g} GB so far: {}", double(held) / 1e9,
-                       memory_room().text());
+                       memory_limit().text());
 }
 
 } // namespace
@@ -272,7 +272,7 @@ struct Accel::State {
 
     State() : device(rtcNewDevice("start_threads=0,set_affinity=0")) {
         if (!device) throw std::runtime_error(why_no_device(rtcGetDeviceError(nullptr)));
-        if (const MemoryRoom room = memory_room(); room.left < min_memory_to_build) {
+        if (const MemoryLimit room = memory_limit(); room.left < min_memory_to_build) {
             rtcReleaseDevice(device);
             throw std::runtime_error(fmt::format("Embree needs {} MB of memory to build BVHs: {}", min_memory_to_build >> 20, room.text()));
         }
@@ -311,7 +311,7 @@ void Accel::commit(const AccelScene& scene, const SceneTables* tables, const Wor
             if (const auto old = s.bottoms.find(key); old != s.bottoms.end()) bottom = std::move(old->second);
             if (!bottom.scene) {
                 const size_t count = triangle_count(instances);
-                bottom = SceneHandle(s.device, is_short_of_memory(count, scene.memory_left) ? count : 0);
+                bottom = SceneHandle(s.device, needs_compact_bvh_for(count, scene.memory_left) ? count : 0);
                 for (const AccelTriangles& triangles : instances.geometries) bottom.add_triangles(s.device, triangles, tables);
                 bottom.commit(workers);
             }
@@ -320,7 +320,7 @@ void Accel::commit(const AccelScene& scene, const SceneTables* tables, const Wor
         for (const AccelTriangles& triangles : instances.geometries) s.alpha |= triangles.alpha;
         for (const InstanceRecord& place : instances.places) {
             top.add_instance(s.device, it->second.scene, place.world_from_object, instances.mask);
-            reach = std::min(reach, reach_through(place.world_from_object));
+            reach = std::min(reach, max_ray_extent(place.world_from_object));
         }
         instance_count += uint32_t(instances.places.size());
     }

@@ -34,7 +34,7 @@ DenoiserMaker denoiser_maker(std::filesystem::path weights, unsigned threads, bo
     };
 }
 
-BackgroundDenoiser::BackgroundDenoiser(DenoiserMaker maker, double grace_seconds, Gate& gate, OnAnswer on_answer, OnRelease on_release)
+BackgroundDenoiser::BackgroundDenoiser(DenoiserMaker maker, double grace_seconds, PauseGate& gate, OnAnswer on_answer, OnRelease on_release)
     : maker_(std::move(maker)), grace_seconds_(grace_seconds), gate_(gate), on_answer_(std::move(on_answer)), on_release_(std::move(on_release)) {
     if (maker_) thread_ = std::thread([this] { run(); });
 }
@@ -44,7 +44,7 @@ BackgroundDenoiser::~BackgroundDenoiser() {
         const std::lock_guard lock(mutex_);
         quit_ = true;
     }
-    gate_.look_again();
+    gate_.notify();
     wake_.notify_one();
     if (thread_.joinable()) thread_.join();
 }
@@ -55,7 +55,7 @@ void BackgroundDenoiser::want(bool wanted) {
         if (wanted_ && !wanted) unwanted_since_ = now();
         wanted_ = wanted;
     }
-    gate_.look_again();
+    gate_.notify();
     wake_.notify_one();
 }
 
@@ -68,7 +68,7 @@ bool BackgroundDenoiser::offer(uint64_t image, FramePtr frame) {
         newest_ = {image, std::move(frame), promised};
         newest_image_ = image;
     }
-    gate_.look_again();
+    gate_.notify();
     wake_.notify_one();
     return promised;
 }
@@ -81,7 +81,7 @@ std::string BackgroundDenoiser::failure() const {
 bool BackgroundDenoiser::is_wanted(const Task& task) const { return !quit_ && wanted_ && (task.promised || newest_image_ == task.image); }
 
 bool BackgroundDenoiser::is_wanted_by_now(const Task& task) const {
-    gate_.pass([&] { return task.promised || !is_wanted(task); });
+    gate_.wait_while_closed([&] { return task.promised || !is_wanted(task); });
     return is_wanted(task);
 }
 
@@ -151,9 +151,9 @@ void BackgroundDenoiser::run() {
         }
         const Task task = newest_;
         lock.unlock();
-        const double begun = now(), shut_before = gate_.shut_seconds();
+        const double begun = now(), shut_before = gate_.closed_seconds();
         Outcome outcome = denoise(task, *decision.quality);
-        const double seconds = now() - begun - (gate_.shut_seconds() - shut_before);
+        const double seconds = now() - begun - (gate_.closed_seconds() - shut_before);
         lock.lock();
         cadence_.record(source_of(task.image, *task.frame), *decision.quality, begun, seconds, outcome.picture != nullptr);
         failure_ = std::move(outcome.failure);

@@ -32,7 +32,7 @@ public:
     // Empty maker: nothing is denoised. Otherwise called on the denoiser thread, for the first image and for the first one after
     // a release. `gate`: the thread pauses there between network layers while the window needs the processor; waiting for a
     // promised image interrupts the pause.
-    BackgroundDenoiser(DenoiserMaker maker, double grace_seconds, Gate& gate, OnAnswer on_answer, OnRelease on_release);
+    BackgroundDenoiser(DenoiserMaker maker, double grace_seconds, PauseGate& gate, OnAnswer on_answer, OnRelease on_release);
     // Stops within one layer of the network, and joins.
     ~BackgroundDenoiser();
     BackgroundDenoiser(const BackgroundDenoiser&) = delete;
@@ -69,7 +69,7 @@ private:
 
     DenoiserMaker maker_;
     double grace_seconds_;
-    Gate& gate_;
+    PauseGate& gate_;
     OnAnswer on_answer_;
     OnRelease on_release_;
 

@@ -40,7 +40,7 @@ public:
     Scene baked() {
         // Without groups, channels have no effect.
         if (scene_.mix.grouping == LightMix::Grouping::none || groups_.groups.empty()) return cleared();
-        Placements placements(scene_);
+        WorldTransforms placements(scene_);
         Uses<Light> lights;
         Uses<Material> materials;
         for (const auto& [id, node] : scene_.nodes) {
@@ -90,7 +90,7 @@ private:
     void give_own_mesh(Id<Node> node, Id<Material> from, Id<Material> to) {
         Mesh mesh = *out_.meshes.find(out_.nodes.find(node)->mesh);
         for (MeshPart& part : mesh.parts)
-            if (part.material == from) wear(scene_, part, to);
+            if (part.material == from) assign_material(scene_, part, to);
         change(node, [&](Node& n) { n.mesh = out_.meshes.add(std::move(mesh)); });
     }
     template <class With> void change(Id<Node> id, const With& with) {

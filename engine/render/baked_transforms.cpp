@@ -15,7 +15,7 @@ namespace {
 // A singular value below this fraction of the largest is rounding error of an exactly singular product.
 constexpr double zero_share = 1e-13;
 
-double least_scale(double largest, const Vec3d& translation) {
+double min_scale(double largest, const Vec3d& translation) {
     return std::max({min_relative_scale * largest, min_absolute_scale, min_scale_by_distance * length(translation)});
 }
 
@@ -24,7 +24,7 @@ bool fits_float(const Affined& m) { return is_finite(to_double(to_float(m))); }
 // Lower bound of the smallest singular value, determinant / norm^2: sufficient for nearly all transforms, and cheap.
 bool is_clearly_invertible(const Affined& m) {
     const double norm_squared = dot(m.x, m.x) + dot(m.y, m.y) + dot(m.z, m.z);
-    return norm_squared > 0 && std::abs(determinant(m)) >= norm_squared * least_scale(std::sqrt(norm_squared), m.t);
+    return norm_squared > 0 && std::abs(determinant(m)) >= norm_squared * min_scale(std::sqrt(norm_squared), m.t);
 }
 
 // m * v has orthogonal columns w.
@@ -133,7 +133,7 @@ PlaceSplit split_place(const Affined& m) {
         split.has_area = false;
         return split;
     }
-    const double least = least_scale(largest, m.t);
+    const double least = min_scale(largest, m.t);
     const bool some_stay = largest >= least;
     const double base = some_stay ? largest : std::max(1.0, min_scale_by_distance * length(m.t));
     // Axes that do not change are kept bit for bit, so that transforms flattened in the same way have the same stretch.
@@ -166,7 +166,7 @@ GeometryPtr BakedTransforms::baked(const GeometryPtr& geometry, const Stretch& s
         const Vec3 along = unit_or(transform_vector(stretch, Vec3d{t.x, t.y, t.z}), {t.x, t.y, t.z});
         t = {along.x, along.y, along.z, t.w};
     }
-    place_arrays(*result);
+    move_to_arena(*result);
     return shape = std::move(result);
 }
 

@@ -9,7 +9,7 @@
 namespace blush {
 
 // Cache of the last deformed meshes, so that an unchanged deformation keeps its geometry and BVH.
-class BentMeshes {
+class DeformedMeshes {
 public:
     // Gives each node with a deformed mesh its own mesh. `posed`: a scene with its pose applied (scene/pose.h).
     void bend(Scene& posed);
@@ -17,16 +17,16 @@ public:
 private:
     struct Entry {
         std::vector<MeshPart> rest;
-        Bend bend;
+        Deformation bend;
         std::vector<GeometryPtr> parts;
     };
     std::map<Id<Node>, Entry> known_;
 };
 
 // Ids of those meshes: this bit plus the id of their node.
-constexpr uint32_t bent_bit = 0x40000000u;
+constexpr uint32_t deformed_id_bit = 0x40000000u;
 
 // World transform of a node's mesh in such a scene; skinned meshes are relative to their first joint (scene/bend.h).
-Affined world_from_mesh(const Scene& lowered, Placements& placements, Id<Node> id, const Node& node);
+Affined world_from_mesh(const Scene& expanded, WorldTransforms& placements, Id<Node> id, const Node& node);
 
 } // namespace blush

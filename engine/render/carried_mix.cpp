@@ -18,7 +18,7 @@ bool same_groups(const Scene& before, const Scene& after) {
             return x && y && same_record(*x, *y);
         });
     };
-    const auto glows = [](const Material& m) { return m.unlit || (m.emits && !is_black(emission_of(m))); };
+    const auto is_emissive = [](const Material& m) { return m.unlit || (m.emits && !is_black(emission_of(m))); };
     return before.meshes.shares_storage(after.meshes) && before.environment.group == after.environment.group &&
            before.environment.kind == after.environment.kind &&
            same(before.nodes, after.nodes,
@@ -26,7 +26,7 @@ bool same_groups(const Scene& before, const Scene& after) {
                     return a.name == b.name && a.parent == b.parent && a.visible == b.visible && a.mesh == b.mesh && a.light == b.light;
                 }) &&
            same(before.lights, after.lights, [](const Light& a, const Light& b) { return a.name == b.name && a.group == b.group; }) &&
-           same(before.materials, after.materials, [&](const Material& a, const Material& b) { return a.name == b.name && glows(a) == glows(b); });
+           same(before.materials, after.materials, [&](const Material& a, const Material& b) { return a.name == b.name && is_emissive(a) == is_emissive(b); });
 }
 
 LightGroups all_groups(const Scene& scene) { return make_light_groups(scene, std::numeric_limits<int>::max()); }
@@ -57,7 +57,7 @@ bool has_group(const LightGroups& groups, const std::string& name) { return std:
 
 } // namespace
 
-std::optional<LightMix> carried_mix(const Project& before, std::span<const Edit> edits) {
+std::optional<LightMix> rename_mix_channels(const Project& before, std::span<const Edit> edits) {
     const LightMix& mix = before.scene.mix;
     if (mix.channels.empty() || mix.grouping == LightMix::Grouping::none) return std::nullopt;
     Project after = before;

@@ -11,12 +11,12 @@ namespace blush {
 
 // Peak bytes per triangle while building a BVH with vertices: peak of the process for a mesh of a million triangles minus the
 // peak for two hundred triangles, 164 bytes, minus 28 for the file data.
-constexpr uint64_t tree_bytes_per_triangle = 136;
+constexpr uint64_t bvh_bytes_per_triangle = 136;
 // Fraction of the free memory that BVHs may use; the rest is for films, frames and later allocations.
-constexpr double max_tree_share = 0.5;
+constexpr double max_bvh_memory_share = 0.5;
 
-constexpr bool needs_compact_tree(size_t triangles, uint64_t memory_left) {
-    return double(triangles) * double(tree_bytes_per_triangle) > max_tree_share * double(memory_left);
+constexpr bool needs_compact_bvh(size_t triangles, uint64_t memory_left) {
+    return double(triangles) * double(bvh_bytes_per_triangle) > max_bvh_memory_share * double(memory_left);
 }
 
 } // namespace blush

@@ -26,19 +26,19 @@ CompiledInfo RenderScene::info() const {
     if (casters_.left_out() > 0)
         info.warnings.push_back({Diagnostic::Severity::warning,
                                  fmt::format("more than {} different sets of shadow casters: shadow linking is ignored for {}",
-                                             most_caster_sets, counted(casters_.left_out(), "light", "lights")),
+                                             max_caster_sets, counted(casters_.left_out(), "light", "lights")),
                                  ""});
-    if (lights_.unaimed_triangles > 0)
+    if (lights_.unsampled_triangles > 0)
         info.warnings.push_back({Diagnostic::Severity::warning,
                                  fmt::format("{} of {} emissive triangles exceed the light-sampling limit of {}: their light is found by BSDF "
                                              "sampling only and will be noisy",
-                                             lights_.unaimed_triangles, lights_.emissive_triangles, most_mesh_lights),
+                                             lights_.unsampled_triangles, lights_.emissive_triangles, max_mesh_lights),
                                  ""});
     if (lights_.fewer_disk_corners > 0)
         info.warnings.push_back({Diagnostic::Severity::warning,
                                  fmt::format("many disk lights: each is a polygon of {} corners instead of {}, which is visible at their "
                                              "edges and in reflections",
-                                             lights_.fewer_disk_corners, most_disk_corners),
+                                             lights_.fewer_disk_corners, max_disk_corners),
                                  ""});
     if (!missing_light_.empty()) info.warnings.push_back({Diagnostic::Severity::warning, missing_light_, ""});
     info.environment = lights_.environment >= 0;

@@ -47,11 +47,11 @@ DenoiseCadence::Decision DenoiseCadence::next(double now) const {
         if (is_done(DenoiseQuality::high)) return {};
         return {DenoiseQuality::high, 0};
     }
-    const double rests_at = image_begun_ + rest_seconds;
+    const double rests_at = image_begun_ + idle_seconds;
     const DenoiseQuality quality = now >= rests_at ? DenoiseQuality::base : DenoiseQuality::fast;
     if (is_done(quality)) return {{}, quality == DenoiseQuality::base ? std::numeric_limits<double>::infinity() : rests_at - now};
     const double affordable_at = image_begun_ + (spent_ + predicted(quality)) / time_share;
-    const double due_at = std::max(done_->begun + least_interval, affordable_at);
+    const double due_at = std::max(done_->begun + min_interval, affordable_at);
     if (now >= due_at) return {quality, 0};
     return {{}, due_at - now};
 }

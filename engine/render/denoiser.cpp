@@ -39,7 +39,7 @@ Result<void> check(const DenoiseInput& input, const DenoiseOptions& options) {
         if (auto good = check_plane(input.albedo, input, "albedo"); !good) return good;
     if (!input.normal.values.empty())
         if (auto good = check_plane(input.normal, input, "normal"); !good) return good;
-    if (options.exposure_scale && !(*options.exposure_scale >= smallest_scale && *options.exposure_scale <= largest_scale))
+    if (options.exposure_scale && !(*options.exposure_scale >= min_scale_factor && *options.exposure_scale <= max_scale))
         return Error{.what = fmt::format("invalid exposure scale of {} for the denoiser", *options.exposure_scale)};
     if (options.precision == DenoisePrecision::bfloat16 && !has_bfloat16())
         return Error{.what = "this processor does not support bfloat16"};
@@ -65,7 +65,7 @@ public:
     // False: cancelled.
     Result<bool> run(Denoised& made) {
         made.exposure_scale = exposure_scale();
-        const Inspection before = inspect(input_.color, input_.width, input_.height, largest_radiance / made.exposure_scale, workers_);
+        const Inspection before = inspect(input_.color, input_.width, input_.height, max_network_radiance / made.exposure_scale, workers_);
         made.sanitised = before.unusual;
         made.mean_before = before.mean_luminance;
         made.network = network();
@@ -193,7 +193,7 @@ Result<void> find_denoiser_weights(const std::filesystem::path& weights) {
     return {};
 }
 
-Ledger denoiser_ledger(const std::filesystem::path& weights, const std::array<bool, denoise_qualities>& loaded) {
+FeatureReport denoiser_feature_report(const std::filesystem::path& weights, const std::array<bool, denoise_qualities>& loaded) {
     // With albedo and normal, which all our frames have.
     struct Networks {
         DenoiseQuality quality;
@@ -203,7 +203,7 @@ Ledger denoiser_ledger(const std::filesystem::path& weights, const std::array<bo
     const Networks networks[denoise_qualities] = {{DenoiseQuality::fast, "fast network", {"rt_hdr_alb_nrm_small"}},
                                                   {DenoiseQuality::base, "base network", {"rt_hdr_alb_nrm"}},
                                                   {DenoiseQuality::high, "high network", {"rt_alb", "rt_nrm", "rt_hdr_calb_cnrm"}}};
-    Ledger ledger;
+    FeatureReport feature_report;
     for (const Networks& n : networks) {
         const bool used = loaded[size_t(n.quality)];
         FeatureUse use{"denoiser", n.name, used, used ? "denoising is on" : "no denoising at this quality"};
@@ -216,9 +216,9 @@ Ledger denoiser_ledger(const std::filesystem::path& weights, const std::array<bo
             if (!code) bytes += int64_t(size);
         }
         if (all_there) use.bytes = bytes;
-        ledger.push_back(std::move(use));
+        feature_report.push_back(std::move(use));
     }
-    return ledger;
+    return feature_report;
 }
 
 } // namespace blush

@@ -97,6 +97,6 @@ private:
 Result<void> find_denoiser_weights(const std::filesystem::path& weights);
 
 // One line for the networks of each quality: whether they were loaded, and the size of their files if these exist.
-Ledger denoiser_ledger(const std::filesystem::path& weights, const std::array<bool, denoise_qualities>& loaded);
+FeatureReport denoiser_feature_report(const std::filesystem::path& weights, const std::array<bool, denoise_qualities>& loaded);
 
 } // namespace blush

@@ -46,7 +46,7 @@ void set_texels(EnvironmentTable& table, const Image& image, const std::string& 
             const bool is_usable = value >= 0 && std::isfinite(value);
             replaced += !is_usable;
             table.texels[3 * i + c] = is_usable ? value : 0;
-            table.shines |= is_usable && value > 0;
+            table.emits_light |= is_usable && value > 0;
         }
     }
     if (replaced > 0) warn(table, fmt::format("{} values are negative or not finite: read as 0", replaced), file);
@@ -55,7 +55,7 @@ void set_texels(EnvironmentTable& table, const Image& image, const std::string& 
 void set_uniform_texel(EnvironmentTable& table, float value) {
     table.width = table.height = 1;
     table.texels = {value, value, value};
-    table.shines = value > 0;
+    table.emits_light = value > 0;
 }
 
 // Row r of cells ends at the centre of texel row r, the last at the pole.

@@ -11,7 +11,7 @@ namespace {
 // Weight of a pixel in its own neighbourhood mean, which has 24 other pixels.
 constexpr float own_share = 0.2f / 24.2f;
 // Values whose fourth powers (also of values a thousand times smaller) fit into single precision.
-constexpr double largest_value = 0x1p28, smallest_value = 0x1p-16;
+constexpr double max_value = 0x1p28, min_value = 0x1p-16;
 constexpr double usual_value = 0x1p16;
 
 double total(const Four& v) { return double(v[0] + v[1]) + double(v[2] + v[3]); }
@@ -64,10 +64,10 @@ struct RowSums {
 
 class BandSummer {
 public:
-    BandSummer(const HalvesOfPicture& picture, double scale)
+    BandSummer(const HalfBufferImage& picture, double scale)
         : picture_(picture), scale_(scale), divisor_(scale), surroundings_(picture.width, picture.height), above_(picture.width),
           now_(picture.width), around_{PixelRow(picture.width), PixelRow(picture.width)}, root_(picture.width), pixels_(picture.width) {
-        rows_.fill(HalfRow(picture.width));
+        rows_.fill(HalfBufferRow(picture.width));
     }
 
     ErrorSums sum(int first, int last) {
@@ -89,7 +89,7 @@ public:
 private:
     static constexpr int kept = 4; // rows: the current one and two below
 
-    HalfRow& row_at(int y) { return rows_[size_t(y % kept)]; }
+    HalfBufferRow& row_at(int y) { return rows_[size_t(y % kept)]; }
 
     void load(int y) {
         picture_.load(y, float(scale_), row_at(y));
@@ -98,7 +98,7 @@ private:
 
     // Also leaves the row's differences in now_.
     void add_pixels(int y, RowSums& sums) {
-        const HalfRow& row = row_at(y);
+        const HalfBufferRow& row = row_at(y);
         now_.known = row.known;
         pixels_.clear();
         const float* const from_weight_a = row.weight_a.pixels();
@@ -108,7 +108,7 @@ private:
             store_four(to_root + x, sqrt(wa * (1 - wa)));
         }
         for (size_t c = 0; c < 3; ++c) {
-            surroundings_.look(c, y, row.own[c], around_);
+            surroundings_.current_pictures(c, y, row.own[c], around_);
             add_channel(row, c, sums);
         }
         const float *const squares = pixels_.squares.pixels(), *const relative = pixels_.relative.pixels();
@@ -126,7 +126,7 @@ private:
         }
     }
 
-    void add_channel(const HalfRow& row, size_t c, RowSums& sums) {
+    void add_channel(const HalfBufferRow& row, size_t c, RowSums& sums) {
         const float *const from_a = row.a[c].pixels(), *const from_b = row.b[c].pixels(), *const from_own = row.own[c].pixels();
         const float *const roots = root_.pixels(), *const means = around_.mean.pixels(), *const darkest = around_.darkest.pixels();
         float *const to_absolute = now_.absolute[c].pixels(), *const to_relative = now_.relative[c].pixels();
@@ -200,13 +200,13 @@ private:
         sums_.merge(s);
     }
 
-    const HalvesOfPicture& picture_;
+    const HalfBufferImage& picture_;
     double scale_;
     Divisor divisor_;
-    Surroundings surroundings_;
-    std::array<HalfRow, kept> rows_;
+    NeighborhoodFilter surroundings_;
+    std::array<HalfBufferRow, kept> rows_;
     Differences above_, now_;
-    Surroundings::Around around_; // of one channel
+    NeighborhoodFilter::NeighborhoodMeans around_; // of one channel
     PixelRow root_;               // of the product of the halves' weights
     PixelSums pixels_;
     int loaded_ = 0;
@@ -232,9 +232,9 @@ void ErrorSums::merge(const ErrorSums& o) {
     largest = std::max(largest, o.largest);
 }
 
-ErrorSums sum_errors(const HalvesOfPicture& picture, int first, int last) {
+ErrorSums sum_errors(const HalfBufferImage& picture, int first, int last) {
     const ErrorSums sums = BandSummer(picture, 1).sum(first, last);
-    if (sums.largest == 0 || (sums.largest <= largest_value && sums.largest >= smallest_value)) return sums;
+    if (sums.largest == 0 || (sums.largest <= max_value && sums.largest >= min_value)) return sums;
     // If values do not fit single precision, scales the image by a power of two into the middle of the range.
     return BandSummer(picture, std::exp2(std::round(std::log2(usual_value / sums.largest)))).sum(first, last);
 }

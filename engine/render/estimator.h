@@ -21,7 +21,7 @@ constexpr uint32_t first_scatter_dimension = 2;
 enum ScatterDimension : uint32_t { light_dimension, bsdf_dimension, choice_dimension, dimensions_per_scatter };
 
 // MIS weight of NEE; delta lights cannot be hit, so their weight is always 1.
-template <class F> F light_sample_weight(Strategy strategy, const F& light_pdf, const F& bsdf_pdf, const Mask<F>& delta) {
+template <class F> F nee_mis_weight(Strategy strategy, const F& light_pdf, const F& bsdf_pdf, const Mask<F>& delta) {
     if (strategy == Strategy::bsdf) return select(delta, F(1.f), F(0.f));
     if (strategy == Strategy::light) return F(1.f);
     return select(delta, F(1.f), power_heuristic(light_pdf, bsdf_pdf));
@@ -81,7 +81,7 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
     Step<F> out;
     out.emitted = splat<F>(0.f);
     out.light = Int<F>(0);
-    out.connects = out.continues = out.breaks = Mask<F>(false);
+    out.connects = out.continues = out.non_finite = Mask<F>(false);
     out.weights = {F(1.f), F(1.f), F(0.f), F(0.f), F(1.f), Mask<F>(false), path.beta};
     const Mask<F> met = active && as_mask(hit.geometry >= 0);
     const Mask<F> escaped = active && !met;
@@ -91,7 +91,7 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
     // The ray escaped: environment and suns.
     if constexpr (S.has(Feature::environment) || S.has(Feature::suns)) {
         if (any(escaped)) {
-            const EscapedLight<F> light = escaped_light<S, F>(scene, settings, path, bounce, escaped);
+            const BackgroundLight<F> light = background_light<S, F>(scene, settings, path, bounce, escaped);
             out.emitted = select<F>(escaped, beta * light.radiance, out.emitted);
             out.weights.emission = light.weight;
         }
@@ -104,7 +104,7 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
     if constexpr (S.has(Feature::sphere_lights)) {
         on_sphere = met && as_mask(hit.instance == sphere_instance);
         if (any(on_sphere)) {
-            const FoundSphere<F> sphere = found_sphere<S, F>(scene, settings.strategy, path, hit.triangle, on_sphere);
+            const SphereEmissionHit<F> sphere = sphere_emission_hit<S, F>(scene, settings.strategy, path, hit.triangle, on_sphere);
             out.emitted = select<F>(on_sphere, beta * sphere.radiance, out.emitted);
             out.weights.emission = select(on_sphere, sphere.weight, out.weights.emission);
             out.emits = out.emits || on_sphere;
@@ -185,19 +185,19 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
         out.first.material = select(found, surface.material, Int<F>(-1));
     }
     if (bounce <= 1) {
-        out.junction.lambertian = matte && !shading.behind;
-        out.junction.position = surface.position;
-        out.junction.clearance = clearance(ng, surface.error);
-        out.junction.ng = ng;
-        out.junction.ns = ns;
-        out.junction.reflectance = bsdf.diffuse;
+        out.reuse_vertex.lambertian = matte && !shading.behind;
+        out.reuse_vertex.position = surface.position;
+        out.reuse_vertex.clearance = clearance(ng, surface.error);
+        out.reuse_vertex.ng = ng;
+        out.reuse_vertex.ns = ns;
+        out.reuse_vertex.reflectance = bsdf.diffuse;
     }
     if (bounce >= settings.max_bounces) return out;
 
     // Share of paths that do not pass the pane straight through (those that pass are handled in thin_transmission.h).
-    F stays = F(1.f);
+    F scatter_share = F(1.f);
     if constexpr (S.has(Feature::transmission))
-        if (scene.panes) stays = select(material.pane, 1.f - straight_transmission<S, F>(bsdf, wo).probability, F(1.f));
+        if (scene.panes) scatter_share = select(material.pane, 1.f - straight_transmission<S, F>(bsdf, wo).probability, F(1.f));
 
     const Sampler<F> sampler{path.key, path.index};
     const uint32_t dimension = first_scatter_dimension + dimensions_per_scatter * uint32_t(bounce);
@@ -205,8 +205,8 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
     // Kernels without specular lobes contain no code for caustic guiding.
     constexpr bool may_aim = S.has(Feature::specular) || S.has(Feature::transmission);
     const bool aims = may_aim && scene.focus.count > 0;
-    Focus<F> focus{};
-    if (aims) focus = focus_at<F>(scene.focus, surface.position, ns, matte);
+    CausticGuide<F> focus{};
+    if (aims) focus = caustic_guide_at<F>(scene.focus, surface.position, ns, matte);
 
     // Next-event estimation, unless all lobes are delta lobes.
     const Mask<F> wants_light = scatters && !is_delta_only<F>(bsdf);
@@ -235,11 +235,11 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
                 out.shadow_mask = shadow_mask<F>(scene.links, record);
             }
         }
-        const F found_pdf = aims ? focused_pdf<F>(scene.focus, focus, wi_world, f.pdf) : f.pdf;
-        const F weight = light_sample_weight(settings.strategy, in.pdf, found_pdf, only_sampled);
+        const F found_pdf = aims ? guided_pdf<F>(scene.focus, focus, wi_world, f.pdf) : f.pdf;
+        const F weight = nee_mis_weight(settings.strategy, in.pdf, found_pdf, only_sampled);
         out.direct = beta * f.f_cos * in.radiance * (weight / in.pdf);
         if constexpr (S.has(Feature::transmission))
-            if (scene.panes) out.direct = out.direct * (1.f / max(stays, F(0x1p-24f)));
+            if (scene.panes) out.direct = out.direct * (1.f / max(scatter_share, F(0x1p-24f)));
         out.light = light.light;
         out.weights.light = weight;
         out.weights.light_pdf = in.pdf;
@@ -256,25 +256,25 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
     const Pair<F> direction = sampler.pair(dimension + bsdf_dimension);
     F lobe = choice.x();
     if constexpr (S.has(Feature::transmission))
-        if (scene.panes) lobe = lobe * stays; // lobes other than the straight one keep the frequency that they have without panes
+        if (scene.panes) lobe = lobe * scatter_share; // lobes other than the straight one keep the frequency that they have without panes
     BsdfSample<F> b = sample<S, F>(bsdf, wo, direction.x(), direction.y(), lobe);
     if constexpr (S.has(Feature::transmission))
         // rounding selected the straight lobe
         if (scene.panes) b.valid = b.valid && !(material.pane && b.delta && (b.wi.z > F(0.f)) != (wo.z > F(0.f)));
     Vec<F> wi = frame.to_world(b.wi);
-    F rarer = F(1.f); // cosine pdf / mixture pdf
+    F pdf_ratio = F(1.f); // cosine pdf / mixture pdf
     if (aims && any(focus.share > F(0.f))) {
         const Mask<F> mixes = focus.share > F(0.f), aimed = mixes && choice.x() < focus.share;
         if (any(aimed)) {
             const F which = min(F(choice.x() / select(aimed, focus.share, F(1.f))), F(one_minus_epsilon));
-            wi = select<F>(aimed, aim_at_ball<F>(scene.focus, focus, which, direction.x(), direction.y()), wi);
+            wi = select<F>(aimed, sample_caster_direction<F>(scene.focus, focus, which, direction.x(), direction.y()), wi);
             b.wi = select<F>(aimed, frame.to_local(wi), b.wi);
         }
         const F cosine = cosine_hemisphere_pdf(b.wi.z);
         b.valid = select(mixes, cosine > F(0.f), b.valid);
-        b.pdf = select(mixes, focused_pdf<F>(scene.focus, focus, wi, cosine), b.pdf);
-        rarer = select(mixes && b.valid, cosine / b.pdf, F(1.f));
-        b.weight = select<F>(mixes, bsdf.diffuse * rarer, b.weight);
+        b.pdf = select(mixes, guided_pdf<F>(scene.focus, focus, wi, cosine), b.pdf);
+        pdf_ratio = select(mixes && b.valid, cosine / b.pdf, F(1.f));
+        b.weight = select<F>(mixes, bsdf.diffuse * pdf_ratio, b.weight);
     }
     const Mask<F> leaves_outside = dot(wi, ng) > F(0.f);
     const Mask<F> same_side = (b.wi.z > F(0.f)) == leaves_outside;
@@ -282,23 +282,23 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
     out.continues = scatters && b.valid && same_side && has_light(next_beta);
     if (bounce + 1 >= settings.roulette.start && settings.roulette.rule != Roulette::Rule::off) {
         // Undo the caustic guiding pdf: oversampled paths towards casters must not be ended for their low weight.
-        Vec<F> judged = beta * b.weight * (1.f / rarer);
+        Vec<F> rr_throughput = beta * b.weight * (1.f / pdf_ratio);
         if constexpr (S.has(Feature::transmission)) {
             // Refraction into a solid scales beta by 1 / ior^2, which is undone on exit: undo it here too.
-            const F squeezed = params.ior * params.ior;
-            judged = select<F>(solid && !leaves_outside && params.ior > F(0.f), judged * squeezed, judged);
+            const F eta_squared = params.ior * params.ior;
+            rr_throughput = select<F>(solid && !leaves_outside && params.ior > F(0.f), rr_throughput * eta_squared, rr_throughput);
         }
         // Do not apply Russian roulette at delta lobes before bounce 17: such paths are likely caustic paths. A cap is needed for
         // scenes with delta lobes only.
-        const Mask<F> asked = !b.delta || Mask<F>(bounce + 1 >= first_asked_at_smooth);
-        const F q = select(asked, survival_probability(settings.roulette, judged), F(1.f));
+        const Mask<F> asked = !b.delta || Mask<F>(bounce + 1 >= first_rr_bounce_at_delta);
+        const F q = select(asked, survival_probability(settings.roulette, rr_throughput), F(1.f));
         out.weights.survival = q;
         out.weights.asked = out.continues && asked;
         out.continues = out.continues && !(choice.y() >= q);
         next_beta = next_beta / max(q, F(1e-30f));
     }
-    out.breaks = out.continues && !is_finite(F(next_beta.x + next_beta.y + next_beta.z));
-    out.continues = out.continues && !out.breaks;
+    out.non_finite = out.continues && !is_finite(F(next_beta.x + next_beta.y + next_beta.z));
+    out.continues = out.continues && !out.non_finite;
     out.next.ray = {offset_origin(surface.position, surface.error, ng, leaves_outside), normalize(wi)};
     out.next.beta = next_beta;
     out.next.pdf = select(b.delta, F(infinity), b.pdf);

@@ -13,16 +13,16 @@ struct EnergyTable;
 
 // Absolute limit of path length, whatever the settings. Paths that reach it are counted and reported; this takes a closed room of
 // albedo 1 with roulette off.
-constexpr int longest_path = 100000;
+constexpr int max_path_length = 100000;
 
 // Russian roulette skips delta lobes before this bounce, whatever its rule: they lose almost no energy there.
-constexpr int first_asked_at_smooth = 17;
+constexpr int first_rr_bounce_at_delta = 17;
 
 struct EstimatorSettings {
-    int32_t max_bounces = longest_path; // scattering events
+    int32_t max_bounces = max_path_length; // scattering events
     Roulette roulette;
     Strategy strategy = Strategy::mis;
-    SampleNumbers sampler = SampleNumbers::sobol;
+    SamplerType sampler = SamplerType::sobol;
     const FilterTable* filter = nullptr;
     const EnergyTable* energy = nullptr; // null: no multiple-scattering compensation
     ReuseGroups reuse;                   // group of one pixel: off

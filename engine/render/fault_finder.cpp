@@ -44,24 +44,24 @@ struct Blame {
     }
 };
 
-void look_at_ray(const ReplayedVertex& v, Blame& blame) {
+void check_ray(const ReplayedVertex& v, Blame& blame) {
     const Place place = v.bounce == 0 ? Place::camera : Place::bsdf_sample;
     blame(fault_of_vector(v.path.ray.origin), place);
     blame(fault_of_vector(v.path.ray.direction), place);
 }
 
-void look_at_surface(const ReplayedVertex& v, const SceneTables& scene, Blame& blame) {
+void check_surface(const ReplayedVertex& v, const SceneTables& scene, Blame& blame) {
     const Surface<float> s = surface_at<all_features, float>(scene, v.hit, true);
     blame(fault_of(v.hit.t), Place::geometry);
     for (const Vec3& vector : {s.position, s.ng, s.ns}) blame(fault_of_vector(vector), Place::geometry);
 }
 
-void look_at_found_light(const ReplayedVertex& v, bool escaped, Blame& blame) {
+void check_emission_hit(const ReplayedVertex& v, bool escaped, Blame& blame) {
     if (!escaped) blame(fault_of_light(v.step.weights.arriving), Place::absorption);
     if (v.step.emits) blame(fault_of_light(v.step.emitted), escaped ? Place::environment : Place::emission);
 }
 
-void look_at_light_sample(const ReplayedVertex& v, Blame& blame) {
+void check_light_sample(const ReplayedVertex& v, Blame& blame) {
     const auto kind = fault_of_light(v.arrived);
     if (!kind) return;
     const StepWeights<float>& w = v.step.weights;
@@ -71,8 +71,8 @@ void look_at_light_sample(const ReplayedVertex& v, Blame& blame) {
     blame(kind, Place::light_sample);
 }
 
-void look_at_scattering(const ReplayedVertex& v, Blame& blame) {
-    if (!v.step.breaks) return;
+void check_scattering(const ReplayedVertex& v, Blame& blame) {
+    if (!v.step.non_finite) return;
     const auto kind = fault_of_light(v.step.next.beta);
     // Survivors are divided by their probability: check whether that division overflowed.
     const float q = v.step.weights.survival;
@@ -87,18 +87,18 @@ void look_at_scattering(const ReplayedVertex& v, Blame& blame) {
 std::optional<Fault> fault_at(const ReplayedVertex& vertex, const SceneTables& scene) {
     const bool escaped = vertex.hit.geometry < 0;
     Blame blame{vertex.bounce};
-    look_at_ray(vertex, blame);
-    if (!escaped && vertex.hit.instance != sphere_instance) look_at_surface(vertex, scene, blame);
-    look_at_found_light(vertex, escaped, blame);
-    look_at_light_sample(vertex, blame);
-    look_at_scattering(vertex, blame);
+    check_ray(vertex, blame);
+    if (!escaped && vertex.hit.instance != sphere_instance) check_surface(vertex, scene, blame);
+    check_emission_hit(vertex, escaped, blame);
+    check_light_sample(vertex, blame);
+    check_scattering(vertex, blame);
     return blame.first;
 }
 
 Fault find_fault(const KernelContext& context, int x, int y, int64_t sample, TileScratch& scratch) {
     std::optional<Fault> fault;
     int last = 0;
-    const Vec3 radiance = replay_sample(context, x, y, sample, longest_path + 1, scratch, [&](const ReplayedVertex& vertex) {
+    const Vec3 radiance = replay_sample(context, x, y, sample, max_path_length + 1, scratch, [&](const ReplayedVertex& vertex) {
         last = vertex.bounce;
         fault = fault_at(vertex, *context.scene);
         return !fault;

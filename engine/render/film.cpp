@@ -14,11 +14,11 @@ namespace blush {
 namespace {
 
 // Radiance beyond single precision, the format of frames.
-constexpr double beyond_radiance = double(std::numeric_limits<float>::max());
+constexpr double max_frame_radiance = double(std::numeric_limits<float>::max());
 
 std::optional<BadSample::Cause> fault_of(double r, double g, double b) {
     if (std::isnan(r) || std::isnan(g) || std::isnan(b)) return BadSample::Cause::nan;
-    if (std::max({std::abs(r), std::abs(g), std::abs(b)}) > beyond_radiance) return BadSample::Cause::infinite;
+    if (std::max({std::abs(r), std::abs(g), std::abs(b)}) > max_frame_radiance) return BadSample::Cause::infinite;
     if (r < 0 || g < 0 || b < 0) return BadSample::Cause::negative;
     return std::nullopt;
 }
@@ -29,7 +29,7 @@ std::vector<PlaneUse> Film::plane_uses(const FilmSize& size) {
     const PlaneSet& planes = size.planes;
     const size_t places = size.adaptive ? 2 : 1; // place_of()
     const bool features = planes.albedo || planes.normal;
-    const int bounces = planes.bounces > 0 ? planes.bounces : usual_bounce_planes;
+    const int bounces = planes.bounces > 0 ? planes.bounces : default_bounce_planes;
     return {
         {"beauty", true, "two halves, for the error estimate", 2 * sizeof(Half)},
         {"albedo and normal", features,
@@ -69,9 +69,9 @@ void Film::require_memory(const FilmSize& size) {
         if (plane.used) per_pixel += double(plane.bytes_per_pixel);
     const double needed = per_pixel * double(size.width) * double(size.height);
     // Reading the free memory opens several files at every edit; for small films a failed allocation reports the same.
-    constexpr double never_asked_about = 256e6;
-    if (needed <= never_asked_about) return;
-    const MemoryRoom room = memory_room();
+    constexpr double min_checked_bytes = 256e6;
+    if (needed <= min_checked_bytes) return;
+    const MemoryLimit room = memory_limit();
     if (needed > 0.8 * double(room.limit))
         throw std::runtime_error(
             fmt::format("an image of {} x {} pixels needs {:.2g} GB of memory: {}", size.width, size.height, needed / 1e9, room.text()));
@@ -165,8 +165,8 @@ Vec3d Film::sum_of(size_t pixel) const {
 // Threshold for the pixel's next samples: those whose components sum
 // to at most this are neither clamped nor among the worst fireflies.
 float Film::notable_sum(size_t pixel, int samples) const {
-    float limit = std::min(std::numeric_limits<float>::max(), clamp_.least_sum());
-    const double count = double(halves_[2 * pixel].count + halves_[2 * pixel + 1].count + samples), least = double(health_.least_excess());
+    float limit = std::min(std::numeric_limits<float>::max(), clamp_.min_clamped_sum());
+    const double count = double(halves_[2 * pixel].count + halves_[2 * pixel + 1].count + samples), least = double(health_.min_excess());
     // No sample exceeds n times the mean of n samples.
     if (count <= least) return limit;
     // Lower bound of the mean during these samples; luminance is at most 0.716 of the sum.
@@ -174,7 +174,7 @@ float Film::notable_sum(size_t pixel, int samples) const {
     return std::min(limit, float(least * std::max(mean, 0.1) / 0.716)); // 0.1: the excess divides by sqrt(mean^2 + 0.01)
 }
 
-void Film::add_planes(size_t pixel, int half, const TileScratch& tile, int slot, const ClampLedger::Left& left) {
+void Film::add_planes(size_t pixel, int half, const TileScratch& tile, int slot, const ClampStats::ClampResult& left) {
     const size_t place = place_of(pixel, half);
     const bool first_of_pixel = halves_[2 * pixel].count + halves_[2 * pixel + 1].count == 0;
     if (needs_first_hits()) add_first_hit(pixel, place, *tile.first, slot, first_of_pixel);
@@ -195,14 +195,14 @@ void Film::add_notable(size_t pixel, const SampleName& at, const TileScratch& ti
         return;
     }
     const size_t place = place_of(pixel, at.sample);
-    const ClampLedger::Left left = clamp_.clamp(place, tile, slot);
+    const ClampStats::ClampResult left = clamp_.clamp(place, tile, slot);
     if (has_planes()) add_planes(pixel, int(at.sample & 1), tile, slot, left);
     if (caught) add_caught(place, tile, *caught, slot, left.radiance);
     halves_[2 * pixel + size_t(at.sample & 1)].add(left.radiance);
     const double mean = luminance(sum_of(pixel)) / double(halves_[2 * pixel].count + halves_[2 * pixel + 1].count);
     const double bright = luminance(radiance);
     const float excess = float(bright / std::sqrt(mean * mean + 0.01));
-    if (excess >= health_.least_excess()) findings.fireflies.push_back({excess, float(bright), at.x, at.y, at.sample, at.seed});
+    if (excess >= health_.min_excess()) findings.fireflies.push_back({excess, float(bright), at.x, at.y, at.sample, at.seed});
 }
 
 void Film::add(const TileJob& job, const TileScratch& tile, uint32_t seed, const Diagnose& diagnose, const CatcherColumns* caught) {
@@ -338,14 +338,14 @@ void Film::for_each_band(const Workers& workers, const std::function<void(size_t
     });
 }
 
-PixelHalves Film::halves(size_t pixel) const {
+PixelHalfBuffers Film::halves(size_t pixel) const {
     const Half &a = halves_[2 * pixel], &b = halves_[2 * pixel + 1];
     if (a.count == 0 || b.count == 0) return {};
     const double na = double(a.count), nb = double(b.count);
     return {true, sum(pixel, 0) / na, sum(pixel, 1) / nb, na * weights(a, b).a};
 }
 
-void Film::load_halves(int y, float scale, HalfRow& row) const {
+void Film::load_halves(int y, float scale, HalfBufferRow& row) const {
     // Cached weights: most pixels have as many samples as the one before.
     struct Counted {
         int64_t a = -1, b = -1;
@@ -384,7 +384,7 @@ ErrorEstimate Film::estimate_error(const Workers& workers, double sharing) const
     const size_t n = size_t(width_) * size_t(height_);
     while (i < n && !halves(i).known) ++i;
     if (i == n) return {};
-    const HalvesOfPicture picture{width_, height_, [this](int y, float scale, HalfRow& row) { load_halves(y, scale, row); }};
+    const HalfBufferImage picture{width_, height_, [this](int y, float scale, HalfBufferRow& row) { load_halves(y, scale, row); }};
     std::vector<ErrorSums> bands(count_bands());
     for_each_band(workers, [&](size_t band, int first, int last) { bands[band] = sum_errors(picture, first, last); });
     ErrorSums sums;

@@ -31,7 +31,7 @@ struct FilmSize {
 };
 
 // A pixel as two half-sample means. Unknown until both halves hold samples.
-struct PixelHalves {
+struct PixelHalfBuffers {
     bool known = false;
     Vec3d a{0, 0, 0}, b{0, 0, 0}; // means
     double weight_a = 0.5;        // weight of a in the image: n_a / (n_a + n_b), or 1/2
@@ -51,7 +51,7 @@ public:
     // Throws std::runtime_error with a user message if such a film does not fit into memory.
     static void require_memory(const FilmSize& size);
     // Clears, and allocates missing planes. Throws as above. Adaptive: each half's sample count depends on sample values, so both
-    // halves get equal weight (sample_plan.h).
+    // halves get equal weight (sample_allocation.h).
     void reset(const FilmSize& size, const Clamp& clamp = {});
     void clear();
     // Frees all planes not listed; the listed ones must exist.
@@ -94,14 +94,14 @@ public:
     const Health& health() const { return health_.health(); }
     // Continues from the health record of another film (film_state.h).
     void restore_health(const Health& health) { health_.restore(health); }
-    PixelHalves halves(size_t pixel) const;
+    PixelHalfBuffers halves(size_t pixel) const;
     // Adaptive films: variance of a caught shadow's opacity in one half of the pixel's samples, from the difference of the
     // halves; 0 without a shadow catcher or if a half is empty.
     double shadow_variance(size_t pixel) const;
     // Writes everything except the error: pixels, planes, health.
     // Reuses the frame's memory. Material ids remain table indices + 1.
     void resolve(Frame& frame, const Workers& workers) const;
-    // `sharing`: see shared_errors.h.
+    // `sharing`: see reuse_covariance.h.
     ErrorEstimate estimate_error(const Workers& workers, double sharing = 1) const;
     // Standard error of each pixel's mean from the two halves, RGB; empty before both hold samples.
     std::vector<Vec3> standard_error() const;
@@ -148,7 +148,7 @@ private:
     float notable_sum(size_t pixel, int samples) const;
     bool has_planes() const { return needs_first_hits() || planes_.bounces > 0 || planes_.roulette || needs_groups() > 0; }
     // Adds a sample to all planes except the beauty; call it before adding to the beauty.
-    void add_planes(size_t pixel, int half, const TileScratch& tile, int slot, const ClampLedger::Left& left);
+    void add_planes(size_t pixel, int half, const TileScratch& tile, int slot, const ClampStats::ClampResult& left);
     void add_notable(size_t pixel, const SampleName& at, const TileScratch& tile, int slot, const Diagnose& diagnose, Findings& findings,
                      const CatcherColumns* caught);
     void add_caught(size_t place, const TileScratch& tile, const CatcherColumns& caught, int slot, const Vec3d& radiance);
@@ -167,7 +167,7 @@ private:
     static constexpr int band_rows = 32;
     size_t count_bands() const;
     void for_each_band(const Workers& workers, const std::function<void(size_t band, int first, int last)>& task) const;
-    void load_halves(int y, float scale, HalfRow& row) const;
+    void load_halves(int y, float scale, HalfBufferRow& row) const;
 
     int width_ = 0, height_ = 0;
     PlaneSet planes_;
@@ -186,7 +186,7 @@ private:
     std::vector<Vec3> gains_; // of the light groups
     bool mixed_ = false;      // some gain is not 1
     std::vector<CaughtSums> caught_; // only with a shadow catcher
-    ClampLedger clamp_;
+    ClampStats clamp_;
     HealthRecorder health_;
 };
 

@@ -17,13 +17,13 @@ template <class At> using ValueOf = std::remove_cvref_t<std::invoke_result_t<At,
 // Depth is stored like a sum: every float is exact as a double.
 template <class T> constexpr bool is_sum = std::is_floating_point_v<T>;
 
-const ExactPlane* find_plane(const std::vector<ExactPlane>& planes, std::string_view name) {
-    const auto it = std::ranges::find(planes, name, &ExactPlane::name);
+const LosslessPlane* find_plane(const std::vector<LosslessPlane>& planes, std::string_view name) {
+    const auto it = std::ranges::find(planes, name, &LosslessPlane::name);
     return it == planes.end() ? nullptr : &*it;
 }
 
 // Error if the state lacks a plane of the film or has another size.
-std::optional<Error> misfit(const Film& film, const FilmState& state) {
+std::optional<Error> find_mismatch(const Film& film, const FilmState& state) {
     if (state.width != film.width() || state.height != film.height())
         return Error{"",
                      fmt::format("saved samples of {} x {} pixels do not fit an image of {} x {}", state.width, state.height,
@@ -32,7 +32,7 @@ std::optional<Error> misfit(const Film& film, const FilmState& state) {
     const size_t pixels = size_t(state.width) * size_t(state.height);
     std::optional<Error> error;
     FilmPlanes::visit(film, [&](const std::string& name, Combine, const auto& at) {
-        const ExactPlane* plane = find_plane(state.planes, name);
+        const LosslessPlane* plane = find_plane(state.planes, name);
         const bool there = plane && (is_sum<ValueOf<decltype(at)>> ? plane->sums.size() : plane->words.size()) == pixels;
         if (!there && !error) error = Error{"", fmt::format("the saved samples lack the plane \"{}\"", name), ""};
     });
@@ -40,11 +40,11 @@ std::optional<Error> misfit(const Film& film, const FilmState& state) {
 }
 
 // take(old value, value in the state, pixel, combine) for each number of the film.
-template <class Take> void each_number(Film& film, const FilmState& state, const Take& take) {
+template <class Take> void for_each_value(Film& film, const FilmState& state, const Take& take) {
     const size_t pixels = size_t(state.width) * size_t(state.height);
     FilmPlanes::visit(film, [&](const std::string& name, Combine combine, const auto& at) {
         using T = ValueOf<decltype(at)>;
-        const ExactPlane& plane = *find_plane(state.planes, name);
+        const LosslessPlane& plane = *find_plane(state.planes, name);
         for (size_t i = 0; i < pixels; ++i) {
             if constexpr (is_sum<T>)
                 take(at(i), T(plane.sums[i]), i, combine);
@@ -56,8 +56,8 @@ template <class Take> void each_number(Film& film, const FilmState& state, const
 
 } // namespace
 
-const ExactPlane* FilmState::find(std::string_view name) const { return find_plane(planes, name); }
-ExactPlane* FilmState::find(std::string_view name) { return const_cast<ExactPlane*>(find_plane(planes, name)); }
+const LosslessPlane* FilmState::find(std::string_view name) const { return find_plane(planes, name); }
+LosslessPlane* FilmState::find(std::string_view name) { return const_cast<LosslessPlane*>(find_plane(planes, name)); }
 
 FilmState save_film(const Film& film) {
     FilmState state;
@@ -65,7 +65,7 @@ FilmState save_film(const Film& film) {
     state.height = film.height();
     const size_t pixels = size_t(state.width) * size_t(state.height);
     FilmPlanes::visit(film, [&](const std::string& name, Combine, const auto& at) {
-        ExactPlane plane{name};
+        LosslessPlane plane{name};
         if constexpr (is_sum<ValueOf<decltype(at)>>) {
             plane.sums.resize(pixels);
             for (size_t i = 0; i < pixels; ++i) plane.sums[i] = double(at(i));
@@ -80,17 +80,17 @@ FilmState save_film(const Film& film) {
 }
 
 Result<void> load_film(Film& film, const FilmState& state) {
-    if (const auto error = misfit(film, state)) return *error;
-    each_number(film, state, [](auto& number, auto value, size_t, Combine) { number = value; });
+    if (const auto error = find_mismatch(film, state)) return *error;
+    for_each_value(film, state, [](auto& number, auto value, size_t, Combine) { number = value; });
     film.restore_health(state.health);
     return {};
 }
 
 Result<void> add_film(Film& film, const FilmState& more) {
-    if (const auto error = misfit(film, more)) return *error;
+    if (const auto error = find_mismatch(film, more)) return *error;
     std::vector<bool> seen(size_t(more.width) * size_t(more.height));
     for (size_t i = 0; i < seen.size(); ++i) seen[i] = film.has_samples(i);
-    each_number(film, more, [&](auto& number, auto value, size_t pixel, Combine combine) {
+    for_each_value(film, more, [&](auto& number, auto value, size_t pixel, Combine combine) {
         if (combine == Combine::add)
             number += value;
         else if (!seen[pixel])
@@ -120,8 +120,8 @@ FilmSize film_size(const FilmState& state) {
     size.planes.depth = has("depth");
     size.planes.ids = has("object");
     size.planes.roulette = has("paths.R");
-    while (size.planes.bounces < most_bounce_planes && has(fmt::format("bounce.{}.R", size.planes.bounces))) ++size.planes.bounces;
-    while (size.groups < most_light_groups && has(FilmPlanes::group_name(size_t(size.groups), 0) + ".R")) ++size.groups;
+    while (size.planes.bounces < max_bounce_planes && has(fmt::format("bounce.{}.R", size.planes.bounces))) ++size.planes.bounces;
+    while (size.groups < max_light_groups && has(FilmPlanes::group_name(size_t(size.groups), 0) + ".R")) ++size.groups;
     size.transparent = has("covered");
     size.catches = has("caught.unoccluded");
     return size;
@@ -157,8 +157,8 @@ Result<ResolvedFilm> resolve_film(const FilmState& state, const RenderSettings& 
     }
     const Workers workers(threads);
     film.resolve(frame, workers);
-    for (uint32_t& id : frame.object_id) id &= ~lowered_bit;
-    for (uint32_t& id : frame.material_id) id = (id - 1) & lowered_bit ? 0 : id - 1;
+    for (uint32_t& id : frame.object_id) id &= ~expanded_id_bit;
+    for (uint32_t& id : frame.material_id) id = (id - 1) & expanded_id_bit ? 0 : id - 1;
     frame.samples = state.samples;
     frame.seconds = state.seconds;
     frame.rays = state.rays;

@@ -22,9 +22,9 @@ struct FilmState {
     double seconds = 0;                    // of rendering
     // "even.R", "odd.count", "albedo.G", "depth", ...: sums over samples, or values of the first sample. Material ids are
     // Id<Material>.value, no_material on a miss.
-    std::vector<ExactPlane> planes;
-    std::array<std::vector<double>, 2> shares; // SamplePlan's, once adaptive sampling has decided
-    std::vector<Vec3d> marked;                 // PilotNoise's, in the second half of the pilot of adaptive sampling
+    std::vector<LosslessPlane> planes;
+    std::array<std::vector<double>, 2> shares; // SampleAllocation's, once adaptive sampling has decided
+    std::vector<Vec3d> marked;                 // PilotVariance's, in the second half of the pilot of adaptive sampling
     RayCounts rays;
     std::vector<PathCounts> path_counts;
     int64_t truncated = 0;
@@ -37,8 +37,8 @@ struct FilmState {
     std::vector<MixedGroup> mix; // one entry per light group
 
     static constexpr uint32_t no_material = 0xffffffffu;
-    const ExactPlane* find(std::string_view name) const;
-    ExactPlane* find(std::string_view name);
+    const LosslessPlane* find(std::string_view name) const;
+    LosslessPlane* find(std::string_view name);
 };
 using FilmStatePtr = std::shared_ptr<const FilmState>;
 

@@ -10,7 +10,7 @@
 namespace blush::inline BLUSH_ISA {
 
 // MIS weight of emission hit by a BSDF-sampled ray; light_pdf is the pdf of NEE for the same direction.
-template <class F> F found_emission_weight(Strategy strategy, const F& bsdf_pdf, const F& light_pdf) {
+template <class F> F emission_mis_weight(Strategy strategy, const F& bsdf_pdf, const F& light_pdf) {
     const Mask<F> only_found = bsdf_pdf == F(infinity) || light_pdf == F(0.f);
     if (strategy == Strategy::bsdf) return F(1.f);
     if (strategy == Strategy::light) return select(only_found, F(1.f), F(0.f));
@@ -27,7 +27,7 @@ F if_linked(const SceneTables& scene, const F& weight, const Int<F>& light, cons
 // Calls visit(light, radiance times MIS weight, MIS weight, lanes) for each light at infinity in the direction of the path's ray;
 // light is a record of the light table, -1 for an environment that is only a backdrop.
 template <Features S, class F, class Visit>
-void visit_escaped_light(const SceneTables& scene, const EstimatorSettings& settings, const Path<F>& path, int bounce, const Mask<F>& active,
+void for_each_background_light(const SceneTables& scene, const EstimatorSettings& settings, const Path<F>& path, int bounce, const Mask<F>& active,
                          const Visit& visit) {
     const LightTables& lights = scene.lights;
     // NEE pdf for the MIS weight. Under Strategy::bsdf there is no NEE, and its tables do not exist.
@@ -41,7 +41,7 @@ void visit_escaped_light(const SceneTables& scene, const EstimatorSettings& sett
                 F pdf = F(0.f);
                 if (lights.environment >= 0)
                     pdf = environment_pdf<F>(scene.environment, path.ray.direction) * light_probability<S, F>(lights, from, Int<F>(lights.environment), active);
-                weight = found_emission_weight(settings.strategy, path.pdf, pdf);
+                weight = emission_mis_weight(settings.strategy, path.pdf, pdf);
             }
             visit(lights.environment, radiance * weight, weight, active);
         }
@@ -55,7 +55,7 @@ void visit_escaped_light(const SceneTables& scene, const EstimatorSettings& sett
             F weight = F(1.f);
             if (aims) {
                 const F pdf = cone_pdf(F(sun.cone_height)) * light_probability<S, F>(lights, from, Int<F>(lights.suns[i]), inside);
-                weight = found_emission_weight(settings.strategy, path.pdf, pdf);
+                weight = emission_mis_weight(settings.strategy, path.pdf, pdf);
             }
             weight = if_linked<S, F>(scene, weight, Int<F>(lights.suns[i]), path, inside);
             visit(lights.suns[i], splat<F>(sun.emission) * weight, weight, inside);
@@ -64,14 +64,14 @@ void visit_escaped_light(const SceneTables& scene, const EstimatorSettings& sett
 }
 
 // Sum over all lights at infinity, and the environment's MIS weight.
-template <class F> struct EscapedLight {
+template <class F> struct BackgroundLight {
     Vec<F> radiance;
     F weight;
 };
 template <Features S, class F>
-EscapedLight<F> escaped_light(const SceneTables& scene, const EstimatorSettings& settings, const Path<F>& path, int bounce, const Mask<F>& active) {
-    EscapedLight<F> all{splat<F>(0.f), F(1.f)};
-    visit_escaped_light<S, F>(scene, settings, path, bounce, active,
+BackgroundLight<F> background_light(const SceneTables& scene, const EstimatorSettings& settings, const Path<F>& path, int bounce, const Mask<F>& active) {
+    BackgroundLight<F> all{splat<F>(0.f), F(1.f)};
+    for_each_background_light<S, F>(scene, settings, path, bounce, active,
                               [&](int32_t light, const Vec<F>& radiance, const F& weight, const Mask<F>& lanes) {
                                   all.radiance = select<F>(lanes, all.radiance + radiance, all.radiance);
                                   if (light == scene.lights.environment) all.weight = weight;
@@ -95,7 +95,7 @@ template <class F> F emission_profile(const SceneTables& scene, const Int<F>& li
 
 // MIS weight of a triangle's emission, hit at distance t with cosine `facing`.
 template <Features S, class F>
-F surface_emission_weight(const SceneTables& scene, Strategy strategy, const Path<F>& path, const Int<F>& found, const F& t, const F& facing,
+F surface_emission_mis_weight(const SceneTables& scene, Strategy strategy, const Path<F>& path, const Int<F>& found, const F& t, const F& facing,
                           const Mask<F>& active) {
     if (strategy == Strategy::bsdf) return F(1.f);
     const Mask<F> sampled = active && as_mask(found >= 0);
@@ -103,7 +103,7 @@ F surface_emission_weight(const SceneTables& scene, Strategy strategy, const Pat
     const Receiver<F> from{path.ray.origin, path.normal};
     const F per_area = light_probability<S, F>(scene.lights, from, light, sampled) * gather_field(scene.lights.lights, &LightRecord::inverse_area, light);
     const F pdf = select(sampled, area_to_solid_angle(per_area, F(t * t), facing), F(0.f));
-    return found_emission_weight(strategy, path.pdf, pdf);
+    return emission_mis_weight(strategy, path.pdf, pdf);
 }
 
 // Radiance of an emissive triangle hit by the path's ray, and its MIS
@@ -116,20 +116,20 @@ template <Features S, class F>
 EmissionHit<F> emission_hit(const SceneTables& scene, Strategy strategy, const Path<F>& path, const Int<F>& part, const Hit<F>& hit, const F& facing,
                             const Vec<F>& emission, const Mask<F>& emitting) {
     const Int<F> light = light_of_triangle<F>(scene, part, select(emitting, hit.triangle, Int<F>(0)));
-    const F unlinked = surface_emission_weight<S, F>(scene, strategy, path, light, hit.t, facing, emitting);
+    const F unlinked = surface_emission_mis_weight<S, F>(scene, strategy, path, light, hit.t, facing, emitting);
     EmissionHit<F> found{emission, if_linked<S, F>(scene, unlinked, light, path, emitting)};
     if constexpr (S.has(Feature::light_profiles)) found.radiance = found.radiance * emission_profile<F>(scene, light, -path.ray.direction, emitting);
     return found;
 }
 
 // Radiance of a sphere light hit by the path's ray, times its MIS weight, and that weight. Black from inside.
-template <class F> struct FoundSphere {
+template <class F> struct SphereEmissionHit {
     Vec<F> radiance;
     F weight;
     Int<F> object;
 };
 template <Features S, class F>
-FoundSphere<F> found_sphere(const SceneTables& scene, Strategy strategy, const Path<F>& path, const Int<F>& sphere, const Mask<F>& active) {
+SphereEmissionHit<F> sphere_emission_hit(const SceneTables& scene, Strategy strategy, const Path<F>& path, const Int<F>& sphere, const Mask<F>& active) {
     const LightRecord* lights = scene.lights.lights;
     const Int<F> light = select(active, Int<F>(sphere + scene.lights.first_sphere), Int<F>(0));
     const Vec<F> to_center = gather_field3<F>(lights, &LightRecord::position, light) - path.ray.origin;
@@ -139,7 +139,7 @@ FoundSphere<F> found_sphere(const SceneTables& scene, Strategy strategy, const P
     if (strategy != Strategy::bsdf) { // Strategy::bsdf has no NEE and no table
         const Receiver<F> from{path.ray.origin, path.normal};
         const F pdf = cone_pdf(select(outside, height, F(1.f))) * light_probability<S, F>(scene.lights, from, light, outside);
-        found = found_emission_weight(strategy, path.pdf, pdf);
+        found = emission_mis_weight(strategy, path.pdf, pdf);
     }
     const F weight = if_linked<S, F>(scene, found, light, path, active);
     Vec<F> emission = gather_field3<F>(lights, &LightRecord::emission, light);

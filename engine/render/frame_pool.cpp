@@ -6,7 +6,7 @@ namespace blush {
 namespace {
 
 // One is shown, one is being written, and a reader may still hold the previous one.
-constexpr size_t most_kept = 3;
+constexpr size_t max_kept = 3;
 
 } // namespace
 
@@ -24,7 +24,7 @@ std::shared_ptr<Frame> FramePool::take() {
     const auto give_back = [shelf = shelf_](Frame* done) {
         std::unique_ptr<Frame> returned(done);
         const std::lock_guard lock(shelf->mutex);
-        if (shelf->frames.size() < most_kept) shelf->frames.push_back(std::move(returned));
+        if (shelf->frames.size() < max_kept) shelf->frames.push_back(std::move(returned));
     };
     return {frame.release(), give_back};
 }

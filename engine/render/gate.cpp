@@ -2,39 +2,39 @@
 
 namespace blush {
 
-void Gate::shut() {
+void PauseGate::close() {
     const std::lock_guard lock(mutex_);
-    if (shut_) return;
-    shut_ = true;
-    shut_since_ = Clock::now();
+    if (closed_) return;
+    closed_ = true;
+    closed_since_ = Clock::now();
 }
 
-void Gate::open() {
+void PauseGate::open() {
     {
         const std::lock_guard lock(mutex_);
-        if (!shut_) return;
-        shut_ = false;
-        shut_before_ += Clock::now() - shut_since_;
+        if (!closed_) return;
+        closed_ = false;
+        closed_before_ += Clock::now() - closed_since_;
     }
     changed_.notify_all();
 }
 
-void Gate::pass(const std::function<bool()>& hurries) {
-    if (!is_shut()) return;
+void PauseGate::wait_while_closed(const std::function<bool()>& interrupted) {
+    if (!is_closed()) return;
     std::unique_lock lock(mutex_);
     ++waiting_;
-    changed_.wait(lock, [&] { return !shut_ || hurries(); });
+    changed_.wait(lock, [&] { return !closed_ || interrupted(); });
     --waiting_;
 }
 
-void Gate::look_again() {
+void PauseGate::notify() {
     { const std::lock_guard lock(mutex_); } // after this, a thread that evaluated its predicate is waiting
     changed_.notify_all();
 }
 
-double Gate::shut_seconds() const {
+double PauseGate::closed_seconds() const {
     const std::lock_guard lock(mutex_);
-    return std::chrono::duration<double>(shut_before_ + (shut_ ? Clock::now() - shut_since_ : Clock::duration())).count();
+    return std::chrono::duration<double>(closed_before_ + (closed_ ? Clock::now() - closed_since_ : Clock::duration())).count();
 }
 
 } // namespace blush

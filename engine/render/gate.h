@@ -10,28 +10,28 @@
 namespace blush {
 
 // Thread-safe. Open at first.
-class Gate {
+class PauseGate {
 public:
-    void shut();
+    void close();
     void open();
-    bool is_shut() const { return shut_.load(std::memory_order_relaxed); }
+    bool is_closed() const { return closed_.load(std::memory_order_relaxed); }
     // Blocks while closed, unless hurries() becomes true. One relaxed load when open.
-    void pass(const std::function<bool()>& hurries);
-    bool holds_anyone() const { return waiting_.load(std::memory_order_relaxed) > 0; }
+    void wait_while_closed(const std::function<bool()>& interrupted);
+    bool has_waiting_threads() const { return waiting_.load(std::memory_order_relaxed) > 0; }
     // Wakes waiting threads to call `hurries` again.
-    void look_again();
+    void notify();
     // Total seconds closed so far.
-    double shut_seconds() const;
+    double closed_seconds() const;
 
 private:
     using Clock = std::chrono::steady_clock;
 
-    std::atomic<bool> shut_{false};
+    std::atomic<bool> closed_{false};
     std::atomic<int> waiting_{0};
-    mutable std::mutex mutex_; // guards the following, and changes of shut_
+    mutable std::mutex mutex_; // guards the following, and changes of closed_
     std::condition_variable changed_;
-    Clock::time_point shut_since_{};
-    Clock::duration shut_before_{}; // total of finished closures
+    Clock::time_point closed_since_{};
+    Clock::duration closed_before_{}; // total of finished closures
 };
 
 } // namespace blush

@@ -25,7 +25,7 @@ InstanceRecord make_instance(const Affined& m) {
     return {to_float(m), to_float(n.x), to_float(n.y), to_float(n.z)};
 }
 
-template <class T> void append_or_fill(PlacedVector<T>& pool, bool wanted, const PlacedVector<T>& values, size_t count, const T& filler) {
+template <class T> void append_or_fill(ArenaVector<T>& pool, bool wanted, const ArenaVector<T>& values, size_t count, const T& filler) {
     if (!wanted) return;
     if (values.size() == count)
         pool.insert(pool.end(), values.begin(), values.end());
@@ -34,8 +34,8 @@ template <class T> void append_or_fill(PlacedVector<T>& pool, bool wanted, const
 }
 
 // Empty if the mesh lacks that set.
-const PlacedVector<Vec2>& uv_set(const Geometry& g, int number) {
-    static const PlacedVector<Vec2> none;
+const ArenaVector<Vec2>& uv_set(const Geometry& g, int number) {
+    static const ArenaVector<Vec2> none;
     return number >= 0 && g.has_uv_set(number) ? g.uv[size_t(number)] : none;
 }
 
@@ -88,22 +88,22 @@ Affined placed(const SceneObject& object, size_t copy, const Vec3d& origin) {
 size_t placed_parts(const SceneObject& object) { return object.copies() * object.parts.size(); }
 
 // True if the last position can be read as four floats.
-bool has_room_behind(const Geometry& geometry) { return placed_at(geometry) || geometry.positions.capacity() > geometry.positions.size(); }
+bool is_padded(const Geometry& geometry) { return arena_offsets(geometry) || geometry.positions.capacity() > geometry.positions.size(); }
 
 // Address of element 0 of an array: without an arena, its own start.
-template <class T> const T* base_of(const PlacedVector<T>& own, bool numbered, Attribute attribute) {
+template <class T> const T* base_of(const ArenaVector<T>& own, bool numbered, Attribute attribute) {
     return numbered ? attribute_base<T>(attribute) : own.data();
 }
 
 // An empty array with capacity for `count`, at its arena range if there is one.
-template <class T> PlacedVector<T> with_room(size_t count, const NumbersPtr& numbers, T* base) {
+template <class T> ArenaVector<T> with_room(size_t count, const ArenaRangePtr& numbers, T* base) {
     if (numbers && !base) throw std::runtime_error("cannot reserve address space for the scene's vertices");
-    PlacedVector<T> room(numbers ? PlacedAllocator<T>(base + numbers->first(), count) : PlacedAllocator<T>());
+    ArenaVector<T> room(numbers ? ArenaAllocator<T>(base + numbers->first(), count) : ArenaAllocator<T>());
     room.reserve(count);
     return room;
 }
 
-bool is_read_in_place(const SceneObject& object, const Geometry& geometry) { return object.instanced && placed_at(geometry); }
+bool is_read_in_place(const SceneObject& object, const Geometry& geometry) { return object.instanced && arena_offsets(geometry); }
 
 // Lets the BVH builder read the document's arrays, which never move, instead of the pool's.
 void share(const GeometryPtr& geometry, AccelTriangles& triangles) {
@@ -113,7 +113,7 @@ void share(const GeometryPtr& geometry, AccelTriangles& triangles) {
 }
 
 // Kernels address fields of 21-field records by a 32-bit index.
-constexpr size_t most_placed_parts = size_t(1) << 26;
+constexpr size_t max_instance_parts = size_t(1) << 26;
 
 } // namespace
 
@@ -136,15 +136,15 @@ void GeometryPool::reserve(const std::vector<SceneObject>& objects) {
             indices += g.indices.size();
         }
     }
-    vertex_numbers_ = take_numbers(Numbering::vertices, vertices);
-    index_numbers_ = take_numbers(Numbering::indices, indices);
+    vertex_numbers_ = reserve_arena_range(ArenaKind::vertices, vertices);
+    index_numbers_ = reserve_arena_range(ArenaKind::indices, indices);
     const bool numbered = vertex_numbers_ && index_numbers_;
-    if (vertices > size_t(most_numbers(Numbering::vertices)) || indices > size_t(most_numbers(Numbering::indices)) || (in_place && !numbered))
+    if (vertices > size_t(arena_capacity(ArenaKind::vertices)) || indices > size_t(arena_capacity(ArenaKind::indices)) || (in_place && !numbered))
         throw std::runtime_error("the scene has more vertices than 32-bit indices reach");
     if (!numbered) vertex_numbers_ = index_numbers_ = {};
     first_vertex_ = numbered ? int32_t(vertex_numbers_->first()) : 0;
     first_index_ = numbered ? int32_t(index_numbers_->first()) : 0;
-    if (parts > most_placed_parts) throw std::runtime_error("the scene has more instances than 32-bit indices reach");
+    if (parts > max_instance_parts) throw std::runtime_error("the scene has more instances than 32-bit indices reach");
     parts_.reserve(parts);
     part_materials_.reserve(parts);
     part_triangles_.reserve(parts);
@@ -183,7 +183,7 @@ GeometryPool::Span GeometryPool::find_or_append(const SceneObject& object, const
     if (!object.instanced) return append(*geometry);
     const auto [known, is_new] = shared.try_emplace(geometry->serial);
     if (!is_new) return known->second;
-    if (const auto at = placed_at(*geometry)) {
+    if (const auto at = arena_offsets(*geometry)) {
         read_in_place_.push_back(geometry);
         known->second = {at->first_vertex, at->first_index};
     } else
@@ -329,7 +329,7 @@ AccelScene GeometryPool::accel_scene(const std::vector<SceneObject>& objects, co
             AccelTriangles t{p.geometry->serial, nullptr, all_positions_ + record.first_vertex, size_t(part_vertices_[part]),
                              all_indices_ + record.first_index, size_t(part_triangles_[part]), opaque_as, alpha[part],
                              object.instanced ? seen_by_all : masks[i]};
-            if (object.instanced && has_room_behind(*p.geometry)) share(p.geometry, t);
+            if (object.instanced && is_padded(*p.geometry)) share(p.geometry, t);
             triangles.push_back(std::move(t));
             ++part;
         }
@@ -347,7 +347,7 @@ size_t GeometryPool::memory_bytes() const {
     const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
     size_t sum = bytes(parts_) + bytes(part_materials_) + bytes(part_triangles_) + bytes(part_vertices_) + bytes(instances_) +
                  bytes(instance_first_part_) + bytes(indices_) + bytes(positions_) + bytes(normals_) + bytes(tangents_) + bytes(colors_);
-    for (const PlacedVector<Vec2>& uv : uv_) sum += bytes(uv);
+    for (const ArenaVector<Vec2>& uv : uv_) sum += bytes(uv);
     return sum;
 }
 

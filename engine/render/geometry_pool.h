@@ -77,15 +77,15 @@ private:
     size_t largest_instanced_mesh_ = 0;
     bool has_normals_ = false;
     // Arena ranges of the own arrays. If the arena is unavailable, nothing is read in place.
-    NumbersPtr vertex_numbers_, index_numbers_;
+    ArenaRangePtr vertex_numbers_, index_numbers_;
     int32_t first_vertex_ = 0, first_index_ = 0;
     // From arena element 0: own data and data read in place.
     const Vec3* all_positions_ = nullptr;
     const uint32_t* all_indices_ = nullptr;
-    PlacedVector<uint32_t> indices_;
-    PlacedVector<Vec3> positions_, normals_;
-    PlacedVector<Vec4> tangents_, colors_;
-    std::array<PlacedVector<Vec2>, most_uv_sets> uv_;
+    ArenaVector<uint32_t> indices_;
+    ArenaVector<Vec3> positions_, normals_;
+    ArenaVector<Vec4> tangents_, colors_;
+    std::array<ArenaVector<Vec2>, max_uv_sets> uv_;
     AttributeNeeds needs_;
     Vec3d origin_{0, 0, 0};
 };

@@ -22,7 +22,7 @@ void add_found_by_group(const KernelContext& context, GroupColumns& groups, cons
         add(scene.groups.of_part[part], i, step.emitted);
     });
     if (!any(escaped)) return;
-    visit_escaped_light<S, F>(scene, context.settings, path, bounce, escaped,
+    for_each_background_light<S, F>(scene, context.settings, path, bounce, escaped,
                               [&](int32_t light, const Vec<F>& radiance, const F&, const Mask<F>& lanes) {
                                   const Vec<F> arriving = path.beta * radiance;
                                   const int group = light < 0 ? scene.groups.environment : scene.groups.of_light[light];

@@ -50,21 +50,21 @@ private:
 // Red, green, blue.
 using ChannelRows = std::array<PixelRow, 3>;
 
-struct HalfRow {
+struct HalfBufferRow {
     ChannelRows a, b, own; // means of the halves, and the image's values
     PixelRow weight_a;     // weight of a in the image
     PixelRow known;        // 1 where both halves hold samples; elsewhere 0, and a and b are the image's value
     PixelRow one_sample;   // where known, 1 / (number of samples of both); elsewhere 0
 
-    HalfRow() = default;
-    explicit HalfRow(int width)
+    HalfBufferRow() = default;
+    explicit HalfBufferRow(int width)
         : a{PixelRow(width), PixelRow(width), PixelRow(width)}, b(a), own(a), weight_a(width), known(width), one_sample(width) {}
 };
 
 // An image that is read row by row; load(y, scale, row) gives the values of row y times `scale`.
-struct HalvesOfPicture {
+struct HalfBufferImage {
     int width = 0, height = 0;
-    std::function<void(int y, float scale, HalfRow& row)> load;
+    std::function<void(int y, float scale, HalfBufferRow& row)> load;
 };
 
 } // namespace blush

@@ -33,12 +33,12 @@ int64_t& counter(Health& health, BadSample::Cause cause) {
 
 void HealthRecorder::reset() {
     health_ = {};
-    least_excess_ = least_firefly;
+    min_excess_ = min_firefly_excess;
 }
 
 void HealthRecorder::restore(const Health& health) {
     health_ = health;
-    least_excess_ = health.fireflies.size() == remembered ? health.fireflies.back().excess : least_firefly;
+    min_excess_ = health.fireflies.size() == remembered ? health.fireflies.back().excess : min_firefly_excess;
 }
 
 void HealthRecorder::add_dropped(const std::vector<BadSample>& samples, size_t width, size_t pixels) {
@@ -55,7 +55,7 @@ void HealthRecorder::add_dropped(const std::vector<BadSample>& samples, size_t w
 void HealthRecorder::add_fireflies(const std::vector<Firefly>& samples) {
     const std::lock_guard lock(mutex_);
     merge_first(health_.fireflies, samples, is_worse);
-    if (health_.fireflies.size() == remembered) least_excess_ = health_.fireflies.back().excess;
+    if (health_.fireflies.size() == remembered) min_excess_ = health_.fireflies.back().excess;
 }
 
 Health HealthRecorder::merged(const Health& a, const Health& b) {

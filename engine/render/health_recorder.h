@@ -12,7 +12,7 @@ namespace blush {
 class HealthRecorder {
 public:
     static constexpr size_t remembered = 100;
-    static constexpr float least_firefly = 2; // minimal excess of a firefly
+    static constexpr float min_firefly_excess = 2; // minimal excess of a firefly
 
     void reset();
     // Dropped samples, of a film of `width` and `pixels` in total. Thread-safe.
@@ -20,7 +20,7 @@ public:
     // Thread-safe.
     void add_fireflies(const std::vector<Firefly>& samples);
     // Samples with less excess need not be reported: a hundred are worse.
-    float least_excess() const { return least_excess_.load(std::memory_order_relaxed); }
+    float min_excess() const { return min_excess_.load(std::memory_order_relaxed); }
     // Continues from the record of another recorder.
     void restore(const Health& health);
     // Not to be called while tiles report.
@@ -31,7 +31,7 @@ public:
 
 private:
     std::mutex mutex_;
-    std::atomic<float> least_excess_{least_firefly};
+    std::atomic<float> min_excess_{min_firefly_excess};
     Health health_;
 };
 

@@ -27,7 +27,7 @@ Path<float> leave(const MeterPoint& receiver, const Sampler<float>& sampler, int
 
 } // namespace
 
-Step<float> aim_at_light(const KernelContext& context, const MeterPoint& receiver, const Sampler<float>& sampler, int32_t part) {
+Step<float> sample_light_at_meter(const KernelContext& context, const MeterPoint& receiver, const Sampler<float>& sampler, int32_t part) {
     const SceneTables& scene = *context.scene;
     Step<float> step{};
     const LightPoint<float> light =
@@ -46,7 +46,7 @@ Step<float> aim_at_light(const KernelContext& context, const MeterPoint& receive
         step.shadow_mask = shadow_mask<float>(scene.links, light.light);
     }
     const bool lit = !scene.links.lit_sets || !light.valid || is_lit<float>(scene.links, light.light, part, true);
-    const float weight = light_sample_weight<float>(context.settings.strategy, in.pdf, cosine_hemisphere_pdf<float>(cosine), only_sampled);
+    const float weight = nee_mis_weight<float>(context.settings.strategy, in.pdf, cosine_hemisphere_pdf<float>(cosine), only_sampled);
     step.direct = in.radiance * (cosine * inv_pi * weight / in.pdf);
     step.connects = light.valid && lit && cosine > 0 && has_light<float>(step.direct);
     step.shadow = {receiver.position, wi};
@@ -57,7 +57,7 @@ Step<float> aim_at_light(const KernelContext& context, const MeterPoint& receive
 Vec3d estimate_irradiance(KernelContext context, const MeterPoint& receiver, uint32_t replicate, int samples, TileScratch& scratch) {
     context.settings.reuse = {};
     if (context.settings.max_bounces < 1) context.settings.max_bounces = 1;
-    samples = std::clamp(samples, 1, most_irradiance_samples);
+    samples = std::clamp(samples, 1, max_irradiance_samples);
     const uint32_t key = pixel_key<float>(replicate, 0u, randomisation(context.seed, 0));
     PathQueue *now = &scratch.paths[0], *next = &scratch.paths[1];
     now->size = scratch.shadows.size = 0;
@@ -71,14 +71,14 @@ Vec3d estimate_irradiance(KernelContext context, const MeterPoint& receiver, uin
         now->dispersed[now->size] = 0;
         append<features, float>(*now, leave(receiver, sampler, i), true);
         if (context.scene->lights.count == 0) continue;
-        const Step<float> step = aim_at_light(context, receiver, sampler, from_meter);
+        const Step<float> step = sample_light_at_meter(context, receiver, sampler, from_meter);
         if (!step.connects) continue;
         if (alpha) scratch.shadows.random[scratch.shadows.size] = opacity_random<float>(key, uint32_t(i), 1);
         scratch.shadows.mask[scratch.shadows.size] = step.shadow_mask;
         append<float>(scratch.shadows, step, i, true);
     }
     connect_paths<features, float>(context, scratch, 0);
-    for (int bounce = 1; now->size > 0 && bounce <= longest_path; ++bounce) {
+    for (int bounce = 1; now->size > 0 && bounce <= max_path_length; ++bounce) {
         trace_paths<features, float>(context, scratch, *now, *next, bounce);
         shade_paths<features, float>(context, scratch, *now, *next, bounce);
         connect_paths<features, float>(context, scratch, bounce);

@@ -19,9 +19,9 @@ struct MeterPoint {
 // NEE at the receiver: a shadow ray to a sampled point on a light, with the radiance that a white diffuse surface there would
 // reflect, using the sampler dimensions of the first scattering. `part`: the part that the receiver is on, which light linking
 // may exclude; or from_meter (links.h).
-Step<float> aim_at_light(const KernelContext& context, const MeterPoint& receiver, const Sampler<float>& sampler, int32_t part);
+Step<float> sample_light_at_meter(const KernelContext& context, const MeterPoint& receiver, const Sampler<float>& sampler, int32_t part);
 
-constexpr int most_irradiance_samples = 1024; // per call
+constexpr int max_irradiance_samples = 1024; // per call
 
 // Mean of `samples` estimates of the irradiance, RGB in lux: NEE and cosine-distributed rays combined by MIS, as at the first
 // diffuse vertex of a path. `replicate` selects the random numbers: replicates are independent, samples of one are stratified

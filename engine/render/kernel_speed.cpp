@@ -35,7 +35,7 @@ std::vector<KernelTimes> time_kernels(const RenderScene& compiled, const RenderS
                                       std::span<const TileJob> tiles, int rounds) {
     const Workers workers(1);
     const auto scratch = std::make_unique<TileScratch>();
-    const KernelContext context{&compiled.tables(), &compiled.accel(), settings_for_kernels(settings, settings.width, settings.height),
+    const KernelContext context{&compiled.tables(), &compiled.accel(), kernel_settings(settings, settings.width, settings.height),
                                 settings.seed};
     std::vector<KernelTimes> times;
     for (const Kernel* kernel : kernels) times.push_back({kernel, {}});
@@ -58,15 +58,15 @@ KernelSpeed compare_kernels(const KernelTimes& own, const KernelTimes& full, dou
 
 KernelSpeed measure_kernel_speed(const Scene& scene, const RenderSettings& settings) {
     constexpr int rounds = 9;
-    constexpr size_t most_tiles = 60;
+    constexpr size_t max_tiles = 60;
     RenderScene compiled;
-    compiled.update(lower_area_lights(scene), settings, full_plan(), Workers(0));
+    compiled.update(expand_area_lights(scene), settings, full_plan(), Workers(0));
     const Kernel& own = choose_kernel(compiled.features());
     const Kernel& full = kernels_of(own.isa).back();
 
     std::vector<TileJob> tiles = sample_tiles(settings, 1);
     if (tiles.empty()) tiles = {{.width = std::min(settings.width, 64), .height = std::min(settings.height, 64)}};
-    if (const size_t stride = tiles.size() / most_tiles | 1; stride > 1) tiles = sample_tiles(settings, int(stride));
+    if (const size_t stride = tiles.size() / max_tiles | 1; stride > 1) tiles = sample_tiles(settings, int(stride));
     const Kernel* const kernels[] = {&own, &full};
     const std::vector<KernelTimes> times = time_kernels(compiled, settings, kernels, tiles, rounds);
     double paths = 0;

@@ -45,19 +45,19 @@ constexpr FeatureText feature_texts[] = {
     {Feature::orthographic, "orthographic camera", "the camera is orthographic", "the camera is not orthographic"},
 };
 
-void add_kernel(Ledger& ledger, Features features) {
+void add_kernel(FeatureReport& feature_report, Features features) {
     for (const FeatureText& t : feature_texts) {
         const bool used = features.has(t.feature);
-        ledger.push_back({"kernel", t.name, used, used ? t.used : t.unused});
+        feature_report.push_back({"kernel", t.name, used, used ? t.used : t.unused});
     }
 }
 
-void add_film(Ledger& ledger, const FilmSize& film) {
+void add_film(FeatureReport& feature_report, const FilmSize& film) {
     for (const PlaneUse& p : Film::plane_uses(film))
-        ledger.push_back({"film", p.name, p.used, p.why, int64_t(p.bytes_per_pixel) * film.width * film.height});
+        feature_report.push_back({"film", p.name, p.used, p.why, int64_t(p.bytes_per_pixel) * film.width * film.height});
 }
 
-void add_vertices(Ledger& ledger, const GeometryPool& geometry, const AttributeNeeds& needs) {
+void add_vertices(FeatureReport& feature_report, const GeometryPool& geometry, const AttributeNeeds& needs) {
     struct Attribute {
         const char* name;
         bool used;
@@ -73,24 +73,24 @@ void add_vertices(Ledger& ledger, const GeometryPool& geometry, const AttributeN
         {"vertex colours", needs.colors, "a mesh has them", "no mesh has them", sizeof(Vec4)},
     };
     for (const Attribute& a : attributes)
-        ledger.push_back({"geometry", a.name, a.used, a.used ? a.why_used : a.why_not, int64_t(a.bytes) * geometry.vertex_count()});
+        feature_report.push_back({"geometry", a.name, a.used, a.used ? a.why_used : a.why_not, int64_t(a.bytes) * geometry.vertex_count()});
     if (const size_t n = geometry.shapes_in_place(); n > 0)
-        ledger.push_back({"geometry", "copies of large shapes", false,
+        feature_report.push_back({"geometry", "copies of large shapes", false,
                           n == 1 ? "it is read in place from the document" : fmt::format("{} are read in place from the document", n),
                           int64_t(geometry.in_place_bytes())});
 }
 
 // Only meshes with a bottom-level BVH of their own are candidates.
-void add_trees(Ledger& ledger, size_t instanced_meshes_triangles, size_t compact_triangles) {
+void add_trees(FeatureReport& feature_report, size_t instanced_meshes_triangles, size_t compact_triangles) {
     if (instanced_meshes_triangles == 0) return;
     constexpr int64_t bytes_per_triangle = 27;
-    if (compact_triangles == 0) return ledger.push_back({"geometry", "corners in the tree", true, "memory suffices for them, and tracing is faster"});
-    ledger.push_back({"geometry", "corners in the tree", false,
+    if (compact_triangles == 0) return feature_report.push_back({"geometry", "corners in the tree", true, "memory suffices for them, and tracing is faster"});
+    feature_report.push_back({"geometry", "corners in the tree", false,
                       fmt::format("memory is short for {} triangles: tracing takes 1.24 times as long", compact_triangles),
                       bytes_per_triangle * int64_t(compact_triangles)});
 }
 
-void add_textures(Ledger& ledger, const TextureTable& table, const Scene& scene) {
+void add_textures(FeatureReport& feature_report, const TextureTable& table, const Scene& scene) {
     std::set<uint64_t> read, unread; // images by serial
     for (const TextureSource& source : table.sources) read.insert(source.image->serial);
     int64_t unread_bytes = 0;
@@ -104,9 +104,9 @@ void add_textures(Ledger& ledger, const TextureTable& table, const Scene& scene)
         "textures", "texels", used,
         used ? fmt::format("materials read {} image{}", read.size(), read.size() == 1 ? "" : "s") : "no material reads an image", bytes};
     if (used) texels.seconds = table.seconds;
-    ledger.push_back(texels);
+    feature_report.push_back(texels);
     if (!unread.empty())
-        ledger.push_back({"textures", "unread images", false, fmt::format("{} of the scene are read by no material in use", unread.size()),
+        feature_report.push_back({"textures", "unread images", false, fmt::format("{} of the scene are read by no material in use", unread.size()),
                           unread_bytes});
 }
 
@@ -117,36 +117,36 @@ const char* why_no_map(const Environment& e) {
     return gives_light(e) ? "the image cannot be used" : "the environment gives no light";
 }
 
-constexpr const char* nobody_aims = "the strategy is BSDF sampling alone";
+constexpr const char* bsdf_sampling_only = "the strategy is BSDF sampling alone";
 
-void add_light_table(Ledger& ledger, const LightTable& lights, Aim aim) {
-    const int64_t triangles = lights.emissive_triangles - lights.unaimed_triangles;
+void add_light_table(FeatureReport& feature_report, const LightTable& lights, NeeLights aim) {
+    const int64_t triangles = lights.emissive_triangles - lights.unsampled_triangles;
     const int64_t all = triangles + lights.point_lights + lights.sphere_lights + lights.sun_lights + (lights.environment >= 0);
     const bool used = lights.count > 0;
-    ledger.push_back({"lights", "light table", used,
+    feature_report.push_back({"lights", "light table", used,
                       used      ? "the scene has lights"
-                      : all > 0 ? nobody_aims
+                      : all > 0 ? bsdf_sampling_only
                                 : "nothing emits light",
                       light_table_bytes(used && lights.tree.nodes.empty() ? lights.count : all)});
     if (!lights.tree.nodes.empty())
-        ledger.push_back({"lights", "light tree", true, "the scene has many lights", int64_t(lights.tree.memory_bytes())});
-    if (lights.unaimed_triangles > 0)
-        ledger.push_back({"lights", "mesh lights beyond the limit", false,
-                          fmt::format("no more than {} triangles are sampled", most_mesh_lights), light_table_bytes(lights.unaimed_triangles)});
-    if (aim == Aim::at_points && used && all > lights.count)
-        ledger.push_back({"lights", "lights with a size", false, nobody_aims, light_table_bytes(all - lights.count)});
+        feature_report.push_back({"lights", "light tree", true, "the scene has many lights", int64_t(lights.tree.memory_bytes())});
+    if (lights.unsampled_triangles > 0)
+        feature_report.push_back({"lights", "mesh lights beyond the limit", false,
+                          fmt::format("no more than {} triangles are sampled", max_mesh_lights), light_table_bytes(lights.unsampled_triangles)});
+    if (aim == NeeLights::zero_size_lights && used && all > lights.count)
+        feature_report.push_back({"lights", "lights with a size", false, bsdf_sampling_only, light_table_bytes(all - lights.count)});
 }
 
-void add_lights(Ledger& ledger, const LightTable& lights, const EnvironmentTable& environment, const Environment& e, Aim aim) {
-    add_light_table(ledger, lights, aim);
+void add_lights(FeatureReport& feature_report, const LightTable& lights, const EnvironmentTable& environment, const Environment& e, NeeLights aim) {
+    add_light_table(feature_report, lights, aim);
 
     const bool is_sky = e.kind == Environment::Kind::sky;
     const bool used = (is_sky || e.kind == Environment::Kind::image) && gives_light(e) && int64_t(environment.width) * environment.height > 1;
     FeatureUse map{"lights", "environment map", used, !used ? why_no_map(e) : is_sky ? "the environment is a sky" : "the environment is an image", 0};
-    const bool aimed_at = used && aim == Aim::at_all;
-    FeatureUse importance{"lights", "importance map", aimed_at,
-                          aimed_at ? "the environment is sampled as a light"
-                          : used   ? nobody_aims
+    const bool is_sampled = used && aim == NeeLights::all_lights;
+    FeatureUse importance{"lights", "importance map", is_sampled,
+                          is_sampled ? "the environment is sampled as a light"
+                          : used   ? bsdf_sampling_only
                                    : why_no_map(e),
                           0};
     if (is_sky || (e.kind == Environment::Kind::image && e.image)) {
@@ -155,9 +155,9 @@ void add_lights(Ledger& ledger, const LightTable& lights, const EnvironmentTable
         map.bytes = bytes.texels;
         importance.bytes = bytes.importance;
     }
-    if (aimed_at) importance.seconds = environment.seconds;
-    ledger.push_back(map);
-    ledger.push_back(importance);
+    if (is_sampled) importance.seconds = environment.seconds;
+    feature_report.push_back(map);
+    feature_report.push_back(importance);
 }
 
 } // namespace
@@ -172,18 +172,18 @@ std::string cost_text(const FeatureUse& use) {
     return "saves " + text;
 }
 
-Ledger RenderScene::ledger(const Scene& lowered, const FilmSize& film) const {
-    Ledger ledger;
-    add_kernel(ledger, features_);
+FeatureReport RenderScene::feature_report(const Scene& expanded, const FilmSize& film) const {
+    FeatureReport feature_report;
+    add_kernel(feature_report, features_);
     const size_t balls = focus_.balls().size();
-    ledger.push_back({"kernel", "caustic guiding", balls > 0,
+    feature_report.push_back({"kernel", "caustic guiding", balls > 0,
                       balls > 0 ? fmt::format("mirrors or glass in {} place{}", balls, balls == 1 ? "" : "s") : "no mirror or glass has light to focus"});
-    add_film(ledger, film);
-    add_vertices(ledger, geometry_, needs_);
-    add_trees(ledger, geometry_.largest_instanced_mesh(), accel_.compact_triangles());
-    add_textures(ledger, materials_.textures, lowered);
-    add_lights(ledger, lights_, environment_, lowered.environment, aim_);
-    return ledger;
+    add_film(feature_report, film);
+    add_vertices(feature_report, geometry_, needs_);
+    add_trees(feature_report, geometry_.largest_instanced_mesh(), accel_.compact_triangles());
+    add_textures(feature_report, materials_.textures, expanded);
+    add_lights(feature_report, lights_, environment_, expanded.environment, aim_);
+    return feature_report;
 }
 
 } // namespace blush

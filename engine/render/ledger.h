@@ -18,7 +18,7 @@ struct FeatureUse {
     // Time to build it in this process, in seconds. Empty: not measured.
     std::optional<double> seconds = {};
 };
-using Ledger = std::vector<FeatureUse>;
+using FeatureReport = std::vector<FeatureUse>;
 
 // "saves 3.50 MiB, 12.0 ms" for absent features, "not measured"
 // without a figure; for present ones without "saves", possibly empty.

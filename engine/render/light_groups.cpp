@@ -25,7 +25,7 @@ using Key = std::tuple<KeyKind, uint32_t, std::string>;
 
 std::string named(const std::string& name, const char* kind, uint32_t id) { return name.empty() ? fmt::format("{} {}", kind, id) : name; }
 
-bool glows(const Material& m) { return m.unlit || !is_black(emission_of(m)); }
+bool is_emissive(const Material& m) { return m.unlit || !is_black(emission_of(m)); }
 
 // Collects emitters in scene order; emitters with equal keys share a group.
 class Grouper {
@@ -34,9 +34,9 @@ public:
 
     LightGroups made() {
         if (scene_.environment.kind != Environment::Kind::none) groups_.environment = add_environment();
-        Placements placements(scene_);
+        WorldTransforms placements(scene_);
         for (const auto& [id, node] : scene_.nodes) {
-            if (id.value & lowered_bit || !placements(id).visible) continue;
+            if (id.value & expanded_id_bit || !placements(id).visible) continue;
             if (const Light* light = scene_.lights.find(node.light)) add_light(id, node, *light);
             if (const Mesh* mesh = scene_.meshes.find(node.mesh)) add_surfaces(id, node, *mesh);
         }
@@ -74,7 +74,7 @@ private:
     void add_surfaces(Id<Node> id, const Node& node, const Mesh& mesh) {
         for (const MeshPart& part : mesh.parts) {
             const Material* material = scene_.materials.find(part.material);
-            if (!material || !glows(*material)) continue;
+            if (!material || !is_emissive(*material)) continue;
             if (material->unlit) {
                 const int group = index_of({KeyKind::unlit, 0, {}}, "Unlit surfaces");
                 groups_.groups[size_t(group)].unlit = true;
@@ -253,7 +253,7 @@ bool only_emission_differs(const Scene& before, const Scene& now) {
 }
 
 // True if no dark surface became emissive: dark surfaces are in no plane.
-bool none_begins_to_glow(const Scene& before, const Scene& now) {
+bool no_surface_becomes_emissive(const Scene& before, const Scene& now) {
     for (const Id<Material> id : Table<Material>::changed(before.materials, now.materials)) {
         const Material *a = before.materials.find(id), *b = now.materials.find(id);
         if (a && b && is_black(emission_of(*a)) && !is_black(emission_of(*b))) return false;
@@ -266,7 +266,7 @@ bool none_begins_to_glow(const Scene& before, const Scene& now) {
 int LightGroups::of_light(Id<Node> node) const { return found(light_nodes, node, 0); }
 
 int LightGroups::of_surface(Id<Node> node, Id<Material> material) const {
-    if (node.value & lowered_bit) return of_light(Id<Node>{node.value & ~lowered_bit});
+    if (node.value & expanded_id_bit) return of_light(Id<Node>{node.value & ~expanded_id_bit});
     return found(surface_materials, material, found(surface_nodes, node, 0));
 }
 
@@ -287,7 +287,7 @@ Vec3 channel_gain(const LightMix& mix, const std::string& group) {
 std::optional<Mixing> mixing_of(const LightGroups& groups, const Scene& scene) {
     const Scene& base = groups.base;
     const Scene now = with_solo_applied(scene);
-    if (base.mix.grouping != now.mix.grouping || !only_emission_differs(base, now) || !none_begins_to_glow(base, now)) return std::nullopt;
+    if (base.mix.grouping != now.mix.grouping || !only_emission_differs(base, now) || !no_surface_becomes_emissive(base, now)) return std::nullopt;
     Scene renamed = with_names_of(base, now);
     if (groups.sharing > 0) renamed.mix = now.mix; // channels decide which groups have a plane
     const bool same_names = renamed == base;

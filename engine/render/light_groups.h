@@ -11,7 +11,7 @@
 namespace blush {
 
 // Each plane has 48 bytes per pixel in the film, 12 in a frame.
-constexpr int most_light_groups = 16;
+constexpr int max_light_groups = 16;
 
 struct LightGroup {
     std::string name;                         // unique
@@ -26,7 +26,7 @@ struct LightGroup {
 using Gains = std::vector<Vec3>;
 
 struct LightGroups {
-    std::vector<LightGroup> groups; // one for each plane, at most most_light_groups
+    std::vector<LightGroup> groups; // one for each plane, at most max_light_groups
     int sharing = 0;                // how many groups share the last plane because of the limit; 0: each has its own
     Scene base;                     // the scene whose emission the planes hold
 
@@ -45,7 +45,7 @@ struct LightGroups {
 // each light, each emissive material; by hand: lights with the same group name, and emissive surfaces by
 // their material's group name. If there are more than `most`, those with a mix channel come first, and the
 // last ones share a plane. Scenes with expanded area lights have the same groups as before expansion.
-LightGroups make_light_groups(const Scene& scene, int most = most_light_groups);
+LightGroups make_light_groups(const Scene& scene, int most = max_light_groups);
 
 // Gain of a group's channel; 1 without a channel.
 Vec3 channel_gain(const LightMix& mix, const std::string& group);

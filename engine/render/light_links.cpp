@@ -9,11 +9,11 @@ namespace blush {
 namespace {
 
 // The light of a table record; null: an emissive surface, or the environment.
-const Light* light_of(const Scene& lowered, const LightRecord& record, Id<Node> node) {
+const Light* light_of(const Scene& expanded, const LightRecord& record, Id<Node> node) {
     if (record.kind == int32_t(LightKind::environment)) return nullptr;
-    if (record.kind == int32_t(LightKind::triangle)) return light_of_body(lowered, node);
-    const Node* found = lowered.nodes.find(node);
-    return found ? lowered.lights.find(found->light) : nullptr;
+    if (record.kind == int32_t(LightKind::triangle)) return light_of_expanded_mesh(expanded, node);
+    const Node* found = expanded.nodes.find(node);
+    return found ? expanded.lights.find(found->light) : nullptr;
 }
 
 // The distinct sets, with one bit per member part.
@@ -54,7 +54,7 @@ Id<Node> named_above(const ObjectSet& set, const Scene& scene, Id<Node> node) {
     size_t steps = scene.nodes.size() + 1;
     for (Id<Node> up = node; up && steps > 0; --steps) {
         // The mesh of an area light belongs to the light's node.
-        const Id<Node> id{up.value & ~lowered_bit};
+        const Id<Node> id{up.value & ~expanded_id_bit};
         if (std::ranges::find(set.nodes, id) != set.nodes.end()) return id;
         const Node* found = scene.nodes.find(id);
         up = found ? found->parent : Id<Node>{};
@@ -88,7 +88,7 @@ CasterSets::CasterSets(const Scene& scene) {
         const Light* light = node.light ? scene.lights.find(node.light) : nullptr;
         if (!light || !light->enabled || !leaves_out(light->shadow_casters, scene)) continue;
         if (std::ranges::find(sets_, light->shadow_casters) != sets_.end()) continue;
-        if (sets_.size() < size_t(most_caster_sets)) sets_.push_back(light->shadow_casters);
+        if (sets_.size() < size_t(max_caster_sets)) sets_.push_back(light->shadow_casters);
         else ++left_out_;
     }
 }
@@ -106,14 +106,14 @@ uint32_t CasterSets::ray_mask(const Scene& scene, const Light& light) const {
     return it == sets_.end() ? other_ray_mask : 1u << (first_caster_bit + (it - sets_.begin()));
 }
 
-LightLinks build_light_links(const Scene& lowered, const LightTable& lights, const GeometryPool& geometry, const CasterSets& casters) {
+LightLinks build_light_links(const Scene& expanded, const LightTable& lights, const GeometryPool& geometry, const CasterSets& casters) {
     LightLinks links;
-    LitSets lit(lowered, geometry);
+    LitSets lit(expanded, geometry);
     bool any = false;
     for (size_t i = 0; i < lights.records.size(); ++i) {
-        const Light* light = light_of(lowered, lights.records[i], i < lights.nodes.size() ? lights.nodes[i] : Id<Node>{});
-        const int32_t set = light && leaves_out(light->lit_objects, lowered) ? lit.index_of(light->lit_objects) : -1;
-        const uint32_t mask = light ? casters.ray_mask(lowered, *light) : other_ray_mask;
+        const Light* light = light_of(expanded, lights.records[i], i < lights.nodes.size() ? lights.nodes[i] : Id<Node>{});
+        const int32_t set = light && leaves_out(light->lit_objects, expanded) ? lit.index_of(light->lit_objects) : -1;
+        const uint32_t mask = light ? casters.ray_mask(expanded, *light) : other_ray_mask;
         any |= set >= 0 || mask != other_ray_mask;
         links.lit_sets.push_back(set);
         links.shadow_masks.push_back(mask);

@@ -25,7 +25,7 @@ bool has_links(const Scene& scene);
 
 // Embree's rays have 32 mask bits: one for the camera's rays, one for all others, one for shadow catchers (shadow_catcher.h), and
 // one for each set of shadow casters.
-constexpr int most_caster_sets = 29;
+constexpr int max_caster_sets = 29;
 
 // The distinct sets of shadow casters of a scene's lights.
 class CasterSets {
@@ -56,6 +56,6 @@ struct LightLinks {
     LinkTables tables() const { return {lit_sets.data(), lit_parts.data(), shadow_masks.data(), words}; }
 };
 // Empty if no light is linked.
-LightLinks build_light_links(const Scene& lowered, const LightTable& lights, const GeometryPool& geometry, const CasterSets& casters);
+LightLinks build_light_links(const Scene& expanded, const LightTable& lights, const GeometryPool& geometry, const CasterSets& casters);
 
 } // namespace blush

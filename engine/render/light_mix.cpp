@@ -87,8 +87,8 @@ void mix_rgb(std::span<const PlaneSpan> planes, std::span<const Vec3> gains, std
             [&](size_t first, size_t count, const Sums& sums) { std::copy_n(sums.begin(), 3 * count, &rgb[3 * first]); });
 }
 
-ThinnedPlanes thinned(std::span<const PlaneSpan> planes, int width, int height, int step) {
-    ThinnedPlanes thin{std::max(width / step, 1), std::max(height / step, 1), {}};
+SubsampledPlanes subsampled(std::span<const PlaneSpan> planes, int width, int height, int step) {
+    SubsampledPlanes thin{std::max(width / step, 1), std::max(height / step, 1), {}};
     const int first_x = std::min(step / 2, width - 1), first_y = std::min(step / 2, height - 1);
     for (const PlaneSpan& plane : planes) {
         std::vector<float>& values = thin.planes.emplace_back(3 * size_t(thin.width) * size_t(thin.height));

@@ -21,12 +21,12 @@ std::vector<PlaneSpan> planes_of(const Frame& frame); // of its groups
 void mix_rgb(std::span<const PlaneSpan> planes, std::span<const Vec3> gains, std::span<float> rgb, const Workers* workers = nullptr);
 // Subsampled planes: every `step`-th pixel of every `step`-th row, starting at the middle of the first; width / step by height /
 // step pixels, at least 1x1. They mix like full planes, in a fraction of the time.
-struct ThinnedPlanes {
+struct SubsampledPlanes {
     int width = 0, height = 0;
     std::vector<std::vector<float>> planes;
     std::vector<PlaneSpan> spans() const { return {planes.begin(), planes.end()}; }
 };
-ThinnedPlanes thinned(std::span<const PlaneSpan> planes, int width, int height, int step);
+SubsampledPlanes subsampled(std::span<const PlaneSpan> planes, int width, int height, int step);
 // Mixes the planes of a frame in the layout of its rgba, with the frame's alpha. `rgba` is resized as needed: reuse it, because
 // allocating new memory takes as long as mixing.
 void mix_rgba(const Frame& frame, std::span<const Vec3> gains, std::vector<float>& rgba, const Workers* workers = nullptr);

@@ -21,7 +21,7 @@ constexpr double pi_d = 3.14159265358979323846;
 double luminance_of(const Vec3& c) { return double(luminance(c)); }
 
 struct Builder {
-    Aim aim = Aim::at_all;
+    NeeLights aim = NeeLights::all_lights;
     LightTable table;
     std::vector<LightBounds> bounds; // by record; unused for suns and the environment
     int64_t luminaires = 0;          // at finite distance; a panel counts once, not per triangle
@@ -34,7 +34,7 @@ struct Builder {
     }
     // Adds a light that rays can also hit.
     void add_findable(const LightRecord& record, Id<Node> node, double power, const LightBounds& where = {}) {
-        add(record, node, aim == Aim::at_all ? power : 0, where);
+        add(record, node, aim == NeeLights::all_lights ? power : 0, where);
     }
 };
 
@@ -80,30 +80,30 @@ LightBounds ball_bounds(const Vec3& center, double radius, const Light& light, c
 }
 
 // The profile of the panel that was expanded to this part; -1 for other meshes.
-int32_t panel_profile(Builder& b, const Scene& scene, Placements& placements, Id<Node> body) {
-    const Light* light = light_of_body(scene, body);
+int32_t panel_profile(Builder& b, const Scene& scene, WorldTransforms& placements, Id<Node> body) {
+    const Light* light = light_of_expanded_mesh(scene, body);
     return light ? b.table.profiles.add(*light, placements(body).world_from_node).profile : -1;
 }
 
-bool glows(const MaterialRecord& material) { return material.flags & material_emissive && !(material.flags & material_unlit); }
+bool is_emissive(const MaterialRecord& material) { return material.flags & material_emissive && !(material.flags & material_unlit); }
 
 // For each part, whether its emissive triangles are sampled by NEE. Area lights come first, then objects with the fewest
 // triangles, so that a huge number of instances does not displace all other emitters.
-std::vector<bool> aimed_at(const Scene& scene, const MaterialTable& materials, const GeometryPool& geometry) {
+std::vector<bool> is_sampled(const Scene& scene, const MaterialTable& materials, const GeometryPool& geometry) {
     const std::vector<PartRecord>& parts = geometry.parts();
     std::vector<bool> aimed(parts.size(), true);
     std::map<int32_t, int64_t> triangles; // by object
     std::vector<size_t> glowing;
     int64_t total = 0;
     for (size_t part = 0; part < parts.size(); ++part) {
-        if (!glows(materials.records[size_t(parts[part].material)]) || light_of_body(scene, Id<Node>{uint32_t(parts[part].object)})) continue;
+        if (!is_emissive(materials.records[size_t(parts[part].material)]) || light_of_expanded_mesh(scene, Id<Node>{uint32_t(parts[part].object)})) continue;
         glowing.push_back(part);
         triangles[parts[part].object] += geometry.triangle_count(part);
         total += geometry.triangle_count(part);
     }
-    if (total <= most_mesh_lights) return aimed;
+    if (total <= max_mesh_lights) return aimed;
     std::ranges::stable_sort(glowing, {}, [&](size_t part) { return std::pair(triangles[parts[part].object], parts[part].object); });
-    int64_t left = most_mesh_lights;
+    int64_t left = max_mesh_lights;
     for (const size_t part : glowing) {
         left -= geometry.triangle_count(part);
         aimed[part] = left >= 0;
@@ -112,25 +112,25 @@ std::vector<bool> aimed_at(const Scene& scene, const MaterialTable& materials, c
 }
 
 void add_triangles(Builder& b, const Scene& scene, const MaterialTable& materials, GeometryPool& geometry, const SceneTables& scene_tables) {
-    Placements placements(scene);
+    WorldTransforms placements(scene);
     SceneTables tables = scene_tables;
-    const std::vector<bool> aimed = aimed_at(scene, materials, geometry);
+    const std::vector<bool> aimed = is_sampled(scene, materials, geometry);
     for (size_t part = 0; part < geometry.parts().size(); ++part) {
         PartRecord& record = geometry.parts()[part];
         const MaterialRecord& material = materials.records[size_t(record.material)];
         record.first_light = -1;
-        if (!glows(material)) continue;
-        const Light* panel = light_of_body(scene, Id<Node>{uint32_t(record.object)});
+        if (!is_emissive(material)) continue;
+        const Light* panel = light_of_expanded_mesh(scene, Id<Node>{uint32_t(record.object)});
         b.luminaires += panel ? 1 : geometry.triangle_count(part);
         const int32_t profile = panel_profile(b, scene, placements, Id<Node>{uint32_t(record.object)});
         // A ray that hits the light reads its profile.
-        if (b.aim == Aim::at_points && profile < 0) {
+        if (b.aim == NeeLights::zero_size_lights && profile < 0) {
             b.table.emissive_triangles += geometry.triangle_count(part);
             continue;
         }
         if (!aimed[part]) {
             b.table.emissive_triangles += geometry.triangle_count(part);
-            b.table.unaimed_triangles += geometry.triangle_count(part);
+            b.table.unsampled_triangles += geometry.triangle_count(part);
             continue;
         }
         record.first_light = int32_t(b.table.records.size());
@@ -164,15 +164,15 @@ void add_triangles(Builder& b, const Scene& scene, const MaterialTable& material
                 nits = mean_varying_luminance(tables, 0, material.emission);
             }
             const double power = pi_d * area * nits * (two_sided ? 2 : 1);
-            const bool aimed_at = b.aim == Aim::at_all && light.inverse_area > 0;
-            b.add(light, Id<Node>{uint32_t(record.object)}, aimed_at ? power : 0, triangle_bounds(p, light, panel));
+            const bool is_sampled = b.aim == NeeLights::all_lights && light.inverse_area > 0;
+            b.add(light, Id<Node>{uint32_t(record.object)}, is_sampled ? power : 0, triangle_bounds(p, light, panel));
             ++b.table.emissive_triangles;
         }
     }
 }
 
 void add_spheres(Builder& b, const Scene& scene, const std::vector<SphereLight>& spheres, const Vec3d& origin) {
-    Placements placements(scene);
+    WorldTransforms placements(scene);
     b.table.first_sphere = int32_t(b.table.records.size());
     for (const SphereLight& sphere : spheres) {
         const Light& light = *scene.lights.find(sphere.light);
@@ -214,7 +214,7 @@ void add_sun(Builder& b, const LightRecord& record, Id<Node> node, double lux, d
 }
 
 void add_punctual(Builder& b, const Scene& scene, double scene_radius, const Vec3d& origin) {
-    Placements placements(scene);
+    WorldTransforms placements(scene);
     for (const auto& [id, node] : scene.nodes) {
         const Light* light = node.light ? scene.lights.find(node.light) : nullptr;
         if (!light || !light->enabled || is_area_light(*light) || is_sphere_light(*light) || !placements(id).visible) continue;
@@ -240,7 +240,7 @@ void add_punctual(Builder& b, const Scene& scene, double scene_radius, const Vec
 
 // One sample in 64 is distributed uniformly over all lights (defensive mixture, Hesterberg 1995): a light that is weak in the
 // whole scene may be the only one in a room. Other lights lose at most 1/64 of their samples.
-std::vector<double> shared_evenly(std::span<const double> powers, std::span<const double> factors) {
+std::vector<double> with_defensive_mixture(std::span<const double> powers, std::span<const double> factors) {
     constexpr double share = 1.0 / 64;
     std::vector<double> weights(powers.begin(), powers.end());
     double total = 0, shining = 0;
@@ -292,10 +292,10 @@ bool add_tree(Builder& b, const std::vector<double>& powers) {
 } // namespace
 
 LightTable build_light_table(const Scene& scene, const MaterialTable& materials, GeometryPool& geometry, const SceneTables& tables,
-                             const std::vector<SphereLight>& spheres, const SkyLight& sky, const Extent& extent, Aim aim) {
+                             const std::vector<SphereLight>& spheres, const SkyLight& sky, const Extent& extent, NeeLights aim) {
     Builder b;
     b.aim = aim;
-    if (const int corners = disk_corners(scene); corners < most_disk_corners) b.table.fewer_disk_corners = corners;
+    if (const int corners = disk_corners(scene); corners < max_disk_corners) b.table.fewer_disk_corners = corners;
     add_triangles(b, scene, materials, geometry, tables);
     add_spheres(b, scene, spheres, extent.origin);
     const double radius = extent.bounds.empty ? 1 : std::max(extent.bounds.radius(), 1e-30);
@@ -305,7 +305,7 @@ LightTable build_light_table(const Scene& scene, const MaterialTable& materials,
         if (!scene.environment.visible_to_camera) record.flags |= light_hidden;
         add_sun(b, record, {}, luminance_of(sun.lux), radius);
     }
-    if (sky.shines) {
+    if (sky.emits_light) {
         LightRecord record{};
         record.kind = int32_t(LightKind::environment);
         record.profile = -1;
@@ -314,21 +314,21 @@ LightTable build_light_table(const Scene& scene, const MaterialTable& materials,
     }
     b.table.count = int32_t(b.table.records.size());
     // Emitters with zero selection probability are never returned, even for u = 1 - eps.
-    while (aim == Aim::at_points && b.table.count > 0 && b.table.powers[size_t(b.table.count) - 1] == 0) --b.table.count;
+    while (aim == NeeLights::zero_size_lights && b.table.count > 0 && b.table.powers[size_t(b.table.count) - 1] == 0) --b.table.count;
     if (b.table.records.empty()) b.add({}, {}, 1);
-    const std::vector<double> powers = shared_evenly(b.table.powers, {});
-    const bool many = aim == Aim::at_all && b.luminaires >= fewest_lights_for_a_tree && int64_t(powers.size()) <= most_lights_for_a_tree;
+    const std::vector<double> powers = with_defensive_mixture(b.table.powers, {});
+    const bool many = aim == NeeLights::all_lights && b.luminaires >= min_lights_for_a_tree && int64_t(powers.size()) <= max_lights_for_a_tree;
     if (!many || !add_tree(b, powers)) b.table.thresholds = make_thresholds(powers);
     return std::move(b.table);
 }
 
-void weigh_lights(LightTable& table, std::span<const double> factors) {
-    const std::vector<double> weights = shared_evenly(table.powers, factors);
+void set_light_weights(LightTable& table, std::span<const double> factors) {
+    const std::vector<double> weights = with_defensive_mixture(table.powers, factors);
     if (table.slot_lights.empty()) {
         table.thresholds = make_thresholds(weights);
         return;
     }
-    weigh_light_tree(table.tree, weights);
+    set_light_tree_powers(table.tree, weights);
     table.thresholds = make_thresholds(slot_powers(table, weights));
 }
 

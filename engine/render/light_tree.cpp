@@ -14,7 +14,7 @@ namespace {
 
 constexpr double pi_d = std::numbers::pi;
 constexpr int splits_per_level = tree_branch_bits;
-constexpr int most_splits = 32 / tree_branch_bits * tree_branch_bits; // levels above a leaf; limited by the bits of a trail
+constexpr int max_splits = 32 / tree_branch_bits * tree_branch_bits; // levels above a leaf; limited by the bits of a trail
 
 double component(const Vec3d& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 Vec3d lower(const Vec3d& a, const Vec3d& b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
@@ -99,7 +99,7 @@ struct Builder {
         const auto position = [&](const LightBounds& b, int axis) { return component(b.low + b.high, axis); };
         const size_t middle = begin + part.size() / 2;
         // Use the median if the remaining trail bits require it.
-        const bool must_halve = most_splits - splits <= int(std::bit_width(part.size())) + splits_per_level;
+        const bool must_halve = max_splits - splits <= int(std::bit_width(part.size())) + splits_per_level;
         if (!must_halve && component(size, longest) > 0)
             if (const size_t found = split_by_cost(part, begin, low, size, longest)) return found;
         std::ranges::nth_element(part, part.begin() + std::ptrdiff_t(part.size() / 2), {}, [&](const LightBounds& b) { return position(b, longest); });
@@ -184,11 +184,11 @@ LightTreeTable build_light_tree(std::vector<LightBounds> lights, int32_t light_c
     std::vector<double> powers(size_t(light_count), 0.0);
     for (const LightBounds& b : lights) powers[size_t(b.light)] = b.power;
     Builder{lights, table}.build(0, 0, lights.size(), 0, 0);
-    weigh_light_tree(table, powers);
+    set_light_tree_powers(table, powers);
     return table;
 }
 
-void weigh_light_tree(LightTreeTable& table, std::span<const double> powers) {
+void set_light_tree_powers(LightTreeTable& table, std::span<const double> powers) {
     std::vector<double> below(table.nodes.size(), 0.0);
     // Children have larger indices than their parents.
     for (size_t i = table.nodes.size(); i-- > 0;) {

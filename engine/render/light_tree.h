@@ -34,13 +34,13 @@ struct LightTreeTable {
 
 // With fewer lights, sampling by power alone is faster than traversal.
 // With more, building the tree would take longer than an edit may.
-constexpr int64_t fewest_lights_for_a_tree = 32, most_lights_for_a_tree = 1 << 15;
+constexpr int64_t min_lights_for_a_tree = 32, max_lights_for_a_tree = 1 << 15;
 
 // Top-down build; splits by the surface area orientation heuristic (Conty Estevez and Kulla 2018). Lights without power or with a
 // non-finite position are omitted. `light_count`: number of all lights, including those outside the tree.
 LightTreeTable build_light_tree(std::vector<LightBounds> lights, int32_t light_count);
 
 // Updates the selection powers, powers[i] (>= 0) for light i, of the tree's lights. Bounds and splits stay as built.
-void weigh_light_tree(LightTreeTable& table, std::span<const double> powers);
+void set_light_tree_powers(LightTreeTable& table, std::span<const double> powers);
 
 } // namespace blush

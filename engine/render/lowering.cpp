@@ -38,7 +38,7 @@ GeometryPtr make_unit_disk(uint32_t corners) {
     return g;
 }
 
-constexpr std::array disk_shapes{most_disk_corners, 48, 24, 12, 6};
+constexpr std::array disk_shapes{max_disk_corners, 48, 24, 12, 6};
 
 GeometryPtr unit_disk(int corners) {
     static const auto shared = [] {
@@ -79,13 +79,13 @@ int disk_corners(const Scene& scene) {
         const Light* light = node.value.light ? scene.lights.find(node.value.light) : nullptr;
         return light && light->kind == Light::Kind::disk;
     });
-    const auto fits = std::ranges::find_if(disk_shapes, [&](int corners) { return disks * corners <= most_mesh_lights; });
+    const auto fits = std::ranges::find_if(disk_shapes, [&](int corners) { return disks * corners <= max_mesh_lights; });
     return fits == disk_shapes.end() ? disk_shapes.back() : *fits;
 }
 
-const Light* light_of_body(const Scene& lowered, Id<Node> id) {
-    const Node* node = id.value & lowered_bit ? lowered.nodes.find(Id<Node>{id.value & ~lowered_bit}) : nullptr;
-    return node ? lowered.lights.find(node->light) : nullptr;
+const Light* light_of_expanded_mesh(const Scene& expanded, Id<Node> id) {
+    const Node* node = id.value & expanded_id_bit ? expanded.nodes.find(Id<Node>{id.value & ~expanded_id_bit}) : nullptr;
+    return node ? expanded.lights.find(node->light) : nullptr;
 }
 
 Vec3 light_emission(const Light& light) {
@@ -93,13 +93,13 @@ Vec3 light_emission(const Light& light) {
     return tint * light.intensity;
 }
 
-Scene lower_area_lights(const Scene& whole, LoweredMeshes* known) {
+Scene expand_area_lights(const Scene& whole, ExpandedMeshes* known) {
     Scene scene = with_solo_applied(with_pose_applied(whole));
-    LoweredMeshes none;
-    LoweredMeshes& meshes = known ? *known : none;
+    ExpandedMeshes none;
+    ExpandedMeshes& meshes = known ? *known : none;
     meshes.tangents.provide(scene);
     meshes.bent.bend(scene);
-    Scene lowered = scene;
+    Scene expanded = scene;
     const int corners = disk_corners(scene);
     for (const auto& [id, node] : scene.nodes) {
         const Light* light = node.light ? scene.lights.find(node.light) : nullptr;
@@ -107,16 +107,16 @@ Scene lower_area_lights(const Scene& whole, LoweredMeshes* known) {
         // With a light mix, meshes of disabled lights remain, so that switching a light changes only its own emission.
         if (!light->enabled && scene.mix.grouping == LightMix::Grouping::none) continue;
         const AreaShape shape = shape_of(*light, corners);
-        const uint32_t key = lowered_bit | node.light.value;
-        lowered.materials.insert(Id<Material>{key}, emitter(*light, light->enabled ? light_emission(*light) : Vec3{0, 0, 0}));
-        lowered.meshes.insert(Id<Mesh>{key}, {light->name, {{shape.geometry, Id<Material>{key}}}});
+        const uint32_t key = expanded_id_bit | node.light.value;
+        expanded.materials.insert(Id<Material>{key}, emitter(*light, light->enabled ? light_emission(*light) : Vec3{0, 0, 0}));
+        expanded.meshes.insert(Id<Mesh>{key}, {light->name, {{shape.geometry, Id<Material>{key}}}});
         Node body;
         body.parent = id;
         body.local.scale = shape.scale;
         body.mesh = Id<Mesh>{key};
-        lowered.nodes.insert(Id<Node>{lowered_bit | id.value}, std::move(body));
+        expanded.nodes.insert(Id<Node>{expanded_id_bit | id.value}, std::move(body));
     }
-    return lowered;
+    return expanded;
 }
 
 } // namespace blush

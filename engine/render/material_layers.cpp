@@ -6,7 +6,7 @@ namespace blush {
 
 namespace {
 
-constexpr float thickest_film = 1e6f; // nanometres: beyond this, interference colours average out
+constexpr float max_film_thickness = 1e6f; // nanometres: beyond this, interference colours average out
 
 } // namespace
 
@@ -30,8 +30,8 @@ LayerRecord layer_factors_of(const Material& m) {
     if (has_film(m)) {
         r.iridescence = unit(m.iridescence);
         r.film_ior = within(m.iridescence_ior, 1, 1000);
-        r.film_thickness_minimum = within(m.iridescence_thickness_minimum, 0, thickest_film);
-        r.film_thickness_maximum = within(m.iridescence_thickness_maximum, 0, thickest_film);
+        r.film_thickness_minimum = within(m.iridescence_thickness_minimum, 0, max_film_thickness);
+        r.film_thickness_maximum = within(m.iridescence_thickness_maximum, 0, max_film_thickness);
     }
     if (is_translucent(m)) {
         r.diffuse_transmission = unit(m.diffuse_transmission);

@@ -44,7 +44,7 @@ template <class Visit> void each_read_slot(const Material& m, const Visit& visit
 }
 
 // Materials of all meshes, each once.
-std::vector<const Material*> worn_materials(const Scene& scene) {
+std::vector<const Material*> used_materials(const Scene& scene) {
     std::set<Id<Material>> ids;
     for (const auto& [id, mesh] : scene.meshes) {
         for (const MeshPart& part : mesh.parts) ids.insert(part.material);
@@ -127,12 +127,12 @@ TextureUse texture_use(const TextureRef& ref, int32_t texture, float texels_per_
 void choose_uv_sets(MaterialTable& table, const std::vector<const Material*>& worn) {
     table.uv_sets = uv_sets_of(worn);
     table.warnings.clear();
-    if (table.uv_sets.size() <= most_uv_sets) return;
+    if (table.uv_sets.size() <= max_uv_sets) return;
     table.warnings.push_back({Diagnostic::Severity::warning,
                               fmt::format("textures use {} UV sets; those on sets beyond {} are read as white", table.uv_sets.size(),
-                                          table.uv_sets[most_uv_sets - 1]),
+                                          table.uv_sets[max_uv_sets - 1]),
                               "materials"});
-    table.uv_sets.resize(most_uv_sets);
+    table.uv_sets.resize(max_uv_sets);
 }
 
 // Writes the texture uses of one record of a material, starting at index `use`.
@@ -180,7 +180,7 @@ MaterialTables MaterialTable::tables() const {
 }
 
 void build_material_table(MaterialTable& table, const Scene& scene, const Workers* workers) {
-    const std::vector<const Material*> worn = worn_materials(scene);
+    const std::vector<const Material*> worn = used_materials(scene);
     std::vector<TextureSource> sources = texture_sources(scene, worn);
     if (sources != table.textures.sources) {
         table.textures = {}; // frees the old texels before allocating new ones
@@ -203,7 +203,7 @@ bool update_material(MaterialTable& table, const Scene& scene, Id<Material> id) 
     const Material* material = scene.materials.find(id);
     const bool same_materials = std::ranges::equal(table.ids, scene.materials, {}, {}, &Table<Material>::Entry::id);
     if (!material || !same_materials) return false;
-    const std::vector<const Material*> worn = worn_materials(scene);
+    const std::vector<const Material*> worn = used_materials(scene);
     if (uv_sets_of(worn) != table.uv_sets || texture_sources(scene, worn) != table.textures.sources) return false;
     write_material(table, size_t(table.index_of(id)), *material);
     return true;

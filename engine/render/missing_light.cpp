@@ -18,8 +18,8 @@ bool has_size(const Light& light) {
     }
 }
 
-bool any_light_without_size(const Scene& scene) {
-    Placements placements(scene);
+bool has_zero_size_light(const Scene& scene) {
+    WorldTransforms placements(scene);
     return std::ranges::any_of(scene.nodes, [&](const auto& entry) {
         const auto& [id, node] = entry;
         const Light* light = node.light ? scene.lights.find(node.light) : nullptr;
@@ -39,7 +39,7 @@ std::string missing_light(const Scene& scene, const std::vector<Id<Material>>& u
         glass |= transmits(*m) && !is_thin(*m);
         mirror = true;
     }
-    if (!mirror || !any_light_without_size(scene)) return {};
+    if (!mirror || !has_zero_size_light(scene)) return {};
     const char* by = glass ? "through smooth glass or by reflection in smooth surfaces" : "by reflection in smooth surfaces";
     return std::string("some light cannot be found: that of point, spot and sun lights of zero size, ") + by +
            "; give these lights a radius or an angle, or the material some roughness";

@@ -12,8 +12,8 @@ namespace blush {
 namespace {
 
 // Embree's medium-quality builder needs about 0.15 ms per thousand triangles on one thread: moving an object takes below 20 ms.
-constexpr size_t largest_flat_mesh = 32768;
-constexpr size_t largest_flat_scene = 131072;
+constexpr size_t max_flat_mesh_triangles = 32768;
+constexpr size_t max_flat_scene_triangles = 131072;
 
 } // namespace
 
@@ -44,7 +44,7 @@ std::string node_label(const Scene& scene, Id<Node> id) {
 std::vector<SceneObject> list_objects(const Scene& scene, std::vector<Diagnostic>* left_out) {
     std::vector<SceneObject> objects;
     std::map<Id<Mesh>, int> uses;
-    Placements placements(scene);
+    WorldTransforms placements(scene);
     for (const auto& [id, node] : scene.nodes) {
         const Mesh* mesh = node.mesh ? scene.meshes.find(node.mesh) : nullptr;
         if (!mesh || !placements(id).visible) continue;
@@ -65,7 +65,7 @@ std::vector<SceneObject> list_objects(const Scene& scene, std::vector<Diagnostic
     for (SceneObject& object : objects) {
         const size_t n = object.triangle_count();
         object.instanced =
-            object.instances || uses[scene.nodes.find(object.node)->mesh] > 1 || n > largest_flat_mesh || flat + n > largest_flat_scene;
+            object.instances || uses[scene.nodes.find(object.node)->mesh] > 1 || n > max_flat_mesh_triangles || flat + n > max_flat_scene_triangles;
         if (!object.instanced) flat += n;
     }
     std::stable_partition(objects.begin(), objects.end(), [](const SceneObject& o) { return !o.instanced; });

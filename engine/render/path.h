@@ -34,7 +34,7 @@ template <class F> struct StepWeights {
 };
 
 // First two vertices of a path, for connections by path reuse (path_reuse.h).
-template <class F> struct Junction {
+template <class F> struct ReuseVertex {
     Mask<F> lambertian;   // scatters equal radiance to all points in front of ng and ns
     Vec<F> position;
     F clearance;          // offset in metres along ng that keeps a ray's origin off the surface
@@ -42,9 +42,9 @@ template <class F> struct Junction {
 };
 
 template <class F> struct Step {
-    Junction<F> junction; // at bounces 0 and 1 only
+    ReuseVertex<F> reuse_vertex; // at bounces 0 and 1 only
     Mask<F> emits, connects, continues;
-    Mask<F> breaks; // throughput is not finite: the path ends, and the film drops and counts the sample
+    Mask<F> non_finite; // throughput is not finite: the path ends, and the film drops and counts the sample
     Vec<F> emitted; // add where `emits`
     Vec<F> direct;  // add where `connects` and the shadow ray is unoccluded
     Int<F> light;   // light record of `direct`

@@ -5,7 +5,7 @@
 
 namespace blush {
 
-constexpr int most_counted_bounces = 64; // the last counts all further ones
+constexpr int max_counted_bounces = 64; // the last counts all further ones
 
 // Counts at one bounce.
 struct PathCounts {

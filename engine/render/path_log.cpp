@@ -15,7 +15,7 @@ namespace blush {
 namespace {
 
 // True if the film accepts it.
-bool is_sound(const Vec3& c) { return is_finite(c) && c.x >= 0 && c.y >= 0 && c.z >= 0; }
+bool is_valid_radiance(const Vec3& c) { return is_finite(c) && c.x >= 0 && c.y >= 0 && c.z >= 0; }
 
 std::string rgb(const Vec3& c) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", c.x, c.y, c.z); }
 
@@ -26,7 +26,7 @@ std::string point(const Vec3& p, const Vec3d& origin) {
 }
 
 std::string object_name(const Scene& scene, int32_t object) {
-    const Id<Node> id{uint32_t(object) & ~lowered_bit};
+    const Id<Node> id{uint32_t(object) & ~expanded_id_bit};
     const Node* node = scene.nodes.find(id);
     return node && !node->name.empty() ? node->name : fmt::format("node {}", id.value);
 }
@@ -76,7 +76,7 @@ struct Logger {
         const bool roulette = bounce + 1 >= settings.roulette.start && settings.roulette.rule != Roulette::Rule::off;
         if (roulette && w.survival < 1)
             line("  roulette   {} goes on with probability {:.6g}", to_string(settings.roulette), w.survival);
-        if (step.breaks) {
+        if (step.non_finite) {
             line("  non-finite throughput {}  pdf {:.6g}", rgb(step.next.beta), step.next.pdf);
             return;
         }
@@ -92,19 +92,19 @@ struct Logger {
 
 std::string trace_sample(const Scene& scene, const RenderSettings& settings, int x, int y, int64_t sample) {
     const Workers workers(1);
-    const Scene lowered = lower_area_lights(scene);
+    const Scene expanded = expand_area_lights(scene);
     RenderScene compiled;
-    compiled.update(lowered, settings, full_plan(), workers);
-    const KernelContext context{&compiled.tables(), &compiled.accel(), settings_for_kernels(settings, settings.width, settings.height),
+    compiled.update(expanded, settings, full_plan(), workers);
+    const KernelContext context{&compiled.tables(), &compiled.accel(), kernel_settings(settings, settings.width, settings.height),
                                 settings.seed};
-    Logger log{lowered, compiled, context.settings, {}};
+    Logger log{expanded, compiled, context.settings, {}};
     log.line("pixel {},{} sample {} seed {}", x, y, sample, settings.seed);
 
     // Limits the length of the log; long paths repeat themselves.
-    constexpr int longest_log = 1000;
+    constexpr int max_log_vertices = 1000;
     const auto scratch = std::make_unique<TileScratch>();
     workers.run([&] {
-        const Vec3 radiance = replay_sample(context, x, y, sample, longest_log, *scratch, [&](const ReplayedVertex& vertex) {
+        const Vec3 radiance = replay_sample(context, x, y, sample, max_log_vertices, *scratch, [&](const ReplayedVertex& vertex) {
             log.vertex(vertex.bounce, vertex.path, vertex.hit);
             log.outcome(vertex.bounce, vertex.step, vertex.arrived);
             return true;
@@ -114,7 +114,7 @@ std::string trace_sample(const Scene& scene, const RenderSettings& settings, int
                      "is worth",
                      settings.reuse);
         log.line("radiance {}", rgb(radiance));
-        if (!is_sound(radiance)) {
+        if (!is_valid_radiance(radiance)) {
             const Fault fault = find_fault(context, x, y, sample, *scratch);
             log.line("refused    {} at {}, vertex {}", to_string(fault.kind), to_string(fault.place), fault.vertex);
         }

@@ -28,13 +28,13 @@
 namespace blush::inline BLUSH_ISA {
 
 // Smaller reflectances count as black: too small to divide by.
-constexpr float least_reflectance = 1e-6f;
+constexpr float min_reflectance = 1e-6f;
 
 // Limit of shared radiance, so that dividing by the reflectance does not overflow.
-constexpr float most_radiance = least_reflectance * std::numeric_limits<float>::max();
+constexpr float max_shared_radiance = min_reflectance * std::numeric_limits<float>::max();
 
 // Valid range of densities per square metre: sums and quotients within it neither overflow nor vanish.
-constexpr float least_density = 0x1p-100f, most_density = 0x1p100f;
+constexpr float min_density = 0x1p-100f, max_density = 0x1p100f;
 
 // Salt of the random numbers for opacity along connections; salts of a path's own rays count from 0.
 constexpr uint32_t connection_salt = 0xffffffffu;
@@ -42,8 +42,8 @@ constexpr uint32_t connection_salt = 0xffffffffu;
 // Stores the vertices of paths k, k + 1, ... of the queue at bounce 0
 // or 1. At bounce 0 there is no compaction: the k-th path is slot k.
 template <class F>
-void store_junction(ReuseColumns& reuse, const PathQueue& now, int k, int bounce, const Path<F>& path, const Junction<F>& j) {
-    JunctionColumns& c = bounce == 0 ? reuse.first : reuse.second;
+void store_junction(ReuseColumns& reuse, const PathQueue& now, int k, int bounce, const Path<F>& path, const ReuseVertex<F>& j) {
+    ReuseVertexColumns& c = bounce == 0 ? reuse.first : reuse.second;
     store(c.px + k, j.position.x);
     store(c.py + k, j.position.y);
     store(c.pz + k, j.position.z);
@@ -68,7 +68,7 @@ void store_junction(ReuseColumns& reuse, const PathQueue& now, int k, int bounce
 
 // Call when a path's radiance holds exactly its unshared part (light arriving
 // at x, and emission hit from x): later contributions can be shared.
-inline void set_own_radiance_aside(ReuseColumns& reuse, TileScratch& scratch, int paths) {
+inline void stash_unshared_radiance(ReuseColumns& reuse, TileScratch& scratch, int paths) {
     const auto set_aside = [&](double* r, double* g, double* b, RadianceColumns& own) {
         copy_radiance(r, g, b, paths, own);
         for (double* c : {r, g, b}) std::fill_n(c, paths, 0.0);
@@ -87,9 +87,9 @@ template <class F> Vec<F> gather_columns(const float* x, const float* y, const f
 
 // Computes G for every member and vertex of the batch, and queues
 // visibility rays from vertex to member where visibility is unknown.
-template <class F> void queue_connections(const FocusTables& focus, const ReuseColumns& reuse, ReuseBatch& batch, int group_size, ShadowQueue& q) {
+template <class F> void queue_connections(const CausticCasterTables& focus, const ReuseColumns& reuse, ReuseBatch& batch, int group_size, ShadowQueue& q) {
     const int pairs = batch.vertices * group_size, last_member = group_size - 1, shift = std::countr_zero(unsigned(group_size));
-    const JunctionColumns &a = reuse.first, &b = reuse.second;
+    const ReuseVertexColumns &a = reuse.first, &b = reuse.second;
     q.size = 0;
     for (int k = 0; k < pairs; k += width<F>) {
         const Int<F> pair = min(Int<F>(iota<F>() + k), Int<F>(pairs - 1));
@@ -108,16 +108,16 @@ template <class F> void queue_connections(const FocusTables& focus, const ReuseC
         const F cos_x = dot(ns_x, to), cos_y = -dot(ng_y, to); // times d
         // False where sampling at x would reject the direction, or y would
         // look different from there. Not tested for the path's own pixel.
-        const Mask<F> possible = dot(ng_x, to) > F(0.f) && -dot(ns_y, to) >= F(least_facing) * sqrt(d2);
+        const Mask<F> possible = dot(ng_x, to) > F(0.f) && -dot(ns_y, to) >= F(min_facing) * sqrt(d2);
         F density = max(cos_x, F(0.f)) * max(cos_y, F(0.f)) / (d2 * d2);
-        density = select(present && (own || possible) && density >= F(least_density) && density <= F(most_density), density, F(0.f));
+        density = select(present && (own || possible) && density >= F(min_density) && density <= F(max_density), density, F(0.f));
         store(batch.density + k, density);
         F drawn = density;
         if (focus.count > 0) {
             const F distance = sqrt(d2), cosine = cosine_hemisphere_pdf(F(cos_x / distance));
             const Mask<F> sampled = density > F(0.f);
-            const Focus<F> from_x = focus_at<F>(focus, at_x, ns_x, sampled);
-            const F mixed = focused_pdf<F>(focus, from_x, Vec<F>(to / distance), cosine);
+            const CausticGuide<F> from_x = caustic_guide_at<F>(focus, at_x, ns_x, sampled);
+            const F mixed = guided_pdf<F>(focus, from_x, Vec<F>(to / distance), cosine);
             drawn = select(sampled, density * (mixed / select(sampled, cosine, F(1.f))), F(0.f));
         }
         store(batch.drawn + k, drawn);
@@ -175,7 +175,7 @@ void distribute(const ReuseColumns& reuse, ReuseBatch& batch, int group_size, co
     for (float* sum : {batch.sum_r.data, batch.sum_g.data, batch.sum_b.data}) std::fill_n(sum, seats, 0.f);
     for (int v = 0; v < batch.vertices; ++v) {
         const int own = batch.own_seat[v], first = own / group_size * group_size, slot = batch.slot[own];
-        const auto relative = [](double value, float rho) { return rho >= least_reflectance ? float(value) / rho : 0.f; };
+        const auto relative = [](double value, float rho) { return rho >= min_reflectance ? float(value) / rho : 0.f; };
         const float r = relative(radiance.r[slot], reuse.rho_r[slot]);
         const float g = relative(radiance.g[slot], reuse.rho_g[slot]);
         const float b = relative(radiance.b[slot], reuse.rho_b[slot]);
@@ -192,7 +192,7 @@ void distribute(const ReuseColumns& reuse, ReuseBatch& batch, int group_size, co
         if (slot < 0) continue;
         const bool shared = batch.shared[seat];
         const auto settle = [&](double& value, float sum, float rho) {
-            if (rho < least_reflectance) return;
+            if (rho < min_reflectance) return;
             value = (shared ? 0.0 : value) + double(sum * rho);
         };
         settle(radiance.r[slot], batch.sum_r[seat], reuse.rho_r[slot]);
@@ -217,9 +217,9 @@ inline void seat_group(const ReuseColumns& reuse, const TileScratch& scratch, Re
         members += takes_part;
         batch.slot[seat] = takes_part ? slot : -1;
         batch.shared[seat] = 0;
-        batch.reflects_r[seat] = takes_part && reuse.rho_r[slot] >= least_reflectance;
-        batch.reflects_g[seat] = takes_part && reuse.rho_g[slot] >= least_reflectance;
-        batch.reflects_b[seat] = takes_part && reuse.rho_b[slot] >= least_reflectance;
+        batch.reflects_r[seat] = takes_part && reuse.rho_r[slot] >= min_reflectance;
+        batch.reflects_g[seat] = takes_part && reuse.rho_g[slot] >= min_reflectance;
+        batch.reflects_b[seat] = takes_part && reuse.rho_b[slot] >= min_reflectance;
     }
     if (members < 2) return;
     for (int seat = first; seat < first + group_size; ++seat) {
@@ -229,7 +229,7 @@ inline void seat_group(const ReuseColumns& reuse, const TileScratch& scratch, Re
         if (place < 0 || !reuse.second.takes_part[place]) continue;
         // Black or invalid radiance is not shared: it stays in this pixel, where the film counts it.
         const double r = scratch.r[slot], g = scratch.g[slot], b = scratch.b[slot];
-        if (!(r >= 0 && g >= 0 && b >= 0 && r + g + b > 0 && r + g + b <= double(most_radiance))) continue;
+        if (!(r >= 0 && g >= 0 && b >= 0 && r + g + b > 0 && r + g + b <= double(max_shared_radiance))) continue;
         batch.place[batch.vertices] = place;
         batch.own_seat[batch.vertices++] = seat;
     }
@@ -247,7 +247,7 @@ template <class F> [[gnu::flatten]] void share_batch(const KernelContext& contex
         scratch.shadow_rays += q.size;
         for (int k = 0; k < q.size; ++k)
             if (scratch.blocked[k]) batch.density[q.slot[k]] = batch.drawn[q.slot[k]] = 0;
-        Vec3 share[ReuseBatch::most_seats];
+        Vec3 share[ReuseBatch::max_seats];
         weigh(batch, group_size, share);
         distribute<F>(reuse, batch, group_size, share, {scratch.r, scratch.g, scratch.b});
         // Bounce planes are shared like the total radiance.
@@ -264,7 +264,7 @@ template <class F> [[gnu::flatten]] void share_batch(const KernelContext& contex
 
 // After all paths of the tile have ended and their unshared radiance
 // was stored: connects, shares, and adds the unshared part again.
-template <class F> void share_paths(const KernelContext& context, const TileJob& job, TileScratch& scratch) {
+template <class F> void reuse_paths(const KernelContext& context, const TileJob& job, TileScratch& scratch) {
     const ReuseGroups& groups = context.settings.reuse;
     ReuseColumns& reuse = *scratch.reuse;
     ReuseBatch& batch = reuse.batch;

@@ -6,7 +6,7 @@
 namespace blush {
 namespace {
 
-constexpr double per_half = double(SamplePlan::pilot_samples) / 2;
+constexpr double per_half = double(SampleAllocation::pilot_samples) / 2;
 constexpr double dark = 0.1; // luminance below which noise is invisible; as in relmse
 
 // Smooths along one axis of a grid with weights 1 : 4 : 1; borders repeat the last value.
@@ -20,12 +20,12 @@ TileNoise smooth(const TileNoise& values, int across, int down, int dx, int dy) 
 
 } // namespace
 
-void PilotNoise::mark(const Film& film) {
+void PilotVariance::mark(const Film& film) {
     marked_.resize(2 * size_t(film.width()) * size_t(film.height()));
     for (size_t i = 0; i < marked_.size(); ++i) marked_[i] = film.sum(i / 2, int(i % 2));
 }
 
-double PilotNoise::of_pixel(const Film& film, size_t pixel, int half) const {
+double PilotVariance::of_pixel(const Film& film, size_t pixel, int half) const {
     const Vec3d first = marked_[2 * pixel + size_t(half)], both = film.sum(pixel, half);
     const auto channel = [](double first_sum, double sum) {
         const double difference = (sum - 2 * first_sum) / per_half, mean = sum / per_half;
@@ -35,8 +35,8 @@ double PilotNoise::of_pixel(const Film& film, size_t pixel, int half) const {
     return channel(first.x, both.x) + channel(first.y, both.y) + channel(first.z, both.z) + 3 * film.shadow_variance(pixel);
 }
 
-std::array<TileNoise, 2> PilotNoise::measure(const Film& film) {
-    constexpr int size = SamplePlan::tile_size;
+std::array<TileNoise, 2> PilotVariance::measure(const Film& film) {
+    constexpr int size = SampleAllocation::tile_size;
     const int across = (film.width() + size - 1) / size, down = (film.height() + size - 1) / size;
     std::array<TileNoise, 2> noise;
     for (int half = 0; half < 2; ++half) {

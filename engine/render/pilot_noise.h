@@ -16,7 +16,7 @@ namespace blush {
 // gives too few samples to dark regions, whose relative error grows more than bright regions gain. One pixel's weight is limited,
 // because a firefly makes its pixel bright. A tile's noise is the root mean square over its pixels, smoothed over neighbouring
 // tiles, because fireflies can occur there too.
-class PilotNoise {
+class PilotVariance {
 public:
     // Call when the film holds half of the pilot: stores its sums.
     void mark(const Film& film);

@@ -15,7 +15,7 @@ namespace blush::inline BLUSH_ISA {
 
 // A sampled direction represents one of so many equally likely cells of its lobe.
 constexpr float cells_of_a_lobe = 64;
-constexpr float widest_spread = 0.5f; // metres per metre
+constexpr float max_cone_spread = 0.5f; // metres per metre
 
 // Metres per metre of distance for a perspective camera; metres for an orthographic one.
 inline float camera_cone(const CameraRecord& camera, const EstimatorSettings& settings) {
@@ -32,7 +32,7 @@ template <class F> F cone_width(const CameraRecord& camera, const EstimatorSetti
     if (!settings.filter_textures) return F(0.f);
     // A cell of solid angle 1 / (cells * pdf) is 2 sqrt(1 / (pi * cells * pdf)) across.
     constexpr float across = 4 * 0.3183098862f / cells_of_a_lobe;
-    const F lobe = min(F(sqrt(across / path.pdf)), F(widest_spread));
+    const F lobe = min(F(sqrt(across / path.pdf)), F(max_cone_spread));
     const F spread = select(is_finite(path.pdf), lobe, F(camera.orthographic ? 0.f : camera_cone(camera, settings)));
     return max(F(path.cone + spread * t), F(0.f));
 }

@@ -49,14 +49,14 @@ bool has_catchers(const Scene& scene) {
 }
 
 // Ray masks by object: meshes of area lights may be hidden from the camera, and shadow catchers always are.
-std::vector<uint32_t> masks_of(const Scene& lowered, const std::vector<SceneObject>& objects, const CasterSets& casters) {
+std::vector<uint32_t> masks_of(const Scene& expanded, const std::vector<SceneObject>& objects, const CasterSets& casters) {
     std::vector<uint32_t> masks;
-    const bool any_catches = has_catchers(lowered);
+    const bool any_catches = has_catchers(expanded);
     for (const SceneObject& object : objects) {
-        const Light* light = light_of_body(lowered, object.node);
-        const bool catches = any_catches && is_shadow_catcher(lowered, object.node);
+        const Light* light = light_of_expanded_mesh(expanded, object.node);
+        const bool catches = any_catches && is_shadow_catcher(expanded, object.node);
         const bool seen = !catches && (!light || light->visible_to_camera);
-        masks.push_back(ray_mask(seen) | (catches ? catcher_ray_mask : 0) | casters.mask_of(lowered, object.node));
+        masks.push_back(ray_mask(seen) | (catches ? catcher_ray_mask : 0) | casters.mask_of(expanded, object.node));
     }
     return masks;
 }
@@ -140,11 +140,11 @@ void RenderScene::update_geometry(const Scene& scene, const UpdatePlan& plan, co
     if (commit) accel_.commit(accel_scene(scene), &tables_, workers);
 }
 
-AccelScene RenderScene::accel_scene(const Scene& lowered) const {
+AccelScene RenderScene::accel_scene(const Scene& expanded) const {
     AccelScene scene = has_geometry_ ? geometry_.accel_scene(objects_, alpha_, masks_) : AccelScene{};
     for (const SphereLight& s : spheres_)
         scene.spheres.push_back({to_float(s.center - extent_.origin), float(s.radius),
-                                 ray_mask(s.visible_to_camera) | casters_.mask_of(lowered, s.node)});
+                                 ray_mask(s.visible_to_camera) | casters_.mask_of(expanded, s.node)});
     return scene;
 }
 
@@ -162,12 +162,12 @@ void RenderScene::update_groups(const LightGroups& groups) {
 void RenderScene::aim(std::span<const Vec3> gains) {
     std::vector<double> factors;
     for (const int32_t group : group_of_light_) factors.push_back(double(luminance(gains[size_t(group)])));
-    weigh_lights(lights_, factors);
+    set_light_weights(lights_, factors);
     lights_.fill(tables_.lights);
 }
 
 // Casters only matter if rays can find light, and Strategy::bsdf excludes caustic guiding.
-void RenderScene::update_focus(const Scene& scene, const RenderSettings& settings) {
+void RenderScene::update_caustic_casters(const Scene& scene, const RenderSettings& settings) {
     const bool found = lights_.emissive_triangles + lights_.sphere_lights > 0 || !lights_.suns.empty();
     const bool narrow_sky = lights_.environment >= 0 && scene.environment.kind != Environment::Kind::constant;
     focus_.build(scene, objects_, extent_.origin, settings.strategy != Strategy::bsdf && (found || narrow_sky));
@@ -177,21 +177,21 @@ void RenderScene::update_focus(const Scene& scene, const RenderSettings& setting
 void RenderScene::update_lights(const Scene& scene, const RenderSettings& settings, const UpdatePlan& plan, const LightGroups* groups) {
     // An environment without light needs no map, and without NEE no importance map. Linked lights need records, and are sampled
     // by NEE where rays must not find them.
-    const Aim aim_before = aim_;
-    aim_ = settings.strategy == Strategy::bsdf && !has_links(scene) ? Aim::at_points : Aim::at_all;
+    const NeeLights aim_before = aim_;
+    aim_ = settings.strategy == Strategy::bsdf && !has_links(scene) ? NeeLights::zero_size_lights : NeeLights::all_lights;
     const bool needs_map = gives_light(scene.environment);
     if (plan.environment_map || aim_ != aim_before || (plan.environment_parameters && needs_map != has_environment_map_))
-        environment_ = build_environment_table(needs_map ? scene.environment : Environment{}, aim_ == Aim::at_all);
+        environment_ = build_environment_table(needs_map ? scene.environment : Environment{}, aim_ == NeeLights::all_lights);
     if (plan.environment_map || aim_ != aim_before || plan.environment_parameters) update_environment_parameters(environment_, scene.environment);
     has_environment_map_ = needs_map;
     tables_.environment = environment_.tables();
     if (!plan.lights) return;
     const Vec3d mean = environment_.integral() * (1 / (4 * 3.14159265358979323846));
     // A backdrop is visible but lights nothing.
-    const bool shines = scene.environment.lights_scene && needs_map && environment_.shines;
-    lights_ = build_light_table(scene, materials_, geometry_, tables_, spheres_, {shines, to_float(mean)}, extent_, aim_);
+    const bool emits_light = scene.environment.lights_scene && needs_map && environment_.emits_light;
+    lights_ = build_light_table(scene, materials_, geometry_, tables_, spheres_, {emits_light, to_float(mean)}, extent_, aim_);
     lights_.fill(tables_.lights);
-    update_focus(scene, settings);
+    update_caustic_casters(scene, settings);
     group_of_light_.clear();
     group_of_part_.clear();
     if (groups) update_groups(*groups);

@@ -26,7 +26,7 @@ class RenderScene {
 public:
     // Executes `plan` for a scene with expanded area lights. Afterwards all tables equal those of full_plan(). `groups`: light
     // groups of the scene; null: no light mix.
-    void update(const Scene& lowered, const RenderSettings& settings, const UpdatePlan& plan, const Workers& workers,
+    void update(const Scene& expanded, const RenderSettings& settings, const UpdatePlan& plan, const Workers& workers,
                 const LightGroups* groups = nullptr);
     // Weights light selection by the groups' gains, until the next update of lights. The image's expectation does not change.
     void aim(std::span<const Vec3> gains);
@@ -50,15 +50,15 @@ public:
     // Everything except the kernel and the feature report.
     CompiledInfo info() const;
     // `lowered` as passed last time; the film that is rendered to.
-    Ledger ledger(const Scene& lowered, const FilmSize& film) const;
+    FeatureReport feature_report(const Scene& expanded, const FilmSize& film) const;
 
 private:
     void update_materials(const Scene& scene, const UpdatePlan& plan, const Workers& workers);
     void update_geometry(const Scene& scene, const UpdatePlan& plan, const Workers& workers);
-    AccelScene accel_scene(const Scene& lowered) const;
+    AccelScene accel_scene(const Scene& expanded) const;
     void update_lights(const Scene& scene, const RenderSettings& settings, const UpdatePlan& plan, const LightGroups* groups);
     void update_groups(const LightGroups& groups);
-    void update_focus(const Scene& scene, const RenderSettings& settings);
+    void update_caustic_casters(const Scene& scene, const RenderSettings& settings);
     Features compute_features(const Scene& scene, const RenderSettings& settings) const;
 
     MaterialTable materials_;
@@ -78,12 +78,12 @@ private:
     LightTable lights_;
     std::vector<int32_t> group_of_light_, group_of_part_; // empty: no light mix
     EnvironmentTable environment_;
-    FocusTable focus_;
+    CausticCasterTable focus_;
     Accel accel_;
     SceneTables tables_;
     Features features_;
     bool has_geometry_ = false, has_environment_map_ = false;
-    Aim aim_ = Aim::at_all; // as passed last time
+    NeeLights aim_ = NeeLights::all_lights; // as passed last time
     std::string missing_light_;
 };
 

@@ -24,7 +24,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double rest_seconds = 1; // without a submission, until light selection follows the mix
+constexpr double idle_seconds = 1; // without a submission, until light selection follows the mix
 
 double seconds_between(Clock::time_point a, Clock::time_point b) { return std::chrono::duration<double>(b - a).count(); }
 
@@ -89,24 +89,24 @@ struct RenderSession::State {
     std::optional<Submission> pending;
     bool paused = false;
     std::optional<uint64_t> film_asked; // revision of the requested film
-    std::optional<KeptFilm> kept_film;
-    Showcase showcase;
+    std::optional<RequestedFilm> kept_film;
+    PublishedFrames showcase;
     SessionStatus status;
 
     // Read by tiles before they begin: one load, no lock.
     std::atomic<uint64_t> wanted_image{0};
     std::atomic<bool> quit{false};
     std::atomic<bool> film_wanted{false}; // film_asked holds a value
-    Gate gate;                            // closed while rendering yields to the UI
+    PauseGate gate;                            // closed while rendering yields to the UI
 
     // Used only by the render thread.
     std::optional<Renderer> renderer;
     FramePool frames;
     Submission current;
     Scheduler scheduler;
-    std::string failure, not_continued; // empty: none
+    std::string failure, restart_reason; // empty: none
     bool has_scene = false, has_first_image = false;
-    bool aims_at_mix = false; // light selection follows the current mix
+    bool selects_lights_by_mix = false; // light selection follows the current mix
     double first_image_seconds = 0, samples_per_second = 0;
     ErrorCadence error_cadence;
     // Latest error estimate of this image; frames without their own reuse it.
@@ -126,23 +126,23 @@ struct RenderSession::State {
     SessionStatus::State due_state() const;
     bool must_show() const { return has_scene && !has_first_image; }
     bool has_work() const { return due_state() == SessionStatus::State::rendering; }
-    bool stands_aside() const { return gate.is_shut() && has_first_image && !(pending && pending->image != current.image); }
+    bool yields_to_ui() const { return gate.is_closed() && has_first_image && !(pending && pending->image != current.image); }
 
     void run();
     void announce(std::optional<SessionStatus::State> passing = {});
-    void take_up(Submission next);
-    void work_once();
+    void apply_submission(Submission next);
+    void render_batch();
     void fail(std::string why, std::optional<uint64_t> asked);
     void go_on_from(const FilmState& film);
     std::shared_ptr<Frame> resolved(bool wants_error = false);
     void estimate_error(Frame& frame, bool wanted);
     void publish();
     void mix_denoised(const Frame& frame);
-    void keep_film(uint64_t revision);
-    void answer(KeptFilm kept);
-    void take_denoised(uint64_t image, const FramePtr& source, DenoisedPtr denoised);
-    void forget_networks();
-    Pictures look() const;
+    void request_film(uint64_t revision);
+    void answer(RequestedFilm kept);
+    void receive_denoised(uint64_t image, const FramePtr& source, DenoisedPtr denoised);
+    void on_networks_freed();
+    Pictures current_pictures() const;
 };
 
 SessionStatus::State RenderSession::State::due_state() const {
@@ -150,7 +150,7 @@ SessionStatus::State RenderSession::State::due_state() const {
     if (!has_scene) return SessionStatus::State::idle;
     if (scheduler.finished()) return SessionStatus::State::complete;
     if (paused && has_first_image) return SessionStatus::State::paused;
-    return stands_aside() ? SessionStatus::State::aside : SessionStatus::State::rendering;
+    return yields_to_ui() ? SessionStatus::State::yielding : SessionStatus::State::rendering;
 }
 
 // Publishes the current state, or a transient one.
@@ -161,7 +161,7 @@ void RenderSession::State::announce(std::optional<SessionStatus::State> passing)
         status.revision = current.revision;
         status.progress = scheduler.progress();
         status.message = failure;
-        status.not_continued = not_continued;
+        status.restart_reason = restart_reason;
     }
     on_frame();
 }
@@ -197,7 +197,7 @@ std::shared_ptr<Frame> RenderSession::State::resolved(bool wants_error) {
 
 // Remixes denoised groups without denoising again.
 void RenderSession::State::mix_denoised(const Frame& frame) {
-    const DenoisedPtr before = look().denoised;
+    const DenoisedPtr before = current_pictures().denoised;
     if (!before || !before->groups || before->gains == frame.gains || frame.light_groups != before->groups->of) return;
     DenoisedPtr after = remixed(*before, frame.gains);
     const std::lock_guard lock(mutex);
@@ -211,7 +211,7 @@ void RenderSession::State::publish() {
     if (!has_first_image) first_image_seconds = seconds_between(current.when, Clock::now());
     has_first_image = true;
     frame->first_image_seconds = first_image_seconds;
-    const Pictures previous = look(); // freed after unlocking
+    const Pictures previous = current_pictures(); // freed after unlocking
     const std::lock_guard lock(mutex);
     if (denoiser->offer(current.image, frame))
         showcase.withhold(current.image, frame);
@@ -220,8 +220,8 @@ void RenderSession::State::publish() {
 }
 
 // Called on the denoiser's thread.
-void RenderSession::State::take_denoised(uint64_t image, const FramePtr& source, DenoisedPtr denoised) {
-    const Pictures previous = look();
+void RenderSession::State::receive_denoised(uint64_t image, const FramePtr& source, DenoisedPtr denoised) {
+    const Pictures previous = current_pictures();
     // The mix may have changed during denoising.
     if (denoised && denoised->groups && previous.frame && previous.frame->light_groups == denoised->groups->of)
         if (previous.frame->gains != denoised->gains) denoised = remixed(*denoised, previous.frame->gains);
@@ -236,7 +236,7 @@ void RenderSession::State::take_denoised(uint64_t image, const FramePtr& source,
 }
 
 // Called on the denoiser's thread after its networks were freed.
-void RenderSession::State::forget_networks() {
+void RenderSession::State::on_networks_freed() {
     {
         const std::lock_guard lock(mutex);
         status.denoised_with = {};
@@ -244,12 +244,12 @@ void RenderSession::State::forget_networks() {
     on_frame();
 }
 
-Pictures RenderSession::State::look() const {
+Pictures RenderSession::State::current_pictures() const {
     const std::lock_guard lock(mutex);
     return showcase.pictures();
 }
 
-void RenderSession::State::take_up(Submission next) {
+void RenderSession::State::apply_submission(Submission next) {
     const bool new_image = next.image != current.image || !has_scene;
     current = std::move(next);
     failure.clear();
@@ -265,7 +265,7 @@ void RenderSession::State::take_up(Submission next) {
         renderer->update(current.base(), settings);
         if (current.groups) renderer->update(current.scene, settings);
         has_scene = true;
-        not_continued.clear();
+        restart_reason.clear();
         if (const FilmStatePtr film = std::exchange(current.film, nullptr)) go_on_from(*film);
     } else {
         scheduler.change_stop_rules(settings);
@@ -273,21 +273,21 @@ void RenderSession::State::take_up(Submission next) {
         if (current.groups) renderer->update(current.scene, settings);
         if (has_first_image) publish(); // the unchanged image answers the new revision
     }
-    aims_at_mix = false;
+    selects_lights_by_mix = false;
     announce();
 }
 
 void RenderSession::State::go_on_from(const FilmState& film) {
     if (const auto loaded = renderer->load_film(film); !loaded) {
-        not_continued = loaded.error().text();
+        restart_reason = loaded.error().text();
         return;
     }
     scheduler.resume(film.samples, film.seconds);
     publish();
 }
 
-void RenderSession::State::keep_film(uint64_t revision) {
-    KeptFilm kept{.revision = revision};
+void RenderSession::State::request_film(uint64_t revision) {
+    RequestedFilm kept{.revision = revision};
     Result<FilmState> film = Error{"", "the image changed before its film was saved", ""};
     if (renderer && has_first_image && revision == current.revision) film = renderer->save_film(current.settings.first_sample);
     if (film) {
@@ -302,32 +302,32 @@ void RenderSession::State::keep_film(uint64_t revision) {
     announce();
 }
 
-void RenderSession::State::answer(KeptFilm kept) {
+void RenderSession::State::answer(RequestedFilm kept) {
     const std::lock_guard lock(mutex);
     kept_film = std::move(kept);
 }
 
-void RenderSession::State::work_once() {
+void RenderSession::State::render_batch() {
     const Work work = scheduler.next();
     const uint64_t mine = current.image;
     const auto begin = Clock::now();
-    const double shut_before = gate.shut_seconds();
-    if (current.groups && !aims_at_mix && seconds_between(current.when, begin) > rest_seconds) {
-        renderer->aim_at_mix();
-        aims_at_mix = true;
+    const double shut_before = gate.closed_seconds();
+    if (current.groups && !selects_lights_by_mix && seconds_between(current.when, begin) > idle_seconds) {
+        renderer->select_lights_by_mix();
+        selects_lights_by_mix = true;
     }
     renderer->set_divider(work.divider);
     if (work.clear) renderer->clear();
-    const std::function<bool()> hurries = [&] {
+    const std::function<bool()> interrupted = [&] {
         return work.always_finish || quit.load(std::memory_order_relaxed) || film_wanted.load(std::memory_order_relaxed) ||
                wanted_image.load(std::memory_order_relaxed) != mine;
     };
     const bool done = renderer->render(work.first_sample, work.count, [&] {
-        gate.pass(hurries);
+        gate.wait_while_closed(interrupted);
         return !quit.load(std::memory_order_relaxed) && (work.always_finish || film_wanted.load(std::memory_order_relaxed) || wanted_image.load(std::memory_order_relaxed) == mine);
     });
     if (!done) return;
-    const double seconds = seconds_between(begin, Clock::now()) - (gate.shut_seconds() - shut_before);
+    const double seconds = seconds_between(begin, Clock::now()) - (gate.closed_seconds() - shut_before);
     samples_per_second = double(work.count) / (std::max(seconds, 1e-9) * work.divider * work.divider);
     scheduler.record_render(work, seconds);
     if (work.publish || scheduler.finished()) {
@@ -352,23 +352,23 @@ void RenderSession::State::run() {
         bool work = false;
         {
             std::unique_lock lock(mutex);
-            wake.wait(lock, [&] { return quit || film_asked || (pending && !stands_aside()) || has_work() || due_state() != status.state; });
+            wake.wait(lock, [&] { return quit || film_asked || (pending && !yields_to_ui()) || has_work() || due_state() != status.state; });
             if (quit) return;
             // Before the requested image is replaced.
             asked = std::exchange(film_asked, std::nullopt);
             film_wanted = false;
             // Show an applied submission once before applying the next:
             // otherwise a drag faster than the updates would show nothing.
-            if (!asked && !must_show() && !stands_aside()) taken.swap(pending);
+            if (!asked && !must_show() && !yields_to_ui()) taken.swap(pending);
             work = has_work();
         }
         try {
             if (asked)
-                keep_film(*asked);
+                request_film(*asked);
             else if (taken)
-                take_up(std::move(*taken));
+                apply_submission(std::move(*taken));
             else if (work)
-                work_once();
+                render_batch();
             else
                 announce();
         } catch (const std::bad_alloc&) { fail("not enough memory", asked); } catch (const std::exception& e) {
@@ -383,9 +383,9 @@ RenderSession::RenderSession(const SessionOptions& options, std::function<void()
     state_->denoiser = std::make_unique<BackgroundDenoiser>(
         options.denoiser, options.denoiser_grace, state_->gate,
         [s = state_.get()](uint64_t image, const FramePtr& source, DenoisedPtr denoised) {
-            s->take_denoised(image, source, std::move(denoised));
+            s->receive_denoised(image, source, std::move(denoised));
         },
-        [s = state_.get()] { s->forget_networks(); });
+        [s = state_.get()] { s->on_networks_freed(); });
     state_->thread = std::thread([s = state_.get()] { s->run(); });
 }
 
@@ -394,7 +394,7 @@ RenderSession::~RenderSession() {
         const std::lock_guard lock(state_->mutex);
         state_->quit = true;
     }
-    state_->gate.look_again();
+    state_->gate.notify();
     state_->wake.notify_one();
     state_->thread.join();
 }
@@ -413,22 +413,22 @@ bool RenderSession::submit(uint64_t revision, const Scene& scene, const RenderSe
         next->film = std::move(film);
         s.pending.swap(next);
     }
-    s.gate.look_again();
+    s.gate.notify();
     s.wake.notify_one();
     return goes_on;
 }
 
-void RenderSession::keep_film(uint64_t revision) {
+void RenderSession::request_film(uint64_t revision) {
     {
         const std::lock_guard lock(state_->mutex);
         state_->film_asked = revision;
         state_->film_wanted = true;
     }
-    state_->gate.look_again();
+    state_->gate.notify();
     state_->wake.notify_one();
 }
 
-std::optional<KeptFilm> RenderSession::take_kept_film() {
+std::optional<RequestedFilm> RenderSession::take_requested_film() {
     const std::lock_guard lock(state_->mutex);
     return std::exchange(state_->kept_film, std::nullopt);
 }
@@ -441,8 +441,8 @@ void RenderSession::pause(bool paused) {
     state_->wake.notify_one();
 }
 
-void RenderSession::stand_aside(bool aside) {
-    if (aside) return state_->gate.shut();
+void RenderSession::yield_to_ui(bool yielding) {
+    if (yielding) return state_->gate.close();
     {
         const std::lock_guard lock(state_->mutex); // ensures that the thread is not between its check and its wait
         state_->gate.open();
@@ -457,12 +457,12 @@ void RenderSession::want_denoised(bool wanted) {
     state_->showcase.release();
 }
 
-Pictures RenderSession::pictures() const { return state_->look(); }
+Pictures RenderSession::pictures() const { return state_->current_pictures(); }
 
 SessionStatus RenderSession::status() const {
     const std::lock_guard lock(state_->mutex);
     SessionStatus status = state_->status;
-    if (status.state == SessionStatus::State::rendering && state_->gate.holds_anyone()) status.state = SessionStatus::State::aside;
+    if (status.state == SessionStatus::State::rendering && state_->gate.has_waiting_threads()) status.state = SessionStatus::State::yielding;
     return status;
 }
 

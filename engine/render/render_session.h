@@ -26,19 +26,19 @@ struct SessionOptions {
 };
 
 struct SessionStatus {
-    enum class State { idle, updating, rendering, aside, paused, complete, failed };
+    enum class State { idle, updating, rendering, yielding, paused, complete, failed };
     State state = State::idle;
     uint64_t revision = 0;                               // last one applied
     double progress = 0;                                 // towards the nearest stop rule, 0 .. 1; 1 only when reached
     std::string message;                                 // failed: the error
     std::array<bool, denoise_qualities> denoised_with{}; // networks used so far that are still in memory
     // why this image restarted instead of continuing from the given samples; empty: it did not
-    std::string not_continued;
+    std::string restart_reason;
     std::string denoiser_failure;                        // why denoising failed; empty: no error
 };
 
 // A frame and the film that it was made from, for a snapshot.
-struct KeptFilm {
+struct RequestedFilm {
     uint64_t revision = 0;        // the requested revision
     FramePtr frame = {};          // null if film is null
     std::vector<Vec3> error = {}; // standard error of each pixel's mean, RGB; empty if unknown
@@ -66,14 +66,14 @@ public:
     bool submit(uint64_t revision, const Scene& scene, const RenderSettings& settings, const PlaneSet& planes = {}, FilmStatePtr film = {});
     // Requests the film of this revision's image, which must have been shown in full resolution; the current batch is finished
     // first. Never blocks; the result is announced like a frame and can be taken once.
-    void keep_film(uint64_t revision);
-    std::optional<KeptFilm> take_kept_film();
+    void request_film(uint64_t revision);
+    std::optional<RequestedFilm> take_requested_film();
     // A paused session still shows the first image of a new submission, then waits.
     void pause(bool paused);
     // While true, rendering yields to the UI: nothing is started for an image that has been shown, and running work pauses at the
     // next tile, or denoiser layer, and resumes from there; that time does not count as render time. Submissions of the same
     // image wait too; other images, and requested films, do not. Never blocks.
-    void stand_aside(bool aside);
+    void yield_to_ui(bool yielding);
     // Enables denoised images in addition to the frames, at a tenth of their cost (denoise_cadence.h). Never blocks, and resets
     // nothing: existing ones remain after disabling.
     void want_denoised(bool wanted);

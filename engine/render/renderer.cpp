@@ -30,7 +30,7 @@ double seconds_since(Clock::time_point begin) { return std::chrono::duration<dou
 bool hides_environment(const Environment& e) { return e.kind != Environment::Kind::none && !e.visible_to_camera; }
 
 // True during the pilot, after its first half was stored.
-bool in_mid_pilot(int64_t samples) { return samples >= SamplePlan::pilot_samples / 2 && samples < SamplePlan::pilot_samples; }
+bool in_mid_pilot(int64_t samples) { return samples >= SampleAllocation::pilot_samples / 2 && samples < SampleAllocation::pilot_samples; }
 
 // About two thousand paths per tile: enough to fill packets, few enough for the cache. Fewer for a small film, as during a drag,
 // because all workers wait for the last tile.
@@ -48,7 +48,7 @@ TileShape tile_shape(int64_t count, int64_t pixels_per_worker) {
 // With path reuse a tile is a block, so that no group is cut.
 TileShape tile_shape(const ReuseGroups& groups) { return {groups.block_width, groups.block_height, 1}; }
 // Tiles of a sample plan have different numbers of samples, so groups must not cross tiles.
-ReuseGroups reuse_groups_of_plan(int size) { return reuse_groups(size, SamplePlan::tile_size, SamplePlan::tile_size); }
+ReuseGroups reuse_groups_of_plan(int size) { return reuse_groups(size, SampleAllocation::tile_size, SampleAllocation::tile_size); }
 
 } // namespace
 
@@ -59,14 +59,14 @@ struct Renderer::State {
     std::vector<std::unique_ptr<TileScratch>> replays; // for invalid samples
     std::vector<std::unique_ptr<CatcherScratch>> catching;
     RenderScene scene;
-    std::optional<Scene> lowered;
-    LoweredMeshes meshes;
+    std::optional<Scene> expanded;
+    ExpandedMeshes meshes;
     RenderSettings settings;
     std::shared_ptr<const LightGroups> groups; // null: no light mix
     Mixing mixing;                             // of the groups
     Film film;
-    SamplePlan sample_plan; // only for adaptive sampling, like the next
-    PilotNoise pilot_noise;
+    SampleAllocation sample_allocation; // only for adaptive sampling, like the next
+    PilotVariance pilot_variance;
     bool film_is_stale = true, film_is_uneven = false; // uneven: rendering stopped in the middle of a sample
     int divider = 1;
     const Kernel* kernel = nullptr;
@@ -74,7 +74,7 @@ struct Renderer::State {
     double seconds_setup = 0;
     // Computed on request: it reads every triangle, too slow during a drag.
     std::optional<CompiledInfo> info;
-    std::shared_ptr<const Ledger> ledger; // null: must be computed
+    std::shared_ptr<const FeatureReport> feature_report; // null: must be computed
     int64_t samples = 0;
     RayCounts rays;
     std::vector<PathCounts> path_counts;
@@ -90,7 +90,7 @@ struct Renderer::State {
         return {settings.width, settings.height, options.planes, transparent(), settings.adaptive, int(mixing.gains.size()), catches()};
     }
     // If the scene differs from the film only in the light mix, applies the mix and returns true.
-    bool take_mix(const Scene& whole, const RenderSettings& now) {
+    bool apply_mix(const Scene& whole, const RenderSettings& now) {
         if (!groups || !same_image(settings, now)) return false;
         std::optional<Mixing> mix = mixing_of(*groups, whole);
         if (!mix) return false;
@@ -110,13 +110,13 @@ struct Renderer::State {
     bool catches() const { return !scene.catchers().empty(); }
     // A caught shadow needs a background: without an environment the image is for compositing.
     bool transparent() const {
-        return lowered && (hides_environment(lowered->environment) || (catches() && lowered->environment.kind == Environment::Kind::none));
+        return expanded && (hides_environment(expanded->environment) || (catches() && expanded->environment.kind == Environment::Kind::none));
     }
 
     void clear() {
         film_is_stale = true;
         film_is_uneven = false;
-        ledger.reset();
+        feature_report.reset();
         samples = 0;
         rays = {};
         path_counts.clear();
@@ -124,14 +124,14 @@ struct Renderer::State {
     }
     // Clearing a full-size film takes as long as rendering a coarse image, so it is delayed until the next draw or read: edits
     // often change the divider afterwards.
-    void wipe_stale_film() {
+    void clear_stale_film() {
         if (!film_is_stale) return;
         FilmSize size = full_film();
         size.width = film_width();
         size.height = film_height();
         film.reset(size, settings.clamp);
         film.set_gains(mixing.gains);
-        sample_plan.reset(film_width(), film_height());
+        sample_allocation.reset(film_width(), film_height());
         film_is_stale = false;
     }
     // Samples first, first + stride, ... of a pixel, with these reuse groups.
@@ -147,12 +147,12 @@ struct Renderer::State {
     const CatcherColumns* shadows_of(const KernelContext& context, const TileJob& job, unsigned worker);
     bool render_run(TileJob rectangle, const Run& run, int most_samples, unsigned worker, const Wanted& wanted);
     bool for_each_tile(const TileShape& shape, const Wanted& wanted, const TileTask& task);
-    bool render_evenly(int64_t first, int64_t count, const Wanted& wanted);
+    bool render_uniformly(int64_t first, int64_t count, const Wanted& wanted);
     bool render_by_plan(int64_t first, int64_t count, const Wanted& wanted);
 
     void take_path_counts(RouletteColumns& columns) {
-        path_counts.resize(most_counted_bounces);
-        for (int k = 0; k < most_counted_bounces; ++k) {
+        path_counts.resize(max_counted_bounces);
+        for (int k = 0; k < max_counted_bounces; ++k) {
             const PathCounts more = std::exchange(columns.counts[k], {});
             PathCounts& sum = path_counts[size_t(k)];
             sum = {sum.alive + more.alive, sum.asked + more.asked, sum.survived + more.survived};
@@ -184,16 +184,16 @@ Renderer::~Renderer() = default;
 
 bool Renderer::update(const Scene& scene, const RenderSettings& asked) {
     State& s = *state_;
-    const RenderSettings settings = carried_out(asked);
+    const RenderSettings settings = effective_settings(asked);
     const auto begin = Clock::now();
-    if (s.take_mix(scene, settings)) return false;
-    Scene lowered = lower_area_lights(scene, &s.meshes);
-    const UpdatePlan todo = s.lowered ? plan(diff(*s.lowered, s.settings, lowered, settings)) : full_plan();
+    if (s.apply_mix(scene, settings)) return false;
+    Scene expanded = expand_area_lights(scene, &s.meshes);
+    const UpdatePlan todo = s.expanded ? plan(diff(*s.expanded, s.settings, expanded, settings)) : full_plan();
     s.make_groups(scene);
     Film::require_memory({settings.width, settings.height, s.options.planes, false, settings.adaptive, int(s.mixing.gains.size())});
-    s.scene.update(lowered, settings, todo, s.workers, s.groups.get());
+    s.scene.update(expanded, settings, todo, s.workers, s.groups.get());
     if (s.groups) s.scene.aim(s.mixing.gains);
-    s.lowered = std::move(lowered);
+    s.expanded = std::move(expanded);
     s.settings = settings;
     if (todo.features) s.kernel = &choose_kernel(s.scene.features());
     if (todo.clear_film) {
@@ -205,7 +205,7 @@ bool Renderer::update(const Scene& scene, const RenderSettings& asked) {
     return todo.clear_film;
 }
 
-void Renderer::aim_at_mix() {
+void Renderer::select_lights_by_mix() {
     if (state_->groups) state_->scene.aim(state_->mixing.gains);
 }
 
@@ -215,7 +215,7 @@ void Renderer::set_planes(const PlaneSet& planes) {
     const bool covered = s.options.planes.covers(planes);
     s.options.planes = planes;
     s.info.reset();
-    s.ledger.reset();
+    s.feature_report.reset();
     if (!covered)
         clear();
     else if (!s.film_is_stale)
@@ -236,35 +236,35 @@ const CompiledInfo& Renderer::info() const {
     if (!s.info) {
         s.info = s.scene.info();
         s.info->kernel = s.kernel_name;
-        s.info->features = *ledger();
+        s.info->features = *feature_report();
         s.info->seconds_setup = s.seconds_setup;
     }
     return *s.info;
 }
 
-std::shared_ptr<const Ledger> Renderer::ledger() const {
+std::shared_ptr<const FeatureReport> Renderer::feature_report() const {
     State& s = *state_;
-    if (!s.ledger) {
-        Ledger ledger = s.scene.ledger(s.lowered ? *s.lowered : Scene{}, s.full_film());
+    if (!s.feature_report) {
+        FeatureReport feature_report = s.scene.feature_report(s.expanded ? *s.expanded : Scene{}, s.full_film());
         const int reuse = s.settings.reuse;
-        ledger.push_back({"kernel", "path reuse", reuse > 1, reuse > 1 ? fmt::format("groups of {} pixels", reuse) : "switched off"});
-        s.ledger = std::make_shared<const Ledger>(std::move(ledger));
+        feature_report.push_back({"kernel", "path reuse", reuse > 1, reuse > 1 ? fmt::format("groups of {} pixels", reuse) : "switched off"});
+        s.feature_report = std::make_shared<const FeatureReport>(std::move(feature_report));
     }
-    return s.ledger;
+    return s.feature_report;
 }
 
 std::vector<Vec3> Renderer::resolve_error() const {
-    state_->wipe_stale_film();
+    state_->clear_stale_film();
     return state_->film.standard_error();
 }
 
-SharedErrors Renderer::shared_errors() const {
-    state_->wipe_stale_film();
-    return state_->settings.reuse > 1 ? measure_shared_errors(state_->film, reuse_groups(state_->settings.reuse)) : SharedErrors{};
+ReuseCovariance Renderer::reuse_covariance() const {
+    state_->clear_stale_film();
+    return state_->settings.reuse > 1 ? measure_reuse_covariance(state_->film, reuse_groups(state_->settings.reuse)) : ReuseCovariance{};
 }
 
 bool Renderer::State::render_run(TileJob job, const Run& run, int most_samples, unsigned worker, const Wanted& wanted) {
-    KernelContext context{&scene.tables(), &scene.accel(), settings_for_kernels(settings, film.width(), film.height()), settings.seed};
+    KernelContext context{&scene.tables(), &scene.accel(), kernel_settings(settings, film.width(), film.height()), settings.seed};
     context.settings.filter_textures = options.filter_textures;
     context.settings.reuse = run.groups;
     TileScratch& tile = scratch_of(worker);
@@ -295,7 +295,7 @@ bool Renderer::has_light() const { return state_->scene.has_light(); }
 
 Vec3d Renderer::irradiance(const MeterPlace& place, uint32_t replicate, int samples) const {
     State& s = *state_;
-    const KernelContext context{&s.scene.tables(), &s.scene.accel(), settings_for_kernels(s.settings, 1, 1), s.settings.seed};
+    const KernelContext context{&s.scene.tables(), &s.scene.accel(), kernel_settings(s.settings, 1, 1), s.settings.seed};
     const Vec3d position = place.position + place.normal * place.clearance - s.scene.origin();
     const MeterPoint receiver{to_float(position), to_float(place.normal)};
     if (!s.replays[0]) s.replays[0] = std::make_unique<TileScratch>();
@@ -343,7 +343,7 @@ bool Renderer::State::for_each_tile(const TileShape& shape, const Wanted& wanted
 }
 
 // Renders the same samples for every pixel.
-bool Renderer::State::render_evenly(int64_t first, int64_t count, const Wanted& wanted) {
+bool Renderer::State::render_uniformly(int64_t first, int64_t count, const Wanted& wanted) {
     const PixelRect pixels = rendered_pixels();
     const ReuseGroups groups = reuse_groups(settings.reuse);
     const int64_t pixels_per_worker = int64_t(pixels.x1 - pixels.x0) * (pixels.y1 - pixels.y0) / workers.threads();
@@ -355,11 +355,11 @@ bool Renderer::State::render_evenly(int64_t first, int64_t count, const Wanted& 
 
 // Renders the samples of each half of each tile by the sample plan.
 bool Renderer::State::render_by_plan(int64_t first, int64_t count, const Wanted& wanted) {
-    constexpr TileShape shape{SamplePlan::tile_size, SamplePlan::tile_size, 8};
+    constexpr TileShape shape{SampleAllocation::tile_size, SampleAllocation::tile_size, 8};
     const ReuseGroups groups = reuse_groups_of_plan(settings.reuse);
     return for_each_tile(shape, wanted, [&](int tile, const TileJob& job, unsigned worker) {
         for (int half = 0; half < 2; ++half) {
-            const int64_t from = sample_plan.samples(tile, half, first), to = sample_plan.samples(tile, half, first + count);
+            const int64_t from = sample_allocation.samples(tile, half, first), to = sample_allocation.samples(tile, half, first + count);
             if (!render_run(job, {2 * from + half, to - from, 2, groups}, shape.samples, worker, wanted)) return false;
         }
         return true;
@@ -368,33 +368,33 @@ bool Renderer::State::render_by_plan(int64_t first, int64_t count, const Wanted&
 
 bool Renderer::render(int64_t first, int64_t count, const std::function<bool()>& wanted) {
     State& s = *state_;
-    s.wipe_stale_film();
+    s.clear_stale_film();
     if (!s.settings.adaptive) {
-        if (!s.render_evenly(first, count, wanted)) return !(s.film_is_uneven = true);
+        if (!s.render_uniformly(first, count, wanted)) return !(s.film_is_uneven = true);
         s.samples += count;
         return true;
     }
     // In steps that end where the pilot is measured.
     for (int64_t left = count; left > 0;) {
-        const int64_t step = std::min(left, SamplePlan::next_look(s.samples) - s.samples);
-        if (!(s.sample_plan.decided() ? s.render_by_plan(s.samples, step, wanted) : s.render_evenly(s.samples, step, wanted)))
+        const int64_t step = std::min(left, SampleAllocation::next_measurement(s.samples) - s.samples);
+        if (!(s.sample_allocation.decided() ? s.render_by_plan(s.samples, step, wanted) : s.render_uniformly(s.samples, step, wanted)))
             return !(s.film_is_uneven = true);
         s.samples += step;
         left -= step;
-        if (s.samples == SamplePlan::pilot_samples / 2) s.pilot_noise.mark(s.film);
-        if (s.samples == SamplePlan::pilot_samples) s.sample_plan.decide(s.pilot_noise.measure(s.film));
+        if (s.samples == SampleAllocation::pilot_samples / 2) s.pilot_variance.mark(s.film);
+        if (s.samples == SampleAllocation::pilot_samples) s.sample_allocation.decide(s.pilot_variance.measure(s.film));
     }
     return true;
 }
 
 void Renderer::resolve(Frame& frame) const {
     State& s = *state_;
-    s.wipe_stale_film();
+    s.clear_stale_film();
     s.film.resolve(frame, s.workers);
-    for (uint32_t& id : frame.object_id) id &= ~lowered_bit;
+    for (uint32_t& id : frame.object_id) id &= ~expanded_id_bit;
     for (uint32_t& id : frame.material_id) {
         const uint32_t material = s.scene.material_id(int32_t(id) - 1).value;
-        id = material & lowered_bit ? 0 : material;
+        id = material & expanded_id_bit ? 0 : material;
     }
     frame.light_groups = s.groups;
     frame.group_names = s.mixing.names;
@@ -405,7 +405,7 @@ void Renderer::resolve(Frame& frame) const {
     frame.path_counts = s.options.planes.roulette ? s.path_counts : std::vector<PathCounts>();
     frame.health.truncated = s.truncated;
     frame.kernel = s.kernel_name;
-    frame.ledger = ledger();
+    frame.feature_report = feature_report();
     frame.missing_light = s.scene.missing_light();
 }
 
@@ -419,7 +419,7 @@ Frame Renderer::resolve() const {
 
 ErrorEstimate Renderer::estimate_error() const {
     State& s = *state_;
-    s.wipe_stale_film();
+    s.clear_stale_film();
     ErrorEstimate error = blush::estimate_error(s.film, s.settings.reuse, s.workers);
     // Both halves miss the same light, so their difference does not show that error.
     if (!s.scene.missing_light().empty()) {
@@ -437,13 +437,13 @@ Result<FilmState> Renderer::save_film(int64_t first) const {
     FilmState state = blush::save_film(s.film);
     // A saved film starts with the current emission; mix channels are saved separately.
     if (std::ranges::any_of(s.mixing.factors, [](const Vec3& f) { return f != Vec3{1, 1, 1}; })) scale_groups(state, s.mixing.factors);
-    if (ExactPlane* material = state.find("material"))
+    if (LosslessPlane* material = state.find("material"))
         for (uint32_t& index : material->words)
             if (index != FilmState::no_material) index = s.scene.material_id(int32_t(index)).value;
     state.first_sample = first;
     state.samples = s.samples;
-    state.shares = s.sample_plan.shares();
-    if (s.settings.adaptive && in_mid_pilot(s.samples)) state.marked = s.pilot_noise.marked();
+    state.shares = s.sample_allocation.shares();
+    if (s.settings.adaptive && in_mid_pilot(s.samples)) state.marked = s.pilot_variance.marked();
     state.rays = s.rays;
     state.path_counts = s.path_counts;
     state.truncated = s.truncated;
@@ -455,7 +455,7 @@ Result<void> Renderer::load_film(const FilmState& state) {
     State& s = *state_;
     s.divider = 1;
     s.clear();
-    s.wipe_stale_film();
+    s.clear_stale_film();
     const auto refused = [&](Error error) {
         s.clear();
         return error;
@@ -464,13 +464,13 @@ Result<void> Renderer::load_film(const FilmState& state) {
     const bool marked = s.settings.adaptive && in_mid_pilot(state.samples);
     if (marked && state.marked.size() != 2 * size_t(s.film.width()) * size_t(s.film.height()))
         return refused({"", "the saved samples lack the pilot of adaptive sampling", ""});
-    const bool decided = s.settings.adaptive && state.samples >= SamplePlan::pilot_samples;
-    if (decided && !s.sample_plan.restore(state.shares)) return refused({"", "the saved samples lack the plan of adaptive sampling", ""});
+    const bool decided = s.settings.adaptive && state.samples >= SampleAllocation::pilot_samples;
+    if (decided && !s.sample_allocation.restore(state.shares)) return refused({"", "the saved samples lack the plan of adaptive sampling", ""});
     if (const auto loaded = blush::load_film(s.film, state); !loaded) return refused(loaded.error());
     s.film.each_material([&](int32_t& index) {
         if (uint32_t(index) != FilmState::no_material) index = s.scene.material_index(Id<Material>{uint32_t(index)});
     });
-    if (marked) s.pilot_noise.restore(state.marked);
+    if (marked) s.pilot_variance.restore(state.marked);
     s.samples = state.samples;
     s.rays = state.rays;
     s.path_counts = state.path_counts;

@@ -17,12 +17,12 @@
 namespace blush {
 
 // Bounce planes: 24 bytes per pixel each.
-constexpr int most_bounce_planes = 32, usual_bounce_planes = 8;
+constexpr int max_bounce_planes = 32, default_bounce_planes = 8;
 
 // Film planes in addition to the beauty. Planes that are not used are not allocated.
 struct PlaneSet {
     bool albedo = false, normal = false, depth = false, ids = false;
-    int bounces = 0; // radiance by the number of scatterings: 0, 1, ..., bounces - 1 and all further ones; 0: none, else 2 .. most_bounce_planes
+    int bounces = 0; // radiance by the number of scatterings: 0, 1, ..., bounces - 1 and all further ones; 0: none, else 2 .. max_bounce_planes
     bool roulette = false; // path length and survival probability of each pixel, paths by bounce
     bool error = false;    // standard error of each pixel's mean: computed from the two halves, needs no plane of its own
     bool operator==(const PlaneSet&) const = default;
@@ -53,7 +53,7 @@ struct CompiledInfo {
     int64_t emissive_triangles = 0, point_lights = 0, suns = 0;
     bool environment = false;
     std::string kernel;               // "v4/plain"
-    Ledger features;                  // feature report: of the kernel and of everything built only if needed
+    FeatureReport features;                  // feature report: of the kernel and of everything built only if needed
     double memory_mb = 0;             // tables, textures and Embree's BVH
     double seconds_setup = 0;         // the last update: from scene to first ray
     std::vector<Diagnostic> warnings; // triangles without area dropped, non-finite transforms, ...
@@ -73,7 +73,7 @@ public:
     // alone keep the film, whose planes hold the emission at the last clear; all results are remixed.
     bool update(const Scene& scene, const RenderSettings& settings);
     // Weights light selection by the current mix, from the next sample on.
-    void aim_at_mix();
+    void select_lights_by_mix();
 
     // Clears the film unless it has all of them; frees planes that are no longer used.
     void set_planes(const PlaneSet& planes);
@@ -85,7 +85,7 @@ public:
     // Adds samples [first, first + count) of every pixel, tile by tile, while `wanted` (called often, from many threads) returns
     // true. False if stopped: pixels then hold different numbers of samples, which can be shown but not continued. Results do not
     // depend on threads, tiles or on how a range of samples is split into calls. Adaptive: `count` more samples per pixel on
-    // average (sample_plan.h), whatever `first`.
+    // average (sample_allocation.h), whatever `first`.
     bool render(int64_t first, int64_t count, const std::function<bool()>& wanted = {});
     void clear();
 
@@ -98,7 +98,7 @@ public:
     // Standard error of the mean of each pixel from the two half buffers, RGB; empty before both hold samples.
     std::vector<Vec3> resolve_error() const;
     // Error correlation between pixels by path reuse; 1 without.
-    SharedErrors shared_errors() const;
+    ReuseCovariance reuse_covariance() const;
 
     // Saves the film exactly: another renderer of the same scene and settings continues as if it
     // had rendered it. `first` is the index of its first sample. Errors: nothing is rendered,
@@ -117,7 +117,7 @@ public:
     // Of the last applied scene. Not for use during edits: the first call reads every triangle.
     const CompiledInfo& info() const;
     // Feature report at full resolution. Cheap; never null.
-    std::shared_ptr<const Ledger> ledger() const;
+    std::shared_ptr<const FeatureReport> feature_report() const;
 
 private:
     struct State;

@@ -7,12 +7,12 @@
 
 namespace blush {
 
-int64_t SamplePlan::next_look(int64_t mean) {
+int64_t SampleAllocation::next_measurement(int64_t mean) {
     if (mean < pilot_samples / 2) return pilot_samples / 2;
     return mean < pilot_samples ? pilot_samples : std::numeric_limits<int64_t>::max();
 }
 
-void SamplePlan::reset(int width, int height) {
+void SampleAllocation::reset(int width, int height) {
     width_ = width;
     height_ = height;
     across_ = (width + tile_size - 1) / tile_size;
@@ -20,15 +20,15 @@ void SamplePlan::reset(int width, int height) {
     for (std::vector<double>& shares : shares_) shares.clear();
 }
 
-void SamplePlan::decide(const std::array<TileNoise, 2>& noise) {
+void SampleAllocation::decide(const std::array<TileNoise, 2>& noise) {
     for (size_t half = 0; half < 2; ++half) shares_[half] = shares_of(noise[1 - half]);
 }
 
-bool SamplePlan::restore(const Shares& shares) {
+bool SampleAllocation::restore(const Shares& shares) {
     for (const std::vector<double>& half : shares) {
         if (half.size() != size_t(tiles())) return false;
         for (const double share : half)
-            if (!(share >= 0 && share <= double(tiles()) * largest_share)) return false;
+            if (!(share >= 0 && share <= double(tiles()) * max_share)) return false;
     }
     shares_ = shares;
     return true;
@@ -36,7 +36,7 @@ bool SamplePlan::restore(const Shares& shares) {
 
 // Proportional to the noise, which is optimal (Neyman 1934), within limits: bisection for the logarithm of the factor at which
 // shares are 1 on average.
-std::vector<double> SamplePlan::shares_of(const TileNoise& noise) const {
+std::vector<double> SampleAllocation::shares_of(const TileNoise& noise) const {
     std::vector<double> pixels(noise.size());
     for (int tile = 0; tile < tiles(); ++tile)
         pixels[size_t(tile)] = double(std::min(tile_size, width_ - tile % across_ * tile_size)) *
@@ -45,7 +45,7 @@ std::vector<double> SamplePlan::shares_of(const TileNoise& noise) const {
     const auto spend = [&](double exponent) {
         double sum = 0;
         for (size_t tile = 0; tile < noise.size(); ++tile) {
-            shares[tile] = std::clamp(std::exp2(exponent) * noise[tile], least_share, largest_share);
+            shares[tile] = std::clamp(std::exp2(exponent) * noise[tile], min_share, max_share);
             sum += pixels[tile] * shares[tile];
         }
         return sum;
@@ -62,7 +62,7 @@ std::vector<double> SamplePlan::shares_of(const TileNoise& noise) const {
     return shares;
 }
 
-int64_t SamplePlan::samples(int tile, int half, int64_t mean) const {
+int64_t SampleAllocation::samples(int tile, int half, int64_t mean) const {
     const int64_t uniform = (mean + 1 - half) / 2;
     if (mean <= pilot_samples || !decided()) return uniform;
     const double wanted = 0.5 * double(mean - pilot_samples) * shares_[size_t(half)][size_t(tile)];

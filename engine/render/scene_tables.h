@@ -68,12 +68,12 @@ struct SceneTables {
     const float* positions = nullptr; // 3 per vertex
     const float* normals = nullptr;   // 3 per vertex
     const float* tangents = nullptr;  // 4 per vertex
-    std::array<const float*, most_uv_sets> uv{}; // 2 per vertex, for each UV set used by textures
+    std::array<const float*, max_uv_sets> uv{}; // 2 per vertex, for each UV set used by textures
     const float* colors = nullptr;    // 4 per vertex
     MaterialTables materials;
     LightTables lights;
     EnvironmentTables environment;
-    FocusTables focus;  // empty: no caustic guiding
+    CausticCasterTables focus;  // empty: no caustic guiding
     GroupTables groups; // null: no light mix
     LinkTables links;
     bool panes = false; // some part is a wall that may transmit straight through (thin_transmission.h)

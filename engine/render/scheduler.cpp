@@ -9,7 +9,7 @@ namespace blush {
 namespace {
 
 // Exponent of relmse as a function of samples: independent samples have -1, well distributed ones do better in smooth images.
-constexpr double fastest_fall = -1.5;
+constexpr double fastest_error_exponent = -1.5;
 
 } // namespace
 
@@ -35,7 +35,7 @@ int Scheduler::first_divider() const {
     const double full = timings_.sample_seconds > 0 ? timings_.sample_seconds : double(settings_.width) * double(settings_.height) / 2e6;
     const int long_side = std::max(settings_.width, settings_.height);
     int divider = 1;
-    while (divider < coarsest_divider && full / (divider * divider) > first_image_seconds && long_side / (2 * divider) >= smallest_long_side)
+    while (divider < coarsest_divider && full / (divider * divider) > first_image_seconds && long_side / (2 * divider) >= min_long_side)
         divider *= 2;
     return divider;
 }
@@ -103,7 +103,7 @@ void Scheduler::record_error(double error) {
 bool Scheduler::error_may_be_reached(int64_t samples) const {
     if (settings_.error <= 0 || film_divider_ != 1 || !(error_ >= 0)) return false;
     const double grown = double(samples) / double(std::max<int64_t>(1, error_samples_));
-    return grown >= ErrorCadence::growth && error_ * std::pow(grown, fastest_fall) <= settings_.error;
+    return grown >= ErrorCadence::growth && error_ * std::pow(grown, fastest_error_exponent) <= settings_.error;
 }
 
 bool Scheduler::finished() const {

@@ -29,7 +29,7 @@ public:
     // tracing time of the coarse image; cancelling, resolving and drawing need time too
     static constexpr double first_image_seconds = 1.0 / 60;
     static constexpr int coarsest_divider = 16;
-    static constexpr int smallest_long_side = 96; // pixels of the coarse image, unless the full one is smaller
+    static constexpr int min_long_side = 96; // pixels of the coarse image, unless the full one is smaller
 
     // Timings survive a restart: the next revision probably costs about the same.
     void restart(const RenderSettings& settings, bool interactive);

@@ -13,7 +13,7 @@ const EnergyTable& energy_table() {
 
 } // namespace
 
-EstimatorSettings settings_for_kernels(const RenderSettings& settings, int width, int height) {
+EstimatorSettings kernel_settings(const RenderSettings& settings, int width, int height) {
     EstimatorSettings e;
     if (settings.max_bounces != unlimited_bounces) e.max_bounces = settings.max_bounces;
     e.roulette = settings.roulette;

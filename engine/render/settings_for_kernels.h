@@ -6,6 +6,6 @@
 namespace blush {
 
 // For a film of width x height pixels. Tables it points to have static lifetime.
-EstimatorSettings settings_for_kernels(const RenderSettings& settings, int width, int height);
+EstimatorSettings kernel_settings(const RenderSettings& settings, int width, int height);
 
 } // namespace blush

@@ -59,7 +59,7 @@ ShadingFrame<F> shading_frame_at(const Surface<F>& surface, const MaterialPoint<
     s.ng = select<F>(front || solid, surface.ng, -surface.ng);
     const Vec<F> bent = shading_normal<S, F>(surface, s.ng, material.tangent_normal);
     // If the viewer sees the back of the shading normal, uses the geometric normal, except on solids.
-    s.behind = !solid && dot(bent, wo_world) < F(least_facing);
+    s.behind = !solid && dot(bent, wo_world) < F(min_facing);
     s.ns = select<F>(s.behind, s.ng, bent);
     s.frame = shading_frame<S, F>(surface, s.ns, material);
     s.wo = s.frame.to_local(wo_world);

@@ -22,12 +22,12 @@ void trace_camera_rays(const KernelContext& context, TileScratch& tile) {
 }
 
 // Queues a shadow ray if a light may reach the surface. Returns its unoccluded luminance.
-float aim_from(const KernelContext& context, const Surface<float>& surface, const Vec3& direction, const Path<float>& path, TileScratch& tile) {
+float queue_catcher_shadow_ray(const KernelContext& context, const Surface<float>& surface, const Vec3& direction, const Path<float>& path, TileScratch& tile) {
     const bool front = dot(surface.ng, direction) < 0;
     const Vec3 ng = front ? surface.ng : -surface.ng;
     const Vec3 ns = dot(surface.ns, ng) > 0 ? surface.ns : -surface.ns;
     const MeterPoint receiver{offset_origin<float>(surface.position, surface.error, ng, true), ns};
-    const Step<float> step = aim_at_light(context, receiver, Sampler<float>{path.key, path.index}, surface.part);
+    const Step<float> step = sample_light_at_meter(context, receiver, Sampler<float>{path.key, path.index}, surface.part);
     if (!step.connects || !(dot(step.shadow.direction, ng) > 0)) return 0;
     ShadowQueue& q = tile.shadows;
     if (context.accel->has_alpha()) q.random[q.size] = opacity_random<float>(path.key, path.index, 1);
@@ -73,7 +73,7 @@ void catch_shadows(KernelContext context, std::span<const uint8_t> is_catcher, c
         const Path<float> path = load_path<features, float>(tile.paths[0], k);
         out.caught[path.slot] = 1;
         if (context.scene->lights.count == 0) continue;
-        out.unoccluded[path.slot] = aim_from(context, surface_at<features, float>(*context.scene, hit, true), path.ray.direction, path, tile);
+        out.unoccluded[path.slot] = queue_catcher_shadow_ray(context, surface_at<features, float>(*context.scene, hit, true), path.ray.direction, path, tile);
     }
     if (tile.shadows.size == 0) return;
     drop_shadows_of_catchers(context, scratch);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int max_pixels = 1 << 17; // limit, in blocks spread over the film, to bound the time
 
-Vec3d half_difference(const PixelHalves& p) {
+Vec3d half_difference(const PixelHalfBuffers& p) {
     if (!p.known) return {0, 0, 0};
     return (p.a - p.b) * std::sqrt(p.weight_a * (1 - p.weight_a));
 }
@@ -22,7 +22,7 @@ struct BlockRatios {
     double blocks = 1, tiles = 1;
 };
 BlockRatios ratios_of_blocks(const Film& film, const ReuseGroups& groups) {
-    constexpr int side = SamplePlan::tile_size;
+    constexpr int side = SampleAllocation::tile_size;
     const int width = groups.block_width, height = groups.block_height;
     const int across = (film.width() + width - 1) / width, blocks = across * ((film.height() + height - 1) / height);
     double of_blocks = 0, of_tiles = 0, apart = 0;
@@ -49,10 +49,10 @@ BlockRatios ratios_of_blocks(const Film& film, const ReuseGroups& groups) {
 
 } // namespace
 
-SharedErrors measure_shared_errors(const Film& film, const ReuseGroups& groups) {
-    constexpr int near_side = SamplePlan::tile_size;
+ReuseCovariance measure_reuse_covariance(const Film& film, const ReuseGroups& groups) {
+    constexpr int near_side = SampleAllocation::tile_size;
     const double most = groups.size();
-    SharedErrors shared;
+    ReuseCovariance shared;
     const BlockRatios ratios = ratios_of_blocks(film, groups);
     shared.means = std::clamp(ratios.blocks, 1.0, most);
     const double near = std::clamp(ratios.tiles, 1.0, shared.means);
@@ -63,7 +63,7 @@ SharedErrors measure_shared_errors(const Film& film, const ReuseGroups& groups) 
 }
 
 ErrorEstimate estimate_error(const Film& film, int reuse, const Workers& workers) {
-    return film.estimate_error(workers, reuse > 1 ? measure_shared_errors(film, reuse_groups(reuse)).products : 1);
+    return film.estimate_error(workers, reuse > 1 ? measure_reuse_covariance(film, reuse_groups(reuse)).products : 1);
 }
 
 } // namespace blush

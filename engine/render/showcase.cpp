@@ -4,27 +4,27 @@
 
 namespace blush {
 
-void Showcase::show(uint64_t image, FramePtr frame) {
+void PublishedFrames::show(uint64_t image, FramePtr frame) {
     if (image != image_) shown_.denoised.reset();
     image_ = image;
     shown_.frame = std::move(frame);
     withheld_.reset();
 }
 
-void Showcase::withhold(uint64_t image, FramePtr frame) {
+void PublishedFrames::withhold(uint64_t image, FramePtr frame) {
     withheld_image_ = image;
     withheld_ = std::move(frame);
 }
 
-void Showcase::release() {
+void PublishedFrames::release() {
     if (withheld_) show(withheld_image_, std::move(withheld_));
 }
 
-void Showcase::replace(const DenoisedPtr& shown, DenoisedPtr by) {
+void PublishedFrames::replace(const DenoisedPtr& shown, DenoisedPtr by) {
     if (shown_.denoised == shown) shown_.denoised = std::move(by);
 }
 
-void Showcase::answer(uint64_t image, const FramePtr& source, DenoisedPtr denoised) {
+void PublishedFrames::answer(uint64_t image, const FramePtr& source, DenoisedPtr denoised) {
     if (withheld_ == source) {
         show(image, source);
     } else if (denoised && image > image_) {

@@ -15,7 +15,7 @@ struct Pictures {
 
 // During a slider drag, images change constantly. Showing each first frame before its denoised version would flicker between
 // noisy and clean, so a frame may be withheld until it is denoised. `image` counts images and never decreases.
-class Showcase {
+class PublishedFrames {
 public:
     const Pictures& pictures() const { return shown_; }
 

@@ -22,7 +22,7 @@ bool is_sphere_light(const Light& light) {
 
 std::vector<SphereLight> list_sphere_lights(const Scene& scene) {
     std::vector<SphereLight> spheres;
-    Placements placements(scene);
+    WorldTransforms placements(scene);
     for (const auto& [id, node] : scene.nodes) {
         const Light* light = node.light ? scene.lights.find(node.light) : nullptr;
         if (!light || !is_sphere_light(*light) || !placements(id).visible) continue;

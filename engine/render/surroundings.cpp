@@ -4,7 +4,7 @@
 
 namespace blush {
 
-Surroundings::Surroundings(int width, int height) : width_(width), height_(height), inverse_(width), inverse_at_border_(width), nothing_(width) {
+NeighborhoodFilter::NeighborhoodFilter(int width, int height) : width_(width), height_(height), inverse_(width), inverse_at_border_(width), nothing_(width) {
     const PixelRow row(width);
     for (auto* rows : {&across_, &blocks_}) rows->fill({row, row, row});
     const auto clipped_count = [](int at, int size) { return std::min(at + 1, size - 1) - std::max(at - 1, 0) + 1; };
@@ -17,13 +17,13 @@ Surroundings::Surroundings(int width, int height) : width_(width), height_(heigh
 }
 
 // Mirrors the row at the border, so that border pixels use the inner blocks twice.
-void Surroundings::mirror(PixelRow& row) const {
+void NeighborhoodFilter::mirror(PixelRow& row) const {
     if (width_ < 2) return;
     row[-1] = row[1];
     row[width_] = row[width_ - 2];
 }
 
-void Surroundings::add_row(const ChannelRows& own, int y) {
+void NeighborhoodFilter::add_row(const ChannelRows& own, int y) {
     ChannelRows& across = across_[size_t(y % kept)];
     for (size_t c = 0; c < 3; ++c) {
         const float* const from = own[c].pixels();
@@ -35,7 +35,7 @@ void Surroundings::add_row(const ChannelRows& own, int y) {
     if (y == height_ - 1) sum_block_row(y);
 }
 
-void Surroundings::sum_block_row(int y) {
+void NeighborhoodFilter::sum_block_row(int y) {
     for (size_t c = 0; c < 3; ++c) {
         const float* const row = across_[size_t(y % kept)][c].pixels();
         const float* const above = y > 0 ? across_[size_t((y - 1) % kept)][c].pixels() : nothing_.pixels();
@@ -47,7 +47,7 @@ void Surroundings::sum_block_row(int y) {
     }
 }
 
-void Surroundings::look(size_t channel, int y, const PixelRow& own, Around& around) const {
+void NeighborhoodFilter::current_pictures(size_t channel, int y, const PixelRow& own, NeighborhoodMeans& around) const {
     if (width_ < 2 || height_ < 2) {
         around.mean = around.darkest = own;
         return;

@@ -7,18 +7,18 @@ namespace blush {
 
 // Over the four blocks of 3 x 3 pixels that have the pixel in a corner, without that pixel; clipped at the border. Processes the
 // image row by row from the top.
-class Surroundings {
+class NeighborhoodFilter {
 public:
-    Surroundings(int width, int height);
+    NeighborhoodFilter(int width, int height);
 
     // Adds the next row; start with the first row that the first block needs.
     void add_row(const ChannelRows& own, int y);
     // Result for one channel of row y with values `own`. Rows y - 2 to y + 2 must have been added, as far as they exist.
-    struct Around {
+    struct NeighborhoodMeans {
         PixelRow mean;    // of the four blocks' means
         PixelRow darkest; // the smallest of these means
     };
-    void look(size_t channel, int y, const PixelRow& own, Around& around) const;
+    void current_pictures(size_t channel, int y, const PixelRow& own, NeighborhoodMeans& around) const;
 
 private:
     static constexpr int kept = 4; // rows

@@ -10,12 +10,12 @@ namespace {
 
 // Null if the geometry lacks the inputs for tangents.
 GeometryPtr with_tangents(const GeometryPtr& geometry, int uv_set) {
-    const GeometryPtr bare = without_made_tangents(geometry);
+    const GeometryPtr bare = without_generated_tangents(geometry);
     if (!bare->has_uv_set(uv_set)) return bare;
     auto made = std::make_shared<Geometry>(*bare);
     made->serial = next_payload_serial();
     add_tangents(*made, uv_set);
-    place_arrays(*made);
+    move_to_arena(*made);
     return made;
 }
 
@@ -23,7 +23,7 @@ GeometryPtr with_tangents(const GeometryPtr& geometry, int uv_set) {
 bool is_to_change(const Geometry& g, int uv_set) {
     if (uv_set < 0 || g.normals.empty()) return false;
     if (g.tangents.empty()) return g.has_uv_set(uv_set);
-    return g.made_tangents && g.made_tangents->uv_set != uv_set;
+    return g.generated_tangents && g.generated_tangents->uv_set != uv_set;
 }
 
 } // namespace

@@ -20,7 +20,7 @@ std::vector<Cells> cells_of(int from, int to) {
     for (int i = 0; i < to; ++i) {
         Cells& c = cells[size_t(i)];
         size_t count = 0;
-        for_each_overlap(i, from, to, [&](int cell, float share) {
+        for_each_box_weight(i, from, to, [&](int cell, float share) {
             if (count == 0) c.first = size_t(cell);
             c.shares[count++] = share;
         });
@@ -35,7 +35,7 @@ TextureMip half_of(int width, int height, const ReadRow& read) {
     const std::vector<Cells> columns = cells_of(width, mip.width);
     std::vector<float> row(size_t(width + 2) * 4); // two more, because cells may lie outside
     for (int y = 0; y < mip.height; ++y)
-        for_each_overlap(y, height, mip.height, [&](int from, float share) {
+        for_each_box_weight(y, height, mip.height, [&](int from, float share) {
             read(from, row.data());
             float* sum = mip.rgba.data() + size_t(y) * row_size;
             for (const Cells& cells : columns) {

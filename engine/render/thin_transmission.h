@@ -162,7 +162,7 @@ void trace_through_panes(const KernelContext& context, TileScratch& scratch, Pat
         pass_panes<S, F>(context, scratch, now, rest, index, load_hit<F>(scratch.hits, k), bounce, as_mask(index < now.size));
     }
     // Each iteration advances each ray by one surface.
-    for (int round = 0; rest.size > 0 && round < longest_path; ++round) {
+    for (int round = 0; rest.size > 0 && round < max_path_length; ++round) {
         scratch.bounce_rays += rest.size;
         trace_rays<F>(context, scratch.random, rest, bounce, panes.hits);
         const int count = std::exchange(rest.size, 0);
@@ -217,7 +217,7 @@ void move_shadow_rays(const KernelContext& context, TileScratch& scratch, int k,
 template <Features S, class F> void connect_through_panes(const KernelContext& context, TileScratch& scratch, int bounce) {
     ShadowQueue& q = scratch.shadows;
     HitColumns& h = scratch.hits;
-    for (int round = 0; q.size > 0 && round < longest_path; ++round) {
+    for (int round = 0; q.size > 0 && round < max_path_length; ++round) {
         if (round > 0) scratch.shadow_rays += q.size;
         context.accel->intersect(shadow_rays_of(context, q), q.size, bounce == 0 && round == 0, {h.t, h.u, h.v, h.geometry, h.instance, h.triangle});
         const int count = std::exchange(q.size, 0);

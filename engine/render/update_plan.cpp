@@ -8,7 +8,7 @@ UpdatePlan plan(const Changes& c) {
     p.transforms = p.objects || !c.transforms.empty();
     p.all_materials = p.objects || !c.textures.empty();
     if (!p.all_materials) p.materials = c.materials;
-    p.environment_map = c.environment_image || c.aiming;
+    p.environment_map = c.environment_image || c.nee_changed;
     p.environment_parameters = c.environment_parameters || p.environment_map;
     // A moving object may be an emitter, and changes the scene bounds, which scale the sky's power.
     p.lights = p.transforms || p.all_materials || !c.materials.empty() || !c.lights.empty() || p.environment_parameters || c.mix;

@@ -56,10 +56,10 @@ template <class F> void note_roulette(RouletteColumns& c, const int32_t* slots, 
         c.asked[slots[i]] += 1;
         c.survival[slots[i]] += lane(step.weights.survival, i);
     });
-    PathCounts& counts = c.counts[std::min(bounce, most_counted_bounces - 1)];
+    PathCounts& counts = c.counts[std::min(bounce, max_counted_bounces - 1)];
     counts.alive += count(active);
     counts.asked += count(asked);
-    counts.survived += count(asked && (step.continues || step.breaks));
+    counts.survived += count(asked && (step.continues || step.non_finite));
 }
 
 template <Features S, class F> [[gnu::flatten]] void generate_paths(const KernelContext& context, const TileJob& job, TileScratch& scratch) {
@@ -84,7 +84,7 @@ template <Features S, class F> [[gnu::flatten]] void generate_paths(const Kernel
         const UInt<F> odd = sample & 1u;
         const UInt<F> random = select(as_mask(odd != 0u), UInt<F>(half[1]), UInt<F>(half[0]));
         UInt<F> key = pixel_key<F>(to_unsigned(to_int(x)), to_unsigned(to_int(y)), random), index = sample >> 1;
-        if (context.settings.sampler == SampleNumbers::random) {
+        if (context.settings.sampler == SamplerType::random) {
             key = independent_key(key, index);
             index = UInt<F>(0u);
         }
@@ -127,14 +127,14 @@ template <Features S, class F>
         if (bounce == 0 && scratch.first) store_first_hit<F>(*scratch.first, k, step.first, straight);
         if (bounce <= 1 && context.settings.reuse.size() > 1) {
             // Path reuse connections do not pass panes, so a segment that does is not shared.
-            Junction<F> junction = step.junction;
-            if (bounce == 1) junction.lambertian = junction.lambertian && straight;
-            store_junction<F>(*scratch.reuse, now, k, bounce, path, junction);
+            ReuseVertex<F> reuse_vertex = step.reuse_vertex;
+            if (bounce == 1) reuse_vertex.lambertian = reuse_vertex.lambertian && straight;
+            store_junction<F>(*scratch.reuse, now, k, bounce, path, reuse_vertex);
         }
         if (scratch.roulette) note_roulette<F>(*scratch.roulette, now.slot + k, step, active, bounce);
         if (any(step.emits)) add_light<F>(scratch, now.slot + k, step.emitted, step.emits);
         if (scratch.groups && any(step.emits)) add_found_by_group<S, F>(context, *scratch.groups, scratch.hits, k, path, step, bounce);
-        if (any(step.breaks)) add_light<F>(scratch, now.slot + k, step.next.beta, step.breaks);
+        if (any(step.non_finite)) add_light<F>(scratch, now.slot + k, step.next.beta, step.non_finite);
         if (any(step.connects)) {
             if (alpha)
                 compress(scratch.shadows.random + scratch.shadows.size, opacity_random<F>(path.key, path.index, uint32_t(2 * bounce + 1)),
@@ -181,7 +181,7 @@ template <Features S, class F> void render_tile(const KernelContext& context, co
     PathQueue* now = &scratch.paths[0];
     PathQueue* next = &scratch.paths[1];
     for (int bounce = 0; now->size > 0; ++bounce) {
-        if (bounce > longest_path) {
+        if (bounce > max_path_length) {
             scratch.truncated_paths += now->size;
             break;
         }
@@ -192,13 +192,13 @@ template <Features S, class F> void render_tile(const KernelContext& context, co
         if (scratch.groups && bounce == 1) scratch.groups->note_direct(job.paths());
         scratch.shadow_rays += scratch.shadows.size;
         if (reuses && bounce == 1) {
-            set_own_radiance_aside(*scratch.reuse, scratch, job.paths());
+            stash_unshared_radiance(*scratch.reuse, scratch, job.paths());
             own_is_aside = true;
         }
         if (scratch.shadows.size > 0) connect_paths<S, F>(context, scratch, bounce);
         std::swap(now, next);
     }
-    if (own_is_aside) share_paths<F>(context, job, scratch);
+    if (own_is_aside) reuse_paths<F>(context, job, scratch);
 }
 
 } // namespace blush::inline BLUSH_ISA

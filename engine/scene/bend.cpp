@@ -22,7 +22,7 @@ void morph(std::vector<Vec3d>& vectors, const Geometry& g, const std::vector<flo
     }
 }
 
-std::vector<Vec3d> in_double(const PlacedVector<Vec3>& vectors) {
+std::vector<Vec3d> in_double(const ArenaVector<Vec3>& vectors) {
     std::vector<Vec3d> result;
     result.reserve(vectors.size());
     for (const Vec3& v : vectors) result.push_back(to_double(v));
@@ -30,7 +30,7 @@ std::vector<Vec3d> in_double(const PlacedVector<Vec3>& vectors) {
 }
 
 // Linear blend skinning: the joint matrices, weighted by their influences on the vertex.
-Affined blended(const Geometry& g, const Bend& bend, size_t vertex) {
+Affined blended(const Geometry& g, const Deformation& bend, size_t vertex) {
     const size_t per_vertex = g.influences.size() / g.positions.size();
     Affined sum{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
     for (size_t k = 0; k < per_vertex; ++k) {
@@ -61,7 +61,7 @@ void face_normals(Geometry& g) {
 }
 
 // From mesh space to the space around the first joint.
-std::vector<Affined> joint_maps(const Skin& skin, Placements& placements, const Vec3d& origin) {
+std::vector<Affined> joint_maps(const Skin& skin, WorldTransforms& placements, const Vec3d& origin) {
     std::vector<Affined> maps;
     maps.reserve(skin.joints.size());
     for (size_t j = 0; j < skin.joints.size(); ++j) {
@@ -78,7 +78,7 @@ bool has(const Mesh& mesh, auto Geometry::*what) {
 
 } // namespace
 
-std::optional<Bend> bend_of(const Scene& scene, Placements& placements, Id<Node> id, const Node& node) {
+std::optional<Deformation> deformation_of(const Scene& scene, WorldTransforms& placements, Id<Node> id, const Node& node) {
     const Skin* skin = node.skin ? scene.skins.find(node.skin) : nullptr;
     std::vector<float> weights = posed_morph_weights(scene, id, node);
     if (std::ranges::all_of(weights, is_zero)) weights.clear();
@@ -86,7 +86,7 @@ std::optional<Bend> bend_of(const Scene& scene, Placements& placements, Id<Node>
     if (!mesh) return {};
     const bool skinned = skin && !skin->joints.empty() && has(*mesh, &Geometry::influences);
     if (!skinned && (weights.empty() || !has(*mesh, &Geometry::targets))) return {};
-    Bend bend;
+    Deformation bend;
     bend.weights = std::move(weights);
     if (skinned) {
         bend.origin = placements(skin->joints.front()).world_from_node.t;
@@ -97,7 +97,7 @@ std::optional<Bend> bend_of(const Scene& scene, Placements& placements, Id<Node>
     return bend;
 }
 
-GeometryPtr bent(const Geometry& rest, const Bend& bend) {
+GeometryPtr deformed(const Geometry& rest, const Deformation& bend) {
     auto result = std::make_shared<Geometry>(rest);
     Geometry& g = *result;
     g.serial = next_payload_serial();
@@ -125,19 +125,19 @@ GeometryPtr bent(const Geometry& rest, const Bend& bend) {
         }
     }
     if (g.flat) face_normals(g);
-    place_arrays(g);
+    move_to_arena(g);
     return result;
 }
 
-PlacedMesh placed_mesh(const Scene& scene, Placements& placements, Id<Node> id, const Node& node) {
+DeformedMesh deformed_mesh(const Scene& scene, WorldTransforms& placements, Id<Node> id, const Node& node) {
     const Mesh* mesh = node.mesh ? scene.meshes.find(node.mesh) : nullptr;
     if (!mesh) return {};
-    PlacedMesh placed{mesh->parts, placements(id).world_from_node};
-    const std::optional<Bend> bend = bend_of(scene, placements, id, node);
+    DeformedMesh placed{mesh->parts, placements(id).world_from_node};
+    const std::optional<Deformation> bend = deformation_of(scene, placements, id, node);
     if (!bend) return placed;
-    placed.world_from_mesh = world_from_bent(*bend, placed.world_from_mesh);
+    placed.world_from_mesh = world_from_deformed(*bend, placed.world_from_mesh);
     for (MeshPart& part : placed.parts)
-        if (part.geometry) part.geometry = bent(*part.geometry, *bend);
+        if (part.geometry) part.geometry = deformed(*part.geometry, *bend);
     return placed;
 }
 

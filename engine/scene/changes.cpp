@@ -13,12 +13,12 @@ template <class T> bool same_payload(const std::shared_ptr<const T>& a, const st
 
 // same_to_image: true if two records with the same id render the same.
 
-template <class T> bool same_but_for_name(T before, const T& after) {
+template <class T> bool equal_except_name(T before, const T& after) {
     before.name = after.name;
     return before == after;
 }
 
-bool same_to_image(const Material& a, const Material& b) { return same_but_for_name(a, b); }
+bool same_to_image(const Material& a, const Material& b) { return equal_except_name(a, b); }
 bool same_to_image(Light before, const Light& after) {
     if (!same_payload(before.ies, after.ies)) return false;
     before.ies = after.ies;
@@ -26,14 +26,14 @@ bool same_to_image(Light before, const Light& after) {
     before.unit = after.unit;
     before.keep_power = after.keep_power;
     before.group = after.group; // diff_mix
-    return same_but_for_name(std::move(before), after);
+    return equal_except_name(std::move(before), after);
 }
 
 bool same_to_image(Texture before, const Texture& after) {
     if (!same_payload(before.image, after.image)) return false;
     before.image = after.image;
     before.source = after.source;
-    return same_but_for_name(std::move(before), after);
+    return equal_except_name(std::move(before), after);
 }
 
 bool same_to_image(const Mesh& a, const Mesh& b) {
@@ -42,7 +42,7 @@ bool same_to_image(const Mesh& a, const Mesh& b) {
     });
 }
 
-template <class T> std::vector<Id<T>> seen_changes(const Table<T>& before, const Table<T>& after) {
+template <class T> std::vector<Id<T>> changes_of_image(const Table<T>& before, const Table<T>& after) {
     std::vector<Id<T>> ids = Table<T>::changed(before, after);
     std::erase_if(ids, [&](Id<T> id) {
         const T* a = before.find(id);
@@ -70,7 +70,7 @@ void diff_nodes(const Scene& before, const Scene& after, Changes& changes) {
 }
 
 bool same_moment(const Scene& a, const Scene& b) {
-    const Staging &before = a.staging, &after = b.staging;
+    const SceneSelection &before = a.staging, &after = b.staging;
     if (before.scene != after.scene || before.clip != after.clip) return false;
     if (!before.clip) return true;
     const Clip *x = a.clips.find(before.clip), *y = b.clips.find(after.clip);
@@ -104,7 +104,7 @@ void diff_mix(const Scene& before, const Scene& after, Changes& changes) {
 
 void diff_settings(const RenderSettings& a, const RenderSettings& b, Changes& changes) {
     changes.resolution = a.width != b.width || a.height != b.height || a.resolution_scale != b.resolution_scale;
-    changes.aiming = (a.strategy == Strategy::bsdf) != (b.strategy == Strategy::bsdf);
+    changes.nee_changed = (a.strategy == Strategy::bsdf) != (b.strategy == Strategy::bsdf);
     changes.stop_rules = a.spp != b.spp || a.seconds != b.seconds || a.error != b.error;
     RenderSettings sized_alike = a;
     sized_alike.width = b.width;
@@ -140,10 +140,10 @@ Changes diff(const Scene& before, const RenderSettings& before_settings, const S
     diff_nodes(before, after, changes);
     diff_mix(before, after, changes);
     changes.motion = !same_moment(before, after) || !(before.skins == after.skins);
-    changes.meshes = seen_changes(before.meshes, after.meshes);
-    changes.materials = seen_changes(before.materials, after.materials);
-    changes.textures = seen_changes(before.textures, after.textures);
-    changes.lights = seen_changes(before.lights, after.lights);
+    changes.meshes = changes_of_image(before.meshes, after.meshes);
+    changes.materials = changes_of_image(before.materials, after.materials);
+    changes.textures = changes_of_image(before.textures, after.textures);
+    changes.lights = changes_of_image(before.lights, after.lights);
     return changes;
 }
 

@@ -48,7 +48,7 @@ Result<void> apply_to(Project& p, const AssignMaterial& e) {
     if (e.part < 0 || size_t(e.part) >= mesh->parts.size())
         return Error{.what = fmt::format("there is no part {}", e.part), .where = fmt::format("mesh \"{}\"", mesh->name)};
     Mesh changed = *mesh;
-    wear(p.scene, changed.parts[size_t(e.part)], e.material);
+    assign_material(p.scene, changed.parts[size_t(e.part)], e.material);
     if (auto known = check_references(p.scene, changed); !known) return known;
     p.scene.meshes.set(e.mesh, std::move(changed));
     return {};
@@ -73,7 +73,7 @@ Result<void> apply_to(Project& p, const MakeEmissive& e) {
             if (auto valid = validate(material); !valid) return valid;
             copy->second = p.scene.materials.add(std::move(material));
         }
-        wear(p.scene, part, copy->second);
+        assign_material(p.scene, part, copy->second);
     }
     const bool is_shared = std::ranges::count_if(p.scene.nodes, [&](const auto& n) { return n.value.mesh == node.mesh; }) > 1;
     if (!is_shared) {
@@ -95,9 +95,9 @@ Result<void> apply_to(Project& p, const SetEnvironment& e) { return replace(p.sc
 Result<void> apply_to(Project& p, const SetMix& e) { return replace(p.scene.mix, e.mix); }
 Result<void> apply_to(Project& p, const BakeMix& e) { return replace(p.scene, e.scene); }
 Result<void> apply_to(Project& p, const SetLens& e) { return replace(p.scene.view.lens, e.lens); }
-Result<void> apply_to(Project& p, const SetStaging& e) {
-    if (auto valid = check_staging(p.scene, e.staging); !valid) return valid;
-    p.scene = staged(p.scene, e.staging);
+Result<void> apply_to(Project& p, const SetSceneSelection& e) {
+    if (auto valid = check_scene_selection(p.scene, e.staging); !valid) return valid;
+    p.scene = with_scene_selection(p.scene, e.staging);
     return {};
 }
 Result<void> apply_to(Project& p, const SetRender& e) { return replace(p.render, e.settings); }
@@ -169,7 +169,7 @@ struct Labeller {
     std::string operator()(const SetMix&) const { return "Change light mix"; }
     std::string operator()(const BakeMix&) const { return "Bake light mix"; }
     std::string operator()(const SetLens&) const { return "Change lens"; }
-    std::string operator()(const SetStaging& e) const { return staging_label(p.scene, e.staging); }
+    std::string operator()(const SetSceneSelection& e) const { return scene_selection_label(p.scene, e.staging); }
     std::string operator()(const SetRender&) const { return "Change render settings"; }
     std::string operator()(const SetView&) const { return "Change display settings"; }
     std::string operator()(const AddLight& e) const { return with_name("Add light", e.node.name.empty() ? e.light.name : e.node.name); }

@@ -29,7 +29,7 @@ struct SetEnvironment { Environment environment; };
 struct SetMix { LightMix mix; };
 struct BakeMix { Scene scene; };        // the same scene with the mix in its lights (render/bake_mix.h)
 struct SetLens { Lens lens; };          // of the view
-struct SetStaging { Staging staging; }; // a view through an animated camera follows it
+struct SetSceneSelection { SceneSelection staging; }; // a view through an animated camera follows it
 struct SetRender { RenderSettings settings; };
 struct SetView { ViewSettings settings; };
 struct AddLight { Node node; Light light; }; // apply sets node.light
@@ -40,7 +40,7 @@ struct LookThrough { Id<Node> camera_node; };
 struct Restore { Project project; std::string name; }; // the whole project, from the snapshot of that name
 
 using Edit = std::variant<SetNode, SetMaterial, SetLight, SetCamera, SetTexture, AssignMaterial, MakeEmissive, SetEnvironment, SetMix, BakeMix, SetLens,
-                          SetStaging, SetRender, SetView, AddLight, DuplicateNode, RemoveNode, Import, LookThrough, Restore>;
+                          SetSceneSelection, SetRender, SetView, AddLight, DuplicateNode, RemoveNode, Import, LookThrough, Restore>;
 
 // "Change light Key", for the history menu.
 std::string label(const Edit& edit, const Project& project);

@@ -46,7 +46,7 @@ Scene shown_scene(Scene scene) {
     if (scene.scene_names.empty()) return scene;
     const Table<Node> nodes = scene.nodes;
     for (auto [id, node] : nodes) {
-        if (is_of_other_scene(scene, node)) remove_subtree(scene, id);
+        if (is_root_of_other_scene(scene, node)) remove_subtree(scene, id);
         node.only_in_scenes.clear();
         scene.nodes.set(id, std::move(node));
     }

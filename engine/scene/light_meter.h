@@ -16,7 +16,7 @@ struct LightMeter {
     float clearance = 0;    // world metres above the surface, against rounding errors
     bool operator==(const LightMeter&) const = default;
 };
-constexpr size_t most_light_meters = 100;
+constexpr size_t max_light_meters = 100;
 
 // A meter in world space: metres, and the unit normal of the transformed surface.
 struct PlacedMeter {

@@ -16,7 +16,7 @@
 namespace blush {
 namespace {
 
-constexpr std::array<Word<LightRig>, 3> rig_words{{{LightRig::none, "none"}, {LightRig::studio, "studio"}, {LightRig::sky, "sky"}}};
+constexpr std::array<EnumName<LightRig>, 3> rig_words{{{LightRig::none, "none"}, {LightRig::studio, "studio"}, {LightRig::sky, "sky"}}};
 
 bool is_bright(const Vec3& color) { return color.x > 0 || color.y > 0 || color.z > 0; }
 
@@ -37,20 +37,20 @@ void count_surfaces(const Scene& scene, const Mesh& mesh, bool some_solo, Census
         if (!part.geometry || part.geometry->triangle_count() == 0) continue;
         const Material* material = scene.materials.find(part.material);
         (material && material->unlit ? census.unlit_surface : census.lit_surface) = true;
-        census.light |= material && shines(*material, some_solo);
+        census.light |= material && emits_light(*material, some_solo);
     }
 }
 
 Census census_of(const Scene& scene) {
     Census census;
     const bool some_solo = any_solo(scene);
-    census.light = shines(scene.environment, some_solo) && gives_light(scene.environment);
-    Placements placements(scene);
+    census.light = emits_light(scene.environment, some_solo) && gives_light(scene.environment);
+    WorldTransforms placements(scene);
     for (const auto& [id, node] : scene.nodes) {
         const Light* light = node.light ? scene.lights.find(node.light) : nullptr;
         const Mesh* mesh = node.mesh ? scene.meshes.find(node.mesh) : nullptr;
         if ((!light && !mesh) || !placements(id).visible) continue;
-        census.light |= light && shines(*light, some_solo) && light->intensity > 0 && is_bright(light->color);
+        census.light |= light && emits_light(*light, some_solo) && light->intensity > 0 && is_bright(light->color);
         if (mesh) count_surfaces(scene, *mesh, some_solo, census);
     }
     return census;
@@ -77,7 +77,7 @@ Subject subject_of(const Scene& scene) {
     const Vec3d forward = to_affine(scene.view.rotation).z * -1;
     const auto all = [](Id<Node>) { return true; };
     const double reach = std::clamp(double(scene.view.pivot_distance), 0.05 * subject.radius, 2 * subject.radius);
-    const double distance = reach * free_share(scene, eye, eye + forward * reach, all);
+    const double distance = reach * unoccluded_fraction(scene, eye, eye + forward * reach, all);
     subject.center = eye + forward * (0.9 * distance);
     subject.radius = std::max(0.5 * distance, 0.01 * subject.radius);
     return subject;
@@ -127,7 +127,7 @@ AddLight softbox_at(const Scene& scene, const Subject& subject, const LevelFrame
     const auto all = [](Id<Node>) { return true; };
     // If the camera is outside, the line of sight starts at the subject's bounding sphere: the subject is no obstacle.
     const double from = subject.from_inside ? 0 : 1.001 * subject.radius;
-    const double free = free_share(scene, subject.center + outward * from, subject.center + outward * wanted, all);
+    const double free = unoccluded_fraction(scene, subject.center + outward * from, subject.center + outward * wanted, all);
     const double distance = free < 1 ? from + 0.9 * free * (wanted - from) : wanted;
     const double shrunk = distance / wanted;
     AddLight add;
@@ -165,8 +165,8 @@ Environment sky_environment(const Environment& before) {
 
 } // namespace
 
-Result<LightRig> parse_light_rig(std::string_view text) { return value_of(rig_words, text, "light"); }
-std::string_view to_string(LightRig rig) { return word_of(rig_words, rig); }
+Result<LightRig> parse_light_rig(std::string_view text) { return enum_from_string(rig_words, text, "light"); }
+std::string_view to_string(LightRig rig) { return enum_to_string(rig_words, rig); }
 
 bool has_light(const Scene& scene) {
     const Census census = census_of(scene);

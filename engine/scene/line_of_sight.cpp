@@ -65,7 +65,7 @@ bool lets_light_through(const Material* m) {
 }
 
 // The parts of a mesh, or only those that block light.
-std::vector<const Geometry*> parts_of(const Scene& scene, const PlacedMesh& mesh, bool opaque_only) {
+std::vector<const Geometry*> parts_of(const Scene& scene, const DeformedMesh& mesh, bool opaque_only) {
     std::vector<const Geometry*> parts;
     for (const MeshPart& part : mesh.parts)
         if (part.geometry && !(opaque_only && lets_light_through(scene.materials.find(part.material)))) parts.push_back(part.geometry.get());
@@ -108,11 +108,11 @@ void look_in(const std::vector<const Geometry*>& parts, const Affined& world_fro
 
 // Intersects the meshes of all visible nodes that count, and all their instances.
 TriangleHit nearest_hit(const Scene& scene, const Line& line, bool opaque_only, const std::function<bool(Id<Node>)>& counts) {
-    Placements placements(scene);
+    WorldTransforms placements(scene);
     TriangleHit nearest{line.end};
     for (const auto& [id, node] : scene.nodes) {
         if (!node.mesh || !placements(id).visible || !counts(id)) continue;
-        const PlacedMesh mesh = placed_mesh(scene, placements, id, node);
+        const DeformedMesh mesh = deformed_mesh(scene, placements, id, node);
         const std::vector<const Geometry*> parts = parts_of(scene, mesh, opaque_only);
         const double before = nearest.t;
         if (!node.instances) look_in(parts, mesh.world_from_mesh, nullptr, line, nearest);
@@ -128,12 +128,12 @@ TriangleHit nearest_hit(const Scene& scene, const Line& line, bool opaque_only, 
 
 } // namespace
 
-std::optional<Id<Node>> first_between(const Scene& scene, const Vec3d& from, const Vec3d& to, const std::function<bool(Id<Node>)>& counts) {
+std::optional<Id<Node>> first_occluder(const Scene& scene, const Vec3d& from, const Vec3d& to, const std::function<bool(Id<Node>)>& counts) {
     const TriangleHit hit = nearest_hit(scene, {from, to - from, left_out, 1 - left_out}, true, counts);
     return hit.geometry ? std::optional(hit.node) : std::nullopt;
 }
 
-double free_share(const Scene& scene, const Vec3d& from, const Vec3d& to, const std::function<bool(Id<Node>)>& counts) {
+double unoccluded_fraction(const Scene& scene, const Vec3d& from, const Vec3d& to, const std::function<bool(Id<Node>)>& counts) {
     const TriangleHit hit = nearest_hit(scene, {from, to - from, left_out, 1 - left_out}, true, counts);
     return hit.geometry ? hit.t : 1;
 }

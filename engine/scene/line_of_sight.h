@@ -13,9 +13,9 @@ namespace blush {
 // Objects that transmit light by transmission or alpha are ignored. A ten-thousandth of the line at either end is left out, since
 // the line usually begins and ends on surfaces. Tests every triangle whose bounding box the line meets: milliseconds for a
 // million.
-std::optional<Id<Node>> first_between(const Scene& scene, const Vec3d& from, const Vec3d& to, const std::function<bool(Id<Node>)>& counts);
+std::optional<Id<Node>> first_occluder(const Scene& scene, const Vec3d& from, const Vec3d& to, const std::function<bool(Id<Node>)>& counts);
 // Fraction of the line from `from` to `to` before its first such object: 1 if there is none.
-double free_share(const Scene& scene, const Vec3d& from, const Vec3d& to, const std::function<bool(Id<Node>)>& counts);
+double unoccluded_fraction(const Scene& scene, const Vec3d& from, const Vec3d& to, const std::function<bool(Id<Node>)>& counts);
 
 // First hit of a ray with a visible object for which `counts` is true, of any material, from either side.
 struct RayHit {

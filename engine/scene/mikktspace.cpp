@@ -19,7 +19,7 @@ constexpr int none = -1;
 
 // At a vertex with more triangles the angular test is skipped: it is quadratic, and a file may join a million triangles at one
 // vertex.
-constexpr size_t most_compared = 64;
+constexpr size_t max_compared = 64;
 
 bool not_zero(double x) { return std::abs(x) > double(FLT_MIN); }
 Vec3d unit_or_same(const Vec3d& v) {
@@ -48,7 +48,7 @@ struct Group {
 
 class TangentSpace {
 public:
-    TangentSpace(const Geometry& g, const PlacedVector<Vec2>& uv) : g_(g), uv_(uv), triangles_(g.triangle_count()) {
+    TangentSpace(const Geometry& g, const ArenaVector<Vec2>& uv) : g_(g), uv_(uv), triangles_(g.triangle_count()) {
         weld();
         for (size_t t = 0; t < triangles_.size(); ++t) describe(t);
         connect();
@@ -213,7 +213,7 @@ private:
         const std::optional<Vec4> shared = of_those([](const Member&) { return true; });
         for (const Member& m : all) {
             const auto mixes = [&](const Member& other) { return &other == &m || m.mixes_with(other); };
-            tangents[m.corner] = all.size() > most_compared || std::ranges::all_of(all, mixes) ? shared : of_those(mixes);
+            tangents[m.corner] = all.size() > max_compared || std::ranges::all_of(all, mixes) ? shared : of_those(mixes);
         }
     }
 
@@ -227,13 +227,13 @@ private:
     }
 
     const Geometry& g_;
-    const PlacedVector<Vec2>& uv_;
+    const ArenaVector<Vec2>& uv_;
     std::vector<Triangle> triangles_;
     std::vector<Group> groups_;
 };
 
 } // namespace
 
-std::vector<Vec4> mikktspace_tangents(const Geometry& geometry, const PlacedVector<Vec2>& uv) { return TangentSpace(geometry, uv).corners(); }
+std::vector<Vec4> mikktspace_tangents(const Geometry& geometry, const ArenaVector<Vec2>& uv) { return TangentSpace(geometry, uv).corners(); }
 
 } // namespace blush

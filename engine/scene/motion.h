@@ -62,12 +62,12 @@ struct Clip {
 };
 
 // Scene selection: the chosen animation clip and time, scene and material variant of a file.
-struct Staging {
+struct SceneSelection {
     Id<Clip> clip = {};   // none: rest pose
     float seconds = 0;    // from the start of the clip
     int32_t scene = 0;    // index into Scene::scene_names; nodes of others are hidden
     int32_t variant = -1; // index into Scene::variants (KHR_materials_variants); -1: none
-    bool operator==(const Staging&) const = default;
+    bool operator==(const SceneSelection&) const = default;
 };
 
 } // namespace blush

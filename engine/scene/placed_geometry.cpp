@@ -12,34 +12,34 @@ template <class G, class Visit> bool all_attributes(G& g, const Visit& visit) {
     return good;
 }
 
-template <class T> void move_to(PlacedVector<T>& array, T* base, int64_t first) {
-    PlacedVector<T> placed(PlacedAllocator<T>(base + first, array.size()));
+template <class T> void move_to(ArenaVector<T>& array, T* base, int64_t first) {
+    ArenaVector<T> placed(ArenaAllocator<T>(base + first, array.size()));
     placed.reserve(array.size());
     placed.assign(array.begin(), array.end());
     array = std::move(placed);
 }
 
-template <class T> T* base_of(const PlacedVector<T>&, Attribute attribute) { return attribute_base<T>(attribute); }
+template <class T> T* base_of(const ArenaVector<T>&, Attribute attribute) { return attribute_base<T>(attribute); }
 
 } // namespace
 
-void place_arrays(Geometry& g) {
-    if (g.positions.size() < fewest_placed_vertices) return;
+void move_to_arena(Geometry& g) {
+    if (g.positions.size() < min_arena_vertices) return;
     if (!all_attributes(g, [](const auto& array, Attribute attribute) { return base_of(array, attribute) != nullptr; })) return;
-    NumbersPtr vertices = take_numbers(Numbering::vertices, g.positions.size()), indices = take_numbers(Numbering::indices, g.indices.size());
+    ArenaRangePtr vertices = reserve_arena_range(ArenaKind::vertices, g.positions.size()), indices = reserve_arena_range(ArenaKind::indices, g.indices.size());
     if (!vertices || !indices) return;
     all_attributes(g, [&](auto& array, Attribute attribute) {
         move_to(array, base_of(array, attribute), vertices->first());
         return true;
     });
     move_to(g.indices, index_base(), indices->first());
-    g.vertex_numbers = std::move(vertices);
-    g.index_numbers = std::move(indices);
+    g.vertex_range = std::move(vertices);
+    g.index_range = std::move(indices);
 }
 
-std::optional<PlacedAt> placed_at(const Geometry& g) {
-    if (!g.vertex_numbers || !g.index_numbers) return {};
-    const PlacedAt at{int32_t(g.vertex_numbers->first()), int32_t(g.index_numbers->first())};
+std::optional<ArenaOffsets> arena_offsets(const Geometry& g) {
+    if (!g.vertex_range || !g.index_range) return {};
+    const ArenaOffsets at{int32_t(g.vertex_range->first()), int32_t(g.index_range->first())};
     const bool placed = g.indices.data() == index_base() + at.first_index && all_attributes(g, [&](const auto& array, Attribute attribute) {
                             return array.data() == base_of(array, attribute) + at.first_vertex;
                         });

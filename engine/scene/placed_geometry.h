@@ -8,17 +8,17 @@
 namespace blush {
 
 // Smaller meshes are copied when the scene is compiled: cheap, and saves arena ranges.
-constexpr size_t fewest_placed_vertices = size_t(1) << 14;
+constexpr size_t min_arena_vertices = size_t(1) << 14;
 
 // Moves the arrays of a large mesh into the arena. Call it last, before the mesh is shared. Does nothing for small meshes or if
 // the arena is full.
-void place_arrays(Geometry& geometry);
+void move_to_arena(Geometry& geometry);
 
 // Arena offsets, in elements: of the first vertex (the same in all vertex arrays) and of the first index.
-struct PlacedAt {
+struct ArenaOffsets {
     int32_t first_vertex = 0, first_index = 0;
 };
 // None if any of the arrays is not in the arena: of a small mesh, or a copy.
-std::optional<PlacedAt> placed_at(const Geometry& geometry);
+std::optional<ArenaOffsets> arena_offsets(const Geometry& geometry);
 
 } // namespace blush

@@ -7,21 +7,21 @@
 
 namespace blush {
 
-struct Placement {
+struct NodeTransform {
     Affined world_from_node;
     bool visible = false; // the node and all its ancestors
 };
 
 // Caches the transforms of ancestors: querying all nodes of a chain costs O(length). The scene must outlive the cache.
-class Placements {
+class WorldTransforms {
 public:
-    explicit Placements(const Scene& scene) : scene_(scene) {}
+    explicit WorldTransforms(const Scene& scene) : scene_(scene) {}
     // Bit-identical to world_from_node and is_visible. The reference is valid for the lifetime of the cache.
-    const Placement& operator()(Id<Node> node);
+    const NodeTransform& operator()(Id<Node> node);
 
 private:
     const Scene& scene_;
-    std::unordered_map<uint32_t, Placement> known_;
+    std::unordered_map<uint32_t, NodeTransform> known_;
 };
 
 } // namespace blush

@@ -20,7 +20,7 @@ Vec3 vector_at(const Channel& channel, float seconds) {
 std::vector<Id<Node>> carried_off(const Scene& scene) {
     std::vector<Id<Node>> nodes;
     const Clip* clip = scene.staging.clip ? scene.clips.find(scene.staging.clip) : nullptr;
-    Placements placements(scene);
+    WorldTransforms placements(scene);
     for (size_t i = 0; clip && i < clip->channels.size(); ++i)
         if (const Id<Node> id = clip->channels[i].node; scene.nodes.contains(id) && !is_finite(placements(id).world_from_node)) nodes.push_back(id);
     return nodes;
@@ -35,11 +35,11 @@ std::span<const Channel> channels_of(const Scene& scene, Id<Node> node) {
     return {found.begin(), found.end()};
 }
 
-bool is_led(const Scene& scene, Id<Node> node, Property property) {
+bool is_animated(const Scene& scene, Id<Node> node, Property property) {
     return std::ranges::any_of(channels_of(scene, node), [&](const Channel& c) { return c.property == property; });
 }
 
-bool is_placed_by_clip(const Scene& scene, Id<Node> node) {
+bool is_transform_animated(const Scene& scene, Id<Node> node) {
     return std::ranges::any_of(channels_of(scene, node), [](const Channel& c) { return c.property != Property::morph_weights; });
 }
 
@@ -63,7 +63,7 @@ std::vector<float> posed_morph_weights(const Scene& scene, Id<Node> id, const No
     return node.morph_weights;
 }
 
-bool is_of_other_scene(const Scene& scene, const Node& node) {
+bool is_root_of_other_scene(const Scene& scene, const Node& node) {
     return !node.only_in_scenes.empty() && !node.parent &&
            std::ranges::find(node.only_in_scenes, scene.staging.scene) == node.only_in_scenes.end();
 }
@@ -71,7 +71,7 @@ bool is_of_other_scene(const Scene& scene, const Node& node) {
 bool is_in_chosen_scene(const Scene& scene, Id<Node> id) {
     const Node* node = scene.nodes.find(id);
     for (size_t steps = 0; node && node->parent && steps < scene.nodes.size(); ++steps) node = scene.nodes.find(node->parent);
-    return node && !is_of_other_scene(scene, *node);
+    return node && !is_root_of_other_scene(scene, *node);
 }
 
 Scene with_pose_applied(const Scene& scene) {
@@ -82,7 +82,7 @@ Scene with_pose_applied(const Scene& scene) {
         Node now = node;
         now.local = posed_transform(scene, id, node);
         now.morph_weights = posed_morph_weights(scene, id, node);
-        now.visible = node.visible && !is_of_other_scene(scene, node);
+        now.visible = node.visible && !is_root_of_other_scene(scene, node);
         now.only_in_scenes.clear();
         posed.nodes.set(id, std::move(now));
     }

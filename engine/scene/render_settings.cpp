@@ -9,7 +9,7 @@ RenderSettings recommended_settings() {
     return settings;
 }
 
-RenderSettings carried_out(RenderSettings settings) {
+RenderSettings effective_settings(RenderSettings settings) {
     settings.adaptive = settings.adaptive && settings.region == PictureRegion{};
     return settings;
 }

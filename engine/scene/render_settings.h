@@ -40,7 +40,7 @@ struct Clamp {
 enum class Strategy : uint8_t { mis, light, bsdf };
 enum class PixelFilter : uint8_t { blackman_harris, box };
 // Sampler: scrambled Sobol points, or independent random numbers.
-enum class SampleNumbers : uint8_t { sobol, random };
+enum class SamplerType : uint8_t { sobol, random };
 
 constexpr int unlimited_bounces = -1;
 
@@ -57,7 +57,7 @@ struct RenderSettings {
     Roulette roulette = {};
     Strategy strategy = Strategy::mis;
     PixelFilter filter = PixelFilter::blackman_harris;
-    SampleNumbers sampler = SampleNumbers::sobol;
+    SamplerType sampler = SamplerType::sobol;
     bool energy_compensation = false;
     bool adaptive = false;          // adaptive sampling; spp is then the mean. Requires first_sample = 0
     int reuse = 1;                  // path reuse: pixels that share their second path vertices: 4, 8, 16, or 1 (off)
@@ -72,7 +72,7 @@ RenderSettings recommended_settings();
 
 // Effective settings: a region turns adaptive sampling off, so that its pixels equal those of the whole image without adaptive
 // sampling.
-RenderSettings carried_out(RenderSettings settings);
+RenderSettings effective_settings(RenderSettings settings);
 
 // True if samples accumulated with `before` are valid for `after`: they differ in stop rules only.
 bool same_image(const RenderSettings& before, const RenderSettings& after);
@@ -91,7 +91,7 @@ Result<Strategy> parse_strategy(std::string_view text);
 std::string_view to_string(Strategy strategy);
 Result<PixelFilter> parse_filter(std::string_view text);
 std::string_view to_string(PixelFilter filter);
-Result<SampleNumbers> parse_sampler(std::string_view text);
-std::string_view to_string(SampleNumbers sampler);
+Result<SamplerType> parse_sampler(std::string_view text);
+std::string_view to_string(SamplerType sampler);
 
 } // namespace blush

@@ -11,7 +11,7 @@
 namespace blush {
 namespace {
 
-constexpr std::array<Word<Roulette::Rule>, 6> roulette_words{{
+constexpr std::array<EnumName<Roulette::Rule>, 6> roulette_words{{
     {Roulette::Rule::off, "off"},
     {Roulette::Rule::max, "max"},
     {Roulette::Rule::luminance, "luminance"},
@@ -19,20 +19,20 @@ constexpr std::array<Word<Roulette::Rule>, 6> roulette_words{{
     {Roulette::Rule::constant, "constant"},
     {Roulette::Rule::biased_cut, "biased-cut"},
 }};
-constexpr std::array<Word<Strategy>, 3> strategy_words{{
+constexpr std::array<EnumName<Strategy>, 3> strategy_words{{
     {Strategy::mis, "mis"},
     {Strategy::light, "light"},
     {Strategy::bsdf, "bsdf"},
 }};
-constexpr std::array<Word<PixelFilter>, 2> filter_words{{
+constexpr std::array<EnumName<PixelFilter>, 2> filter_words{{
     {PixelFilter::blackman_harris, "blackman-harris"},
     {PixelFilter::box, "box"},
 }};
-constexpr std::array<Word<SampleNumbers>, 2> sampler_words{{
-    {SampleNumbers::sobol, "sobol"},
-    {SampleNumbers::random, "random"},
+constexpr std::array<EnumName<SamplerType>, 2> sampler_words{{
+    {SamplerType::sobol, "sobol"},
+    {SamplerType::random, "random"},
 }};
-constexpr std::array<Word<int>, 4> reuse_words{{{1, "off"}, {4, "4"}, {8, "8"}, {16, "16"}}};
+constexpr std::array<EnumName<int>, 4> reuse_words{{{1, "off"}, {4, "4"}, {8, "8"}, {16, "16"}}};
 
 Result<float> parse_probability(std::string_view text, std::string_view name, bool zero_allowed) {
     float p = 0;
@@ -54,7 +54,7 @@ Item split_item(std::string_view text) {
 
 // The part before the first comma: the rule, with its parameter if it has one.
 Result<void> parse_rule(const Item& item, Roulette& roulette) {
-    const Result<Roulette::Rule> rule = value_of(roulette_words, item.name, "roulette rule");
+    const Result<Roulette::Rule> rule = enum_from_string(roulette_words, item.name, "roulette rule");
     if (!rule) return rule.error();
     roulette.rule = *rule;
     const bool constant = *rule == Roulette::Rule::constant;
@@ -99,7 +99,7 @@ Result<Roulette> parse_roulette(std::string_view text) {
 }
 
 std::string to_string(const Roulette& roulette) {
-    std::string text(word_of(roulette_words, roulette.rule));
+    std::string text(enum_to_string(roulette_words, roulette.rule));
     if (roulette.rule == Roulette::Rule::constant) text += fmt::format("={}", roulette.probability);
     if (roulette.rule == Roulette::Rule::biased_cut) text += fmt::format("={}", roulette.threshold);
     if (roulette.rule != Roulette::Rule::off || roulette.start != Roulette{}.start) text += fmt::format(",start={}", roulette.start);
@@ -134,13 +134,13 @@ Result<int> parse_max_bounces(std::string_view text) {
 
 std::string max_bounces_text(int max_bounces) { return max_bounces == unlimited_bounces ? "unlimited" : std::to_string(max_bounces); }
 
-Result<int> parse_reuse(std::string_view text) { return value_of(reuse_words, text, "number of pixels that reuse paths"); }
-std::string_view reuse_text(int reuse) { return word_of(reuse_words, reuse); }
-Result<Strategy> parse_strategy(std::string_view text) { return value_of(strategy_words, text, "strategy"); }
-std::string_view to_string(Strategy strategy) { return word_of(strategy_words, strategy); }
-Result<PixelFilter> parse_filter(std::string_view text) { return value_of(filter_words, text, "filter"); }
-std::string_view to_string(PixelFilter filter) { return word_of(filter_words, filter); }
-Result<SampleNumbers> parse_sampler(std::string_view text) { return value_of(sampler_words, text, "sampler"); }
-std::string_view to_string(SampleNumbers sampler) { return word_of(sampler_words, sampler); }
+Result<int> parse_reuse(std::string_view text) { return enum_from_string(reuse_words, text, "number of pixels that reuse paths"); }
+std::string_view reuse_text(int reuse) { return enum_to_string(reuse_words, reuse); }
+Result<Strategy> parse_strategy(std::string_view text) { return enum_from_string(strategy_words, text, "strategy"); }
+std::string_view to_string(Strategy strategy) { return enum_to_string(strategy_words, strategy); }
+Result<PixelFilter> parse_filter(std::string_view text) { return enum_from_string(filter_words, text, "filter"); }
+std::string_view to_string(PixelFilter filter) { return enum_to_string(filter_words, filter); }
+Result<SamplerType> parse_sampler(std::string_view text) { return enum_from_string(sampler_words, text, "sampler"); }
+std::string_view to_string(SamplerType sampler) { return enum_to_string(sampler_words, sampler); }
 
 } // namespace blush

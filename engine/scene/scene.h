@@ -23,7 +23,7 @@ namespace blush {
 uint64_t next_payload_serial();
 
 // Marks tangents that were generated (scene/tangents.h) rather than loaded, with the data that removes them again.
-struct MadeTangents {
+struct GeneratedTangents {
     int uv_set = -1;              // UV set they were computed from
     std::vector<uint32_t> copies; // source vertex of each vertex that was added for them at the end of the arrays
 };
@@ -31,14 +31,14 @@ struct MadeTangents {
 // Triangles of one material. Immutable once shared. Optional arrays are empty or have positions.size() entries.
 struct Geometry {
     uint64_t serial = next_payload_serial();
-    NumbersPtr vertex_numbers, index_numbers; // arena ranges of a large mesh (placed_geometry.h); must outlive the arrays
-    PlacedVector<Vec3> positions;
-    PlacedVector<Vec3> normals;
-    PlacedVector<Vec4> tangents; // xyz and the handedness w = +-1, as in glTF
-    std::optional<MadeTangents> made_tangents; // if the tangents were generated
-    std::vector<PlacedVector<Vec2>> uv; // uv[i] is TEXCOORD_i; (0, 0) is the top left corner of the image, as in glTF
-    PlacedVector<Vec4> colors;   // linear RGBA, multiplies the base colour
-    PlacedVector<uint32_t> indices; // 3 per triangle, all < positions.size()
+    ArenaRangePtr vertex_range, index_range; // arena ranges of a large mesh (placed_geometry.h); must outlive the arrays
+    ArenaVector<Vec3> positions;
+    ArenaVector<Vec3> normals;
+    ArenaVector<Vec4> tangents; // xyz and the handedness w = +-1, as in glTF
+    std::optional<GeneratedTangents> generated_tangents; // if the tangents were generated
+    std::vector<ArenaVector<Vec2>> uv; // uv[i] is TEXCOORD_i; (0, 0) is the top left corner of the image, as in glTF
+    ArenaVector<Vec4> colors;   // linear RGBA, multiplies the base colour
+    ArenaVector<uint32_t> indices; // 3 per triangle, all < positions.size()
     bool flat = false;             // face normals: recomputed when the mesh is deformed
     std::vector<MorphTargetPtr> targets;
     std::vector<Influence> influences; // empty, or the same number for each vertex, weights sum to 1
@@ -70,12 +70,12 @@ struct Texture {
 };
 
 // Largest index of a UV set.
-constexpr int most_uv_set = 255;
+constexpr int max_uv_set = 255;
 
 // A material's reference to a texture, with its UV set and KHR_texture_transform.
 struct TextureRef {
     Id<Texture> texture;
-    uint8_t uv_set = 0; // 0 .. most_uv_set
+    uint8_t uv_set = 0; // 0 .. max_uv_set
     Vec2 offset{0, 0}, scale{1, 1};
     float rotation_radians = 0; // counter-clockwise, as in KHR_texture_transform
     bool operator==(const TextureRef&) const = default;
@@ -313,7 +313,7 @@ struct Scene {
     Table<Clip> clips;
     std::vector<std::string> scene_names; // of a file with several scenes; else empty
     std::vector<std::string> variants;
-    Staging staging;
+    SceneSelection staging;
     Environment environment;
     LightMix mix;
     View view;
@@ -337,7 +337,7 @@ bool is_shadow_catcher(const Scene& scene, Id<Node> node);
 View view_through(const Scene& scene, Id<Node> camera_node);
 
 // The same with the default pivot distance: faster, since it needs no bounds.
-View eye_of(const Scene& scene, Id<Node> camera_node);
+View view_of_camera(const Scene& scene, Id<Node> camera_node);
 
 struct Bounds {
     Vec3d low{0, 0, 0}, high{0, 0, 0};

@@ -9,7 +9,7 @@ bool wears_solo(const Scene& scene, const Node& node) {
     const Mesh* mesh = scene.meshes.find(node.mesh);
     return mesh && std::ranges::any_of(mesh->parts, [&](const MeshPart& part) {
         const Material* m = scene.materials.find(part.material);
-        return m && m->solo && has_glow(*m);
+        return m && m->solo && has_emission(*m);
     });
 }
 
@@ -52,7 +52,7 @@ Scene with_solo_applied(const Scene& scene) {
     if (!scene.environment.solo) applied.environment.intensity = 0;
     applied.environment.solo = false;
     for (auto [id, light] : scene.lights) {
-        light.enabled = shines(light, true);
+        light.enabled = emits_light(light, true);
         light.solo = false;
         applied.lights.set(id, light);
     }

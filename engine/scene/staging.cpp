@@ -14,7 +14,7 @@ size_t slot_of(const MeshPart& part, int32_t variant) {
     return slot < part.by_variant.size() && part.by_variant[slot] ? slot : 0;
 }
 
-void dress(Scene& scene) {
+void apply_variant(Scene& scene) {
     const Table<Mesh> meshes = scene.meshes;
     for (const auto& [id, mesh] : meshes) {
         if (std::ranges::all_of(mesh.parts, [](const MeshPart& part) { return part.by_variant.empty(); })) continue;
@@ -26,10 +26,10 @@ void dress(Scene& scene) {
 }
 
 // The camera node that the view looks through; none if the view was navigated away.
-Id<Node> camera_looked_through(const Scene& scene) {
+Id<Node> current_camera(const Scene& scene) {
     for (const auto& [id, node] : scene.nodes) {
         if (!node.camera) continue;
-        const View eye = eye_of(scene, id);
+        const View eye = view_of_camera(scene, id);
         if (eye.position == scene.view.position && eye.rotation == scene.view.rotation) return id;
     }
     return {};
@@ -37,7 +37,7 @@ Id<Node> camera_looked_through(const Scene& scene) {
 
 } // namespace
 
-Result<void> check_staging(const Scene& scene, const Staging& s) {
+Result<void> check_scene_selection(const Scene& scene, const SceneSelection& s) {
     const auto number = [](size_t count) { return int32_t(std::min<size_t>(count, INT32_MAX)); };
     if (s.clip && !scene.clips.contains(s.clip)) return Error{.what = fmt::format("there is no animation {}", s.clip.value)};
     if (!std::isfinite(s.seconds) || s.seconds < 0) return Error{.what = fmt::format("a time must be a number from 0, not {}", s.seconds)};
@@ -48,25 +48,25 @@ Result<void> check_staging(const Scene& scene, const Staging& s) {
     return {};
 }
 
-Scene staged(const Scene& scene, const Staging& staging) {
+Scene with_scene_selection(const Scene& scene, const SceneSelection& staging) {
     Scene next = scene;
     next.staging = staging;
     if (!staging.clip) next.staging.seconds = 0;
-    if (staging.variant != scene.staging.variant) dress(next);
+    if (staging.variant != scene.staging.variant) apply_variant(next);
     if (staging.clip == scene.staging.clip && staging.seconds == scene.staging.seconds) return next;
-    if (const Id<Node> camera = camera_looked_through(scene)) {
-        const View eye = eye_of(next, camera);
+    if (const Id<Node> camera = current_camera(scene)) {
+        const View eye = view_of_camera(next, camera);
         next.view.position = eye.position;
         next.view.rotation = eye.rotation;
     }
     return next;
 }
 
-std::string staging_label(const Scene& scene, const Staging& staging) {
+std::string scene_selection_label(const Scene& scene, const SceneSelection& staging) {
     const auto name = [](const std::vector<std::string>& names, int32_t i) {
         return i >= 0 && size_t(i) < names.size() ? names[size_t(i)] : "none";
     };
-    const Staging& now = scene.staging;
+    const SceneSelection& now = scene.staging;
     if (staging.variant != now.variant) return "Choose variant " + name(scene.variants, staging.variant);
     if (staging.scene != now.scene) return "Choose scene " + name(scene.scene_names, staging.scene);
     const Clip* clip = scene.clips.find(staging.clip);
@@ -74,7 +74,7 @@ std::string staging_label(const Scene& scene, const Staging& staging) {
     return "Change time";
 }
 
-void wear(const Scene& scene, MeshPart& part, Id<Material> material) {
+void assign_material(const Scene& scene, MeshPart& part, Id<Material> material) {
     part.material = material;
     if (part.by_variant.empty()) return;
     part.by_variant[slot_of(part, scene.staging.variant)] = material;

@@ -9,15 +9,15 @@
 namespace blush {
 
 // Errors: a clip, scene or variant that does not exist, a time that is negative or not finite.
-Result<void> check_staging(const Scene& scene, const Staging& staging);
+Result<void> check_scene_selection(const Scene& scene, const SceneSelection& staging);
 
-// The scene with another selection, which check_staging must accept. Assigns the materials of the variant; a view through a
+// The scene with another selection, which check_scene_selection must accept. Assigns the materials of the variant; a view through a
 // camera follows the camera.
-Scene staged(const Scene& scene, const Staging& staging);
+Scene with_scene_selection(const Scene& scene, const SceneSelection& staging);
 // Label of the undo step: "Choose variant Blue", "Change time", ...
-std::string staging_label(const Scene& scene, const Staging& staging);
+std::string scene_selection_label(const Scene& scene, const SceneSelection& staging);
 
 // Assigns a material to a part: to the chosen variant if the part has a material for it, else as the default of all variants.
-void wear(const Scene& scene, MeshPart& part, Id<Material> material);
+void assign_material(const Scene& scene, MeshPart& part, Id<Material> material);
 
 } // namespace blush

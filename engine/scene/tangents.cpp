@@ -61,7 +61,7 @@ void add_tangents(Geometry& g, int uv_set) {
     }
     for (Vec4& t : g.tangents)
         if (t == Vec4{0, 0, 0, 0}) t = {1, 0, 0, 1}; // unused vertices
-    g.made_tangents = MadeTangents{uv_set, copied};
+    g.generated_tangents = GeneratedTangents{uv_set, copied};
     if (copied.empty()) return;
     for (MorphTargetPtr& target : g.targets) {
         auto longer = std::make_shared<MorphTarget>(*target);
@@ -73,17 +73,17 @@ void add_tangents(Geometry& g, int uv_set) {
     append_copies(g.positions, copied);
     append_copies(g.normals, copied);
     append_copies(g.colors, copied);
-    for (PlacedVector<Vec2>& uv : g.uv) append_copies(uv, copied);
+    for (ArenaVector<Vec2>& uv : g.uv) append_copies(uv, copied);
 }
 
-GeometryPtr without_made_tangents(const GeometryPtr& geometry) {
-    if (!geometry || !geometry->made_tangents) return geometry;
+GeometryPtr without_generated_tangents(const GeometryPtr& geometry) {
+    if (!geometry || !geometry->generated_tangents) return geometry;
     auto bare = std::make_shared<Geometry>(*geometry);
     Geometry& g = *bare;
-    const std::vector<uint32_t> copies = std::move(g.made_tangents->copies);
+    const std::vector<uint32_t> copies = std::move(g.generated_tangents->copies);
     const size_t vertices = g.positions.size() - copies.size();
     g.serial = next_payload_serial();
-    g.made_tangents.reset();
+    g.generated_tangents.reset();
     g.tangents.clear();
     if (copies.empty()) return bare;
     for (uint32_t& i : g.indices)
@@ -98,7 +98,7 @@ GeometryPtr without_made_tangents(const GeometryPtr& geometry) {
     drop_copies(g.positions, copies.size());
     drop_copies(g.normals, copies.size());
     drop_copies(g.colors, copies.size());
-    for (PlacedVector<Vec2>& uv : g.uv) drop_copies(uv, copies.size());
+    for (ArenaVector<Vec2>& uv : g.uv) drop_copies(uv, copies.size());
     return bare;
 }
 

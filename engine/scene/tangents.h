@@ -17,6 +17,6 @@ bool any_needs_tangents(const Scene& scene);
 void add_tangents(Geometry& geometry, int uv_set);
 
 // The geometry as it was before add_tangents; the same pointer if no tangents were generated.
-GeometryPtr without_made_tangents(const GeometryPtr& geometry);
+GeometryPtr without_generated_tangents(const GeometryPtr& geometry);
 
 } // namespace blush

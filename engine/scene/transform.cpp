@@ -55,7 +55,7 @@ Transform to_transform(const Affined& matrix) {
     return relative_error(matrix, without_matrix) <= 1e-5 ? without_matrix : trs;
 }
 
-View eye_of(const Scene& scene, Id<Node> camera_node) {
+View view_of_camera(const Scene& scene, Id<Node> camera_node) {
     const Node* node = scene.nodes.find(camera_node);
     const Camera* camera = node ? scene.cameras.find(node->camera) : nullptr;
     if (!camera) return scene.view;
@@ -71,7 +71,7 @@ View view_through(const Scene& scene, Id<Node> camera_node) {
     const Node* node = scene.nodes.find(camera_node);
     if (!node || !scene.cameras.contains(node->camera)) return scene.view;
     const Vec3d eye = world_from_node(scene, camera_node).t;
-    View view = eye_of(scene, camera_node);
+    View view = view_of_camera(scene, camera_node);
     // Pivot for orbiting: the point on the view axis nearest to the centre of the scene.
     const Bounds bounds = world_bounds(scene);
     const Vec3d forward = to_affine(view.rotation).z * -1;

@@ -10,7 +10,7 @@ namespace {
 constexpr float middle = 0.5f;     // mean texel of a linear texture
 constexpr float middle_grey = 0.21404f; // mean texel of a colour texture: sRGB 0.5, linear
 
-Material untextured(Material m) {
+Material preview_scene(Material m) {
     const auto dim = [](const TextureRef& texture, float& factor) {
         if (texture.texture) factor *= middle;
     };
@@ -38,9 +38,9 @@ Material untextured(Material m) {
 
 } // namespace
 
-Scene untextured(Scene scene) {
+Scene preview_scene(Scene scene) {
     const Table<Material> textured = scene.materials;
-    for (const auto& [id, material] : textured) scene.materials.set(id, untextured(material));
+    for (const auto& [id, material] : textured) scene.materials.set(id, preview_scene(material));
     scene.textures = {};
     return scene;
 }

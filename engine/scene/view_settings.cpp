@@ -9,12 +9,12 @@
 namespace blush {
 namespace {
 
-constexpr std::array<Word<AutoExposure>, 3> auto_exposure_words{{
+constexpr std::array<EnumName<AutoExposure>, 3> auto_exposure_words{{
     {AutoExposure::off, "off"},
     {AutoExposure::average, "average"},
     {AutoExposure::highlights, "highlights"},
 }};
-constexpr std::array<Word<FalseColor::Of>, 4> false_color_words{{
+constexpr std::array<EnumName<FalseColor::Of>, 4> false_color_words{{
     {FalseColor::Of::off, "off"},
     {FalseColor::Of::stops, "stops"},
     {FalseColor::Of::nits, "nits"},
@@ -27,12 +27,12 @@ bool parse_component(std::string_view text, float& x) { return parse_number(text
 
 } // namespace
 
-Result<AutoExposure> parse_auto_exposure(std::string_view text) { return value_of(auto_exposure_words, text, "auto exposure"); }
-std::string_view to_string(AutoExposure rule) { return word_of(auto_exposure_words, rule); }
+Result<AutoExposure> parse_auto_exposure(std::string_view text) { return enum_from_string(auto_exposure_words, text, "auto exposure"); }
+std::string_view to_string(AutoExposure rule) { return enum_to_string(auto_exposure_words, rule); }
 
 Result<FalseColor> parse_false_color(std::string_view text) {
     const std::vector<std::string_view> parts = split(text, '=');
-    const Result<FalseColor::Of> of = value_of(false_color_words, parts[0], "false colour");
+    const Result<FalseColor::Of> of = enum_from_string(false_color_words, parts[0], "false colour");
     if (!of) return of.error();
     FalseColor scale{.of = *of};
     if (parts.size() == 1) return scale;
@@ -44,7 +44,7 @@ Result<FalseColor> parse_false_color(std::string_view text) {
 }
 
 std::string to_string(const FalseColor& scale) {
-    const std::string_view word = word_of(false_color_words, scale.of);
+    const std::string_view word = enum_to_string(false_color_words, scale.of);
     return has_range(scale.of) ? fmt::format("{}={}:{}", word, scale.low, scale.high) : std::string(word);
 }
 

@@ -102,7 +102,7 @@ template <class F> struct Bsdf {
 };
 
 // Minimal cosine to a shading normal for a viewer to count as in front of it.
-constexpr float least_facing = 1e-4f;
+constexpr float min_facing = 1e-4f;
 // Lower clamp of cosines between the viewer and a surface or microfacet.
 constexpr float grazing = 1e-6f;
 

@@ -28,7 +28,7 @@ Clearcoat<F> make_clearcoat(const Bsdf<F>& b, const LayerParams<F>& m, const Vec
     // For a viewer inside, flips the coat's normal.
     const Vec<F>& n = m.clearcoat_normal;
     const Vec<F> towards{select(b.flipped, -n.x, n.x), select(b.flipped, -n.y, n.y), n.z};
-    coat.frame = basis_around(select<F>(dot(towards, wo) > F(least_facing), towards, z));
+    coat.frame = basis_around(select<F>(dot(towards, wo) > F(min_facing), towards, z));
     coat.wo = coat.frame.to_local(wo);
     coat.wo.z = max(coat.wo.z, F(grazing));
     coat.reflected = clearcoat_reflectance(m.clearcoat, coat.wo.z);

@@ -2,7 +2,7 @@
 // diffuse surface towards the right point of a specular object; NEE cannot connect through it. So diffuse surfaces sample more
 // directions into the cones that bound specular objects (bounding spheres). Directions are sampled from the mixture of both
 // densities (one-sample model, Veach 1997, section 9.2.4): the expectation is the same whatever the spheres contain, and path
-// weights grow at most by 1 / (1 - most_focused).
+// weights grow at most by 1 / (1 - max_guided_share).
 #pragma once
 
 #include "core/sampling.h"
@@ -13,13 +13,13 @@
 
 namespace blush {
 
-struct FocusBall {
+struct CasterSphere {
     Vec3 center; // relative to the tables' origin
     float radius; // metres
 };
 
-struct FocusTables {
-    const FocusBall* balls = nullptr;
+struct CausticCasterTables {
+    const CasterSphere* balls = nullptr;
     int32_t count = 0;
 };
 
@@ -30,48 +30,48 @@ namespace blush::inline BLUSH_ISA {
 // Oversampling factor of directions into a sphere: if nine tenths of the variance come from an eighth of the paths (two spheres
 // that fill this part of a ceiling's view), the optimal factor, the root of the ratio of variances, is about this (Neyman 1934).
 // And the maximal share of guided paths.
-constexpr float focus_boost = 6, most_focused = 0.5f;
+constexpr float guiding_boost = 6, max_guided_share = 0.5f;
 
 // sin^2 of the angular radius below which a sphere is not sampled.
-constexpr float least_focus = 1e-6f;
+constexpr float min_caster_sin2 = 1e-6f;
 
 // The caster spheres as seen from a surface point.
-template <class F> struct Focus {
+template <class F> struct CausticGuide {
     Vec<F> from, normal;
     F total; // sum of the spheres' weights
     F share; // share of guided samples
 };
 
-template <class F> struct FocusCone {
+template <class F> struct CasterCone {
     Vec<F> to; // from the point to the sphere's centre
     F height;  // 1 - cos of its angular radius
     F weight;  // 0: not sampled
 };
-template <class F> FocusCone<F> focus_cone(const FocusBall& ball, const Vec<F>& from, const Vec<F>& normal) {
-    FocusCone<F> c;
+template <class F> CasterCone<F> caster_cone(const CasterSphere& ball, const Vec<F>& from, const Vec<F>& normal) {
+    CasterCone<F> c;
     c.to = splat<F>(ball.center) - from;
     const F d2 = dot(c.to, c.to);
     c.height = sphere_cone_height(d2, F(ball.radius));
     // Approximate share of the cosine-weighted hemisphere; spheres with a centre below the horizon are not guided.
     const F part = 2.f * c.height * max(F(0.f), dot(c.to, normal)) / sqrt(max(d2, F(1e-30f)));
-    c.weight = select(F(ball.radius) * ball.radius >= least_focus * d2, part * (focus_boost - 1.f), F(0.f));
+    c.weight = select(F(ball.radius) * ball.radius >= min_caster_sin2 * d2, part * (guiding_boost - 1.f), F(0.f));
     return c;
 }
 
 // `matte`: lanes whose surface is Lambertian; others are not guided.
-template <class F> Focus<F> focus_at(const FocusTables& table, const Vec<F>& from, const Vec<F>& normal, const Mask<F>& matte) {
-    Focus<F> f{from, normal, F(0.f), F(0.f)};
-    for (int i = 0; i < table.count; ++i) f.total = f.total + focus_cone<F>(table.balls[i], from, normal).weight;
-    f.share = select(matte, min(f.total / (1.f + f.total), F(most_focused)), F(0.f));
+template <class F> CausticGuide<F> caustic_guide_at(const CausticCasterTables& table, const Vec<F>& from, const Vec<F>& normal, const Mask<F>& matte) {
+    CausticGuide<F> f{from, normal, F(0.f), F(0.f)};
+    for (int i = 0; i < table.count; ++i) f.total = f.total + caster_cone<F>(table.balls[i], from, normal).weight;
+    f.share = select(matte, min(f.total / (1.f + f.total), F(max_guided_share)), F(0.f));
     return f;
 }
 
 // Mixture pdf of a unit direction, where the BSDF alone has `pdf`.
-template <class F> F focused_pdf(const FocusTables& table, const Focus<F>& f, const Vec<F>& direction, const F& pdf) {
+template <class F> F guided_pdf(const CausticCasterTables& table, const CausticGuide<F>& f, const Vec<F>& direction, const F& pdf) {
     F sum = F(0.f);
     for (int i = 0; i < table.count; ++i) {
-        const FocusBall& ball = table.balls[i];
-        const FocusCone<F> c = focus_cone<F>(ball, f.from, f.normal);
+        const CasterSphere& ball = table.balls[i];
+        const CasterCone<F> c = caster_cone<F>(ball, f.from, f.normal);
         // Compares the distance of the ray from the centre: 1 - cos would lose all digits for a small cone.
         const Mask<F> ahead = c.weight > F(0.f) && dot(direction, c.to) > F(0.f);
         const Mask<F> within = ahead && length_squared(cross(direction, c.to)) <= F(ball.radius * ball.radius);
@@ -82,12 +82,12 @@ template <class F> F focused_pdf(const FocusTables& table, const Focus<F>& f, co
 
 // Samples a direction into one of the spheres' cones, for lanes with
 // share > 0; u, v and `choice`, which selects the sphere, in [0, 1).
-template <class F> Vec<F> aim_at_ball(const FocusTables& table, const Focus<F>& f, const F& choice, const F& u, const F& v) {
+template <class F> Vec<F> sample_caster_direction(const CausticCasterTables& table, const CausticGuide<F>& f, const F& choice, const F& u, const F& v) {
     Vec<F> to{F(0.f), F(0.f), F(1.f)};
     F height = F(1.f), left = choice * f.total;
     Mask<F> open = Mask<F>(true);
     for (int i = 0; i < table.count; ++i) {
-        const FocusCone<F> c = focus_cone<F>(table.balls[i], f.from, f.normal);
+        const CasterCone<F> c = caster_cone<F>(table.balls[i], f.from, f.normal);
         const Mask<F> it = open && c.weight > F(0.f);
         to = select<F>(it, c.to, to);
         height = select(it, c.height, height);

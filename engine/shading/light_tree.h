@@ -13,7 +13,7 @@
 namespace blush {
 
 // A node has up to 2^tree_branch_bits children; this many trail bits select one of them.
-constexpr int tree_branch_bits = 4, most_tree_children = 1 << tree_branch_bits;
+constexpr int tree_branch_bits = 4, max_tree_children = 1 << tree_branch_bits;
 
 // Bounds of the lights below a node: position, and the cone of their emission.
 struct LightTreeNode {
@@ -86,13 +86,13 @@ template <class F> F light_importance(const LightTreeNode* nodes, const Int<F>& 
 
 // The importances of a node's children, and their sum; 0 for missing children.
 template <class F> struct ChildImportances {
-    F of[most_tree_children], sum;
+    F of[max_tree_children], sum;
 };
 template <class F>
 ChildImportances<F> importances_of(const LightTree& tree, const Int<F>& first, const Int<F>& count, const Receiver<F>& to) {
     ChildImportances<F> c;
     c.sum = F(0.f);
-    for (int k = 0; k < most_tree_children; ++k) {
+    for (int k = 0; k < max_tree_children; ++k) {
         c.of[k] = F(0.f);
         const Mask<F> there = as_mask(count > k);
         if (!any(there)) continue;
@@ -124,7 +124,7 @@ template <class F> TreeSample<F> sample_tree(const LightTree& tree, const Receiv
         const F at = rest * c.sum;
         Int<F> chosen = 0;
         F begin = F(0.f), importance = F(0.f), passed = F(0.f);
-        for (int k = 0; k < most_tree_children; ++k) {
+        for (int k = 0; k < max_tree_children; ++k) {
             const Mask<F> here = c.of[k] > F(0.f) && (passed <= at);
             chosen = select(here, Int<F>(k), chosen);
             begin = select(here, passed, begin);
@@ -152,9 +152,9 @@ template <class F> F tree_probability(const LightTree& tree, const Receiver<F>& 
         const Int<F> first = select(inner, gather_field(tree.nodes, &LightTreeNode::children, node), Int<F>(0));
         const Int<F> count = select(inner, gather_field(tree.nodes, &LightTreeNode::child_count, node), Int<F>(0));
         const ChildImportances<F> c = importances_of<F>(tree, first, count, to);
-        const Int<F> taken = to_signed(UInt<F>(trail & uint32_t(most_tree_children - 1)));
+        const Int<F> taken = to_signed(UInt<F>(trail & uint32_t(max_tree_children - 1)));
         F importance = F(0.f);
-        for (int k = 0; k < most_tree_children; ++k) importance = select(as_mask(taken == k), c.of[k], importance);
+        for (int k = 0; k < max_tree_children; ++k) importance = select(as_mask(taken == k), c.of[k], importance);
         const Mask<F> lit = c.sum > F(0.f);
         probability = select(inner, select(lit, probability * (importance / select(lit, c.sum, F(1.f))), F(0.f)), probability);
         node = select(inner, Int<F>(first + taken), node);

@@ -25,7 +25,7 @@ SheenTable make_sheen_table() {
     constexpr int size = SheenTable::size;
     SheenTable table;
     for (int row = 0; row < size; ++row) {
-        const float t = float(row) / (size - 1), roughness = least_sheen_roughness + (1.f - least_sheen_roughness) * t * t;
+        const float t = float(row) / (size - 1), roughness = min_sheen_roughness + (1.f - min_sheen_roughness) * t * t;
         for (int column = 0; column < size; ++column) {
             const float root = max(float(column) / (size - 1), 0.01f);
             table.albedo[row * size + column] = integrate_albedo(roughness * roughness, root * root * root * root);

@@ -25,7 +25,7 @@ const SheenTable& sheen_table();
 namespace blush::inline BLUSH_ISA {
 
 // Smoother fibres would reflect only grazing light, in a lobe narrower than the quadrature of the table resolves.
-constexpr float least_sheen_roughness = 0.07f;
+constexpr float min_sheen_roughness = 0.07f;
 
 // Density of the fibres' normals h per solid angle, the specification's D.
 template <class F> F charlie(const F& alpha, const Vec<F>& h) {
@@ -59,7 +59,7 @@ template <class F> F charlie_f_cos(const F& alpha, const Vec<F>& wo, const Vec<F
 // E for a direction at this cosine >= 0.
 template <class F> F sheen_albedo(const SheenTable& table, const F& roughness, const F& cos) {
     constexpr float last = float(SheenTable::size - 1);
-    const F row = sqrt(clamp01(F((roughness - least_sheen_roughness) * (1.f / (1.f - least_sheen_roughness))))) * last;
+    const F row = sqrt(clamp01(F((roughness - min_sheen_roughness) * (1.f / (1.f - min_sheen_roughness))))) * last;
     const F column = sqrt(sqrt(clamp01(cos))) * last;
     return bilinear(table.albedo, SheenTable::size, row, column);
 }
@@ -68,7 +68,7 @@ template <class F> F charlie_albedo(const Sheen<F>& sheen, const F& cos) { retur
 
 // Sets everything except the probability; wo in the viewer's frame.
 template <class F> Sheen<F> make_sheen(const LayerParams<F>& m, const Vec<F>& wo) {
-    const F roughness = max(m.sheen_roughness, F(least_sheen_roughness));
+    const F roughness = max(m.sheen_roughness, F(min_sheen_roughness));
     Sheen<F> sheen{m.sheen_color, max_component(m.sheen_color), roughness, roughness * roughness, F(0.f), F(0.f)};
     if (any(sheen.strength > F(0.f))) sheen.albedo = charlie_albedo(sheen, wo.z);
     return sheen;

@@ -34,7 +34,7 @@ struct TextureRecord {
 };
 
 // Maximal number of UV sets that the textures of one scene use.
-constexpr int most_uv_sets = 8;
+constexpr int max_uv_sets = 8;
 
 // A texture as used by one material slot: u' = u_from_u * u + u_from_v * v + u_offset, the same for v'.
 struct TextureUse {
@@ -73,8 +73,8 @@ template <class F> Vec<F> rgb(const Vec4T<F>& c) { return {c.x, c.y, c.z}; }
 // Texture coordinates of a surface point.
 template <class F> struct TexturePoint {
     // The first TextureTables::uv_sets entries of each are valid.
-    std::array<Vec2T<F>, most_uv_sets> uv;
-    std::array<F, most_uv_sets> width{}; // of the footprint, in units of uv; 0: a point
+    std::array<Vec2T<F>, max_uv_sets> uv;
+    std::array<F, max_uv_sets> width{}; // of the footprint, in units of uv; 0: a point
 };
 
 // The two texels along one axis around a coordinate, both in [0, size), and the weight of the second.

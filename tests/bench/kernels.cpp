@@ -26,7 +26,7 @@ const KernelTimes& times_of(const Kernel& kernel, const std::vector<KernelTimes>
 Json measure(const BenchScene& scene, const Options& options) {
     const RenderSettings settings = rate_settings();
     RenderScene compiled;
-    compiled.update(lower_area_lights(scene.scene), settings, full_plan(), Workers(1));
+    compiled.update(expand_area_lights(scene.scene), settings, full_plan(), Workers(1));
     const std::vector<TileJob> tiles = sample_tiles(settings, 7);
     const double paths = double(tiles.size()) * tiles.front().paths();
     const std::vector<KernelTimes> all = time_kernels(compiled, settings, able_kernels(compiled.features()), tiles, options.rounds);

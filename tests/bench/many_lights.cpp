@@ -12,7 +12,7 @@ Json run_many_lights(const Options& options) {
     Json result = Json::array();
     for (const int rooms : {3, 6, 20}) {
         const RenderSettings settings;
-        Scene scene = lower_area_lights(test::house(rooms));
+        Scene scene = expand_area_lights(test::house(rooms));
         RenderScene compiled;
         compiled.update(scene, settings, full_plan(), Workers(1));
         UpdatePlan relight;
@@ -20,7 +20,7 @@ Json run_many_lights(const Options& options) {
         std::vector<double> seconds;
         for (int round = 0; round < options.rounds; ++round)
             seconds.push_back(cost_of([&] { compiled.update(scene, settings, relight, Workers(1)); }).core_seconds);
-        const test::ChoiceVariance v = test::choice_variance(compiled.tables(), rooms, 200);
+        const test::SelectionVariance v = test::choice_variance(compiled.tables(), rooms, 200);
         const test::ImageVariance image = test::image_variance(rooms, 64);
         result.push_back({{"lights", rooms * rooms * 25},
                           {"relative_variance", {{"oracle", rounded(v.oracle)}, {"tree", rounded(v.tree)}, {"power", rounded(v.power)}}},

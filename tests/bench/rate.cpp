@@ -26,8 +26,8 @@ struct Contest {
 
     Contest(const Scene& scene, unsigned threads) : renderer({.threads = threads, .planes = {}}), workers(threads) {
         renderer.update(scene, settings);
-        compiled.update(lower_area_lights(scene), settings, full_plan(), workers);
-        const KernelContext context{&compiled.tables(), &compiled.accel(), settings_for_kernels(settings, settings.width, settings.height),
+        compiled.update(expand_area_lights(scene), settings, full_plan(), workers);
+        const KernelContext context{&compiled.tables(), &compiled.accel(), kernel_settings(settings, settings.width, settings.height),
                                     settings.seed};
         rays = record_rays(context, sample_tiles(settings, 7), workers);
     }

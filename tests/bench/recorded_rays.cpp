@@ -37,7 +37,7 @@ RecordedRays record_tile(const KernelContext& context, const TileJob& job, TileS
     generate_paths<all_features, float>(context, job, scratch);
     PathQueue* now = &scratch.paths[0];
     PathQueue* next = &scratch.paths[1];
-    for (int bounce = 0; now->size > 0 && bounce <= longest_path; ++bounce) {
+    for (int bounce = 0; now->size > 0 && bounce <= max_path_length; ++bounce) {
         trace_paths<all_features, float>(context, scratch, *now, *next, bounce);
         of_kind(rays, bounce == 0 ? RayKind::camera : RayKind::bounce).push_back(batch_of(*now, scratch, *context.accel, bounce));
         shade_paths<all_features, float>(context, scratch, *now, *next, bounce);

@@ -71,7 +71,7 @@ private:
     bool over_ = false;
     ConvergenceRuns runs_;
     double recording_seconds_ = 0;
-    TimeBudget measuring_{measuring_share};
+    TimeBudget measuring_{max_measuring_share};
     int64_t measured_samples_ = 0;
     int measured_ = 0;
     uint64_t revision_ = 0;

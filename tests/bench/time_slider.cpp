@@ -106,7 +106,7 @@ Json measure(const Scene& scene, const Options& options) {
     std::vector<Response> responses;
     for (int step = 0; step <= options.edits; ++step) {
         const std::optional<Response> response =
-            probe.measure(staged(scene, {.clip = clip, .seconds = 0.01f * float(step)}), window_settings());
+            probe.measure(with_scene_selection(scene, {.clip = clip, .seconds = 0.01f * float(step)}), window_settings());
         if (!response) return {{"failed", "the session gave no image"}};
         if (step > 0) responses.push_back(*response); // the first opens the scene
     }

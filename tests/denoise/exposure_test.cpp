@@ -34,8 +34,8 @@ TEST(Exposure, BlackIsExcluded) {
 TEST(Exposure, StaysWithinTheRangeOfFloat) {
     for (const float value : {1e-7f, 1e30f, std::numeric_limits<float>::max()}) {
         const float scale = scale_of(constant_planes(20, 20, value));
-        EXPECT_GE(scale, smallest_scale);
-        EXPECT_LE(scale, largest_scale);
+        EXPECT_GE(scale, min_scale_factor);
+        EXPECT_LE(scale, max_scale);
     }
     Planes odd = constant_planes(64, 64, 0.18f);
     odd.color[0] = nan;

@@ -23,8 +23,8 @@ double curve(double y) {
 
 // From 1e-9 to the largest radiance, eight values an octave and the breaks.
 std::vector<float> radiances() {
-    std::vector<float> values{0, 1.5794576e-6f, 0.0322087631f, largest_radiance};
-    for (float y = 1e-9f; y < largest_radiance; y *= 1.0905077f) values.push_back(y);
+    std::vector<float> values{0, 1.5794576e-6f, 0.0322087631f, max_network_radiance};
+    for (float y = 1e-9f; y < max_network_radiance; y *= 1.0905077f) values.push_back(y);
     return values;
 }
 
@@ -35,19 +35,19 @@ TEST(Transfer, LogarithmMatchesTheLibrary) {
 
 TEST(Transfer, IsThePublishedCurve) {
     // Relative errors of exp and log are below 2e-7 each, plus the rounding of about five operations on numbers of size 1.
-    for (const float y : radiances()) EXPECT_NEAR(perceived(y), curve(y), 1e-6 * std::max(curve(y), 3e-3)) << y;
+    for (const float y : radiances()) EXPECT_NEAR(encode_radiance(y), curve(y), 1e-6 * std::max(curve(y), 3e-3)) << y;
 }
 
 TEST(Transfer, InverseRoundTrips) {
     // The inverse magnifies errors of x near 1 by dy / y = dx x / 0.19.
-    for (const float y : radiances()) EXPECT_NEAR(radiance_of(perceived(y)), y, 3e-5 * std::max(y, 1e-6f)) << y;
+    for (const float y : radiances()) EXPECT_NEAR(decode_radiance(encode_radiance(y)), y, 3e-5 * std::max(y, 1e-6f)) << y;
 }
 
 TEST(Transfer, RegistersAndScalarsAreBitIdentical) {
     const std::vector<float> values = radiances();
     for (const float y : values) {
-        EXPECT_EQ(lane(perceived(Wide(y)), 0), perceived(y)) << y;
-        EXPECT_EQ(lane(radiance_of(Wide(perceived(y))), 0), radiance_of(perceived(y))) << y;
+        EXPECT_EQ(lane(encode_radiance(Wide(y)), 0), encode_radiance(y)) << y;
+        EXPECT_EQ(lane(decode_radiance(Wide(encode_radiance(y))), 0), decode_radiance(encode_radiance(y))) << y;
     }
 }
 
@@ -71,7 +71,7 @@ TEST(Pixels, NetworkInputIsInRange) {
     const std::vector<float> odd{nan, -1, infinite, -infinite, 1e30f, 0.5f};
     std::vector<float> seen(6);
     encode_color(odd.data(), 3, 2, 1, seen.data(), 3);
-    EXPECT_EQ(seen, (std::vector<float>{0, 0, 1, 0, 1, perceived(0.5f) * (1.f / perceived(largest_radiance))}));
+    EXPECT_EQ(seen, (std::vector<float>{0, 0, 1, 0, 1, encode_radiance(0.5f) * (1.f / encode_radiance(max_network_radiance))}));
     encode_albedo(odd.data(), 3, 2, seen.data(), 3);
     EXPECT_EQ(seen, (std::vector<float>{0, 0, 1, 0, 1, 0.5f}));
     encode_normal(odd.data(), 3, 2, seen.data(), 3);

@@ -10,7 +10,7 @@ void settings(std::span<const uint8_t> bytes) {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (const auto render = parse_render_settings(text)) promise(validate(render->settings));
     if (const auto view = parse_view_settings(text)) promise(validate(view->settings));
-    edits_left_out(text);
+    count_left_out(text);
     if (const auto scene = apply_edits_json({}, text, BLUSH_CORPUS)) promise(validate(*scene));
 }
 

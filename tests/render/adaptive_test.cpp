@@ -20,7 +20,7 @@ using namespace statistics;
 // ---- without a renderer: samples drawn from a known distribution
 
 // Two by two tiles.
-constexpr int tile_size = SamplePlan::tile_size, size = 2 * tile_size;
+constexpr int tile_size = SampleAllocation::tile_size, size = 2 * tile_size;
 using Draw = float (*)(std::mt19937_64& bits, int tile);
 
 // Mostly around 1, rarely a firefly: a tile without fireflies in its pilot looks quiet.
@@ -46,17 +46,17 @@ struct Sampled {
 
     Sampled(uint64_t seed, Draw draw, Rule rule, int64_t spp) : bits(seed) {
         film.reset({size, size, {}, false, rule != Rule::uniform});
-        SamplePlan plan;
-        PilotNoise noise;
+        SampleAllocation plan;
+        PilotVariance noise;
         plan.reset(size, size);
         for (int64_t from = 0; from < spp;) {
-            const int64_t to = std::min(spp, SamplePlan::next_look(from));
+            const int64_t to = std::min(spp, SampleAllocation::next_measurement(from));
             for (int tile = 0; tile < plan.tiles(); ++tile)
                 for (int half = 0; half < 2; ++half) add(draw, tile, half, plan.samples(tile, half, from), plan.samples(tile, half, to));
             from = to;
             if (rule == Rule::uniform) continue;
-            if (from == SamplePlan::pilot_samples / 2) noise.mark(film);
-            if (from != SamplePlan::pilot_samples) continue;
+            if (from == SampleAllocation::pilot_samples / 2) noise.mark(film);
+            if (from != SampleAllocation::pilot_samples) continue;
             std::array<TileNoise, 2> measured = noise.measure(film);
             if (rule == Rule::uncrossed) std::swap(measured[0], measured[1]);
             plan.decide(measured);
@@ -126,10 +126,10 @@ TEST(Adaptive, CountsItsSamplesPixelByPixel) {
     ASSERT_EQ(frame.pixel_samples.size(), size_t(size * size));
     double sum = 0;
     for (const float n : frame.pixel_samples) {
-        EXPECT_GE(n, float(SamplePlan::pilot_samples));
+        EXPECT_GE(n, float(SampleAllocation::pilot_samples));
         sum += double(n) / (size * size);
     }
-    EXPECT_NEAR(sum, 64, double(SamplePlan::granularity));
+    EXPECT_NEAR(sum, 64, double(SampleAllocation::granularity));
     EXPECT_GT(frame.pixel_samples.back(), 2 * frame.pixel_samples.front());
 }
 
@@ -140,7 +140,7 @@ TEST(Adaptive, MeasuresTheNoiseThatRelmseMeasures) {
     constexpr float dark = 0.03f, bright = 1;
     Film film;
     film.reset({tiles * tile_size, tile_size, {}, false, true});
-    PilotNoise noise;
+    PilotVariance noise;
     const auto scratch = std::make_unique<TileScratch>();
     std::mt19937_64 bits(1);
     const auto add = [&](int first, int count) {
@@ -154,9 +154,9 @@ TEST(Adaptive, MeasuresTheNoiseThatRelmseMeasures) {
                 film.add(job, *scratch, 0);
             }
     };
-    add(0, SamplePlan::pilot_samples / 4);
+    add(0, SampleAllocation::pilot_samples / 4);
     noise.mark(film);
-    add(SamplePlan::pilot_samples / 4, SamplePlan::pilot_samples / 4);
+    add(SampleAllocation::pilot_samples / 4, SampleAllocation::pilot_samples / 4);
     const std::array<TileNoise, 2> measured = noise.measure(film);
     const double expected = (dark / std::hypot(dark, 0.1f)) / (bright / std::hypot(bright, 0.1f));
     // The variance of 256 pixels has a relative standard error of sqrt(2 / 256), its root half of that, and there are two of them.

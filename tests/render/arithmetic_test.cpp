@@ -36,8 +36,8 @@ TEST(Arithmetic, APathOverTwoDiffuseSurfaces) {
     settings.roulette.rule = Roulette::Rule::off;
     const Workers workers(1);
     RenderScene compiled;
-    compiled.update(lower_area_lights(scene), settings, full_plan(), workers);
-    const EstimatorSettings estimator = settings_for_kernels(settings, 1, 1);
+    compiled.update(expand_area_lights(scene), settings, full_plan(), workers);
+    const EstimatorSettings estimator = kernel_settings(settings, 1, 1);
 
     // Every vertex is hit from above, in the middle of the first triangle of one of the three.
     const auto from_above = [](Path<float> path) {

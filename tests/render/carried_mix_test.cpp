@@ -12,7 +12,7 @@ namespace {
 struct Carried : Studio {
     // The names of the mix's channels after an edit.
     std::vector<std::string> after(const Edit& edit) const {
-        const LightMix mix = carried_mix({scene, {}, {}}, {&edit, 1}).value_or(scene.mix);
+        const LightMix mix = rename_mix_channels({scene, {}, {}}, {&edit, 1}).value_or(scene.mix);
         std::vector<std::string> names;
         for (const MixChannel& c : mix.channels) names.push_back(c.group);
         return names;
@@ -35,7 +35,7 @@ TEST(CarriedMix, FollowsARenamedLight) {
         << "the other light becomes the second of this name";
     LightMix mix = s.scene.mix;
     mix.channels.pop_back();
-    EXPECT_EQ(carried_mix({s.scene, {}, {}}, std::array<Edit, 1>{SetMix{mix}}), std::nullopt)
+    EXPECT_EQ(rename_mix_channels({s.scene, {}, {}}, std::array<Edit, 1>{SetMix{mix}}), std::nullopt)
         << "edits of the mix itself are unchanged";
 }
 
@@ -63,7 +63,7 @@ TEST(CarriedMix, RemovesChannelsOfLightsWhoseNameIsReused) {
     const Id<Node> second = shine(s.scene, lamp("Bulb", Light::Kind::point, 1, {1, 1, 1}), at({1, 1, 1}));
     s.channel("Bulb").intensity = 2;
     s.channel("Bulb 2").intensity = 5;
-    const LightMix mix = carried_mix({s.scene, {}, {}}, std::array<Edit, 1>{RemoveNode{s.bulb}}).value_or(s.scene.mix);
+    const LightMix mix = rename_mix_channels({s.scene, {}, {}}, std::array<Edit, 1>{RemoveNode{s.bulb}}).value_or(s.scene.mix);
     ASSERT_EQ(mix.channels.size(), 1u);
     EXPECT_EQ(mix.channels[0].group, "Bulb");
     EXPECT_EQ(mix.channels[0].intensity, 5);

@@ -29,10 +29,10 @@ GeometryPtr sheet(uint32_t n) {
 
 TEST(CompactTree, IsUsedIfMemoryIsShort) {
     constexpr uint64_t gigabyte = 1'000'000'000;
-    EXPECT_FALSE(needs_compact_tree(1'000'000, 4 * gigabyte));
-    EXPECT_TRUE(needs_compact_tree(1'000'000, gigabyte / 10));
-    EXPECT_FALSE(needs_compact_tree(20'000'000, 16 * gigabyte));
-    EXPECT_TRUE(needs_compact_tree(20'000'000, 2 * gigabyte));
+    EXPECT_FALSE(needs_compact_bvh(1'000'000, 4 * gigabyte));
+    EXPECT_TRUE(needs_compact_bvh(1'000'000, gigabyte / 10));
+    EXPECT_FALSE(needs_compact_bvh(20'000'000, 16 * gigabyte));
+    EXPECT_TRUE(needs_compact_bvh(20'000'000, 2 * gigabyte));
 }
 
 // Ray-triangle tests use the same arithmetic, so the image does not depend on the available memory.
@@ -88,9 +88,9 @@ TEST(CompactTree, IsNotUsedIfMemorySuffices) {
     constant_world(scene, 1);
     Renderer renderer({.threads = 1, .planes = {}});
     renderer.update(scene, settings_for(8, 8, 1));
-    const auto ledger = renderer.ledger();
-    const auto line = std::ranges::find(*ledger, "corners in the tree", &FeatureUse::name);
-    ASSERT_NE(line, ledger->end());
+    const auto feature_report = renderer.feature_report();
+    const auto line = std::ranges::find(*feature_report, "corners in the tree", &FeatureUse::name);
+    ASSERT_NE(line, feature_report->end());
     EXPECT_TRUE(line->used) << line->why;
 }
 

@@ -116,7 +116,7 @@ TEST(Copies, EmissiveCopiesBeyondTheLimitAreUnbiased) {
     Renderer renderer({.threads = 1, .planes = {}});
     renderer.update(scene, settings);
     ASSERT_EQ(renderer.info().emissive_triangles, 64 * 32768 + 2);
-    ASSERT_GT(renderer.info().emissive_triangles, most_mesh_lights);
+    ASSERT_GT(renderer.info().emissive_triangles, max_mesh_lights);
     const auto blocks = [&](Strategy strategy, uint32_t seed) {
         settings.strategy = strategy;
         settings.seed = seed;
@@ -160,9 +160,9 @@ TEST(Copies, HaveBoundsAndBlockTheLineOfSight) {
     EXPECT_EQ(all.low, same.low) << "cubes fill their boxes";
     EXPECT_EQ(all.high, same.high);
     const auto is_tree = [&](Id<Node> id) { return id == copies.tree; };
-    EXPECT_EQ(first_between(copies.scene, {1.2, 3, -0.4}, {1.2, -3, -0.4}, is_tree), copies.tree);
-    EXPECT_EQ(first_between(copies.scene, {-1.1, 3, 0.3}, {-1.1, -3, 0.3}, is_tree), copies.tree);
-    EXPECT_FALSE(first_between(copies.scene, {-1.1, 3, 1.3}, {-1.1, -3, 1.3}, is_tree)) << "past it";
+    EXPECT_EQ(first_occluder(copies.scene, {1.2, 3, -0.4}, {1.2, -3, -0.4}, is_tree), copies.tree);
+    EXPECT_EQ(first_occluder(copies.scene, {-1.1, 3, 0.3}, {-1.1, -3, 0.3}, is_tree), copies.tree);
+    EXPECT_FALSE(first_occluder(copies.scene, {-1.1, 3, 1.3}, {-1.1, -3, 1.3}, is_tree)) << "past it";
 }
 
 } // namespace

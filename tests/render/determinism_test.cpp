@@ -40,7 +40,7 @@ TEST(Determinism, DoesNotDependOnThreadsRunsAndSplits) {
 
 TEST(Determinism, IndependentNumbersDoNotDependOnThreadsAndSplits) {
     RenderSettings settings = settings_for(80, 45, 8);
-    settings.sampler = SampleNumbers::random;
+    settings.sampler = SamplerType::random;
     const Scene scene = shipped_scene("veach-mis");
     const Frame once = render_in_steps(scene, settings, 1, {8});
     expect_same(once, render_in_steps(scene, settings, 2, {3, 8}), "two threads, 0:3 + 3:8");
@@ -52,7 +52,7 @@ TEST(Samplers, AgreeInTheMeanAndDifferInNoise) {
     const Scene scene = shipped_scene("cornell");
     RenderSettings settings = settings_for(32, 32, 64);
     const Picture points = render(scene, settings);
-    settings.sampler = SampleNumbers::random;
+    settings.sampler = SamplerType::random;
     settings.seed = 1;
     const Picture numbers = render(scene, settings);
     EXPECT_TRUE(same_means(points.blocks(16, 16), numbers.blocks(16, 16)));

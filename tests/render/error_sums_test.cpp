@@ -26,8 +26,8 @@ struct Halves {
             for (auto* half : {&a, &b}) half->push_back(Vec3d{light(bits), light(bits), light(bits)} * (brightness * (1 + i % w)));
     }
     bool known(int x, int y) const { return (y * width + x) % 7 != 3; }
-    HalvesOfPicture rows() const {
-        return {width, height, [this](int y, float scale, HalfRow& row) {
+    HalfBufferImage rows() const {
+        return {width, height, [this](int y, float scale, HalfBufferRow& row) {
                     for (int x = 0; x < width; ++x) {
                         const size_t i = size_t(y * width + x);
                         const Vec3d u = a[i] * double(scale), v = (known(x, y) ? b[i] : a[i]) * double(scale);
@@ -45,15 +45,15 @@ struct Halves {
     }
 };
 
-TEST(Surroundings, AreMeansOfTheNeighbouringBlocks) {
+TEST(NeighborhoodFilter, AreMeansOfTheNeighbouringBlocks) {
     for (const auto& [w, h] : {std::pair{1, 1}, {1, 5}, {6, 1}, {2, 2}, {2, 7}, {5, 3}, {9, 11}}) {
         const Halves halves(w, h);
-        std::vector<HalfRow> rows{size_t(h), HalfRow(w)};
-        Surroundings surroundings(w, h);
-        Surroundings::Around around{PixelRow(w), PixelRow(w)};
+        std::vector<HalfBufferRow> rows{size_t(h), HalfBufferRow(w)};
+        NeighborhoodFilter surroundings(w, h);
+        NeighborhoodFilter::NeighborhoodMeans around{PixelRow(w), PixelRow(w)};
         const auto own = [&](int x, int y) { return double(rows[size_t(y)].own[0][x]); };
-        const auto look = [&](int y) {
-            surroundings.look(0, y, rows[size_t(y)].own[0], around);
+        const auto current_pictures = [&](int y) {
+            surroundings.current_pictures(0, y, rows[size_t(y)].own[0], around);
             for (int x = 0; x < w; ++x) {
                 std::vector<double> means;
                 for (const auto& [dx, dy] : {std::pair{-1, -1}, {1, -1}, {-1, 1}, {1, 1}}) {
@@ -74,9 +74,9 @@ TEST(Surroundings, AreMeansOfTheNeighbouringBlocks) {
         for (int y = 0; y < h; ++y) {
             halves.rows().load(y, 1, rows[size_t(y)]);
             surroundings.add_row(rows[size_t(y)].own, y);
-            if (y >= 2) look(y - 2);
+            if (y >= 2) current_pictures(y - 2);
         }
-        for (int y = std::max(0, h - 2); y < h; ++y) look(y);
+        for (int y = std::max(0, h - 2); y < h; ++y) current_pictures(y);
     }
 }
 

@@ -18,7 +18,7 @@ ReplayedVertex sound_vertex(int bounce) {
     v.path.beta = {1, 1, 1};
     v.path.pdf = 1;
     v.hit.geometry = -1;
-    v.step.emits = v.step.connects = v.step.continues = v.step.breaks = false;
+    v.step.emits = v.step.connects = v.step.continues = v.step.non_finite = false;
     v.step.weights = {1, 1, 1, 1, 1, false, {1, 1, 1}};
     v.arrived = {0, 0, 0};
     return v;
@@ -66,7 +66,7 @@ TEST(Fault, IsFoundInTheScatteredPath) {
     v.step.next.beta = {nan, 1, 1};
     v.step.next.pdf = 1;
     EXPECT_FALSE(fault(v)) << "the path ended there";
-    v.step.breaks = true;
+    v.step.non_finite = true;
     EXPECT_EQ(fault(v), (Fault{Kind::nan, Place::bsdf_sample, 4}));
     v.step.next.pdf = 0;
     EXPECT_EQ(fault(v), (Fault{Kind::zero_pdf, Place::bsdf_sample, 4}));

@@ -208,8 +208,8 @@ TEST(Flattened, BlockTheLineOfSight) {
     for (const How how : {How::shared_mesh, How::copies}) {
         const Scene scene = pair_of({1, 1, 0}, how);
         const auto is_flat = [&](Id<Node> id) { return id.value > 1; };
-        EXPECT_TRUE(first_between(scene, {-1.2, 0.2, 3}, {-1.2, 0.2, -1}, is_flat));
-        EXPECT_FALSE(first_between(scene, {-1.2, 3, 3}, {-1.2, 3, -1}, is_flat)) << "past it";
+        EXPECT_TRUE(first_occluder(scene, {-1.2, 0.2, 3}, {-1.2, 0.2, -1}, is_flat));
+        EXPECT_FALSE(first_occluder(scene, {-1.2, 3, 3}, {-1.2, 3, -1}, is_flat)) << "past it";
     }
 }
 

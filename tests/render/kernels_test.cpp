@@ -25,15 +25,15 @@ struct Compiled {
     Workers workers{1};
     RenderScene scene;
 
-    explicit Compiled(const Scene& s, bool compensate = false, int reuse = 1, SampleNumbers sampler = SampleNumbers::sobol) {
+    explicit Compiled(const Scene& s, bool compensate = false, int reuse = 1, SamplerType sampler = SamplerType::sobol) {
         settings.reuse = reuse;
         settings.sampler = sampler;
         settings.energy_compensation = compensate;
-        scene.update(lower_area_lights(s), settings, full_plan(), workers);
+        scene.update(expand_area_lights(s), settings, full_plan(), workers);
     }
 
     Tile render(const Kernel& kernel) const {
-        const KernelContext context{&scene.tables(), &scene.accel(), settings_for_kernels(settings, size, size), settings.seed};
+        const KernelContext context{&scene.tables(), &scene.accel(), kernel_settings(settings, size, size), settings.seed};
         const TileJob job{0, 0, size, size, 0, samples};
         const auto scratch = std::make_unique<TileScratch>();
         scratch->first = std::make_unique<FirstHitColumns>();
@@ -79,7 +79,7 @@ TEST(Kernels, GiveTheSameBitsOnShippedScenes) {
 }
 
 TEST(Kernels, GiveTheSameBitsFromIndependentNumbers) {
-    expect_same_bits_from_all_kernels(Compiled(shipped_scene("card-and-mug"), false, 1, SampleNumbers::random));
+    expect_same_bits_from_all_kernels(Compiled(shipped_scene("card-and-mug"), false, 1, SamplerType::random));
 }
 
 TEST(Kernels, GiveTheSameBitsWhenPathsAreShared) {

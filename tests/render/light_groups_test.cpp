@@ -130,7 +130,7 @@ TEST(LightGroups, ShareTheLastPlaneIfThereAreTooMany) {
     Studio studio;
     for (int i = 0; i < 20; ++i) shine(studio.scene, lamp("More", Light::Kind::point, 0.1f, {1, 1, 1}), at({float(i), 1, 0}));
     const LightGroups groups = make_light_groups(studio.scene);
-    ASSERT_EQ(groups.groups.size(), size_t(most_light_groups));
+    ASSERT_EQ(groups.groups.size(), size_t(max_light_groups));
     EXPECT_EQ(groups.sharing, 25 - 15);
     EXPECT_EQ(groups.groups.back().lights.size(), 10u);
     const Frame frame = render_frame(studio.scene, settings_for(16, 16, 4));

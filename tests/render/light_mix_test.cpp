@@ -101,7 +101,7 @@ TEST(LightMix, ThinnedIsTheSameForFewerPixels) {
     gains[0] = {};
     const std::vector<float> all = mixed_rgba(frame, gains);
     for (const int step : {1, 3, 4, 100}) {
-        const ThinnedPlanes some = thinned(planes_of(frame), frame.width, frame.height, step);
+        const SubsampledPlanes some = subsampled(planes_of(frame), frame.width, frame.height, step);
         std::vector<float> mixed(3 * size_t(some.width) * size_t(some.height));
         mix_rgb(some.spans(), gains, mixed);
         EXPECT_EQ(some.width, std::max(frame.width / step, 1));
@@ -203,20 +203,20 @@ TEST_P(MixAim, SamplesByTheMixWithoutBias) {
         hidden.visible = false;
         studio.scene.nodes.set(studio.ball, hidden);
     }
-    Renderer follows({.threads = 2, .planes = {}}), stays({.threads = 2, .planes = {}});
-    for (Renderer* r : {&follows, &stays}) {
+    Renderer follows({.threads = 2, .planes = {}}), scatter_share({.threads = 2, .planes = {}});
+    for (Renderer* r : {&follows, &scatter_share}) {
         r->update(studio.scene, settings);
         r->render(0, 16);
     }
     RenderScene compiled;
-    compiled.update(lower_area_lights(studio.scene), settings, full_plan(), Workers(1));
+    compiled.update(expand_area_lights(studio.scene), settings, full_plan(), Workers(1));
     ASSERT_EQ(compiled.features().has(Feature::light_tree), tree);
     for (const char* off : {"Environment", "Panel", "Sun"}) studio.channel(off).enabled = false;
     if (tree) studio.channel("Object 6").enabled = false;
-    for (Renderer* r : {&follows, &stays}) EXPECT_FALSE(r->update(studio.scene, settings));
-    follows.aim_at_mix();
-    for (Renderer* r : {&follows, &stays}) r->render(16, 80);
-    const Picture a = picture_of(follows), b = picture_of(stays);
+    for (Renderer* r : {&follows, &scatter_share}) EXPECT_FALSE(r->update(studio.scene, settings));
+    follows.select_lights_by_mix();
+    for (Renderer* r : {&follows, &scatter_share}) r->render(16, 80);
+    const Picture a = picture_of(follows), b = picture_of(scatter_share);
     EXPECT_TRUE(same_means(a.blocks(32, 32), b.blocks(32, 32)));
     EXPECT_LT(a.frame.error.rmse_high, b.frame.error.rmse_low) << "selection by the mix must reduce the error";
     expect_planes_sum_to_beauty(a.frame, 0x1p-20, "aimed");

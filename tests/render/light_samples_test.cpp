@@ -32,7 +32,7 @@ struct Desk {
     RenderScene compiled;
     std::mt19937 bits{29};
 
-    void compile() { compiled.update(lower_area_lights(scene), settings_for(8, 8, 1), full_plan(), Workers(1)); }
+    void compile() { compiled.update(expand_area_lights(scene), settings_for(8, 8, 1), full_plan(), Workers(1)); }
     void shine(const Light& light, const Transform& transform) {
         stability::shine(scene, light, transform);
         compile();

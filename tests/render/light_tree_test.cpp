@@ -18,7 +18,7 @@ using namespace statistics;
 
 struct Compiled {
     RenderScene scene;
-    explicit Compiled(const Scene& s) { scene.update(lower_area_lights(s), settings_for(8, 8, 1), full_plan(), Workers(1)); }
+    explicit Compiled(const Scene& s) { scene.update(expand_area_lights(s), settings_for(8, 8, 1), full_plan(), Workers(1)); }
     const LightTables& lights() const { return scene.tables().lights; }
 };
 
@@ -176,7 +176,7 @@ TEST(LightTree, IsNearTheOracleWithTenThousandLights) {
     constexpr int rooms = 20;
     const Compiled compiled(house(rooms));
     ASSERT_NE(compiled.lights().tree.nodes, nullptr);
-    const ChoiceVariance v = choice_variance(compiled.scene.tables(), rooms, 60);
+    const SelectionVariance v = choice_variance(compiled.scene.tables(), rooms, 60);
     EXPECT_LT(v.tree, 3 * v.oracle) << "oracle " << v.oracle << ", tree " << v.tree;
     EXPECT_GT(v.power, 5 * v.tree) << "power " << v.power << ", tree " << v.tree;
 }

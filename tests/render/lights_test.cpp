@@ -236,8 +236,8 @@ TEST(DiskLight, AnyNumberIsBoundedInMemory) {
         EXPECT_EQ(disk_corners(disks(count)), corners) << count;
     constexpr int count = 90'000;
     const Scene scene = disks(count);
-    const Scene lowered = lower_area_lights(scene);
-    const Geometry& shape = *lowered.meshes.begin()->value.parts[0].geometry;
+    const Scene expanded = expand_area_lights(scene);
+    const Geometry& shape = *expanded.meshes.begin()->value.parts[0].geometry;
     ASSERT_EQ(shape.triangle_count(), 6u);
     double area = 0;
     for (size_t t = 0; t < 6; ++t) {

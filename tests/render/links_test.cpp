@@ -164,7 +164,7 @@ TEST(ShadowLinks, WarnIfThereAreTooMany) {
         shine(stage.scene, light, at({0, 2, 0}));
     }
     const CasterSets sets(stage.scene);
-    EXPECT_EQ(sets.left_out(), 40 - most_caster_sets);
+    EXPECT_EQ(sets.left_out(), 40 - max_caster_sets);
     Renderer renderer({.threads = 1});
     renderer.update(stage.scene, settings_for(8, 8, 1));
     bool said = false;

@@ -35,7 +35,7 @@ Geometry waves(uint32_t n) {
 
 GeometryPtr large(bool placed) {
     Geometry g = waves(150);
-    if (placed) place_arrays(g);
+    if (placed) move_to_arena(g);
     return std::make_shared<const Geometry>(std::move(g));
 }
 
@@ -66,21 +66,21 @@ Scene scene_with(const GeometryPtr& shape, const Material& material) {
 
 TEST(Placed, OnlyLargeInstancedMeshesAre) {
     const GeometryPtr placed = large(true), bare = large(false);
-    ASSERT_TRUE(placed_at(*placed));
-    EXPECT_FALSE(placed_at(*bare));
-    EXPECT_FALSE(placed_at(Geometry(*placed)));
+    ASSERT_TRUE(arena_offsets(*placed));
+    EXPECT_FALSE(arena_offsets(*bare));
+    EXPECT_FALSE(arena_offsets(Geometry(*placed)));
     Geometry small = waves(8);
-    place_arrays(small);
-    EXPECT_FALSE(placed_at(small));
+    move_to_arena(small);
+    EXPECT_FALSE(arena_offsets(small));
     EXPECT_EQ(placed->positions, bare->positions);
     EXPECT_EQ(placed->uv, bare->uv);
     EXPECT_EQ(placed->indices, bare->indices);
     // A single array outside the arena is enough.
     Geometry g = waves(150);
-    place_arrays(g);
-    ASSERT_TRUE(placed_at(g));
+    move_to_arena(g);
+    ASSERT_TRUE(arena_offsets(g));
     g.uv[3].push_back({0, 0});
-    EXPECT_FALSE(placed_at(g));
+    EXPECT_FALSE(arena_offsets(g));
 }
 
 TEST(Placed, RenderLikeCopies) {

@@ -287,8 +287,8 @@ TEST(PathReuse, MeasuresTheErrorCorrelation) {
         for (const Vec3& e : renderer.resolve_error()) squares += double(e.y) * double(e.y);
         constexpr double pixels = width * height;
         means.add(sum / pixels);
-        told.add(squares / (pixels * pixels) * renderer.shared_errors().means);
-        shared += renderer.shared_errors().means / seeds;
+        told.add(squares / (pixels * pixels) * renderer.reuse_covariance().means);
+        shared += renderer.reuse_covariance().means / seeds;
     }
     EXPECT_GT(shared, 1.5) << "the test needs correlated errors";
     // A variance from 64 normal means has a relative standard error of sqrt(2 / 63).

@@ -22,7 +22,7 @@ double density(int i, int k) {
     return 1 / (dot(to, to) * dot(to, to));
 }
 
-void put(JunctionColumns& c, int i, const Vec3d& position, float up) {
+void put(ReuseVertexColumns& c, int i, const Vec3d& position, float up) {
     c.px[i] = float(position.x), c.py[i] = float(position.y), c.pz[i] = float(position.z);
     c.clearance[i] = 1e-4f;
     c.gx[i] = c.gz[i] = c.sx[i] = c.sz[i] = 0;
@@ -57,7 +57,7 @@ template <class Hidden, class Tamper> std::array<Vec3d, size> received(const Hid
             batch.density[pair] = tamper(batch.density[pair], m, v);
             batch.drawn[pair] = tamper(batch.drawn[pair], m, v);
         }
-    Vec3 share[ReuseBatch::most_seats];
+    Vec3 share[ReuseBatch::max_seats];
     weigh(batch, size, share);
     distribute<float>(reuse, batch, size, share, {scratch->r, scratch->g, scratch->b});
     std::array<Vec3d, size> result;

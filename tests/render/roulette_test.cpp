@@ -37,7 +37,7 @@ TEST(RouletteColumns, PathsInAClosedRoomAreGeometric) {
     for (const float length : frame.path_length) lengths.add(double(length));
     EXPECT_TRUE(z_test(lengths, 1 / (1 - q)));
     for (const float survival : frame.survival) EXPECT_NEAR(survival, q, 1e-6);
-    ASSERT_EQ(int(frame.path_counts.size()), most_counted_bounces);
+    ASSERT_EQ(int(frame.path_counts.size()), max_counted_bounces);
     EXPECT_EQ(frame.path_counts[0].alive, 32 * 32 * 16);
     int64_t rays = 0;
     for (const PathCounts& c : frame.path_counts) rays += c.alive;
@@ -71,13 +71,13 @@ RouletteReport report_of(const Roulette& roulette, int max_bounces, int rounds) 
     RenderSettings settings = settings_for(320, 200, 1);
     settings.roulette = roulette;
     settings.max_bounces = max_bounces;
-    RouletteLab lab({.threads = 1, .planes = {}});
+    RouletteComparison lab({.threads = 1, .planes = {}});
     lab.begin(shipped_scene("cornell"), settings, 24, 4);
     for (int i = 0; i < rounds; ++i) lab.round();
     return lab.report();
 }
 
-TEST(RouletteLab, UnbiasedRulesPass) {
+TEST(RouletteComparison, UnbiasedRulesPass) {
     for (const char* text : {"max,start=3", "luminance,start=1", "sqrt,start=2", "constant=0.6,start=1", "max,start=1,cap=0.5"}) {
         const RouletteReport report = report_of(*parse_roulette(text), unlimited_bounces, 24);
         EXPECT_FALSE(report.biased()) << text;
@@ -86,7 +86,7 @@ TEST(RouletteLab, UnbiasedRulesPass) {
     }
 }
 
-TEST(RouletteLab, DetectsTheBiasedCutAndItsBounces) {
+TEST(RouletteComparison, DetectsTheBiasedCutAndItsBounces) {
     const RouletteReport report = report_of(*parse_roulette("biased-cut=0.3,start=1"), unlimited_bounces, 24);
     EXPECT_TRUE(report.biased());
     EXPECT_TRUE(report.bias[0].significant);
@@ -102,7 +102,7 @@ TEST(RouletteLab, DetectsTheBiasedCutAndItsBounces) {
     EXPECT_NEAR(by_bounce, report.bias[0].difference, 1e-9);
 }
 
-TEST(RouletteLab, DetectsABareBounceCap) {
+TEST(RouletteComparison, DetectsABareBounceCap) {
     const RouletteReport report = report_of(*parse_roulette("off"), 3, 24);
     EXPECT_TRUE(report.bias[0].significant);
     EXPECT_LT(report.bias[0].difference, 0);
@@ -113,7 +113,7 @@ TEST(RouletteLab, DetectsABareBounceCap) {
     }
 }
 
-TEST(RouletteLab, NothingDiffersFromItself) {
+TEST(RouletteComparison, NothingDiffersFromItself) {
     const RouletteReport report = report_of(*parse_roulette("off"), unlimited_bounces, 16);
     for (const RouletteBias& bias : report.bias) EXPECT_EQ(bias.difference, 0);
     EXPECT_FALSE(report.biased());

@@ -213,7 +213,7 @@ TEST(Saved, TangentsFollowTheNormalMapToAnotherUvSetAsInTheReopenedFile) {
     const auto bumpy = import_gltf(folder / "bumpy.gltf");
     ASSERT_TRUE(bumpy) << bumpy.error().text();
     const auto geometry_of = [](const Scene& scene) { return scene.meshes.begin()->value.parts[0].geometry; };
-    ASSERT_TRUE(geometry_of(bumpy->scene)->made_tangents);
+    ASSERT_TRUE(geometry_of(bumpy->scene)->generated_tangents);
     EXPECT_EQ(scene_hash(bumpy->scene), scene_hash(project.scene)) << "generated tangents are not part of the hash";
     project.scene = bumpy->scene;
     const Frame first = picture(project);

@@ -77,7 +77,7 @@ TEST(DenoiseCadence, AtMostOnceASecondAndATenthOfTheTime) {
             spent += bench.seconds[size_t(d.quality)];
             const bool last = i + 1 == bench.done.size();
             if (i == 0 || last) continue; // those two are guaranteed at any cost
-            EXPECT_GE(d.at, bench.done[i - 1].at + DenoiseCadence::least_interval - 1e-9);
+            EXPECT_GE(d.at, bench.done[i - 1].at + DenoiseCadence::min_interval - 1e-9);
             EXPECT_LE(spent, DenoiseCadence::time_share * (d.at - begin) + 1e-9) << "picture " << i << " of " << slowness;
         }
     }
@@ -88,7 +88,7 @@ TEST(DenoiseCadence, UsesTheLargeNetworkWhenIdleAndTheBestAtTheEnd) {
     const double begin = bench.now;
     bench.render(1, 300);
     for (size_t i = 0; i + 1 < bench.done.size(); ++i)
-        EXPECT_EQ(bench.done[i].quality, bench.done[i].at < begin + DenoiseCadence::rest_seconds ? fast : base) << i;
+        EXPECT_EQ(bench.done[i].quality, bench.done[i].at < begin + DenoiseCadence::idle_seconds ? fast : base) << i;
     EXPECT_EQ(bench.done.back().quality, high);
     EXPECT_EQ(bench.done.back().samples, 300);
     EXPECT_TRUE(std::isinf(bench.cadence.next(bench.now).wait)) << "then it sleeps";

@@ -23,7 +23,7 @@ using test::checksum;
 using test::Event;
 using test::fresh_picture;
 using test::same_picture;
-using test::WatchedSession;
+using test::RecordingSession;
 
 // Returns each image unchanged, and records its calls.
 class StandIn {
@@ -93,7 +93,7 @@ Project lit_by(Project project, float intensity) {
 }
 
 void submit(RenderSession& session, uint64_t revision, const Project& project) { session.submit(revision, project.scene, project.render); }
-void submit(WatchedSession& session, uint64_t revision, const Project& project) {
+void submit(RecordingSession& session, uint64_t revision, const Project& project) {
     session->submit(revision, project.scene, project.render);
 }
 
@@ -111,7 +111,7 @@ bool shows(const DenoisedPicture& denoised, const Frame& frame) {
 
 TEST(DenoisedSession, NothingIsDenoisedBeforeItIsWanted) {
     StandIn networks;
-    WatchedSession session(2, {}, networks.function());
+    RecordingSession session(2, {}, networks.function());
     submit(session, 1, small_project());
     session.wait_for(1, State::complete);
     session.shut_down();
@@ -122,7 +122,7 @@ TEST(DenoisedSession, NothingIsDenoisedBeforeItIsWanted) {
 TEST(DenoisedSession, TheFirstIsFastAndTheLastIsTheBestOfTheLastFrame) {
     const Project project = small_project(16);
     StandIn networks;
-    WatchedSession session(2, {}, networks.function());
+    RecordingSession session(2, {}, networks.function());
     session->want_denoised(true);
     submit(session, 1, project);
     const Event last = session.wait_for(ends(1));
@@ -146,7 +146,7 @@ TEST(DenoisedSession, TheFirstIsFastAndTheLastIsTheBestOfTheLastFrame) {
 
 TEST(DenoisedSession, EnabledWhenCompleteItAddsAPictureAndResetsNothing) {
     StandIn networks;
-    WatchedSession session(2, {}, networks.function());
+    RecordingSession session(2, {}, networks.function());
     submit(session, 1, small_project());
     const Event before = session.wait_for(1, State::complete);
     session->want_denoised(true);
@@ -174,7 +174,7 @@ TEST(DenoisedSession, DenoisedPicturesBelongToTheImageOfTheirFrame) {
     const Project project = small_project(6);
     constexpr uint64_t last = 12;
     StandIn networks;
-    WatchedSession session(
+    RecordingSession session(
         2,
         [&, next = uint64_t(2)](RenderSession& s, const Event& e) mutable {
             if (next > last || !e.denoised || e.denoised->revision + 1 != next) return;
@@ -197,7 +197,7 @@ TEST(DenoisedSession, DraggingDoesNotFlickerBetweenNoisyAndDenoised) {
     networks.instead = [](size_t, const std::function<bool()>&) {
         return Result<std::optional<Denoised>>(std::optional<Denoised>(Denoised{}));
     };
-    WatchedSession session(2, {}, networks.function());
+    RecordingSession session(2, {}, networks.function());
     session->want_denoised(true);
     // At first its speed is unknown; on a busy machine the first prediction may be wrong.
     constexpr uint64_t learnt = 3, last = 8;
@@ -226,7 +226,7 @@ TEST(DenoisedSession, AnEditCancelsDenoising) {
         begun = true, begun.notify_all();
         return wait_until_unwanted(wanted);
     };
-    WatchedSession session(2, {}, networks.function());
+    RecordingSession session(2, {}, networks.function());
     session->want_denoised(true);
     submit(session, 1, small_project());
     begun.wait(false);
@@ -244,7 +244,7 @@ TEST(DenoisedSession, ToggledOffItStopsInTheMiddle) {
         begun = true, begun.notify_all();
         return wait_until_unwanted(wanted);
     };
-    WatchedSession session(2, {}, networks.function());
+    RecordingSession session(2, {}, networks.function());
     session->want_denoised(true);
     submit(session, 1, small_project());
     begun.wait(false);
@@ -256,7 +256,7 @@ TEST(DenoisedSession, EndsInTheMiddleOfDenoising) {
     for (int i = 0; i < 20; ++i) {
         StandIn networks;
         networks.instead = [](size_t, const std::function<bool()>& wanted) { return wait_until_unwanted(wanted); };
-        WatchedSession session(2, {}, networks.function());
+        RecordingSession session(2, {}, networks.function());
         session->want_denoised(true);
         submit(session, 1, small_project());
         if (i % 2) session.wait_for(1, State::complete);
@@ -271,7 +271,7 @@ TEST(DenoisedSession, RendersIfDenoisingFails) {
             if (throws) throw std::bad_alloc();
             return Error{"rt_hdr.tza", "damaged", ""};
         };
-        WatchedSession session(2, {}, networks.function());
+        RecordingSession session(2, {}, networks.function());
         session->want_denoised(true);
         submit(session, 1, project);
         const Event failed = session.wait_for([](const Event& e) { return !e.status.denoiser_failure.empty(); });
@@ -289,7 +289,7 @@ TEST(DenoisedSession, RendersIfDenoisingFails) {
 TEST(DenoisedSession, TheExposureScaleIsConstantWhileAnImageRefines) {
     const Project project = small_project(64);
     StandIn networks;
-    WatchedSession session(2, {}, networks.function());
+    RecordingSession session(2, {}, networks.function());
     session->want_denoised(true);
     for (uint64_t revision = 1; revision <= 3; ++revision) {
         submit(session, revision, lit_by(project, float(revision)));
@@ -326,7 +326,7 @@ TEST(DenoisedSession, DenoiserMemoryIsFreedWhenDisabled) {
         return [weights, denoise = networks.function()](const auto&... arguments) { return denoise(arguments...); };
     };
     {
-        WatchedSession session(options);
+        RecordingSession session(options);
         session->want_denoised(true);
         submit(session, 1, small_project());
         EXPECT_NE(session.wait_for(ends(1)).status.denoised_with, none);
@@ -344,7 +344,7 @@ TEST(DenoisedSession, DenoiserMemoryIsFreedWhenDisabled) {
     }
     made.clear();
     options.denoiser_grace = 1e6;
-    WatchedSession session(options);
+    RecordingSession session(options);
     for (uint64_t revision = 1; revision <= 3; ++revision) {
         session->want_denoised(true);
         submit(session, revision, lit_by(small_project(), float(revision)));
@@ -365,7 +365,7 @@ TEST(DenoisedSession, PublishedPicturesNeverChange) {
     std::map<FramePtr, uint64_t> sources;
     StandIn networks;
     {
-        WatchedSession session(
+        RecordingSession session(
             2,
             [&](RenderSession&, const Event& e) {
                 if (e.denoised) held.try_emplace(e.denoised, sum(*e.denoised));
@@ -386,7 +386,7 @@ TEST(DenoisedSession, PublishedPicturesNeverChange) {
 TEST(DenoisedSession, ManyThreadsMayToggleSubmitAndRead) {
     const Project project = small_project(2, 16, 12);
     StandIn networks;
-    WatchedSession session(2, {}, networks.function());
+    RecordingSession session(2, {}, networks.function());
     std::vector<std::thread> callers;
     for (uint64_t t = 0; t < 3; ++t)
         callers.emplace_back([&, t] {
@@ -416,7 +416,7 @@ TEST(DenoisedSession, AWithheldFrameIsShownWhenDenoisingIsDisabled) {
         begun = true, begun.notify_all();
         return wait_until_unwanted(wanted);
     };
-    WatchedSession session(2, {}, networks.function());
+    RecordingSession session(2, {}, networks.function());
     session->want_denoised(true);
     submit(session, 1, project);
     session.wait_for(ends(1));

@@ -15,7 +15,7 @@ struct Bench {
     int estimates = 0;
 
     ErrorCadence::Picture picture(bool wanted = false) const { return {samples, pixels, sample_seconds * double(samples), wanted}; }
-    void look(bool wanted = false) {
+    void current_pictures(bool wanted = false) {
         if (!cadence.due(picture(wanted))) return;
         cadence.record(picture(wanted), estimate_seconds);
         ++estimates;
@@ -23,7 +23,7 @@ struct Bench {
     void render(int count) {
         for (int i = 0; i < count; ++i) {
             ++samples;
-            look();
+            current_pictures();
         }
     }
 };
@@ -51,7 +51,7 @@ TEST(ErrorCadence, ARequestedEstimateIsDoneAtAnyCost) {
     Bench bench;
     bench.render(3);
     const int estimates = bench.estimates;
-    for (int i = 0; i < 5; ++i) bench.look(true);
+    for (int i = 0; i < 5; ++i) bench.current_pictures(true);
     EXPECT_EQ(bench.estimates, estimates + 5);
     EXPECT_DOUBLE_EQ(bench.cadence.spent(), estimate_seconds * bench.estimates) << "and counted";
 }
@@ -59,7 +59,7 @@ TEST(ErrorCadence, ARequestedEstimateIsDoneAtAnyCost) {
 TEST(ErrorCadence, NeedsTwoSamples) {
     Bench bench;
     bench.render(1);
-    bench.look(true);
+    bench.current_pictures(true);
     EXPECT_EQ(bench.estimates, 0);
 }
 

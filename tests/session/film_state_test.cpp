@@ -15,7 +15,7 @@ namespace {
 
 using State = SessionStatus::State;
 using test::Event;
-using test::WatchedSession;
+using test::RecordingSession;
 
 constexpr PlaneSet everything{true, true, true, true, 4, true};
 
@@ -216,22 +216,22 @@ TEST(FilmState, HealthAddsUp) {
 
 // ---- through the session
 
-KeptFilm kept_film(WatchedSession& session) {
-    std::optional<KeptFilm> kept;
+RequestedFilm kept_film(RecordingSession& session) {
+    std::optional<RequestedFilm> kept;
     session.wait_for([&](const Event&) {
-        if (!kept) kept = session->take_kept_film();
+        if (!kept) kept = session->take_requested_film();
         return kept.has_value();
     });
-    return kept.value_or(KeptFilm{});
+    return kept.value_or(RequestedFilm{});
 }
 
 TEST(SessionFilm, IsThatOfTheFrameThatComesWithIt) {
     Project p = small_project();
-    WatchedSession session;
+    RecordingSession session;
     session->submit(1, p.scene, p.render);
     session.wait_for(1, State::complete);
-    session->keep_film(1);
-    const KeptFilm kept = kept_film(session);
+    session->request_film(1);
+    const RequestedFilm kept = kept_film(session);
     ASSERT_TRUE(kept.film) << kept.why_none;
     EXPECT_EQ(kept.revision, 1u);
     EXPECT_TRUE(test::same_picture(*kept.frame, *session->latest()));
@@ -242,11 +242,11 @@ TEST(SessionFilm, IsThatOfTheFrameThatComesWithIt) {
 TEST(SessionFilm, RestoredAndContinuedEqualsUninterrupted) {
     Project p = small_project();
     p.render.spp = 8;
-    WatchedSession session;
+    RecordingSession session;
     session->submit(1, p.scene, p.render);
     session.wait_for(1, State::complete);
-    session->keep_film(1);
-    const KeptFilm kept = kept_film(session);
+    session->request_film(1);
+    const RequestedFilm kept = kept_film(session);
     ASSERT_TRUE(kept.film) << kept.why_none;
 
     Project edited = p;
@@ -269,30 +269,30 @@ TEST(SessionFilm, RestoredAndContinuedEqualsUninterrupted) {
 
 TEST(SessionFilm, ReportsWhyItRestarts) {
     Project p = small_project();
-    WatchedSession session;
+    RecordingSession session;
     session->submit(1, p.scene, p.render);
     session.wait_for(1, State::complete);
-    session->keep_film(1);
-    const KeptFilm kept = kept_film(session);
+    session->request_film(1);
+    const RequestedFilm kept = kept_film(session);
     ASSERT_TRUE(kept.film);
     session->submit(2, p.scene, p.render, {.bounces = 4}, kept.film);
     const Event done = session.wait_for(2, State::complete);
-    EXPECT_EQ(done.status.not_continued, "the saved samples lack the plane \"bounce.0.R\"");
+    EXPECT_EQ(done.status.restart_reason, "the saved samples lack the plane \"bounce.0.R\"");
     EXPECT_EQ(done.frame->samples, 20);
     session->submit(3, p.scene, p.render, {}, kept.film);
-    EXPECT_EQ(session.wait_for(3, State::complete).status.not_continued, "");
+    EXPECT_EQ(session.wait_for(3, State::complete).status.restart_reason, "");
 }
 
 TEST(SessionFilm, OfAReplacedImageIsUnavailable) {
     Project p = small_project();
-    WatchedSession session;
+    RecordingSession session;
     session->submit(1, p.scene, p.render);
     session.wait_for(1, State::complete);
     p.render.seed = 7;
     session->submit(2, p.scene, p.render);
     session.wait_for(2, State::complete);
-    session->keep_film(1);
-    const KeptFilm kept = kept_film(session);
+    session->request_film(1);
+    const RequestedFilm kept = kept_film(session);
     EXPECT_FALSE(kept.film);
     EXPECT_EQ(kept.why_none, "the image changed before its film was saved");
 }
@@ -300,11 +300,11 @@ TEST(SessionFilm, OfAReplacedImageIsUnavailable) {
 // A following change of the stop rules does not lose the samples.
 TEST(SessionFilm, SurvivesASubmissionThatReplacesThePendingOne) {
     Project p = small_project();
-    WatchedSession session;
+    RecordingSession session;
     session->submit(1, p.scene, p.render);
     session.wait_for(1, State::complete);
-    session->keep_film(1);
-    const KeptFilm kept = kept_film(session);
+    session->request_film(1);
+    const RequestedFilm kept = kept_film(session);
     Project other = p;
     other.render.seed = 5;
     session->submit(2, other.scene, other.render);

@@ -116,16 +116,16 @@ TEST(Renderer, FollowsAnimationsBitForBit) {
     const Frame first = updated.picture();
     for (const auto& [id, clip] : Table<Clip>(project.scene.clips))
         for (const float t : {0.f, 0.7f, 1.9f, 0.7f}) {
-            project.scene = staged(project.scene, {.clip = id, .seconds = t});
+            project.scene = with_scene_selection(project.scene, {.clip = id, .seconds = t});
             updated.follow(project);
             EXPECT_TRUE(same_picture(updated.picture(), fresh_picture(project.scene, project.render, samples))) << clip.name << " at " << t;
             EXPECT_EQ(same_picture(updated.picture(), first), t == 0 && clip.name == "Swing") << clip.name << " at " << t;
         }
-    project.scene = staged(project.scene, {.scene = 1});
+    project.scene = with_scene_selection(project.scene, {.scene = 1});
     updated.follow(project);
     EXPECT_TRUE(same_picture(updated.picture(), fresh_picture(project.scene, project.render, samples)));
     EXPECT_FALSE(same_picture(updated.picture(), first)) << "the other scene looks the same";
-    project.scene = staged(project.scene, {});
+    project.scene = with_scene_selection(project.scene, {});
     updated.follow(project);
     EXPECT_TRUE(same_picture(updated.picture(), first));
 }
@@ -194,7 +194,7 @@ TEST(Renderer, MakesTangentsWhenAMaterialNeedsThem) {
     updated.follow(project);
     EXPECT_TRUE(same_picture(updated.picture(), fresh_picture(project.scene, project.render, samples)))
         << "tangents of the first UV set";
-    project.scene = with_geometries(project.scene, [](const MeshPart& part, Geometry& g) { g = *without_made_tangents(part.geometry); });
+    project.scene = with_geometries(project.scene, [](const MeshPart& part, Geometry& g) { g = *without_generated_tangents(part.geometry); });
     restyle([](Material&) {});
     updated.follow(project);
     EXPECT_TRUE(same_picture(updated.picture(), plain));

@@ -12,7 +12,7 @@ namespace {
 
 using State = SessionStatus::State;
 using test::Event;
-using test::WatchedSession;
+using test::RecordingSession;
 
 struct Lamps {
     test::Sample sample = test::sample_project();
@@ -31,13 +31,13 @@ struct Lamps {
     }
 };
 
-FramePtr frame_of(WatchedSession& session, uint64_t revision) {
+FramePtr frame_of(RecordingSession& session, uint64_t revision) {
     return session.wait_for([&](const Event& e) { return e.frame && e.frame->revision == revision && e.frame->complete; }).frame;
 }
 
 TEST(SessionMix, AppliesToExistingSamples) {
     Lamps lamps;
-    WatchedSession session;
+    RecordingSession session;
     session->submit(1, lamps.project.scene, lamps.project.render);
     const FramePtr before = frame_of(session, 1);
     ASSERT_TRUE(before);
@@ -68,7 +68,7 @@ TEST(SessionMix, AppliesToExistingSamples) {
 TEST(SessionMix, IsRelativeToTheSceneThatBeganTheImage) {
     Lamps lamps;
     const Scene first = lamps.project.scene;
-    WatchedSession session;
+    RecordingSession session;
     session->submit(1, lamps.project.scene, lamps.project.render);
     lamps.dim(0);
     session->submit(2, lamps.project.scene, lamps.project.render);
@@ -83,22 +83,22 @@ TEST(SessionMix, IsRelativeToTheSceneThatBeganTheImage) {
 
 TEST(SessionMix, SavesAFilmThatOthersCanContinue) {
     Lamps lamps;
-    WatchedSession session;
+    RecordingSession session;
     session->submit(1, lamps.project.scene, lamps.project.render);
     ASSERT_TRUE(frame_of(session, 1));
     lamps.dim(3);
     session->submit(2, lamps.project.scene, lamps.project.render);
     const FramePtr mixed = frame_of(session, 2);
     ASSERT_TRUE(mixed);
-    session->keep_film(2);
-    std::optional<KeptFilm> kept;
+    session->request_film(2);
+    std::optional<RequestedFilm> kept;
     session.wait_for([&](const Event&) {
-        if (!kept) kept = session->take_kept_film();
+        if (!kept) kept = session->take_requested_film();
         return kept.has_value();
     });
     ASSERT_TRUE(kept && kept->film) << (kept ? kept->why_none : "");
 
-    WatchedSession other;
+    RecordingSession other;
     other->submit(1, lamps.project.scene, lamps.project.render, {}, kept->film);
     const FramePtr restored = frame_of(other, 1);
     ASSERT_TRUE(restored);
@@ -116,7 +116,7 @@ Result<std::optional<Denoised>> halved(const DenoiseInput& input, const DenoiseO
 
 TEST(SessionMix, StaysDenoised) {
     Lamps lamps;
-    WatchedSession session(2, {}, halved);
+    RecordingSession session(2, {}, halved);
     session->want_denoised(true);
     session->submit(1, lamps.project.scene, lamps.project.render);
     // Earlier frames are denoised again with better quality.

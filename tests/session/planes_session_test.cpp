@@ -12,7 +12,7 @@ namespace {
 
 using State = SessionStatus::State;
 using test::Event;
-using test::WatchedSession;
+using test::RecordingSession;
 
 constexpr PlaneSet bounces{.bounces = 4};
 
@@ -26,7 +26,7 @@ Project small_project() {
 
 TEST(SessionPlanes, RestartTheImageWhenAddedButNotWhenRemoved) {
     const Project p = small_project();
-    WatchedSession session;
+    RecordingSession session;
     session->submit(1, p.scene, p.render);
     const FramePtr plain = session.wait_for(1, State::complete).frame;
     ASSERT_TRUE(plain);
@@ -49,7 +49,7 @@ TEST(SessionPlanes, RestartTheImageWhenAddedButNotWhenRemoved) {
 
 TEST(SessionPlanes, SurviveEdits) {
     Project p = small_project();
-    WatchedSession session;
+    RecordingSession session;
     session->submit(1, p.scene, p.render, bounces);
     session.wait_for(1, State::complete);
     p.render.seed = 5;

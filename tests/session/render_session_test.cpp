@@ -21,7 +21,7 @@ using test::checksum;
 using test::Event;
 using test::fresh_picture;
 using test::same_picture;
-using test::WatchedSession;
+using test::RecordingSession;
 
 Project small_project(int width = 32, int height = 24, int64_t spp = 8) {
     Project project = test::sample_project().project;
@@ -49,14 +49,14 @@ Project with_spp(Project project, int64_t spp) {
 }
 
 void submit(RenderSession& session, uint64_t revision, const Project& project) { session.submit(revision, project.scene, project.render); }
-void submit(WatchedSession& session, uint64_t revision, const Project& project) {
+void submit(RecordingSession& session, uint64_t revision, const Project& project) {
     session->submit(revision, project.scene, project.render);
 }
 
 Frame fresh(const Project& project) { return fresh_picture(project.scene, project.render, project.render.spp); }
 
 // Revisions of published frames in order, each once.
-std::vector<uint64_t> revisions_shown(const WatchedSession& session) {
+std::vector<uint64_t> revisions_shown(const RecordingSession& session) {
     std::vector<uint64_t> revisions;
     for (const FramePtr& frame : session.frames())
         if (revisions.empty() || revisions.back() != frame->revision) revisions.push_back(frame->revision);
@@ -80,7 +80,7 @@ test::EventTest shows(uint64_t revision) {
 }
 
 TEST(RenderSession, BeginsIdle) {
-    WatchedSession session;
+    RecordingSession session;
     EXPECT_EQ(session->status().state, State::idle);
     EXPECT_EQ(session->latest(), nullptr);
     session.shut_down();
@@ -89,7 +89,7 @@ TEST(RenderSession, BeginsIdle) {
 
 TEST(RenderSession, ReachesTheImageOfARendererAndCompletes) {
     const Project project = small_project();
-    WatchedSession session;
+    RecordingSession session;
     submit(session, 5, project);
     const Event last = session.wait_for(5, State::complete);
     ASSERT_TRUE(last.frame);
@@ -116,7 +116,7 @@ TEST(RenderSession, ReachesTheImageOfARendererAndCompletes) {
 // Not every frame's error is estimated; each frame has the latest estimate with its sample count.
 TEST(RenderSession, ErrorsStateTheirSampleCount) {
     const Project project = small_project(64, 48, 64);
-    WatchedSession session;
+    RecordingSession session;
     submit(session, 1, project);
     session.wait_for(1, State::complete);
     session.shut_down();
@@ -134,7 +134,7 @@ TEST(RenderSession, ErrorsStateTheirSampleCount) {
 
 TEST(RenderSession, CoarsePictureFirstFullResolutionNext) {
     const Project project = large_project(2);
-    WatchedSession session;
+    RecordingSession session;
     submit(session, 1, project);
     session.wait_for(1, State::complete);
     session.shut_down();
@@ -147,7 +147,7 @@ TEST(RenderSession, CoarsePictureFirstFullResolutionNext) {
 }
 
 TEST(RenderSession, LatestOfTenThousandWins) {
-    WatchedSession session;
+    RecordingSession session;
     const Project project = small_project(16, 12, 4);
     Project last;
     for (uint64_t revision = 1; revision <= 10000; ++revision) submit(session, revision, last = lit_by(project, float(revision)));
@@ -162,7 +162,7 @@ TEST(RenderSession, LatestOfTenThousandWins) {
 
 TEST(RenderSession, ManyThreadsMaySubmitAndRead) {
     const Project project = small_project(16, 12, 2);
-    WatchedSession session;
+    RecordingSession session;
     std::vector<std::thread> callers;
     for (uint64_t t = 0; t < 3; ++t)
         callers.emplace_back([&, t] {
@@ -187,7 +187,7 @@ TEST(RenderSession, AnAppliedSubmissionIsShownEvenIfTheNextIsPending) {
     const Project project = large_project(2);
     constexpr uint64_t last = 6;
     uint64_t submitted = 1;
-    WatchedSession session(2, [&](RenderSession& s, const Event& e) {
+    RecordingSession session(2, [&](RenderSession& s, const Event& e) {
         if (e.status.state == State::updating && e.status.revision == submitted && submitted < last) {
             ++submitted;
             submit(s, submitted, lit_by(project, float(submitted)));
@@ -206,7 +206,7 @@ TEST(RenderSession, AnAppliedSubmissionIsShownEvenIfTheNextIsPending) {
 
 TEST(RenderSession, PausedItShowsTheFirstPictureAndWaits) {
     const Project project = small_project(32, 24, 16);
-    WatchedSession session;
+    RecordingSession session;
     session->pause(true);
     submit(session, 1, project);
     const Event first = session.wait_for(1, State::paused);
@@ -233,7 +233,7 @@ TEST(RenderSession, PausedItShowsTheFirstPictureAndWaits) {
 
 TEST(RenderSession, PausingKeepsTheSamples) {
     const Project project = small_project(32, 24, 64);
-    WatchedSession session(2, once([](const Event& e) { return e.frame && e.frame->samples >= 4; }, [](RenderSession& s) { s.pause(true); }));
+    RecordingSession session(2, once([](const Event& e) { return e.frame && e.frame->samples >= 4; }, [](RenderSession& s) { s.pause(true); }));
     submit(session, 1, project);
     const Event paused = session.wait_for(1, State::paused);
     ASSERT_TRUE(paused.frame);
@@ -248,7 +248,7 @@ TEST(RenderSession, CanBeDestroyedDuringAPass) {
     // Rendering is endless: the destructor returns because it interrupts a pass.
     const Project project = small_project(2048, 2048, 0);
     for (int i = 0; i < 3; ++i) {
-        WatchedSession session;
+        RecordingSession session;
         submit(session, 1, project);
         session.wait_for(shows(1));
         session.shut_down();
@@ -259,14 +259,14 @@ TEST(RenderSession, CanBeDestroyedDuringAPass) {
 TEST(RenderSession, CanBeDestroyedBeforeAndDuringTheFirstImage) {
     const Project project = large_project(4);
     for (int i = 0; i < 20; ++i) {
-        WatchedSession session;
+        RecordingSession session;
         submit(session, 1, project);
     }
 }
 
 TEST(RenderSession, MoreSamplesContinueTheImage) {
     const Project project = small_project(32, 24, 4);
-    WatchedSession session;
+    RecordingSession session;
     submit(session, 1, project);
     session.wait_for(1, State::complete);
     submit(session, 2, with_spp(project, 16));
@@ -283,7 +283,7 @@ TEST(RenderSession, MoreSamplesContinueTheImage) {
 
 TEST(RenderSession, StopRulesMayChangeInTheMiddle) {
     const Project project = small_project(32, 24, 0);
-    WatchedSession session(2, once([](const Event& e) { return e.frame && e.frame->samples >= 4; },
+    RecordingSession session(2, once([](const Event& e) { return e.frame && e.frame->samples >= 4; },
                                    [&](RenderSession& s) { submit(s, 2, with_spp(project, 50)); }));
     submit(session, 1, project);
     const Event done = session.wait_for(2, State::complete);
@@ -296,7 +296,7 @@ TEST(RenderSession, StopRulesMayChangeInTheMiddle) {
 TEST(RenderSession, AdaptiveSamplingShowsThePictureThatARendererMakes) {
     Project project = small_project(48, 32, 48);
     project.render.adaptive = true;
-    WatchedSession session;
+    RecordingSession session;
     submit(session, 1, project);
     const Event done = session.wait_for(1, State::complete);
     ASSERT_TRUE(done.frame);
@@ -312,7 +312,7 @@ TEST(RenderSession, AdaptiveSamplingShowsThePictureThatARendererMakes) {
 
 TEST(RenderSession, FewerSamplesThanRenderedCompleteAtOnce) {
     const Project project = small_project(32, 24, 16);
-    WatchedSession session;
+    RecordingSession session;
     submit(session, 1, project);
     session.wait_for(1, State::complete);
     submit(session, 2, with_spp(project, 8));
@@ -325,7 +325,7 @@ TEST(RenderSession, FewerSamplesThanRenderedCompleteAtOnce) {
 
 TEST(RenderSession, ARenameDoesNotRestart) {
     const Project project = small_project(32, 24, 8);
-    WatchedSession session;
+    RecordingSession session;
     submit(session, 1, project);
     session.wait_for(1, State::complete);
     Project renamed = project;
@@ -341,7 +341,7 @@ TEST(RenderSession, ARenameDoesNotRestart) {
 
 TEST(RenderSession, SleepsWhenComplete) {
     const Project project = small_project();
-    WatchedSession session;
+    RecordingSession session;
     submit(session, 1, project);
     session.wait_for(1, State::complete);
     for (int i = 0; i < 100; ++i) session->pause(i % 2 == 0); // wakes it unnecessarily
@@ -359,7 +359,7 @@ TEST(RenderSession, ReportsFailuresAndRecovers) {
     const Project project = small_project();
     Project impossible = project;
     impossible.render.width = impossible.render.height = 65536;
-    WatchedSession session;
+    RecordingSession session;
     submit(session, 1, impossible);
     const Event failed = session.wait_for(1, State::failed);
     EXPECT_FALSE(failed.status.message.empty());
@@ -407,7 +407,7 @@ TEST(RenderSession, FramesOutliveTheSession) {
     const Project project = small_project();
     FramePtr frame;
     {
-        WatchedSession session;
+        RecordingSession session;
         submit(session, 1, project);
         frame = session.wait_for(1, State::complete).frame;
     }
@@ -419,7 +419,7 @@ TEST(RenderSession, ThreadsDoNotChangeABit) {
     Project project = test::rich_project();
     project.render.spp = 5;
     for (const unsigned threads : {1u, 2u, 5u}) {
-        WatchedSession session(threads);
+        RecordingSession session(threads);
         submit(session, 1, project);
         const Event done = session.wait_for(1, State::complete);
         ASSERT_TRUE(done.frame);
@@ -430,7 +430,7 @@ TEST(RenderSession, ThreadsDoNotChangeABit) {
 TEST(RenderSession, TheResolutionScaleMultipliesTheSize) {
     Project project = small_project(40, 20, 2);
     project.render.resolution_scale = 0.5f;
-    WatchedSession session;
+    RecordingSession session;
     submit(session, 1, project);
     const Event done = session.wait_for(1, State::complete);
     ASSERT_TRUE(done.frame);

@@ -66,7 +66,7 @@ TEST(Scheduler, FirstPictureHasAMinimumSize) {
     EXPECT_EQ(experienced({1000}, endless(8192, 8192)).next().divider, Scheduler::coarsest_divider);
     for (const int width : {1, 16, 95, 100, 200, 400, 1280, 4000}) {
         const int d = experienced({1000}, endless(width, 3)).next().divider;
-        EXPECT_TRUE(d == 1 || width / d >= Scheduler::smallest_long_side) << width << " / " << d;
+        EXPECT_TRUE(d == 1 || width / d >= Scheduler::min_long_side) << width << " / " << d;
     }
     EXPECT_EQ(experienced({1000}, endless(1, 1)).next().divider, 1);
 }

@@ -8,8 +8,8 @@ namespace {
 FramePtr frame() { return std::make_shared<const Frame>(); }
 DenoisedPtr denoised() { return std::make_shared<const DenoisedPicture>(); }
 
-TEST(Showcase, ADenoisedPictureLivesAsLongAsItsImage) {
-    Showcase showcase;
+TEST(PublishedFrames, ADenoisedPictureLivesAsLongAsItsImage) {
+    PublishedFrames showcase;
     const FramePtr first = frame(), second = frame(), other = frame();
     const DenoisedPtr picture = denoised();
     showcase.show(1, first);
@@ -28,8 +28,8 @@ TEST(Showcase, ADenoisedPictureLivesAsLongAsItsImage) {
     EXPECT_EQ(showcase.pictures().denoised, nullptr) << "its image is no longer shown";
 }
 
-TEST(Showcase, AWithheldFrameIsShownWithItsDenoisedVersion) {
-    Showcase showcase;
+TEST(PublishedFrames, AWithheldFrameIsShownWithItsDenoisedVersion) {
+    PublishedFrames showcase;
     const FramePtr old = frame(), next = frame();
     showcase.show(1, old);
     showcase.withhold(2, next);
@@ -40,9 +40,9 @@ TEST(Showcase, AWithheldFrameIsShownWithItsDenoisedVersion) {
     EXPECT_EQ(showcase.pictures().denoised, picture);
 }
 
-TEST(Showcase, AWithheldFrameIsShownIfDenoisingFails) {
+TEST(PublishedFrames, AWithheldFrameIsShownIfDenoisingFails) {
     for (const bool answered : {true, false}) {
-        Showcase showcase;
+        PublishedFrames showcase;
         const FramePtr next = frame();
         showcase.withhold(1, next);
         if (answered)
@@ -56,8 +56,8 @@ TEST(Showcase, AWithheldFrameIsShownIfDenoisingFails) {
     }
 }
 
-TEST(Showcase, ALaterFrameIsShownAtOnce) {
-    Showcase showcase;
+TEST(PublishedFrames, ALaterFrameIsShownAtOnce) {
+    PublishedFrames showcase;
     const FramePtr coarse = frame(), fine = frame();
     const DenoisedPtr picture = denoised();
     showcase.withhold(1, coarse);
@@ -68,8 +68,8 @@ TEST(Showcase, ALaterFrameIsShownAtOnce) {
     EXPECT_EQ(showcase.pictures().denoised, picture) << "coarser, but of the same image";
 }
 
-TEST(Showcase, ADragFasterThanTheDenoiserStillShowsSomething) {
-    Showcase showcase;
+TEST(PublishedFrames, ADragFasterThanTheDenoiserStillShowsSomething) {
+    PublishedFrames showcase;
     const FramePtr second = frame(), third = frame();
     showcase.show(1, frame());
     showcase.withhold(2, second);

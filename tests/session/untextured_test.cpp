@@ -24,7 +24,7 @@ TEST(Untextured, IsReplacedByTheTexturedScene) {
     const test::Sample sample = test::sample_project();
     const Scene& whole = sample.project.scene;
     Renderer renderer(test::all_planes());
-    renderer.update(untextured(whole), small());
+    renderer.update(preview_scene(whole), small());
     renderer.render(0, 4);
     const Frame early = renderer.resolve();
     double light = 0;

@@ -94,7 +94,7 @@ TEST(UpdatePlan, EachChangeNeedsItsUpdatesOnly) {
     EXPECT_EQ(plan_if([](Changes& c) { c.view = true; }), camera());
     EXPECT_EQ(plan_if([](Changes& c) { c.resolution = true; }), film_size());
     EXPECT_EQ(plan_if([](Changes& c) { c.integrator = true; }), integrator());
-    EXPECT_EQ(plan_if([](Changes& c) { c.integrator = c.aiming = true; }), environment_image()) << "all sampling tables";
+    EXPECT_EQ(plan_if([](Changes& c) { c.integrator = c.nee_changed = true; }), environment_image()) << "all sampling tables";
     EXPECT_EQ(plan_if([](Changes& c) { c.environment_parameters = true; }), environment());
     EXPECT_EQ(plan_if([](Changes& c) { c.environment_image = true; }), environment_image());
     EXPECT_EQ(plan_if([](Changes& c) { c.transforms = {{1}}; }), moved());
@@ -124,7 +124,7 @@ UpdatePlan cost(const Project& before, const Edit& edit) {
     const Result<Project> after = blush::apply(before, edit);
     EXPECT_TRUE(after) << after.error().text();
     if (!after) return full_plan();
-    return plan(diff(lower_area_lights(before.scene), before.render, lower_area_lights(after->scene), after->render));
+    return plan(diff(expand_area_lights(before.scene), before.render, expand_area_lights(after->scene), after->render));
 }
 
 class EditCost : public ::testing::Test {
@@ -190,7 +190,7 @@ TEST_F(EditCost, SetLight) {
 
 TEST_F(EditCost, SetAreaLight) {
     set_lamp([](Light& l) { l.kind = Light::Kind::rectangle; });
-    const uint32_t body = lowered_bit | sample.lamp.value;
+    const uint32_t body = expanded_id_bit | sample.lamp.value;
     EXPECT_EQ(cost_of_lamp([](Light& l) { l.intensity = 7; }), one_material(body));
     EXPECT_EQ(cost_of_lamp([](Light& l) { l.color = {1, 0, 0}; }), one_material(body));
     EXPECT_EQ(cost_of_lamp([](Light& l) { l.width = 3; }), moved());
@@ -229,10 +229,10 @@ TEST_F(EditCost, SetEnvironment) {
 
 TEST_F(EditCost, SetLens) { EXPECT_EQ(cost_of(SetLens{{.aperture_radius = 0.1f}}), camera()); }
 
-TEST_F(EditCost, SetStaging) {
-    EXPECT_EQ(cost_of(SetStaging{{.seconds = 1}}), nothing()) << "no clip is selected";
-    EXPECT_EQ(cost_of(SetStaging{{.clip = sample.swing, .seconds = 1}}), moved());
-    EXPECT_EQ(cost_of(SetStaging{{.variant = 1}}), listed_anew()) << "another material";
+TEST_F(EditCost, SetSceneSelection) {
+    EXPECT_EQ(cost_of(SetSceneSelection{{.seconds = 1}}), nothing()) << "no clip is selected";
+    EXPECT_EQ(cost_of(SetSceneSelection{{.clip = sample.swing, .seconds = 1}}), moved());
+    EXPECT_EQ(cost_of(SetSceneSelection{{.variant = 1}}), listed_anew()) << "another material";
 }
 
 TEST_F(EditCost, SetRender) {

@@ -17,16 +17,16 @@ SessionOptions options_with(unsigned threads, DenoiseFunction denoise) {
 
 } // namespace
 
-WatchedSession::WatchedSession(unsigned threads, std::function<void(RenderSession&, const Event&)> on_event, DenoiseFunction denoise)
-    : WatchedSession(options_with(threads, std::move(denoise)), std::move(on_event)) {}
+RecordingSession::RecordingSession(unsigned threads, std::function<void(RenderSession&, const Event&)> on_event, DenoiseFunction denoise)
+    : RecordingSession(options_with(threads, std::move(denoise)), std::move(on_event)) {}
 
-WatchedSession::WatchedSession(const SessionOptions& options, std::function<void(RenderSession&, const Event&)> on_event)
+RecordingSession::RecordingSession(const SessionOptions& options, std::function<void(RenderSession&, const Event&)> on_event)
     : on_event_(std::move(on_event)) {
     session_ = std::make_unique<RenderSession>(options, [this] { record(); });
     watched_ = session_.get();
 }
 
-void WatchedSession::record() {
+void RecordingSession::record() {
     // Nothing is announced before the first submission, so watched_ is set by now.
     Event event;
     {
@@ -42,7 +42,7 @@ void WatchedSession::record() {
     on_event_(*watched_, event);
 }
 
-Event WatchedSession::wait_for(const EventTest& test) {
+Event RecordingSession::wait_for(const EventTest& test) {
     std::unique_lock lock(mutex_);
     auto found = events_.end();
     const bool came = changed_.wait_for(lock, std::chrono::minutes(4), [&] {
@@ -53,16 +53,16 @@ Event WatchedSession::wait_for(const EventTest& test) {
     return came ? *found : Event{};
 }
 
-Event WatchedSession::wait_for(uint64_t revision, SessionStatus::State state) {
+Event RecordingSession::wait_for(uint64_t revision, SessionStatus::State state) {
     return wait_for([=](const Event& e) { return e.status.revision == revision && e.status.state == state; });
 }
 
-std::vector<Event> WatchedSession::events() const {
+std::vector<Event> RecordingSession::events() const {
     const std::lock_guard lock(mutex_);
     return events_;
 }
 
-std::vector<FramePtr> WatchedSession::frames() const {
+std::vector<FramePtr> RecordingSession::frames() const {
     std::vector<FramePtr> frames;
     for (const Event& e : events())
         if (e.frame && (frames.empty() || frames.back() != e.frame)) frames.push_back(e.frame);

@@ -20,12 +20,12 @@ struct Event {
 
 using EventTest = std::function<bool(const Event&)>;
 
-class WatchedSession {
+class RecordingSession {
 public:
     // `on_event` runs for each announcement after it was recorded, one at a time.
-    explicit WatchedSession(unsigned threads = 2, std::function<void(RenderSession&, const Event&)> on_event = {},
+    explicit RecordingSession(unsigned threads = 2, std::function<void(RenderSession&, const Event&)> on_event = {},
                             DenoiseFunction denoise = {});
-    explicit WatchedSession(const SessionOptions& options, std::function<void(RenderSession&, const Event&)> on_event = {});
+    explicit RecordingSession(const SessionOptions& options, std::function<void(RenderSession&, const Event&)> on_event = {});
 
     RenderSession* operator->() { return session_.get(); }
     // Stops and joins; recorded events stay readable.

@@ -34,7 +34,7 @@ void add_quad(Geometry& g, const Vec3& corner, const Vec3& along, const Vec3& up
 struct Given {
     double by_all = 0, seen = 0;       // without walls, and with occlusion
     double by_tree = 0, by_power = 0;
-    ChoiceVariance relative() const { return {by_all / seen - 1, by_tree / (seen * seen) - 1, by_power / (seen * seen) - 1}; }
+    SelectionVariance relative() const { return {by_all / seen - 1, by_tree / (seen * seen) - 1, by_power / (seen * seen) - 1}; }
 };
 
 // The receiver is in room (rx, rz).
@@ -100,9 +100,9 @@ Scene house(int rooms) {
     return scene;
 }
 
-ChoiceVariance choice_variance(const SceneTables& tables, int rooms, int receivers) {
+SelectionVariance choice_variance(const SceneTables& tables, int rooms, int receivers) {
     const Vec3 origin = corner_of_house(tables.lights);
-    ChoiceVariance variance;
+    SelectionVariance variance;
     Random random;
     for (int k = 0; k < receivers; ++k) {
         const int rx = int(random(0, float(rooms))), rz = int(random(0, float(rooms)));
@@ -112,7 +112,7 @@ ChoiceVariance choice_variance(const SceneTables& tables, int rooms, int receive
             to.position.y = random(0.2f, 2.5f);
             to.normal = {1, 0, 0};
         }
-        const ChoiceVariance one = given_by(tables.lights, rooms, origin, to, rx, rz).relative();
+        const SelectionVariance one = given_by(tables.lights, rooms, origin, to, rx, rz).relative();
         variance.oracle += one.oracle / receivers;
         variance.tree += one.tree / receivers;
         variance.power += one.power / receivers;
@@ -133,7 +133,7 @@ ImageVariance image_variance(int rooms, int64_t spp) {
     settings.spp = spp;
     settings.max_bounces = 1;
     settings.filter = PixelFilter::box;
-    settings.sampler = SampleNumbers::random;
+    settings.sampler = SamplerType::random;
     settings.adaptive = false;
     settings.reuse = 1;
 
@@ -150,14 +150,14 @@ ImageVariance image_variance(int rooms, int64_t spp) {
     for (size_t i = 0; i < pictures[0].size(); i += 4) variance.rendered += std::pow(double(pictures[0][i] - pictures[1][i]), 2) / 2 / all;
 
     RenderScene compiled;
-    compiled.update(lower_area_lights(scene), settings, full_plan(), Workers(1));
+    compiled.update(expand_area_lights(scene), settings, full_plan(), Workers(1));
     const Vec3 origin = corner_of_house(compiled.tables().lights);
     for (int y = 0; y < pixels; ++y)
         for (int x = 0; x < pixels; ++x) {
             const auto place = [&](int pixel) { return first + (float(pixel) + 0.5f) * shown * side / pixels; };
             const Receiver<float> to{origin + Vec3{place(x), 0.001f, place(y)}, {0, 1, 0}};
             const Given given = given_by(compiled.tables().lights, rooms, origin, to, int(place(x) / side), int(place(y) / side));
-            const ChoiceVariance relative = given.relative();
+            const SelectionVariance relative = given.relative();
             const double radiance = double(albedo) / 3.14159265358979 * given.seen, weight = radiance * radiance / double(spp) / all;
             variance.oracle += weight * relative.oracle;
             variance.power += weight * relative.power;

@@ -13,10 +13,10 @@ Scene house(int rooms);
 // Relative variances of one NEE sample, averaged over receivers on floors and walls. Computed from the probabilities alone: the
 // sum of V c^2 / p over the square of the sum of V c, minus 1, where c is a light's unoccluded contribution and V whether it is
 // in the receiver's room. The oracle evaluates all lights and uses p proportional to c; power sampling ignores the receiver.
-struct ChoiceVariance {
+struct SelectionVariance {
     double oracle = 0, tree = 0, power = 0;
 };
-ChoiceVariance choice_variance(const SceneTables& tables, int rooms, int receivers);
+SelectionVariance choice_variance(const SceneTables& tables, int rooms, int receivers);
 
 // Mean variance of the pixels of an image of nine rooms in the middle from above, direct light at `spp` samples per pixel: as
 // rendered, measured from two seeds, and computed for one light per sample selected by the oracle, or by power.

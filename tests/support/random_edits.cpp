@@ -216,15 +216,15 @@ std::optional<Edit> make(Rng&, const Project& p, std::type_identity<BakeMix>) {
     return bake_mix(p.scene);
 }
 std::optional<Edit> make(Rng& rng, const Project&, std::type_identity<SetLens>) { return SetLens{lens(rng)}; }
-std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<SetStaging>) {
-    Staging staging = p.scene.staging;
+std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<SetSceneSelection>) {
+    SceneSelection staging = p.scene.staging;
     switch (whole(rng, 0, 3)) {
     case 0: staging.clip = coin(rng) ? pick_id(rng, p.scene.clips) : Id<Clip>{}; break;
     case 1: staging.seconds = uniform(rng, 0, 3); break;
     case 2: staging.variant = whole(rng, -1, int(p.scene.variants.size()) - 1); break;
     case 3: staging.scene = whole(rng, 0, std::max(0, int(p.scene.scene_names.size()) - 1)); break;
     }
-    return SetStaging{staging};
+    return SetSceneSelection{staging};
 }
 std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<SetRender>) {
     RenderSettings r = p.render;
@@ -237,7 +237,7 @@ std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<SetRende
     case 5: r.energy_compensation = !r.energy_compensation; break;
     case 6: r.adaptive = !r.adaptive; break;
     case 7: r.reuse = coin(rng) ? 1 : 4 << whole(rng, 0, 2); break;
-    case 8: r.sampler = SampleNumbers(whole(rng, 0, 1)); break;
+    case 8: r.sampler = SamplerType(whole(rng, 0, 1)); break;
     case 9: r.clamp = {uniform(rng, 0, 2), whole(rng, 0, 1) == 1}; break;
     }
     return SetRender{r};

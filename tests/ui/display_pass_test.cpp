@@ -47,7 +47,7 @@ protected:
         window.reset();
     }
 
-    static std::vector<float> drawn(const std::vector<float>& rgba, const DisplayTransform& transform, const DisplayNumbers& numbers) {
+    static std::vector<float> drawn(const std::vector<float>& rgba, const DisplayTransform& transform, const DisplayParameters& numbers) {
         DisplayPass pass;
         const auto shader = color->display_shader(transform);
         EXPECT_TRUE(shader);
@@ -65,19 +65,19 @@ protected:
         return rgb;
     }
 
-    static std::vector<float> computed(const std::vector<float>& rgba, const DisplayTransform& transform, const DisplayNumbers& numbers) {
+    static std::vector<float> computed(const std::vector<float>& rgba, const DisplayTransform& transform, const DisplayParameters& numbers) {
         std::vector<float> rgb, coverage;
         for (size_t i = 0; i < rgba.size(); ++i) (i % 4 != 3 ? rgb : coverage).push_back(rgba[i]);
         EXPECT_TRUE(color->apply_display(transform, numbers, rgb.data(), rgb.size() / 3, coverage.data()));
         return rgb;
     }
 
-    static void expect_twins(const std::vector<float>& rgba, const DisplayTransform& transform, const DisplayNumbers& numbers) {
+    static void expect_twins(const std::vector<float>& rgba, const DisplayTransform& transform, const DisplayParameters& numbers) {
         const std::vector<float> card = drawn(rgba, transform, numbers), processor = computed(rgba, transform, numbers);
         ASSERT_EQ(card.size(), processor.size());
         double worst = 0;
         for (size_t i = 0; i < card.size(); ++i) worst = std::max(worst, std::abs(double(card[i]) - double(processor[i])));
-        EXPECT_LE(worst, tolerance) << transform.display << ", " << transform.view << ", " << transform.look;
+        EXPECT_LE(worst, tolerance) << transform.display << ", " << transform.view << ", " << transform.current_pictures;
     }
 
     static inline std::unique_ptr<Window> window;
@@ -85,10 +85,10 @@ protected:
 };
 
 TEST_F(DisplayPassTest, EveryViewAndLookMatchesFiles) {
-    const DisplayNumbers numbers{.exposure_ev = -0.7f, .gamma = 1.2f, .white_balance = white_balance({1, 0.7f, 0.35f})};
+    const DisplayParameters numbers{.exposure_ev = -0.7f, .gamma = 1.2f, .white_balance = white_balance({1, 0.7f, 0.35f})};
     for (const auto& display : color->displays())
         for (const auto& view : color->views(display)) expect_twins(test_picture(), {display, view}, numbers);
-    for (const auto& look : color->looks()) expect_twins(test_picture(), {"", "", look}, numbers);
+    for (const auto& current_pictures : color->looks()) expect_twins(test_picture(), {"", "", current_pictures}, numbers);
 }
 
 TEST_F(DisplayPassTest, UnprocessedBackgroundMatchesFiles) {
@@ -99,7 +99,7 @@ TEST_F(DisplayPassTest, UnprocessedBackgroundMatchesFiles) {
 TEST_F(DisplayPassTest, FalseColoursMatchFiles) {
     const std::vector<float> picture = test_picture();
     for (const auto of : {FalseColorScale::Of::scene, FalseColorScale::Of::exposed}) {
-        const DisplayNumbers numbers{
+        const DisplayParameters numbers{
             .exposure_ev = 1.3f, .white_balance = white_balance({0.6f, 0.8f, 1}), .false_color = {of, -7.1f, 4.9f}};
         const std::vector<float> card = drawn(picture, {}, numbers), processor = computed(picture, {}, numbers);
         int compared = 0;

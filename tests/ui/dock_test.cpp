@@ -63,7 +63,7 @@ protected:
         ImGui::NewFrame();
         PanelContext c = context();
         const float em = ImGui::GetFontSize();
-        const Beside beside = docks_beside(c, lay_out(1720, 960, 22, 27, em, {}).room);
+        const Beside beside = dock_insets(c, lay_out(1720, 960, 22, 27, em, {}).room);
         layout = lay_out(1720, 960, 22, 27, em, {}, beside);
         draw_docks(c, layout);
         ImGui::EndFrame();
@@ -148,7 +148,7 @@ TEST_F(Docks, ReopenOnlyWithTheirScene) {
     toggle("history");
     frames();
     ui.settings.dock.sizes.right = 31;
-    remember_scene(ui, "/a.gltf", ui.settings);
+    save_scene_ui(ui, "/a.gltf", ui.settings);
     const std::string front = ui.settings.dock.front[size_t(DockSide::bottom)];
     EXPECT_EQ(front, "scopes");
     UiState again;

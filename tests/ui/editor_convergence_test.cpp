@@ -60,12 +60,12 @@ protected:
     void begin(const char* name, uint64_t revision) { editor.begin(view, name, revision, project.scene, project.render); }
     // A run whose error falls like 1/sqrt(N).
     void converge(uint64_t revision, int64_t up_to) {
-        for (int64_t n = 1; n <= up_to; n *= 2) editor.look(view, {frame_of(revision, n, 0.5 / std::sqrt(double(n))), nullptr});
+        for (int64_t n = 1; n <= up_to; n *= 2) editor.current_pictures(view, {frame_of(revision, n, 0.5 / std::sqrt(double(n))), nullptr});
     }
     // Repeats with the same pictures until the condition is true.
     template <class Done> bool look_until(const Pictures& pictures, Done done) {
         for (int i = 0; i < 3000 && !done(); ++i) {
-            editor.look(view, pictures);
+            editor.current_pictures(view, pictures);
             std::this_thread::sleep_for(std::chrono::milliseconds(2));
         }
         return done();
@@ -74,7 +74,7 @@ protected:
         view.wanted_export = format;
         const size_t before = ui.toasts.all().size();
         for (int i = 0; i < 3000 && ui.toasts.all().size() == before; ++i) {
-            editor.obey(ui, folder.path() / "out", "scenes/cornell.gltf");
+            editor.handle_requests(ui, folder.path() / "out", "scenes/cornell.gltf");
             std::this_thread::sleep_for(std::chrono::milliseconds(2));
         }
         const std::string text = ui.toasts.all().back().text;
@@ -89,26 +89,26 @@ protected:
 };
 
 TEST_F(Convergence, RecordsOnlyFullResolutionPicturesOfTheRun) {
-    editor.look(view, {frame_of(1, 4, 1), nullptr});
+    editor.current_pictures(view, {frame_of(1, 4, 1), nullptr});
     EXPECT_FALSE(view.runs.live());
     begin("Opened", 2);
-    editor.look(view, {frame_of(1, 512, 0.1), nullptr}); // the picture before it
+    editor.current_pictures(view, {frame_of(1, 512, 0.1), nullptr}); // the picture before it
     auto coarse = frame_of(2, 1, 1);
     coarse->divider = 4;
-    editor.look(view, {coarse, nullptr});
+    editor.current_pictures(view, {coarse, nullptr});
     auto unknown = frame_of(2, 1, 1);
     unknown->error = {};
-    editor.look(view, {unknown, nullptr});
+    editor.current_pictures(view, {unknown, nullptr});
     EXPECT_TRUE(view.runs.live()->record.points().empty());
     converge(3, 64); // a later revision continues the image
     EXPECT_EQ(view.runs.live()->record.points().size(), 7u);
     EXPECT_NEAR(fit(view.runs.live()->record, Kind::estimated, ErrorMetric::rmse, ProgressAxis::spp).slope.value, -0.5, 1e-6);
-    EXPECT_NEAR(view.cost.estimate_share(), 1e-4, 1e-9) << "as the frames say";
-    EXPECT_GT(view.cost.recorder_share(), 0);
+    EXPECT_NEAR(view.cost.estimate_fraction(), 1e-4, 1e-9) << "as the frames say";
+    EXPECT_GT(view.cost.recorder_fraction(), 0);
     begin("Change light", 4);
     ASSERT_EQ(view.runs.all().size(), 2u);
     EXPECT_EQ(view.runs.all()[0].record.marks().size(), 1u);
-    EXPECT_EQ(view.cost.recorder_share(), 0);
+    EXPECT_EQ(view.cost.recorder_fraction(), 0);
 }
 
 TEST_F(Convergence, NewImageStartsARunAndNewStopRulesAddAMark) {
@@ -155,8 +155,8 @@ TEST_F(Convergence, NewMixOfTheSameSamplesAddsAMark) {
     for (const float intensity : {2.f, 3.f}) { // a drag
         ASSERT_TRUE(document.apply(SetMix{{LightMix::Grouping::by_light, {{.group = "Lamp", .intensity = intensity}}}}));
         submit(true);
-        editor.look(view, {frame_of(revision - 1, 64, 0.1), nullptr}); // not mixed yet
-        editor.look(view, {frame_of(revision, 64, 0.1 * double(intensity)), nullptr});
+        editor.current_pictures(view, {frame_of(revision - 1, 64, 0.1), nullptr}); // not mixed yet
+        editor.current_pictures(view, {frame_of(revision, 64, 0.1 * double(intensity)), nullptr});
     }
     ASSERT_EQ(view.runs.all().size(), 1u) << "no new run";
     const ConvergenceRecord& record = view.runs.live()->record;
@@ -176,7 +176,7 @@ TEST_F(Convergence, DenoisedPicturesAreMeasuredAgainstABetterRawOne) {
     begin("Opened", 1);
     converge(1, 4);
     const DenoisedPtr denoised = denoised_of(1, 4, 1.1f);
-    editor.look(view, {frame_of(1, 8, 0.2), denoised});
+    editor.current_pictures(view, {frame_of(1, 8, 0.2), denoised});
     EXPECT_EQ(view.waiting, 1u);
     const auto points = [&] { return view.runs.live()->record.points(Kind::denoised); };
     ASSERT_TRUE(look_until({frame_of(1, 16, 0.1), denoised}, [&] { return view.cost.measuring > 0; }));
@@ -192,21 +192,21 @@ TEST_F(Convergence, ReferenceIsRenderedStoredFoundAndUsed) {
     begin("Opened", 1);
     converge(1, 16);
     const FramePtr frame = frame_of(1, 32, 0.1);
-    using State = ReferenceNews::State;
+    using State = ReferenceStatus::State;
     ASSERT_TRUE(look_until({frame, nullptr}, [&] { return view.news.state == State::absent; }));
     view.wanted_reference = ConvergenceView::ReferenceRequest::render;
-    editor.obey(ui, {}, {});
-    EXPECT_TRUE(editor.renders_reference());
+    editor.handle_requests(ui, {}, {});
+    EXPECT_TRUE(editor.is_rendering_reference());
     ASSERT_TRUE(look_until({frame, nullptr}, [&] { return view.news.state == State::there; }));
     EXPECT_EQ(view.news.spp, 64);
     EXPECT_EQ(view.news.problem, "");
-    EXPECT_FALSE(editor.renders_reference());
+    EXPECT_FALSE(editor.is_rendering_reference());
     ASSERT_TRUE(look_until({frame, nullptr}, [&] { return !view.runs.live()->record.points(Kind::measured).empty(); }));
     EXPECT_EQ(view.runs.live()->record.points(Kind::measured)[0].spp, 32);
 
     // The same picture again, after another one.
     begin("edit", 2);
-    editor.look(view, {frame_of(2, 1, 1), nullptr});
+    editor.current_pictures(view, {frame_of(2, 1, 1), nullptr});
     EXPECT_EQ(view.news.state, State::none) << "no search before the picture has settled";
     converge(2, 16);
     EXPECT_TRUE(look_until({frame_of(2, 32, 0.1), nullptr}, [&] { return view.news.state == State::there; }));

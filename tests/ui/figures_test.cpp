@@ -63,7 +63,7 @@ TEST_F(Figures, RegionHasTheStatisticsOfItsPixels) {
     EXPECT_DOUBLE_EQ(s.linear[2].deviation, 0);
     EXPECT_NEAR(s.nits.mean, 0.212671 * 3 + 0.715160 * 1.5 + 0.072169 * 0.25, 1e-6);
 
-    const DisplayNumbers numbers = numbers_of(p.view);
+    const DisplayParameters numbers = display_parameters_of(p.view);
     std::vector<float> shown, ev, ev100;
     for (const float y : {1.f, 2.f})
         for (const float x : {2.f, 3.f, 4.f}) {
@@ -75,9 +75,9 @@ TEST_F(Figures, RegionHasTheStatisticsOfItsPixels) {
             ev.push_back(float(std::log2(balanced * std::exp2(1.5) / 0.18)));
             ev100.push_back(float(std::log2((0.212671 * x + 0.715160 * y + 0.072169 * 0.25) * 100 / 12.5)));
         }
-    EXPECT_NEAR(s.ev.mean, spread_of(ev).mean, 1e-5);
-    EXPECT_NEAR(s.ev.high, spread_of(ev).high, 1e-5);
-    EXPECT_NEAR(s.ev100.deviation, spread_of(ev100).deviation, 1e-5);
+    EXPECT_NEAR(s.ev.mean, value_statistics(ev).mean, 1e-5);
+    EXPECT_NEAR(s.ev.high, value_statistics(ev).high, 1e-5);
+    EXPECT_NEAR(s.ev100.deviation, value_statistics(ev100).deviation, 1e-5);
     ASSERT_TRUE(color.apply_display({}, numbers, shown.data(), 6));
     for (size_t k = 0; k < 3; ++k) {
         double mean = 0;

@@ -64,7 +64,7 @@ TEST_F(Files, DamagedEntryGetsItsDefaultOthersAreKept) {
     EXPECT_EQ(s.maximized, defaults.maximized);
     EXPECT_LE(s.height, 16384);
     EXPECT_GE(s.splitters.outliner, 1);
-    EXPECT_EQ(s.text_size, most_text_size);
+    EXPECT_EQ(s.text_size, max_text_size);
     EXPECT_GE(s.dock.sizes.right, 1);
     EXPECT_EQ(s.dock.tabs, (std::vector<DockTab>{{"a", DockSide::right, false}}));
     EXPECT_EQ(s.splitters.inspector, 30);

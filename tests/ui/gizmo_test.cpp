@@ -106,8 +106,8 @@ TEST(Rings, TheAngleUnderTheMouseIsRightHandedAboutTheAxis) {
 TEST(Rings, EdgeOnRingFollowsADragOfItsNearSide) {
     const Setting s;
     // About +Y, seen from +Z: the near side goes to the right.
-    EXPECT_NEAR(pulled_angle(s.projection(), {0, 0, 0}, {0, 1, 0}, {500, 350}, {540, 300}, 80), 0.5, 1e-6);
-    EXPECT_NEAR(pulled_angle(s.projection(), {0, 0, 0}, {1, 0, 0}, {500, 350}, {540, 390}, 80), 0.5, 1e-6) << "about +X it goes down";
+    EXPECT_NEAR(edge_on_ring_angle(s.projection(), {0, 0, 0}, {0, 1, 0}, {500, 350}, {540, 300}, 80), 0.5, 1e-6);
+    EXPECT_NEAR(edge_on_ring_angle(s.projection(), {0, 0, 0}, {1, 0, 0}, {500, 350}, {540, 390}, 80), 0.5, 1e-6) << "about +X it goes down";
 }
 
 TEST(ScaleBoxes, HaveAUniformHandleAndValidAxisHandles) {

@@ -45,7 +45,7 @@ TEST(Layout, TinyWindowHasAViewport) {
     EXPECT_GE(l.viewport.height, 1);
 }
 
-constexpr Beside everything{true, true, {}, 150, 22};
+constexpr ViewportInsets everything{true, true, {}, 150, 22};
 
 bool overlap(const Region& a, const Region& b) {
     return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
@@ -57,7 +57,7 @@ TEST(Layout, DocksAndStripReduceThePicture) {
         for (const float height : {320.f, 720.f, 960.f, 1440.f})
             for (const float font : {12.f, 15.f, 30.f, 60.f})
                 for (int open = 0; open < 16; ++open) {
-                    const Beside beside{(open & 1) != 0, (open & 2) != 0, {}, open & 4 ? 10 * font : 0, open & 8 ? 2 * font : 0};
+                    const ViewportInsets beside{(open & 1) != 0, (open & 2) != 0, {}, open & 4 ? 10 * font : 0, open & 8 ? 2 * font : 0};
                     const Layout l = lay_out(width, height, 22, 27, font, {}, beside);
                     const Region all[] = {l.viewport, l.strip, l.time, l.right_dock, l.bottom_dock, l.outliner, l.inspector, l.status};
                     for (const Region& a : all) {

@@ -26,7 +26,7 @@ View view_from(const Vec3d& eye) {
 
 struct Seen {
     Projection projection;
-    LightSight sight;
+    LightInView sight;
 
     Seen(const Light& light, const Vec3d& eye, const Vec3d& forward = {0.3, -1, -0.4}, const Vec3& scale = {1, 1, 1})
         : projection(view_from(eye), 1.5) {

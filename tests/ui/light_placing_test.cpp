@@ -47,7 +47,7 @@ TEST(PlacingByHighlight, MirroredRayHitsTheLight) {
         for (int i = 0; i < 100; ++i) {
             const Light light = of_kind(kind);
             const LightPose before = random.pose();
-            const SurfaceSpot spot{random.vector() * 3.0, random.direction(), {}};
+            const SurfacePoint spot{random.vector() * 3.0, random.direction(), {}};
             Vec3d view = random.direction();
             if (dot(view, spot.normal) > 0) view = -view; // seen from in front
             const double distance = length(before.position - spot.position);
@@ -64,7 +64,7 @@ TEST(PlacingByHighlight, MirroredRayHitsTheLight) {
 }
 
 TEST(PlacingByHighlight, NormalOfABackFaceIsFlipped) {
-    const SurfaceSpot spot{{0, 0, 0}, {0, -1, 0}, {}};
+    const SurfacePoint spot{{0, 0, 0}, {0, -1, 0}, {}};
     const LightPose after = with_highlight_at(of_kind(Light::Kind::point), {{0, 3, 0}, {}}, spot, normalize(Vec3d{1, -1, 0}), 2);
     EXPECT_NEAR(length(after.position - normalize(Vec3d{1, 1, 0}) * 2.0), 0, close);
 }

@@ -140,7 +140,7 @@ TEST(NewLight, StaysInARoomThatIsSeenFromOutside) {
 
 TEST(NewLight, LightsTheSurfaceUnderTheCursorFromTheViewersSide) {
     const View view = view_of_subject();
-    const SurfaceSpot surface{{0.2, 1, 0}, {0, 1, 0}, {}};
+    const SurfacePoint surface{{0.2, 1, 0}, {0, 1, 0}, {}};
     const LightSpot spot = spot_over_surface({}, view, surface);
     EXPECT_GT(dot(spot.position - surface.position, surface.normal), 0.1);
     EXPECT_EQ(spot.target, surface.position);

@@ -30,7 +30,7 @@ struct Lamp {
     const Light& light() const { return scene.lights.begin()->value; }
     LightPose pose() const { return pose_of(scene, id); }
     View through(const View& view) const { return view_through_light(view, light(), pose(), clearance(scene, id)); }
-    View first() const { return first_view_through_light(scene.view, light(), pose(), clearance(scene, id)); }
+    View first() const { return initial_light_view(scene.view, light(), pose(), clearance(scene, id)); }
 };
 
 Vec3d forward(const Quat& q) { return rotate(q, {0, 0, -1}); }
@@ -67,7 +67,7 @@ TEST_P(EveryKind, LightFollowsTheView) {
     for (const View& moved :
          {orbit(lamp.first(), 0.4, 0.2), pan(lamp.first(), 0.1, -0.2), dolly(lamp.first(), 0.7), fly(lamp.first(), {1, 2, 3})}) {
         Lamp carried = lamp;
-        const LightPose pose = pose_behind_view(moved, lamp.light(), lamp.pose(), clearance(lamp.scene, lamp.id));
+        const LightPose pose = light_pose_of_view(moved, lamp.light(), lamp.pose(), clearance(lamp.scene, lamp.id));
         carried.scene.nodes.set(lamp.id, with_pose(lamp.scene, lamp.id, pose));
         const View seen = carried.through(moved);
         expect_near(forward(seen.rotation), forward(moved.rotation));

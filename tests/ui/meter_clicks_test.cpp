@@ -30,7 +30,7 @@ struct EmissiveTriangle {
 class DirectLight {
 public:
     explicit DirectLight(const Scene& scene) : scene_(scene) {
-        Placements placements(scene);
+        WorldTransforms placements(scene);
         for (const auto& [id, node] : scene.nodes) {
             const Affined& world = placements(id).world_from_node;
             if (const Light* light = node.light ? scene.lights.find(node.light) : nullptr) {
@@ -66,7 +66,7 @@ public:
                 const double r = std::sqrt(u);
                 const Vec3d y = t.a * (1 - r) + t.b * (r * (1 - v)) + t.c * (r * v), to = y - x;
                 const double d2 = dot(to, to), cos_x = dot(n, to), cos_y = -dot(t.normal, to);
-                if (!(cos_x > 0 && cos_y > 0) || first_between(scene_, x, y, [](Id<Node>) { return true; })) return 0.0;
+                if (!(cos_x > 0 && cos_y > 0) || first_occluder(scene_, x, y, [](Id<Node>) { return true; })) return 0.0;
                 return cos_x * cos_y / (d2 * d2) * power_; // nits * area / (nits * area / power)
             });
         for (const Sun& sun : suns_)

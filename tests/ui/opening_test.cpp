@@ -187,7 +187,7 @@ TEST(CameraFrame, CropsAllPlanes) {
     EXPECT_EQ(cropped(DenoisedPtr(), {0, 0, 1, 1}), nullptr);
 }
 
-TEST(RegionSurroundings, SurroundTheRegion) {
+TEST(RegionBackdrop, SurroundTheRegion) {
     float area = 0;
     for (const PictureRegion& part : around({0.25f, 0.5f, 0.5f, 0.25f})) area += part.width * part.height;
     EXPECT_FLOAT_EQ(area, 1 - 0.5f * 0.25f);

@@ -139,7 +139,7 @@ TEST_F(Panels, DrawingEditsNothing) {
 TEST_F(Panels, WarnIfShadowLinkingIsIgnored) {
     Project project;
     std::vector<Id<Node>> objects, lamps;
-    for (int i = 0; i <= most_caster_sets; ++i) {
+    for (int i = 0; i <= max_caster_sets; ++i) {
         Node object;
         object.mesh = project.scene.meshes.add(Mesh());
         objects.push_back(project.scene.nodes.add(object));
@@ -164,7 +164,7 @@ TEST_F(Panels, WarnIfShadowLinkingIsIgnored) {
         std::ifstream in(file);
         return std::string(std::istreambuf_iterator<char>(in), {});
     };
-    for (int i = 0; i < most_caster_sets; ++i) add_lamp(objects[size_t(i)]);
+    for (int i = 0; i < max_caster_sets; ++i) add_lamp(objects[size_t(i)]);
     EXPECT_EQ(widgets_with(lamps.back()).find("eft out\""), std::string::npos) << "this many are supported";
     add_lamp(objects.back());
     EXPECT_NE(widgets_with(lamps.back()).find("Linking/Left out\""), std::string::npos);
@@ -246,16 +246,16 @@ TEST_F(Panels, AnEmptySceneAndAFrameWithoutPlanes) {
 TEST_F(Panels, EachUnusedFeatureHasALine) {
     Document document;
     ui.settings.panels["section.Specialisation"] = 1;
-    const auto height_of = [&](const Ledger& ledger) {
+    const auto height_of = [&](const FeatureReport& feature_report) {
         auto made = std::make_shared<Frame>();
-        made->ledger = std::make_shared<const Ledger>(ledger);
+        made->feature_report = std::make_shared<const FeatureReport>(feature_report);
         frame = made;
         float height = 0;
         for (int i = 0; i < 2; ++i) {
             in_window([&] {
                 const float top = ImGui::GetCursorPosY();
                 PanelContext c{document, ui, color, frame, {}, 640, 480};
-                draw_left_out_section(c);
+                draw_specialisation_section(c);
                 height = ImGui::GetCursorPosY() - top;
             });
         }
@@ -318,8 +318,8 @@ TEST_F(Panels, EveryStateOfTheConvergencePanel) {
     view.cost = {1, 2, 3, 4};
     view.renaming = view.runs.live()->id;
     all_settings();
-    for (int state = 0; state <= int(ReferenceNews::State::there); ++state) {
-        view.news = {ReferenceNews::State(state), 0.999, 64, 1e-3, "It could not be stored."};
+    for (int state = 0; state <= int(ReferenceStatus::State::there); ++state) {
+        view.news = {ReferenceStatus::State(state), 0.999, 64, 1e-3, "It could not be stored."};
         draw_all(document, {});
     }
     EXPECT_FALSE(document.can_undo());

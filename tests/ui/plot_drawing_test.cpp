@@ -69,7 +69,7 @@ TEST_F(PlotDrawing, ChartPointsMatchTheLayout) {
     ASSERT_EQ(picture.rgb.size(), size_t(3 * picture.width * picture.height));
     const ImFont& font = *ImGui::GetIO().Fonts->Fonts.front();
     plot.y_label.clear();
-    const PlotLayout l = lay_out(plot, plot_metrics({float(picture.width), float(picture.height)}, font, font.FontSize, true));
+    const PlotLayout l = compute_plot_layout(plot, plot_metrics({float(picture.width), float(picture.height)}, font, font.FontSize, true));
     for (const PlotPixel& p : l.curves[0].line) {
         const float* rgb = &picture.rgb[3 * (size_t(p.y) * size_t(picture.width) + size_t(p.x))];
         EXPECT_GT(rgb[0], 0.9f);

@@ -18,9 +18,9 @@ TEST(Remembered, PanelsRoundTrip) {
     ui.convergence.targets = {0.5f, 0.01f};
     WindowSettings settings;
     settings.panels["section.Light"] = 0;
-    remember_panels(ui, settings);
+    save_panels(ui, settings);
     UiState again;
-    recall_panels(settings, again);
+    restore_panels(settings, again);
     EXPECT_EQ(again.tab, InspectorTab::render);
     EXPECT_EQ(again.denoise, ui.denoise);
     EXPECT_FALSE(again.snapshots.open);
@@ -30,12 +30,12 @@ TEST(Remembered, PanelsRoundTrip) {
     EXPECT_EQ(again.bounces.gains, ui.bounces.gains);
     EXPECT_EQ(again.convergence.targets, ui.convergence.targets);
     WindowSettings twice = settings;
-    remember_panels(again, twice);
+    save_panels(again, twice);
     EXPECT_EQ(twice, settings);
     again.bounces.gains.pop_back();
-    remember_panels(again, twice);
+    save_panels(again, twice);
     UiState fewer;
-    recall_panels(twice, fewer);
+    restore_panels(twice, fewer);
     EXPECT_EQ(fewer.bounces.gains, again.bounces.gains) << "a removed gain is not kept";
 }
 
@@ -44,10 +44,10 @@ TEST(Remembered, InvalidValuesAreIgnored) {
     settings.panels = {{"tab", 99},           {"denoise", -1},    {"denoise.blend", 7}, {"bounces.bounce", 1e30},
                        {"bounces.gain.0", 5}, {"denoise", 1e300}, {"unknown", 3}};
     UiState ui;
-    recall_panels(settings, ui);
+    restore_panels(settings, ui);
     WindowSettings now, defaults;
-    remember_panels(ui, now);
-    remember_panels(UiState(), defaults);
+    save_panels(ui, now);
+    save_panels(UiState(), defaults);
     EXPECT_EQ(now, defaults);
 }
 
@@ -68,31 +68,31 @@ TEST(Remembered, SceneStateRoundTrips) {
     ui.light_mix.unfolded = "Sun";
     ui.docks.open = {"scopes"};
     WindowSettings settings;
-    remember_scene(ui, "/a.gltf", settings);
+    save_scene_ui(ui, "/a.gltf", settings);
     EXPECT_EQ(settings.scenes[0].instruments, (std::vector<std::string>{"scopes"}));
     ui.zoom = {};
     ui.select({});
     ui.turned.clear();
     ui.light_mix.unfolded.clear();
-    remember_scene(ui, "/b.gltf", settings);
-    recall_scene(settings, "/a.gltf", s.scene, ui);
+    save_scene_ui(ui, "/b.gltf", settings);
+    restore_scene_ui(settings, "/a.gltf", s.scene, ui);
     EXPECT_EQ(ui.zoom, (PictureZoom{3, 0.25, 0.75}));
     EXPECT_EQ(ui.selection(s.scene), (std::vector{s.second, s.first}));
     EXPECT_EQ(ui.selected_material, s.material);
     EXPECT_EQ(ui.turned, (std::set{s.first}));
     EXPECT_EQ(ui.light_mix.unfolded, "Sun");
-    recall_scene(settings, "/b.gltf", s.scene, ui);
+    restore_scene_ui(settings, "/b.gltf", s.scene, ui);
     EXPECT_EQ(ui.zoom, PictureZoom());
     EXPECT_TRUE(!ui.selected && !ui.selected_material && ui.turned.empty() && ui.light_mix.unfolded.empty());
-    recall_scene(settings, "/a.gltf", Scene(), ui);
+    restore_scene_ui(settings, "/a.gltf", Scene(), ui);
     EXPECT_TRUE(!ui.selected && ui.also_selected.empty() && !ui.selected_material && ui.turned.empty()) << "deleted nodes";
-    recall_scene(settings, "/never.gltf", s.scene, ui);
+    restore_scene_ui(settings, "/never.gltf", s.scene, ui);
     EXPECT_EQ(ui.zoom, PictureZoom());
 }
 
 TEST(Remembered, OnlyTheLastScenesAreKept) {
     WindowSettings settings;
-    for (int i = 0; i < 30; ++i) remember_scene(UiState(), std::to_string(i % 15) + ".gltf", settings);
+    for (int i = 0; i < 30; ++i) save_scene_ui(UiState(), std::to_string(i % 15) + ".gltf", settings);
     EXPECT_EQ(settings.scenes.size(), remembered_files);
     EXPECT_EQ(settings.scenes[0].file, "14.gltf");
 }

@@ -74,13 +74,13 @@ TEST(EditTogether, CopiesFieldsExceptNameAndKeepsBalance) {
     after.color = {1, 0.5f, 0};
     after.group = "Warm";
     after.radius = 0.5f;
-    const Light edited = edited_alike(other, before, after);
+    const Light edited = apply_same_edit(other, before, after);
     EXPECT_EQ(edited.name, "Fill");
     EXPECT_EQ(edited.intensity, 8) << "by the same factor";
     EXPECT_EQ(edited.color, after.color);
     EXPECT_EQ(edited.group, "Warm");
     EXPECT_EQ(edited.radius, 0.5f);
-    EXPECT_EQ(edited_alike(other, before, before), other) << "fields that are not edited stay";
+    EXPECT_EQ(apply_same_edit(other, before, before), other) << "fields that are not edited stay";
 }
 
 TEST(EditTogether, CopiesSizesOnlyBetweenLightsOfOneType) {
@@ -88,7 +88,7 @@ TEST(EditTogether, CopiesSizesOnlyBetweenLightsOfOneType) {
     sun.kind = Light::Kind::sun;
     after.radius = 0.5f;
     after.kelvin = 3000;
-    const Light edited = edited_alike(sun, before, after);
+    const Light edited = apply_same_edit(sun, before, after);
     EXPECT_EQ(edited.radius, sun.radius);
     EXPECT_EQ(edited.kelvin, 3000);
 }
@@ -98,7 +98,7 @@ TEST(EditTogether, IntensityFromZeroIsCopied) {
     before.intensity = 0;
     after.intensity = 5;
     other.intensity = 3;
-    EXPECT_EQ(edited_alike(other, before, after).intensity, 5);
+    EXPECT_EQ(apply_same_edit(other, before, after).intensity, 5);
 }
 
 struct Rig {

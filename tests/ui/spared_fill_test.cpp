@@ -47,7 +47,7 @@ struct Painted {
     }
 };
 
-class SparedFill : public test::ImGuiTest {
+class Overdraw : public test::ImGuiTest {
 protected:
     void SetUp() override {
         ImGuiTest::SetUp();
@@ -72,7 +72,7 @@ protected:
         data.CmdLists = lists_.data();
         data.CmdListsCount = int(lists_.size());
         const Painted before(data);
-        spare_fill(data);
+        reduce_overdraw(data);
         return {before, Painted(data)};
     }
 
@@ -82,7 +82,7 @@ private:
 
 constexpr ImU32 grey = IM_COL32(60, 60, 60, 255), red = IM_COL32(200, 0, 0, 255), veil = IM_COL32(0, 90, 0, 100);
 
-TEST_F(SparedFill, BackgroundsAreClearedAndCoveredDrawsSkipped) {
+TEST_F(Overdraw, BackgroundsAreClearedAndCoveredDrawsSkipped) {
     list(0).AddRectFilled({0, 0}, {width, height}, red); // a picture, say
     list(0).AddRectFilled({5, 5}, {50, 50}, veil);
     list(1).AddRectFilled({20, 10}, {80, 60}, grey);
@@ -94,7 +94,7 @@ TEST_F(SparedFill, BackgroundsAreClearedAndCoveredDrawsSkipped) {
     EXPECT_EQ(after.filled, 45 * 45 - 30 * 40 + 15 * 5) << "the transparent rectangles, where visible";
 }
 
-TEST_F(SparedFill, TransparentRectanglesCoverNothing) {
+TEST_F(Overdraw, TransparentRectanglesCoverNothing) {
     list(0).AddRectFilled({3, 3}, {90, 70}, veil);
     list(1).AddRectFilled({20, 10}, {80, 60}, veil);
     list(2).AddRectFilled({10.5f, 10}, {80, 60}, grey); // not on whole pixels
@@ -104,7 +104,7 @@ TEST_F(SparedFill, TransparentRectanglesCoverNothing) {
     EXPECT_EQ(after.cleared, 0);
 }
 
-TEST_F(SparedFill, LargeCommandsAreDrawnOnceUnlessCovered) {
+TEST_F(Overdraw, LargeCommandsAreDrawnOnceUnlessCovered) {
     for (int i = 0; i < 20; ++i) list(0).AddRectFilled({float(i), 0}, {float(i) + 30, 30}, veil);
     list(1).AddRectFilled({5, 5}, {15, 15}, grey);
     list(2).AddRectFilled({0, 0}, {10, 10}, grey);
@@ -115,7 +115,7 @@ TEST_F(SparedFill, LargeCommandsAreDrawnOnceUnlessCovered) {
     EXPECT_EQ(list(0).CmdBuffer.Size, 1);
 }
 
-TEST_F(SparedFill, CoveredListsDrawNothing) {
+TEST_F(Overdraw, CoveredListsDrawNothing) {
     for (int i = 0; i < 20; ++i) list(0).AddRectFilled({float(i) + 30, 30}, {float(i) + 40, 50}, veil);
     list(0).CmdBuffer[0].ClipRect = {30, 30, 60, 50};
     list(1).AddRectFilled({20, 20}, {70, 60}, grey);
@@ -126,7 +126,7 @@ TEST_F(SparedFill, CoveredListsDrawNothing) {
 }
 
 // Callbacks keep their order.
-TEST_F(SparedFill, CallbacksStay) {
+TEST_F(Overdraw, CallbacksStay) {
     const auto nothing = [](const ImDrawList*, const ImDrawCmd*) {};
     list(0).AddRectFilled({0, 0}, {50, 50}, grey);
     list(0).AddCallback(nothing, nullptr);

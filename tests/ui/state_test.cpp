@@ -110,9 +110,9 @@ TEST(FrameStats, PercentilesByNearestRank) {
     EXPECT_EQ(percentile({}, 0.5), 0);
 }
 
-TEST(FramePace, PictureGetsTheRemainingTime) {
-    FramePace pace;
-    const FramePace::TimePoint start{};
+TEST(FrameBudget, PictureGetsTheRemainingTime) {
+    FrameBudget pace;
+    const FrameBudget::TimePoint start{};
     pace.begin(start);
     EXPECT_NEAR(pace.left(20, start + 3ms), 17, 1e-9) << "the rest of the frame is not measured yet";
     pace.begin_picture(start + 3ms);
@@ -176,11 +176,11 @@ TEST(FrameStats, ListsLateFramesWithTheirTimes) {
 TEST(FrameStats, ViewChangesCountWhenDisplayed) {
     FrameStats stats;
     const FrameStats::Clock::time_point start{};
-    stats.look_shown(start);
+    stats.view_change_shown(start);
     EXPECT_TRUE(stats.looks().empty()) << "no view change was requested";
-    stats.looked(start + 10ms);
-    stats.look_shown(start + 42ms);
-    stats.look_shown(start + 99ms);
+    stats.view_changed(start + 10ms);
+    stats.view_change_shown(start + 42ms);
+    stats.view_change_shown(start + 99ms);
     EXPECT_EQ(stats.looks(), std::vector<double>{32});
 }
 

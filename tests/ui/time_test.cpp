@@ -12,12 +12,12 @@ protected:
     void SetUp() override {
         ImGuiTest::SetUp();
         document.reset(sample.project);
-        ASSERT_TRUE(document.apply(SetStaging{{.clip = sample.swing}}));
+        ASSERT_TRUE(document.apply(SetSceneSelection{{.clip = sample.swing}}));
         for (int i = 0; i < 3; ++i) frame();
     }
     void frame() {
         in_window([&] {
-            ui.next_frame_in = 1;
+            ui.seconds_to_next_frame = 1;
             PanelContext c{document, ui, color, {}, SessionStatus(), 640, 480};
             draw_time(c);
         });
@@ -65,21 +65,21 @@ TEST_F(Time, PlaybackLoopsAndIsOneUndoStep) {
     for (const float t : {0.75f, 1.5f, 0.25f}) {
         frame();
         EXPECT_FLOAT_EQ(seconds(), t) << "of 2 s";
-        EXPECT_LT(ui.next_frame_in, 0.1) << "the next frame is requested";
+        EXPECT_LT(ui.seconds_to_next_frame, 0.1) << "the next frame is requested";
     }
     EXPECT_EQ(document.undo_labels().size(), steps + 1);
     ui.time = {};
     frame();
     EXPECT_EQ(seconds(), 0.25f);
-    EXPECT_EQ(ui.next_frame_in, 1) << "playback has stopped";
+    EXPECT_EQ(ui.seconds_to_next_frame, 1) << "playback has stopped";
 }
 
 TEST_F(Time, RestPoseCannotBePlayed) {
     ui.time.playing = true;
-    ASSERT_TRUE(document.apply(SetStaging{}));
+    ASSERT_TRUE(document.apply(SetSceneSelection{}));
     frame();
     EXPECT_FALSE(ui.time.playing);
-    EXPECT_EQ(ui.next_frame_in, 1);
+    EXPECT_EQ(ui.seconds_to_next_frame, 1);
 }
 
 } // namespace

@@ -183,7 +183,7 @@ TEST(AovView, ListsPassesAndWhatTheyNeed) {
 
     EXPECT_EQ(planes_of(AovView{}), PlaneSet{}) << "the beauty needs no extra planes";
     EXPECT_EQ(planes_of(AovView{Show::depth}), PlaneSet{});
-    EXPECT_EQ(planes_of(AovView{Show::bounces, 3}).bounces, usual_bounce_planes);
+    EXPECT_EQ(planes_of(AovView{Show::bounces, 3}).bounces, default_bounce_planes);
     EXPECT_TRUE(planes_of(AovView{Show::error}).error);
     EXPECT_TRUE(PlaneSet{}.covers(planes_of(AovView{Show::error}))) << "the error needs no new image";
 

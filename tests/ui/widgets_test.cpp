@@ -50,8 +50,8 @@ protected:
         io.KeysDown[key] = false;
         frame();
     }
-    void wish(ValueWish what) {
-        wish_of_value(ui, what);
+    void wish(ValueAction what) {
+        request_value_action(ui, what);
         frame();
     }
     float middle() const { return (low.x + high.x) / 2; }
@@ -93,14 +93,14 @@ protected:
             changed |= f.changed();
         });
     }
-    void wish(ValueWish what) {
+    void wish(ValueAction what) {
         changed = false;
-        wish_of_value(ui, what);
+        request_value_action(ui, what);
         frame();
     }
     void paste(const char* text) {
         ImGui::SetClipboardText(text);
-        wish(ValueWish::paste);
+        wish(ValueAction::paste);
     }
 
     UiState ui;
@@ -110,7 +110,7 @@ protected:
 };
 
 TEST_F(ColorField, AcceptsEachColourFormat) {
-    wish(ValueWish::copy_hex);
+    wish(ValueAction::copy_hex);
     EXPECT_STREQ(ImGui::GetClipboardText(), "#89bc47");
     paste("#ff0080");
     EXPECT_TRUE(changed);
@@ -118,11 +118,11 @@ TEST_F(ColorField, AcceptsEachColourFormat) {
     EXPECT_EQ(value.y, 0);
     EXPECT_NEAR(value.z, 0.2158605f, 1e-5);
     value = {0.25f, 0.5f, 0.0625f};
-    wish(ValueWish::copy);
+    wish(ValueAction::copy);
     EXPECT_STREQ(ImGui::GetClipboardText(), "0.25, 0.5, 0.0625");
-    wish(ValueWish::copy_srgb);
+    wish(ValueAction::copy_srgb);
     value = {0, 0, 0};
-    wish(ValueWish::paste);
+    wish(ValueAction::paste);
     EXPECT_NEAR(value.x, 0.25, 1e-5);
     EXPECT_NEAR(value.z, 0.0625, 1e-5);
 }
@@ -139,7 +139,7 @@ TEST_F(ColorField, RejectsInvalidColours) {
 }
 
 TEST_F(ColorField, EyedropperSetsThePickedColour) {
-    wish(ValueWish::pick);
+    wish(ValueAction::pick);
     EXPECT_EQ(ui.tool, ViewTool::pick_color);
     ui.values.picked = Vec3{0.1f, 7.f, -0.5f};
     changed = false;
@@ -155,14 +155,14 @@ TEST_F(ColorField, EyedropperSetsThePickedColour) {
 TEST_F(Widgets, TooltipAppearsAtRest) {
     constexpr double idle = 1;
     style.tip = "Stops of exposure.";
-    ui.next_frame_in = idle;
+    ui.seconds_to_next_frame = idle;
     move(middle());
-    for (int i = 0; i < 10 && ui.next_frame_in < idle; ++i) {
-        ImGui::GetIO().DeltaTime = std::max(float(ui.next_frame_in), 1.f / 60);
-        ui.next_frame_in = idle;
+    for (int i = 0; i < 10 && ui.seconds_to_next_frame < idle; ++i) {
+        ImGui::GetIO().DeltaTime = std::max(float(ui.seconds_to_next_frame), 1.f / 60);
+        ui.seconds_to_next_frame = idle;
         frame();
     }
-    EXPECT_EQ(ui.next_frame_in, idle) << "endless frames";
+    EXPECT_EQ(ui.seconds_to_next_frame, idle) << "endless frames";
     const ImGuiWindow* tip = ImGui::FindWindowByName("##Tooltip_00");
     ASSERT_TRUE(tip);
     EXPECT_TRUE(tip->WasActive && !tip->Hidden);
@@ -270,20 +270,20 @@ TEST_F(Widgets, TabMovesToTheNextField) {
 TEST_F(Widgets, KeysOverAFieldCopyPasteAndReset) {
     ASSERT_TRUE(document.apply(SetView{{.exposure_ev = 1.2345678f}}));
     move(middle());
-    wish(ValueWish::copy);
+    wish(ValueAction::copy);
     EXPECT_STREQ(ImGui::GetClipboardText(), "1.2345678");
-    wish(ValueWish::reset);
+    wish(ValueAction::reset);
     EXPECT_EQ(value(), 2.5f);
-    wish(ValueWish::paste);
+    wish(ValueAction::paste);
     EXPECT_EQ(value(), 1.2345678f);
     ImGui::SetClipboardText(" -1e30\n");
-    wish(ValueWish::paste);
+    wish(ValueAction::paste);
     EXPECT_EQ(value(), -10) << "within the limits";
     EXPECT_EQ(document.undo_labels().size(), 4u) << "each is its own undo step";
     rest();
     move(-100);
     ImGui::SetClipboardText("3");
-    wish(ValueWish::paste);
+    wish(ValueAction::paste);
     EXPECT_EQ(value(), -10) << "the mouse is elsewhere";
 }
 
@@ -294,7 +294,7 @@ TEST_F(Widgets, InvalidNumbersAreRejected) {
         ImGui::SetClipboardText(text);
         const float before = value();
         const auto said = ui.toasts.added();
-        wish(ValueWish::paste);
+        wish(ValueAction::paste);
         EXPECT_EQ(value(), before) << text;
         EXPECT_GT(ui.toasts.added(), said) << text;
         for (const char c : ui.toasts.all().back().text) EXPECT_TRUE(c >= ' ' && c < 127) << text;

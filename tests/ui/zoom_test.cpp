@@ -18,21 +18,21 @@ void expect_rect(const ImageRect& got, const ImageRect& wanted) {
 }
 
 TEST(PictureZoom, TogglesFitAndOneToOne) {
-    expect_rect(placed_picture({}, region, 1600, 900), {100, 125, 800, 450});
+    expect_rect(picture_rect({}, region, 1600, 900), {100, 125, 800, 450});
     const PictureZoom one = toggled({});
-    expect_rect(placed_picture(one, region, 1600, 900), {-300, -100, 1600, 900});
-    expect_rect(placed_picture(one, region, 400, 300), {300, 200, 400, 300});
+    expect_rect(picture_rect(one, region, 1600, 900), {-300, -100, 1600, 900});
+    expect_rect(picture_rect(one, region, 400, 300), {300, 200, 400, 300});
     EXPECT_EQ(toggled(one), PictureZoom{});
 }
 
 TEST(PictureZoom, ZoomsAboutTheMouse) {
     PictureZoom zoom;
     const ScreenPoint mouse{333, 222};
-    const ImageRect before = placed_picture(zoom, region, 1600, 900);
+    const ImageRect before = picture_rect(zoom, region, 1600, 900);
     const double u = before.u(mouse.x), v = before.v(mouse.y);
     for (int i = 0; i < 12; ++i) {
         zoom = zoomed(zoom, region, 1600, 900, mouse, 1.5);
-        const ImageRect now = placed_picture(zoom, region, 1600, 900);
+        const ImageRect now = picture_rect(zoom, region, 1600, 900);
         EXPECT_NEAR(now.u(mouse.x) * now.width, u * now.width, 1) << "on whole pixels of the screen";
         EXPECT_NEAR(now.v(mouse.y) * now.height, v * now.height, 1);
     }
@@ -42,7 +42,7 @@ TEST(PictureZoom, ZoomsAboutTheMouse) {
 TEST(PictureZoom, IsClampedToFitAndMaximum) {
     PictureZoom zoom;
     for (int i = 0; i < 100; ++i) zoom = zoomed(zoom, region, 1600, 900, {500, 350}, 2);
-    EXPECT_EQ(zoom.scale, most_zoom);
+    EXPECT_EQ(zoom.scale, max_zoom);
     for (int i = 0; i < 100; ++i) zoom = zoomed(zoom, region, 1600, 900, {500, 350}, 0.5);
     EXPECT_EQ(zoom, PictureZoom{});
 }
@@ -50,7 +50,7 @@ TEST(PictureZoom, IsClampedToFitAndMaximum) {
 TEST(PictureZoom, PanKeepsTheCentreInsideThePicture) {
     const PictureZoom one = toggled({});
     const PictureZoom moved = shifted(one, region, 1600, 900, -160, 90);
-    const ImageRect before = placed_picture(one, region, 1600, 900), after = placed_picture(moved, region, 1600, 900);
+    const ImageRect before = picture_rect(one, region, 1600, 900), after = picture_rect(moved, region, 1600, 900);
     EXPECT_EQ(after.x, before.x - 160);
     EXPECT_EQ(after.y, before.y + 90);
     EXPECT_EQ(shifted(one, region, 1600, 900, -1e6, 1e6), (PictureZoom{1, 1, 0}));

@@ -77,24 +77,24 @@ TEST(Overrides, WithoutACameraTheSceneIsFramed) {
 TEST(Overrides, AnimationsScenesAndVariantsAreFoundByNameOrNumber) {
     Sample s = sample_project();
     s.project.scene.scene_names = {"Day", "Night"};
-    const auto staging = [&](const StagingChoice& choice) {
+    const auto staging = [&](const SceneSelectionOptions& choice) {
         Scene scene = s.project.scene;
         const Result<void> applied = apply_overrides({.staging = choice}, scene, 1);
         EXPECT_TRUE(applied) << applied.error().text();
         return scene.staging;
     };
-    EXPECT_EQ(staging({}), Staging{});
-    EXPECT_EQ(staging({.animation = "Swing", .seconds = 1.5f}), (Staging{.clip = s.swing, .seconds = 1.5f}));
-    EXPECT_EQ(staging({.animation = "0"}), (Staging{.clip = s.swing}));
+    EXPECT_EQ(staging({}), SceneSelection{});
+    EXPECT_EQ(staging({.animation = "Swing", .seconds = 1.5f}), (SceneSelection{.clip = s.swing, .seconds = 1.5f}));
+    EXPECT_EQ(staging({.animation = "0"}), (SceneSelection{.clip = s.swing}));
     EXPECT_EQ(staging({.scene = "Night"}).scene, 1);
     EXPECT_EQ(staging({.variant = "All grey"}).variant, 1);
     s.project.scene.staging = {.clip = s.swing, .seconds = 1, .variant = 1};
-    EXPECT_EQ(staging({.seconds = 0.5f}), (Staging{.clip = s.swing, .seconds = 0.5f, .variant = 1})) << "of the file's choice";
-    EXPECT_EQ(staging({.animation = "none", .variant = "none"}), Staging{});
+    EXPECT_EQ(staging({.seconds = 0.5f}), (SceneSelection{.clip = s.swing, .seconds = 0.5f, .variant = 1})) << "of the file's choice";
+    EXPECT_EQ(staging({.animation = "none", .variant = "none"}), SceneSelection{});
 }
 
 TEST(Overrides, UnknownChoicesAreErrors) {
-    const auto error = [](const StagingChoice& choice) {
+    const auto error = [](const SceneSelectionOptions& choice) {
         Scene scene = sample_project().project.scene;
         const Result<void> applied = apply_overrides({.staging = choice}, scene, 1);
         return applied ? "" : applied.error().text();

@@ -14,17 +14,17 @@ namespace {
 
 constexpr float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
 
-Pixel show_with(const ColorManagement& color, const DisplayTransform& transform, const DisplayNumbers& numbers, Pixel pixel) {
+Pixel show_with(const ColorManagement& color, const DisplayTransform& transform, const DisplayParameters& numbers, Pixel pixel) {
     EXPECT_TRUE(color.apply_display(transform, numbers, pixel.data(), 1));
     return pixel;
 }
 
 TEST(Looks, PivotAtMiddleGreyOrDesaturate) {
     const auto color = shipped_config();
-    const auto standard = [&](const char* look, const Pixel& p) { return show_with(color, {"sRGB", "Standard", look}, {}, p); };
-    for (const char* look : {"Low contrast", "High contrast"}) {
-        const Pixel same = standard(look, grey(0.18f));
-        for (size_t i = 0; i < 3; ++i) EXPECT_NEAR(same[i], standard("", grey(0.18f))[i], 1e-4) << look;
+    const auto standard = [&](const char* current_pictures, const Pixel& p) { return show_with(color, {"sRGB", "Standard", current_pictures}, {}, p); };
+    for (const char* current_pictures : {"Low contrast", "High contrast"}) {
+        const Pixel same = standard(current_pictures, grey(0.18f));
+        for (size_t i = 0; i < 3; ++i) EXPECT_NEAR(same[i], standard("", grey(0.18f))[i], 1e-4) << current_pictures;
     }
     // The unit range of ACEScct is 17.52 stops, so contrast scales stops from grey.
     EXPECT_NEAR(standard("High contrast", grey(0.18f * 2))[0], srgb_encoded(0.18 * std::exp2(1.2)), 1e-3);
@@ -36,9 +36,9 @@ TEST(Looks, PivotAtMiddleGreyOrDesaturate) {
 TEST(Looks, AreAvailableInEveryView) {
     const auto color = shipped_config();
     EXPECT_EQ(color.looks(), (std::vector<std::string>{"Low contrast", "High contrast", "Black and white"}));
-    for (const auto& look : color.looks())
+    for (const auto& current_pictures : color.looks())
         for (const auto& display : color.displays())
-            for (const auto& view : color.views(display)) EXPECT_TRUE(color.display_shader({display, view, look})) << look << view;
+            for (const auto& view : color.views(display)) EXPECT_TRUE(color.display_shader({display, view, current_pictures})) << current_pictures << view;
 }
 
 TEST(WhiteBalance, MakesThePickedColourNeutralAndKeepsItsLuminance) {
@@ -144,7 +144,7 @@ TEST(FalseColor, ColoursAreDistinguishable) {
 TEST(FalseColor, ReplacesTheViewOnEveryDisplay) {
     const auto color = shipped_config();
     for (const auto& display : color.displays()) {
-        DisplayNumbers numbers{.exposure_ev = 3, .gamma = 2, .false_color = one_to_thousand};
+        DisplayParameters numbers{.exposure_ev = 3, .gamma = 2, .false_color = one_to_thousand};
         const Pixel scene = show_with(color, {display}, numbers, {0.4f, 2.3f, 0.9f});
         numbers.false_color.of = FalseColorScale::Of::exposed;
         const Pixel exposed = show_with(color, {display}, numbers, {0.4f, 2.3f, 0.9f});
@@ -159,7 +159,7 @@ TEST(FalseColor, ReplacesTheViewOnEveryDisplay) {
 
 TEST(Background, AsItIsIsOnlyClippedAndEncoded) {
     const auto color = shipped_config();
-    const DisplayNumbers numbers{
+    const DisplayParameters numbers{
         .exposure_ev = -3, .gamma = 2, .white_balance = white_balance({1, 0.5f, 0.2f}), .background_as_it_is = true};
     const Pixel p{0.2f, 0.5f, 3};
     std::vector<float> rgb;

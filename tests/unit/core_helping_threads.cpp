@@ -16,22 +16,22 @@ namespace {
 
 void pause_a_little() { std::this_thread::sleep_for(std::chrono::microseconds(100)); }
 
-TEST(HelpingThreads, RunEachTaskOnce) {
+TEST(TaskQueue, RunEachTaskOnce) {
     for (const unsigned threads : {0u, 1u, 2u, 7u})
         for (const size_t count : {0, 1, 5, 3000}) {
             std::vector<std::atomic<int>> done(count);
             std::vector<int64_t> sizes;
             for (size_t i = 0; i < count; ++i) sizes.push_back(i % 10 ? 1 : 100);
-            HelpingThreads helpers(threads);
+            TaskQueue helpers(threads);
             helpers.begin(sizes, 10, [&](size_t i) { ++done[i]; });
             helpers.finish();
             for (const auto& times : done) ASSERT_EQ(times, 1) << threads << " threads, " << count << " pieces";
         }
 }
 
-TEST(HelpingThreads, RunLargeTasksOneAtATime) {
+TEST(TaskQueue, RunLargeTasksOneAtATime) {
     std::atomic<int> at_once = 0, most = 0;
-    HelpingThreads helpers(4);
+    TaskQueue helpers(4);
     helpers.begin(std::vector<int64_t>(50, 11), 10, [&](size_t) {
         most = std::max(most.load(), ++at_once);
         pause_a_little();
@@ -41,9 +41,9 @@ TEST(HelpingThreads, RunLargeTasksOneAtATime) {
     EXPECT_EQ(most, 1);
 }
 
-TEST(HelpingThreads, RethrowExceptionsAndContinue) {
+TEST(TaskQueue, RethrowExceptionsAndContinue) {
     for (const unsigned threads : {1u, 4u}) {
-        HelpingThreads helpers(threads);
+        TaskQueue helpers(threads);
         helpers.begin(std::vector<int64_t>(100, 1), 1, [](size_t i) {
             if (i == 50) throw std::runtime_error("fifty");
         });
@@ -53,17 +53,17 @@ TEST(HelpingThreads, RethrowExceptionsAndContinue) {
         helpers.finish();
         EXPECT_EQ(done, 100);
     }
-    HelpingThreads left_alone(4);
+    TaskQueue left_alone(4);
     left_alone.begin({1, 1}, 1, [](size_t) { throw std::runtime_error("nobody asks"); });
 }
 
 // A nice value cannot be lowered again: uses separate threads that end with the test.
-TEST(HelpingThreads, InheritThePriority) {
+TEST(TaskQueue, InheritThePriority) {
     std::atomic<int> lowest = std::numeric_limits<int>::max(), own = 0;
     std::thread([&] {
         lower_priority_of_this_thread();
         own = getpriority(PRIO_PROCESS, id_t(syscall(SYS_gettid)));
-        HelpingThreads helpers(4);
+        TaskQueue helpers(4);
         helpers.begin(std::vector<int64_t>(200, 1), 1, [&](size_t) {
             lowest = std::min(lowest.load(), getpriority(PRIO_PROCESS, id_t(syscall(SYS_gettid))));
             pause_a_little();
@@ -74,12 +74,12 @@ TEST(HelpingThreads, InheritThePriority) {
     EXPECT_GE(lowest, own);
 }
 
-TEST(HelpingThreads, InheritTheFloatingPointMode) {
+TEST(TaskQueue, InheritTheFloatingPointMode) {
     // Uses a separate thread that flushes denormals to zero.
     std::thread([] { Workers(4, false).for_each(100, {}, [](int64_t, unsigned) { pause_a_little(); }); }).join();
     std::atomic<int> flushed = 0;
     std::thread([&] {
-        HelpingThreads helpers(4);
+        TaskQueue helpers(4);
         volatile float smallest = std::numeric_limits<float>::min();
         helpers.begin(std::vector<int64_t>(200, 1), 1, [&](size_t) {
             flushed += smallest / 2 == 0;

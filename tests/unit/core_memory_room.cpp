@@ -22,20 +22,20 @@ public:
         fs::create_directories(file.parent_path());
         std::ofstream(file) << text;
     }
-    MemoryRoom room() const { return memory_room(folder_ / "root"); }
+    MemoryLimit room() const { return memory_limit(folder_ / "root"); }
 
 private:
     test::TemporaryFolder folder_;
 };
 
-TEST(MemoryRoom, UsesPhysicalMemory) {
-    const MemoryRoom room = Root().room();
+TEST(MemoryLimit, UsesPhysicalMemory) {
+    const MemoryLimit room = Root().room();
     EXPECT_EQ(room.limit, 16000000ull << 10);
     EXPECT_EQ(room.left, 8000000ull << 10);
     EXPECT_EQ(room.limit_of, "of this machine");
 }
 
-TEST(MemoryRoom, UsesAncestorControlGroups) {
+TEST(MemoryLimit, UsesAncestorControlGroups) {
     Root root;
     root.write("proc/self/cgroup", "0::/user/one\n");
     root.write("sys/fs/cgroup/user/one/memory.max", "max\n");
@@ -44,7 +44,7 @@ TEST(MemoryRoom, UsesAncestorControlGroups) {
     root.write("sys/fs/cgroup/user/memory.max", "3000000000\n");
     root.write("sys/fs/cgroup/user/memory.current", "2000000000\n");
     root.write("sys/fs/cgroup/user/memory.stat", "anon 5\ninactive_file 500000000\n");
-    const MemoryRoom room = root.room();
+    const MemoryLimit room = root.room();
     EXPECT_EQ(room.limit, 3000000000u);
     EXPECT_EQ(room.left, 1500000000u) << "page cache counts as free";
     EXPECT_EQ(room.limit_of, "of its control group");
@@ -52,18 +52,18 @@ TEST(MemoryRoom, UsesAncestorControlGroups) {
 }
 
 // In a container the path of the group is that of the host, and its files are at the root of the mount.
-TEST(MemoryRoom, UsesControlGroupsV1InAContainer) {
+TEST(MemoryLimit, UsesControlGroupsV1InAContainer) {
     Root root;
     root.write("proc/self/cgroup", "12:cpuset:/docker/x\n5:cpu,memory:/docker/x\n");
     root.write("sys/fs/cgroup/memory/memory.limit_in_bytes", "1000000000\n");
     root.write("sys/fs/cgroup/memory/memory.usage_in_bytes", "1200000000\n");
-    const MemoryRoom room = root.room();
+    const MemoryLimit room = root.room();
     EXPECT_EQ(room.limit, 1000000000u);
     EXPECT_EQ(room.left, 0u);
 }
 
-TEST(MemoryRoom, IsKnownHere) {
-    const MemoryRoom room = memory_room();
+TEST(MemoryLimit, IsKnownHere) {
+    const MemoryLimit room = memory_limit();
     EXPECT_GT(room.limit, 1u << 20);
     EXPECT_LE(room.left, room.limit);
 }

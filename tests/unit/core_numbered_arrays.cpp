@@ -14,12 +14,12 @@
 namespace blush {
 namespace {
 
-using Floats = PlacedVector<float>;
+using Floats = ArenaVector<float>;
 constexpr auto attribute = Attribute(200); // whose elements here are single floats
 
 TEST(NumberedArrays, RangesDoNotOverlapAndAreReused) {
-    std::vector<std::pair<int64_t, NumbersPtr>> taken;
-    for (const size_t count : {1, 5000, 1024, 70000}) taken.emplace_back(int64_t(count), take_numbers(Numbering::vertices, count));
+    std::vector<std::pair<int64_t, ArenaRangePtr>> taken;
+    for (const size_t count : {1, 5000, 1024, 70000}) taken.emplace_back(int64_t(count), reserve_arena_range(ArenaKind::vertices, count));
     for (const auto& [count, numbers] : taken) {
         ASSERT_TRUE(numbers);
         EXPECT_EQ(numbers->first() % 1024, 0);
@@ -28,32 +28,32 @@ TEST(NumberedArrays, RangesDoNotOverlapAndAreReused) {
     }
     const int64_t first = taken[1].second->first();
     taken[1].second.reset();
-    EXPECT_EQ(take_numbers(Numbering::vertices, 5000)->first(), first) << "a free range is reused";
+    EXPECT_EQ(reserve_arena_range(ArenaKind::vertices, 5000)->first(), first) << "a free range is reused";
 }
 
 TEST(NumberedArrays, AdjacentFreeRangesAreMerged) {
     for (const std::array<int, 3>& order : {std::array{0, 1, 2}, {2, 1, 0}, {0, 2, 1}, {1, 0, 2}}) {
-        std::array<NumbersPtr, 3> three;
-        for (NumbersPtr& numbers : three) numbers = take_numbers(Numbering::indices, 4096);
-        const NumbersPtr behind = take_numbers(Numbering::indices, 1);
+        std::array<ArenaRangePtr, 3> three;
+        for (ArenaRangePtr& numbers : three) numbers = reserve_arena_range(ArenaKind::indices, 4096);
+        const ArenaRangePtr behind = reserve_arena_range(ArenaKind::indices, 1);
         const int64_t first = three[0]->first();
         for (const int i : order) three[size_t(i)].reset();
-        EXPECT_EQ(take_numbers(Numbering::indices, 3 * 4096)->first(), first);
+        EXPECT_EQ(reserve_arena_range(ArenaKind::indices, 3 * 4096)->first(), first);
     }
 }
 
 TEST(NumberedArrays, TooLargeRangesAreRefused) {
-    EXPECT_FALSE(take_numbers(Numbering::vertices, size_t(most_numbers(Numbering::vertices)) + 1));
-    EXPECT_FALSE(take_numbers(Numbering::indices, SIZE_MAX));
-    const NumbersPtr all_but_few = take_numbers(Numbering::vertices, size_t(most_numbers(Numbering::vertices)) - (1 << 20));
+    EXPECT_FALSE(reserve_arena_range(ArenaKind::vertices, size_t(arena_capacity(ArenaKind::vertices)) + 1));
+    EXPECT_FALSE(reserve_arena_range(ArenaKind::indices, SIZE_MAX));
+    const ArenaRangePtr all_but_few = reserve_arena_range(ArenaKind::vertices, size_t(arena_capacity(ArenaKind::vertices)) - (1 << 20));
     ASSERT_TRUE(all_but_few);
-    EXPECT_FALSE(take_numbers(Numbering::vertices, 1 << 20 | 1));
+    EXPECT_FALSE(reserve_arena_range(ArenaKind::vertices, 1 << 20 | 1));
 }
 
 TEST(NumberedArrays, ReturnedMemoryIsZero) {
     float* base = attribute_base<float>(attribute);
     ASSERT_TRUE(base);
-    NumbersPtr numbers = take_numbers(Numbering::vertices, 3000);
+    ArenaRangePtr numbers = reserve_arena_range(ArenaKind::vertices, 3000);
     const int64_t first = numbers->first();
     EXPECT_EQ(base[first], 0) << "read before it is written";
     std::fill_n(base + first, 3000, 7.f);
@@ -62,15 +62,15 @@ TEST(NumberedArrays, ReturnedMemoryIsZero) {
 }
 
 TEST(NumberedArrays, TheLastElementHasAnAddress) {
-    const auto last = most_numbers(Numbering::vertices) - 1;
+    const auto last = arena_capacity(ArenaKind::vertices) - 1;
     EXPECT_EQ(attribute_base<float>(attribute)[last], 0);
-    EXPECT_EQ(index_base()[most_numbers(Numbering::indices) - 1], 0u);
+    EXPECT_EQ(index_base()[arena_capacity(ArenaKind::indices) - 1], 0u);
 }
 
 TEST(NumberedArrays, VectorsUseTheArenaOnlyForTheReservedSize) {
-    const NumbersPtr numbers = take_numbers(Numbering::vertices, 100);
+    const ArenaRangePtr numbers = reserve_arena_range(ArenaKind::vertices, 100);
     float* place = attribute_base<float>(attribute) + numbers->first();
-    Floats placed{PlacedAllocator<float>(place, 100)};
+    Floats placed{ArenaAllocator<float>(place, 100)};
     placed.reserve(100);
     placed.resize(100);
     std::iota(placed.begin(), placed.end(), 1.f);
@@ -99,7 +99,7 @@ TEST(NumberedArraysDeathTest, NoRangesWithoutAddressSpace) {
         rlimit few{};
         few.rlim_cur = few.rlim_max = rlim_t(1) << 30;
         setrlimit(RLIMIT_AS, &few);
-        const bool taken = take_numbers(Numbering::vertices, 1) || take_numbers(Numbering::indices, 1);
+        const bool taken = reserve_arena_range(ArenaKind::vertices, 1) || reserve_arena_range(ArenaKind::indices, 1);
         std::exit(taken || attribute_base<float>(attribute) ? 1 : 0);
     };
     EXPECT_EXIT(with_few_addresses(), testing::ExitedWithCode(0), "");

@@ -40,7 +40,7 @@ TEST(GltfScenes, TheDefaultSceneIsShown) {
     EXPECT_EQ(s.scene.scene_names, (std::vector<std::string>{"Day", "Scene 1"}));
     EXPECT_EQ(s.scene.staging.scene, 1);
     EXPECT_EQ(shown_names(s.scene), (std::vector<std::string>{"floor", "candle"}));
-    EXPECT_EQ(shown_names(staged(s.scene, {.scene = 0})), (std::vector<std::string>{"floor", "lamp", "shade"}));
+    EXPECT_EQ(shown_names(with_scene_selection(s.scene, {.scene = 0})), (std::vector<std::string>{"floor", "lamp", "shade"}));
     EXPECT_FALSE(reports(s.report, "belong to no scene"));
 }
 
@@ -60,7 +60,7 @@ TEST(GltfScenes, SurviveASaveWithTheChoice) {
     write_bytes(folder / "scenes.gltf", day_and_night().gltf());
     const ImportedScene original = load(folder / "scenes.gltf");
     for (const int32_t chosen : {0, 1}) {
-        Project project{staged(original.scene, {.scene = chosen}), {}, {}};
+        Project project{with_scene_selection(original.scene, {.scene = chosen}), {}, {}};
         const Edit lamp = AddLight{};
         project = *blush::apply(project, lamp);
         const auto saved = save_gltf(original.origin, project, folder / "saved.gltf");
@@ -108,10 +108,10 @@ TEST(GltfVariants, AssignMaterials) {
     EXPECT_EQ(s.scene.variants, (std::vector<std::string>{"Plain", "Sea", "Forest"}));
     EXPECT_EQ(s.report.extensions_honoured, (std::vector<std::string>{"KHR_materials_variants"}));
     EXPECT_EQ(worn(s.scene), "red");
-    EXPECT_EQ(worn(staged(s.scene, {.variant = 0})), "red") << "has no mapping";
-    EXPECT_EQ(worn(staged(s.scene, {.variant = 1})), "blue");
-    EXPECT_EQ(worn(staged(staged(s.scene, {.variant = 1}), {.variant = 2})), "green");
-    EXPECT_EQ(worn(staged(staged(s.scene, {.variant = 1}), {})), "red");
+    EXPECT_EQ(worn(with_scene_selection(s.scene, {.variant = 0})), "red") << "has no mapping";
+    EXPECT_EQ(worn(with_scene_selection(s.scene, {.variant = 1})), "blue");
+    EXPECT_EQ(worn(with_scene_selection(with_scene_selection(s.scene, {.variant = 1}), {.variant = 2})), "green");
+    EXPECT_EQ(worn(with_scene_selection(with_scene_selection(s.scene, {.variant = 1}), {})), "red");
 }
 
 TEST(GltfVariants, SurviveASaveWithChoiceAndAssignments) {
@@ -120,7 +120,7 @@ TEST(GltfVariants, SurviveASaveWithChoiceAndAssignments) {
     const ImportedScene original = load(folder / "chair.gltf");
     const Id<Mesh> mesh = original.scene.meshes.begin()->id;
     const Id<Material> green = original.scene.materials.entries()[2].id;
-    Project project{staged(original.scene, {.variant = 1}), {}, {}};
+    Project project{with_scene_selection(original.scene, {.variant = 1}), {}, {}};
     for (const bool assigned : {false, true}) {
         if (assigned) project = *blush::apply(project, AssignMaterial{mesh, 0, green});
         const auto saved = save_gltf(original.origin, project, folder / "saved.gltf");
@@ -129,8 +129,8 @@ TEST(GltfVariants, SurviveASaveWithChoiceAndAssignments) {
         const ImportedScene loaded = load(folder / "saved.gltf");
         EXPECT_EQ(loaded.scene.staging.variant, 1);
         EXPECT_EQ(worn(loaded.scene), assigned ? "green" : "blue");
-        EXPECT_EQ(worn(staged(loaded.scene, {})), "red");
-        EXPECT_EQ(worn(staged(loaded.scene, {.variant = 2})), "green");
+        EXPECT_EQ(worn(with_scene_selection(loaded.scene, {})), "red");
+        EXPECT_EQ(worn(with_scene_selection(loaded.scene, {.variant = 2})), "green");
         EXPECT_EQ(loaded.scene.meshes.begin()->value.parts[0].by_variant, saved->scene.meshes.begin()->value.parts[0].by_variant);
     }
 }
@@ -143,7 +143,7 @@ TEST(GltfVariants, BrokenMappingsAreReported) {
     no_variant.json[mapping]["variants"] = {7, "x"};
     const ImportedScene s = imported(no_variant);
     EXPECT_TRUE(reports(s.report, "a variant that does not exist"));
-    EXPECT_EQ(worn(staged(s.scene, {.variant = 1})), "red");
+    EXPECT_EQ(worn(with_scene_selection(s.scene, {.variant = 1})), "red");
     for (int i = 0; i < 3000; ++i) many.json["extensions"]["KHR_materials_variants"]["variants"].push_back({{"name", "more"}});
     EXPECT_EQ(imported(many).scene.variants.size(), 1000u);
 }

@@ -164,10 +164,10 @@ TEST(GltfInstancing, EditsAsJsonListThemAsLeftOut) {
     const auto applied = apply_edits_json(before.scene, text);
     ASSERT_TRUE(applied) << error_text(applied);
     EXPECT_EQ(*applied, duplicated.scene) << text;
-    EXPECT_EQ(edits_left_out(text), 0u);
+    EXPECT_EQ(count_left_out(text), 0u);
 
     const Project merged = *blush::apply(before, Import{import_built(three_copies())->scene, "other"});
-    EXPECT_GT(edits_left_out(edits_json(before.scene, merged.scene)), 0u);
+    EXPECT_GT(count_left_out(edits_json(before.scene, merged.scene)), 0u);
 }
 
 } // namespace

@@ -33,7 +33,7 @@ OrderedJson written(const TempFolder& folder) { return OrderedJson::parse(text_o
 
 const Light& light_on(const Scene& scene, size_t node) { return *scene.lights.find(scene.nodes.entries()[node].value.light); }
 
-TEST(MeasuredLights, UseTheIntensityOfTheirNodes) {
+TEST(IesLights, UseTheIntensityOfTheirNodes) {
     const TempFolder folder;
     const auto imported = import_text(folder, with_luminaires(folder).gltf());
     ASSERT_TRUE(imported) << error_text(imported);
@@ -59,7 +59,7 @@ TEST(MeasuredLights, UseTheIntensityOfTheirNodes) {
     EXPECT_EQ(light_on(scene, 3).intensity, 3 * profile->peak);
 }
 
-TEST(MeasuredLights, AreUnchangedWithoutAnEdit) {
+TEST(IesLights, AreUnchangedWithoutAnEdit) {
     const TempFolder folder;
     const auto original = import_text(folder, with_luminaires(folder).gltf());
     ASSERT_TRUE(original) << error_text(original);
@@ -67,7 +67,7 @@ TEST(MeasuredLights, AreUnchangedWithoutAnEdit) {
     EXPECT_EQ(written(folder), OrderedJson::parse(*original->origin.json));
 }
 
-TEST(MeasuredLights, EachFieldRoundTrips) {
+TEST(IesLights, EachFieldRoundTrips) {
     const TempFolder folder;
     const auto original = import_text(folder, with_luminaires(folder).gltf());
     ASSERT_TRUE(original) << error_text(original);
@@ -90,7 +90,7 @@ TEST(MeasuredLights, EachFieldRoundTrips) {
     }
 }
 
-TEST(MeasuredLights, AreWrittenInTheStandardForm) {
+TEST(IesLights, AreWrittenInTheStandardForm) {
     const TempFolder folder;
     GltfBuilder b;
     b.add("nodes", {{"name", "a place"}});
@@ -121,7 +121,7 @@ TEST(MeasuredLights, AreWrittenInTheStandardForm) {
     EXPECT_EQ(text_of(folder / "downlight.ies"), text_of(downlight));
 }
 
-TEST(MeasuredLights, SplitTheirProfileEntryWhenOneIsEditedOrRemoved) {
+TEST(IesLights, SplitTheirProfileEntryWhenOneIsEditedOrRemoved) {
     const TempFolder folder;
     const auto original = import_text(folder, with_luminaires(folder).gltf());
     ASSERT_TRUE(original) << error_text(original);
@@ -143,7 +143,7 @@ TEST(MeasuredLights, SplitTheirProfileEntryWhenOneIsEditedOrRemoved) {
     EXPECT_EQ(last.lights.find(kept)->radius, 0.1f);
 }
 
-TEST(MeasuredLights, HostileLightsAreRefusedOrReported) {
+TEST(IesLights, HostileLightsAreRefusedOrReported) {
     const TempFolder folder;
     const auto imported_with = [&](const Json& profile, const Json& node) {
         GltfBuilder b;

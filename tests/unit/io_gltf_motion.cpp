@@ -44,7 +44,7 @@ const Clip& only_clip(const ImportedScene& s) { return s.scene.clips.begin()->va
 
 // Transform of the first node at a time of the only clip.
 Transform at(const ImportedScene& s, float seconds) {
-    const Scene scene = staged(s.scene, {.clip = s.scene.clips.begin()->id, .seconds = seconds});
+    const Scene scene = with_scene_selection(s.scene, {.clip = s.scene.clips.begin()->id, .seconds = seconds});
     return posed_transform(scene, scene.nodes.begin()->id, scene.nodes.begin()->value);
 }
 
@@ -320,7 +320,7 @@ TEST(GltfMotion, SurvivesASave) {
     write_bytes(folder / "moving.gltf", moving().gltf());
     const ImportedScene original = load(folder / "moving.gltf");
     expect_comes_back(original, original.scene, "as it was");
-    const Scene posed = staged(original.scene, {.clip = original.scene.clips.begin()->id, .seconds = 0.375f});
+    const Scene posed = with_scene_selection(original.scene, {.clip = original.scene.clips.begin()->id, .seconds = 0.375f});
     EXPECT_NE(world_bounds(posed).high, world_bounds(original.scene).high);
     expect_comes_back(original, posed, "posed");
 
@@ -343,7 +343,7 @@ TEST(GltfMotion, DuplicatesAreAnimated) {
     const Skinned names;
     for (const auto& [id, node] : original.scene.nodes)
         if (!node.parent) project = *blush::apply(project, DuplicateNode{id});
-    project.scene = staged(project.scene, {.clip = original.scene.clips.begin()->id, .seconds = 0.375f});
+    project.scene = with_scene_selection(project.scene, {.clip = original.scene.clips.begin()->id, .seconds = 0.375f});
     EXPECT_EQ(project.scene.clips.begin()->value.channels.size(), 4u);
     expect_comes_back(original, project.scene, "copied");
 
@@ -351,7 +351,7 @@ TEST(GltfMotion, DuplicatesAreAnimated) {
     EXPECT_EQ(imported_twice.scene.clips.size(), 2u);
     EXPECT_EQ(imported_twice.scene.skins.size(), 2u);
     const Id<Clip> second{imported_twice.scene.clips.entries()[1].id};
-    expect_comes_back(original, staged(imported_twice.scene, {.clip = second, .seconds = 0.5f}), "imported");
+    expect_comes_back(original, with_scene_selection(imported_twice.scene, {.clip = second, .seconds = 0.5f}), "imported");
 }
 
 } // namespace

@@ -218,7 +218,7 @@ TEST(GltfParallel, PreviewSceneComesBeforeTheTextures) {
     std::vector<ImportedScene> early;
     ImportOptions options;
     options.threads = 1; // no decoding before the rest is converted
-    options.on_untextured = [&](const ImportedScene& scene) { early.push_back(scene); };
+    options.on_preview_scene = [&](const ImportedScene& scene) { early.push_back(scene); };
     const auto whole = import_built(b, options);
     ASSERT_TRUE(whole) << error_text(whole);
     ASSERT_EQ(early.size(), 1u);
@@ -230,7 +230,7 @@ TEST(GltfParallel, PreviewSceneComesBeforeTheTextures) {
     EXPECT_EQ(scene.cameras, whole->scene.cameras);
     EXPECT_EQ(scene.view, whole->scene.view);
     EXPECT_EQ(early[0].has_view, whole->has_view);
-    EXPECT_EQ(scene, untextured(whole->scene));
+    EXPECT_EQ(scene, preview_scene(whole->scene));
 }
 
 TEST(GltfParallel, NoPreviewWithoutTextures) {
@@ -238,7 +238,7 @@ TEST(GltfParallel, NoPreviewWithoutTextures) {
     b.show({{"attributes", {{"POSITION", b.triangle_positions()}}}});
     ImportOptions options;
     options.threads = 1;
-    options.on_untextured = [&](const ImportedScene&) { ADD_FAILURE() << "there is nothing to wait for"; };
+    options.on_preview_scene = [&](const ImportedScene&) { ADD_FAILURE() << "there is nothing to wait for"; };
     EXPECT_TRUE(import_built(b, options));
 }
 
@@ -247,7 +247,7 @@ TEST(GltfParallel, CancelledWhileTexturesAreMissing) {
     ImportOptions options;
     options.threads = 1;
     options.cancel = &cancel;
-    options.on_untextured = [&](const ImportedScene&) { cancel = true; };
+    options.on_preview_scene = [&](const ImportedScene&) { cancel = true; };
     const auto imported = import_built(busy_file(), options);
     ASSERT_FALSE(imported);
     EXPECT_EQ(imported.error().what, "cancelled");

@@ -83,8 +83,8 @@ TEST(GltfPointsLines, SkippedPointsAndLinesAreCounted) {
     g.positions[3] = {std::numeric_limits<float>::quiet_NaN(), 0, 0};
     EXPECT_EQ(solids_of(g, {0, 3, 1}, 0).left_out, 1u);
     EXPECT_EQ(solids_of(g, {0, 1, 3, 1, 2, 2}, 1).left_out, 2u);
-    const Solids many = solids_of(g, std::vector<uint32_t>(most_points_and_segments + 5, 1), 0);
-    EXPECT_EQ(many.shown, most_points_and_segments);
+    const Solids many = solids_of(g, std::vector<uint32_t>(max_points_and_segments + 5, 1), 0);
+    EXPECT_EQ(many.shown, max_points_and_segments);
     EXPECT_EQ(many.left_out, 5u);
     EXPECT_EQ(mark_radius({{1, 2, 3}}), 0.005f) << "a single position has no extent";
 

@@ -52,10 +52,10 @@ std::map<std::string, Verdict> verdicts_of(const GltfFiles& files, const TempFol
         write_bytes(folder / name, bytes);
         command.push_back(folder / name);
     }
-    const Finished judged = run(command);
-    EXPECT_EQ(judged.exit_code, 0) << judged.err;
+    const Finished rr_throughput = run(command);
+    EXPECT_EQ(rr_throughput.exit_code, 0) << rr_throughput.err;
     std::map<std::string, Verdict> verdicts;
-    std::istringstream lines(judged.out);
+    std::istringstream lines(rr_throughput.out);
     for (const auto& [name, bytes] : files) {
         std::string line;
         EXPECT_TRUE(std::getline(lines, line)) << name;

@@ -180,9 +180,9 @@ TEST(ImageIo, UnknownFormatsAndBadRequestsAreErrors) {
 TEST(JpegEnd, ThumbnailsDoNotCount) {
     // Start, an application segment of 6 bytes that holds an end marker, then nothing more.
     std::vector<uint8_t> bytes = {0xff, 0xd8, 0xff, 0xe1, 0x00, 0x06, 0xff, 0xd9, 0x00, 0x00};
-    EXPECT_FALSE(jpeg_reaches_its_end(bytes));
+    EXPECT_FALSE(is_complete_jpeg(bytes));
     bytes.insert(bytes.end(), {0xff, 0xd9});
-    EXPECT_TRUE(jpeg_reaches_its_end(bytes));
+    EXPECT_TRUE(is_complete_jpeg(bytes));
 }
 
 } // namespace

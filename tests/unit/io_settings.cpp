@@ -20,7 +20,7 @@ RenderSettings unusual_settings() {
     s.roulette = {Roulette::Rule::constant, 1, 0.05f, 0.95f, 0.7f, 0.1f};
     s.strategy = Strategy::bsdf;
     s.filter = PixelFilter::box;
-    s.sampler = SampleNumbers::random;
+    s.sampler = SamplerType::random;
     s.energy_compensation = true;
     s.reuse = 8;
     s.clamp = {2.5f, true};

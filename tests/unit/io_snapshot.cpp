@@ -105,7 +105,7 @@ TEST(Snapshot, ForeignAndBrokenMetadataAreErrors) {
 const std::vector<double> awkward_sums{0.0, -0.0, 1.0 / 3, 1e300, 5e-324, -1e-200, std::numeric_limits<double>::infinity(), 4503599627370497.5};
 
 TEST(Snapshot, LosslessPlanesRoundTripExactly) {
-    const std::vector<ExactPlane> planes{{"even.R", awkward_sums, {}}, {"even.count", {}, {0, 1, 16777217, 4294967295u, 5, 6, 7, 8}}};
+    const std::vector<LosslessPlane> planes{{"even.R", awkward_sums, {}}, {"even.count", {}, {0, 1, 16777217, 4294967295u, 5, 6, 7, 8}}};
     const std::vector<float> rgba(8 * 4, 0.5f);
     SnapshotInput input;
     input.width = 4;
@@ -118,15 +118,15 @@ TEST(Snapshot, LosslessPlanesRoundTripExactly) {
     ASSERT_TRUE(write_exr(folder / "a.exr", *image));
     const auto read = read_layers(folder / "a.exr");
     ASSERT_TRUE(read) << error_text(read);
-    std::vector<ExactPlane> back = exact_planes(*read, "film");
+    std::vector<LosslessPlane> back = lossless_planes(*read, "film");
     ASSERT_EQ(back.size(), 2u);
-    std::ranges::sort(back, {}, &ExactPlane::name);
+    std::ranges::sort(back, {}, &LosslessPlane::name);
     EXPECT_EQ(back[1], planes[1]);
     for (size_t i = 0; i < awkward_sums.size(); ++i)
         EXPECT_EQ(std::bit_cast<uint64_t>(back[0].sums[i]), std::bit_cast<uint64_t>(awkward_sums[i])) << awkward_sums[i];
-    EXPECT_TRUE(exact_planes(*read, "id").empty());
+    EXPECT_TRUE(lossless_planes(*read, "id").empty());
 
-    std::vector<ExactPlane> wrong = planes;
+    std::vector<LosslessPlane> wrong = planes;
     wrong[0].sums.pop_back();
     input.film = wrong;
     EXPECT_NE(error_text(make_snapshot(input)).find("wrong size, film.even.R"), std::string::npos);
@@ -139,7 +139,7 @@ TEST(Snapshot, HalfIsForColoursAlone) {
     input.half = true;
     const auto image = make_snapshot(input);
     ASSERT_TRUE(image) << error_text(image);
-    EXPECT_EQ(beyond_half(*image), 2);
+    EXPECT_EQ(count_beyond_half(*image), 2);
     const TempFolder folder;
     ASSERT_TRUE(write_exr(folder / "half.exr", *image));
     input.half = false;
@@ -149,8 +149,8 @@ TEST(Snapshot, HalfIsForColoursAlone) {
     EXPECT_EQ(whole->find("G")->values, (std::vector<float>{1.0f / 3, -70000}));
     // 11 bits of precision, rounded to the nearest; subnormal below 2^-14.
     EXPECT_EQ(half->find("R")->values, (std::vector<float>{1, 4}));
-    EXPECT_EQ(half->find("G")->values, (std::vector<float>{1365.0f / 4096, -largest_half}));
-    EXPECT_EQ(half->find("B")->values, (std::vector<float>{50.0f / 16777216, largest_half}));
+    EXPECT_EQ(half->find("G")->values, (std::vector<float>{1365.0f / 4096, -max_half}));
+    EXPECT_EQ(half->find("B")->values, (std::vector<float>{50.0f / 16777216, max_half}));
     EXPECT_EQ(half->find("depth.Z")->values, planes.depth);
     EXPECT_EQ(half->find("id.object")->words, planes.object);
     const auto metadata = read_metadata(folder / "half.exr");

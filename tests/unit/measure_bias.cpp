@@ -156,13 +156,13 @@ TEST(BiasTest, OnePixelIsNotSignificant) {
 // Groups of 16 fully correlated pixels: treating them as independent gives far too many false alarms.
 TEST(BiasTest, CorrelatedPixelsAreAccountedFor) {
     std::mt19937 bits(11);
-    const auto in_groups = [&](double sharing) {
+    const auto in_groups = [&](double variance_factor) {
         std::array<float, side * side / 16> common;
         std::normal_distribution<float> normal(0, 0.1f);
         for (float& c : common) c = normal(bits);
         MeasuredImage m = noisy(bits, 0, 16, [&](int x, int y) { return 0.5f + common[size_t(y / 4 * (side / 4) + x / 4)]; });
         m.error.assign(m.error.size(), {0.1f, 0.1f, 0.1f});
-        m.sharing = sharing;
+        m.variance_factor = variance_factor;
         return m;
     };
     Moments honest, naive;

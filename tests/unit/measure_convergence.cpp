@@ -162,15 +162,15 @@ TEST(TimeLeft, IsUnknownWithoutATrend) {
 }
 
 TEST(Turns, GoToTheVariantWithTheLeastTime) {
-    EXPECT_EQ(next_turn({3, 1, 2}), 1);
-    EXPECT_EQ(next_turn({-1, -1, 2}), 2);
-    EXPECT_EQ(next_turn({-1, -1}), -1);
-    EXPECT_EQ(next_turn({}), -1);
+    EXPECT_EQ(next_variant({3, 1, 2}), 1);
+    EXPECT_EQ(next_variant({-1, -1, 2}), 2);
+    EXPECT_EQ(next_variant({-1, -1}), -1);
+    EXPECT_EQ(next_variant({}), -1);
     // A variant with ten times longer turns gets no more time than the others, within one turn.
     std::vector<double> seconds{0, 0, 0};
     const double turn[]{0.1, 1, 0.1};
     for (int i = 0; i < 500; ++i) {
-        const int next = next_turn(seconds);
+        const int next = next_variant(seconds);
         seconds[size_t(next)] += turn[next];
         EXPECT_LE(*std::ranges::max_element(seconds) - *std::ranges::min_element(seconds), 1 + 1e-9);
     }

@@ -64,7 +64,7 @@ TEST(ConvergenceRuns, RunsOfADragAreDropped) {
     record(runs, 8);
     for (int i = 0; i < 50; ++i) {
         runs.begin("Change light sun");
-        record(runs, i % int(ConvergenceRuns::fewest_points));
+        record(runs, i % int(ConvergenceRuns::min_points));
     }
     record(runs, 8);
     EXPECT_EQ(names(runs), (std::vector<std::string>{"Opened", "Change light sun"}));

@@ -64,7 +64,7 @@ Plot two_curves() {
 }
 
 TEST(PlotLayout, MapsPowersOfTenEvenlyAndBack) {
-    const PlotLayout l = lay_out(two_curves(), {});
+    const PlotLayout l = compute_plot_layout(two_curves(), {});
     EXPECT_NEAR(l.px(10) - l.px(1), l.px(100) - l.px(10), 1e-9);
     EXPECT_NEAR(l.py(1) - l.py(10), l.py(0.1) - l.py(1), 1e-9);
     EXPECT_LT(l.py(10), l.py(1)) << "larger values are higher";
@@ -79,7 +79,7 @@ TEST(PlotLayout, MapsPowersOfTenEvenlyAndBack) {
 }
 
 TEST(PlotLayout, AxesEndAtRoundNumbersAndAreStable) {
-    const auto axis = [](double last) { return lay_out({"", "", "", {{"", "#000", {{1, 1}, {last, 0.5}}}}, {}, {}}, {}).x_axis; };
+    const auto axis = [](double last) { return compute_plot_layout({"", "", "", {{"", "#000", {{1, 1}, {last, 0.5}}}}, {}, {}}, {}).x_axis; };
     for (double last = 1.1; last < 1e6; last *= 1.37) {
         const LogAxis x = axis(last);
         for (const double end : {x.low, x.high}) {
@@ -98,7 +98,7 @@ TEST(PlotLayout, LabelsDoNotOverlapAndAlwaysExist) {
         for (const double width : {200.0, 640.0}) {
             for (double from = 1e-9; from < 1e5; from *= 7.3) {
                 const Plot plot{"", "", "", {{"", "#000", {{from, from}, {from * span, from * span}}}}, {}, {}};
-                const PlotLayout l = lay_out(plot, {width, 300, 12, true, {}});
+                const PlotLayout l = compute_plot_layout(plot, {width, 300, 12, true, {}});
                 const PlotTick* before = nullptr;
                 for (const PlotTick& t : l.x_ticks) {
                     EXPECT_NEAR(t.at, l.px(t.value), 1e-9);
@@ -118,7 +118,7 @@ TEST(PlotLayout, LabelsDoNotOverlapAndAlwaysExist) {
 TEST(PlotLayout, LabelsOfMarksDoNotOverlap) {
     Plot plot = two_curves();
     for (const double x : {2.0, 2.1, 2.2, 2.3, 50.0, 99.0, 1e9, -1.0}) plot.marks.push_back({x, "Change light sun"});
-    const PlotLayout l = lay_out(plot, {});
+    const PlotLayout l = compute_plot_layout(plot, {});
     EXPECT_EQ(l.marks.size(), 6u) << "those within the axes";
     size_t labelled = 0;
     for (size_t i = 0; i < l.marks.size(); ++i) {
@@ -138,19 +138,19 @@ TEST(PlotLayout, LabelsOfMarksDoNotOverlap) {
 TEST(PlotLayout, TheLegendAvoidsTheCurves) {
     Plot plot{"", "", "", {{"falls", "#000", {}}}, {}, {}};
     for (double x = 1; x < 1e4; x *= 1.3) plot.curves[0].points.push_back({x, 1 / x});
-    const PlotLayout falling = lay_out(plot, {});
+    const PlotLayout falling = compute_plot_layout(plot, {});
     EXPECT_GT(falling.legend[0].text.y, (falling.top + falling.bottom) / 2) << "below a curve that falls";
     for (PlotCurve::Point& p : plot.curves[0].points) p.y = p.x < 100 ? 1e-6 : 1e-6 * p.x;
-    const PlotLayout low = lay_out(plot, {});
+    const PlotLayout low = compute_plot_layout(plot, {});
     EXPECT_GT(low.legend[0].text.x, (low.left + low.right) / 2) << "beside one that begins low";
-    EXPECT_TRUE(lay_out(plot, {640, 420, 12, false, {}}).legend.empty());
+    EXPECT_TRUE(compute_plot_layout(plot, {640, 420, 12, false, {}}).legend.empty());
 }
 
 TEST(PlotLayout, PicksTheNearestPoint) {
     Plot plot = two_curves();
     plot.curves.push_back(plot_guide(plot, -0.5, "guide"));
     plot.curves[0].points.insert(plot.curves[0].points.begin(), {-1, 1});
-    const PlotLayout l = lay_out(plot, {});
+    const PlotLayout l = compute_plot_layout(plot, {});
     const auto at = pick(plot, l, l.px(10) + 3, l.py(0.3) - 2, 10);
     ASSERT_TRUE(at);
     EXPECT_EQ(at->curve, 0u);

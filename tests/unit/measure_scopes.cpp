@@ -86,19 +86,19 @@ TEST(Waveform, CountsValuesBeyondInTheEndLevels) {
     EXPECT_EQ(w.counts[2][0], 1u);
 }
 
-TEST(Spread, IsMeanRangeAndDeviation) {
-    const Spread s = spread_of(std::vector<float>{2, 4, 4, 4, 5, 5, 7, 9, nan, inf});
+TEST(ValueStatistics, IsMeanRangeAndDeviation) {
+    const ValueStatistics s = value_statistics(std::vector<float>{2, 4, 4, 4, 5, 5, 7, 9, nan, inf});
     EXPECT_EQ(s.count, 8);
     EXPECT_DOUBLE_EQ(s.mean, 5);
     EXPECT_DOUBLE_EQ(s.deviation, 2);
     EXPECT_EQ(s.low, 2);
     EXPECT_EQ(s.high, 9);
-    EXPECT_EQ(spread_of({}).count, 0);
+    EXPECT_EQ(value_statistics({}).count, 0);
 }
 
 // The deviation is accurate for a large mean.
-TEST(Spread, IsAccurateForSmallDifferencesOfLargeValues) {
-    const Spread s = spread_of(std::vector<float>{1e6f + 1, 1e6f - 1, 1e6f + 1, 1e6f - 1});
+TEST(ValueStatistics, IsAccurateForSmallDifferencesOfLargeValues) {
+    const ValueStatistics s = value_statistics(std::vector<float>{1e6f + 1, 1e6f - 1, 1e6f + 1, 1e6f - 1});
     EXPECT_DOUBLE_EQ(s.deviation, 1);
 }
 

@@ -62,15 +62,15 @@ struct Strip {
     }
     // In the world.
     std::vector<Vec3d> positions() const {
-        Placements placements(scene);
-        const PlacedMesh mesh = placed_mesh(scene, placements, body, *scene.nodes.find(body));
+        WorldTransforms placements(scene);
+        const DeformedMesh mesh = deformed_mesh(scene, placements, body, *scene.nodes.find(body));
         std::vector<Vec3d> corners;
         for (const Vec3& p : mesh.parts[0].geometry->positions) corners.push_back(transform_point(mesh.world_from_mesh, to_double(p)));
         return corners;
     }
     GeometryPtr bent_geometry() const {
-        Placements placements(scene);
-        return placed_mesh(scene, placements, body, *scene.nodes.find(body)).parts[0].geometry;
+        WorldTransforms placements(scene);
+        return deformed_mesh(scene, placements, body, *scene.nodes.find(body)).parts[0].geometry;
     }
 };
 
@@ -143,7 +143,7 @@ TEST(MorphTargets, ZeroWeightsReturnTheMeshItself) {
     EXPECT_EQ(strip.bent_geometry(), rest);
 }
 
-TEST(Bend, FlatNormalsFollowTheTriangles) {
+TEST(Deformation, FlatNormalsFollowTheTriangles) {
     Strip strip;
     auto flat = std::make_shared<Geometry>();
     flat->positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
@@ -159,7 +159,7 @@ TEST(Bend, FlatNormalsFollowTheTriangles) {
     for (const Vec3& n : folded->normals) EXPECT_EQ(n, (Vec3{0, -1, 0}));
 }
 
-TEST(Bend, NonFiniteVerticesKeepTheRestPose) {
+TEST(Deformation, NonFiniteVerticesKeepTheRestPose) {
     Strip strip;
     strip.change(strip.body, [](Node& n) { n.skin = {}, n.morph_weights = {3e38f}; });
     auto huge = std::make_shared<Geometry>(*strip.scene.meshes.begin()->value.parts[0].geometry);
@@ -170,7 +170,7 @@ TEST(Bend, NonFiniteVerticesKeepTheRestPose) {
     for (const Vec3d& p : strip.positions()) EXPECT_LE(std::abs(p.x), 0.5);
 }
 
-TEST(Bend, MissingJointsAreHandled) {
+TEST(Deformation, MissingJointsAreHandled) {
     Strip strip;
     strip.scene.nodes.remove(strip.upper);
     expect_near(strip.positions()[0], {-0.5, 0, 0}, "the other joint is there");

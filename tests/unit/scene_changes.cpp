@@ -86,7 +86,7 @@ TEST(Diff, NodeEdits) {
 
 TEST(Diff, StagingEdits) {
     Sample s = sample_project();
-    const auto of = [&](const Staging& staging) { return seen(changes_of(s, SetStaging{staging})); };
+    const auto of = [&](const SceneSelection& staging) { return seen(changes_of(s, SetSceneSelection{staging})); };
     const Seen motion = only([](Changes& c) { c.motion = true; });
     EXPECT_EQ(of({.clip = s.swing}), motion);
     EXPECT_EQ(of({.seconds = 1}), nothing) << "of no clip";
@@ -96,7 +96,7 @@ TEST(Diff, StagingEdits) {
     EXPECT_EQ(of({.clip = s.swing, .seconds = 1.5f}), motion);
     EXPECT_EQ(of({}), motion);
     EXPECT_EQ(of({.clip = s.swing, .seconds = 1}), nothing);
-    EXPECT_FALSE(changes_of(s, SetStaging{{}}).only_light());
+    EXPECT_FALSE(changes_of(s, SetSceneSelection{{}}).only_light());
 }
 
 TEST(Diff, ReparentingBelowAHiddenNodeHidesIt) {
@@ -212,10 +212,10 @@ TEST(Diff, ViewAndSettings) {
     EXPECT_EQ(seen(of([](RenderSettings& r) { r.max_bounces = 2; })), integrator);
     EXPECT_EQ(seen(of([](RenderSettings& r) { r.roulette.start = 1; })), integrator);
     EXPECT_EQ(seen(of([](RenderSettings& r) { r.strategy = Strategy::bsdf; })), integrator);
-    EXPECT_TRUE(of([](RenderSettings& r) { r.strategy = Strategy::bsdf; }).aiming);
-    EXPECT_FALSE(of([](RenderSettings& r) { r.strategy = Strategy::light; }).aiming);
+    EXPECT_TRUE(of([](RenderSettings& r) { r.strategy = Strategy::bsdf; }).nee_changed);
+    EXPECT_FALSE(of([](RenderSettings& r) { r.strategy = Strategy::light; }).nee_changed);
     EXPECT_EQ(seen(of([](RenderSettings& r) { r.filter = PixelFilter::box; })), integrator);
-    EXPECT_EQ(seen(of([](RenderSettings& r) { r.sampler = SampleNumbers::random; })), integrator);
+    EXPECT_EQ(seen(of([](RenderSettings& r) { r.sampler = SamplerType::random; })), integrator);
     EXPECT_EQ(seen(of([](RenderSettings& r) { r.seed = 1; })), integrator);
     EXPECT_EQ(seen(of([](RenderSettings& r) { r.first_sample = 1; })), integrator);
     EXPECT_EQ(seen(of([](RenderSettings& r) { r.energy_compensation = true; })), integrator);

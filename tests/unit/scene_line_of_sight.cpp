@@ -26,7 +26,7 @@ struct Screens {
         return scene.nodes.add(node);
     }
     std::optional<Id<Node>> between(const Vec3d& from, const Vec3d& to, Id<Node> but = {}) const {
-        return first_between(scene, from, to, [&](Id<Node> id) { return id != but; });
+        return first_occluder(scene, from, to, [&](Id<Node> id) { return id != but; });
     }
 };
 

@@ -131,7 +131,7 @@ TEST(GltfTangents, VerticesWithDifferentTangentsAreSplit) {
     g.colors[0] = {0.5f, 1, 1, 1};
     const Geometry before = g;
     add_tangents(g, 0);
-    EXPECT_EQ(g.made_tangents->copies, (std::vector<uint32_t>{0, 1}));
+    EXPECT_EQ(g.generated_tangents->copies, (std::vector<uint32_t>{0, 1}));
     ASSERT_EQ(g.positions.size(), 8u);
     for (const size_t n : {g.normals.size(), g.colors.size(), g.uv[0].size(), g.tangents.size()}) EXPECT_EQ(n, 8u);
     EXPECT_EQ(g.colors[6], before.colors[0]);
@@ -143,7 +143,7 @@ TEST(GltfTangents, VerticesWithDifferentTangentsAreSplit) {
     }
     Geometry regular = fan(1);
     add_tangents(regular, 0);
-    EXPECT_TRUE(regular.made_tangents->copies.empty()) << "nothing to split";
+    EXPECT_TRUE(regular.generated_tangents->copies.empty()) << "nothing to split";
 }
 
 TEST(GltfTangents, GeneratedTangentsCanBeRemoved) {
@@ -155,7 +155,7 @@ TEST(GltfTangents, GeneratedTangentsCanBeRemoved) {
     Geometry g = before;
     add_tangents(g, 0);
     ASSERT_EQ(g.influences.size(), 16u);
-    const GeometryPtr made = std::make_shared<const Geometry>(g), bare = without_made_tangents(made);
+    const GeometryPtr made = std::make_shared<const Geometry>(g), bare = without_generated_tangents(made);
     EXPECT_NE(bare->serial, made->serial);
     EXPECT_EQ(bare->indices, before.indices);
     EXPECT_EQ(bare->positions, before.positions);
@@ -164,8 +164,8 @@ TEST(GltfTangents, GeneratedTangentsCanBeRemoved) {
     EXPECT_EQ(bare->colors, before.colors);
     EXPECT_TRUE(std::ranges::equal(bare->influences, before.influences, {}, &Influence::joint, &Influence::joint));
     EXPECT_EQ(bare->targets[0]->positions, offsets);
-    EXPECT_TRUE(bare->tangents.empty() && !bare->made_tangents);
-    EXPECT_EQ(without_made_tangents(bare), bare);
+    EXPECT_TRUE(bare->tangents.empty() && !bare->generated_tangents);
+    EXPECT_EQ(without_generated_tangents(bare), bare);
 }
 
 } // namespace

@@ -88,7 +88,7 @@ TEST(MaxBounces, TextRoundTrips) {
 TEST(Words, RoundTrip) {
     for (const Strategy s : {Strategy::mis, Strategy::light, Strategy::bsdf}) EXPECT_EQ(*parse_strategy(to_string(s)), s);
     for (const PixelFilter f : {PixelFilter::blackman_harris, PixelFilter::box}) EXPECT_EQ(*parse_filter(to_string(f)), f);
-    for (const SampleNumbers n : {SampleNumbers::sobol, SampleNumbers::random}) EXPECT_EQ(*parse_sampler(to_string(n)), n);
+    for (const SamplerType n : {SamplerType::sobol, SamplerType::random}) EXPECT_EQ(*parse_sampler(to_string(n)), n);
     EXPECT_EQ(parse_sampler("halton").error().text(), "unknown sampler \"halton\" (known: sobol, random)");
     EXPECT_EQ(parse_strategy("MIS").error().text(), "unknown strategy \"MIS\" (known: mis, light, bsdf)");
     EXPECT_EQ(parse_filter("gauss").error().text(), "unknown filter \"gauss\" (known: blackman-harris, box)");

@@ -25,7 +25,7 @@ struct TwoLamps {
         light.solo = solo;
         scene.lights.set(id, light);
     }
-    bool shine(Id<Light> id) const { return shines(*scene.lights.find(id), any_solo(scene)); }
+    bool shine(Id<Light> id) const { return emits_light(*scene.lights.find(id), any_solo(scene)); }
 };
 
 TEST(Shining, SoloMutesOthersAndMuteTakesPrecedence) {
@@ -116,7 +116,7 @@ TEST(Shining, TheEnvironmentMayBeSolo) {
     EXPECT_FALSE(s.shine(s.key));
     EXPECT_FALSE(any_solo(with_solo_applied(s.scene)));
     s.scene.environment.lights_scene = false;
-    EXPECT_FALSE(shines(s.scene.environment, any_solo(s.scene))) << "mute wins over solo";
+    EXPECT_FALSE(emits_light(s.scene.environment, any_solo(s.scene))) << "mute wins over solo";
     EXPECT_FALSE(s.shine(s.key));
     s.scene.environment.kind = Environment::Kind::none;
     EXPECT_TRUE(s.shine(s.key)) << "what is not there is not solo";

@@ -115,7 +115,7 @@ TEST(WorldFromNode, EndsOnACycle) {
 }
 
 // A chain so deep that an algorithm of quadratic time does not finish.
-TEST(Placements, DeepChainsTakeLinearTime) {
+TEST(WorldTransforms, DeepChainsTakeLinearTime) {
     constexpr int depth = 100'000;
     Scene scene;
     Node node;
@@ -128,7 +128,7 @@ TEST(Placements, DeepChainsTakeLinearTime) {
     EXPECT_TRUE(validate(scene));
     EXPECT_EQ(world_bounds(scene).high.x, 0.5 + 0.25 * (depth - 10));
 
-    Placements placements(scene);
+    WorldTransforms placements(scene);
     for (const auto& [id, unused] : scene.nodes) EXPECT_EQ(placements(id).visible, id.value <= depth - 10);
     for (const uint32_t id : {1u, 2u, 777u, uint32_t(depth)})
         EXPECT_EQ(placements({id}).world_from_node, world_from_node(scene, {id})) << id;
@@ -186,7 +186,7 @@ TEST(Framed, ShowsTheWholeBounds) {
         const View f = framed(view, bounds, aspect);
         EXPECT_EQ(f.rotation, view.rotation);
         const Affined axes = to_affine(f.rotation);
-        double furthest = 0; // of the corners from the middle, in half pictures
+        double max_extrapolation = 0; // of the corners from the middle, in half pictures
         for (int corner = 0; corner < 8; ++corner) {
             const Vec3d p{corner & 1 ? bounds.low.x : bounds.high.x, corner & 2 ? bounds.low.y : bounds.high.y,
                           corner & 4 ? bounds.low.z : bounds.high.z};
@@ -194,9 +194,9 @@ TEST(Framed, ShowsTheWholeBounds) {
             const double depth = -dot(v, axes.z);
             ASSERT_GT(depth, 0);
             const double half_height = f.lens.orthographic ? f.lens.ymag : depth * std::tan(0.5 * f.lens.yfov_radians);
-            furthest = std::max({furthest, std::abs(dot(v, axes.y)) / half_height, std::abs(dot(v, axes.x)) / (half_height * aspect)});
+            max_extrapolation = std::max({max_extrapolation, std::abs(dot(v, axes.y)) / half_height, std::abs(dot(v, axes.x)) / (half_height * aspect)});
         }
-        EXPECT_LE(furthest, 1 + 1e-5);
+        EXPECT_LE(max_extrapolation, 1 + 1e-5);
         if (f.lens.orthographic) {
             EXPECT_NEAR(f.lens.ymag * std::min(1.f, aspect), bounds.radius(), 1e-5);
         } else {

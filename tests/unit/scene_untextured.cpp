@@ -16,14 +16,14 @@ Scene with_material(const Material& material) {
 }
 Material untextured_of(const Material& material) {
     const test::Sample sample = test::sample_project();
-    return *untextured(with_material(material)).materials.find(sample.red);
+    return *preview_scene(with_material(material)).materials.find(sample.red);
 }
 
 TEST(Untextured, NoTexturesRemain) {
     const test::Sample sample = test::sample_project();
     Material material;
     for (const TextureSlot& slot : texture_slots) (material.*slot.ref).texture = sample.checker;
-    const Scene scene = untextured(with_material(material));
+    const Scene scene = preview_scene(with_material(material));
     EXPECT_TRUE(scene.textures.empty());
     for (const auto& [id, m] : scene.materials)
         for (const TextureSlot& slot : texture_slots) EXPECT_EQ(m.*slot.ref, TextureRef{}) << slot.name;
@@ -50,7 +50,7 @@ TEST(Untextured, UntexturedMaterialsAreUnchanged) {
     material.emissive = {5, 5, 5};
     material.clearcoat = 0.7f;
     EXPECT_EQ(untextured_of(material), material);
-    const Scene scene = with_material(material), shown = untextured(scene);
+    const Scene scene = with_material(material), shown = preview_scene(scene);
     EXPECT_TRUE(shown.meshes.shares_storage(scene.meshes));
     EXPECT_TRUE(shown.nodes.shares_storage(scene.nodes));
     EXPECT_TRUE(shown.lights.shares_storage(scene.lights));

@@ -152,7 +152,7 @@ template <Features S> void expect_lanes_equal_one_path(const EnergyTable* energy
             Point& at = points[i] = random_point(random);
             if (is_solid(p) && random() < 0.5f) at.wo.z = -at.wo.z;
             int k = 0;
-            each_number(p, [&](float x) { columns[k++][i] = x; });
+            for_each_value(p, [&](float x) { columns[k++][i] = x; });
             for (const Vec3& v : {at.wo, at.wi, at.u})
                 for (const float x : {v.x, v.y, v.z}) columns[k++][i] = x;
             thin[i] = p.thin;
@@ -164,7 +164,7 @@ template <Features S> void expect_lanes_equal_one_path(const EnergyTable* energy
             return Vec<Wide>{x, y, z};
         };
         BsdfParams<Wide> p;
-        each_number(p, [&](Wide& x) { x = next(); });
+        for_each_value(p, [&](Wide& x) { x = next(); });
         p.thin = load<Wide>(thin) > 0.5f;
         const Vec<Wide> wo = next_vec(), wi = next_vec(), u = next_vec();
         const Bsdf<Wide> b = make_bsdf<S>(p, wo, energy);

@@ -5,7 +5,7 @@
 
 namespace blush::inline BLUSH_ISA {
 
-template <class P, class Visit> void each_number(P& p, const Visit& visit) {
+template <class P, class Visit> void for_each_value(P& p, const Visit& visit) {
     auto& layers = p.layers;
     for (auto* v : {&p.base_color, &p.specular_color, &layers.clearcoat_normal, &layers.sheen_color, &layers.diffuse_transmission_color})
         for (auto* x : {&v->x, &v->y, &v->z}) visit(*x);

@@ -142,7 +142,7 @@ inline Vec3d coat_over(const Vec3d& base, const Params& p, Vec3d wo, Vec3d wi) {
     if (p.layers.clearcoat == 0) return base;
     Vec3d n = to_double(p.layers.clearcoat_normal);
     if (is_solid(p) && wo.z < 0) wo.z = -wo.z, wi.z = -wi.z, n.x = -n.x, n.y = -n.y;
-    if (dot(n, wo) <= double(least_facing)) n = {0, 0, 1}; // tilted normals must face the viewer
+    if (dot(n, wo) <= double(min_facing)) n = {0, 0, 1}; // tilted normals must face the viewer
     const Frame frame(n);
     const Vec3d o = frame.to_local(wo), i = frame.to_local(wi);
     const double share = p.layers.clearcoat * (0.04 + 0.96 * std::pow(1 - o.z, 5));
@@ -185,7 +185,7 @@ inline Vec3d sheen_over(const Vec3d& base, const Params& p, Vec3d wo, Vec3d wi) 
     const Vec3d color = to_double(p.layers.sheen_color);
     if (largest(color) == 0) return base;
     if (is_solid(p) && wo.z < 0) wo.z = -wo.z, wi.z = -wi.z;
-    const double roughness = std::max(p.layers.sheen_roughness, least_sheen_roughness);
+    const double roughness = std::max(p.layers.sheen_roughness, min_sheen_roughness);
     const auto albedo = [&](double cos) { return double(sheen_albedo(sheen_table(), float(roughness), float(std::abs(cos)))); };
     const double larger = std::max(albedo(wo.z), albedo(wi.z));
     const Vec3d below = base * (1 - largest(color) * std::min(larger, 1.0));
@@ -259,8 +259,8 @@ inline statistics::Chart facet_chart(double alpha, const Vec3& wo_surface, bool 
 // Charts of all directions a material with facets scatters to.
 inline std::vector<statistics::Chart> facet_charts(const Params& p, const Vec3& wo) {
     const bool coated = p.layers.clearcoat > 0 && p.layers.clearcoat_roughness >= smooth_roughness;
-    const float narrowest = coated ? std::min(p.roughness, p.layers.clearcoat_roughness) : p.roughness;
-    const double alpha = sqr(std::max(narrowest, smooth_roughness)), ior = std::max(p.ior, 1.f);
+    const float min_decades = coated ? std::min(p.roughness, p.layers.clearcoat_roughness) : p.roughness;
+    const double alpha = sqr(std::max(min_decades, smooth_roughness)), ior = std::max(p.ior, 1.f);
     std::vector<statistics::Chart> charts = {facet_chart(alpha, wo, false, 0)};
     if (p.layers.diffuse_transmission > 0) {
         // Whatever goes through, diffusely or not, is on this chart; refraction has none of its own that covers all directions.

@@ -44,7 +44,7 @@ template <class F> void evaluate_tables(const TablePoints& points, const std::ar
         const auto put_vec = [&](const Vec<F>& v) {
             for (const F& x : {v.x, v.y, v.z}) put(x);
         };
-        each_number(b, put);
+        for_each_value(b, put);
         for (const Vec<F>& v : {m.emission, m.tangent_normal, m.clearcoat_tangent_normal, m.sigma_a}) put_vec(v);
         for (const F& x : {m.anisotropy.strength, m.anisotropy.direction.x, m.anisotropy.direction.y, m.dispersion}) put(x);
         for (const Mask<F>& x : {b.thin, m.double_sided, m.unlit}) put_flag(x);

@@ -47,7 +47,7 @@ std::vector<uint32_t> bits_of(const MaterialPoint<float>& p) {
     const BsdfParams<float>& b = p.bsdf;
     std::vector<uint32_t> bits;
     const auto put = [&](float x) { bits.push_back(std::bit_cast<uint32_t>(x)); };
-    each_number(p.bsdf, put);
+    for_each_value(p.bsdf, put);
     for (const Vec3& v : {p.emission, p.tangent_normal, p.clearcoat_tangent_normal, p.sigma_a})
         for (const float x : {v.x, v.y, v.z}) put(x);
     for (const bool x : {b.thin, p.double_sided, p.unlit}) bits.push_back(x);

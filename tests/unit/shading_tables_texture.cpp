@@ -219,7 +219,7 @@ TEST(TextureLookup, MoreUvSetsThanThereIsRoomForAreReportedAndReadWhite) {
     add_worn_material(scene, on_uv_sets(texture, {10, 11}));
     MaterialTable table;
     build_material_table(table, scene);
-    EXPECT_EQ(table.uv_sets.size(), size_t(most_uv_sets));
+    EXPECT_EQ(table.uv_sets.size(), size_t(max_uv_sets));
     ASSERT_EQ(table.warnings.size(), 1u);
     EXPECT_NE(table.warnings[0].what.find("9 UV sets; those on sets beyond 10"), std::string::npos);
     EXPECT_GE(table.records[2].base_color_texture, 0);

@@ -23,7 +23,7 @@ void draw_playing(PanelContext& c, Fields& f, BouncesView& view, int planes) {
         view.playing = !view.playing;
         view.step_due = ImGui::GetTime() + BouncesView::seconds_each;
     }
-    if (view.playing) c.ui.next_frame_in = std::min(c.ui.next_frame_in, play(view, ImGui::GetTime(), planes));
+    if (view.playing) c.ui.seconds_to_next_frame = std::min(c.ui.seconds_to_next_frame, play(view, ImGui::GetTime(), planes));
 }
 
 void draw_gains(Fields& f, BouncesView& view, const std::vector<BounceEnergy>& energies) {
@@ -31,7 +31,7 @@ void draw_gains(Fields& f, BouncesView& view, const std::vector<BounceEnergy>& e
     for (size_t k = 0; k < energies.size(); ++k)
         f.number(fmt::format("Bounce {}", energies[k].name).c_str(), view.gains[k],
                  {.min = 0,
-                  .max = most_bounce_gain,
+                  .max = max_bounce_gain,
                   .reset = 1,
                   .unit = "×",
                   .bar = true,

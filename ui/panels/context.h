@@ -25,7 +25,7 @@ struct PanelContext {
     int render_width = 0, render_height = 0;
     DenoisedPtr denoised = {};             // of the frame's image; null: none
     std::string denoiser_problem = {};     // why denoising is not possible; empty: it is possible
-    const Ledger* window_ledger = nullptr; // features of the window itself; null: none
+    const FeatureReport* window_ledger = nullptr; // features of the window itself; null: none
     const Mixing* mixing = nullptr;        // gains that turn the frame's light groups into the current scene's picture; null: none
 
     float metered_ev = 0;                                                    // result of auto exposure for the frame; 0 if it is off
@@ -43,7 +43,7 @@ struct PanelContext {
     // Applies several edits as one undo step; all or none. Channels of the light mix follow renamed groups.
     bool apply(std::span<const Edit> edits, const std::string& label, Gesture gesture = no_gesture) {
         std::vector<Edit> all(edits.begin(), edits.end());
-        if (std::optional<LightMix> mix = carried_mix(project(), edits)) all.push_back(SetMix{*std::move(mix)});
+        if (std::optional<LightMix> mix = rename_mix_channels(project(), edits)) all.push_back(SetMix{*std::move(mix)});
         return accepted(document.apply(all, label, gesture));
     }
 

@@ -74,9 +74,9 @@ void draw_settings(PanelContext& c, ConvergenceView& view) {
 }
 
 void draw_reference(PanelContext& c, ConvergenceView& view) {
-    using State = ReferenceNews::State;
+    using State = ReferenceStatus::State;
     if (!view.reference) return;
-    const ReferenceNews& news = view.news;
+    const ReferenceStatus& news = view.news;
     std::string text;
     const char* button = nullptr;
     switch (news.state) {
@@ -158,7 +158,7 @@ void draw_chart(PanelContext& c, const ConvergenceView& view, float height) {
     p.plot.title = std::exchange(p.plot.y_label, {}); // a horizontal title is easier to read than a vertical axis label
     const ImFont& font = *ImGui::GetFont();
     const float em = ImGui::GetFontSize();
-    const PlotLayout l = lay_out(p.plot, plot_metrics(size, font, em, false));
+    const PlotLayout l = compute_plot_layout(p.plot, plot_metrics(size, font, em, false));
     draw_plot(*ImGui::GetWindowDrawList(), p.plot, l, origin, font, em, plot_tones_dark());
     draw_key(p, l, origin);
     ImGui::InvisibleButton("chart", size);
@@ -202,7 +202,7 @@ void draw_files(PanelContext& c, ConvergenceView& view) {
     const RecorderCost& cost = view.cost;
     if (!(cost.rendering > 0)) return;
     const std::string text =
-        fmt::format("recorder {}, estimate {} of the time", share_text(cost.recorder_share()), share_text(cost.estimate_share()));
+        fmt::format("recorder {}, estimate {} of the time", share_text(cost.recorder_fraction()), share_text(cost.estimate_fraction()));
     same_line_if_fits(ImGui::CalcTextSize(text.c_str()).x, ImGui::GetFontSize());
     quiet_text(text);
     const std::string tip =

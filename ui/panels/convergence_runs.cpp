@@ -42,7 +42,7 @@ void draw_name(PanelContext& c, ConvergenceView& view, ConvergenceRun& run) {
         view.renaming = 0;
         return;
     }
-    fitting_text(c.ui, run.record.name, run.shown ? tone::text : tone::dim_text);
+    elided_text(c.ui, run.record.name, run.shown ? tone::text : tone::dim_text);
     c.ui.probe.record_last_item(fmt::format("Convergence/{}", run.record.name));
     if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
         view.renaming = run.id;

@@ -126,7 +126,7 @@ void draw_replay(PanelContext& c) {
             view.replay.reset();
         } else {
             quiet_text("Tracing the sample again");
-            c.ui.next_frame_in = std::min(c.ui.next_frame_in, 0.1);
+            c.ui.seconds_to_next_frame = std::min(c.ui.seconds_to_next_frame, 0.1);
         }
     }
     if (view.log.empty()) return;

@@ -58,7 +58,7 @@ const Instrument table[] = {
     {"region", "Region", bottom, 34, 18, false, [](const PanelContext& c) { return c.project().view.measured.has_value(); }, close_region,
      draw_region_panel},
     {"opening_page", "Start", bottom, 50, 20, false, [](const PanelContext& c) { return c.ui.opening_page; },
-     [](PanelContext& c, bool open) { c.ui.opening_page = open; }, draw_opening_page},
+     [](PanelContext& c, bool open) { c.ui.opening_page = open; }, draw_start_page},
     {"pixel", "Pixel", right, 26, 22, false, [](const PanelContext& c) { return c.ui.pixel.has_value(); },
      [](PanelContext& c, bool open) {
          if (!open) c.ui.pixel.reset();

@@ -10,7 +10,7 @@
 namespace blush {
 namespace {
 
-int64_t count(const Ledger& ledger, bool used) { return std::ranges::count(ledger, used, &FeatureUse::used); }
+int64_t count(const FeatureReport& feature_report, bool used) { return std::ranges::count(feature_report, used, &FeatureUse::used); }
 
 // Name and cost on one line, the reason below.
 void draw_line(const FeatureUse& use) {
@@ -24,9 +24,9 @@ void draw_line(const FeatureUse& use) {
     quiet_text(use.why);
 }
 
-void draw_lines(const Ledger& ledger, bool used) {
+void draw_lines(const FeatureReport& feature_report, bool used) {
     std::string_view part;
-    for (const FeatureUse& use : ledger) {
+    for (const FeatureUse& use : feature_report) {
         if (use.used != used) continue;
         if (part != use.part) {
             part = use.part;
@@ -41,16 +41,16 @@ void draw_lines(const Ledger& ledger, bool used) {
 
 } // namespace
 
-void draw_left_out_section(PanelContext& c) {
+void draw_specialisation_section(PanelContext& c) {
     if (!section(c.ui, "Specialisation", false)) return;
-    if (!c.frame || !c.frame->ledger) return quiet_text("Nothing rendered yet.");
-    Ledger ledger = *c.frame->ledger;
-    if (c.window_ledger) ledger.insert(ledger.end(), c.window_ledger->begin(), c.window_ledger->end());
+    if (!c.frame || !c.frame->feature_report) return quiet_text("Nothing rendered yet.");
+    FeatureReport feature_report = *c.frame->feature_report;
+    if (c.window_ledger) feature_report.insert(feature_report.end(), c.window_ledger->begin(), c.window_ledger->end());
     quiet_text(fmt::format("{} of {} optional features are not compiled in or not built, because this scene does not need them. Kernel {}; "
                            "`blush info --measure` measures how much faster it is than the kernel with all features.",
-                           count(ledger, false), ledger.size(), c.frame->kernel));
-    draw_lines(ledger, false);
-    if (section(c.ui, "In use", false)) draw_lines(ledger, true);
+                           count(feature_report, false), feature_report.size(), c.frame->kernel));
+    draw_lines(feature_report, false);
+    if (section(c.ui, "In use", false)) draw_lines(feature_report, true);
 }
 
 } // namespace blush

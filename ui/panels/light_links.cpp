@@ -74,7 +74,7 @@ void draw_limit(PanelContext& c, const Light& light) {
     ImGui::PushTextWrapPos(0);
     ImGui::TextUnformatted(
         fmt::format("More than {} different sets of shadow casters. Shadow linking is ignored for {}: all objects cast shadows.",
-                    most_caster_sets, left_out ? "this light" : fmt::format("{} other lights", sets.left_out()))
+                    max_caster_sets, left_out ? "this light" : fmt::format("{} other lights", sets.left_out()))
             .c_str());
     ImGui::PopTextWrapPos();
     ImGui::PopStyleColor();

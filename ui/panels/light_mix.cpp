@@ -143,7 +143,7 @@ void draw_groups(PanelContext& c) {
     const Frame& frame = *c.frame;
     if (const int sharing = frame.light_groups->sharing) {
         quiet_text(fmt::format("More than {} groups: {} of them share the last plane and one gain. Groups with a gain come first.",
-                               most_light_groups, sharing));
+                               max_light_groups, sharing));
         c.ui.probe.record_last_item("Light mix/Sharing");
     }
     for (const GroupReport& report : report_groups(frame, c.mixing->names, c.mixing->gains)) draw_group(c, report);

@@ -69,11 +69,11 @@ void draw_intensity(Fields& f, Light& light, double area_scale) {
 
     const UnitText text = text_of(unit, light.kind);
     const bool is_ev = unit == Light::Unit::ev;
-    constexpr float darkest_ev = -40;
+    constexpr float min_ev = -40;
     float value = float(in_unit(light, unit, area_scale));
-    if (is_ev) value = std::max(value, darkest_ev);
+    if (is_ev) value = std::max(value, min_ev);
     NumberStyle style{.min = 0, .max = 1e12f, .reset = 1, .unit = text.suffix, .tip = text.tip};
-    if (is_ev) style = {.min = darkest_ev, .max = 40, .reset = 0, .unit = text.suffix, .step = 0.02f, .tip = text.tip, .format = "%.2f"};
+    if (is_ev) style = {.min = min_ev, .max = 40, .reset = 0, .unit = text.suffix, .step = 0.02f, .tip = text.tip, .format = "%.2f"};
     if (f.number("Intensity", value, style)) light.intensity = intensity_of(light, unit, double(value), area_scale);
     if (light.kind != Light::Kind::sun && unit != Light::Unit::lumen) f.info("", fmt::format("{:.4g} lm in all", luminous_flux(light, area_scale)));
 }

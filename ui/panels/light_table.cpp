@@ -146,7 +146,7 @@ void draw_name(PanelContext& c, RowClicks& clicks, const LightRow& row, const st
     icon_item(icon_of(c, row), row.shines ? tone::light : tone::dim_text, height);
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
-    fitting_text(c.ui, row.name, row.shines ? tone::text : tone::dim_text);
+    elided_text(c.ui, row.name, row.shines ? tone::text : tone::dim_text);
 }
 
 // In brackets if it is the share of a whole group.

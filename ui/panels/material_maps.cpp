@@ -46,7 +46,7 @@ void draw_preview(PanelContext& c, const Texture& texture, const MapThumbnails::
     const ImVec2 size = fitted(picture, side), padding = ImGui::GetStyle().WindowPadding;
     place_next_tip({std::max(size.x, em * 8) + 2 * padding.x, size.y + em * 2.5f + 2 * padding.y});
     ImGui::BeginTooltip();
-    if (ImGui::IsWindowAppearing()) c.ui.next_frame_in = 0;
+    if (ImGui::IsWindowAppearing()) c.ui.seconds_to_next_frame = 0;
     if (picture.texture) ImGui::Image(picture.texture, size);
     ImGui::TextUnformatted(elided(name, side).c_str());
     ImGui::TextDisabled("%s%s", size_of(texture).c_str(), texture.image && texture.image->bytes.empty() ? ", more than 8 bits" : "");
@@ -134,7 +134,7 @@ void draw_placement(Fields& f, TextureRef& ref) {
     f.number("Scale V", ref.scale.y, {.reset = 1, .step = 0.005f, .tip = "How many times the image repeats over one unit of V."});
     f.angle("Rotation", ref.rotation_radians,
             {.min = -360, .max = 360, .reset = 0, .step = 0.25f, .tip = "Rotates the image counter-clockwise about its corner."});
-    if (f.integer("UV set", uv_set, 0, most_uv_set, 0, "Set of texture coordinates of the mesh (TEXCOORD_n)."))
+    if (f.integer("UV set", uv_set, 0, max_uv_set, 0, "Set of texture coordinates of the mesh (TEXCOORD_n)."))
         ref.uv_set = uint8_t(uv_set);
 }
 

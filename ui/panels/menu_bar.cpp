@@ -97,7 +97,7 @@ void draw_lights_menu(PanelContext& c) {
     ImGui::Separator();
     item(c, Command::place_highlight, light, nullptr, c.ui.placing_by == PlacingBy::highlight);
     item(c, Command::place_shadow, light, nullptr, c.ui.placing_by == PlacingBy::shadow);
-    item(c, Command::look_through_light, light || c.ui.looked_through, nullptr, c.ui.looked_through.has_value());
+    item(c, Command::look_through_light, light || c.ui.light_camera, nullptr, c.ui.light_camera.has_value());
     ImGui::Separator();
     item(c, Command::light_table, true, nullptr, c.ui.light_table.open);
 }

@@ -29,11 +29,11 @@ std::vector<LightMeter> draw_table(PanelContext& c) {
         const std::string scope = "Meters/" + meters[i].name;
         std::string name = meters[i].name;
         ImGui::SetNextItemWidth(-FLT_MIN);
-        fitting_input(c.ui, "##name", name, ImGuiInputTextFlags_AutoSelectAll);
+        elided_input(c.ui, "##name", name, ImGuiInputTextFlags_AutoSelectAll);
         if (ImGui::IsItemDeactivatedAfterEdit() && !name.empty()) meters[i].name = name;
         c.ui.probe.record_last_item(scope);
         ImGui::TableNextColumn();
-        fitting_text(c.ui, i < readings.size() ? reading_text(readings[i]) : "...", tone::text);
+        elided_text(c.ui, i < readings.size() ? reading_text(readings[i]) : "...", tone::text);
         c.ui.probe.record_last_item(scope + "/Reading");
         if (ImGui::TableNextColumn() && i < readings.size() && readings[i].rgb.y > 0) {
             const Vec3d& e = readings[i].rgb;
@@ -61,7 +61,7 @@ void follow_meters(PanelContext& c) {
     if (!view.runner) view.runner = std::make_shared<MeterRunner>();
     view.runner->measure({c.scene(), c.project().render, places_of(c.scene(), meters)});
     view.state = view.runner->state();
-    if (!view.state.rests && view.state.failure.empty()) c.ui.next_frame_in = std::min(c.ui.next_frame_in, 0.2);
+    if (!view.state.rests && view.state.failure.empty()) c.ui.seconds_to_next_frame = std::min(c.ui.seconds_to_next_frame, 0.2);
 }
 
 void draw_meters_panel(PanelContext& c) {

@@ -22,7 +22,7 @@ void draw_morph_weights_panel(PanelContext& c, Id<Node> id) {
     const Mesh* mesh = record ? c.scene().meshes.find(record->mesh) : nullptr;
     const size_t count = mesh ? target_count(*mesh) : 0;
     if (count == 0 || !section(c.ui, "Shape")) return;
-    if (is_led(c.scene(), id, Channel::Property::morph_weights)) {
+    if (is_animated(c.scene(), id, Channel::Property::morph_weights)) {
         quiet_text("Animated. Select the rest pose in the timeline to edit the weights.");
         return;
     }

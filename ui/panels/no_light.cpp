@@ -15,7 +15,7 @@ constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFl
 void draw_button(PanelContext& c, const char* name, std::initializer_list<Command> commands, const char* tip) {
     ImGui::SameLine();
     if (ImGui::Button(name)) {
-        c.ui.studio_at_opening = false;
+        c.ui.studio_banner = false;
         c.ui.commands.insert(c.ui.commands.end(), commands);
     }
     c.ui.probe.record_last_item(std::string("No light/") + name);
@@ -49,16 +49,16 @@ void draw_choices_in_studio(PanelContext& c) {
 void draw_no_light_banner(PanelContext& c, const Region& viewport) {
     if (c.scene().nodes.empty()) return;
     // The first edit also keeps the studio.
-    if (c.ui.studio_at_opening && (c.document.undo_labels().size() != 1 || c.document.can_redo())) c.ui.studio_at_opening = false;
+    if (c.ui.studio_banner && (c.document.undo_labels().size() != 1 || c.document.can_redo())) c.ui.studio_banner = false;
     const bool dark = !c.ui.light_presence.in(c.scene());
-    if (!dark && !c.ui.studio_at_opening) return;
+    if (!dark && !c.ui.studio_banner) return;
     const float em = ImGui::GetFontSize();
     ImGui::SetNextWindowPos({viewport.x + viewport.width / 2, viewport.y + em}, ImGuiCond_Always, {0.5f, 0});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, em / 4);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {em, em * 0.7f});
     ImGui::SetNextWindowBgAlpha(0.92f);
     if (ImGui::Begin(dark ? "##no light" : "##no light in the file", nullptr, flags)) {
-        if (ImGui::IsWindowAppearing()) c.ui.next_frame_in = 0; // becomes visible in the frame after the one that measures its size
+        if (ImGui::IsWindowAppearing()) c.ui.seconds_to_next_frame = 0; // becomes visible in the frame after the one that measures its size
         ImGui::AlignTextToFramePadding();
         dark ? draw_choices(c) : draw_choices_in_studio(c);
         c.ui.probe.record("No light", {ImGui::GetWindowPos().x, ImGui::GetWindowPos().y, ImGui::GetWindowWidth(), ImGui::GetWindowHeight()});

@@ -81,7 +81,7 @@ void draw_transform_panel(PanelContext& c, Id<Node> id) {
     if (!record || !section(c.ui, "Transform")) return;
     Node node = *record;
     node.local = posed_transform(c.scene(), id, node);
-    const bool led = is_placed_by_clip(c.scene(), id);
+    const bool led = is_transform_animated(c.scene(), id);
     if (led) quiet_text("Animated. Select the rest pose in the timeline to edit the transform.");
     if (node.skin) quiet_text("Skinned: joints define its position. The node's own transform has no effect.");
     ImGui::BeginDisabled(led);

@@ -51,7 +51,7 @@ void draw_rows(PanelContext& c, const char* title, const std::vector<std::string
 
 } // namespace
 
-void draw_opening_page(PanelContext& c) {
+void draw_start_page(PanelContext& c) {
     if (ImGui::Button("Open...")) c.ui.commands.push_back(Command::open);
     c.ui.probe.record_last_item("Opening/Open...");
     ImGui::SameLine();

@@ -31,7 +31,7 @@ struct Rows {
 Children children_of(const Scene& scene) {
     Children children;
     for (const auto& [id, node] : scene.nodes)
-        if (!is_of_other_scene(scene, node)) children[node.parent].push_back(id);
+        if (!is_root_of_other_scene(scene, node)) children[node.parent].push_back(id);
     return children;
 }
 
@@ -104,7 +104,7 @@ void draw_node(PanelContext& c, Rows& rows, Id<Node> id, int depth) {
     }
     ImGui::SameLine(0, 0);
     const Light* light = c.scene().lights.find(node.light);
-    const bool quiet = !node.visible || (light && !shines(*light, rows.some_solo));
+    const bool quiet = !node.visible || (light && !emits_light(*light, rows.some_solo));
     icon_item(icon_of(c.scene(), node), quiet ? IM_COL32(95, 95, 95, 255) : light ? tone::light : tone::dim_text, ImGui::GetFrameHeight());
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
@@ -112,7 +112,7 @@ void draw_node(PanelContext& c, Rows& rows, Id<Node> id, int depth) {
         draw_rename(c, id, node);
     else {
         const float before_eye = ImGui::GetContentRegionAvail().x - ImGui::GetFrameHeight() - ImGui::GetStyle().ItemSpacing.x;
-        fitting_text(c.ui, name, quiet ? tone::dim_text : tone::text, before_eye);
+        elided_text(c.ui, name, quiet ? tone::dim_text : tone::text, before_eye);
     }
     draw_eye(c, id, node);
     if (open) {
@@ -127,7 +127,7 @@ void draw_node(PanelContext& c, Rows& rows, Id<Node> id, int depth) {
 // Scene and material variant, if the file has several.
 void draw_choices(PanelContext& c) {
     const Scene& scene = c.scene();
-    Staging staging = scene.staging;
+    SceneSelection staging = scene.staging;
     const auto choose = [&](const char* label, int32_t& index, std::vector<std::string> names, int32_t first, const char* tip) {
         for (size_t i = 0; i < names.size(); ++i) names[i] += fmt::format("##{}", i); // names may be equal
         Fields f(c.ui, "Outliner");
@@ -140,7 +140,7 @@ void draw_choices(PanelContext& c) {
         names.insert(names.end(), scene.variants.begin(), scene.variants.end());
         choose("Materials", staging.variant, std::move(names), -1, "Material variant of the file (KHR_materials_variants).");
     }
-    if (staging != scene.staging) c.apply(SetStaging{staging});
+    if (staging != scene.staging) c.apply(SetSceneSelection{staging});
 }
 
 void draw_add_light(PanelContext& c) {

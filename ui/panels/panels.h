@@ -30,7 +30,7 @@ void draw_camera_panel(PanelContext& c);                     // the view
 void draw_camera_node_panel(PanelContext& c, Id<Node> node); // one of the scene's cameras
 void draw_environment_panel(PanelContext& c);
 void draw_render_panel(PanelContext& c);
-void draw_left_out_section(PanelContext& c); // of the Render tab
+void draw_specialisation_section(PanelContext& c); // of the Render tab
 void draw_display_panel(PanelContext& c);
 
 // Instruments (instruments.h), each into the current ImGui window.
@@ -58,7 +58,7 @@ void draw_file_browser(PanelContext& c);
 void draw_shortcut_sheet(PanelContext& c);
 void draw_pixel_popup(PanelContext& c); // replaces the panel while panels are hidden
 void draw_question(PanelContext& c);
-void draw_opening_page(PanelContext& c); // also an instrument
+void draw_start_page(PanelContext& c); // also an instrument
 // At the upper edge of the viewport, while the scene has no light at all.
 void draw_no_light_banner(PanelContext& c, const Region& viewport);
 // At the left of the picture: which gizmo is shown, and its axes.

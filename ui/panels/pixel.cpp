@@ -24,7 +24,7 @@ void row(const PanelContext& c, const char* name, const std::string& value) {
     ImGui::TextUnformatted(name);
     ImGui::PopStyleColor();
     ImGui::TableNextColumn();
-    fitting_text(c.ui, value, tone::text);
+    elided_text(c.ui, value, tone::text);
 }
 
 std::string triple(const Vec3& v, const char* format = "{:.4g}  {:.4g}  {:.4g}") {
@@ -57,7 +57,7 @@ void draw_values(const PanelContext& c, const Frame& f, int x, int y) {
     row(c, "Luminance", fmt::format("{:.4g} nits", nits));
     if (nits > 0)
         row(c, "EV from grey",
-            fmt::format("{}   at ISO 100 {}", signed_number(stops_from_grey(numbers_of(c.shown_view()), {rgba[0], rgba[1], rgba[2]}), 2),
+            fmt::format("{}   at ISO 100 {}", signed_number(stops_from_grey(display_parameters_of(c.shown_view()), {rgba[0], rgba[1], rgba[2]}), 2),
                         signed_number(std::log2(nits / 0.125f), 2)));
     if (!f.albedo.empty() && luminance(f.albedo[i]) >= 0.01f) {
         float lux[3] = {rgba[0], rgba[1], rgba[2]};

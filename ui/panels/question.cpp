@@ -46,7 +46,7 @@ void draw_question(PanelContext& c) {
     ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
     if (!ImGui::BeginPopupModal(name, nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoTitleBar))
         return;
-    if (ImGui::IsWindowAppearing()) c.ui.next_frame_in = 0; // becomes visible in the frame after the one that measures its size
+    if (ImGui::IsWindowAppearing()) c.ui.seconds_to_next_frame = 0; // becomes visible in the frame after the one that measures its size
     draw_texts(*c.ui.question);
     draw_choices(c, *c.ui.question);
     if (c.ui.question->chosen) ImGui::CloseCurrentPopup();

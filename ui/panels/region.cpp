@@ -11,7 +11,7 @@
 namespace blush {
 namespace {
 
-void row(const char* name, const Spread& s, const char* format) {
+void row(const char* name, const ValueStatistics& s, const char* format) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     ImGui::PushStyleColor(ImGuiCol_Text, tone::dim_text);
@@ -53,7 +53,7 @@ void draw_statistics(PanelContext& c, const RegionStatistics& s) {
 void draw_region_panel(PanelContext& c) {
     if (!c.project().view.measured) return;
     if (!c.has_picture()) return quiet_text("Waiting for the first render.");
-    if (c.ui.region.ask(c.shown_picture(), region_statistics)) c.ui.next_frame_in = std::min(c.ui.next_frame_in, 0.05);
+    if (c.ui.region.ask(c.shown_picture(), region_statistics)) c.ui.seconds_to_next_frame = std::min(c.ui.seconds_to_next_frame, 0.05);
     if (const RegionStatistics* s = c.ui.region.answer()) draw_statistics(c, *s);
 }
 

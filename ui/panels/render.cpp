@@ -103,7 +103,7 @@ void draw_paths(Fields& f, RenderSettings& r) {
     if (f.choice("Sampler", sampler, samplers,
                  "Source of the random numbers: Sobol points, which are stratified, or independent random numbers, for comparison. "
                  "Both are unbiased; the noise differs."))
-        r.sampler = SampleNumbers(sampler);
+        r.sampler = SamplerType(sampler);
     f.checkbox("Multiscatter", r.energy_compensation,
                "Compensate the energy that rough metal and glass lose by multiple scattering between microfacets. Off is "
                "what glTF specifies.");
@@ -130,7 +130,7 @@ void draw_render_panel(PanelContext& c) {
     if (section(c.ui, "Stop at")) draw_stop_rules(f, r);
     if (section(c.ui, "Paths")) draw_paths(f, r);
     if (f.changed()) c.apply(SetRender{r}, f.gesture());
-    draw_left_out_section(c);
+    draw_specialisation_section(c);
 }
 
 } // namespace blush

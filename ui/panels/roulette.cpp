@@ -27,7 +27,7 @@ std::string formula(const Roulette& r) {
         return fmt::format(
             "q = 1 if max(beta) >= {:.3g}, else 0, from bounce {} on, at smooth mirrors and glass from bounce {}. Survivors are not "
             "weighted up: biased.",
-            r.threshold, r.start, std::max(r.start, first_asked_at_smooth));
+            r.threshold, r.start, std::max(r.start, first_rr_bounce_at_delta));
     }
     if (r.cap < 1)
         q = fmt::format("min({:.3g}, {})", r.cap, r.floor > 0 ? fmt::format("max({:.3g}, {})", r.floor, q) : q);
@@ -36,7 +36,7 @@ std::string formula(const Roulette& r) {
     else if (r.rule != Roulette::Rule::constant)
         q = fmt::format("min(1, {})", q);
     return fmt::format("q = {} from bounce {} on; survivors: beta / q. At smooth mirrors and glass q = 1 before bounce {}.", q, r.start,
-                       std::max(r.start, first_asked_at_smooth));
+                       std::max(r.start, first_rr_bounce_at_delta));
 }
 
 void figure_row(const char* name, const std::string& rule, const std::string& none, const char* tip, UiState& ui) {
@@ -115,7 +115,7 @@ void draw_measured(PanelContext& c, RouletteView& view) {
     settings.width = c.render_width;
     settings.height = c.render_height;
     view.runner->measure({c.scene(), settings});
-    c.ui.next_frame_in = std::min(c.ui.next_frame_in, 0.25);
+    c.ui.seconds_to_next_frame = std::min(c.ui.seconds_to_next_frame, 0.25);
     const RouletteRunner::State state = view.runner->state();
     if (!state.failure.empty()) return quiet_text(state.failure);
     if (state.answer.rounds == 0) return quiet_text("The first round is being rendered.");

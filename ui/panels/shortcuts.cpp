@@ -27,22 +27,22 @@ void line(const char* what, const char* how, float column) {
 // One column: the commands of some groups that have a key. Keys are aligned behind the longest name.
 void draw_groups(std::initializer_list<const char*> groups) {
     const auto in = [](const Shortcut& s, const char* group) { return std::strcmp(s.group, group) == 0 && s.press.key != key::none; };
-    float widest = 0;
+    float max_interval_ratio = 0;
     for (const Shortcut& s : shortcuts())
         for (const char* group : groups)
-            if (in(s, group)) widest = std::max(widest, ImGui::CalcTextSize(s.name).x);
+            if (in(s, group)) max_interval_ratio = std::max(max_interval_ratio, ImGui::CalcTextSize(s.name).x);
     for (const char* group : groups) {
         heading(group);
         for (const Shortcut& s : shortcuts())
-            if (in(s, group)) line(s.name, keys_of(s).c_str(), widest + ImGui::GetFontSize());
+            if (in(s, group)) line(s.name, keys_of(s).c_str(), max_interval_ratio + ImGui::GetFontSize());
     }
 }
 
 void draw_mouse() {
-    float widest = 0;
-    for (const MouseHint& hint : mouse_hints()) widest = std::max(widest, ImGui::CalcTextSize(hint.action).x);
+    float max_interval_ratio = 0;
+    for (const MouseHint& hint : mouse_hints()) max_interval_ratio = std::max(max_interval_ratio, ImGui::CalcTextSize(hint.action).x);
     heading("Mouse");
-    for (const MouseHint& hint : mouse_hints()) line(hint.action, hint.gesture, widest + ImGui::GetFontSize());
+    for (const MouseHint& hint : mouse_hints()) line(hint.action, hint.gesture, max_interval_ratio + ImGui::GetFontSize());
 }
 
 } // namespace
@@ -55,7 +55,7 @@ void draw_shortcut_sheet(PanelContext& c) {
     if (ImGui::Begin("Shortcuts", &c.ui.show_shortcuts,
                      ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_HorizontalScrollbar |
                          ImGuiWindowFlags_NoSavedSettings)) {
-        if (ImGui::IsWindowAppearing()) c.ui.next_frame_in = 0; // becomes visible in the frame after the one that measures its size
+        if (ImGui::IsWindowAppearing()) c.ui.seconds_to_next_frame = 0; // becomes visible in the frame after the one that measures its size
         ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {ImGui::GetFontSize(), 0});
         if (ImGui::BeginTable("columns", screen.x > 80 * ImGui::GetFontSize() ? 3 : 1, ImGuiTableFlags_SizingFixedFit)) {
             ImGui::TableNextColumn();

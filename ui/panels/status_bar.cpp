@@ -18,7 +18,7 @@ const char* state_name(SessionStatus::State state) {
     case SessionStatus::State::idle: return "Idle";
     case SessionStatus::State::updating: return "Updating";
     case SessionStatus::State::rendering: return "Rendering";
-    case SessionStatus::State::aside: return "Mixing";
+    case SessionStatus::State::yielding: return "Mixing";
     case SessionStatus::State::paused: return "Paused";
     case SessionStatus::State::complete: return "Complete";
     case SessionStatus::State::failed: return "Failed";

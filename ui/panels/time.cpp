@@ -15,8 +15,8 @@ constexpr double frames_per_second = 24;
 
 void stop(PanelContext& c) { c.ui.time = {}; }
 
-void set_staging(PanelContext& c, const Staging& staging, Gesture gesture = no_gesture) {
-    if (staging != c.scene().staging) c.apply(SetStaging{staging}, gesture);
+void set_staging(PanelContext& c, const SceneSelection& staging, Gesture gesture = no_gesture) {
+    if (staging != c.scene().staging) c.apply(SetSceneSelection{staging}, gesture);
 }
 
 void draw_clips(PanelContext& c) {
@@ -28,7 +28,7 @@ void draw_clips(PanelContext& c) {
         tip_for_last_item(c.ui, "Animation clip of the file, or the rest pose.");
         return;
     }
-    Staging staging = c.scene().staging;
+    SceneSelection staging = c.scene().staging;
     const auto item = [&](Id<Clip> id, const std::string& name) {
         ImGui::PushID(int(id.value));
         const bool picked = ImGui::Selectable(name.c_str(), id == c.scene().staging.clip);
@@ -60,7 +60,7 @@ void draw_play(PanelContext& c) {
 
 void draw_slider(PanelContext& c, const Clip& clip) {
     TimeView& time = c.ui.time;
-    Staging staging = c.scene().staging;
+    SceneSelection staging = c.scene().staging;
     const std::string length = fmt::format("/ {:.2f} s", clip.seconds);
     ImGui::SetNextItemWidth(-ImGui::CalcTextSize(length.c_str()).x - 2 * ImGui::GetStyle().ItemSpacing.x);
     const bool moved = ImGui::SliderFloat("##time", &staging.seconds, 0, clip.seconds, "%.2f s", ImGuiSliderFlags_AlwaysClamp);
@@ -80,10 +80,10 @@ void draw_slider(PanelContext& c, const Clip& clip) {
 // Advances the time while playing, and requests the next frame.
 void play(PanelContext& c, const Clip& clip) {
     if (!c.ui.time.playing) return;
-    Staging staging = c.scene().staging;
+    SceneSelection staging = c.scene().staging;
     staging.seconds = clip.seconds > 0 ? std::fmod(staging.seconds + ImGui::GetIO().DeltaTime, clip.seconds) : 0;
     set_staging(c, staging, c.ui.time.gesture);
-    c.ui.next_frame_in = std::min(c.ui.next_frame_in, 1 / frames_per_second);
+    c.ui.seconds_to_next_frame = std::min(c.ui.seconds_to_next_frame, 1 / frames_per_second);
 }
 
 } // namespace

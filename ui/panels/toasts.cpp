@@ -55,7 +55,7 @@ void draw_texts(const Toast& toast, float width) {
 bool draw_job(const PanelContext& c, const RunningJob& job, float right, float width, float& bottom) {
     const float em = ImGui::GetFontSize();
     begin_card("##job", right, bottom, IM_COL32(90, 90, 90, 255));
-    fitting_text(c.ui, job.title, tone::text, width);
+    elided_text(c.ui, job.title, tone::text, width);
     ImGui::ProgressBar(float(job.fraction), {std::min(em * 18, width - em * 5), em / 2}, "");
     bool cancelled = false;
     if (job.can_cancel) {
@@ -63,7 +63,7 @@ bool draw_job(const PanelContext& c, const RunningJob& job, float right, float w
         cancelled = ImGui::SmallButton("Cancel");
         c.ui.probe.record_last_item("Job/Cancel");
     }
-    if (!job.what.empty()) fitting_text(c.ui, job.what, tone::dim_text, width);
+    if (!job.what.empty()) elided_text(c.ui, job.what, tone::dim_text, width);
     bottom = end_card() - em / 2;
     return cancelled;
 }
@@ -76,9 +76,9 @@ void draw_toasts(PanelContext& c, float right, float width, float& bottom) {
     for (size_t i = toasts.size(); i-- > 0;) {
         const Toast& toast = toasts[i];
         const std::chrono::duration<double> left = toast.since + lifetime(toast) - now;
-        c.ui.next_frame_in = std::min(c.ui.next_frame_in, std::max(left.count(), 0.0));
+        c.ui.seconds_to_next_frame = std::min(c.ui.seconds_to_next_frame, std::max(left.count(), 0.0));
         begin_card(("##toast" + std::to_string(i)).c_str(), right, bottom, edge_of(toast.kind));
-        if (ImGui::IsWindowAppearing()) c.ui.next_frame_in = 0; // becomes visible in the frame after the one that measures its size
+        if (ImGui::IsWindowAppearing()) c.ui.seconds_to_next_frame = 0; // becomes visible in the frame after the one that measures its size
         draw_texts(toast, width);
         if (toast.action && ImGui::Button(shortcut(*toast.action).name)) {
             c.ui.commands.push_back(*toast.action);

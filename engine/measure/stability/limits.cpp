@@ -14,7 +14,7 @@ namespace {
 constexpr double pi_d = std::numbers::pi;
 
 // The sum of all bounces, not only of the first 100000.
-Findings longest_path() {
+Findings max_path_length() {
     constexpr float albedo = 1 - 1e-4f;
     Scene scene;
     place(scene, sphere(true), emitter(2, albedo));
@@ -181,7 +181,7 @@ std::vector<StabilityCase> limit_cases() {
         {std::string(grazing_gain_case), 5, [] { return white_dielectric(75); },
          "appendix B of the glTF specification weights the diffuse base by 1 - F at the half vector, which is nearer to the viewer than "
          "the normal: at grazing angles base and reflection together exceed 1"},
-        {"closed room of rho 0.9999 without roulette: all bounces", 15, longest_path,
+        {"closed room of rho 0.9999 without roulette: all bounces", 15, max_path_length,
          "paths end after 100000 scattering events, which is counted and reported; with Russian roulette the sum is complete"},
         {"rough glass of ior 1.001 in a furnace", 7, rough_glass_towards_vacuum,
          "the microfacet model applies masking however small the refraction is; below an index of 1 + 1e-5 / alpha light "

@@ -28,7 +28,7 @@ inline void split_row(const float* from, int channels, int split, Bfloat16* to, 
 }
 
 // 2x2 max pooling. Inputs are outputs of a ReLU, so non-negative, and such floats compare like their bits.
-template <class T> void pool_rows(const T* upper, const T* lower, T* to, int width, int channels) {
+template <class T> void max_pool_rows(const T* upper, const T* lower, T* to, int width, int channels) {
     using Ordered = std::conditional_t<std::is_same_v<T, float>, float, int16_t>;
     for (int x = 0; x < width; x++) {
         const T* a = upper + size_t(2 * x) * channels;
@@ -53,7 +53,7 @@ inline void copy_over(std::byte* to, const std::byte* from, size_t bytes) {
 
 // Writes a row of (each pixel of `half` twice, then the skip connection's channels). Pixels are written in order, so that each
 // overwrites what the previous one wrote beyond its end; the row needs room for one more register.
-template <class T> void double_and_join_row(const T* half, int half_channels, const T* skip, int skip_channels, T* to, int width) {
+template <class T> void upsample_and_concat_row(const T* half, int half_channels, const T* skip, int skip_channels, T* to, int width) {
     const auto bytes = [](const T* p) { return reinterpret_cast<const std::byte*>(p); };
     for (int x = 0; x < width; x++) {
         T* pixel = to + size_t(x) * (half_channels + skip_channels);

@@ -46,7 +46,7 @@ float exposure_scale_of(const PixelView& color, int width, int height, const Wor
     LogSum all;
     for (const LogSum& row : logs) all = {all.sum + row.sum, all.count + row.count};
     if (all.count == 0) return 1;
-    return float(std::clamp(key / std::exp2(all.sum / all.count), double(smallest_scale), double(largest_scale)));
+    return float(std::clamp(key / std::exp2(all.sum / all.count), double(min_scale_factor), double(max_scale)));
 }
 
 Inspection inspect(const PixelView& color, int width, int height, float largest, const Workers& workers) {

@@ -9,10 +9,10 @@
 namespace blush::denoise {
 
 // Scales in this range keep all arithmetic within float.
-inline constexpr float smallest_scale = 1e-30f, largest_scale = 1e30f;
+inline constexpr float min_scale_factor = 1e-30f, max_scale = 1e30f;
 
 // 0.18 / the geometric mean of the luminances of blocks of at most 16x16 pixels, excluding black ones; 1 if all are black.
-// Non-finite and negative values count as 0. Clamped to [smallest_scale, largest_scale].
+// Non-finite and negative values count as 0. Clamped to [min_scale_factor, max_scale].
 float exposure_scale_of(const PixelView& color, int width, int height, const Workers& workers);
 
 struct Inspection {

@@ -9,7 +9,7 @@ namespace blush::denoise {
 namespace {
 
 // Prepared networks that are cached: the three of one high-quality image, and another size of each.
-constexpr size_t most_made = 6;
+constexpr size_t max_cached_networks = 6;
 constexpr auto alignment = std::align_val_t(64);
 
 // Network rows inside the image come from the source, others are zero.
@@ -84,7 +84,7 @@ Result<const Unet*> Networks::made(const NetworkJob& job, const UnetWeights& wei
     auto unet = make_unet(weights, width, height, job.element);
     if (!unet) return unet.error();
     made_.push_front({job.network, width, height, job.element, std::move(*unet)});
-    if (made_.size() > most_made) made_.pop_back();
+    if (made_.size() > max_cached_networks) made_.pop_back();
     return &made_.front().unet;
 }
 

@@ -7,7 +7,7 @@
 namespace blush::denoise {
 namespace {
 
-const float perceived_largest = perceived(largest_radiance);
+const float perceived_largest = encode_radiance(max_network_radiance);
 
 // NaN becomes 0.
 template <class F> F clamped(const F& x, float low, float high) { return select(x == x, min(max(x, F(low)), F(high)), F(0.f)); }
@@ -33,9 +33,9 @@ template <class Fn> void encode(const float* from, int stride, int count, float*
 } // namespace
 
 void encode_color(const float* from, int stride, int count, float scale, float* to, int channels) {
-    const float largest = largest_radiance / scale;
+    const float largest = max_network_radiance / scale;
     encode(from, stride, count, to, channels,
-           [&](const auto& x) { return perceived(clamped(x, 0.f, largest) * scale) * (1.f / perceived_largest); });
+           [&](const auto& x) { return encode_radiance(clamped(x, 0.f, largest) * scale) * (1.f / perceived_largest); });
 }
 
 void encode_albedo(const float* from, int stride, int count, float* to, int channels) {
@@ -47,7 +47,7 @@ void encode_normal(const float* from, int stride, int count, float* to, int chan
 }
 
 void decode_color(const float* from, int count, float scale, float* to) {
-    map(from, to, 3 * count, [&](const auto& x) { return radiance_of(clamped(x, 0.f, 1.f) * perceived_largest) / scale; });
+    map(from, to, 3 * count, [&](const auto& x) { return decode_radiance(clamped(x, 0.f, 1.f) * perceived_largest) / scale; });
 }
 
 } // namespace blush::denoise

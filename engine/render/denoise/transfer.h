@@ -7,7 +7,7 @@
 namespace blush::denoise {
 
 // The largest radiance that the network supports, after exposure.
-inline constexpr float largest_radiance = 65504.f;
+inline constexpr float max_network_radiance = 65504.f;
 
 // Natural logarithm of a normal number > 0: ln m + e ln 2 with m in [sqrt 1/2, sqrt 2], ln m = 2 artanh((m - 1) / (m + 1)) as a
 // series; error below 2e-7 of max(1, |ln x|).
@@ -19,7 +19,7 @@ template <class F> F log(const F& x) {
 }
 
 // T(y) of radiance y >= 0, piecewise: linear, power, logarithm.
-template <class F> F perceived(const F& y) {
+template <class F> F encode_radiance(const F& y) {
     const F logarithm = 0.192653254f * denoise::log(y + 0.00626026094f) + 0.998620152f;
     const Mask<F> dark = y <= F(0.0322087631f);
     if (!any(dark)) return logarithm;
@@ -29,7 +29,7 @@ template <class F> F perceived(const F& y) {
 }
 
 // The inverse of the above, x >= 0.
-template <class F> F radiance_of(const F& x) {
+template <class F> F decode_radiance(const F& x) {
     const F exponential = blush::exp((x - 0.998620152f) * (1.f / 0.192653254f)) - 0.00626026094f;
     const Mask<F> dark = x <= F(0.370974749f);
     if (!any(dark)) return exponential;

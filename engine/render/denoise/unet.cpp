@@ -8,7 +8,7 @@ namespace blush::denoise {
 namespace {
 
 // For a layer with split input: duplicates the weights of the split channels, which start at `first`.
-ConvolutionWeights with_second_parts(const ConvolutionWeights& weights, int first) {
+ConvolutionWeights duplicate_split_weights(const ConvolutionWeights& weights, int first) {
     ConvolutionWeights made{weights.inputs + split_channels, weights.outputs, {}, weights.bias};
     for (int o = 0; o < weights.outputs; o++) {
         const float* kernels = &weights.kernel[size_t(o) * weights.inputs * 9];
@@ -22,7 +22,7 @@ ConvolutionWeights with_second_parts(const ConvolutionWeights& weights, int firs
 ConvolutionWeights layer_weights(const UnetWeights& weights, int layer, Element element) {
     const bool reads_input = layer == 0 || unet_layers[layer].skip == 0;
     if (!reads_input || extra_inputs(element) == 0) return weights.layers[layer];
-    return with_second_parts(weights.layers[layer], layer == 0 ? 0 : weights.layers[layer - 1].outputs);
+    return duplicate_split_weights(weights.layers[layer], layer == 0 ? 0 : weights.layers[layer - 1].outputs);
 }
 
 int bands_of(int rows) { return (rows + band_rows - 1) / band_rows; }
@@ -100,7 +100,7 @@ private:
             if (v < 0 || v >= skipped.height)
                 std::fill_n(to, elements, T(0));
             else
-                double_and_join_row(row_of(layer, v / 2), half.channels, row_of(skip, v), skipped.channels, to, skipped.width);
+                upsample_and_concat_row(row_of(layer, v / 2), half.channels, row_of(skip, v), skipped.channels, to, skipped.width);
         }
         return memory;
     }
@@ -110,7 +110,7 @@ private:
         const size_t elements = made.row_elements() * 2;
         const T* from = reinterpret_cast<const T*>(memory);
         for (int i = 0; i < rows; i += 2, from += 2 * elements)
-            pool_rows(from, from + elements, row_of(layer + 1, (y + i) / 2), made.width, made.channels);
+            max_pool_rows(from, from + elements, row_of(layer + 1, (y + i) / 2), made.width, made.channels);
     }
 
     const Unet& unet_;

@@ -25,9 +25,9 @@ struct Block {
 };
 
 // The lowest free offset for `bytes` between the live blocks, which are sorted by offset.
-size_t lowest_gap(const std::vector<Block>& living, size_t bytes) {
+size_t lowest_free_offset(const std::vector<Block>& live_blocks, size_t bytes) {
     size_t begin = 0;
-    for (const Block& block : living) {
+    for (const Block& block : live_blocks) {
         if (begin + bytes <= block.begin) break;
         begin = block.end;
     }
@@ -53,15 +53,15 @@ UnetPlan plan_unet(const UnetChannels& channels, int width, int height, Element 
         plan.band_bytes = std::max(plan.band_bytes, aligned(std::max(in, out) + slack));
     }
 
-    std::vector<Block> living;
+    std::vector<Block> live_blocks;
     for (int i = 0; i + 1 < unet_plane_count; i++) {
         UnetPlane& plane = plan.planes[i];
         // Layer i - 1 writes this plane while it reads its inputs.
-        std::erase_if(living, [&](const Block& block) { return block.last_reader < i - 1; });
+        std::erase_if(live_blocks, [&](const Block& block) { return block.last_reader < i - 1; });
         const size_t bytes = aligned(plane.row_bytes() * (plane.height + 2) + slack);
-        plane.offset = lowest_gap(living, bytes);
+        plane.offset = lowest_free_offset(live_blocks, bytes);
         const Block block{plane.offset, plane.offset + bytes, last_reader(i)};
-        living.insert(std::ranges::upper_bound(living, block.begin, {}, &Block::begin), block);
+        live_blocks.insert(std::ranges::upper_bound(live_blocks, block.begin, {}, &Block::begin), block);
         plan.plane_bytes = std::max(plan.plane_bytes, block.end);
     }
     return plan;

@@ -9,14 +9,14 @@ namespace blush::denoise {
 namespace {
 
 constexpr uint64_t largest_file = uint64_t(64) << 20;
-constexpr uint32_t most_channels = 1024;
+constexpr uint32_t max_channels = 1024;
 
 // Moves the layer's two tensors out of the table. False if they are missing or have the wrong shape.
 bool take_layer(TensorTable& tensors, const std::string& name, int inputs, ConvolutionWeights& layer) {
     const auto kernel = tensors.find(name + ".weight"), bias = tensors.find(name + ".bias");
     if (kernel == tensors.end() || bias == tensors.end()) return false;
     const std::vector<uint32_t>& shape = kernel->second.dimensions;
-    if (kernel->second.layout != "oihw" || shape[0] < 1 || shape[0] > most_channels) return false;
+    if (kernel->second.layout != "oihw" || shape[0] < 1 || shape[0] > max_channels) return false;
     if (shape != std::vector<uint32_t>{shape[0], uint32_t(inputs), 3, 3}) return false;
     if (bias->second.layout != "x" || bias->second.dimensions[0] != shape[0]) return false;
     layer = {inputs, int(shape[0]), std::move(kernel->second.values), std::move(bias->second.values)};

@@ -69,7 +69,7 @@ struct RouletteColumns {
     Column<float> length;   // vertices of each path, including the one where it escapes
     Column<float> asked;    // number of roulette decisions,
     Column<float> survival; // and the sum of their survival probabilities
-    PathCounts counts[most_counted_bounces]; // accumulated
+    PathCounts counts[max_counted_bounces]; // accumulated
 };
 
 // For passing panes (thin_transmission.h).

@@ -10,14 +10,14 @@
 namespace blush {
 
 // Vertices as connection end points: position, offset along ng for a ray's origin, normals, whether the vertex takes part.
-struct JunctionColumns {
+struct ReuseVertexColumns {
     Column<float> px, py, pz, clearance, gx, gy, gz, sx, sy, sz;
     Column<int32_t> takes_part;
 };
 
 // Groups are processed in batches that fit the queues. Members have seats, group by group, including missing ones.
 struct ReuseBatch {
-    static constexpr int most_seats = tile_capacity / 4; // each seat may share a vertex with its whole group
+    static constexpr int max_seats = tile_capacity / 4; // each seat may share a vertex with its whole group
     int groups = 0, vertices = 0;
     Column<int32_t> slot;                             // by seat: slot in the tile, -1 if empty
     Column<float> reflects_r, reflects_g, reflects_b; // by seat: 1 or 0
@@ -29,12 +29,12 @@ struct ReuseBatch {
 };
 
 struct ReuseColumns {
-    JunctionColumns first;              // by slot
+    ReuseVertexColumns first;              // by slot
     Column<float> rho_r, rho_g, rho_b;  // by slot: reflectance of the first vertex
     RadianceColumns own;                // by slot: unshared radiance
     std::vector<RadianceColumns> own_groups; // the same by light group; empty: no light mix
     Column<int32_t> second_of;          // by slot: position in the queue of bounce 1, -1: none
-    JunctionColumns second;             // by position in that queue
+    ReuseVertexColumns second;             // by position in that queue
     Column<uint32_t> random;            // likewise: for stochastic opacity
     ReuseBatch batch;
 };
