@@ -1,16 +1,16 @@
 // Entry point. Exit codes: 0 done, 1 failed (one line on stderr), 2 bad usage.
-#include "app/assets_dir.h"
+#include "app/common/assets_dir.h"
 #include "app/commands/check.h"
 #include "app/commands/common.h"
 #include "app/commands/compare.h"
-#include "app/commands/converge.h"
+#include "app/commands/converge/converge.h"
 #include "app/commands/denoise.h"
 #include "app/commands/info.h"
 #include "app/commands/merge.h"
-#include "app/commands/render.h"
-#include "app/commands/render_options.h"
-#include "app/editor.h"
-#include "app/process_setup.h"
+#include "app/commands/render/render.h"
+#include "app/commands/render/render_options.h"
+#include "app/editor/editor.h"
+#include "app/common/process_setup.h"
 
 #include <CLI/CLI.hpp>
 

@@ -5,7 +5,7 @@
 #include "app/commands/json_output.h"
 #include "app/commands/progress.h"
 #include "measure/stability/battery.h"
-#include "measure/stability/hot_spots.h"
+#include "measure/stability/weak_points.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -29,10 +29,10 @@ void print_list(const std::string& only) {
     for (const StabilityGroup& group : battery()) {
         if (!only.empty() && only != group.name) continue;
         fmt::print("{}\n", group.name);
-        for (const StabilityCase& c : group.cases) fmt::print("  {:<60} guards against: {}\n", c.name, hot_spot(c.hot_spot).name);
+        for (const StabilityCase& c : group.cases) fmt::print("  {:<60} guards against: {}\n", c.name, weak_point(c.weak_point).name);
     }
     fmt::print("\nnumerical hot spots and their remedies\n");
-    for (const HotSpot& spot : hot_spots()) fmt::print("  {:<42} {}\n", spot.name, spot.remedy);
+    for (const WeakPoint& spot : weak_points()) fmt::print("  {:<42} {}\n", spot.name, spot.remedy);
 }
 
 void print_row(const CaseResult& r, std::string_view verdict) {
@@ -62,7 +62,7 @@ OrderedJson row_json(const CaseResult& r) {
     OrderedJson json;
     json["name"] = r.name;
     json["group"] = r.group;
-    json["hot_spot"] = hot_spot(r.hot_spot).name;
+    json["hot_spot"] = weak_point(r.weak_point).name;
     json["expected"] = r.finding.expected;
     json["measured"] = r.finding.measured;
     json["sigma"] = r.finding.sigma;

@@ -1,8 +1,8 @@
 #include "app/commands/compare_images.h"
 
 #include "app/commands/common.h"
-#include "app/commands/picture.h"
-#include "io/image_io.h"
+#include "app/commands/render/picture.h"
+#include "io/image/image_io.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // Loads image files for the metrics.
 #pragma once
 
-#include "measure/metrics.h"
+#include "measure/metrics/metrics.h"
 
 #include <filesystem>
 #include <string>

@@ -1,13 +1,13 @@
 #include "app/commands/denoise.h"
 
-#include "app/assets_dir.h"
+#include "app/common/assets_dir.h"
 #include "app/commands/common.h"
 #include "app/commands/denoising.h"
 #include "app/commands/interrupt.h"
-#include "app/commands/picture.h"
-#include "app/commands/render_options.h"
+#include "app/commands/render/picture.h"
+#include "app/commands/render/render_options.h"
 #include "core/srgb.h"
-#include "io/image_io.h"
+#include "io/image/image_io.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 
 #include "core/text.h"
 #include "app/commands/progress.h"
-#include "render/denoised_picture.h"
+#include "render/session/denoised_picture.h"
 
 #include <fmt/format.h>
 

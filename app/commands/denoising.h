@@ -3,7 +3,7 @@
 
 #include "app/commands/json_output.h"
 #include "core/result.h"
-#include "render/denoiser.h"
+#include "render/denoise/denoiser.h"
 
 #include <atomic>
 #include <span>

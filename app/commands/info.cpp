@@ -4,10 +4,10 @@
 #include "app/commands/interrupt.h"
 #include "app/commands/json_output.h"
 #include "app/commands/load_scene.h"
-#include "app/commands/made_beside.h"
+#include "app/commands/render/command_feature_report.h"
 #include "app/commands/progress.h"
-#include "render/kernel_speed.h"
-#include "scene/placements.h"
+#include "render/compile/kernel_speed.h"
+#include "scene/world_transforms.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 
 #include "app/commands/common.h"
 #include "app/commands/progress.h"
-#include "io/gltf_camera_aspects.h"
+#include "io/gltf/read/camera_aspects.h"
 
 namespace blush {
 

@@ -1,8 +1,8 @@
 // Loads a scene file with the options of the command line.
 #pragma once
 
-#include "app/scene_overrides.h"
-#include "io/gltf_import.h"
+#include "app/common/scene_overrides.h"
+#include "io/gltf/read/import.h"
 
 #include <atomic>
 #include <filesystem>

@@ -1,9 +1,9 @@
 #include "app/commands/merge.h"
 
 #include "app/commands/common.h"
-#include "app/commands/film_json.h"
+#include "app/commands/render/film_json.h"
 #include "app/commands/json_output.h"
-#include "app/commands/picture.h"
+#include "app/commands/render/picture.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

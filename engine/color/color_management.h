@@ -1,7 +1,7 @@
 // Wraps OpenColorIO behind plain data. The working space of the program is scene-linear Rec.709.
 #pragma once
 
-#include "color/display_numbers.h"
+#include "color/display_parameters.h"
 #include "core/result.h"
 
 #include <filesystem>

@@ -5,9 +5,12 @@
 #include "core/lanes.h"
 #include "core/vec.h"
 
+#include <numbers>
+
 namespace blush::inline BLUSH_ISA {
 
-constexpr float pi = 3.14159265358979f;
+constexpr float pi = std::numbers::pi_v<float>;
+constexpr double degrees_per_radian = 180 / std::numbers::pi;
 constexpr float inv_pi = 0.318309886183791f;
 constexpr float infinity = __builtin_inff();
 constexpr float one_minus_epsilon = 0x1.fffffep-1f;

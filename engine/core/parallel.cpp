@@ -1,6 +1,6 @@
 #include "core/parallel.h"
 
-#include "core/hand_over.h"
+#include "core/tsan_annotations.h"
 #include "core/startable_threads.h"
 
 #include <atomic>

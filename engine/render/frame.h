@@ -2,9 +2,9 @@
 #pragma once
 
 #include "core/vec.h"
-#include "render/health.h"
-#include "render/ledger.h"
-#include "render/path_counts.h"
+#include "render/diagnostics/health.h"
+#include "render/compile/feature_report.h"
+#include "render/film/path_counts.h"
 
 #include <cstdint>
 #include <memory>

@@ -1,17 +1,17 @@
 #include "render/renderer.h"
 
 #include "core/parallel.h"
-#include "render/fault_finder.h"
-#include "render/film.h"
-#include "render/film_state.h"
-#include "render/irradiance.h"
-#include "render/lowering.h"
-#include "render/pilot_noise.h"
-#include "render/render_scene.h"
-#include "render/reuse_groups.h"
-#include "render/sample_plan.h"
-#include "render/settings_for_kernels.h"
-#include "render/shadow_catcher.h"
+#include "render/diagnostics/fault_finder.h"
+#include "render/film/film.h"
+#include "render/film/film_state.h"
+#include "render/integrator/irradiance.h"
+#include "render/compile/expand_area_lights.h"
+#include "render/film/pilot_variance.h"
+#include "render/compile/render_scene.h"
+#include "render/integrator/reuse_groups.h"
+#include "render/film/sample_allocation.h"
+#include "render/integrator/kernel_settings.h"
+#include "render/film/shadow_catcher.h"
 
 #include <algorithm>
 #include <atomic>

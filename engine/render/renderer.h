@@ -4,7 +4,7 @@
 
 #include "core/result.h"
 #include "render/frame.h"
-#include "render/shared_errors.h"
+#include "render/error/reuse_covariance.h"
 #include "scene/render_settings.h"
 #include "scene/scene.h"
 

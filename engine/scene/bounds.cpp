@@ -1,5 +1,5 @@
 #include "scene/affine.h"
-#include "scene/bend.h"
+#include "scene/animation/deform.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "scene/changes.h"
 
-#include "scene/ies_profile.h"
+#include "scene/lights/ies_profile.h"
 
 #include <algorithm>
 

@@ -6,10 +6,10 @@
 // creation; two payloads are the same data if and only if their serials are equal.
 #pragma once
 
-#include "core/numbered_arrays.h"
+#include "core/geometry_arena.h"
 #include "core/vec.h"
 #include "scene/cow.h"
-#include "scene/motion.h"
+#include "scene/animation/animation.h"
 
 #include <cstdint>
 #include <memory>
@@ -329,6 +329,8 @@ Transform to_transform(const Affined& matrix);
 // World transform of a node at the current time of the chosen clip, composed in double. Terminates on a parent cycle, which
 // imports and edits reject.
 Affined world_from_node(const Scene& scene, Id<Node> node);
+// The space that node.local is in: that of its parent, or the world.
+Affined world_from_parent(const Scene& scene, const Node& node);
 // True if the node and all its ancestors are visible and belong to the chosen scene.
 bool is_visible(const Scene& scene, Id<Node> node);
 // True if the node or an ancestor is a shadow catcher.

@@ -2,7 +2,7 @@
 #include "scene/view_settings.h"
 
 #include "core/text.h"
-#include "scene/words.h"
+#include "scene/enum_names.h"
 
 #include <cmath>
 

@@ -3,7 +3,7 @@
 
 #include "core/result.h"
 #include "core/vec.h"
-#include "scene/light_meter.h"
+#include "scene/lights/light_meter.h"
 #include "scene/picture_region.h"
 
 #include <cstdint>

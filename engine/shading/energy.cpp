@@ -8,7 +8,7 @@ namespace {
 
 // E = mean of masking(wi) over visible normals: the sampling density cancels all other terms. Mean over a grid of midpoints,
 // finer near v = 1, where the distribution has a long tail; by symmetry half the azimuths suffice.
-float integrate_albedo(float alpha, float cos) {
+float integrate_ggx_albedo(float alpha, float cos) {
     constexpr int azimuths = 16, heights = 64;
     static_assert(heights % width<Wide> == 0);
     const float sin = sqrt(max(0.f, (1.f - cos) * (1.f + cos)));
@@ -35,7 +35,7 @@ EnergyTable make_energy_table() {
         const float alpha = roughness * roughness;
         for (int column = 0; column < size; ++column) {
             const float y = float(column) / (size - 1);
-            table.albedo[row * size + column] = integrate_albedo(alpha, min(alpha * y / (1.f + alpha - y), 1.f));
+            table.albedo[row * size + column] = integrate_ggx_albedo(alpha, min(alpha * y / (1.f + alpha - y), 1.f));
         }
     }
     return table;

@@ -5,7 +5,7 @@ namespace {
 
 // E by midpoint quadrature over the hemisphere, finer towards the horizon,
 // where smooth fibres reflect; by symmetry half the azimuths suffice.
-float integrate_albedo(float alpha, float cos) {
+float integrate_sheen_albedo(float alpha, float cos) {
     constexpr int azimuths = 32, heights = 64;
     static_assert(heights % width<Wide> == 0);
     const Vec<Wide> wo = splat<Wide>(Vec3{sqrt(max(0.f, (1.f - cos) * (1.f + cos))), 0, cos});
@@ -28,7 +28,7 @@ SheenTable make_sheen_table() {
         const float t = float(row) / (size - 1), roughness = min_sheen_roughness + (1.f - min_sheen_roughness) * t * t;
         for (int column = 0; column < size; ++column) {
             const float root = max(float(column) / (size - 1), 0.01f);
-            table.albedo[row * size + column] = integrate_albedo(roughness * roughness, root * root * root * root);
+            table.albedo[row * size + column] = integrate_sheen_albedo(roughness * roughness, root * root * root * root);
         }
     }
     return table;

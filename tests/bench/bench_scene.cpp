@@ -1,6 +1,6 @@
 #include "tests/bench/bench_scene.h"
 
-#include "io/gltf_import.h"
+#include "io/gltf/read/import.h"
 
 #include <algorithm>
 

@@ -3,8 +3,8 @@
 #include "tests/bench/bench.h"
 
 #include "core/files.h"
-#include "io/gltf_json.h"
-#include "support/process.h"
+#include "io/gltf/read/json.h"
+#include "tests/support/process.h"
 
 #include <cmath>
 #include <cstring>

@@ -2,10 +2,10 @@
 #include "tests/bench/bare_convolutions.h"
 #include "tests/bench/bench.h"
 
-#include "measure/metrics.h"
+#include "measure/metrics/metrics.h"
 #include "render/denoise/convolution.h"
 #include "render/denoise/unet_weights.h"
-#include "render/denoiser.h"
+#include "render/denoise/denoiser.h"
 #include "render/renderer.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // Coverage of the true error by the error estimate's 95 % intervals, by scene and samples per pixel, for the plain path tracer
 // and the recommended settings. The reference is the mean of renders with other seeds and many times the samples.
-#include "support/error_coverage.h"
+#include "tests/support/error_coverage.h"
 #include "tests/bench/bench.h"
 
 #include "render/renderer.h"

@@ -1,7 +1,7 @@
 // Measures the latency from an edit to its first image in a render session.
 #pragma once
 
-#include "render/render_session.h"
+#include "render/session/render_session.h"
 #include "tests/bench/bench.h"
 
 #include <condition_variable>

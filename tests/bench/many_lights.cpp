@@ -1,11 +1,11 @@
 // Many lights: variance of the light tree compared with an oracle and with power sampling, at single points and in an image, and
 // the latency of edits of lights.
-#include "support/many_lights.h"
+#include "tests/support/many_lights.h"
 #include "tests/bench/bench.h"
 
 #include "core/parallel.h"
-#include "render/lowering.h"
-#include "render/render_scene.h"
+#include "render/compile/expand_area_lights.h"
+#include "render/compile/render_scene.h"
 
 namespace blush::bench {
 Json run_many_lights(const Options& options) {

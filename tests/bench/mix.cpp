@@ -2,8 +2,8 @@
 #include "tests/bench/bench.h"
 
 #include "core/parallel.h"
-#include "render/film.h"
-#include "render/light_mix.h"
+#include "render/film/film.h"
+#include "render/light_mix/light_mix.h"
 #include "render/renderer.h"
 
 #include <algorithm>

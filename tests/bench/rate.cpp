@@ -3,11 +3,11 @@
 #include "tests/bench/bench.h"
 #include "tests/bench/recorded_rays.h"
 
-#include "render/kernel_speed.h"
-#include "render/lowering.h"
-#include "render/render_scene.h"
+#include "render/compile/kernel_speed.h"
+#include "render/compile/expand_area_lights.h"
+#include "render/compile/render_scene.h"
 #include "render/renderer.h"
-#include "render/settings_for_kernels.h"
+#include "render/integrator/kernel_settings.h"
 
 #include <set>
 

@@ -1,6 +1,6 @@
 #include "tests/bench/recorded_rays.h"
 
-#include "render/wavefront.h"
+#include "render/integrator/wavefront.h"
 
 #include <memory>
 

@@ -3,9 +3,9 @@
 #include "tests/bench/bench.h"
 
 #include "core/time_budget.h"
-#include "measure/convergence_runs.h"
-#include "measure/picture_error.h"
-#include "render/render_session.h"
+#include "measure/convergence/convergence_runs.h"
+#include "measure/metrics/picture_error.h"
+#include "render/session/render_session.h"
 
 #include <condition_variable>
 #include <mutex>

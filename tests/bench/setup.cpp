@@ -2,7 +2,7 @@
 #include "tests/bench/bench.h"
 #include "tests/bench/machine.h"
 
-#include "io/gltf_import.h"
+#include "io/gltf/read/import.h"
 #include "render/renderer.h"
 
 #include <algorithm>

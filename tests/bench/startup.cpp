@@ -4,9 +4,9 @@
 #include "tests/bench/bench.h"
 
 #include "color/color_management.h"
-#include "io/image_io.h"
+#include "io/image/image_io.h"
 #include "render/renderer.h"
-#include "support/process.h"
+#include "tests/support/process.h"
 
 #include <algorithm>
 #include <fstream>

@@ -3,8 +3,8 @@
 #include "tests/bench/machine.h"
 
 #include "core/files.h"
-#include "io/gltf_import.h"
-#include "io/image_io.h"
+#include "io/gltf/read/import.h"
+#include "io/image/image_io.h"
 #include "measure/stability/picture.h"
 #include "measure/stability/scenes.h"
 #include "render/renderer.h"

@@ -2,7 +2,7 @@
 #include "tests/bench/bench.h"
 #include "tests/bench/latency_probe.h"
 
-#include "scene/staging.h"
+#include "scene/document/scene_selection.h"
 
 #include <cmath>
 

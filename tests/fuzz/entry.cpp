@@ -1,5 +1,5 @@
 // Entry point of libFuzzer: one program per target.
-#include "targets.h"
+#include "tests/fuzz/targets.h"
 
 #include <cstddef>
 

@@ -1,8 +1,8 @@
-#include "io/ies.h"
+#include "io/image/ies.h"
 
-#include "promise.h"
-#include "scene/ies_profile.h"
-#include "targets.h"
+#include "tests/fuzz/promise.h"
+#include "scene/lights/ies_profile.h"
+#include "tests/fuzz/targets.h"
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
-#include "io/gltf_import.h"
-#include "promise.h"
+#include "io/gltf/read/import.h"
+#include "tests/fuzz/promise.h"
 #include "scene/validate.h"
-#include "targets.h"
+#include "tests/fuzz/targets.h"
 
 #include <filesystem>
 #include <fstream>

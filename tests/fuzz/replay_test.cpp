@@ -1,5 +1,5 @@
 // Replays the fuzz corpora without a fuzzer, as regression tests.
-#include "targets.h"
+#include "tests/fuzz/targets.h"
 
 #include "core/files.h"
 

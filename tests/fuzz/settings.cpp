@@ -1,8 +1,8 @@
-#include "io/scene_edits_json.h"
-#include "io/settings_json.h"
-#include "promise.h"
+#include "io/project/scene_edits_json.h"
+#include "io/project/settings_json.h"
+#include "tests/fuzz/promise.h"
 #include "scene/validate.h"
-#include "targets.h"
+#include "tests/fuzz/targets.h"
 
 namespace blush::fuzz {
 

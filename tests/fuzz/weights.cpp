@@ -1,6 +1,6 @@
-#include "promise.h"
+#include "tests/fuzz/promise.h"
 #include "render/denoise/tza.h"
-#include "targets.h"
+#include "tests/fuzz/targets.h"
 
 namespace blush::fuzz {
 

@@ -1,4 +1,4 @@
-#include "irradiance.h"
+#include "tests/render/irradiance.h"
 
 namespace blush::test {
 

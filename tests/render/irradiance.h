@@ -2,8 +2,8 @@
 #pragma once
 
 #include "measure/stability/irradiance.h"
-#include "picture.h"
-#include "scenes.h"
+#include "tests/render/picture.h"
+#include "tests/render/scenes.h"
 
 namespace blush::test {
 

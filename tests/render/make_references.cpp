@@ -1,7 +1,7 @@
 // make_references [RENDERS]: writes the references of every shipped scene, the means of that many independent renders (default
 // 256), with their standard errors as error.*. Run it when a scene changes, never to make a failing test pass.
-#include "io/image_io.h"
-#include "reference_scenes.h"
+#include "io/image/image_io.h"
+#include "tests/render/reference_scenes.h"
 
 #include <cstdio>
 #include <cstdlib>

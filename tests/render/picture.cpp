@@ -1,4 +1,4 @@
-#include "picture.h"
+#include "tests/render/picture.h"
 
 namespace blush::test {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "measure/stability/picture.h"
-#include "statistics.h"
+#include "tests/support/statistics.h"
 
 #include <span>
 

@@ -1,6 +1,6 @@
-#include "reference_scenes.h"
+#include "tests/render/reference_scenes.h"
 
-#include "io/image_io.h"
+#include "io/image/image_io.h"
 
 #include <stdexcept>
 

@@ -1,8 +1,8 @@
 // Scenes of the stored references, shared by the tool that renders them and the test that compares with them.
 #pragma once
 
-#include "picture.h"
-#include "scenes.h"
+#include "tests/render/picture.h"
+#include "tests/render/scenes.h"
 
 namespace blush::test {
 

@@ -1,6 +1,6 @@
 // The shipped scenes match stored references: a z-test of each block of 8 x 8 pixels.
 #include "core/math.h"
-#include "reference_scenes.h"
+#include "tests/render/reference_scenes.h"
 
 namespace blush::test {
 namespace {

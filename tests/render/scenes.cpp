@@ -1,6 +1,6 @@
-#include "scenes.h"
+#include "tests/render/scenes.h"
 
-#include "io/gltf_import.h"
+#include "io/gltf/read/import.h"
 
 #include <stdexcept>
 

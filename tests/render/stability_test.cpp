@@ -1,9 +1,9 @@
 // The stability battery, group by group; its sensitivity to wrong answers; and the validity of its list of limits.
-#include "measure/intervals.h"
+#include "measure/statistics/intervals.h"
 #include "measure/stability/battery.h"
 #include "measure/stability/groups.h"
-#include "measure/stability/hot_spots.h"
-#include "statistics.h"
+#include "measure/stability/weak_points.h"
+#include "tests/support/statistics.h"
 
 #include <gtest/gtest.h>
 
@@ -92,7 +92,7 @@ TEST(Battery, ListIsConsistent) {
         std::set<std::string> names;
         for (const StabilityCase& c : group.cases) {
             EXPECT_TRUE(names.insert(c.name).second) << group.name << ": " << c.name;
-            EXPECT_FALSE(hot_spot(c.hot_spot).name.empty()) << group.name << ": " << c.name;
+            EXPECT_FALSE(weak_point(c.weak_point).name.empty()) << group.name << ": " << c.name;
             EXPECT_EQ(c.limit.empty(), group.name != "limits") << group.name << ": " << c.name;
             cases += c.limit.empty();
         }

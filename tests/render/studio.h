@@ -1,8 +1,8 @@
 // A scene with one light of each kind, for tests of the light mix.
 #pragma once
 
-#include "picture.h"
-#include "scenes.h"
+#include "tests/render/picture.h"
+#include "tests/render/scenes.h"
 
 #include <algorithm>
 #include <string>

@@ -1,4 +1,4 @@
-#include "support/error_coverage.h"
+#include "tests/support/error_coverage.h"
 
 #include <cmath>
 

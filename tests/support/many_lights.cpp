@@ -1,8 +1,8 @@
-#include "support/many_lights.h"
+#include "tests/support/many_lights.h"
 
 #include "core/math.h"
-#include "render/lowering.h"
-#include "render/render_scene.h"
+#include "render/compile/expand_area_lights.h"
+#include "render/compile/render_scene.h"
 #include "render/renderer.h"
 #include "shading/light.h"
 

@@ -1,7 +1,7 @@
 // A house with ten thousand lights, and the variance of light selection methods.
 #pragma once
 
-#include "render/scene_tables.h"
+#include "render/compile/scene_tables.h"
 #include "scene/scene.h"
 
 namespace blush::test {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "render/renderer.h"
-#include "scene/edit.h"
+#include "scene/document/edit.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
-#include "support/random_edits.h"
+#include "tests/support/random_edits.h"
 
-#include "scene/ies_profile.h"
-#include "render/bake_mix.h"
-#include "render/light_groups.h"
-#include "support/sample_project.h"
+#include "scene/lights/ies_profile.h"
+#include "render/light_mix/bake_mix.h"
+#include "render/light_mix/light_groups.h"
+#include "tests/support/sample_project.h"
 
 #include <type_traits>
 

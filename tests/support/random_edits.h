@@ -1,7 +1,7 @@
 // Valid random edits of every kind, for tests that compare two ways to reach the same state.
 #pragma once
 
-#include "scene/edit.h"
+#include "scene/document/edit.h"
 
 #include <random>
 

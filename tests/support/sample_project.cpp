@@ -1,4 +1,4 @@
-#include "support/sample_project.h"
+#include "tests/support/sample_project.h"
 
 namespace blush::test {
 

@@ -1,7 +1,7 @@
 // A small project with every kind of record, a clip and two variants of the red material, for tests of the document and of edits.
 #pragma once
 
-#include "scene/edit.h"
+#include "scene/document/edit.h"
 
 namespace blush::test {
 

@@ -1,6 +1,6 @@
-#include "support/storable.h"
+#include "tests/support/storable.h"
 
-#include "io/image_channels.h"
+#include "io/image/image_channels.h"
 
 namespace blush::test {
 

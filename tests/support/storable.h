@@ -1,7 +1,7 @@
 // Reduces a project to what files can store, for tests with random edits.
 #pragma once
 
-#include "scene/edit.h"
+#include "scene/document/edit.h"
 
 namespace blush::test {
 

@@ -1,8 +1,8 @@
 // Bounces panel: the picture split by the number of scattering events. Changing the view does not restart the render.
-#include "measure/bounce_energy.h"
-#include "ui/bars.h"
+#include "measure/statistics/bounce_energy.h"
+#include "ui/widgets/bars.h"
 #include "ui/panels/panels.h"
-#include "ui/widgets.h"
+#include "ui/widgets/widgets.h"
 
 #include <fmt/format.h>
 #include <imgui.h>

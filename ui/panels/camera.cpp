@@ -1,8 +1,8 @@
 // Camera tab: lens, pose and exposure of the view. Navigation is not recorded as undo steps; lens edits are.
-#include "scene/pose.h"
+#include "scene/animation/pose.h"
 #include "ui/panels/panels.h"
-#include "ui/rotation.h"
-#include "ui/widgets.h"
+#include "ui/transform/rotation.h"
+#include "ui/widgets/widgets.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 // Comparison panel: which two pictures are compared, how, and their difference in numbers.
 #include "core/text.h"
-#include "ui/difference.h"
+#include "ui/snapshots/difference.h"
 #include "ui/panels/panels.h"
-#include "ui/theme.h"
-#include "ui/widgets.h"
+#include "ui/window/theme.h"
+#include "ui/widgets/widgets.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -11,7 +11,7 @@
 namespace blush {
 namespace {
 
-using Mode = Comparison::Mode;
+using CompareMode = Comparison::Mode;
 
 void draw_side(PanelContext& c, Fields& f, const char* label, uint64_t& side) {
     std::vector<std::string> names{"Live image"};
@@ -76,10 +76,10 @@ void draw_comparison_panel(PanelContext& c) {
     int mode = int(compare.mode) - 1;
     if (f.choice("Show", mode, modes,
                  "Wipe: both, with a movable bar between them. Flicker: one after the other. Difference: a map of the differences."))
-        compare.mode = Mode(mode + 1);
-    if (compare.mode == Mode::flicker) {
+        compare.mode = CompareMode(mode + 1);
+    if (compare.mode == CompareMode::flicker) {
         if (f.button(compare.shows_b ? "Show A" : "Show B", "Shortcut: J.")) compare.shows_b = !compare.shows_b;
-    } else if (compare.mode == Mode::difference) {
+    } else if (compare.mode == CompareMode::difference) {
         constexpr const char* kinds[] = {"Absolute", "Relative", "FLIP"};
         int kind = int(compare.kind);
         if (f.choice("Kind", kind, kinds,

@@ -1,10 +1,10 @@
 #include "ui/panels/convergence_runs.h"
 
-#include "ui/fitting_text.h"
-#include "ui/plot_drawing.h"
-#include "ui/theme.h"
-#include "ui/time_text.h"
-#include "ui/widgets.h"
+#include "ui/widgets/elided_text.h"
+#include "ui/widgets/plot_drawing.h"
+#include "ui/window/theme.h"
+#include "ui/window/time_text.h"
+#include "ui/widgets/widgets.h"
 
 #include <cmath>
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // The list of runs in the Convergence panel.
 #pragma once
 
-#include "ui/panels/context.h"
+#include "ui/panel_context.h"
 
 namespace blush {
 

@@ -1,10 +1,10 @@
 // Display tab: denoising, view transform, exposure and white balance of the displayed picture. Nothing here restarts the render.
 #include "core/math.h"
 #include "core/text.h"
-#include "scene/color_temperature.h"
+#include "scene/lights/color_temperature.h"
 #include "ui/panels/panels.h"
-#include "ui/picture_view.h"
-#include "ui/widgets.h"
+#include "ui/snapshots/picture_view.h"
+#include "ui/widgets/widgets.h"
 
 #include <algorithm>
 #include <fmt/format.h>

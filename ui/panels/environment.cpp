@@ -1,8 +1,8 @@
 // Environment panel: the light from all directions around the scene (constant, image or sky).
-#include "scene/sky_model.h"
-#include "scene/sun_position.h"
+#include "scene/lights/sky_model.h"
+#include "scene/lights/sun_position.h"
 #include "ui/panels/panels.h"
-#include "ui/widgets.h"
+#include "ui/widgets/widgets.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -1,11 +1,11 @@
 // File browser: folders and the files with fitting extensions; by mouse, by keyboard or by a typed path.
-#include "ui/file_listing.h"
-#include "ui/file_places.h"
-#include "ui/icons.h"
+#include "ui/window/file_listing.h"
+#include "ui/window/file_places.h"
+#include "ui/gl/icons.h"
 #include "ui/panels/panels.h"
-#include "ui/snapshots_view.h"
-#include "ui/theme.h"
-#include "ui/widgets.h"
+#include "ui/snapshots/snapshots_view.h"
+#include "ui/window/theme.h"
+#include "ui/widgets/widgets.h"
 
 #include <algorithm>
 #include <fmt/format.h>

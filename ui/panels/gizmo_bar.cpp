@@ -1,8 +1,8 @@
 // Toolbar at the left of the picture that selects the gizmo and its axes; visible while something is selected.
-#include "ui/icons.h"
+#include "ui/gl/icons.h"
 #include "ui/panels/panels.h"
-#include "ui/theme.h"
-#include "ui/widgets.h"
+#include "ui/window/theme.h"
+#include "ui/widgets/widgets.h"
 
 #include <fmt/format.h>
 

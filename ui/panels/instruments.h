@@ -2,8 +2,8 @@
 // beside it.
 #pragma once
 
-#include "ui/dock.h"
-#include "ui/panels/context.h"
+#include "ui/window/dock.h"
+#include "ui/panel_context.h"
 
 #include <span>
 #include <string>

@@ -1,7 +1,7 @@
 // Shape section: weights of a mesh's morph targets.
-#include "scene/pose.h"
+#include "scene/animation/pose.h"
 #include "ui/panels/panels.h"
-#include "ui/widgets.h"
+#include "ui/widgets/widgets.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -1,9 +1,9 @@
 // Object and Transform sections: name, visibility, transform and mesh of the selected node.
-#include "scene/pose.h"
+#include "scene/animation/pose.h"
 #include "ui/panels/panels.h"
-#include "ui/rotation.h"
-#include "ui/theme.h"
-#include "ui/widgets.h"
+#include "ui/transform/rotation.h"
+#include "ui/window/theme.h"
+#include "ui/widgets/widgets.h"
 
 #include <cmath>
 #include <fmt/format.h>

@@ -1,15 +1,15 @@
 // Outliner: the scene's nodes as a tree, with icons for content and visibility.
-#include "ui/fitting_text.h"
-#include "ui/icons.h"
-#include "ui/light_tools.h"
-#include "ui/panels/light_drag.h"
+#include "ui/widgets/elided_text.h"
+#include "ui/gl/icons.h"
+#include "ui/lights/light_tools.h"
+#include "ui/panels/light/drag.h"
 #include "ui/panels/panels.h"
-#include "ui/row_clicks.h"
-#include "ui/theme.h"
-#include "ui/widgets.h"
+#include "ui/widgets/row_clicks.h"
+#include "ui/window/theme.h"
+#include "ui/widgets/widgets.h"
 
-#include "scene/pose.h"
-#include "scene/shining.h"
+#include "scene/animation/pose.h"
+#include "scene/lights/light_visibility.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // The panels: each is one function that draws from the project and applies edits; one file each.
 #pragma once
 
-#include "ui/panels/context.h"
+#include "ui/panel_context.h"
 
 #include <imgui.h>
 

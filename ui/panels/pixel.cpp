@@ -2,12 +2,12 @@
 #include "color/illuminance.h"
 #include "core/math.h"
 #include "core/text.h"
-#include "render/coverage.h"
-#include "ui/aov_pixels.h"
-#include "ui/fitting_text.h"
+#include "render/film/coverage.h"
+#include "ui/snapshots/aov_pixels.h"
+#include "ui/widgets/elided_text.h"
 #include "ui/panels/panels.h"
-#include "ui/theme.h"
-#include "ui/widgets.h"
+#include "ui/window/theme.h"
+#include "ui/widgets/widgets.h"
 
 #include <algorithm>
 #include <array>

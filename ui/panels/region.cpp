@@ -2,9 +2,9 @@
 // display values.
 #include "core/text.h"
 #include "ui/panels/panels.h"
-#include "ui/region_statistics.h"
-#include "ui/theme.h"
-#include "ui/widgets.h"
+#include "ui/snapshots/region_statistics.h"
+#include "ui/window/theme.h"
+#include "ui/widgets/widgets.h"
 
 #include <fmt/format.h>
 

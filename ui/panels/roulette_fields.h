@@ -2,7 +2,7 @@
 #pragma once
 
 #include "scene/render_settings.h"
-#include "ui/widgets.h"
+#include "ui/widgets/widgets.h"
 
 namespace blush {
 

@@ -1,7 +1,7 @@
 // Scopes: histogram and waveform of scene-linear values, in stops from middle grey, and of displayed values.
 #include "ui/panels/panels.h"
-#include "ui/theme.h"
-#include "ui/widgets.h"
+#include "ui/window/theme.h"
+#include "ui/widgets/widgets.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // The shortcut sheet (F1): all commands with a key, and the mouse controls.
 #include "ui/panels/panels.h"
-#include "ui/theme.h"
+#include "ui/window/theme.h"
 
 #include <algorithm>
 #include <cstring>

@@ -1,9 +1,9 @@
 // Snapshot panel: name, note and file of a snapshot.
 #include "ui/panels/panels.h"
-#include "ui/snapshot_memory.h"
-#include "ui/snapshot_strip.h"
-#include "ui/theme.h"
-#include "ui/widgets.h"
+#include "ui/snapshots/snapshot_memory.h"
+#include "ui/snapshots/snapshot_strip.h"
+#include "ui/window/theme.h"
+#include "ui/widgets/widgets.h"
 
 #include <fmt/format.h>
 

@@ -8,7 +8,6 @@
 namespace blush::stability {
 namespace {
 
-constexpr int thin_solids = 20, output_range = 22;
 
 // A slab without refraction, viewed perpendicularly in an environment of radiance 1: exp(-depth per_metre) (Beer-Lambert).
 Findings slab(float per_metre, float depth) {
@@ -54,9 +53,9 @@ std::vector<StabilityCase> absorption_cases() {
     std::vector<StabilityCase> cases;
     for (const Slab& s : slabs)
         cases.push_back({fmt::format("{:g} per metre, {:g} m deep", s.per_metre, s.depth),
-                         s.per_metre * s.depth > 10 ? output_range : thin_solids, [s] { return slab(s.per_metre, s.depth); }});
+                         s.per_metre * s.depth > 10 ? output_range : nested_solids, [s] { return slab(s.per_metre, s.depth); }});
     for (const float passage : {1.f, 0.25f, 1e-6f})
-        cases.push_back({fmt::format("pane that passes {:g} each way", passage), thin_solids, [passage] { return pane(passage); }});
+        cases.push_back({fmt::format("pane that passes {:g} each way", passage), nested_solids, [passage] { return pane(passage); }});
     return cases;
 }
 

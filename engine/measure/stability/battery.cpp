@@ -1,7 +1,7 @@
 #include "measure/stability/battery.h"
 
 #include "core/parallel.h"
-#include "measure/intervals.h"
+#include "measure/statistics/intervals.h"
 #include "measure/stability/groups.h"
 
 #include <atomic>
@@ -43,7 +43,7 @@ CaseResult run_case(const std::string& group, const StabilityCase& c, int cases)
     r.group = group;
     r.name = c.name;
     r.limit = c.limit;
-    r.hot_spot = c.hot_spot;
+    r.weak_point = c.weak_point;
     const auto begin = std::chrono::steady_clock::now();
     try {
         const Findings findings = c.run();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "measure/stability/verdict.h"
+#include "measure/stability/weak_points.h"
 
 #include <functional>
 #include <string>
@@ -12,7 +13,7 @@ namespace blush::stability {
 
 struct StabilityCase {
     std::string name;              // unique within its group
-    int hot_spot = 0;              // tested weak point: a number of hot_spots()
+    int weak_point = 0;              // tested weak point: a number of weak_points()
     std::function<Findings()> run; // may throw std::exception: the case then fails with its message
     std::string limit = {};        // not empty: known limit and its reason. Measured and listed, but not counted.
 };
@@ -26,7 +27,7 @@ const std::vector<StabilityGroup>& battery();
 
 struct CaseResult {
     std::string group, name, limit;
-    int hot_spot = 0;
+    int weak_point = 0;
     Finding finding;      // the worst finding of the case
     double tolerance = 0; // of that finding
     bool pass = false;

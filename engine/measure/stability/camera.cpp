@@ -11,7 +11,6 @@
 namespace blush::stability {
 namespace {
 
-constexpr int leaving_surfaces = 1, scales = 3, ranges = 22;
 
 // An emissive square that covers a quarter of a square image at any field of view.
 Findings quarter_of_the_view(double degrees, float distance) {
@@ -80,9 +79,9 @@ std::vector<StabilityCase> camera_cases() {
     for (const Vec3& direction : {Vec3{0, 1, 0}, Vec3{0, -1, 0}, Vec3{1, 0.4f, 0.2f}, Vec3{1, -0.4f, 0.2f}})
         cases.push_back({fmt::format("eye on a surface, looking along ({:g}, {:g}, {:g})", direction.x, direction.y, direction.z),
                          leaving_surfaces, [direction] { return on_a_floor(direction); }});
-    cases.push_back({"image of 1 x 1", ranges, [] { return shape(1, 1); }});
-    cases.push_back({"image of 16384 x 1", ranges, [] { return shape(16384, 1); }});
-    cases.push_back({"image of 1 x 4096", ranges, [] { return shape(1, 4096); }});
+    cases.push_back({"image of 1 x 1", output_range, [] { return shape(1, 1); }});
+    cases.push_back({"image of 16384 x 1", output_range, [] { return shape(16384, 1); }});
+    cases.push_back({"image of 1 x 4096", output_range, [] { return shape(1, 4096); }});
     for (const float aperture : {1e-6f, 0.1f, 2.f})
         cases.push_back({fmt::format("lens of radius {:g} m", aperture), scales, [aperture] { return lens(aperture); }});
     return cases;

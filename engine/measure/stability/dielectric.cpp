@@ -11,7 +11,6 @@
 namespace blush::stability {
 namespace {
 
-constexpr int towards_vacuum = 7, nested = 20, critical_angle = 21;
 
 // Fresnel reflectance for unpolarised light at an interface of index ratio eta.
 double fresnel(double eta, double cos) {
@@ -127,9 +126,9 @@ std::vector<StabilityCase> dielectric_cases() {
         cases.push_back({fmt::format("{:g} degrees off the critical angle", off), critical_angle,
                          [off] { return beside_the_critical_angle(1.5f, off); }});
     for (const float ior : {1.001f, 1.5f, 2.5f})
-        cases.push_back({fmt::format("camera within glass of ior {}", ior), nested, [ior] { return within_glass(ior); }});
-    cases.push_back({"50 interfaces, one behind another", nested, [] { return stack_of_panes(25); }});
-    cases.push_back({"50 interfaces around each other in a furnace", nested, [] { return shells_in_furnace(25); }});
+        cases.push_back({fmt::format("camera within glass of ior {}", ior), nested_solids, [ior] { return within_glass(ior); }});
+    cases.push_back({"50 interfaces, one behind another", nested_solids, [] { return stack_of_panes(25); }});
+    cases.push_back({"50 interfaces around each other in a furnace", nested_solids, [] { return shells_in_furnace(25); }});
     return cases;
 }
 

@@ -1,6 +1,6 @@
 // Stability cases of the film: a million samples without drift, radiance from 1e-30 to 1e30, black scenes, and correctness of the
 // error estimate that all other cases use.
-#include "render/film.h"
+#include "render/film/film.h"
 #include "core/math.h"
 #include "measure/stability/findings.h"
 #include "measure/stability/groups.h"
@@ -13,7 +13,6 @@
 namespace blush::stability {
 namespace {
 
-constexpr int accumulation = 10, random_numbers = 11, ranges = 22, determinism = 24;
 
 Scene room(float nits) {
     Scene scene;
@@ -98,10 +97,10 @@ Findings honest_error(int seeds) {
 std::vector<StabilityCase> film_cases() {
     std::vector<StabilityCase> cases;
     for (const float nits : {1e-30f, 1e-12f, 1e12f, 1e30f})
-        cases.push_back({fmt::format("closed room of {:g} nits", nits), ranges, [nits] { return radiance(nits); }});
+        cases.push_back({fmt::format("closed room of {:g} nits", nits), output_range, [nits] { return radiance(nits); }});
     cases.push_back({"1048576 samples of one pixel", accumulation, [] { return constant_for(1 << 20); }});
     cases.push_back({"film fed with one bright sample and 1e6 others", accumulation, [] { return film_fed(1000000); }});
-    cases.push_back({"all lights off", ranges, in_the_dark});
+    cases.push_back({"all lights off", output_range, in_the_dark});
     cases.push_back({"samples from 2^31 on", random_numbers, [] { return late_samples(int64_t(1) << 31); }});
     cases.push_back({"two threads, in pieces, bit for bit", determinism, threads_and_pieces});
     cases.push_back({"standard errors against the scatter of 1024 seeds", random_numbers, [] { return honest_error(1024); }});

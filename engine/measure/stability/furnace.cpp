@@ -10,7 +10,6 @@
 namespace blush::stability {
 namespace {
 
-constexpr int closed_rooms = 15;
 constexpr float emission = 2;
 // Maximum vertices of a path (render/estimator_settings.h limits it to 100000 scattering events).
 constexpr double longest = 100001;

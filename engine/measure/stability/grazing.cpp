@@ -11,11 +11,9 @@
 namespace blush::stability {
 namespace {
 
-constexpr int grazing_angles = 5;
-constexpr double pi_d = std::numbers::pi;
 
 Vec3 skimming(double degrees) {
-    const double a = degrees * pi_d / 180;
+    const double a = degrees * std::numbers::pi / 180;
     return {float(std::sin(a)), float(std::cos(a)), 0};
 }
 
@@ -30,7 +28,7 @@ Findings sunlit(double degrees) {
     shine(scene, sun, pose);
     scene.view = looking_down(0.9f, 1);
     const double cos = to_affine(pose.rotation).z.y;
-    return every_pixel(render(scene, settings_for(8, 8, 1)), double(0.8f) / pi_d * 3 * cos);
+    return every_pixel(render(scene, settings_for(8, 8, 1)), double(0.8f) / std::numbers::pi * 3 * cos);
 }
 
 // An orthographic view of a floor from 5 m away.
@@ -49,7 +47,7 @@ Findings lacquer(double degrees) {
     black.base_color = {0, 0, 0};
     place(scene, floor_quad(100), black);
     constant_world(scene, 1);
-    scene.view = view_at(degrees, float(std::cos(degrees * pi_d / 180)));
+    scene.view = view_at(degrees, float(std::cos(degrees * std::numbers::pi / 180)));
     const double cos = to_affine(scene.view.rotation).z.y;
     return every_pixel(render(scene, settings_for(8, 8, 2)), 0.04 + 0.96 * std::pow(1 - cos, 5));
 }
@@ -58,7 +56,7 @@ Findings matte(double degrees) {
     Scene scene;
     place(scene, floor_quad(100), lambert(0.8f));
     constant_world(scene, 1);
-    scene.view = view_at(degrees, float(std::cos(degrees * pi_d / 180)));
+    scene.view = view_at(degrees, float(std::cos(degrees * std::numbers::pi / 180)));
     return whole(render(scene, settings_for(16, 16, 64)), double(0.8f));
 }
 

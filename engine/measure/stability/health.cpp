@@ -10,9 +10,7 @@
 namespace blush::stability {
 namespace {
 
-constexpr int not_numbers = 8;
 constexpr float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
-constexpr double pi_d = std::numbers::pi;
 
 // For a floor it covers: the right half of an image from above shows texels of 1.
 ImagePtr one_bad(float bad) { return float_picture(2, 2, std::vector<Vec3>{{bad, bad, bad}, {1, 1, 1}, {1, 1, 1}, {1, 1, 1}}); }
@@ -65,7 +63,7 @@ Findings beside(auto&& add_broken) {
     shine(scene, sun, aimed({0, 0, 0}, {0, -1, 0}));
     add_broken(scene);
     scene.view = looking_down(1, 1);
-    return sound(scene, 0.5 * 2 / pi_d);
+    return sound(scene, 0.5 * 2 / std::numbers::pi);
 }
 void add_bad_vertex(Scene& scene, float bad) {
     Geometry g = *floor_quad(0.2f, 0.2f);

@@ -11,7 +11,6 @@
 namespace blush::stability {
 namespace {
 
-constexpr int shadow_ends = 4, no_area = 13, dynamic_range = 16, small_angles = 17;
 constexpr Vec3d up{0, 1, 0};
 
 Light light_of(Light::Kind kind, float intensity) {

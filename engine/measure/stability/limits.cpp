@@ -11,7 +11,6 @@
 namespace blush::stability {
 namespace {
 
-constexpr double pi_d = std::numbers::pi;
 
 // The sum of all bounces, not only of the first 100000.
 Findings max_path_length() {
@@ -73,7 +72,7 @@ Findings terminator() {
     place(scene, std::make_shared<const Geometry>(std::move(g)), lambert(1.f));
     Light sun;
     sun.kind = Light::Kind::sun;
-    sun.intensity = float(pi_d);
+    sun.intensity = float(std::numbers::pi);
     const Vec3 direction{1, -0.3f, 0.2f};
     shine(scene, sun, aimed({0, 0, 0}, direction));
     scene.view = looking({0, 0, 4}, {0, 0, 0}, 1);
@@ -148,7 +147,7 @@ Findings white_dielectric(double degrees) {
     Scene scene;
     place(scene, floor_quad(1000), plastic(0));
     constant_world(scene, 1);
-    const double angle = degrees * pi_d / 180;
+    const double angle = degrees * std::numbers::pi / 180;
     scene.view = looking({float(10 * std::sin(angle)), float(10 * std::cos(angle)), 0}, {0, 0, 0}, 1);
     scene.view.lens.orthographic = true;
     scene.view.lens.ymag = 0.1f;
@@ -166,7 +165,7 @@ Findings sun_through_solid_glass() {
     place(scene, cube(false), glass(0, 1.5f), plate);
     Light sun;
     sun.kind = Light::Kind::sun;
-    sun.intensity = float(pi_d);
+    sun.intensity = float(std::numbers::pi);
     shine(scene, sun, aimed({0, 5, 0}, {0, -1, 0}));
     scene.view = looking_down(0.5f, 0.5f);
     RenderSettings settings = settings_for(16, 16, 4);

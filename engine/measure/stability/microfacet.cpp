@@ -10,8 +10,6 @@
 namespace blush::stability {
 namespace {
 
-constexpr int smooth_limit = 6, frames = 14;
-constexpr double pi_d = std::numbers::pi;
 
 float roughness_of(double alpha) { return float(std::sqrt(alpha)); }
 
@@ -31,7 +29,7 @@ double directional_albedo(double alpha, double cos) {
     double sum = 0;
     for (int i = 0; i < steps; ++i)
         for (int j = 0; j < steps; ++j) {
-            const double r = std::sqrt((i + 0.5) / steps), phi = 2 * pi_d * (j + 0.5) / steps;
+            const double r = std::sqrt((i + 0.5) / steps), phi = 2 * std::numbers::pi * (j + 0.5) / steps;
             const double a = r * std::cos(phi), squeeze = 0.5 * (1 + o.z);
             const double b = (1 - squeeze) * std::sqrt(1 - a * a) + squeeze * r * std::sin(phi);
             const Vec3d n = s * a + t * b + o * std::sqrt(std::max(0.0, 1 - a * a - b * b));
@@ -43,7 +41,7 @@ double directional_albedo(double alpha, double cos) {
 }
 
 View parallel_view(double degrees, float half_height) {
-    const double a = degrees * pi_d / 180;
+    const double a = degrees * std::numbers::pi / 180;
     View view = looking({float(5 * std::sin(a)), float(5 * std::cos(a)), 0}, {0, 0, 0}, 1);
     view.lens.orthographic = true;
     view.lens.ymag = half_height;
@@ -56,7 +54,7 @@ Findings white_metal(double alpha, double degrees) {
     constant_world(scene, 1);
     scene.view = parallel_view(degrees, 0.3f);
     // Error of the midpoint rule at the discontinuity at the horizon: 1 / steps of the part that is cut off.
-    return whole(render(scene, settings_for(16, 16, 256)), directional_albedo(alpha, std::cos(degrees * pi_d / 180)), 1e-4);
+    return whole(render(scene, settings_for(16, 16, 256)), directional_albedo(alpha, std::cos(degrees * std::numbers::pi / 180)), 1e-4);
 }
 
 // An emissive wall whose reflected edge is at the centre of the image: half of the light is visible under any symmetric blur of

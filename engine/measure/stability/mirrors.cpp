@@ -8,7 +8,6 @@
 namespace blush::stability {
 namespace {
 
-constexpr int closed_rooms = 15;
 
 Findings corridor(float albedo, int bounces) {
     Scene scene;

@@ -6,11 +6,10 @@
 
 #include <cmath>
 #include <fmt/format.h>
+#include <numbers>
 
 namespace blush::stability {
 namespace {
-
-constexpr int leaving_surfaces = 1, far_away = 2, scales = 3;
 
 // All objects are children of one node, so that fractions of a metre are kept far from the origin: only the root and the camera
 // have positions there, which are exact in single precision.
@@ -80,7 +79,7 @@ Findings sunlit_ball(float scale, const Vec3& centre) {
         if (picture.frame.depth[i] == 0) continue;
         const double cos = dot(to_double(picture.frame.normal[i]), to_sun);
         if (std::abs(cos) < 1e-4) continue; // the side depends on rounding
-        const double expected = cos > 0 ? double(albedo) / 3.14159265358979 * double(lux) * cos : 0;
+        const double expected = cos > 0 ? double(albedo) / std::numbers::pi * double(lux) * cos : 0;
         wrong += !(std::abs(picture.pixels[i].x - expected) <= 1e-5);
         lit += cos > 0;
     }

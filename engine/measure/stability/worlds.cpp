@@ -11,9 +11,7 @@
 namespace blush::stability {
 namespace {
 
-constexpr int importance_maps = 18, densities = 12;
 constexpr int columns = 32, rows = 16;
-constexpr double pi_d = std::numbers::pi;
 
 std::vector<Vec3> black_but_for(int column, int row, float background, float bright) {
     std::vector<Vec3> texels(size_t(columns) * rows, Vec3{background, background, background});
@@ -29,7 +27,7 @@ double irradiance_of(const std::vector<Vec3>& texels, int steps) {
     };
     double sum = 0;
     for (int i = 0; i < rows * steps / 2; ++i) {
-        const double y = (i + 0.5) / steps - 0.5, theta = pi_d * (y + 0.5) / rows;
+        const double y = (i + 0.5) / steps - 0.5, theta = std::numbers::pi * (y + 0.5) / rows;
         const int r = int(std::floor(y));
         for (int j = 0; j < columns * steps; ++j) {
             const double x = (j + 0.5) / steps - 0.5;
@@ -39,7 +37,7 @@ double irradiance_of(const std::vector<Vec3>& texels, int steps) {
             sum += (above * (1 - v) + below * v) * std::cos(theta) * std::sin(theta);
         }
     }
-    return sum * (pi_d / (rows * steps)) * (2 * pi_d / (columns * steps));
+    return sum * (std::numbers::pi / (rows * steps)) * (2 * std::numbers::pi / (columns * steps));
 }
 
 Findings bright_texel(int column, int row, float background, float bright) {
@@ -57,7 +55,7 @@ Findings bright_texel(int column, int row, float background, float bright) {
 Findings constant(float nits) {
     Scene scene;
     constant_world(scene, nits);
-    return quarters(scene, [&](const Vec3d&) { return pi_d * double(nits); });
+    return quarters(scene, [&](const Vec3d&) { return std::numbers::pi * double(nits); });
 }
 
 // A mirror reflects the disk of a sun of the given angle: the mean of the image is lux over the solid angle of the pixels.
@@ -75,8 +73,8 @@ Findings sun_in_a_mirror(float angle) {
     const Picture picture = render(scene, settings_for(32, 32, 64));
     // Area of the disk over that of the image, both on the plane at distance 1.
     const double radius = std::tan(double(angle) / 2), edge = 2 * std::tan(double(scene.view.lens.yfov_radians) / 2);
-    const double radiance = 5 / (pi_d * std::pow(std::sin(double(angle) / 2), 2));
-    return whole(picture, radiance * pi_d * radius * radius / (edge * edge));
+    const double radiance = 5 / (std::numbers::pi * std::pow(std::sin(double(angle) / 2), 2));
+    return whole(picture, radiance * std::numbers::pi * radius * radius / (edge * edge));
 }
 
 } // namespace

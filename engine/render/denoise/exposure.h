@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/parallel.h"
-#include "render/denoiser.h"
+#include "render/denoise/denoiser.h"
 
 #include <cstdint>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "render/kernels/feature_sets.h"
-#include "render/wavefront.h"
+#include "render/integrator/wavefront.h"
 
 namespace blush::inline BLUSH_ISA {
 

@@ -2,13 +2,13 @@
 #pragma once
 
 #include "core/vec.h"
-#include "render/accel.h"
-#include "render/estimator_settings.h"
+#include "render/bvh/accel.h"
+#include "render/integrator/estimator_settings.h"
 #include "render/kernels/column.h"
 #include "render/kernels/group_columns.h"
 #include "render/kernels/reuse_columns.h"
-#include "render/path_counts.h"
-#include "render/scene_tables.h"
+#include "render/film/path_counts.h"
+#include "render/compile/scene_tables.h"
 #include "shading/features.h"
 
 #include <cstdint>

@@ -1,0 +1,23 @@
+// Features that a command uses in addition to the renderer, as lines of the feature report.
+#pragma once
+
+#include "render/denoise/denoiser.h"
+#include "render/compile/feature_report.h"
+
+#include <optional>
+
+namespace blush {
+
+struct CommandFeatures {
+    bool display = false; // view transform used
+    std::optional<DenoiseQuality> denoiser;
+    std::optional<double> display_seconds, denoiser_seconds; // measured start-up times; of the fast network
+};
+// The renderer's lines, then these.
+FeatureReport with_command_features(const FeatureReport& renderer, const CommandFeatures& made);
+
+// Measures the start-up of the default view's processor and of the denoiser's fast network with one pixel, to show what their
+// absence saves. No time if one fails.
+CommandFeatures measure_command_features(unsigned threads);
+
+} // namespace blush

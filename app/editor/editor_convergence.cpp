@@ -1,0 +1,186 @@
+#include "app/editor/editor_convergence.h"
+
+#include "app/common/unique_filename.h"
+#include "app/editor/run_name.h"
+#include "core/files.h"
+#include "io/image/image_io.h"
+#include "measure/convergence/convergence_csv.h"
+#include "measure/plot/plot_svg.h"
+#include "ui/views/convergence_picture.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+namespace blush {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Kind = ConvergencePoint::Kind;
+
+constexpr uint64_t max_table_bytes = uint64_t(8) << 20; // bytes
+
+std::vector<ConvergenceRecord> shown_records(const ConvergenceRuns& runs) {
+    std::vector<ConvergenceRecord> records;
+    for (const ConvergenceRun& r : runs.all())
+        if (r.shown && !r.record.points().empty()) records.push_back(r.record);
+    return records;
+}
+
+} // namespace
+
+void EditorConvergence::submit(ConvergenceView& view, const Submission& s, const std::string& opened) {
+    const size_t steps_to_redo = s.document.redo_labels().size();
+    const bool undone = steps_to_redo > std::exchange(steps_to_redo_, steps_to_redo);
+    const Scene& scene = s.document.project().scene;
+    if (!opened.empty()) {
+        view.runs.clear();
+        begin(view, opened, s.revision, scene, s.settings);
+    } else {
+        const Changes changes = diff(scene_, settings_, scene, s.settings);
+        const std::string name = changes.affects_image() ? run_name({scene_, settings_}, {scene, s.settings}, s.document, undone) : "";
+        if (changes.affects_image() && s.goes_on)
+            remix(name, s.revision, scene);
+        else if (changes.affects_image())
+            begin(view, name, s.revision, scene, s.settings);
+        else if (!planes_.covers(s.planes))
+            begin(view, "Other layers", s.revision, scene, s.settings);
+        else if (changes.stop_rules)
+            view.runs.mark("Stop rules");
+    }
+    scene_ = scene;
+    settings_ = s.settings;
+    planes_ = s.planes;
+}
+
+void EditorConvergence::begin(ConvergenceView& view, const std::string& name, uint64_t revision, const Scene& scene,
+                              const RenderSettings& settings) {
+    first_revision_ = revision;
+    subject_ = {scene, settings};
+    remixed_by_.clear();
+    recording_seconds_ = 0;
+    view.cost = {};
+    measuring_.begin(view.runs.begin(name));
+    reference_provider_.forget();
+}
+
+// The same samples with other weights: earlier errors, and the reference, belong to another picture.
+void EditorConvergence::remix(const std::string& name, uint64_t revision, const Scene& scene) {
+    first_revision_ = revision;
+    subject_.scene = scene;
+    remixed_by_ = name;
+    measuring_.forget_pictures();
+    reference_provider_.forget();
+}
+
+void EditorConvergence::current_pictures(ConvergenceView& view, const Pictures& pictures) {
+    const auto begin = Clock::now();
+    const FramePtr& frame = pictures.frame;
+    // The error of a coarse picture is not comparable.
+    const bool ours = frame && frame->revision >= first_revision_ && frame->divider == 1 && view.runs.live();
+    if (ours && frame != last_frame_) record(view, frame);
+    if (ours && pictures.denoised && pictures.denoised != last_denoised_) record_denoised(view, pictures.denoised);
+    last_frame_ = frame;
+    last_denoised_ = pictures.denoised;
+    recording_seconds_ += std::chrono::duration<double>(Clock::now() - begin).count();
+    measure(view, ours ? frame : nullptr);
+    if (ours) view.cost = {frame->error_seconds, recording_seconds_, measuring_.seconds(), frame->seconds};
+}
+
+void EditorConvergence::record(ConvergenceView& view, const FramePtr& frame) {
+    ConvergenceRecord& record = view.runs.live()->record;
+    const ConvergencePoint point = estimated_point(*frame);
+    const bool known = point.rmse.known || point.relmse.known, remixed = !remixed_by_.empty();
+    // Adds a point when a run ends or the mix changes, even if none is due.
+    if (known && (frame->complete || remixed))
+        record.set(point);
+    else if (known)
+        record.add(point);
+    if (known && remixed) record.mark({point.seconds, point.spp, std::exchange(remixed_by_, {}), true});
+    if (view.reference && reference_provider_.reference() && (frame->complete || record.is_due(Kind::measured, frame->samples))) measuring_.add_raw(frame);
+}
+
+void EditorConvergence::record_denoised(ConvergenceView& view, const DenoisedPtr& picture) {
+    if (!view.denoised || picture->revision < first_revision_ || picture->divider != 1) return;
+    measuring_.add_denoised(picture);
+}
+
+void EditorConvergence::measure(ConvergenceView& view, const FramePtr& frame) {
+    const ConvergenceRun* live = view.runs.live();
+    // Not while a drag changes the picture: each key would read the whole scene.
+    const bool settled = live && live->record.points(Kind::estimated).size() >= ConvergenceRuns::min_points;
+    if (view.open && view.reference && settled && frame) {
+        subject_.settings.width = frame->width;
+        subject_.settings.height = frame->height;
+        subject_.settings.resolution_scale = 1;
+        reference_provider_.current_pictures(subject_);
+    }
+    if (reference_provider_.poll() && frame) measuring_.add_raw(frame);
+    measuring_.poll(view.runs, view.reference ? reference_provider_.reference() : nullptr, frame);
+    view.news = reference_provider_.news();
+    view.waiting = live ? measuring_.waiting(live->record) : 0;
+}
+
+void EditorConvergence::handle_requests(UiState& ui, const std::filesystem::path& folder, const std::filesystem::path& scene_file) {
+    ConvergenceView& view = ui.convergence;
+    using Request = ConvergenceView::ReferenceRequest;
+    const Request request = std::exchange(view.wanted_reference, Request::none);
+    if (request == Request::stop) reference_provider_.stop();
+    if (request == Request::render && last_frame_) reference_provider_.render(subject_, std::max<int64_t>(64, 2 * last_frame_->samples));
+    if (reference_provider_.renders()) ui.seconds_to_next_frame = std::min(ui.seconds_to_next_frame, 0.2);
+    if (const auto format = std::exchange(view.wanted_export, std::nullopt)) save(ui, *format, folder, scene_file);
+    if (!save_job_) return;
+    if (const auto saved = save_job_->take()) {
+        save_job_.reset();
+        if (*saved)
+            ui.toasts.note("Saved " + (*saved)->filename().string(), (*saved)->parent_path().string());
+        else
+            ui.toasts.fail(saved->error().text());
+    }
+}
+
+// Drawn here, because ImGui is on this thread; written in the background.
+void EditorConvergence::save(UiState& ui, ConvergenceView::Export format, const std::filesystem::path& folder,
+                             const std::filesystem::path& scene_file) {
+    const std::vector<ConvergenceRecord> records = shown_records(ui.convergence.runs);
+    if (records.empty()) return ui.toasts.warn("No convergence data to save yet");
+    std::function<Result<void>(const std::filesystem::path&)> write;
+    const char* extension = "";
+    const ConvergencePlot chart = export_chart(ui.convergence, scene_file.filename().string());
+    switch (format) {
+    case ConvergenceView::Export::csv:
+        extension = ".csv";
+        write = [text = to_csv(records)](const auto& file) { return write_file(file, text); };
+        break;
+    case ConvergenceView::Export::svg:
+        extension = ".svg";
+        write = [text = to_svg(chart.plot)](const auto& file) { return write_file(file, text); };
+        break;
+    case ConvergenceView::Export::png:
+        extension = ".png";
+        write = [picture = draw_chart_picture(chart.plot)](const auto& file) {
+            return write_display_image(file, picture.width, picture.height, picture.rgb);
+        };
+        break;
+    }
+    save_job_ = std::make_unique<BackgroundJob<Result<std::filesystem::path>>>(
+        "Saving the chart",
+        [=, stem = scene_file.stem().string() + "-convergence"](JobProgress&) -> Result<std::filesystem::path> {
+            const auto file = unique_filename(folder, stem, extension);
+            if (!file) return file;
+            if (const auto written = write(*file); !written) return written.error();
+            return *file;
+        },
+        wake_);
+}
+
+void EditorConvergence::load(UiState& ui, const std::filesystem::path& file) {
+    const auto bytes = read_file(file, max_table_bytes);
+    if (!bytes) return ui.toasts.fail(bytes.error().text());
+    auto records = parse_convergence_csv({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
+    if (!records) return ui.toasts.fail(file.filename().string() + ": " + records.error().text());
+    for (ConvergenceRecord& r : *records) ui.convergence.runs.add_stored(std::move(r));
+    ui.convergence.open = true;
+}
+
+} // namespace blush

@@ -1,0 +1,69 @@
+// Convergence runs of the editor: records the error of each picture, separates the runs, and writes and reads their files.
+#pragma once
+
+#include "app/editor/error_measurement.h"
+#include "app/editor/reference_provider.h"
+#include "scene/document/document.h"
+#include "ui/window/ui_state.h"
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace blush {
+
+class EditorConvergence {
+public:
+    EditorConvergence(std::function<void()> wake, unsigned threads) : measuring_(wake), reference_provider_(wake, threads), wake_(std::move(wake)) {}
+
+    // The next submission to the session.
+    struct Submission {
+        const Document& document;
+        const RenderSettings& settings;
+        const PlaneSet& planes;
+        uint64_t revision = 0;
+        bool goes_on = false; // keeps the samples, if only the gains of the light mix differ
+    };
+    // Starts a new run if another image will be rendered. Its name is the last edit, or `opened` (the file just opened) if that
+    // is not empty. Edits that keep the image only add a mark.
+    void submit(ConvergenceView& view, const Submission& submission, const std::string& opened);
+    // From this revision on, another image is rendered, of the scene at that time.
+    void begin(ConvergenceView& view, const std::string& name, uint64_t revision, const Scene& scene, const RenderSettings& settings);
+    // From this revision on, the samples have another light mix.
+    void remix(const std::string& name, uint64_t revision, const Scene& scene);
+    // Call once per UI frame with the newest pictures.
+    void current_pictures(ConvergenceView& view, const Pictures& pictures);
+    // Executes requests of the panel. Files are written to `folder`, named after `scene_file`.
+    void handle_requests(UiState& ui, const std::filesystem::path& folder, const std::filesystem::path& scene_file);
+    void load(UiState& ui, const std::filesystem::path& file);
+
+    // True while the reference uses all cores: the live render should pause, or its times would be wrong.
+    bool is_rendering_reference() const { return reference_provider_.renders(); }
+
+private:
+    void record(ConvergenceView& view, const FramePtr& frame);
+    void record_denoised(ConvergenceView& view, const DenoisedPtr& picture);
+    void measure(ConvergenceView& view, const FramePtr& frame);
+    void save(UiState& ui, ConvergenceView::Export format, const std::filesystem::path& folder, const std::filesystem::path& scene_file);
+
+    ErrorMeasurement measuring_;
+    ReferenceProvider reference_provider_;
+    std::function<void()> wake_;
+    uint64_t first_revision_ = 0; // of the live run
+    ReferenceProvider::Subject subject_;
+
+    // Of the last submission.
+    Scene scene_;
+    RenderSettings settings_;
+    PlaneSet planes_;
+    size_t steps_to_redo_ = 0;
+
+    std::string remixed_by_; // the last edit of the mix, until its picture is seen; empty: none
+    FramePtr last_frame_;
+    DenoisedPtr last_denoised_;
+    double recording_seconds_ = 0;
+    std::unique_ptr<BackgroundJob<Result<std::filesystem::path>>> save_job_;
+};
+
+} // namespace blush

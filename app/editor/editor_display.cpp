@@ -1,0 +1,41 @@
+#include "app/editor/editor_display.h"
+
+#include <chrono>
+
+namespace blush {
+
+void EditorDisplay::update_shader(const ViewSettings& view, const FramePtr& frame, Viewport& viewport, ThumbnailSheet& thumbnails, Toasts& toasts) {
+    using Clock = std::chrono::steady_clock;
+    const DisplayTransform wanted = transform_of(view);
+    // No OCIO processor and no lookup tables before the first picture.
+    if (!frame || (shader_ready_ && wanted == transform_)) return;
+    shader_ready_ = true;
+    transform_ = wanted;
+    const auto begin = Clock::now();
+    const auto shader = color_.display_shader(wanted);
+    if (!shader) return toasts.fail(shader.error().text());
+    thumbnails.set_shader(*shader);
+    if (const auto set = viewport.set_display_shader(*shader); !set) toasts.fail(set.error().text());
+    int64_t bytes = 0;
+    for (const DisplayShader::Lut& lut : shader->luts) bytes += int64_t(lut.values.size() * sizeof(float));
+    view_transform_ = {"display", "view transform",
+                       true,      "the picture is shown through it",
+                       bytes,     std::chrono::duration<double>(Clock::now() - begin).count()};
+    ledger_.clear();
+}
+
+void EditorDisplay::meter(AutoExposure rule, const FramePtr& frame) {
+    if (rule == metered_by_ && (rule == AutoExposure::off || frame == metered_)) return;
+    metered_by_ = rule;
+    metered_ = rule == AutoExposure::off ? nullptr : frame;
+    metered_ev_ = metered_ ? metered_exposure(rule, metered_->rgba, 4) : 0;
+}
+
+void EditorDisplay::update_ledger(const SessionStatus& status) {
+    if (!ledger_.empty() && status.denoised_with == denoised_with_) return;
+    denoised_with_ = status.denoised_with;
+    ledger_ = denoiser_feature_report(weights_, denoised_with_);
+    ledger_.insert(ledger_.begin(), view_transform_);
+}
+
+} // namespace blush

@@ -1,0 +1,27 @@
+#include "app/files/start_page.h"
+
+#include "app/common/output_folder.h"
+#include "ui/window/file_listing.h"
+
+namespace blush {
+
+std::vector<std::string> StartPage::demos() const {
+    std::vector<std::string> files;
+    const std::filesystem::path folder = assets_ / "scenes";
+    if (const auto listing = list_folder(folder, scene_files))
+        for (const FileEntry& entry : listing->entries)
+            if (!entry.folder) files.push_back(std::filesystem::absolute(folder / entry.name).string());
+    return files;
+}
+
+void StartPage::keep_thumbnail(const std::filesystem::path& scene, const FramePtr& frame, const ViewSettings& view, const ColorManagement& color,
+                                 bool leaving) {
+    constexpr int64_t enough_samples = 16;
+    if (!frame || frame->width <= 0 || frame->divider != 1 || scene.empty() || is_below(scene, assets_)) return;
+    if (!leaving && (kept_ == scene || (frame->samples < enough_samples && !frame->complete))) return;
+    kept_ = scene;
+    const std::filesystem::path file = thumbnail_file(scene, assets_);
+    if (!file.empty() && write_thumbnail(file, *frame, view, color)) thumbnails_.forget(scene.string());
+}
+
+} // namespace blush

@@ -1,0 +1,12 @@
+// Internal to gltf_*.cpp: schema check. Reports JSON that violates the glTF schema.
+#pragma once
+
+#include "io/gltf/read/source.h"
+
+namespace blush {
+
+// Warns about members of the wrong type (read as absent), extensions that are used but not declared, nodes with both matrix and
+// TRS, and meshes without primitives.
+void check_schema(const GltfContext& context);
+
+} // namespace blush

@@ -1,0 +1,58 @@
+// Imports glTF 2.0 (.gltf, .glb). Only gltf_*.cpp uses tinygltf. Treats any input as hostile.
+#pragma once
+
+#include "core/result.h"
+#include "io/gltf/read/geometry/indices.h"
+#include "scene/render_settings.h"
+#include "scene/scene.h"
+#include "scene/view_settings.h"
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace blush {
+
+struct ImportReport {
+    std::vector<std::string> extensions_used, extensions_honoured, extensions_approximated, extensions_ignored;
+    // Everything in the file that the image will not show, and everything suspicious.
+    std::vector<Diagnostic> diagnostics;
+    double seconds = 0;
+};
+
+struct ImportedScene {
+    Scene scene;
+    ImportReport report;
+    GltfOrigin origin;
+    // Data that saving wrote besides the scene, if Blush saved the file.
+    bool has_view = false; // scene.view is the saved one
+    std::optional<RenderSettings> render = {};
+    std::optional<ViewSettings> view = {};
+};
+
+struct ImportOptions {
+    unsigned threads = 0; // for meshes and textures, including the calling one; 0: one per core. Does not affect the result
+
+    std::function<void(double fraction, const std::string& what)> on_progress; // called on the importing thread
+    const std::atomic<bool>* cancel = nullptr;                                 // true ends the import with the error "cancelled"
+    int64_t texture_bytes = int64_t(4) << 30; // limit of all decoded textures; the largest are halved until they fit
+    // Called once on the importing thread if textures take longer than the rest, with the preview scene (untextured.h). Textures
+    // may still turn out to be unreadable, and the import may still be cancelled.
+    std::function<void(const ImportedScene&)> on_preview_scene = {};
+};
+
+// Imports the file's default scene, the saved view or that of the first camera (or one framed around the geometry), lights of
+// KHR_lights_punctual, EXT_lights_area and EXT_lights_ies, and `extras.blush`: on the scene `environment` {kind, color,
+// intensity, rotation_degrees, file, visible_to_camera} (its file relative to the scene's folder), on a light `angle_degrees`,
+// `radius`, `rectangle`
+// {width, height, two_sided}, on a camera `aperture_radius`, `focus_distance`, and on any object the fields that glTF cannot
+// express (gltf_save.h). Ids are deterministic: two imports of a file give the same ids, and saving and loading a scene keeps
+// them.
+// Errors: unreadable, not glTF, a required extension that is not supported, an index out of range, a buffer that is missing or too
+// short, a file URI that leaves the scene's folder or is not a plain relative path.
+Result<ImportedScene> import_gltf(const std::filesystem::path& file, const ImportOptions& options = {});
+
+} // namespace blush

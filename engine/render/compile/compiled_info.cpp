@@ -1,0 +1,61 @@
+// Statistics of a compiled scene, for `blush info`.
+#include "render/compile/expand_area_lights.h"
+#include "render/compile/render_scene.h"
+
+#include <fmt/format.h>
+
+namespace blush {
+namespace {
+
+std::string counted(int64_t n, const char* one, const char* many) { return fmt::format("{} {}", n, n == 1 ? one : many); }
+
+Diagnostic degenerate_triangles(int64_t n) {
+    return {Diagnostic::Severity::warning, counted(n, "triangle has no area and cannot be seen", "triangles have no area and cannot be seen"), ""};
+}
+
+} // namespace
+
+CompiledInfo RenderScene::info() const {
+    CompiledInfo info;
+    info.materials = int64_t(materials_.ids.size());
+    info.textures = int64_t(materials_.textures.records.size());
+    info.warnings = materials_.textures.warnings;
+    info.warnings.insert(info.warnings.end(), materials_.warnings.begin(), materials_.warnings.end());
+    info.warnings.insert(info.warnings.end(), environment_.warnings.begin(), environment_.warnings.end());
+    info.warnings.insert(info.warnings.end(), left_out_.begin(), left_out_.end());
+    if (casters_.left_out() > 0)
+        info.warnings.push_back({Diagnostic::Severity::warning,
+                                 fmt::format("more than {} different sets of shadow casters: shadow linking is ignored for {}",
+                                             max_caster_sets, counted(casters_.left_out(), "light", "lights")),
+                                 ""});
+    if (lights_.unsampled_triangles > 0)
+        info.warnings.push_back({Diagnostic::Severity::warning,
+                                 fmt::format("{} of {} emissive triangles exceed the light-sampling limit of {}: their light is found by BSDF "
+                                             "sampling only and will be noisy",
+                                             lights_.unsampled_triangles, lights_.emissive_triangles, max_mesh_lights),
+                                 ""});
+    if (lights_.fewer_disk_corners > 0)
+        info.warnings.push_back({Diagnostic::Severity::warning,
+                                 fmt::format("many disk lights: each is a polygon of {} corners instead of {}, which is visible at their "
+                                             "edges and in reflections",
+                                             lights_.fewer_disk_corners, max_disk_corners),
+                                 ""});
+    if (!missing_light_.empty()) info.warnings.push_back({Diagnostic::Severity::warning, missing_light_, ""});
+    info.environment = lights_.environment >= 0;
+    info.emissive_triangles = lights_.emissive_triangles;
+    info.point_lights = lights_.point_lights;
+    info.suns = lights_.sun_lights;
+    if (has_geometry_) {
+        info.meshes = int64_t(geometry_.parts().size());
+        info.instances = geometry_.instance_count();
+        for (size_t part = 0; part < geometry_.parts().size(); ++part) info.triangles += geometry_.triangle_count(part);
+        if (const int64_t degenerate = geometry_.degenerate_count(); degenerate > 0) info.warnings.push_back(degenerate_triangles(degenerate));
+    }
+    const size_t bytes = geometry_.memory_bytes() + accel_.memory_bytes() + materials_.textures.memory_bytes() + environment_.texels.capacity() * 4 +
+                         environment_.column_thresholds.capacity() * 4 + environment_.column_guides.capacity() * sizeof(environment_.column_guides[0]) +
+                         lights_.records.capacity() * sizeof(LightRecord) + lights_.profiles.memory_bytes() + lights_.tree.memory_bytes();
+    info.memory_mb = double(bytes) / 1e6;
+    return info;
+}
+
+} // namespace blush

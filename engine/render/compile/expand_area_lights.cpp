@@ -1,0 +1,122 @@
+#include "render/compile/expand_area_lights.h"
+
+#include "core/math.h"
+#include "render/lights/light_table.h"
+#include "scene/lights/color_temperature.h"
+#include "scene/animation/pose.h"
+#include "scene/lights/light_visibility.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace blush {
+namespace {
+
+// Unit square in the XY plane, facing -Z, the direction of lights.
+GeometryPtr unit_rectangle() {
+    static const GeometryPtr shared = [] {
+        auto g = std::make_shared<Geometry>();
+        g->positions = {{-0.5f, -0.5f, 0}, {0.5f, -0.5f, 0}, {0.5f, 0.5f, 0}, {-0.5f, 0.5f, 0}};
+        g->indices = {0, 2, 1, 0, 3, 2};
+        return g;
+    }();
+    return shared;
+}
+
+// A regular polygon in the XY plane, facing -Z, with the area of the unit disk.
+GeometryPtr make_unit_disk(uint32_t corners) {
+    const double step = 2 * std::numbers::pi / corners;
+    const double radius = std::sqrt(step / std::sin(step));
+    auto g = std::make_shared<Geometry>();
+    g->positions.push_back({0, 0, 0});
+    for (uint32_t i = 0; i < corners; ++i) {
+        g->positions.push_back({float(radius * std::cos(i * step)), float(radius * std::sin(i * step)), 0});
+        g->indices.insert(g->indices.end(), {0, 1 + (i + 1) % corners, 1 + i});
+    }
+    return g;
+}
+
+constexpr std::array disk_shapes{max_disk_corners, 48, 24, 12, 6};
+
+GeometryPtr unit_disk(int corners) {
+    static const auto shared = [] {
+        std::array<GeometryPtr, disk_shapes.size()> disks;
+        std::ranges::transform(disk_shapes, disks.begin(), make_unit_disk);
+        return disks;
+    }();
+    return shared[size_t(std::ranges::find(disk_shapes, corners) - disk_shapes.begin())];
+}
+
+Material emitter(const Light& light, const Vec3& nits) {
+    Material m;
+    m.name = light.name;
+    m.base_color = {0, 0, 0};
+    m.metallic = 0;
+    m.specular = 0;
+    m.emissive = nits;
+    m.double_sided = light.two_sided;
+    return m;
+}
+
+struct AreaShape {
+    GeometryPtr geometry;
+    Vec3 scale;
+};
+
+AreaShape shape_of(const Light& light, int corners) {
+    if (light.kind == Light::Kind::rectangle) return {unit_rectangle(), {light.width, light.height, 1}};
+    return {unit_disk(corners), {light.radius, light.radius, 1}};
+}
+
+} // namespace
+
+bool is_area_light(const Light& light) { return light.kind == Light::Kind::rectangle || light.kind == Light::Kind::disk; }
+
+int disk_corners(const Scene& scene) {
+    const auto disks = std::ranges::count_if(scene.nodes, [&](const auto& node) {
+        const Light* light = node.value.light ? scene.lights.find(node.value.light) : nullptr;
+        return light && light->kind == Light::Kind::disk;
+    });
+    const auto fits = std::ranges::find_if(disk_shapes, [&](int corners) { return disks * corners <= max_mesh_lights; });
+    return fits == disk_shapes.end() ? disk_shapes.back() : *fits;
+}
+
+const Light* light_of_expanded_mesh(const Scene& expanded, Id<Node> id) {
+    const Node* node = id.value & expanded_id_bit ? expanded.nodes.find(Id<Node>{id.value & ~expanded_id_bit}) : nullptr;
+    return node ? expanded.lights.find(node->light) : nullptr;
+}
+
+Vec3 light_emission(const Light& light) {
+    const Vec3 tint = light.use_temperature ? light.color * black_body_color(light.kelvin, light.green_tint) : light.color;
+    return tint * light.intensity;
+}
+
+Scene expand_area_lights(const Scene& whole, ExpandedMeshes* known) {
+    Scene scene = with_solo_applied(with_pose_applied(whole));
+    ExpandedMeshes none;
+    ExpandedMeshes& meshes = known ? *known : none;
+    meshes.tangents.provide(scene);
+    meshes.bent.bend(scene);
+    Scene expanded = scene;
+    const int corners = disk_corners(scene);
+    for (const auto& [id, node] : scene.nodes) {
+        const Light* light = node.light ? scene.lights.find(node.light) : nullptr;
+        if (!light || !is_area_light(*light)) continue;
+        // With a light mix, meshes of disabled lights remain, so that switching a light changes only its own emission.
+        if (!light->enabled && scene.mix.grouping == LightMix::Grouping::none) continue;
+        const AreaShape shape = shape_of(*light, corners);
+        const uint32_t key = expanded_id_bit | node.light.value;
+        expanded.materials.insert(Id<Material>{key}, emitter(*light, light->enabled ? light_emission(*light) : Vec3{0, 0, 0}));
+        expanded.meshes.insert(Id<Mesh>{key}, {light->name, {{shape.geometry, Id<Material>{key}}}});
+        Node body;
+        body.parent = id;
+        body.local.scale = shape.scale;
+        body.mesh = Id<Mesh>{key};
+        expanded.nodes.insert(Id<Node>{expanded_id_bit | id.value}, std::move(body));
+    }
+    return expanded;
+}
+
+} // namespace blush

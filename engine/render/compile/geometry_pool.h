@@ -1,0 +1,93 @@
+// All vertices and triangles that rays can hit, in parallel arrays; unused attributes are not allocated. Large instanced meshes
+// are read in place from the document (scene/placed_geometry.h).
+#pragma once
+
+#include "render/bvh/accel.h"
+#include "render/compile/object_list.h"
+#include "render/compile/scene_tables.h"
+#include "scene/scene.h"
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+namespace blush {
+
+// Vertex attributes that the meshes and the materials in use need.
+struct AttributeNeeds {
+    bool tangents = false, colors = false;
+    std::vector<int> uv_sets; // for each UV set of the scene its index, -1 if no mesh needs it
+    bool operator==(const AttributeNeeds&) const = default;
+};
+
+class GeometryPool {
+public:
+    // Lays out the parts of `objects`: flat ones in world space, instanced ones in object space and once for all instances. World
+    // space is relative to `origin` (render/extent.h). Fills every field of the part records except `material` and `first_light`.
+    void build(const std::vector<SceneObject>& objects, const AttributeNeeds& needs, const Vec3d& origin);
+    // Rewrites moved objects: same meshes, other transforms or another origin. `before` as passed last time.
+    void move(const std::vector<SceneObject>& before, const std::vector<SceneObject>& objects, const Vec3d& origin);
+
+    // One record per part and instance, in the order of objects, their instances and the parts of each.
+    std::vector<PartRecord>& parts() { return parts_; }
+    const std::vector<PartRecord>& parts() const { return parts_; }
+    // The material id of each part.
+    const std::vector<Id<Material>>& part_materials() const { return part_materials_; }
+    int64_t triangle_count(size_t part) const { return part_triangles_[part]; }
+    // Number of triangles without area in the scene.
+    int64_t degenerate_count() const;
+    // World-space vertices of a part's triangle, computed like the kernels do.
+    void corners(size_t part, int64_t triangle, Vec3 (&p)[3]) const;
+
+    void fill(SceneTables& tables) const;
+    // Input for the BVH builder, valid until the next change; alpha[part] requests opacity tests, masks[object] is the ray mask.
+    AccelScene accel_scene(const std::vector<SceneObject>& objects, const std::vector<bool>& alpha,
+                           const std::vector<uint32_t>& masks) const;
+    int64_t instance_count() const { return int64_t(instances_.size()); }
+    // True if some part has smooth vertex normals.
+    bool has_normals() const { return has_normals_; }
+    // Own vertices, without those read in place from the document.
+    int64_t vertex_count() const { return int64_t(positions_.size()); }
+    size_t memory_bytes() const;
+    size_t shapes_in_place() const { return read_in_place_.size(); }
+    // Bytes that copies of those would use.
+    size_t in_place_bytes() const;
+    // Triangles of the largest instanced mesh.
+    size_t largest_instanced_mesh() const { return largest_instanced_mesh_; }
+
+private:
+    struct Span {
+        int32_t first_vertex = 0, first_index = 0;
+    };
+    void reserve(const std::vector<SceneObject>& objects);
+    int64_t degenerate_in(size_t part) const; // in stored coordinates
+    Span append(const Geometry& geometry);
+    // Span of a mesh, here or in the document; missing ones are appended. `shared`: known instanced meshes by serial.
+    Span find_or_append(const SceneObject& object, const GeometryPtr& geometry, std::map<uint64_t, Span>& shared);
+    void place(size_t part, const Geometry& geometry, const Affined& world_from_object);
+
+    std::vector<PartRecord> parts_;
+    std::vector<Id<Material>> part_materials_;
+    std::vector<int64_t> part_triangles_;
+    std::vector<int64_t> part_vertices_;
+    std::vector<InstanceRecord> instances_;
+    std::vector<int32_t> instance_first_part_;
+    std::vector<GeometryPtr> read_in_place_;
+    size_t largest_instanced_mesh_ = 0;
+    bool has_normals_ = false;
+    // Arena ranges of the own arrays. If the arena is unavailable, nothing is read in place.
+    ArenaRangePtr vertex_numbers_, index_numbers_;
+    int32_t first_vertex_ = 0, first_index_ = 0;
+    // From arena element 0: own data and data read in place.
+    const Vec3* all_positions_ = nullptr;
+    const uint32_t* all_indices_ = nullptr;
+    ArenaVector<uint32_t> indices_;
+    ArenaVector<Vec3> positions_, normals_;
+    ArenaVector<Vec4> tangents_, colors_;
+    std::array<ArenaVector<Vec2>, max_uv_sets> uv_;
+    AttributeNeeds needs_;
+    Vec3d origin_{0, 0, 0};
+};
+
+} // namespace blush

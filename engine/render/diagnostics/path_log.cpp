@@ -1,0 +1,125 @@
+// Text log of one sample, vertex by vertex, using the kernels' own stages with one lane.
+#include "core/parallel.h"
+#include "render/integrator/estimator_settings.h"
+#include "render/diagnostics/fault_finder.h"
+#include "render/compile/expand_area_lights.h"
+#include "render/compile/render_scene.h"
+#include "render/renderer.h"
+#include "render/integrator/kernel_settings.h"
+#include "scene/affine.h"
+
+#include <fmt/format.h>
+#include <memory>
+
+namespace blush {
+namespace {
+
+// True if the film accepts it.
+bool is_valid_radiance(const Vec3& c) { return is_finite(c) && c.x >= 0 && c.y >= 0 && c.z >= 0; }
+
+std::string rgb(const Vec3& c) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", c.x, c.y, c.z); }
+
+// Nine digits identify single-precision numbers at any distance from the origin.
+std::string point(const Vec3& p, const Vec3d& origin) {
+    const Vec3d world = to_double(p) + origin;
+    return fmt::format("({:.9g}, {:.9g}, {:.9g})", world.x, world.y, world.z);
+}
+
+std::string object_name(const Scene& scene, int32_t object) {
+    const Id<Node> id{uint32_t(object) & ~expanded_id_bit};
+    const Node* node = scene.nodes.find(id);
+    return node && !node->name.empty() ? node->name : fmt::format("node {}", id.value);
+}
+std::string material_name(const Scene& scene, Id<Material> id) {
+    const Material* material = scene.materials.find(id);
+    return material && !material->name.empty() ? material->name : id ? fmt::format("material {}", id.value) : "default material";
+}
+
+struct Logger {
+    const Scene& scene;
+    const RenderScene& compiled;
+    const EstimatorSettings& settings;
+    std::string text;
+
+    template <class... T> void line(fmt::format_string<T...> format, T&&... values) {
+        text += fmt::format(format, std::forward<T>(values)...) + "\n";
+    }
+
+    void vertex(int bounce, const Path<float>& path, const Hit<float>& hit) {
+        line("vertex {}", bounce);
+        line("  ray        from {} towards {}", point(path.ray.origin, compiled.origin()), rgb(path.ray.direction));
+        line("  throughput {}  pdf {:.6g}", rgb(path.beta), path.pdf);
+        if (hit.geometry < 0) {
+            line("  leaves the scene");
+            return;
+        }
+        if (hit.instance == sphere_instance) {
+            const LightTables& lights = compiled.tables().lights;
+            line("  hits       {}, a sphere light, at {:.6g} m",
+                 object_name(scene, lights.lights[lights.first_sphere + hit.triangle].object), hit.t);
+            return;
+        }
+        const Surface<float> s = surface_at<all_features, float>(compiled.tables(), hit, true);
+        const int32_t object = compiled.tables().parts[s.part].object;
+        line("  hits       {}, {}, triangle {}, at {:.6g} m", object_name(scene, object), material_name(scene, compiled.material_id(s.material)),
+             hit.triangle, hit.t);
+        line("  position   {}  off the surface by at most {:.3g} m", point(s.position, compiled.origin()), max_component(s.error));
+        line("  normal     {} geometric, {} shading", rgb(s.ng), rgb(s.ns));
+    }
+
+    void outcome(int bounce, const Step<float>& step, const Vec3& reached) {
+        const StepWeights<float>& w = step.weights;
+        if (step.emits) line("  emission   contributes {}  MIS weight {:.6g}", rgb(step.emitted), w.emission);
+        if (step.connects)
+            line("  light      contributes {}, {} over {:.6g} m  pdf {:.6g}, BSDF pdf {:.6g}  MIS weight {:.6g}", rgb(step.direct),
+                 has_light<float>(reached) ? "unoccluded" : "occluded", step.shadow_distance, w.light_pdf, w.light_bsdf_pdf, w.light);
+        const bool roulette = bounce + 1 >= settings.roulette.start && settings.roulette.rule != Roulette::Rule::off;
+        if (roulette && w.survival < 1)
+            line("  roulette   {} goes on with probability {:.6g}", to_string(settings.roulette), w.survival);
+        if (step.non_finite) {
+            line("  non-finite throughput {}  pdf {:.6g}", rgb(step.next.beta), step.next.pdf);
+            return;
+        }
+        if (!step.continues) {
+            line("  ends here");
+            return;
+        }
+        line("  scatters   towards {}  pdf {:.6g}  throughput {}", rgb(step.next.ray.direction), step.next.pdf, rgb(step.next.beta));
+    }
+};
+
+} // namespace
+
+std::string trace_sample(const Scene& scene, const RenderSettings& settings, int x, int y, int64_t sample) {
+    const Workers workers(1);
+    const Scene expanded = expand_area_lights(scene);
+    RenderScene compiled;
+    compiled.update(expanded, settings, full_plan(), workers);
+    const KernelContext context{&compiled.tables(), &compiled.accel(), kernel_settings(settings, settings.width, settings.height),
+                                settings.seed};
+    Logger log{expanded, compiled, context.settings, {}};
+    log.line("pixel {},{} sample {} seed {}", x, y, sample, settings.seed);
+
+    // Limits the length of the log; long paths repeat themselves.
+    constexpr int max_log_vertices = 1000;
+    const auto scratch = std::make_unique<TileScratch>();
+    workers.run([&] {
+        const Vec3 radiance = replay_sample(context, x, y, sample, max_log_vertices, *scratch, [&](const ReplayedVertex& vertex) {
+            log.vertex(vertex.bounce, vertex.path, vertex.hit);
+            log.outcome(vertex.bounce, vertex.step, vertex.arrived);
+            return true;
+        });
+        if (settings.reuse > 1)
+            log.line("path reuse: the film shares the light of this path among {} pixels and adds shares of their light; alone this path "
+                     "is worth",
+                     settings.reuse);
+        log.line("radiance {}", rgb(radiance));
+        if (!is_valid_radiance(radiance)) {
+            const Fault fault = find_fault(context, x, y, sample, *scratch);
+            log.line("refused    {} at {}, vertex {}", to_string(fault.kind), to_string(fault.place), fault.vertex);
+        }
+    });
+    return log.text;
+}
+
+} // namespace blush

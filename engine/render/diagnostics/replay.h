@@ -1,0 +1,47 @@
+// Traces one sample again, vertex by vertex, using the kernels' own stages with one lane. A sample is a function of scene,
+// settings, pixel, index and seed, so this reproduces what the film received (with path reuse, before sharing).
+#pragma once
+
+#include "render/integrator/wavefront.h"
+#include "scene/affine.h"
+
+#include <utility>
+
+namespace blush {
+
+// A vertex of the path and the result of its step. `arrived`: contribution of NEE, black if occluded.
+struct ReplayedVertex {
+    int bounce = 0;
+    Path<float> path;
+    Hit<float> hit;
+    Step<float> step;
+    Vec3 arrived;
+};
+
+// Calls visit(vertex) for each vertex while it returns true, at most `longest` times. Returns the radiance so far. Call it from
+// within Workers::run or for_each.
+template <class Visit>
+Vec3 replay_sample(KernelContext context, int x, int y, int64_t sample, int longest, TileScratch& scratch, const Visit& visit) {
+    constexpr Features s = all_features;
+    context.settings.reuse = {};
+    const auto radiance = [&] { return Vec3d{scratch.r[0], scratch.g[0], scratch.b[0]}; };
+    PathQueue *now = &scratch.paths[0], *next = &scratch.paths[1];
+    generate_paths<s, float>(context, {x, y, 1, 1, sample, 1}, scratch);
+    for (int bounce = 0; now->size > 0 && bounce < longest; ++bounce) {
+        trace_paths<s, float>(context, scratch, *now, *next, bounce);
+        Path<float> path = load_path<s, float>(*now, 0);
+        path.part = now->part[0];
+        path.dispersed = now->dispersed[0];
+        ReplayedVertex vertex{bounce, path, load_hit<float>(scratch.hits, 0), {}, {}};
+        vertex.step = scatter<s, float>(*context.scene, context.settings, vertex.path, vertex.hit, bounce, true);
+        shade_paths<s, float>(context, scratch, *now, *next, bounce);
+        const Vec3d before = radiance();
+        connect_paths<s, float>(context, scratch, bounce);
+        vertex.arrived = to_float(radiance() - before);
+        if (!visit(vertex)) break;
+        std::swap(now, next);
+    }
+    return to_float(radiance());
+}
+
+} // namespace blush

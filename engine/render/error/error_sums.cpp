@@ -1,0 +1,242 @@
+#include "render/error/error_sums.h"
+
+#include "render/error/neighborhood_filter.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace blush {
+namespace {
+
+// Weight of a pixel in its own neighbourhood mean, which has 24 other pixels.
+constexpr float own_share = 0.2f / 24.2f;
+// Values whose fourth powers (also of values a thousand times smaller) fit into single precision.
+constexpr double max_value = 0x1p28, min_value = 0x1p-16;
+constexpr double usual_value = 0x1p16;
+
+double total(const Four& v) { return double(v[0] + v[1]) + double(v[2] + v[3]); }
+double largest_of(const Four& v) { return double(std::max(std::max(v[0], v[1]), std::max(v[2], v[3]))); }
+
+// The divisor of relmse for scaled values, scaled so that neither of its two parts overflows.
+struct Divisor {
+    float of_square, constant;
+    double factor; // of a sum of quotients
+
+    // value^2 + 0.01, for values multiplied by `scale`.
+    explicit Divisor(double scale) {
+        const double floor = 0.01 * scale * scale, most = std::max(1.0, floor);
+        of_square = float(1 / most);
+        constant = std::max(float(floor / most), 1e-36f);
+        factor = 1 / most;
+    }
+    Four weight(const Four& value) const { return 1 / (squared(value) * of_square + constant); }
+};
+
+// Half differences of a row: absolute, and divided by the divisor of relmse.
+struct Differences {
+    ChannelRows absolute, relative;
+    PixelRow known;
+    explicit Differences(int width) : known(width) { absolute.fill(known), relative.fill(known); }
+};
+
+// Sums over channels for each pixel of a row.
+struct PixelSums {
+    PixelRow squares, relative, products, relative_products, high, dark;
+    explicit PixelSums(int width) : squares(width), relative(width), products(width), relative_products(width), high(width), dark(width) {}
+    void clear() {
+        for (PixelRow* row : {&squares, &relative, &products, &relative_products, &high, &dark}) row->clear();
+    }
+};
+
+// Sums of a row in single precision.
+struct RowSums {
+    struct Weighted {
+        Four squares{}, fourths{}, own_products{}, neighbour_products{};
+        void add(const Four& square, const Four& product) {
+            squares += square;
+            fourths += squared(square);
+            own_products += min(squared(product), normal_product(square));
+        }
+    };
+    Weighted absolute, relative;
+    Four relative_high{}, unequal{}, brightest{}, largest{}, pixels{}, pairs{};
+};
+
+class BandSummer {
+public:
+    BandSummer(const HalfBufferImage& picture, double scale)
+        : picture_(picture), scale_(scale), divisor_(scale), surroundings_(picture.width, picture.height), above_(picture.width),
+          now_(picture.width), around_{PixelRow(picture.width), PixelRow(picture.width)}, root_(picture.width), pixels_(picture.width) {
+        rows_.fill(HalfBufferRow(picture.width));
+    }
+
+    ErrorSums sum(int first, int last) {
+        const int lead_in = std::max(0, first - 1); // its differences are the upper neighbours of the first row
+        loaded_ = std::max(0, lead_in - 2);
+        for (int y = lead_in; y < last; ++y) {
+            for (; loaded_ < std::min(picture_.height, y + 3); ++loaded_) load(loaded_);
+            RowSums row;
+            add_pixels(y, row);
+            if (y >= first) {
+                add_neighbours(row, y > lead_in);
+                take(row);
+            }
+            std::swap(above_, now_);
+        }
+        return sums_;
+    }
+
+private:
+    static constexpr int kept = 4; // rows: the current one and two below
+
+    HalfBufferRow& row_at(int y) { return rows_[size_t(y % kept)]; }
+
+    void load(int y) {
+        picture_.load(y, float(scale_), row_at(y));
+        surroundings_.add_row(row_at(y).own, y);
+    }
+
+    // Also leaves the row's differences in now_.
+    void add_pixels(int y, RowSums& sums) {
+        const HalfBufferRow& row = row_at(y);
+        now_.known = row.known;
+        pixels_.clear();
+        const float* const from_weight_a = row.weight_a.pixels();
+        float* const to_root = root_.pixels();
+        for (int x = 0; x < picture_.width; x += PixelRow::step) {
+            const Four wa = load_four(from_weight_a + x);
+            store_four(to_root + x, sqrt(wa * (1 - wa)));
+        }
+        for (size_t c = 0; c < 3; ++c) {
+            surroundings_.current_pictures(c, y, row.own[c], around_);
+            add_channel(row, c, sums);
+        }
+        const float *const squares = pixels_.squares.pixels(), *const relative = pixels_.relative.pixels();
+        const float *const products = pixels_.products.pixels(), *const relative_products = pixels_.relative_products.pixels();
+        const float *const high = pixels_.high.pixels(), *const dark = pixels_.dark.pixels();
+        const float *const one_sample = row.one_sample.pixels(), *const known = row.known.pixels();
+        for (int x = 0; x < picture_.width; x += PixelRow::step) {
+            const Four square = load_four(squares + x);
+            sums.absolute.add(square, load_four(products + x));
+            sums.relative.add(load_four(relative + x), load_four(relative_products + x));
+            sums.relative_high += load_four(high + x);
+            sums.unequal += abs(2 * load_four(from_weight_a + x) - 1) * square;
+            sums.brightest = max(sums.brightest, load_four(dark + x) * squared(load_four(one_sample + x)));
+            sums.pixels += load_four(known + x);
+        }
+    }
+
+    void add_channel(const HalfBufferRow& row, size_t c, RowSums& sums) {
+        const float *const from_a = row.a[c].pixels(), *const from_b = row.b[c].pixels(), *const from_own = row.own[c].pixels();
+        const float *const roots = root_.pixels(), *const means = around_.mean.pixels(), *const darkest = around_.darkest.pixels();
+        float *const to_absolute = now_.absolute[c].pixels(), *const to_relative = now_.relative[c].pixels();
+        float *const squares = pixels_.squares.pixels(), *const relative = pixels_.relative.pixels();
+        float *const products = pixels_.products.pixels(), *const relative_products = pixels_.relative_products.pixels();
+        float *const high = pixels_.high.pixels(), *const dark = pixels_.dark.pixels();
+        const auto add = [](float* to, const Four& v) { store_four(to, load_four(to) + v); };
+        const Divisor divisor = divisor_;
+        Four largest = sums.largest;
+        for (int x = 0; x < picture_.width; x += PixelRow::step) {
+            const Four a = load_four(from_a + x), b = load_four(from_b + x), own = load_four(from_own + x), mean = load_four(means + x);
+            const Four root = load_four(roots + x), difference = (a - b) * root, square = squared(difference);
+            // `usual`: divisor of relmse by James-Stein shrinkage (1961); `least`: its lower bound.
+            const Four near = mean + (own - mean) * own_share, off = squared(own - near);
+            const Four usual = near + (own - near) * max(splat(0), 1 - 2 * square / max(off, splat(1e-36f)));
+            const Four least = min(usual, max(min(own, load_four(darkest + x)), min(a, b)));
+            const Four weight = divisor.weight(usual), ab = 4 * squared(root) * (a - mean) * (b - mean);
+            store_four(to_absolute + x, difference);
+            store_four(to_relative + x, difference * sqrt(weight));
+            add(squares + x, square);
+            add(relative + x, square * weight);
+            add(products + x, ab);
+            add(relative_products + x, ab * weight);
+            add(high + x, square * divisor.weight(least));
+            add(dark + x, squared(min(a, b)));
+            largest = max(largest, own);
+        }
+        sums.largest = largest;
+    }
+
+    void add_neighbours(RowSums& sums, bool has_above) const {
+        add_pairs(now_, 1, sums);
+        if (has_above) add_pairs(above_, 0, sums);
+    }
+
+    // Adds products of each pixel with the pixel of `other` that is `left` pixels to the left.
+    void add_pairs(const Differences& other, int left, RowSums& sums) const {
+        const auto products = [&](const ChannelRows& u, const ChannelRows& v) {
+            const float *const r = u[0].pixels() - left, *const g = u[1].pixels() - left, *const b = u[2].pixels() - left;
+            const float *const to_r = v[0].pixels(), *const to_g = v[1].pixels(), *const to_b = v[2].pixels();
+            Four sum{};
+            for (int x = 0; x < picture_.width; x += PixelRow::step)
+                sum += squared(load_four(r + x) * load_four(to_r + x) + load_four(g + x) * load_four(to_g + x) +
+                               load_four(b + x) * load_four(to_b + x));
+            return sum;
+        };
+        sums.absolute.neighbour_products += products(other.absolute, now_.absolute);
+        sums.relative.neighbour_products += products(other.relative, now_.relative);
+        const float *const known = other.known.pixels() - left, *const known_here = now_.known.pixels();
+        for (int x = 0; x < picture_.width; x += PixelRow::step) sums.pairs += load_four(known + x) * load_four(known_here + x);
+    }
+
+    // In double precision, in original units.
+    void take(const RowSums& row) {
+        const double square = 1 / (scale_ * scale_), fourth = square * square;
+        const auto add = [](ErrorSums::Weighted& to, const RowSums::Weighted& w, double to_square, double to_fourth) {
+            to.squares += total(w.squares) * to_square;
+            to.fourths += total(w.fourths) * to_fourth;
+            to.own_products += total(w.own_products) * to_fourth;
+            to.neighbour_products += 4 * total(w.neighbour_products) * to_fourth;
+        };
+        ErrorSums s;
+        s.pixels = int64_t(total(row.pixels));
+        s.pairs = int64_t(total(row.pairs));
+        add(s.absolute, row.absolute, square, fourth);
+        add(s.relative, row.relative, divisor_.factor, divisor_.factor * divisor_.factor);
+        s.relative_high = total(row.relative_high) * divisor_.factor;
+        s.unequal = total(row.unequal) * square;
+        s.brightest = largest_of(row.brightest) * square;
+        s.largest = largest_of(row.largest) / scale_;
+        sums_.merge(s);
+    }
+
+    const HalfBufferImage& picture_;
+    double scale_;
+    Divisor divisor_;
+    NeighborhoodFilter surroundings_;
+    std::array<HalfBufferRow, kept> rows_;
+    Differences above_, now_;
+    NeighborhoodFilter::NeighborhoodMeans around_; // of one channel
+    PixelRow root_;               // of the product of the halves' weights
+    PixelSums pixels_;
+    int loaded_ = 0;
+    ErrorSums sums_;
+};
+
+} // namespace
+
+void ErrorSums::merge(const ErrorSums& o) {
+    const auto add = [](Weighted& to, const Weighted& w) {
+        to.squares += w.squares;
+        to.fourths += w.fourths;
+        to.own_products += w.own_products;
+        to.neighbour_products += w.neighbour_products;
+    };
+    pixels += o.pixels;
+    pairs += o.pairs;
+    add(absolute, o.absolute);
+    add(relative, o.relative);
+    relative_high += o.relative_high;
+    unequal += o.unequal;
+    brightest = std::max(brightest, o.brightest);
+    largest = std::max(largest, o.largest);
+}
+
+ErrorSums sum_errors(const HalfBufferImage& picture, int first, int last) {
+    const ErrorSums sums = BandSummer(picture, 1).sum(first, last);
+    if (sums.largest == 0 || (sums.largest <= max_value && sums.largest >= min_value)) return sums;
+    // If values do not fit single precision, scales the image by a power of two into the middle of the range.
+    return BandSummer(picture, std::exp2(std::round(std::log2(usual_value / sums.largest)))).sum(first, last);
+}
+
+} // namespace blush

@@ -1,0 +1,198 @@
+#include "render/film/film_state.h"
+
+#include "render/film/film_planes.h"
+#include "render/light_mix/light_groups.h"
+#include "render/compile/expand_area_lights.h"
+
+#include <algorithm>
+#include <exception>
+#include <optional>
+#include <type_traits>
+
+namespace blush {
+namespace {
+
+template <class At> using ValueOf = std::remove_cvref_t<std::invoke_result_t<At, size_t>>;
+
+// Depth is stored like a sum: every float is exact as a double.
+template <class T> constexpr bool is_sum = std::is_floating_point_v<T>;
+
+const LosslessPlane* find_plane(const std::vector<LosslessPlane>& planes, std::string_view name) {
+    const auto it = std::ranges::find(planes, name, &LosslessPlane::name);
+    return it == planes.end() ? nullptr : &*it;
+}
+
+// Error if the state lacks a plane of the film or has another size.
+std::optional<Error> find_mismatch(const Film& film, const FilmState& state) {
+    if (state.width != film.width() || state.height != film.height())
+        return Error{"",
+                     fmt::format("saved samples of {} x {} pixels do not fit an image of {} x {}", state.width, state.height,
+                                 film.width(), film.height()),
+                     ""};
+    const size_t pixels = size_t(state.width) * size_t(state.height);
+    std::optional<Error> error;
+    FilmPlanes::visit(film, [&](const std::string& name, Combine, const auto& at) {
+        const LosslessPlane* plane = find_plane(state.planes, name);
+        const bool there = plane && (is_sum<ValueOf<decltype(at)>> ? plane->sums.size() : plane->words.size()) == pixels;
+        if (!there && !error) error = Error{"", fmt::format("the saved samples lack the plane \"{}\"", name), ""};
+    });
+    return error;
+}
+
+// take(old value, value in the state, pixel, combine) for each number of the film.
+template <class Take> void for_each_value(Film& film, const FilmState& state, const Take& take) {
+    const size_t pixels = size_t(state.width) * size_t(state.height);
+    FilmPlanes::visit(film, [&](const std::string& name, Combine combine, const auto& at) {
+        using T = ValueOf<decltype(at)>;
+        const LosslessPlane& plane = *find_plane(state.planes, name);
+        for (size_t i = 0; i < pixels; ++i) {
+            if constexpr (is_sum<T>)
+                take(at(i), T(plane.sums[i]), i, combine);
+            else
+                take(at(i), T(plane.words[i]), i, combine);
+        }
+    });
+}
+
+} // namespace
+
+const LosslessPlane* FilmState::find(std::string_view name) const { return find_plane(planes, name); }
+LosslessPlane* FilmState::find(std::string_view name) { return const_cast<LosslessPlane*>(find_plane(planes, name)); }
+
+FilmState save_film(const Film& film) {
+    FilmState state;
+    state.width = film.width();
+    state.height = film.height();
+    const size_t pixels = size_t(state.width) * size_t(state.height);
+    FilmPlanes::visit(film, [&](const std::string& name, Combine, const auto& at) {
+        LosslessPlane plane{name};
+        if constexpr (is_sum<ValueOf<decltype(at)>>) {
+            plane.sums.resize(pixels);
+            for (size_t i = 0; i < pixels; ++i) plane.sums[i] = double(at(i));
+        } else {
+            plane.words.resize(pixels);
+            for (size_t i = 0; i < pixels; ++i) plane.words[i] = uint32_t(at(i));
+        }
+        state.planes.push_back(std::move(plane));
+    });
+    state.health = film.health();
+    return state;
+}
+
+Result<void> load_film(Film& film, const FilmState& state) {
+    if (const auto error = find_mismatch(film, state)) return *error;
+    for_each_value(film, state, [](auto& number, auto value, size_t, Combine) { number = value; });
+    film.restore_health(state.health);
+    return {};
+}
+
+Result<void> add_film(Film& film, const FilmState& more) {
+    if (const auto error = find_mismatch(film, more)) return *error;
+    std::vector<bool> seen(size_t(more.width) * size_t(more.height));
+    for (size_t i = 0; i < seen.size(); ++i) seen[i] = film.has_samples(i);
+    for_each_value(film, more, [&](auto& number, auto value, size_t pixel, Combine combine) {
+        if (combine == Combine::add)
+            number += value;
+        else if (!seen[pixel])
+            number = value;
+    });
+    film.restore_health(HealthRecorder::merged(film.health(), more.health));
+    return {};
+}
+
+void scale_groups(FilmState& state, std::span<const Vec3> factors) {
+    const std::array<std::pair<const char*, float Vec3::*>, 3> channels{{{".R", &Vec3::x}, {".G", &Vec3::y}, {".B", &Vec3::z}}};
+    for (int half = 0; half < 2; ++half)
+        for (const auto& [name, channel] : channels) {
+            std::vector<double>& beauty = state.find(FilmPlanes::half_name(half) + name)->sums;
+            std::ranges::fill(beauty, 0.0);
+            for (size_t k = 0; k < factors.size(); ++k) {
+                std::vector<double>& group = state.find(FilmPlanes::group_name(k, half) + name)->sums;
+                for (size_t i = 0; i < group.size(); ++i) beauty[i] += group[i] *= double(factors[k].*channel);
+            }
+        }
+}
+
+FilmSize film_size(const FilmState& state) {
+    FilmSize size{.width = state.width, .height = state.height};
+    const auto has = [&](const std::string& name) { return state.find(name) || state.find("even." + name); };
+    size.planes.albedo = size.planes.normal = has("albedo.R");
+    size.planes.depth = has("depth");
+    size.planes.ids = has("object");
+    size.planes.roulette = has("paths.R");
+    while (size.planes.bounces < max_bounce_planes && has(fmt::format("bounce.{}.R", size.planes.bounces))) ++size.planes.bounces;
+    while (size.groups < max_light_groups && has(FilmPlanes::group_name(size_t(size.groups), 0) + ".R")) ++size.groups;
+    size.transparent = has("covered");
+    size.catches = has("caught.unoccluded");
+    return size;
+}
+
+namespace {
+
+Result<void> load_new(Film& film, const FilmState& state, const RenderSettings& settings) {
+    if (state.width < 1 || state.height < 1 || state.samples < 1) return Error{"", "there are no samples", ""};
+    FilmSize size = film_size(state);
+    size.adaptive = settings.adaptive;
+    try {
+        film.reset(size, settings.clamp);
+    } catch (const std::exception& e) { return Error{"", e.what(), ""}; }
+    return load_film(film, state);
+}
+
+} // namespace
+
+Result<ResolvedFilm> resolve_film(const FilmState& state, const RenderSettings& settings, unsigned threads) {
+    Film film;
+    if (const auto loaded = load_new(film, state, settings); !loaded) return loaded.error();
+    // Saved ids are ids; a frame stores table indices + 1.
+    ResolvedFilm resolved;
+    Frame& frame = resolved.frame;
+    if (int(state.mix.size()) == film.needs_groups()) {
+        std::vector<Vec3> gains;
+        for (const FilmState::MixedGroup& group : state.mix) {
+            frame.group_names.push_back(group.name);
+            gains.push_back(group.gain);
+        }
+        film.set_gains(gains);
+    }
+    const Workers workers(threads);
+    film.resolve(frame, workers);
+    for (uint32_t& id : frame.object_id) id &= ~expanded_id_bit;
+    for (uint32_t& id : frame.material_id) id = (id - 1) & expanded_id_bit ? 0 : id - 1;
+    frame.samples = state.samples;
+    frame.seconds = state.seconds;
+    frame.rays = state.rays;
+    frame.path_counts = state.path_counts;
+    frame.health.truncated = state.truncated;
+    frame.error = estimate_error(film, settings.reuse, workers);
+    frame.error_samples = frame.samples;
+    frame.error_at = frame.seconds;
+    resolved.error = film.standard_error();
+    return resolved;
+}
+
+Result<FilmState> merge_films(const FilmState& a, const FilmState& b, const RenderSettings& settings) {
+    if (b.first_sample < a.first_sample) return merge_films(b, a, settings);
+    const int64_t end = a.first_sample + a.samples;
+    if (b.first_sample < end) return Error{"", fmt::format("both files contain sample {}", b.first_sample), ""};
+    if (b.first_sample > end) return Error{"", fmt::format("samples {} to {} are in neither file", end, b.first_sample - 1), ""};
+    Film film;
+    if (const auto loaded = load_new(film, a, settings); !loaded) return loaded.error();
+    if (const auto added = add_film(film, b); !added) return added.error();
+    FilmState sum = save_film(film);
+    sum.first_sample = a.first_sample;
+    sum.samples = a.samples + b.samples;
+    sum.seconds = a.seconds + b.seconds;
+    sum.rays = {a.rays.camera + b.rays.camera, a.rays.bounce + b.rays.bounce, a.rays.shadow + b.rays.shadow};
+    sum.truncated = a.truncated + b.truncated;
+    sum.mix = a.mix;
+    sum.path_counts = a.path_counts;
+    sum.path_counts.resize(std::max(a.path_counts.size(), b.path_counts.size()));
+    for (size_t k = 0; k < b.path_counts.size(); ++k) {
+        PathCounts& c = sum.path_counts[k];
+        c = {c.alive + b.path_counts[k].alive, c.asked + b.path_counts[k].asked, c.survived + b.path_counts[k].survived};
+    }
+    return sum;
+}
+
+} // namespace blush

@@ -1,0 +1,41 @@
+#include "render/film/group_planes.h"
+
+#include "core/math.h"
+
+namespace blush {
+namespace {
+
+Vec3d radiance_in(const RadianceColumns& c, int slot) { return {c.r[slot], c.g[slot], c.b[slot]}; }
+
+} // namespace
+
+void GroupPlanes::reset(size_t pixels, int groups) {
+    groups_ = groups;
+    sums_.assign(2 * pixels * size_t(groups), Vec3d{0, 0, 0});
+}
+
+void GroupPlanes::add(size_t pixel, int half, const TileScratch& tile, int slot, int first_scaled, double scale) {
+    const GroupColumns& columns = *tile.groups;
+    Vec3d* sums = &sums_[place(pixel, half)];
+    for (size_t k = 0; k < size_t(groups_); ++k) {
+        const Vec3d whole = radiance_in(columns.all[k], slot);
+        if (scale == 1) {
+            sums[k] = sums[k] + whole;
+            continue;
+        }
+        Vec3d spared{0, 0, 0};
+        if (first_scaled > 0) spared = columns.has_direct ? radiance_in(columns.direct[k], slot) : whole;
+        sums[k] = sums[k] + spared + (whole - spared) * scale;
+    }
+}
+
+Vec3d GroupPlanes::mixed(size_t pixel, int half, std::span<const Vec3> gains) const {
+    Vec3d all{0, 0, 0};
+    for (size_t k = 0; k < gains.size(); ++k) {
+        const Vec3& g = gains[k];
+        all = all + sum(pixel, half, k) * Vec3d{double(g.x), double(g.y), double(g.z)};
+    }
+    return all;
+}
+
+} // namespace blush

@@ -1,0 +1,32 @@
+// The irradiance at a point, as a light meter reads it, estimated with the kernels' own stages, without a receiver in the scene.
+#pragma once
+
+#include "core/vec.h"
+#include "core/sampler.h"
+#include "render/kernels/kernel.h"
+#include "render/integrator/path.h"
+
+#include <cstdint>
+
+namespace blush {
+
+// A receiver lit from the side of its normal.
+struct MeterPoint {
+    Vec3 position; // relative to the scene's origin (RenderScene::origin), off any surface
+    Vec3 normal;   // unit length
+};
+
+// NEE at the receiver: a shadow ray to a sampled point on a light, with the radiance that a white diffuse surface there would
+// reflect, using the sampler dimensions of the first scattering. `part`: the part that the receiver is on, which light linking
+// may exclude; or from_meter (links.h).
+Step<float> sample_light_at_meter(const KernelContext& context, const MeterPoint& receiver, const Sampler<float>& sampler, int32_t part);
+
+constexpr int max_irradiance_samples = 1024; // per call
+
+// Mean of `samples` estimates of the irradiance, RGB in lux: NEE and cosine-distributed rays combined by MIS, as at the first
+// diffuse vertex of a path. `replicate` selects the random numbers: replicates are independent, samples of one are stratified
+// together. Light takes at most settings.max_bounces scatterings including the one of a diffuse surface here; at least one. Call
+// it from within Workers::run or for_each.
+Vec3d estimate_irradiance(KernelContext context, const MeterPoint& receiver, uint32_t replicate, int samples, TileScratch& scratch);
+
+} // namespace blush

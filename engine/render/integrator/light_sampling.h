@@ -1,0 +1,189 @@
+// Sampling for next-event estimation: selects a light, a point on it, and computes the incident light.
+#pragma once
+
+#include "core/sampler.h"
+#include "render/integrator/surface.h"
+#include "shading/clearcoat.h"
+#include "shading/light.h"
+#include "shading/sphere_light.h"
+
+namespace blush::inline BLUSH_ISA {
+
+// A sampled point on a light.
+template <class F> struct LightPoint {
+    Mask<F> valid, infinite, delta;
+    Vec<F> position;    // end of the shadow ray; infinite: unit direction towards the light
+    Vec<F> error;       // bound on the position's rounding error
+    Vec<F> normal;      // triangle, sphere: unit
+    Vec<F> emission;    // nits; delta: candela or lux
+    F probability;      // selection probability of this light
+    F density;          // pdf. infinite, sphere: per solid angle; triangle: per area; delta: 1
+    Int<F> kind, light;
+    Mask<F> two_sided;
+    F clearcoat;        // triangle: share of the surface under a clear coat; only with Feature::clearcoat
+};
+
+// Light arriving at a receiver along the unit direction wi: radiance (delta: irradiance on a surface facing wi) and its pdf.
+template <class F> struct IncidentLight {
+    Vec<F> radiance;
+    F pdf;
+};
+
+// A point of an emissive triangle with its material inputs.
+template <class F> struct LightSurface {
+    Int<F> material;
+    TexturePoint<F> at;
+    F vertex_alpha; // 1 without vertex colours
+};
+// The point at edge1 * along.x + edge2 * along.y.
+template <Features S, class F>
+LightSurface<F> light_surface(const SceneTables& scene, const Int<F>& light, const Vec2T<F>& along, const Mask<F>& active) {
+    const LightRecord* lights = scene.lights.lights;
+    const Mask<F> swapped = as_mask((gather_field(lights, &LightRecord::flags, light) & int32_t(light_mirrored)) != 0);
+    const Vec2T<F> b{select(swapped, along.y, along.x), select(swapped, along.x, along.y)};
+    const Int<F> triangle = gather_field(lights, &LightRecord::triangle, light);
+    const Int<F> part = select(active, gather_field(lights, &LightRecord::part, light), Int<F>(0));
+    const Int<F> flags = gather_field(scene.parts, &PartRecord::flags, part);
+    const Int<F> first_vertex = gather_field(scene.parts, &PartRecord::first_vertex, part);
+    const Int<F> at = gather_field(scene.parts, &PartRecord::first_index, part) + select(active, triangle, Int<F>(0)) * 3;
+    const auto vertex = [&](int k) { return Int<F>(first_vertex + to_signed(gather(scene.indices + k, at))); };
+    const std::array<F, 3> weights{1.f - b.x - b.y, b.x, b.y};
+    F vertex_alpha = F(1.f);
+    if constexpr (S.has(Feature::vertex_colors)) {
+        const Mask<F> colored = active && as_mask((flags & int32_t(part_colors)) != 0);
+        if (any(colored)) {
+            F mixed = F(0.f);
+            for (int k = 0; k < 3; ++k)
+                mixed = mixed + gather(scene.colors + 3, select(colored, Int<F>(vertex(k) * 4), Int<F>(0))) * weights[size_t(k)];
+            vertex_alpha = select(colored, mixed, F(1.f));
+        }
+    }
+    return {gather_field(scene.parts, &PartRecord::material, part),
+            texture_point<F>(scene, flags, {vertex(0), vertex(1), vertex(2)}, weights, active), vertex_alpha};
+}
+
+// Mean radiance of an emissive triangle with textured emission or alpha, at the point edge1 * along.x + edge2 * along.y:
+// multiplied by the opacity, because with stochastic opacity rays hit it with that probability.
+template <Features S, class F>
+Vec<F> varying_emission(const SceneTables& scene, const Int<F>& light, const Vec2T<F>& along, const Mask<F>& active) {
+    const LightSurface<F> surface = light_surface<S, F>(scene, light, along, active);
+    return emission_at<S, F>(scene.materials, surface.material, surface.at, active) *
+           opacity_at<S, F>(scene.materials, surface.material, surface.at, surface.vertex_alpha, active);
+}
+
+// Samples a light for a receiver, and a point on it.
+template <Features S, class F>
+LightPoint<F> sample_light_point(const SceneTables& scene, const Pair<F>& random, const Receiver<F>& to, const Mask<F>& active) {
+    const LightTables& table = scene.lights;
+    const LightRecord* lights = table.lights;
+    const DiscreteSample<F> pick = pick_light<S, F>(table, to, random, active);
+    const F u = pick.remainder, v = random.y();
+
+    LightPoint<F> p;
+    p.light = pick.index;
+    p.probability = pick.probability;
+    p.valid = active && pick.probability > F(0.f);
+    p.kind = gather_field(lights, &LightRecord::kind, pick.index);
+    const Int<F> flags = gather_field(lights, &LightRecord::flags, pick.index);
+    p.two_sided = as_mask((flags & int32_t(light_two_sided)) != 0);
+    p.position = gather_field3<F>(lights, &LightRecord::position, pick.index);
+    p.emission = gather_field3<F>(lights, &LightRecord::emission, pick.index);
+    p.error = splat<F>(0.f);
+    p.normal = splat<F>(0.f);
+    p.density = F(1.f);
+    p.infinite = Mask<F>(false);
+    p.delta = Mask<F>(false);
+    p.clearcoat = F(0.f);
+    const auto is = [&](LightKind kind) { return p.valid && as_mask(p.kind == int32_t(kind)); };
+
+    if constexpr (S.has(Feature::emissive_triangles)) {
+        const Mask<F> triangle = is(LightKind::triangle);
+        if (any(triangle)) {
+            const Vec<F> e1 = gather_field3<F>(lights, &LightRecord::edge1, pick.index);
+            const Vec<F> e2 = gather_field3<F>(lights, &LightRecord::edge2, pick.index);
+            const Vec2T<F> b = sample_triangle(u, v);
+            const Vec<F> on = p.position + e1 * b.x + e2 * b.y;
+            const Vec<F> error = splat<F>(1.f) * (max_component(abs(p.position) + abs(e1) + abs(e2)) * gamma_bound(8));
+            p.error = select<F>(triangle, error, p.error);
+            p.normal = select<F>(triangle, normalize(cross(e1, e2)), p.normal);
+            p.density = select(triangle, gather_field(lights, &LightRecord::inverse_area, pick.index), p.density);
+            if constexpr (S.has(Feature::textures) || S.has(Feature::vertex_colors)) {
+                const Mask<F> varying = triangle && as_mask((flags & int32_t(light_varying)) != 0);
+                if (any(varying)) p.emission = select<F>(varying, varying_emission<S, F>(scene, pick.index, b, varying), p.emission);
+            }
+            if constexpr (S.has(Feature::clearcoat)) {
+                const LightSurface<F> surface = light_surface<S, F>(scene, pick.index, b, triangle);
+                p.clearcoat = select(triangle, clearcoat_at<S, F>(scene.materials, surface.material, surface.at, triangle), p.clearcoat);
+            }
+            p.position = select<F>(triangle, on, p.position);
+        }
+    }
+    if constexpr (S.has(Feature::point_lights)) p.delta = p.delta || is(LightKind::point);
+    if constexpr (S.has(Feature::sphere_lights)) {
+        const Mask<F> sphere = is(LightKind::sphere);
+        if (any(sphere)) {
+            const SpherePoint<F> s = sample_sphere(p.position, gather_field(lights, &LightRecord::radius, pick.index), to.position, u, v);
+            // Embree's error bound of a ray's hit point on the sphere.
+            const F error = (max_component(abs(p.position)) + max_component(abs(to.position)) + s.distance) * gamma_bound(16);
+            p.error = select<F>(sphere, splat<F>(1.f) * error, p.error);
+            p.normal = select<F>(sphere, s.normal, p.normal);
+            p.density = select(sphere, cone_pdf(s.height), p.density);
+            p.position = select<F>(sphere, s.position, p.position);
+            p.valid = p.valid && !(sphere && s.height <= F(0.f));
+        }
+    }
+    if constexpr (S.has(Feature::suns)) {
+        const Mask<F> sun = is(LightKind::sun);
+        if (any(sun)) {
+            const F height = gather_field(lights, &LightRecord::cone_height, pick.index);
+            const Mask<F> disk = sun && height > F(0.f);
+            const Basis<F> around = basis_around(p.position);
+            const Vec<F> towards = around.to_world(sample_cone(height, u, v));
+            p.position = select<F>(disk, normalize(towards), p.position);
+            p.density = select(disk, cone_pdf(height), p.density);
+            p.infinite = p.infinite || sun;
+            p.delta = p.delta || (sun && !disk);
+        }
+    }
+    if constexpr (S.has(Feature::environment)) {
+        const Mask<F> environment = is(LightKind::environment);
+        if (any(environment)) {
+            const EnvironmentSample<F> e = sample_environment<F>(scene.environment, u, random.bits_y);
+            p.position = select<F>(environment, e.direction, p.position);
+            p.emission = select<F>(environment, e.radiance, p.emission);
+            p.density = select(environment, e.pdf, p.density);
+            p.infinite = p.infinite || environment;
+        }
+    }
+    return p;
+}
+
+// Radiance and pdf at a receiver at squared distance `distance_squared`,
+// in direction wi from it; lights at infinity ignore the distance.
+template <Features S, class F> IncidentLight<F> incident_light(const SceneTables& scene, const LightPoint<F>& p, const Vec<F>& wi, const F& distance_squared) {
+    IncidentLight<F> in{p.emission, p.probability * p.density};
+    if constexpr (S.has(Feature::emissive_triangles)) {
+        const Mask<F> triangle = as_mask(p.kind == int32_t(LightKind::triangle));
+        const F cos_light = -dot(p.normal, wi);
+        const F facing = select(p.two_sided, abs(cos_light), cos_light);
+        const Mask<F> seen = facing > F(0.f);
+        in.radiance = select<F>(triangle && !seen, splat<F>(0.f), in.radiance);
+        if constexpr (S.has(Feature::clearcoat)) in.radiance = in.radiance * through_clearcoat(p.clearcoat, facing);
+        in.pdf = select(triangle, area_to_solid_angle(in.pdf, distance_squared, select(seen, facing, F(1.f))), in.pdf);
+    }
+    if constexpr (S.has(Feature::point_lights)) {
+        const Mask<F> point = p.delta && !p.infinite;
+        in.radiance = select<F>(point, in.radiance * (1.f / distance_squared), in.radiance);
+    }
+    if constexpr (S.has(Feature::light_profiles)) {
+        const Int<F> profile = gather_field(scene.lights.lights, &LightRecord::profile, p.light);
+        const Mask<F> shaped = p.valid && as_mask(profile >= 0);
+        if (any(shaped)) {
+            const F factor = profile_factor<F>(scene.lights.profiles, select(shaped, profile, Int<F>(0)), -wi, shaped);
+            in.radiance = select<F>(shaped, in.radiance * factor, in.radiance);
+        }
+    }
+    return in;
+}
+
+} // namespace blush::inline BLUSH_ISA

@@ -1,0 +1,104 @@
+// The queues of a tile: loads and stores paths and shadow rays in registers, and traces their rays with Embree.
+#pragma once
+
+#include "render/kernels/kernel.h"
+#include "render/integrator/path.h"
+
+namespace blush::inline BLUSH_ISA {
+
+template <Features S, class F> Path<F> load_path(const PathQueue& q, int k) {
+    Path<F> p;
+    p.ray.origin = {load<F>(q.ox + k), load<F>(q.oy + k), load<F>(q.oz + k)};
+    p.ray.direction = {load<F>(q.dx + k), load<F>(q.dy + k), load<F>(q.dz + k)};
+    p.beta = {load<F>(q.beta_r + k), load<F>(q.beta_g + k), load<F>(q.beta_b + k)};
+    p.pdf = load<F>(q.pdf + k);
+    p.normal = splat<F>(0.f);
+    if constexpr (S.has(Feature::light_tree)) p.normal = {load<F>(q.nx + k), load<F>(q.ny + k), load<F>(q.nz + k)};
+    p.cone = F(0.f);
+    if constexpr (S.has(Feature::textures)) p.cone = load<F>(q.cone + k);
+    p.key = load<UInt<F>>(q.key + k);
+    p.index = load<UInt<F>>(q.index + k);
+    p.slot = load<Int<F>>(q.slot + k);
+    return p;
+}
+
+template <Features S, class F> void append(PathQueue& q, const Path<F>& p, const Mask<F>& lanes) {
+    const unsigned b = bits(lanes);
+    const int k = q.size;
+    compress(q.ox + k, p.ray.origin.x, b);
+    compress(q.oy + k, p.ray.origin.y, b);
+    compress(q.oz + k, p.ray.origin.z, b);
+    compress(q.dx + k, p.ray.direction.x, b);
+    compress(q.dy + k, p.ray.direction.y, b);
+    compress(q.dz + k, p.ray.direction.z, b);
+    compress(q.beta_r + k, p.beta.x, b);
+    compress(q.beta_g + k, p.beta.y, b);
+    compress(q.beta_b + k, p.beta.z, b);
+    compress(q.pdf + k, p.pdf, b);
+    if constexpr (S.has(Feature::light_tree)) {
+        compress(q.nx + k, p.normal.x, b);
+        compress(q.ny + k, p.normal.y, b);
+        compress(q.nz + k, p.normal.z, b);
+    }
+    if constexpr (S.has(Feature::textures)) compress(q.cone + k, p.cone, b);
+    compress(q.key + k, p.key, b);
+    compress(q.index + k, p.index, b);
+    compress(q.slot + k, p.slot, b);
+    q.size += count(lanes);
+}
+
+template <class F> void append(ShadowQueue& q, const Step<F>& s, const Int<F>& slot, const Mask<F>& lanes) {
+    const unsigned b = bits(lanes);
+    const int k = q.size;
+    compress(q.ox + k, s.shadow.origin.x, b);
+    compress(q.oy + k, s.shadow.origin.y, b);
+    compress(q.oz + k, s.shadow.origin.z, b);
+    compress(q.dx + k, s.shadow.direction.x, b);
+    compress(q.dy + k, s.shadow.direction.y, b);
+    compress(q.dz + k, s.shadow.direction.z, b);
+    compress(q.distance + k, s.shadow_distance, b);
+    compress(q.r + k, s.direct.x, b);
+    compress(q.g + k, s.direct.y, b);
+    compress(q.b + k, s.direct.z, b);
+    compress(q.slot + k, slot, b);
+    q.size += count(lanes);
+}
+
+// Per-ray random number for stochastic opacity; salt distinguishes the
+// rays of a path: 2 * bounce, and 2 * bounce + 1 for its shadow ray.
+template <class F> UInt<F> opacity_random(const UInt<F>& key, const UInt<F>& index, uint32_t salt) {
+    return key ^ pcg_hash(UInt<F>(index + salt * 0x9e3779b9u));
+}
+
+template <class F> Hit<F> load_hit(const HitColumns& h, int k) {
+    return {load<F>(h.t + k),           load<F>(h.u + k),          load<F>(h.v + k), load<Int<F>>(h.geometry + k), load<Int<F>>(h.instance + k),
+            load<Int<F>>(h.triangle + k)};
+}
+
+// Closest hits of the queue's path rays. `random` is written if some material is not opaque.
+template <class F>
+void trace_rays(const KernelContext& context, Column<uint32_t>& random, const PathQueue& q, int bounce, HitColumns& h) {
+    const bool alpha = context.accel->has_alpha();
+    if (alpha)
+        for (int k = 0; k < q.size; k += width<F>)
+            store(random + k, opacity_random<F>(load<UInt<F>>(q.key + k), load<UInt<F>>(q.index + k), uint32_t(2 * bounce)));
+    const RayArrays rays{q.ox, q.oy, q.oz, q.dx, q.dy, q.dz, nullptr, alpha ? random.data : nullptr,
+                         bounce == 0 ? camera_ray_mask : other_ray_mask};
+    context.accel->intersect(rays, q.size, bounce == 0, {h.t, h.u, h.v, h.geometry, h.instance, h.triangle});
+}
+
+inline RayArrays shadow_rays_of(const KernelContext& context, const ShadowQueue& q) {
+    return {q.ox, q.oy, q.oz, q.dx, q.dy, q.dz, q.distance, context.accel->has_alpha() ? q.random.data : nullptr, other_ray_mask,
+            context.scene->links.lit_sets ? q.mask.data : nullptr};
+}
+
+// Adds the light of unoccluded shadow ray k.
+inline void add_shadow_light(TileScratch& scratch, const ShadowQueue& q, int k) {
+    const int slot = q.slot[k];
+    scratch.r[slot] += double(q.r[k]);
+    scratch.g[slot] += double(q.g[k]);
+    scratch.b[slot] += double(q.b[k]);
+    if (scratch.groups) scratch.groups->add(q.group[k], slot, double(q.r[k]), double(q.g[k]), double(q.b[k]));
+}
+
+} // namespace blush::inline BLUSH_ISA

@@ -1,0 +1,204 @@
+// Wavefront path tracing of a tile: generate, trace, shade, trace
+// shadow rays, and repeat with the surviving paths, compacted in order.
+#pragma once
+
+#include "render/integrator/estimator.h"
+#include "render/integrator/group_sums.h"
+#include "render/kernels/kernel.h"
+#include "render/integrator/path_queues.h"
+#include "render/integrator/path_reuse.h"
+#include "render/integrator/thin_transmission.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace blush::inline BLUSH_ISA {
+
+// For the lanes of `straight`; other paths have stored the first pane that they passed.
+template <class F> void store_first_hit(FirstHitColumns& c, int k, FirstHit<F> first, const Mask<F>& straight) {
+    // At bounce 0 there is no compaction: the k-th path is slot k.
+    if (!all(straight)) {
+        const auto keep = [&](F& value, const float* column) { value = select(straight, value, load<F>(column + k)); };
+        keep(first.albedo.x, c.albedo_r);
+        keep(first.albedo.y, c.albedo_g);
+        keep(first.albedo.z, c.albedo_b);
+        keep(first.normal.x, c.normal_x);
+        keep(first.normal.y, c.normal_y);
+        keep(first.normal.z, c.normal_z);
+        keep(first.depth, c.depth);
+        first.object = select(straight, first.object, load<Int<F>>(c.object + k));
+        first.material = select(straight, first.material, load<Int<F>>(c.material + k));
+    }
+    store(c.albedo_r + k, first.albedo.x);
+    store(c.albedo_g + k, first.albedo.y);
+    store(c.albedo_b + k, first.albedo.z);
+    store(c.normal_x + k, first.normal.x);
+    store(c.normal_y + k, first.normal.y);
+    store(c.normal_z + k, first.normal.z);
+    store(c.depth + k, first.depth);
+    store(c.object + k, first.object);
+    store(c.material + k, first.material);
+}
+
+template <class F> void add_light(TileScratch& scratch, const int32_t* slots, const Vec<F>& radiance, const Mask<F>& lanes) {
+    for_each_lane(bits(lanes), [&](int i) {
+        const int slot = slots[i];
+        scratch.r[slot] += double(lane(radiance.x, i));
+        scratch.g[slot] += double(lane(radiance.y, i));
+        scratch.b[slot] += double(lane(radiance.z, i));
+    });
+}
+
+template <class F> void note_roulette(RouletteColumns& c, const int32_t* slots, const Step<F>& step, const Mask<F>& active, int bounce) {
+    const Mask<F> asked = step.weights.asked;
+    for_each_lane(bits(active), [&](int i) { c.length[slots[i]] += 1; });
+    for_each_lane(bits(asked), [&](int i) {
+        c.asked[slots[i]] += 1;
+        c.survival[slots[i]] += lane(step.weights.survival, i);
+    });
+    PathCounts& counts = c.counts[std::min(bounce, max_counted_bounces - 1)];
+    counts.alive += count(active);
+    counts.asked += count(asked);
+    counts.survived += count(asked && (step.continues || step.non_finite));
+}
+
+template <Features S, class F> [[gnu::flatten]] void generate_paths(const KernelContext& context, const TileJob& job, TileScratch& scratch) {
+    PathQueue& q = scratch.paths[0];
+    // Computes pixel and sample of each slot by counting; uses the ray columns as scratch memory.
+    float* xs = scratch.hits.t;
+    float* ys = scratch.hits.u;
+    uint32_t* samples = scratch.random;
+    int n = 0;
+    for (int y = 0; y < job.height; ++y)
+        for (int x = 0; x < job.width; ++x)
+            for (int s = 0; s < job.samples; ++s, ++n) {
+                xs[n] = float(job.x + x);
+                ys[n] = float(job.y + y);
+                samples[n] = uint32_t(job.sample(s));
+            }
+    const uint32_t half[2] = {randomisation(context.seed, 0), randomisation(context.seed, 1)};
+    q.size = 0;
+    for (int k = 0; k < n; k += width<F>) {
+        const F x = load<F>(xs + k), y = load<F>(ys + k);
+        const UInt<F> sample = load<UInt<F>>(samples + k);
+        const UInt<F> odd = sample & 1u;
+        const UInt<F> random = select(as_mask(odd != 0u), UInt<F>(half[1]), UInt<F>(half[0]));
+        UInt<F> key = pixel_key<F>(to_unsigned(to_int(x)), to_unsigned(to_int(y)), random), index = sample >> 1;
+        if (context.settings.sampler == SamplerType::random) {
+            key = independent_key(key, index);
+            index = UInt<F>(0u);
+        }
+        const Int<F> slot = iota<F>() + k;
+        if constexpr (S.has(Feature::links)) store(q.part + q.size, Int<F>(from_camera));
+        if constexpr (S.has(Feature::dispersion)) store(q.dispersed + q.size, Int<F>(0));
+        append<S, F>(q, begin_path<S, F>(*context.scene, context.settings, x, y, key, index, slot), as_mask(slot < n));
+    }
+    std::fill_n(scratch.r.data, n, 0.0);
+    std::fill_n(scratch.g.data, n, 0.0);
+    std::fill_n(scratch.b.data, n, 0.0);
+    if (scratch.groups) scratch.groups->clear(n);
+    if (!scratch.roulette) return;
+    std::fill_n(scratch.roulette->length.data, n, 0.f);
+    std::fill_n(scratch.roulette->asked.data, n, 0.f);
+    std::fill_n(scratch.roulette->survival.data, n, 0.f);
+}
+
+// Traces the path rays of `now`. In scenes with panes, overwrites `rest` and changes the throughput of paths that pass panes.
+template <Features S, class F> void trace_paths(const KernelContext& context, TileScratch& scratch, PathQueue& now, PathQueue& rest, int bounce) {
+    trace_rays<F>(context, scratch.random, now, bounce, scratch.hits);
+    if constexpr (S.has(Feature::transmission))
+        if (context.scene->panes) trace_through_panes<S, F>(context, scratch, now, rest, bounce);
+}
+
+template <Features S, class F>
+[[gnu::flatten]] void shade_paths(const KernelContext& context, TileScratch& scratch, const PathQueue& now, PathQueue& next, int bounce) {
+    next.size = 0;
+    scratch.shadows.size = 0;
+    const bool alpha = context.accel->has_alpha();
+    for (int k = 0; k < now.size; k += width<F>) {
+        Path<F> path = load_path<S, F>(now, k);
+        if constexpr (S.has(Feature::links)) path.part = load<Int<F>>(now.part + k);
+        if constexpr (S.has(Feature::dispersion)) path.dispersed = load<Int<F>>(now.dispersed + k);
+        const Mask<F> active = as_mask(iota<F>() + k < now.size);
+        const Step<F> step = scatter<S, F>(*context.scene, context.settings, path, load_hit<F>(scratch.hits, k), bounce, active);
+        Mask<F> straight = Mask<F>(true); // the path's ray passed no pane
+        if constexpr (S.has(Feature::transmission))
+            if (context.scene->panes) straight = as_mask(load<Int<F>>(scratch.panes->passed + k) == 0);
+        if (bounce == 0 && scratch.first) store_first_hit<F>(*scratch.first, k, step.first, straight);
+        if (bounce <= 1 && context.settings.reuse.size() > 1) {
+            // Path reuse connections do not pass panes, so a segment that does is not shared.
+            ReuseVertex<F> reuse_vertex = step.reuse_vertex;
+            if (bounce == 1) reuse_vertex.lambertian = reuse_vertex.lambertian && straight;
+            store_junction<F>(*scratch.reuse, now, k, bounce, path, reuse_vertex);
+        }
+        if (scratch.roulette) note_roulette<F>(*scratch.roulette, now.slot + k, step, active, bounce);
+        if (any(step.emits)) add_light<F>(scratch, now.slot + k, step.emitted, step.emits);
+        if (scratch.groups && any(step.emits)) add_found_by_group<S, F>(context, *scratch.groups, scratch.hits, k, path, step, bounce);
+        if (any(step.non_finite)) add_light<F>(scratch, now.slot + k, step.next.beta, step.non_finite);
+        if (any(step.connects)) {
+            if (alpha)
+                compress(scratch.shadows.random + scratch.shadows.size, opacity_random<F>(path.key, path.index, uint32_t(2 * bounce + 1)),
+                         bits(step.connects));
+            if (scratch.groups) {
+                const Int<F> light = select(step.connects, step.light, Int<F>(0));
+                compress(scratch.shadows.group + scratch.shadows.size, gather(context.scene->groups.of_light, light), bits(step.connects));
+            }
+            if constexpr (S.has(Feature::links))
+                if (context.scene->links.lit_sets)
+                    compress(scratch.shadows.mask + scratch.shadows.size, step.shadow_mask, bits(step.connects));
+            append<F>(scratch.shadows, step, path.slot, step.connects);
+        }
+        if constexpr (S.has(Feature::links)) compress(next.part + next.size, step.next.part, bits(step.continues));
+        if constexpr (S.has(Feature::dispersion)) compress(next.dispersed + next.size, step.next.dispersed, bits(step.continues));
+        if (any(step.continues)) append<S, F>(next, step.next, step.continues);
+    }
+}
+
+// Adds the light of all unoccluded shadow rays.
+template <Features S, class F> void connect_paths(const KernelContext& context, TileScratch& scratch, int bounce) {
+    if constexpr (S.has(Feature::transmission))
+        if (context.scene->panes) return connect_through_panes<S, F>(context, scratch, bounce);
+    const ShadowQueue& q = scratch.shadows;
+    context.accel->occluded(shadow_rays_of(context, q), q.size, bounce == 0, scratch.blocked);
+    for (int k = 0; k < q.size; ++k)
+        if (!scratch.blocked[k]) add_shadow_light(scratch, q, k);
+}
+
+// Stores the radiance so far as the result after at most `bounce` scatterings: emission at hits, and NEE of one scattering less.
+inline void record_bounce(TileScratch& scratch, int paths, int bounce) {
+    BounceColumns& columns = *scratch.bounces;
+    if (bounce >= int(columns.after.size())) return;
+    copy_radiance(scratch.r, scratch.g, scratch.b, paths, columns.after[size_t(bounce)]);
+    columns.recorded = bounce + 1;
+}
+
+template <Features S, class F> void render_tile(const KernelContext& context, const TileJob& job, TileScratch& scratch) {
+    generate_paths<S, F>(context, job, scratch);
+    if (scratch.bounces) scratch.bounces->recorded = 0;
+    const bool reuses = context.settings.reuse.size() > 1;
+    if (reuses && !scratch.reuse) scratch.reuse = std::make_unique<ReuseColumns>();
+    bool own_is_aside = false;
+    PathQueue* now = &scratch.paths[0];
+    PathQueue* next = &scratch.paths[1];
+    for (int bounce = 0; now->size > 0; ++bounce) {
+        if (bounce > max_path_length) {
+            scratch.truncated_paths += now->size;
+            break;
+        }
+        (bounce > 0 ? scratch.bounce_rays : scratch.camera_rays) += now->size;
+        trace_paths<S, F>(context, scratch, *now, *next, bounce);
+        shade_paths<S, F>(context, scratch, *now, *next, bounce);
+        if (scratch.bounces) record_bounce(scratch, job.paths(), bounce);
+        if (scratch.groups && bounce == 1) scratch.groups->note_direct(job.paths());
+        scratch.shadow_rays += scratch.shadows.size;
+        if (reuses && bounce == 1) {
+            stash_unshared_radiance(*scratch.reuse, scratch, job.paths());
+            own_is_aside = true;
+        }
+        if (scratch.shadows.size > 0) connect_paths<S, F>(context, scratch, bounce);
+        std::swap(now, next);
+    }
+    if (own_is_aside) reuse_paths<F>(context, job, scratch);
+}
+
+} // namespace blush::inline BLUSH_ISA

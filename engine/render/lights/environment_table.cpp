@@ -1,0 +1,182 @@
+#include "render/lights/environment_table.h"
+
+#include "scene/affine.h"
+#include "scene/lights/sky_model.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <string>
+
+namespace blush {
+namespace {
+
+using std::numbers::pi;
+
+// Texels and cells are addressed by 32-bit indices, three floats each; a row is one distribution of at most 2^24 entries.
+constexpr int64_t max_texels = (int64_t(1) << 31) / 3 - 1;
+constexpr int64_t max_side = (1 << 24) - 1;
+
+std::string fault(const Image* image) {
+    if (!image || image->width < 1 || image->height < 1 || image->channels < 3 || image->channels > 4) return "image is not RGB";
+    const int64_t texels = int64_t(image->width) * image->height;
+    if (int64_t(image->floats.size()) != texels * image->channels) return "image does not hold width x height float pixels";
+    if (texels + image->width > max_texels || image->width > max_side || image->height >= max_side) return "image is too large to address";
+    return {};
+}
+
+void warn(EnvironmentTable& table, std::string what, const std::string& file) {
+    table.warnings.push_back({Diagnostic::Severity::warning, std::move(what), file.empty() ? "environment" : file});
+}
+
+void set_texels(EnvironmentTable& table, const Image& image, const std::string& file) {
+    table.width = image.width;
+    table.height = image.height;
+    const size_t count = size_t(image.width) * size_t(image.height);
+    table.texels.resize(3 * count);
+    int64_t replaced = 0;
+    for (size_t i = 0; i < count; ++i) {
+        for (size_t c = 0; c < 3; ++c) {
+            const float value = image.floats[i * size_t(image.channels) + c];
+            const bool is_usable = value >= 0 && std::isfinite(value);
+            replaced += !is_usable;
+            table.texels[3 * i + c] = is_usable ? value : 0;
+            table.emits_light |= is_usable && value > 0;
+        }
+    }
+    if (replaced > 0) warn(table, fmt::format("{} values are negative or not finite: read as 0", replaced), file);
+}
+
+void set_uniform_texel(EnvironmentTable& table, float value) {
+    table.width = table.height = 1;
+    table.texels = {value, value, value};
+    table.emits_light = value > 0;
+}
+
+// Row r of cells ends at the centre of texel row r, the last at the pole.
+double row_end(int row, int height) { return row == height ? pi : pi * (row + 0.5) / height; }
+
+struct RowBorders {
+    double begin, end; // polar angles
+    // Solid angle of one of `width` cells of the row.
+    double cell_solid_angle(int width) const { return 4 * pi / width * std::sin((end - begin) / 2) * std::sin((end + begin) / 2); }
+    // Mean weight that filtering gives to the lower texels, over the solid angle; the weight is linear in the angle.
+    double lower_share() const {
+        const double height = end - begin;
+        return (std::sin(end) - std::sin(begin) - height * std::cos(end)) / (height * (std::cos(begin) - std::cos(end)));
+    }
+};
+RowBorders row_borders(int row, int height) { return {row == 0 ? 0.0 : row_end(row - 1, height), row_end(row, height)}; }
+
+EnvironmentRow row_record(const RowBorders& borders, int width) {
+    const bool is_upper = borders.begin + borders.end <= pi;
+    const auto height_over_pole = [&](double theta) {
+        const double s = std::sin((is_upper ? theta : pi - theta) / 2);
+        return float(s * s);
+    };
+    return {height_over_pole(borders.begin), height_over_pole(borders.end), is_upper ? 1.f : -1.f,
+            float(1 / borders.cell_solid_angle(width))};
+}
+
+// About four columns per guide entry: one cache line of each is read, where bisection of a row reads ten.
+int guide_bits_for(size_t width) { return std::max(1, int(std::bit_width(unsigned(width))) - 2); }
+
+// A cell's weight is the integral of the filtered map over it.
+void build_importance(EnvironmentTable& table) {
+    const size_t width = size_t(table.width), row_count = size_t(table.height) + 1;
+    table.rows.reserve(row_count);
+    table.column_thresholds.reserve(row_count * width);
+    table.guide_bits = guide_bits_for(width);
+    table.column_guides.reserve(row_count * ((size_t(1) << table.guide_bits) + 1));
+    std::vector<double> row_weights, border_weights(width), cell_weights(width);
+    row_weights.reserve(row_count);
+    for (int row = 0; row < int(row_count); ++row) {
+        const RowBorders borders = row_borders(row, table.height);
+        const float* upper = &table.texels[3 * width * size_t(std::max(row - 1, 0))];
+        const float* lower = &table.texels[3 * width * size_t(std::min(row, table.height - 1))];
+        const double lower_share = borders.lower_share(), upper_share = 1 - lower_share;
+        Vec3d sum{0, 0, 0};
+        for (size_t i = 0; i < width; ++i) {
+            const float *a = upper + 3 * i, *b = lower + 3 * i;
+            const Vec3d c{upper_share * a[0] + lower_share * b[0], upper_share * a[1] + lower_share * b[1],
+                          upper_share * a[2] + lower_share * b[2]};
+            border_weights[i] = 0.212671 * c.x + 0.715160 * c.y + 0.072169 * c.z; // luminance: 0 only if all components are
+            sum = sum + c;
+        }
+        for (size_t i = 0; i < width; ++i) cell_weights[i] = border_weights[i == 0 ? width - 1 : i - 1] + border_weights[i];
+        const std::vector<uint32_t> thresholds = make_thresholds(cell_weights);
+        table.column_thresholds.insert(table.column_thresholds.end(), thresholds.begin(), thresholds.end());
+        const std::vector<int32_t> guide = make_guide(thresholds, table.guide_bits);
+        table.column_guides.insert(table.column_guides.end(), guide.begin(), guide.end());
+        table.rows.push_back(row_record(borders, table.width));
+        const double solid_angle = borders.cell_solid_angle(table.width);
+        row_weights.push_back(std::accumulate(cell_weights.begin(), cell_weights.end(), 0.0) * solid_angle);
+        table.texel_integral = table.texel_integral + sum * solid_angle;
+    }
+    table.row_thresholds = make_thresholds(row_weights);
+}
+
+} // namespace
+
+Vec3 environment_scale(const Environment& environment) {
+    const auto channel = [&](float c) {
+        const float s = c * environment.intensity;
+        return s >= 0 && std::isfinite(s) ? s : 0;
+    };
+    return {channel(environment.color.x), channel(environment.color.y), channel(environment.color.z)};
+}
+
+Vec3d EnvironmentTable::integral() const { return {scale.x * texel_integral.x, scale.y * texel_integral.y, scale.z * texel_integral.z}; }
+
+EnvironmentTables EnvironmentTable::tables() const {
+    return {
+        texels.data(), row_thresholds.data(), column_thresholds.data(), column_guides.data(), rows.data(), width, height, guide_bits, scale,
+        rotation,      visible_to_camera, lights_scene};
+}
+
+EnvironmentTable build_environment_table(const Environment& environment, bool importance) {
+    const auto begin = std::chrono::steady_clock::now();
+    EnvironmentTable table;
+    switch (environment.kind) {
+    case Environment::Kind::none: set_uniform_texel(table, 0); break;
+    case Environment::Kind::constant: set_uniform_texel(table, 1); break;
+    case Environment::Kind::sky: set_texels(table, *sky_image(environment.sky, sky_map_width, sky_map_height), {}); break;
+    case Environment::Kind::image:
+        if (const std::string what = fault(environment.image.get()); what.empty()) {
+            set_texels(table, *environment.image, environment.file);
+        } else {
+            warn(table, what + ": no environment", environment.file);
+            set_uniform_texel(table, 0);
+        }
+    }
+    if (importance) build_importance(table);
+    update_environment_parameters(table, environment);
+    table.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return table;
+}
+
+bool gives_light(const Environment& environment) {
+    const Vec3 scale = environment_scale(environment);
+    return environment.kind != Environment::Kind::none && (scale.x > 0 || scale.y > 0 || scale.z > 0);
+}
+
+EnvironmentBytes environment_bytes(int64_t width, int64_t height) {
+    const int64_t guide = (int64_t(1) << guide_bits_for(size_t(width))) + 1;
+    const int64_t row = sizeof(EnvironmentRow) + sizeof(uint32_t) * (1 + width) + sizeof(int32_t) * guide;
+    return {int64_t(3 * sizeof(float)) * width * height, (height + 1) * row};
+}
+
+void update_environment_parameters(EnvironmentTable& table, const Environment& environment) {
+    table.scale = environment_scale(environment);
+    const double turns = double(environment.rotation_degrees) / 360;
+    table.rotation = std::isfinite(turns) ? float(turns - std::round(turns)) : 0;
+    table.visible_to_camera = environment.visible_to_camera;
+    table.lights_scene = environment.lights_scene;
+}
+
+} // namespace blush

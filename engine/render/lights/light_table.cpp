@@ -1,0 +1,350 @@
+#include "render/lights/light_table.h"
+
+#include "core/distribution.h"
+#include "core/math.h"
+#include "render/integrator/light_sampling.h"
+#include "render/compile/expand_area_lights.h"
+#include "scene/affine.h"
+#include "scene/world_transforms.h"
+#include "scene/lights/sky_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <utility>
+
+namespace blush {
+namespace {
+
+
+double luminance_of(const Vec3& c) { return double(luminance(c)); }
+
+struct TableBuilder {
+    NeeLights aim = NeeLights::all_lights;
+    LightTable table;
+    std::vector<LightBounds> bounds; // by record; unused for suns and the environment
+    int64_t luminaires = 0;          // at finite distance; a panel counts once, not per triangle
+
+    void add(const LightRecord& record, Id<Node> node, double power, const LightBounds& where = {}) {
+        table.records.push_back(record);
+        table.nodes.push_back(node);
+        table.powers.push_back(std::isfinite(power) && power > 0 ? power : 0);
+        bounds.push_back(where);
+    }
+    // Adds a light that rays can also hit.
+    void add_findable(const LightRecord& record, Id<Node> node, double power, const LightBounds& where = {}) {
+        add(record, node, aim == NeeLights::all_lights ? power : 0, where);
+    }
+};
+
+// Mean luminance of a textured emissive triangle over a 4 x 4 grid; never
+// 0 where the material may emit, because the grid may miss emission.
+double mean_varying_luminance(const SceneTables& tables, size_t light, const Vec3& factor) {
+    double sum = 0;
+    for (int i = 0; i < 4; ++i)
+        for (int j = 0; j < 4; ++j) {
+            const Vec2 b = sample_triangle((float(i) + 0.5f) / 4, (float(j) + 0.5f) / 4);
+            sum += luminance_of(varying_emission<all_features, float>(tables, int32_t(light), b, true));
+        }
+    return std::max(sum / 16, 0.01 * luminance_of(factor));
+}
+
+// Radians added to cone angles: single-precision cosines cannot represent narrower cones.
+constexpr double angle_margin = 0.01;
+
+LightBounds triangle_bounds(const Vec3 (&p)[3], const LightRecord& light, const Light* panel) {
+    LightBounds b;
+    const Vec3d v[3] = {to_double(p[0]), to_double(p[1]), to_double(p[2])};
+    b.low = {std::min({v[0].x, v[1].x, v[2].x}), std::min({v[0].y, v[1].y, v[2].y}), std::min({v[0].z, v[1].z, v[2].z})};
+    b.high = {std::max({v[0].x, v[1].x, v[2].x}), std::max({v[0].y, v[1].y, v[2].y}), std::max({v[0].z, v[1].z, v[2].z})};
+    const Vec3d normal = cross(to_double(light.edge1), to_double(light.edge2));
+    b.axis = dot(normal, normal) > 0 ? normalize(normal) : Vec3d{0, 0, 1};
+    b.theta_e = panel ? std::min(0.5 * double(panel->spread_radians) + angle_margin, 0.5 * std::numbers::pi) : 0.5 * std::numbers::pi;
+    b.two_sided = light.flags & light_two_sided;
+    return b;
+}
+
+// Bounds of an omnidirectional light at `center`, or of a spot's cone.
+LightBounds ball_bounds(const Vec3& center, double radius, const Light& light, const Affined& world) {
+    LightBounds b;
+    const Vec3d c = to_double(center), r{radius, radius, radius};
+    b.low = c - r;
+    b.high = c + r;
+    const Vec3d axis = world.z * -1.0;
+    const bool is_spot = light.kind == Light::Kind::spot && dot(axis, axis) > 0;
+    b.axis = is_spot ? normalize(axis) : Vec3d{0, 0, -1};
+    b.theta_o = is_spot ? double(light.inner_cone_radians) : std::numbers::pi;
+    b.theta_e = is_spot ? std::min(double(light.outer_cone_radians) - b.theta_o + angle_margin, 0.5 * std::numbers::pi) : 0.5 * std::numbers::pi;
+    return b;
+}
+
+// The profile of the panel that was expanded to this part; -1 for other meshes.
+int32_t panel_profile(TableBuilder& b, const Scene& scene, WorldTransforms& placements, Id<Node> body) {
+    const Light* light = light_of_expanded_mesh(scene, body);
+    return light ? b.table.profiles.add(*light, placements(body).world_from_node).profile : -1;
+}
+
+bool is_emissive(const MaterialRecord& material) { return material.flags & material_emissive && !(material.flags & material_unlit); }
+
+// For each part, whether its emissive triangles are sampled by NEE. Area lights come first, then objects with the fewest
+// triangles, so that a huge number of instances does not displace all other emitters.
+std::vector<bool> is_sampled(const Scene& scene, const MaterialTable& materials, const GeometryPool& geometry) {
+    const std::vector<PartRecord>& parts = geometry.parts();
+    std::vector<bool> aimed(parts.size(), true);
+    std::map<int32_t, int64_t> triangles; // by object
+    std::vector<size_t> glowing;
+    int64_t total = 0;
+    for (size_t part = 0; part < parts.size(); ++part) {
+        if (!is_emissive(materials.records[size_t(parts[part].material)]) || light_of_expanded_mesh(scene, Id<Node>{uint32_t(parts[part].object)})) continue;
+        glowing.push_back(part);
+        triangles[parts[part].object] += geometry.triangle_count(part);
+        total += geometry.triangle_count(part);
+    }
+    if (total <= max_mesh_lights) return aimed;
+    std::ranges::stable_sort(glowing, {}, [&](size_t part) { return std::pair(triangles[parts[part].object], parts[part].object); });
+    int64_t left = max_mesh_lights;
+    for (const size_t part : glowing) {
+        left -= geometry.triangle_count(part);
+        aimed[part] = left >= 0;
+    }
+    return aimed;
+}
+
+void add_triangles(TableBuilder& b, const Scene& scene, const MaterialTable& materials, GeometryPool& geometry, const SceneTables& scene_tables) {
+    WorldTransforms placements(scene);
+    SceneTables tables = scene_tables;
+    const std::vector<bool> aimed = is_sampled(scene, materials, geometry);
+    for (size_t part = 0; part < geometry.parts().size(); ++part) {
+        PartRecord& record = geometry.parts()[part];
+        const MaterialRecord& material = materials.records[size_t(record.material)];
+        record.first_light = -1;
+        if (!is_emissive(material)) continue;
+        const Light* panel = light_of_expanded_mesh(scene, Id<Node>{uint32_t(record.object)});
+        b.luminaires += panel ? 1 : geometry.triangle_count(part);
+        const int32_t profile = panel_profile(b, scene, placements, Id<Node>{uint32_t(record.object)});
+        // A ray that hits the light reads its profile.
+        if (b.aim == NeeLights::zero_size_lights && profile < 0) {
+            b.table.emissive_triangles += geometry.triangle_count(part);
+            continue;
+        }
+        if (!aimed[part]) {
+            b.table.emissive_triangles += geometry.triangle_count(part);
+            b.table.unsampled_triangles += geometry.triangle_count(part);
+            continue;
+        }
+        record.first_light = int32_t(b.table.records.size());
+        const bool two_sided = material.flags & material_double_sided, translucent = material.alpha != alpha_opaque;
+        const bool varying = material.emissive_texture >= 0 ||
+                             (translucent && (material.base_color_texture >= 0 || (record.flags & part_colors) != 0));
+        // Constant alpha dims the whole light.
+        const float opacity = varying ? 1.f : opacity_at<all_features, float>(scene_tables.materials, record.material, {}, 1.f, true);
+        // The stored vertices have the mesh's winding; under a mirroring transform the outside is the other side of the plane.
+        const bool mirrored = record.transform >= 0 ? determinant(scene_tables.instances[record.transform].world_from_object) < 0
+                                                    : (record.flags & part_mirrored) != 0;
+        for (int64_t t = 0; t < geometry.triangle_count(part); ++t) {
+            Vec3 p[3];
+            geometry.corners(part, t, p);
+            LightRecord light{};
+            light.kind = int32_t(LightKind::triangle);
+            light.flags = (two_sided ? light_two_sided : 0) | (varying ? light_varying : 0) | (mirrored ? light_mirrored : 0);
+            light.part = int32_t(part);
+            light.triangle = int32_t(t);
+            light.profile = profile;
+            light.position = p[0];
+            light.edge1 = p[1] - p[0];
+            light.edge2 = p[2] - p[0];
+            if (mirrored) std::swap(light.edge1, light.edge2);
+            light.emission = material.emission * opacity;
+            const double area = 0.5 * double(length(cross(light.edge1, light.edge2)));
+            light.inverse_area = area > 0 && std::isfinite(1 / area) ? float(1 / area) : 0.f;
+            double nits = luminance_of(light.emission);
+            if (varying) {
+                tables.lights.lights = &light;
+                nits = mean_varying_luminance(tables, 0, material.emission);
+            }
+            const double power = std::numbers::pi * area * nits * (two_sided ? 2 : 1);
+            const bool is_sampled = b.aim == NeeLights::all_lights && light.inverse_area > 0;
+            b.add(light, Id<Node>{uint32_t(record.object)}, is_sampled ? power : 0, triangle_bounds(p, light, panel));
+            ++b.table.emissive_triangles;
+        }
+    }
+}
+
+void add_spheres(TableBuilder& b, const Scene& scene, const std::vector<SphereLight>& spheres, const Vec3d& origin) {
+    WorldTransforms placements(scene);
+    b.table.first_sphere = int32_t(b.table.records.size());
+    for (const SphereLight& sphere : spheres) {
+        const Light& light = *scene.lights.find(sphere.light);
+        const LightProfiles::Added profile = b.table.profiles.add(light, placements(sphere.node).world_from_node);
+        LightRecord record{};
+        record.kind = int32_t(LightKind::sphere);
+        record.profile = profile.profile;
+        record.object = int32_t(sphere.node.value);
+        record.position = to_float(sphere.center - origin);
+        record.radius = float(sphere.radius);
+        const double disk = std::numbers::pi * sphere.radius * sphere.radius; // projected area
+        // The luminous intensity of a point or spot is that of its sphere in every direction.
+        record.emission = light.enabled ? light_emission(light) : Vec3{0, 0, 0};
+        if (light.kind != Light::Kind::sphere) record.emission = to_float(to_double(record.emission) * (1 / disk));
+        ++b.table.sphere_lights;
+        ++b.luminaires;
+        b.add_findable(record, sphere.node, 4 * std::numbers::pi * disk * luminance_of(record.emission) * profile.share,
+                       ball_bounds(record.position, sphere.radius, light, placements(sphere.node).world_from_node));
+    }
+}
+
+LightRecord sun_record(const Vec3& towards, float angle_radians, const Vec3& lux) {
+    LightRecord record{};
+    record.kind = int32_t(LightKind::sun);
+    record.profile = -1;
+    record.position = towards;
+    const double half = 0.5 * double(angle_radians), s = std::sin(0.5 * half);
+    record.cone_height = float(2 * s * s);
+    // Radiance of the disk from the stated illuminance on a facing surface: E = L pi sin^2(half angle).
+    record.emission = record.cone_height > 0 ? lux / float(std::numbers::pi * std::sin(half) * std::sin(half)) : lux;
+    return record;
+}
+
+void add_sun(TableBuilder& b, const LightRecord& record, Id<Node> node, double lux, double scene_radius) {
+    if (record.cone_height > 0) b.table.suns.push_back(int32_t(b.table.records.size()));
+    ++b.table.sun_lights;
+    const double power = std::numbers::pi * scene_radius * scene_radius * lux;
+    record.cone_height > 0 ? b.add_findable(record, node, power) : b.add(record, node, power);
+}
+
+void add_punctual(TableBuilder& b, const Scene& scene, double scene_radius, const Vec3d& origin) {
+    WorldTransforms placements(scene);
+    for (const auto& [id, node] : scene.nodes) {
+        const Light* light = node.light ? scene.lights.find(node.light) : nullptr;
+        if (!light || !light->enabled || is_area_light(*light) || is_sphere_light(*light) || !placements(id).visible) continue;
+        const Affined& world = placements(id).world_from_node;
+        const Vec3 emission = light_emission(*light);
+        if (light->kind == Light::Kind::sun) {
+            LightRecord record = sun_record(to_float(normalize(world.z)), light->angle_radians, emission);
+            if (!light->visible_to_camera) record.flags |= light_hidden;
+            add_sun(b, record, id, luminance_of(emission), scene_radius);
+            continue;
+        }
+        const LightProfiles::Added profile = b.table.profiles.add(*light, world);
+        LightRecord record{};
+        record.kind = int32_t(LightKind::point);
+        record.profile = profile.profile;
+        record.position = to_float(world.t - origin);
+        record.emission = emission;
+        ++b.table.point_lights;
+        ++b.luminaires;
+        b.add(record, id, 4 * std::numbers::pi * luminance_of(emission) * profile.share, ball_bounds(record.position, 0, *light, world));
+    }
+}
+
+// One sample in 64 is distributed uniformly over all lights (defensive mixture, Hesterberg 1995): a light that is weak in the
+// whole scene may be the only one in a room. Other lights lose at most 1/64 of their samples.
+std::vector<double> with_defensive_mixture(std::span<const double> powers, std::span<const double> factors) {
+    constexpr double share = 1.0 / 64;
+    std::vector<double> weights(powers.begin(), powers.end());
+    double total = 0, shining = 0;
+    for (size_t i = 0; i < weights.size(); ++i) {
+        if (!factors.empty()) weights[i] *= factors[i];
+        total += weights[i];
+        shining += powers[i] > 0;
+    }
+    for (size_t i = 0; i < weights.size(); ++i)
+        if (powers[i] > 0) weights[i] = (1 - share) * (total > 0 ? weights[i] / total : 0) + share / shining;
+    return weights;
+}
+
+// Powers by slot, for a table with a tree.
+std::vector<double> slot_powers(const LightTable& table, std::span<const double> powers) {
+    std::vector<double> slots(table.slot_lights.size(), 0.0);
+    for (size_t i = 0; i < powers.size(); ++i) slots[size_t(table.records[i].slot)] += powers[i];
+    return slots;
+}
+
+// Puts lights at finite distance into a tree, which uses the first slot; each other light gets its own slot. False, and no tree,
+// if no light at finite distance emits.
+bool add_tree(TableBuilder& b, const std::vector<double>& powers) {
+    const auto is_finite_light = [](const LightRecord& r) { return r.kind != int32_t(LightKind::sun) && r.kind != int32_t(LightKind::environment); };
+    std::vector<LightBounds> in_tree;
+    b.table.slot_lights = {0};
+    for (size_t i = 0; i < b.table.records.size(); ++i) {
+        LightRecord& record = b.table.records[i];
+        if (is_finite_light(record)) {
+            LightBounds bounds = b.bounds[i];
+            bounds.power = powers[i];
+            bounds.light = int32_t(i);
+            in_tree.push_back(bounds);
+        } else {
+            record.slot = int32_t(b.table.slot_lights.size());
+            b.table.slot_lights.push_back(int32_t(i));
+        }
+    }
+    b.table.tree = build_light_tree(std::move(in_tree), int32_t(b.table.records.size()));
+    if (b.table.tree.nodes.empty()) {
+        b.table.slot_lights.clear();
+        return false;
+    }
+    b.table.thresholds = make_thresholds(slot_powers(b.table, powers));
+    b.table.count = int32_t(b.table.slot_lights.size());
+    return true;
+}
+
+} // namespace
+
+LightTable build_light_table(const Scene& scene, const MaterialTable& materials, GeometryPool& geometry, const SceneTables& tables,
+                             const std::vector<SphereLight>& spheres, const SkyLight& sky, const Extent& extent, NeeLights aim) {
+    TableBuilder b;
+    b.aim = aim;
+    if (const int corners = disk_corners(scene); corners < max_disk_corners) b.table.fewer_disk_corners = corners;
+    add_triangles(b, scene, materials, geometry, tables);
+    add_spheres(b, scene, spheres, extent.origin);
+    const double radius = extent.bounds.empty ? 1 : std::max(extent.bounds.radius(), 1e-30);
+    add_punctual(b, scene, radius, extent.origin);
+    if (const SkySun sun = sun_of(scene.environment); luminance_of(sun.lux) > 0) {
+        LightRecord record = sun_record(sun.direction, sun_angle_radians, sun.lux);
+        if (!scene.environment.visible_to_camera) record.flags |= light_hidden;
+        add_sun(b, record, {}, luminance_of(sun.lux), radius);
+    }
+    if (sky.emits_light) {
+        LightRecord record{};
+        record.kind = int32_t(LightKind::environment);
+        record.profile = -1;
+        b.table.environment = int32_t(b.table.records.size());
+        b.add_findable(record, {}, 4 * std::numbers::pi * std::numbers::pi * radius * radius * luminance_of(sky.mean));
+    }
+    b.table.count = int32_t(b.table.records.size());
+    // Emitters with zero selection probability are never returned, even for u = 1 - eps.
+    while (aim == NeeLights::zero_size_lights && b.table.count > 0 && b.table.powers[size_t(b.table.count) - 1] == 0) --b.table.count;
+    if (b.table.records.empty()) b.add({}, {}, 1);
+    const std::vector<double> powers = with_defensive_mixture(b.table.powers, {});
+    const bool many = aim == NeeLights::all_lights && b.luminaires >= min_lights_for_a_tree && int64_t(powers.size()) <= max_lights_for_a_tree;
+    if (!many || !add_tree(b, powers)) b.table.thresholds = make_thresholds(powers);
+    return std::move(b.table);
+}
+
+void set_light_weights(LightTable& table, std::span<const double> factors) {
+    const std::vector<double> weights = with_defensive_mixture(table.powers, factors);
+    if (table.slot_lights.empty()) {
+        table.thresholds = make_thresholds(weights);
+        return;
+    }
+    set_light_tree_powers(table.tree, weights);
+    table.thresholds = make_thresholds(slot_powers(table, weights));
+}
+
+int64_t light_table_bytes(int64_t lights) { return lights * int64_t(sizeof(LightRecord) + sizeof(uint32_t)); }
+
+void LightTable::fill(LightTables& t) const {
+    t.lights = records.data();
+    t.thresholds = thresholds.data();
+    t.count = count;
+    t.slot_lights = slot_lights.data();
+    t.tree = tree.tables();
+    t.environment = environment;
+    t.suns = suns.data();
+    t.sun_count = int32_t(suns.size());
+    t.first_sphere = first_sphere;
+    t.profiles = profiles.tables();
+}
+
+} // namespace blush

@@ -1,0 +1,166 @@
+#include "render/session/background_denoiser.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <limits>
+#include <new>
+#include <utility>
+
+namespace blush {
+namespace {
+
+// A third of a stop: an edit that changes the exposure scale by less
+// keeps it, so that brightness does not flicker while dragging.
+constexpr float scale_tolerance = 1.26f;
+
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+DenoiseCadence::Source source_of(uint64_t image, const Frame& frame) {
+    // Each light group is denoised separately.
+    const double pictures = double(std::max<size_t>(1, frame.groups.size()));
+    return {image, frame.samples, frame.divider, frame.complete, pictures * double(frame.width) * double(frame.height) * 1e-6};
+}
+
+} // namespace
+
+DenoiserMaker denoiser_maker(std::filesystem::path weights, unsigned threads, bool low_priority) {
+    return [=]() -> DenoiseFunction {
+        return [denoiser = std::make_shared<Denoiser>(weights, threads, low_priority)](
+                   const DenoiseInput& input, const DenoiseOptions& options, const std::function<bool()>& wanted) {
+            return denoiser->denoise(input, options, wanted);
+        };
+    };
+}
+
+BackgroundDenoiser::BackgroundDenoiser(DenoiserMaker maker, double grace_seconds, PauseGate& gate, OnAnswer on_answer, OnRelease on_release)
+    : maker_(std::move(maker)), grace_seconds_(grace_seconds), gate_(gate), on_answer_(std::move(on_answer)), on_release_(std::move(on_release)) {
+    if (maker_) thread_ = std::thread([this] { run(); });
+}
+
+BackgroundDenoiser::~BackgroundDenoiser() {
+    {
+        const std::lock_guard lock(mutex_);
+        quit_ = true;
+    }
+    gate_.notify();
+    wake_.notify_one();
+    if (thread_.joinable()) thread_.join();
+}
+
+void BackgroundDenoiser::want(bool wanted) {
+    {
+        const std::lock_guard lock(mutex_);
+        if (wanted_ && !wanted) unwanted_since_ = now();
+        wanted_ = wanted;
+    }
+    gate_.notify();
+    wake_.notify_one();
+}
+
+bool BackgroundDenoiser::offer(uint64_t image, FramePtr frame) {
+    bool promised = false;
+    {
+        const std::lock_guard lock(mutex_);
+        cadence_.offer(source_of(image, *frame), now());
+        promised = wanted_ && maker_ && failure_.empty() && cadence_.answers_within_a_frame();
+        newest_ = {image, std::move(frame), promised};
+        newest_image_ = image;
+    }
+    gate_.notify();
+    wake_.notify_one();
+    return promised;
+}
+
+std::string BackgroundDenoiser::failure() const {
+    const std::lock_guard lock(mutex_);
+    return failure_;
+}
+
+bool BackgroundDenoiser::is_wanted(const Task& task) const { return !quit_ && wanted_ && (task.promised || newest_image_ == task.image); }
+
+bool BackgroundDenoiser::is_wanted_by_now(const Task& task) const {
+    gate_.wait_while_closed([&] { return task.promised || !is_wanted(task); });
+    return is_wanted(task);
+}
+
+DenoiseOptions BackgroundDenoiser::options_for(const Task& task, DenoiseQuality quality, size_t group) const {
+    DenoiseOptions options;
+    options.quality = quality;
+    if (group < scales_.size()) options.exposure_scale = scales_[group];
+    if (scale_image_ != task.image) options.exposure_tolerance = scale_tolerance;
+    return options;
+}
+
+// One input for the whole image, or one for each light group.
+Result<std::vector<Denoised>> BackgroundDenoiser::denoise_all(const Task& task, DenoiseQuality quality) const {
+    std::vector<Denoised> all;
+    for (const DenoiseInput& input : denoise_inputs(*task.frame)) {
+        Result<std::optional<Denoised>> result = denoise_(input, options_for(task, quality, all.size()), [&] { return is_wanted_by_now(task); });
+        if (!result) return result.error();
+        if (!*result) return std::vector<Denoised>();
+        all.push_back(**std::move(result));
+    }
+    return all;
+}
+
+BackgroundDenoiser::Outcome BackgroundDenoiser::denoise(const Task& task, DenoiseQuality quality) {
+    try {
+        if (!denoise_) denoise_ = maker_();
+        Result<std::vector<Denoised>> all = denoise_all(task, quality);
+        if (!all) return {nullptr, all.error().text()};
+        if (all->empty()) return {};
+        scales_.clear();
+        for (const Denoised& d : *all) scales_.push_back(d.exposure_scale);
+        scale_image_ = task.image;
+        return {denoised_picture(*task.frame, quality, *std::move(all)), {}};
+    } catch (const std::bad_alloc&) { return {nullptr, "not enough memory to denoise"}; } catch (const std::exception& e) {
+        return {nullptr, e.what()};
+    }
+}
+
+// Infinite while denoised images are wanted, or if there is nothing to free.
+double BackgroundDenoiser::seconds_to_release() const {
+    if (wanted_ || !denoise_) return std::numeric_limits<double>::infinity();
+    return std::max(0.0, unwanted_since_ + grace_seconds_ - now());
+}
+
+void BackgroundDenoiser::release(std::unique_lock<std::mutex>& lock) {
+    lock.unlock();
+    denoise_ = {};
+    on_release_();
+    lock.lock();
+}
+
+void BackgroundDenoiser::run() {
+    std::unique_lock lock(mutex_);
+    while (!quit_) {
+        if (seconds_to_release() == 0) {
+            release(lock);
+            continue;
+        }
+        const DenoiseCadence::Decision decision = wanted_ && failure_.empty() ? cadence_.next(now()) : DenoiseCadence::Decision{};
+        if (!decision.quality) {
+            const double wait = std::min(decision.wait, seconds_to_release());
+            if (std::isinf(wait))
+                wake_.wait(lock);
+            else
+                wake_.wait_for(lock, std::chrono::duration<double>(wait));
+            continue;
+        }
+        const Task task = newest_;
+        lock.unlock();
+        const double begun = now(), shut_before = gate_.closed_seconds();
+        Outcome outcome = denoise(task, *decision.quality);
+        const double seconds = now() - begun - (gate_.closed_seconds() - shut_before);
+        lock.lock();
+        cadence_.record(source_of(task.image, *task.frame), *decision.quality, begun, seconds, outcome.picture != nullptr);
+        failure_ = std::move(outcome.failure);
+        lock.unlock();
+        on_answer_(task.image, task.frame, std::move(outcome.picture));
+        lock.lock();
+    }
+}
+
+} // namespace blush

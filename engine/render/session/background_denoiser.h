@@ -1,0 +1,95 @@
+// Denoises frames of a session on a thread of its own, when DenoiseCadence schedules it, without delaying rendering.
+#pragma once
+
+#include "render/session/denoise_cadence.h"
+#include "render/session/denoised_picture.h"
+#include "render/session/pause_gate.h"
+
+#include <atomic>
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace blush {
+
+// The denoise function as a value; tests substitute their own.
+using DenoiseFunction =
+    std::function<Result<std::optional<Denoised>>(const DenoiseInput&, const DenoiseOptions&, const std::function<bool()>&)>;
+// Creates one. Its weights and memory are freed with it.
+using DenoiserMaker = std::function<DenoiseFunction()>;
+// Creates functions that call Denoiser (see there for the arguments).
+DenoiserMaker denoiser_maker(std::filesystem::path weights, unsigned threads, bool low_priority);
+
+class BackgroundDenoiser {
+public:
+    // Called on the denoiser thread with the result for a submitted frame. Null: no longer wanted, or it failed.
+    using OnAnswer = std::function<void(uint64_t image, const FramePtr& source, DenoisedPtr denoised)>;
+    // Called on the denoiser thread after denoised images were not wanted for `grace_seconds` and all memory was freed.
+    using OnRelease = std::function<void()>;
+    // Empty maker: nothing is denoised. Otherwise called on the denoiser thread, for the first image and for the first one after
+    // a release. `gate`: the thread pauses there between network layers while the window needs the processor; waiting for a
+    // promised image interrupts the pause.
+    BackgroundDenoiser(DenoiserMaker maker, double grace_seconds, PauseGate& gate, OnAnswer on_answer, OnRelease on_release);
+    // Stops within one layer of the network, and joins.
+    ~BackgroundDenoiser();
+    BackgroundDenoiser(const BackgroundDenoiser&) = delete;
+    BackgroundDenoiser& operator=(const BackgroundDenoiser&) = delete;
+
+    // If not wanted, nothing is denoised or loaded. Never blocks.
+    void want(bool wanted);
+    // Submits the newest frame; `image` counts images. True if the result is expected within one frame of the window and is worth
+    // waiting for. Never blocks.
+    bool offer(uint64_t image, FramePtr frame);
+    // Why denoising stopped, for example missing or damaged weights. Empty: it works.
+    std::string failure() const;
+
+private:
+    struct Task {
+        uint64_t image = 0;
+        FramePtr frame;
+        bool promised = false; // the session waits for it: finished even if a newer frame arrives
+    };
+    struct Outcome {
+        DenoisedPtr picture;
+        std::string failure;
+    };
+
+    void run();
+    DenoiseOptions options_for(const Task& task, DenoiseQuality quality, size_t group) const;
+    Result<std::vector<Denoised>> denoise_all(const Task& task, DenoiseQuality quality) const;
+    Outcome denoise(const Task& task, DenoiseQuality quality);
+    bool is_wanted(const Task& task) const;
+    bool is_wanted_by_now(const Task& task) const; // after the pause gate
+
+    void release(std::unique_lock<std::mutex>& lock);
+    double seconds_to_release() const;
+
+    DenoiserMaker maker_;
+    double grace_seconds_;
+    PauseGate& gate_;
+    OnAnswer on_answer_;
+    OnRelease on_release_;
+
+    // Read between layers without a lock.
+    std::atomic<bool> wanted_{false}, quit_{false};
+    std::atomic<uint64_t> newest_image_{0};
+
+    mutable std::mutex mutex_; // guards the following
+    std::condition_variable wake_;
+    Task newest_;
+    DenoiseCadence cadence_;
+    std::string failure_;
+    double unwanted_since_ = 0;
+
+    // Used only by the denoiser thread: the denoiser while it exists, the exposure scales of the last image (one per light group
+    // if groups are mixed) and that image.
+    DenoiseFunction denoise_;
+    std::vector<float> scales_;
+    uint64_t scale_image_ = 0;
+    std::thread thread_;
+};
+
+} // namespace blush

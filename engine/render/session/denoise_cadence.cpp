@@ -1,0 +1,71 @@
+#include "render/session/denoise_cadence.h"
+
+#include <algorithm>
+
+namespace blush {
+namespace {
+
+// Cost of the qualities relative to the small network: 124 GFLOP per megapixel, then 251, then three times 251.
+constexpr std::array<double, 3> relative_cost{1, 2, 6};
+
+} // namespace
+
+void DenoiseCadence::offer(const Source& source, double now) {
+    if (!newest_ || newest_->image != source.image) {
+        image_begun_ = now;
+        spent_ = 0;
+        done_.reset();
+    }
+    newest_ = source;
+}
+
+double DenoiseCadence::predicted(DenoiseQuality quality) const {
+    const double measured = seconds_per_megapixel_[size_t(quality)];
+    const double speed = measured > 0 ? measured : seconds_per_megapixel_[size_t(DenoiseQuality::fast)] * relative_cost[size_t(quality)];
+    return speed * newest_->megapixels;
+}
+
+bool DenoiseCadence::fits_a_frame() const {
+    const double seconds = predicted(DenoiseQuality::fast);
+    return seconds > 0 && seconds <= frame_seconds;
+}
+
+bool DenoiseCadence::answers_within_a_frame() const { return newest_ && !done_ && fits_a_frame(); }
+
+bool DenoiseCadence::is_done(DenoiseQuality quality) const {
+    return done_ && done_->divider == newest_->divider && done_->samples == newest_->samples && done_->quality >= quality;
+}
+
+DenoiseCadence::Decision DenoiseCadence::next(double now) const {
+    if (!newest_) return {};
+    if (newest_->divider > 1) {
+        if (fits_a_frame() && !is_done(DenoiseQuality::fast)) return {DenoiseQuality::fast, 0};
+        return {};
+    }
+    if (!done_ || done_->divider > 1) return {DenoiseQuality::fast, 0};
+    if (newest_->complete) {
+        if (is_done(DenoiseQuality::high)) return {};
+        return {DenoiseQuality::high, 0};
+    }
+    const double rests_at = image_begun_ + idle_seconds;
+    const DenoiseQuality quality = now >= rests_at ? DenoiseQuality::base : DenoiseQuality::fast;
+    if (is_done(quality)) return {{}, quality == DenoiseQuality::base ? std::numeric_limits<double>::infinity() : rests_at - now};
+    const double affordable_at = image_begun_ + (spent_ + predicted(quality)) / time_share;
+    const double due_at = std::max(done_->begun + min_interval, affordable_at);
+    if (now >= due_at) return {quality, 0};
+    return {{}, due_at - now};
+}
+
+void DenoiseCadence::record(const Source& source, DenoiseQuality quality, double begun, double seconds, bool finished) {
+    const bool same_image = newest_ && newest_->image == source.image;
+    if (same_image) spent_ += seconds;
+    if (!finished) return;
+    // The first run of a network includes building it and competes with rendering for the processor. So take the fastest run, and
+    // let slower runs raise the estimate only gradually.
+    double& speed = seconds_per_megapixel_[size_t(quality)];
+    const double measured = seconds / std::max(source.megapixels, 1e-6);
+    speed = speed == 0 || measured < speed ? measured : 0.75 * speed + 0.25 * measured;
+    if (same_image) done_ = Done{source.samples, source.divider, quality, begun};
+}
+
+} // namespace blush

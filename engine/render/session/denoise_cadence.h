@@ -1,0 +1,68 @@
+// Decides when to denoise and at which quality, from the state and timings it is given. Testable without denoising.
+#pragma once
+
+#include "render/denoise/denoiser.h"
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+namespace blush {
+
+// An image's first full-resolution frame is denoised at once. After that at most one per second, and all together at most a tenth
+// of the image's render time. After a while without edits the large network is used, and the final frame gets the best quality. A
+// low-resolution frame is denoised if that fits into one frame of the window.
+// Times are seconds of any monotonic clock.
+class DenoiseCadence {
+public:
+    static constexpr double min_interval = 1;       // seconds from the start of one run to the start of the next
+    static constexpr double time_share = 0.1;         // of the image's render time
+    static constexpr double idle_seconds = 2;         // without an edit
+    static constexpr double frame_seconds = 1.0 / 30; // for an image that the window waits for
+
+    // The properties of a frame that matter here.
+    struct Source {
+        uint64_t image = 0; // changes after each edit that affects the image
+        int64_t samples = 0;
+        int divider = 1;
+        bool complete = false; // rendering ended with it
+        double megapixels = 0;
+    };
+    struct Decision {
+        std::optional<DenoiseQuality> quality;                 // denoise the newest frame now
+        double wait = std::numeric_limits<double>::infinity(); // else: ask again after so many seconds, or when something changes
+    };
+
+    // The newest frame.
+    void offer(const Source& source, double now);
+    // True if it is the first of its image and its denoised image is expected
+    // within one frame of the window, so that waiting is worthwhile.
+    bool answers_within_a_frame() const;
+    Decision next(double now) const;
+    // Records that the run requested by next(), of the newest frame at
+    // time `begun`, took `seconds`; `finished`: it produced an image.
+    void record(const Source& source, DenoiseQuality quality, double begun, double seconds, bool finished);
+
+private:
+    bool is_done(DenoiseQuality quality) const;
+    bool fits_a_frame() const;
+    // Estimated seconds for the newest frame; 0 if nothing was denoised yet.
+    double predicted(DenoiseQuality quality) const;
+
+    std::optional<Source> newest_;
+    std::array<double, 3> seconds_per_megapixel_{}; // by quality; 0: not known
+
+    // Of the newest frame's image.
+    double image_begun_ = 0;
+    double spent_ = 0;
+    struct Done {
+        int64_t samples = 0;
+        int divider = 1;
+        DenoiseQuality quality = DenoiseQuality::fast;
+        double begun = 0;
+    };
+    std::optional<Done> done_; // the last denoised image
+};
+
+} // namespace blush

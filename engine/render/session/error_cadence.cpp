@@ -1,0 +1,21 @@
+#include "render/session/error_cadence.h"
+
+namespace blush {
+
+void ErrorCadence::restart() {
+    budget_.restart();
+    last_samples_ = 0;
+}
+
+bool ErrorCadence::due(const Picture& p) const {
+    if (p.samples < 2) return false;
+    if (p.wanted) return true;
+    return double(p.samples) >= growth * double(last_samples_) && budget_.allows(p.pixels, p.seconds);
+}
+
+void ErrorCadence::record(const Picture& p, double seconds) {
+    last_samples_ = p.samples;
+    budget_.record(p.pixels, seconds);
+}
+
+} // namespace blush

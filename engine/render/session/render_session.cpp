@@ -1,0 +1,469 @@
+#include "render/session/render_session.h"
+
+#include "render/session/error_cadence.h"
+#include "render/session/frame_pool.h"
+#include "render/session/pause_gate.h"
+#include "render/renderer.h"
+#include "render/session/scheduler.h"
+#include "scene/changes.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <new>
+#include <optional>
+#include <thread>
+#include <utility>
+
+namespace blush {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double idle_seconds = 1; // without a submission, until light selection follows the mix
+
+double seconds_between(Clock::time_point a, Clock::time_point b) { return std::chrono::duration<double>(b - a).count(); }
+
+struct Submission {
+    uint64_t revision = 0;
+    uint64_t image = 0; // counts submissions that change the image, not only stop rules
+    Scene scene;
+    RenderSettings settings;
+    PlaneSet planes;
+    FilmStatePtr film; // to continue from
+    Clock::time_point when;
+    std::shared_ptr<const LightGroups> groups; // of the scene that began the image; null: no light mix
+
+    // The scene that the image is rendered from: later ones differ in the mix only.
+    const Scene& base() const { return groups ? groups->base : scene; }
+};
+
+// True if rendering continues the same image: equal except for the light mix, and with all planes.
+bool continues(const Submission& last, const Submission& next) {
+    if (!last.planes.covers(next.planes)) return false;
+    if (!diff(last.scene, last.settings, next.scene, next.settings).affects_image()) return true;
+    return last.groups && same_image(last.settings, next.settings) && mixing_of(*last.groups, next.scene);
+}
+
+// Sets the submission's image number: that of the last submission
+// (returns true) or a new one. Loaded samples always start a new image.
+bool name_image(Submission& next, const std::optional<Submission>& last, bool has_samples) {
+    const bool same = last && !has_samples && continues(*last, next);
+    next.image = (last ? last->image : 0) + !same;
+    if (same) next.groups = last->groups;
+    else if (next.scene.mix.grouping != LightMix::Grouping::none)
+        next.groups = std::make_shared<const LightGroups>(make_light_groups(next.scene));
+    return same;
+}
+
+// Multiplies the size by the resolution scale.
+RenderSettings at_film_size(RenderSettings settings) {
+    const auto scaled = [&](int n) { return std::max(1, int(std::lround(double(n) * double(settings.resolution_scale)))); };
+    settings.width = scaled(settings.width);
+    settings.height = scaled(settings.height);
+    settings.resolution_scale = 1;
+    return settings;
+}
+
+PlaneSet with_first_hits(PlaneSet planes, const SessionOptions& o) {
+    if (o.first_hit_planes) planes.albedo = planes.normal = planes.depth = planes.ids = true;
+    return planes;
+}
+
+} // namespace
+
+struct RenderSession::State {
+    SessionOptions options;
+    std::function<void()> on_frame;
+
+    std::mutex submitting; // serialises submissions; guards last_submitted
+    std::optional<Submission> last_submitted;
+
+    // Guards the pending submission and the published state.
+    mutable std::mutex mutex;
+    std::condition_variable wake;
+    std::optional<Submission> pending;
+    bool paused = false;
+    std::optional<uint64_t> film_asked; // revision of the requested film
+    std::optional<RequestedFilm> kept_film;
+    PublishedFrames showcase;
+    SessionStatus status;
+
+    // Read by tiles before they begin: one load, no lock.
+    std::atomic<uint64_t> wanted_image{0};
+    std::atomic<bool> quit{false};
+    std::atomic<bool> film_wanted{false}; // film_asked holds a value
+    PauseGate gate;                            // closed while rendering yields to the UI
+
+    // Used only by the render thread.
+    std::optional<Renderer> renderer;
+    FramePool frames;
+    Submission current;
+    Scheduler scheduler;
+    std::string failure, restart_reason; // empty: none
+    bool has_scene = false, has_first_image = false;
+    bool selects_lights_by_mix = false; // light selection follows the current mix
+    double first_image_seconds = 0, samples_per_second = 0;
+    ErrorCadence error_cadence;
+    // Latest error estimate of this image; frames without their own reuse it.
+    struct Estimated {
+        ErrorEstimate error;
+        int64_t samples = 0;
+        double at = 0;
+        std::vector<Vec3> gains;
+        bool is_of(const Frame& f) const { return samples == f.samples && gains == f.gains; }
+    } estimated;
+    std::thread thread;
+
+    // always set; last member, so that it is destroyed before the members that its callbacks use
+    std::unique_ptr<BackgroundDenoiser> denoiser;
+
+    // Requires the mutex.
+    SessionStatus::State due_state() const;
+    bool must_show() const { return has_scene && !has_first_image; }
+    bool has_work() const { return due_state() == SessionStatus::State::rendering; }
+    bool yields_to_ui() const { return gate.is_closed() && has_first_image && !(pending && pending->image != current.image); }
+
+    void run();
+    void announce(std::optional<SessionStatus::State> passing = {});
+    void apply_submission(Submission next);
+    void render_batch();
+    void fail(std::string why, std::optional<uint64_t> asked);
+    void go_on_from(const FilmState& film);
+    std::shared_ptr<Frame> resolved(bool wants_error = false);
+    void estimate_error(Frame& frame, bool wanted);
+    void publish();
+    void mix_denoised(const Frame& frame);
+    void request_film(uint64_t revision);
+    void answer(RequestedFilm kept);
+    void receive_denoised(uint64_t image, const FramePtr& source, DenoisedPtr denoised);
+    void on_networks_freed();
+    Pictures current_pictures() const;
+};
+
+SessionStatus::State RenderSession::State::due_state() const {
+    if (!failure.empty()) return SessionStatus::State::failed;
+    if (!has_scene) return SessionStatus::State::idle;
+    if (scheduler.finished()) return SessionStatus::State::complete;
+    if (paused && has_first_image) return SessionStatus::State::paused;
+    return yields_to_ui() ? SessionStatus::State::yielding : SessionStatus::State::rendering;
+}
+
+// Publishes the current state, or a transient one.
+void RenderSession::State::announce(std::optional<SessionStatus::State> passing) {
+    {
+        const std::lock_guard lock(mutex);
+        status.state = passing.value_or(due_state());
+        status.revision = current.revision;
+        status.progress = scheduler.progress();
+        status.message = failure;
+        status.restart_reason = restart_reason;
+    }
+    on_frame();
+}
+
+// Keeps the cost negligible, unless an estimate is requested.
+void RenderSession::State::estimate_error(Frame& frame, bool wanted) {
+    const bool mixed_anew = estimated.samples > 0 && estimated.gains != frame.gains;
+    const ErrorCadence::Picture picture{frame.samples, double(frame.width) * double(frame.height), frame.seconds,
+                                        wanted || mixed_anew || scheduler.finished() || scheduler.error_may_be_reached()};
+    if (frame.divider == 1 && !estimated.is_of(frame) && error_cadence.due(picture)) {
+        const auto begin = Clock::now();
+        estimated = {renderer->estimate_error(), frame.samples, frame.seconds, frame.gains};
+        error_cadence.record(picture, seconds_between(begin, Clock::now()));
+        scheduler.record_error(estimated.error.known ? estimated.error.relmse : -1);
+    }
+    frame.error = estimated.error;
+    frame.error_samples = estimated.samples;
+    frame.error_at = estimated.at;
+    frame.error_seconds = error_cadence.spent();
+}
+
+std::shared_ptr<Frame> RenderSession::State::resolved(bool wants_error) {
+    std::shared_ptr<Frame> frame = frames.take();
+    renderer->resolve(*frame);
+    frame->revision = current.revision;
+    frame->seconds = scheduler.seconds();
+    estimate_error(*frame, wants_error);
+    frame->complete = scheduler.finished();
+    frame->first_image_seconds = first_image_seconds;
+    frame->samples_per_second = samples_per_second;
+    return frame;
+}
+
+// Remixes denoised groups without denoising again.
+void RenderSession::State::mix_denoised(const Frame& frame) {
+    const DenoisedPtr before = current_pictures().denoised;
+    if (!before || !before->groups || before->gains == frame.gains || frame.light_groups != before->groups->of) return;
+    DenoisedPtr after = remixed(*before, frame.gains);
+    const std::lock_guard lock(mutex);
+    showcase.replace(before, std::move(after));
+}
+
+// Publishes the film as it is.
+void RenderSession::State::publish() {
+    const std::shared_ptr<Frame> frame = resolved();
+    mix_denoised(*frame);
+    if (!has_first_image) first_image_seconds = seconds_between(current.when, Clock::now());
+    has_first_image = true;
+    frame->first_image_seconds = first_image_seconds;
+    const Pictures previous = current_pictures(); // freed after unlocking
+    const std::lock_guard lock(mutex);
+    if (denoiser->offer(current.image, frame))
+        showcase.withhold(current.image, frame);
+    else
+        showcase.show(current.image, frame);
+}
+
+// Called on the denoiser's thread.
+void RenderSession::State::receive_denoised(uint64_t image, const FramePtr& source, DenoisedPtr denoised) {
+    const Pictures previous = current_pictures();
+    // The mix may have changed during denoising.
+    if (denoised && denoised->groups && previous.frame && previous.frame->light_groups == denoised->groups->of)
+        if (previous.frame->gains != denoised->gains) denoised = remixed(*denoised, previous.frame->gains);
+    {
+        const std::lock_guard lock(mutex);
+        if (denoised) status.denoised_with[size_t(denoised->quality)] = true;
+        showcase.answer(image, source, std::move(denoised));
+        status.denoiser_failure = denoiser->failure();
+        if (!status.denoiser_failure.empty()) showcase.release();
+    }
+    on_frame();
+}
+
+// Called on the denoiser's thread after its networks were freed.
+void RenderSession::State::on_networks_freed() {
+    {
+        const std::lock_guard lock(mutex);
+        status.denoised_with = {};
+    }
+    on_frame();
+}
+
+Pictures RenderSession::State::current_pictures() const {
+    const std::lock_guard lock(mutex);
+    return showcase.pictures();
+}
+
+void RenderSession::State::apply_submission(Submission next) {
+    const bool new_image = next.image != current.image || !has_scene;
+    current = std::move(next);
+    failure.clear();
+    const RenderSettings settings = at_film_size(current.settings);
+    if (new_image) {
+        has_scene = has_first_image = false;
+        error_cadence.restart();
+        estimated = {};
+        scheduler.restart(settings, true);
+        announce(SessionStatus::State::updating);
+        if (!renderer) renderer.emplace(RendererOptions{options.threads, options.low_priority, {}});
+        renderer->set_planes(with_first_hits(current.planes, options));
+        renderer->update(current.base(), settings);
+        if (current.groups) renderer->update(current.scene, settings);
+        has_scene = true;
+        restart_reason.clear();
+        if (const FilmStatePtr film = std::exchange(current.film, nullptr)) go_on_from(*film);
+    } else {
+        scheduler.change_stop_rules(settings);
+        renderer->set_planes(with_first_hits(current.planes, options));
+        if (current.groups) renderer->update(current.scene, settings);
+        if (has_first_image) publish(); // the unchanged image answers the new revision
+    }
+    selects_lights_by_mix = false;
+    announce();
+}
+
+void RenderSession::State::go_on_from(const FilmState& film) {
+    if (const auto loaded = renderer->load_film(film); !loaded) {
+        restart_reason = loaded.error().text();
+        return;
+    }
+    scheduler.resume(film.samples, film.seconds);
+    publish();
+}
+
+void RenderSession::State::request_film(uint64_t revision) {
+    RequestedFilm kept{.revision = revision};
+    Result<FilmState> film = Error{"", "the image changed before its film was saved", ""};
+    if (renderer && has_first_image && revision == current.revision) film = renderer->save_film(current.settings.first_sample);
+    if (film) {
+        film->seconds = scheduler.seconds();
+        kept.frame = resolved(true);
+        kept.error = renderer->resolve_error();
+        kept.film = std::make_shared<const FilmState>(*std::move(film));
+    } else {
+        kept.why_none = film.error().text();
+    }
+    answer(std::move(kept));
+    announce();
+}
+
+void RenderSession::State::answer(RequestedFilm kept) {
+    const std::lock_guard lock(mutex);
+    kept_film = std::move(kept);
+}
+
+void RenderSession::State::render_batch() {
+    const Work work = scheduler.next();
+    const uint64_t mine = current.image;
+    const auto begin = Clock::now();
+    const double shut_before = gate.closed_seconds();
+    if (current.groups && !selects_lights_by_mix && seconds_between(current.when, begin) > idle_seconds) {
+        renderer->select_lights_by_mix();
+        selects_lights_by_mix = true;
+    }
+    renderer->set_divider(work.divider);
+    if (work.clear) renderer->clear();
+    const std::function<bool()> interrupted = [&] {
+        return work.always_finish || quit.load(std::memory_order_relaxed) || film_wanted.load(std::memory_order_relaxed) ||
+               wanted_image.load(std::memory_order_relaxed) != mine;
+    };
+    const bool done = renderer->render(work.first_sample, work.count, [&] {
+        gate.wait_while_closed(interrupted);
+        return !quit.load(std::memory_order_relaxed) && (work.always_finish || film_wanted.load(std::memory_order_relaxed) || wanted_image.load(std::memory_order_relaxed) == mine);
+    });
+    if (!done) return;
+    const double seconds = seconds_between(begin, Clock::now()) - (gate.closed_seconds() - shut_before);
+    samples_per_second = double(work.count) / (std::max(seconds, 1e-9) * work.divider * work.divider);
+    scheduler.record_render(work, seconds);
+    if (work.publish || scheduler.finished()) {
+        publish();
+        scheduler.record_publish();
+    }
+    announce();
+}
+
+void RenderSession::State::fail(std::string why, std::optional<uint64_t> asked) {
+    failure = std::move(why);
+    if (asked) answer({.revision = *asked, .why_none = failure});
+    has_scene = has_first_image = false;
+    renderer.reset(); // its state may no longer match any scene
+    announce();
+}
+
+void RenderSession::State::run() {
+    for (;;) {
+        std::optional<Submission> taken;
+        std::optional<uint64_t> asked;
+        bool work = false;
+        {
+            std::unique_lock lock(mutex);
+            wake.wait(lock, [&] { return quit || film_asked || (pending && !yields_to_ui()) || has_work() || due_state() != status.state; });
+            if (quit) return;
+            // Before the requested image is replaced.
+            asked = std::exchange(film_asked, std::nullopt);
+            film_wanted = false;
+            // Show an applied submission once before applying the next:
+            // otherwise a drag faster than the updates would show nothing.
+            if (!asked && !must_show() && !yields_to_ui()) taken.swap(pending);
+            work = has_work();
+        }
+        try {
+            if (asked)
+                request_film(*asked);
+            else if (taken)
+                apply_submission(std::move(*taken));
+            else if (work)
+                render_batch();
+            else
+                announce();
+        } catch (const std::bad_alloc&) { fail("not enough memory", asked); } catch (const std::exception& e) {
+            fail(e.what(), asked);
+        }
+    }
+}
+
+RenderSession::RenderSession(const SessionOptions& options, std::function<void()> on_frame) : state_(std::make_unique<State>()) {
+    state_->options = options;
+    state_->on_frame = on_frame ? std::move(on_frame) : [] {};
+    state_->denoiser = std::make_unique<BackgroundDenoiser>(
+        options.denoiser, options.denoiser_grace, state_->gate,
+        [s = state_.get()](uint64_t image, const FramePtr& source, DenoisedPtr denoised) {
+            s->receive_denoised(image, source, std::move(denoised));
+        },
+        [s = state_.get()] { s->on_networks_freed(); });
+    state_->thread = std::thread([s = state_.get()] { s->run(); });
+}
+
+RenderSession::~RenderSession() {
+    {
+        const std::lock_guard lock(state_->mutex);
+        state_->quit = true;
+    }
+    state_->gate.notify();
+    state_->wake.notify_one();
+    state_->thread.join();
+}
+
+bool RenderSession::submit(uint64_t revision, const Scene& scene, const RenderSettings& settings, const PlaneSet& planes, FilmStatePtr film) {
+    State& s = *state_;
+    const std::lock_guard submitting(s.submitting);
+    std::optional<Submission> next = Submission{revision, 0, scene, settings, planes, {}, Clock::now(), nullptr};
+    const bool goes_on = name_image(*next, s.last_submitted, film != nullptr);
+    s.last_submitted = next;
+    {
+        const std::lock_guard lock(s.mutex);
+        s.wanted_image = next->image;
+        // Samples of a pending submission belong to this image too.
+        if (!film && s.pending && s.pending->image == next->image) film = s.pending->film;
+        next->film = std::move(film);
+        s.pending.swap(next);
+    }
+    s.gate.notify();
+    s.wake.notify_one();
+    return goes_on;
+}
+
+void RenderSession::request_film(uint64_t revision) {
+    {
+        const std::lock_guard lock(state_->mutex);
+        state_->film_asked = revision;
+        state_->film_wanted = true;
+    }
+    state_->gate.notify();
+    state_->wake.notify_one();
+}
+
+std::optional<RequestedFilm> RenderSession::take_requested_film() {
+    const std::lock_guard lock(state_->mutex);
+    return std::exchange(state_->kept_film, std::nullopt);
+}
+
+void RenderSession::pause(bool paused) {
+    {
+        const std::lock_guard lock(state_->mutex);
+        state_->paused = paused;
+    }
+    state_->wake.notify_one();
+}
+
+void RenderSession::yield_to_ui(bool yielding) {
+    if (yielding) return state_->gate.close();
+    {
+        const std::lock_guard lock(state_->mutex); // ensures that the thread is not between its check and its wait
+        state_->gate.open();
+    }
+    state_->wake.notify_one();
+}
+
+void RenderSession::want_denoised(bool wanted) {
+    state_->denoiser->want(wanted);
+    if (wanted) return;
+    const std::lock_guard lock(state_->mutex);
+    state_->showcase.release();
+}
+
+Pictures RenderSession::pictures() const { return state_->current_pictures(); }
+
+SessionStatus RenderSession::status() const {
+    const std::lock_guard lock(state_->mutex);
+    SessionStatus status = state_->status;
+    if (status.state == SessionStatus::State::rendering && state_->gate.has_waiting_threads()) status.state = SessionStatus::State::yielding;
+    return status;
+}
+
+} // namespace blush

@@ -1,0 +1,126 @@
+#include "render/session/scheduler.h"
+
+#include "render/session/error_cadence.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace blush {
+namespace {
+
+// Exponent of relmse as a function of samples: independent samples have -1, well distributed ones do better in smooth images.
+constexpr double fastest_error_exponent = -1.5;
+
+} // namespace
+
+void Scheduler::restart(const RenderSettings& settings, bool interactive) {
+    settings_ = settings;
+    interactive_ = interactive;
+    film_divider_ = 0;
+    next_sample_ = settings.first_sample;
+    seconds_ = last_publish_ = 0;
+    error_ = -1;
+    error_samples_ = 0;
+}
+
+void Scheduler::resume(int64_t samples, double seconds) {
+    film_divider_ = 1;
+    next_sample_ = settings_.first_sample + samples;
+    seconds_ = last_publish_ = seconds;
+}
+
+int Scheduler::first_divider() const {
+    if (!interactive_) return 1;
+    // Without measurements, assume two million full paths per second.
+    const double full = timings_.sample_seconds > 0 ? timings_.sample_seconds : double(settings_.width) * double(settings_.height) / 2e6;
+    const int long_side = std::max(settings_.width, settings_.height);
+    int divider = 1;
+    while (divider < coarsest_divider && full / (divider * divider) > first_image_seconds && long_side / (2 * divider) >= min_long_side)
+        divider *= 2;
+    return divider;
+}
+
+double Scheduler::publish_interval() const {
+    if (seconds_ < 1) return 0.1;
+    if (seconds_ < 4) return 0.25;
+    if (seconds_ < 15) return 0.5;
+    return 1;
+}
+
+Work Scheduler::next() const {
+    Work work;
+    work.first_sample = settings_.first_sample;
+    work.count = 1;
+    work.publish = true;
+    if (film_divider_ == 0) {
+        work.divider = first_divider();
+        work.clear = true;
+        work.always_finish = true;
+        return work;
+    }
+    if (film_divider_ > 1) {
+        // Full resolution next: directly if that is fast enough, else via an intermediate one.
+        const int middle = std::max(1, film_divider_ / 4);
+        const bool direct = timings_.sample_seconds < 0.25;
+        work.divider = direct ? 1 : middle;
+        work.clear = true;
+        return work;
+    }
+    work.first_sample = next_sample_;
+    const double sample = std::max(timings_.sample_seconds, 1e-6);
+    // Doubling keeps the number of resolves logarithmic at first;
+    // later the remaining interval bounds the wait for the next frame.
+    const double left = publish_interval() - (seconds_ - last_publish_);
+    int64_t count = std::max<int64_t>(1, std::min<int64_t>(samples(), int64_t(left / sample)));
+    if (settings_.spp > 0) count = std::min(count, settings_.spp - next_sample_);
+    if (settings_.seconds > 0) count = std::min(count, std::max<int64_t>(1, int64_t((settings_.seconds - seconds_) / sample)));
+    // The error estimate needs both halves: an even number of samples keeps them equal.
+    if (count > 1 && settings_.spp <= 0) count &= ~int64_t(1);
+    work.count = std::min<int64_t>(count, 1024);
+    const double after = seconds_ + double(work.count) * sample;
+    const bool last = settings_.spp > 0 && next_sample_ + work.count >= settings_.spp;
+    work.publish = last || samples() < 8 || after - last_publish_ >= 0.9 * publish_interval() || error_may_be_reached(samples() + work.count) ||
+                   (settings_.seconds > 0 && after >= settings_.seconds);
+    return work;
+}
+
+void Scheduler::record_render(const Work& work, double seconds) {
+    seconds_ += seconds;
+    const double pixels_share = 1.0 / (double(work.divider) * double(work.divider));
+    const double per_sample = seconds / (double(work.count) * pixels_share);
+    // Small films have idle lanes and cold caches, so they predict full-size timings less well.
+    const double trust = work.divider == 1 ? 0.5 : 0.25;
+    timings_.sample_seconds = timings_.sample_seconds > 0 ? (1 - trust) * timings_.sample_seconds + trust * per_sample : per_sample;
+    film_divider_ = work.divider;
+    if (work.divider == 1) next_sample_ = work.first_sample + work.count;
+}
+
+void Scheduler::record_error(double error) {
+    error_ = error;
+    error_samples_ = samples();
+}
+
+bool Scheduler::error_may_be_reached(int64_t samples) const {
+    if (settings_.error <= 0 || film_divider_ != 1 || !(error_ >= 0)) return false;
+    const double grown = double(samples) / double(std::max<int64_t>(1, error_samples_));
+    return grown >= ErrorCadence::growth && error_ * std::pow(grown, fastest_error_exponent) <= settings_.error;
+}
+
+bool Scheduler::finished() const {
+    if (film_divider_ != 1) return false;
+    if (settings_.spp > 0 && next_sample_ >= settings_.spp) return true;
+    if (settings_.seconds > 0 && seconds_ >= settings_.seconds) return true;
+    return settings_.error > 0 && error_ >= 0 && error_ <= settings_.error;
+}
+
+double Scheduler::progress() const {
+    if (finished()) return 1;
+    double p = 0;
+    if (settings_.spp > settings_.first_sample) p = std::max(p, double(samples()) / double(settings_.spp - settings_.first_sample));
+    if (settings_.seconds > 0) p = std::max(p, seconds_ / settings_.seconds);
+    // The error falls as 1 / samples, so this is the completed share of the needed samples.
+    if (settings_.error > 0 && error_ > 0) p = std::max(p, settings_.error / error_);
+    return std::min(p, 0.999);
+}
+
+} // namespace blush

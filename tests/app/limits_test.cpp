@@ -1,0 +1,187 @@
+// Lack of memory, threads or disk space ends with one error line and exit code 1; warnings about what an image cannot show.
+#include "tests/app/program.h"
+#include "io/image/image_io.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <sys/wait.h>
+
+namespace blush {
+namespace {
+
+using test::Finished;
+using test::scene_file;
+using test::TemporaryFolder;
+using Json = nlohmann::json;
+
+// Runs in a shell that sets limits and variables first.
+Finished in_shell(const std::string& before, const std::vector<std::string>& arguments) {
+    std::string line = before + " exec \"$0\" \"$@\"";
+    std::vector<std::string> command{"/bin/sh", "-c", line, BLUSH_BINARY};
+    command.insert(command.end(), arguments.begin(), arguments.end());
+    return test::run(command);
+}
+
+testing::AssertionResult ends_in_one_line(const Finished& finished) {
+    if (finished.exit_code != 1) return testing::AssertionFailure() << "exit code " << finished.exit_code << ": " << finished.err;
+    if (!test::is_one_line(finished.err) || !finished.err.starts_with("blush: error: ")) return testing::AssertionFailure() << finished.err;
+    return testing::AssertionSuccess();
+}
+
+std::vector<std::string> small_render(const std::string& output, const std::string& scene = scene_file("cornell")) {
+    return {"render", scene, "-o", output, "--size", "64x48", "--spp", "2", "--quiet"};
+}
+
+// Sanitizers reserve more address space than these limits.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+TEST(Limits, OutOfMemoryIsOneLine) {
+    const TemporaryFolder folder;
+    int refused = 0;
+    for (int mib = 180; mib <= 1000; mib += 40) {
+        const Finished finished = in_shell("ulimit -v " + std::to_string(mib * 1024) + ";", small_render(folder / "a.exr"));
+        if (finished.exit_code == 0) continue; // enough
+        if (finished.exit_code == 127) continue; // the loader could not load the program's libraries
+        ++refused;
+        EXPECT_TRUE(ends_in_one_line(finished)) << mib << " MiB";
+        EXPECT_EQ(finished.err.find("processor"), std::string::npos) << mib << " MiB: " << finished.err;
+        EXPECT_EQ(finished.err.find("std::bad_alloc"), std::string::npos) << mib << " MiB: " << finished.err;
+    }
+    EXPECT_GT(refused, 0) << "some of these limits must be too low, or nothing was tested";
+}
+
+TEST(Limits, TooLargeImagesStateTheirMemory) {
+    const TemporaryFolder folder;
+    const Finished finished = in_shell("ulimit -v 4000000;", {"render", scene_file("cornell"), "-o", folder / "a.exr", "--size", "20000x20000", "--spp", "1", "--quiet"});
+    EXPECT_TRUE(ends_in_one_line(finished));
+    EXPECT_NE(finished.err.find("20000 x 20000 pixels needs"), std::string::npos) << finished.err;
+    EXPECT_NE(finished.err.find("by ulimit -v"), std::string::npos) << finished.err;
+}
+#endif
+
+TEST(Limits, OfFilesAreReported) {
+    const TemporaryFolder folder;
+    std::vector<std::string> large = small_render(folder / "a.exr");
+    large[5] = "512x512";
+    const Finished finished = in_shell("ulimit -f 8;", large);
+    EXPECT_TRUE(ends_in_one_line(finished));
+    EXPECT_NE(finished.err.find("File too large"), std::string::npos) << finished.err;
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST(Limits, LibrariesStayQuiet) {
+    const TemporaryFolder folder;
+    for (const std::string variables :
+         {"OMP_NUM_THREADS=x", "OMP_DISPLAY_ENV=verbose", "OMP_STACKSIZE=-1 OMP_WAIT_POLICY=never", "GOMP_SPINCOUNT=no", "GOMP_CPU_AFFINITY=x", "TBB_VERSION=1"})
+        for (const char* threads : {"1", "1024"}) {
+            std::vector<std::string> arguments = small_render(folder / "a.exr");
+            arguments.insert(arguments.end(), {"--threads", threads});
+            const Finished finished = in_shell("export " + variables + ";", arguments);
+            EXPECT_EQ(finished.exit_code, 0) << finished.err;
+            EXPECT_EQ(finished.err, "") << variables;
+            EXPECT_EQ(finished.out, "") << variables;
+        }
+}
+
+TEST(Limits, ImpossibleJpegsAreRefusedBeforeRendering) {
+    const TemporaryFolder folder;
+    for (const char* size : {"65501x1", "1x65536"}) {
+        const Finished finished = test::blush({"render", folder / "not-there.gltf", "-o", folder / "a.jpg", "--size", size});
+        EXPECT_EQ(finished.exit_code, 2);
+        EXPECT_TRUE(test::is_one_line(finished.err)) << finished.err;
+        EXPECT_NE(finished.err.find("at most 65500 pixels a side"), std::string::npos) << finished.err;
+    }
+    // And when it is written, in this process, which continues.
+    const std::vector<float> row(size_t(65501) * 3, 0.5f);
+    const Result<void> written = write_display_image(folder / "a.jpg", 65501, 1, row);
+    ASSERT_FALSE(written);
+    EXPECT_NE(written.error().what.find("at most 65500"), std::string::npos);
+    ASSERT_TRUE(write_display_image(folder / "a.jpg", 65500, 1, std::span(row).first(size_t(65500) * 3), {{"long", std::string(200000, 'x')}}));
+}
+
+// ---- warnings about an image
+
+// One triangle in front of or behind the camera.
+std::string triangle_file(const TemporaryFolder& folder, double z) {
+    const std::string file = folder / "triangle.gltf";
+    const Json json = {
+        {"asset", {{"version", "2.0"}}},
+        {"scene", 0},
+        {"scenes", {{{"nodes", {0, 1}}}}},
+        {"nodes", {{{"mesh", 0}}, {{"camera", 0}, {"translation", {0.3, 0.3, z}}}}},
+        {"cameras", {{{"type", "perspective"}, {"perspective", {{"yfov", 0.8}, {"znear", 0.1}}}}}},
+        {"meshes", {{{"primitives", {{{"attributes", {{"POSITION", 0}}}}}}}}},
+        {"accessors", {{{"bufferView", 0}, {"componentType", 5126}, {"count", 3}, {"type", "VEC3"}, {"min", {0, 0, 0}}, {"max", {1, 1, 0}}}}},
+        {"bufferViews", {{{"buffer", 0}, {"byteLength", 36}}}},
+        {"buffers", {{{"byteLength", 36}, {"uri", "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}}}}};
+    std::ofstream(file) << json;
+    return file;
+}
+
+double mean_of(const std::string& exr) {
+    const LayeredImage image = *read_layers(exr);
+    double sum = 0;
+    for (const float v : image.find("G")->values) sum += double(v);
+    return sum / double(image.find("G")->values.size());
+}
+
+TEST(Said, NoLightInAFileSuggestsALightRig) {
+    const TemporaryFolder folder;
+    const std::string scene = triangle_file(folder, 2);
+    const std::vector<std::string> arguments{"render", scene, "-o", folder / "a.exr", "--size", "64x48", "--spp", "16"};
+    const Finished dark = test::blush(arguments);
+    EXPECT_EQ(dark.exit_code, 0);
+    EXPECT_NE(dark.err.find("no light in this file"), std::string::npos) << dark.err;
+    EXPECT_EQ(mean_of(folder / "a.exr"), 0);
+    for (const char* rig : {"studio", "sky"}) {
+        std::vector<std::string> lit = arguments;
+        lit.insert(lit.end(), {"--light", rig});
+        const Finished finished = test::blush(lit);
+        EXPECT_EQ(finished.exit_code, 0) << finished.err;
+        EXPECT_EQ(finished.err.find("no light"), std::string::npos) << finished.err;
+        EXPECT_GT(mean_of(folder / "a.exr"), 0.1) << rig;
+        EXPECT_LT(mean_of(folder / "a.exr"), 0.8) << rig;
+    }
+    std::vector<std::string> as_it_is = arguments;
+    as_it_is.insert(as_it_is.end(), {"--light", "none"});
+    EXPECT_EQ(test::blush(as_it_is).err.find("no light"), std::string::npos) << "it was requested";
+    EXPECT_EQ(test::blush({"render", scene, "-o", folder / "a.exr", "--light", "moon"}).exit_code, 2);
+    const Finished own = test::blush({"render", scene_file("cornell"), "-o", folder / "a.exr", "--size", "16x16", "--spp", "1", "--light", "studio"});
+    EXPECT_NE(own.err.find("has light of its own"), std::string::npos) << own.err;
+}
+
+TEST(Said, NothingIsVisible) {
+    const TemporaryFolder folder;
+    for (const double z : {2.0, -2.0}) {
+        const Json json = test::blush_json({"render", triangle_file(folder, z), "-o", folder / "a.exr", "--size", "32x32", "--spp", "1", "--env", "constant=1,1,1"});
+        EXPECT_EQ(json["warnings"].dump().find("sees no object") != std::string::npos, z < 0) << json["warnings"];
+    }
+}
+
+TEST(Said, EnvironmentsWithInvalidRadiance) {
+    const TemporaryFolder folder;
+    const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
+    ASSERT_TRUE(write_exr(folder / "sky.exr", {2, 1, {{"R", {1, nan}}, {"G", {1, inf}}, {"B", {1, -1}}}, {}}));
+    const Json json = test::blush_json({"render", scene_file("furnace"), "-o", folder / "a.exr", "--size", "16x16", "--spp", "1", "--env", folder / "sky.exr"});
+    EXPECT_NE(json["warnings"].dump().find("3 values are negative or not finite"), std::string::npos) << json["warnings"];
+}
+
+TEST(Said, ComparedPixelsThatAreNotFinite) {
+    const TemporaryFolder folder;
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const auto write = [&](const char* name, std::vector<float> values) {
+        ASSERT_TRUE(write_exr(folder / name, {2, 1, {{"R", values}, {"G", values}, {"B", values}}, {}}));
+    };
+    write("a.exr", {0.5f, nan});
+    write("b.exr", {0.5f, 1});
+    write("bad.exr", {nan, nan});
+    const Finished some = test::blush({"compare", folder / "a.exr", folder / "b.exr", "--quiet"});
+    EXPECT_EQ(some.exit_code, 0);
+    EXPECT_NE(some.err.find("a.exr: 1 pixel is not finite"), std::string::npos) << some.err;
+    const Finished none = test::blush({"compare", folder / "bad.exr", folder / "b.exr", "--quiet"});
+    EXPECT_TRUE(ends_in_one_line(none));
+}
+
+} // namespace
+} // namespace blush

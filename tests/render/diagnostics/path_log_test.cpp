@@ -1,0 +1,72 @@
+// The log of a path matches the film: its contribution is what the film received for that sample.
+#include "tests/render/scenes.h"
+
+#include "render/renderer.h"
+
+#include <cstdio>
+#include <gtest/gtest.h>
+
+namespace blush::test {
+namespace {
+
+// The numbers in the last line.
+bool read_radiance(const std::string& log, Vec3& radiance) {
+    const size_t at = log.rfind("radiance (");
+    return at != std::string::npos && std::sscanf(log.c_str() + at, "radiance (%f, %f, %f)", &radiance.x, &radiance.y, &radiance.z) == 3;
+}
+
+TEST(PathLog, MatchesTheRadianceThatTheFilmReceives) {
+    constexpr int width = 16, height = 12;
+    constexpr int64_t sample = 5;
+    int lit = 0;
+    for (const std::string& name : shipped_scene_names()) {
+        const Scene scene = shipped_scene(name);
+        RenderSettings settings;
+        settings.width = width;
+        settings.height = height;
+        settings.seed = 7;
+        Renderer renderer;
+        renderer.update(scene, settings);
+        ASSERT_TRUE(renderer.render(sample, 1));
+        const Frame frame = renderer.resolve();
+        for (const auto& [x, y] : {std::pair{8, 6}, {3, 9}, {12, 4}}) {
+            Vec3 logged;
+            const std::string log = trace_sample(scene, settings, x, y, sample);
+            ASSERT_TRUE(read_radiance(log, logged)) << log;
+            const float* film = &frame.rgba[4 * (size_t(y) * width + size_t(x))];
+            // Six digits are printed.
+            EXPECT_NEAR(logged.x, film[0], 5e-6f * film[0]) << name << "\n" << log;
+            EXPECT_NEAR(logged.y, film[1], 5e-6f * film[1]) << name << "\n" << log;
+            EXPECT_NEAR(logged.z, film[2], 5e-6f * film[2]) << name << "\n" << log;
+            lit += film[0] > 0 && log.find("MIS weight") != std::string::npos;
+        }
+    }
+    EXPECT_GT(lit, 5);
+}
+
+TEST(PathLog, MentionsPathReuse) {
+    const Scene scene = shipped_scene("cornell");
+    RenderSettings settings;
+    settings.width = settings.height = 16;
+    const std::string alone = trace_sample(scene, settings, 9, 6, 2);
+    settings.reuse = 16;
+    const std::string shared = trace_sample(scene, settings, 9, 6, 2);
+    EXPECT_EQ(alone.find("path reuse"), std::string::npos);
+    EXPECT_NE(shared.find("among 16 pixels"), std::string::npos);
+    Vec3 a, b;
+    ASSERT_TRUE(read_radiance(alone, a) && read_radiance(shared, b));
+    EXPECT_EQ(a, b);
+}
+
+TEST(PathLog, PrintsTheSurvivalProbability) {
+    const Scene scene = shipped_scene("cornell");
+    RenderSettings settings;
+    settings.width = settings.height = 8;
+    settings.roulette = {Roulette::Rule::constant, 1, 0, 1, 0.5f};
+    int told = 0;
+    for (int x = 0; x < 8; ++x) told += trace_sample(scene, settings, x, 4, 0).find("with probability 0.5") != std::string::npos;
+    EXPECT_GT(told, 0);
+}
+
+} // namespace
+} // namespace blush::test

@@ -1,0 +1,162 @@
+// The sums for the error estimate, compared with a plain implementation, and for images beyond single precision.
+#include "core/math.h"
+#include "render/error/error_estimate.h"
+#include "render/error/neighborhood_filter.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <utility>
+
+namespace blush {
+namespace {
+
+// Two noisy halves of an image that gets brighter to the right; every seventh pixel has samples in one half only.
+struct Halves {
+    int width, height;
+    double brightness;
+    std::vector<Vec3d> a, b;
+
+    Halves(int w, int h, double brightness_ = 1) : width(w), height(h), brightness(brightness_) {
+        std::mt19937 bits(1);
+        std::exponential_distribution<double> light(1);
+        for (int i = 0; i < w * h; ++i)
+            for (auto* half : {&a, &b}) half->push_back(Vec3d{light(bits), light(bits), light(bits)} * (brightness * (1 + i % w)));
+    }
+    bool known(int x, int y) const { return (y * width + x) % 7 != 3; }
+    HalfBufferImage rows() const {
+        return {width, height, [this](int y, float scale, HalfBufferRow& row) {
+                    for (int x = 0; x < width; ++x) {
+                        const size_t i = size_t(y * width + x);
+                        const Vec3d u = a[i] * double(scale), v = (known(x, y) ? b[i] : a[i]) * double(scale);
+                        const double ua[]{u.x, u.y, u.z}, va[]{v.x, v.y, v.z};
+                        for (size_t c = 0; c < 3; ++c) {
+                            row.a[c][x] = float(ua[c]);
+                            row.b[c][x] = float(va[c]);
+                            row.own[c][x] = float((ua[c] + va[c]) / 2);
+                        }
+                        row.weight_a[x] = 0.5f;
+                        row.known[x] = known(x, y) ? 1.f : 0.f;
+                        row.one_sample[x] = known(x, y) ? 0.25f : 0.f;
+                    }
+                }};
+    }
+};
+
+TEST(NeighborhoodFilter, AreMeansOfTheNeighbouringBlocks) {
+    for (const auto& [w, h] : {std::pair{1, 1}, {1, 5}, {6, 1}, {2, 2}, {2, 7}, {5, 3}, {9, 11}}) {
+        const Halves halves(w, h);
+        std::vector<HalfBufferRow> rows{size_t(h), HalfBufferRow(w)};
+        NeighborhoodFilter surroundings(w, h);
+        NeighborhoodFilter::NeighborhoodMeans around{PixelRow(w), PixelRow(w)};
+        const auto own = [&](int x, int y) { return double(rows[size_t(y)].own[0][x]); };
+        const auto current_pictures = [&](int y) {
+            surroundings.current_pictures(0, y, rows[size_t(y)].own[0], around);
+            for (int x = 0; x < w; ++x) {
+                std::vector<double> means;
+                for (const auto& [dx, dy] : {std::pair{-1, -1}, {1, -1}, {-1, 1}, {1, 1}}) {
+                    if (x + dx < 0 || x + dx >= w || y + dy < 0 || y + dy >= h) continue;
+                    double sum = -own(x, y);
+                    int count = -1;
+                    for (int v = std::max(0, y + dy - 1); v <= std::min(h - 1, y + dy + 1); ++v)
+                        for (int u = std::max(0, x + dx - 1); u <= std::min(w - 1, x + dx + 1); ++u, ++count) sum += own(u, v);
+                    means.push_back(sum / count);
+                }
+                if (means.empty()) means.push_back(own(x, y));
+                double mean = 0;
+                for (const double m : means) mean += m / double(means.size());
+                EXPECT_NEAR(around.mean[x], mean, 1e-5 * mean) << x << ", " << y << " of " << w << " x " << h;
+                EXPECT_NEAR(around.darkest[x], *std::ranges::min_element(means), 1e-5 * mean) << x << ", " << y << " of " << w << " x " << h;
+            }
+        };
+        for (int y = 0; y < h; ++y) {
+            halves.rows().load(y, 1, rows[size_t(y)]);
+            surroundings.add_row(rows[size_t(y)].own, y);
+            if (y >= 2) current_pictures(y - 2);
+        }
+        for (int y = std::max(0, h - 2); y < h; ++y) current_pictures(y);
+    }
+}
+
+TEST(ErrorSums, MatchThePlainComputation) {
+    const Halves halves(37, 23);
+    const ErrorSums sums = sum_errors(halves.rows(), 0, 23);
+    int64_t pixels = 0, pairs = 0;
+    double squares = 0, fourths = 0, neighbours = 0;
+    const auto difference = [&](int x, int y) { return (halves.a[size_t(y * 37 + x)] - halves.b[size_t(y * 37 + x)]) * 0.5; };
+    for (int y = 0; y < 23; ++y)
+        for (int x = 0; x < 37; ++x) {
+            if (!halves.known(x, y)) continue;
+            const Vec3d d = difference(x, y);
+            ++pixels;
+            squares += dot(d, d);
+            fourths += dot(d, d) * dot(d, d);
+            for (const auto& [u, v] : {std::pair{x - 1, y}, {x, y - 1}}) {
+                if (u < 0 || v < 0 || !halves.known(u, v)) continue;
+                ++pairs;
+                neighbours += 4 * std::pow(dot(d, difference(u, v)), 2);
+            }
+        }
+    EXPECT_EQ(sums.pixels, pixels);
+    EXPECT_EQ(sums.pairs, pairs);
+    EXPECT_NEAR(sums.absolute.squares, squares, 1e-5 * squares);
+    EXPECT_NEAR(sums.absolute.fourths, fourths, 1e-5 * fourths);
+    EXPECT_NEAR(sums.absolute.neighbour_products, neighbours, 1e-5 * neighbours);
+    EXPECT_LE(sums.absolute.own_products, normal_product(1.0) * fourths * (1 + 1e-5));
+    EXPECT_EQ(sums.unequal, 0);
+}
+
+TEST(ErrorSums, OfBandsAddUpToThoseOfTheImage) {
+    const Halves halves(37, 50);
+    const ErrorSums whole = sum_errors(halves.rows(), 0, 50);
+    ErrorSums bands;
+    for (int y = 0; y < 50; y += 7) bands.merge(sum_errors(halves.rows(), y, std::min(50, y + 7)));
+    EXPECT_EQ(bands.pixels, whole.pixels);
+    EXPECT_EQ(bands.pairs, whole.pairs);
+    EXPECT_EQ(bands.largest, whole.largest);
+    const auto near = [](double a, double b) { EXPECT_NEAR(a, b, 1e-12 * b); };
+    near(bands.absolute.squares, whole.absolute.squares);
+    near(bands.absolute.own_products, whole.absolute.own_products);
+    near(bands.relative.squares, whole.relative.squares);
+    near(bands.relative.neighbour_products, whole.relative.neighbour_products);
+    near(bands.relative_high, whole.relative_high);
+}
+
+// Fourth powers of values from 1e-30 to 1e30 overflow floats, but the estimate must scale with the image; relMSE where its 0.01
+// is negligible, or dominates.
+TEST(ErrorSums, ScaleBeyondSinglePrecision) {
+    const auto estimate = [](double brightness) { return estimate_error(sum_errors(Halves(64, 64, brightness).rows(), 0, 64)); };
+    const ErrorEstimate usual = estimate(1), bright = estimate(1e3), dark = estimate(1e-5);
+    ASSERT_TRUE(usual.known && usual.rmse_known);
+    for (const double brightness : {1e-30, 1e-12, 1e-6, 1e6, 1e12, 1e30}) {
+        const ErrorEstimate e = estimate(brightness);
+        EXPECT_TRUE(e.rmse_known) << brightness;
+        EXPECT_NEAR(e.rmse / brightness, usual.rmse, 1e-5 * usual.rmse) << brightness;
+        EXPECT_NEAR(e.rmse_high / brightness, usual.rmse_high, 1e-5 * usual.rmse_high) << brightness;
+        if (brightness > 1) {
+            EXPECT_NEAR(e.relmse, bright.relmse, 1e-3 * bright.relmse) << brightness;
+        } else {
+            EXPECT_NEAR(e.relmse / (brightness * brightness), dark.relmse * 1e10, 0.01 * dark.relmse * 1e10) << brightness;
+        }
+    }
+}
+
+// 16 times the variance is 4 times the width, on a logarithmic scale; the uncertainty of relmse's divisor is separate.
+TEST(ErrorEstimate, CorrelatedPixelErrorsWidenTheInterval) {
+    ErrorSums sums;
+    sums.pixels = 1'000'000;
+    sums.absolute.squares = sums.relative.squares = sums.relative_high = 1;
+    sums.absolute.own_products = sums.relative.own_products = 1e-4;
+    const ErrorEstimate one = estimate_error(sums), shared = estimate_error(sums, 16);
+    EXPECT_EQ(shared.relmse, one.relmse);
+    const auto width = [](double high, double low) { return std::log(high / low); };
+    EXPECT_NEAR(width(shared.high, shared.low) / width(one.high, one.low), 4, 0.01);
+    EXPECT_NEAR(width(shared.rmse_high, shared.rmse_low) / width(one.rmse_high, one.rmse_low), 4, 0.01);
+    sums.relative_high = 2;
+    EXPECT_LT(width(estimate_error(sums, 16).high, estimate_error(sums, 16).low), 4 * width(estimate_error(sums).high, estimate_error(sums).low));
+}
+
+} // namespace
+} // namespace blush

@@ -1,0 +1,192 @@
+// Light tree: selects each light with its stated probability, omits none that contributes, and is close to optimal selection.
+#include "core/math.h"
+#include "tests/render/irradiance.h"
+#include "tests/render/picture.h"
+#include "render/compile/expand_area_lights.h"
+#include "render/compile/render_scene.h"
+#include "tests/render/scenes.h"
+#include "shading/light.h"
+#include "tests/support/many_lights.h"
+
+#include <cmath>
+#include <random>
+
+namespace blush::test {
+namespace {
+
+using namespace statistics;
+
+struct Compiled {
+    RenderScene scene;
+    explicit Compiled(const Scene& s) { scene.update(expand_area_lights(s), settings_for(8, 8, 1), full_plan(), Workers(1)); }
+    const LightTables& lights() const { return scene.tables().lights; }
+};
+
+struct Random {
+    std::mt19937 bits{17};
+    float operator()(float low = 0, float high = 1) { return low + (high - low) * float(bits() >> 8) * 0x1p-24f; }
+    Vec3 direction() {
+        const float z = (*this)(-1, 1), turn = (*this)(0, 6.2831853f), r = std::sqrt(1 - z * z);
+        return {r * std::cos(turn), r * std::sin(turn), z};
+    }
+};
+
+Light random_light(Random& random, int i) {
+    Light light;
+    light.kind = Light::Kind(i % 6);
+    if (light.kind == Light::Kind::sun && i > 6) light.kind = Light::Kind::point;
+    light.intensity = std::exp(random(-3, 3));
+    light.radius = light.kind == Light::Kind::disk || light.kind == Light::Kind::sphere || i % 2 ? random(0.02f, 0.2f) : 0;
+    light.width = random(0.1f, 0.5f);
+    light.height = random(0.1f, 0.5f);
+    light.outer_cone_radians = random(0.2f, 1.5f);
+    light.inner_cone_radians = light.outer_cone_radians * random(0, 1);
+    light.two_sided = i % 5 == 0;
+    if (i % 4 == 0) light.spread_radians = random(0.2f, 3);
+    return light;
+}
+
+Scene mixed_scene(int count) {
+    Random random;
+    Scene scene;
+    place(scene, floor_quad(5), lambert(0.5f));
+    for (int i = 0; i < count; ++i) shine(scene, random_light(random, i), aimed({random(-4, 4), random(0.5f, 3), random(-4, 4)}, random.direction()));
+    constant_world(scene, 0.2f);
+    return scene;
+}
+
+int64_t record_count(const LightTables& t) {
+    // The environment comes last.
+    return t.environment + 1;
+}
+
+TEST(LightTree, IsBuiltOnlyForManyLights) {
+    EXPECT_EQ(Compiled(mixed_scene(10)).lights().tree.nodes, nullptr);
+    const Compiled many(mixed_scene(100));
+    EXPECT_NE(many.lights().tree.nodes, nullptr);
+    EXPECT_TRUE(many.scene.features().has(Feature::light_tree));
+    Scene few = mixed_scene(0);
+    Light disk;
+    disk.kind = Light::Kind::disk;
+    disk.radius = 1;
+    shine(few, disk, aimed({0, 2, 0}, {0, -1, 0}));
+    EXPECT_EQ(Compiled(few).lights().tree.nodes, nullptr) << "a disk is one light, whatever its polygon";
+}
+
+// Tests sampling and the probability for hits. Emitters without area give no light; the sun next to them is selected normally.
+TEST(LightTree, IsNotBuiltOfLightsWithoutPower) {
+    Scene scene;
+    place(scene, sphere(false), emitter(1, 0.5f), at({0, 5, 0}, 1e-24f));
+    Light sun;
+    sun.kind = Light::Kind::sun;
+    sun.intensity = 2;
+    shine(scene, sun, aimed({0, 0, 0}, {1, -1, 0}));
+    const Compiled compiled(scene);
+    EXPECT_GT(compiled.scene.info().emissive_triangles, 32);
+    EXPECT_EQ(compiled.lights().tree.nodes, nullptr);
+    EXPECT_TRUE(shows_on_floor(scene, [](const Vec3d&) { return 2 * std::sqrt(0.5); }));
+}
+
+TEST(LightTree, SamplesLightsWithTheStatedProbability) {
+    const Compiled compiled(mixed_scene(60));
+    const LightTables& t = compiled.lights();
+    Random random;
+    constexpr int receivers = 4;
+    for (int r = 0; r < receivers; ++r) {
+        const Receiver<float> to{{random(-4, 4), random(0, 3), random(-4, 4)}, r == 0 ? Vec3{0, 0, 0} : random.direction()};
+        constexpr int64_t samples = 40'000;
+        const auto n = size_t(record_count(t));
+        std::vector<int64_t> counts(n + 1);
+        std::vector<double> expected(n + 1);
+        double sum = 0;
+        for (size_t i = 0; i < n; ++i) {
+            const auto p = double(light_probability<all_features, float>(t, to, int32_t(i), true));
+            expected[i] = p * samples;
+            sum += p;
+        }
+        EXPECT_LT(sum, 1 + 1e-5);
+        expected[n] = std::max(0.0, 1 - sum) * samples; // the traversal ends in a branch without contribution
+        Moments rest;
+        for (int64_t i = 0; i < samples; ++i) {
+            const auto pick = pick_light<all_features, float>(t, to, {uint32_t(random.bits()), uint32_t(random.bits())}, true);
+            ++counts[pick.probability > 0 ? size_t(pick.index) : n];
+            if (!(pick.probability > 0)) continue;
+            rest.add(double(pick.remainder));
+            ASSERT_NEAR(pick.probability, (light_probability<all_features, float>(t, to, pick.index, true)), 1e-6 + 1e-4 * pick.probability);
+        }
+        EXPECT_TRUE(chi_squared_test(counts, expected, sidak(significance, 2 * receivers))) << r;
+        EXPECT_TRUE(z_test(rest, 0.5, sidak(significance, 2 * receivers))) << "the remainder is uniform";
+    }
+}
+
+// A light that contributes by its closed form has a positive probability.
+TEST(LightTree, GivesEveryContributingLightAProbability) {
+    const Compiled compiled(mixed_scene(200));
+    const SceneTables& tables = compiled.scene.tables();
+    Random random;
+    int64_t asked = 0;
+    for (int k = 0; k < 400; ++k) {
+        const Receiver<float> to{{random(-4, 4), random(-1, 4), random(-4, 4)}, random.direction()};
+        for (int32_t i = 0; i < record_count(tables.lights); ++i) {
+            const LightRecord& light = tables.lights.lights[i];
+            Vec3 at = light.position;
+            if (light.kind == int32_t(LightKind::triangle)) at = at + (light.edge1 + light.edge2) * (1.f / 3);
+            else if (light.kind != int32_t(LightKind::point)) continue;
+            const Vec3 way = at - to.position, wi = way / length(way);
+            float strength = dot(wi, to.normal);
+            if (light.profile >= 0) strength = std::min(strength, profile_factor<float>(tables.lights.profiles, light.profile, -wi, true));
+            if (light.kind == int32_t(LightKind::triangle)) {
+                const float cos = -dot(wi, normalize(cross(light.edge1, light.edge2)));
+                strength = std::min(strength, light.flags & light_two_sided ? std::abs(cos) : cos);
+            }
+            if (!(strength > 1e-3f)) continue;
+            ++asked;
+            ASSERT_GT((light_probability<all_features, float>(tables.lights, to, i, true)), 0) << "light " << i;
+        }
+    }
+    EXPECT_GT(asked, 1000);
+}
+
+TEST(LightTree, StrategiesAgree) {
+    Scene scene = mixed_scene(0);
+    Random random;
+    place(scene, quad({-2, 0, -1}, {2, 0, -1}, {2, 2, -1}, {-2, 2, -1}), plastic(0.6f));
+    for (int i = 0; i < 48; ++i) {
+        Light light;
+        light.kind = i % 2 ? Light::Kind::sphere : Light::Kind::rectangle;
+        light.radius = 0.15f;
+        light.width = light.height = 0.3f;
+        light.intensity = random(0.5f, 4);
+        shine(scene, light, aimed({random(-2, 2), random(0.3f, 2), random(-0.8f, 1.5f)}, random.direction()));
+    }
+    scene.view = looking({0, 1.5f, 4}, {0, 0.6f, 0}, 0.7f);
+    EXPECT_NE(Compiled(scene).lights().tree.nodes, nullptr);
+    const auto blocks = [&](Strategy strategy, int64_t spp) {
+        RenderSettings settings = settings_for(16, 16, spp);
+        settings.strategy = strategy;
+        settings.seed = 1 + uint32_t(strategy);
+        return render(scene, settings).blocks(8, 8);
+    };
+    const auto mis = blocks(Strategy::mis, 256);
+    EXPECT_TRUE(same_means(mis, blocks(Strategy::light, 512), sidak(significance, 2))) << "light";
+    EXPECT_TRUE(same_means(mis, blocks(Strategy::bsdf, 1024), sidak(significance, 2))) << "bsdf";
+}
+
+TEST(LightTree, IsNearTheOracleWithTenThousandLights) {
+    constexpr int rooms = 20;
+    const Compiled compiled(house(rooms));
+    ASSERT_NE(compiled.lights().tree.nodes, nullptr);
+    const SelectionVariance v = choice_variance(compiled.scene.tables(), rooms, 60);
+    EXPECT_LT(v.tree, 3 * v.oracle) << "oracle " << v.oracle << ", tree " << v.tree;
+    EXPECT_GT(v.power, 5 * v.tree) << "power " << v.power << ", tree " << v.tree;
+}
+
+// The same for rendered images. The uncertainty of the variance, from two seeds, is bounded by independent pixels.
+TEST(LightTree, PicturesOfTenThousandLightsAreNearTheOracle) {
+    const ImageVariance v = image_variance(20, 64);
+    EXPECT_LT(v.rendered, 3 * v.oracle) << "oracle " << v.oracle << ", rendered " << v.rendered;
+    EXPECT_GT(v.power, 5 * v.rendered) << "power " << v.power << ", rendered " << v.rendered;
+}
+
+} // namespace
+} // namespace blush::test

@@ -1,0 +1,78 @@
+// Light that no strategy can find is reported, and the agreement of two halves that both miss it does not make the error known.
+#include "tests/render/picture.h"
+#include "render/lights/missing_light.h"
+#include "render/renderer.h"
+#include "tests/render/scenes.h"
+
+#include <gtest/gtest.h>
+
+namespace blush::test {
+namespace {
+
+Light lamp(Light::Kind kind, float size) {
+    Light light;
+    light.kind = kind;
+    light.radius = light.angle_radians = size;
+    light.intensity = 5;
+    return light;
+}
+
+struct Room {
+    Scene scene;
+    std::vector<Id<Material>> used;
+
+    void put(const Material& material) {
+        const Id<Node> node = place(scene, floor_quad(50, 1), material);
+        used.push_back(scene.meshes.find(scene.nodes.find(node)->mesh)->parts[0].material);
+    }
+};
+std::string said(const Material& material, const Light& light) {
+    Room room;
+    room.put(lambert(0.5f));
+    room.put(material);
+    shine(room.scene, light, aimed({0, 3, 0}, {0, -1, 0}));
+    return missing_light(room.scene, room.used);
+}
+
+TEST(MissingLight, IsThatOfZeroSizeLightsAtSmoothSurfaces) {
+    Material pane = glass(0, 1.5f);
+    pane.thickness = 0;
+    pane.specular = 0;
+    for (const Light::Kind kind : {Light::Kind::point, Light::Kind::spot, Light::Kind::sun}) {
+        EXPECT_TRUE(said(glass(0, 1.5f), lamp(kind, 0)).starts_with("some light cannot be found"));
+        EXPECT_NE(said(glass(0, 1.5f), lamp(kind, 0)).find("through smooth glass"), std::string::npos);
+        EXPECT_NE(said(metal(0), lamp(kind, 0)).find("by reflection"), std::string::npos);
+        EXPECT_EQ(said(pane, lamp(kind, 0)).find("through"), std::string::npos) << "light passes panes";
+        EXPECT_EQ(said(glass(0, 1.5f), lamp(kind, 0.1f)), "") << "rays can hit lights with a size";
+        EXPECT_EQ(said(glass(0.3f, 1.5f), lamp(kind, 0)), "") << "NEE finds it through rough lobes";
+        EXPECT_EQ(said(lambert(0.5f), lamp(kind, 0)), "");
+        Light muted = lamp(kind, 0);
+        muted.enabled = false;
+        EXPECT_EQ(said(metal(0), muted), "");
+    }
+    EXPECT_EQ(said(metal(0), lamp(Light::Kind::rectangle, 0)), "");
+}
+
+// A floor under a glass block and a parallel sun, with direct light only: black, and the error is unknown.
+TEST(MissingLight, IsReportedWithTheFrameAndItsError) {
+    Room room;
+    place(room.scene, floor_quad(50), lambert(0.5f));
+    place(room.scene, cube(false), glass(0, 1.5f), at({0, 2, 0}));
+    Light sun = lamp(Light::Kind::sun, 0);
+    shine(room.scene, sun, aimed({0, 5, 0}, {0, -1, 0}));
+    room.scene.view = looking_down(0.5f, 0.5f); // the sun's shadow of the cube
+    RenderSettings settings = settings_for(16, 16, 16);
+    settings.max_bounces = 1;
+    Renderer renderer({.threads = 1, .planes = {}});
+    renderer.update(room.scene, settings);
+    renderer.render(0, 16);
+    const Frame frame = renderer.resolve();
+    EXPECT_FALSE(frame.missing_light.empty());
+    EXPECT_FALSE(frame.error.known);
+    EXPECT_FALSE(frame.error.rmse_known);
+    const auto& warnings = renderer.info().warnings;
+    EXPECT_TRUE(std::ranges::any_of(warnings, [&](const Diagnostic& d) { return d.what == frame.missing_light; }));
+}
+
+} // namespace
+} // namespace blush::test

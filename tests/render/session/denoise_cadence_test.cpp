@@ -1,0 +1,191 @@
+// DenoiseCadence with simulated timings: no images, no clock.
+#include "render/session/denoise_cadence.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace blush {
+namespace {
+
+using Source = DenoiseCadence::Source;
+constexpr DenoiseQuality fast = DenoiseQuality::fast, base = DenoiseQuality::base, high = DenoiseQuality::high;
+
+// Simulates rendering an image of one megapixel, denoised as scheduled; one task at a time.
+struct Bench {
+    DenoiseCadence cadence;
+    double now = 1000;
+    std::array<double, 3> seconds{0.1, 0.2, 0.6}; // per megapixel, by quality
+
+    struct Done {
+        double at;
+        DenoiseQuality quality;
+        int64_t samples;
+    };
+    std::vector<Done> done;
+
+    void offer(const Source& source) { cadence.offer(source, now); }
+    // Runs all due tasks.
+    void denoise_what_is_due(const Source& source) {
+        for (auto decision = cadence.next(now); decision.quality; decision = cadence.next(now)) {
+            const double took = seconds[size_t(*decision.quality)] * source.megapixels;
+            done.push_back({now, *decision.quality, source.samples});
+            cadence.record(source, *decision.quality, now, took, true);
+            now += took;
+        }
+    }
+    // Full-resolution frames, one every tenth of a second; the last one completes the image.
+    void render(uint64_t image, int frames) {
+        for (int i = 1; i <= frames; ++i) {
+            const Source source{image, i, 1, i == frames, 1};
+            offer(source);
+            denoise_what_is_due(source);
+            now += 0.1;
+        }
+    }
+};
+
+TEST(DenoiseCadence, NothingIsDueBeforeTheFirstFrame) {
+    const DenoiseCadence cadence;
+    EXPECT_FALSE(cadence.next(0).quality);
+    EXPECT_TRUE(std::isinf(cadence.next(0).wait));
+}
+
+TEST(DenoiseCadence, TheFirstFullPictureIsDenoisedAtOnceByTheSmallNetwork) {
+    Bench bench;
+    for (uint64_t image = 1; image < 6; ++image) {
+        bench.done.clear();
+        bench.render(image, 1 + int(image) * 7);
+        ASSERT_FALSE(bench.done.empty());
+        EXPECT_EQ(bench.done[0].samples, 1) << "image " << image;
+        EXPECT_EQ(bench.done[0].quality, fast);
+    }
+}
+
+TEST(DenoiseCadence, AtMostOnceASecondAndATenthOfTheTime) {
+    for (const double slowness : {0.01, 0.3, 1.0, 5.0}) {
+        Bench bench;
+        for (double& s : bench.seconds) s *= slowness;
+        const double begin = bench.now;
+        bench.render(1, 600);
+        ASSERT_GE(bench.done.size(), 4u);
+        double spent = 0;
+        for (size_t i = 0; i < bench.done.size(); ++i) {
+            const auto& d = bench.done[i];
+            spent += bench.seconds[size_t(d.quality)];
+            const bool last = i + 1 == bench.done.size();
+            if (i == 0 || last) continue; // those two are guaranteed at any cost
+            EXPECT_GE(d.at, bench.done[i - 1].at + DenoiseCadence::min_interval - 1e-9);
+            EXPECT_LE(spent, DenoiseCadence::time_share * (d.at - begin) + 1e-9) << "picture " << i << " of " << slowness;
+        }
+    }
+}
+
+TEST(DenoiseCadence, UsesTheLargeNetworkWhenIdleAndTheBestAtTheEnd) {
+    Bench bench;
+    const double begin = bench.now;
+    bench.render(1, 300);
+    for (size_t i = 0; i + 1 < bench.done.size(); ++i)
+        EXPECT_EQ(bench.done[i].quality, bench.done[i].at < begin + DenoiseCadence::idle_seconds ? fast : base) << i;
+    EXPECT_EQ(bench.done.back().quality, high);
+    EXPECT_EQ(bench.done.back().samples, 300);
+    EXPECT_TRUE(std::isinf(bench.cadence.next(bench.now).wait)) << "then it sleeps";
+    EXPECT_FALSE(bench.cadence.next(bench.now + 1e6).quality);
+}
+
+TEST(DenoiseCadence, EnabledLateTheFastQualityComesFirst) {
+    Bench bench;
+    const Source source{1, 64, 1, true, 1};
+    bench.offer(source);
+    bench.now += 3600;
+    bench.denoise_what_is_due(source);
+    ASSERT_EQ(bench.done.size(), 2u);
+    EXPECT_EQ(bench.done[0].quality, fast);
+    EXPECT_EQ(bench.done[1].quality, high);
+}
+
+TEST(DenoiseCadence, APausedImageIsDenoisedWellWhenIdle) {
+    Bench bench;
+    const Source source{1, 5, 1, false, 1};
+    bench.offer(source);
+    bench.denoise_what_is_due(source);
+    ASSERT_EQ(bench.done.size(), 1u);
+    for (int i = 0; i < 100; ++i) {
+        const double wait = bench.cadence.next(bench.now).wait;
+        if (std::isinf(wait)) break;
+        ASSERT_GT(wait, 0);
+        bench.now += wait + 1e-6;
+        bench.denoise_what_is_due(source);
+    }
+    ASSERT_EQ(bench.done.size(), 2u) << "no further runs while paused";
+    EXPECT_EQ(bench.done[1].quality, base);
+}
+
+TEST(DenoiseCadence, CoarseImagesAreDenoisedOnlyIfTheyFitAFrame) {
+    const Source coarse{2, 1, 4, false, 1.0 / 16};
+    for (const double megapixel_seconds : {0.1, 10.0}) {
+        Bench bench;
+        bench.seconds[0] = megapixel_seconds;
+        bench.offer(coarse);
+        EXPECT_FALSE(bench.cadence.next(bench.now).quality) << "the cost is unknown";
+        EXPECT_FALSE(bench.cadence.answers_within_a_frame());
+        bench.render(1, 3);
+        bench.offer(coarse);
+        const bool fits = megapixel_seconds / 16 < DenoiseCadence::frame_seconds;
+        EXPECT_EQ(bench.cadence.answers_within_a_frame(), fits);
+        EXPECT_EQ(bench.cadence.next(bench.now).quality.has_value(), fits);
+        bench.denoise_what_is_due(coarse);
+        EXPECT_FALSE(bench.cadence.answers_within_a_frame()) << "only the first frame of an image is waited for";
+    }
+}
+
+TEST(DenoiseCadence, AfterACoarsePictureTheFirstFullOneIsDueAtOnce) {
+    Bench bench;
+    bench.render(1, 3);
+    const Source coarse{2, 1, 4, false, 1.0 / 16}, full{2, 1, 1, false, 1};
+    bench.offer(coarse);
+    bench.denoise_what_is_due(coarse);
+    bench.offer(full);
+    EXPECT_EQ(bench.cadence.next(bench.now).quality, fast);
+}
+
+TEST(DenoiseCadence, ASlowFirstRunIsIgnoredAndRisingCostIsTracked) {
+    Bench bench;
+    const Source coarse{2, 1, 4, false, 1.0 / 16};
+    const auto coarse_fits = [&](uint64_t image) {
+        Source source = coarse;
+        source.image = image;
+        bench.offer(source);
+        return bench.cadence.answers_within_a_frame();
+    };
+    bench.seconds[0] = 3; // loading and building its networks
+    bench.render(1, 1);
+    EXPECT_FALSE(coarse_fits(2));
+    bench.seconds[0] = 0.1;
+    bench.render(3, 1);
+    EXPECT_TRUE(coarse_fits(4));
+    bench.seconds[0] = 3; // the machine is busy
+    for (uint64_t image = 5; image < 15; ++image) bench.render(image, 1);
+    EXPECT_FALSE(coarse_fits(20));
+}
+
+TEST(DenoiseCadence, AnUnfinishedRunIsDueAgain) {
+    Bench bench;
+    const Source source{1, 1, 1, false, 1};
+    bench.offer(source);
+    bench.cadence.record(source, fast, bench.now, 0.05, false);
+    EXPECT_EQ(bench.cadence.next(bench.now).quality, fast);
+}
+
+TEST(DenoiseCadence, ADenoisedImageOfAnOlderImageDoesNotCount) {
+    Bench bench;
+    bench.offer({1, 1, 1, false, 1});
+    bench.offer({2, 1, 1, false, 1});
+    bench.cadence.record({1, 1, 1, false, 1}, fast, bench.now, 0.1, true);
+    EXPECT_EQ(bench.cadence.next(bench.now).quality, fast);
+}
+
+} // namespace
+} // namespace blush

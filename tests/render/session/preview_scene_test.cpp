@@ -1,0 +1,43 @@
+// A scene is shown without textures first, then with them: the final
+// image equals that of a renderer that never saw the untextured scene.
+#include "render/renderer.h"
+#include "scene/document/preview_scene.h"
+#include "tests/support/pictures.h"
+#include "tests/support/sample_project.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace blush {
+namespace {
+
+RenderSettings small() {
+    RenderSettings settings;
+    settings.width = 48;
+    settings.height = 32;
+    settings.spp = 4;
+    return settings;
+}
+
+TEST(Untextured, IsReplacedByTheTexturedScene) {
+    const test::Sample sample = test::sample_project();
+    const Scene& whole = sample.project.scene;
+    Renderer renderer(test::all_planes());
+    renderer.update(preview_scene(whole), small());
+    renderer.render(0, 4);
+    const Frame early = renderer.resolve();
+    double light = 0;
+    for (const float v : early.rgba) {
+        ASSERT_TRUE(std::isfinite(v));
+        light += v;
+    }
+    EXPECT_GT(light, 0);
+    EXPECT_FALSE(test::same_picture(early, test::fresh_picture(whole, small(), 4)));
+    renderer.update(whole, small());
+    renderer.render(0, 4);
+    EXPECT_TRUE(test::same_picture(renderer.resolve(), test::fresh_picture(whole, small(), 4)));
+}
+
+} // namespace
+} // namespace blush

@@ -1,0 +1,321 @@
+// The scheduler with simulated timings: no rendering, no clock.
+#include "render/session/scheduler.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace blush {
+namespace {
+
+// A machine with a constant time per sample, whose error falls as 1 / samples.
+struct Machine {
+    double sample_seconds = 0.01; // every pixel at full resolution
+    double error_of_one_sample = 1;
+
+    double seconds(const Work& work) const { return sample_seconds * double(work.count) / (double(work.divider) * double(work.divider)); }
+
+    void do_work(Scheduler& scheduler, const Work& work) const {
+        scheduler.record_render(work, seconds(work));
+        if (!work.publish && !scheduler.finished()) return;
+        scheduler.record_publish();
+        if (work.divider == 1) scheduler.record_error(error_of_one_sample / double(scheduler.samples()));
+    }
+    // Works until finished, or for that many work items.
+    std::vector<Work> run(Scheduler& scheduler, size_t pieces = 100000) const {
+        std::vector<Work> done;
+        while (!scheduler.finished() && done.size() < pieces) {
+            done.push_back(scheduler.next());
+            do_work(scheduler, done.back());
+        }
+        return done;
+    }
+};
+
+RenderSettings endless(int width = 1280, int height = 720) {
+    RenderSettings settings;
+    settings.width = width;
+    settings.height = height;
+    settings.spp = 0;
+    return settings;
+}
+
+// A scheduler that knows the sample time, before the first work of a new revision.
+Scheduler experienced(const Machine& machine, const RenderSettings& settings) {
+    Scheduler scheduler;
+    RenderSettings long_ago = settings;
+    long_ago.spp = 0;
+    scheduler.restart(long_ago, true);
+    machine.run(scheduler, 50);
+    scheduler.restart(settings, true);
+    return scheduler;
+}
+
+TEST(Scheduler, FirstPictureIsTheFinestThatFits) {
+    for (const double sample_seconds : {0.001, 0.02, 0.03, 0.09, 0.3, 0.7}) {
+        const Scheduler scheduler = experienced({sample_seconds}, endless());
+        const int d = scheduler.next().divider;
+        EXPECT_LE(sample_seconds / (d * d), Scheduler::first_image_seconds) << sample_seconds;
+        if (d > 1) { EXPECT_GT(sample_seconds / (0.25 * d * d), Scheduler::first_image_seconds) << "a finer one would have fitted"; }
+    }
+}
+
+TEST(Scheduler, FirstPictureHasAMinimumSize) {
+    EXPECT_EQ(experienced({1000}, endless(8192, 8192)).next().divider, Scheduler::coarsest_divider);
+    for (const int width : {1, 16, 95, 100, 200, 400, 1280, 4000}) {
+        const int d = experienced({1000}, endless(width, 3)).next().divider;
+        EXPECT_TRUE(d == 1 || width / d >= Scheduler::min_long_side) << width << " / " << d;
+    }
+    EXPECT_EQ(experienced({1000}, endless(1, 1)).next().divider, 1);
+}
+
+TEST(Scheduler, AssumesASpeedBeforeItHasMeasured) {
+    Scheduler scheduler;
+    scheduler.restart(endless(64, 64), true);
+    EXPECT_EQ(scheduler.next().divider, 1) << "a small image needs no coarse version";
+    scheduler.restart(endless(4096, 4096), true);
+    EXPECT_GT(scheduler.next().divider, 1);
+}
+
+TEST(Scheduler, NonInteractiveItBeginsAtFullResolution) {
+    Scheduler scheduler = experienced({1000}, endless());
+    scheduler.restart(endless(), false);
+    EXPECT_EQ(scheduler.next().divider, 1);
+}
+
+TEST(Scheduler, FirstPictureIsAlwaysFinishedAndShown) {
+    for (const double sample_seconds : {0.001, 0.1, 5.0}) {
+        const Machine machine{sample_seconds};
+        Scheduler scheduler = experienced(machine, endless());
+        const std::vector<Work> done = machine.run(scheduler, 20);
+        EXPECT_TRUE(done[0].clear && done[0].publish && done[0].always_finish);
+        EXPECT_EQ(done[0].count, 1);
+        for (size_t i = 1; i < done.size(); ++i) EXPECT_FALSE(done[i].always_finish) << "work " << i;
+    }
+}
+
+TEST(Scheduler, FullResolutionIsNextAndStays) {
+    const auto dividers = [](double sample_seconds) {
+        const Machine machine{sample_seconds};
+        Scheduler scheduler = experienced(machine, endless());
+        std::vector<int> d;
+        for (const Work& work : machine.run(scheduler, 5)) {
+            EXPECT_EQ(work.clear, d.empty() || work.divider != d.back()) << "clears when and only when the film changes size";
+            d.push_back(work.divider);
+        }
+        return d;
+    };
+    EXPECT_EQ(dividers(0.001), (std::vector{1, 1, 1, 1, 1}));
+    EXPECT_EQ(dividers(0.2), (std::vector{4, 1, 1, 1, 1}));
+    EXPECT_EQ(dividers(0.9), (std::vector{8, 2, 1, 1, 1})) << "one intermediate step for slow scenes";
+}
+
+TEST(Scheduler, SamplesOfTheFullImageAreDoneOnceAndInOrder) {
+    for (const int64_t first : {0, 7, 1000}) {
+        for (const int64_t count : {1, 2, 3, 17, 64, 5000}) {
+            RenderSettings settings = endless();
+            settings.first_sample = first;
+            settings.spp = first + count;
+            const Machine machine{0.03};
+            Scheduler scheduler = experienced(machine, settings);
+            int64_t next = first;
+            for (const Work& work : machine.run(scheduler)) {
+                if (work.divider > 1) {
+                    EXPECT_EQ(work.first_sample, first);
+                    continue;
+                }
+                EXPECT_EQ(work.first_sample, next);
+                EXPECT_GT(work.count, 0);
+                next += work.count;
+            }
+            EXPECT_EQ(next, settings.spp);
+            EXPECT_EQ(scheduler.samples(), count);
+        }
+    }
+}
+
+TEST(Scheduler, BatchesDouble) {
+    const Machine machine{1e-4};
+    Scheduler scheduler = experienced(machine, endless());
+    int64_t samples = 0;
+    for (const Work& work : machine.run(scheduler, 7)) {
+        EXPECT_EQ(work.count, std::max<int64_t>(1, samples));
+        EXPECT_TRUE(work.publish || samples >= 8) << "the first frames are urgent";
+        samples += work.count;
+    }
+    EXPECT_EQ(samples, 64);
+}
+
+TEST(Scheduler, DisplayIntervalsGrowUpToALimit) {
+    const auto longest_wait = [](double now) { return now < 1 ? 0.1 : now < 4 ? 0.25 : now < 15 ? 0.5 : 1; };
+    for (const double sample_seconds : {0.0005, 0.004, 0.03, 0.4}) {
+        const Machine machine{sample_seconds};
+        Scheduler scheduler = experienced(machine, endless());
+        double now = 0, shown = 0;
+        int pictures = 0;
+        while (now < 60) {
+            const Work work = scheduler.next();
+            machine.do_work(scheduler, work);
+            now += machine.seconds(work);
+            if (!work.publish) continue;
+            ++pictures;
+            EXPECT_LE(now - shown, longest_wait(now) + sample_seconds + 1e-9) << "at " << now << " of " << sample_seconds;
+            if (shown > 16) { EXPECT_GE(now - shown, 0.9 - 1e-9) << "resolving costs"; }
+            shown = now;
+        }
+        EXPECT_LT(pictures, 130);
+    }
+}
+
+TEST(Scheduler, StopsAtTheNumberOfSamples) {
+    RenderSettings settings = endless();
+    for (const int64_t spp : {1, 5, 64}) {
+        settings.spp = spp;
+        const Machine machine{0.1};
+        Scheduler scheduler = experienced(machine, settings);
+        const std::vector<Work> done = machine.run(scheduler);
+        EXPECT_EQ(scheduler.samples(), spp);
+        EXPECT_TRUE(done.back().publish) << "the last picture is shown";
+    }
+}
+
+TEST(Scheduler, StopsAtTheTimeWithinOneSample) {
+    RenderSettings settings = endless();
+    settings.seconds = 2;
+    for (const double sample_seconds : {0.001, 0.07, 0.3, 3.0}) {
+        const Machine machine{sample_seconds};
+        Scheduler scheduler = experienced(machine, settings);
+        const std::vector<Work> done = machine.run(scheduler);
+        EXPECT_GE(scheduler.seconds(), settings.seconds);
+        EXPECT_LE(scheduler.seconds(), settings.seconds + sample_seconds + 1e-9);
+        EXPECT_TRUE(done.back().publish);
+        EXPECT_EQ(done.back().divider, 1);
+    }
+}
+
+TEST(Scheduler, StopsAtTheErrorOfTheFullImageOnly) {
+    RenderSettings settings = endless();
+    settings.error = 0.01;
+    const Machine machine{0.2};
+    Scheduler scheduler = experienced(machine, settings);
+    ASSERT_GT(scheduler.next().divider, 1);
+    machine.run(scheduler);
+    EXPECT_GE(scheduler.samples(), 100);
+    EXPECT_LE(scheduler.samples(), 110);
+}
+
+TEST(Scheduler, RequestsAnEstimateWhenTheErrorMayBeReached) {
+    RenderSettings settings = endless(64, 64);
+    Scheduler scheduler;
+    const auto render = [&](int64_t samples) {
+        while (scheduler.samples() < samples) scheduler.record_render({.first_sample = scheduler.samples(), .count = 1}, 0.01);
+    };
+    for (const double target : {0.0, 0.1}) {
+        settings.error = target;
+        scheduler.restart(settings, true);
+        render(100);
+        EXPECT_FALSE(scheduler.error_may_be_reached()) << "the error is unknown";
+        scheduler.record_error(0.2);
+        render(150);
+        EXPECT_FALSE(scheduler.error_may_be_reached()) << "50 % more samples do not halve the error";
+        render(170);
+        EXPECT_EQ(scheduler.error_may_be_reached(), target > 0) << "if it falls fast";
+        EXPECT_FALSE(scheduler.finished()) << "it was not measured";
+    }
+}
+
+TEST(Scheduler, AnUnknownErrorStopsNothing) {
+    RenderSettings settings = endless();
+    settings.error = 0.5;
+    Scheduler scheduler = experienced({}, settings);
+    for (const double error : {-1.0, std::numeric_limits<double>::quiet_NaN(), 0.6}) {
+        const Work work = scheduler.next();
+        scheduler.record_render(work, 0.001);
+        scheduler.record_publish();
+        scheduler.record_error(error);
+        EXPECT_FALSE(scheduler.finished()) << error;
+    }
+}
+
+TEST(Scheduler, TheNearestStopRuleWins) {
+    RenderSettings settings = endless();
+    settings.spp = 1000;
+    settings.seconds = 100;
+    settings.error = 0.1;
+    Scheduler scheduler = experienced({}, settings);
+    Machine{0.001}.run(scheduler);
+    EXPECT_LT(scheduler.samples(), 1000);
+    EXPECT_LT(scheduler.seconds(), 100);
+    settings.error = 1e-9;
+    scheduler.restart(settings, true);
+    Machine{0.001}.run(scheduler);
+    EXPECT_EQ(scheduler.samples(), 1000);
+    settings.seconds = 0.5;
+    scheduler.restart(settings, true);
+    Machine{0.001}.run(scheduler);
+    EXPECT_LT(scheduler.samples(), 1000);
+    EXPECT_NEAR(scheduler.seconds(), 0.5, 0.001 + 1e-9);
+}
+
+TEST(Scheduler, ProgressGrowsAndIsOneOnlyWhenFinished) {
+    std::vector<RenderSettings> rules(4, endless());
+    rules[0].spp = 200;
+    rules[1].seconds = 3;
+    rules[2].error = 0.004;
+    rules[3].spp = 100000;
+    rules[3].seconds = 3;
+    rules[3].error = 0.0001;
+    const Machine machine{0.02};
+    for (const RenderSettings& settings : rules) {
+        Scheduler scheduler = experienced(machine, settings);
+        double last = 0;
+        EXPECT_EQ(scheduler.progress(), 0);
+        while (!scheduler.finished()) {
+            machine.do_work(scheduler, scheduler.next());
+            EXPECT_GE(scheduler.progress(), last);
+            last = scheduler.progress();
+            EXPECT_EQ(last == 1, scheduler.finished());
+        }
+        EXPECT_EQ(last, 1);
+    }
+    Scheduler scheduler = experienced(machine, endless());
+    machine.run(scheduler, 100);
+    EXPECT_EQ(scheduler.progress(), 0) << "without a stop rule there is no progress";
+}
+
+TEST(Scheduler, OtherStopRulesContinueTheSameImage) {
+    RenderSettings settings = endless();
+    settings.spp = 16;
+    const Machine machine{0.05};
+    Scheduler scheduler = experienced(machine, settings);
+    machine.run(scheduler);
+    settings.spp = 64;
+    scheduler.change_stop_rules(settings);
+    EXPECT_FALSE(scheduler.finished());
+    EXPECT_NEAR(scheduler.progress(), 0.25, 1e-12);
+    const Work work = scheduler.next();
+    EXPECT_EQ(work.first_sample, 16);
+    EXPECT_EQ(work.divider, 1);
+    EXPECT_FALSE(work.clear);
+    settings.spp = 8;
+    scheduler.change_stop_rules(settings);
+    EXPECT_TRUE(scheduler.finished());
+    EXPECT_EQ(scheduler.samples(), 16) << "finished samples stay";
+}
+
+TEST(Scheduler, RestartForgetsTheImageAndKeepsTheTimings) {
+    const Machine machine{0.3};
+    Scheduler scheduler = experienced(machine, endless());
+    const int divider = scheduler.next().divider;
+    machine.run(scheduler, 30);
+    scheduler.restart(endless(), true);
+    EXPECT_EQ(scheduler.samples(), 0);
+    EXPECT_EQ(scheduler.seconds(), 0);
+    EXPECT_EQ(scheduler.next().divider, divider);
+    EXPECT_NEAR(scheduler.timings().sample_seconds, machine.sample_seconds, 1e-6);
+}
+
+} // namespace
+} // namespace blush

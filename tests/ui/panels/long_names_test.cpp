@@ -1,0 +1,247 @@
+// No text is cut off: every panel with names of sixty letters and more, at scales 1 and 2.
+#include "app/editor/editor_panels.h"
+#include "tests/ui/clipped_text.h"
+#include "tests/ui/imgui_test.h"
+#include "io/gltf/read/import.h"
+#include "tests/ui/shipped_ocio_config.h"
+#include "render/light_mix/light_groups.h"
+#include "render/light_mix/light_mix.h"
+#include "tests/support/sample_project.h"
+#include "ui/panels/instruments.h"
+#include "ui/panels/panels.h"
+#include "ui/viewport/regions.h"
+#include "ui/snapshots/snapshot_strip.h"
+#include "ui/window/theme.h"
+#include "ui/window/window_settings.h"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace blush {
+namespace {
+
+std::string long_name(const char* what, size_t i = 0) {
+    return fmt::format("{}_number_{}_in_the_second_bedroom_beside_the_mirrored_wardrobe_WWW", what, i);
+}
+
+template <class T> void rename_all(Table<T>& table, const char* what) {
+    for (const auto& [id, record] : Table<T>(table)) {
+        T renamed = record;
+        renamed.name = long_name(what, id.value);
+        table.set(id, renamed);
+    }
+}
+
+Project with_long_names() {
+    Project project = test::sample_project().project;
+    Scene& s = project.scene;
+    rename_all(s.nodes, "Object");
+    rename_all(s.meshes, "Mesh");
+    rename_all(s.lights, "Lamp");
+    rename_all(s.materials, "Material");
+    rename_all(s.textures, "Texture");
+    rename_all(s.cameras, "Camera");
+    rename_all(s.clips, "Clip");
+    for (const auto& [id, record] : Table<Light>(s.lights)) {
+        Light light = record;
+        light.group = long_name("Group", id.value);
+        s.lights.set(id, light);
+    }
+    for (size_t i = 0; i < s.variants.size(); ++i) s.variants[i] = long_name("Variant", i);
+    s.scene_names = {long_name("Scene", 0), long_name("Scene", 1)};
+    s.environment.file = "/home/somebody/" + long_name("Folder") + "/" + long_name("Panorama") + ".exr";
+    s.mix.grouping = LightMix::Grouping::by_light;
+    project.view.meters = {{long_name("Meter"), s.nodes.entries().front().id, {0, 0, 0}, {0, 1, 0}, 1}, {"m", {}, {}, {0, 0, 1}, 1}};
+    project.view.measured = PictureRegion{0.1f, 0.1f, 0.5f, 0.5f};
+    return project;
+}
+
+SnapshotPtr snapshot(uint64_t id, const Project& project) {
+    auto s = std::make_shared<Snapshot>();
+    s->id = id;
+    s->name = long_name("Snapshot", id);
+    s->note = long_name("Note", id);
+    s->time = "14:32";
+    auto frame = std::make_shared<Frame>();
+    frame->width = frame->height = 1;
+    frame->rgba.assign(4, 0.5f);
+    s->pictures.frame = frame;
+    s->thumbnail = thumbnail_of(*frame);
+    s->project = project;
+    s->file = "/home/somebody/" + long_name("Folder") + "/" + long_name("Snapshot", id) + ".exr";
+    return s;
+}
+
+FramePtr long_frame(const Scene& scene) {
+    auto f = std::make_shared<Frame>();
+    f->width = f->height = 1;
+    f->samples = 123456;
+    f->samples_per_second = 1234.5;
+    f->seconds = 98765;
+    f->divider = 4;
+    f->kernel = "x86-64-v4 / everything with coats and films";
+    f->missing_light = "Points behind solid glass cannot be found";
+    f->rgba.assign(4, 1e4f);
+    f->albedo = {{0.5f, 0.5f, 0.5f}};
+    f->normal = {{-0.577f, 0.577f, -0.577f}};
+    f->depth = {12345.678f};
+    f->object_id = {scene.nodes.entries().front().id.value};
+    f->material_id = {scene.materials.entries().front().id.value};
+    f->health.nan = 123456;
+    f->health.faults[0][3] = 123456;
+    f->health.first = {{}, {}, {}};
+    f->health.fireflies = {{123456.7f, 1e12f, 1919, 1079, 1234567, 4294967295u}};
+    f->bounces = {{{1, 1, 1}}, {{2, 2, 2}}, {{0, 0, 0}}};
+    f->error.known = f->error.rmse_known = true;
+    f->error.relmse = 12.3456;
+    f->error_samples = 65536;
+    f->light_groups = std::make_shared<const LightGroups>(make_light_groups(scene));
+    f->groups.assign(f->light_groups->groups.size(), {{1, 1, 1}});
+    f->gains.assign(f->light_groups->groups.size(), {1, 1, 1});
+    f->group_shares.resize(f->light_groups->groups.size());
+    return f;
+}
+
+class LongNames : public testing::Test {
+protected:
+    void TearDown() override {
+        if (ImGui::GetCurrentContext()) ImGui::DestroyContext();
+    }
+
+    void begin(float width, float height, float scale) {
+        if (ImGui::GetCurrentContext()) ImGui::DestroyContext();
+        ImGui::CreateContext();
+        ImGuiIO& io = ImGui::GetIO();
+        io.IniFilename = nullptr;
+        io.DisplaySize = {width, height};
+        io.DeltaTime = 1.f / 60;
+        load_fonts(BLUSH_ASSETS, scale);
+        apply_theme(scale);
+        unsigned char* pixels = nullptr;
+        int w = 0, h = 0;
+        io.Fonts->GetTexDataAsRGBA32(&pixels, &w, &h);
+        ui.docks = {};
+    }
+
+    // Draws some frames of the window; returns the unreadable texts of the last one.
+    void expect_readable(const std::string& what) {
+        const std::optional<Mixing> mixing = mixing_of(*frame->light_groups, document.project().scene);
+        for (int i = 0; i < 4; ++i) {
+            ImGui::NewFrame();
+            PanelContext c{document, ui, color, frame, SessionStatus(), 640, 480};
+            c.mixing = mixing ? &*mixing : nullptr;
+            draw(c);
+            ImGui::Render();
+        }
+        const ImVec2 size = ImGui::GetIO().DisplaySize;
+        for (const std::string& problem : test::unreadable_text(*ImGui::GetDrawData(), {"log"}))
+            ADD_FAILURE() << what << " at " << size.x << " x " << size.y << ", " << ImGui::GetFontSize() << " pixels: " << problem;
+    }
+
+    void draw(PanelContext& c) {
+        if (ImGui::BeginMainMenuBar()) {
+            draw_menu_bar(c);
+            ImGui::EndMainMenuBar();
+        }
+        const ImVec2 size = ImGui::GetIO().DisplaySize;
+        const Layout l = window_layout(c, size.x, size.y);
+        draw_side_panels(c, l);
+        begin_region("Status", l.status, {.padded = false});
+        draw_status_bar(c);
+        end_region();
+        draw_snapshot_strip(c, l.strip, [](size_t) { return ThumbnailPart{}; });
+        if (extra) extra(c, l);
+    }
+
+    template <class Body> void at_all_sizes(const Body& body) {
+        struct Size {
+            float width, height, scale;
+        };
+        for (const Size& s : {Size{1280, 720, 1}, Size{1720, 960, 1}, Size{2560, 1440, 2}, Size{1720, 960, 1.5f}, Size{1280, 720, 2}}) {
+            begin(s.width, s.height, s.scale);
+            body();
+        }
+    }
+
+    Document document{with_long_names()};
+    const ColorManagement color = test::our_colors();
+    UiState ui;
+    FramePtr frame = long_frame(document.project().scene);
+    std::function<void(PanelContext&, const Layout&)> extra;
+};
+
+TEST_F(LongNames, InspectorAndOutliner) {
+    at_all_sizes([&] {
+        for (const auto& entry : document.project().scene.nodes)
+            for (int tab = 0; tab <= int(InspectorTab::display); ++tab) {
+                ui.select(entry.id);
+                ui.tab = InspectorTab(tab);
+                expect_readable(fmt::format("tab {}, node {}", tab, entry.id.value));
+            }
+        ui.select({}, document.project().scene.materials.entries().front().id);
+        expect_readable("a material");
+    });
+}
+
+TEST_F(LongNames, EveryInstrumentInEitherDock) {
+    ui.snapshots.list = {snapshot(1, document.project())}; // only one: the strip scrolls horizontally
+    ImportReport report;
+    report.extensions_used = {"KHR_" + long_name("extension")};
+    report.extensions_honoured = report.extensions_used;
+    report.diagnostics = {
+        {Diagnostic::Severity::warning, "ignored: " + long_name("what"), "nodes[0].mesh.primitives[0]." + long_name("where")}};
+    ui.import_report.report = std::make_shared<const ImportReport>(std::move(report));
+    ui.import_report.file = long_name("Import") + ".gltf";
+    ui.convergence.runs.begin(long_name("Run"));
+    ui.convergence.denoised = ui.convergence.reference = true;
+    ui.settings.recent = {"/home/" + long_name("Recent") + ".gltf"};
+    ui.demos = {"/home/" + long_name("Demo") + ".gltf"};
+    for (int i = 0; i < 3; ++i) {
+        Node node = *document.project().scene.nodes.find(document.project().scene.nodes.entries().front().id);
+        node.name = long_name("Renamed", size_t(i));
+        ASSERT_TRUE(document.apply(SetNode{document.project().scene.nodes.entries().front().id, node}));
+    }
+    at_all_sizes([&] {
+        for (const Instrument& i : instruments()) {
+            if (std::string(i.id) == "roulette") continue; // it renders while it is open; it has no user-defined names
+            PanelContext c{document, ui, color, frame, SessionStatus(), 640, 480};
+            const bool was_open = i.is_open(c);
+            if (std::string(i.id) == "comparison") ui.snapshots.compare = {Comparison::Mode::difference, 1, live_image};
+            if (std::string(i.id) == "snapshot") ui.snapshots.details = 1;
+            if (std::string(i.id) == "pixel") ui.pixel = PixelProbe{0.5, 0.5};
+            i.set_open(c, true);
+            ui.light_mix.unfolded = frame->light_groups->groups.front().name;
+            for (const DockSide side : {DockSide::right, DockSide::bottom}) {
+                place_of(ui.settings.dock, i.id, side) = {i.id, side, false};
+                ui.docks.to_front.insert(i.id);
+                expect_readable(fmt::format("{} {}", i.title, side == DockSide::right ? "on the right" : "at the bottom"));
+            }
+            if (!was_open) i.set_open(c, false);
+        }
+    });
+}
+
+TEST_F(LongNames, PopupsAndDialogs) {
+    const RunningJob job{.title = "Opening " + long_name("File") + ".gltf", .what = long_name("what"), .fraction = 0.5, .can_cancel = true};
+    extra = [&](PanelContext& c, const Layout& l) {
+        draw_cards(c, l.viewport, &job);
+        draw_no_light_banner(c, l.viewport);
+    };
+    at_all_sizes([&] {
+        ui.toasts.fail("Cannot open " + long_name("File"), "/home/somebody/" + long_name("Folder") + "/" + long_name("File"));
+        expect_readable("cards");
+        ui.show_shortcuts = true;
+        extra = [](PanelContext& c, const Layout&) { draw_shortcut_sheet(c); };
+        expect_readable("shortcuts");
+        ui.show_shortcuts = false;
+        ui.question = Question{.text = "Save " + long_name("File") + " before it is closed?",
+                               .details = long_name("Details"),
+                               .choices = {"Save", "Discard", "Cancel"}};
+        extra = [](PanelContext& c, const Layout&) { draw_question(c); };
+        expect_readable("question");
+        ui.question.reset();
+    });
+}
+
+} // namespace
+} // namespace blush

@@ -1,0 +1,85 @@
+// Zoom and pan of the picture.
+#include "tests/ui/imgui_test.h"
+#include "ui/viewport/picture_zoom.h"
+#include "ui/viewport/pixel_grid.h"
+
+#include <gtest/gtest.h>
+
+namespace blush {
+namespace {
+
+constexpr Region region{100, 50, 800, 600};
+
+void expect_rect(const ImageRect& got, const ImageRect& wanted) {
+    EXPECT_EQ(got.x, wanted.x);
+    EXPECT_EQ(got.y, wanted.y);
+    EXPECT_EQ(got.width, wanted.width);
+    EXPECT_EQ(got.height, wanted.height);
+}
+
+TEST(PictureZoom, TogglesFitAndOneToOne) {
+    expect_rect(picture_rect({}, region, 1600, 900), {100, 125, 800, 450});
+    const PictureZoom one = toggled({});
+    expect_rect(picture_rect(one, region, 1600, 900), {-300, -100, 1600, 900});
+    expect_rect(picture_rect(one, region, 400, 300), {300, 200, 400, 300});
+    EXPECT_EQ(toggled(one), PictureZoom{});
+}
+
+TEST(PictureZoom, ZoomsAboutTheMouse) {
+    PictureZoom zoom;
+    const ScreenPoint mouse{333, 222};
+    const ImageRect before = picture_rect(zoom, region, 1600, 900);
+    const double u = before.u(mouse.x), v = before.v(mouse.y);
+    for (int i = 0; i < 12; ++i) {
+        zoom = zoomed(zoom, region, 1600, 900, mouse, 1.5);
+        const ImageRect now = picture_rect(zoom, region, 1600, 900);
+        EXPECT_NEAR(now.u(mouse.x) * now.width, u * now.width, 1) << "on whole pixels of the screen";
+        EXPECT_NEAR(now.v(mouse.y) * now.height, v * now.height, 1);
+    }
+    EXPECT_GT(zoom.scale, 60);
+}
+
+TEST(PictureZoom, IsClampedToFitAndMaximum) {
+    PictureZoom zoom;
+    for (int i = 0; i < 100; ++i) zoom = zoomed(zoom, region, 1600, 900, {500, 350}, 2);
+    EXPECT_EQ(zoom.scale, max_zoom);
+    for (int i = 0; i < 100; ++i) zoom = zoomed(zoom, region, 1600, 900, {500, 350}, 0.5);
+    EXPECT_EQ(zoom, PictureZoom{});
+}
+
+TEST(PictureZoom, PanKeepsTheCentreInsideThePicture) {
+    const PictureZoom one = toggled({});
+    const PictureZoom moved = shifted(one, region, 1600, 900, -160, 90);
+    const ImageRect before = picture_rect(one, region, 1600, 900), after = picture_rect(moved, region, 1600, 900);
+    EXPECT_EQ(after.x, before.x - 160);
+    EXPECT_EQ(after.y, before.y + 90);
+    EXPECT_EQ(shifted(one, region, 1600, 900, -1e6, 1e6), (PictureZoom{1, 1, 0}));
+    EXPECT_EQ(shifted({}, region, 1600, 900, 50, 50), PictureZoom{}) << "fit is not panned";
+}
+
+// Pixels of a coarse preview have no grid.
+class PixelGrid : public test::ImGuiTest {
+protected:
+    int lines_over(int divider) {
+        Frame frame;
+        frame.width = frame.height = 4;
+        frame.divider = divider;
+        frame.rgba.assign(64, 0.5f);
+        int drawn = 0;
+        in_window([&] {
+            ImDrawList& draw = *ImGui::GetWindowDrawList();
+            const int before = draw.VtxBuffer.Size;
+            draw_pixel_grid(draw, {0, 0, 320, 320}, {0, 0, 400, 400}, frame);
+            drawn = draw.VtxBuffer.Size - before;
+        });
+        return drawn;
+    }
+};
+
+TEST_F(PixelGrid, IsDrawnOnlyAtFullResolution) {
+    EXPECT_GT(lines_over(1), 40);
+    for (const int divider : {2, 4, 8}) EXPECT_EQ(lines_over(divider), 0);
+}
+
+} // namespace
+} // namespace blush

@@ -1,0 +1,18 @@
+#include "ui/jobs/roulette_runner.h"
+
+#include "scene/changes.h"
+
+namespace blush {
+namespace {
+
+constexpr int64_t max_roulette_rounds = 2000; // enough to measure a bias of 0.01 %
+
+} // namespace
+
+bool RouletteWork::Question::asks_the_same(const Question& other) const {
+    return !diff(scene, settings, other.scene, other.settings).affects_image();
+}
+
+bool RouletteWork::is_good(const Answer& report) { return report.rounds >= max_roulette_rounds; }
+
+} // namespace blush

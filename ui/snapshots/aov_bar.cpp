@@ -1,0 +1,80 @@
+#include "ui/snapshots/aov_bar.h"
+
+#include "ui/snapshots/aov_pixels.h"
+#include "ui/window/theme.h"
+#include "ui/widgets/widgets.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace blush {
+namespace {
+
+void draw_list(PanelContext& c, const Frame* frame) {
+    PictureView::Show before = PictureView::Show::beauty;
+    for (const AovEntry& e : aov_list(frame)) {
+        if (e.view.show != before && (e.view.show == PictureView::Show::group || e.view.show == PictureView::Show::bounces)) ImGui::Separator();
+        before = e.view.show;
+        const ImGuiSelectableFlags flags = e.possible ? 0 : ImGuiSelectableFlags_Disabled;
+        if (ImGui::Selectable(e.name.c_str(), c.ui.aov == e.view, flags)) show_aov(c, e.view);
+        c.ui.probe.record_last_item("Viewport/Pass/" + e.name);
+        if (!e.needs.empty()) tip_for_last_item(c.ui, e.needs.c_str());
+    }
+}
+
+} // namespace
+
+void show_aov(PanelContext& c, const AovView& view) {
+    const bool lacks = view.show == PictureView::Show::bounces && c.frame && c.frame->bounces.empty();
+    c.ui.aov = view;
+    c.ui.bounces.mode = BouncesView::Mode::picture; // one of the two modes controls the viewport
+    if (lacks) c.ui.toasts.note("Bounce passes are switched on: the render restarts");
+}
+
+void draw_aov_bar(PanelContext& c, const ImageRect& seen) {
+    const float em = ImGui::GetFontSize(), width = em * 9;
+    if (c.ui.snapshots.compare.mode != Comparison::Mode::off || seen.width < width * 2) return;
+    ImGui::SetNextWindowPos({std::round(seen.x + seen.width - width - em * 0.5f), std::round(seen.y + em * 0.5f)});
+    ImGui::SetNextWindowSize({width, ImGui::GetFrameHeight()});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0);
+    ImGui::Begin("passes", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoSavedSettings |
+                     ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing);
+    ImGui::PopStyleVar(3);
+    ImGui::SetNextItemWidth(width);
+    const Frame* frame = c.frame.get();
+    const bool open = ImGui::BeginCombo("##pass", name_of(c.ui.aov, frame).c_str(), ImGuiComboFlags_HeightLarge);
+    if (!open) {
+        c.ui.probe.record_last_item("Viewport/Pass");
+        tip_for_last_item(c.ui, "The pass that the viewport shows: beauty or another AOV. Comma and full stop step through the passes.");
+    } else {
+        draw_list(c, frame);
+        ImGui::EndCombo();
+    }
+    ImGui::End();
+}
+
+void draw_map_scale(ImDrawList& draw, const ImageRect& seen, const Frame& frame, const PictureView& view) {
+    const auto scale = is_special(frame, view) ? map_scale(frame, view.show) : std::nullopt;
+    // Between the upper edge and the environment dial.
+    const float em = ImGui::GetFontSize(), top = em * 2.6f, room = seen.height - top - em * 6, swatch = em * 1.1f;
+    const float height = std::floor(std::min(em * 14, room));
+    if (!scale || height < em * 4) return;
+    const ImVec2 at{seen.x + em, std::floor(seen.y + top + (room - height) / 2)};
+    draw.AddRectFilled({at.x - em * 0.5f, at.y - em * 1.8f}, {at.x + em * 6, at.y + height + em * 0.8f}, IM_COL32(20, 20, 20, 220), em * 0.2f);
+    draw.AddText({at.x, at.y - em * 1.4f}, tone::text, scale->title.c_str());
+    constexpr int steps = 64;
+    for (int i = 0; i < steps; ++i) {
+        const Vec3 c = scale->color((float(i) + 0.5f) / steps);
+        const float low = at.y + height * (1 - float(i) / steps), high = at.y + height * (1 - float(i + 1) / steps);
+        draw.AddRectFilled({at.x, std::floor(high)}, {at.x + swatch, std::floor(low)}, ImGui::ColorConvertFloat4ToU32({c.x, c.y, c.z, 1}));
+    }
+    draw.AddRect({at.x, at.y}, {at.x + swatch, at.y + height}, tone::field_filled);
+    const std::string* labels[] = {&scale->high, &scale->middle, &scale->low};
+    for (int i = 0; i < 3; ++i)
+        draw.AddText({at.x + swatch + em * 0.6f, at.y + height * float(i) / 2 - em * 0.5f}, tone::text, labels[i]->c_str());
+}
+
+} // namespace blush

@@ -1,0 +1,38 @@
+// Which pass (AOV) the viewport shows, and the list of passes to choose from.
+#pragma once
+
+#include "render/renderer.h"
+#include "ui/snapshots/picture_view.h"
+
+#include <string>
+#include <vector>
+
+namespace blush {
+
+struct AovView {
+    PictureView::Show show = PictureView::Show::beauty;
+    int index = 0; // of the bounce or group
+    bool operator==(const AovView&) const = default;
+};
+
+struct AovEntry {
+    AovView view;
+    std::string name;
+    std::string needs = {}; // why the pass is not available yet; empty: it is available
+    bool possible = true;   // false: only the user can provide what is missing
+};
+// All passes: beauty, first-hit data, error, samples, one per light group of the frame and one per bounce. With a null frame, the
+// list has no groups.
+// list without groups.
+std::vector<AovEntry> aov_list(const Frame* frame);
+// Its name in the list.
+std::string name_of(const AovView& view, const Frame* frame);
+// The entry `steps` further in the list, cyclically, skipping impossible ones.
+AovView stepped(const AovView& view, const Frame* frame, int by);
+
+// `bounce_planes`: number in the frame.
+PictureView picture_view(const AovView& view, int bounce_planes);
+// The film planes that it needs in addition to the default ones. None for the beauty.
+PlaneSet planes_of(const AovView& view);
+
+} // namespace blush

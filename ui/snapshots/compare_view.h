@@ -1,0 +1,61 @@
+// Compares two pictures in the viewport: wipe, flicker or difference. Draws over the viewport's picture.
+#pragma once
+
+#include "ui/jobs/async_query.h"
+#include "ui/snapshots/difference.h"
+#include "ui/gl/display_pass.h"
+#include "ui/window/frame_budget.h"
+#include "ui/transform/gizmo.h"
+#include "ui/panel_context.h"
+
+#include <optional>
+#include <string>
+
+namespace blush {
+
+// One side: a snapshot's pictures, or the live ones.
+struct ComparedSide {
+    uint64_t id = live_image;
+    std::string label;
+    Pictures pictures;
+};
+// Null frames if there is no such picture.
+ComparedSide compared_side(const PanelContext& c, uint64_t id);
+
+class CompareView {
+public:
+    void set_shader(const DisplayShader& shader);
+    // `image` is the rectangle of the whole picture, `seen` its visible part. The live picture is already drawn, with `look`.
+    void draw(PanelContext& c, const ImageRect& image, const ImageRect& seen, const DisplayLook& current_pictures, const FrameBudget& pace);
+
+private:
+    // Rectangle of a picture in a texture.
+    struct Part {
+        GLuint texture = 0;
+        float u = 1, v0 = 0, v1 = 1;
+        float aspect = 0; // of the picture; 0: same as the live one
+    };
+    void ask_difference(PanelContext& c, const ComparedSide& a, const ComparedSide& b);
+    void update(PanelContext& c, const ComparedSide& a, const ComparedSide& b, const DisplayLook& current_pictures, const FrameBudget& pace);
+    void upload_sides(const PanelContext& c, const ComparedSide& a, const ComparedSide& b);
+    void draw_part(const Part& part, const ImageRect& image, const ImageRect& clip) const;
+    void draw_wipe(PanelContext& c, const ComparedSide& a, const ComparedSide& b, const ImageRect& image, const ImageRect& seen);
+
+    DisplayPass pass_; // for both sides, A above B, or for the difference
+    std::optional<DisplayShader> shader_;
+    bool shader_changed_ = false, drawn_ = false;
+    DisplayLook look_;
+    // The inputs of the last upload.
+    struct Shown {
+        Comparison::Mode mode = Comparison::Mode::off;
+        FramePtr a, b; // of snapshots; null for the live picture
+        PictureMix mix_a, mix_b;
+        const Difference* difference = nullptr;
+        bool operator==(const Shown&) const = default;
+    } shown_;
+    Part parts_[2];
+    AsyncQuery<DifferenceQuestion, std::shared_ptr<const Difference>> difference_;
+    std::shared_ptr<const Difference> answer_;
+};
+
+} // namespace blush

@@ -1,0 +1,34 @@
+#include "ui/viewport/camera_frame.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace blush {
+
+float aspect_in_file(const CameraFrame& frame, const Scene& scene, Id<Node> camera_node) {
+    const Node* node = scene.nodes.find(camera_node);
+    const auto found = node ? frame.from_file.find(node->camera) : frame.from_file.end();
+    return found == frame.from_file.end() ? 0 : found->second;
+}
+
+void settle(CameraFrame& frame, const ViewSettings& view, const Scene& scene, Id<Node> camera_node) {
+    frame.aspect = view.frame_aspect ? *view.frame_aspect : aspect_in_file(frame, scene, camera_node);
+    frame.lock = view.lock_camera;
+}
+
+PictureSize picture_size(const CameraFrame& frame, int viewport_width, int viewport_height) {
+    const PictureSize viewport{std::max(viewport_width, 1), std::max(viewport_height, 1)};
+    if (frame.aspect <= 0) return viewport;
+    const bool wider = frame.aspect > float(viewport.width) / float(viewport.height);
+    if (!wider && !frame.fit) return viewport;
+    const Region fitted = fit_aspect({0, 0, float(viewport.width), float(viewport.height)}, frame.aspect);
+    return {int(fitted.width), int(fitted.height)};
+}
+
+ImageRect frame_in_picture(const CameraFrame& frame, const ImageRect& picture) {
+    const float width = std::round(picture.height * frame.aspect);
+    if (frame.aspect <= 0 || width >= picture.width - 1) return picture;
+    return {std::round(picture.x + (picture.width - width) / 2), picture.y, width, picture.height};
+}
+
+} // namespace blush

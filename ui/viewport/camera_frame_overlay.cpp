@@ -1,0 +1,64 @@
+#include "ui/viewport/camera_frame_overlay.h"
+
+#include "scene/affine.h"
+#include "scene/animation/pose.h"
+#include "ui/window/theme.h"
+
+#include <fmt/format.h>
+
+namespace blush {
+namespace {
+
+constexpr ImU32 passepartout = IM_COL32(0, 0, 0, 150), edge = IM_COL32(150, 150, 150, 160), label_ground = IM_COL32(20, 20, 20, 170);
+
+void draw_passepartout(ImDrawList& draw, const ImageRect& picture, const ImageRect& frame) {
+    const float bottom = picture.y + picture.height, right = frame.x + frame.width;
+    draw.AddRectFilled({picture.x, picture.y}, {frame.x, bottom}, passepartout);
+    draw.AddRectFilled({right, picture.y}, {picture.x + picture.width, bottom}, passepartout);
+    draw.AddRect({frame.x, frame.y}, {right, frame.y + frame.height}, edge);
+}
+
+} // namespace
+
+void draw_camera_frame(PanelContext& c, ImDrawList& draw, const ImageRect& picture, const ImageRect& seen) {
+    if (c.ui.light_camera) return;
+    if (is_at_home(c.scene(), c.ui.home)) {
+        const ImageRect frame = frame_in_picture(c.ui.frame, picture);
+        if (frame.width == picture.width) return;
+        draw_passepartout(draw, picture, frame);
+        c.ui.probe.record("Camera frame", {frame.x, frame.y, frame.width, frame.height});
+        return;
+    }
+    const Node* camera = c.scene().nodes.find(c.ui.home.camera);
+    const std::string text = fmt::format("Free view.  {}: {}", to_string(shortcut(Command::camera_view).press), camera && !camera->name.empty() ? camera->name : "camera");
+    const float em = ImGui::GetFontSize();
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str()), at{seen.x + em, seen.y + em};
+    draw.AddRectFilled({at.x - em * 0.5f, at.y - em * 0.25f}, {at.x + size.x + em * 0.5f, at.y + size.y + em * 0.25f}, label_ground, em * 0.25f);
+    draw.AddText(at, tone::dim_text, text.c_str());
+    c.ui.probe.record("Free view", {at.x, at.y, size.x, size.y});
+}
+
+std::optional<PixelRect> camera_frame_of(const UiState& ui, const Scene& scene, const Frame& picture) {
+    if (ui.light_camera || !is_at_home(scene, ui.home)) return {};
+    const ImageRect frame = frame_in_picture(ui.frame, {0, 0, float(picture.width), float(picture.height)});
+    if (int(frame.width) >= picture.width) return {};
+    return PixelRect{int(frame.x), 0, int(frame.x) + std::max(int(frame.width), 1), picture.height};
+}
+
+void move_camera_to_view(PanelContext& c) {
+    const Id<Node> id = c.ui.home.camera;
+    const Node* record = c.scene().nodes.find(id);
+    if (!c.ui.frame.lock || c.ui.light_camera || !record || !record->camera || is_transform_animated(c.scene(), id)) return;
+    Node node = *record;
+    const View view = c.scene().view;
+    node.local = placed_at(c.scene(), id, to_double(view.position), view.rotation);
+    if (!c.apply(SetNode{id, node}, c.ui.gestures.current())) return;
+    // Use the camera's exact pose: its transform is rounded, and the difference would count as a free view.
+    View seen = view;
+    const View eye = view_of_camera(c.scene(), id);
+    seen.position = eye.position;
+    seen.rotation = eye.rotation;
+    c.document.navigate(seen);
+}
+
+} // namespace blush

@@ -1,0 +1,23 @@
+// Camera overlay of the viewport: passepartout and frame.
+#pragma once
+
+#include "ui/transform/gizmo.h"
+#include "ui/panel_context.h"
+
+#include <imgui.h>
+#include <optional>
+
+namespace blush {
+
+// In the camera view: passepartout and frame. In a free view, if there is a camera: the key that returns to it. `seen`: the
+// visible part of the picture.
+void draw_camera_frame(PanelContext& c, ImDrawList& draw, const ImageRect& picture, const ImageRect& seen);
+
+// The pixels of the camera's frame, if the picture extends beyond it and the view is the camera's; nullopt: the frame is the
+// whole picture.
+std::optional<PixelRect> camera_frame_of(const UiState& ui, const Scene& scene, const Frame& picture);
+
+// Moves the camera to the view's pose, if it is locked to the view.
+void move_camera_to_view(PanelContext& c);
+
+} // namespace blush

@@ -1,0 +1,21 @@
+// A dial in a corner of the picture that shows the environment's rotation: top view, the view direction is up. A sky shows its
+// sun.
+// sun.
+#pragma once
+
+#include "ui/transform/gizmo.h"
+#include "ui/panel_context.h"
+
+#include <imgui.h>
+
+namespace blush {
+
+// Position of a direction on the dial: the zenith in the centre, the horizon and everything below on the rim. x to the right, y
+// down, rim 1.
+ScreenPoint dial_point(const Vec3d& direction, const Vec3d& view_forward);
+
+// Draws it; a click opens the World tab. Returns true if the dial uses the left button. `seen`: the visible part of the
+// picture.
+bool draw_environment_dial(PanelContext& c, ImDrawList& draw, const Projection& projection, const ImageRect& seen, bool hovered);
+
+} // namespace blush

@@ -1,0 +1,416 @@
+#include "ui/viewport/viewport.h"
+
+#include "render/light_mix/light_mix.h"
+#include "scene/document/subtree_edits.h"
+#include "ui/snapshots/aov_bar.h"
+#include "ui/viewport/camera_frame_overlay.h"
+#include "ui/viewport/environment_dial.h"
+#include "ui/viewport/false_color_legend.h"
+#include "ui/lights/light_glyphs.h"
+#include "ui/lights/light_tools.h"
+#include "ui/lights/look_through_light.h"
+#include "ui/viewport/orbit_camera.h"
+#include "ui/viewport/picking.h"
+#include "ui/viewport/pixel_grid.h"
+#include "ui/lights/multi_edit_apply.h"
+#include "ui/gl/texture_id.h"
+#include "ui/window/theme.h"
+#include "ui/gl/reuse_buffer.h"
+#include "ui/viewport/view_tools.h"
+#include "ui/viewport/viewport_marks.h"
+
+namespace blush {
+namespace {
+
+// Milliseconds for a UI frame while a picture is being drawn: normally; while the user waits for changed view settings; and while
+// a light mix is edited, which must be visible in the same frame.
+constexpr double default_frame = 16, view_change_frame = 20, mix_edit_frame = 12;
+// Time without a change after which an edit of the mix has paused: during a drag, not every UI frame has mouse input.
+constexpr std::chrono::milliseconds mix_pause_after{120};
+
+Region window_region() {
+    const ImVec2 at = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+    return {at.x, at.y, size.x, size.y};
+}
+
+// Rectangle of the picture in the current window; fills the rest of the window.
+ImageRect viewport_picture_rect(const PanelContext& c) {
+    const Region region = window_region();
+    const ImageRect image = picture_rect(c.ui.zoom, region, std::max(c.render_width, 1), std::max(c.render_height, 1));
+    const ImVec2 high{region.x + region.width, region.y + region.height};
+    const bool covered = image.x <= region.x && image.y <= region.y && image.x + image.width >= high.x && image.y + image.height >= high.y;
+    if (!covered) ImGui::GetWindowDrawList()->AddRectFilled({region.x, region.y}, high, tone::surround);
+    return image;
+}
+
+// The visible part of the picture, where captions are placed.
+ImageRect visible_part(const ImageRect& image) {
+    const Region r = window_region();
+    const float left = std::max(image.x, r.x), top = std::max(image.y, r.y);
+    return {left, top, std::min(image.x + image.width, r.x + r.width) - left, std::min(image.y + image.height, r.y + r.height) - top};
+}
+
+void zoom_picture(PanelContext& c, const NavigationResult& wish) {
+    const Region region = window_region();
+    const int width = std::max(c.render_width, 1), height = std::max(c.render_height, 1);
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    if (wish.zoom != 1) c.ui.zoom = zoomed(c.ui.zoom, region, width, height, {mouse.x, mouse.y}, wish.zoom);
+    if (wish.shift_x != 0 || wish.shift_y != 0) c.ui.zoom = shifted(c.ui.zoom, region, width, height, wish.shift_x, wish.shift_y);
+}
+
+void draw_centred(const char* text) {
+    const ImVec2 at = ImGui::GetWindowPos(), window = ImGui::GetWindowSize(), size = ImGui::CalcTextSize(text);
+    ImGui::GetWindowDrawList()->AddText({at.x + (window.x - size.x) / 2, at.y + (window.y - size.y) / 2}, tone::dim_text, text);
+}
+
+// A caption at the lower edge of the picture.
+void write_caption(const ImageRect& image, const char* text) {
+    const float em = ImGui::GetFontSize();
+    const ImVec2 size = ImGui::CalcTextSize(text), at{image.x + (image.width - size.x) / 2, image.y + image.height - size.y - em};
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    draw.AddRectFilled({at.x - em * 0.5f, at.y - em * 0.3f}, {at.x + size.x + em * 0.5f, at.y + size.y + em * 0.3f},
+                       IM_COL32(20, 20, 20, 220), em * 0.2f);
+    draw.AddText(at, tone::warning, text);
+}
+
+// Mask over node ids: the node and all its descendants.
+std::vector<uint8_t> with_descendants(const Scene& scene, Id<Node> root) {
+    std::vector<uint8_t> selected(scene.nodes.empty() ? 1 : scene.nodes.entries().back().id.value + 1);
+    for (const Id<Node> id : subtree(scene, root)) selected[id.value] = true;
+    return selected;
+}
+
+void focus_at(PanelContext& c, const Projection& projection, double u, double v) {
+    const Picked picked = c.frame ? pick(*c.frame, u, v) : Picked{};
+    if (!picked.depth) return c.ui.toasts.note("There is no surface to focus on at this point");
+    Lens lens = c.scene().view.lens;
+    lens.focus_distance = float(projection.axial_distance(u, v, *picked.depth));
+    c.apply(SetLens{lens});
+}
+
+void expose(PanelContext& c, float stops, Gesture gesture) {
+    ViewSettings v = c.project().view;
+    v.exposure_ev = std::clamp(v.exposure_ev + stops, -20.f, 20.f);
+    c.apply(SetView{v}, gesture);
+}
+
+// The light whose glyph is at this position, else the object in the picture.
+Picked picked_at(PanelContext& c, const Projection& projection, const ImageRect& image, const ScreenPoint& at) {
+    if (c.ui.settings.overlays) {
+        if (const Id<Node> light = light_under(c.scene(), projection, image, c.ui, at)) return {light, {}, {}};
+    }
+    return c.frame ? pick(*c.frame, image.u(at.x), image.v(at.y)) : Picked{};
+}
+
+void turn_surroundings(PanelContext& c, double share) {
+    Environment e = c.scene().environment;
+    if (e.kind != Environment::Kind::image && e.kind != Environment::Kind::sky)
+        return c.ui.toasts.note("Only an image or sky environment can be rotated");
+    e.rotation_degrees = turned_rotation(e.rotation_degrees, share, c.scene().view.lens);
+    c.apply(SetEnvironment{e}, c.ui.gestures.current());
+}
+
+void inspect(PanelContext& c, double u, double v) {
+    c.ui.pixel = PixelProbe{u, v};
+    c.ui.docks.to_front.insert("pixel");
+}
+
+// True if the frame, and its denoised picture if it is shown, have group planes for these gains.
+bool can_be_mixed(const PanelContext& c, const Gains& gains, bool denoised) {
+    if (!c.frame || gains.empty() || c.frame->groups.size() != gains.size()) return false;
+    return !denoised || (c.denoised && c.denoised->groups && c.denoised->groups->planes.size() == gains.size());
+}
+
+} // namespace
+
+Result<void> Viewport::set_display_shader(const DisplayShader& shader) {
+    shader_changed_ = true;
+    compare_.set_shader(shader);
+    region_backdrop_.set_shader(shader);
+    return display_.set_shader(shader);
+}
+
+// Applies the current mix; the session's own mix of the same planes follows later.
+void Viewport::upload_frame(const FramePtr& shown, const PictureView& view, const Gains& gains, bool background_as_it_is) {
+    const Frame& frame = *shown;
+    const bool special = is_special(frame, view), mixes = !gains.empty() && gains.size() == frame.groups.size() && gains != frame.gains;
+    if (mixes && !special && !background_as_it_is) {
+        mix_rgba(frame, gains, writable_buffer(mixed_), &workers_);
+        return display_.upload(frame.width, frame.height, mixed_);
+    }
+    if (frame.groups.empty()) mixed_.reset();
+    if (special) return display_.upload(frame.width, frame.height, pixels_of(frame, view));
+    if (!background_as_it_is) return display_.upload(shown);
+    display_.upload(frame.width, frame.height, with_coverage(frame, mixes ? mixed_rgba(frame, gains) : frame.rgba));
+}
+
+void Viewport::upload_denoised(const DenoisedPtr& denoised, const Gains& gains) {
+    if (!denoised->groups) mixed_denoised_.reset();
+    const bool mixes = denoised->groups && gains.size() == denoised->groups->planes.size() && gains != denoised->gains;
+    if (!mixes) return display_.upload(denoised);
+    std::vector<float>& rgb = writable_buffer(mixed_denoised_);
+    rgb.resize(size_t(denoised->width) * size_t(denoised->height) * 3);
+    mix_rgb(planes_of(*denoised), gains, rgb, &workers_);
+    display_.upload_denoised(denoised->width, denoised->height, mixed_denoised_);
+}
+
+void Viewport::upload_thinned(const MixPreviewSource& moved, const Gains& gains, int step) {
+    const MixPreview::Picture raw = preview_.raw(moved, gains, step);
+    display_.upload(raw.width, raw.height, raw.values);
+    if (!moved.shows_denoised) return;
+    const MixPreview::Picture denoised = preview_.denoised(moved, gains, step);
+    display_.upload_denoised(denoised.width, denoised.height, denoised.values);
+}
+
+void Viewport::take_frame(PanelContext& c, const FrameBudget& pace) {
+    const ViewSettings v = c.shown_view();
+    PictureView view = c.ui.picture_view(c.frame ? int(c.frame->bounces.size()) : 0);
+    if (view.show == PictureView::Show::beauty && v.false_color.of == FalseColor::Of::lux) view.show = PictureView::Show::illuminance;
+    const bool special = c.frame && is_special(*c.frame, view);
+    DisplayParameters numbers = display_parameters_of(v);
+    if (special && is_map(view)) numbers.false_color = {}; // it has colours of its own
+    if (special && is_data(view)) numbers.background_as_it_is = true; // all its pixels count as background
+    const DisplayLook current_pictures{numbers, special ? PictureMix{} : mix_of(c.ui.denoise, c.denoised != nullptr), !special && c.frame && c.frame->transparent};
+    const Gains gains = c.mixing ? c.mixing->gains : Gains();
+    const bool new_gains = gains != uploaded_gains_, shows_denoised = current_pictures.mix.denoised_weight != 0;
+    // While a mix is edited it is shown at once, at a lower resolution if time is short; full resolution follows when the edit
+    // pauses.
+    const bool moved = new_gains && can_be_mixed(c, gains, shows_denoised) && !special && !numbers.background_as_it_is;
+    const auto now = FrameBudget::Clock::now();
+    if (moved) mix_edited_at_ = now;
+    const MixPreviewSource moving{c.frame, c.denoised, current_pictures.mix.raw_weight != 0, shows_denoised};
+    const auto drawing = [&](double pixels) { return display_.expected_milliseconds(pixels, shows_denoised ? 2 : 1); };
+    const int step = moved ? preview_.step_in_time(moving, pace.left(mix_edit_frame, now), drawing) : 1;
+    const bool subsampled = preview_step_ > 1 && !moved, rests = subsampled && now >= mix_edited_at_ + mix_pause_after;
+    const bool waits = subsampled && !rests; // for the next edit of the mix
+    if (waits) c.ui.seconds_to_next_frame = std::min(c.ui.seconds_to_next_frame, std::chrono::duration<double>(mix_edited_at_ + mix_pause_after - now).count());
+    const bool new_frame = c.frame && c.frame->width > 0 && !waits &&
+                           (c.frame != uploaded_frame_ || view != uploaded_view_ || new_gains || rests ||
+                            numbers.background_as_it_is != look_.numbers.background_as_it_is);
+    const bool new_denoised = shows_denoised && !waits && (c.denoised != uploaded_denoised_ || new_gains || rests);
+    // A switch between raw and denoised cancels the picture in progress. The blend slider does not, because each step would
+    // restart it.
+    const bool toggled =
+        uploaded_frame_ && current_pictures.mix != look_.mix && (current_pictures.mix.raw_weight == 0 || current_pictures.mix.denoised_weight == 0) && !new_denoised;
+    if (display_.busy() && toggled) {
+        display_.begin(current_pictures);
+        look_ = current_pictures;
+        shows_requested_view_ = true;
+    }
+    const bool free = !display_.busy() || (step > 1 && preview_step_ == 1);
+    if (free && (new_frame || (uploaded_frame_ && (new_denoised || shader_changed_ || look_ != current_pictures)))) {
+        if (step > 1)
+            upload_thinned(moving, gains, step);
+        else if (new_frame)
+            upload_frame(c.frame, view, gains, numbers.background_as_it_is);
+        if (new_denoised && step == 1) upload_denoised(c.denoised, gains);
+        if (new_frame) uploaded_frame_ = c.frame, uploaded_view_ = view, preview_step_ = step;
+        if (step == 1) preview_.forget();
+        if (new_denoised) uploaded_denoised_ = c.denoised;
+        uploaded_gains_ = gains;
+        display_.begin(current_pictures);
+        begun_ = true;
+        shows_requested_view_ = look_ != current_pictures;
+        look_ = current_pictures;
+        shader_changed_ = false;
+    }
+    drew_display_ = display_.busy();
+    // After a change of view settings or mix, the user waits for the current picture and for the new one.
+    const bool awaited = look_ != current_pictures || shows_requested_view_ || preview_step_ > 1;
+    display_.advance(pace.left(awaited ? view_change_frame : default_frame, FrameBudget::Clock::now()));
+    if (display_.busy()) {
+        c.ui.seconds_to_next_frame = 0;
+    } else if (begun_) {
+        begun_ = shows_requested_view_ = false;
+        shown_frame_ = uploaded_frame_;
+        shown_gains_ = uploaded_gains_;
+        shown_preview_step_ = preview_step_;
+        // the next one may be ready
+        c.ui.seconds_to_next_frame = preview_step_ == 1 ? 0 : std::min(c.ui.seconds_to_next_frame, std::chrono::duration<double>(mix_pause_after).count());
+    }
+}
+
+// For a render region.
+void Viewport::draw_surroundings(PanelContext& c, const ImageRect& image, const FrameBudget& pace) {
+    const PictureRegion& region = c.project().render.region;
+    if (shown_frame_->whole) region_backdrop_.remember(shown_frame_, uploaded_denoised_);
+    if (region == PictureRegion{}) return;
+    if (!region_backdrop_.update(look_, uploaded_view_, pace)) c.ui.seconds_to_next_frame = 0;
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    if (region_backdrop_.ready()) region_backdrop_.draw(draw, image, region);
+    draw_rendered_region(draw, image, region, !region_backdrop_.ready());
+}
+
+// A layer of its own over the picture: blending a full layer would cost as much as the picture.
+void Viewport::draw_outline(const PanelContext& c, const ImageRect& image) {
+    const Outlined wanted{shown_frame_, c.ui.selected};
+    // Not in the same UI frame as the display pass, which has used the time budget.
+    const bool later = drew_display_ && outlined_.frame && outlined_.selected == wanted.selected;
+    if (outlined_ != wanted && !later) {
+        outline_.upload(*shown_frame_, with_descendants(c.scene(), c.ui.selected));
+        outlined_ = wanted;
+    }
+    outline_.draw(int(image.width), int(image.height), std::max(1.5f, ImGui::GetFontSize() / 8));
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const float width = float(outline_.frame_width()), height = float(outline_.frame_height());
+    for (const PixelRect& edge : outline_.edges()) {
+        const ImVec2 low{float(edge.x0) / width, float(edge.y0) / height}, high{float(edge.x1) / width, float(edge.y1) / height};
+        const auto on_screen = [&](const ImVec2& uv) { return ImVec2{image.x + uv.x * image.width, image.y + uv.y * image.height}; };
+        draw.AddImage(texture_id(outline_.texture()), on_screen(low), on_screen(high), low, high);
+    }
+}
+
+void Viewport::draw_picture(PanelContext& c, const ImageRect& image, bool outlined) {
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const GLuint picture = display_.texture();
+    set_filter(picture, c.ui.zoom.scale >= 1 && shown_frame_->divider == 1 && shown_preview_step_ == 1 ? GL_NEAREST : GL_LINEAR);
+    // opaque: blending would only cost time
+    draw.AddCallback([](const ImDrawList*, const ImDrawCmd*) { glDisable(GL_BLEND); }, nullptr);
+    // clipped to the window: coordinates far outside lose precision
+    const ImageRect seen = visible_part(image);
+    const ImVec2 high{seen.x + seen.width, seen.y + seen.height};
+    const auto uv = [&](const ImVec2& at) { return ImVec2{float(image.u(at.x)), float(image.v(at.y))}; };
+    draw.AddImage(texture_id(picture), {seen.x, seen.y}, high, uv({seen.x, seen.y}), uv(high));
+    draw.AddCallback(ImDrawCallback_ResetRenderState, nullptr);
+    // The outline is drawn at the picture's size on the screen; skipped if that is far larger than the window.
+    const Region region = window_region();
+    const bool fits = image.width <= region.width && image.height <= region.height;
+    if (outlined && fits) draw_outline(c, image);
+}
+
+// The caption of a special view.
+void Viewport::draw_caption(const PanelContext& c, const ImageRect& image) const {
+    if (!is_special(*shown_frame_, uploaded_view_)) {
+        // Frames from before the request do not have the plane.
+        const AovView& wanted = c.ui.aov;
+        const bool lacks = wanted.show != PictureView::Show::beauty && uploaded_view_ == picture_view(wanted, int(shown_frame_->bounces.size()));
+        if (lacks) write_caption(image, (name_of(wanted, shown_frame_.get()) + " is not rendered yet").c_str());
+        return;
+    }
+    if (uploaded_view_.show == PictureView::Show::illuminance) return;
+    write_caption(image, caption_of(*shown_frame_, uploaded_view_).c_str());
+}
+
+void Viewport::handle_requests(PanelContext& c, const NavigationResult& wish, const Projection& projection, const ImageRect& image) {
+    if (wish.view) {
+        const bool was_home = is_at_home(c.scene(), c.ui.home);
+        c.document.navigate(*wish.view);
+        move_light_to_view(c);
+        if (was_home) move_camera_to_view(c);
+    }
+    if (wish.begins_exposure) {
+        exposure_gesture_ = c.ui.gestures.begin();
+        c.ui.gestures.end();
+    }
+    if (wish.brighter != 0) expose(c, wish.brighter, exposure_gesture_);
+    zoom_picture(c, wish);
+    if (wish.turned != 0) turn_surroundings(c, wish.turned);
+    if (wish.flying) c.ui.seconds_to_next_frame = 0;
+    if (wish.focus) focus_at(c, projection, image.u(wish.focus->x), image.v(wish.focus->y));
+    if (wish.inspect && image.contains(wish.inspect->x, wish.inspect->y)) inspect(c, image.u(wish.inspect->x), image.v(wish.inspect->y));
+    if (wish.select) {
+        const Picked picked = picked_at(c, projection, image, *wish.select);
+        c.ui.select(picked.node, picked.material);
+    }
+    if (wish.toggle) {
+        const Picked picked = picked_at(c, projection, image, *wish.toggle);
+        if (picked.node && !toggle_link(c, picked.node, &Light::lit_objects)) c.ui.toggle(picked.node);
+    }
+    if (wish.toggle_shadow) {
+        const Picked picked = picked_at(c, projection, image, *wish.toggle_shadow);
+        if (picked.node && !toggle_link(c, picked.node, &Light::shadow_casters))
+            c.ui.toasts.note("Select a light first, to edit its shadow linking");
+    }
+}
+
+ImageRect Viewport::draw(PanelContext& c, const FrameBudget& pace) {
+    take_frame(c, pace);
+    const ImageRect image = viewport_picture_rect(c);
+    ImGui::SetCursorPos({0, 0});
+    ImGui::InvisibleButton("picture", ImGui::GetWindowSize(),
+                           ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
+    const bool hovered = ImGui::IsItemHovered();
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    c.ui.cursor.reset();
+    if (hovered && image.contains(mouse.x, mouse.y)) c.ui.cursor = PicturePoint{image.u(mouse.x), image.v(mouse.y)};
+    if (!c.frame) {
+        shown_frame_ = uploaded_frame_ = nullptr; // nothing is displayed any more
+        region_backdrop_.forget();
+    }
+    if (!shown_frame_) {
+        transformer_.abandon(c);
+        using State = SessionStatus::State;
+        const bool nothing_open = (c.status.state == State::idle || c.status.state == State::complete) && c.scene().nodes.empty();
+        draw_centred(nothing_open ? "Drop a glTF scene here, or press Ctrl+O" : "Preparing the first image");
+        return image;
+    }
+    draw_picture(c, image, c.ui.settings.overlays && c.scene().nodes.contains(c.ui.selected));
+    move_view_to_light(c);
+    compare_.draw(c, image, visible_part(image), look_, pace);
+    const View view = c.scene().view;
+    const Projection projection(view, double(image.width) / image.height);
+    const ImageRect seen = visible_part(image);
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    draw_surroundings(c, image, pace);
+    draw_camera_frame(c, draw, image, seen);
+    bool taken = use_tool(c, projection, image, seen, hovered && !navigation_.busy());
+    if (c.ui.tool == ViewTool::none) taken |= draw_overlays(c, projection, image, hovered && !navigation_.busy());
+    const bool special = is_special(*shown_frame_, uploaded_view_), map = special && is_map(uploaded_view_);
+    if (!special) draw_pixel_grid(draw, image, window_region(), *shown_frame_); // the values are those of the beauty
+    draw_false_color_legend(draw, seen, map ? ViewSettings{} : c.project().view);
+    if (c.ui.settings.overlays) {
+        draw_measured_region(draw, image, c.project().view);
+        draw_meters(draw, image, projection, c.scene(), c.project().view, c.ui.meters);
+    }
+    if (c.ui.pixel) draw_read_pixel(draw, image, c.ui.pixel->u, c.ui.pixel->v);
+    draw_map_scale(draw, seen, *shown_frame_, uploaded_view_);
+    draw_caption(c, seen);
+    // the hint of an active transform is at the toolbar's position
+    if (c.ui.settings.overlays && !transformer_.is_active()) draw_aov_bar(c, seen);
+    navigate(c, projection, image, hovered, taken);
+    return image;
+}
+
+ImageRect Viewport::draw_alone(PanelContext& c, const FrameBudget& pace, const char* caption) {
+    transformer_.abandon(c);
+    take_frame(c, pace);
+    const ImageRect image = viewport_picture_rect(c);
+    if (!shown_frame_) {
+        draw_centred("Preparing the first image");
+        return image;
+    }
+    region_backdrop_.forget(); // they belong to the previous scene
+    draw_picture(c, image, false);
+    write_caption(visible_part(image), caption);
+    return image;
+}
+
+// True if the handles or a tool use the left button. Tools are shown even while overlays are off, because the user started them.
+bool Viewport::draw_overlays(PanelContext& c, const Projection& projection, const ImageRect& image, bool hovered) {
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const ImageRect seen = visible_part(image);
+    draw.PushClipRect({seen.x, seen.y}, {seen.x + seen.width, seen.y + seen.height}, true);
+    bool taken = false;
+    if (c.ui.settings.overlays) {
+        draw_light_glyphs(draw, c.scene(), projection, image, c.ui);
+        const bool by_hand = c.ui.placing_by == PlacingBy::hand && !(c.ui.light_camera && c.ui.light_camera->node == c.ui.selected);
+        if (by_hand) taken = handles_.update(c, draw, projection, image, hovered);
+        taken |= draw_environment_dial(c, draw, projection, seen, hovered && !taken);
+    }
+    if (const Light* light = light_camera_light(c); light && c.ui.placing_by == PlacingBy::hand)
+        draw_hint(draw, "Looking through " + light->name + ": moving the view moves the light.  L or Esc: back");
+    taken |= place_tool_.update(c, draw, projection, image, hovered);
+    taken |= transformer_.update(c, draw, projection, image);
+    draw.PopClipRect();
+    return taken;
+}
+
+void Viewport::navigate(PanelContext& c, const Projection& projection, const ImageRect& image, bool hovered, bool on_handle) {
+    const NavigationResult wish = navigation_.update(c.scene().view, image, hovered, !on_handle);
+    if (navigation_.busy() && !navigating_) c.ui.gestures.begin();
+    handle_requests(c, wish, projection, image);
+    if (!navigation_.busy() && navigating_) c.ui.gestures.end();
+    navigating_ = navigation_.busy();
+}
+
+} // namespace blush

@@ -1,0 +1,85 @@
+// The viewport: displays the picture and handles the mouse in it (navigation, picking, handles).
+#pragma once
+
+#include "core/parallel.h"
+#include "render/light_mix/light_groups.h"
+#include "ui/snapshots/compare_view.h"
+#include "ui/gl/display_pass.h"
+#include "ui/window/frame_budget.h"
+#include "ui/transform/handles.h"
+#include "ui/views/mix_preview.h"
+#include "ui/viewport/navigation.h"
+#include "ui/gl/outline_pass.h"
+#include "ui/panel_context.h"
+#include "ui/lights/place_tool.h"
+#include "ui/viewport/region_backdrop.h"
+#include "ui/transform/transformer.h"
+
+namespace blush {
+
+class Viewport {
+public:
+    // Compiles the shaders that do not depend on the OCIO configuration.
+    Result<void> load() { return outline_.load(); }
+    Result<void> set_display_shader(const DisplayShader& shader);
+
+    // Fills the current ImGui window and returns the picture's rectangle. Continues to draw a new picture as long as `pace` has
+    // time.
+    ImageRect draw(PanelContext& c, const FrameBudget& pace);
+    // As draw(), but without interaction and overlays, except for `caption`, which gives the reason.
+    ImageRect draw_alone(PanelContext& c, const FrameBudget& pace, const char* caption);
+    // The displayed frame; null before the first.
+    const FramePtr& shown() const { return shown_frame_; }
+    // The gains of its light groups as displayed; empty without groups.
+    const Gains& shown_gains() const { return shown_gains_; }
+    // True if the pictures are displayed with these gains.
+    bool shows(const PictureMix& mix) const { return shown_frame_ && !begun_ && look_.mix == mix; }
+    // True if it temporarily shows a lower resolution, while a light mix is edited.
+    bool is_thinned() const { return preview_step_ > 1 || shown_preview_step_ > 1; }
+
+private:
+    void take_frame(PanelContext& c, const FrameBudget& pace);
+    void upload_frame(const FramePtr& shown, const PictureView& view, const Gains& gains, bool background_as_it_is);
+    void upload_denoised(const DenoisedPtr& denoised, const Gains& gains);
+    void upload_thinned(const MixPreviewSource& moved, const Gains& gains, int step);
+    void draw_picture(PanelContext& c, const ImageRect& image, bool outlined);
+    void draw_surroundings(PanelContext& c, const ImageRect& image, const FrameBudget& pace);
+    void draw_outline(const PanelContext& c, const ImageRect& image);
+    void draw_caption(const PanelContext& c, const ImageRect& image) const;
+    bool draw_overlays(PanelContext& c, const Projection& projection, const ImageRect& image, bool hovered);
+    void navigate(PanelContext& c, const Projection& projection, const ImageRect& image, bool hovered, bool on_handle);
+    void handle_requests(PanelContext& c, const NavigationResult& wish, const Projection& projection, const ImageRect& image);
+
+    DisplayPass display_;
+    OutlinePass outline_;
+    CompareView compare_;
+    RegionBackdrop region_backdrop_;
+    Navigation navigation_;
+    bool navigating_ = false; // in the last frame; its edits are one undo step
+    Handles handles_;
+    Transformer transformer_;
+    Gesture exposure_gesture_ = no_gesture;
+    PlaceTool place_tool_;
+
+    // The content of the textures, to redraw them only when something has changed.
+    FramePtr uploaded_frame_, shown_frame_;
+    PictureView uploaded_view_;
+    DenoisedPtr uploaded_denoised_;
+    Gains uploaded_gains_, shown_gains_;        // of raw and denoised picture
+    int preview_step_ = 1, shown_preview_step_ = 1; // only every n-th pixel of a row, and every n-th row, of both
+    FrameBudget::TimePoint mix_edited_at_{};          // last edit of the mix
+    MixPreview preview_;
+    std::shared_ptr<std::vector<float>> mixed_, mixed_denoised_; // mixed pictures, kept to reuse their memory
+    Workers workers_{0};                                         // for mixing planes
+    DisplayLook look_;
+    bool shader_changed_ = false, begun_ = false;
+    bool shows_requested_view_ = false;      // the picture in progress has the last requested view settings
+    bool drew_display_ = false; // in this UI frame
+    struct Outlined {
+        FramePtr frame;
+        Id<Node> selected;
+        bool operator==(const Outlined&) const = default;
+    } outlined_;
+};
+
+} // namespace blush

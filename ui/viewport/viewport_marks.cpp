@@ -1,0 +1,55 @@
+#include "ui/viewport/viewport_marks.h"
+
+#include "core/math.h"
+#include "ui/window/theme.h"
+
+#include <cmath>
+
+namespace blush {
+
+void WorldPen::line(Vec3d a, Vec3d b) const {
+    const double near = 1e-3, da = dot(a - projection.eye(), projection.forward()), db = dot(b - projection.eye(), projection.forward());
+    if (da < near && db < near) return;
+    if (da < near) a = a + (b - a) * ((near - da) / (db - da));
+    if (db < near) b = b + (a - b) * ((near - db) / (da - db));
+    const auto pa = projection.project(a), pb = projection.project(b);
+    if (!pa || !pb) return;
+    const ScreenPoint sa = image.at(*pa), sb = image.at(*pb);
+    const float width = std::max(1.f, ImGui::GetFontSize() / 12) * weight;
+    const ImU32 shade = IM_COL32(0, 0, 0, 110 * (color >> IM_COL32_A_SHIFT) / 255);
+    draw.AddLine({sa.x, sa.y}, {sb.x, sb.y}, shade, width * 2.2f);
+    draw.AddLine({sa.x, sa.y}, {sb.x, sb.y}, color, width);
+}
+
+void WorldPen::circle(const Vec3d& centre, const Vec3d& x, const Vec3d& y) const {
+    constexpr int steps = 48;
+    for (int i = 0; i < steps; ++i) {
+        const double a = 6.28318530718 * i / steps, b = 6.28318530718 * (i + 1) / steps;
+        line(centre + x * std::cos(a) + y * std::sin(a), centre + x * std::cos(b) + y * std::sin(b));
+    }
+}
+
+void WorldPen::cross(const Vec3d& centre, double half) const {
+    const Vec3d a = (projection.right() + projection.up()) * half, b = (projection.right() - projection.up()) * half;
+    line(centre - a, centre + a);
+    line(centre - b, centre + b);
+}
+
+void draw_read_pixel(ImDrawList& draw, const ImageRect& image, double u, double v) {
+    const ImVec2 at{image.x + float(u) * image.width, image.y + float(v) * image.height};
+    const float radius = ImGui::GetFontSize() * 0.4f;
+    draw.AddCircle(at, radius, IM_COL32(0, 0, 0, 160), 0, 3);
+    draw.AddCircle(at, radius, tone::text);
+}
+
+void draw_hint(ImDrawList& draw, const std::string& text) {
+    const ImVec2 low = draw.GetClipRectMin(), high = draw.GetClipRectMax();
+    const float em = ImGui::GetFontSize(), wrap = std::max(high.x - low.x - 3 * em, em);
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
+    const ImVec2 at{std::round((low.x + high.x - size.x) / 2), std::round(low.y + em)};
+    draw.AddRectFilled({at.x - em * 0.6f, at.y - em * 0.3f}, {at.x + size.x + em * 0.6f, at.y + size.y + em * 0.3f},
+                       IM_COL32(20, 20, 20, 220), em * 0.25f);
+    draw.AddText(ImGui::GetFont(), em, at, tone::text, text.c_str(), nullptr, wrap);
+}
+
+} // namespace blush

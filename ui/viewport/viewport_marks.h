@@ -1,0 +1,32 @@
+// Overlay drawing over the picture: lines given in the world, and a line of text at the top.
+#pragma once
+
+#include "ui/transform/gizmo.h"
+
+#include <imgui.h>
+#include <string>
+
+namespace blush {
+
+// Draws lines given in world coordinates, clipped at the near plane.
+struct WorldPen {
+    ImDrawList& draw;
+    const Projection& projection;
+    const ImageRect& image;
+    ImU32 color;
+    float weight = 1; // of the lines, relative to the default width
+
+    void line(Vec3d a, Vec3d b) const;
+    // An ellipse with these semi-axes.
+    void circle(const Vec3d& centre, const Vec3d& x, const Vec3d& y) const;
+    // A cross perpendicular to the view direction.
+    void cross(const Vec3d& centre, double half) const;
+};
+
+// A ring around the inspected pixel; (u, v) in the picture.
+void draw_read_pixel(ImDrawList& draw, const ImageRect& image, double u, double v);
+
+// A hint for the current mouse action, at the upper edge.
+void draw_hint(ImDrawList& draw, const std::string& text);
+
+} // namespace blush

@@ -1,0 +1,40 @@
+// How raw and denoised picture are shown: either, a blend, or their difference. Does not restart the render.
+#pragma once
+
+#include "render/session/denoised_picture.h"
+#include "render/frame.h"
+
+#include <string>
+#include <vector>
+
+namespace blush {
+
+struct DenoiseView {
+    enum class Show { raw, denoised, blend, difference };
+    Show show = Show::raw;
+    float blend = 0.5f; // 0 raw, 1 denoised
+
+    bool wants_denoised() const { return show != Show::raw; }
+    void toggle() { show = wants_denoised() ? Show::raw : Show::denoised; }
+    bool operator==(const DenoiseView&) const = default;
+};
+
+// Weights of the displayed combination, in scene-linear values: |raw_weight raw + denoised_weight denoised|.
+struct PictureMix {
+    float raw_weight = 1, denoised_weight = 0;
+    bool operator==(const PictureMix&) const = default;
+};
+// Without a denoised picture the raw one is shown.
+PictureMix mix_of(const DenoiseView& view, bool has_denoised);
+
+// The pixel of the (possibly coarser) denoised picture at pixel (x, y) of the frame.
+Vec3 denoised_pixel(const Frame& frame, const DenoisedPicture& denoised, int x, int y);
+Vec3 mixed_pixel(const Frame& frame, const DenoisedPicture* denoised, const PictureMix& mix, int x, int y);
+// All pixels: width * height * 3.
+std::vector<float> mixed_picture(const Frame& frame, const DenoisedPicture* denoised, const PictureMix& mix);
+
+// "denoised", "blend 40 %, 16 spp and 1.2 s behind", "raw, denoising": which picture is shown, and how far it is behind the raw
+// one.
+std::string shown_text(const DenoiseView& view, const Frame& frame, const DenoisedPicture* denoised);
+
+} // namespace blush

@@ -1,0 +1,91 @@
+#include "ui/views/meters_view.h"
+
+#include "core/math.h"
+#include "render/compile/scene_origin.h"
+#include "scene/affine.h"
+#include "scene/geometry/ray_queries.h"
+#include "ui/viewport/picking.h"
+#include "ui/window/theme.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace blush {
+namespace {
+
+// Offset of a meter from its surface, in metres, for the renderer's single precision: hit points are off by at most 2^-21 of the
+// coordinates that they are computed from (render/surface.h); four times that.
+double clearance_of(const Scene& scene, const RayHit& hit) {
+    const Vec3d origin = render_origin(world_bounds(scene));
+    double largest = hit.largest_term;
+    for (const Vec3d& corner : hit.corners) {
+        const Vec3d p = corner - origin;
+        largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    }
+    return largest * 0x1p-19;
+}
+
+} // namespace
+
+std::optional<LightMeter> meter_at(const Frame& frame, const Scene& scene, const Projection& projection, double u, double v,
+                                   std::string name) {
+    const ViewRay ray = projection.ray(u, v);
+    // The object id of the pixel, which may be visible through holes of other objects. At an edge the ray through the click may
+    // miss it.
+    const Id<Node> shown = pick(frame, u, v).node;
+    std::optional<RayHit> hit;
+    if (shown) hit = cast_ray(scene, ray.origin, ray.direction, [&](Id<Node> id) { return id == shown; });
+    if (!hit) hit = cast_ray(scene, ray.origin, ray.direction, [](Id<Node>) { return true; });
+    if (!hit) return {};
+    LightMeter meter = meter_on(scene, hit->node, hit->position, hit->normal, std::move(name));
+    meter.clearance = float(clearance_of(scene, *hit));
+    return meter;
+}
+
+std::string new_meter_name(const std::vector<LightMeter>& meters) {
+    for (int i = 1;; ++i) {
+        const std::string name = fmt::format("Meter {}", i);
+        if (std::ranges::find(meters, name, &LightMeter::name) == meters.end()) return name;
+    }
+}
+
+std::vector<MeterPlace> places_of(const Scene& scene, const std::vector<LightMeter>& meters) {
+    std::vector<MeterPlace> places;
+    for (const LightMeter& meter : meters) {
+        const PlacedMeter p = placed(scene, meter);
+        places.push_back({p.position, p.normal, double(meter.clearance)});
+    }
+    return places;
+}
+
+std::string reading_text(const MeterReading& reading) {
+    const Interval& lux = reading.lux;
+    if (!lux.known) return reading.rounds > 1 ? "no light found yet" : "...";
+    const double half = (lux.high - lux.low) / 2;
+    // As many decimals as the confidence interval justifies.
+    const int decimals = half > 0 ? std::clamp(1 - int(std::floor(std::log10(half))), 0, 6) : 3;
+    return fmt::format("{:.{}f} ± {:.{}f} lx", lux.value, decimals, half, decimals);
+}
+
+void draw_meters(ImDrawList& draw, const ImageRect& image, const Projection& projection, const Scene& scene, const ViewSettings& view,
+                 const MetersView& meters) {
+    const float em = ImGui::GetFontSize();
+    for (size_t i = 0; i < view.meters.size(); ++i) {
+        const PlacedMeter place = placed(scene, view.meters[i]);
+        const auto at = projection.project(place.position);
+        if (!at) continue;
+        const ScreenPoint p = image.at(*at);
+        draw.AddCircle({p.x, p.y}, em * 0.42f, IM_COL32(0, 0, 0, 200), 0, em * 0.25f);
+        draw.AddCircle({p.x, p.y}, em * 0.42f, tone::text, 0, em * 0.12f);
+        draw.AddCircleFilled({p.x, p.y}, em * 0.12f, tone::text);
+        const bool read = i < meters.state.answer.size();
+        const std::string text = view.meters[i].name + "  " + (read ? reading_text(meters.state.answer[i]) : "...");
+        const ImVec2 corner{p.x + em * 0.8f, p.y - em * 0.6f}, size = ImGui::CalcTextSize(text.c_str());
+        draw.AddRectFilled({corner.x - em * 0.25f, corner.y - em * 0.1f}, {corner.x + size.x + em * 0.25f, corner.y + size.y + em * 0.1f},
+                           IM_COL32(20, 20, 20, 200), em * 0.2f);
+        draw.AddText(corner, tone::text, text.c_str());
+    }
+}
+
+} // namespace blush

@@ -1,0 +1,19 @@
+// State of the Roulette lab.
+#pragma once
+
+#include "ui/jobs/roulette_runner.h"
+
+#include <memory>
+
+namespace blush {
+
+struct RouletteView {
+    enum class Map { none, path_length, survival };
+    static constexpr const char* map_names[] = {"Picture", "Path length", "Survival"};
+
+    bool open = false;
+    Map map = Map::none;                    // what the viewport shows
+    std::shared_ptr<RouletteRunner> runner; // while the panel is open
+};
+
+} // namespace blush

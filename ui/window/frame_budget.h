@@ -1,0 +1,37 @@
+// Time budget of one UI frame: limits the drawing of the picture, which can continue later, so that the frame is not late.
+#pragma once
+
+#include "ui/window/frame_stats.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace blush {
+
+class FrameBudget {
+public:
+    using Clock = std::chrono::steady_clock;
+    using TimePoint = Clock::time_point;
+
+    void begin(TimePoint now) { begin_ = picture_begun_ = picture_done_ = now; }
+    void begin_picture(TimePoint now) { picture_begun_ = picture_done_ = now; }
+    // Milliseconds that the picture may use in a frame of `whole` milliseconds, if the rest of the frame takes as long as
+    // recently; always more than 0.
+    double left(double whole, TimePoint now) const { return std::max(least, whole - since(begin_, now) - after_picture_); }
+    void end_picture(TimePoint now) { picture_done_ = now; }
+    FrameTimes end(TimePoint now) {
+        const FrameTimes times{since(begin_, picture_begun_), since(picture_begun_, picture_done_), since(picture_done_, now)};
+        after_picture_ = std::max(times.after_picture, forgetting * after_picture_);
+        return times;
+    }
+
+private:
+    static constexpr double least = 2;        // milliseconds: guarantees progress
+    static constexpr double forgetting = 0.9; // decay per frame
+    static double since(TimePoint from, TimePoint to) { return std::chrono::duration<double, std::milli>(to - from).count(); }
+
+    TimePoint begin_{}, picture_begun_{}, picture_done_{};
+    double after_picture_ = 0;
+};
+
+} // namespace blush

@@ -1,0 +1,51 @@
+// Writes the positions of named widgets to a file, for UI tests: a test that drags "Light/Intensity" finds its rectangle here.
+#pragma once
+
+#include "ui/window/layout.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace blush {
+
+// State of the window other than widgets.
+struct ProbeState {
+    Region image; // the picture's rectangle on the screen
+    int width = 0, height = 0;
+    int64_t samples = 0;
+    bool complete = false;
+    uint64_t revision = 0;   // number of edits that affect the picture
+    bool up_to_date = false; // the picture shows the latest edit
+    std::string toast;       // the newest toast
+    std::string current_pictures = {};   // shown_text(): raw, denoised, ...
+    bool operator==(const ProbeState&) const = default;
+};
+
+class Probe {
+public:
+    // With an empty path, nothing is recorded.
+    explicit Probe(std::filesystem::path file = {}) : file_(std::move(file)) {}
+
+    bool enabled() const { return !file_.empty(); }
+    void begin_frame() { items_.clear(); }
+    // Records the last ImGui item.
+    void record_last_item(const std::string& name);
+    // Records a draggable region that is not an ImGui item.
+    void record(const std::string& name, const Region& region);
+    // Writes the JSON file if its content has changed.
+    void end_frame(const ProbeState& state);
+
+private:
+    struct Item {
+        std::string name;
+        Region region;
+        bool operator==(const Item&) const = default;
+    };
+    std::filesystem::path file_;
+    std::vector<Item> items_, written_items_;
+    ProbeState written_state_;
+};
+
+} // namespace blush

@@ -1,0 +1,83 @@
+// The GLFW window with its OpenGL context and ImGui's backends: the only file that uses GLFW.
+#pragma once
+
+#include "core/result.h"
+#include "ui/window/shortcuts.h"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+struct GLFWwindow;
+
+namespace blush {
+
+struct WindowOptions {
+    std::string title = "Blush";
+    int width = 1280, height = 800; // screen coordinates
+    bool maximized = false;
+    float scale = 0;              // of fonts and spacing; 0: the display's content scale
+    std::filesystem::path assets; // for fonts
+};
+
+class Window {
+public:
+    // Errors: no display, no OpenGL 3.3.
+    static Result<std::unique_ptr<Window>> open(const WindowOptions& options);
+    ~Window();
+    Window(const Window&) = delete;
+    Window& operator=(const Window&) = delete;
+
+    // Sleeps until input, wake() or the timeout; returns at once while frames are pending.
+    // False if no frame is needed.
+    bool wait(double timeout_seconds);
+    // Requests at least this many more frames: ImGui needs a few to settle after input.
+    void request_frames(int count);
+    // Makes wait() return with a frame pending. Thread-safe while a window is open.
+    static void wake();
+
+    // Text and UI size in per cent of the display's default. Must not be called within a frame.
+    void set_text_size(int per_cent);
+    void begin_frame();
+    // Renders ImGui's draw data over a cleared window and swaps the buffers.
+    void end_frame();
+
+    bool close_requested() const;
+    void request_close();
+    void cancel_close();
+    void set_title(const std::string& title);
+    struct Size {
+        int width, height;
+    };
+    Size size() const; // screen coordinates
+    bool maximized() const;
+    // Switches to full screen on the monitor that shows most of the window, and back to the previous size and place.
+    void toggle_full_screen();
+    bool full_screen() const;
+
+    // Keys pressed and files dropped since the last call, in order. Includes keys that were pressed and released between two
+    // frames.
+    std::vector<KeyPress> take_key_presses() { return std::exchange(key_presses_, {}); }
+    std::vector<std::filesystem::path> take_dropped_files() { return std::exchange(dropped_files_, {}); }
+
+private:
+    Window() = default;
+    void install_callbacks();
+    void begin_imgui();
+    void apply_scale();
+
+    GLFWwindow* window_ = nullptr;
+    bool imgui_ = false;
+    Size windowed_{}; // size before full screen
+    int windowed_x_ = 0, windowed_y_ = 0;
+    float display_scale_ = 1, scale_ = 1; // of the display; of fonts and spacing, relative to 96 dpi
+    int text_size_ = 100;                 // per cent
+    std::filesystem::path assets_;
+    int frames_due_ = 3;
+    std::vector<KeyPress> key_presses_;
+    std::vector<std::filesystem::path> dropped_files_;
+};
+
+} // namespace blush
