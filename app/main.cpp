@@ -1,5 +1,4 @@
 // Entry point. Exit codes: 0 done, 1 failed (one line on stderr), 2 bad usage.
-#include "app/common/assets_dir.h"
 #include "app/commands/check.h"
 #include "app/commands/common.h"
 #include "app/commands/compare.h"
@@ -9,8 +8,9 @@
 #include "app/commands/merge.h"
 #include "app/commands/render/render.h"
 #include "app/commands/render/render_options.h"
-#include "app/editor/editor.h"
+#include "app/common/assets_dir.h"
 #include "app/common/process_setup.h"
+#include "app/editor/editor.h"
 
 #include <CLI/CLI.hpp>
 

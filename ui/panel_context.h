@@ -3,13 +3,13 @@
 
 #include "color/color_management.h"
 #include "io/image/display_image.h"
-#include "render/light_mix/rename_mix_channels.h"
 #include "render/light_mix/light_groups.h"
+#include "render/light_mix/rename_mix_channels.h"
 #include "render/session/render_session.h"
 #include "scene/document/document.h"
 #include "ui/views/shown_picture.h"
-#include "ui/window/ui_state.h"
 #include "ui/widgets/waveform_sheet.h"
+#include "ui/window/ui_state.h"
 
 #include <functional>
 
@@ -23,10 +23,10 @@ struct PanelContext {
     SessionStatus status;
     // Resolution of the full-size image.
     int render_width = 0, render_height = 0;
-    DenoisedPtr denoised = {};             // of the frame's image; null: none
-    std::string denoiser_problem = {};     // why denoising is not possible; empty: it is possible
+    DenoisedPtr denoised = {};                    // of the frame's image; null: none
+    std::string denoiser_problem = {};            // why denoising is not possible; empty: it is possible
     const FeatureReport* window_ledger = nullptr; // features of the window itself; null: none
-    const Mixing* mixing = nullptr;        // gains that turn the frame's light groups into the current scene's picture; null: none
+    const Mixing* mixing = nullptr;               // gains that turn the frame's light groups into the current scene's picture; null: none
 
     float metered_ev = 0;                                                    // result of auto exposure for the frame; 0 if it is off
     WaveformTextures waveforms = {};                                         // of the scopes

@@ -1,11 +1,11 @@
 #include "app/commands/denoise.h"
 
-#include "app/common/assets_dir.h"
 #include "app/commands/common.h"
 #include "app/commands/denoising.h"
 #include "app/commands/interrupt.h"
 #include "app/commands/render/picture.h"
 #include "app/commands/render/render_options.h"
+#include "app/common/assets_dir.h"
 #include "core/srgb.h"
 #include "io/image/image_io.h"
 

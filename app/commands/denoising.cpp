@@ -1,7 +1,7 @@
 #include "app/commands/denoising.h"
 
-#include "core/text.h"
 #include "app/commands/progress.h"
+#include "core/text.h"
 #include "render/session/denoised_picture.h"
 
 #include <fmt/format.h>
@@ -23,8 +23,8 @@ Result<void> try_denoiser(Denoiser& denoiser, DenoiseQuality quality) {
     return {};
 }
 
-Result<std::vector<Denoised>> denoise_with_progress(Denoiser& denoiser, std::span<const DenoiseInput> inputs, DenoiseQuality quality, bool quiet,
-                                                    const std::atomic<bool>& interrupted) {
+Result<std::vector<Denoised>> denoise_with_progress(Denoiser& denoiser, std::span<const DenoiseInput> inputs, DenoiseQuality quality,
+                                                    bool quiet, const std::atomic<bool>& interrupted) {
     Progress progress(quiet);
     DenoiseOptions options;
     options.quality = quality;
@@ -33,7 +33,8 @@ Result<std::vector<Denoised>> denoise_with_progress(Denoiser& denoiser, std::spa
         const std::string note = fmt::format("denoising {}x{}", input.width, input.height);
         const auto show = [&](double fraction) { progress.update((double(all.size()) + fraction) / double(inputs.size()), note); };
         show(0);
-        Result<std::optional<Denoised>> denoised = denoiser.denoise(input, options, [&] { return !interrupted.load(); }, show);
+        Result<std::optional<Denoised>> denoised = denoiser.denoise(
+            input, options, [&] { return !interrupted.load(); }, show);
         if (!denoised) return denoised.error();
         if (!*denoised) return Error{.what = "interrupted before it was denoised"};
         all.push_back(**std::move(denoised));

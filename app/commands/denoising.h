@@ -22,8 +22,8 @@ Result<void> try_denoiser(Denoiser& denoiser, DenoiseQuality quality);
 
 // Denoises each input, with a progress display; `interrupted` is checked between the layers of the network. Errors: as
 // Denoiser::denoise, or interrupted.
-Result<std::vector<Denoised>> denoise_with_progress(Denoiser& denoiser, std::span<const DenoiseInput> inputs, DenoiseQuality quality, bool quiet,
-                                                    const std::atomic<bool>& interrupted);
+Result<std::vector<Denoised>> denoise_with_progress(Denoiser& denoiser, std::span<const DenoiseInput> inputs, DenoiseQuality quality,
+                                                    bool quiet, const std::atomic<bool>& interrupted);
 
 // {network, precision, tiles, seconds, energy_change_percent, sanitised}
 OrderedJson denoised_json(const Denoised& denoised);

@@ -4,8 +4,8 @@
 #include "app/commands/interrupt.h"
 #include "app/commands/json_output.h"
 #include "app/commands/load_scene.h"
-#include "app/commands/render/command_feature_report.h"
 #include "app/commands/progress.h"
+#include "app/commands/render/command_feature_report.h"
 #include "render/compile/kernel_speed.h"
 #include "scene/world_transforms.h"
 
@@ -169,7 +169,8 @@ int run_info(const InfoCommand& c) {
     renderer.update(loaded->scene, settings);
     Findings findings{renderer.info(), {}};
     if (c.measure) findings.speed = measure_kernel_speed(loaded->scene, settings);
-    findings.info.features = with_command_features(findings.info.features, c.measure ? measure_command_features(c.common.threads) : CommandFeatures{});
+    findings.info.features =
+        with_command_features(findings.info.features, c.measure ? measure_command_features(c.common.threads) : CommandFeatures{});
     if (const Result<void> written = write_json(c.common.json, info_json(*loaded, findings)); !written) return failed(written.error());
     if (!c.common.quiet && c.common.json != "-") print_info(c, *loaded, findings);
     return exit_done;

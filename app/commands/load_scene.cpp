@@ -15,8 +15,7 @@ Result<LoadedScene> load_scene(const std::filesystem::path& file, const SceneOve
     Result<ImportedScene> imported = import_gltf(file, options);
     if (!imported) return in_file(imported.error(), file.string());
     LoadedScene loaded{imported->scene, std::move(imported->scene), std::move(imported->report)};
-    if (Result<void> applied = apply_overrides(overrides, loaded.scene, aspect, imported->has_view, &loaded.report.diagnostics);
-        !applied)
+    if (Result<void> applied = apply_overrides(overrides, loaded.scene, aspect, imported->has_view, &loaded.report.diagnostics); !applied)
         return in_file(applied.error(), file.string());
     const float own = aspect_of_camera(camera_aspects(imported->origin), loaded.scene);
     loaded.camera_aspect = imported->view && imported->view->frame_aspect ? *imported->view->frame_aspect : own;

@@ -1,8 +1,8 @@
 #include "app/commands/merge.h"
 
 #include "app/commands/common.h"
-#include "app/commands/render/film_json.h"
 #include "app/commands/json_output.h"
+#include "app/commands/render/film_json.h"
 #include "app/commands/render/picture.h"
 
 #include <CLI/CLI.hpp>
@@ -114,7 +114,8 @@ Result<void> write_sum(const MergeCommand& c, std::vector<Input>& inputs, Snapsh
     metadata.error = error_text(resolved->frame.error);
     metadata.film = film_json(sum);
     const auto has = [&](const char* channel) { return inputs.front().image.find(channel) != nullptr; };
-    const bool groups = std::ranges::any_of(inputs.front().image.channels, [](const auto& channel) { return channel.name.starts_with("group."); });
+    const bool groups =
+        std::ranges::any_of(inputs.front().image.channels, [](const auto& channel) { return channel.name.starts_with("group."); });
     const Layers layers{.albedo = has("albedo.R"),
                         .normal = has("normal.X"),
                         .depth = has("depth.Z"),

@@ -66,7 +66,8 @@ std::filesystem::path find_scene(const std::filesystem::path& picture, const Sna
     const std::filesystem::path folder = picture.parent_path(), name = std::filesystem::path(m.scene).filename();
     std::error_code error;
     for (const std::filesystem::path& candidate : {folder / m.scene_file, folder / name, open_scene.filename() == name ? open_scene : ""})
-        if (!candidate.empty() && std::filesystem::is_regular_file(candidate, error)) return std::filesystem::weakly_canonical(candidate, error);
+        if (!candidate.empty() && std::filesystem::is_regular_file(candidate, error))
+            return std::filesystem::weakly_canonical(candidate, error);
     return {};
 }
 
@@ -84,7 +85,8 @@ Result<OpenedSnapshot> open_snapshot(const std::filesystem::path& file, const st
     s.settings = metadata->settings;
     s.file = file;
     if (const auto& frame = image->display_window)
-        if (frame->x0 >= 0 && frame->y0 >= 0 && frame->x0 < frame->x1 && frame->y0 < frame->y1 && frame->x1 <= image->width && frame->y1 <= image->height)
+        if (frame->x0 >= 0 && frame->y0 >= 0 && frame->x0 < frame->x1 && frame->y0 < frame->y1 && frame->x1 <= image->width &&
+            frame->y1 <= image->height)
             s.frame = frame;
     s.scene_file = find_scene(file, *metadata, open_scene);
     Result<Frame> frame = frame_from_layers(*image, *metadata);

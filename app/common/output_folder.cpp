@@ -16,7 +16,8 @@ bool is_below(const std::filesystem::path& file, const std::filesystem::path& fo
     return std::mismatch(g.begin(), g.end(), f.begin(), f.end()).first == g.end();
 }
 
-std::filesystem::path output_folder(const std::filesystem::path& chosen, const std::filesystem::path& scene_file, const std::filesystem::path& assets) {
+std::filesystem::path output_folder(const std::filesystem::path& chosen, const std::filesystem::path& scene_file,
+                                    const std::filesystem::path& assets) {
     if (!chosen.empty()) return chosen;
     const std::filesystem::path beside = scene_file.parent_path();
     if (!beside.empty() && !is_below(scene_file, assets) && access(beside.c_str(), W_OK) == 0) return beside;

@@ -168,7 +168,8 @@ Result<std::optional<LightRig>> parse_light(std::string_view text) {
     return std::optional(*rig);
 }
 
-Result<void> apply_overrides(const SceneOverrides& overrides, Scene& scene, float aspect, bool has_view, std::vector<Diagnostic>* warnings) {
+Result<void> apply_overrides(const SceneOverrides& overrides, Scene& scene, float aspect, bool has_view,
+                             std::vector<Diagnostic>* warnings) {
     const Result<SceneSelection> staging = find_staging(overrides.staging, scene);
     if (!staging) return staging.error();
     const bool other_scene = staging->scene != scene.staging.scene;

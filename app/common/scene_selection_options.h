@@ -15,10 +15,10 @@ namespace blush {
 
 // Names or indices from 0; a name has priority. Empty: the file's default.
 struct SceneSelectionOptions {
-    std::string animation = {};          // or "none"
-    std::optional<float> seconds = {};   // time in this animation, or in the current one
+    std::string animation = {};        // or "none"
+    std::optional<float> seconds = {}; // time in this animation, or in the current one
     std::string scene = {};
-    std::string variant = {};            // or "none"
+    std::string variant = {}; // or "none"
     bool operator==(const SceneSelectionOptions&) const = default;
 };
 

@@ -1,30 +1,30 @@
 #include "app/editor/editor.h"
 
 #include "app/commands/common.h"
-#include "app/files/desktop_file_dialog.h"
+#include "app/common/output_folder.h"
 #include "app/editor/editor_commands.h"
 #include "app/editor/editor_convergence.h"
 #include "app/editor/editor_display.h"
-#include "app/files/editor_files.h"
 #include "app/editor/editor_panels.h"
-#include "app/files/editor_saving.h"
 #include "app/editor/editor_snapshots.h"
-#include "app/files/file_router.h"
+#include "app/editor/last_submission.h"
 #include "app/editor/live_mix.h"
 #include "app/editor/one_shot_metering.h"
+#include "app/files/desktop_file_dialog.h"
+#include "app/files/editor_files.h"
+#include "app/files/editor_saving.h"
+#include "app/files/file_router.h"
 #include "app/files/start_page.h"
-#include "app/common/output_folder.h"
-#include "app/editor/last_submission.h"
-#include "ui/window/automation.h"
-#include "ui/viewport/camera_frame_overlay.h"
-#include "ui/window/frame_stats.h"
 #include "ui/jobs/map_thumbnails.h"
-#include "ui/viewport/regions.h"
-#include "ui/window/ui_persistence.h"
 #include "ui/panels/instruments.h"
-#include "ui/window/popups.h"
 #include "ui/snapshots/snapshot_strip.h"
+#include "ui/viewport/camera_frame_overlay.h"
+#include "ui/viewport/regions.h"
 #include "ui/viewport/viewport.h"
+#include "ui/window/automation.h"
+#include "ui/window/frame_stats.h"
+#include "ui/window/popups.h"
+#include "ui/window/ui_persistence.h"
 #include "ui/window/window.h"
 
 #include <algorithm>
@@ -88,8 +88,9 @@ private:
     EditorSaving saving_;
     DesktopFileDialog desktop_file_dialog_{&Window::wake};
     bool leaving_ = false;
-    EditorSnapshots snapshots_{&Window::wake, options_.assets,
-                               [this](std::function<void()> go_on) { saving_.before_losing_edits("opening another scene", std::move(go_on)); }};
+    EditorSnapshots snapshots_{&Window::wake, options_.assets, [this](std::function<void()> go_on) {
+                                   saving_.before_losing_edits("opening another scene", std::move(go_on));
+                               }};
     ThumbnailSheet thumbnails_;
     WaveformSheet waveforms_;
     FrameStats stats_;
@@ -113,15 +114,14 @@ private:
     bool instruments_recalled_ = false;
     ImageRect image_;
     enum class SnapshotDue { none, keep, png } snapshot_due_ = SnapshotDue::none; // pending until a picture in full resolution exists
-    std::string last_not_continued_;                                                   // last message
+    std::string last_not_continued_;                                              // last message
     Clock::time_point frame_begin_{};
 };
 
 Editor::Editor(const EditorOptions& options, std::unique_ptr<Window> window, ColorManagement color, const Automation& automation,
                WindowSettings settings)
-    : automation_(automation), window_(std::move(window)), color_(std::move(color)), options_(options),
-      display_(color_, options.weights), saving_(files_, document_, ui_, options.assets, automation.autosave_interval),
-      convergence_(&Window::wake, options.threads),
+    : automation_(automation), window_(std::move(window)), color_(std::move(color)), options_(options), display_(color_, options.weights),
+      saving_(files_, document_, ui_, options.assets, automation.autosave_interval), convergence_(&Window::wake, options.threads),
       session_({.threads = options.threads,
                 .low_priority = true,
                 .first_hit_planes = true,
@@ -143,8 +143,9 @@ Editor::Editor(const EditorOptions& options, std::unique_ptr<Window> window, Col
         ui_.toasts.warn("The OCIO configuration cannot be used: the default one is used instead", color_.warning());
     document_.reset(Project{{}, options.render, options.view});
     if (const auto loaded = viewport_.load(); !loaded) ui_.toasts.fail(loaded.error().text());
-    files_.open(options.scene.empty() ? options.assets / "scenes" / "card-and-mug.gltf" : options.scene,
-                {options.overrides, float(options.render.width) / float(options.render.height), options.settings_given, options.view_given});
+    files_.open(
+        options.scene.empty() ? options.assets / "scenes" / "card-and-mug.gltf" : options.scene,
+        {options.overrides, float(options.render.width) / float(options.render.height), options.settings_given, options.view_given});
     ui_.demos = opening_page_.demos();
     ui_.opening_page = options.scene.empty();
     saving_.offer_recovery(options.scene);
@@ -306,7 +307,8 @@ void Editor::handle_requests(PanelContext& c) {
     for (const FileRequest& request : std::exchange(ui_.files, {})) takers().take(request);
     if (std::exchange(ui_.meter_exposure, false)) metering_.want(document_.project(), false);
     saving_.poll_dialog();
-    convergence_.handle_requests(ui_, output_folder(ui_.settings.snapshot_folder, files_.scene_file(), options_.assets), files_.scene_file());
+    convergence_.handle_requests(ui_, output_folder(ui_.settings.snapshot_folder, files_.scene_file(), options_.assets),
+                                 files_.scene_file());
     snapshots_.handle_requests(document_, ui_, files_);
     const bool paused = ui_.paused || convergence_.is_rendering_reference();
     if (session_paused_ != paused) session_.pause(session_paused_ = paused);
@@ -337,7 +339,9 @@ void Editor::save_due_snapshot() {
     const FramePtr& frame = pictures_.frame;
     if (shows_preview()) return;
     if (snapshot_due_ == SnapshotDue::none || !frame || frame->revision != submitted_.revision() || frame->divider != 1) return;
-    EditorSnapshots::Shown shown{submitted_.revision(), pictures_, ui_.denoise, document_.project(), submitted_.settings(), files_.imported(), files_.scene_file(), camera_frame_of(ui_, document_.project().scene, *frame)};
+    EditorSnapshots::Shown shown{
+        submitted_.revision(), pictures_,         ui_.denoise,         document_.project(),
+        submitted_.settings(), files_.imported(), files_.scene_file(), camera_frame_of(ui_, document_.project().scene, *frame)};
     if (snapshot_due_ == SnapshotDue::keep)
         snapshots_.keep(std::move(shown), session_);
     else
@@ -427,7 +431,8 @@ void Editor::draw() {
         state.samples = shown->samples;
         state.complete = shown->complete;
         state.up_to_date = shown->revision == submitted_.revision() && !viewport_.is_thinned();
-        state.current_pictures = shown->revision <= last_preview_ ? "without textures" : shown_text(ui_.denoise, *shown, pictures_.denoised.get());
+        state.current_pictures =
+            shown->revision <= last_preview_ ? "without textures" : shown_text(ui_.denoise, *shown, pictures_.denoised.get());
     }
     window_->end_frame();
     const auto now = Clock::now();

@@ -3,13 +3,13 @@
 #include "app/editor/light_commands.h"
 #include "scene/document/subtree_edits.h"
 #include "scene/geometry/ground_plane.h"
-#include "ui/snapshots/aov_bar.h"
-#include "ui/window/docks.h"
 #include "ui/lights/multi_edit.h"
 #include "ui/lights/new_light.h"
-#include "ui/window/popups.h"
-#include "ui/widgets/value_menu.h"
+#include "ui/snapshots/aov_bar.h"
 #include "ui/viewport/view_tools.h"
+#include "ui/widgets/value_menu.h"
+#include "ui/window/docks.h"
+#include "ui/window/popups.h"
 
 #include <algorithm>
 #include <cmath>
@@ -57,7 +57,8 @@ LightSpot spot_for_new_light(PanelContext& c) {
     const View& view = c.scene().view;
     if (const auto& cursor = c.ui.cursor; cursor && c.frame && c.frame->width > 0) {
         const Projection projection(view, double(c.frame->width) / c.frame->height);
-        if (const auto surface = surface_at_pixel(*c.frame, projection, cursor->u, cursor->v)) return spot_over_surface(c.scene(), view, *surface);
+        if (const auto surface = surface_at_pixel(*c.frame, projection, cursor->u, cursor->v))
+            return spot_over_surface(c.scene(), view, *surface);
     }
     const Bounds selected = bounds_of_meshes(c.scene(), c.ui.selection(c.scene()));
     return spot_round_subject(c.scene(), view, selected.empty ? world_bounds(c.scene()) : selected);

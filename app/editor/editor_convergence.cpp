@@ -97,7 +97,8 @@ void EditorConvergence::record(ConvergenceView& view, const FramePtr& frame) {
     else if (known)
         record.add(point);
     if (known && remixed) record.mark({point.seconds, point.spp, std::exchange(remixed_by_, {}), true});
-    if (view.reference && reference_provider_.reference() && (frame->complete || record.is_due(Kind::measured, frame->samples))) measuring_.add_raw(frame);
+    if (view.reference && reference_provider_.reference() && (frame->complete || record.is_due(Kind::measured, frame->samples)))
+        measuring_.add_raw(frame);
 }
 
 void EditorConvergence::record_denoised(ConvergenceView& view, const DenoisedPtr& picture) {

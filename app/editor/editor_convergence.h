@@ -15,7 +15,8 @@ namespace blush {
 
 class EditorConvergence {
 public:
-    EditorConvergence(std::function<void()> wake, unsigned threads) : measuring_(wake), reference_provider_(wake, threads), wake_(std::move(wake)) {}
+    EditorConvergence(std::function<void()> wake, unsigned threads)
+        : measuring_(wake), reference_provider_(wake, threads), wake_(std::move(wake)) {}
 
     // The next submission to the session.
     struct Submission {

@@ -4,7 +4,8 @@
 
 namespace blush {
 
-void EditorDisplay::update_shader(const ViewSettings& view, const FramePtr& frame, Viewport& viewport, ThumbnailSheet& thumbnails, Toasts& toasts) {
+void EditorDisplay::update_shader(const ViewSettings& view, const FramePtr& frame, Viewport& viewport, ThumbnailSheet& thumbnails,
+                                  Toasts& toasts) {
     using Clock = std::chrono::steady_clock;
     const DisplayTransform wanted = transform_of(view);
     // No OCIO processor and no lookup tables before the first picture.

@@ -4,8 +4,8 @@
 #include "color/color_management.h"
 #include "render/session/render_session.h"
 #include "ui/snapshots/snapshot_strip.h"
-#include "ui/window/toasts.h"
 #include "ui/viewport/viewport.h"
+#include "ui/window/toasts.h"
 
 #include <array>
 #include <filesystem>

@@ -1,9 +1,9 @@
 #include "app/editor/editor_panels.h"
 
-#include "ui/window/docks.h"
 #include "ui/panels/panels.h"
-#include "ui/viewport/regions.h"
 #include "ui/snapshots/snapshot_strip.h"
+#include "ui/viewport/regions.h"
+#include "ui/window/docks.h"
 
 #include <cmath>
 

@@ -1,8 +1,8 @@
 // Draws the panels around the picture and the windows above it, in their order.
 #pragma once
 
-#include "ui/window/layout.h"
 #include "ui/panel_context.h"
+#include "ui/window/layout.h"
 
 namespace blush {
 

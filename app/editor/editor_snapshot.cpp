@@ -3,8 +3,8 @@
 #include "app/commands/denoising.h"
 #include "app/commands/render/film_json.h"
 #include "app/commands/render/picture.h"
-#include "app/common/unique_filename.h"
 #include "app/common/scene_overrides.h"
+#include "app/common/unique_filename.h"
 #include "io/image/display_image.h"
 #include "io/project/scene_edits_json.h"
 #include "io/project/scene_hash.h"
@@ -76,7 +76,8 @@ SnapshotJob cut_out(SnapshotJob job) {
 Result<SavedSnapshot> write_snapshot_exr(const SnapshotJob& job) {
     // With samples all pixels are saved; those outside the frame are overscan.
     if (job.snapshot.frame && !(job.film && job.snapshot.film)) return write_snapshot_exr(cut_out(job));
-    const Result<std::filesystem::path> file = job.file.empty() ? unique_filename(job.folder, job.snapshot.scene_file.stem().string(), ".exr") : job.file;
+    const Result<std::filesystem::path> file =
+        job.file.empty() ? unique_filename(job.folder, job.snapshot.scene_file.stem().string(), ".exr") : job.file;
     if (!file) return file.error();
     const Snapshot& s = job.snapshot;
     const Layers layers{.albedo = true, .normal = true, .depth = true, .error = true, .samples = true, .ids = true, .groups = true};
@@ -107,9 +108,9 @@ Result<SavedSnapshot> write_snapshot_png(const SnapshotJob& job, const ColorMana
     const ViewSettings& view = job.snapshot.project.view;
     const std::vector<float> coverage = coverage_of(frame);
     const ViewSettings as_shown = settled(view, metered_exposure(view.auto_exposure, frame.rgba, 4));
-    const auto written = write_display_picture(*file, frame.width, frame.height, std::move(shown), color, as_shown,
-                                               display_metadata(metadata_of(job, *file, denoised)), {frame.albedo, coverage},
-                                               opacity_of(frame));
+    const auto written =
+        write_display_picture(*file, frame.width, frame.height, std::move(shown), color, as_shown,
+                              display_metadata(metadata_of(job, *file, denoised)), {frame.albedo, coverage}, opacity_of(frame));
     if (!written) return written.error();
     return SavedSnapshot{*file, 0};
 }

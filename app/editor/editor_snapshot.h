@@ -4,8 +4,8 @@
 #include "color/color_management.h"
 #include "core/result.h"
 #include "io/image/snapshot.h"
-#include "ui/views/denoise_view.h"
 #include "ui/snapshots/snapshots_view.h"
+#include "ui/views/denoise_view.h"
 
 #include <filesystem>
 #include <optional>

@@ -68,7 +68,8 @@ void EditorSnapshots::finish_capture(UiState& ui, RenderSession& session) {
 
 void EditorSnapshots::write(const SnapshotPtr& snapshot, const UiState& ui, Why why) {
     const WindowSettings& w = ui.settings;
-    SnapshotJob job{*snapshot, {}, output_folder(w.snapshot_folder, snapshot->scene_file, assets_), {}, {}, w.snapshot_half, w.snapshot_film};
+    SnapshotJob job{*snapshot,      {}, output_folder(w.snapshot_folder, snapshot->scene_file, assets_), {}, {}, w.snapshot_half,
+                    w.snapshot_film};
     if (why == Why::renamed) {
         job.file = snapshot->file;
         job.film = snapshot->film_in_file;
@@ -95,7 +96,8 @@ void EditorSnapshots::make_room(UiState& ui) {
 void EditorSnapshots::finish_all() {
     writing_.reset(); // waits for the running job
     for (const Writing& left : std::exchange(to_write_, {}))
-        if (const auto written = catch_as_result<SavedSnapshot>(left.write); !written) fmt::print(stderr, "blush: warning: {}\n", written.error().text());
+        if (const auto written = catch_as_result<SavedSnapshot>(left.write); !written)
+            fmt::print(stderr, "blush: warning: {}\n", written.error().text());
 }
 
 void EditorSnapshots::finish_writing(UiState& ui) {
@@ -115,7 +117,8 @@ void EditorSnapshots::finish_writing(UiState& ui) {
             }
             const std::string text = "Saved " + saved.file.filename().string();
             if (saved.count_beyond_half > 0)
-                ui.toasts.warn(text, fmt::format("{} values are too bright for 16 bits and became {:.0f} nits.", saved.count_beyond_half, max_half));
+                ui.toasts.warn(
+                    text, fmt::format("{} values are too bright for 16 bits and became {:.0f} nits.", saved.count_beyond_half, max_half));
             else
                 ui.toasts.note(text, saved.file.parent_path().string());
         }
@@ -181,7 +184,8 @@ void EditorSnapshots::finish_opening(Document& document, UiState& ui, EditorFile
     if (!(**result).snapshot) return files.load_environment(opening_file_);
     const SnapshotPtr snapshot = add_to_strip(*std::move((**result).snapshot), ui);
     ui.snapshots.open = true;
-    if (!snapshot->no_state.empty()) return ui.toasts.warn(snapshot->name + " was added to the strip without its state", snapshot->no_state);
+    if (!snapshot->no_state.empty())
+        return ui.toasts.warn(snapshot->name + " was added to the strip without its state", snapshot->no_state);
     restore(snapshot, document, ui, files);
 }
 
@@ -195,7 +199,8 @@ void EditorSnapshots::show_picture(std::shared_ptr<PictureLayers> layers, UiStat
     const size_t count = layers->layers.size();
     s.layers = std::move(layers);
     s.choose_layer(0);
-    ui.toasts.note(s.name, fmt::format("{} layer{}: choose one in the Comparison panel. J switches to the live image and back.", count, count == 1 ? "" : "s"));
+    ui.toasts.note(s.name, fmt::format("{} layer{}: choose one in the Comparison panel. J switches to the live image and back.", count,
+                                       count == 1 ? "" : "s"));
     ui.snapshots.open = true;
     Comparison& compare = ui.snapshots.compare;
     compare = {.mode = Comparison::Mode::flicker, .a = ui.snapshots.add(std::move(s)), .b = live_image, .kind = compare.kind};
@@ -306,8 +311,10 @@ void EditorSnapshots::poll(bool opened, Document& document, UiState& ui, EditorF
     store_.poll(ui);
     make_room(ui);
     if (!waiting_ || state_job_) return;
-    if (opened && same_file(waiting_->scene_file, files.scene_file())) go_on(document, ui, files);
-    else if (!files.running()) waiting_.reset(); // its scene could not be read; a toast has reported it
+    if (opened && same_file(waiting_->scene_file, files.scene_file()))
+        go_on(document, ui, files);
+    else if (!files.running())
+        waiting_.reset(); // its scene could not be read; a toast has reported it
 }
 
 std::optional<RunningJob> EditorSnapshots::running() const {

@@ -1,9 +1,9 @@
 // Snapshots of the editor: takes them, writes and opens their files, restores their states.
 #pragma once
 
-#include "app/files/editor_files.h"
-#include "app/editor/editor_snapshot.h"
 #include "app/commands/opened_snapshot.h"
+#include "app/editor/editor_snapshot.h"
+#include "app/files/editor_files.h"
 #include "app/files/snapshot_store.h"
 #include "render/session/render_session.h"
 #include "ui/jobs/background_job.h"

@@ -11,7 +11,7 @@ using Clock = std::chrono::steady_clock;
 using Kind = ConvergencePoint::Kind;
 
 constexpr size_t max_denoised_bytes = size_t(256) << 20; // of denoised pictures that wait for a better raw picture
-constexpr double remeasure_growth = 1.4;                    // factor of the raw picture's samples between two measurements
+constexpr double remeasure_growth = 1.4;                 // factor of the raw picture's samples between two measurements
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
@@ -51,8 +51,9 @@ void ErrorMeasurement::add_denoised(const DenoisedPtr& picture) {
 
 size_t ErrorMeasurement::waiting(const ConvergenceRecord& record) const {
     const std::vector<ConvergencePoint> points = record.points(Kind::denoised);
-    return size_t(std::ranges::count_if(
-        denoised_, [&](const Waiting& w) { return std::ranges::find(points, w.picture->samples, &ConvergencePoint::spp) == points.end(); }));
+    return size_t(std::ranges::count_if(denoised_, [&](const Waiting& w) {
+        return std::ranges::find(points, w.picture->samples, &ConvergencePoint::spp) == points.end();
+    }));
 }
 
 void ErrorMeasurement::take(ConvergenceRuns& runs) {

@@ -4,8 +4,8 @@
 
 #include "core/time_budget.h"
 #include "measure/convergence/convergence_runs.h"
-#include "measure/metrics/picture_error.h"
 #include "measure/convergence/reference.h"
+#include "measure/metrics/picture_error.h"
 #include "render/session/published_frames.h"
 #include "ui/jobs/background_job.h"
 

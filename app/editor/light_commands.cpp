@@ -1,10 +1,10 @@
 #include "app/editor/light_commands.h"
 
 #include "app/common/scene_overrides.h"
-#include "ui/lights/multi_edit.h"
+#include "ui/lights/light_camera.h"
 #include "ui/lights/light_groups.h"
 #include "ui/lights/light_rows.h"
-#include "ui/lights/light_camera.h"
+#include "ui/lights/multi_edit.h"
 #include "ui/panels/instruments.h"
 
 #include <algorithm>
@@ -33,7 +33,8 @@ std::vector<LightRow> selected_rows(PanelContext& c) {
     return rows;
 }
 
-template <class Switch> void switch_rows(PanelContext& c, const std::vector<LightRow>& rows, const std::string& what, const Switch& switched) {
+template <class Switch>
+void switch_rows(PanelContext& c, const std::vector<LightRow>& rows, const std::string& what, const Switch& switched) {
     std::vector<Edit> edits;
     for (const LightRow& row : rows) edits.push_back(switched(row));
     const std::string which = rows.size() == 1 ? rows[0].name : std::to_string(rows.size()) + " lights";
@@ -62,13 +63,15 @@ void add_light_rig(PanelContext& c, LightRig rig) {
 void toggle_mute(PanelContext& c) {
     const auto rows = selected_rows(c);
     const bool some_on = std::ranges::any_of(rows, &LightRow::on);
-    switch_rows(c, rows, some_on ? "Mute" : "Unmute", [&](const LightRow& row) { return with_switches(c.scene(), row, !some_on, row.solo); });
+    switch_rows(c, rows, some_on ? "Mute" : "Unmute",
+                [&](const LightRow& row) { return with_switches(c.scene(), row, !some_on, row.solo); });
 }
 
 void toggle_solo(PanelContext& c) {
     const auto rows = selected_rows(c);
     const bool all_solo = std::ranges::all_of(rows, &LightRow::solo);
-    switch_rows(c, rows, all_solo ? "End solo of" : "Solo", [&](const LightRow& row) { return with_switches(c.scene(), row, row.on, !all_solo); });
+    switch_rows(c, rows, all_solo ? "End solo of" : "Solo",
+                [&](const LightRow& row) { return with_switches(c.scene(), row, row.on, !all_solo); });
 }
 
 void group_lights(PanelContext& c) {

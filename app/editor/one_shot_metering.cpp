@@ -14,7 +14,8 @@ void OneShotMetering::want(const Project& project, bool opening) {
 void OneShotMetering::current_pictures(Document& document, const FramePtr& frame, const UiState& ui, const ColorManagement& color) {
     if (!due_ || !frame) return;
     const Project& project = document.project();
-    const bool taken_back = project.scene.environment.kind != due_->environment.kind || project.scene.environment.image != due_->environment.image;
+    const bool taken_back =
+        project.scene.environment.kind != due_->environment.kind || project.scene.environment.image != due_->environment.image;
     if (project.view.auto_exposure != AutoExposure::off || project.view.exposure_ev != due_->exposure_ev || taken_back) return due_.reset();
     const int64_t paths = frame->samples * frame->width * frame->height;
     if (frame->divider != 1 || (paths < paths_to_meter && !frame->complete)) return;

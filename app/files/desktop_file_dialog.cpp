@@ -19,7 +19,8 @@ void request(UiState& ui, FileRequest::Use use, std::filesystem::path path) {
 } // namespace
 
 void DesktopFileDialog::poll(UiState& ui) {
-    if (ui.browser && ui.browser->just_opened && !ui.browser->on_desktop && usable_ && ui.settings.desktop_file_dialog && may_have_session_bus()) {
+    if (ui.browser && ui.browser->just_opened && !ui.browser->on_desktop && usable_ && ui.settings.desktop_file_dialog &&
+        may_have_session_bus()) {
         const FileBrowser& b = *ui.browser;
         const bool saves = b.use == FileRequest::Use::save_scene;
         const PortalRequest request{b.use, b.folder, saves ? std::filesystem::path(b.typed).filename().string() : ""};

@@ -1,8 +1,8 @@
 #include "app/files/editor_files.h"
 
 #include "app/commands/common.h"
-#include "io/image/environment_image.h"
 #include "io/gltf/read/camera_aspects.h"
+#include "io/image/environment_image.h"
 #include "io/image/ies.h"
 #include "io/image/image_io.h"
 #include "io/project/merge_edits.h"
@@ -141,7 +141,9 @@ void EditorFiles::start_import(const std::filesystem::path& file, Purpose purpos
         };
     import_job_ = std::make_unique<BackgroundJob<Result<Opened>>>(
         "Loading " + file.filename().string(),
-        [file, options, sidecar, on_preview_scene](JobProgress& progress) { return import_file(file, options, sidecar, progress, on_preview_scene); },
+        [file, options, sidecar, on_preview_scene](JobProgress& progress) {
+            return import_file(file, options, sidecar, progress, on_preview_scene);
+        },
         wake_);
 }
 
@@ -302,8 +304,8 @@ void EditorFiles::finish_map(Document& document, UiState& ui, Result<ImagePtr> i
     map_job_.reset();
     if (cancelled) return;
     if (!image) return ui.toasts.fail(image.error().text());
-    const Result<void> done = set_map(document, map_.material, map_.slot, map_.label, {.name = map_file_.stem().string(), .source = "embedded", .image = *image},
-                                      ui.gestures.begin());
+    const Result<void> done = set_map(document, map_.material, map_.slot, map_.label,
+                                      {.name = map_file_.stem().string(), .source = "embedded", .image = *image}, ui.gestures.begin());
     ui.gestures.end();
     if (!done) return ui.toasts.fail(done.error().text());
     if (!has_texture_coordinates(document.project().scene, map_.material))

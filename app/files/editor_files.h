@@ -10,8 +10,8 @@
 #include "render/session/published_frames.h"
 #include "scene/document/document.h"
 #include "ui/jobs/background_job.h"
-#include "ui/views/denoise_view.h"
 #include "ui/panels/panels.h"
+#include "ui/views/denoise_view.h"
 #include "ui/window/ui_state.h"
 
 #include <chrono>

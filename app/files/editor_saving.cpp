@@ -73,7 +73,8 @@ void EditorSaving::ask_for_file(const std::filesystem::path& proposed) {
     std::filesystem::path folder = scene.parent_path();
     if (is_below(scene, assets_)) folder = ui_.settings.browser_folder;
     if (!std::filesystem::is_directory(folder, error) || is_below(folder, assets_)) folder = home_folder();
-    ui_.browser = FileBrowser{FileRequest::Use::save_scene, folder, (folder / scene.filename()).string(), {}, true, files_.scene_file().parent_path()};
+    ui_.browser = FileBrowser{FileRequest::Use::save_scene,     folder, (folder / scene.filename()).string(), {}, true,
+                              files_.scene_file().parent_path()};
 }
 
 void EditorSaving::save_as(const std::filesystem::path& file) {

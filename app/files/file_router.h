@@ -2,9 +2,9 @@
 #pragma once
 
 #include "app/editor/editor_convergence.h"
+#include "app/editor/editor_snapshots.h"
 #include "app/files/editor_files.h"
 #include "app/files/editor_saving.h"
-#include "app/editor/editor_snapshots.h"
 #include "ui/window/ui_state.h"
 
 #include <filesystem>

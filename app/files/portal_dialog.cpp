@@ -45,8 +45,7 @@ Options options_of(const PortalRequest& request, const std::string& token) {
     std::string names;
     for (const std::string& extension : extensions) {
         std::string pattern = "*";
-        for (const char c : extension)
-            pattern += c >= 'a' && c <= 'z' ? fmt::format("[{}{}]", c, char(c - 'a' + 'A')) : std::string(1, c);
+        for (const char c : extension) pattern += c >= 'a' && c <= 'z' ? fmt::format("[{}{}]", c, char(c - 'a' + 'A')) : std::string(1, c);
         patterns.emplace_back(0u, pattern);
         names += (names.empty() ? "*" : ", *") + extension;
     }
@@ -61,7 +60,8 @@ public:
     void set(uint32_t code, const Options& results) {
         std::vector<std::string> uris;
         const auto it = results.find("uris");
-        if (it != results.end() && it->second.containsValueOfType<std::vector<std::string>>()) uris = it->second.get<std::vector<std::string>>();
+        if (it != results.end() && it->second.containsValueOfType<std::vector<std::string>>())
+            uris = it->second.get<std::vector<std::string>>();
         const std::lock_guard lock(mutex_);
         if (answer_) return;
         answer_.emplace();
@@ -89,7 +89,9 @@ PortalAnswer ask(const PortalRequest& request, const std::atomic<bool>& cancel) 
         if (c == '.') c = '_';
     const std::string handle = fmt::format("{}/request/{}/{}", desktop_path, sender, token);
     auto answer = sdbus::createProxy(*connection, service, handle);
-    answer->uponSignal("Response").onInterface(request_interface).call([&](const uint32_t& code, const Options& results) { response.set(code, results); });
+    answer->uponSignal("Response").onInterface(request_interface).call([&](const uint32_t& code, const Options& results) {
+        response.set(code, results);
+    });
     answer->finishRegistration();
     auto desktop = sdbus::createProxy(*connection, service, desktop_path);
     desktop->finishRegistration();
@@ -104,7 +106,11 @@ PortalAnswer ask(const PortalRequest& request, const std::atomic<bool>& cancel) 
         // If the portal ends while its dialog is open, it never answers.
         bool alive = false;
         auto bus = sdbus::createProxy(*connection, "org.freedesktop.DBus", "/org/freedesktop/DBus");
-        bus->callMethod("NameHasOwner").onInterface("org.freedesktop.DBus").withTimeout(time_to_appear).withArguments(std::string(service)).storeResultsTo(alive);
+        bus->callMethod("NameHasOwner")
+            .onInterface("org.freedesktop.DBus")
+            .withTimeout(time_to_appear)
+            .withArguments(std::string(service))
+            .storeResultsTo(alive);
         if (!alive && !response.get()) return {};
         for (int i = 0; i < 10 && !response.get() && !cancel; ++i) std::this_thread::sleep_for(50ms);
     }

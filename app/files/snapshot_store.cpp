@@ -41,9 +41,12 @@ void SnapshotStore::poll(UiState& ui) {
 std::vector<SnapshotPtr> SnapshotStore::make_room(UiState& ui) {
     std::vector<SnapshotPtr> unwritten;
     for (const SnapshotPtr& s : beyond_memory(ui.snapshots, size_t(ui.settings.snapshot_memory) << 20)) {
-        if (s->file.empty()) unwritten.push_back(s);
-        else if (!s->film || s->film_in_file) s->let_go();
-        else s->film = nullptr;
+        if (s->file.empty())
+            unwritten.push_back(s);
+        else if (!s->film || s->film_in_file)
+            s->let_go();
+        else
+            s->film = nullptr;
     }
     return unwritten;
 }

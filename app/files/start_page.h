@@ -2,8 +2,8 @@
 #pragma once
 
 #include "render/frame.h"
-#include "ui/panel_context.h"
 #include "ui/jobs/file_thumbnails.h"
+#include "ui/panel_context.h"
 
 #include <filesystem>
 
@@ -11,14 +11,16 @@ namespace blush {
 
 class StartPage {
 public:
-    StartPage(std::filesystem::path assets, std::function<void()> wake) : assets_(std::move(assets)), thumbnails_(assets_, std::move(wake)) {}
+    StartPage(std::filesystem::path assets, std::function<void()> wake)
+        : assets_(std::move(assets)), thumbnails_(assets_, std::move(wake)) {}
     // The shipped scenes, sorted by name.
     std::vector<std::string> demos() const;
     // Thumbnail of a scene or image file; 0: none (yet).
     ImTextureID thumbnail(const std::string& file) { return thumbnails_.of(file); }
     // Saves a thumbnail of the scene when its picture is good enough, and, with `leaving`, of the last picture. Failures are
     // ignored: it is a cache.
-    void keep_thumbnail(const std::filesystem::path& scene, const FramePtr& frame, const ViewSettings& view, const ColorManagement& color, bool leaving = false);
+    void keep_thumbnail(const std::filesystem::path& scene, const FramePtr& frame, const ViewSettings& view, const ColorManagement& color,
+                        bool leaving = false);
 
 private:
     std::filesystem::path assets_, kept_; // kept_: the scene whose thumbnail is saved

@@ -16,11 +16,11 @@ namespace blush {
 // scene_linear)`, whose alpha is the coverage by objects, and has a uniform for each DisplayNumber.
 struct DisplayShader {
     struct Lut {
-        std::string sampler;  // name of the uniform sampler
-        int dimensions = 2;   // 1, 2 or 3
+        std::string sampler; // name of the uniform sampler
+        int dimensions = 2;  // 1, 2 or 3
         int width = 0, height = 1, depth = 1;
-        int channels = 3;     // 1 or 3
-        bool linear = true;   // filtering; nearest otherwise
+        int channels = 3;   // 1 or 3
+        bool linear = true; // filtering; nearest otherwise
         std::vector<float> values;
     };
     std::string text;

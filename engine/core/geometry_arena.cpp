@@ -16,7 +16,8 @@ constexpr size_t page = 4096;
 class Stretch {
 public:
     explicit Stretch(size_t element_bytes, int64_t count) : element_bytes_(element_bytes) {
-        void* at = mmap(nullptr, element_bytes * size_t(count) + page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+        void* at =
+            mmap(nullptr, element_bytes * size_t(count) + page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
         base_ = at == MAP_FAILED ? nullptr : static_cast<std::byte*>(at);
     }
     void* base() const { return base_; }

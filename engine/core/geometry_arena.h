@@ -33,7 +33,9 @@ using ArenaRangePtr = std::shared_ptr<const ArenaRange>;
 // on the heap and are copied.
 ArenaRangePtr reserve_arena_range(ArenaKind numbering, size_t count);
 // Size of the arena in elements: vertices * 4 and indices stay below 2^31, as kernels require.
-constexpr int64_t arena_capacity(ArenaKind numbering) { return numbering == ArenaKind::vertices ? int64_t(1) << 29 : (int64_t(1) << 31) - 4096; }
+constexpr int64_t arena_capacity(ArenaKind numbering) {
+    return numbering == ArenaKind::vertices ? int64_t(1) << 29 : (int64_t(1) << 31) - 4096;
+}
 
 // Vertex attributes; UV set n is first_uv + n.
 enum class Attribute : int { positions, normals, tangents, colors, first_uv };

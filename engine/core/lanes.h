@@ -55,7 +55,8 @@ inline bool as_mask(bool m) { return m; }
 template <class T, class A> WideMask as_mask(stdx::simd_mask<T, A> m) { return stdx::__proposed::static_simd_cast<WideMask>(m); }
 
 // ---- select: a where m, else b
-template <class T> requires std::is_arithmetic_v<T> T select(bool m, T a, T b) { return m ? a : b; }
+template <class T>
+requires std::is_arithmetic_v<T> T select(bool m, T a, T b) { return m ? a : b; }
 inline Wide select(WideMask m, Wide a, Wide b) {
     stdx::where(m, b) = a;
     return b;
@@ -116,8 +117,10 @@ template <class Fn> void for_each_lane(unsigned lanes, Fn fn) {
 
 // ---- memory: n consecutive numbers starting at p, for n = width
 template <class V, class T> V load(const T* p) {
-    if constexpr (std::is_arithmetic_v<V>) return *p;
-    else return V(p, stdx::element_aligned);
+    if constexpr (std::is_arithmetic_v<V>)
+        return *p;
+    else
+        return V(p, stdx::element_aligned);
 }
 inline void store(float* p, float v) { *p = v; }
 inline void store(int32_t* p, int32_t v) { *p = v; }
@@ -125,8 +128,10 @@ inline void store(uint32_t* p, uint32_t v) { *p = v; }
 template <class T, class A> void store(T* p, stdx::simd<T, A> v) { v.copy_to(p, stdx::element_aligned); }
 // 0, 1, 2, ... width - 1
 template <class F> Int<F> iota() {
-    if constexpr (std::is_same_v<F, float>) return 0;
-    else return Int<F>([](auto i) { return int32_t(i); });
+    if constexpr (std::is_same_v<F, float>)
+        return 0;
+    else
+        return Int<F>([](auto i) { return int32_t(i); });
 }
 
 // ---- gather: p[i] per lane. i must be valid in every lane.

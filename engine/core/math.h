@@ -69,9 +69,7 @@ template <class T> AffineT<T> operator*(const AffineT<T>& a, const AffineT<T>& b
 }
 template <class T> T determinant(const AffineT<T>& m) { return dot(m.x, cross(m.y, m.z)); }
 // Cofactor matrix: inverse transpose of the linear part times the determinant. Transforms normals, up to length.
-template <class T> AffineT<T> cofactor(const AffineT<T>& m) {
-    return {cross(m.y, m.z), cross(m.z, m.x), cross(m.x, m.y), {0, 0, 0}};
-}
+template <class T> AffineT<T> cofactor(const AffineT<T>& m) { return {cross(m.y, m.z), cross(m.z, m.x), cross(m.x, m.y), {0, 0, 0}}; }
 // Undefined for a singular map.
 template <class T> AffineT<T> inverse(const AffineT<T>& m) {
     const AffineT<T> c = cofactor(m);
@@ -98,9 +96,7 @@ template <class F> Basis<F> basis_around(const Vec<F>& n) {
 }
 
 // ---- elementary functions
-template <class F> struct SinCos {
-    F sin, cos;
-};
+template <class F> struct SinCos { F sin, cos; };
 // sin and cos of 2 pi u for u in [-4, 4]; minimax polynomials, error below 1e-7.
 template <class F> SinCos<F> sincos_turns(const F& u) {
     const F x = u * 4.f;
@@ -121,7 +117,8 @@ template <class F> F exp(const F& x) {
     const F c = min(max(x, F(-88.f)), F(88.f));
     const F k = floor(c * 1.44269504f + 0.5f);
     const F r = (c - k * 0.693359375f) - k * -2.12194440e-4f;
-    const F p = 1.f + r * (1.f + r * (0.5f + r * (0.166666667f + r * (0.0416666667f + r * (8.33333333e-3f + r * (1.38888889e-3f + r * 1.98412698e-4f))))));
+    const F p = 1.f + r * (1.f + r * (0.5f + r * (0.166666667f +
+                                                  r * (0.0416666667f + r * (8.33333333e-3f + r * (1.38888889e-3f + r * 1.98412698e-4f))))));
     const F scale = float_from_bits((to_int(k) + 127) << 23);
     return select(x < F(-87.f), F(0.f), p * scale);
 }

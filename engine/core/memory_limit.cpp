@@ -69,8 +69,10 @@ void tighten_by_groups(MemoryLimit& room, const fs::path& root) {
         if (first == line.npos || second == line.npos) continue;
         const std::string controllers = "," + line.substr(first + 1, second - first - 1) + ",";
         const fs::path group = line.substr(second + 1);
-        if (controllers == ",,") tighten_by_groups(room, root / "sys/fs/cgroup", group, group_v2);
-        else if (controllers.find(",memory,") != controllers.npos) tighten_by_groups(room, root / "sys/fs/cgroup/memory", group, group_v1);
+        if (controllers == ",,")
+            tighten_by_groups(room, root / "sys/fs/cgroup", group, group_v2);
+        else if (controllers.find(",memory,") != controllers.npos)
+            tighten_by_groups(room, root / "sys/fs/cgroup/memory", group, group_v1);
     }
 }
 
@@ -85,7 +87,8 @@ MemoryLimit memory_limit(const fs::path& root) {
     MemoryLimit room{unknown, "of this machine", unknown};
     const fs::path memory = root / "proc/meminfo";
     if (const auto total = value_of(memory, "MemTotal:"))
-        tighten(room, *total << 10, (*total - std::min(*total, value_of(memory, "MemAvailable:").value_or(*total))) << 10, "of this machine");
+        tighten(room, *total << 10, (*total - std::min(*total, value_of(memory, "MemAvailable:").value_or(*total))) << 10,
+                "of this machine");
     rlimit limit{};
     if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
         tighten(room, limit.rlim_cur, number_in(root / "proc/self/statm").value_or(0) * uint64_t(sysconf(_SC_PAGE_SIZE)), "by ulimit -v");

@@ -1,7 +1,7 @@
 #include "core/parallel.h"
 
-#include "core/tsan_annotations.h"
 #include "core/startable_threads.h"
+#include "core/tsan_annotations.h"
 
 #include <atomic>
 #include <cstdint>
@@ -24,7 +24,9 @@ namespace {
 
 class ThreadSetup : public tbb::task_scheduler_observer {
 public:
-    ThreadSetup(tbb::task_arena& arena, bool low_priority) : tbb::task_scheduler_observer(arena), low_priority_(low_priority) { observe(true); }
+    ThreadSetup(tbb::task_arena& arena, bool low_priority) : tbb::task_scheduler_observer(arena), low_priority_(low_priority) {
+        observe(true);
+    }
     ~ThreadSetup() override { observe(false); }
 
     void on_scheduler_entry(bool is_worker) override {
@@ -69,7 +71,8 @@ struct Workers::State {
 };
 
 Workers::Workers(unsigned threads, bool low_priority)
-    : threads_(startable_threads(threads ? threads : std::max(1u, std::thread::hardware_concurrency()))), state_(std::make_unique<State>(threads_, low_priority)) {
+    : threads_(startable_threads(threads ? threads : std::max(1u, std::thread::hardware_concurrency()))),
+      state_(std::make_unique<State>(threads_, low_priority)) {
     if (low_priority) lower_priority_of_this_thread();
 }
 

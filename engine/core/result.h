@@ -41,12 +41,24 @@ public:
     Result(Error error) : state_(std::in_place_index<1>, std::move(error)) {}
 
     explicit operator bool() const { return state_.index() == 0; }
-    T& operator*() & { assert(*this); return *std::get_if<0>(&state_); }
-    const T& operator*() const& { assert(*this); return *std::get_if<0>(&state_); }
-    T&& operator*() && { assert(*this); return std::move(*std::get_if<0>(&state_)); }
+    T& operator*() & {
+        assert(*this);
+        return *std::get_if<0>(&state_);
+    }
+    const T& operator*() const& {
+        assert(*this);
+        return *std::get_if<0>(&state_);
+    }
+    T&& operator*() && {
+        assert(*this);
+        return std::move(*std::get_if<0>(&state_));
+    }
     T* operator->() { return &**this; }
     const T* operator->() const { return &**this; }
-    const Error& error() const { assert(!*this); return *std::get_if<1>(&state_); }
+    const Error& error() const {
+        assert(!*this);
+        return *std::get_if<1>(&state_);
+    }
 
 private:
     std::variant<T, Error> state_;
@@ -58,7 +70,10 @@ public:
     Result(Error error) : error_(std::move(error)) {}
 
     explicit operator bool() const { return !error_; }
-    const Error& error() const { assert(error_); return *error_; }
+    const Error& error() const {
+        assert(error_);
+        return *error_;
+    }
 
 private:
     std::optional<Error> error_;

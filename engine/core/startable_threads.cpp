@@ -25,7 +25,9 @@ unsigned startable_threads(unsigned wanted) {
     try {
         tried.reserve(wanted);
         while (tried.size() + 1 < wanted) tried.emplace_back([&] { end.wait(); });
-    } catch (const std::system_error&) { most = unsigned(tried.size()) + 1; } catch (const std::bad_alloc&) { most = unsigned(tried.size()) + 1; }
+    } catch (const std::system_error&) { most = unsigned(tried.size()) + 1; } catch (const std::bad_alloc&) {
+        most = unsigned(tried.size()) + 1;
+    }
     end.count_down();
     for (std::thread& thread : tried) thread.join();
     known = unsigned(tried.size()) + 1;

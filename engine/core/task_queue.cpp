@@ -1,8 +1,8 @@
 #include "core/task_queue.h"
 
-#include "core/tsan_annotations.h"
 #include "core/parallel.h"
 #include "core/startable_threads.h"
+#include "core/tsan_annotations.h"
 
 #include <algorithm>
 #include <tbb/task_arena.h>
@@ -31,7 +31,9 @@ bool this_thread_has_low_priority() {
 
 class SamePriority : public tbb::task_scheduler_observer {
 public:
-    explicit SamePriority(tbb::task_arena& arena) : tbb::task_scheduler_observer(arena), low_(this_thread_has_low_priority()) { observe(true); }
+    explicit SamePriority(tbb::task_arena& arena) : tbb::task_scheduler_observer(arena), low_(this_thread_has_low_priority()) {
+        observe(true);
+    }
     ~SamePriority() override { observe(false); }
 
     void on_scheduler_entry(bool is_worker) override {
@@ -101,7 +103,8 @@ void TaskQueue::begin(const std::vector<int64_t>& sizes, int64_t large, std::fun
         // Enough chunks to balance the load, but not millions.
         const size_t piece = side_by_side.size() / (64 * size_t(state_->threads)) + 1;
         for (size_t first = 0; first < side_by_side.size(); first += piece) {
-            const auto begin = side_by_side.begin() + std::ptrdiff_t(first), end = begin + std::ptrdiff_t(std::min(piece, side_by_side.size() - first));
+            const auto begin = side_by_side.begin() + std::ptrdiff_t(first),
+                       end = begin + std::ptrdiff_t(std::min(piece, side_by_side.size() - first));
             state_->begin([shared, part = std::vector<size_t>(begin, end)] {
                 for (const size_t i : part) (*shared)(i);
             });

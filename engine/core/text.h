@@ -35,7 +35,8 @@ inline std::string without_sign_of_zero(std::string text) {
     const size_t sign = text.find_first_not_of(' ');
     if (sign == text.npos || (text[sign] != '-' && text[sign] != '+')) return text;
     const size_t end = std::min(text.find_first_not_of("0123456789.", sign + 1), text.size());
-    if (text.find_first_of("123456789", sign) < end || end == sign + 1 || (end < text.size() && (text[end] == 'e' || text[end] == 'n'))) return text;
+    if (text.find_first_of("123456789", sign) < end || end == sign + 1 || (end < text.size() && (text[end] == 'e' || text[end] == 'n')))
+        return text;
     return text.erase(sign, 1);
 }
 

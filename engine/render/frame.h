@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/vec.h"
-#include "render/diagnostics/health.h"
 #include "render/compile/feature_report.h"
+#include "render/diagnostics/health.h"
 #include "render/film/path_counts.h"
 
 #include <cstdint>
@@ -36,9 +36,9 @@ struct GroupShare {
 
 // Statistics of clamping.
 struct ClampReport {
-    int64_t samples = 0;      // clamped samples
-    Vec3d removed{0, 0, 0};   // mean over the image, scene-linear RGB
-    double share = 0;         // share of the unclamped image's luminance, 0 .. 1
+    int64_t samples = 0;    // clamped samples
+    Vec3d removed{0, 0, 0}; // mean over the image, scene-linear RGB
+    double share = 0;       // share of the unclamped image's luminance, 0 .. 1
 };
 
 struct Frame {
@@ -53,10 +53,10 @@ struct Frame {
     // width * height * 4, scene-linear, top row first; alpha is 1, or coverage
     // if the environment is hidden from the camera; 0 where nothing is rendered
     std::vector<float> rgba;
-    std::vector<float> pixel_samples; // of each pixel; empty if all have the same number
-    std::vector<Vec3> albedo, normal; // empty unless requested; normal in world space
-    std::vector<float> depth;         // metres along the ray; 0 on a miss; empty unless requested
-    std::vector<uint32_t> object_id;  // Id<Node>.value, 0 on a miss; empty unless requested
+    std::vector<float> pixel_samples;  // of each pixel; empty if all have the same number
+    std::vector<Vec3> albedo, normal;  // empty unless requested; normal in world space
+    std::vector<float> depth;          // metres along the ray; 0 on a miss; empty unless requested
+    std::vector<uint32_t> object_id;   // Id<Node>.value, 0 on a miss; empty unless requested
     std::vector<uint32_t> material_id; // Id<Material>.value; empty unless requested
 
     // Radiance by number of scatterings: 0 directly visible, 1 scattered once, ...; the last holds all further ones. They sum to
@@ -87,11 +87,11 @@ struct Frame {
     Health health;
     ClampReport clamp;
     RayCounts rays;
-    double seconds = 0;        // of rendering at this revision
-    double error_seconds = 0;  // total time of error estimates in this session
-    double first_image_seconds = 0; // from submit to the first published frame of this revision
-    double samples_per_second = 0; // whole-image samples per pixel per second, over the last batch
-    std::string kernel;        // e.g. "v4/plain"
+    double seconds = 0;                                  // of rendering at this revision
+    double error_seconds = 0;                            // total time of error estimates in this session
+    double first_image_seconds = 0;                      // from submit to the first published frame of this revision
+    double samples_per_second = 0;                       // whole-image samples per pixel per second, over the last batch
+    std::string kernel;                                  // e.g. "v4/plain"
     std::shared_ptr<const FeatureReport> feature_report; // feature report: what was built for it and what was left out
 };
 

@@ -1,17 +1,17 @@
 #include "render/renderer.h"
 
 #include "core/parallel.h"
+#include "render/compile/expand_area_lights.h"
+#include "render/compile/render_scene.h"
 #include "render/diagnostics/fault_finder.h"
 #include "render/film/film.h"
 #include "render/film/film_state.h"
-#include "render/integrator/irradiance.h"
-#include "render/compile/expand_area_lights.h"
 #include "render/film/pilot_variance.h"
-#include "render/compile/render_scene.h"
-#include "render/integrator/reuse_groups.h"
 #include "render/film/sample_allocation.h"
-#include "render/integrator/kernel_settings.h"
 #include "render/film/shadow_catcher.h"
+#include "render/integrator/irradiance.h"
+#include "render/integrator/kernel_settings.h"
+#include "render/integrator/reuse_groups.h"
 
 #include <algorithm>
 #include <atomic>
@@ -80,8 +80,9 @@ struct Renderer::State {
     std::vector<PathCounts> path_counts;
     int64_t truncated = 0;
 
-    explicit State(const RendererOptions& o) : options(o), workers(o.threads, o.low_priority), scratch(workers.threads()),
-                                               replays(workers.threads()), catching(workers.threads()) {}
+    explicit State(const RendererOptions& o)
+        : options(o), workers(o.threads, o.low_priority), scratch(workers.threads()), replays(workers.threads()),
+          catching(workers.threads()) {}
 
     int film_width() const { return std::max(1, settings.width / divider); }
     int film_height() const { return std::max(1, settings.height / divider); }
@@ -110,7 +111,8 @@ struct Renderer::State {
     bool catches() const { return !scene.catchers().empty(); }
     // A caught shadow needs a background: without an environment the image is for compositing.
     bool transparent() const {
-        return expanded && (hides_environment(expanded->environment) || (catches() && expanded->environment.kind == Environment::Kind::none));
+        return expanded &&
+               (hides_environment(expanded->environment) || (catches() && expanded->environment.kind == Environment::Kind::none));
     }
 
     void clear() {
@@ -247,7 +249,8 @@ std::shared_ptr<const FeatureReport> Renderer::feature_report() const {
     if (!s.feature_report) {
         FeatureReport feature_report = s.scene.feature_report(s.expanded ? *s.expanded : Scene{}, s.full_film());
         const int reuse = s.settings.reuse;
-        feature_report.push_back({"kernel", "path reuse", reuse > 1, reuse > 1 ? fmt::format("groups of {} pixels", reuse) : "switched off"});
+        feature_report.push_back(
+            {"kernel", "path reuse", reuse > 1, reuse > 1 ? fmt::format("groups of {} pixels", reuse) : "switched off"});
         s.feature_report = std::make_shared<const FeatureReport>(std::move(feature_report));
     }
     return s.feature_report;
@@ -465,7 +468,8 @@ Result<void> Renderer::load_film(const FilmState& state) {
     if (marked && state.marked.size() != 2 * size_t(s.film.width()) * size_t(s.film.height()))
         return refused({"", "the saved samples lack the pilot of adaptive sampling", ""});
     const bool decided = s.settings.adaptive && state.samples >= SampleAllocation::pilot_samples;
-    if (decided && !s.sample_allocation.restore(state.shares)) return refused({"", "the saved samples lack the plan of adaptive sampling", ""});
+    if (decided && !s.sample_allocation.restore(state.shares))
+        return refused({"", "the saved samples lack the plan of adaptive sampling", ""});
     if (const auto loaded = blush::load_film(s.film, state); !loaded) return refused(loaded.error());
     s.film.each_material([&](int32_t& index) {
         if (uint32_t(index) != FilmState::no_material) index = s.scene.material_index(Id<Material>{uint32_t(index)});

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "core/result.h"
-#include "render/frame.h"
 #include "render/error/reuse_covariance.h"
+#include "render/frame.h"
 #include "scene/render_settings.h"
 #include "scene/scene.h"
 
@@ -22,7 +22,8 @@ constexpr int max_bounce_planes = 32, default_bounce_planes = 8;
 // Film planes in addition to the beauty. Planes that are not used are not allocated.
 struct PlaneSet {
     bool albedo = false, normal = false, depth = false, ids = false;
-    int bounces = 0; // radiance by the number of scatterings: 0, 1, ..., bounces - 1 and all further ones; 0: none, else 2 .. max_bounce_planes
+    int bounces =
+        0; // radiance by the number of scatterings: 0, 1, ..., bounces - 1 and all further ones; 0: none, else 2 .. max_bounce_planes
     bool roulette = false; // path length and survival probability of each pixel, paths by bounce
     bool error = false;    // standard error of each pixel's mean: computed from the two halves, needs no plane of its own
     bool operator==(const PlaneSet&) const = default;
@@ -53,7 +54,7 @@ struct CompiledInfo {
     int64_t emissive_triangles = 0, point_lights = 0, suns = 0;
     bool environment = false;
     std::string kernel;               // "v4/plain"
-    FeatureReport features;                  // feature report: of the kernel and of everything built only if needed
+    FeatureReport features;           // feature report: of the kernel and of everything built only if needed
     double memory_mb = 0;             // tables, textures and Embree's BVH
     double seconds_setup = 0;         // the last update: from scene to first ray
     std::vector<Diagnostic> warnings; // triangles without area dropped, non-finite transforms, ...

@@ -63,9 +63,11 @@ void diff_nodes(const Scene& before, const Scene& after, Changes& changes) {
         const bool moved_in_tree = a->parent != b->parent;
         if (moved_in_tree || a->local != b->local) changes.transforms.push_back(id);
         const bool shown_or_hidden = a->visible != b->visible || (moved_in_tree && is_visible(before, id) != is_visible(after, id));
-        const bool same_shape = a->mesh == b->mesh && a->skin == b->skin && a->morph_weights == b->morph_weights &&
-                                same_payload(a->instances, b->instances);
-        if (shown_or_hidden || !same_shape || a->light != b->light || a->only_in_scenes != b->only_in_scenes || a->shadow_catcher != b->shadow_catcher) changes.structure.push_back(id);
+        const bool same_shape =
+            a->mesh == b->mesh && a->skin == b->skin && a->morph_weights == b->morph_weights && same_payload(a->instances, b->instances);
+        if (shown_or_hidden || !same_shape || a->light != b->light || a->only_in_scenes != b->only_in_scenes ||
+            a->shadow_catcher != b->shadow_catcher)
+            changes.structure.push_back(id);
     }
 }
 
@@ -81,8 +83,7 @@ void diff_environment(const Environment& a, const Environment& b, Changes& chang
     const bool other_sky = b.kind == Environment::Kind::sky && a.sky != b.sky;
     changes.environment_image = a.kind != b.kind || !same_payload(a.image, b.image) || other_sky;
     changes.environment_parameters = a.color != b.color || a.intensity != b.intensity || a.rotation_degrees != b.rotation_degrees ||
-                                     a.visible_to_camera != b.visible_to_camera || a.lights_scene != b.lights_scene ||
-                                     a.solo != b.solo;
+                                     a.visible_to_camera != b.visible_to_camera || a.lights_scene != b.lights_scene || a.solo != b.solo;
 }
 
 // Names that light groups can be made from.
@@ -123,8 +124,8 @@ bool Changes::affects_image() const {
 }
 
 bool Changes::only_light() const {
-    return !view && !resolution && !integrator && !environment_image && transforms.empty() && structure.empty() && !motion && meshes.empty() &&
-           textures.empty();
+    return !view && !resolution && !integrator && !environment_image && transforms.empty() && structure.empty() && !motion &&
+           meshes.empty() && textures.empty();
 }
 
 Changes diff(const Scene& before, const RenderSettings& before_settings, const Scene& after, const RenderSettings& after_settings) {

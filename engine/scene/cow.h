@@ -84,8 +84,10 @@ public:
         auto a = before.begin();
         auto b = after.begin();
         while (a != before.end() || b != after.end()) {
-            if (b == after.end() || (a != before.end() && a->id < b->id)) ids.push_back((a++)->id);
-            else if (a == before.end() || b->id < a->id) ids.push_back((b++)->id);
+            if (b == after.end() || (a != before.end() && a->id < b->id))
+                ids.push_back((a++)->id);
+            else if (a == before.end() || b->id < a->id)
+                ids.push_back((b++)->id);
             else {
                 if (!(a->value == b->value)) ids.push_back(a->id);
                 ++a;
@@ -105,8 +107,10 @@ private:
         return std::lower_bound(entries.begin(), entries.end(), id, [](const Entry& e, Id<T> i) { return e.id < i; });
     }
     Data& unshare() {
-        if (!data_) data_ = std::make_shared<Data>();
-        else if (data_.use_count() > 1) data_ = std::make_shared<Data>(*data_);
+        if (!data_)
+            data_ = std::make_shared<Data>();
+        else if (data_.use_count() > 1)
+            data_ = std::make_shared<Data>(*data_);
         return *data_;
     }
 

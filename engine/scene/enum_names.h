@@ -24,7 +24,8 @@ template <class E, size_t n> std::string_view enum_to_string(const std::array<En
 }
 
 // Error: unknown name; the message lists the known ones.
-template <class E, size_t n> Result<E> enum_from_string(const std::array<EnumName<E>, n>& words, std::string_view text, std::string_view kind) {
+template <class E, size_t n>
+Result<E> enum_from_string(const std::array<EnumName<E>, n>& words, std::string_view text, std::string_view kind) {
     std::string known;
     for (const EnumName<E>& w : words) {
         if (w.text == text) return w.value;

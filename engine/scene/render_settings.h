@@ -22,11 +22,11 @@ struct Roulette {
         biased_cut, // ends paths with max(beta) < threshold without compensation: biased on purpose, for teaching
     };
     Rule rule = Rule::sqrt;
-    int start = 3;           // first bounce at which it may end a path
-    float floor = 0;         // q >= floor
-    float cap = 1;           // q <= cap
+    int start = 3;            // first bounce at which it may end a path
+    float floor = 0;          // q >= floor
+    float cap = 1;            // q <= cap
     float probability = 0.8f; // constant
-    float threshold = 0.1f;  // biased_cut
+    float threshold = 0.1f;   // biased_cut
     bool operator==(const Roulette&) const = default;
 };
 
@@ -50,8 +50,8 @@ struct RenderSettings {
     // Stop rules; the first that is met ends the render. 0 means no limit.
     int64_t spp = 64;
     double seconds = 0;
-    double error = 0;               // estimated relMSE
-    int64_t first_sample = 0;       // sample indices [first_sample, spp)
+    double error = 0;         // estimated relMSE
+    int64_t first_sample = 0; // sample indices [first_sample, spp)
     uint32_t seed = 0;
     int max_bounces = unlimited_bounces;
     Roulette roulette = {};
@@ -59,10 +59,10 @@ struct RenderSettings {
     PixelFilter filter = PixelFilter::blackman_harris;
     SamplerType sampler = SamplerType::sobol;
     bool energy_compensation = false;
-    bool adaptive = false;          // adaptive sampling; spp is then the mean. Requires first_sample = 0
-    int reuse = 1;                  // path reuse: pixels that share their second path vertices: 4, 8, 16, or 1 (off)
+    bool adaptive = false; // adaptive sampling; spp is then the mean. Requires first_sample = 0
+    int reuse = 1;         // path reuse: pixels that share their second path vertices: 4, 8, 16, or 1 (off)
     Clamp clamp = {};
-    PictureRegion region = {};      // only this is rendered, without adaptive sampling; the rest of the image stays empty
+    PictureRegion region = {}; // only this is rendered, without adaptive sampling; the rest of the image stays empty
     bool operator==(const RenderSettings&) const = default;
 };
 
@@ -86,7 +86,7 @@ std::string to_string(const Clamp& clamp);
 Result<int> parse_max_bounces(std::string_view text); // a number or "unlimited"
 std::string max_bounces_text(int max_bounces);
 Result<int> parse_reuse(std::string_view text); // "4", "8", "16" or "off"
-std::string_view reuse_text(int reuse); // empty for other numbers
+std::string_view reuse_text(int reuse);         // empty for other numbers
 Result<Strategy> parse_strategy(std::string_view text);
 std::string_view to_string(Strategy strategy);
 Result<PixelFilter> parse_filter(std::string_view text);

@@ -1,7 +1,7 @@
 // Text form of render settings on the command line: parsing and printing.
 #include "core/text.h"
-#include "scene/render_settings.h"
 #include "scene/enum_names.h"
+#include "scene/render_settings.h"
 
 #include <fmt/format.h>
 

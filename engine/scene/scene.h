@@ -8,8 +8,8 @@
 
 #include "core/geometry_arena.h"
 #include "core/vec.h"
-#include "scene/cow.h"
 #include "scene/animation/animation.h"
+#include "scene/cow.h"
 
 #include <cstdint>
 #include <memory>
@@ -34,12 +34,12 @@ struct Geometry {
     ArenaRangePtr vertex_range, index_range; // arena ranges of a large mesh (placed_geometry.h); must outlive the arrays
     ArenaVector<Vec3> positions;
     ArenaVector<Vec3> normals;
-    ArenaVector<Vec4> tangents; // xyz and the handedness w = +-1, as in glTF
+    ArenaVector<Vec4> tangents;                          // xyz and the handedness w = +-1, as in glTF
     std::optional<GeneratedTangents> generated_tangents; // if the tangents were generated
-    std::vector<ArenaVector<Vec2>> uv; // uv[i] is TEXCOORD_i; (0, 0) is the top left corner of the image, as in glTF
-    ArenaVector<Vec4> colors;   // linear RGBA, multiplies the base colour
-    ArenaVector<uint32_t> indices; // 3 per triangle, all < positions.size()
-    bool flat = false;             // face normals: recomputed when the mesh is deformed
+    std::vector<ArenaVector<Vec2>> uv;                   // uv[i] is TEXCOORD_i; (0, 0) is the top left corner of the image, as in glTF
+    ArenaVector<Vec4> colors;                            // linear RGBA, multiplies the base colour
+    ArenaVector<uint32_t> indices;                       // 3 per triangle, all < positions.size()
+    bool flat = false;                                   // face normals: recomputed when the mesh is deformed
     std::vector<MorphTargetPtr> targets;
     std::vector<Influence> influences; // empty, or the same number for each vertex, weights sum to 1
 
@@ -51,8 +51,8 @@ struct Geometry {
 struct Image {
     uint64_t serial = next_payload_serial();
     int width = 0, height = 0, channels = 0; // channels 1..4
-    std::vector<uint8_t> bytes;  // width * height * channels, or empty
-    std::vector<float> floats;   // the same in float; exactly one of the two is not empty
+    std::vector<uint8_t> bytes;              // width * height * channels, or empty
+    std::vector<float> floats;               // the same in float; exactly one of the two is not empty
 };
 
 using GeometryPtr = std::shared_ptr<const Geometry>;
@@ -85,52 +85,52 @@ struct TextureRef {
 struct Material {
     enum class Alpha : uint8_t { opaque, mask, blend };
     std::string name;
-    Vec3 base_color{1, 1, 1};        // linear reflectance
-    float opacity = 1;               // baseColorFactor.a
+    Vec3 base_color{1, 1, 1}; // linear reflectance
+    float opacity = 1;        // baseColorFactor.a
     float metallic = 1, roughness = 1;
-    Vec3 emissive{0, 0, 0};          // emissiveFactor
-    float emissive_strength = 1;     // KHR_materials_emissive_strength; emissive * strength is in nits
-    bool emits = true;               // false: emission is muted
-    bool solo = false;               // solo of the emission, as of a light
+    Vec3 emissive{0, 0, 0};      // emissiveFactor
+    float emissive_strength = 1; // KHR_materials_emissive_strength; emissive * strength is in nits
+    bool emits = true;           // false: emission is muted
+    bool solo = false;           // solo of the emission, as of a light
     float normal_scale = 1;
     Alpha alpha = Alpha::opaque;
     float alpha_cutoff = 0.5f;
     bool double_sided = false;
-    bool unlit = false;              // KHR_materials_unlit
-    float ior = 1.5f;                // KHR_materials_ior
-    float specular = 1;              // KHR_materials_specular: factor and colour; 0 is a pure Lambertian
+    bool unlit = false; // KHR_materials_unlit
+    float ior = 1.5f;   // KHR_materials_ior
+    float specular = 1; // KHR_materials_specular: factor and colour; 0 is a pure Lambertian
     Vec3 specular_color{1, 1, 1};
-    float transmission = 0;          // KHR_materials_transmission
-    float thickness = 0;             // KHR_materials_volume: 0 is thin-walled, more is solid (the value is not used otherwise)
+    float transmission = 0; // KHR_materials_transmission
+    float thickness = 0;    // KHR_materials_volume: 0 is thin-walled, more is solid (the value is not used otherwise)
     Vec3 attenuation_color{1, 1, 1};
-    float attenuation_distance = 0;  // metres; 0 means no absorption (glTF's default of infinity)
-    TextureRef base_color_texture;   // sRGB; alpha is opacity
+    float attenuation_distance = 0;        // metres; 0 means no absorption (glTF's default of infinity)
+    TextureRef base_color_texture;         // sRGB; alpha is opacity
     TextureRef metallic_roughness_texture; // linear: G roughness, B metallic
-    TextureRef normal_texture;       // linear, tangent space
-    TextureRef emissive_texture;     // sRGB
-    TextureRef specular_texture;     // linear: A
-    TextureRef specular_color_texture; // sRGB
-    TextureRef transmission_texture; // linear: R
-    float clearcoat = 0;             // KHR_materials_clearcoat: a colourless dielectric layer of index 1.5 on top
+    TextureRef normal_texture;             // linear, tangent space
+    TextureRef emissive_texture;           // sRGB
+    TextureRef specular_texture;           // linear: A
+    TextureRef specular_color_texture;     // sRGB
+    TextureRef transmission_texture;       // linear: R
+    float clearcoat = 0;                   // KHR_materials_clearcoat: a colourless dielectric layer of index 1.5 on top
     float clearcoat_roughness = 0;
     float clearcoat_normal_scale = 1;
-    TextureRef clearcoat_texture;    // linear: R
+    TextureRef clearcoat_texture;           // linear: R
     TextureRef clearcoat_roughness_texture; // linear: G
     TextureRef clearcoat_normal_texture;    // linear, tangent space; the coat does not use normal_texture
-    Vec3 sheen_color{0, 0, 0};       // KHR_materials_sheen: reflectance of a fibre layer below the coat
+    Vec3 sheen_color{0, 0, 0};              // KHR_materials_sheen: reflectance of a fibre layer below the coat
     float sheen_roughness = 0;
-    TextureRef sheen_color_texture;  // sRGB
-    TextureRef sheen_roughness_texture; // linear: A
-    float anisotropy = 0;            // KHR_materials_anisotropy: stretches reflections along a tangent direction
+    TextureRef sheen_color_texture;        // sRGB
+    TextureRef sheen_roughness_texture;    // linear: A
+    float anisotropy = 0;                  // KHR_materials_anisotropy: stretches reflections along a tangent direction
     float anisotropy_rotation_radians = 0; // of that direction, counter-clockwise from the tangent
-    TextureRef anisotropy_texture;   // linear: RG direction as of a normal map, B strength
-    float iridescence = 0;           // KHR_materials_iridescence: a thin film on the surface
+    TextureRef anisotropy_texture;         // linear: RG direction as of a normal map, B strength
+    float iridescence = 0;                 // KHR_materials_iridescence: a thin film on the surface
     float iridescence_ior = 1.3f;
     float iridescence_thickness_minimum = 100, iridescence_thickness_maximum = 400; // nanometres; maximum without a texture
-    TextureRef iridescence_texture;  // linear: R
-    TextureRef iridescence_thickness_texture; // linear: G, from minimum to maximum
-    float dispersion = 0;            // KHR_materials_dispersion: 20 / Abbe number, of solids
-    float diffuse_transmission = 0;  // KHR_materials_diffuse_transmission: fraction of the diffuse part that is transmitted
+    TextureRef iridescence_texture;                                                 // linear: R
+    TextureRef iridescence_thickness_texture;                                       // linear: G, from minimum to maximum
+    float dispersion = 0;                                                           // KHR_materials_dispersion: 20 / Abbe number, of solids
+    float diffuse_transmission = 0; // KHR_materials_diffuse_transmission: fraction of the diffuse part that is transmitted
     Vec3 diffuse_transmission_color{1, 1, 1};
     TextureRef diffuse_transmission_texture;       // linear: A
     TextureRef diffuse_transmission_color_texture; // sRGB
@@ -140,7 +140,7 @@ struct Material {
 // A mesh is a list of parts (glTF primitives); nodes that share a mesh are instances of it.
 struct MeshPart {
     GeometryPtr geometry;
-    Id<Material> material; // none: glTF's default material
+    Id<Material> material;                     // none: glTF's default material
     std::vector<Id<Material>> by_variant = {}; // [0] default, then one per variant (none: the default); empty: no variants
     bool operator==(const MeshPart&) const = default;
 };
@@ -181,17 +181,17 @@ struct Light {
     float angle_radians = 0;      // sun: full angle it subtends; 0 is a perfectly parallel beam (the real sun: 0.00925)
     float inner_cone_radians = 0; // spot: half angles, KHR_lights_punctual
     float outer_cone_radians = 0.7853982f;
-    float width = 1, height = 1;  // rectangle: metres, before the node's scale
-    bool two_sided = false;       // rectangle, disk
+    float width = 1, height = 1;       // rectangle: metres, before the node's scale
+    bool two_sided = false;            // rectangle, disk
     float spread_radians = 3.1415927f; // rectangle, disk: full angle of the cone of emission; pi is the half space
-    bool visible_to_camera = true; // of lights with a size: visible to camera rays; reflections always show them
-    IesPtr ies;                   // point, spot: scales the intensity by direction
-    std::string ies_file;         // path of the profile
-    bool enabled = true;          // false is muted
-    bool solo = false;            // while any light is solo, only solo lights emit; muted lights never do
-    std::string group;            // light group, if groups are assigned by hand
-    ObjectSet lit_objects;        // light linking: objects that it lights
-    ObjectSet shadow_casters;     // light linking: objects that cast its shadows
+    bool visible_to_camera = true;     // of lights with a size: visible to camera rays; reflections always show them
+    IesPtr ies;                        // point, spot: scales the intensity by direction
+    std::string ies_file;              // path of the profile
+    bool enabled = true;               // false is muted
+    bool solo = false;                 // while any light is solo, only solo lights emit; muted lights never do
+    std::string group;                 // light group, if groups are assigned by hand
+    ObjectSet lit_objects;             // light linking: objects that it lights
+    ObjectSet shadow_casters;          // light linking: objects that cast its shadows
     bool operator==(const Light&) const = default;
 };
 
@@ -236,22 +236,22 @@ struct Node {
     InstancesPtr instances; // none: a single instance at the node
     Id<Light> light;
     Id<Camera> camera;
-    bool visible = true; // false hides the node and its descendants, lights included
-    Id<Skin> skin;       // that deforms the mesh
+    bool visible = true;                 // false hides the node and its descendants, lights included
+    Id<Skin> skin;                       // that deforms the mesh
     std::vector<float> morph_weights;    // of the mesh's targets; missing ones are 0
     std::vector<int32_t> only_in_scenes; // of a root: indices into Scene::scene_names; empty: all
-    bool shadow_catcher = false; // all meshes of this subtree are shadow catchers (render/shadow_catcher.h)
+    bool shadow_catcher = false;         // all meshes of this subtree are shadow catchers (render/shadow_catcher.h)
     bool operator==(const Node&) const = default;
 };
 
 // Parameters of the physical sky: sun position and atmosphere (scene/sky_model.h).
 struct Sky {
-    float turbidity = 3;          // 2 clear .. 10 hazy
+    float turbidity = 3; // 2 clear .. 10 hazy
     float ground_albedo = 0.3f;
     bool sun_disk = true;
-    bool by_place_and_time = false; // sun position from place and time; else from the two angles
-    float elevation_degrees = 35; // of the sun above the horizon
-    float azimuth_degrees = 135;  // clockwise from north, which is -Z; east is +X
+    bool by_place_and_time = false;                     // sun position from place and time; else from the two angles
+    float elevation_degrees = 35;                       // of the sun above the horizon
+    float azimuth_degrees = 135;                        // clockwise from north, which is -Z; east is +X
     float latitude_degrees = 52, longitude_degrees = 5; // north, east
     int32_t year = 2026, month = 6, day = 21;
     float utc_hours = 10;
@@ -268,9 +268,9 @@ struct Environment {
     ImagePtr image;             // lat-long, float, 3 or 4 channels; the centre column looks along -Z
     Sky sky;
     bool visible_to_camera = true;
-    bool lights_scene = true;   // false: visible to the camera only, a backdrop
-    bool solo = false;          // as of a light
-    std::string group;          // light group, if groups are assigned by hand
+    bool lights_scene = true; // false: visible to the camera only, a backdrop
+    bool solo = false;        // as of a light
+    std::string group;        // light group, if groups are assigned by hand
     bool operator==(const Environment&) const = default;
 };
 

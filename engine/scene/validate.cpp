@@ -231,7 +231,8 @@ Result<void> validate(const ViewSettings& settings) {
     check.positive("upper end of the false colours", settings.false_color.high);
     check.is(settings.false_color.low < settings.false_color.high, "the lower end of the false colours must be below the upper");
     if (settings.measured) check.region("measured region", *settings.measured);
-    if (const float aspect = settings.frame_aspect.value_or(0); aspect != 0) check.between("aspect of the camera's frame", aspect, 0.01, 100);
+    if (const float aspect = settings.frame_aspect.value_or(0); aspect != 0)
+        check.between("aspect of the camera's frame", aspect, 0.01, 100);
     check.is(settings.meters.size() <= max_light_meters, fmt::format("there can be at most {} light meters", max_light_meters));
     for (const LightMeter& meter : settings.meters) {
         check.finite("light meter's position", meter.position);

@@ -1,7 +1,7 @@
 #include "scene/affine.h"
 #include "scene/animation/keyframes.h"
-#include "scene/reference_check.h"
 #include "scene/document/scene_selection.h"
+#include "scene/reference_check.h"
 #include "scene/validate.h"
 
 #include <fmt/format.h>

@@ -37,13 +37,13 @@ struct FalseColor {
 struct ViewSettings {
     float exposure_ev = 0;
     float gamma = 1;
-    std::string display = {}; // empty: the config's default
-    std::string view = {};    // empty: the display's default
-    std::string current_pictures = {};    // empty: the view's default
+    std::string display = {};          // empty: the config's default
+    std::string view = {};             // empty: the display's default
+    std::string current_pictures = {}; // empty: the view's default
     AutoExposure auto_exposure = AutoExposure::off;
     Vec3 white{1, 1, 1}; // white balance: scene-linear colour that is shown neutral
     FalseColor false_color = {};
-    bool background_as_it_is = false; // backdrop pixels are only encoded: no exposure, white balance, look or view transform
+    bool background_as_it_is = false;           // backdrop pixels are only encoded: no exposure, white balance, look or view transform
     std::optional<PictureRegion> measured = {}; // region whose statistics are shown
     std::vector<LightMeter> meters = {};
     std::optional<float> frame_aspect = {}; // width / height of the camera frame; 0: no frame; empty: the camera's own

@@ -25,7 +25,8 @@ const NodeTransform& WorldTransforms::operator()(Id<Node> id) {
     for (auto link = unknown.rbegin(); link != unknown.rend(); ++link) {
         const Affined local = to_affine(posed_transform(scene_, Id<Node>{link->id}, *link->node));
         const bool shown = link->node->visible && !is_root_of_other_scene(scene_, *link->node);
-        const NodeTransform here = above ? NodeTransform{above->world_from_node * local, above->visible && shown} : NodeTransform{local, shown};
+        const NodeTransform here =
+            above ? NodeTransform{above->world_from_node * local, above->visible && shown} : NodeTransform{local, shown};
         above = &known_.insert_or_assign(link->id, here).first->second;
     }
     static const NodeTransform nowhere;

@@ -14,8 +14,10 @@ namespace blush::inline BLUSH_ISA {
 
 // Roughness of the microfacets: one alpha, or one each for x and y.
 template <Features S, class F> auto alpha_of(const Bsdf<F>& b) {
-    if constexpr (S.has(Feature::anisotropy)) return b.stretch;
-    else return b.alpha;
+    if constexpr (S.has(Feature::anisotropy))
+        return b.stretch;
+    else
+        return b.alpha;
 }
 
 // ---- microfacets: reflectance and transmittance of one with cosine c = dot(wo, h) > 0
@@ -75,17 +77,22 @@ template <Features S, class F> F facet_probability(const FacetAlbedo<F>& a, cons
 
 // True if light travels inside.
 template <Features S, class F> Mask<F> is_solid(const BsdfParams<F>& m) {
-    if constexpr (!S.has(Feature::transmission)) return Mask<F>(false);
-    else if constexpr (!S.has(Feature::diffuse_transmission)) return m.transmission > F(0.f) && !m.thin;
-    else return (m.transmission > F(0.f) || m.layers.diffuse_transmission > F(0.f)) && !m.thin;
+    if constexpr (!S.has(Feature::transmission))
+        return Mask<F>(false);
+    else if constexpr (!S.has(Feature::diffuse_transmission))
+        return m.transmission > F(0.f) && !m.thin;
+    else
+        return (m.transmission > F(0.f) || m.layers.diffuse_transmission > F(0.f)) && !m.thin;
 }
 
 // Index of refraction of the interface between the material and air; 1 (no interface) if there is no reflection: a translucent
 // material without microfacets.
 template <Features S, class F> F interface_ior(const BsdfParams<F>& m) {
     const F ior = max(m.ior, F(1.f));
-    if constexpr (!S.has(Feature::diffuse_transmission)) return ior;
-    else return select(m.specular > F(0.f) || m.transmission > F(0.f), ior, F(1.f));
+    if constexpr (!S.has(Feature::diffuse_transmission))
+        return ior;
+    else
+        return select(m.specular > F(0.f) || m.transmission > F(0.f), ior, F(1.f));
 }
 
 template <Features S, class F> void make_facets(Bsdf<F>& b, const BsdfParams<F>& m, const Vec<F>& wo, const EnergyTable* energy) {
@@ -288,7 +295,8 @@ template <Features S, class F> BsdfSample<F> sample_facets(const Bsdf<F>& b, con
 
 // Samples a direction of the base; sets the weight only for a delta
 // lobe, and no pdf. u, v, choice: uniform in [0, 1), independent.
-template <Features S, class F> BsdfSample<F> draw_base(const Bsdf<F>& b, const Vec<F>& wo_surface, const F& u, const F& v, const F& choice) {
+template <Features S, class F>
+BsdfSample<F> draw_base(const Bsdf<F>& b, const Vec<F>& wo_surface, const F& u, const F& v, const F& choice) {
     BsdfSample<F> s;
     s.wi = sample_cosine_hemisphere(u, v);
     s.weight = splat<F>(0.f);
@@ -305,9 +313,7 @@ template <Features S, class F> BsdfSample<F> draw_base(const Bsdf<F>& b, const V
             s.weight = facet.weight / max(p_facets, F(1e-20f));
             s.valid = select(is_diffuse, s.valid, facet.valid);
         }
-        if constexpr (S.has(Feature::diffuse_transmission)) {
-            s.wi = flip_z(choice < b.p_diffuse * b.p_through, s.wi);
-        }
+        if constexpr (S.has(Feature::diffuse_transmission)) { s.wi = flip_z(choice < b.p_diffuse * b.p_through, s.wi); }
         s.wi = flip_z(b.flipped, s.wi);
     }
     return s;

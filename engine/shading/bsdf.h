@@ -142,7 +142,8 @@ template <class F> struct StraightTransmission {
     F probability; // probability that sample() chooses it; it is the last lobe, for choice >= 1 - probability
 };
 template <Features S, class F> StraightTransmission<F> straight_transmission(const Bsdf<F>& b, const Vec<F>& wo) {
-    if constexpr (!S.has(Feature::transmission)) return {splat<F>(0.f), F(0.f)};
+    if constexpr (!S.has(Feature::transmission))
+        return {splat<F>(0.f), F(0.f)};
     else {
         const FacetAlbedo<F> a = facet_albedo<S>(b, b.cos);
         const Mask<F> passes = b.smooth && !b.solid && max_component(a.transmitted) > F(0.f);

@@ -18,8 +18,8 @@ template <class F> struct LayerParams {
     Vec<F> clearcoat_normal; // unit, local frame; z if no viewer can be in front of it
     Vec<F> sheen_color;
     F sheen_roughness;
-    F anisotropy;  // increases the base's roughness along the local x
-    F iridescence; // share of the base under a thin film
+    F anisotropy;               // increases the base's roughness along the local x
+    F iridescence;              // share of the base under a thin film
     F film_ior, film_thickness; // nanometres
     F diffuse_transmission;     // transmitted share of the diffuse part
     Vec<F> diffuse_transmission_color;

@@ -14,7 +14,7 @@
 namespace blush {
 
 struct CasterSphere {
-    Vec3 center; // relative to the tables' origin
+    Vec3 center;  // relative to the tables' origin
     float radius; // metres
 };
 
@@ -59,7 +59,8 @@ template <class F> CasterCone<F> caster_cone(const CasterSphere& ball, const Vec
 }
 
 // `matte`: lanes whose surface is Lambertian; others are not guided.
-template <class F> CausticGuide<F> caustic_guide_at(const CausticCasterTables& table, const Vec<F>& from, const Vec<F>& normal, const Mask<F>& matte) {
+template <class F>
+CausticGuide<F> caustic_guide_at(const CausticCasterTables& table, const Vec<F>& from, const Vec<F>& normal, const Mask<F>& matte) {
     CausticGuide<F> f{from, normal, F(0.f), F(0.f)};
     for (int i = 0; i < table.count; ++i) f.total = f.total + caster_cone<F>(table.balls[i], from, normal).weight;
     f.share = select(matte, min(f.total / (1.f + f.total), F(max_guided_share)), F(0.f));
@@ -82,7 +83,8 @@ template <class F> F guided_pdf(const CausticCasterTables& table, const CausticG
 
 // Samples a direction into one of the spheres' cones, for lanes with
 // share > 0; u, v and `choice`, which selects the sphere, in [0, 1).
-template <class F> Vec<F> sample_caster_direction(const CausticCasterTables& table, const CausticGuide<F>& f, const F& choice, const F& u, const F& v) {
+template <class F>
+Vec<F> sample_caster_direction(const CausticCasterTables& table, const CausticGuide<F>& f, const F& choice, const F& u, const F& v) {
     Vec<F> to{F(0.f), F(0.f), F(1.f)};
     F height = F(1.f), left = choice * f.total;
     Mask<F> open = Mask<F>(true);

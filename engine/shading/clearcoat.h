@@ -37,7 +37,8 @@ Clearcoat<F> make_clearcoat(const Bsdf<F>& b, const LayerParams<F>& m, const Vec
     coat.alpha = max(F(m.clearcoat_roughness * m.clearcoat_roughness), F(smooth_roughness * smooth_roughness));
     coat.visible = masking_over_cos(coat.alpha, coat.wo);
     if constexpr (S.has(Feature::energy_compensation))
-        if (energy) coat.reflected = coat.reflected / select(coat.smooth, F(1.f), directional_albedo(*energy, m.clearcoat_roughness, coat.wo.z));
+        if (energy)
+            coat.reflected = coat.reflected / select(coat.smooth, F(1.f), directional_albedo(*energy, m.clearcoat_roughness, coat.wo.z));
     return coat;
 }
 

@@ -7,26 +7,26 @@
 namespace blush {
 
 enum class Feature : uint32_t {
-    specular = 1u << 0,            // some material has a GGX reflection lobe (all but KHR_materials_specular 0)
-    transmission = 1u << 1,        // some material transmits
-    absorption = 1u << 2,          // some solid has an attenuation colour
-    textures = 1u << 3,            // some material reads a texture
+    specular = 1u << 0,     // some material has a GGX reflection lobe (all but KHR_materials_specular 0)
+    transmission = 1u << 1, // some material transmits
+    absorption = 1u << 2,   // some solid has an attenuation colour
+    textures = 1u << 3,     // some material reads a texture
     normal_maps = 1u << 4,
     vertex_colors = 1u << 5,
     unlit = 1u << 6,
     emissive_triangles = 1u << 7,
-    point_lights = 1u << 8,        // point and spot lights of zero size
+    point_lights = 1u << 8, // point and spot lights of zero size
     suns = 1u << 9,
     environment = 1u << 10,
-    instances = 1u << 11,          // some mesh is instanced
+    instances = 1u << 11, // some mesh is instanced
     energy_compensation = 1u << 12,
     thin_lens = 1u << 13,
     orthographic = 1u << 14,
-    sphere_lights = 1u << 15,      // sphere lights, and point and spot lights with a radius
-    light_profiles = 1u << 16,     // some light's emission depends on direction: spots, spread, IES profiles
-    light_tree = 1u << 17,         // enough lights for a light tree
-    links = 1u << 18,              // some light is linked to objects for illumination or shadows
-    clearcoat = 1u << 19,          // some material has a clear coat
+    sphere_lights = 1u << 15,  // sphere lights, and point and spot lights with a radius
+    light_profiles = 1u << 16, // some light's emission depends on direction: spots, spread, IES profiles
+    light_tree = 1u << 17,     // enough lights for a light tree
+    links = 1u << 18,          // some light is linked to objects for illumination or shadows
+    clearcoat = 1u << 19,      // some material has a clear coat
     sheen = 1u << 20,
     anisotropy = 1u << 21,
     iridescence = 1u << 22,

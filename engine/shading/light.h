@@ -18,20 +18,20 @@ namespace blush {
 enum class LightKind : int32_t { triangle, point, sphere, sun, environment };
 
 struct LightRecord {
-    int32_t kind;        // LightKind
-    int32_t flags;       // LightFlag
-    int32_t part;        // triangle: the part whose material and vertices give a varying emission
+    int32_t kind;  // LightKind
+    int32_t flags; // LightFlag
+    int32_t part;  // triangle: the part whose material and vertices give a varying emission
     int32_t triangle;
-    int32_t profile;     // index of the ProfileRecord that scales the emission by direction, -1: none
-    int32_t object;      // sphere: Id<Node>.value of its node
-    int32_t slot;        // with a tree: its selection slot; 0 is the tree's
-    Vec3 position;       // triangle: vertex 0; point: itself; sphere: its centre; sun: unit direction towards it
-    Vec3 edge1, edge2;   // triangle: vertices 1 and 2 minus vertex 0
+    int32_t profile;   // index of the ProfileRecord that scales the emission by direction, -1: none
+    int32_t object;    // sphere: Id<Node>.value of its node
+    int32_t slot;      // with a tree: its selection slot; 0 is the tree's
+    Vec3 position;     // triangle: vertex 0; point: itself; sphere: its centre; sun: unit direction towards it
+    Vec3 edge1, edge2; // triangle: vertices 1 and 2 minus vertex 0
     // constant triangle, sphere: nits, times the opacity; point: candela; sun: nits of its disk, or lux if parallel
     Vec3 emission;
-    float inverse_area;  // triangle: 1 / m^2
-    float radius;        // sphere: metres
-    float cone_height;   // sun: 1 - cos of its angular radius; 0 is a parallel beam
+    float inverse_area; // triangle: 1 / m^2
+    float radius;       // sphere: metres
+    float cone_height;  // sun: 1 - cos of its angular radius; 0 is a parallel beam
 };
 enum LightFlag : int32_t {
     light_two_sided = 1,
@@ -47,10 +47,10 @@ struct LightTables {
     int32_t count = 0;                    // of slots
     const int32_t* slot_lights = nullptr; // with a tree, by slot: the light; the first slot is the tree
     LightTree tree;
-    int32_t environment = -1;             // index of the environment, -1: none
-    const int32_t* suns = nullptr;        // indices of the suns with a disk: escaping rays can hit them
+    int32_t environment = -1;      // index of the environment, -1: none
+    const int32_t* suns = nullptr; // indices of the suns with a disk: escaping rays can hit them
     int32_t sun_count = 0;
-    int32_t first_sphere = 0;             // index of the first sphere; spheres are consecutive
+    int32_t first_sphere = 0; // index of the first sphere; spheres are consecutive
     ProfileTables profiles;
 };
 
@@ -67,7 +67,8 @@ DiscreteSample<F> pick_light(const LightTables& table, const Receiver<F>& to, co
             const Mask<F> in_tree = as_mask(slot.index == 0);
             const TreeSample<F> leaf = sample_tree<F>(table.tree, to, slot.remainder, random.bits_y, active && in_tree);
             return {select(in_tree, leaf.light, gather(table.slot_lights, slot.index)),
-                    select(in_tree, slot.probability * leaf.probability, slot.probability), select(in_tree, leaf.remainder, slot.remainder)};
+                    select(in_tree, slot.probability * leaf.probability, slot.probability),
+                    select(in_tree, leaf.remainder, slot.remainder)};
         }
     }
     return slot;

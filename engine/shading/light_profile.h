@@ -14,12 +14,12 @@
 namespace blush {
 
 struct ProfileRecord {
-    Vec3 x, y, ahead;             // the light's frame in world space, unit vectors
-    float cone_scale, cone_offset; // 0 and 1: no cone
+    Vec3 x, y, ahead;               // the light's frame in world space, unit vectors
+    float cone_scale, cone_offset;  // 0 and 1: no cone
     float spread_tan, spread_scale; // tan h and 1 / (tan h - h); scale 0: no spread
     // into `numbers`: vertical angles, horizontal angles, then values, vertical fastest; -1: no table
     int32_t first, verticals, horizontals;
-    int32_t polar_x;              // the table's polar axis is the light's X (type B), not the light's own axis (type C)
+    int32_t polar_x; // the table's polar axis is the light's X (type B), not the light's own axis (type C)
 };
 
 struct ProfileTables {
@@ -53,7 +53,8 @@ template <class F> TablePlace<F> place_in_table(const float* numbers, const Int<
 }
 
 // The IES factor in a unit direction with these coordinates in the light's frame; 0 in lanes outside `active`.
-template <class F> F table_factor(const ProfileTables& tables, const Int<F>& profile, const F& x, const F& y, const F& ahead, const Mask<F>& active) {
+template <class F>
+F table_factor(const ProfileTables& tables, const Int<F>& profile, const F& x, const F& y, const F& ahead, const Mask<F>& active) {
     const auto field = [&](int32_t ProfileRecord::*f) { return gather_field(tables.records, f, profile); };
     const Int<F> first = select(active, field(&ProfileRecord::first), Int<F>(0));
     const Int<F> verticals = select(active, field(&ProfileRecord::verticals), Int<F>(1));
@@ -68,7 +69,9 @@ template <class F> F table_factor(const ProfileTables& tables, const Int<F>& pro
     const TablePlace<F> v = place_in_table<F>(tables.numbers, first, verticals, vertical);
     const TablePlace<F> h = place_in_table<F>(tables.numbers, Int<F>(first + verticals), horizontals, horizontal);
     const Int<F> values = first + verticals + horizontals;
-    const auto value = [&](const Int<F>& row, const Int<F>& column) { return gather(tables.numbers, Int<F>(values + row * verticals + column)); };
+    const auto value = [&](const Int<F>& row, const Int<F>& column) {
+        return gather(tables.numbers, Int<F>(values + row * verticals + column));
+    };
     const F below = lerp(value(h.below, v.below), value(h.below, v.above), v.fraction);
     const F above = lerp(value(h.above, v.below), value(h.above, v.above), v.fraction);
     return select(active && v.inside && h.inside, lerp(below, above, h.fraction), F(0.f));

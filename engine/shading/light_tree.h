@@ -26,7 +26,7 @@ struct LightTreeNode {
     int32_t two_sided;  // some of them are
     int32_t children;   // index of the first child (children are consecutive), -1: a leaf
     int32_t child_count;
-    int32_t light;      // of a leaf
+    int32_t light; // of a leaf
 };
 
 struct LightTree {
@@ -40,9 +40,7 @@ struct LightTree {
 namespace blush::inline BLUSH_ISA {
 
 // The point to be lit: lights below the horizon of `normal` do not contribute. A zero normal receives from all sides.
-template <class F> struct Receiver {
-    Vec<F> position, normal;
-};
+template <class F> struct Receiver { Vec<F> position, normal; };
 
 // Cosine of max(0, a - b), of angles in [0, pi].
 template <class F> F cos_of_difference(const F& sin_a, const F& cos_a, const F& sin_b, const F& cos_b) {
@@ -85,9 +83,7 @@ template <class F> F light_importance(const LightTreeNode* nodes, const Int<F>& 
 }
 
 // The importances of a node's children, and their sum; 0 for missing children.
-template <class F> struct ChildImportances {
-    F of[max_tree_children], sum;
-};
+template <class F> struct ChildImportances { F of[max_tree_children], sum; };
 template <class F>
 ChildImportances<F> importances_of(const LightTree& tree, const Int<F>& first, const Int<F>& count, const Receiver<F>& to) {
     ChildImportances<F> c;
@@ -110,7 +106,8 @@ template <class F> struct TreeSample {
 
 // Traverses by `u` in [0, 1), which has 24 bits. At each level the remainder of u is refilled from `bits`, because its digits
 // would be used up after some levels.
-template <class F> TreeSample<F> sample_tree(const LightTree& tree, const Receiver<F>& to, const F& u, const UInt<F>& bits, const Mask<F>& active) {
+template <class F>
+TreeSample<F> sample_tree(const LightTree& tree, const Receiver<F>& to, const F& u, const UInt<F>& bits, const Mask<F>& active) {
     Int<F> node = 0;
     F probability = F(1.f), rest = u;
     UInt<F> random = bits;

@@ -55,12 +55,12 @@ namespace blush::inline BLUSH_ISA {
 
 template <class F> struct MaterialPoint {
     BsdfParams<F> bsdf;
-    Vec<F> emission;       // radiance in nits towards the emitting side
-    Vec<F> tangent_normal; // unit, in the frame of tangent, bitangent and shading normal; (0, 0, 1) without a normal map
+    Vec<F> emission;                 // radiance in nits towards the emitting side
+    Vec<F> tangent_normal;           // unit, in the frame of tangent, bitangent and shading normal; (0, 0, 1) without a normal map
     Vec<F> clearcoat_tangent_normal; // the coat's, likewise
     AnisotropyPoint<F> anisotropy;
-    F dispersion; // 20 / Abbe number
-    Vec<F> sigma_a;        // 1/m, on the inner side of a solid
+    F dispersion;   // 20 / Abbe number
+    Vec<F> sigma_a; // 1/m, on the inner side of a solid
     Mask<F> double_sided, unlit, pane;
 };
 
@@ -171,8 +171,8 @@ template <Features S, class F> MaterialPoint<F> material_at(const MaterialTables
 
 // Opacity in [0, 1], glTF 2.0 section 3.9.4: 1 if opaque, 0 or 1 if masked, else the alpha of factor, texture and vertex colour.
 // Unfiltered, because ray filters and NEE evaluate points.
-template <Features S, class F>
-F opacity_at(const MaterialTables& tables, const Int<F>& material, const TexturePoint<F>& at, const F& vertex_alpha, const Mask<F>& active) {
+template <Features S, class F> F opacity_at(const MaterialTables& tables, const Int<F>& material, const TexturePoint<F>& at,
+                                            const F& vertex_alpha, const Mask<F>& active) {
     const Int<F> m = select(active, material, Int<F>(0));
     const MaterialRecord* records = tables.materials;
     const Int<F> mode = gather_field(records, &MaterialRecord::alpha, m);

@@ -48,8 +48,10 @@ template <class F> Vec<F> decode_normal(const Vec<F>& color, const F& scale, con
 // Clear coat coverage at a point. texture(slot) looks up the texture of that member of the record.
 template <Features S, class F, class Texture> F clearcoat_share(const LayerRecord* records, const Int<F>& m, const Texture& texture) {
     const F factor = gather_field(records, &LayerRecord::clearcoat, m);
-    if constexpr (!S.has(Feature::textures)) return factor;
-    else return clamp01(F(factor * texture(&LayerRecord::clearcoat_texture).x));
+    if constexpr (!S.has(Feature::textures))
+        return factor;
+    else
+        return clamp01(F(factor * texture(&LayerRecord::clearcoat_texture).x));
 }
 
 // Sets the members of `layers` that S has, except directions, which need a frame.

@@ -125,9 +125,9 @@ template <class F> TextureBlend<F> texture_blend(const F& texels, const Int<F>& 
 }
 
 // Bilinear or nearest lookup in one mip level in the lanes of `reads`. Not inlined, although kernels are flattened.
-template <class F>
-[[gnu::noinline]] Vec4T<F> texture_level(const TextureTables& tables, const Int<F>& level, const F& s, const F& t, const Int<F>& wrap_u, const Int<F>& wrap_v,
-                       const Mask<F>& nearest, const Mask<F>& reads) {
+template <class F> [[gnu::noinline]] Vec4T<F> texture_level(const TextureTables& tables, const Int<F>& level, const F& s, const F& t,
+                                                            const Int<F>& wrap_u, const Int<F>& wrap_v, const Mask<F>& nearest,
+                                                            const Mask<F>& reads) {
     const TextureLevel* levels = tables.levels;
     const Int<F> width = gather_field(levels, &TextureLevel::width, level), height = gather_field(levels, &TextureLevel::height, level);
     const TexturePair<F> x = texture_pair<F>(s, width, wrap_u, nearest);
@@ -164,9 +164,8 @@ template <class F>
 // Linear RGBA of a texture use: filtered over the footprint or, if not `filtered`, at the point. `use` -1 and inactive lanes
 // return white, the neutral element of glTF's "factor times texture". Coordinates and widths may be anything: non-finite ones
 // count as 0. Not inlined: a material reads many textures.
-template <class F>
-[[gnu::noinline]] Vec4T<F> lookup(const TextureTables& tables, const Int<F>& use, const TexturePoint<F>& at, const Mask<F>& active,
-                                  bool filtered = true) {
+template <class F> [[gnu::noinline]] Vec4T<F> lookup(const TextureTables& tables, const Int<F>& use, const TexturePoint<F>& at,
+                                                     const Mask<F>& active, bool filtered = true) {
     const Vec4T<F> white{F(1.f), F(1.f), F(1.f), F(1.f)};
     const Mask<F> reads = active && as_mask(use >= 0);
     if (!any(reads)) return white;
@@ -190,13 +189,13 @@ template <class F>
 
     const Int<F> texture = gather_field(uses, &TextureUse::texture, slot);
     const TextureRecord* records = tables.textures;
-    const Int<F> wrap_u = gather_field(records, &TextureRecord::wrap_u, texture), wrap_v = gather_field(records, &TextureRecord::wrap_v, texture);
+    const Int<F> wrap_u = gather_field(records, &TextureRecord::wrap_u, texture),
+                 wrap_v = gather_field(records, &TextureRecord::wrap_v, texture);
     const Mask<F> nearest = as_mask(gather_field(records, &TextureRecord::filter, texture) == filter_nearest);
     const Int<F> first = gather_field(records, &TextureRecord::first_level, texture);
     const F texels = looked_at * gather_field(uses, &TextureUse::texels_per_uv, slot);
     TextureBlend<F> blend{Int<F>(0), F(0.f)};
-    if (filtered && any(reads && texels > F(1.f)))
-        blend = texture_blend<F>(texels, gather_field(records, &TextureRecord::levels, texture));
+    if (filtered && any(reads && texels > F(1.f))) blend = texture_blend<F>(texels, gather_field(records, &TextureRecord::levels, texture));
     const Int<F> finer = first + blend.finer;
     const Vec4T<F> fine = texture_level<F>(tables, finer, s, t, wrap_u, wrap_v, nearest && as_mask(blend.finer == 0), reads);
     const Mask<F> mixes = reads && blend.coarser_weight > F(0.f);

@@ -1,5 +1,5 @@
-#include "tests/app/program.h"
 #include "io/image/image_io.h"
+#include "tests/app/program.h"
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,8 @@ TEST(CompareCommand, AnImageEqualsItself) {
     EXPECT_EQ(test::keys_of(json), (std::vector<std::string>{"flip", "flip_above_0.1_percent", "flip_max", "flip_median", "flip_quartile_1",
                                                              "flip_quartile_3", "mae", "max_abs", "mean_a", "mean_b", "mse", "nonfinite_a",
                                                              "nonfinite_b", "psnr", "relmse", "rmse"}));
-    for (const char* key : {"mse", "rmse", "relmse", "mae", "flip", "flip_median", "flip_max", "flip_above_0.1_percent", "max_abs"}) EXPECT_EQ(json[key], 0.0) << key;
+    for (const char* key : {"mse", "rmse", "relmse", "mae", "flip", "flip_median", "flip_max", "flip_above_0.1_percent", "max_abs"})
+        EXPECT_EQ(json[key], 0.0) << key;
     EXPECT_TRUE(json["psnr"].is_null()) << "infinite";
     EXPECT_NEAR(json["mean_a"][2].get<double>(), 3, 1e-6);
 }

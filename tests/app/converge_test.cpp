@@ -1,8 +1,8 @@
 // `blush converge`: options, output files, and detection of bias.
-#include "app/commands/converge/variants.h"
 #include "app/commands/converge/reference_cache.h"
-#include "tests/app/program.h"
+#include "app/commands/converge/variants.h"
 #include "core/files.h"
+#include "tests/app/program.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // `blush denoise` and `blush render --denoise` as a script calls them. The networks are tested elsewhere.
-#include "tests/app/program.h"
 #include "core/srgb.h"
 #include "io/image/image_io.h"
 #include "io/image/snapshot.h"
+#include "tests/app/program.h"
 
 #include <gtest/gtest.h>
 

@@ -2,9 +2,9 @@
 #include "app/editor/editor_convergence.h"
 #include "app/editor/run_name.h"
 #include "core/files.h"
-#include "tests/ui/imgui_test.h"
 #include "tests/support/process.h"
 #include "tests/support/sample_project.h"
+#include "tests/ui/imgui_test.h"
 
 #include <cmath>
 #include <cstdlib>

@@ -15,9 +15,9 @@ using Json = nlohmann::json;
 TEST(InfoCommand, JsonHasTheKeysOfTheContract) {
     const Json json = blush_json({"info", scene_file("cornell")});
     ASSERT_TRUE(json.is_object());
-    EXPECT_EQ(test::keys_of(json), (std::vector<std::string>{"animations", "cameras", "extensions", "instances", "kernel", "lights", "materials",
-                                                             "memory_mb", "meshes", "scenes", "seconds", "textures", "triangles", "variants",
-                                                             "warnings"}));
+    EXPECT_EQ(test::keys_of(json),
+              (std::vector<std::string>{"animations", "cameras", "extensions", "instances", "kernel", "lights", "materials", "memory_mb",
+                                        "meshes", "scenes", "seconds", "textures", "triangles", "variants", "warnings"}));
     EXPECT_EQ(test::keys_of(json["extensions"]), (std::vector<std::string>{"approximated", "honoured", "ignored", "used"}));
     EXPECT_EQ(json["cameras"], 1);
     // Five walls, two boxes of five visible sides, the light.

@@ -1,6 +1,6 @@
 // Lack of memory, threads or disk space ends with one error line and exit code 1; warnings about what an image cannot show.
-#include "tests/app/program.h"
 #include "io/image/image_io.h"
+#include "tests/app/program.h"
 
 #include <gtest/gtest.h>
 
@@ -41,7 +41,7 @@ TEST(Limits, OutOfMemoryIsOneLine) {
     int refused = 0;
     for (int mib = 180; mib <= 1000; mib += 40) {
         const Finished finished = in_shell("ulimit -v " + std::to_string(mib * 1024) + ";", small_render(folder / "a.exr"));
-        if (finished.exit_code == 0) continue; // enough
+        if (finished.exit_code == 0) continue;   // enough
         if (finished.exit_code == 127) continue; // the loader could not load the program's libraries
         ++refused;
         EXPECT_TRUE(ends_in_one_line(finished)) << mib << " MiB";
@@ -53,7 +53,8 @@ TEST(Limits, OutOfMemoryIsOneLine) {
 
 TEST(Limits, TooLargeImagesStateTheirMemory) {
     const TemporaryFolder folder;
-    const Finished finished = in_shell("ulimit -v 4000000;", {"render", scene_file("cornell"), "-o", folder / "a.exr", "--size", "20000x20000", "--spp", "1", "--quiet"});
+    const Finished finished = in_shell(
+        "ulimit -v 4000000;", {"render", scene_file("cornell"), "-o", folder / "a.exr", "--size", "20000x20000", "--spp", "1", "--quiet"});
     EXPECT_TRUE(ends_in_one_line(finished));
     EXPECT_NE(finished.err.find("20000 x 20000 pixels needs"), std::string::npos) << finished.err;
     EXPECT_NE(finished.err.find("by ulimit -v"), std::string::npos) << finished.err;
@@ -72,8 +73,8 @@ TEST(Limits, OfFilesAreReported) {
 
 TEST(Limits, LibrariesStayQuiet) {
     const TemporaryFolder folder;
-    for (const std::string variables :
-         {"OMP_NUM_THREADS=x", "OMP_DISPLAY_ENV=verbose", "OMP_STACKSIZE=-1 OMP_WAIT_POLICY=never", "GOMP_SPINCOUNT=no", "GOMP_CPU_AFFINITY=x", "TBB_VERSION=1"})
+    for (const std::string variables : {"OMP_NUM_THREADS=x", "OMP_DISPLAY_ENV=verbose", "OMP_STACKSIZE=-1 OMP_WAIT_POLICY=never",
+                                        "GOMP_SPINCOUNT=no", "GOMP_CPU_AFFINITY=x", "TBB_VERSION=1"})
         for (const char* threads : {"1", "1024"}) {
             std::vector<std::string> arguments = small_render(folder / "a.exr");
             arguments.insert(arguments.end(), {"--threads", threads});
@@ -97,7 +98,8 @@ TEST(Limits, ImpossibleJpegsAreRefusedBeforeRendering) {
     const Result<void> written = write_display_image(folder / "a.jpg", 65501, 1, row);
     ASSERT_FALSE(written);
     EXPECT_NE(written.error().what.find("at most 65500"), std::string::npos);
-    ASSERT_TRUE(write_display_image(folder / "a.jpg", 65500, 1, std::span(row).first(size_t(65500) * 3), {{"long", std::string(200000, 'x')}}));
+    ASSERT_TRUE(
+        write_display_image(folder / "a.jpg", 65500, 1, std::span(row).first(size_t(65500) * 3), {{"long", std::string(200000, 'x')}}));
 }
 
 // ---- warnings about an image
@@ -112,9 +114,11 @@ std::string triangle_file(const TemporaryFolder& folder, double z) {
         {"nodes", {{{"mesh", 0}}, {{"camera", 0}, {"translation", {0.3, 0.3, z}}}}},
         {"cameras", {{{"type", "perspective"}, {"perspective", {{"yfov", 0.8}, {"znear", 0.1}}}}}},
         {"meshes", {{{"primitives", {{{"attributes", {{"POSITION", 0}}}}}}}}},
-        {"accessors", {{{"bufferView", 0}, {"componentType", 5126}, {"count", 3}, {"type", "VEC3"}, {"min", {0, 0, 0}}, {"max", {1, 1, 0}}}}},
+        {"accessors",
+         {{{"bufferView", 0}, {"componentType", 5126}, {"count", 3}, {"type", "VEC3"}, {"min", {0, 0, 0}}, {"max", {1, 1, 0}}}}},
         {"bufferViews", {{{"buffer", 0}, {"byteLength", 36}}}},
-        {"buffers", {{{"byteLength", 36}, {"uri", "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}}}}};
+        {"buffers",
+         {{{"byteLength", 36}, {"uri", "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}}}}};
     std::ofstream(file) << json;
     return file;
 }
@@ -147,14 +151,16 @@ TEST(Said, NoLightInAFileSuggestsALightRig) {
     as_it_is.insert(as_it_is.end(), {"--light", "none"});
     EXPECT_EQ(test::blush(as_it_is).err.find("no light"), std::string::npos) << "it was requested";
     EXPECT_EQ(test::blush({"render", scene, "-o", folder / "a.exr", "--light", "moon"}).exit_code, 2);
-    const Finished own = test::blush({"render", scene_file("cornell"), "-o", folder / "a.exr", "--size", "16x16", "--spp", "1", "--light", "studio"});
+    const Finished own =
+        test::blush({"render", scene_file("cornell"), "-o", folder / "a.exr", "--size", "16x16", "--spp", "1", "--light", "studio"});
     EXPECT_NE(own.err.find("has light of its own"), std::string::npos) << own.err;
 }
 
 TEST(Said, NothingIsVisible) {
     const TemporaryFolder folder;
     for (const double z : {2.0, -2.0}) {
-        const Json json = test::blush_json({"render", triangle_file(folder, z), "-o", folder / "a.exr", "--size", "32x32", "--spp", "1", "--env", "constant=1,1,1"});
+        const Json json = test::blush_json(
+            {"render", triangle_file(folder, z), "-o", folder / "a.exr", "--size", "32x32", "--spp", "1", "--env", "constant=1,1,1"});
         EXPECT_EQ(json["warnings"].dump().find("sees no object") != std::string::npos, z < 0) << json["warnings"];
     }
 }
@@ -163,7 +169,8 @@ TEST(Said, EnvironmentsWithInvalidRadiance) {
     const TemporaryFolder folder;
     const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
     ASSERT_TRUE(write_exr(folder / "sky.exr", {2, 1, {{"R", {1, nan}}, {"G", {1, inf}}, {"B", {1, -1}}}, {}}));
-    const Json json = test::blush_json({"render", scene_file("furnace"), "-o", folder / "a.exr", "--size", "16x16", "--spp", "1", "--env", folder / "sky.exr"});
+    const Json json = test::blush_json(
+        {"render", scene_file("furnace"), "-o", folder / "a.exr", "--size", "16x16", "--spp", "1", "--env", folder / "sky.exr"});
     EXPECT_NE(json["warnings"].dump().find("3 values are negative or not finite"), std::string::npos) << json["warnings"];
 }
 

@@ -1,6 +1,6 @@
 // `blush merge` and `blush render --continue`: partial renders combine to the samples of one render.
-#include "tests/app/program.h"
 #include "io/image/snapshot.h"
+#include "tests/app/program.h"
 
 #include <gtest/gtest.h>
 
@@ -49,7 +49,8 @@ void expect_same_channels(const std::string& file, const std::string& expected_f
                 low = std::nextafter(low, -std::numeric_limits<float>::infinity());
                 high = std::nextafter(high, std::numeric_limits<float>::infinity());
             }
-            ASSERT_TRUE(found->values[i] >= low && found->values[i] <= high) << channel.name << " " << found->values[i] << " " << channel.values[i];
+            ASSERT_TRUE(found->values[i] >= low && found->values[i] <= high)
+                << channel.name << " " << found->values[i] << " " << channel.values[i];
         }
     }
 }
@@ -58,8 +59,9 @@ TEST(Continue, EqualsAnUninterruptedRender) {
     const TemporaryFolder folder;
     expect_done(with(with(tiny(folder / "whole.exr"), all_layers), {"--spp", "24", "--seed", "3", "--max-bounces", "4"}));
     expect_done(with(with(tiny(folder / "begun.exr"), all_layers), {"--spp", "11", "--seed", "3", "--max-bounces", "4"}));
-    expect_done(with({"render", scene_file("cornell"), "--continue", folder / "begun.exr", "--spp", "24", "-o", folder / "done.exr", "--quiet"},
-                     all_layers));
+    expect_done(
+        with({"render", scene_file("cornell"), "--continue", folder / "begun.exr", "--spp", "24", "-o", folder / "done.exr", "--quiet"},
+             all_layers));
     expect_same_channels(folder / "done.exr", folder / "whole.exr");
     const auto metadata = read_snapshot_metadata(read_layers(folder / "done.exr")->metadata);
     ASSERT_TRUE(metadata);
@@ -73,8 +75,8 @@ TEST(Continue, ResumesAdaptiveSamplingAndAnotherEnvironment) {
     const Arguments options{"--adaptive", "on", "--env", "constant=0.2,0.3,0.4", "--layers", "samples,film"};
     expect_done(with(with(tiny(folder / "whole.exr"), options), {"--spp", "40"}));
     expect_done(with(with(tiny(folder / "begun.exr"), options), {"--spp", "20"}));
-    expect_done({"render", scene_file("cornell"), "--continue", folder / "begun.exr", "--spp", "40", "-o", folder / "done.exr", "--quiet", "--layers",
-                 "samples,film"});
+    expect_done({"render", scene_file("cornell"), "--continue", folder / "begun.exr", "--spp", "40", "-o", folder / "done.exr", "--quiet",
+                 "--layers", "samples,film"});
     expect_same_channels(folder / "done.exr", folder / "whole.exr");
 }
 
@@ -117,8 +119,9 @@ TEST(Merge, OfFilmStatesIsTheWholeRender) {
 
     // And it can be resumed.
     expect_done(with(with(tiny(folder / "longer.exr"), all_layers), {"--spp", "20", "--adaptive", "off"}));
-    expect_done(with({"render", scene_file("cornell"), "--continue", folder / "merged.exr", "--spp", "20", "-o", folder / "on.exr", "--quiet"},
-                     all_layers));
+    expect_done(
+        with({"render", scene_file("cornell"), "--continue", folder / "merged.exr", "--spp", "20", "-o", folder / "on.exr", "--quiet"},
+             all_layers));
     expect_same_channels(folder / "on.exr", folder / "longer.exr", 1);
 }
 
@@ -168,8 +171,8 @@ TEST(Merge, RefusesImagesOfDifferentRenders) {
     render("sky.exr", {"--samples", "2:4", "--env", "constant=1,1,1"});
     render("adaptive.exr", {"--spp", "2", "--adaptive", "on"});
     const std::pair<const char*, const char*> wrong[] = {
-        {"gap.exr", "missing"},          {"overlap.exr", "contains sample 1"}, {"seed.exr", "other settings"},
-        {"sky.exr", "another scene"},    {"adaptive.exr", "cannot be merged"}, {"nowhere.exr", "nowhere.exr"},
+        {"gap.exr", "missing"},       {"overlap.exr", "contains sample 1"}, {"seed.exr", "other settings"},
+        {"sky.exr", "another scene"}, {"adaptive.exr", "cannot be merged"}, {"nowhere.exr", "nowhere.exr"},
     };
     for (const auto& [name, why] : wrong) {
         const Finished finished = blush({"merge", folder / "a.exr", folder / name, "-o", folder / "out.exr"});

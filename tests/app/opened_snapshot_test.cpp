@@ -1,10 +1,10 @@
 // Opening snapshot files: all stored state is restored, and hostile files are rejected.
-#include "app/commands/render/film_json.h"
 #include "app/commands/opened_snapshot.h"
-#include "tests/app/program.h"
+#include "app/commands/render/film_json.h"
 #include "io/gltf/read/import.h"
 #include "io/project/scene_edits_json.h"
 #include "io/project/scene_hash.h"
+#include "tests/app/program.h"
 
 #include <gtest/gtest.h>
 
@@ -17,8 +17,8 @@ using test::TemporaryFolder;
 
 // An image of the Cornell box with its film state, as the window stores it.
 LayeredImage picture(const TemporaryFolder& folder) {
-    const auto finished = test::blush({"render", test::scene_file("cornell"), "-o", folder / "p.exr", "--size", "16x12", "--spp", "4", "--quiet",
-                                       "--layers", "albedo,normal,depth,id,film"});
+    const auto finished = test::blush({"render", test::scene_file("cornell"), "-o", folder / "p.exr", "--size", "16x12", "--spp", "4",
+                                       "--quiet", "--layers", "albedo,normal,depth,id,film"});
     EXPECT_EQ(finished.exit_code, 0) << finished.err;
     const auto read = read_layers(folder / "p.exr");
     EXPECT_TRUE(read);
@@ -83,7 +83,8 @@ TEST(OpenedSnapshot, HostileMetadataDoNoHarm) {
     const std::string film = image.metadata.at("blush:film");
     const std::pair<const char*, std::string> hostile[] = {
         {"blush:film", "{"},
-        {"blush:film", R"({"first_sample":0,"samples":9223372036854775807,"seconds":1,"rays":[0,0,0],"truncated":0,"paths":[],"health":{}})"},
+        {"blush:film",
+         R"({"first_sample":0,"samples":9223372036854775807,"seconds":1,"rays":[0,0,0],"truncated":0,"paths":[],"health":{}})"},
         {"blush:film", R"({"first_sample":-5,"samples":4})"},
         {"blush:film", film.substr(0, film.size() / 2)},
         {"blush:scene_file", "../../../../../../dev/zero"},

@@ -26,7 +26,8 @@ using Options = std::map<std::string, sdbus::Variant>;
 class Bus {
 public:
     Bus() {
-        const std::filesystem::path config = std::filesystem::path(::testing::TempDir()) / ("blush-bus-" + std::to_string(::getpid()) + ".conf");
+        const std::filesystem::path config =
+            std::filesystem::path(::testing::TempDir()) / ("blush-bus-" + std::to_string(::getpid()) + ".conf");
         std::ofstream(config) << "<busconfig><type>session</type><listen>unix:tmpdir=/tmp</listen><policy context=\"default\">"
                                  "<allow send_destination=\"*\"/><allow receive_sender=\"*\"/><allow own=\"*\"/></policy></busconfig>";
         int ends[2];
@@ -71,8 +72,9 @@ public:
     Portal() : connection_(sdbus::createSessionBusConnection("org.freedesktop.portal.Desktop")) {
         object_ = sdbus::createObject(*connection_, "/org/freedesktop/portal/desktop");
         for (const char* name : {"OpenFile", "SaveFile"})
-            object_->registerMethod(name).onInterface("org.freedesktop.portal.FileChooser").implementedAs(
-                [this, name](const std::string&, const std::string& asked_title, const Options& asked_options) {
+            object_->registerMethod(name)
+                .onInterface("org.freedesktop.portal.FileChooser")
+                .implementedAs([this, name](const std::string&, const std::string& asked_title, const Options& asked_options) {
                     method = name;
                     title = asked_title;
                     options = asked_options;
@@ -93,12 +95,16 @@ private:
     sdbus::ObjectPath show(std::string sender) {
         sender = sender.substr(1);
         std::ranges::replace(sender, '.', '_');
-        const std::string handle = "/org/freedesktop/portal/desktop/request/" + sender + "/" + options.at("handle_token").get<std::string>();
+        const std::string handle =
+            "/org/freedesktop/portal/desktop/request/" + sender + "/" + options.at("handle_token").get<std::string>();
         request_ = sdbus::createObject(*connection_, handle);
         request_->registerMethod("Close").onInterface("org.freedesktop.portal.Request").implementedAs([this] { ++closed; });
         request_->registerSignal("Response").onInterface("org.freedesktop.portal.Request").withParameters<uint32_t, Options>();
         request_->finishRegistration();
-        if (code) request_->emitSignal("Response").onInterface("org.freedesktop.portal.Request").withArguments(*code, Options{{"uris", sdbus::Variant(uris)}});
+        if (code)
+            request_->emitSignal("Response")
+                .onInterface("org.freedesktop.portal.Request")
+                .withArguments(*code, Options{{"uris", sdbus::Variant(uris)}});
         ++asked;
         return handle;
     }
@@ -117,7 +123,8 @@ protected:
 TEST(PathOfUri, AcceptsOnlyLocalPaths) {
     EXPECT_EQ(path_of_uri("file:///home/a%20b/l%C3%A4mp.gltf"), "/home/a b/l\u00e4mp.gltf");
     EXPECT_EQ(path_of_uri("file://localhost/tmp/x"), "/tmp/x");
-    for (const char* bad : {"", "file://", "http://x/y", "file://elsewhere/y", "file:///a%2", "file:///a%", "file:///a%zz", "file:///a%00b", "/a"})
+    for (const char* bad :
+         {"", "file://", "http://x/y", "file://elsewhere/y", "file:///a%2", "file:///a%", "file:///a%zz", "file:///a%00b", "/a"})
         EXPECT_TRUE(path_of_uri(bad).empty()) << bad;
 }
 

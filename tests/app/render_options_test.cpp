@@ -128,7 +128,8 @@ TEST(RenderOptions, AMissingSideFollowsTheAspect) {
     EXPECT_EQ(size_for({"--size", "640x"}, 0), std::pair(640, 360));
     EXPECT_EQ(size_for({"--size", "x300"}, 2), std::pair(600, 300));
     EXPECT_EQ(size_for({"--size", "600x300"}, 1), std::pair(600, 300)) << "explicit values take precedence";
-    for (const char* wrong : {"x", "", "0x5", "5x0", "600x400x3", "wide", "600", "600xh"}) EXPECT_ANY_THROW(parsed({"--size", wrong})) << wrong;
+    for (const char* wrong : {"x", "", "0x5", "5x0", "600x400x3", "wide", "600", "600xh"})
+        EXPECT_ANY_THROW(parsed({"--size", wrong})) << wrong;
 }
 
 TEST(RenderOptions, ARegionIsPixelsOfThePicture) {

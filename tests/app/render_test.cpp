@@ -1,7 +1,7 @@
 // `blush render` as a script calls it.
-#include "tests/app/program.h"
 #include "io/image/image_io.h"
 #include "io/image/snapshot.h"
+#include "tests/app/program.h"
 
 #include <gtest/gtest.h>
 
@@ -100,7 +100,8 @@ TEST(Render, BouncesSumToTheBeautyInFileAndJson) {
 
 TEST(Render, GroupsSumToTheBeautyInFileAndJson) {
     const TemporaryFolder folder;
-    const Json json = blush_json(with(tiny("card-and-mug", folder / "out.exr"), {"--layers", "groups", "--groups", "by-object", "--quiet"}));
+    const Json json =
+        blush_json(with(tiny("card-and-mug", folder / "out.exr"), {"--layers", "groups", "--groups", "by-object", "--quiet"}));
     double energy = 0;
     for (const Json& group : json["groups"]) energy += double(group["energy"]);
     EXPECT_NEAR(energy, 1, 1e-9);
@@ -108,7 +109,8 @@ TEST(Render, GroupsSumToTheBeautyInFileAndJson) {
     for (const std::string channel : {"R", "G", "B"}) {
         for (size_t i = 0; i < 24 * 16; ++i) {
             double sum = 0;
-            for (const Json& group : json["groups"]) sum += double(image.find("group." + std::string(group["group"]) + "." + channel)->values[i]);
+            for (const Json& group : json["groups"])
+                sum += double(image.find("group." + std::string(group["group"]) + "." + channel)->values[i]);
             const double whole = double(image.find(channel)->values[i]);
             EXPECT_NEAR(sum, whole, whole * 0x1p-18) << channel << i; // reused paths are summed in single precision
         }
@@ -281,8 +283,10 @@ TEST(Render, JsonHasTheKeysOfTheContract) {
                             "path_length_mean", "error", "health", "warnings", "kernel", "peak_memory_mb", "output", "partial"})
         EXPECT_TRUE(json.contains(key)) << key;
     EXPECT_EQ(test::keys_of(json["rays"]), (std::vector<std::string>{"bounce", "camera", "shadow"}));
-    EXPECT_EQ(test::keys_of(json["error"]), (std::vector<std::string>{"high", "low", "missing_light", "relmse", "rmse", "rmse_high", "rmse_low"}));
-    EXPECT_EQ(test::keys_of(json["health"]), (std::vector<std::string>{"faults", "fireflies", "first", "inf", "nan", "negative", "truncated"}));
+    EXPECT_EQ(test::keys_of(json["error"]),
+              (std::vector<std::string>{"high", "low", "missing_light", "relmse", "rmse", "rmse_high", "rmse_low"}));
+    EXPECT_EQ(test::keys_of(json["health"]),
+              (std::vector<std::string>{"faults", "fireflies", "first", "inf", "nan", "negative", "truncated"}));
     EXPECT_EQ(test::keys_of(json["kernel"]), (std::vector<std::string>{"features", "left_out", "made", "name"}));
     EXPECT_EQ(json["width"], 24);
     EXPECT_EQ(json["spp"], 4);

@@ -34,7 +34,8 @@ struct Glb {
         std::vector<uint32_t> indices;
         for (uint32_t j = 0; j <= n; ++j)
             for (uint32_t i = 0; i <= n; ++i) {
-                const double u = double(i) / n, v = double(j) / n, dx = 0.9 * std::cos(9 * u) * std::cos(7 * v), dz = -0.7 * std::sin(9 * u) * std::sin(7 * v);
+                const double u = double(i) / n, v = double(j) / n, dx = 0.9 * std::cos(9 * u) * std::cos(7 * v),
+                             dz = -0.7 * std::sin(9 * u) * std::sin(7 * v);
                 const double size = std::sqrt(dx * dx / 4 + 1 + dz * dz / 4);
                 positions.insert(positions.end(), {float(2 * u - 1), float(0.1 * std::sin(9 * u) * std::cos(7 * v)), float(2 * v - 1)});
                 normals.insert(normals.end(), {float(-dx / 2 / size), float(1 / size), float(-dz / 2 / size)});
@@ -45,7 +46,9 @@ struct Glb {
                 const uint32_t a = j * (n + 1) + i, b = a + 1, c = a + n + 1, d = c + 1;
                 indices.insert(indices.end(), {a, d, b, a, c, d});
             }
-        const Json attributes{{"POSITION", accessor(positions, 3, "VEC3")}, {"NORMAL", accessor(normals, 3, "VEC3")}, {"TEXCOORD_0", accessor(uv, 2, "VEC2")}};
+        const Json attributes{{"POSITION", accessor(positions, 3, "VEC3")},
+                              {"NORMAL", accessor(normals, 3, "VEC3")},
+                              {"TEXCOORD_0", accessor(uv, 2, "VEC2")}};
         const Json primitive{{"attributes", attributes}, {"indices", accessor(indices, 1, "SCALAR")}};
         json["meshes"].push_back({{"primitives", Json::array({primitive})}});
         return json["meshes"].size() - 1;
@@ -64,8 +67,9 @@ Json first_image(const std::string& file, size_t raw_bytes, const test::Temporar
     double peak_mb = 0;
     for (int round = 0; round < std::min(options.rounds, 3); ++round) {
         const Clock::time_point begin = Clock::now();
-        const test::Finished finished = test::run({BLUSH_BINARY, "render", file, "-o", folder / "out.exr", "--spp", "1", "--size", "1280x720",
-                                                   "--threads", std::to_string(options.threads), "--quiet", "--json", folder / "render.json"});
+        const test::Finished finished =
+            test::run({BLUSH_BINARY, "render", file, "-o", folder / "out.exr", "--spp", "1", "--size", "1280x720", "--threads",
+                       std::to_string(options.threads), "--quiet", "--json", folder / "render.json"});
         seconds.push_back(seconds_since(begin));
         const auto report = read_file(folder / "render.json", 1 << 20);
         if (finished.exit_code != 0 || !report) return {{"failed", finished.err}};
@@ -97,7 +101,8 @@ Json orchard(size_t instances, const test::TemporaryFolder& folder, const Option
     const auto side = size_t(std::sqrt(double(instances)));
     for (size_t i = 0; i < instances; ++i) places.insert(places.end(), {2.5f * float(i % side), 0.f, 2.5f * float(i / side)});
     const size_t translation = glb.accessor(places, 3, "VEC3");
-    glb.json["nodes"].push_back({{"mesh", tree}, {"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", {{"TRANSLATION", translation}}}}}}}});
+    glb.json["nodes"].push_back(
+        {{"mesh", tree}, {"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", {{"TRANSLATION", translation}}}}}}}});
     const size_t raw = glb.bytes.size();
     const std::string file = folder / "orchard.glb";
     if (const auto written = glb.write(file); !written) return {{"failed", written.error().text()}};
@@ -115,7 +120,9 @@ Json run_big_scenes(const Options& options) {
     figures["triangles_1m"] = landscape(708, folder, options);
     figures["triangles_10m"] = landscape(2237, folder, options);
     figures["instances_1m"] = orchard(1'000'000, folder, options);
-    const auto mb = [&](const char* which) { return figures[which].value("peak_memory_mb", 0.0) - figures["nothing"].value("peak_memory_mb", 0.0); };
+    const auto mb = [&](const char* which) {
+        return figures[which].value("peak_memory_mb", 0.0) - figures["nothing"].value("peak_memory_mb", 0.0);
+    };
     figures["bytes_per_triangle"] = rounded(1e6 * (mb("triangles_10m") - mb("triangles_1m")) / 9e6);
     figures["bytes_per_instance"] = rounded(mb("instances_1m"));
     return figures;

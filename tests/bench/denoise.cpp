@@ -4,8 +4,8 @@
 
 #include "measure/metrics/metrics.h"
 #include "render/denoise/convolution.h"
-#include "render/denoise/unet_weights.h"
 #include "render/denoise/denoiser.h"
+#include "render/denoise/unet_weights.h"
 #include "render/renderer.h"
 
 #include <fmt/format.h>

@@ -4,9 +4,9 @@
 
 #include "io/image/image_io.h"
 #include "measure/metrics/metrics.h"
-#include "render/session/denoised_picture.h"
 #include "render/denoise/denoiser.h"
 #include "render/renderer.h"
+#include "render/session/denoised_picture.h"
 
 #include <fmt/format.h>
 

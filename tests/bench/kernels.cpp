@@ -2,8 +2,8 @@
 #include "tests/bench/bench.h"
 
 #include "core/parallel.h"
-#include "render/compile/kernel_speed.h"
 #include "render/compile/expand_area_lights.h"
+#include "render/compile/kernel_speed.h"
 #include "render/compile/render_scene.h"
 
 #include <algorithm>

@@ -16,10 +16,20 @@ struct Case {
     const char* name;
     Json (*run)(const Options&);
 };
-constexpr Case cases[]{{"setup", run_setup},     {"startup", run_startup}, {"rate", run_rate},        {"kernels", run_kernels},
-                       {"latency", run_latency}, {"denoise", run_denoise}, {"estimate", run_estimate},
-                       {"coverage", run_error_coverage}, {"recorder", run_recorder},   {"lights", run_many_lights}, {"mix", run_mix},
-                       {"big", run_big_scenes}, {"textures", run_textures}, {"time", run_time_slider},
+constexpr Case cases[]{{"setup", run_setup},
+                       {"startup", run_startup},
+                       {"rate", run_rate},
+                       {"kernels", run_kernels},
+                       {"latency", run_latency},
+                       {"denoise", run_denoise},
+                       {"estimate", run_estimate},
+                       {"coverage", run_error_coverage},
+                       {"recorder", run_recorder},
+                       {"lights", run_many_lights},
+                       {"mix", run_mix},
+                       {"big", run_big_scenes},
+                       {"textures", run_textures},
+                       {"time", run_time_slider},
                        {"pictures", run_shown_pictures}};
 
 int fail(const Error& error) {
@@ -45,9 +55,9 @@ int run(int argc, char** argv) {
                  "time (from a step of the time slider to the first image), "
                  "pictures (FLIP and relMSE of raw and denoised pictures, with and without path reuse and adaptive sampling)"};
     app.add_option("cases", names, "What to measure; default: everything")
-        ->check(CLI::IsMember({"setup", "startup", "rate", "kernels", "latency", "denoise", "estimate", "coverage", "recorder", "lights", "mix", "big", "textures", "time", "pictures"}));
-    app.add_option("--scenes", peers,
-                   "Folder with the scenes of the peer comparison: cornell.glb, cornell_spheres.glb, dense_cornell.glb");
+        ->check(CLI::IsMember({"setup", "startup", "rate", "kernels", "latency", "denoise", "estimate", "coverage", "recorder", "lights",
+                               "mix", "big", "textures", "time", "pictures"}));
+    app.add_option("--scenes", peers, "Folder with the scenes of the peer comparison: cornell.glb, cornell_spheres.glb, dense_cornell.glb");
     app.add_option("--only", only, "Scenes whose file name contains this");
     app.add_option("--threads", options.threads, "Largest number of threads")->check(CLI::Range(1, 1024))->capture_default_str();
     app.add_option("--seeds", options.rounds, "Seeds of each series of pictures, rounds of other comparisons")

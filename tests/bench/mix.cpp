@@ -39,7 +39,8 @@ Json time_of_mixing(const Options& options) {
             mix_rgba(frame, gains, mixed, &workers);
             seconds.push_back(seconds_since(begin));
         }
-        result[std::to_string(threads)] = {{"median_ms", rounded(1e3 * median(seconds))}, {"worst_ms", rounded(1e3 * quantile(seconds, 1))}};
+        result[std::to_string(threads)] = {{"median_ms", rounded(1e3 * median(seconds))},
+                                           {"worst_ms", rounded(1e3 * quantile(seconds, 1))}};
     }
     return result;
 }

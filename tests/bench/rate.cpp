@@ -3,11 +3,11 @@
 #include "tests/bench/bench.h"
 #include "tests/bench/recorded_rays.h"
 
-#include "render/compile/kernel_speed.h"
 #include "render/compile/expand_area_lights.h"
+#include "render/compile/kernel_speed.h"
 #include "render/compile/render_scene.h"
-#include "render/renderer.h"
 #include "render/integrator/kernel_settings.h"
+#include "render/renderer.h"
 
 #include <set>
 

@@ -49,12 +49,14 @@ private:
         const std::lock_guard lock(mutex_);
         if (const FramePtr frame = session_.latest(); frame && frame->revision == revision_ && frame->divider == 1) {
             const auto begin = Clock::now();
-            if (const ConvergencePoint point = estimated_point(*frame); point.rmse.known || point.relmse.known) runs_.live()->record.add(point);
+            if (const ConvergencePoint point = estimated_point(*frame); point.rmse.known || point.relmse.known)
+                runs_.live()->record.add(point);
             recording_seconds_ += seconds_since(begin);
             measure(*frame);
         }
         const SessionStatus status = session_.status();
-        over_ = status.revision == revision_ && (status.state == SessionStatus::State::complete || status.state == SessionStatus::State::failed);
+        over_ = status.revision == revision_ &&
+                (status.state == SessionStatus::State::complete || status.state == SessionStatus::State::failed);
         if (over_) ended_.notify_one();
     }
     void measure(const Frame& frame) {

@@ -38,7 +38,8 @@ void write_texture(const std::filesystem::path& file, int index) {
 void write_scene(const std::filesystem::path& file) {
     const std::vector<float> square{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, /* texture coordinates */ 0, 1, 1, 1, 0, 0, 1, 0};
     const auto* bytes = reinterpret_cast<const uint8_t*>(square.data());
-    if (const auto ok = write_file(file.parent_path() / "square.bin", {bytes, square.size() * sizeof(float)}); !ok) throw std::runtime_error(ok.error().text());
+    if (const auto ok = write_file(file.parent_path() / "square.bin", {bytes, square.size() * sizeof(float)}); !ok)
+        throw std::runtime_error(ok.error().text());
     Json gltf{{"asset", {{"version", "2.0"}}},
               {"buffers", {{{"uri", "square.bin"}, {"byteLength", square.size() * sizeof(float)}}}},
               {"bufferViews", {{{"buffer", 0}, {"byteLength", 48}}, {{"buffer", 0}, {"byteOffset", 48}, {"byteLength", 32}}}},
@@ -61,7 +62,8 @@ void write_scene(const std::filesystem::path& file) {
 }
 
 Json measure_loading(const Options& options) {
-    const auto folder = std::filesystem::temp_directory_path() / fmt::format("blush_bench_textures_{}", Clock::now().time_since_epoch().count());
+    const auto folder =
+        std::filesystem::temp_directory_path() / fmt::format("blush_bench_textures_{}", Clock::now().time_since_epoch().count());
     std::filesystem::create_directory(folder);
     write_scene(folder / "scene.gltf");
     std::vector<double> import_seconds, import_core_seconds, compile_seconds;

@@ -21,7 +21,9 @@ Pixel show_with(const ColorManagement& color, const DisplayTransform& transform,
 
 TEST(Looks, PivotAtMiddleGreyOrDesaturate) {
     const auto color = shipped_config();
-    const auto standard = [&](const char* current_pictures, const Pixel& p) { return show_with(color, {"sRGB", "Standard", current_pictures}, {}, p); };
+    const auto standard = [&](const char* current_pictures, const Pixel& p) {
+        return show_with(color, {"sRGB", "Standard", current_pictures}, {}, p);
+    };
     for (const char* current_pictures : {"Low contrast", "High contrast"}) {
         const Pixel same = standard(current_pictures, grey(0.18f));
         for (size_t i = 0; i < 3; ++i) EXPECT_NEAR(same[i], standard("", grey(0.18f))[i], 1e-4) << current_pictures;
@@ -38,7 +40,8 @@ TEST(Looks, AreAvailableInEveryView) {
     EXPECT_EQ(color.looks(), (std::vector<std::string>{"Low contrast", "High contrast", "Black and white"}));
     for (const auto& current_pictures : color.looks())
         for (const auto& display : color.displays())
-            for (const auto& view : color.views(display)) EXPECT_TRUE(color.display_shader({display, view, current_pictures})) << current_pictures << view;
+            for (const auto& view : color.views(display))
+                EXPECT_TRUE(color.display_shader({display, view, current_pictures})) << current_pictures << view;
 }
 
 TEST(WhiteBalance, MakesThePickedColourNeutralAndKeepsItsLuminance) {

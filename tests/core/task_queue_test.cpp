@@ -1,6 +1,6 @@
 // Task queue: each task runs once, exceptions, priority, floating-point mode.
-#include "core/task_queue.h"
 #include "core/parallel.h"
+#include "core/task_queue.h"
 
 #include <atomic>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 #include "io/image/ies.h"
 
-#include "tests/fuzz/promise.h"
 #include "scene/lights/ies_profile.h"
+#include "tests/fuzz/promise.h"
 #include "tests/fuzz/targets.h"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "io/gltf/read/import.h"
-#include "tests/fuzz/promise.h"
 #include "scene/validate.h"
+#include "tests/fuzz/promise.h"
 #include "tests/fuzz/targets.h"
 
 #include <filesystem>

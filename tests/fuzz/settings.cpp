@@ -1,7 +1,7 @@
 #include "io/project/scene_edits_json.h"
 #include "io/project/settings_json.h"
-#include "tests/fuzz/promise.h"
 #include "scene/validate.h"
+#include "tests/fuzz/promise.h"
 #include "tests/fuzz/targets.h"
 
 namespace blush::fuzz {

@@ -1,5 +1,5 @@
-#include "tests/fuzz/promise.h"
 #include "render/denoise/tza.h"
+#include "tests/fuzz/promise.h"
 #include "tests/fuzz/targets.h"
 
 namespace blush::fuzz {

@@ -71,8 +71,8 @@ TEST(Files, TemporaryFilesOfKilledProcessesAreRemoved) {
     if (dead == 0) _exit(0);
     ASSERT_EQ(waitpid(dead, nullptr, 0), dead);
     const std::string stale = "." + std::string("a.exr.") + std::to_string(dead) + "-3.tmp";
-    const std::vector<std::string> kept{".a.exr.1-0.tmp", ".a.exr." + std::to_string(getpid()) + "-99999.tmp", ".a.exr.x-1.tmp", ".a.exr.tmp",
-                                        ".b.exr." + std::to_string(dead) + "-3.tmp"};
+    const std::vector<std::string> kept{".a.exr.1-0.tmp", ".a.exr." + std::to_string(getpid()) + "-99999.tmp", ".a.exr.x-1.tmp",
+                                        ".a.exr.tmp", ".b.exr." + std::to_string(dead) + "-3.tmp"};
     write_bytes(folder / stale, "part");
     for (const std::string& name : kept) write_bytes(folder / name, "part");
     ASSERT_TRUE(write_file(folder / "a.exr", "whole"));

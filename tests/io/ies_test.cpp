@@ -12,7 +12,6 @@
 namespace blush {
 namespace {
 
-
 struct Photometry {
     std::string header = "IESNA:LM-63-1995\n[TEST] none\n", tilt = "TILT=NONE\n";
     std::string multiplier = "1", type = "1", factors = "1 1 100";
@@ -21,8 +20,8 @@ struct Photometry {
     std::string text() const {
         const auto count = [](const std::string& s) { return 1 + std::count(s.begin(), s.end(), ' '); };
         return header + tilt +
-               fmt::format("1 1000 {} {} {} {} 2 0 0 0\n{}\n{}\n{}\n{}\n", multiplier, count(vertical), count(horizontal), type, factors, vertical,
-                           horizontal, candela);
+               fmt::format("1 1000 {} {} {} {} 2 0 0 0\n{}\n{}\n{}\n{}\n", multiplier, count(vertical), count(horizontal), type, factors,
+                           vertical, horizontal, candela);
     }
     IesPtr read() const {
         Result<IesPtr> p = parse_ies(text());
@@ -68,19 +67,22 @@ TEST(Ies, SymmetriesOfTypeC) {
     quarter.horizontal = "0 45 90";
     quarter.candela = "100 10 0 100 20 0 100 30 0";
     const IesPtr q = quarter.read();
-    for (const auto& [h, candela] : {std::pair{0, 10}, {45, 20}, {90, 30}, {135, 20}, {180, 10}, {225, 20}, {270, 30}, {315, 20}, {360, 10}})
+    for (const auto& [h, candela] :
+         {std::pair{0, 10}, {45, 20}, {90, 30}, {135, 20}, {180, 10}, {225, 20}, {270, 30}, {315, 20}, {360, 10}})
         EXPECT_NEAR(candela_at(*q, 45, h), candela, 1e-6) << h;
 
     Photometry half;
     half.horizontal = "0 90 180";
     half.candela = "100 10 0 100 20 0 100 30 0";
     const IesPtr s = half.read();
-    for (const auto& [h, candela] : {std::pair{0, 10}, {90, 20}, {180, 30}, {270, 20}, {360, 10}}) EXPECT_NEAR(candela_at(*s, 45, h), candela, 1e-6) << h;
+    for (const auto& [h, candela] : {std::pair{0, 10}, {90, 20}, {180, 30}, {270, 20}, {360, 10}})
+        EXPECT_NEAR(candela_at(*s, 45, h), candela, 1e-6) << h;
 
     Photometry other = half;
     other.horizontal = "90 180 270";
     const IesPtr o = other.read();
-    for (const auto& [h, candela] : {std::pair{0, 20}, {90, 10}, {180, 20}, {270, 30}, {360, 20}}) EXPECT_NEAR(candela_at(*o, 45, h), candela, 1e-6) << h;
+    for (const auto& [h, candela] : {std::pair{0, 20}, {90, 10}, {180, 20}, {270, 30}, {360, 20}})
+        EXPECT_NEAR(candela_at(*o, 45, h), candela, 1e-6) << h;
 
     Photometry full;
     full.horizontal = "0 90 180 270 360";
@@ -184,7 +186,8 @@ TEST(Ies, AnyPrefixAndAnyFlippedByteIsReadOrRefused) {
     file.horizontal = "0 90";
     file.candela = "1 2 3 4 5 6";
     const std::string whole = file.text();
-    for (size_t n = 0; n + 3 < whole.size(); ++n) EXPECT_FALSE(parse_ies(std::string_view(whole).substr(0, n)) && n + 4 < whole.size()) << n;
+    for (size_t n = 0; n + 3 < whole.size(); ++n)
+        EXPECT_FALSE(parse_ies(std::string_view(whole).substr(0, n)) && n + 4 < whole.size()) << n;
     for (size_t n = 0; n < whole.size(); ++n)
         for (const char c : {'\0', '9', '-', ' ', 'e', '\xff'}) {
             std::string damaged = whole;

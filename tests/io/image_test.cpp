@@ -1,5 +1,5 @@
-#include "io/image/image_truncation.h"
 #include "io/image/image_io.h"
+#include "io/image/image_truncation.h"
 #include "tests/io/gltf/builder.h"
 
 #include <gtest/gtest.h>
@@ -65,7 +65,8 @@ TEST(ImageIo, ExrKeepsEveryLayerAndTextBitForBit) {
 TEST(ImageIo, ColorsAndLayersAreFoundAndSetByName) {
     LayeredImage image{1, 1, {{"R", {1}}, {"G", {2}}, {"B", {3}}, {"depth.Z", {4}}, {"denoised.Y", {5}}}, {}};
     EXPECT_EQ(image.find_color()[1]->name, "G");
-    for (const LayeredImage::Channel* channel : image.find_color("denoised")) EXPECT_EQ(channel->name, "denoised.Y") << "grey is used for R, G and B";
+    for (const LayeredImage::Channel* channel : image.find_color("denoised"))
+        EXPECT_EQ(channel->name, "denoised.Y") << "grey is used for R, G and B";
     EXPECT_EQ(image.find_color("albedo")[0], nullptr);
     image.set({"depth.Z", {6}}, "R");
     image.set({"A", {7}}, "B");

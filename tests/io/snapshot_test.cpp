@@ -21,7 +21,8 @@ struct Planes {
 };
 
 SnapshotInput full_input(const Planes& p) {
-    SnapshotInput input{2, 1, p.rgba, p.denoised, p.albedo, p.normal, p.depth, p.error, p.samples, p.object, p.material, {}, {}, {}, {}, false, {}};
+    SnapshotInput input{2,        1,          p.rgba, p.denoised, p.albedo, p.normal, p.depth, p.error, p.samples,
+                        p.object, p.material, {},     {},         {},       {},       false,   {}};
     SnapshotMetadata& m = input.metadata;
     m.version = "0.1.0";
     m.scene = "cornell.gltf";
@@ -47,8 +48,9 @@ TEST(Snapshot, ChannelsAndMetadataRoundTrip) {
     ASSERT_TRUE(image) << error_text(image);
     std::vector<std::string> names;
     for (const LayeredImage::Channel& channel : image->channels) names.push_back(channel.name);
-    EXPECT_EQ(names, (std::vector<std::string>{"R", "G", "B", "A", "denoised.R", "denoised.G", "denoised.B", "albedo.R", "albedo.G",
-                                               "albedo.B", "normal.X", "normal.Y", "normal.Z", "depth.Z", "error.R", "error.G", "error.B", "samples.Y", "id.object", "id.material"}));
+    EXPECT_EQ(names, (std::vector<std::string>{"R",        "G",        "B",        "A",         "denoised.R", "denoised.G", "denoised.B",
+                                               "albedo.R", "albedo.G", "albedo.B", "normal.X",  "normal.Y",   "normal.Z",   "depth.Z",
+                                               "error.R",  "error.G",  "error.B",  "samples.Y", "id.object",  "id.material"}));
     const TempFolder folder;
     ASSERT_TRUE(write_exr(folder / "a.exr", *image));
     const auto read = read_layers(folder / "a.exr");
@@ -102,7 +104,8 @@ TEST(Snapshot, ForeignAndBrokenMetadataAreErrors) {
 }
 
 // Possible sums of samples, and unusual bit patterns.
-const std::vector<double> awkward_sums{0.0, -0.0, 1.0 / 3, 1e300, 5e-324, -1e-200, std::numeric_limits<double>::infinity(), 4503599627370497.5};
+const std::vector<double> awkward_sums{
+    0.0, -0.0, 1.0 / 3, 1e300, 5e-324, -1e-200, std::numeric_limits<double>::infinity(), 4503599627370497.5};
 
 TEST(Snapshot, LosslessPlanesRoundTripExactly) {
     const std::vector<LosslessPlane> planes{{"even.R", awkward_sums, {}}, {"even.count", {}, {0, 1, 16777217, 4294967295u, 5, 6, 7, 8}}};
@@ -182,7 +185,8 @@ TEST(Snapshot, AFileOfTooManyPixelsIsRefusedUnread) {
     ASSERT_TRUE(write_exr(folder / "a.exr", *make_snapshot(full_input(planes))));
     const auto read = read_layers(folder / "a.exr", {.max_side = 65536, .max_pixels = 1});
     EXPECT_NE(error_text(read).find("larger than the limit"), std::string::npos);
-    EXPECT_NE(error_text(read_metadata(folder / "a.exr", {.max_side = 1, .max_pixels = 100})).find("larger than the limit"), std::string::npos);
+    EXPECT_NE(error_text(read_metadata(folder / "a.exr", {.max_side = 1, .max_pixels = 100})).find("larger than the limit"),
+              std::string::npos);
 }
 
 } // namespace

@@ -30,7 +30,8 @@ template <class Sigma, class Level> MeasuredImage unevenly_noisy(std::mt19937& b
     return m;
 }
 template <class Level> MeasuredImage noisy(std::mt19937& bits, float sigma, int64_t samples, Level level) {
-    return unevenly_noisy(bits, samples, [sigma](int, int) { return sigma; }, level);
+    return unevenly_noisy(
+        bits, samples, [sigma](int, int) { return sigma; }, level);
 }
 float even(int, int) { return 0.5f; }
 
@@ -56,8 +57,9 @@ TEST(BiasTest, DetectsGlobalBiasBesideANoisyLight) {
     std::mt19937 bits(12);
     const auto with_lamp = [&](float level, float noise, int64_t samples) {
         const auto at_lamp = [](int x, int y) { return x < 16 && y < 16; };
-        return unevenly_noisy(bits, samples, [&](int x, int y) { return at_lamp(x, y) ? 20 * noise : noise; },
-                              [&](int x, int y) { return at_lamp(x, y) ? 10 : level; });
+        return unevenly_noisy(
+            bits, samples, [&](int x, int y) { return at_lamp(x, y) ? 20 * noise : noise; },
+            [&](int x, int y) { return at_lamp(x, y) ? 10 : level; });
     };
     constexpr int runs = 1000;
     Moments wrong;

@@ -283,7 +283,8 @@ TEST(FlipNumbers, QuartilesAreWeighted) {
 TEST(FlipNumbers, OfNoDifferenceAreZero) {
     for (const std::vector<float>& map : {std::vector<float>(), std::vector<float>(12, 0.f)}) {
         const FlipNumbers n = flip_numbers(map);
-        for (const double value : {n.mean, n.first_quartile, n.median, n.third_quartile, n.largest, n.share_noticeable}) EXPECT_EQ(value, 0);
+        for (const double value : {n.mean, n.first_quartile, n.median, n.third_quartile, n.largest, n.share_noticeable})
+            EXPECT_EQ(value, 0);
     }
 }
 

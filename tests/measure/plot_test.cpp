@@ -79,7 +79,9 @@ TEST(PlotLayout, MapsPowersOfTenEvenlyAndBack) {
 }
 
 TEST(PlotLayout, AxesEndAtRoundNumbersAndAreStable) {
-    const auto axis = [](double last) { return compute_plot_layout({"", "", "", {{"", "#000", {{1, 1}, {last, 0.5}}}}, {}, {}}, {}).x_axis; };
+    const auto axis = [](double last) {
+        return compute_plot_layout({"", "", "", {{"", "#000", {{1, 1}, {last, 0.5}}}}, {}, {}}, {}).x_axis;
+    };
     for (double last = 1.1; last < 1e6; last *= 1.37) {
         const LogAxis x = axis(last);
         for (const double end : {x.low, x.high}) {

@@ -49,8 +49,8 @@ int main(int argc, char** argv) {
         return 2;
     }
     for (const std::string& name : shipped_scene_names()) {
-        for (const auto& [file, settings] : {std::pair(reference_file(name), reference_settings(name)),
-                                             std::pair(coverage_reference_file(name), coverage_settings())}) {
+        for (const auto& [file, settings] :
+             {std::pair(reference_file(name), reference_settings(name)), std::pair(coverage_reference_file(name), coverage_settings())}) {
             const auto written = write_exr(file, make_reference(name, settings, renders));
             if (!written) {
                 std::fprintf(stderr, "make_references: %s\n", written.error().text().c_str());

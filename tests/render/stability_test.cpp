@@ -1,8 +1,8 @@
 // The stability battery, group by group; its sensitivity to wrong answers; and the validity of its list of limits.
-#include "measure/statistics/intervals.h"
 #include "measure/stability/battery.h"
 #include "measure/stability/groups.h"
 #include "measure/stability/weak_points.h"
+#include "measure/statistics/intervals.h"
 #include "tests/support/statistics.h"
 
 #include <gtest/gtest.h>

@@ -25,16 +25,27 @@ struct Seen {
 };
 
 Seen seen(const Changes& c) {
-    return {c.view,   c.resolution, c.integrator, c.stop_rules, c.environment_parameters, c.environment_image, c.motion,
-            c.transforms, c.structure, c.meshes, c.materials,  c.textures,   c.lights};
+    return {c.view,
+            c.resolution,
+            c.integrator,
+            c.stop_rules,
+            c.environment_parameters,
+            c.environment_image,
+            c.motion,
+            c.transforms,
+            c.structure,
+            c.meshes,
+            c.materials,
+            c.textures,
+            c.lights};
 }
 
 void PrintTo(const Seen& s, std::ostream* out) {
     *out << (s.view ? "view " : "") << (s.resolution ? "resolution " : "") << (s.integrator ? "integrator " : "")
          << (s.stop_rules ? "stop_rules " : "") << (s.environment_parameters ? "environment_parameters " : "")
-         << (s.environment_image ? "environment_image " : "") << (s.motion ? "motion " : "") << s.transforms.size() << " transforms " << s.structure.size()
-         << " structure " << s.meshes.size() << " meshes " << s.materials.size() << " materials " << s.textures.size() << " textures "
-         << s.lights.size() << " lights";
+         << (s.environment_image ? "environment_image " : "") << (s.motion ? "motion " : "") << s.transforms.size() << " transforms "
+         << s.structure.size() << " structure " << s.meshes.size() << " meshes " << s.materials.size() << " materials " << s.textures.size()
+         << " textures " << s.lights.size() << " lights";
 }
 
 Changes diff(const Project& a, const Project& b) { return blush::diff(a.scene, a.render, b.scene, b.render); }

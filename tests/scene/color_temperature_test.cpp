@@ -66,7 +66,8 @@ TEST(BlackBody, GreenTintIsPerpendicularToTheLocus) {
             const auto [u1, v1] = uv(black_body_color(kelvin * 1.01f));
             const auto [u, v] = uv(black_body_color(kelvin, tint));
             EXPECT_NEAR(std::hypot(u - u0, v - v0), std::abs(tint), 2e-4) << kelvin;
-            EXPECT_NEAR(((u - u0) * (u1 - u0) + (v - v0) * (v1 - v0)) / (std::hypot(u1 - u0, v1 - v0) * double(std::abs(tint))), 0, 0.03) << kelvin;
+            EXPECT_NEAR(((u - u0) * (u1 - u0) + (v - v0) * (v1 - v0)) / (std::hypot(u1 - u0, v1 - v0) * double(std::abs(tint))), 0, 0.03)
+                << kelvin;
             EXPECT_GT((v - v0) * double(tint), 0) << "above the locus is green";
         }
 }

@@ -47,8 +47,11 @@ TEST(LightRig, IsOfferedWithoutLight) {
     Model lit;
     const Id<Light> lamp = lit.shine({});
     EXPECT_TRUE(has_light(lit.scene));
-    for (const auto& darken : std::vector<std::function<void(Light&)>>{
-             [](Light& l) { l.enabled = false; }, [](Light& l) { l.intensity = 0; }, [](Light& l) { l.color = {0, 0, 0}; }}) {
+    for (const auto& darken :
+         std::vector<std::function<void(Light&)>>{[](Light& l) { l.enabled = false; }, [](Light& l) { l.intensity = 0; },
+                                                  [](Light& l) {
+                                                      l.color = {0, 0, 0};
+                                                  }}) {
         Light dark;
         darken(dark);
         lit.scene.lights.set(lamp, dark);

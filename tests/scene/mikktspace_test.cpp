@@ -42,7 +42,8 @@ void expect_tangent(const Vec4& t, Vec3 direction, float handedness) {
 
 // Around the origin a triangle of 90 degrees with u along +X, and one of 45 degrees and `size` with u along (1, -0.5).
 Geometry fan(float size) {
-    return flat({{{0, 0, 0}, {0, 0}}, {{1, 0, 0}, {1, 0}}, {{0, 1, 0}, {0, 1}}, {{-size, size, 0}, {-size, 0.5f * size}}}, {0, 1, 2, 0, 2, 3});
+    return flat({{{0, 0, 0}, {0, 0}}, {{1, 0, 0}, {1, 0}}, {{0, 1, 0}, {0, 1}}, {{-size, size, 0}, {-size, 0.5f * size}}},
+                {0, 1, 2, 0, 2, 3});
 }
 
 TEST(Mikktspace, TrianglesCountByTheirAngleNotByTheirSize) {
@@ -73,8 +74,9 @@ TEST(Mikktspace, EqualCornersAreWelded) {
 
 // Two squares side by side whose u grows away from the edge between them.
 Geometry mirrored() {
-    return flat({{{0, 0, 0}, {0, 1}}, {{0, 1, 0}, {0, 0}}, {{1, 0, 0}, {1, 1}}, {{1, 1, 0}, {1, 0}}, {{-1, 0, 0}, {1, 1}}, {{-1, 1, 0}, {1, 0}}},
-                {0, 2, 3, 0, 3, 1, 4, 0, 1, 4, 1, 5});
+    return flat(
+        {{{0, 0, 0}, {0, 1}}, {{0, 1, 0}, {0, 0}}, {{1, 0, 0}, {1, 1}}, {{1, 1, 0}, {1, 0}}, {{-1, 0, 0}, {1, 1}}, {{-1, 1, 0}, {1, 0}}},
+        {0, 2, 3, 0, 3, 1, 4, 0, 1, 4, 1, 5});
 }
 
 TEST(Mikktspace, MirroredHalvesDoNotMix) {
@@ -94,7 +96,8 @@ TEST(Mikktspace, FansThatTouchInAPointDoNotMix) {
 
 TEST(Mikktspace, DegenerateUvsFollowTheirNeighbours) {
     // The third corner of the second triangle lies on the line between the others in the texture.
-    const Geometry g = flat({{{0, 0, 0}, {0, 0}}, {{1, 0, 0}, {0, 1}}, {{1, 1, 0}, {-1, 1}}, {{0, 1, 0}, {-0.5f, 0.5f}}}, {0, 1, 2, 0, 2, 3});
+    const Geometry g =
+        flat({{{0, 0, 0}, {0, 0}}, {{1, 0, 0}, {0, 1}}, {{1, 1, 0}, {-1, 1}}, {{0, 1, 0}, {-0.5f, 0.5f}}}, {0, 1, 2, 0, 2, 3});
     const std::vector<Vec4> corners = mikktspace_tangents(g, g.uv[0]);
     for (const size_t i : {0u, 1u, 2u, 3u, 4u}) expect_tangent(corners[i], {0, -1, 0}, -1);
     EXPECT_NEAR(dot(Vec3{corners[5].x, corners[5].y, corners[5].z}, Vec3{0, 0, 1}), 0, 1e-6);

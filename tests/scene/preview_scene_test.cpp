@@ -1,6 +1,6 @@
 // Preview scene while textures load.
-#include "scene/texture_slots.h"
 #include "scene/document/preview_scene.h"
+#include "scene/texture_slots.h"
 #include "scene/validate.h"
 #include "tests/support/sample_project.h"
 

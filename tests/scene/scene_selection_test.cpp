@@ -1,8 +1,8 @@
 // Selection of clips, scenes and variants as undoable edits.
-#include "scene/document/document.h"
-#include "scene/world_transforms.h"
 #include "scene/animation/pose.h"
+#include "scene/document/document.h"
 #include "scene/document/scene_selection.h"
+#include "scene/world_transforms.h"
 #include "tests/support/sample_project.h"
 
 #include <gtest/gtest.h>
@@ -69,8 +69,8 @@ TEST(SceneSelection, NonFiniteAnimatedNodesAreHidden) {
 TEST(SceneSelection, MissingChoicesAreRefused) {
     const Sample s = sample_project();
     const float nan = std::numeric_limits<float>::quiet_NaN();
-    for (const SceneSelection& bad : {SceneSelection{.clip = Id<Clip>{99}}, swing_at(s, -1), swing_at(s, nan), SceneSelection{.scene = 1}, SceneSelection{.scene = -1},
-                               SceneSelection{.variant = 2}, SceneSelection{.variant = -2}})
+    for (const SceneSelection& bad : {SceneSelection{.clip = Id<Clip>{99}}, swing_at(s, -1), swing_at(s, nan), SceneSelection{.scene = 1},
+                                      SceneSelection{.scene = -1}, SceneSelection{.variant = 2}, SceneSelection{.variant = -2}})
         EXPECT_FALSE(blush::apply(s.project, SetSceneSelection{bad}));
 }
 

@@ -1,9 +1,9 @@
 // The sky is the published model's: zenith and horizontal illuminance by independent quadrature; the sun position matches the
 // almanac.
 #include "core/math.h"
-#include "scene/scene.h"
 #include "scene/lights/sky_model.h"
 #include "scene/lights/sun_position.h"
+#include "scene/scene.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,6 @@
 
 namespace blush {
 namespace {
-
 
 Sky sky_of(float turbidity, float elevation, float azimuth = 0) {
     Sky sky;
@@ -24,8 +23,8 @@ Sky sky_of(float turbidity, float elevation, float azimuth = 0) {
 double luminance_of(const Vec3d& c) { return 0.2126729 * c.x + 0.7151522 * c.y + 0.0721750 * c.z; }
 
 // Almanac: Meeus, example 25.a has the sun's declination at -7.78507 degrees and its right ascension at 198.38083 on 1992 October 13, 0 h;
-// the Solar Position Algorithm of NREL (Reda and Andreas 2004), appendix, gives 39.87205 degrees without refraction and 194.34024 in Golden,
-// Colorado on 2003 October 17, 19:30:30 UTC.
+// the Solar Position Algorithm of NREL (Reda and Andreas 2004), appendix, gives 39.87205 degrees without refraction and 194.34024 in
+// Golden, Colorado on 2003 October 17, 19:30:30 UTC.
 TEST(SunPosition, IsTheAlmanacs) {
     EXPECT_NEAR(sun_position(90, 0, 1992, 10, 13, 0).elevation, -7.785, 0.01) << "at the pole the elevation is the declination";
     const SunPosition golden = sun_position(39.742476, -105.1786, 2003, 10, 17, 19 + 30.0 / 60 + 30.0 / 3600);
@@ -56,8 +55,10 @@ TEST(SkyModel, ZenithIsTheModels) {
             const SkyModel::Yxy zenith = SkyModel(sky_of(turbidity, elevation)).sky({0, 1, 0});
             EXPECT_NEAR(zenith.luminance / (1000 * kilocandela), 1, 1e-9) << turbidity << ", " << elevation;
             const double th[4] = {theta * theta * theta, theta * theta, theta, 1}, tt[3] = {t * t, t, 1};
-            const double mx[3][4] = {{0.00166, -0.00375, 0.00209, 0}, {-0.02903, 0.06377, -0.03202, 0.00394}, {0.11693, -0.21196, 0.06052, 0.25886}};
-            const double my[3][4] = {{0.00275, -0.00610, 0.00317, 0}, {-0.04214, 0.08970, -0.04153, 0.00516}, {0.15346, -0.26756, 0.06670, 0.26688}};
+            const double mx[3][4] = {
+                {0.00166, -0.00375, 0.00209, 0}, {-0.02903, 0.06377, -0.03202, 0.00394}, {0.11693, -0.21196, 0.06052, 0.25886}};
+            const double my[3][4] = {
+                {0.00275, -0.00610, 0.00317, 0}, {-0.04214, 0.08970, -0.04153, 0.00516}, {0.15346, -0.26756, 0.06670, 0.26688}};
             double x = 0, y = 0;
             for (int i = 0; i < 3; ++i)
                 for (int j = 0; j < 4; ++j) x += tt[i] * mx[i][j] * th[j], y += tt[i] * my[i][j] * th[j];
@@ -71,7 +72,8 @@ TEST(SkyModel, DirectionsFollowPerez) {
     const double t = 3, theta = 50 * degree;
     const SkyModel model(sky_of(3, 40, 90));
     const auto perez = [&](double cosine, double gamma) {
-        const double a = 0.1787 * t - 1.4630, b = -0.3554 * t + 0.4275, c = -0.0227 * t + 5.3251, d = 0.1206 * t - 2.5771, e = -0.0670 * t + 0.3703;
+        const double a = 0.1787 * t - 1.4630, b = -0.3554 * t + 0.4275, c = -0.0227 * t + 5.3251, d = 0.1206 * t - 2.5771,
+                     e = -0.0670 * t + 0.3703;
         return (1 + a * std::exp(b / cosine)) * (1 + c * std::exp(d * gamma) + e * std::cos(gamma) * std::cos(gamma));
     };
     const double at_zenith = model.sky({0, 1, 0}).luminance;
@@ -94,7 +96,8 @@ TEST(SkyModel, HorizontalIlluminanceIsTheIntegral) {
             for (int j = 0; j < sectors; ++j) {
                 const double theta = std::numbers::pi / 2 * (i + 0.5) / rings, turn = 2 * std::numbers::pi * (j + 0.5) / sectors;
                 const Vec3d d{std::sin(theta) * std::sin(turn), std::cos(theta), std::sin(theta) * std::cos(turn)};
-                sum = sum + model.radiance(d) * (std::sin(theta) * std::cos(theta) * std::numbers::pi / 2 / rings * 2 * std::numbers::pi / sectors);
+                sum = sum + model.radiance(d) *
+                                (std::sin(theta) * std::cos(theta) * std::numbers::pi / 2 / rings * 2 * std::numbers::pi / sectors);
             }
         EXPECT_NEAR(luminance_of(model.sky_illuminance()) / luminance_of(sum), 1, 1e-3) << elevation;
         EXPECT_NEAR(model.sky_illuminance().x / sum.x, 1, 2e-3);
@@ -106,7 +109,8 @@ TEST(SkyModel, HorizontalIlluminanceIsTheIntegral) {
             for (int column = 0; column < 256; ++column) {
                 const double top = std::numbers::pi * row / 128, bottom = std::numbers::pi * (row + 1) / 128;
                 const float* c = &image->floats[3 * size_t(row * 256 + column)];
-                const double projected = (std::sin(bottom) * std::sin(bottom) - std::sin(top) * std::sin(top)) / 2 * 2 * std::numbers::pi / 256;
+                const double projected =
+                    (std::sin(bottom) * std::sin(bottom) - std::sin(top) * std::sin(top)) / 2 * 2 * std::numbers::pi / 256;
                 baked += luminance_of({c[0], c[1], c[2]}) * projected;
             }
         EXPECT_NEAR(baked / luminance_of(sum), 1, 2e-3);

@@ -1,6 +1,6 @@
 #include "scene/affine.h"
-#include "scene/world_transforms.h"
 #include "scene/validate.h"
+#include "scene/world_transforms.h"
 #include "tests/support/sample_project.h"
 
 #include <gtest/gtest.h>
@@ -194,7 +194,8 @@ TEST(Framed, ShowsTheWholeBounds) {
             const double depth = -dot(v, axes.z);
             ASSERT_GT(depth, 0);
             const double half_height = f.lens.orthographic ? f.lens.ymag : depth * std::tan(0.5 * f.lens.yfov_radians);
-            max_extrapolation = std::max({max_extrapolation, std::abs(dot(v, axes.y)) / half_height, std::abs(dot(v, axes.x)) / (half_height * aspect)});
+            max_extrapolation =
+                std::max({max_extrapolation, std::abs(dot(v, axes.y)) / half_height, std::abs(dot(v, axes.x)) / (half_height * aspect)});
         }
         EXPECT_LE(max_extrapolation, 1 + 1e-5);
         if (f.lens.orthographic) {

@@ -40,7 +40,8 @@ std::vector<Drawn> draw(const CausticCasterTables& table, int count) {
     std::vector<Drawn> drawn;
     for (int i = 0; i < count; ++i) {
         const float choice = u(), a = u(), b = u();
-        const Vec3 w = choice < focus.share ? sample_caster_direction<float>(table, focus, choice / focus.share, a, b) : sample_cosine_hemisphere(a, b);
+        const Vec3 w = choice < focus.share ? sample_caster_direction<float>(table, focus, choice / focus.share, a, b)
+                                            : sample_cosine_hemisphere(a, b);
         const float cosine = cosine_hemisphere_pdf(w.z);
         drawn.push_back({w, double(cosine) / double(guided_pdf<float>(table, focus, w, cosine))});
     }

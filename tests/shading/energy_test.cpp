@@ -161,7 +161,8 @@ TEST(Energy, SheenTableHoldsTheIntegralWithinItsStatedError) {
     for (const double roughness : {0.07, 0.085, 0.13, 0.22, 0.37, 0.52, 0.71, 0.88, 1.0})
         for (const double cos : {0.001, 0.0023, 0.011, 0.04, 0.09, 0.21, 0.43, 0.7, 1.0}) {
             const double exact = reference::charlie_albedo(reference::sqr(roughness), cos);
-            worst = std::max(worst, std::abs(double(sheen_albedo(sheen_table(), float(roughness), float(cos))) - exact) / std::max(1.0, exact));
+            worst =
+                std::max(worst, std::abs(double(sheen_albedo(sheen_table(), float(roughness), float(cos))) - exact) / std::max(1.0, exact));
         }
     EXPECT_LE(worst, SheenTable::error);
     RecordProperty("worst", std::to_string(worst));

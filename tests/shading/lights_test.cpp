@@ -40,7 +40,8 @@ TEST(SphereLight, DirectionsFollowTheCone) {
             const double turn = std::atan2(w.y, w.x) / (2 * std::numbers::pi) + 0.5;
             ++counts[size_t(std::min(int(h * rings), rings - 1) * sectors + std::min(int(turn * sectors), sectors - 1))];
         }
-        EXPECT_TRUE(chi_squared_test(counts, std::vector<double>(counts.size(), double(samples) / double(counts.size())), sidak(significance, 5)))
+        EXPECT_TRUE(
+            chi_squared_test(counts, std::vector<double>(counts.size(), double(samples) / double(counts.size())), sidak(significance, 5)))
             << distance;
     }
 }

@@ -86,7 +86,9 @@ TEST(Model, ReflectionAndThinTransmissionAreReciprocal) {
         for (int i = 0; i < 500; ++i) {
             Vec3 wo = random.direction(), wi = random.direction();
             wo.z = std::abs(wo.z);
-            if (wo.z < 0.01f || std::abs(wi.z) < 0.01f || (wi.z < 0 && m.params.transmission == 0 && m.params.layers.diffuse_transmission == 0)) continue;
+            if (wo.z < 0.01f || std::abs(wi.z) < 0.01f ||
+                (wi.z < 0 && m.params.transmission == 0 && m.params.layers.diffuse_transmission == 0))
+                continue;
             // A thin wall looks the same from both sides: the viewer's is up.
             const float side = wi.z < 0 ? -1.f : 1.f;
             const Vec3 back_wo{wi.x, wi.y, side * wi.z}, back_wi{wo.x, wo.y, side * wo.z};

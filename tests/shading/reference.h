@@ -19,10 +19,10 @@ inline double masking(double alpha, double cos) {
 }
 
 // Stretched GGX, Heitz 2014.
-inline double distribution(double ax, double ay, const Vec3d& h) { return 1 / (pi * ax * ay * sqr(sqr(h.x / ax) + sqr(h.y / ay) + sqr(h.z))); }
-inline double masking(double ax, double ay, const Vec3d& w) {
-    return 2 / (1 + std::sqrt(1 + (sqr(ax * w.x) + sqr(ay * w.y)) / sqr(w.z)));
+inline double distribution(double ax, double ay, const Vec3d& h) {
+    return 1 / (pi * ax * ay * sqr(sqr(h.x / ax) + sqr(h.y / ay) + sqr(h.z)));
 }
+inline double masking(double ax, double ay, const Vec3d& w) { return 2 / (1 + std::sqrt(1 + (sqr(ax * w.x) + sqr(ay * w.y)) / sqr(w.z))); }
 
 // Unpolarised Fresnel reflectance for light from index n1 to n2; 1 under total internal reflection.
 inline double fresnel(double n1, double n2, double cos1) {
@@ -50,7 +50,8 @@ inline Vec3d film_reflectance(double film_ior, double thickness_nm, double cos, 
         for (int m = 1; m <= 2; ++m) {
             const double phase = 2 * pi * m * opd * 1e-9, shift = m * phi;
             const auto gaussian = [&](double value, double position, double variance) {
-                return value * std::sqrt(2 * pi * variance) * std::cos(position * phase + shift) * std::exp(-sqr(phase) * variance) / 1.0685e-7;
+                return value * std::sqrt(2 * pi * variance) * std::cos(position * phase + shift) * std::exp(-sqr(phase) * variance) /
+                       1.0685e-7;
             };
             const double x = gaussian(5.4856e-13, 1.6810e6, 4.3278e9) + gaussian(9.7470e-14, 2.2399e6, 4.5282e9);
             const double y = gaussian(4.4201e-13, 1.7953e6, 9.3046e9), z = gaussian(5.2481e-13, 2.2084e6, 6.6121e9);
@@ -66,7 +67,8 @@ inline Vec3d film_reflectance(double film_ior, double thickness_nm, double cos, 
 inline Vec3d film_over(const Vec3d& bare, const Params& p, double cos, bool inside, const Vec3d& f0, double weight) {
     if (p.layers.iridescence == 0) return bare;
     const double sin_air = inside ? p.ior * std::sqrt(1 - sqr(cos)) : std::sqrt(1 - sqr(cos));
-    const Vec3d film = film_reflectance(p.layers.film_ior, p.layers.film_thickness, std::sqrt(std::max(0.0, 1 - sqr(sin_air))), f0) * weight;
+    const Vec3d film =
+        film_reflectance(p.layers.film_ior, p.layers.film_thickness, std::sqrt(std::max(0.0, 1 - sqr(sin_air))), f0) * weight;
     return mix(bare, film, p.layers.iridescence);
 }
 
@@ -89,7 +91,8 @@ inline Vec3d f_cos_of_base(const Params& p, Vec3d wo, Vec3d wi) {
     const bool inside = is_solid(p) && wo.z < 0;
     if (inside) wo.z = -wo.z, wi.z = -wi.z;
     const double ay = sqr(p.roughness), ax = ay + (1 - ay) * sqr(p.layers.anisotropy), g = masking(ax, ay, wo) * masking(ax, ay, wi);
-    const double translucency = p.layers.diffuse_transmission, leaves = is_solid(p) && (p.specular > 0 || p.transmission > 0) ? 1 / sqr(p.ior) : 1;
+    const double translucency = p.layers.diffuse_transmission,
+                 leaves = is_solid(p) && (p.specular > 0 || p.transmission > 0) ? 1 / sqr(p.ior) : 1;
     const Vec3d crossing = to_double(p.layers.diffuse_transmission_color) * translucency;
     const Vec3d color = to_double(p.base_color);
     const double metallic = p.metallic, transmission = p.transmission;
@@ -159,8 +162,8 @@ inline double charlie_lambda(double alpha, double cos) {
     const double t = sqr(1 - alpha);
     const auto between = [&](double rough, double smooth) { return rough * (1 - t) + smooth * t; };
     const auto l = [&](double x) {
-        return between(21.5473, 25.3245) / (1 + between(3.82987, 3.32435) * std::pow(x, between(0.19823, 0.16801))) + between(-1.97760, -1.27393) * x +
-               between(-4.32054, -4.85967);
+        return between(21.5473, 25.3245) / (1 + between(3.82987, 3.32435) * std::pow(x, between(0.19823, 0.16801))) +
+               between(-1.97760, -1.27393) * x + between(-4.32054, -4.85967);
     };
     return cos < 0.5 ? std::exp(l(cos)) : std::exp(2 * l(0.5) - l(1 - cos));
 }

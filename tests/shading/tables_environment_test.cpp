@@ -1,7 +1,7 @@
 // Environment: lookup, importance sampling, and their consistency.
 #include "render/lights/environment_table.h"
-#include "tests/support/statistics.h"
 #include "tests/shading/tables.h"
+#include "tests/support/statistics.h"
 
 #include <gtest/gtest.h>
 

@@ -53,7 +53,8 @@ TEST(TextureMips, HaveTheMeanOfTheImageWhateverItsSize) {
             for (size_t i = 0; i < mip.rgba.size(); ++i) mip_sum[i % 4] += double(mip.rgba[i]);
             // Six roundings for each halving of numbers below 17.
             for (size_t c = 0; c < 4; ++c)
-                EXPECT_NEAR(mip_sum[c] / (mip.width * mip.height), sum[c] / (width * height), 17 * 6 * count * 0x1p-24) << width << " x " << height;
+                EXPECT_NEAR(mip_sum[c] / (mip.width * mip.height), sum[c] / (width * height), 17 * 6 * count * 0x1p-24)
+                    << width << " x " << height;
         });
         EXPECT_EQ(count, mip_count(width, height));
     }
@@ -72,8 +73,8 @@ struct Filtered {
     }
     Vec4 read(bool as_color, Vec2 uv, float width, bool filtered = true) const {
         const MaterialRecord& r = table.records[1];
-        return lookup<float>(table.tables().textures, as_color ? r.base_color_texture : r.metallic_roughness_texture, {{{uv}}, {{width}}}, true,
-                             filtered);
+        return lookup<float>(table.tables().textures, as_color ? r.base_color_texture : r.metallic_roughness_texture, {{{uv}}, {{width}}},
+                             true, filtered);
     }
 };
 
@@ -133,7 +134,8 @@ TEST(TextureFilter, EachDoublingAveragesFourTimesAsManyTexels) {
             for (int x = 0; x < 16; x += size) {
                 double mean = 0;
                 for (int j = 0; j < size; ++j)
-                    for (int i = 0; i < size; ++i) mean += double(texture.image->floats[size_t(((y + j) * 16 + x + i) * 3)]) / (size * size);
+                    for (int i = 0; i < size; ++i)
+                        mean += double(texture.image->floats[size_t(((y + j) * 16 + x + i) * 3)]) / (size * size);
                 const Vec2 center{(float(x) + 0.5f * float(size)) / 16, (float(y) + 0.5f * float(size)) / 16};
                 EXPECT_NEAR(filtered.read(false, center, float(size) / 16).x, mean, 1e-6);
             }
@@ -141,7 +143,8 @@ TEST(TextureFilter, EachDoublingAveragesFourTimesAsManyTexels) {
     // In between, in proportion to the width.
     const Vec2 uv{0.37f, 0.61f};
     const float two = filtered.read(false, uv, 2 / 16.f).x, four = filtered.read(false, uv, 4 / 16.f).x;
-    for (const float share : {0.25f, 0.5f, 0.75f}) EXPECT_NEAR(filtered.read(false, uv, (2 + 2 * share) / 16).x, two + share * (four - two), 1e-6);
+    for (const float share : {0.25f, 0.5f, 0.75f})
+        EXPECT_NEAR(filtered.read(false, uv, (2 + 2 * share) / 16).x, two + share * (four - two), 1e-6);
 }
 
 TEST(TextureFilter, AnyFootprintReadsTexels) {

@@ -199,8 +199,8 @@ TEST(TextureLookup, EachUseLiesOnItsOwnUvSet) {
     TexturePoint<float> at{};
     for (size_t i = 0; i < table.uv_sets.size(); ++i) at.uv[i] = {(float(i) + 0.5f) / 8, 0.5f}; // the centre of texel i
     const MaterialRecord& r = table.records[1];
-    const std::array uses{r.base_color_texture, r.metallic_roughness_texture, r.normal_texture, r.emissive_texture, r.specular_texture,
-                          r.specular_color_texture, r.transmission_texture};
+    const std::array uses{r.base_color_texture, r.metallic_roughness_texture, r.normal_texture,      r.emissive_texture,
+                          r.specular_texture,   r.specular_color_texture,     r.transmission_texture};
     const TextureTables textures = table.tables().textures;
     for (size_t i = 0; i < uses.size(); ++i) {
         const auto place = std::ranges::find(table.uv_sets, sets[i]) - table.uv_sets.begin();

@@ -32,7 +32,7 @@ void add_quad(Geometry& g, const Vec3& corner, const Vec3& along, const Vec3& up
 
 // Contribution of the lights at a receiver, and the second moments of one sample of it.
 struct Given {
-    double by_all = 0, seen = 0;       // without walls, and with occlusion
+    double by_all = 0, seen = 0; // without walls, and with occlusion
     double by_tree = 0, by_power = 0;
     SelectionVariance relative() const { return {by_all / seen - 1, by_tree / (seen * seen) - 1, by_power / (seen * seen) - 1}; }
 };
@@ -64,7 +64,9 @@ Given given_by(const LightTables& t, int rooms, const Vec3& origin, const Receiv
 }
 
 // In the tables, whose origin differs.
-Vec3 corner_of_house(const LightTables& t) { return t.lights[0].position - Vec3{side / (2 * lamps_in_a_row), ceiling, side / (2 * lamps_in_a_row)}; }
+Vec3 corner_of_house(const LightTables& t) {
+    return t.lights[0].position - Vec3{side / (2 * lamps_in_a_row), ceiling, side / (2 * lamps_in_a_row)};
+}
 
 } // namespace
 

@@ -16,12 +16,12 @@ struct Plane {
 };
 std::vector<Plane> planes_of(const Frame& frame) {
     std::vector<Plane> planes{{"rgba", bytes_of(frame.rgba), 4 * sizeof(float)},
-            {"samples", bytes_of(frame.pixel_samples), sizeof(float)},
-            {"albedo", bytes_of(frame.albedo), sizeof(Vec3)},
-            {"normal", bytes_of(frame.normal), sizeof(Vec3)},
-            {"depth", bytes_of(frame.depth), sizeof(float)},
-            {"object id", bytes_of(frame.object_id), sizeof(uint32_t)},
-            {"material id", bytes_of(frame.material_id), sizeof(uint32_t)}};
+                              {"samples", bytes_of(frame.pixel_samples), sizeof(float)},
+                              {"albedo", bytes_of(frame.albedo), sizeof(Vec3)},
+                              {"normal", bytes_of(frame.normal), sizeof(Vec3)},
+                              {"depth", bytes_of(frame.depth), sizeof(float)},
+                              {"object id", bytes_of(frame.object_id), sizeof(uint32_t)},
+                              {"material id", bytes_of(frame.material_id), sizeof(uint32_t)}};
     for (const std::vector<Vec3>& group : frame.groups) planes.push_back({"group", bytes_of(group), sizeof(Vec3)});
     return planes;
 }

@@ -1,8 +1,8 @@
 #include "tests/support/random_edits.h"
 
-#include "scene/lights/ies_profile.h"
 #include "render/light_mix/bake_mix.h"
 #include "render/light_mix/light_groups.h"
+#include "scene/lights/ies_profile.h"
 #include "tests/support/sample_project.h"
 
 #include <type_traits>

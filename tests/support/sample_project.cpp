@@ -84,7 +84,8 @@ Sample sample_project() {
     const auto keys = [](std::vector<float> values) {
         return std::make_shared<const Keyframes>(Keyframes{Keyframes::Interpolation::linear, {0, 2}, std::move(values)});
     };
-    s.swing = scene.clips.add({"Swing", 2,
+    s.swing = scene.clips.add({"Swing",
+                               2,
                                {{s.mug, Channel::Property::rotation, keys({0, 0, 0, 1, 0, 0.70710678f, 0, 0.70710678f})},
                                 {s.lamp_node, Channel::Property::translation, keys({0, 0, 3, 2, 0, 3})}}});
 

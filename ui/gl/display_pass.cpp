@@ -113,7 +113,8 @@ void DisplayPass::Picture::upload_rows(int count) {
     glBindTexture(GL_TEXTURE_2D, texture.name());
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
     const size_t channels = format == GL_RGB ? 3 : 4;
-    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, next_row, width, count, format, GL_FLOAT, coming.get() + size_t(next_row) * size_t(width) * channels);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, next_row, width, count, format, GL_FLOAT,
+                    coming.get() + size_t(next_row) * size_t(width) * channels);
     next_row += count;
     if (next_row == height) coming.reset();
 }

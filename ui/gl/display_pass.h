@@ -3,8 +3,8 @@
 
 #include "color/color_management.h"
 #include "render/frame.h"
-#include "ui/views/denoise_view.h"
 #include "ui/gl/gl_objects.h"
+#include "ui/views/denoise_view.h"
 
 #include <memory>
 #include <vector>

@@ -7,8 +7,29 @@
 
 namespace blush {
 
-enum class Icon { point, spot, sun, rectangle, disk, sphere, mesh, group, camera, folder, file, eye, eye_closed, arrow_up, play, pause,
-                  move, rotate, scale, world_axes, local_axes };
+enum class Icon {
+    point,
+    spot,
+    sun,
+    rectangle,
+    disk,
+    sphere,
+    mesh,
+    group,
+    camera,
+    folder,
+    file,
+    eye,
+    eye_closed,
+    arrow_up,
+    play,
+    pause,
+    move,
+    rotate,
+    scale,
+    world_axes,
+    local_axes
+};
 
 Icon icon_of(Light::Kind kind);
 

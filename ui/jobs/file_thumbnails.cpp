@@ -5,9 +5,9 @@
 #include "core/srgb.h"
 #include "io/image/display_image.h"
 #include "io/image/image_io.h"
-#include "ui/window/file_listing.h"
-#include "ui/snapshots/snapshots_view.h"
 #include "ui/gl/texture_id.h"
+#include "ui/snapshots/snapshots_view.h"
+#include "ui/window/file_listing.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +27,8 @@ GlTexture uploaded(const Image& image) {
     GlTexture texture = GlTexture::create();
     glBindTexture(GL_TEXTURE_2D, texture.name());
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, image.width, image.height, 0, image.channels == 4 ? GL_RGBA : GL_RGB, GL_UNSIGNED_BYTE, image.bytes.data());
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, image.width, image.height, 0, image.channels == 4 ? GL_RGBA : GL_RGB, GL_UNSIGNED_BYTE,
+                 image.bytes.data());
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     return texture;
@@ -81,7 +82,8 @@ std::vector<float> image_thumbnail(const Image& image) {
     for (int y = 0; y < h; ++y)
         for (int x = 0; x < w; ++x) {
             const int x0 = at(x, w, image.width), y0 = at(y, h, image.height);
-            pixels.push_back(mean(image, x0, y0, std::max(at(x + 1, w, image.width), x0 + 1), std::max(at(y + 1, h, image.height), y0 + 1)));
+            pixels.push_back(
+                mean(image, x0, y0, std::max(at(x + 1, w, image.width), x0 + 1), std::max(at(y + 1, h, image.height), y0 + 1)));
         }
     const float exposure = image.floats.empty() ? 1 : middle_grey_scale(pixels);
     for (int i = 0; i < w * h; ++i) {
@@ -104,11 +106,13 @@ std::filesystem::path image_thumbnail_file(const std::filesystem::path& image) {
 
 std::filesystem::path thumbnail_file(const std::filesystem::path& scene, const std::filesystem::path& assets) {
     std::error_code error;
-    if (std::filesystem::equivalent(scene.parent_path(), assets / "scenes", error)) return assets / "thumbnails" / (scene.stem().string() + ".png");
+    if (std::filesystem::equivalent(scene.parent_path(), assets / "scenes", error))
+        return assets / "thumbnails" / (scene.stem().string() + ".png");
     return cache_file(scene.string());
 }
 
-Result<void> write_thumbnail(const std::filesystem::path& file, const Frame& frame, const ViewSettings& view, const ColorManagement& color) {
+Result<void> write_thumbnail(const std::filesystem::path& file, const Frame& frame, const ViewSettings& view,
+                             const ColorManagement& color) {
     const Thumbnail small = thumbnail_of(frame);
     std::vector<float> rgb(size_t(Thumbnail::width) * Thumbnail::height * 3);
     for (size_t i = 0; i < rgb.size(); ++i) rgb[i] = small.rgba[i / 3 * 4 + i % 3];

@@ -7,8 +7,8 @@
 #include "render/frame.h"
 #include "scene/scene.h"
 #include "scene/view_settings.h"
-#include "ui/jobs/background_job.h"
 #include "ui/gl/gl_objects.h"
+#include "ui/jobs/background_job.h"
 
 #include <imgui.h>
 

@@ -4,7 +4,8 @@
 
 namespace blush {
 
-Result<void> set_map(Document& document, Id<Material> id, TextureRef Material::*slot, const std::string& label, Texture texture, Gesture gesture) {
+Result<void> set_map(Document& document, Id<Material> id, TextureRef Material::*slot, const std::string& label, Texture texture,
+                     Gesture gesture) {
     if (!document.project().scene.materials.contains(id)) return Error{label, "the material that it was for is no longer there", ""};
     Scene carrier;
     carrier.textures.add(std::move(texture));
@@ -19,7 +20,8 @@ Result<void> set_map(Document& document, Id<Material> id, TextureRef Material::*
 
 bool has_texture_coordinates(const Scene& scene, Id<Material> material) {
     return std::ranges::any_of(scene.meshes, [&](const auto& mesh) {
-        return std::ranges::any_of(mesh.value.parts, [&](const auto& part) { return part.material == material && part.geometry && part.geometry->has_uv_set(0); });
+        return std::ranges::any_of(
+            mesh.value.parts, [&](const auto& part) { return part.material == material && part.geometry && part.geometry->has_uv_set(0); });
     });
 }
 

@@ -1,8 +1,8 @@
 #include "ui/lights/light_camera.h"
 
 #include "ui/lights/light_tools.h"
-#include "ui/viewport/orbit_camera.h"
 #include "ui/transform/rotation.h"
+#include "ui/viewport/orbit_camera.h"
 
 namespace blush {
 namespace {

@@ -1,12 +1,12 @@
 #include "ui/lights/light_glyphs.h"
 
 #include "render/compile/expand_area_lights.h"
-#include "scene/world_transforms.h"
 #include "scene/lights/light_visibility.h"
+#include "scene/world_transforms.h"
 #include "ui/gl/icons.h"
 #include "ui/lights/light_outline.h"
-#include "ui/window/theme.h"
 #include "ui/viewport/viewport_marks.h"
+#include "ui/window/theme.h"
 
 #include <algorithm>
 #include <cmath>

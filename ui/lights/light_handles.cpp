@@ -116,7 +116,8 @@ std::vector<SizeHandle> size_handles(const LightInView& sight, const Projection&
     const SizeHandle ball{Handle::radius, m.t + screen_diagonal(projection) * std::max(light.radius * length(m.x), 1.4 * sight.em)};
     const SizeHandle spread{Handle::spread, cone_point(sight, projection, light.spread_radians / 2, 1)};
     switch (light.kind) {
-    case Light::Kind::rectangle: return {{Handle::width, along(m.x, light.width / 2.0)}, {Handle::height, along(m.y, light.height / 2.0)}, spread};
+    case Light::Kind::rectangle:
+        return {{Handle::width, along(m.x, light.width / 2.0)}, {Handle::height, along(m.y, light.height / 2.0)}, spread};
     case Light::Kind::disk: return {{Handle::radius, along(m.x, light.radius)}, spread};
     case Light::Kind::point:
     case Light::Kind::sphere: return {ball};

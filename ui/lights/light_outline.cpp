@@ -8,14 +8,15 @@
 namespace blush {
 namespace {
 
-
 struct Outline {
     std::vector<WorldLine> lines;
 
     void line(const Vec3d& a, const Vec3d& b) { lines.push_back({a, b}); }
     void ellipse(const Vec3d& centre, const Vec3d& x, const Vec3d& y) {
         constexpr int steps = 48;
-        const auto at = [&](int i) { return centre + x * std::cos(2 * std::numbers::pi * i / steps) + y * std::sin(2 * std::numbers::pi * i / steps); };
+        const auto at = [&](int i) {
+            return centre + x * std::cos(2 * std::numbers::pi * i / steps) + y * std::sin(2 * std::numbers::pi * i / steps);
+        };
         for (int i = 0; i < steps; ++i) line(at(i), at(i + 1));
     }
     // Circle of directions at half_angle around forward.

@@ -1,11 +1,11 @@
 #include "ui/lights/light_rows.h"
 
-#include "scene/world_transforms.h"
 #include "scene/animation/pose.h"
 #include "scene/lights/light_visibility.h"
-#include "ui/lights/multi_edit.h"
+#include "scene/world_transforms.h"
 #include "ui/lights/light_groups.h"
 #include "ui/lights/light_tools.h"
+#include "ui/lights/multi_edit.h"
 
 #include <algorithm>
 #include <map>

@@ -64,7 +64,8 @@ Heading heading_of_rotation(const Quat& rotation) {
     const Vec3d forward = rotate(rotation, {0, 0, -1});
     Heading heading = heading_of(forward);
     constexpr double nearly_vertical = 1e-4; // horizontal part of a unit vector that is too short for a direction in single precision
-    if (std::hypot(forward.x, forward.z) < nearly_vertical) heading.heading = heading_of(rotate(rotation, {0, forward.y < 0 ? 1.0 : -1.0, 0})).heading;
+    if (std::hypot(forward.x, forward.z) < nearly_vertical)
+        heading.heading = heading_of(rotate(rotation, {0, forward.y < 0 ? 1.0 : -1.0, 0})).heading;
     return heading;
 }
 
@@ -79,7 +80,8 @@ Quat with_heading(const Quat& rotation, const Heading& heading) {
 Quat turned_to(const Quat& rotation, const Vec3d& forward) {
     const Vec3d from = rotate(rotation, {0, 0, -1}), to = normalize(forward), axis = cross(from, to);
     const double sine = length(axis), cosine = dot(from, to);
-    if (sine < 1e-9) return cosine > 0 ? rotation : normalized(multiply(axis_angle(rotate(rotation, {0, 1, 0}), std::numbers::pi), rotation));
+    if (sine < 1e-9)
+        return cosine > 0 ? rotation : normalized(multiply(axis_angle(rotate(rotation, {0, 1, 0}), std::numbers::pi), rotation));
     return normalized(multiply(axis_angle(axis / sine, std::atan2(sine, cosine)), rotation));
 }
 

@@ -30,8 +30,10 @@ bool toggle_link(PanelContext& c, Id<Node> object, ObjectSet Light::*set) {
     toggle(light.*set, c.scene(), object);
     if (!set_light(c, node->light, light, no_gesture)) return true;
     const bool in = contains(light.*set, c.scene(), object);
-    if (set == &Light::lit_objects) c.ui.toasts.note(name + (in ? " is lit by " : " is no longer lit by ") + of);
-    else c.ui.toasts.note(name + (in ? " casts shadows of " : " casts no shadows of ") + of);
+    if (set == &Light::lit_objects)
+        c.ui.toasts.note(name + (in ? " is lit by " : " is no longer lit by ") + of);
+    else
+        c.ui.toasts.note(name + (in ? " casts shadows of " : " casts no shadows of ") + of);
     return true;
 }
 

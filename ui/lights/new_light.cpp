@@ -3,8 +3,8 @@
 #include "scene/affine.h"
 #include "scene/geometry/ray_queries.h"
 #include "ui/lights/light_tools.h"
-#include "ui/viewport/orbit_camera.h"
 #include "ui/transform/rotation.h"
+#include "ui/viewport/orbit_camera.h"
 
 #include <algorithm>
 #include <cmath>
@@ -101,7 +101,8 @@ LightSpot spot_over_surface(const Scene& scene, const View& view, const SurfaceP
     std::vector<LightSpot> spots;
     for (const double aside : {0.0, 0.7, -0.7, 1.4, -1.4, 2.8, -2.8}) {
         const Vec3d direction = normalize(normal + to_eye * 0.3 + Vec3d{0, 0.3, 0} + right * aside);
-        const double free = unoccluded_fraction(scene, surface.position, surface.position + direction * distance, [](Id<Node>) { return true; });
+        const double free =
+            unoccluded_fraction(scene, surface.position, surface.position + direction * distance, [](Id<Node>) { return true; });
         spots.push_back({surface.position + direction * (distance * (free < 1 ? room_fraction * free : 1)), surface.position, 1});
     }
     return first_free(scene, spots, size_of_reach * reach);
@@ -124,7 +125,8 @@ LightSpot spot_round_subject(const Scene& scene, const View& view, const Bounds&
             const Vec3d& direction = directions[i];
             double distance = reach_factor * reach;
             // A floor that extends beyond the picture is not a subject: the light need not be outside of it.
-            if (const double out = in_room ? 0 : 1.1 * way_out(subject, target, direction); out < max_reach_factor * reach) distance = std::max(distance, out);
+            if (const double out = in_room ? 0 : 1.1 * way_out(subject, target, direction); out < max_reach_factor * reach)
+                distance = std::max(distance, out);
             spots.push_back({target + direction * std::min(distance * farther, farthest[i]), target, in_turn[i].strength});
         }
     return first_free(scene, spots, size_of_reach * reach);

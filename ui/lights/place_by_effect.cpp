@@ -1,8 +1,8 @@
 #include "ui/lights/place_by_effect.h"
 
 #include "core/math.h"
-#include "ui/transform/gizmo.h"
 #include "ui/lights/light_tools.h"
+#include "ui/transform/gizmo.h"
 
 namespace blush {
 namespace {

@@ -3,8 +3,8 @@
 #include "render/lights/light_links.h"
 #include "scene/affine.h"
 #include "scene/geometry/ray_queries.h"
-#include "ui/window/theme.h"
 #include "ui/viewport/viewport_marks.h"
+#include "ui/window/theme.h"
 
 namespace blush {
 namespace {
@@ -63,9 +63,7 @@ void PlaceTool::press(PanelContext& c, const SurfacePoint& spot) {
 void PlaceTool::say_what_blocks(PanelContext& c) const {
     const Light* light = light_at(c.scene(), node_);
     if (!light || !effect_at_) return;
-    const auto counts = [&](Id<Node> id) {
-        return id != node_ && id != occluder_node_ && contains(light->shadow_casters, c.scene(), id);
-    };
+    const auto counts = [&](Id<Node> id) { return id != node_ && id != occluder_node_ && contains(light->shadow_casters, c.scene(), id); };
     Vec3d way = pose_of(c.scene(), node_).position - *effect_at_;
     if (light->kind == Light::Kind::sun) way = way * (1 + 2 * world_bounds(c.scene()).radius() / std::max(length(way), 1e-9));
     const auto blocker = first_occluder(c.scene(), *effect_at_, *effect_at_ + way, counts);
@@ -101,8 +99,7 @@ void PlaceTool::draw_preview(ImDrawList& draw, const Projection& projection, con
 
 std::string PlaceTool::hint(const std::string& light) const {
     if (by_ == PlacingBy::highlight) return "Click or drag where the highlight of " + light + " should be.  Esc ends";
-    if (!occluder_)
-        return "Click the object that casts the shadow of " + light + ", or drag from it to the shadow's place.  Esc ends";
+    if (!occluder_) return "Click the object that casts the shadow of " + light + ", or drag from it to the shadow's place.  Esc ends";
     return "Click or drag where that shadow should fall.  Esc ends";
 }
 

@@ -1,9 +1,9 @@
 // Tool that places the selected light by its effect: a click or drag on a surface moves its highlight or shadow there.
 #pragma once
 
-#include "ui/transform/gizmo.h"
 #include "ui/lights/place_by_effect.h"
 #include "ui/panel_context.h"
+#include "ui/transform/gizmo.h"
 
 #include <imgui.h>
 

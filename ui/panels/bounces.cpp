@@ -1,7 +1,7 @@
 // Bounces panel: the picture split by the number of scattering events. Changing the view does not restart the render.
 #include "measure/statistics/bounce_energy.h"
-#include "ui/widgets/bars.h"
 #include "ui/panels/panels.h"
+#include "ui/widgets/bars.h"
 #include "ui/widgets/widgets.h"
 
 #include <fmt/format.h>

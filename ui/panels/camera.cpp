@@ -132,7 +132,8 @@ float exposure_of(float f_number, float seconds, float iso) {
 bool draw_shutter(Fields& f, float& per_second) {
     constexpr float shortest = 1e-9f, longest = 1e9f;
     constexpr const char* tip = "Exposure time. Below one second, enter the denominator: 125 means 1/125 s.";
-    if (per_second > 1) return f.number("Shutter", per_second, {.min = 1, .max = 1 / shortest, .reset = 125, .unit = "s", .tip = tip, .format = "1/%.4g"});
+    if (per_second > 1)
+        return f.number("Shutter", per_second, {.min = 1, .max = 1 / shortest, .reset = 125, .unit = "s", .tip = tip, .format = "1/%.4g"});
     float seconds = 1 / per_second;
     if (!f.number("Shutter", seconds, {.min = shortest, .max = longest, .reset = 1 / 125.f, .unit = "s", .tip = tip})) return false;
     per_second = 1 / seconds;

@@ -1,9 +1,9 @@
 // Comparison panel: which two pictures are compared, how, and their difference in numbers.
 #include "core/text.h"
-#include "ui/snapshots/difference.h"
 #include "ui/panels/panels.h"
-#include "ui/window/theme.h"
+#include "ui/snapshots/difference.h"
 #include "ui/widgets/widgets.h"
+#include "ui/window/theme.h"
 
 #include <cmath>
 #include <fmt/format.h>

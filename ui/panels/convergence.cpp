@@ -1,10 +1,10 @@
 // Convergence panel: error over render time of the current and stored runs, and the predicted time to the target error.
-#include "ui/widgets/elided_text.h"
 #include "ui/panels/convergence_runs.h"
 #include "ui/panels/panels.h"
+#include "ui/widgets/elided_text.h"
 #include "ui/widgets/plot_drawing.h"
-#include "ui/window/theme.h"
 #include "ui/widgets/widgets.h"
+#include "ui/window/theme.h"
 
 #include <fmt/format.h>
 #include <imgui.h>

@@ -2,9 +2,9 @@
 
 #include "ui/widgets/elided_text.h"
 #include "ui/widgets/plot_drawing.h"
+#include "ui/widgets/widgets.h"
 #include "ui/window/theme.h"
 #include "ui/window/time_text.h"
-#include "ui/widgets/widgets.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -92,7 +92,9 @@ bool draw_buttons(PanelContext& c, ConvergenceRun& run) {
 void draw_convergence_runs(PanelContext& c, ConvergenceView& view, float height) {
     // A narrow table has no columns for slope and time, so that there is room for the names.
     const bool all = ImGui::GetContentRegionAvail().x > ImGui::GetFontSize() * 30;
-    if (!ImGui::BeginTable(all ? "runs" : "runs, narrow", all ? 8 : 6, ImGuiTableFlags_ScrollY | ImGuiTableFlags_SizingFixedFit, {0, std::max(height, 1.f)})) return;
+    if (!ImGui::BeginTable(all ? "runs" : "runs, narrow", all ? 8 : 6, ImGuiTableFlags_ScrollY | ImGuiTableFlags_SizingFixedFit,
+                           {0, std::max(height, 1.f)}))
+        return;
     int& shown = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("shown"), int(view.runs.all().size()));
     const bool grown = int(view.runs.all().size()) > shown;
     shown = int(view.runs.all().size());

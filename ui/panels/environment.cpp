@@ -62,8 +62,10 @@ void draw_angles(Fields& f, Sky& sky) {
 void draw_sky(Fields& f, Sky& sky) {
     f.checkbox("By place and time", sky.by_place_and_time,
                "Compute the sun's direction from place and time. Otherwise set elevation and azimuth directly.");
-    if (sky.by_place_and_time) draw_place_and_time(f, sky);
-    else draw_angles(f, sky);
+    if (sky.by_place_and_time)
+        draw_place_and_time(f, sky);
+    else
+        draw_angles(f, sky);
     f.number("Turbidity", sky.turbidity,
              {.min = 1.7f,
               .max = 10,
@@ -99,7 +101,8 @@ void draw_environment_panel(PanelContext& c) {
             c.ui.commands.push_back(Command::environment);
         else
             e.kind = Environment::Kind(kind);
-        c.ui.meter_exposure |= e.kind != c.scene().environment.kind && (e.kind == Environment::Kind::image || e.kind == Environment::Kind::sky);
+        c.ui.meter_exposure |=
+            e.kind != c.scene().environment.kind && (e.kind == Environment::Kind::image || e.kind == Environment::Kind::sky);
     }
     if (e.kind == Environment::Kind::image) draw_image(f, c, e);
     if (e.kind == Environment::Kind::sky) draw_sky(f, e.sky);

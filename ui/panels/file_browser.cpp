@@ -1,11 +1,11 @@
 // File browser: folders and the files with fitting extensions; by mouse, by keyboard or by a typed path.
-#include "ui/window/file_listing.h"
-#include "ui/window/file_places.h"
 #include "ui/gl/icons.h"
 #include "ui/panels/panels.h"
 #include "ui/snapshots/snapshots_view.h"
-#include "ui/window/theme.h"
 #include "ui/widgets/widgets.h"
+#include "ui/window/file_listing.h"
+#include "ui/window/file_places.h"
+#include "ui/window/theme.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -73,8 +73,10 @@ void draw_bookmark_button(PanelContext& c) {
     std::vector<std::string>& bookmarks = c.ui.settings.bookmarks;
     const bool kept = std::ranges::count(bookmarks, folder) > 0;
     if (ImGui::Button(kept ? "Remove bookmark" : "Bookmark", {-FLT_MIN, 0})) {
-        if (kept) std::erase(bookmarks, folder);
-        else bookmarks.push_back(folder);
+        if (kept)
+            std::erase(bookmarks, folder);
+        else
+            bookmarks.push_back(folder);
     }
     c.ui.probe.record_last_item("Browser/Bookmark");
     tip_for_last_item(c.ui, "Add this folder to the list of places.");
@@ -86,7 +88,8 @@ void draw_places(PanelContext& c, float width, float height) {
     int id = 0;
     for (const FilePlace& place : file_places(c.ui.settings, c.ui.browser->scene_folder)) {
         ImGui::PushID(id++);
-        if (ImGui::Selectable(place.name.c_str(), place.folder == c.ui.browser->folder, ImGuiSelectableFlags_DontClosePopups)) entered = place.folder;
+        if (ImGui::Selectable(place.name.c_str(), place.folder == c.ui.browser->folder, ImGuiSelectableFlags_DontClosePopups))
+            entered = place.folder;
         c.ui.probe.record_last_item("Browser/Place/" + place.name);
         tip_for_last_item(c.ui, place.folder.string().c_str());
         ImGui::PopID();
@@ -102,7 +105,8 @@ void draw_entry_picture(PanelContext& c, const FileEntry& entry, float height) {
     const float width = height * Thumbnail::width / Thumbnail::height;
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImTextureID picture = {};
-    if (!entry.folder && c.file_thumbnail && ImGui::IsRectVisible({width, height})) picture = c.file_thumbnail((c.ui.browser->folder / entry.name).string());
+    if (!entry.folder && c.file_thumbnail && ImGui::IsRectVisible({width, height}))
+        picture = c.file_thumbnail((c.ui.browser->folder / entry.name).string());
     if (picture) {
         ImGui::Image(picture, {width, height});
         c.ui.probe.record_last_item("Browser/Thumbnail/" + entry.name);
@@ -110,7 +114,8 @@ void draw_entry_picture(PanelContext& c, const FileEntry& entry, float height) {
     }
     ImGui::Dummy({width, height});
     const float size = ImGui::GetTextLineHeight();
-    draw_icon(*ImGui::GetWindowDrawList(), entry.folder ? Icon::folder : Icon::file, {at.x + width / 2, at.y + height / 2}, size, tone::dim_text);
+    draw_icon(*ImGui::GetWindowDrawList(), entry.folder ? Icon::folder : Icon::file, {at.x + width / 2, at.y + height / 2}, size,
+              tone::dim_text);
 }
 
 void draw_entry(PanelContext& c, const FileEntry& entry) {
@@ -123,10 +128,9 @@ void draw_entry(PanelContext& c, const FileEntry& entry) {
     draw_entry_picture(c, entry, height);
     ImGui::SameLine();
     ImGui::PushStyleVar(ImGuiStyleVar_SelectableTextAlign, {0, 0.5f});
-    const bool clicked = ImGui::Selectable(entry.name.c_str(), b.chosen == entry.name,
-                                           ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowDoubleClick |
-                                               ImGuiSelectableFlags_DontClosePopups,
-                                           {0, height});
+    const bool clicked = ImGui::Selectable(
+        entry.name.c_str(), b.chosen == entry.name,
+        ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_DontClosePopups, {0, height});
     ImGui::PopStyleVar();
     c.ui.probe.record_last_item("Browser/" + entry.name);
     const bool twice = clicked && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);

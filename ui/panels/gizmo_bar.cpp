@@ -1,8 +1,8 @@
 // Toolbar at the left of the picture that selects the gizmo and its axes; visible while something is selected.
 #include "ui/gl/icons.h"
 #include "ui/panels/panels.h"
-#include "ui/window/theme.h"
 #include "ui/widgets/widgets.h"
+#include "ui/window/theme.h"
 
 #include <fmt/format.h>
 
@@ -10,8 +10,7 @@ namespace blush {
 namespace {
 
 constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-                                   ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav |
-                                   ImGuiWindowFlags_AlwaysAutoResize;
+                                   ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_AlwaysAutoResize;
 
 bool button(PanelContext& c, const char* name, Icon icon, bool chosen, const std::string& tip) {
     const bool pressed = icon_button(name, icon, chosen ? tone::accent : tone::text);

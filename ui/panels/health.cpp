@@ -1,8 +1,8 @@
 // Health panel: dropped samples by cause and place, fireflies, and the light removed by clamping. Each listed sample can be
 // replayed.
 #include "ui/panels/panels.h"
-#include "ui/window/theme.h"
 #include "ui/widgets/widgets.h"
+#include "ui/window/theme.h"
 
 #include <fmt/format.h>
 

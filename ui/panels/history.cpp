@@ -1,8 +1,8 @@
 // History panel: the undo and redo steps. A click goes to a step.
-#include "ui/widgets/elided_text.h"
 #include "ui/panels/panels.h"
-#include "ui/window/theme.h"
+#include "ui/widgets/elided_text.h"
 #include "ui/widgets/widgets.h"
+#include "ui/window/theme.h"
 
 #include <fmt/format.h>
 

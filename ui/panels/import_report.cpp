@@ -1,8 +1,8 @@
 // Import report panel: supported, approximated and ignored glTF features, and warnings with their place in the file.
 #include "io/gltf/read/import.h"
 #include "ui/panels/panels.h"
-#include "ui/window/theme.h"
 #include "ui/widgets/widgets.h"
+#include "ui/window/theme.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // The inspector: tabs, each with the sections that belong together.
 #include "ui/panels/panels.h"
-#include "ui/window/theme.h"
 #include "ui/widgets/widgets.h"
+#include "ui/window/theme.h"
 
 #include <algorithm>
 

@@ -2,8 +2,8 @@
 // beside it.
 #pragma once
 
-#include "ui/window/dock.h"
 #include "ui/panel_context.h"
+#include "ui/window/dock.h"
 
 #include <span>
 #include <string>

@@ -82,8 +82,9 @@ void draw_edit_menu(PanelContext& c) {
 
 void draw_lights_menu(PanelContext& c) {
     if (ImGui::BeginMenu("Add")) {
-        for (const Command command : {Command::add_point, Command::add_spot, Command::add_sun, Command::add_rectangle, Command::add_disk,
-                                      Command::add_sphere}) item(c, command);
+        for (const Command command :
+             {Command::add_point, Command::add_spot, Command::add_sun, Command::add_rectangle, Command::add_disk, Command::add_sphere})
+            item(c, command);
         ImGui::EndMenu();
     }
     item(c, Command::light_by_studio);

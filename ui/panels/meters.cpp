@@ -1,9 +1,9 @@
 // Light meters panel: illuminance in lux at points on surfaces, with 95 % confidence intervals, measured again after every edit
 // that affects light.
-#include "ui/widgets/elided_text.h"
 #include "ui/panels/panels.h"
-#include "ui/window/theme.h"
+#include "ui/widgets/elided_text.h"
 #include "ui/widgets/widgets.h"
+#include "ui/window/theme.h"
 
 #include <fmt/format.h>
 

@@ -2,8 +2,8 @@
 #include "scene/animation/pose.h"
 #include "ui/panels/panels.h"
 #include "ui/transform/rotation.h"
-#include "ui/window/theme.h"
 #include "ui/widgets/widgets.h"
+#include "ui/window/theme.h"
 
 #include <cmath>
 #include <fmt/format.h>

@@ -1,12 +1,12 @@
 // Outliner: the scene's nodes as a tree, with icons for content and visibility.
-#include "ui/widgets/elided_text.h"
 #include "ui/gl/icons.h"
 #include "ui/lights/light_tools.h"
 #include "ui/panels/light/drag.h"
 #include "ui/panels/panels.h"
+#include "ui/widgets/elided_text.h"
 #include "ui/widgets/row_clicks.h"
-#include "ui/window/theme.h"
 #include "ui/widgets/widgets.h"
+#include "ui/window/theme.h"
 
 #include "scene/animation/pose.h"
 #include "scene/lights/light_visibility.h"
@@ -147,7 +147,8 @@ void draw_add_light(PanelContext& c) {
     if (ImGui::Button("Add light", {-FLT_MIN, 0})) ImGui::OpenPopup("add light");
     c.ui.probe.record_last_item("Outliner/Add light");
     if (!ImGui::BeginPopup("add light")) return;
-    for (const Command command : {Command::add_point, Command::add_spot, Command::add_sun, Command::add_rectangle, Command::add_disk, Command::add_sphere}) {
+    for (const Command command :
+         {Command::add_point, Command::add_spot, Command::add_sun, Command::add_rectangle, Command::add_disk, Command::add_sphere}) {
         if (ImGui::MenuItem(shortcut(command).name, to_string(shortcut(command).press).c_str())) c.ui.commands.push_back(command);
         c.ui.probe.record_last_item(std::string("Outliner/Add light/") + shortcut(command).name);
     }

@@ -3,11 +3,11 @@
 #include "core/math.h"
 #include "core/text.h"
 #include "render/film/coverage.h"
+#include "ui/panels/panels.h"
 #include "ui/snapshots/aov_pixels.h"
 #include "ui/widgets/elided_text.h"
-#include "ui/panels/panels.h"
-#include "ui/window/theme.h"
 #include "ui/widgets/widgets.h"
+#include "ui/window/theme.h"
 
 #include <algorithm>
 #include <array>
@@ -45,7 +45,8 @@ void draw_planes(const PanelContext& c, const Frame& f, size_t pixel) {
     const AovView& view = c.ui.aov;
     const size_t k = size_t(view.index);
     if (view.show == PictureView::Show::group && k < f.groups.size()) row(c, name_of(view, &f).c_str(), triple(group_pixel(f, k, pixel)));
-    if (view.show == PictureView::Show::bounces && k < f.bounces.size()) row(c, fmt::format("Bounce {}", k).c_str(), triple(f.bounces[k][pixel]));
+    if (view.show == PictureView::Show::bounces && k < f.bounces.size())
+        row(c, fmt::format("Bounce {}", k).c_str(), triple(f.bounces[k][pixel]));
 }
 
 void draw_values(const PanelContext& c, const Frame& f, int x, int y) {
@@ -57,7 +58,8 @@ void draw_values(const PanelContext& c, const Frame& f, int x, int y) {
     row(c, "Luminance", fmt::format("{:.4g} nits", nits));
     if (nits > 0)
         row(c, "EV from grey",
-            fmt::format("{}   at ISO 100 {}", signed_number(stops_from_grey(display_parameters_of(c.shown_view()), {rgba[0], rgba[1], rgba[2]}), 2),
+            fmt::format("{}   at ISO 100 {}",
+                        signed_number(stops_from_grey(display_parameters_of(c.shown_view()), {rgba[0], rgba[1], rgba[2]}), 2),
                         signed_number(std::log2(nits / 0.125f), 2)));
     if (!f.albedo.empty() && luminance(f.albedo[i]) >= 0.01f) {
         float lux[3] = {rgba[0], rgba[1], rgba[2]};

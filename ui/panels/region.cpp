@@ -3,8 +3,8 @@
 #include "core/text.h"
 #include "ui/panels/panels.h"
 #include "ui/snapshots/region_statistics.h"
-#include "ui/window/theme.h"
 #include "ui/widgets/widgets.h"
+#include "ui/window/theme.h"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 // Render tab: size, stop rules and path tracing settings. The same settings as `blush render` has.
 #include "ui/panels/panels.h"
 #include "ui/panels/roulette_fields.h"
-#include "ui/window/presets.h"
 #include "ui/widgets/widgets.h"
+#include "ui/window/presets.h"
 
 #include <fmt/format.h>
 #include <imgui.h>

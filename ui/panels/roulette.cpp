@@ -1,11 +1,11 @@
 // Roulette lab: the Russian roulette settings, their effect on paths, their efficiency, and a bias test.
 #include "core/text.h"
 #include "render/integrator/estimator_settings.h"
-#include "ui/widgets/bars.h"
 #include "ui/panels/panels.h"
 #include "ui/panels/roulette_fields.h"
-#include "ui/window/theme.h"
+#include "ui/widgets/bars.h"
 #include "ui/widgets/widgets.h"
+#include "ui/window/theme.h"
 
 #include <algorithm>
 #include <cmath>

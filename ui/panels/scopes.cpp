@@ -1,7 +1,7 @@
 // Scopes: histogram and waveform of scene-linear values, in stops from middle grey, and of displayed values.
 #include "ui/panels/panels.h"
-#include "ui/window/theme.h"
 #include "ui/widgets/widgets.h"
+#include "ui/window/theme.h"
 
 #include <algorithm>
 #include <cmath>
@@ -119,7 +119,8 @@ void draw_column(PanelContext& c, const char* title, const char* tip, const Hist
 void draw_scopes_panel(PanelContext& c) {
     ScopesView& view = c.ui.scopes;
     const float em = ImGui::GetFontSize();
-    if (c.has_picture() && view.scopes.ask(c.shown_picture(), scopes_of)) c.ui.seconds_to_next_frame = std::min(c.ui.seconds_to_next_frame, 0.05);
+    if (c.has_picture() && view.scopes.ask(c.shown_picture(), scopes_of))
+        c.ui.seconds_to_next_frame = std::min(c.ui.seconds_to_next_frame, 0.05);
     static const Scopes nothing;
     const Scopes& scopes = view.scopes.answer() ? *view.scopes.answer() : nothing;
     const ImVec2 room = ImGui::GetContentRegionAvail();

@@ -2,8 +2,8 @@
 #include "ui/panels/panels.h"
 #include "ui/snapshots/snapshot_memory.h"
 #include "ui/snapshots/snapshot_strip.h"
-#include "ui/window/theme.h"
 #include "ui/widgets/widgets.h"
+#include "ui/window/theme.h"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 // Specialisation section: optional renderer features that this scene does not need, why, and what their absence saves; then those
 // in use.
 #include "ui/panels/panels.h"
-#include "ui/window/theme.h"
 #include "ui/widgets/widgets.h"
+#include "ui/window/theme.h"
 
 #include <fmt/format.h>
 #include <imgui.h>

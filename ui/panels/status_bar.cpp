@@ -1,10 +1,10 @@
 // Status bar: progress, speed and estimated error of the render, and the kernel in use.
 #include "core/text.h"
-#include "ui/widgets/elided_text.h"
 #include "ui/panels/panels.h"
+#include "ui/widgets/elided_text.h"
+#include "ui/widgets/widgets.h"
 #include "ui/window/theme.h"
 #include "ui/window/time_text.h"
-#include "ui/widgets/widgets.h"
 
 #include <algorithm>
 #include <cmath>

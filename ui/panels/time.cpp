@@ -1,8 +1,8 @@
 // Timeline: the animation clip and the time. A row below the picture, for scenes with animations.
 #include "ui/gl/icons.h"
 #include "ui/panels/panels.h"
-#include "ui/window/theme.h"
 #include "ui/widgets/widgets.h"
+#include "ui/window/theme.h"
 
 #include <algorithm>
 #include <cmath>

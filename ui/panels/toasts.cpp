@@ -1,8 +1,8 @@
 // Toasts and background jobs: small cards above the status bar.
-#include "ui/widgets/elided_text.h"
 #include "ui/panels/panels.h"
-#include "ui/window/theme.h"
+#include "ui/widgets/elided_text.h"
 #include "ui/widgets/widgets.h"
+#include "ui/window/theme.h"
 
 #include <algorithm>
 

@@ -1,8 +1,8 @@
 #include "ui/snapshots/aov_bar.h"
 
 #include "ui/snapshots/aov_pixels.h"
-#include "ui/window/theme.h"
 #include "ui/widgets/widgets.h"
+#include "ui/window/theme.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,8 @@ namespace {
 void draw_list(PanelContext& c, const Frame* frame) {
     PictureView::Show before = PictureView::Show::beauty;
     for (const AovEntry& e : aov_list(frame)) {
-        if (e.view.show != before && (e.view.show == PictureView::Show::group || e.view.show == PictureView::Show::bounces)) ImGui::Separator();
+        if (e.view.show != before && (e.view.show == PictureView::Show::group || e.view.show == PictureView::Show::bounces))
+            ImGui::Separator();
         before = e.view.show;
         const ImGuiSelectableFlags flags = e.possible ? 0 : ImGuiSelectableFlags_Disabled;
         if (ImGui::Selectable(e.name.c_str(), c.ui.aov == e.view, flags)) show_aov(c, e.view);
@@ -40,8 +41,8 @@ void draw_aov_bar(PanelContext& c, const ImageRect& seen) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0);
     ImGui::Begin("passes", nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoSavedSettings |
-                     ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing);
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoBackground |
+                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing);
     ImGui::PopStyleVar(3);
     ImGui::SetNextItemWidth(width);
     const Frame* frame = c.frame.get();
@@ -63,7 +64,8 @@ void draw_map_scale(ImDrawList& draw, const ImageRect& seen, const Frame& frame,
     const float height = std::floor(std::min(em * 14, room));
     if (!scale || height < em * 4) return;
     const ImVec2 at{seen.x + em, std::floor(seen.y + top + (room - height) / 2)};
-    draw.AddRectFilled({at.x - em * 0.5f, at.y - em * 1.8f}, {at.x + em * 6, at.y + height + em * 0.8f}, IM_COL32(20, 20, 20, 220), em * 0.2f);
+    draw.AddRectFilled({at.x - em * 0.5f, at.y - em * 1.8f}, {at.x + em * 6, at.y + height + em * 0.8f}, IM_COL32(20, 20, 20, 220),
+                       em * 0.2f);
     draw.AddText({at.x, at.y - em * 1.4f}, tone::text, scale->title.c_str());
     constexpr int steps = 64;
     for (int i = 0; i < steps; ++i) {

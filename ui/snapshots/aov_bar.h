@@ -1,9 +1,9 @@
 // The viewport's toolbar that selects the displayed pass (AOV), and the colour scale of passes that are maps.
 #pragma once
 
+#include "ui/panel_context.h"
 #include "ui/snapshots/aov_view.h"
 #include "ui/transform/gizmo.h"
-#include "ui/panel_context.h"
 
 #include <imgui.h>
 

@@ -36,7 +36,9 @@ AovRange sample_range(const Frame& frame) {
     return {0, std::max(most, 1.f)};
 }
 
-float samples_of(const Frame& frame, size_t pixel) { return frame.pixel_samples.empty() ? float(frame.samples) : frame.pixel_samples[pixel]; }
+float samples_of(const Frame& frame, size_t pixel) {
+    return frame.pixel_samples.empty() ? float(frame.samples) : frame.pixel_samples[pixel];
+}
 
 Vec3 linear(const Vec3& display) { return {linear_from_srgb(display.x), linear_from_srgb(display.y), linear_from_srgb(display.z)}; }
 Vec3 encoded(const Vec3& c) { return {srgb_from_linear(clamp01(c.x)), srgb_from_linear(clamp01(c.y)), srgb_from_linear(clamp01(c.z))}; }

@@ -16,11 +16,12 @@ std::string bounce_name(int k) {
 } // namespace
 
 std::vector<AovEntry> aov_list(const Frame* frame) {
-    std::vector<AovEntry> list{{{Show::beauty}, "Beauty"},         {{Show::albedo}, "Albedo"},     {{Show::normal}, "Normal"},
-                               {{Show::depth}, "Depth"},           {{Show::object_id}, "Objects"}, {{Show::material_id}, "Materials"},
-                               {{Show::error}, "Error"},           {{Show::samples}, "Samples"}};
+    std::vector<AovEntry> list{{{Show::beauty}, "Beauty"}, {{Show::albedo}, "Albedo"},     {{Show::normal}, "Normal"},
+                               {{Show::depth}, "Depth"},   {{Show::object_id}, "Objects"}, {{Show::material_id}, "Materials"},
+                               {{Show::error}, "Error"},   {{Show::samples}, "Samples"}};
     if (frame && !frame->groups.empty())
-        for (size_t k = 0; k < frame->groups.size(); ++k) list.push_back({{Show::group, int(k)}, fmt::format("Group {}", frame->group_names[k])});
+        for (size_t k = 0; k < frame->groups.size(); ++k)
+            list.push_back({{Show::group, int(k)}, fmt::format("Group {}", frame->group_names[k])});
     else
         list.push_back({{Show::group}, "Light groups", "Needs light groups: open the light mix (Ctrl+M)", false});
     const bool has_bounces = frame && !frame->bounces.empty();

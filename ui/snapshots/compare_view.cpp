@@ -1,7 +1,7 @@
 #include "ui/snapshots/compare_view.h"
 
-#include "ui/window/layout.h"
 #include "ui/gl/texture_id.h"
+#include "ui/window/layout.h"
 #include "ui/window/theme.h"
 
 #include <algorithm>
@@ -38,8 +38,8 @@ bool drag_bar(UiState& ui, float x, const ImageRect& seen) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
     ImGui::Begin("wipe", nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoSavedSettings |
-                     ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing);
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoBackground |
+                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing);
     ImGui::InvisibleButton("bar", {grab, seen.height});
     ui.probe.record_last_item("Compare/Wipe");
     const bool active = ImGui::IsItemActive();
@@ -47,7 +47,8 @@ bool drag_bar(UiState& ui, float x, const ImageRect& seen) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const float middle = seen.y + seen.height / 2, grip = grab * 0.4f;
     draw.AddLine({x, seen.y}, {x, seen.y + seen.height}, active ? tone::text : tone::dim_text);
-    draw.AddRectFilled({x - grip / 2, middle - grip * 3}, {x + grip / 2, middle + grip * 3}, active ? tone::text : tone::dim_text, grip / 2);
+    draw.AddRectFilled({x - grip / 2, middle - grip * 3}, {x + grip / 2, middle + grip * 3}, active ? tone::text : tone::dim_text,
+                       grip / 2);
     ImGui::End();
     ImGui::PopStyleVar(2);
     return active;
@@ -70,8 +71,9 @@ void CompareView::ask_difference(PanelContext& c, const ComparedSide& a, const C
     const Comparison& compare = c.ui.snapshots.compare;
     if (compare.mode != Mode::difference) return;
     const bool denoised = c.ui.denoise.wants_denoised();
-    const DifferenceQuestion question{a.pictures.frame, b.pictures.frame, denoised ? a.pictures.denoised : nullptr,
-                                      denoised ? b.pictures.denoised : nullptr, c.ui.denoise, compare.kind};
+    const DifferenceQuestion question{
+        a.pictures.frame, b.pictures.frame, denoised ? a.pictures.denoised : nullptr, denoised ? b.pictures.denoised : nullptr,
+        c.ui.denoise,     compare.kind};
     if (difference_.ask(question, answer)) c.ui.seconds_to_next_frame = std::min(c.ui.seconds_to_next_frame, 0.05);
     if (difference_.answer()) answer_ = *difference_.answer();
     c.ui.difference = answer_;
@@ -111,7 +113,8 @@ void CompareView::upload_sides(const PanelContext& c, const ComparedSide& a, con
     pass_.upload(width, height, std::move(rgba));
 }
 
-void CompareView::update(PanelContext& c, const ComparedSide& a, const ComparedSide& b, const DisplayLook& current_pictures, const FrameBudget& pace) {
+void CompareView::update(PanelContext& c, const ComparedSide& a, const ComparedSide& b, const DisplayLook& current_pictures,
+                         const FrameBudget& pace) {
     if (shader_changed_ && shader_) {
         if (const auto set = pass_.set_shader(*shader_); !set) c.ui.toasts.fail(set.error().text());
     }
@@ -161,8 +164,8 @@ void CompareView::draw_part(const Part& part, const ImageRect& whole, const Imag
         image = {fitted.x, fitted.y, fitted.width, fitted.height};
     }
     draw.AddCallback([](const ImDrawList*, const ImDrawCmd*) { glDisable(GL_BLEND); }, nullptr);
-    draw.AddImage(texture_id(part.texture), {image.x, image.y}, {image.x + image.width, image.y + image.height},
-                  {0, part.v0}, {part.u, part.v1});
+    draw.AddImage(texture_id(part.texture), {image.x, image.y}, {image.x + image.width, image.y + image.height}, {0, part.v0},
+                  {part.u, part.v1});
     draw.AddCallback(ImDrawCallback_ResetRenderState, nullptr);
     draw.PopClipRect();
 }
@@ -178,7 +181,8 @@ void CompareView::draw_wipe(PanelContext& c, const ComparedSide& a, const Compar
     if (drag_bar(c.ui, x, seen)) compare.wipe = std::clamp((ImGui::GetIO().MousePos.x - seen.x) / std::max(seen.width, 1.f), 0.f, 1.f);
 }
 
-void CompareView::draw(PanelContext& c, const ImageRect& image, const ImageRect& seen, const DisplayLook& current_pictures, const FrameBudget& pace) {
+void CompareView::draw(PanelContext& c, const ImageRect& image, const ImageRect& seen, const DisplayLook& current_pictures,
+                       const FrameBudget& pace) {
     Comparison& compare = c.ui.snapshots.compare;
     if (compare.mode == Mode::off) {
         c.ui.difference.reset();

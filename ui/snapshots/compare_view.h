@@ -1,12 +1,12 @@
 // Compares two pictures in the viewport: wipe, flicker or difference. Draws over the viewport's picture.
 #pragma once
 
-#include "ui/jobs/async_query.h"
-#include "ui/snapshots/difference.h"
 #include "ui/gl/display_pass.h"
-#include "ui/window/frame_budget.h"
-#include "ui/transform/gizmo.h"
+#include "ui/jobs/async_query.h"
 #include "ui/panel_context.h"
+#include "ui/snapshots/difference.h"
+#include "ui/transform/gizmo.h"
+#include "ui/window/frame_budget.h"
 
 #include <optional>
 #include <string>
@@ -36,7 +36,8 @@ private:
         float aspect = 0; // of the picture; 0: same as the live one
     };
     void ask_difference(PanelContext& c, const ComparedSide& a, const ComparedSide& b);
-    void update(PanelContext& c, const ComparedSide& a, const ComparedSide& b, const DisplayLook& current_pictures, const FrameBudget& pace);
+    void update(PanelContext& c, const ComparedSide& a, const ComparedSide& b, const DisplayLook& current_pictures,
+                const FrameBudget& pace);
     void upload_sides(const PanelContext& c, const ComparedSide& a, const ComparedSide& b);
     void draw_part(const Part& part, const ImageRect& image, const ImageRect& clip) const;
     void draw_wipe(PanelContext& c, const ComparedSide& a, const ComparedSide& b, const ImageRect& image, const ImageRect& seen);

@@ -30,8 +30,9 @@ void paint(Difference& d, const RgbImage& a, const RgbImage& b) {
     const std::vector<float> flip = d.kind == DifferenceKind::flip ? hdr_flip(b, a) : std::vector<float>();
     d.rgba.assign(4 * a.pixels.size(), 1.f);
     for (size_t i = 0; i < a.pixels.size(); ++i) {
-        const Vec3 c = d.kind == DifferenceKind::absolute ? distance(a.pixels[i], b.pixels[i])
-                                                          : heat(d.kind == DifferenceKind::flip ? flip[i] : relative(a.pixels[i], b.pixels[i]));
+        const Vec3 c = d.kind == DifferenceKind::absolute
+                           ? distance(a.pixels[i], b.pixels[i])
+                           : heat(d.kind == DifferenceKind::flip ? flip[i] : relative(a.pixels[i], b.pixels[i]));
         d.rgba[4 * i] = c.x;
         d.rgba[4 * i + 1] = c.y;
         d.rgba[4 * i + 2] = c.z;

@@ -3,8 +3,8 @@
 
 #include "measure/metrics/metrics.h"
 #include "render/session/published_frames.h"
-#include "ui/views/denoise_view.h"
 #include "ui/snapshots/snapshots_view.h"
+#include "ui/views/denoise_view.h"
 
 #include <string>
 #include <vector>

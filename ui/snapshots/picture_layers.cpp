@@ -58,7 +58,10 @@ std::vector<PictureLayer> layers_of(const LayeredImage& part) {
                 layer = layer_of(part, split_name(name).layer, {"X", "Y", "Z"}, Kind::vector);
         }
         if (!layer || std::ranges::count(layer->channel, int(i)) == 0)
-            layer = PictureLayer{.name = name, .channels = name, .kind = part.channels[i].is_uint ? Kind::id : Kind::number, .channel = {int(i), -1, -1, -1}};
+            layer = PictureLayer{.name = name,
+                                 .channels = name,
+                                 .kind = part.channels[i].is_uint ? Kind::id : Kind::number,
+                                 .channel = {int(i), -1, -1, -1}};
         for (const int c : layer->channel)
             if (c >= 0) taken[size_t(c)] = true;
         layers.push_back(*layer);
@@ -95,7 +98,8 @@ std::vector<PictureLayer> layers_of(const std::vector<LayeredImage>& parts) {
         }
     }
     // A colour layer without a name is the beauty.
-    const auto beauty = std::ranges::find_if(all, [](const PictureLayer& l) { return l.kind == Kind::color && l.name.ends_with("Beauty"); });
+    const auto beauty =
+        std::ranges::find_if(all, [](const PictureLayer& l) { return l.kind == Kind::color && l.name.ends_with("Beauty"); });
     if (beauty != all.end()) std::rotate(all.begin(), beauty, beauty + 1);
     return all;
 }

@@ -18,7 +18,7 @@ struct PictureLayer {
     std::string name;     // "Beauty", "diffuse", "N", "depth.Z", with the part's name as prefix if the file has several parts
     std::string channels; // names in the file
     Kind kind = Kind::color;
-    size_t part = 0;                         // of the file
+    size_t part = 0;                            // of the file
     std::array<int, 4> channel{-1, -1, -1, -1}; // index in the part; -1: none
 };
 

@@ -13,8 +13,9 @@ template <class T> size_t bytes_of(const std::vector<std::vector<T>>& planes) {
 }
 
 size_t bytes_of(const Frame& f) {
-    return bytes_of(f.rgba) + bytes_of(f.pixel_samples) + bytes_of(f.albedo) + bytes_of(f.normal) + bytes_of(f.depth) + bytes_of(f.object_id) +
-           bytes_of(f.material_id) + bytes_of(f.bounces) + bytes_of(f.groups) + bytes_of(f.path_length) + bytes_of(f.survival);
+    return bytes_of(f.rgba) + bytes_of(f.pixel_samples) + bytes_of(f.albedo) + bytes_of(f.normal) + bytes_of(f.depth) +
+           bytes_of(f.object_id) + bytes_of(f.material_id) + bytes_of(f.bounces) + bytes_of(f.groups) + bytes_of(f.path_length) +
+           bytes_of(f.survival);
 }
 
 size_t bytes_of(const DenoisedPicture& d) { return bytes_of(d.denoised.rgb) + (d.groups ? bytes_of(d.groups->planes) : 0); }
@@ -28,8 +29,8 @@ size_t bytes_of(const FilmState& f) {
 } // namespace
 
 size_t bytes_of(const Snapshot& s) {
-    return (s.pictures.frame ? bytes_of(*s.pictures.frame) : 0) + (s.pictures.denoised ? bytes_of(*s.pictures.denoised) : 0) + bytes_of(s.error) +
-           (s.film ? bytes_of(*s.film) : 0);
+    return (s.pictures.frame ? bytes_of(*s.pictures.frame) : 0) + (s.pictures.denoised ? bytes_of(*s.pictures.denoised) : 0) +
+           bytes_of(s.error) + (s.film ? bytes_of(*s.film) : 0);
 }
 
 size_t bytes_of(const std::vector<SnapshotPtr>& list) {

@@ -1,9 +1,9 @@
 #include "ui/snapshots/snapshot_strip.h"
 
-#include "ui/widgets/elided_text.h"
 #include "ui/gl/texture_id.h"
-#include "ui/window/theme.h"
+#include "ui/widgets/elided_text.h"
 #include "ui/widgets/widgets.h"
+#include "ui/window/theme.h"
 
 #include <algorithm>
 #include <fmt/format.h>

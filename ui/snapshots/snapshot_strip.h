@@ -2,8 +2,8 @@
 #pragma once
 
 #include "ui/gl/display_pass.h"
-#include "ui/window/layout.h"
 #include "ui/panel_context.h"
+#include "ui/window/layout.h"
 
 #include <imgui.h>
 

@@ -12,7 +12,8 @@ Thumbnail thumbnail_of(const Frame& frame) {
     t.rgba.assign(size_t(Thumbnail::width) * Thumbnail::height * 4, 0.f);
     if (frame.width < 1 || frame.height < 1) return t;
     const double scale = std::max(double(frame.width) / Thumbnail::width, double(frame.height) / Thumbnail::height);
-    const int width = std::clamp(int(frame.width / scale), 1, Thumbnail::width), height = std::clamp(int(frame.height / scale), 1, Thumbnail::height);
+    const int width = std::clamp(int(frame.width / scale), 1, Thumbnail::width),
+              height = std::clamp(int(frame.height / scale), 1, Thumbnail::height);
     const int left = (Thumbnail::width - width) / 2, top = (Thumbnail::height - height) / 2;
     constexpr int taps = 3; // samples along each side of a pixel's footprint: enough for a small picture
     for (int y = 0; y < height; ++y)

@@ -22,7 +22,6 @@ float distance_to_line(ScreenPoint p, const std::vector<ScreenPoint>& line) {
     return nearest;
 }
 
-
 // A parent with scale 0 has no inverse; its children keep their transform.
 bool invertible(const Affined& m) { return std::abs(determinant(m)) > 1e-300; }
 
@@ -34,7 +33,8 @@ Vec3d towards_eye(const Projection& projection, const Vec3d& from) {
 }
 
 // The half of a ring that faces the viewer, from end to end.
-std::vector<ScreenPoint> seen_ring(const Projection& projection, const ImageRect& image, const Vec3d& centre, const Vec3d& axis, double radius) {
+std::vector<ScreenPoint> seen_ring(const Projection& projection, const ImageRect& image, const Vec3d& centre, const Vec3d& axis,
+                                   double radius) {
     constexpr int steps = 96;
     const Vec3d towards = towards_eye(projection, centre);
     const Vec3d across = towards - axis * dot(axis, towards);
@@ -150,7 +150,8 @@ std::optional<double> ring_angle(const ViewRay& ray, const Vec3d& centre, const 
     return std::atan2(dot(to, y), dot(to, x));
 }
 
-double edge_on_ring_angle(const Projection& projection, const Vec3d& centre, const Vec3d& axis, ScreenPoint from, ScreenPoint to, float radius) {
+double edge_on_ring_angle(const Projection& projection, const Vec3d& centre, const Vec3d& axis, ScreenPoint from, ScreenPoint to,
+                          float radius) {
     // For a right-handed rotation, the near side moves in this direction.
     const Vec3d way = cross(axis, towards_eye(projection, centre));
     const double x = dot(way, projection.right()), y = -dot(way, projection.up()), n = std::hypot(x, y);

@@ -91,7 +91,8 @@ std::optional<double> nearest_on_axis(const ViewRay& ray, const Vec3d& origin, c
 // from a fixed start; nullopt if the ring is seen edge-on or the ray misses its plane.
 std::optional<double> ring_angle(const ViewRay& ray, const Vec3d& centre, const Vec3d& axis);
 // Radians of rotation when the near side of an edge-on ring is dragged over the screen; the ring's radius is `radius` pixels.
-double edge_on_ring_angle(const Projection& projection, const Vec3d& centre, const Vec3d& axis, ScreenPoint from, ScreenPoint to, float radius);
+double edge_on_ring_angle(const Projection& projection, const Vec3d& centre, const Vec3d& axis, ScreenPoint from, ScreenPoint to,
+                          float radius);
 
 // The node's transform with its origin moved to a world position; rotation and scale unchanged.
 Transform moved_to(const Scene& scene, Id<Node> node, const Vec3d& world_position);

@@ -1,14 +1,14 @@
 #include "ui/transform/handles.h"
 
-#include "ui/lights/multi_edit.h"
 #include "ui/lights/light_outline.h"
 #include "ui/lights/light_tools.h"
+#include "ui/lights/multi_edit.h"
+#include "ui/lights/multi_edit_apply.h"
+#include "ui/transform/rotation.h"
+#include "ui/transform/transform_view.h"
 #include "ui/viewport/orbit_camera.h"
 #include "ui/viewport/picking.h"
-#include "ui/transform/rotation.h"
-#include "ui/lights/multi_edit_apply.h"
 #include "ui/window/theme.h"
-#include "ui/transform/transform_view.h"
 
 namespace blush {
 namespace {
@@ -146,7 +146,8 @@ void Handles::grab(PanelContext& c, Handle handle, const std::optional<LightInVi
     start_ray_ = ray;
     start_sight_ = seen;
     grabbed_.clear();
-    for (const Id<Node> id : subtree_roots(c.scene(), c.ui.selection(c.scene()))) grabbed_.push_back({id, world_from_node(c.scene(), id).t});
+    for (const Id<Node> id : subtree_roots(c.scene(), c.ui.selection(c.scene())))
+        grabbed_.push_back({id, world_from_node(c.scene(), id).t});
     c.ui.gestures.begin();
 }
 
@@ -183,8 +184,8 @@ void Handles::drag(PanelContext& c, const Projection& projection, const ImageRec
     case Handle::inner_cone:
     case Handle::spread:
     case Handle::sun_angle:
-        set_light(c, c.scene().nodes.find(c.ui.selected)->light, resized(*start_sight_, dragged_, projection, start_ray_, projection.ray(u, v)),
-                  c.ui.gestures.current());
+        set_light(c, c.scene().nodes.find(c.ui.selected)->light,
+                  resized(*start_sight_, dragged_, projection, start_ray_, projection.ray(u, v)), c.ui.gestures.current());
         break;
     default: break;
     }
@@ -196,11 +197,12 @@ std::optional<LightInView> Handles::sight(const Scene& scene, Id<Node> id, const
     const auto seen = projection.project(m.t);
     if (!light || !seen) return {};
     return LightInView{*light, m, world_rotation(scene, id), outline_reach(projection, seen->distance),
-                      projection.height_at(seen->distance) * ImGui::GetFontSize() / image.height};
+                       projection.height_at(seen->distance) * ImGui::GetFontSize() / image.height};
 }
 
 std::vector<HandleShape> Handles::shapes(const PanelContext& c, std::span<const TransformTarget> targets, const Vec3d& position,
-                                         const Projection& projection, const ImageRect& image, const std::optional<LightInView>& seen) const {
+                                         const Projection& projection, const ImageRect& image,
+                                         const std::optional<LightInView>& seen) const {
     const Scene& scene = c.scene();
     const TransformView& view = c.ui.transform;
     std::optional<Vec3d> aim_at;
@@ -211,7 +213,8 @@ std::vector<HandleShape> Handles::shapes(const PanelContext& c, std::span<const 
     if (view.gizmo == TransformMode::scale) place.along_axes = scales_along_axes(targets);
     std::vector<HandleShape> shapes = handle_shapes(projection, image, place, aim_at);
     if (shapes.empty()) return shapes;
-    if (!why_not(scene, targets, view.gizmo).empty()) std::erase_if(shapes, [&](const HandleShape& s) { return is_of_gizmo(s.handle, view.gizmo); });
+    if (!why_not(scene, targets, view.gizmo).empty())
+        std::erase_if(shapes, [&](const HandleShape& s) { return is_of_gizmo(s.handle, view.gizmo); });
     const auto centre = projection.project(world_from_node(scene, c.ui.selected).t);
     if (!seen || !centre) return shapes;
     for (const SizeHandle& size : size_handles(*seen, projection))

@@ -1,8 +1,8 @@
 #include "ui/transform/transform_edits.h"
 
 #include "scene/affine.h"
-#include "scene/lights/light_units.h"
 #include "scene/animation/pose.h"
+#include "scene/lights/light_units.h"
 #include "ui/lights/multi_edit.h"
 #include "ui/transform/rotation.h"
 
@@ -47,7 +47,6 @@ Light scaled(const Light& before, const Affined& world_from_node, const Motion& 
     return with_power_kept(before, light);
 }
 
-
 Affined moved(const TransformTarget& target, const Motion& motion) {
     const Affined& m = target.world_from_node;
     const Vec3d t = motion.point(m.t);
@@ -88,7 +87,8 @@ std::string why_not(const Scene& scene, std::span<const TransformTarget> targets
     if (mode == TransformMode::rotate && looks_the_same_from_all_sides(light))
         return light.name + " emits uniformly: rotation has no effect";
     if (mode == TransformMode::scale && !has_size(light))
-        return light.name + (light.kind == Light::Kind::sun ? " has no angle to scale: set its Angle first" : " has no size to scale: set its Radius first");
+        return light.name + (light.kind == Light::Kind::sun ? " has no angle to scale: set its Angle first"
+                                                            : " has no size to scale: set its Radius first");
     return {};
 }
 
@@ -110,7 +110,8 @@ std::vector<Edit> transform_edits(const Scene& scene, std::span<const TransformT
             if (std::abs(determinant(parent)) > 1e-300) node.local = to_transform(inverse(parent) * moved(target, motion));
         }
         if (node != *record) edits.push_back(SetNode{target.node, node});
-        if (motion.mode != TransformMode::scale || !scene.lights.contains(target.light) || std::ranges::count(scaled_lights, target.light)) continue;
+        if (motion.mode != TransformMode::scale || !scene.lights.contains(target.light) || std::ranges::count(scaled_lights, target.light))
+            continue;
         scaled_lights.push_back(target.light);
         edits.push_back(SetLight{target.light, scaled(target.light_before, target.world_from_node, motion)});
     }

@@ -48,7 +48,8 @@ std::array<int, 2> others(int axis) { return {axis == 0 ? 1 : 0, axis == 2 ? 1 :
 } // namespace
 
 Vec3d Motion::direction(const Vec3d& v) const {
-    if (mode == TransformMode::rotate) return v * std::cos(radians) + cross(axis, v) * std::sin(radians) + axis * (dot(axis, v) * (1 - std::cos(radians)));
+    if (mode == TransformMode::rotate)
+        return v * std::cos(radians) + cross(axis, v) * std::sin(radians) + axis * (dot(axis, v) * (1 - std::cos(radians)));
     if (mode == TransformMode::grab) return v;
     return axes[0] * (factors.x * dot(axes[0], v)) + axes[1] * (factors.y * dot(axes[1], v)) + axes[2] * (factors.z * dot(axes[2], v));
 }
@@ -64,9 +65,7 @@ int TransformTool::amount_count() const {
     return lock_.axis < 0 ? 3 : lock_.plane ? 2 : 1;
 }
 
-bool TransformTool::is_typed() const {
-    return !typed_[0].empty() || !typed_[1].empty() || !typed_[2].empty();
-}
+bool TransformTool::is_typed() const { return !typed_[0].empty() || !typed_[1].empty() || !typed_[2].empty(); }
 
 ScreenPoint TransformTool::centre() const {
     const auto seen = start_.projection.project(start_.pivot);

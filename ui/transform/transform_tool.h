@@ -21,11 +21,11 @@ struct AxisLock {
 struct Motion {
     TransformMode mode = TransformMode::grab;
     Vec3d pivot{0, 0, 0};
-    Vec3d by{0, 0, 0};         // grab: metres
-    Vec3d axis{0, 0, 1};       // rotate: unit length
-    double radians = 0;        // rotate: right-handed about the axis
+    Vec3d by{0, 0, 0};                                            // grab: metres
+    Vec3d axis{0, 0, 1};                                          // rotate: unit length
+    double radians = 0;                                           // rotate: right-handed about the axis
     std::array<Vec3d, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}; // scale: orthonormal
-    Vec3d factors{1, 1, 1};    // scale: along the axes
+    Vec3d factors{1, 1, 1};                                       // scale: along the axes
 
     bool operator==(const Motion&) const = default;
     // The linear part: rotates or scales a direction.

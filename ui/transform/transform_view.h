@@ -1,8 +1,8 @@
 // UI state of transforms of the selection: the displayed gizmo, and the requested or active transform.
 #pragma once
 
-#include "ui/window/shortcuts.h"
 #include "ui/transform/transform_tool.h"
+#include "ui/window/shortcuts.h"
 
 #include <optional>
 #include <vector>

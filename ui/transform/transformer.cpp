@@ -1,8 +1,8 @@
 #include "ui/transform/transformer.h"
 
 #include "scene/affine.h"
-#include "ui/window/theme.h"
 #include "ui/viewport/viewport_marks.h"
+#include "ui/window/theme.h"
 
 #include <utility>
 

@@ -30,10 +30,12 @@ void draw_camera_frame(PanelContext& c, ImDrawList& draw, const ImageRect& pictu
         return;
     }
     const Node* camera = c.scene().nodes.find(c.ui.home.camera);
-    const std::string text = fmt::format("Free view.  {}: {}", to_string(shortcut(Command::camera_view).press), camera && !camera->name.empty() ? camera->name : "camera");
+    const std::string text = fmt::format("Free view.  {}: {}", to_string(shortcut(Command::camera_view).press),
+                                         camera && !camera->name.empty() ? camera->name : "camera");
     const float em = ImGui::GetFontSize();
     const ImVec2 size = ImGui::CalcTextSize(text.c_str()), at{seen.x + em, seen.y + em};
-    draw.AddRectFilled({at.x - em * 0.5f, at.y - em * 0.25f}, {at.x + size.x + em * 0.5f, at.y + size.y + em * 0.25f}, label_ground, em * 0.25f);
+    draw.AddRectFilled({at.x - em * 0.5f, at.y - em * 0.25f}, {at.x + size.x + em * 0.5f, at.y + size.y + em * 0.25f}, label_ground,
+                       em * 0.25f);
     draw.AddText(at, tone::dim_text, text.c_str());
     c.ui.probe.record("Free view", {at.x, at.y, size.x, size.y});
 }

@@ -1,8 +1,8 @@
 // Camera overlay of the viewport: passepartout and frame.
 #pragma once
 
-#include "ui/transform/gizmo.h"
 #include "ui/panel_context.h"
+#include "ui/transform/gizmo.h"
 
 #include <imgui.h>
 #include <optional>

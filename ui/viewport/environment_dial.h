@@ -3,8 +3,8 @@
 // sun.
 #pragma once
 
-#include "ui/transform/gizmo.h"
 #include "ui/panel_context.h"
+#include "ui/transform/gizmo.h"
 
 #include <imgui.h>
 

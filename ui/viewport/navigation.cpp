@@ -13,8 +13,8 @@ constexpr double turn_per_height = 3.2;   // radians for a drag over the picture
 constexpr double closer_per_notch = 0.88; // factor of the distance per notch of the wheel
 constexpr double stops_per_height = 8;
 constexpr float stops_per_notch = 0.25f;
-constexpr double same_wheeling = 1;       // maximum seconds between notches of one gesture
-constexpr double speed = 0.8;             // pivot distances per second
+constexpr double same_wheeling = 1; // maximum seconds between notches of one gesture
+constexpr double speed = 0.8;       // pivot distances per second
 
 // Movement along right, up and forward, from W A S D Q E.
 Vec3d wanted_motion() {

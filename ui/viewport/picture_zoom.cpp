@@ -28,8 +28,7 @@ ImageRect picture_rect(const PictureZoom& zoom, const Region& region, int width,
 
 PictureZoom zoomed(const PictureZoom& zoom, const Region& region, int width, int height, ScreenPoint about, double factor) {
     const ImageRect fit = fitted(region, width, height);
-    const double before = zoom.scale > 0 ? zoom.scale : double(fit.width) / width,
-                 scale = std::clamp(before * factor, min_zoom, max_zoom);
+    const double before = zoom.scale > 0 ? zoom.scale : double(fit.width) / width, scale = std::clamp(before * factor, min_zoom, max_zoom);
     if (factor < 1 && scale * width <= double(fit.width)) return {};
     // Not from the drawn rectangle: its rounding to whole pixels would accumulate to a drift.
     const double u = zoom.u + (about.x - region.x - region.width / 2.0) / (before * width);

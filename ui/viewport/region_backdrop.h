@@ -3,9 +3,9 @@
 
 #include "scene/picture_region.h"
 #include "ui/gl/display_pass.h"
-#include "ui/window/frame_budget.h"
-#include "ui/transform/gizmo.h"
 #include "ui/snapshots/picture_view.h"
+#include "ui/transform/gizmo.h"
+#include "ui/window/frame_budget.h"
 
 #include <array>
 #include <imgui.h>

@@ -1,8 +1,8 @@
 // Tools that use the next click or drag in the picture: eyedroppers, light meters and rectangles.
 #pragma once
 
-#include "ui/transform/gizmo.h"
 #include "ui/panel_context.h"
+#include "ui/transform/gizmo.h"
 
 #include <imgui.h>
 

@@ -2,22 +2,22 @@
 
 #include "render/light_mix/light_mix.h"
 #include "scene/document/subtree_edits.h"
+#include "ui/gl/reuse_buffer.h"
+#include "ui/gl/texture_id.h"
+#include "ui/lights/light_glyphs.h"
+#include "ui/lights/light_tools.h"
+#include "ui/lights/look_through_light.h"
+#include "ui/lights/multi_edit_apply.h"
 #include "ui/snapshots/aov_bar.h"
 #include "ui/viewport/camera_frame_overlay.h"
 #include "ui/viewport/environment_dial.h"
 #include "ui/viewport/false_color_legend.h"
-#include "ui/lights/light_glyphs.h"
-#include "ui/lights/light_tools.h"
-#include "ui/lights/look_through_light.h"
 #include "ui/viewport/orbit_camera.h"
 #include "ui/viewport/picking.h"
 #include "ui/viewport/pixel_grid.h"
-#include "ui/lights/multi_edit_apply.h"
-#include "ui/gl/texture_id.h"
-#include "ui/window/theme.h"
-#include "ui/gl/reuse_buffer.h"
 #include "ui/viewport/view_tools.h"
 #include "ui/viewport/viewport_marks.h"
+#include "ui/window/theme.h"
 
 namespace blush {
 namespace {
@@ -168,9 +168,10 @@ void Viewport::take_frame(PanelContext& c, const FrameBudget& pace) {
     if (view.show == PictureView::Show::beauty && v.false_color.of == FalseColor::Of::lux) view.show = PictureView::Show::illuminance;
     const bool special = c.frame && is_special(*c.frame, view);
     DisplayParameters numbers = display_parameters_of(v);
-    if (special && is_map(view)) numbers.false_color = {}; // it has colours of its own
+    if (special && is_map(view)) numbers.false_color = {};            // it has colours of its own
     if (special && is_data(view)) numbers.background_as_it_is = true; // all its pixels count as background
-    const DisplayLook current_pictures{numbers, special ? PictureMix{} : mix_of(c.ui.denoise, c.denoised != nullptr), !special && c.frame && c.frame->transparent};
+    const DisplayLook current_pictures{numbers, special ? PictureMix{} : mix_of(c.ui.denoise, c.denoised != nullptr),
+                                       !special && c.frame && c.frame->transparent};
     const Gains gains = c.mixing ? c.mixing->gains : Gains();
     const bool new_gains = gains != uploaded_gains_, shows_denoised = current_pictures.mix.denoised_weight != 0;
     // While a mix is edited it is shown at once, at a lower resolution if time is short; full resolution follows when the edit
@@ -183,15 +184,17 @@ void Viewport::take_frame(PanelContext& c, const FrameBudget& pace) {
     const int step = moved ? preview_.step_in_time(moving, pace.left(mix_edit_frame, now), drawing) : 1;
     const bool subsampled = preview_step_ > 1 && !moved, rests = subsampled && now >= mix_edited_at_ + mix_pause_after;
     const bool waits = subsampled && !rests; // for the next edit of the mix
-    if (waits) c.ui.seconds_to_next_frame = std::min(c.ui.seconds_to_next_frame, std::chrono::duration<double>(mix_edited_at_ + mix_pause_after - now).count());
+    if (waits)
+        c.ui.seconds_to_next_frame =
+            std::min(c.ui.seconds_to_next_frame, std::chrono::duration<double>(mix_edited_at_ + mix_pause_after - now).count());
     const bool new_frame = c.frame && c.frame->width > 0 && !waits &&
                            (c.frame != uploaded_frame_ || view != uploaded_view_ || new_gains || rests ||
                             numbers.background_as_it_is != look_.numbers.background_as_it_is);
     const bool new_denoised = shows_denoised && !waits && (c.denoised != uploaded_denoised_ || new_gains || rests);
     // A switch between raw and denoised cancels the picture in progress. The blend slider does not, because each step would
     // restart it.
-    const bool toggled =
-        uploaded_frame_ && current_pictures.mix != look_.mix && (current_pictures.mix.raw_weight == 0 || current_pictures.mix.denoised_weight == 0) && !new_denoised;
+    const bool toggled = uploaded_frame_ && current_pictures.mix != look_.mix &&
+                         (current_pictures.mix.raw_weight == 0 || current_pictures.mix.denoised_weight == 0) && !new_denoised;
     if (display_.busy() && toggled) {
         display_.begin(current_pictures);
         look_ = current_pictures;
@@ -226,7 +229,8 @@ void Viewport::take_frame(PanelContext& c, const FrameBudget& pace) {
         shown_gains_ = uploaded_gains_;
         shown_preview_step_ = preview_step_;
         // the next one may be ready
-        c.ui.seconds_to_next_frame = preview_step_ == 1 ? 0 : std::min(c.ui.seconds_to_next_frame, std::chrono::duration<double>(mix_pause_after).count());
+        c.ui.seconds_to_next_frame =
+            preview_step_ == 1 ? 0 : std::min(c.ui.seconds_to_next_frame, std::chrono::duration<double>(mix_pause_after).count());
     }
 }
 
@@ -283,7 +287,8 @@ void Viewport::draw_caption(const PanelContext& c, const ImageRect& image) const
     if (!is_special(*shown_frame_, uploaded_view_)) {
         // Frames from before the request do not have the plane.
         const AovView& wanted = c.ui.aov;
-        const bool lacks = wanted.show != PictureView::Show::beauty && uploaded_view_ == picture_view(wanted, int(shown_frame_->bounces.size()));
+        const bool lacks =
+            wanted.show != PictureView::Show::beauty && uploaded_view_ == picture_view(wanted, int(shown_frame_->bounces.size()));
         if (lacks) write_caption(image, (name_of(wanted, shown_frame_.get()) + " is not rendered yet").c_str());
         return;
     }

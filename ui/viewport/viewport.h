@@ -3,17 +3,17 @@
 
 #include "core/parallel.h"
 #include "render/light_mix/light_groups.h"
-#include "ui/snapshots/compare_view.h"
 #include "ui/gl/display_pass.h"
-#include "ui/window/frame_budget.h"
-#include "ui/transform/handles.h"
-#include "ui/views/mix_preview.h"
-#include "ui/viewport/navigation.h"
 #include "ui/gl/outline_pass.h"
-#include "ui/panel_context.h"
 #include "ui/lights/place_tool.h"
-#include "ui/viewport/region_backdrop.h"
+#include "ui/panel_context.h"
+#include "ui/snapshots/compare_view.h"
+#include "ui/transform/handles.h"
 #include "ui/transform/transformer.h"
+#include "ui/viewport/navigation.h"
+#include "ui/viewport/region_backdrop.h"
+#include "ui/views/mix_preview.h"
+#include "ui/window/frame_budget.h"
 
 namespace blush {
 
@@ -65,16 +65,16 @@ private:
     FramePtr uploaded_frame_, shown_frame_;
     PictureView uploaded_view_;
     DenoisedPtr uploaded_denoised_;
-    Gains uploaded_gains_, shown_gains_;        // of raw and denoised picture
+    Gains uploaded_gains_, shown_gains_;            // of raw and denoised picture
     int preview_step_ = 1, shown_preview_step_ = 1; // only every n-th pixel of a row, and every n-th row, of both
-    FrameBudget::TimePoint mix_edited_at_{};          // last edit of the mix
+    FrameBudget::TimePoint mix_edited_at_{};        // last edit of the mix
     MixPreview preview_;
     std::shared_ptr<std::vector<float>> mixed_, mixed_denoised_; // mixed pictures, kept to reuse their memory
     Workers workers_{0};                                         // for mixing planes
     DisplayLook look_;
     bool shader_changed_ = false, begun_ = false;
-    bool shows_requested_view_ = false;      // the picture in progress has the last requested view settings
-    bool drew_display_ = false; // in this UI frame
+    bool shows_requested_view_ = false; // the picture in progress has the last requested view settings
+    bool drew_display_ = false;         // in this UI frame
     struct Outlined {
         FramePtr frame;
         Id<Node> selected;

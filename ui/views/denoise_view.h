@@ -1,8 +1,8 @@
 // How raw and denoised picture are shown: either, a blend, or their difference. Does not restart the render.
 #pragma once
 
-#include "render/session/denoised_picture.h"
 #include "render/frame.h"
+#include "render/session/denoised_picture.h"
 
 #include <string>
 #include <vector>

@@ -14,7 +14,7 @@ struct MapView {
     // The slot for the next chosen image file.
     Id<Material> material;
     TextureRef Material::*slot = nullptr;
-    std::string label;                             // of the slot
+    std::string label;                              // of the slot
     std::shared_ptr<MapThumbnails> thumbnails = {}; // null without a window
 };
 

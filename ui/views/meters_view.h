@@ -3,8 +3,8 @@
 
 #include "render/frame.h"
 #include "scene/view_settings.h"
-#include "ui/transform/gizmo.h"
 #include "ui/jobs/meter_runner.h"
+#include "ui/transform/gizmo.h"
 
 #include <imgui.h>
 #include <memory>

@@ -26,7 +26,8 @@ int MixPreviewSource::planes() const {
     return (shows_raw ? int(frame->groups.size()) : 0) + (shows_denoised ? int(denoised->groups->planes.size()) : 0);
 }
 
-int MixPreview::step_in_time(const MixPreviewSource& moved, double milliseconds, const std::function<double(double pixels)>& drawing) const {
+int MixPreview::step_in_time(const MixPreviewSource& moved, double milliseconds,
+                             const std::function<double(double pixels)>& drawing) const {
     for (int step = 1; step < coarsest; ++step) {
         const double pixels = double(moved.frame->width) * moved.frame->height / (step * step), work = pixels * moved.planes();
         const bool kept = step == 1 || ((!moved.shows_raw || is_kept(raw_, moved.frame, step)) &&
@@ -40,7 +41,8 @@ bool MixPreview::is_kept(const Kept& kept, const std::shared_ptr<const void>& of
     return kept.step == step && kept.of.lock() == of;
 }
 
-void MixPreview::thin(Kept& kept, const std::shared_ptr<const void>& of, const std::vector<PlaneSpan>& planes, int width, int height, int step) {
+void MixPreview::thin(Kept& kept, const std::shared_ptr<const void>& of, const std::vector<PlaneSpan>& planes, int width, int height,
+                      int step) {
     if (is_kept(kept, of, step)) return;
     const auto begin = Clock::now();
     kept.planes = subsampled(planes, width, height, step);

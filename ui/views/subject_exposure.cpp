@@ -14,11 +14,11 @@ namespace blush {
 namespace {
 
 constexpr int cells_across = 40, cells_down = 24;
-constexpr double min_subject_area = 0.005;  // minimum area of the selection, or of what is in focus, to be the subject
-constexpr double sharp_blur = 0.01;          // diameter of the circle of confusion divided by the height of the picture
-constexpr double darkest = 1.0 / 256;        // of the mean: darker cells are clamped to this
-constexpr double max_clipped = 0.03;        // of the subject, and of the picture
-constexpr double max_mean_display = 0.55;   // mean display luminance
+constexpr double min_subject_area = 0.005; // minimum area of the selection, or of what is in focus, to be the subject
+constexpr double sharp_blur = 0.01;        // diameter of the circle of confusion divided by the height of the picture
+constexpr double darkest = 1.0 / 256;      // of the mean: darker cells are clamped to this
+constexpr double max_clipped = 0.03;       // of the subject, and of the picture
+constexpr double max_mean_display = 0.55;  // mean display luminance
 constexpr float max_lowered = 6, max_lowered_for_background = 1.5f, step = 0.25f; // stops
 constexpr float display_white = 0.995f;
 
@@ -88,7 +88,8 @@ std::optional<double> log_average(const Cells& cells) {
     if (!(mean > 0)) return {};
     const double floor = darkest * mean / cells.share;
     double stops = 0;
-    for (size_t i = 0; i < cells.means.size(); ++i) stops += cells.shares[i] * std::log2(std::max(floor, double(luminance(cells.means[i]))));
+    for (size_t i = 0; i < cells.means.size(); ++i)
+        stops += cells.shares[i] * std::log2(std::max(floor, double(luminance(cells.means[i]))));
     return stops / cells.share;
 }
 
@@ -131,7 +132,8 @@ std::optional<float> subject_exposure(const Frame& frame, const Scene& scene, st
     };
     const float for_subject = lowered(subject, wanted, max_lowered, 1);
     // A dark subject in front of a bright background: limits the exposure so that the whole picture is not too bright.
-    const float for_picture = lowered(cells_of(frame, [](size_t) { return true; }), for_subject, max_lowered_for_background, max_mean_display);
+    const float for_picture =
+        lowered(cells_of(frame, [](size_t) { return true; }), for_subject, max_lowered_for_background, max_mean_display);
     return std::clamp(for_picture, -20.f, 20.f);
 }
 

@@ -1,7 +1,7 @@
 #include "ui/widgets/bars.h"
 
-#include "ui/window/theme.h"
 #include "ui/widgets/widgets.h"
+#include "ui/window/theme.h"
 
 #include <algorithm>
 #include <cmath>

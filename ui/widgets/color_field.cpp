@@ -1,8 +1,8 @@
 // The colour row of Fields: a swatch with a picker, the three numbers, and the eyedropper.
-#include "ui/window/theme.h"
 #include "ui/widgets/value_menu.h"
 #include "ui/widgets/value_text.h"
 #include "ui/widgets/widgets.h"
+#include "ui/window/theme.h"
 
 #include <cmath>
 #include <imgui_internal.h> // for the id of an item

@@ -72,7 +72,9 @@ std::string triple_text(const Vec3& v) { return number_text(v.x) + ", " + number
 
 std::string hex_text(const Vec3& c) { return fmt::format("#{:02x}{:02x}{:02x}", byte_of(c.x), byte_of(c.y), byte_of(c.z)); }
 
-std::string srgb_text(const Vec3& c) { return "srgb(" + triple_text({srgb_from_linear(c.x), srgb_from_linear(c.y), srgb_from_linear(c.z)}) + ")"; }
+std::string srgb_text(const Vec3& c) {
+    return "srgb(" + triple_text({srgb_from_linear(c.x), srgb_from_linear(c.y), srgb_from_linear(c.z)}) + ")";
+}
 
 std::optional<double> pasted_number(std::string_view text, std::string_view unit) {
     if (text.size() > max_value_length) return {};

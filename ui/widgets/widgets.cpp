@@ -2,9 +2,9 @@
 
 #include "core/text.h"
 #include "ui/widgets/elided_text.h"
-#include "ui/window/theme.h"
 #include "ui/widgets/value_menu.h"
 #include "ui/widgets/value_text.h"
+#include "ui/window/theme.h"
 
 #include <algorithm>
 #include <cmath>
@@ -150,7 +150,8 @@ bool Fields::integer(const char* label, int64_t& value, int64_t min, int64_t max
     begin_row(label, tip);
     const float speed = std::max(0.1f, float(std::abs(value)) * 0.01f);
     int64_t edited = value;
-    bool changed = ImGui::DragScalar("##value", ImGuiDataType_S64, &edited, drag_speed(speed), &min, &max, "%lld", ImGuiSliderFlags_AlwaysClamp);
+    bool changed =
+        ImGui::DragScalar("##value", ImGuiDataType_S64, &edited, drag_speed(speed), &min, &max, "%lld", ImGuiSliderFlags_AlwaysClamp);
     switch (value_action(ui_, std::string(scope_) + "/" + label, false, false)) {
     case ValueAction::copy: copy_text(ui_, std::to_string(value)); break;
     case ValueAction::reset: edited = reset; break;

@@ -1,8 +1,8 @@
 #include "ui/window/docks.h"
 
 #include "ui/viewport/regions.h"
-#include "ui/window/theme.h"
 #include "ui/widgets/widgets.h"
+#include "ui/window/theme.h"
 
 #include <algorithm>
 #include <imgui_internal.h> // which window is moved by the mouse

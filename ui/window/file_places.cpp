@@ -16,7 +16,9 @@ std::vector<FilePlace> file_places(const WindowSettings& settings, const std::fi
         places.push_back({std::move(name), folder, bookmark});
         return true;
     };
-    const auto name_of = [](const std::filesystem::path& folder) { return folder.has_filename() ? folder.filename().string() : folder.string(); };
+    const auto name_of = [](const std::filesystem::path& folder) {
+        return folder.has_filename() ? folder.filename().string() : folder.string();
+    };
     for (const std::string& bookmark : settings.bookmarks) add(name_of(bookmark), bookmark, true);
     add("Home", user_folder("HOME", ""));
     add("Desktop", user_folder("XDG_DESKTOP_DIR", "Desktop"));

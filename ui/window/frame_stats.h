@@ -42,7 +42,8 @@ public:
     const std::vector<double>& frames() const { return frames_; }
     const std::vector<double>& latencies() const { return latencies_; }
     const std::vector<double>& looks() const { return looks_; }
-    // {"frames": n, "p50_ms", "p95_ms", "max_ms", "late": n, "late_frames": [{"at_s", "before_picture_ms", "picture_ms", "after_picture_ms"}, ...],
+    // {"frames": n, "p50_ms", "p95_ms", "max_ms", "late": n, "late_frames": [{"at_s", "before_picture_ms", "picture_ms",
+    // "after_picture_ms"}, ...],
     //  "edits": n, "edits_at_once": n, "latency_p50_ms", "latency_p95_ms", "latency_max_ms",
     //  "looks": n, "look_p50_ms", "look_max_ms"}
     Result<void> write(const std::filesystem::path& file) const;

@@ -7,7 +7,8 @@ namespace blush {
 namespace {
 
 // Font sizes.
-constexpr float narrowest_panel = 10, max_panel_width = 45, narrowest_viewport = 16, lowest_viewport = 9, narrowest_dock = 15, lowest_dock = 6;
+constexpr float narrowest_panel = 10, max_panel_width = 45, narrowest_viewport = 16, lowest_viewport = 9, narrowest_dock = 15,
+                lowest_dock = 6;
 
 float max_dock_width(const Region& room, float font_size) {
     return std::max(room.width - narrowest_viewport * font_size, narrowest_dock * font_size);

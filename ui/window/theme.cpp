@@ -11,8 +11,8 @@ namespace {
 constexpr float text_size = 15; // pixels at scale 1
 
 ImFont* load_font(const std::filesystem::path& assets, std::initializer_list<const char*> names, float size) {
-    static const ImWchar ranges[] = {0x20,   0x17f,  0x2010, 0x2026, 0x2070, 0x209c, 0x2190, 0x2193, 0x2212, 0x2212,
-                                     0x221a, 0x221a, 0x221e, 0x221e, 0x2248, 0x2248, 0};
+    static const ImWchar ranges[] = {0x20,   0x17f,  0x2010, 0x2026, 0x2070, 0x209c, 0x2190, 0x2193, 0x2212,
+                                     0x2212, 0x221a, 0x221a, 0x221e, 0x221e, 0x2248, 0x2248, 0};
     const std::filesystem::path folders[] = {assets / "fonts",
                                              "/usr/share/fonts/opentype/inter",
                                              "/usr/share/fonts/truetype/inter",

@@ -51,8 +51,10 @@ void restore_panels(const WindowSettings& settings, UiState& ui) {
         using T = std::remove_reference_t<decltype(value)>;
         const auto found = settings.panels.find(name);
         if (found == settings.panels.end() || !(found->second >= double(least) && found->second <= double(most))) return;
-        if constexpr (std::is_floating_point_v<T>) value = T(found->second);
-        else value = T(int(found->second));
+        if constexpr (std::is_floating_point_v<T>)
+            value = T(found->second);
+        else
+            value = T(int(found->second));
     });
 }
 
@@ -90,8 +92,10 @@ void restore_scene_ui(const WindowSettings& settings, const std::string& file, c
         ui.zoom = {std::clamp(found->zoom, min_zoom, max_zoom), std::clamp(found->u, 0.0, 1.0), std::clamp(found->v, 0.0, 1.0)};
     for (const uint32_t id : found->selected) {
         if (!scene.nodes.contains({id}) || ui.is_selected({id})) continue;
-        if (!ui.selected) ui.selected = {id};
-        else ui.also_selected.push_back({id});
+        if (!ui.selected)
+            ui.selected = {id};
+        else
+            ui.also_selected.push_back({id});
     }
     if (scene.materials.contains({found->material})) ui.selected_material = {found->material};
     for (const uint32_t id : found->turned)

@@ -2,33 +2,33 @@
 #pragma once
 
 #include "scene/scene.h"
+#include "ui/lights/light_presence.h"
 #include "ui/snapshots/aov_view.h"
-#include "ui/views/bounces_view.h"
+#include "ui/snapshots/region_statistics.h"
+#include "ui/snapshots/snapshots_view.h"
+#include "ui/transform/transform_view.h"
 #include "ui/viewport/camera_frame.h"
+#include "ui/viewport/picture_zoom.h"
+#include "ui/views/bounces_view.h"
 #include "ui/views/convergence_view.h"
 #include "ui/views/denoise_view.h"
-#include "ui/window/dock.h"
-#include "ui/window/file_request.h"
-#include "ui/window/gestures.h"
 #include "ui/views/health_view.h"
 #include "ui/views/home_view.h"
 #include "ui/views/import_report_view.h"
 #include "ui/views/light_mix_view.h"
-#include "ui/lights/light_presence.h"
 #include "ui/views/map_view.h"
 #include "ui/views/meters_view.h"
-#include "ui/viewport/picture_zoom.h"
-#include "ui/window/probe.h"
-#include "ui/window/modal_dialog.h"
-#include "ui/snapshots/region_statistics.h"
 #include "ui/views/roulette_view.h"
 #include "ui/views/scopes_view.h"
-#include "ui/window/shortcuts.h"
-#include "ui/snapshots/snapshots_view.h"
 #include "ui/views/time_view.h"
-#include "ui/window/toasts.h"
-#include "ui/transform/transform_view.h"
 #include "ui/widgets/value_editing.h"
+#include "ui/window/dock.h"
+#include "ui/window/file_request.h"
+#include "ui/window/gestures.h"
+#include "ui/window/modal_dialog.h"
+#include "ui/window/probe.h"
+#include "ui/window/shortcuts.h"
+#include "ui/window/toasts.h"
 #include "ui/window/window_settings.h"
 
 #include <filesystem>
@@ -144,13 +144,13 @@ struct UiState {
     std::optional<LookedThrough> light_camera;
     LightTableView light_table;
     bool show_shortcuts = false;
-    bool studio_banner = false; // the file has no light and was opened with studio lighting; the banner is still shown
+    bool studio_banner = false;     // the file has no light and was opened with studio lighting; the banner is still shown
     bool opening_page = false;      // shown after a start without a scene
     std::vector<std::string> demos; // scene files shipped with the program
     bool panels_hidden = false;     // hides everything except menu, picture and status bar
     HomeView home;                  // target of the command Camera view
-    CameraFrame frame;          // of that camera
-    TransformView transform;    // of the selection, by gizmo or keys
+    CameraFrame frame;              // of that camera
+    TransformView transform;        // of the selection, by gizmo or keys
     bool show_history = false;
     LightMixView light_mix;
     BouncesView bounces;

@@ -14,9 +14,9 @@
 namespace blush {
 namespace {
 
-static_assert(key::space == GLFW_KEY_SPACE && key::zero == GLFW_KEY_0 && key::escape == GLFW_KEY_ESCAPE && key::enter == GLFW_KEY_ENTER && key::tab == GLFW_KEY_TAB &&
-              key::backspace == GLFW_KEY_BACKSPACE && key::pad_zero == GLFW_KEY_KP_0 && key::pad_point == GLFW_KEY_KP_DECIMAL &&
-              key::pad_minus == GLFW_KEY_KP_SUBTRACT && key::pad_enter == GLFW_KEY_KP_ENTER &&
+static_assert(key::space == GLFW_KEY_SPACE && key::zero == GLFW_KEY_0 && key::escape == GLFW_KEY_ESCAPE && key::enter == GLFW_KEY_ENTER &&
+              key::tab == GLFW_KEY_TAB && key::backspace == GLFW_KEY_BACKSPACE && key::pad_zero == GLFW_KEY_KP_0 &&
+              key::pad_point == GLFW_KEY_KP_DECIMAL && key::pad_minus == GLFW_KEY_KP_SUBTRACT && key::pad_enter == GLFW_KEY_KP_ENTER &&
               key::remove == GLFW_KEY_DELETE && key::home == GLFW_KEY_HOME && key::f1 == GLFW_KEY_F1);
 
 constexpr int frames_after_input = 3;
@@ -187,7 +187,8 @@ bool Window::full_screen() const { return glfwGetWindowMonitor(window_) != nullp
 
 void Window::toggle_full_screen() {
     request_frames(frames_after_input);
-    if (full_screen()) return glfwSetWindowMonitor(window_, nullptr, windowed_x_, windowed_y_, windowed_.width, windowed_.height, GLFW_DONT_CARE);
+    if (full_screen())
+        return glfwSetWindowMonitor(window_, nullptr, windowed_x_, windowed_y_, windowed_.width, windowed_.height, GLFW_DONT_CARE);
     GLFWmonitor* const monitor = monitor_of(window_);
     const GLFWvidmode* const mode = monitor ? glfwGetVideoMode(monitor) : nullptr;
     if (!mode) return;

@@ -15,12 +15,12 @@ namespace blush {
 // UI state of the last session with a scene file.
 struct SceneMemory {
     std::string file;
-    double zoom = 0, u = 0.5, v = 0.5; // PictureZoom
-    std::vector<uint32_t> selected;    // Id<Node>.value, the active one first
-    uint32_t material = 0;             // Id<Material>.value of the selected material
-    std::vector<uint32_t> turned;      // Id<Node>.value of the outliner rows whose fold state differs from the default
-    std::string mix_group;             // the light mix group whose colour settings are shown
-    std::vector<std::string> snapshots; // files, oldest first
+    double zoom = 0, u = 0.5, v = 0.5;    // PictureZoom
+    std::vector<uint32_t> selected;       // Id<Node>.value, the active one first
+    uint32_t material = 0;                // Id<Material>.value of the selected material
+    std::vector<uint32_t> turned;         // Id<Node>.value of the outliner rows whose fold state differs from the default
+    std::string mix_group;                // the light mix group whose colour settings are shown
+    std::vector<std::string> snapshots;   // files, oldest first
     std::vector<std::string> instruments; // ids of the open ones
     bool operator==(const SceneMemory&) const = default;
 };
@@ -31,22 +31,22 @@ struct WindowSettings {
     int width = 1280, height = 800; // of the window, in screen coordinates
     bool maximized = false;
     Splitters splitters;
-    Dock dock;                       // layout of the instruments
-    int text_size = 100;             // per cent of the display's default
-    bool follow_viewport = true;     // render at the viewport's size
-    bool overlays = true;            // light glyphs, handles, outlines
-    std::vector<std::string> recent; // scene files, newest first
-    std::string snapshot_folder;     // empty: that of the scene
-    bool snapshot_files = true;      // every snapshot is written to a file,
-    bool snapshot_half = false;      // with colours in 16 bits,
-    bool snapshot_film = true;       // with samples, to resume rendering
-    int64_t snapshot_memory = 2048;  // MiB limit for the strip's snapshots; above it the oldest are unloaded
-    std::vector<std::string> bookmarks; // folders of the file browser
-    bool desktop_file_dialog = true;    // use the desktop's file dialog, if available
-    std::string browser_folder;         // last folder of the file browser
+    Dock dock;                            // layout of the instruments
+    int text_size = 100;                  // per cent of the display's default
+    bool follow_viewport = true;          // render at the viewport's size
+    bool overlays = true;                 // light glyphs, handles, outlines
+    std::vector<std::string> recent;      // scene files, newest first
+    std::string snapshot_folder;          // empty: that of the scene
+    bool snapshot_files = true;           // every snapshot is written to a file,
+    bool snapshot_half = false;           // with colours in 16 bits,
+    bool snapshot_film = true;            // with samples, to resume rendering
+    int64_t snapshot_memory = 2048;       // MiB limit for the strip's snapshots; above it the oldest are unloaded
+    std::vector<std::string> bookmarks;   // folders of the file browser
+    bool desktop_file_dialog = true;      // use the desktop's file dialog, if available
+    std::string browser_folder;           // last folder of the file browser
     std::map<std::string, double> panels; // open panels and their settings (remembered.h), and sections of the inspector
     std::string floating;                 // ImGui's text with the positions of floating windows
-    std::vector<SceneMemory> scenes; // newest first
+    std::vector<SceneMemory> scenes;      // newest first
     bool operator==(const WindowSettings&) const = default;
 };
 

@@ -1,12 +1,12 @@
 #include "app/commands/converge/converge.h"
 
 #include "app/commands/common.h"
+#include "app/commands/converge/reference_cache.h"
 #include "app/commands/converge/report.h"
 #include "app/commands/interrupt.h"
 #include "app/commands/load_scene.h"
-#include "app/commands/render/picture.h"
 #include "app/commands/progress.h"
-#include "app/commands/converge/reference_cache.h"
+#include "app/commands/render/picture.h"
 #include "core/files.h"
 #include "core/text.h"
 

@@ -106,17 +106,17 @@ std::string bias_cell(const VariantResult& v) {
     const RegionBias &w = b.worst, &p = b.pooled;
     const bool whole_is_worst = w.width == b.whole.width && w.height == b.whole.height;
     const std::string region = whole_is_worst ? std::string()
-                                              : fmt::format("<small>most in {}×{} at {},{}: {:+.3g} %, z {}</small>", w.width,
-                                                            w.height, w.x, w.y, w.percent(), signed_number(w.z(), 1));
+                                              : fmt::format("<small>most in {}×{} at {},{}: {:+.3g} %, z {}</small>", w.width, w.height,
+                                                            w.x, w.y, w.percent(), signed_number(w.z(), 1));
     const std::string pooled = std::abs(p.z()) <= std::abs(b.whole.z())
                                    ? std::string()
                                    : fmt::format("<small>weighted by the precision of the reference {:+.3g} % ± {:.2g}, z {}</small>",
                                                  p.percent(), 1.96 * p.percent_error(), signed_number(p.z(), 1));
     std::string bounces = bias_by_bounce_text(v);
     if (!bounces.empty()) bounces = fmt::format("<small>{}</small>", bounces);
-    return fmt::format("<td{}>{}<small>whole picture {:+.3g} % ± {:.2g}, z {}</small>{}{}{}</td>",
-                       b.biased ? " class='biased'" : "", b.verdict(), b.whole.percent(), 1.96 * b.whole.percent_error(), signed_number(b.whole.z(), 1), pooled,
-                       region, bounces);
+    return fmt::format("<td{}>{}<small>whole picture {:+.3g} % ± {:.2g}, z {}</small>{}{}{}</td>", b.biased ? " class='biased'" : "",
+                       b.verdict(), b.whole.percent(), 1.96 * b.whole.percent_error(), signed_number(b.whole.z(), 1), pooled, region,
+                       bounces);
 }
 
 std::string variant_row(const VariantResult& v, size_t index) {

@@ -1,9 +1,9 @@
 #include "app/commands/converge/reference_cache.h"
 
 #include "core/files.h"
+#include "io/image/snapshot.h"
 #include "io/project/scene_hash.h"
 #include "io/project/settings_json.h"
-#include "io/image/snapshot.h"
 
 #include <fmt/format.h>
 

@@ -2,11 +2,11 @@
 #pragma once
 
 #include "app/commands/converge/variants.h"
-#include "measure/statistics/bias_test.h"
-#include "measure/statistics/intervals.h"
-#include "measure/metrics/metrics.h"
 #include "measure/convergence/reference.h"
 #include "measure/lab/roulette_comparison.h"
+#include "measure/metrics/metrics.h"
+#include "measure/statistics/bias_test.h"
+#include "measure/statistics/intervals.h"
 
 #include <array>
 #include <atomic>

@@ -1,7 +1,7 @@
 #include "app/commands/render/command_feature_report.h"
 
-#include "app/common/assets_dir.h"
 #include "app/commands/denoising.h"
+#include "app/common/assets_dir.h"
 #include "color/color_management.h"
 
 #include <chrono>

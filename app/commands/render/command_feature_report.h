@@ -1,8 +1,8 @@
 // Features that a command uses in addition to the renderer, as lines of the feature report.
 #pragma once
 
-#include "render/denoise/denoiser.h"
 #include "render/compile/feature_report.h"
+#include "render/denoise/denoiser.h"
 
 #include <optional>
 

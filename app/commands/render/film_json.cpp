@@ -58,23 +58,22 @@ bool read_health(const Json& json, const LayeredImage& image, Health& h) {
         int64_t count = 0;
     };
     std::vector<Count> faults;
-    const bool read =
-        json.is_object() && read_numbers(member(json, "dropped"), h.nan, h.infinite, h.negative) &&
-        read_list(member(json, "faults"), size_t(Fault::kinds) * Fault::places, faults,
-                  [](const Json& item, Count& c) {
-                      return read_numbers(item, c.kind, c.place, c.count) && c.kind >= 0 && c.kind < Fault::kinds && c.place >= 0 &&
-                             c.place < Fault::places;
-                  }) &&
-        read_list(member(json, "first"), HealthRecorder::remembered, h.first,
-                  [&](const Json& item, BadSample& s) {
-                      int cause = 0, kind = 0, place = 0;
-                      return read_numbers(item, cause, s.x, s.y, s.sample, s.seed, kind, place, s.fault.vertex) && inside(s.x, s.y) &&
-                             as_enum(cause, 3, s.cause) && as_enum(kind, Fault::kinds, s.fault.kind) &&
-                             as_enum(place, Fault::places, s.fault.place);
-                  }) &&
-        read_list(member(json, "fireflies"), HealthRecorder::remembered, h.fireflies, [&](const Json& item, Firefly& s) {
-            return read_numbers(item, s.excess, s.luminance, s.x, s.y, s.sample, s.seed) && inside(s.x, s.y);
-        });
+    const bool read = json.is_object() && read_numbers(member(json, "dropped"), h.nan, h.infinite, h.negative) &&
+                      read_list(member(json, "faults"), size_t(Fault::kinds) * Fault::places, faults,
+                                [](const Json& item, Count& c) {
+                                    return read_numbers(item, c.kind, c.place, c.count) && c.kind >= 0 && c.kind < Fault::kinds &&
+                                           c.place >= 0 && c.place < Fault::places;
+                                }) &&
+                      read_list(member(json, "first"), HealthRecorder::remembered, h.first,
+                                [&](const Json& item, BadSample& s) {
+                                    int cause = 0, kind = 0, place = 0;
+                                    return read_numbers(item, cause, s.x, s.y, s.sample, s.seed, kind, place, s.fault.vertex) &&
+                                           inside(s.x, s.y) && as_enum(cause, 3, s.cause) && as_enum(kind, Fault::kinds, s.fault.kind) &&
+                                           as_enum(place, Fault::places, s.fault.place);
+                                }) &&
+                      read_list(member(json, "fireflies"), HealthRecorder::remembered, h.fireflies, [&](const Json& item, Firefly& s) {
+                          return read_numbers(item, s.excess, s.luminance, s.x, s.y, s.sample, s.seed) && inside(s.x, s.y);
+                      });
     for (const Count& c : faults) h.faults[size_t(c.kind)][size_t(c.place)] = c.count;
     return read;
 }

@@ -33,8 +33,7 @@ Result<std::optional<ColorManagement>> color_for(PictureFormat format, const Vie
     Result<ColorManagement> color = ColorManagement::load(assets_dir());
     if (!color) return color.error();
     float grey[3] = {0.18f, 0.18f, 0.18f};
-    if (Result<void> known = show(*color, view, grey, {.albedo = std::array{Vec3{1, 1, 1}}}); !known)
-        return known.error();
+    if (Result<void> known = show(*color, view, grey, {.albedo = std::array{Vec3{1, 1, 1}}}); !known) return known.error();
     return std::optional<ColorManagement>(*std::move(color));
 }
 
@@ -46,7 +45,7 @@ Result<void> expect_folder(const std::filesystem::path& file) {
 }
 
 Result<int64_t> write_exr_picture(const std::filesystem::path& file, const Frame& frame, const ExtraLayers& extra, const Layers& layers,
-                               const SnapshotMetadata& metadata) {
+                                  const SnapshotMetadata& metadata) {
     SnapshotInput input;
     input.width = frame.width;
     input.height = frame.height;
@@ -90,7 +89,8 @@ std::vector<float> beauty_rgb(const Frame& frame) {
 
 Result<void> write_display_picture(const std::filesystem::path& file, int width, int height, std::vector<float> rgb,
                                    const ColorManagement& color, const ViewSettings& view,
-                                   const std::map<std::string, std::string>& metadata, const DisplayPlanes& with, std::span<const float> opacity) {
+                                   const std::map<std::string, std::string>& metadata, const DisplayPlanes& with,
+                                   std::span<const float> opacity) {
     const std::string extension = lower_extension(file);
     if (extension == ".png")
         for (size_t i = 0; i < opacity.size(); ++i)

@@ -34,15 +34,15 @@ Result<void> expect_folder(const std::filesystem::path& file);
 
 // Optional content of an EXR; empty: not written.
 struct ExtraLayers {
-    std::span<const float> denoised = {};  // width * height * 3
-    std::span<const Vec3> error = {};      // result of Renderer::resolve_error
-    std::span<const LosslessPlane> film = {}; // from planes_in_file(); the rest of the film is metadata.film
-    bool half = false;                     // as in SnapshotInput
+    std::span<const float> denoised = {};         // width * height * 3
+    std::span<const Vec3> error = {};             // result of Renderer::resolve_error
+    std::span<const LosslessPlane> film = {};     // from planes_in_file(); the rest of the film is metadata.film
+    bool half = false;                            // as in SnapshotInput
     std::optional<PixelRect> display_window = {}; // the part that is the picture; empty: all of it
 };
 // Returns the number of values outside the range of 16 bits, if `half`.
 Result<int64_t> write_exr_picture(const std::filesystem::path& file, const Frame& frame, const ExtraLayers& extra, const Layers& layers,
-                               const SnapshotMetadata& metadata);
+                                  const SnapshotMetadata& metadata);
 
 // width * height * 3, scene-linear: red, green and blue without alpha.
 std::vector<float> beauty_rgb(const Frame& frame);

@@ -1,19 +1,19 @@
 #include "app/commands/render/render.h"
 
-#include "app/common/assets_dir.h"
-#include "app/commands/render/resume_image.h"
 #include "app/commands/common.h"
 #include "app/commands/denoising.h"
-#include "app/commands/render/film_json.h"
-#include "app/commands/render/frame_json.h"
 #include "app/commands/interrupt.h"
 #include "app/commands/json_output.h"
 #include "app/commands/load_scene.h"
-#include "app/commands/render/command_feature_report.h"
-#include "app/commands/render/picture.h"
 #include "app/commands/progress.h"
+#include "app/commands/render/command_feature_report.h"
+#include "app/commands/render/film_json.h"
+#include "app/commands/render/frame_json.h"
+#include "app/commands/render/picture.h"
 #include "app/commands/render/render_loop.h"
 #include "app/commands/render/render_options.h"
+#include "app/commands/render/resume_image.h"
+#include "app/common/assets_dir.h"
 #include "core/text.h"
 #include "io/project/scene_edits_json.h"
 #include "io/project/scene_hash.h"
@@ -254,8 +254,8 @@ Result<Rendered> render_picture(const RenderCommand& c, const Plan& plan, const 
     std::ranges::copy_if(rendered.info.warnings, std::back_inserter(rendered.warnings), is_warning);
     {
         Progress progress(c.common.quiet);
-        rendered.loop = run_render_loop(renderer, plan.settings, interrupted,
-                                        [&](const LoopProgress& p) { progress.update(p.fraction, loop_note(p)); }, begin);
+        rendered.loop = run_render_loop(
+            renderer, plan.settings, interrupted, [&](const LoopProgress& p) { progress.update(p.fraction, loop_note(p)); }, begin);
     }
     if (rendered.loop.samples == 0) return Error{.file = c.scene, .what = "interrupted before the first sample"};
     if (sees_nothing(loaded.scene, plan.settings, rendered.loop.frame.rays, c.common.threads)) {
@@ -269,8 +269,8 @@ Result<Rendered> render_picture(const RenderCommand& c, const Plan& plan, const 
         // The Ctrl-C that stopped the samples does not stop the denoiser; a new one does.
         const std::atomic<bool> never{false};
         const Frame& frame = rendered.loop.frame;
-        Result<std::vector<Denoised>> result = denoise_with_progress(denoiser, denoise_inputs(frame), *c.options.denoise, c.common.quiet,
-                                                                     interrupted ? never : interrupted);
+        Result<std::vector<Denoised>> result =
+            denoise_with_progress(denoiser, denoise_inputs(frame), *c.options.denoise, c.common.quiet, interrupted ? never : interrupted);
         if (result)
             rendered.denoised = denoised_picture(frame, *c.options.denoise, *std::move(result))->denoised;
         else
@@ -344,7 +344,8 @@ int run_render(RenderCommand c) {
     if (!loaded) return failed(loaded.error());
     if (const Result<void> fits = fit_size(c, *plan, loaded->camera_aspect); !fits) return bad_usage(fits.error().text());
     if (!c.common.quiet) print_warnings(c.scene, loaded->report.diagnostics);
-    if (plan->layers.groups && loaded->scene.mix.grouping == LightMix::Grouping::none) loaded->scene.mix.grouping = LightMix::Grouping::by_light;
+    if (plan->layers.groups && loaded->scene.mix.grouping == LightMix::Grouping::none)
+        loaded->scene.mix.grouping = LightMix::Grouping::by_light;
 
     if (plan->pixel) {
         fmt::print("{}", trace_sample(loaded->scene, plan->settings, plan->pixel->x, plan->pixel->y, plan->pixel->sample));
@@ -352,7 +353,8 @@ int run_render(RenderCommand c) {
     }
     const Result<Rendered> rendered = render_picture(c, *plan, *loaded, *color ? &**color : nullptr, denoiser, guard.interrupted());
     if (!rendered) return failed(rendered.error());
-    if (const Result<void> written = write_json(c.common.json, result_json(c, plan->settings, *rendered)); !written) return failed(written.error());
+    if (const Result<void> written = write_json(c.common.json, result_json(c, plan->settings, *rendered)); !written)
+        return failed(written.error());
     if (!c.common.quiet && c.common.json != "-") print_summary(c, *rendered);
     return exit_done;
 }

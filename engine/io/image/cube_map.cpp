@@ -38,14 +38,15 @@ Vec3d seen(const CubeFaces& faces, const Vec3d& direction) {
     const double x = place(p.right), y = place(-p.up);
     const int x0 = int(x), y0 = int(y), x1 = std::min(x0 + 1, face.width - 1), y1 = std::min(y0 + 1, face.width - 1);
     const double u = x - x0, v = y - y0;
-    return (texel(face, x0, y0) * (1 - u) + texel(face, x1, y0) * u) * (1 - v) + (texel(face, x0, y1) * (1 - u) + texel(face, x1, y1) * u) * v;
+    return (texel(face, x0, y0) * (1 - u) + texel(face, x1, y0) * u) * (1 - v) +
+           (texel(face, x0, y1) * (1 - u) + texel(face, x1, y1) * u) * v;
 }
 
 bool is_cube(const CubeFaces& faces) {
     return faces[0] && faces[0]->width > 0 && std::ranges::all_of(faces, [&](const ImagePtr& f) {
-        return f && f->width == faces[0]->width && f->height == f->width && f->channels >= 3 &&
-               f->floats.size() == size_t(f->width) * size_t(f->height) * size_t(f->channels);
-    });
+               return f && f->width == faces[0]->width && f->height == f->width && f->channels >= 3 &&
+                      f->floats.size() == size_t(f->width) * size_t(f->height) * size_t(f->channels);
+           });
 }
 
 } // namespace

@@ -77,8 +77,7 @@ FalseColor fitted(const FalseColor& scale, std::span<const float> values, int ch
 Result<void> show(const ColorManagement& color, const ViewSettings& view, std::span<float> rgb, const DisplayPlanes& with) {
     const ViewSettings v = settled(view, metered_exposure(view.auto_exposure, rgb, 3));
     if (v.false_color.of == FalseColor::Of::lux) {
-        if (with.albedo.size() != rgb.size() / 3)
-            return Error{.what = "the image has no albedo, which false colour in lux needs"};
+        if (with.albedo.size() != rgb.size() / 3) return Error{.what = "the image has no albedo, which false colour in lux needs"};
         to_illuminance(rgb, with.albedo);
     }
     const float* coverage = with.coverage.size() == rgb.size() / 3 ? with.coverage.data() : nullptr;

@@ -41,8 +41,10 @@ public:
         text_.remove_prefix(end);
         if (word.starts_with('+')) word.remove_prefix(1);
         double value = 0;
-        if (word.empty()) fail(fmt::format("ends before {}", what));
-        else if (!parse_number(word, value) || !std::isfinite(float(value))) fail(fmt::format("{} is not a number", what));
+        if (word.empty())
+            fail(fmt::format("ends before {}", what));
+        else if (!parse_number(word, value) || !std::isfinite(float(value)))
+            fail(fmt::format("{} is not a number", what));
         return value;
     }
     double factor(const char* what) {
@@ -180,13 +182,16 @@ Result<IesPtr> parse_ies(std::string_view text) {
     const Header header = read_header(r);
     if (r.error()) return *r.error();
     double scale = 1;
-    if (header.tilt == "INCLUDE") scale = read_tilt(r);
-    else if (header.tilt != "NONE") r.fail("tilt must be NONE or INCLUDE: other files are not read");
+    if (header.tilt == "INCLUDE")
+        scale = read_tilt(r);
+    else if (header.tilt != "NONE")
+        r.fail("tilt must be NONE or INCLUDE: other files are not read");
 
     r.number("the number of lamps");
     r.number("the lumens of a lamp"); // -1: absolute photometry
     scale *= r.factor("the candela multiplier");
-    const int verticals = r.count("the number of vertical angles", 1, max_values), horizontals = r.count("the number of horizontal angles", 1, max_values);
+    const int verticals = r.count("the number of vertical angles", 1, max_values),
+              horizontals = r.count("the number of horizontal angles", 1, max_values);
     const int type = r.count("the photometric type", 1, 3);
     r.count("the unit of length", 1, 2);
     for (const char* side : {"the width", "the length", "the height"}) r.number(side);

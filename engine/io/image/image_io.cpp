@@ -3,8 +3,8 @@
 #include "core/box_filter.h"
 #include "core/files.h"
 #include "core/memory_limit.h"
-#include "io/image/image_truncation.h"
 #include "io/image/image_shrinker.h"
+#include "io/image/image_truncation.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/half.h>
@@ -29,8 +29,7 @@ namespace {
 
 constexpr uint64_t max_file_bytes = uint64_t(4) << 30;
 constexpr int max_channels = 256;
-constexpr uint64_t max_layers_bytes = uint64_t(4)
-                                      << 30; // limit of all channels of a layered image: zeros compress to almost nothing
+constexpr uint64_t max_layers_bytes = uint64_t(4) << 30; // limit of all channels of a layered image: zeros compress to almost nothing
 
 // Limit of the compression ratio: deflate reaches about 1000 for constant images. Small images are always decoded.
 constexpr uint64_t max_compression = 4096, always_decoded = uint64_t(64) << 20; // bytes
@@ -107,7 +106,8 @@ Result<void> within_limits(const Decoder& decoder, size_t bytes, const ImageLimi
         return Error{decoder.name, "larger than the limit", fmt::format("{} x {} pixels", spec.width, spec.height)};
     const uint64_t decoded = uint64_t(spec.width) * uint64_t(spec.height) * uint64_t(spec.nchannels) * spec.format.size();
     if (decoded > always_decoded && decoded / max_compression > bytes)
-        return Error{decoder.name, "more pixels than its bytes can hold", fmt::format("{} x {} pixels in {} bytes", spec.width, spec.height, bytes)};
+        return Error{decoder.name, "more pixels than its bytes can hold",
+                     fmt::format("{} x {} pixels in {} bytes", spec.width, spec.height, bytes)};
     return {};
 }
 
@@ -163,15 +163,17 @@ template <class T> Result<void> read_rows(Decoder& decoder, int channels, OIIO::
     std::vector<T> rows(size_t(spec.width) * size_t(std::min(band, spec.height)) * size_t(channels));
     for (int y = 0; y < spec.height; y += band) {
         const int end = std::min(y + band, spec.height);
-        const bool ok = spec.tile_width > 0 ? decoder.input->read_image(0, 0, 0, channels, type, rows.data())
-                                            : decoder.input->read_scanlines(0, 0, spec.y + y, spec.y + end, 0, 0, channels, type, rows.data());
+        const bool ok = spec.tile_width > 0
+                            ? decoder.input->read_image(0, 0, 0, channels, type, rows.data())
+                            : decoder.input->read_scanlines(0, 0, spec.y + y, spec.y + end, 0, 0, channels, type, rows.data());
         if (!ok) return decoder.error();
         shrinker.add(std::span<const T>(rows).first(size_t(spec.width) * size_t(end - y) * size_t(channels)));
     }
     return {};
 }
 
-Result<ImagePtr> decode_smaller(std::span<const uint8_t> bytes, const std::string& name, int halvings, bool is_srgb, const ImageLimits& limits) {
+Result<ImagePtr> decode_smaller(std::span<const uint8_t> bytes, const std::string& name, int halvings, bool is_srgb,
+                                const ImageLimits& limits) {
     Result<Decoder> decoder = open_decoder(bytes, name, limits);
     if (!decoder) return decoder.error();
     const ImageInfo info = info_of(*decoder);
@@ -206,7 +208,8 @@ Result<LayeredImage> decode_part(Decoder& decoder, uint64_t& taken) {
     const size_t pixels = size_t(spec.width) * size_t(spec.height);
     taken += pixels * uint64_t(spec.nchannels) * sizeof(float);
     if (taken > max_layers_bytes)
-        return Error{decoder.name, "larger than the limit", fmt::format("{} x {} pixels, {} channels", spec.width, spec.height, spec.nchannels)};
+        return Error{decoder.name, "larger than the limit",
+                     fmt::format("{} x {} pixels, {} channels", spec.width, spec.height, spec.nchannels)};
     LayeredImage image{spec.width, spec.height, {}, text_metadata(spec)};
     image.part = spec.get_string_attribute("oiio:subimagename");
     image.display_window = display_window_of(spec);
@@ -215,8 +218,7 @@ Result<LayeredImage> decode_part(Decoder& decoder, uint64_t& taken) {
         const bool is_uint = is_uint_channel(spec, begin);
         while (end < spec.nchannels && is_uint_channel(spec, end) == is_uint) ++end;
         // Both types have four bytes: they share a buffer, reinterpreted per value.
-        Result<std::vector<uint32_t>> values =
-            decoder.read<uint32_t>(begin, end, is_uint ? OIIO::TypeDesc::UINT32 : OIIO::TypeDesc::FLOAT);
+        Result<std::vector<uint32_t>> values = decoder.read<uint32_t>(begin, end, is_uint ? OIIO::TypeDesc::UINT32 : OIIO::TypeDesc::FLOAT);
         if (!values) return values.error();
         const size_t stride = size_t(end - begin);
         for (int c = begin; c < end; ++c) {
@@ -281,7 +283,8 @@ Result<void> encode_to_file(const std::filesystem::path& file, const char* forma
 // The comparison is false for NaN, which becomes 0.
 std::vector<uint8_t> display_bytes(std::span<const float> rgb) {
     std::vector<uint8_t> bytes(rgb.size());
-    std::transform(rgb.begin(), rgb.end(), bytes.begin(), [](float v) { return v > 0 ? uint8_t(std::min(v, 1.0f) * 255 + 0.5f) : uint8_t(0); });
+    std::transform(rgb.begin(), rgb.end(), bytes.begin(),
+                   [](float v) { return v > 0 ? uint8_t(std::min(v, 1.0f) * 255 + 0.5f) : uint8_t(0); });
     return bytes;
 }
 
@@ -394,7 +397,8 @@ Result<ImageInfo> read_image_info(std::span<const uint8_t> bytes, const std::str
     });
 }
 
-Result<ImagePtr> read_smaller_image(std::span<const uint8_t> bytes, const std::string& name, int halvings, bool is_srgb, const ImageLimits& limits) {
+Result<ImagePtr> read_smaller_image(std::span<const uint8_t> bytes, const std::string& name, int halvings, bool is_srgb,
+                                    const ImageLimits& limits) {
     return guarded(name, [&] { return decode_smaller(bytes, name, halvings, is_srgb, limits); });
 }
 
@@ -426,7 +430,8 @@ Result<void> expect_jpeg_size(const std::filesystem::path& file, int width, int 
     // Worst-case memory of the encoder and the file: libjpeg ends the process if allocation fails.
     const double needed = 8e6 + 16.0 * width * height;
     if (const MemoryLimit room = memory_limit(); needed > double(room.left))
-        return Error{file.string(), fmt::format("a JPEG of {} x {} pixels needs {:.2g} GB of memory: {}", width, height, needed / 1e9, room.text()), ""};
+        return Error{file.string(),
+                     fmt::format("a JPEG of {} x {} pixels needs {:.2g} GB of memory: {}", width, height, needed / 1e9, room.text()), ""};
     return {};
 }
 
@@ -456,7 +461,8 @@ Result<void> write_display_image(const std::filesystem::path& file, int width, i
     return guarded(file.string(), [&]() -> Result<void> {
         const char* format = display_format(file);
         if (!format) return Error{file.string(), "not a .png or .jpg name", ""};
-        if (!is_rgb_of(rgb, width, height)) return Error{file.string(), "an image without pixels or of the wrong size cannot be written", ""};
+        if (!is_rgb_of(rgb, width, height))
+            return Error{file.string(), "an image without pixels or of the wrong size cannot be written", ""};
         const bool is_jpeg = format == std::string_view("jpeg");
         if (is_jpeg)
             if (const Result<void> fits = expect_jpeg_size(file, width, height); !fits) return fits.error();
@@ -470,7 +476,7 @@ Result<void> write_display_image(const std::filesystem::path& file, int width, i
             spec.attribute("oiio:UnassociatedAlpha", 1);
         }
         spec.attribute("jpeg:subsampling", "4:4:4"); // saturated edges keep their colour
-        if (!is_jpeg) set_metadata(spec, metadata); // JPEG segments hold 64 KB; its encoder ends the process above that
+        if (!is_jpeg) set_metadata(spec, metadata);  // JPEG segments hold 64 KB; its encoder ends the process above that
         return encode_to_file(file, format, spec, OIIO::TypeDesc::UINT8, bytes.data());
     });
 }

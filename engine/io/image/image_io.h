@@ -56,8 +56,8 @@ constexpr int max_jpeg_side = 65500;
 struct LayeredImage {
     struct Channel {
         std::string name;
-        std::vector<float> values; // width * height, top row first
-        bool is_uint = false;      // stored as 32-bit unsigned (ids): values hold exact integers below 2^24
+        std::vector<float> values;        // width * height, top row first
+        bool is_uint = false;             // stored as 32-bit unsigned (ids): values hold exact integers below 2^24
         std::vector<uint32_t> words = {}; // exact values of a uint channel: set when read, written instead of `values`
         bool is_half = false;             // written as 16-bit float; larger values are clamped to its maximum
     };

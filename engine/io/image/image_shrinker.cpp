@@ -16,8 +16,10 @@ ImageShrinker::ImageShrinker(const Source& source, int halvings) : source_(sourc
     across_.resize(row);
     now_.resize(row);
     next_.resize(row);
-    if (source.is_float) image_.floats.reserve(row * size_t(image_.height));
-    else image_.bytes.reserve(row * size_t(image_.height));
+    if (source.is_float)
+        image_.floats.reserve(row * size_t(image_.height));
+    else
+        image_.bytes.reserve(row * size_t(image_.height));
     for (int i = 0; i < 256; ++i) {
         const float encoded = float(i) / 255;
         byte_values_[size_t(i)] = source.is_srgb ? linear_from_srgb(encoded) : encoded;
@@ -34,8 +36,10 @@ template <class T> void ImageShrinker::add_rows(std::span<const T> rows) {
 
 template <class T> void ImageShrinker::add_row(const T* row) {
     const auto value = [&](T v, int channel) {
-        if constexpr (std::is_same_v<T, uint8_t>) return is_color(channel) ? byte_values_[v] : float(v) / 255;
-        else return source_.is_srgb && is_color(channel) ? linear_from_srgb(v) : v;
+        if constexpr (std::is_same_v<T, uint8_t>)
+            return is_color(channel) ? byte_values_[v] : float(v) / 255;
+        else
+            return source_.is_srgb && is_color(channel) ? linear_from_srgb(v) : v;
     };
     const int channels = source_.channels;
     std::ranges::fill(across_, 0.f);
@@ -58,8 +62,10 @@ void ImageShrinker::finish_row() {
     for (size_t i = 0; i < now_.size(); ++i) {
         const bool encode = source_.is_srgb && is_color(int(i % size_t(source_.channels)));
         const float v = encode ? srgb_from_linear(now_[i]) : now_[i];
-        if (source_.is_float) image_.floats.push_back(v);
-        else image_.bytes.push_back(uint8_t(std::clamp(v, 0.f, 1.f) * 255 + 0.5f));
+        if (source_.is_float)
+            image_.floats.push_back(v);
+        else
+            image_.bytes.push_back(uint8_t(std::clamp(v, 0.f, 1.f) * 255 + 0.5f));
     }
     std::swap(now_, next_);
     std::ranges::fill(next_, 0.f);

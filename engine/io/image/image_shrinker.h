@@ -34,10 +34,10 @@ private:
 
     Source source_;
     Image image_;
-    int rows_ = 0;                  // added
+    int rows_ = 0;                         // added
     std::array<float, 256> byte_values_{}; // decoded colour values
-    std::vector<float> across_;     // current source row at the new width
-    std::vector<float> now_, next_; // partial sums of result rows: a source row overlaps at most two
+    std::vector<float> across_;            // current source row at the new width
+    std::vector<float> now_, next_;        // partial sums of result rows: a source row overlaps at most two
 };
 
 } // namespace blush

@@ -36,7 +36,9 @@ std::vector<LosslessPlane> lossless_planes(const LayeredImage& image, const std:
     for (const LayeredImage::Channel& channel : image.channels) {
         const std::string_view name = channel.name;
         if (!channel.is_uint || !name.starts_with(prefix)) continue;
-        const auto without = [&](std::string_view end) { return std::string(name.substr(prefix.size(), name.size() - prefix.size() - end.size())); };
+        const auto without = [&](std::string_view end) {
+            return std::string(name.substr(prefix.size(), name.size() - prefix.size() - end.size()));
+        };
         if (name.ends_with(word)) {
             planes.push_back({without(word), {}, channel.words});
         } else if (name.ends_with(high)) {

@@ -25,12 +25,12 @@ struct SnapshotMetadata {
     int64_t spp = 0;                           // samples per pixel in the image
     int64_t first_sample = 0, last_sample = 0; // sample indices [first, last)
     uint32_t seed = 0;
-    double seconds = 0; // render time
+    double seconds = 0;   // render time
     std::string error;    // estimated relative error as text, empty if unknown
     std::string denoised; // how the layer "denoised" was made: network, precision, samples; empty without one
     RenderSettings settings;
-    std::string edits;    // scene_edits_json.h, empty if nothing differs from the file
-    bool partial = false; // ended before any stop rule was reached
+    std::string edits;                // scene_edits_json.h, empty if nothing differs from the file
+    bool partial = false;             // ended before any stop rule was reached
     std::optional<ViewSettings> view; // display settings, for snapshots of the window
     std::string scene_file;           // path of the scene relative to the folder of the image; empty if unknown
     std::string name, note;           // given by the user
@@ -41,7 +41,7 @@ struct SnapshotMetadata {
 // Planes of width * height, top row first; an empty one is left out.
 struct SnapshotInput {
     int width = 0, height = 0;
-    std::span<const float> rgba; // width * height * 4, scene-linear
+    std::span<const float> rgba;     // width * height * 4, scene-linear
     std::span<const float> denoised; // width * height * 3
     std::span<const Vec3> albedo;
     std::span<const Vec3> normal;   // world space
@@ -54,8 +54,8 @@ struct SnapshotInput {
     // become underscores.
     std::span<const std::vector<Vec3>> groups;
     std::span<const std::string> group_names;
-    std::span<const LosslessPlane> film;           // film state to resume from
-    bool half = false;                          // stores colours, albedo, normals and errors as 16-bit floats
+    std::span<const LosslessPlane> film; // film state to resume from
+    bool half = false;                   // stores colours, albedo, normals and errors as 16-bit floats
     SnapshotMetadata metadata;
 };
 

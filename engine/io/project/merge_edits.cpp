@@ -75,7 +75,8 @@ public:
         read_json(set, theirs);
     }
     // Merges a value that is not a field. The caller passes `changed_in_file`, since reloaded payloads are different objects.
-    template <class T> void value(const T& base, const T& mine, T& theirs, bool changed_in_file, const std::string& what, const char* name) {
+    template <class T>
+    void value(const T& base, const T& mine, T& theirs, bool changed_in_file, const std::string& what, const char* name) {
         if (mine == base) return;
         if (changed_in_file) conflict(fmt::format("{}: {} changed here and in the file; yours is kept", what, name));
         theirs = mine;
@@ -105,7 +106,9 @@ public:
         for (size_t i = 0; i < mine.parts.size(); ++i) {
             const std::string part = mine.parts.size() == 1 ? what : fmt::format("{}, part {}", what, i + 1);
             MeshPart& in_file = theirs.parts[i];
-            const auto merge = [&](const auto& b, const auto& m, auto& t, const char* name) { value(b, m, t, t != b && t != m, part, name); };
+            const auto merge = [&](const auto& b, const auto& m, auto& t, const char* name) {
+                value(b, m, t, t != b && t != m, part, name);
+            };
             merge(base.parts[i].material, mine.parts[i].material, in_file.material, "the material");
             merge(base.parts[i].by_variant, mine.parts[i].by_variant, in_file.by_variant, "the materials of variants");
         }
@@ -122,8 +125,10 @@ private:
 // ---- merge of tables
 
 template <class T> std::string called(const char* kind, const Scene& scene, Id<T> id, const T& record) {
-    if constexpr (std::same_as<T, Node>) return fmt::format("{} \"{}\"", kind, path_of(scene, id));
-    else return fmt::format("{} \"{}\"", kind, record.name);
+    if constexpr (std::same_as<T, Node>)
+        return fmt::format("{} \"{}\"", kind, path_of(scene, id));
+    else
+        return fmt::format("{} \"{}\"", kind, record.name);
 }
 
 // Assigns ids in theirs to records added in mine (the same id if free), so that other records can refer to them.
@@ -134,9 +139,8 @@ template <class T> void reserve_added(const Table<T>& base, const Table<T>& mine
     }
 }
 
-template <class T>
-void merge_table(Merge& merge, const char* kind, const Scene& base_scene, Table<T> Scene::*table, const Scene& mine_scene, const Scene& file,
-                 Scene& merged, const RecordMap& map, const IdMap<T>& ids) {
+template <class T> void merge_table(Merge& merge, const char* kind, const Scene& base_scene, Table<T> Scene::*table,
+                                    const Scene& mine_scene, const Scene& file, Scene& merged, const RecordMap& map, const IdMap<T>& ids) {
     const Table<T>&base = base_scene.*table, &mine = mine_scene.*table;
     for (const Id<T> id : Table<T>::changed(base, mine)) {
         const T *before = base.find(id), *now = mine.find(id);

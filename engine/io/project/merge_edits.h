@@ -10,8 +10,7 @@ namespace blush {
 
 struct MergedEdits {
     Scene scene;                        // valid (scene/validate.h)
-    std::vector<std::string>
-        conflicts; // a message for each value that both sides changed and for each edited record that is gone
+    std::vector<std::string> conflicts; // a message for each value that both sides changed and for each edited record that is gone
 };
 
 // Applies the edits from `base` (the file as opened) to `mine` onto `theirs` (the file now). Records are matched by name: nodes

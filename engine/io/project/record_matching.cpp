@@ -58,8 +58,9 @@ std::string path_of(const Scene& scene, Id<Node> node) {
 
 RecordMap match_records(const Scene& from, const Scene& to) {
     RecordMap map;
-    map.nodes = match(from.nodes, to.nodes, [&](Id<Node> id, const Node&) { return path_of(from, id); },
-                      [&](Id<Node> id, const Node&) { return path_of(to, id); });
+    map.nodes = match(
+        from.nodes, to.nodes, [&](Id<Node> id, const Node&) { return path_of(from, id); },
+        [&](Id<Node> id, const Node&) { return path_of(to, id); });
     map.meshes = match(from.meshes, to.meshes, name_or_user(from, &Node::mesh), name_or_user(to, &Node::mesh));
     map.lights = match(from.lights, to.lights, name_or_user(from, &Node::light), name_or_user(to, &Node::light));
     map.cameras = match(from.cameras, to.cameras, name_or_user(from, &Node::camera), name_or_user(to, &Node::camera));

@@ -1,7 +1,7 @@
 #include "io/project/scene_edits_json.h"
 
-#include "io/image/environment_image.h"
 #include "io/gltf/read/uri.h"
+#include "io/image/environment_image.h"
 #include "io/image/ies.h"
 #include "io/project/scene_json.h"
 #include "scene/texture_slots.h"
@@ -83,8 +83,7 @@ Scene without_payloads(const Scene& imported, Scene now, Json& left_out) {
     for (auto [id, node] : nodes) {
         if (!now.meshes.contains(node.mesh)) node.mesh = {};
         if (node.instances && !node_like(imported.nodes, node)) {
-            left_out.push_back(
-                fmt::format("node \"{}\" has instances of its mesh: their transforms are not kept as text", node.name));
+            left_out.push_back(fmt::format("node \"{}\" has instances of its mesh: their transforms are not kept as text", node.name));
             node.instances = nullptr;
         }
         if (!now.skins.contains(node.skin)) node.skin = {};

@@ -1,8 +1,8 @@
 #include "io/project/scene_hash.h"
 
 #include "io/project/scene_fields.h"
-#include "scene/lights/ies_profile.h"
 #include "scene/geometry/tangents.h"
+#include "scene/lights/ies_profile.h"
 
 #include <bit>
 #include <cstring>

@@ -57,7 +57,8 @@ template <class T> bool read_table(const Json& object, const char* key, Table<T>
     for (const Json& item : *list) {
         Id<T> id;
         T record;
-        if (!item.is_object() || !read_member(item, "id", id) || !read_record(item, record) || !table.insert(id, std::move(record))) return false;
+        if (!item.is_object() || !read_member(item, "id", id) || !read_record(item, record) || !table.insert(id, std::move(record)))
+            return false;
     }
     return true;
 }

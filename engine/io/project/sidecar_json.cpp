@@ -66,9 +66,7 @@ Result<RecoveredEdits> recover_edits(const Sidecar& sidecar, const Scene& file, 
     }
     if (sidecar.imported.empty())
         return Error{
-            "",
-            "has changed since, and the recovery file lacks its former contents: restore the former version to recover the edits",
-            ""};
+            "", "has changed since, and the recovery file lacks its former contents: restore the former version to recover the edits", ""};
     const Result<Scene> base = scene_of_records(sidecar.imported, file);
     if (!base) return base.error();
     const Result<Scene> mine = apply_edits_json(*base, sidecar.edits, folder);

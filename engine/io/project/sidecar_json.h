@@ -21,7 +21,8 @@ struct Sidecar {
     bool operator==(const Sidecar&) const = default;
 };
 
-// {"format": 1, "scene": "/home/.../room.gltf", "document_hash": "...", "edits": {...}, "imported": {...}, "render": {...}, "display": {...}}
+// {"format": 1, "scene": "/home/.../room.gltf", "document_hash": "...", "edits": {...}, "imported": {...}, "render": {...}, "display":
+// {...}}
 std::string sidecar_json(const Sidecar& sidecar);
 // Errors: invalid text, another format, invalid settings. Edits are checked when they are applied.
 Result<Sidecar> parse_sidecar(std::string_view text);

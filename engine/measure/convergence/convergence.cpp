@@ -8,9 +8,9 @@ namespace {
 
 using Kind = ConvergencePoint::Kind;
 
-constexpr double growth = 1.1;        // growth of samples between two points
-constexpr int64_t fitted_growth = 64; // range of samples for the slope
-constexpr double max_extrapolation = 1000;     // limit of extrapolation, relative to the run's length
+constexpr double growth = 1.1;             // growth of samples between two points
+constexpr int64_t fitted_growth = 64;      // range of samples for the slope
+constexpr double max_extrapolation = 1000; // limit of extrapolation, relative to the run's length
 
 } // namespace
 
@@ -44,8 +44,10 @@ void ConvergenceRecord::set(const ConvergencePoint& point) {
 
 void ConvergenceRecord::mark(const ConvergenceMark& mark) {
     const bool goes_on = mark.other_mix && !marks_.empty() && marks_.back().other_mix && marks_.back().label == mark.label;
-    if (goes_on) marks_.back() = mark;
-    else marks_.push_back(mark);
+    if (goes_on)
+        marks_.back() = mark;
+    else
+        marks_.push_back(mark);
 }
 
 std::vector<ConvergencePoint> ConvergenceRecord::points(Kind kind) const {

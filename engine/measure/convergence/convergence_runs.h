@@ -21,8 +21,8 @@ struct ConvergenceRun {
 
 class ConvergenceRuns {
 public:
-    static constexpr size_t max_earlier = 4;  // not counting kept runs
-    static constexpr size_t min_points = 2; // runs with fewer points are dropped
+    static constexpr size_t max_earlier = 4; // not counting kept runs
+    static constexpr size_t min_points = 2;  // runs with fewer points are dropped
 
     // In order of creation; the live run comes after earlier runs, stored runs come last.
     const std::vector<ConvergenceRun>& all() const { return runs_; }
@@ -38,8 +38,8 @@ public:
     void mark(const std::string& label);
     void add_stored(ConvergenceRecord record);
     void rename(int id, const std::string& name); // an empty name is ignored
-    void remove(int id); // the live one cannot be removed
-    void clear();        // removes all except stored runs, for another scene
+    void remove(int id);                          // the live one cannot be removed
+    void clear();                                 // removes all except stored runs, for another scene
 
 private:
     ConvergenceRun& add(ConvergenceRun::Origin origin, ConvergenceRecord record);

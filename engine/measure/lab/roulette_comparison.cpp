@@ -16,7 +16,7 @@ namespace {
 constexpr int bounce_planes = 12;
 constexpr double false_alarm = 1e-3;
 constexpr int64_t min_bias_rounds = 8; // before bias is reported
-constexpr int batches = 8;           // batches of rounds, for the standard error of the gain
+constexpr int batches = 8;             // batches of rounds, for the standard error of the gain
 
 double luminance_at(const Frame& f, size_t pixel) {
     return luminance(Vec3d{double(f.rgba[4 * pixel]), double(f.rgba[4 * pixel + 1]), double(f.rgba[4 * pixel + 2])});

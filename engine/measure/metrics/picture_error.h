@@ -1,8 +1,8 @@
 // Error of an image against another image of known error.
 #pragma once
 
-#include "measure/statistics/bias_test.h"
 #include "measure/convergence/convergence.h"
+#include "measure/statistics/bias_test.h"
 #include "render/denoise/denoiser.h"
 #include "render/frame.h"
 

@@ -9,8 +9,8 @@ namespace blush {
 namespace {
 
 constexpr double max_decades_with_minor = 12, max_decades_with_twos = 2.5; // maximum decades for minor lines, and for labels at 2 and 5
-constexpr double min_decades = 0.5;                                  // decades: any half decade contains a 1, 2 or 5
-constexpr int label_rows = 3;                                      // for marks
+constexpr double min_decades = 0.5;                                        // decades: any half decade contains a 1, 2 or 5
+constexpr int label_rows = 3;                                              // for marks
 
 bool is_shown(const PlotCurve::Point& p) { return p.x > 0 && p.y > 0 && std::isfinite(p.x) && std::isfinite(p.y); }
 

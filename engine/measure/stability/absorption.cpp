@@ -8,7 +8,6 @@
 namespace blush::stability {
 namespace {
 
-
 // A slab without refraction, viewed perpendicularly in an environment of radiance 1: exp(-depth per_metre) (Beer-Lambert).
 Findings slab(float per_metre, float depth) {
     Scene scene;

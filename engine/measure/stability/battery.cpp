@@ -1,8 +1,8 @@
 #include "measure/stability/battery.h"
 
 #include "core/parallel.h"
-#include "measure/statistics/intervals.h"
 #include "measure/stability/groups.h"
+#include "measure/statistics/intervals.h"
 
 #include <atomic>
 #include <chrono>

@@ -13,7 +13,7 @@ namespace blush::stability {
 
 struct StabilityCase {
     std::string name;              // unique within its group
-    int weak_point = 0;              // tested weak point: a number of weak_points()
+    int weak_point = 0;            // tested weak point: a number of weak_points()
     std::function<Findings()> run; // may throw std::exception: the case then fails with its message
     std::string limit = {};        // not empty: known limit and its reason. Measured and listed, but not counted.
 };

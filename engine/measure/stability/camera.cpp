@@ -11,7 +11,6 @@
 namespace blush::stability {
 namespace {
 
-
 // An emissive square that covers a quarter of a square image at any field of view.
 Findings quarter_of_the_view(double degrees, float distance) {
     Scene scene;

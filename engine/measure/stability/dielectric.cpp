@@ -11,7 +11,6 @@
 namespace blush::stability {
 namespace {
 
-
 // Fresnel reflectance for unpolarised light at an interface of index ratio eta.
 double fresnel(double eta, double cos) {
     const double sin2 = (1 - cos * cos) / (eta * eta);

@@ -13,7 +13,6 @@
 namespace blush::stability {
 namespace {
 
-
 Scene room(float nits) {
     Scene scene;
     place(scene, cube(true), emitter(nits, 0.5f));

@@ -11,7 +11,6 @@
 namespace blush::stability {
 namespace {
 
-
 Vec3 skimming(double degrees) {
     const double a = degrees * std::numbers::pi / 180;
     return {float(std::sin(a)), float(std::cos(a)), 0};

@@ -11,7 +11,6 @@
 namespace blush::stability {
 namespace {
 
-
 // The sum of all bounces, not only of the first 100000.
 Findings max_path_length() {
     constexpr float albedo = 1 - 1e-4f;

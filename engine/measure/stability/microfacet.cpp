@@ -10,7 +10,6 @@
 namespace blush::stability {
 namespace {
 
-
 float roughness_of(double alpha) { return float(std::sqrt(alpha)); }
 
 double masking(double alpha, const Vec3d& w) {

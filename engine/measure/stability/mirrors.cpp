@@ -8,7 +8,6 @@
 namespace blush::stability {
 namespace {
 
-
 Findings corridor(float albedo, int bounces) {
     Scene scene;
     Material mirror = metal(0);

@@ -13,9 +13,9 @@ namespace blush {
 // An image with the standard error of each pixel's mean, RGB.
 struct MeasuredImage {
     RgbImage image;
-    std::vector<Vec3> error; // width * height
-    int64_t samples = 0;     // per pixel
-    double variance_factor = 1;      // factor on the variance of a mean over pixels due to covariance of pixels (path reuse)
+    std::vector<Vec3> error;    // width * height
+    int64_t samples = 0;        // per pixel
+    double variance_factor = 1; // factor on the variance of a mean over pixels due to covariance of pixels (path reuse)
 };
 
 // Mean of two images weighted by their sample counts, with its error. Sizes must agree; an empty image is ignored.
@@ -26,7 +26,7 @@ struct RegionBias {
     double mean = 0, reference = 0;          // luminance
     double error = 0;                        // standard error of their difference
     double degrees = 0;                      // degrees of freedom of that error
-    double possible_deficit = 0; // possible deficit of the mean due to rare bright samples that were not found
+    double possible_deficit = 0;             // possible deficit of the mean due to rare bright samples that were not found
     // The difference after subtraction of `unseen`.
     double difference() const;
     // Normal deviate with the same p-value as the difference.

@@ -9,9 +9,9 @@
 namespace blush {
 
 struct BounceEnergy {
-    std::string name;      // "0", "1", ..., for the last plane "7+"
-    Vec3d mean{0, 0, 0};   // over the image, scene-linear RGB
-    double share = 0;      // fraction of the image's luminance, 0 .. 1; 0 for a black image
+    std::string name;    // "0", "1", ..., for the last plane "7+"
+    Vec3d mean{0, 0, 0}; // over the image, scene-linear RGB
+    double share = 0;    // fraction of the image's luminance, 0 .. 1; 0 for a black image
     bool operator==(const BounceEnergy&) const = default;
 };
 

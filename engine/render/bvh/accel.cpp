@@ -91,8 +91,8 @@ struct SceneHandle {
     }
     void add_spheres(RTCDevice device, std::span<const AccelSphere> spheres) {
         RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_SPHERE_POINT);
-        auto* vertices =
-            static_cast<Vec4*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, sizeof(Vec4), spheres.size()));
+        auto* vertices = static_cast<Vec4*>(
+            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, sizeof(Vec4), spheres.size()));
         if (!vertices) throw std::runtime_error("not enough memory for the scene's spheres");
         for (size_t i = 0; i < spheres.size(); ++i)
             vertices[i] = {spheres[i].center.x, spheres[i].center.y, spheres[i].center.z, spheres[i].radius};
@@ -165,15 +165,19 @@ template <int N, class Ray> void load_rays(Ray& ray, const RayArrays& rays, int 
     copy(ray.dir_x, rays.dx);
     copy(ray.dir_y, rays.dy);
     copy(ray.dir_z, rays.dz);
-    if (rays.far_distance) copy(ray.tfar, rays.far_distance);
-    else std::fill_n(ray.tfar, N, infinity);
+    if (rays.far_distance)
+        copy(ray.tfar, rays.far_distance);
+    else
+        std::fill_n(ray.tfar, N, infinity);
     if (rays.random) std::memcpy(ray.id, rays.random + first, N * sizeof(uint32_t));
     // tnear is just above 0, because the watertight test includes 0: a ray must not hit the surface that it starts on, for
     // example when the camera lies in it.
     std::fill_n(ray.tnear, N, std::numeric_limits<float>::min());
     std::fill_n(ray.time, N, 0.f);
-    if (rays.masks) std::memcpy(ray.mask, rays.masks + first, N * sizeof(uint32_t));
-    else std::fill_n(ray.mask, N, rays.mask);
+    if (rays.masks)
+        std::memcpy(ray.mask, rays.masks + first, N * sizeof(uint32_t));
+    else
+        std::fill_n(ray.mask, N, rays.mask);
     std::fill_n(ray.flags, N, 0u);
 }
 
@@ -193,14 +197,14 @@ float max_ray_extent(const Affine& world_from_object) {
 // aborts on them). Such a ray misses everything; its non-finite or huge sample is reported by the film.
 template <int N, class Rays> void valid_lanes(int* valid, const Rays& q, int count, float reach) {
     for (int i = 0; i < N; ++i) {
-        const float size = std::abs(q.org_x[i]) + std::abs(q.org_y[i]) + std::abs(q.org_z[i]) + std::abs(q.dir_x[i]) + std::abs(q.dir_y[i]) +
-                           std::abs(q.dir_z[i]);
+        const float size = std::abs(q.org_x[i]) + std::abs(q.org_y[i]) + std::abs(q.org_z[i]) + std::abs(q.dir_x[i]) +
+                           std::abs(q.dir_y[i]) + std::abs(q.dir_z[i]);
         valid[i] = -(int(i < count) & int(size <= reach) & int(q.tfar[i] >= 0)); // branchless: runs for every ray
     }
 }
 
-template <int N> void intersect_packets(RTCScene scene, RTCIntersectContext& context, const RayArrays& rays, int count, float reach,
-                                                const HitArrays& hits) {
+template <int N>
+void intersect_packets(RTCScene scene, RTCIntersectContext& context, const RayArrays& rays, int count, float reach, const HitArrays& hits) {
     alignas(64) int valid[N];
     alignas(64) typename Packet<N>::RayHit q;
     for (int k = 0; k < count; k += N) {
@@ -219,7 +223,8 @@ template <int N> void intersect_packets(RTCScene scene, RTCIntersectContext& con
     }
 }
 
-template <int N> void occluded_packets(RTCScene scene, RTCIntersectContext& context, const RayArrays& rays, int count, float reach, uint8_t* blocked) {
+template <int N>
+void occluded_packets(RTCScene scene, RTCIntersectContext& context, const RayArrays& rays, int count, float reach, uint8_t* blocked) {
     alignas(64) int valid[N];
     alignas(64) typename Packet<N>::Ray q;
     for (int k = 0; k < count; k += N) {
@@ -264,8 +269,8 @@ struct Accel::State {
     int packet = 4;
     std::map<BottomKey, SceneHandle> bottoms;
     SceneHandle top;
-    uint32_t first_instance = 0; // Embree id of the first instance in the top level
-    uint32_t first_sphere = 0;   // Embree id of the first sphere geometry, after the instances
+    uint32_t first_instance = 0;         // Embree id of the first instance in the top level
+    uint32_t first_sphere = 0;           // Embree id of the first sphere geometry, after the instances
     std::vector<int32_t> sphere_indices; // index of the first sphere of each sphere geometry
     bool alpha = false;
     float reach = embree_range; // largest sum of coordinates of a ray that is traced
@@ -277,8 +282,10 @@ struct Accel::State {
             throw std::runtime_error(fmt::format("Embree needs {} MB of memory to build BVHs: {}", min_memory_to_build >> 20, room.text()));
         }
         rtcSetDeviceMemoryMonitorFunction(device, count_memory, &memory);
-        if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED)) packet = 16;
-        else if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED)) packet = 8;
+        if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED))
+            packet = 16;
+        else if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED))
+            packet = 8;
     }
     ~State() {
         top = {};

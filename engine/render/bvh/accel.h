@@ -26,14 +26,14 @@ constexpr uint32_t seen_by_all = ~0u;
 // Triangles as input of the BVH builder. Arrays that have an owner are shared, and kept alive while they are traced; others are
 // copied. Shared positions must be readable for 16 bytes each, including the last one.
 struct AccelTriangles {
-    uint64_t serial = 0;        // of the Geometry payload: key of the bottom-level BVH
+    uint64_t serial = 0; // of the Geometry payload: key of the bottom-level BVH
     std::shared_ptr<const void> owner = nullptr;
     const Vec3* positions = nullptr;
     size_t vertex_count = 0;
     const uint32_t* indices = nullptr; // 3 per triangle
     size_t triangle_count = 0;
-    int32_t part = 0;           // the part whose material and attributes give the opacity
-    bool alpha = false;         // hits are tested against the material's opacity
+    int32_t part = 0;            // the part whose material and attributes give the opacity
+    bool alpha = false;          // hits are tested against the material's opacity
     uint32_t mask = seen_by_all; // used for flat geometry only
 };
 struct AccelInstances {
@@ -47,10 +47,10 @@ struct AccelSphere {
     uint32_t mask = seen_by_all;
 };
 struct AccelScene {
-    std::vector<AccelTriangles> flat; // world space; Embree's geometry id is the index
+    std::vector<AccelTriangles> flat;      // world space; Embree's geometry id is the index
     std::vector<AccelInstances> instances; // numbered consecutively
-    std::vector<AccelSphere> spheres; // world space
-    uint64_t memory_left = 0; // bytes, for tests; 0: read from the system
+    std::vector<AccelSphere> spheres;      // world space
+    uint64_t memory_left = 0;              // bytes, for tests; 0: read from the system
 };
 
 // Instance index of a hit on a sphere; the sphere's index is stored as the triangle index.
@@ -59,16 +59,16 @@ constexpr int32_t sphere_instance = -2;
 // Rays and hits as arrays of `count`; arrays are readable up to the next multiple of 16.
 struct RayArrays {
     const float *ox, *oy, *oz, *dx, *dy, *dz;
-    const float* far_distance;   // null: infinite
-    const uint32_t* random;      // per-ray random number for stochastic opacity; read only if has_alpha()
+    const float* far_distance; // null: infinite
+    const uint32_t* random;    // per-ray random number for stochastic opacity; read only if has_alpha()
     uint32_t mask = other_ray_mask;
     const uint32_t* masks = nullptr; // per ray; replaces `mask` if set
 };
 struct HitArrays {
-    float *t, *u, *v;            // t in units of the direction's length; u, v: weights of vertices 1 and 2
-    int32_t *geometry;           // -1: miss
-    int32_t *instance;           // index among the instances, -1: hit in the flat part, or sphere_instance
-    int32_t *triangle;
+    float *t, *u, *v;  // t in units of the direction's length; u, v: weights of vertices 1 and 2
+    int32_t* geometry; // -1: miss
+    int32_t* instance; // index among the instances, -1: hit in the flat part, or sphere_instance
+    int32_t* triangle;
 };
 
 class Accel {

@@ -16,7 +16,8 @@ inline float opacity_at_hit(const SceneTables& scene, int32_t part_index, int32_
     float alpha = part.flags & part_colors ? 0.f : 1.f;
     if (part.flags & part_colors)
         for (size_t k = 0; k < 3; ++k) alpha += scene.colors[4 * vertices[k] + 3] * weights[k];
-    return opacity_at<all_features, float>(scene.materials, part.material, texture_point<float>(scene, part.flags, vertices, weights, true), alpha, true);
+    return opacity_at<all_features, float>(scene.materials, part.material, texture_point<float>(scene, part.flags, vertices, weights, true),
+                                           alpha, true);
 }
 
 } // namespace blush::inline BLUSH_ISA

@@ -44,7 +44,8 @@ Columns orthogonalised(const Affined& m) {
                 if (!(std::abs(d) > 1e-12 * std::sqrt(a * b))) continue;
                 turned = true;
                 const double zeta = (b - a) / (2 * d);
-                const double t = (zeta < 0 ? -1 : 1) / (std::abs(zeta) + std::hypot(1, zeta)), cosine = 1 / std::hypot(1, t), sine = t * cosine;
+                const double t = (zeta < 0 ? -1 : 1) / (std::abs(zeta) + std::hypot(1, zeta)), cosine = 1 / std::hypot(1, t),
+                             sine = t * cosine;
                 for (Vec3d* columns : {c.w, c.v}) {
                     const Vec3d first = columns[p];
                     columns[p] = first * cosine - columns[q] * sine;
@@ -96,9 +97,12 @@ SortedPlaces sort_places(const SceneObject& object) {
         const Affined m = object.world_from_copy(copy);
         const PlaceSplit split = split_place(m);
         const Affined& s = split.stretch;
-        if (!split.has_area) ++sorted.without_area;
-        else if (split.invertible) sorted.invertible.push_back(m);
-        else sorted.stretched[{s.x.x, s.x.y, s.x.z, s.y.x, s.y.y, s.y.z, s.z.x, s.z.y, s.z.z}].push_back(split.place);
+        if (!split.has_area)
+            ++sorted.without_area;
+        else if (split.invertible)
+            sorted.invertible.push_back(m);
+        else
+            sorted.stretched[{s.x.x, s.x.y, s.x.z, s.y.x, s.y.y, s.y.z, s.z.x, s.z.y, s.z.z}].push_back(split.place);
     }
     return sorted;
 }
@@ -145,7 +149,8 @@ PlaceSplit split_place(const Affined& m) {
         split.invertible = false;
         const bool is_zero = !(scale[i] > zero_share * largest);
         // The two others are not zero: the third axis is perpendicular to both.
-        const Vec3d direction = is_zero ? normalize(cross(c.w[(i + 1) % 3] * (1 / largest), c.w[(i + 2) % 3] * (1 / largest))) : c.w[i] / scale[i];
+        const Vec3d direction =
+            is_zero ? normalize(cross(c.w[(i + 1) % 3] * (1 / largest), c.w[(i + 2) % 3] * (1 / largest))) : c.w[i] / scale[i];
         add_outer(split.place, some_stay ? direction * base - c.w[i] : direction * base, c.v[i]);
         add_outer(split.stretch, c.v[i] * ((is_zero ? 0 : scale[i] / base) - (some_stay ? 1 : 0)), c.v[i]);
     }

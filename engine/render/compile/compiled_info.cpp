@@ -10,7 +10,8 @@ namespace {
 std::string counted(int64_t n, const char* one, const char* many) { return fmt::format("{} {}", n, n == 1 ? one : many); }
 
 Diagnostic degenerate_triangles(int64_t n) {
-    return {Diagnostic::Severity::warning, counted(n, "triangle has no area and cannot be seen", "triangles have no area and cannot be seen"), ""};
+    return {Diagnostic::Severity::warning,
+            counted(n, "triangle has no area and cannot be seen", "triangles have no area and cannot be seen"), ""};
 }
 
 } // namespace
@@ -29,11 +30,12 @@ CompiledInfo RenderScene::info() const {
                                              max_caster_sets, counted(casters_.left_out(), "light", "lights")),
                                  ""});
     if (lights_.unsampled_triangles > 0)
-        info.warnings.push_back({Diagnostic::Severity::warning,
-                                 fmt::format("{} of {} emissive triangles exceed the light-sampling limit of {}: their light is found by BSDF "
-                                             "sampling only and will be noisy",
-                                             lights_.unsampled_triangles, lights_.emissive_triangles, max_mesh_lights),
-                                 ""});
+        info.warnings.push_back(
+            {Diagnostic::Severity::warning,
+             fmt::format("{} of {} emissive triangles exceed the light-sampling limit of {}: their light is found by BSDF "
+                         "sampling only and will be noisy",
+                         lights_.unsampled_triangles, lights_.emissive_triangles, max_mesh_lights),
+             ""});
     if (lights_.fewer_disk_corners > 0)
         info.warnings.push_back({Diagnostic::Severity::warning,
                                  fmt::format("many disk lights: each is a polygon of {} corners instead of {}, which is visible at their "
@@ -49,10 +51,12 @@ CompiledInfo RenderScene::info() const {
         info.meshes = int64_t(geometry_.parts().size());
         info.instances = geometry_.instance_count();
         for (size_t part = 0; part < geometry_.parts().size(); ++part) info.triangles += geometry_.triangle_count(part);
-        if (const int64_t degenerate = geometry_.degenerate_count(); degenerate > 0) info.warnings.push_back(degenerate_triangles(degenerate));
+        if (const int64_t degenerate = geometry_.degenerate_count(); degenerate > 0)
+            info.warnings.push_back(degenerate_triangles(degenerate));
     }
-    const size_t bytes = geometry_.memory_bytes() + accel_.memory_bytes() + materials_.textures.memory_bytes() + environment_.texels.capacity() * 4 +
-                         environment_.column_thresholds.capacity() * 4 + environment_.column_guides.capacity() * sizeof(environment_.column_guides[0]) +
+    const size_t bytes = geometry_.memory_bytes() + accel_.memory_bytes() + materials_.textures.memory_bytes() +
+                         environment_.texels.capacity() * 4 + environment_.column_thresholds.capacity() * 4 +
+                         environment_.column_guides.capacity() * sizeof(environment_.column_guides[0]) +
                          lights_.records.capacity() * sizeof(LightRecord) + lights_.profiles.memory_bytes() + lights_.tree.memory_bytes();
     info.memory_mb = double(bytes) / 1e6;
     return info;

@@ -2,8 +2,8 @@
 
 #include "core/math.h"
 #include "render/lights/light_table.h"
-#include "scene/lights/color_temperature.h"
 #include "scene/animation/pose.h"
+#include "scene/lights/color_temperature.h"
 #include "scene/lights/light_visibility.h"
 
 #include <algorithm>

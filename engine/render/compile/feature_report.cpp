@@ -67,27 +67,29 @@ void add_vertices(FeatureReport& feature_report, const GeometryPool& geometry, c
     const size_t uv_sets = needs.uv_sets.size() - size_t(std::ranges::count(needs.uv_sets, -1));
     const Attribute attributes[] = {
         {"normals", geometry.has_normals(), "a mesh is smooth", "every mesh is flat", sizeof(Vec3)},
-        {"texture coordinates", uv_sets > 0, uv_sets > 1 ? "textures use several UV sets" : "a texture uses them",
-         "no texture uses them", std::max<size_t>(1, uv_sets) * sizeof(Vec2)},
+        {"texture coordinates", uv_sets > 0, uv_sets > 1 ? "textures use several UV sets" : "a texture uses them", "no texture uses them",
+         std::max<size_t>(1, uv_sets) * sizeof(Vec2)},
         {"tangents", needs.tangents, "a material has a normal map", "no material has a normal map", sizeof(Vec4)},
         {"vertex colours", needs.colors, "a mesh has them", "no mesh has them", sizeof(Vec4)},
     };
     for (const Attribute& a : attributes)
         feature_report.push_back({"geometry", a.name, a.used, a.used ? a.why_used : a.why_not, int64_t(a.bytes) * geometry.vertex_count()});
     if (const size_t n = geometry.shapes_in_place(); n > 0)
-        feature_report.push_back({"geometry", "copies of large shapes", false,
-                          n == 1 ? "it is read in place from the document" : fmt::format("{} are read in place from the document", n),
-                          int64_t(geometry.in_place_bytes())});
+        feature_report.push_back(
+            {"geometry", "copies of large shapes", false,
+             n == 1 ? "it is read in place from the document" : fmt::format("{} are read in place from the document", n),
+             int64_t(geometry.in_place_bytes())});
 }
 
 // Only meshes with a bottom-level BVH of their own are candidates.
 void add_trees(FeatureReport& feature_report, size_t instanced_meshes_triangles, size_t compact_triangles) {
     if (instanced_meshes_triangles == 0) return;
     constexpr int64_t bytes_per_triangle = 27;
-    if (compact_triangles == 0) return feature_report.push_back({"geometry", "corners in the tree", true, "memory suffices for them, and tracing is faster"});
+    if (compact_triangles == 0)
+        return feature_report.push_back({"geometry", "corners in the tree", true, "memory suffices for them, and tracing is faster"});
     feature_report.push_back({"geometry", "corners in the tree", false,
-                      fmt::format("memory is short for {} triangles: tracing takes 1.24 times as long", compact_triangles),
-                      bytes_per_triangle * int64_t(compact_triangles)});
+                              fmt::format("memory is short for {} triangles: tracing takes 1.24 times as long", compact_triangles),
+                              bytes_per_triangle * int64_t(compact_triangles)});
 }
 
 void add_textures(FeatureReport& feature_report, const TextureTable& table, const Scene& scene) {
@@ -106,8 +108,8 @@ void add_textures(FeatureReport& feature_report, const TextureTable& table, cons
     if (used) texels.seconds = table.seconds;
     feature_report.push_back(texels);
     if (!unread.empty())
-        feature_report.push_back({"textures", "unread images", false, fmt::format("{} of the scene are read by no material in use", unread.size()),
-                          unread_bytes});
+        feature_report.push_back({"textures", "unread images", false,
+                                  fmt::format("{} of the scene are read by no material in use", unread.size()), unread_bytes});
 }
 
 // The reason why the environment has no map.
@@ -124,30 +126,37 @@ void add_light_table(FeatureReport& feature_report, const LightTable& lights, Ne
     const int64_t all = triangles + lights.point_lights + lights.sphere_lights + lights.sun_lights + (lights.environment >= 0);
     const bool used = lights.count > 0;
     feature_report.push_back({"lights", "light table", used,
-                      used      ? "the scene has lights"
-                      : all > 0 ? bsdf_sampling_only
-                                : "nothing emits light",
-                      light_table_bytes(used && lights.tree.nodes.empty() ? lights.count : all)});
+                              used      ? "the scene has lights"
+                              : all > 0 ? bsdf_sampling_only
+                                        : "nothing emits light",
+                              light_table_bytes(used && lights.tree.nodes.empty() ? lights.count : all)});
     if (!lights.tree.nodes.empty())
         feature_report.push_back({"lights", "light tree", true, "the scene has many lights", int64_t(lights.tree.memory_bytes())});
     if (lights.unsampled_triangles > 0)
         feature_report.push_back({"lights", "mesh lights beyond the limit", false,
-                          fmt::format("no more than {} triangles are sampled", max_mesh_lights), light_table_bytes(lights.unsampled_triangles)});
+                                  fmt::format("no more than {} triangles are sampled", max_mesh_lights),
+                                  light_table_bytes(lights.unsampled_triangles)});
     if (aim == NeeLights::zero_size_lights && used && all > lights.count)
         feature_report.push_back({"lights", "lights with a size", false, bsdf_sampling_only, light_table_bytes(all - lights.count)});
 }
 
-void add_lights(FeatureReport& feature_report, const LightTable& lights, const EnvironmentTable& environment, const Environment& e, NeeLights aim) {
+void add_lights(FeatureReport& feature_report, const LightTable& lights, const EnvironmentTable& environment, const Environment& e,
+                NeeLights aim) {
     add_light_table(feature_report, lights, aim);
 
     const bool is_sky = e.kind == Environment::Kind::sky;
-    const bool used = (is_sky || e.kind == Environment::Kind::image) && gives_light(e) && int64_t(environment.width) * environment.height > 1;
-    FeatureUse map{"lights", "environment map", used, !used ? why_no_map(e) : is_sky ? "the environment is a sky" : "the environment is an image", 0};
+    const bool used =
+        (is_sky || e.kind == Environment::Kind::image) && gives_light(e) && int64_t(environment.width) * environment.height > 1;
+    FeatureUse map{"lights", "environment map", used,
+                   !used    ? why_no_map(e)
+                   : is_sky ? "the environment is a sky"
+                            : "the environment is an image",
+                   0};
     const bool is_sampled = used && aim == NeeLights::all_lights;
     FeatureUse importance{"lights", "importance map", is_sampled,
                           is_sampled ? "the environment is sampled as a light"
-                          : used   ? bsdf_sampling_only
-                                   : why_no_map(e),
+                          : used     ? bsdf_sampling_only
+                                     : why_no_map(e),
                           0};
     if (is_sky || (e.kind == Environment::Kind::image && e.image)) {
         const EnvironmentBytes bytes =
@@ -164,8 +173,10 @@ void add_lights(FeatureReport& feature_report, const LightTable& lights, const E
 
 std::string cost_text(const FeatureUse& use) {
     std::string text;
-    if (use.bytes && *use.bytes >= 1 << 20) text = fmt::format("{:.2f} MiB", double(*use.bytes) / (1 << 20));
-    else if (use.bytes && *use.bytes > 0) text = fmt::format("{:.2f} KiB", double(*use.bytes) / (1 << 10));
+    if (use.bytes && *use.bytes >= 1 << 20)
+        text = fmt::format("{:.2f} MiB", double(*use.bytes) / (1 << 20));
+    else if (use.bytes && *use.bytes > 0)
+        text = fmt::format("{:.2f} KiB", double(*use.bytes) / (1 << 10));
     if (use.seconds) text += fmt::format("{}{:.1f} ms", text.empty() ? "" : ", ", *use.seconds * 1e3);
     if (use.used) return text;
     if (text.empty()) return use.bytes ? "saves nothing" : "not measured";
@@ -177,7 +188,8 @@ FeatureReport RenderScene::feature_report(const Scene& expanded, const FilmSize&
     add_kernel(feature_report, features_);
     const size_t balls = focus_.balls().size();
     feature_report.push_back({"kernel", "caustic guiding", balls > 0,
-                      balls > 0 ? fmt::format("mirrors or glass in {} place{}", balls, balls == 1 ? "" : "s") : "no mirror or glass has light to focus"});
+                              balls > 0 ? fmt::format("mirrors or glass in {} place{}", balls, balls == 1 ? "" : "s")
+                                        : "no mirror or glass has light to focus"});
     add_film(feature_report, film);
     add_vertices(feature_report, geometry_, needs_);
     add_trees(feature_report, geometry_.largest_instanced_mesh(), accel_.compact_triangles());

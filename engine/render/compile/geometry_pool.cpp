@@ -139,7 +139,8 @@ void GeometryPool::reserve(const std::vector<SceneObject>& objects) {
     vertex_numbers_ = reserve_arena_range(ArenaKind::vertices, vertices);
     index_numbers_ = reserve_arena_range(ArenaKind::indices, indices);
     const bool numbered = vertex_numbers_ && index_numbers_;
-    if (vertices > size_t(arena_capacity(ArenaKind::vertices)) || indices > size_t(arena_capacity(ArenaKind::indices)) || (in_place && !numbered))
+    if (vertices > size_t(arena_capacity(ArenaKind::vertices)) || indices > size_t(arena_capacity(ArenaKind::indices)) ||
+        (in_place && !numbered))
         throw std::runtime_error("the scene has more vertices than 32-bit indices reach");
     if (!numbered) vertex_numbers_ = index_numbers_ = {};
     first_vertex_ = numbered ? int32_t(vertex_numbers_->first()) : 0;
@@ -326,8 +327,14 @@ AccelScene GeometryPool::accel_scene(const std::vector<SceneObject>& objects, co
             const PartRecord& record = parts_[part];
             const int32_t opaque_as =
                 object.instanced ? first_alike.try_emplace({p.geometry->serial, p.material}, int32_t(part)).first->second : int32_t(part);
-            AccelTriangles t{p.geometry->serial, nullptr, all_positions_ + record.first_vertex, size_t(part_vertices_[part]),
-                             all_indices_ + record.first_index, size_t(part_triangles_[part]), opaque_as, alpha[part],
+            AccelTriangles t{p.geometry->serial,
+                             nullptr,
+                             all_positions_ + record.first_vertex,
+                             size_t(part_vertices_[part]),
+                             all_indices_ + record.first_index,
+                             size_t(part_triangles_[part]),
+                             opaque_as,
+                             alpha[part],
                              object.instanced ? seen_by_all : masks[i]};
             if (object.instanced && is_padded(*p.geometry)) share(p.geometry, t);
             triangles.push_back(std::move(t));

@@ -64,8 +64,8 @@ std::vector<SceneObject> list_objects(const Scene& scene, std::vector<Diagnostic
     size_t flat = 0;
     for (SceneObject& object : objects) {
         const size_t n = object.triangle_count();
-        object.instanced =
-            object.instances || uses[scene.nodes.find(object.node)->mesh] > 1 || n > max_flat_mesh_triangles || flat + n > max_flat_scene_triangles;
+        object.instanced = object.instances || uses[scene.nodes.find(object.node)->mesh] > 1 || n > max_flat_mesh_triangles ||
+                           flat + n > max_flat_scene_triangles;
         if (!object.instanced) flat += n;
     }
     std::stable_partition(objects.begin(), objects.end(), [](const SceneObject& o) { return !o.instanced; });

@@ -16,7 +16,7 @@ struct SceneObject {
     Affined world_from_object;
     bool instanced = false;
     InstancesPtr instances = nullptr; // null: one copy
-    std::vector<Affined> places = {};  // world transforms that replace both (baked_transforms.h); empty: unused
+    std::vector<Affined> places = {}; // world transforms that replace both (baked_transforms.h); empty: unused
 
     // Equal except for the transforms.
     bool same_shape(const SceneObject& other) const;

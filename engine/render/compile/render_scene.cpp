@@ -2,9 +2,9 @@
 
 #include "core/math.h"
 #include "render/compile/expand_area_lights.h"
-#include "render/materials/material_factors.h"
-#include "render/lights/missing_light.h"
 #include "render/film/shadow_catcher.h"
+#include "render/lights/missing_light.h"
+#include "render/materials/material_factors.h"
 #include "scene/affine.h"
 
 #include <algorithm>
@@ -144,8 +144,8 @@ void RenderScene::update_geometry(const Scene& scene, const UpdatePlan& plan, co
 AccelScene RenderScene::accel_scene(const Scene& expanded) const {
     AccelScene scene = has_geometry_ ? geometry_.accel_scene(objects_, alpha_, masks_) : AccelScene{};
     for (const SphereLight& s : spheres_)
-        scene.spheres.push_back({to_float(s.center - extent_.origin), float(s.radius),
-                                 ray_mask(s.visible_to_camera) | casters_.mask_of(expanded, s.node)});
+        scene.spheres.push_back(
+            {to_float(s.center - extent_.origin), float(s.radius), ray_mask(s.visible_to_camera) | casters_.mask_of(expanded, s.node)});
     return scene;
 }
 
@@ -154,9 +154,12 @@ void RenderScene::update_groups(const LightGroups& groups) {
         group_of_part_.push_back(groups.of_surface(Id<Node>{uint32_t(geometry_.parts()[part].object)}, geometry_.part_materials()[part]));
     for (size_t i = 0; i < lights_.records.size(); ++i) {
         const LightRecord& light = lights_.records[i];
-        if (!lights_.nodes[i]) group_of_light_.push_back(groups.of_environment());
-        else if (light.kind == int32_t(LightKind::triangle)) group_of_light_.push_back(group_of_part_[size_t(light.part)]);
-        else group_of_light_.push_back(groups.of_light(lights_.nodes[i]));
+        if (!lights_.nodes[i])
+            group_of_light_.push_back(groups.of_environment());
+        else if (light.kind == int32_t(LightKind::triangle))
+            group_of_light_.push_back(group_of_part_[size_t(light.part)]);
+        else
+            group_of_light_.push_back(groups.of_light(lights_.nodes[i]));
     }
 }
 
@@ -183,7 +186,8 @@ void RenderScene::update_lights(const Scene& scene, const RenderSettings& settin
     const bool needs_map = gives_light(scene.environment);
     if (plan.environment_map || aim_ != aim_before || (plan.environment_parameters && needs_map != has_environment_map_))
         environment_ = build_environment_table(needs_map ? scene.environment : Environment{}, aim_ == NeeLights::all_lights);
-    if (plan.environment_map || aim_ != aim_before || plan.environment_parameters) update_environment_parameters(environment_, scene.environment);
+    if (plan.environment_map || aim_ != aim_before || plan.environment_parameters)
+        update_environment_parameters(environment_, scene.environment);
     has_environment_map_ = needs_map;
     tables_.environment = environment_.tables();
     if (!plan.lights) return;

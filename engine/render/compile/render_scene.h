@@ -4,19 +4,19 @@
 #include "core/parallel.h"
 #include "render/bvh/accel.h"
 #include "render/compile/baked_transforms.h"
-#include "render/lights/environment_table.h"
-#include "render/compile/scene_origin.h"
-#include "render/film/film.h"
-#include "render/lights/caustic_caster_table.h"
 #include "render/compile/geometry_pool.h"
+#include "render/compile/object_list.h"
+#include "render/compile/scene_origin.h"
+#include "render/compile/update_plan.h"
+#include "render/film/film.h"
 #include "render/kernels/kernel.h"
 #include "render/light_mix/light_groups.h"
+#include "render/lights/caustic_caster_table.h"
+#include "render/lights/environment_table.h"
 #include "render/lights/light_links.h"
 #include "render/lights/light_table.h"
 #include "render/materials/material_table.h"
-#include "render/compile/object_list.h"
 #include "render/renderer.h"
-#include "render/compile/update_plan.h"
 
 #include <vector>
 
@@ -72,7 +72,7 @@ private:
     GeometryPool geometry_;
     std::vector<bool> alpha_; // by part
     CasterSets casters_;
-    std::vector<uint32_t> masks_; // by object
+    std::vector<uint32_t> masks_;   // by object
     std::vector<uint8_t> catchers_; // by part; empty: none
     LightLinks links_;
     LightTable lights_;

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/vec.h"
-#include "shading/environment.h"
 #include "shading/caustic_guiding.h"
+#include "shading/environment.h"
 #include "shading/light.h"
 #include "shading/material.h"
 
@@ -24,11 +24,11 @@ struct PartRecord {
     int32_t first_light;  // light record of this part's first triangle, -1: does not emit
 };
 enum PartFlag : int32_t {
-    part_smooth = 1,      // vertex normals that differ from the face's
+    part_smooth = 1, // vertex normals that differ from the face's
     part_tangents = 2,
     part_colors = 4,
-    part_mirrored = 8,    // in world space by a transform that turned the winding around
-    part_uv = 1 << 16,    // has the first of the scene's UV sets; the next bits are for the others
+    part_mirrored = 8, // in world space by a transform that turned the winding around
+    part_uv = 1 << 16, // has the first of the scene's UV sets; the next bits are for the others
 };
 
 // world_from_object and the columns of the normal matrix: cofactors times the determinant's sign, which gives the outward normal
@@ -53,28 +53,28 @@ struct GroupTables {
 
 // Light and shadow linking, for lights that have it (light_links.h).
 struct LinkTables {
-    const int32_t* lit_sets = nullptr;       // by light record: index of a part set, -1: all; null: no light is linked
-    const uint32_t* lit_parts = nullptr;     // sets of `words` times 32 bits, one bit per part
-    const uint32_t* shadow_masks = nullptr;  // by light record: mask of shadow rays towards the light
+    const int32_t* lit_sets = nullptr;      // by light record: index of a part set, -1: all; null: no light is linked
+    const uint32_t* lit_parts = nullptr;    // sets of `words` times 32 bits, one bit per part
+    const uint32_t* shadow_masks = nullptr; // by light record: mask of shadow rays towards the light
     int32_t words = 0;
 };
 
 // Everything a kernel reads about the scene. Pointers stay valid until the next update of the RenderScene.
 struct SceneTables {
-    const PartRecord* parts = nullptr;          // world-space parts first: part = Embree's geometry id
+    const PartRecord* parts = nullptr; // world-space parts first: part = Embree's geometry id
     const InstanceRecord* instances = nullptr;
     const int32_t* instance_first_part = nullptr; // by Embree's instance id; part = this + geometry id
     const uint32_t* indices = nullptr;
-    const float* positions = nullptr; // 3 per vertex
-    const float* normals = nullptr;   // 3 per vertex
-    const float* tangents = nullptr;  // 4 per vertex
+    const float* positions = nullptr;           // 3 per vertex
+    const float* normals = nullptr;             // 3 per vertex
+    const float* tangents = nullptr;            // 4 per vertex
     std::array<const float*, max_uv_sets> uv{}; // 2 per vertex, for each UV set used by textures
-    const float* colors = nullptr;    // 4 per vertex
+    const float* colors = nullptr;              // 4 per vertex
     MaterialTables materials;
     LightTables lights;
     EnvironmentTables environment;
-    CausticCasterTables focus;  // empty: no caustic guiding
-    GroupTables groups; // null: no light mix
+    CausticCasterTables focus; // empty: no caustic guiding
+    GroupTables groups;        // null: no light mix
     LinkTables links;
     bool panes = false; // some part is a wall that may transmit straight through (thin_transmission.h)
     CameraRecord camera{};

@@ -8,16 +8,16 @@
 namespace blush {
 
 struct UpdatePlan {
-    bool objects = false;            // rebuild the object list; their geometry may have changed
-    bool transforms = false;         // some objects moved
-    bool all_materials = false;      // the set of materials or textures in use may have changed
+    bool objects = false;                // rebuild the object list; their geometry may have changed
+    bool transforms = false;             // some objects moved
+    bool all_materials = false;          // the set of materials or textures in use may have changed
     std::vector<Id<Material>> materials; // rewrite these records
-    bool lights = false;             // light records and probabilities
-    bool environment_map = false;    // texels and importance map
+    bool lights = false;                 // light records and probabilities
+    bool environment_map = false;        // texels and importance map
     bool environment_parameters = false;
     bool camera = false;
     bool clear_film = false;
-    bool features = false;           // another kernel may be selected
+    bool features = false; // another kernel may be selected
 
     bool operator==(const UpdatePlan&) const = default;
 };

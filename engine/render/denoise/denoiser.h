@@ -59,11 +59,11 @@ struct Denoised {
     std::vector<float> rgb; // width * height * 3, scene-linear, finite, >= 0, top row first; a copy, never the input
 
     float exposure_scale = 1;
-    int64_t sanitised = 0; // pixels whose colour was NaN, infinite, negative or too large for the network
+    int64_t sanitised = 0;  // pixels whose colour was NaN, infinite, negative or too large for the network
     double mean_before = 0; // mean luminance of the input (finite pixels) and of `rgb`: the denoiser's change of mean energy
     double mean_after = 0;
-    std::string network;    // "rt_hdr_alb_nrm_small"
-    std::string precision;  // "float32" or "bfloat16"
+    std::string network;   // "rt_hdr_alb_nrm_small"
+    std::string precision; // "float32" or "bfloat16"
     int tiles = 1;
     double seconds = 0;
 };

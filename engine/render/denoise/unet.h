@@ -23,7 +23,7 @@ struct Unet {
     UnetPlan plan;
     std::vector<Layer> layers = {};
     std::vector<double> done_after = {}; // fraction of all multiplications done after each layer; the last is 1
-    size_t scratch_bytes = 0; // of the convolutions, per worker
+    size_t scratch_bytes = 0;            // of the convolutions, per worker
 
     // Size of the working memory of run_unet().
     size_t bytes(const Workers& workers) const { return plan.bytes(workers.threads()) + workers.threads() * scratch_bytes; }

@@ -1,11 +1,11 @@
 // Text log of one sample, vertex by vertex, using the kernels' own stages with one lane.
 #include "core/parallel.h"
-#include "render/integrator/estimator_settings.h"
-#include "render/diagnostics/fault_finder.h"
 #include "render/compile/expand_area_lights.h"
 #include "render/compile/render_scene.h"
-#include "render/renderer.h"
+#include "render/diagnostics/fault_finder.h"
+#include "render/integrator/estimator_settings.h"
 #include "render/integrator/kernel_settings.h"
+#include "render/renderer.h"
 #include "scene/affine.h"
 
 #include <fmt/format.h>
@@ -61,8 +61,8 @@ struct Logger {
         }
         const Surface<float> s = surface_at<all_features, float>(compiled.tables(), hit, true);
         const int32_t object = compiled.tables().parts[s.part].object;
-        line("  hits       {}, {}, triangle {}, at {:.6g} m", object_name(scene, object), material_name(scene, compiled.material_id(s.material)),
-             hit.triangle, hit.t);
+        line("  hits       {}, {}, triangle {}, at {:.6g} m", object_name(scene, object),
+             material_name(scene, compiled.material_id(s.material)), hit.triangle, hit.t);
         line("  position   {}  off the surface by at most {:.3g} m", point(s.position, compiled.origin()), max_component(s.error));
         line("  normal     {} geometric, {} shading", rgb(s.ng), rgb(s.ns));
     }
@@ -74,8 +74,7 @@ struct Logger {
             line("  light      contributes {}, {} over {:.6g} m  pdf {:.6g}, BSDF pdf {:.6g}  MIS weight {:.6g}", rgb(step.direct),
                  has_light<float>(reached) ? "unoccluded" : "occluded", step.shadow_distance, w.light_pdf, w.light_bsdf_pdf, w.light);
         const bool roulette = bounce + 1 >= settings.roulette.start && settings.roulette.rule != Roulette::Rule::off;
-        if (roulette && w.survival < 1)
-            line("  roulette   {} goes on with probability {:.6g}", to_string(settings.roulette), w.survival);
+        if (roulette && w.survival < 1) line("  roulette   {} goes on with probability {:.6g}", to_string(settings.roulette), w.survival);
         if (step.non_finite) {
             line("  non-finite throughput {}  pdf {:.6g}", rgb(step.next.beta), step.next.pdf);
             return;

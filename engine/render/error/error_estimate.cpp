@@ -9,9 +9,9 @@ namespace {
 double square_of(double x) { return x * x; }
 
 constexpr int64_t min_pixels = 64;
-constexpr double min_degrees_of_freedom = 20;   // degrees of freedom, for normal errors
-constexpr double max_interval_ratio = 10;           // ratio high / low of relmse's interval
-constexpr double max_brightest_share = 0.3; // of the squared error, for one sample of the brightest pixel
+constexpr double min_degrees_of_freedom = 20; // degrees of freedom, for normal errors
+constexpr double max_interval_ratio = 10;     // ratio high / low of relmse's interval
+constexpr double max_brightest_share = 0.3;   // of the squared error, for one sample of the brightest pixel
 // Bias correction and its standard deviation, as fractions of the logarithm of (relmse with the darkest neighbourhood / relmse
 // with the default one).
 constexpr double darkest_bias = 0.15, darkest_bias_sigma = 0.25;
@@ -23,7 +23,6 @@ constexpr double share_of_inequality = 0.6;
 // 1 % of tabulated quantiles for n >= 2.
 double log_interval(double v) { return 1.96 * std::sqrt(v) * (1 + 0.16 * v); }
 
-
 // Variance of log(true error / estimate), for small relative variances.
 double log_variance(const ErrorSums& all, const ErrorSums::Weighted& sums) {
     const double neighbours = all.pairs > 0 ? sums.neighbour_products * double(all.pixels) / double(all.pairs) : 0;
@@ -32,7 +31,9 @@ double log_variance(const ErrorSums& all, const ErrorSums::Weighted& sums) {
 }
 
 // True if enough pixels carry the error for a meaningful interval.
-bool has_enough_degrees_of_freedom(const ErrorSums::Weighted& s) { return normal_product(1.0) * s.fourths <= 4 / min_degrees_of_freedom * square_of(s.squares); }
+bool has_enough_degrees_of_freedom(const ErrorSums::Weighted& s) {
+    return normal_product(1.0) * s.fourths <= 4 / min_degrees_of_freedom * square_of(s.squares);
+}
 
 } // namespace
 
@@ -53,7 +54,8 @@ ErrorEstimate estimate_error(const ErrorSums& sums, double sharing) {
     e.rmse_high = e.rmse * std::exp(absolute_width / 2);
 
     const double choice = std::log(sums.relative_high / relative.squares);
-    const double relative_width = log_interval(sharing * log_variance(sums, relative) + inequality + square_of(darkest_bias_sigma * choice));
+    const double relative_width =
+        log_interval(sharing * log_variance(sums, relative) + inequality + square_of(darkest_bias_sigma * choice));
     e.known = brightest_seen && has_enough_degrees_of_freedom(relative) && 2 * relative_width <= std::log(max_interval_ratio);
     e.relmse = relative.squares / values * std::exp(darkest_bias * choice);
     e.low = e.relmse * std::exp(-relative_width);

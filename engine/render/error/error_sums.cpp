@@ -207,7 +207,7 @@ private:
     std::array<HalfBufferRow, kept> rows_;
     Differences above_, now_;
     NeighborhoodFilter::NeighborhoodMeans around_; // of one channel
-    PixelRow root_;               // of the product of the halves' weights
+    PixelRow root_;                                // of the product of the halves' weights
     PixelSums pixels_;
     int loaded_ = 0;
     ErrorSums sums_;

@@ -4,7 +4,8 @@
 
 namespace blush {
 
-NeighborhoodFilter::NeighborhoodFilter(int width, int height) : width_(width), height_(height), inverse_(width), inverse_at_border_(width), nothing_(width) {
+NeighborhoodFilter::NeighborhoodFilter(int width, int height)
+    : width_(width), height_(height), inverse_(width), inverse_at_border_(width), nothing_(width) {
     const PixelRow row(width);
     for (auto* rows : {&across_, &blocks_}) rows->fill({row, row, row});
     const auto clipped_count = [](int at, int size) { return std::min(at + 1, size - 1) - std::max(at - 1, 0) + 1; };
@@ -42,7 +43,8 @@ void NeighborhoodFilter::sum_block_row(int y) {
         const float* const below = y + 1 < height_ ? across_[size_t((y + 1) % kept)][c].pixels() : nothing_.pixels();
         PixelRow& block = blocks_[size_t(y % kept)][c];
         float* const to = block.pixels();
-        for (int x = 0; x < width_; x += PixelRow::step) store_four(to + x, load_four(row + x) + load_four(above + x) + load_four(below + x));
+        for (int x = 0; x < width_; x += PixelRow::step)
+            store_four(to + x, load_four(row + x) + load_four(above + x) + load_four(below + x));
         mirror(block);
     }
 }

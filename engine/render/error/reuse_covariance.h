@@ -11,7 +11,7 @@ struct ErrorEstimate;
 
 // Ratios relative to independent pixels; from 1 to the group size.
 struct ReuseCovariance {
-    double means = 1;    // of the variance of a mean over pixels
+    double means = 1; // of the variance of a mean over pixels
     // of the variance of the sum of products of the halves' errors, which gives the error estimate's interval
     double products = 1;
 };

@@ -1,8 +1,8 @@
 // Crops a frame to a rectangle.
 #pragma once
 
-#include "render/session/denoised_picture.h"
 #include "render/frame.h"
+#include "render/session/denoised_picture.h"
 #include "scene/picture_region.h"
 
 #include <vector>

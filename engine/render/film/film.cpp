@@ -33,15 +33,12 @@ std::vector<PlaneUse> Film::plane_uses(const FilmSize& size) {
     return {
         {"beauty", true, "two halves, for the error estimate", 2 * sizeof(Half)},
         {"albedo and normal", features,
-         features ? "used by the denoiser, the pixel probe or a layer; recorded only during rendering"
-                  : "not used: no layer, no denoiser",
+         features ? "used by the denoiser, the pixel probe or a layer; recorded only during rendering" : "not used: no layer, no denoiser",
          sizeof(FeatureSums)},
         {"depth", planes.depth,
-         planes.depth ? "used by focus picking, light placing, the pixel probe or a layer"
-                      : "not used: no layer, no focus picking",
+         planes.depth ? "used by focus picking, light placing, the pixel probe or a layer" : "not used: no layer, no focus picking",
          sizeof(float)},
-        {"ids", planes.ids,
-         planes.ids ? "used by picking, the outline, the pixel probe or a layer" : "not used: no layer, no picking",
+        {"ids", planes.ids, planes.ids ? "used by picking, the outline, the pixel probe or a layer" : "not used: no layer, no picking",
          sizeof(uint32_t) + sizeof(int32_t)},
         {"coverage", size.transparent, size.transparent ? "the environment is hidden from the camera" : "the picture is opaque",
          places * sizeof(int64_t)},
@@ -49,7 +46,8 @@ std::vector<PlaneUse> Film::plane_uses(const FilmSize& size) {
          places * BouncePlanes::bytes_per_pixel(bounces)},
         {"light groups", size.groups > 0, size.groups > 0 ? "the light mix is on" : "the light mix is off",
          GroupPlanes::bytes_per_pixel(std::max(1, size.groups))},
-        {"caught shadows", size.catches, size.catches ? "there is a shadow catcher" : "there is no shadow catcher", places * sizeof(CaughtSums)},
+        {"caught shadows", size.catches, size.catches ? "there is a shadow catcher" : "there is no shadow catcher",
+         places * sizeof(CaughtSums)},
         {"path statistics", planes.roulette, planes.roulette ? "used by a roulette view" : "not used: no roulette view",
          places * sizeof(Vec3d)},
     };
@@ -333,9 +331,8 @@ void Film::resolve_rows(Frame& frame, int first, int last, Totals& totals) const
 size_t Film::count_bands() const { return size_t((height_ + band_rows - 1) / band_rows); }
 
 void Film::for_each_band(const Workers& workers, const std::function<void(size_t band, int first, int last)>& task) const {
-    workers.for_each(int64_t(count_bands()), {}, [&](int64_t i, unsigned) {
-        task(size_t(i), int(i) * band_rows, std::min(height_, int(i + 1) * band_rows));
-    });
+    workers.for_each(int64_t(count_bands()), {},
+                     [&](int64_t i, unsigned) { task(size_t(i), int(i) * band_rows, std::min(height_, int(i + 1) * band_rows)); });
 }
 
 PixelHalfBuffers Film::halves(size_t pixel) const {
@@ -360,7 +357,15 @@ void Film::load_halves(int y, float scale, HalfBufferRow& row) const {
             const Weights w = weights(a, b);
             const double s = double(scale), na = double(a.count), nb = double(b.count);
             const bool known = a.count > 0 && b.count > 0;
-            n = {a.count, b.count, known, w.a * s, w.b * s, s / na, s / nb, known ? float(na * w.a) : 0.5f, known ? float(1 / (na + nb)) : 0.f};
+            n = {a.count,
+                 b.count,
+                 known,
+                 w.a * s,
+                 w.b * s,
+                 s / na,
+                 s / nb,
+                 known ? float(na * w.a) : 0.5f,
+                 known ? float(1 / (na + nb)) : 0.f};
         }
         const Vec3d sum_a = sum(i, 0), sum_b = sum(i, 1);
         const auto set = [&](size_t c, double of_a, double of_b) {

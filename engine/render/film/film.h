@@ -2,15 +2,15 @@
 #pragma once
 
 #include "core/parallel.h"
+#include "render/diagnostics/health_recorder.h"
+#include "render/error/error_estimate.h"
 #include "render/film/bounce_planes.h"
 #include "render/film/clamp_stats.h"
-#include "render/error/error_estimate.h"
-#include "render/frame.h"
 #include "render/film/group_planes.h"
-#include "render/diagnostics/health_recorder.h"
+#include "render/film/shadow_catcher.h"
+#include "render/frame.h"
 #include "render/kernels/kernel.h"
 #include "render/renderer.h"
-#include "render/film/shadow_catcher.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -26,7 +26,7 @@ struct FilmSize {
     PlaneSet planes = {};
     bool transparent = false; // alpha is coverage
     bool adaptive = false;
-    int groups = 0; // light groups, one plane each
+    int groups = 0;       // light groups, one plane each
     bool catches = false; // records shadows (shadow_catcher.h)
 };
 
@@ -78,7 +78,8 @@ public:
     // Adds a tile sample by sample in order, so that sums do not depend on how samples are split into tiles. Samples that are not
     // finite or negative are dropped, counted and recorded with their diagnosis. Concurrent tiles must not share pixels.
     // Thread-safe. `caught`: for a film with a shadow catcher.
-    void add(const TileJob& job, const TileScratch& tile, uint32_t seed, const Diagnose& diagnose = {}, const CatcherColumns* caught = nullptr);
+    void add(const TileJob& job, const TileScratch& tile, uint32_t seed, const Diagnose& diagnose = {},
+             const CatcherColumns* caught = nullptr);
 
     // Sum of the samples of half `half` of a pixel, with the groups' gains applied.
     Vec3d sum(size_t pixel, int half) const {
@@ -180,11 +181,11 @@ private:
     std::vector<float> depth_;     // of the first sample, like the ids: their means are meaningless
     std::vector<uint32_t> object_id_;
     std::vector<int32_t> material_; // index into the material table
-    std::vector<Vec3d> paths_; // per pixel: path length, number of roulette decisions, sum of survival probabilities
+    std::vector<Vec3d> paths_;      // per pixel: path length, number of roulette decisions, sum of survival probabilities
     BouncePlanes bounces_;
     GroupPlanes groups_;
-    std::vector<Vec3> gains_; // of the light groups
-    bool mixed_ = false;      // some gain is not 1
+    std::vector<Vec3> gains_;        // of the light groups
+    bool mixed_ = false;             // some gain is not 1
     std::vector<CaughtSums> caught_; // only with a shadow catcher
     ClampStats clamp_;
     HealthRecorder health_;

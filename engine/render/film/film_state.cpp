@@ -1,8 +1,8 @@
 #include "render/film/film_state.h"
 
+#include "render/compile/expand_area_lights.h"
 #include "render/film/film_planes.h"
 #include "render/light_mix/light_groups.h"
-#include "render/compile/expand_area_lights.h"
 
 #include <algorithm>
 #include <exception>
@@ -26,8 +26,8 @@ const LosslessPlane* find_plane(const std::vector<LosslessPlane>& planes, std::s
 std::optional<Error> find_mismatch(const Film& film, const FilmState& state) {
     if (state.width != film.width() || state.height != film.height())
         return Error{"",
-                     fmt::format("saved samples of {} x {} pixels do not fit an image of {} x {}", state.width, state.height,
-                                 film.width(), film.height()),
+                     fmt::format("saved samples of {} x {} pixels do not fit an image of {} x {}", state.width, state.height, film.width(),
+                                 film.height()),
                      ""};
     const size_t pixels = size_t(state.width) * size_t(state.height);
     std::optional<Error> error;

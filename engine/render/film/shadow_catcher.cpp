@@ -16,13 +16,15 @@ void trace_camera_rays(const KernelContext& context, TileScratch& tile) {
     const bool alpha = context.accel->has_alpha();
     if (alpha)
         for (int k = 0; k < q.size; ++k) tile.random[k] = opacity_random<float>(q.key[k], q.index[k], 0);
-    const RayArrays rays{q.ox, q.oy, q.oz, q.dx, q.dy, q.dz, nullptr, alpha ? tile.random.data : nullptr, camera_ray_mask | catcher_ray_mask};
+    const RayArrays rays{
+        q.ox, q.oy, q.oz, q.dx, q.dy, q.dz, nullptr, alpha ? tile.random.data : nullptr, camera_ray_mask | catcher_ray_mask};
     HitColumns& h = tile.hits;
     context.accel->intersect(rays, q.size, true, {h.t, h.u, h.v, h.geometry, h.instance, h.triangle});
 }
 
 // Queues a shadow ray if a light may reach the surface. Returns its unoccluded luminance.
-float queue_catcher_shadow_ray(const KernelContext& context, const Surface<float>& surface, const Vec3& direction, const Path<float>& path, TileScratch& tile) {
+float queue_catcher_shadow_ray(const KernelContext& context, const Surface<float>& surface, const Vec3& direction, const Path<float>& path,
+                               TileScratch& tile) {
     const bool front = dot(surface.ng, direction) < 0;
     const Vec3 ng = front ? surface.ng : -surface.ng;
     const Vec3 ns = dot(surface.ns, ng) > 0 ? surface.ns : -surface.ns;
@@ -73,7 +75,8 @@ void catch_shadows(KernelContext context, std::span<const uint8_t> is_catcher, c
         const Path<float> path = load_path<features, float>(tile.paths[0], k);
         out.caught[path.slot] = 1;
         if (context.scene->lights.count == 0) continue;
-        out.unoccluded[path.slot] = queue_catcher_shadow_ray(context, surface_at<features, float>(*context.scene, hit, true), path.ray.direction, path, tile);
+        out.unoccluded[path.slot] =
+            queue_catcher_shadow_ray(context, surface_at<features, float>(*context.scene, hit, true), path.ray.direction, path, tile);
     }
     if (tile.shadows.size == 0) return;
     drop_shadows_of_catchers(context, scratch);

@@ -25,8 +25,8 @@ constexpr uint32_t catcher_ray_mask = uint32_t(1) << 31;
 
 // Catcher results of a tile's samples, by slot.
 struct CatcherColumns {
-    Column<uint8_t> caught;               // 1: the first surface, including catchers, is a catcher
-    Column<float> unoccluded, arriving;   // luminance of the direct light, without and with other objects
+    Column<uint8_t> caught;             // 1: the first surface, including catchers, is a catcher
+    Column<float> unoccluded, arriving; // luminance of the direct light, without and with other objects
 };
 
 // The same, summed over samples in a film.

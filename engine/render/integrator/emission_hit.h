@@ -26,9 +26,9 @@ F if_linked(const SceneTables& scene, const F& weight, const Int<F>& light, cons
 
 // Calls visit(light, radiance times MIS weight, MIS weight, lanes) for each light at infinity in the direction of the path's ray;
 // light is a record of the light table, -1 for an environment that is only a backdrop.
-template <Features S, class F, class Visit>
-void for_each_background_light(const SceneTables& scene, const EstimatorSettings& settings, const Path<F>& path, int bounce, const Mask<F>& active,
-                         const Visit& visit) {
+template <Features S, class F, class Visit> void for_each_background_light(const SceneTables& scene, const EstimatorSettings& settings,
+                                                                           const Path<F>& path, int bounce, const Mask<F>& active,
+                                                                           const Visit& visit) {
     const LightTables& lights = scene.lights;
     // NEE pdf for the MIS weight. Under Strategy::bsdf there is no NEE, and its tables do not exist.
     const bool aims = settings.strategy != Strategy::bsdf;
@@ -40,7 +40,8 @@ void for_each_background_light(const SceneTables& scene, const EstimatorSettings
             if (aims) {
                 F pdf = F(0.f);
                 if (lights.environment >= 0)
-                    pdf = environment_pdf<F>(scene.environment, path.ray.direction) * light_probability<S, F>(lights, from, Int<F>(lights.environment), active);
+                    pdf = environment_pdf<F>(scene.environment, path.ray.direction) *
+                          light_probability<S, F>(lights, from, Int<F>(lights.environment), active);
                 weight = emission_mis_weight(settings.strategy, path.pdf, pdf);
             }
             visit(lights.environment, radiance * weight, weight, active);
@@ -68,14 +69,14 @@ template <class F> struct BackgroundLight {
     Vec<F> radiance;
     F weight;
 };
-template <Features S, class F>
-BackgroundLight<F> background_light(const SceneTables& scene, const EstimatorSettings& settings, const Path<F>& path, int bounce, const Mask<F>& active) {
+template <Features S, class F> BackgroundLight<F> background_light(const SceneTables& scene, const EstimatorSettings& settings,
+                                                                   const Path<F>& path, int bounce, const Mask<F>& active) {
     BackgroundLight<F> all{splat<F>(0.f), F(1.f)};
     for_each_background_light<S, F>(scene, settings, path, bounce, active,
-                              [&](int32_t light, const Vec<F>& radiance, const F& weight, const Mask<F>& lanes) {
-                                  all.radiance = select<F>(lanes, all.radiance + radiance, all.radiance);
-                                  if (light == scene.lights.environment) all.weight = weight;
-                              });
+                                    [&](int32_t light, const Vec<F>& radiance, const F& weight, const Mask<F>& lanes) {
+                                        all.radiance = select<F>(lanes, all.radiance + radiance, all.radiance);
+                                        if (light == scene.lights.environment) all.weight = weight;
+                                    });
     return all;
 }
 
@@ -94,14 +95,14 @@ template <class F> F emission_profile(const SceneTables& scene, const Int<F>& li
 }
 
 // MIS weight of a triangle's emission, hit at distance t with cosine `facing`.
-template <Features S, class F>
-F surface_emission_mis_weight(const SceneTables& scene, Strategy strategy, const Path<F>& path, const Int<F>& found, const F& t, const F& facing,
-                          const Mask<F>& active) {
+template <Features S, class F> F surface_emission_mis_weight(const SceneTables& scene, Strategy strategy, const Path<F>& path,
+                                                             const Int<F>& found, const F& t, const F& facing, const Mask<F>& active) {
     if (strategy == Strategy::bsdf) return F(1.f);
     const Mask<F> sampled = active && as_mask(found >= 0);
     const Int<F> light = select(sampled, found, Int<F>(0));
     const Receiver<F> from{path.ray.origin, path.normal};
-    const F per_area = light_probability<S, F>(scene.lights, from, light, sampled) * gather_field(scene.lights.lights, &LightRecord::inverse_area, light);
+    const F per_area =
+        light_probability<S, F>(scene.lights, from, light, sampled) * gather_field(scene.lights.lights, &LightRecord::inverse_area, light);
     const F pdf = select(sampled, area_to_solid_angle(per_area, F(t * t), facing), F(0.f));
     return emission_mis_weight(strategy, path.pdf, pdf);
 }
@@ -112,13 +113,14 @@ template <class F> struct EmissionHit {
     Vec<F> radiance;
     F weight;
 };
-template <Features S, class F>
-EmissionHit<F> emission_hit(const SceneTables& scene, Strategy strategy, const Path<F>& path, const Int<F>& part, const Hit<F>& hit, const F& facing,
-                            const Vec<F>& emission, const Mask<F>& emitting) {
+template <Features S, class F> EmissionHit<F> emission_hit(const SceneTables& scene, Strategy strategy, const Path<F>& path,
+                                                           const Int<F>& part, const Hit<F>& hit, const F& facing, const Vec<F>& emission,
+                                                           const Mask<F>& emitting) {
     const Int<F> light = light_of_triangle<F>(scene, part, select(emitting, hit.triangle, Int<F>(0)));
     const F unlinked = surface_emission_mis_weight<S, F>(scene, strategy, path, light, hit.t, facing, emitting);
     EmissionHit<F> found{emission, if_linked<S, F>(scene, unlinked, light, path, emitting)};
-    if constexpr (S.has(Feature::light_profiles)) found.radiance = found.radiance * emission_profile<F>(scene, light, -path.ray.direction, emitting);
+    if constexpr (S.has(Feature::light_profiles))
+        found.radiance = found.radiance * emission_profile<F>(scene, light, -path.ray.direction, emitting);
     return found;
 }
 
@@ -128,8 +130,8 @@ template <class F> struct SphereEmissionHit {
     F weight;
     Int<F> object;
 };
-template <Features S, class F>
-SphereEmissionHit<F> sphere_emission_hit(const SceneTables& scene, Strategy strategy, const Path<F>& path, const Int<F>& sphere, const Mask<F>& active) {
+template <Features S, class F> SphereEmissionHit<F> sphere_emission_hit(const SceneTables& scene, Strategy strategy, const Path<F>& path,
+                                                                        const Int<F>& sphere, const Mask<F>& active) {
     const LightRecord* lights = scene.lights.lights;
     const Int<F> light = select(active, Int<F>(sphere + scene.lights.first_sphere), Int<F>(0));
     const Vec<F> to_center = gather_field3<F>(lights, &LightRecord::position, light) - path.ray.origin;

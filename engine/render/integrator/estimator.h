@@ -4,8 +4,8 @@
 
 #include "render/integrator/camera.h"
 #include "render/integrator/dispersion.h"
-#include "render/integrator/estimator_settings.h"
 #include "render/integrator/emission_hit.h"
+#include "render/integrator/estimator_settings.h"
 #include "render/integrator/light_sampling.h"
 #include "render/integrator/links.h"
 #include "render/integrator/path.h"
@@ -48,8 +48,8 @@ template <class F> F survival_probability(const Roulette& r, const Vec<F>& beta)
     return min(F(min(r.cap, 1.f)), max(F(r.floor), q)); // this order propagates NaN
 }
 
-template <Features S, class F>
-Path<F> begin_path(const SceneTables& scene, const EstimatorSettings& settings, const F& x, const F& y, const UInt<F>& key, const UInt<F>& index, const Int<F>& slot) {
+template <Features S, class F> Path<F> begin_path(const SceneTables& scene, const EstimatorSettings& settings, const F& x, const F& y,
+                                                  const UInt<F>& key, const UInt<F>& index, const Int<F>& slot) {
     const Sampler<F> sampler{key, index};
     const Pair<F> in_pixel = sampler.pair(0);
     const F px = x + 0.5f + filter_offset(*settings.filter, in_pixel.x());
@@ -76,8 +76,8 @@ Path<F> begin_path(const SceneTables& scene, const EstimatorSettings& settings, 
 }
 
 // Shades one vertex of the path: `hit` is the hit of path.ray. Lanes outside `active` are ignored.
-template <Features S, class F>
-Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, const Path<F>& path, const Hit<F>& hit, int bounce, const Mask<F>& active) {
+template <Features S, class F> Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, const Path<F>& path,
+                                               const Hit<F>& hit, int bounce, const Mask<F>& active) {
     Step<F> out;
     out.emitted = splat<F>(0.f);
     out.light = Int<F>(0);
@@ -144,8 +144,10 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
         const Mask<F> emitting = found && max_component(material.emission) > F(0.f) && (front || material.double_sided);
         if (any(emitting)) {
             Vec<F> emission = material.emission;
-            if constexpr (S.has(Feature::clearcoat)) emission = emission * through_clearcoat(material.bsdf.layers.clearcoat, F(abs(outside)));
-            const EmissionHit<F> light = emission_hit<S, F>(scene, settings.strategy, path, surface.part, hit, abs(outside), emission, emitting);
+            if constexpr (S.has(Feature::clearcoat))
+                emission = emission * through_clearcoat(material.bsdf.layers.clearcoat, F(abs(outside)));
+            const EmissionHit<F> light =
+                emission_hit<S, F>(scene, settings.strategy, path, surface.part, hit, abs(outside), emission, emitting);
             out.emitted = select<F>(emitting, beta * light.radiance * light.weight, out.emitted);
             out.weights.emission = select(emitting, light.weight, out.weights.emission);
             out.emits = out.emits || emitting;
@@ -211,7 +213,8 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
     // Next-event estimation, unless all lobes are delta lobes.
     const Mask<F> wants_light = scatters && !is_delta_only<F>(bsdf);
     Receiver<F> receiver{surface.position, ns};
-    if constexpr (S.has(Feature::transmission)) receiver.normal = select<F>(material.bsdf.transmission > F(0.f), splat<F>(0.f), receiver.normal);
+    if constexpr (S.has(Feature::transmission))
+        receiver.normal = select<F>(material.bsdf.transmission > F(0.f), splat<F>(0.f), receiver.normal);
     if constexpr (S.has(Feature::diffuse_transmission))
         receiver.normal = select<F>(material.bsdf.layers.diffuse_transmission > F(0.f), splat<F>(0.f), receiver.normal);
     if (scene.lights.count > 0 && any(wants_light)) {
@@ -308,8 +311,7 @@ Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, con
     out.next.slot = path.slot;
     if constexpr (S.has(Feature::links)) out.next.part = surface.part;
     if constexpr (S.has(Feature::dispersion)) out.next.dispersed = select(dispersed, Int<F>(1), Int<F>(0));
-    if constexpr (S.has(Feature::textures))
-        out.next.cone = scattered_cone<F>(cone, b.delta, ns.x == ng.x && ns.y == ng.y && ns.z == ng.z);
+    if constexpr (S.has(Feature::textures)) out.next.cone = scattered_cone<F>(cone, b.delta, ns.x == ng.x && ns.y == ng.y && ns.z == ng.z);
     return out;
 }
 

@@ -27,7 +27,7 @@ struct EstimatorSettings {
     const EnergyTable* energy = nullptr; // null: no multiple-scattering compensation
     ReuseGroups reuse;                   // group of one pixel: off
     bool filter_textures = true;
-    float width = 1, height = 1;         // of the film, pixels
+    float width = 1, height = 1; // of the film, pixels
 };
 
 } // namespace blush

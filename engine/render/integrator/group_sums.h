@@ -7,9 +7,8 @@
 namespace blush::inline BLUSH_ISA {
 
 // Adds step.emitted of paths k, k + 1, ... of a queue: surfaces by their part, spheres and lights at infinity one by one.
-template <Features S, class F>
-void add_found_by_group(const KernelContext& context, GroupColumns& groups, const HitColumns& hits, int k, const Path<F>& path,
-                        const Step<F>& step, int bounce) {
+template <Features S, class F> void add_found_by_group(const KernelContext& context, GroupColumns& groups, const HitColumns& hits, int k,
+                                                       const Path<F>& path, const Step<F>& step, int bounce) {
     const SceneTables& scene = *context.scene;
     const Mask<F> found = step.emits && as_mask(load<Int<F>>(hits.geometry + k) >= 0), escaped = step.emits && !found;
     const auto add = [&](int group, int i, const Vec<F>& light) {
@@ -17,17 +16,18 @@ void add_found_by_group(const KernelContext& context, GroupColumns& groups, cons
     };
     for_each_lane(bits(found), [&](int i) {
         const int32_t instance = hits.instance[k + i];
-        if (instance == sphere_instance) return add(scene.groups.of_light[scene.lights.first_sphere + hits.triangle[k + i]], i, step.emitted);
+        if (instance == sphere_instance)
+            return add(scene.groups.of_light[scene.lights.first_sphere + hits.triangle[k + i]], i, step.emitted);
         const int32_t part = hits.geometry[k + i] + (instance >= 0 ? scene.instance_first_part[instance] : 0);
         add(scene.groups.of_part[part], i, step.emitted);
     });
     if (!any(escaped)) return;
     for_each_background_light<S, F>(scene, context.settings, path, bounce, escaped,
-                              [&](int32_t light, const Vec<F>& radiance, const F&, const Mask<F>& lanes) {
-                                  const Vec<F> arriving = path.beta * radiance;
-                                  const int group = light < 0 ? scene.groups.environment : scene.groups.of_light[light];
-                                  for_each_lane(bits(Mask<F>(lanes && escaped)), [&](int i) { add(group, i, arriving); });
-                              });
+                                    [&](int32_t light, const Vec<F>& radiance, const F&, const Mask<F>& lanes) {
+                                        const Vec<F> arriving = path.beta * radiance;
+                                        const int group = light < 0 ? scene.groups.environment : scene.groups.of_light[light];
+                                        for_each_lane(bits(Mask<F>(lanes && escaped)), [&](int i) { add(group, i, arriving); });
+                                    });
 }
 
 } // namespace blush::inline BLUSH_ISA

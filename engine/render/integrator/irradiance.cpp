@@ -30,8 +30,8 @@ Path<float> leave(const MeterPoint& receiver, const Sampler<float>& sampler, int
 Step<float> sample_light_at_meter(const KernelContext& context, const MeterPoint& receiver, const Sampler<float>& sampler, int32_t part) {
     const SceneTables& scene = *context.scene;
     Step<float> step{};
-    const LightPoint<float> light =
-        sample_light_point<features, float>(scene, sampler.pair(first_scatter_dimension + light_dimension), {receiver.position, receiver.normal}, true);
+    const LightPoint<float> light = sample_light_point<features, float>(scene, sampler.pair(first_scatter_dimension + light_dimension),
+                                                                        {receiver.position, receiver.normal}, true);
     const Vec3 rough_to = light.infinite ? light.position : light.position - receiver.position;
     const Vec3 end = offset_origin<float>(light.position, light.error, light.normal, dot(rough_to, light.normal) < 0);
     const Vec3 to = light.infinite ? light.position : end - receiver.position;

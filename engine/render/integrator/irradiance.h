@@ -1,10 +1,10 @@
 // The irradiance at a point, as a light meter reads it, estimated with the kernels' own stages, without a receiver in the scene.
 #pragma once
 
-#include "core/vec.h"
 #include "core/sampler.h"
-#include "render/kernels/kernel.h"
+#include "core/vec.h"
 #include "render/integrator/path.h"
+#include "render/kernels/kernel.h"
 
 #include <cstdint>
 

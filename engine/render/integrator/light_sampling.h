@@ -12,15 +12,15 @@ namespace blush::inline BLUSH_ISA {
 // A sampled point on a light.
 template <class F> struct LightPoint {
     Mask<F> valid, infinite, delta;
-    Vec<F> position;    // end of the shadow ray; infinite: unit direction towards the light
-    Vec<F> error;       // bound on the position's rounding error
-    Vec<F> normal;      // triangle, sphere: unit
-    Vec<F> emission;    // nits; delta: candela or lux
-    F probability;      // selection probability of this light
-    F density;          // pdf. infinite, sphere: per solid angle; triangle: per area; delta: 1
+    Vec<F> position; // end of the shadow ray; infinite: unit direction towards the light
+    Vec<F> error;    // bound on the position's rounding error
+    Vec<F> normal;   // triangle, sphere: unit
+    Vec<F> emission; // nits; delta: candela or lux
+    F probability;   // selection probability of this light
+    F density;       // pdf. infinite, sphere: per solid angle; triangle: per area; delta: 1
     Int<F> kind, light;
     Mask<F> two_sided;
-    F clearcoat;        // triangle: share of the surface under a clear coat; only with Feature::clearcoat
+    F clearcoat; // triangle: share of the surface under a clear coat; only with Feature::clearcoat
 };
 
 // Light arriving at a receiver along the unit direction wi: radiance (delta: irradiance on a surface facing wi) and its pdf.
@@ -160,7 +160,8 @@ LightPoint<F> sample_light_point(const SceneTables& scene, const Pair<F>& random
 
 // Radiance and pdf at a receiver at squared distance `distance_squared`,
 // in direction wi from it; lights at infinity ignore the distance.
-template <Features S, class F> IncidentLight<F> incident_light(const SceneTables& scene, const LightPoint<F>& p, const Vec<F>& wi, const F& distance_squared) {
+template <Features S, class F>
+IncidentLight<F> incident_light(const SceneTables& scene, const LightPoint<F>& p, const Vec<F>& wi, const F& distance_squared) {
     IncidentLight<F> in{p.emission, p.probability * p.density};
     if constexpr (S.has(Feature::emissive_triangles)) {
         const Mask<F> triangle = as_mask(p.kind == int32_t(LightKind::triangle));

@@ -32,8 +32,8 @@ template <class F> Mask<F> has_own_shadows(const LinkTables& links, const Int<F>
 }
 
 // MIS weight, adjusted for light linking, of emission hit by a ray from part `from` with density bsdf_pdf.
-template <class F>
-F linked_weight(const LinkTables& links, const F& weight, const Int<F>& light, const Int<F>& from, const F& bsdf_pdf, const Mask<F>& active) {
+template <class F> F linked_weight(const LinkTables& links, const F& weight, const Int<F>& light, const Int<F>& from, const F& bsdf_pdf,
+                                   const Mask<F>& active) {
     const Mask<F> sampled = as_mask(from != from_camera) && bsdf_pdf != F(infinity);
     const Mask<F> counts = is_lit<F>(links, light, from, active) && !(sampled && has_own_shadows<F>(links, light, active));
     return select(counts, weight, F(0.f));

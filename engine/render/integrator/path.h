@@ -20,38 +20,38 @@ template <class F> struct Path {
 // First-hit data of a path, for denoising and picking.
 template <class F> struct FirstHit {
     Vec<F> albedo, normal;
-    F depth;                // metres; 0: miss
+    F depth; // metres; 0: miss
     Int<F> object, material;
 };
 
 // Weights of a step. Only read by path_log; dead code in kernels. Valid where the step emits, connects or continues.
 template <class F> struct StepWeights {
-    F emission;             // MIS weight of emission at the hit
+    F emission;                         // MIS weight of emission at the hit
     F light, light_pdf, light_bsdf_pdf; // MIS weight of NEE; pdf of the light sample; pdf of the BSDF for it
-    F survival;             // survival probability of Russian roulette; 1 if not applied
-    Mask<F> asked;          // roulette was applied
-    Vec<F> arriving;        // throughput at the vertex, including absorption along the segment
+    F survival;                         // survival probability of Russian roulette; 1 if not applied
+    Mask<F> asked;                      // roulette was applied
+    Vec<F> arriving;                    // throughput at the vertex, including absorption along the segment
 };
 
 // First two vertices of a path, for connections by path reuse (path_reuse.h).
 template <class F> struct ReuseVertex {
-    Mask<F> lambertian;   // scatters equal radiance to all points in front of ng and ns
+    Mask<F> lambertian; // scatters equal radiance to all points in front of ng and ns
     Vec<F> position;
-    F clearance;          // offset in metres along ng that keeps a ray's origin off the surface
+    F clearance; // offset in metres along ng that keeps a ray's origin off the surface
     Vec<F> ng, ns, reflectance;
 };
 
 template <class F> struct Step {
     ReuseVertex<F> reuse_vertex; // at bounces 0 and 1 only
     Mask<F> emits, connects, continues;
-    Mask<F> non_finite; // throughput is not finite: the path ends, and the film drops and counts the sample
-    Vec<F> emitted; // add where `emits`
-    Vec<F> direct;  // add where `connects` and the shadow ray is unoccluded
-    Int<F> light;   // light record of `direct`
+    Mask<F> non_finite;  // throughput is not finite: the path ends, and the film drops and counts the sample
+    Vec<F> emitted;      // add where `emits`
+    Vec<F> direct;       // add where `connects` and the shadow ray is unoccluded
+    Int<F> light;        // light record of `direct`
     UInt<F> shadow_mask; // mask of the shadow ray; only if lights are linked
     Ray<F> shadow;
     F shadow_distance;
-    Path<F> next;   // where `continues` or `breaks`
+    Path<F> next;      // where `continues` or `breaks`
     FirstHit<F> first; // at bounce 0 only
     StepWeights<F> weights;
 };

@@ -1,8 +1,8 @@
 // The queues of a tile: loads and stores paths and shadow rays in registers, and traces their rays with Embree.
 #pragma once
 
-#include "render/kernels/kernel.h"
 #include "render/integrator/path.h"
+#include "render/kernels/kernel.h"
 
 namespace blush::inline BLUSH_ISA {
 
@@ -71,25 +71,31 @@ template <class F> UInt<F> opacity_random(const UInt<F>& key, const UInt<F>& ind
 }
 
 template <class F> Hit<F> load_hit(const HitColumns& h, int k) {
-    return {load<F>(h.t + k),           load<F>(h.u + k),          load<F>(h.v + k), load<Int<F>>(h.geometry + k), load<Int<F>>(h.instance + k),
+    return {load<F>(h.t + k),
+            load<F>(h.u + k),
+            load<F>(h.v + k),
+            load<Int<F>>(h.geometry + k),
+            load<Int<F>>(h.instance + k),
             load<Int<F>>(h.triangle + k)};
 }
 
 // Closest hits of the queue's path rays. `random` is written if some material is not opaque.
-template <class F>
-void trace_rays(const KernelContext& context, Column<uint32_t>& random, const PathQueue& q, int bounce, HitColumns& h) {
+template <class F> void trace_rays(const KernelContext& context, Column<uint32_t>& random, const PathQueue& q, int bounce, HitColumns& h) {
     const bool alpha = context.accel->has_alpha();
     if (alpha)
         for (int k = 0; k < q.size; k += width<F>)
             store(random + k, opacity_random<F>(load<UInt<F>>(q.key + k), load<UInt<F>>(q.index + k), uint32_t(2 * bounce)));
-    const RayArrays rays{q.ox, q.oy, q.oz, q.dx, q.dy, q.dz, nullptr, alpha ? random.data : nullptr,
-                         bounce == 0 ? camera_ray_mask : other_ray_mask};
+    const RayArrays rays{
+        q.ox, q.oy, q.oz, q.dx, q.dy, q.dz, nullptr, alpha ? random.data : nullptr, bounce == 0 ? camera_ray_mask : other_ray_mask};
     context.accel->intersect(rays, q.size, bounce == 0, {h.t, h.u, h.v, h.geometry, h.instance, h.triangle});
 }
 
 inline RayArrays shadow_rays_of(const KernelContext& context, const ShadowQueue& q) {
-    return {q.ox, q.oy, q.oz, q.dx, q.dy, q.dz, q.distance, context.accel->has_alpha() ? q.random.data : nullptr, other_ray_mask,
-            context.scene->links.lit_sets ? q.mask.data : nullptr};
+    return {q.ox,           q.oy,
+            q.oz,           q.dx,
+            q.dy,           q.dz,
+            q.distance,     context.accel->has_alpha() ? q.random.data : nullptr,
+            other_ray_mask, context.scene->links.lit_sets ? q.mask.data : nullptr};
 }
 
 // Adds the light of unoccluded shadow ray k.

@@ -87,7 +87,8 @@ template <class F> Vec<F> gather_columns(const float* x, const float* y, const f
 
 // Computes G for every member and vertex of the batch, and queues
 // visibility rays from vertex to member where visibility is unknown.
-template <class F> void queue_connections(const CausticCasterTables& focus, const ReuseColumns& reuse, ReuseBatch& batch, int group_size, ShadowQueue& q) {
+template <class F>
+void queue_connections(const CausticCasterTables& focus, const ReuseColumns& reuse, ReuseBatch& batch, int group_size, ShadowQueue& q) {
     const int pairs = batch.vertices * group_size, last_member = group_size - 1, shift = std::countr_zero(unsigned(group_size));
     const ReuseVertexColumns &a = reuse.first, &b = reuse.second;
     q.size = 0;

@@ -7,9 +7,9 @@
 // cone on. Curved ones are not handled: behind them textures are unfiltered until a rough lobe spreads the path.
 #pragma once
 
+#include "render/compile/scene_tables.h"
 #include "render/integrator/estimator_settings.h"
 #include "render/integrator/path.h"
-#include "render/compile/scene_tables.h"
 
 namespace blush::inline BLUSH_ISA {
 

@@ -7,8 +7,7 @@
 namespace blush::inline BLUSH_ISA {
 
 // The shading normal: interpolated or mapped, flipped to the side of the geometric normal.
-template <Features S, class F>
-Vec<F> shading_normal(const Surface<F>& s, const Vec<F>& ng, const Vec<F>& tangent_normal) {
+template <Features S, class F> Vec<F> shading_normal(const Surface<F>& s, const Vec<F>& ng, const Vec<F>& tangent_normal) {
     Vec<F> ns = select<F>(dot(s.ns, ng) < F(0.f), -s.ns, s.ns);
     if constexpr (S.has(Feature::normal_maps)) {
         if (any(s.has_tangents)) {
@@ -29,7 +28,8 @@ Vec<F> shading_normal(const Surface<F>& s, const Vec<F>& ng, const Vec<F>& tange
 // Basis around the shading normal; x is the direction of anisotropy, if the material has any.
 template <Features S, class F> Basis<F> shading_frame(const Surface<F>& s, const Vec<F>& ns, const MaterialPoint<F>& material) {
     const Basis<F> any_frame = basis_around(ns);
-    if constexpr (!S.has(Feature::anisotropy)) return any_frame;
+    if constexpr (!S.has(Feature::anisotropy))
+        return any_frame;
     else {
         const Mask<F> stretched = s.has_tangents && material.anisotropy.strength > F(0.f);
         if (!any(stretched)) return any_frame;
@@ -46,15 +46,14 @@ template <Features S, class F> Basis<F> shading_frame(const Surface<F>& s, const
 
 // A surface point with the parameters for its BSDF.
 template <class F> struct ShadingFrame {
-    Vec<F> ng, ns;        // unit, world: flipped towards the viewer unless the surface bounds a solid
-    Mask<F> behind;       // the viewer sees the back of the interpolated or mapped normal: ns is ng
+    Vec<F> ng, ns;  // unit, world: flipped towards the viewer unless the surface bounds a solid
+    Mask<F> behind; // the viewer sees the back of the interpolated or mapped normal: ns is ng
     Basis<F> frame;
     Vec<F> wo;            // in `frame`
     BsdfParams<F> params; // including those that depend on the frame
 };
-template <Features S, class F>
-ShadingFrame<F> shading_frame_at(const Surface<F>& surface, const MaterialPoint<F>& material, const Vec<F>& wo_world, const Mask<F>& front,
-                                 const Mask<F>& solid) {
+template <Features S, class F> ShadingFrame<F> shading_frame_at(const Surface<F>& surface, const MaterialPoint<F>& material,
+                                                                const Vec<F>& wo_world, const Mask<F>& front, const Mask<F>& solid) {
     ShadingFrame<F> s;
     s.ng = select<F>(front || solid, surface.ng, -surface.ng);
     const Vec<F> bent = shading_normal<S, F>(surface, s.ng, material.tangent_normal);
@@ -67,7 +66,8 @@ ShadingFrame<F> shading_frame_at(const Surface<F>& surface, const MaterialPoint<
     // The coat does not follow the normal map of the base.
     if constexpr (S.has(Feature::clearcoat))
         s.params.layers.clearcoat_normal = s.frame.to_local(shading_normal<S, F>(surface, s.ng, material.clearcoat_tangent_normal));
-    if constexpr (S.has(Feature::anisotropy)) s.params.layers.anisotropy = select(surface.has_tangents, material.anisotropy.strength, F(0.f));
+    if constexpr (S.has(Feature::anisotropy))
+        s.params.layers.anisotropy = select(surface.has_tangents, material.anisotropy.strength, F(0.f));
     return s;
 }
 

@@ -17,9 +17,9 @@ template <class F> struct Hit {
 
 template <class F> struct Surface {
     Vec<F> position;
-    Vec<F> error;        // bound on |computed - exact| of the position, per axis
-    Vec<F> ng, ns;       // unit: geometric, outward by winding; interpolated
-    Vec<F> tangent;      // not normalised; only where S needs it
+    Vec<F> error;   // bound on |computed - exact| of the position, per axis
+    Vec<F> ng, ns;  // unit: geometric, outward by winding; interpolated
+    Vec<F> tangent; // not normalised; only where S needs it
     F tangent_sign;
     TexturePoint<F> texture; // only with Feature::textures
     Vec4T<F> color;
@@ -57,9 +57,7 @@ template <class F> Vec<F> offset_origin(const Vec<F>& position, const Vec<F>& er
     return offset_origin(position, ng * select(outward, d, -d));
 }
 
-template <class F> struct TriangleVertices {
-    Vec<F> p0, p1, p2;
-};
+template <class F> struct TriangleVertices { Vec<F> p0, p1, p2; };
 template <class F> TriangleVertices<F> gather_vertices(const float* positions, const Int<F>& i0, const Int<F>& i1, const Int<F>& i2) {
     return {gather3<F>(positions, i0), gather3<F>(positions, i1), gather3<F>(positions, i2)};
 }
@@ -135,7 +133,9 @@ Surface<F> surface_at(const SceneTables& scene, const Hit<F>& hit, const Mask<F>
         if (any(instanced)) {
             const Int<F> row = select(instanced, transform, Int<F>(0)) * int32_t(sizeof(InstanceRecord) / 4);
             const float* first = &scene.instances->world_from_object.x.x;
-            const auto column = [&](int c) { return Vec<F>{gather(first + c, row), gather(first + c + 1, row), gather(first + c + 2, row)}; };
+            const auto column = [&](int c) {
+                return Vec<F>{gather(first + c, row), gather(first + c + 1, row), gather(first + c + 2, row)};
+            };
             const Vec<F> x = column(0), y = column(3), z = column(6), t = column(9);
             const auto through = [&](const Vec<F>& p) { return x * p.x + y * p.y + z * p.z; };
             const auto bound = [&](const Vec<F>& p) { return abs(x) * p.x + abs(y) * p.y + abs(z) * p.z; };

@@ -8,15 +8,15 @@ namespace blush::inline BLUSH_ISA {
 
 // Size of the filtered area.
 template <class F> struct Footprint {
-    F width = F(0.f);           // metres
-    F triangle_area = F(1.f);   // twice the area, square metres
+    F width = F(0.f);         // metres
+    F triangle_area = F(1.f); // twice the area, square metres
 };
 
 // Interpolated texture coordinates with the given barycentric weights, and the footprint's width in UV units (mean over
 // directions); 0 on UV sets that the part lacks and in inactive lanes.
-template <class F>
-TexturePoint<F> texture_point(const SceneTables& scene, const Int<F>& part_flags, const std::array<Int<F>, 3>& vertices,
-                              const std::array<F, 3>& weights, const Mask<F>& active, const Footprint<F>& footprint = {}) {
+template <class F> TexturePoint<F> texture_point(const SceneTables& scene, const Int<F>& part_flags, const std::array<Int<F>, 3>& vertices,
+                                                 const std::array<F, 3>& weights, const Mask<F>& active,
+                                                 const Footprint<F>& footprint = {}) {
     TexturePoint<F> at;
     for (int set = 0; set < scene.materials.textures.uv_sets; ++set) {
         at.uv[size_t(set)] = {F(0.f), F(0.f)};

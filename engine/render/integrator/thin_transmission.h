@@ -26,13 +26,13 @@ template <class F> struct PanePoint {
     Vec<F> emission;            // nits towards the ray
     Vec<F> albedo, ns;
     Mask<F> emits;
-    F facing;                   // cosine between ray and plane
+    F facing; // cosine between ray and plane
     Int<F> part, object, material;
 };
 // `cone`: texture footprint in metres (ray_cone.h).
-template <Features S, class F>
-[[gnu::noinline]] PanePoint<F> pane_at(const SceneTables& scene, const EnergyTable* energy, const Vec<F>& direction, const Hit<F>& hit, const F& cone,
-                                       const Mask<F>& active) {
+template <Features S, class F> [[gnu::noinline]] PanePoint<F> pane_at(const SceneTables& scene, const EnergyTable* energy,
+                                                                      const Vec<F>& direction, const Hit<F>& hit, const F& cone,
+                                                                      const Mask<F>& active) {
     const Surface<F> surface = surface_at<S, F>(scene, hit, active, cone);
     const MaterialPoint<F> material = material_at<S, F>(scene.materials, surface.material, surface.texture, surface.color, active);
     const Vec<F> wo_world = -direction;
@@ -80,9 +80,8 @@ template <Features S, class F> Path<F> gather_path(const PathQueue& q, const Int
 
 // Continues those paths `index` of `now` that pass the pane they hit: their continued rays are appended to `rest`, with the path
 // index as slot and the distance so far as pdf. `hit`: t from the path's own origin.
-template <Features S, class F>
-void pass_panes(const KernelContext& context, TileScratch& scratch, PathQueue& now, PathQueue& rest, const Int<F>& index, const Hit<F>& hit,
-                int bounce, const Mask<F>& active) {
+template <Features S, class F> void pass_panes(const KernelContext& context, TileScratch& scratch, PathQueue& now, PathQueue& rest,
+                                               const Int<F>& index, const Hit<F>& hit, int bounce, const Mask<F>& active) {
     const SceneTables& scene = *context.scene;
     const Mask<F> pane = is_pane<S, F>(scene, hit, active);
     if (!any(pane)) return;
@@ -195,7 +194,8 @@ void move_shadow_rays(const KernelContext& context, TileScratch& scratch, int k,
     ShadowQueue& q = scratch.shadows;
     const Mask<F> pane = is_pane<S, F>(*context.scene, hit, active);
     if (!any(pane)) return;
-    const Vec<F> origin{load<F>(q.ox + k), load<F>(q.oy + k), load<F>(q.oz + k)}, direction{load<F>(q.dx + k), load<F>(q.dy + k), load<F>(q.dz + k)};
+    const Vec<F> origin{load<F>(q.ox + k), load<F>(q.oy + k), load<F>(q.oz + k)},
+        direction{load<F>(q.dx + k), load<F>(q.dy + k), load<F>(q.dz + k)};
     const F distance = load<F>(q.distance + k);
     const PanePoint<F> p = pane_at<S, F>(*context.scene, context.settings.energy, direction, hit, F(0.f), pane);
     Step<F> s;
@@ -219,7 +219,8 @@ template <Features S, class F> void connect_through_panes(const KernelContext& c
     HitColumns& h = scratch.hits;
     for (int round = 0; q.size > 0 && round < max_path_length; ++round) {
         if (round > 0) scratch.shadow_rays += q.size;
-        context.accel->intersect(shadow_rays_of(context, q), q.size, bounce == 0 && round == 0, {h.t, h.u, h.v, h.geometry, h.instance, h.triangle});
+        context.accel->intersect(shadow_rays_of(context, q), q.size, bounce == 0 && round == 0,
+                                 {h.t, h.u, h.v, h.geometry, h.instance, h.triangle});
         const int count = std::exchange(q.size, 0);
         for (int k = 0; k < count; k += width<F>) {
             const Mask<F> active = as_mask(iota<F>() + k < count);

@@ -4,10 +4,10 @@
 
 #include "render/integrator/estimator.h"
 #include "render/integrator/group_sums.h"
-#include "render/kernels/kernel.h"
 #include "render/integrator/path_queues.h"
 #include "render/integrator/path_reuse.h"
 #include "render/integrator/thin_transmission.h"
+#include "render/kernels/kernel.h"
 
 #include <algorithm>
 #include <utility>
@@ -62,7 +62,8 @@ template <class F> void note_roulette(RouletteColumns& c, const int32_t* slots, 
     counts.survived += count(asked && (step.continues || step.non_finite));
 }
 
-template <Features S, class F> [[gnu::flatten]] void generate_paths(const KernelContext& context, const TileJob& job, TileScratch& scratch) {
+template <Features S, class F>
+[[gnu::flatten]] void generate_paths(const KernelContext& context, const TileJob& job, TileScratch& scratch) {
     PathQueue& q = scratch.paths[0];
     // Computes pixel and sample of each slot by counting; uses the ray columns as scratch memory.
     float* xs = scratch.hits.t;
@@ -104,7 +105,8 @@ template <Features S, class F> [[gnu::flatten]] void generate_paths(const Kernel
 }
 
 // Traces the path rays of `now`. In scenes with panes, overwrites `rest` and changes the throughput of paths that pass panes.
-template <Features S, class F> void trace_paths(const KernelContext& context, TileScratch& scratch, PathQueue& now, PathQueue& rest, int bounce) {
+template <Features S, class F>
+void trace_paths(const KernelContext& context, TileScratch& scratch, PathQueue& now, PathQueue& rest, int bounce) {
     trace_rays<F>(context, scratch.random, now, bounce, scratch.hits);
     if constexpr (S.has(Feature::transmission))
         if (context.scene->panes) trace_through_panes<S, F>(context, scratch, now, rest, bounce);

@@ -1,8 +1,8 @@
 // Instantiates the kernels for the lane type and instruction set of the including file.
 #pragma once
 
-#include "render/kernels/feature_sets.h"
 #include "render/integrator/wavefront.h"
+#include "render/kernels/feature_sets.h"
 
 namespace blush::inline BLUSH_ISA {
 

@@ -3,12 +3,12 @@
 
 #include "core/vec.h"
 #include "render/bvh/accel.h"
+#include "render/compile/scene_tables.h"
+#include "render/film/path_counts.h"
 #include "render/integrator/estimator_settings.h"
 #include "render/kernels/column.h"
 #include "render/kernels/group_columns.h"
 #include "render/kernels/reuse_columns.h"
-#include "render/film/path_counts.h"
-#include "render/compile/scene_tables.h"
 #include "shading/features.h"
 
 #include <cstdint>
@@ -37,7 +37,7 @@ struct PathQueue {
     Column<float> cone;       // with textures
     Column<uint32_t> key, index;
     Column<int32_t> slot;
-    Column<int32_t> part; // that the ray left, -1: the camera; written only if lights may be linked
+    Column<int32_t> part;      // that the ray left, -1: the camera; written only if lights may be linked
     Column<int32_t> dispersed; // written only with Feature::dispersion
 };
 struct HitColumns {
@@ -66,9 +66,9 @@ struct BounceColumns {
 
 // Statistics of path lengths and Russian roulette.
 struct RouletteColumns {
-    Column<float> length;   // vertices of each path, including the one where it escapes
-    Column<float> asked;    // number of roulette decisions,
-    Column<float> survival; // and the sum of their survival probabilities
+    Column<float> length;                   // vertices of each path, including the one where it escapes
+    Column<float> asked;                    // number of roulette decisions,
+    Column<float> survival;                 // and the sum of their survival probabilities
     PathCounts counts[max_counted_bounces]; // accumulated
 };
 
@@ -86,10 +86,10 @@ struct TileScratch {
     Column<uint32_t> random;
     Column<uint8_t> blocked;
 
-    Column<double> r, g, b;                 // radiance; single precision would lose a long path's last terms
-    std::unique_ptr<FirstHitColumns> first; // null: not needed
-    std::unique_ptr<BounceColumns> bounces; // null: not needed
-    std::unique_ptr<GroupColumns> groups;   // null: no light mix
+    Column<double> r, g, b;                    // radiance; single precision would lose a long path's last terms
+    std::unique_ptr<FirstHitColumns> first;    // null: not needed
+    std::unique_ptr<BounceColumns> bounces;    // null: not needed
+    std::unique_ptr<GroupColumns> groups;      // null: no light mix
     std::unique_ptr<ReuseColumns> reuse;       // allocated by the first kernel with path reuse
     std::unique_ptr<RouletteColumns> roulette; // null: not needed
     std::unique_ptr<PaneColumns> panes;        // allocated by the first kernel with panes

@@ -2,8 +2,8 @@
 
 #include "core/math.h"
 #include "render/light_mix/light_groups.h"
-#include "scene/world_transforms.h"
 #include "scene/document/scene_selection.h"
+#include "scene/world_transforms.h"
 
 #include <algorithm>
 #include <map>
@@ -22,8 +22,10 @@ void scale(Vec3& color, float& strength, const Vec3& gain) {
 
 void scale(Light& light, const Vec3& gain) {
     // A light that is switched off keeps its values.
-    if (gain == Vec3{0, 0, 0}) light.enabled = false;
-    else scale(light.color, light.intensity, gain);
+    if (gain == Vec3{0, 0, 0})
+        light.enabled = false;
+    else
+        scale(light.color, light.intensity, gain);
 }
 void scale(Material& material, const Vec3& gain) { scale(material.emissive, material.emissive_strength, gain); }
 void scale(Environment& environment, const Vec3& gain) { scale(environment.color, environment.intensity, gain); }
@@ -48,7 +50,8 @@ public:
             if (groups_.light_nodes.contains(id)) lights[node.light][first_alike(groups_.of_light(id))].push_back(id);
             if (const Mesh* mesh = scene_.meshes.find(node.mesh))
                 for (const MeshPart& part : mesh->parts)
-                    if (is_scaled(part.material)) materials[part.material][first_alike(groups_.of_surface(id, part.material))].push_back(id);
+                    if (is_scaled(part.material))
+                        materials[part.material][first_alike(groups_.of_surface(id, part.material))].push_back(id);
         }
         for (const auto& [id, uses] : lights)
             bake(out_.lights, id, uses, [&](Id<Node> node, Id<Light> copy) { change(node, [&](Node& n) { n.light = copy; }); });
@@ -64,11 +67,10 @@ private:
         return std::move(out_);
     }
     // Index of the first group with the same gain.
-    int first_alike(int group) const {
-        return int(std::ranges::find(gains_, gains_[size_t(group)]) - gains_.begin());
-    }
+    int first_alike(int group) const { return int(std::ranges::find(gains_, gains_[size_t(group)]) - gains_.begin()); }
     bool is_scaled(Id<Material> id) const {
-        return std::ranges::any_of(groups_.groups, [&](const LightGroup& g) { return std::ranges::find(g.materials, id) != g.materials.end(); });
+        return std::ranges::any_of(groups_.groups,
+                                   [&](const LightGroup& g) { return std::ranges::find(g.materials, id) != g.materials.end(); });
     }
 
     // The record itself gets the first gain; for each further gain it is copied, and the copy is assigned to that gain's nodes.

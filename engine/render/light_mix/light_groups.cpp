@@ -1,12 +1,12 @@
 #include "render/light_mix/light_groups.h"
 
-#include "render/lights/environment_table.h"
 #include "render/compile/expand_area_lights.h"
+#include "render/lights/environment_table.h"
 #include "render/materials/material_table.h"
 #include "scene/changes.h"
 #include "scene/lights/color_temperature.h"
-#include "scene/world_transforms.h"
 #include "scene/lights/light_visibility.h"
+#include "scene/world_transforms.h"
 
 #include <algorithm>
 #include <cmath>
@@ -56,16 +56,20 @@ private:
     int add_environment() {
         const std::string& by_hand = scene_.environment.group;
         const bool named_by_hand = by_ == Grouping::by_hand && !by_hand.empty();
-        const int group = named_by_hand ? index_of({KeyKind::hand, 0, by_hand}, by_hand) : index_of({KeyKind::environment, 0, {}}, "Environment");
+        const int group =
+            named_by_hand ? index_of({KeyKind::hand, 0, by_hand}, by_hand) : index_of({KeyKind::environment, 0, {}}, "Environment");
         groups_.groups[size_t(group)].environment = true;
         return group;
     }
 
     void add_light(Id<Node> id, const Node& node, const Light& light) {
         int group = 0;
-        if (by_ == Grouping::by_object) group = index_of({KeyKind::object, id.value, {}}, named(node.name, "Object", id.value));
-        else if (by_ == Grouping::by_hand && !light.group.empty()) group = index_of({KeyKind::hand, 0, light.group}, light.group);
-        else group = index_of({KeyKind::light, node.light.value, {}}, named(light.name, "Light", node.light.value));
+        if (by_ == Grouping::by_object)
+            group = index_of({KeyKind::object, id.value, {}}, named(node.name, "Object", id.value));
+        else if (by_ == Grouping::by_hand && !light.group.empty())
+            group = index_of({KeyKind::hand, 0, light.group}, light.group);
+        else
+            group = index_of({KeyKind::light, node.light.value, {}}, named(light.name, "Light", node.light.value));
         groups_.light_nodes[id] = group;
         std::vector<Id<Light>>& lights = groups_.groups[size_t(group)].lights;
         if (std::ranges::find(lights, node.light) == lights.end()) lights.push_back(node.light);
@@ -206,8 +210,12 @@ private:
 // Change of a group's light since the planes were rendered.
 std::optional<Vec3> factor_between(const LightGroup& group, const Scene& before, const Scene& now) {
     Factor factor;
-    const auto light = [&](Id<Light> id) { return factor.meets(shown_emission(*before.lights.find(id)), shown_emission(*now.lights.find(id))); };
-    const auto surface = [&](Id<Material> id) { return factor.meets(emission_of(*before.materials.find(id)), emission_of(*now.materials.find(id))); };
+    const auto light = [&](Id<Light> id) {
+        return factor.meets(shown_emission(*before.lights.find(id)), shown_emission(*now.lights.find(id)));
+    };
+    const auto surface = [&](Id<Material> id) {
+        return factor.meets(emission_of(*before.materials.find(id)), emission_of(*now.materials.find(id)));
+    };
     if (!std::ranges::all_of(group.lights, light) || !std::ranges::all_of(group.materials, surface)) return std::nullopt;
     if (group.environment && !factor.meets(environment_scale(before.environment), environment_scale(now.environment))) return std::nullopt;
     return factor.value();
@@ -287,7 +295,8 @@ Vec3 channel_gain(const LightMix& mix, const std::string& group) {
 std::optional<Mixing> mixing_of(const LightGroups& groups, const Scene& scene) {
     const Scene& base = groups.base;
     const Scene now = with_solo_applied(scene);
-    if (base.mix.grouping != now.mix.grouping || !only_emission_differs(base, now) || !no_surface_becomes_emissive(base, now)) return std::nullopt;
+    if (base.mix.grouping != now.mix.grouping || !only_emission_differs(base, now) || !no_surface_becomes_emissive(base, now))
+        return std::nullopt;
     Scene renamed = with_names_of(base, now);
     if (groups.sharing > 0) renamed.mix = now.mix; // channels decide which groups have a plane
     const bool same_names = renamed == base;

@@ -26,7 +26,8 @@ bool same_groups(const Scene& before, const Scene& after) {
                     return a.name == b.name && a.parent == b.parent && a.visible == b.visible && a.mesh == b.mesh && a.light == b.light;
                 }) &&
            same(before.lights, after.lights, [](const Light& a, const Light& b) { return a.name == b.name && a.group == b.group; }) &&
-           same(before.materials, after.materials, [&](const Material& a, const Material& b) { return a.name == b.name && is_emissive(a) == is_emissive(b); });
+           same(before.materials, after.materials,
+                [&](const Material& a, const Material& b) { return a.name == b.name && is_emissive(a) == is_emissive(b); });
 }
 
 LightGroups all_groups(const Scene& scene) { return make_light_groups(scene, std::numeric_limits<int>::max()); }
@@ -52,8 +53,12 @@ std::string name_now(const LightGroups& was, int index, const LightGroups& is) {
     return name;
 }
 
-bool has_channel(const LightMix& mix, const std::string& group) { return std::ranges::find(mix.channels, group, &MixChannel::group) != mix.channels.end(); }
-bool has_group(const LightGroups& groups, const std::string& name) { return std::ranges::find(groups.groups, name, &LightGroup::name) != groups.groups.end(); }
+bool has_channel(const LightMix& mix, const std::string& group) {
+    return std::ranges::find(mix.channels, group, &MixChannel::group) != mix.channels.end();
+}
+bool has_group(const LightGroups& groups, const std::string& name) {
+    return std::ranges::find(groups.groups, name, &LightGroup::name) != groups.groups.end();
+}
 
 } // namespace
 

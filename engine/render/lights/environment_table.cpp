@@ -134,9 +134,18 @@ Vec3 environment_scale(const Environment& environment) {
 Vec3d EnvironmentTable::integral() const { return {scale.x * texel_integral.x, scale.y * texel_integral.y, scale.z * texel_integral.z}; }
 
 EnvironmentTables EnvironmentTable::tables() const {
-    return {
-        texels.data(), row_thresholds.data(), column_thresholds.data(), column_guides.data(), rows.data(), width, height, guide_bits, scale,
-        rotation,      visible_to_camera, lights_scene};
+    return {texels.data(),
+            row_thresholds.data(),
+            column_thresholds.data(),
+            column_guides.data(),
+            rows.data(),
+            width,
+            height,
+            guide_bits,
+            scale,
+            rotation,
+            visible_to_camera,
+            lights_scene};
 }
 
 EnvironmentTable build_environment_table(const Environment& environment, bool importance) {

@@ -18,7 +18,7 @@ struct EnvironmentTable {
     std::vector<int32_t> column_guides;
     std::vector<EnvironmentRow> rows;
     Vec3d texel_integral{0, 0, 0}; // integral of the map over the sphere, sr; only with an importance map
-    bool emits_light = false;           // some texel is not black
+    bool emits_light = false;      // some texel is not black
     std::vector<Diagnostic> warnings;
     // From the parameters:
     Vec3 scale{0, 0, 0};

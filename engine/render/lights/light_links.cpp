@@ -1,7 +1,7 @@
 #include "render/lights/light_links.h"
 
-#include "render/compile/geometry_pool.h"
 #include "render/compile/expand_area_lights.h"
+#include "render/compile/geometry_pool.h"
 
 #include <algorithm>
 
@@ -19,7 +19,8 @@ const Light* light_of(const Scene& expanded, const LightRecord& record, Id<Node>
 // The distinct sets, with one bit per member part.
 class LitSets {
 public:
-    LitSets(const Scene& scene, const GeometryPool& geometry) : scene_(scene), geometry_(geometry), words_(int32_t((geometry.parts().size() + 31) / 32)) {}
+    LitSets(const Scene& scene, const GeometryPool& geometry)
+        : scene_(scene), geometry_(geometry), words_(int32_t((geometry.parts().size() + 31) / 32)) {}
 
     int32_t index_of(const ObjectSet& set) {
         const auto it = std::ranges::find(sets_, set);
@@ -30,7 +31,8 @@ public:
         const std::vector<PartRecord>& parts = geometry_.parts();
         bool in_set = false; // consecutive parts mostly belong to one object
         for (size_t part = 0; part < parts.size(); ++part) {
-            if (part == 0 || parts[part].object != parts[part - 1].object) in_set = contains(set, scene_, Id<Node>{uint32_t(parts[part].object)});
+            if (part == 0 || parts[part].object != parts[part - 1].object)
+                in_set = contains(set, scene_, Id<Node>{uint32_t(parts[part].object)});
             if (in_set) bits_[first + part / 32] |= 1u << part % 32;
         }
         return int32_t(sets_.size()) - 1;
@@ -69,8 +71,10 @@ bool contains(const ObjectSet& set, const Scene& scene, Id<Node> node) {
 }
 
 void toggle(ObjectSet& set, const Scene& scene, Id<Node> node) {
-    if (const Id<Node> named = named_above(set, scene, node)) std::erase(set.nodes, named);
-    else set.nodes.push_back(node);
+    if (const Id<Node> named = named_above(set, scene, node))
+        std::erase(set.nodes, named);
+    else
+        set.nodes.push_back(node);
 }
 
 bool leaves_out(const ObjectSet& set, const Scene& scene) {
@@ -88,8 +92,10 @@ CasterSets::CasterSets(const Scene& scene) {
         const Light* light = node.light ? scene.lights.find(node.light) : nullptr;
         if (!light || !light->enabled || !leaves_out(light->shadow_casters, scene)) continue;
         if (std::ranges::find(sets_, light->shadow_casters) != sets_.end()) continue;
-        if (sets_.size() < size_t(max_caster_sets)) sets_.push_back(light->shadow_casters);
-        else ++left_out_;
+        if (sets_.size() < size_t(max_caster_sets))
+            sets_.push_back(light->shadow_casters);
+        else
+            ++left_out_;
     }
 }
 

@@ -1,8 +1,8 @@
 // Light and shadow linking: which objects a light illuminates, and which cast its shadows.
 #pragma once
 
-#include "render/lights/light_table.h"
 #include "render/compile/scene_tables.h"
+#include "render/lights/light_table.h"
 #include "scene/scene.h"
 
 #include <cstdint>
@@ -47,10 +47,10 @@ private:
 
 // The links of a light table, by record.
 struct LightLinks {
-    std::vector<int32_t> lit_sets;       // index of the set that the light illuminates; -1: everything
-    std::vector<uint32_t> lit_parts;     // for each set, one bit per part
-    std::vector<uint32_t> shadow_masks;  // of rays towards the light
-    int32_t words = 0;                   // 32-bit words per set
+    std::vector<int32_t> lit_sets;      // index of the set that the light illuminates; -1: everything
+    std::vector<uint32_t> lit_parts;    // for each set, one bit per part
+    std::vector<uint32_t> shadow_masks; // of rays towards the light
+    int32_t words = 0;                  // 32-bit words per set
     bool empty() const { return lit_sets.empty(); }
 
     LinkTables tables() const { return {lit_sets.data(), lit_parts.data(), shadow_masks.data(), words}; }

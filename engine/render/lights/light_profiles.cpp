@@ -11,7 +11,6 @@
 namespace blush {
 namespace {
 
-
 // Orthonormal frame from the node's axes: the light points along -Z; X is kept as far as it is perpendicular to that. Panels use
 // the normal of their plane, so that a panel under a skewed node still emits perpendicular to itself.
 void set_frame(ProfileRecord& record, const Affined& m, bool is_panel) {

@@ -2,11 +2,11 @@
 
 #include "core/distribution.h"
 #include "core/math.h"
-#include "render/integrator/light_sampling.h"
 #include "render/compile/expand_area_lights.h"
+#include "render/integrator/light_sampling.h"
 #include "scene/affine.h"
-#include "scene/world_transforms.h"
 #include "scene/lights/sky_model.h"
+#include "scene/world_transforms.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,6 @@
 
 namespace blush {
 namespace {
-
 
 double luminance_of(const Vec3& c) { return double(luminance(c)); }
 
@@ -75,7 +74,8 @@ LightBounds ball_bounds(const Vec3& center, double radius, const Light& light, c
     const bool is_spot = light.kind == Light::Kind::spot && dot(axis, axis) > 0;
     b.axis = is_spot ? normalize(axis) : Vec3d{0, 0, -1};
     b.theta_o = is_spot ? double(light.inner_cone_radians) : std::numbers::pi;
-    b.theta_e = is_spot ? std::min(double(light.outer_cone_radians) - b.theta_o + angle_margin, 0.5 * std::numbers::pi) : 0.5 * std::numbers::pi;
+    b.theta_e =
+        is_spot ? std::min(double(light.outer_cone_radians) - b.theta_o + angle_margin, 0.5 * std::numbers::pi) : 0.5 * std::numbers::pi;
     return b;
 }
 
@@ -96,7 +96,9 @@ std::vector<bool> is_sampled(const Scene& scene, const MaterialTable& materials,
     std::vector<size_t> glowing;
     int64_t total = 0;
     for (size_t part = 0; part < parts.size(); ++part) {
-        if (!is_emissive(materials.records[size_t(parts[part].material)]) || light_of_expanded_mesh(scene, Id<Node>{uint32_t(parts[part].object)})) continue;
+        if (!is_emissive(materials.records[size_t(parts[part].material)]) ||
+            light_of_expanded_mesh(scene, Id<Node>{uint32_t(parts[part].object)}))
+            continue;
         glowing.push_back(part);
         triangles[parts[part].object] += geometry.triangle_count(part);
         total += geometry.triangle_count(part);
@@ -111,7 +113,8 @@ std::vector<bool> is_sampled(const Scene& scene, const MaterialTable& materials,
     return aimed;
 }
 
-void add_triangles(TableBuilder& b, const Scene& scene, const MaterialTable& materials, GeometryPool& geometry, const SceneTables& scene_tables) {
+void add_triangles(TableBuilder& b, const Scene& scene, const MaterialTable& materials, GeometryPool& geometry,
+                   const SceneTables& scene_tables) {
     WorldTransforms placements(scene);
     SceneTables tables = scene_tables;
     const std::vector<bool> aimed = is_sampled(scene, materials, geometry);
@@ -135,8 +138,8 @@ void add_triangles(TableBuilder& b, const Scene& scene, const MaterialTable& mat
         }
         record.first_light = int32_t(b.table.records.size());
         const bool two_sided = material.flags & material_double_sided, translucent = material.alpha != alpha_opaque;
-        const bool varying = material.emissive_texture >= 0 ||
-                             (translucent && (material.base_color_texture >= 0 || (record.flags & part_colors) != 0));
+        const bool varying =
+            material.emissive_texture >= 0 || (translucent && (material.base_color_texture >= 0 || (record.flags & part_colors) != 0));
         // Constant alpha dims the whole light.
         const float opacity = varying ? 1.f : opacity_at<all_features, float>(scene_tables.materials, record.material, {}, 1.f, true);
         // The stored vertices have the mesh's winding; under a mirroring transform the outside is the other side of the plane.
@@ -264,7 +267,9 @@ std::vector<double> slot_powers(const LightTable& table, std::span<const double>
 // Puts lights at finite distance into a tree, which uses the first slot; each other light gets its own slot. False, and no tree,
 // if no light at finite distance emits.
 bool add_tree(TableBuilder& b, const std::vector<double>& powers) {
-    const auto is_finite_light = [](const LightRecord& r) { return r.kind != int32_t(LightKind::sun) && r.kind != int32_t(LightKind::environment); };
+    const auto is_finite_light = [](const LightRecord& r) {
+        return r.kind != int32_t(LightKind::sun) && r.kind != int32_t(LightKind::environment);
+    };
     std::vector<LightBounds> in_tree;
     b.table.slot_lights = {0};
     for (size_t i = 0; i < b.table.records.size(); ++i) {
@@ -317,7 +322,8 @@ LightTable build_light_table(const Scene& scene, const MaterialTable& materials,
     while (aim == NeeLights::zero_size_lights && b.table.count > 0 && b.table.powers[size_t(b.table.count) - 1] == 0) --b.table.count;
     if (b.table.records.empty()) b.add({}, {}, 1);
     const std::vector<double> powers = with_defensive_mixture(b.table.powers, {});
-    const bool many = aim == NeeLights::all_lights && b.luminaires >= min_lights_for_a_tree && int64_t(powers.size()) <= max_lights_for_a_tree;
+    const bool many =
+        aim == NeeLights::all_lights && b.luminaires >= min_lights_for_a_tree && int64_t(powers.size()) <= max_lights_for_a_tree;
     if (!many || !add_tree(b, powers)) b.table.thresholds = make_thresholds(powers);
     return std::move(b.table);
 }

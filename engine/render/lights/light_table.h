@@ -1,12 +1,12 @@
 // Table of all emitters with their selection probabilities.
 #pragma once
 
-#include "render/compile/scene_origin.h"
 #include "render/compile/geometry_pool.h"
+#include "render/compile/scene_origin.h"
 #include "render/lights/light_profiles.h"
 #include "render/lights/light_tree.h"
-#include "render/materials/material_table.h"
 #include "render/lights/sphere_lights.h"
+#include "render/materials/material_table.h"
 #include "scene/scene.h"
 #include "shading/light.h"
 
@@ -21,16 +21,16 @@ struct LightTable {
     std::vector<Id<Node>> nodes;      // by record: the node of the light; none: the environment
     std::vector<double> powers;       // by record
     std::vector<uint32_t> thresholds;
-    std::vector<int32_t> suns;        // indices of suns with a disk
-    int32_t count = 0;                // selection slots; 0: no light is sampled
+    std::vector<int32_t> suns; // indices of suns with a disk
+    int32_t count = 0;         // selection slots; 0: no light is sampled
     int32_t environment = -1;
     int32_t first_sphere = 0;
     LightProfiles profiles;
     LightTreeTable tree;              // empty: selection by power alone
     std::vector<int32_t> slot_lights; // with a tree: light of each slot
     int64_t emissive_triangles = 0, point_lights = 0, sphere_lights = 0, sun_lights = 0;
-    int fewer_disk_corners = 0;       // corners of disk polygons, if reduced because of many disks; else 0
-    int64_t unsampled_triangles = 0;    // emissive triangles beyond max_mesh_lights, which are not sampled
+    int fewer_disk_corners = 0;      // corners of disk polygons, if reduced because of many disks; else 0
+    int64_t unsampled_triangles = 0; // emissive triangles beyond max_mesh_lights, which are not sampled
 
     void fill(LightTables& tables) const;
 };

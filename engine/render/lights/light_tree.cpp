@@ -101,7 +101,8 @@ struct TreeBuilder {
         const bool must_halve = max_splits - splits <= int(std::bit_width(part.size())) + splits_per_level;
         if (!must_halve && component(size, longest) > 0)
             if (const size_t found = split_by_cost(part, begin, low, size, longest)) return found;
-        std::ranges::nth_element(part, part.begin() + std::ptrdiff_t(part.size() / 2), {}, [&](const LightBounds& b) { return position(b, longest); });
+        std::ranges::nth_element(part, part.begin() + std::ptrdiff_t(part.size() / 2), {},
+                                 [&](const LightBounds& b) { return position(b, longest); });
         return middle;
     }
 
@@ -134,7 +135,8 @@ struct TreeBuilder {
             }
         }
         if (best_axis < 0) return 0;
-        const auto second = std::ranges::partition(part, [&](const LightBounds& b) { return bucket_of(b, best_axis, low, size) <= best_bucket; });
+        const auto second =
+            std::ranges::partition(part, [&](const LightBounds& b) { return bucket_of(b, best_axis, low, size) <= best_bucket; });
         return begin + size_t(second.begin() - part.begin());
     }
 
@@ -192,7 +194,8 @@ void set_light_tree_powers(LightTreeTable& table, std::span<const double> powers
     // Children have larger indices than their parents.
     for (size_t i = table.nodes.size(); i-- > 0;) {
         LightTreeNode& node = table.nodes[i];
-        if (node.children < 0) below[i] = powers[size_t(node.light)];
+        if (node.children < 0)
+            below[i] = powers[size_t(node.light)];
         else
             for (int32_t k = 0; k < node.child_count; ++k) below[i] += below[size_t(node.children + k)];
         node.power = float(below[i]);

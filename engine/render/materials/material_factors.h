@@ -11,7 +11,9 @@ namespace blush {
 // NaN becomes `low`.
 inline float within(float x, float low, float high) { return x >= low ? std::min(x, high) : low; }
 inline float unit(float x) { return within(x, 0, 1); }
-inline Vec3 within(const Vec3& v, float low, float high) { return {within(v.x, low, high), within(v.y, low, high), within(v.z, low, high)}; }
+inline Vec3 within(const Vec3& v, float low, float high) {
+    return {within(v.x, low, high), within(v.y, low, high), within(v.z, low, high)};
+}
 
 // Lobes of a material, following the precedence of glTF's parameters.
 inline bool reflects(const Material& m) { return !m.unlit && (m.specular > 0 || m.metallic > 0 || m.transmission > 0); }

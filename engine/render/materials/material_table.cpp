@@ -16,20 +16,19 @@ namespace {
 constexpr float max_radiance = 1e30f; // nits: products along a path stay finite
 
 bool has_normal_map(const Material& m) { return !m.unlit && m.normal_texture.texture && m.normal_scale != 0; }
-Vec3 sigma_of(const Material& m) {
-    return is_solid(m) ? absorption(m.attenuation_color, m.attenuation_distance) : Vec3{0, 0, 0};
-}
+Vec3 sigma_of(const Material& m) { return is_solid(m) ? absorption(m.attenuation_color, m.attenuation_distance) : Vec3{0, 0, 0}; }
 
 constexpr std::array texture_slots{
-    CompiledSlot<MaterialRecord>{&Material::base_color_texture, &MaterialRecord::base_color_texture, true, [](const Material&) { return true; }},
+    CompiledSlot<MaterialRecord>{&Material::base_color_texture, &MaterialRecord::base_color_texture, true,
+                                 [](const Material&) { return true; }},
     CompiledSlot<MaterialRecord>{&Material::metallic_roughness_texture, &MaterialRecord::metallic_roughness_texture, false, reflects},
     CompiledSlot<MaterialRecord>{&Material::normal_texture, &MaterialRecord::normal_texture, false, has_normal_map},
     CompiledSlot<MaterialRecord>{&Material::emissive_texture, &MaterialRecord::emissive_texture, true,
-                [](const Material& m) { return !is_black(emission_of(m)); }},
+                                 [](const Material& m) { return !is_black(emission_of(m)); }},
     CompiledSlot<MaterialRecord>{&Material::specular_texture, &MaterialRecord::specular_texture, false,
-                [](const Material& m) { return !m.unlit && m.specular > 0; }},
+                                 [](const Material& m) { return !m.unlit && m.specular > 0; }},
     CompiledSlot<MaterialRecord>{&Material::specular_color_texture, &MaterialRecord::specular_color_texture, true,
-                [](const Material& m) { return !m.unlit && m.specular > 0; }},
+                                 [](const Material& m) { return !m.unlit && m.specular > 0; }},
     CompiledSlot<MaterialRecord>{&Material::transmission_texture, &MaterialRecord::transmission_texture, false, transmits},
 };
 
@@ -143,9 +142,9 @@ template <class Record, size_t N> void write_uses(MaterialTable& table, size_t u
         const auto uv_set = std::ranges::find(table.uv_sets, int(ref.uv_set));
         const bool reads = slot.is_read(material) && uv_set != table.uv_sets.end();
         const int32_t texture = reads ? table.textures.index_of(ref.texture, slot.is_color) : -1;
-        table.uses[use] =
-            texture < 0 ? TextureUse{}
-                        : texture_use(ref, texture, table.textures.texels_per_unit(texture), int32_t(uv_set - table.uv_sets.begin()));
+        table.uses[use] = texture < 0
+                              ? TextureUse{}
+                              : texture_use(ref, texture, table.textures.texels_per_unit(texture), int32_t(uv_set - table.uv_sets.begin()));
         if (texture >= 0) record.*slot.index = int32_t(use);
         ++use;
     }

@@ -18,8 +18,8 @@ struct MaterialTable {
     std::vector<LayerRecord> layers;     // parallel to `records`
     std::vector<TextureUse> uses;        // a fixed number per record, so that one can change alone
     TextureTable textures;
-    std::vector<int> uv_sets;            // the UV set numbers used by textures, ascending, at most max_uv_sets
-    std::vector<Diagnostic> warnings;    // in addition to those of the textures
+    std::vector<int> uv_sets;         // the UV set numbers used by textures, ascending, at most max_uv_sets
+    std::vector<Diagnostic> warnings; // in addition to those of the textures
 
     // 0, the default material, for an unknown id.
     int32_t index_of(Id<Material> id) const;

@@ -51,7 +51,8 @@ template <class T> std::array<T, 4> expand(const T* texel, int channels, T opaqu
 
 size_t mip_texels(const Image& image) {
     size_t texels = 0;
-    for (int i = 1; i < mip_count(image.width, image.height); ++i) texels += size_t(halved(image.width, i)) * size_t(halved(image.height, i));
+    for (int i = 1; i < mip_count(image.width, image.height); ++i)
+        texels += size_t(halved(image.width, i)) * size_t(halved(image.height, i));
     return texels;
 }
 
@@ -62,7 +63,7 @@ struct Placed {
     size_t base = 0, mips = 0; // offsets in their pools, in texels
     bool owns_base = true;     // else the entry of the other encoding fills in the same bytes
     int32_t first_level = 0;
-    int64_t replaced = 0;      // invalid values
+    int64_t replaced = 0; // invalid values
 };
 
 class Builder {
@@ -115,7 +116,10 @@ private:
         placed.base = placed.owns_base ? take(is_float ? floats_ : bytes_, texel_count(image)) : placed_[other->second].base;
         placed.mips = take(is_float ? floats_ : halves_, mip_texels(image));
         size_t offset = placed.mips;
-        add_level(placed.base, image.width, image.height, is_float ? encoding_float32 : source.is_color ? encoding_srgb8 : encoding_linear8);
+        add_level(placed.base, image.width, image.height,
+                  is_float          ? encoding_float32
+                  : source.is_color ? encoding_srgb8
+                                    : encoding_linear8);
         for (int i = 1; i < mip_count(image.width, image.height); ++i) {
             const int width = halved(image.width, i), height = halved(image.height, i);
             add_level(offset, width, height, is_float ? encoding_float32 : encoding_half);
@@ -144,17 +148,23 @@ private:
     // Thread-safe: no two entries write the same texels.
     void fill(Placed& placed) {
         const Image& image = *placed.image;
-        if (image.bytes.empty()) fill_floats(placed);
-        else if (placed.owns_base) fill_bytes(image, table_.rgba8.data() + placed.base);
+        if (image.bytes.empty())
+            fill_floats(placed);
+        else if (placed.owns_base)
+            fill_bytes(image, table_.rgba8.data() + placed.base);
         const bool is_color = placed.source->is_color;
         const auto read = [&](int y, float* rgba) {
-            if (image.bytes.empty()) std::copy_n(table_.rgba32f.data() + 4 * (placed.base + size_t(y) * size_t(image.width)), 4 * image.width, rgba);
-            else read_bytes(image, y, is_color, rgba);
+            if (image.bytes.empty())
+                std::copy_n(table_.rgba32f.data() + 4 * (placed.base + size_t(y) * size_t(image.width)), 4 * image.width, rgba);
+            else
+                read_bytes(image, y, is_color, rgba);
         };
         size_t at = placed.mips;
         make_mips(image.width, image.height, read, [&](const TextureMip& mip) {
-            if (image.bytes.empty()) std::ranges::copy(mip.rgba, table_.rgba32f.begin() + std::ptrdiff_t(4 * at));
-            else fill_halves(mip, table_.rgba16f.data() + 2 * at);
+            if (image.bytes.empty())
+                std::ranges::copy(mip.rgba, table_.rgba32f.begin() + std::ptrdiff_t(4 * at));
+            else
+                fill_halves(mip, table_.rgba16f.data() + 2 * at);
             at += size_t(mip.width) * size_t(mip.height);
         });
     }
@@ -228,7 +238,9 @@ TextureTables TextureTable::tables() const {
     return {records.data(), levels.data(), nullptr, rgba8.data(), rgba16f.data(), rgba32f.data(), srgb_table().data()};
 }
 
-size_t TextureTable::memory_bytes() const { return (rgba8.capacity() + rgba16f.capacity()) * sizeof(uint32_t) + rgba32f.capacity() * sizeof(float); }
+size_t TextureTable::memory_bytes() const {
+    return (rgba8.capacity() + rgba16f.capacity()) * sizeof(uint32_t) + rgba32f.capacity() * sizeof(float);
+}
 
 int64_t texel_bytes(const Image& image) {
     const auto base = int64_t(texel_count(image)), mips = int64_t(mip_texels(image));

@@ -35,7 +35,8 @@ DenoiserMaker denoiser_maker(std::filesystem::path weights, unsigned threads, bo
 }
 
 BackgroundDenoiser::BackgroundDenoiser(DenoiserMaker maker, double grace_seconds, PauseGate& gate, OnAnswer on_answer, OnRelease on_release)
-    : maker_(std::move(maker)), grace_seconds_(grace_seconds), gate_(gate), on_answer_(std::move(on_answer)), on_release_(std::move(on_release)) {
+    : maker_(std::move(maker)), grace_seconds_(grace_seconds), gate_(gate), on_answer_(std::move(on_answer)),
+      on_release_(std::move(on_release)) {
     if (maker_) thread_ = std::thread([this] { run(); });
 }
 
@@ -97,7 +98,8 @@ DenoiseOptions BackgroundDenoiser::options_for(const Task& task, DenoiseQuality 
 Result<std::vector<Denoised>> BackgroundDenoiser::denoise_all(const Task& task, DenoiseQuality quality) const {
     std::vector<Denoised> all;
     for (const DenoiseInput& input : denoise_inputs(*task.frame)) {
-        Result<std::optional<Denoised>> result = denoise_(input, options_for(task, quality, all.size()), [&] { return is_wanted_by_now(task); });
+        Result<std::optional<Denoised>> result =
+            denoise_(input, options_for(task, quality, all.size()), [&] { return is_wanted_by_now(task); });
         if (!result) return result.error();
         if (!*result) return std::vector<Denoised>();
         all.push_back(**std::move(result));

@@ -16,7 +16,7 @@ namespace blush {
 // Times are seconds of any monotonic clock.
 class DenoiseCadence {
 public:
-    static constexpr double min_interval = 1;       // seconds from the start of one run to the start of the next
+    static constexpr double min_interval = 1;         // seconds from the start of one run to the start of the next
     static constexpr double time_share = 0.1;         // of the image's render time
     static constexpr double idle_seconds = 2;         // without an edit
     static constexpr double frame_seconds = 1.0 / 30; // for an image that the window waits for

@@ -29,7 +29,7 @@ struct DenoisedPicture {
     double rendered_seconds = 0;
 
     DenoiseQuality quality = DenoiseQuality::fast;
-    Denoised denoised; // of the whole image; with groups, the sum of the denoised groups, each times its gain
+    Denoised denoised;                            // of the whole image; with groups, the sum of the denoised groups, each times its gain
     std::shared_ptr<const DenoisedGroups> groups; // null: denoised as a whole
     Gains gains;                                  // of the groups
 };

@@ -1,8 +1,8 @@
 // The published frame and its denoised version.
 #pragma once
 
-#include "render/session/denoised_picture.h"
 #include "render/frame.h"
+#include "render/session/denoised_picture.h"
 
 #include <cstdint>
 

@@ -1,9 +1,9 @@
 #include "render/session/render_session.h"
 
+#include "render/renderer.h"
 #include "render/session/error_cadence.h"
 #include "render/session/frame_pool.h"
 #include "render/session/pause_gate.h"
-#include "render/renderer.h"
 #include "render/session/scheduler.h"
 #include "scene/changes.h"
 
@@ -54,7 +54,8 @@ bool continues(const Submission& last, const Submission& next) {
 bool name_image(Submission& next, const std::optional<Submission>& last, bool has_samples) {
     const bool same = last && !has_samples && continues(*last, next);
     next.image = (last ? last->image : 0) + !same;
-    if (same) next.groups = last->groups;
+    if (same)
+        next.groups = last->groups;
     else if (next.scene.mix.grouping != LightMix::Grouping::none)
         next.groups = std::make_shared<const LightGroups>(make_light_groups(next.scene));
     return same;
@@ -97,7 +98,7 @@ struct RenderSession::State {
     std::atomic<uint64_t> wanted_image{0};
     std::atomic<bool> quit{false};
     std::atomic<bool> film_wanted{false}; // film_asked holds a value
-    PauseGate gate;                            // closed while rendering yields to the UI
+    PauseGate gate;                       // closed while rendering yields to the UI
 
     // Used only by the render thread.
     std::optional<Renderer> renderer;
@@ -324,7 +325,8 @@ void RenderSession::State::render_batch() {
     };
     const bool done = renderer->render(work.first_sample, work.count, [&] {
         gate.wait_while_closed(interrupted);
-        return !quit.load(std::memory_order_relaxed) && (work.always_finish || film_wanted.load(std::memory_order_relaxed) || wanted_image.load(std::memory_order_relaxed) == mine);
+        return !quit.load(std::memory_order_relaxed) &&
+               (work.always_finish || film_wanted.load(std::memory_order_relaxed) || wanted_image.load(std::memory_order_relaxed) == mine);
     });
     if (!done) return;
     const double seconds = seconds_between(begin, Clock::now()) - (gate.closed_seconds() - shut_before);
@@ -352,7 +354,8 @@ void RenderSession::State::run() {
         bool work = false;
         {
             std::unique_lock lock(mutex);
-            wake.wait(lock, [&] { return quit || film_asked || (pending && !yields_to_ui()) || has_work() || due_state() != status.state; });
+            wake.wait(lock,
+                      [&] { return quit || film_asked || (pending && !yields_to_ui()) || has_work() || due_state() != status.state; });
             if (quit) return;
             // Before the requested image is replaced.
             asked = std::exchange(film_asked, std::nullopt);
@@ -399,7 +402,8 @@ RenderSession::~RenderSession() {
     state_->thread.join();
 }
 
-bool RenderSession::submit(uint64_t revision, const Scene& scene, const RenderSettings& settings, const PlaneSet& planes, FilmStatePtr film) {
+bool RenderSession::submit(uint64_t revision, const Scene& scene, const RenderSettings& settings, const PlaneSet& planes,
+                           FilmStatePtr film) {
     State& s = *state_;
     const std::lock_guard submitting(s.submitting);
     std::optional<Submission> next = Submission{revision, 0, scene, settings, planes, {}, Clock::now(), nullptr};
@@ -462,7 +466,8 @@ Pictures RenderSession::pictures() const { return state_->current_pictures(); }
 SessionStatus RenderSession::status() const {
     const std::lock_guard lock(state_->mutex);
     SessionStatus status = state_->status;
-    if (status.state == SessionStatus::State::rendering && state_->gate.has_waiting_threads()) status.state = SessionStatus::State::yielding;
+    if (status.state == SessionStatus::State::rendering && state_->gate.has_waiting_threads())
+        status.state = SessionStatus::State::yielding;
     return status;
 }
 

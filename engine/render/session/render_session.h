@@ -1,10 +1,10 @@
 // Public interface of rendering: runs a Renderer on one thread and the denoiser on another.
 #pragma once
 
-#include "render/session/background_denoiser.h"
 #include "render/film/film_state.h"
 #include "render/frame.h"
 #include "render/renderer.h"
+#include "render/session/background_denoiser.h"
 #include "render/session/published_frames.h"
 #include "scene/render_settings.h"
 #include "scene/scene.h"
@@ -34,7 +34,7 @@ struct SessionStatus {
     std::array<bool, denoise_qualities> denoised_with{}; // networks used so far that are still in memory
     // why this image restarted instead of continuing from the given samples; empty: it did not
     std::string restart_reason;
-    std::string denoiser_failure;                        // why denoising failed; empty: no error
+    std::string denoiser_failure; // why denoising failed; empty: no error
 };
 
 // A frame and the film that it was made from, for a snapshot.

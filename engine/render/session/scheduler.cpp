@@ -79,8 +79,8 @@ Work Scheduler::next() const {
     work.count = std::min<int64_t>(count, 1024);
     const double after = seconds_ + double(work.count) * sample;
     const bool last = settings_.spp > 0 && next_sample_ + work.count >= settings_.spp;
-    work.publish = last || samples() < 8 || after - last_publish_ >= 0.9 * publish_interval() || error_may_be_reached(samples() + work.count) ||
-                   (settings_.seconds > 0 && after >= settings_.seconds);
+    work.publish = last || samples() < 8 || after - last_publish_ >= 0.9 * publish_interval() ||
+                   error_may_be_reached(samples() + work.count) || (settings_.seconds > 0 && after >= settings_.seconds);
     return work;
 }
 

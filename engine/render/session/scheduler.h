@@ -9,12 +9,12 @@ namespace blush {
 
 // A work item of the render thread.
 struct Work {
-    int divider = 1;           // full resolution / film resolution
+    int divider = 1; // full resolution / film resolution
     int64_t first_sample = 0;
-    int64_t count = 0;         // samples per pixel
-    bool clear = false;        // clears the film: another divider, or outdated contents
+    int64_t count = 0;          // samples per pixel
+    bool clear = false;         // clears the film: another divider, or outdated contents
     bool always_finish = false; // the first frame of a revision is never cancelled, so that a drag always shows something
-    bool publish = false;      // resolve and publish a frame afterwards
+    bool publish = false;       // resolve and publish a frame afterwards
 };
 
 // Similar to Cycles: a first image within a display frame, then full resolution, then batches with growing display intervals,
@@ -66,9 +66,9 @@ private:
     int film_divider_ = 0; // 0: nothing rendered yet
     int64_t next_sample_ = 0;
     bool interactive_ = true;
-    double seconds_ = 0;         // render time of this revision
-    double last_publish_ = 0;    // seconds_ when last published
-    double error_ = -1;          // last estimate, made at
+    double seconds_ = 0;      // render time of this revision
+    double last_publish_ = 0; // seconds_ when last published
+    double error_ = -1;       // last estimate, made at
     int64_t error_samples_ = 0;
 };
 

@@ -2,8 +2,8 @@
 
 #include "core/math.h"
 #include "scene/affine.h"
-#include "scene/geometry/arena_geometry.h"
 #include "scene/animation/pose.h"
+#include "scene/geometry/arena_geometry.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // Mesh deformation: morphing and skinning (glTF 2.0, 3.7.2.2 and 3.7.3.3).
 #pragma once
 
-#include "scene/world_transforms.h"
 #include "scene/scene.h"
+#include "scene/world_transforms.h"
 
 #include <optional>
 #include <vector>

@@ -1,8 +1,8 @@
 #include "scene/document/edit.h"
 
+#include "scene/document/scene_selection.h"
 #include "scene/document/subtree_edits.h"
 #include "scene/reference_check.h"
-#include "scene/document/scene_selection.h"
 #include "scene/validate.h"
 
 #include <fmt/format.h>

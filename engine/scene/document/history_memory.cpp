@@ -28,8 +28,8 @@ size_t bytes_held(const Project& kept, const Project& neighbour) {
     const Scene& b = neighbour.scene;
     return sizeof(Project) + table_bytes(a.nodes, b.nodes) + table_bytes(a.meshes, b.meshes) + table_bytes(a.materials, b.materials) +
            table_bytes(a.textures, b.textures) + table_bytes(a.lights, b.lights) + table_bytes(a.cameras, b.cameras) +
-           table_bytes(a.skins, b.skins) + table_bytes(a.clips, b.clips) +
-           pixel_bytes(a.environment.image, b.environment.image) + replaced_pixel_bytes(a.textures, b.textures);
+           table_bytes(a.skins, b.skins) + table_bytes(a.clips, b.clips) + pixel_bytes(a.environment.image, b.environment.image) +
+           replaced_pixel_bytes(a.textures, b.textures);
 }
 
 } // namespace blush

@@ -7,7 +7,7 @@
 namespace blush {
 namespace {
 
-constexpr float middle = 0.5f;     // mean texel of a linear texture
+constexpr float middle = 0.5f;          // mean texel of a linear texture
 constexpr float middle_grey = 0.21404f; // mean texel of a colour texture: sRGB 0.5, linear
 
 Material preview_scene(Material m) {

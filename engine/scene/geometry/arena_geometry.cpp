@@ -26,7 +26,8 @@ template <class T> T* base_of(const ArenaVector<T>&, Attribute attribute) { retu
 void move_to_arena(Geometry& g) {
     if (g.positions.size() < min_arena_vertices) return;
     if (!all_attributes(g, [](const auto& array, Attribute attribute) { return base_of(array, attribute) != nullptr; })) return;
-    ArenaRangePtr vertices = reserve_arena_range(ArenaKind::vertices, g.positions.size()), indices = reserve_arena_range(ArenaKind::indices, g.indices.size());
+    ArenaRangePtr vertices = reserve_arena_range(ArenaKind::vertices, g.positions.size()),
+                  indices = reserve_arena_range(ArenaKind::indices, g.indices.size());
     if (!vertices || !indices) return;
     all_attributes(g, [&](auto& array, Attribute attribute) {
         move_to(array, base_of(array, attribute), vertices->first());

@@ -29,13 +29,13 @@ Vec3d unit_or_same(const Vec3d& v) {
 Vec3d in_plane(const Vec3d& v, const Vec3d& normal) { return unit_or_same(v - normal * dot(normal, v)); }
 
 struct Triangle {
-    std::array<uint32_t, 3> vertices{};         // welded
+    std::array<uint32_t, 3> vertices{};             // welded
     std::array<int, 3> neighbors{none, none, none}; // across the edge from corner k to k + 1
     std::array<int, 3> groups{none, none, none};    // of each corner
-    Vec3d along_u{0, 0, 0}, along_v{0, 0, 0};   // directions of increasing u and v: unit length, or 0
-    bool keeps_orientation = false;             // false: UVs are mirrored
-    bool follows = false;                       // degenerate UVs: joins the group of a neighbour
-    bool degenerate = false;                    // two corners coincide
+    Vec3d along_u{0, 0, 0}, along_v{0, 0, 0};       // directions of increasing u and v: unit length, or 0
+    bool keeps_orientation = false;                 // false: UVs are mirrored
+    bool follows = false;                           // degenerate UVs: joins the group of a neighbour
+    bool degenerate = false;                        // two corners coincide
 
     size_t corner_of(uint32_t vertex) const { return size_t(std::ranges::find(vertices, vertex) - vertices.begin()); }
 };
@@ -222,7 +222,8 @@ private:
     std::vector<int> corners_by_vertex() const {
         std::vector<int> corners(g_.positions.size(), none);
         for (size_t i = 0; i < g_.indices.size(); ++i)
-            if (int& corner = corners[triangles_[i / 3].vertices[i % 3]]; corner == none && triangles_[i / 3].groups[i % 3] != none) corner = int(i);
+            if (int& corner = corners[triangles_[i / 3].vertices[i % 3]]; corner == none && triangles_[i / 3].groups[i % 3] != none)
+                corner = int(i);
         return corners;
     }
 
@@ -234,6 +235,8 @@ private:
 
 } // namespace
 
-std::vector<Vec4> mikktspace_tangents(const Geometry& geometry, const ArenaVector<Vec2>& uv) { return TangentSpace(geometry, uv).corners(); }
+std::vector<Vec4> mikktspace_tangents(const Geometry& geometry, const ArenaVector<Vec2>& uv) {
+    return TangentSpace(geometry, uv).corners();
+}
 
 } // namespace blush

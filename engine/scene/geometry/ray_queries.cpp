@@ -47,14 +47,16 @@ template <class Corner> void look_in(const Geometry& g, const Corner& corner, Li
 
 // The same in the part's object space.
 void look_in(const Geometry& g, const Line& line, TriangleHit& nearest) {
-    look_in(g, [&](size_t i) { return to_double(g.positions[g.indices[i]]); }, line, nearest);
+    look_in(
+        g, [&](size_t i) { return to_double(g.positions[g.indices[i]]); }, line, nearest);
 }
 
 // For singular transforms, which have no inverse: the triangles are transformed to world space.
 void look_in_flattened(const std::vector<const Geometry*>& parts, const Affined& world_from_parts, const Line& line, TriangleHit& nearest) {
     const double before = nearest.t;
     for (const Geometry* g : parts)
-        look_in(*g, [&](size_t i) { return transform_point(world_from_parts, to_double(g->positions[g->indices[i]])); }, line, nearest);
+        look_in(
+            *g, [&](size_t i) { return transform_point(world_from_parts, to_double(g->positions[g->indices[i]])); }, line, nearest);
     if (nearest.t < before) nearest.world_from_mesh = world_from_parts;
 }
 
@@ -68,7 +70,8 @@ bool lets_light_through(const Material* m) {
 std::vector<const Geometry*> parts_of(const Scene& scene, const DeformedMesh& mesh, bool opaque_only) {
     std::vector<const Geometry*> parts;
     for (const MeshPart& part : mesh.parts)
-        if (part.geometry && !(opaque_only && lets_light_through(scene.materials.find(part.material)))) parts.push_back(part.geometry.get());
+        if (part.geometry && !(opaque_only && lets_light_through(scene.materials.find(part.material))))
+            parts.push_back(part.geometry.get());
     return parts;
 }
 
@@ -95,7 +98,8 @@ bool meets(const Bounds& box, const Line& line) {
 }
 
 // The same for transformed parts. `box`: their bounds in object space; null: skip the bounds test.
-void look_in(const std::vector<const Geometry*>& parts, const Affined& world_from_parts, const Bounds* box, const Line& line, TriangleHit& nearest) {
+void look_in(const std::vector<const Geometry*>& parts, const Affined& world_from_parts, const Bounds* box, const Line& line,
+             TriangleHit& nearest) {
     if (!(std::abs(determinant(world_from_parts)) > 0)) return look_in_flattened(parts, world_from_parts, line, nearest);
     const Affined parts_from_world = inverse(world_from_parts);
     const Vec3d origin = transform_point(parts_from_world, line.origin);
@@ -115,7 +119,8 @@ TriangleHit nearest_hit(const Scene& scene, const Line& line, bool opaque_only, 
         const DeformedMesh mesh = deformed_mesh(scene, placements, id, node);
         const std::vector<const Geometry*> parts = parts_of(scene, mesh, opaque_only);
         const double before = nearest.t;
-        if (!node.instances) look_in(parts, mesh.world_from_mesh, nullptr, line, nearest);
+        if (!node.instances)
+            look_in(parts, mesh.world_from_mesh, nullptr, line, nearest);
         else {
             const Bounds box = box_of(parts);
             for (const Affine& place : node.instances->node_from_copy)
@@ -128,7 +133,8 @@ TriangleHit nearest_hit(const Scene& scene, const Line& line, bool opaque_only, 
 
 } // namespace
 
-std::optional<Id<Node>> first_occluder(const Scene& scene, const Vec3d& from, const Vec3d& to, const std::function<bool(Id<Node>)>& counts) {
+std::optional<Id<Node>> first_occluder(const Scene& scene, const Vec3d& from, const Vec3d& to,
+                                       const std::function<bool(Id<Node>)>& counts) {
     const TriangleHit hit = nearest_hit(scene, {from, to - from, left_out, 1 - left_out}, true, counts);
     return hit.geometry ? std::optional(hit.node) : std::nullopt;
 }
@@ -138,7 +144,8 @@ double unoccluded_fraction(const Scene& scene, const Vec3d& from, const Vec3d& t
     return hit.geometry ? hit.t : 1;
 }
 
-std::optional<RayHit> cast_ray(const Scene& scene, const Vec3d& origin, const Vec3d& direction, const std::function<bool(Id<Node>)>& counts) {
+std::optional<RayHit> cast_ray(const Scene& scene, const Vec3d& origin, const Vec3d& direction,
+                               const std::function<bool(Id<Node>)>& counts) {
     const TriangleHit hit = nearest_hit(scene, {origin, direction, 0, std::numeric_limits<double>::infinity()}, false, counts);
     if (!hit.geometry) return {};
     std::array<Vec3d, 3> corners;

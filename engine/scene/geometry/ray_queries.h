@@ -21,10 +21,11 @@ double unoccluded_fraction(const Scene& scene, const Vec3d& from, const Vec3d& t
 struct RayHit {
     Id<Node> node;
     Vec3d position;
-    Vec3d normal;    // geometric normal, unit length, on the side of the ray's origin
+    Vec3d normal;                 // geometric normal, unit length, on the side of the ray's origin
     std::array<Vec3d, 3> corners; // of the triangle, world space
-    double largest_term; // metres: largest term of the products that transform the corners; bounds the rounding error
+    double largest_term;          // metres: largest term of the products that transform the corners; bounds the rounding error
 };
-std::optional<RayHit> cast_ray(const Scene& scene, const Vec3d& origin, const Vec3d& direction, const std::function<bool(Id<Node>)>& counts);
+std::optional<RayHit> cast_ray(const Scene& scene, const Vec3d& origin, const Vec3d& direction,
+                               const std::function<bool(Id<Node>)>& counts);
 
 } // namespace blush

@@ -64,8 +64,10 @@ ColorTemperature temperature_of(const Vec3& rgb) {
     double low = 1.0 / max_kelvin, high = 1.0 / min_kelvin;
     for (int i = 0; i < 40; ++i) {
         const double a = high - ratio * (high - low), b = low + ratio * (high - low);
-        if (distance_to_locus(c, 1 / a) < distance_to_locus(c, 1 / b)) high = b;
-        else low = a;
+        if (distance_to_locus(c, 1 / a) < distance_to_locus(c, 1 / b))
+            high = b;
+        else
+            low = a;
     }
     const double kelvin = 2 / (low + high);
     const Chromaticity here = chromaticity_of(black_body_xyz(kelvin)), hotter = chromaticity_of(black_body_xyz(kelvin * 1.001));

@@ -9,7 +9,6 @@
 namespace blush {
 namespace {
 
-
 // The interval of `angles` that contains `at`, and the position in it; none if `at` is outside.
 struct Place {
     size_t below = 0, above = 0;
@@ -68,7 +67,8 @@ double luminous_flux(const IesProfile& p) {
                 for (int b = 0; b < 3; ++b) {
                     const double v = 0.5 * (vs[i] + vs[i - 1]) + 0.5 * node[a] * (vs[i] - vs[i - 1]);
                     const double h = 0.5 * (hs[j] + hs[j - 1]) + 0.5 * node[b] * (hs[j] - hs[j - 1]);
-                    const double stretch = p.type == IesProfile::Type::b ? std::cos(h / degrees_per_radian) : std::sin(v / degrees_per_radian);
+                    const double stretch =
+                        p.type == IesProfile::Type::b ? std::cos(h / degrees_per_radian) : std::sin(v / degrees_per_radian);
                     sum += weight[a] * weight[b] * (vs[i] - vs[i - 1]) * (hs[j] - hs[j - 1]) * stretch * candela_at(p, v, h);
                 }
     return sum / (degrees_per_radian * degrees_per_radian);

@@ -2,11 +2,11 @@
 
 #include "core/math.h"
 #include "scene/affine.h"
+#include "scene/enum_names.h"
 #include "scene/geometry/ray_queries.h"
-#include "scene/world_transforms.h"
 #include "scene/lights/light_visibility.h"
 #include "scene/lights/sky_model.h"
-#include "scene/enum_names.h"
+#include "scene/world_transforms.h"
 
 #include <algorithm>
 #include <array>
@@ -97,8 +97,10 @@ LevelFrame level_frame(const View& view) {
     LevelFrame frame;
     const Vec3d level{eye.z.x, 0, eye.z.z}, beside{eye.x.x, 0, eye.x.z};
     // A view straight up or down keeps its own right axis.
-    if (length(level) > 1e-3) frame.back = normalize(level);
-    else frame.back = length(beside) > 1e-3 ? cross(normalize(beside), frame.up) : Vec3d{0, 0, 1};
+    if (length(level) > 1e-3)
+        frame.back = normalize(level);
+    else
+        frame.back = length(beside) > 1e-3 ? cross(normalize(beside), frame.up) : Vec3d{0, 0, 1};
     frame.right = cross(frame.up, frame.back);
     return frame;
 }

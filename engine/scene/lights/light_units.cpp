@@ -49,7 +49,8 @@ double directional_share(const Light& light) {
     double sum = 0;
     for (int i = 0; i < rings; ++i)
         for (int j = 0; j < sectors; ++j) {
-            const double cosine = 1 - height * (i + 0.5) / rings, sine = std::sqrt(1 - cosine * cosine), turn = 2 * pi * (j + 0.5) / sectors;
+            const double cosine = 1 - height * (i + 0.5) / rings, sine = std::sqrt(1 - cosine * cosine),
+                         turn = 2 * pi * (j + 0.5) / sectors;
             sum += cone_factor(light, cosine) * candela_towards(*light.ies, {sine * std::cos(turn), sine * std::sin(turn), -cosine});
         }
     return sum * 2 * pi * height / (rings * sectors) / double(light.ies->peak);

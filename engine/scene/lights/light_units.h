@@ -2,13 +2,15 @@
 // for point and spot lights, lux for suns, nits for area lights.
 //
 // Values are for white light; the light's colour multiplies it and is not included. Meaning of each unit:
-//   watt     radiant watts of 683 lm each (lumens_per_watt): the luminous efficacy of monochromatic light of 555 nm, by which the SI defines
+//   watt     radiant watts of 683 lm each (lumens_per_watt): the luminous efficacy of monochromatic light of 555 nm, by which the SI
+//   defines
 //            the candela and by which programs that keep lights in watts exchange them with glTF. It is not electrical power.
 //   lumen    luminous flux in all directions
 //   candela  on-axis luminous intensity; with a cone or an IES profile, the maximum
 //   lux      illuminance of a surface facing the light at one metre (unit_distance), as of a point source; a sun's own, at any distance
 //   nits     luminance of the emitting surface; of a sun, of its disk
-//   ev       exposure value at ISO 100: by reflected light for nits, L = 2^EV / 8 (K = 12.5), else by incident light, E = 2.5 * 2^EV (C = 250),
+//   ev       exposure value at ISO 100: by reflected light for nits, L = 2^EV / 8 (K = 12.5), else by incident light, E = 2.5 * 2^EV (C =
+//   250),
 //            ISO 2720
 #pragma once
 

@@ -8,9 +8,9 @@ namespace {
 bool wears_solo(const Scene& scene, const Node& node) {
     const Mesh* mesh = scene.meshes.find(node.mesh);
     return mesh && std::ranges::any_of(mesh->parts, [&](const MeshPart& part) {
-        const Material* m = scene.materials.find(part.material);
-        return m && m->solo && has_emission(*m);
-    });
+               const Material* m = scene.materials.find(part.material);
+               return m && m->solo && has_emission(*m);
+           });
 }
 
 bool some_glow_is_muted(const Scene& scene) {

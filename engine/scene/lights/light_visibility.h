@@ -13,7 +13,9 @@ inline bool has_emission(const Material& m) { return m.emissive != Vec3{0, 0, 0}
 bool any_solo(const Scene& scene);
 // True if the emitter emits. Mute takes precedence over solo. `some_solo`: result of any_solo.
 inline bool emits_light(const Light& light, bool some_solo) { return light.enabled && (light.solo || !some_solo); }
-inline bool emits_light(const Material& m, bool some_solo) { return has_emission(m) && m.emits && m.emissive_strength > 0 && (m.solo || !some_solo); }
+inline bool emits_light(const Material& m, bool some_solo) {
+    return has_emission(m) && m.emits && m.emissive_strength > 0 && (m.solo || !some_solo);
+}
 inline bool emits_light(const Environment& e, bool some_solo) {
     return e.kind != Environment::Kind::none && e.lights_scene && (e.solo || !some_solo);
 }

@@ -39,8 +39,9 @@ SunPosition sun_position(double latitude, double longitude, int year, int month,
     const double hour_angle = sidereal + longitude - right_ascension;
     const double sine = sin_deg(latitude) * sin_deg(declination) + cos_deg(latitude) * cos_deg(declination) * cos_deg(hour_angle);
     // Meeus measures azimuth from the south.
-    const double south = std::atan2(sin_deg(hour_angle) * cos_deg(declination),
-                                    cos_deg(hour_angle) * sin_deg(latitude) * cos_deg(declination) - sin_deg(declination) * cos_deg(latitude));
+    const double south =
+        std::atan2(sin_deg(hour_angle) * cos_deg(declination),
+                   cos_deg(hour_angle) * sin_deg(latitude) * cos_deg(declination) - sin_deg(declination) * cos_deg(latitude));
     return {std::asin(std::fmin(1, std::fmax(-1, sine))) * degrees_per_radian, std::fmod(south * degrees_per_radian + 180 + 360, 360)};
 }
 

@@ -1,10 +1,10 @@
 // Animations, skins and morph targets: valid and broken files, and round trip through a save.
 #include "io/gltf/write/save.h"
 #include "io/project/scene_hash.h"
-#include "tests/io/gltf/saving.h"
 #include "scene/animation/keyframes.h"
 #include "scene/animation/pose.h"
 #include "scene/document/scene_selection.h"
+#include "tests/io/gltf/saving.h"
 
 #include <gtest/gtest.h>
 
@@ -260,7 +260,8 @@ TEST(GltfMorphTargets, AreReadWithNamesAndWeights) {
     EXPECT_EQ(world_bounds(s.scene).high.z, 0.5) << "a quarter of 2";
     builder.json["nodes"][0]["weights"] = {1, 0.5};
     s = imported(builder);
-    EXPECT_EQ(s.scene.nodes.begin()->value.morph_weights, (std::vector<float>{1, 0.5f})) << "weights of the node take precedence over those of the mesh";
+    EXPECT_EQ(s.scene.nodes.begin()->value.morph_weights, (std::vector<float>{1, 0.5f}))
+        << "weights of the node take precedence over those of the mesh";
     EXPECT_EQ(world_bounds(s.scene).high.z, 3);
 }
 

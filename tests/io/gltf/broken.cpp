@@ -39,7 +39,8 @@ GltfBuilder sound() {
     b.add("samplers", {{"wrapS", 10497}, {"minFilter", 9987}, {"magFilter", 9729}});
     b.add("textures", {{"source", 0}, {"sampler", 0}});
     b.add("materials", {{"normalTexture", {{"index", 0}}}, {"pbrMetallicRoughness", {{"metallicFactor", 0}}}});
-    const Json attributes{{"POSITION", positions}, {"NORMAL", normals}, {"TANGENT", tangents}, {"TEXCOORD_0", uvs}, {"JOINTS_0", joints}, {"WEIGHTS_0", weights}};
+    const Json attributes{{"POSITION", positions}, {"NORMAL", normals},  {"TANGENT", tangents},
+                          {"TEXCOORD_0", uvs},     {"JOINTS_0", joints}, {"WEIGHTS_0", weights}};
     b.show({{"attributes", attributes}, {"indices", corners}, {"material", 0}});
     b.json["nodes"][0]["skin"] = 0;
     b.add("nodes", {{"name", "bone"}});
@@ -47,7 +48,8 @@ GltfBuilder sound() {
     b.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}, {"zfar", 10}}}});
     b.add("nodes", {{"camera", 0}, {"translation", {0, 0, 3}}});
     b.json["extensionsUsed"] = {"KHR_lights_punctual"};
-    b.json["extensions"]["KHR_lights_punctual"]["lights"] = Json::array({{{"type", "spot"}, {"intensity", 100}, {"spot", {{"outerConeAngle", 0.5}}}}});
+    b.json["extensions"]["KHR_lights_punctual"]["lights"] =
+        Json::array({{{"type", "spot"}, {"intensity", 100}, {"spot", {{"outerConeAngle", 0.5}}}}});
     b.add("nodes", {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
     const Json channel{{"sampler", 0}, {"target", {{"node", 1}, {"path", "rotation"}}}};
     b.add("animations", {{"samplers", Json::array({{{"input", times}, {"output", turns}}})}, {"channels", Json::array({channel})}});
@@ -127,13 +129,17 @@ const std::map<std::string, std::function<void(GltfBuilder&)>>& faults() {
         {"offset below zero", set("/accessors/0/byteOffset", -4)},
         {"bounds that are not there", without("/accessors/0", "min")},
         {"bounds that are others", set("/accessors/0/max", {5, 5, 5})},
-        {"sparse corners that do not grow", [](GltfBuilder& b) {
-             const int indices = b.buffer_view(std::string_view("\2\1", 2)), values = b.buffer_view(std::string_view("\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0", 24));
+        {"sparse corners that do not grow",
+         [](GltfBuilder& b) {
+             const int indices = b.buffer_view(std::string_view("\2\1", 2)),
+                       values = b.buffer_view(std::string_view("\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0", 24));
              b.json["accessors"][positions]["sparse"] = {
                  {"count", 2}, {"indices", {{"bufferView", indices}, {"componentType", 5121}}}, {"values", {{"bufferView", values}}}};
          }},
-        {"sparse corner beyond the vertices", [](GltfBuilder& b) {
-             const int indices = b.buffer_view(std::string_view("\11", 1)), values = b.buffer_view(std::string_view("\0\0\0\0\0\0\0\0\0\0\0\0", 12));
+        {"sparse corner beyond the vertices",
+         [](GltfBuilder& b) {
+             const int indices = b.buffer_view(std::string_view("\11", 1)),
+                       values = b.buffer_view(std::string_view("\0\0\0\0\0\0\0\0\0\0\0\0", 12));
              b.json["accessors"][positions]["sparse"] = {
                  {"count", 1}, {"indices", {{"bufferView", indices}, {"componentType", 5121}}}, {"values", {{"bufferView", values}}}};
          }},
@@ -142,11 +148,19 @@ const std::map<std::string, std::function<void(GltfBuilder&)>>& faults() {
         {"accessor of no view", set("/accessors/0/bufferView", 44)},
         {"stride of three", set("/bufferViews/0/byteStride", 3)},
         {"view for corners that holds positions", set("/bufferViews/0/target", 34963)},
-        {"buffer that is not there", [](GltfBuilder& b) { b.json["buffers"] = Json::array({{{"byteLength", b.buffer.size()}, {"uri", "nowhere.bin"}}}); }},
-        {"buffer of fewer bytes than it says", [](GltfBuilder& b) {
-             b.json["buffers"] = Json::array({{{"byteLength", b.buffer.size() + 64}, {"uri", "data:application/octet-stream;base64," + base64(b.buffer)}}});
+        {"buffer that is not there",
+         [](GltfBuilder& b) {
+             b.json["buffers"] = Json::array({{{"byteLength", b.buffer.size()}, {"uri", "nowhere.bin"}}});
          }},
-        {"buffer of no length", [](GltfBuilder& b) { b.json["buffers"] = Json::array({{{"uri", "data:application/octet-stream;base64," + base64(b.buffer)}}}); }},
+        {"buffer of fewer bytes than it says",
+         [](GltfBuilder& b) {
+             b.json["buffers"] =
+                 Json::array({{{"byteLength", b.buffer.size() + 64}, {"uri", "data:application/octet-stream;base64," + base64(b.buffer)}}});
+         }},
+        {"buffer of no length",
+         [](GltfBuilder& b) {
+             b.json["buffers"] = Json::array({{{"uri", "data:application/octet-stream;base64," + base64(b.buffer)}}});
+         }},
         // References.
         {"child that does not exist", set("/nodes/0/children", {9})},
         {"mesh that does not exist", set("/nodes/0/mesh", 9)},
@@ -169,12 +183,14 @@ const std::map<std::string, std::function<void(GltfBuilder&)>>& faults() {
         {"animation of the wrong size", set("/animations/0/samplers/0/output", normals)},
         {"animation along no path", set("/animations/0/channels/0/target/path", "colour")},
         {"interpolation of no kind", set("/animations/0/samplers/0/interpolation", "WOBBLE")},
-        {"nodes in a circle", [](GltfBuilder& b) {
+        {"nodes in a circle",
+         [](GltfBuilder& b) {
              b.json["nodes"][1]["children"] = {3};
              b.json["nodes"][3]["children"] = {1};
              b.json["scenes"][0]["nodes"] = {0, 2};
          }},
-        {"node with two parents", [](GltfBuilder& b) {
+        {"node with two parents",
+         [](GltfBuilder& b) {
              b.json["nodes"][1]["children"] = {3};
              b.json["nodes"][2]["children"] = {3};
              b.json["scenes"][0]["nodes"] = {0, 1, 2};
@@ -185,7 +201,8 @@ const std::map<std::string, std::function<void(GltfBuilder&)>>& faults() {
         {"no primitives", set("/meshes/0/primitives", Json::array())},
         {"joints without weights", [](GltfBuilder& b) { attributes(b).erase("WEIGHTS_0"); }},
         {"tangents without normals", [](GltfBuilder& b) { attributes(b).erase("NORMAL"); }},
-        {"second texture coordinates without the first", [](GltfBuilder& b) {
+        {"second texture coordinates without the first",
+         [](GltfBuilder& b) {
              attributes(b).erase("TEXCOORD_0");
              attributes(b)["TEXCOORD_1"] = uvs;
              b.json["materials"][0]["normalTexture"]["texCoord"] = 1;
@@ -194,7 +211,8 @@ const std::map<std::string, std::function<void(GltfBuilder&)>>& faults() {
         {"attribute of no kind", set("/meshes/0/primitives/0/attributes/WEATHER", uvs)},
         {"primitive of no kind", set("/meshes/0/primitives/0/mode", 9)},
         {"weights of no targets", set("/meshes/0/weights", {1, 2})},
-        {"skin without vertices that follow it", [](GltfBuilder& b) {
+        {"skin without vertices that follow it",
+         [](GltfBuilder& b) {
              attributes(b).erase("JOINTS_0");
              attributes(b).erase("WEIGHTS_0");
          }},
@@ -202,16 +220,15 @@ const std::map<std::string, std::function<void(GltfBuilder&)>>& faults() {
         {"version of the future", set("/asset/version", "3.0")},
         {"no version", without("/asset", "version")},
         {"least version of the future", set("/asset/minVersion", "2.9")},
-        {"extension that nobody knows is required", [](GltfBuilder& b) {
+        {"extension that nobody knows is required",
+         [](GltfBuilder& b) {
              b.json["extensionsUsed"].push_back("ACME_rocket");
              b.json["extensionsRequired"] = {"ACME_rocket"};
          }},
         {"extension that is not declared", without("", "extensionsUsed")},
         {"rotation of length 2", set("/nodes/0/rotation", {0, 0, 0, 2})},
         {"rotation of three numbers", set("/nodes/0/rotation", {0, 0, 1})},
-        {"matrix and translation", [](GltfBuilder& b) {
-             b.json["nodes"][2]["matrix"] = {1, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-         }},
+        {"matrix and translation", [](GltfBuilder& b) { b.json["nodes"][2]["matrix"] = {1, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}; }},
         {"matrix that shears", set("/nodes/1/matrix", {1, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1})},
         {"matrix that is not affine", set("/nodes/1/matrix", {1, 0, 0, 0.5, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1})},
         {"wrap mode of no kind", set("/samplers/0/wrapS", 5)},
@@ -223,7 +240,8 @@ const std::map<std::string, std::function<void(GltfBuilder&)>>& faults() {
         {"base colour below zero", set("/materials/0/pbrMetallicRoughness/baseColorFactor", {1, 1, -1, 1})},
         {"emission above 1", set("/materials/0/emissiveFactor", {1, 1, 7})},
         {"alpha mode of no kind", set("/materials/0/alphaMode", "GLASS")},
-        {"cutoff below zero", [](GltfBuilder& b) {
+        {"cutoff below zero",
+         [](GltfBuilder& b) {
              b.json["materials"][0]["alphaMode"] = "MASK";
              b.json["materials"][0]["alphaCutoff"] = -1;
          }},
@@ -246,7 +264,8 @@ const std::map<std::string, std::function<void(GltfBuilder&)>>& faults() {
         {"inner cone outside the outer one", set("/extensions/KHR_lights_punctual/lights/0/spot/innerConeAngle", 1)},
         {"light of range zero", set("/extensions/KHR_lights_punctual/lights/0/range", 0)},
         {"spot without a cone", without("/extensions/KHR_lights_punctual/lights/0", "spot")},
-        {"image that is none", [](GltfBuilder& b) { b.json["images"][0] = {{"bufferView", b.buffer_view("no picture, but words")}, {"mimeType", "image/png"}}; }},
+        {"image that is none",
+         [](GltfBuilder& b) { b.json["images"][0] = {{"bufferView", b.buffer_view("no picture, but words")}, {"mimeType", "image/png"}}; }},
         {"image of another kind", set("/images/0/mimeType", "image/jpeg")},
         {"image without a kind", without("/images/0", "mimeType")},
         {"image that is nowhere", set("/images/0", Json::object())},
@@ -278,14 +297,18 @@ GltfFiles sound_files() {
              extension("KHR_materials_emissive_strength", {{"emissiveStrength", 5}})(b);
              b.json["materials"][0]["emissiveFactor"] = {1, 1, 1};
          })},
-        {"points.gltf", plain([](GltfBuilder& b) { primitive(b) = {{"attributes", {{"POSITION", positions}}}, {"mode", 0}}; b.json["nodes"][0].erase("skin"); })},
+        {"points.gltf", plain([](GltfBuilder& b) {
+             primitive(b) = {{"attributes", {{"POSITION", positions}}}, {"mode", 0}};
+             b.json["nodes"][0].erase("skin");
+         })},
         {"bare.gltf", plain([](GltfBuilder& b) {
              for (const char* name : {"TANGENT", "JOINTS_0", "WEIGHTS_0"}) attributes(b).erase(name);
              b.json["nodes"][0].erase("skin");
              b.json.erase("skins");
              b.json["materials"][0].erase("normalTexture");
          })},
-        {"orthographic.gltf", plain(set("/cameras/0", {{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"znear", 0}, {"zfar", 10}}}}))},
+        {"orthographic.gltf",
+         plain(set("/cameras/0", {{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"znear", 0}, {"zfar", 10}}}}))},
     };
 }
 

@@ -1,7 +1,7 @@
 // Files with several scenes, and KHR_materials_variants.
 #include "io/gltf/write/save.h"
-#include "tests/io/gltf/saving.h"
 #include "scene/document/scene_selection.h"
+#include "tests/io/gltf/saving.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Compressed meshes and buffer views: round trip through the encoder of each library.
 #include "io/gltf/write/save.h"
-#include "tests/io/gltf/packed.h"
 #include "scene/validate.h"
+#include "tests/io/gltf/packed.h"
 
 #include <gtest/gtest.h>
 

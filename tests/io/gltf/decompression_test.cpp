@@ -92,9 +92,7 @@ TEST(GltfUnpacking, CanBeCancelledAnywhere) {
             const auto imported = import_built(b, options);
             ASSERT_FALSE(imported);
             EXPECT_EQ(imported.error().what, "cancelled");
-            if (threads == 1) {
-                EXPECT_LT(reached, when + 0.05) << "no other threads";
-            }
+            if (threads == 1) { EXPECT_LT(reached, when + 0.05) << "no other threads"; }
         }
 }
 

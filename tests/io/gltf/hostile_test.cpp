@@ -2,8 +2,8 @@
 // other faults.
 #include "io/gltf/read/uri.h"
 #include "io/image/image_io.h"
-#include "tests/io/gltf/builder.h"
 #include "scene/validate.h"
+#include "tests/io/gltf/builder.h"
 
 #include <gtest/gtest.h>
 
@@ -178,7 +178,8 @@ TEST(HostileGltf, TheIntactFileIsRead) {
     ASSERT_TRUE(imported) << error_text(imported);
     EXPECT_EQ(imported->scene.textures.size(), 1u);
     EXPECT_EQ(imported->scene.nodes.size(), 3u);
-    EXPECT_EQ(imported->report.diagnostics.size(), 5u) << "tangents, back faces, clipping planes, and a normal map that is also a colour and has no normals";
+    EXPECT_EQ(imported->report.diagnostics.size(), 5u)
+        << "tangents, back faces, clipping planes, and a normal map that is also a colour and has no normals";
     const auto valid = validate(imported->scene);
     EXPECT_TRUE(valid) << error_text(valid);
 }

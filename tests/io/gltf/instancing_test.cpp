@@ -2,8 +2,8 @@
 #include "io/gltf/write/save.h"
 #include "io/project/scene_edits_json.h"
 #include "io/project/scene_hash.h"
-#include "tests/io/gltf/saving.h"
 #include "scene/affine.h"
+#include "tests/io/gltf/saving.h"
 
 #include <gtest/gtest.h>
 
@@ -68,10 +68,18 @@ TEST(GltfInstancing, HostileInstancesAreRefusedOrReported) {
         const int two = b.accessor<float>({0, 0, 0, 1, 1, 1}, "VEC3"), three = b.accessor<float>({0, 0, 0, 1, 1, 1, 2, 2, 2}, "VEC3");
         return import_built(with_copies(b, attributes(b, two, three)));
     };
-    EXPECT_NE(error_text(with([](auto&, int two, int three) { return Json{{"TRANSLATION", two}, {"SCALE", three}}; })).find("of 3 and of 2 copies"),
+    EXPECT_NE(error_text(with([](auto&, int two, int three) {
+                  return Json{{"TRANSLATION", two}, {"SCALE", three}};
+              })).find("of 3 and of 2 copies"),
               std::string::npos);
-    EXPECT_NE(error_text(with([](auto&, int two, int) { return Json{{"TRANSLATION", two}, {"SCALE", 99}}; })).find("accessor 99"), std::string::npos);
-    EXPECT_NE(error_text(with([](auto&, int two, int) { return Json{{"ROTATION", two}}; })).find("wrong number of components"), std::string::npos);
+    EXPECT_NE(error_text(with([](auto&, int two, int) {
+                  return Json{{"TRANSLATION", two}, {"SCALE", 99}};
+              })).find("accessor 99"),
+              std::string::npos);
+    EXPECT_NE(error_text(with([](auto&, int two, int) {
+                  return Json{{"ROTATION", two}};
+              })).find("wrong number of components"),
+              std::string::npos);
 
     constexpr float nan = std::numeric_limits<float>::quiet_NaN(), large = std::numeric_limits<float>::max();
     const auto lost = with([&](GltfBuilder& b, int, int) {

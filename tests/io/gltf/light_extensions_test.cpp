@@ -3,9 +3,9 @@
 #include "io/gltf/write/save.h"
 #include "io/image/ies.h"
 #include "io/project/scene_hash.h"
+#include "scene/lights/ies_profile.h"
 #include "tests/io/gltf/lit.h"
 #include "tests/io/gltf/saving.h"
-#include "scene/lights/ies_profile.h"
 
 #include <gtest/gtest.h>
 
@@ -214,7 +214,7 @@ TEST(ImageLight, FacesAreNotMirrored) {
         face = face_image(8, 3, {0, 0, 0});
         for (int y = 0; y < 8; ++y)
             for (int x = 0; x < 8; ++x) {
-                face.bytes[size_t(3 * (8 * y + x))] = x >= 4 ? 255 : 0;      // red to the right
+                face.bytes[size_t(3 * (8 * y + x))] = x >= 4 ? 255 : 0;    // red to the right
                 face.bytes[size_t(3 * (8 * y + x)) + 1] = y < 4 ? 255 : 0; // green above
             }
     }
@@ -223,7 +223,9 @@ TEST(ImageLight, FacesAreNotMirrored) {
     const Vec3 ups[] = {{0, 1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}, {0, 1, 0}, {0, 1, 0}};
     for (size_t i = 0; i < 6; ++i) {
         const Vec3 right = cross(axes[i], ups[i]);
-        const auto towards = [&](float r, float u) { return seen(imported->scene.environment, normalize(axes[i] + right * splat<float>(r) + ups[i] * splat<float>(u))); };
+        const auto towards = [&](float r, float u) {
+            return seen(imported->scene.environment, normalize(axes[i] + right * splat<float>(r) + ups[i] * splat<float>(u)));
+        };
         EXPECT_EQ(towards(0.5f, 0.5f), (Vec3{1, 1, 0})) << i;
         EXPECT_EQ(towards(-0.5f, 0.5f), (Vec3{0, 1, 0})) << i;
         EXPECT_EQ(towards(0.5f, -0.5f), (Vec3{1, 0, 0})) << i;

@@ -28,7 +28,8 @@ TEST(GltfSuspicions, ImplausibleIntensities) {
     const std::string where = "extensions.KHR_lights_punctual.lights[0].intensity";
     EXPECT_EQ(place_of(with_light({{"type", "point"}, {"intensity", 50000}}), "were they watts?"), where);
     EXPECT_EQ(place_of(with_light({{"type", "point"}, {"intensity", 130}}), "candela"), "none") << "a bulb of 100 W";
-    EXPECT_EQ(place_of(with_light({{"type", "spot"}, {"intensity", 50000}, {"spot", {{"outerConeAngle", 0.2}}}}), "candela"), "none") << "of a theatre";
+    EXPECT_EQ(place_of(with_light({{"type", "spot"}, {"intensity", 50000}, {"spot", {{"outerConeAngle", 0.2}}}}), "candela"), "none")
+        << "of a theatre";
     EXPECT_EQ(place_of(with_light({{"type", "directional"}, {"intensity", 3e5}}), "brighter than the sun in space"), where);
     EXPECT_EQ(place_of(with_light({{"type", "directional"}, {"intensity", 3}}), "dimmer than a lit room"), where);
     EXPECT_EQ(place_of(with_light({{"type", "directional"}, {"intensity", 100000}}), "lux"), "none");
@@ -41,7 +42,8 @@ TEST(GltfSuspicions, ImplausibleIntensities) {
 
 TEST(GltfSuspicions, InnerConesWiderThanOuterCones) {
     const auto wrong = with_light({{"type", "spot"}, {"spot", {{"innerConeAngle", 0.9}, {"outerConeAngle", 0.5}}}});
-    EXPECT_EQ(place_of(wrong, "the inner cone, 0.9 rad, is wider than the outer one, 0.5 rad"), "extensions.KHR_lights_punctual.lights[0].spot");
+    EXPECT_EQ(place_of(wrong, "the inner cone, 0.9 rad, is wider than the outer one, 0.5 rad"),
+              "extensions.KHR_lights_punctual.lights[0].spot");
     EXPECT_EQ(wrong->scene.lights.begin()->value.inner_cone_radians, 0.5f);
     EXPECT_EQ(place_of(with_light({{"type", "spot"}, {"spot", {{"innerConeAngle", 0.5}, {"outerConeAngle", 0.5}}}}), "cone"), "none");
 }
@@ -74,7 +76,8 @@ TEST(GltfSuspicions, DegenerateGeometry) {
     GltfBuilder b;
     const int positions = b.accessor<float>({0, 0, 0, 1, 0, 0, 0, 1, 0, 2, 0, 0}, "VEC3");
     const int normals = b.accessor<float>({0, 0, 1, 0, 0, 2, 0, 0, 0.995f, 0, 0, 1}, "VEC3");
-    b.show({{"attributes", {{"POSITION", positions}, {"NORMAL", normals}}}, {"indices", b.accessor<uint8_t>({0, 1, 2, 0, 1, 3, 1, 1, 2}, "SCALAR")}});
+    b.show({{"attributes", {{"POSITION", positions}, {"NORMAL", normals}}},
+            {"indices", b.accessor<uint8_t>({0, 1, 2, 0, 1, 3, 1, 1, 2}, "SCALAR")}});
     const auto imported = import_built(b);
     EXPECT_EQ(place_of(imported, "2 of 3 triangles have no area"), "meshes[0].primitives[0]");
     EXPECT_EQ(place_of(imported, "1 of 4 normals are not of unit length"), "meshes[0].primitives[0]");
@@ -89,7 +92,8 @@ Result<ImportedScene> with_image(const std::vector<float>& rgb, const Json& mate
     std::string bytes(png->begin(), png->end());
     if (marked) bytes = marked(bytes);
     GltfBuilder b;
-    b.show({{"attributes", {{"POSITION", b.triangle_positions()}, {"TEXCOORD_0", b.accessor<float>({0, 0, 1, 0, 0, 1}, "VEC2")}}}, {"material", 0}});
+    b.show({{"attributes", {{"POSITION", b.triangle_positions()}, {"TEXCOORD_0", b.accessor<float>({0, 0, 1, 0, 0, 1}, "VEC2")}}},
+            {"material", 0}});
     b.add("images", {{"bufferView", b.buffer_view(bytes)}, {"mimeType", "image/png"}});
     b.add("textures", {{"source", 0}});
     b.add("materials", material);
@@ -102,7 +106,8 @@ const Json as_normals{{"normalTexture", {{"index", 0}}}};
 TEST(GltfSuspicions, ImagesUsedAsColourAndData) {
     Json both = as_color;
     both["normalTexture"] = {{"index", 0}};
-    EXPECT_EQ(place_of(with_image({0.5f, 0.5f, 1}, both), "as colour for a base colour texture and as data for a normal texture"), "images[0]");
+    EXPECT_EQ(place_of(with_image({0.5f, 0.5f, 1}, both), "as colour for a base colour texture and as data for a normal texture"),
+              "images[0]");
     EXPECT_EQ(place_of(with_image({0.5f, 0.5f, 1}, as_color), "as data"), "none");
 }
 

@@ -21,8 +21,8 @@ inline GltfBuilder with_luminaires(const TempFolder& folder) {
     GltfBuilder b;
     b.json["extensionsUsed"] = {"EXT_lights_ies"};
     const int view = b.buffer_view(text_of(downlight));
-    b.json["extensions"]["EXT_lights_ies"]["lights"] = {{{"uri", "down%20light.ies"}},
-                                                        {{"bufferView", view}, {"mimeType", "application/x-ies-lm-63"}, {"name", "within"}}};
+    b.json["extensions"]["EXT_lights_ies"]["lights"] = {
+        {{"uri", "down%20light.ies"}}, {{"bufferView", view}, {"mimeType", "application/x-ies-lm-63"}, {"name", "within"}}};
     b.add("nodes", shines(0));
     b.add("nodes", shines(0, {{"multiplier", 0.25}, {"color", {1, 0.5, 0.25}}}));
     b.add("nodes", shines(0));

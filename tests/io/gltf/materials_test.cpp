@@ -67,20 +67,20 @@ TEST(GltfMaterials, ExtensionsAreRead) {
 }
 
 TEST(GltfMaterials, LayersAreRead) {
-    const Material m = import_material(
-        {{"extensions",
-          {{"KHR_materials_clearcoat",
-            {{"clearcoatFactor", 0.75}, {"clearcoatRoughnessFactor", 0.125}, {"clearcoatNormalTexture", {{"scale", 0.5}}}}},
-           {"KHR_materials_sheen", {{"sheenColorFactor", {0.25, 0.5, 1.0}}, {"sheenRoughnessFactor", 0.375}}},
-           {"KHR_materials_anisotropy", {{"anisotropyStrength", 0.625}, {"anisotropyRotation", -1.5}}},
-           {"KHR_materials_iridescence",
-            {{"iridescenceFactor", 0.875},
-             {"iridescenceIor", 1.75},
-             {"iridescenceThicknessMinimum", 150.0},
-             {"iridescenceThicknessMaximum", 550.0}}},
-           {"KHR_materials_dispersion", {{"dispersion", 0.36}}},
-           {"KHR_materials_diffuse_transmission",
-            {{"diffuseTransmissionFactor", 0.0625}, {"diffuseTransmissionColorFactor", {1.0, 0.25, 0.5}}}}}}});
+    const Material m =
+        import_material({{"extensions",
+                          {{"KHR_materials_clearcoat",
+                            {{"clearcoatFactor", 0.75}, {"clearcoatRoughnessFactor", 0.125}, {"clearcoatNormalTexture", {{"scale", 0.5}}}}},
+                           {"KHR_materials_sheen", {{"sheenColorFactor", {0.25, 0.5, 1.0}}, {"sheenRoughnessFactor", 0.375}}},
+                           {"KHR_materials_anisotropy", {{"anisotropyStrength", 0.625}, {"anisotropyRotation", -1.5}}},
+                           {"KHR_materials_iridescence",
+                            {{"iridescenceFactor", 0.875},
+                             {"iridescenceIor", 1.75},
+                             {"iridescenceThicknessMinimum", 150.0},
+                             {"iridescenceThicknessMaximum", 550.0}}},
+                           {"KHR_materials_dispersion", {{"dispersion", 0.36}}},
+                           {"KHR_materials_diffuse_transmission",
+                            {{"diffuseTransmissionFactor", 0.0625}, {"diffuseTransmissionColorFactor", {1.0, 0.25, 0.5}}}}}}});
     EXPECT_EQ(m.clearcoat, 0.75f);
     EXPECT_EQ(m.clearcoat_roughness, 0.125f);
     EXPECT_EQ(m.clearcoat_normal_scale, 0.5f);
@@ -100,8 +100,8 @@ TEST(GltfMaterials, LayersAreRead) {
 // Reflectance of the archived model: diffuse * (1 - max(specular)) and F0 = specular, at roughness 1 - glossiness.
 TEST(GltfMaterials, SpecularGlossinessIsConverted) {
     const Json model = {{"diffuseFactor", {0.5, 0.25, 1.0, 0.75}}, {"specularFactor", {0.25, 0.5, 0.125}}, {"glossinessFactor", 0.75}};
-    const Material m = import_material({{"pbrMetallicRoughness", {{"baseColorFactor", {0, 0, 0, 0}}}},
-                                        {"extensions", {{"KHR_materials_pbrSpecularGlossiness", model}}}});
+    const Material m = import_material(
+        {{"pbrMetallicRoughness", {{"baseColorFactor", {0, 0, 0, 0}}}}, {"extensions", {{"KHR_materials_pbrSpecularGlossiness", model}}}});
     EXPECT_EQ(m.base_color, (Vec3{0.25f, 0.125f, 0.5f}));
     EXPECT_EQ(m.opacity, 0.75f);
     EXPECT_EQ(m.metallic, 0);

@@ -1,9 +1,9 @@
 // Parallel import: the result does not depend on the threads; preview scene before the textures are decoded.
 #include "io/image/image_io.h"
 #include "io/project/scene_hash.h"
-#include "tests/io/gltf/builder.h"
 #include "scene/document/preview_scene.h"
 #include "scene/validate.h"
+#include "tests/io/gltf/builder.h"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 #include "io/gltf/read/geometry/points_lines.h"
 
 #include "core/math.h"
-#include "tests/io/gltf/builder.h"
 #include "scene/affine.h"
+#include "tests/io/gltf/builder.h"
 
 #include <gtest/gtest.h>
 

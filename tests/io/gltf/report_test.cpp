@@ -81,7 +81,9 @@ std::string complaints(const std::filesystem::path& file) {
     return all;
 }
 
-template <size_t N> bool is_among(const Exception (&exceptions)[N], const std::string& file) { return std::ranges::count(exceptions, file, &Exception::file) > 0; }
+template <size_t N> bool is_among(const Exception (&exceptions)[N], const std::string& file) {
+    return std::ranges::count(exceptions, file, &Exception::file) > 0;
+}
 
 TEST(GltfVerdicts, ErrorsOfTheValidatorAreRefusedOrReported) {
     if (const std::string why = why_no_validator(); !why.empty()) GTEST_SKIP() << why;

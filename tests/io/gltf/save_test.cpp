@@ -4,8 +4,8 @@
 #include "io/image/ies.h"
 #include "io/project/scene_edits_json.h"
 #include "io/project/scene_hash.h"
-#include "tests/io/gltf/saving.h"
 #include "scene/lights/ies_profile.h"
+#include "tests/io/gltf/saving.h"
 #include "tests/support/random_edits.h"
 #include "tests/support/storable.h"
 
@@ -48,9 +48,7 @@ TEST_P(GltfSave, RandomEditsOfShippedScenesRoundTrip) {
         const ImportedScene original = load(shipped(name));
         for (int sequence = 0; sequence < 12; ++sequence) {
             Project project{original.scene, {}, {}};
-            for (int step = 0; step < 1 + 4 * sequence; ++step) {
-                project = *blush::apply(project, random_edit(rng, project));
-            }
+            for (int step = 0; step < 1 + 4 * sequence; ++step) { project = *blush::apply(project, random_edit(rng, project)); }
             project = storable(project);
             const std::string what = fmt::format("{} after {} edits", name, 1 + 4 * sequence);
             const auto file = folder / fmt::format("{}.{}", number++, GetParam());
@@ -209,7 +207,8 @@ TEST(GltfExtras, InvalidFieldsAreIgnoredAndTheRestRead) {
     node({{"fields", {{"local", {{"scale", {1e39, 1, 1}}}}}}}); // beyond a float
     for (const Json& fields : {Json{{"kind", "laser"}}, Json{{"intensity", -1}}, Json{{"kind", "disk"}, {"radius", 0}},
                                Json{{"lit_objects", {{"nodes", {"a"}}}}}, Json{{"color", {1, 2}}}, Json(std::vector<int>(20000, 1))})
-        b.json["extensions"]["KHR_lights_punctual"]["lights"].push_back({{"type", "directional"}, {"extras", {{"blush", {{"fields", fields}}}}}});
+        b.json["extensions"]["KHR_lights_punctual"]["lights"].push_back(
+            {{"type", "directional"}, {"extras", {{"blush", {{"fields", fields}}}}}});
     b.json["scenes"] = {{{"nodes", {0, 1, 2, 3, 4, 5, 6, 7}},
                          {"extras",
                           {{"blush",

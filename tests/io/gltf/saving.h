@@ -5,8 +5,8 @@
 #include "io/gltf/read/import.h"
 #include "io/image/image_io.h"
 #include "io/project/scene_fields.h"
-#include "tests/io/gltf/builder.h"
 #include "scene/validate.h"
+#include "tests/io/gltf/builder.h"
 #include "tests/support/sample_project.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "io/image/image_io.h"
-#include "tests/io/gltf/builder.h"
 #include "scene/texture_slots.h"
+#include "tests/io/gltf/builder.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -91,11 +91,15 @@ TEST(GltfTextures, OtherMinificationFiltersAreReportedOncePerSampler) {
     const auto said = [](const Json& sampler, std::string_view part) {
         const auto imported = with_sampler(sampler);
         EXPECT_TRUE(imported) << error_text(imported);
-        return std::ranges::count_if(imported->report.diagnostics,
-                                     [&](const Diagnostic& d) { return d.what.find(part) != std::string::npos && d.where == "samplers[0]"; });
+        return std::ranges::count_if(imported->report.diagnostics, [&](const Diagnostic& d) {
+            return d.what.find(part) != std::string::npos && d.where == "samplers[0]";
+        });
     };
-    const std::pair<int, const char*> others[] = {
-        {9728, "NEAREST"}, {9729, "LINEAR"}, {9984, "NEAREST_MIPMAP_NEAREST"}, {9985, "LINEAR_MIPMAP_NEAREST"}, {9986, "NEAREST_MIPMAP_LINEAR"}};
+    const std::pair<int, const char*> others[] = {{9728, "NEAREST"},
+                                                  {9729, "LINEAR"},
+                                                  {9984, "NEAREST_MIPMAP_NEAREST"},
+                                                  {9985, "LINEAR_MIPMAP_NEAREST"},
+                                                  {9986, "NEAREST_MIPMAP_LINEAR"}};
     for (const auto& [filter, name] : others)
         EXPECT_EQ(said({{"minFilter", filter}}, fmt::format("approximated: minification filter {}:", name)), 1) << name;
     EXPECT_EQ(said({{"minFilter", 9987}, {"magFilter", 9728}}, "filter"), 0) << "the filter that is used";
@@ -140,20 +144,19 @@ TEST(GltfTextures, UseAnyUvSet) {
 TEST(GltfTextures, EveryUseOfATextureIsRead) {
     GltfBuilder b = embedded_texture();
     const Json info = {{"index", 0}, {"texCoord", 1}};
-    b.json["materials"][0] = {{"pbrMetallicRoughness", {{"baseColorTexture", info}, {"metallicRoughnessTexture", info}}},
-                              {"normalTexture", {{"index", 0}, {"scale", 0.5}}},
-                              {"occlusionTexture", info},
-                              {"emissiveTexture", info},
-                              {"extensions",
-                               {{"KHR_materials_specular", {{"specularTexture", info}, {"specularColorTexture", info}}},
-                                {"KHR_materials_transmission", {{"transmissionTexture", info}}},
-                                {"KHR_materials_clearcoat",
-                                 {{"clearcoatTexture", info}, {"clearcoatRoughnessTexture", info}, {"clearcoatNormalTexture", info}}},
-                                {"KHR_materials_sheen", {{"sheenColorTexture", info}, {"sheenRoughnessTexture", info}}},
-                                {"KHR_materials_anisotropy", {{"anisotropyTexture", info}}},
-                                {"KHR_materials_iridescence", {{"iridescenceTexture", info}, {"iridescenceThicknessTexture", info}}},
-                                {"KHR_materials_diffuse_transmission",
-                                 {{"diffuseTransmissionTexture", info}, {"diffuseTransmissionColorTexture", info}}}}}};
+    b.json["materials"][0] = {
+        {"pbrMetallicRoughness", {{"baseColorTexture", info}, {"metallicRoughnessTexture", info}}},
+        {"normalTexture", {{"index", 0}, {"scale", 0.5}}},
+        {"occlusionTexture", info},
+        {"emissiveTexture", info},
+        {"extensions",
+         {{"KHR_materials_specular", {{"specularTexture", info}, {"specularColorTexture", info}}},
+          {"KHR_materials_transmission", {{"transmissionTexture", info}}},
+          {"KHR_materials_clearcoat", {{"clearcoatTexture", info}, {"clearcoatRoughnessTexture", info}, {"clearcoatNormalTexture", info}}},
+          {"KHR_materials_sheen", {{"sheenColorTexture", info}, {"sheenRoughnessTexture", info}}},
+          {"KHR_materials_anisotropy", {{"anisotropyTexture", info}}},
+          {"KHR_materials_iridescence", {{"iridescenceTexture", info}, {"iridescenceThicknessTexture", info}}},
+          {"KHR_materials_diffuse_transmission", {{"diffuseTransmissionTexture", info}, {"diffuseTransmissionColorTexture", info}}}}}};
     const auto imported = import_built(b);
     ASSERT_TRUE(imported) << error_text(imported);
     const Material& m = imported->scene.materials.begin()->value;

@@ -1,8 +1,8 @@
 // Compact BVHs, which store indices instead of vertices: used if memory is short, reported, and bit-identical for rays.
-#include "tests/render/picture.h"
 #include "render/bvh/accel.h"
 #include "render/bvh/compact_bvh.h"
 #include "render/compile/scene_tables.h"
+#include "tests/render/picture.h"
 #include "tests/render/scenes.h"
 
 #include <cmath>
@@ -43,7 +43,8 @@ TEST(CompactTree, HitsTheSameTrianglesBitForBit) {
     const SceneTables tables{};
     const auto build = [&](Accel& accel, uint64_t memory_left) {
         AccelScene scene;
-        scene.instances.push_back({{{shape->serial, nullptr, shape->positions.data(), shape->positions.size(), shape->indices.data(), triangles}}, places});
+        scene.instances.push_back(
+            {{{shape->serial, nullptr, shape->positions.data(), shape->positions.size(), shape->indices.data(), triangles}}, places});
         scene.memory_left = memory_left;
         accel.commit(scene, &tables, Workers(1));
     };

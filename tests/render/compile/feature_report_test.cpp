@@ -1,10 +1,10 @@
 // The feature report matches reality: features are present or absent as reported, with the reported bytes.
 #include "render/compile/feature_report.h"
 
-#include "render/lights/environment_table.h"
-#include "render/film/film.h"
 #include "render/compile/expand_area_lights.h"
 #include "render/compile/render_scene.h"
+#include "render/film/film.h"
+#include "render/lights/environment_table.h"
 #include "tests/render/scenes.h"
 
 #include <gtest/gtest.h>

@@ -1,11 +1,11 @@
 // Instances without an invertible transform are rendered flat, or removed with a warning, and non-finite rays are not traced.
 #include "core/math.h"
-#include "tests/render/picture.h"
 #include "render/bvh/accel.h"
 #include "render/compile/baked_transforms.h"
 #include "render/compile/scene_tables.h"
 #include "scene/affine.h"
 #include "scene/geometry/ray_queries.h"
+#include "tests/render/picture.h"
 #include "tests/render/scenes.h"
 
 #include <array>
@@ -77,7 +77,8 @@ TEST(Flattened, RenderLikeSmallSeparateMeshes) {
             const Frame frame = picture_of(pair_of(scale, how));
             EXPECT_NEAR(double(pixels_of(frame, 1)), double(seen), 8) << scale.z << ": edges may round differently";
             double difference = 0, sum = 0, turned = 0;
-            for (size_t i = 0; i < own.rgba.size(); ++i) difference += std::abs(double(frame.rgba[i]) - double(own.rgba[i])), sum += double(own.rgba[i]);
+            for (size_t i = 0; i < own.rgba.size(); ++i)
+                difference += std::abs(double(frame.rgba[i]) - double(own.rgba[i])), sum += double(own.rgba[i]);
             for (size_t i = 0; i < own.normal.size(); ++i) turned += double(length(frame.normal[i] - own.normal[i]));
             EXPECT_LT(difference / sum, 0.01) << scale.z;
             EXPECT_LT(turned / double(own.normal.size()), 0.01) << scale.z;
@@ -115,7 +116,8 @@ TEST(Flattened, ALargeMesh) {
     const auto seen = size_t(std::ranges::count(frame.object_id, node.value));
     EXPECT_NEAR(double(seen), std::pow(2 / (2 * 6 * std::tan(0.4)) * 32, 2), 40);
     size_t facing = 0;
-    for (size_t i = 0; i < frame.object_id.size(); ++i) facing += frame.object_id[i] == node.value && std::abs(frame.normal[i].z - 1) < 1e-4f;
+    for (size_t i = 0; i < frame.object_id.size(); ++i)
+        facing += frame.object_id[i] == node.value && std::abs(frame.normal[i].z - 1) < 1e-4f;
     EXPECT_EQ(facing, seen) << "it is a plane";
 }
 
@@ -182,7 +184,7 @@ TEST(Flattened, TransformsAreFactored) {
         Affined m{vector(), vector(), vector(), vector()};
         const double size = std::pow(10, 3 * normal(random));
         switch (i % 5) {
-        case 0: m.z = m.x * normal(random) + m.y * normal(random); break;     // sheared flat
+        case 0: m.z = m.x * normal(random) + m.y * normal(random); break; // sheared flat
         case 1: m.y = {0, 0, 0}; break;
         case 2: m.x = m.x * 1e-9; break;
         case 3: m.x = m.x * 1e-12, m.y = m.y * 1e-12, m.z = m.z * 1e-12; break;
@@ -200,7 +202,8 @@ TEST(Flattened, TransformsAreFactored) {
         for (const Vec3d& d : {product.x - m.x, product.y - m.y, product.z - m.z}) ASSERT_LT(length(d), 1e-9 * largest) << i;
         ASSERT_EQ(product.t, m.t);
         const Affined identity = inverse(split.place) * split.place;
-        for (const Vec3d& d : {identity.x - Vec3d{1, 0, 0}, identity.y - Vec3d{0, 1, 0}, identity.z - Vec3d{0, 0, 1}}) ASSERT_LT(length(d), 1e-6) << i;
+        for (const Vec3d& d : {identity.x - Vec3d{1, 0, 0}, identity.y - Vec3d{0, 1, 0}, identity.z - Vec3d{0, 0, 1}})
+            ASSERT_LT(length(d), 1e-6) << i;
     }
 }
 
@@ -232,7 +235,14 @@ TEST(Flattened, NonFiniteRaysMiss) {
             if (which == 6 && !std::isnan(bad)) continue; // far distances may be infinite
             for (int i = 0; i < 16; ++i) {
                 r.ox[i] = r.oy[i] = 1e-7f, r.oz[i] = 1, r.dx[i] = r.dy[i] = 0, r.dz[i] = -1, r.far[i] = inf;
-                if (i % 2) (which == 0 ? r.ox : which == 1 ? r.oy : which == 2 ? r.oz : which == 3 ? r.dx : which == 4 ? r.dy : which == 5 ? r.dz : r.far)[i] = bad;
+                if (i % 2)
+                    (which == 0   ? r.ox
+                     : which == 1 ? r.oy
+                     : which == 2 ? r.oz
+                     : which == 3 ? r.dx
+                     : which == 4 ? r.dy
+                     : which == 5 ? r.dz
+                                  : r.far)[i] = bad;
             }
             alignas(64) float t[16], u[16], v[16];
             alignas(64) int32_t geometry[16], instance[16], triangle[16];

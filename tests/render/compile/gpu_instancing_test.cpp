@@ -1,8 +1,8 @@
 // Instances of one node's mesh (EXT_mesh_gpu_instancing) render, emit and are picked like separate nodes, but as one object.
-#include "tests/render/picture.h"
 #include "render/compile/render_scene.h"
 #include "scene/affine.h"
 #include "scene/geometry/ray_queries.h"
+#include "tests/render/picture.h"
 #include "tests/render/scenes.h"
 
 #include <fmt/format.h>
@@ -29,7 +29,8 @@ struct Orchard {
     Orchard(const Material& material, bool copies) {
         place(scene, floor_quad(3, -0.5f), lambert({0.4f, 0.5f, 0.3f}));
         constant_world(scene, 0.3f);
-        const Id<Mesh> mesh = scene.meshes.add({"Tree", {{cube(false), scene.materials.add(material)}, {sphere(false), scene.materials.add(lambert(0.6f))}}});
+        const Id<Mesh> mesh =
+            scene.meshes.add({"Tree", {{cube(false), scene.materials.add(material)}, {sphere(false), scene.materials.add(lambert(0.6f))}}});
         Node node;
         node.mesh = mesh;
         if (copies) {
@@ -135,9 +136,11 @@ TEST(Copies, EmissiveCopiesAreBoundedInMemory) {
     const CompiledInfo& info = renderer.info();
     EXPECT_EQ(info.emissive_triangles, int64_t(100'000) * 32768 + 2);
     EXPECT_LT(info.memory_mb, 300);
-    const auto said = std::ranges::find_if(info.warnings, [](const Diagnostic& d) { return d.what.find("exceed the light-sampling limit") != std::string::npos; });
+    const auto said = std::ranges::find_if(
+        info.warnings, [](const Diagnostic& d) { return d.what.find("exceed the light-sampling limit") != std::string::npos; });
     ASSERT_NE(said, info.warnings.end());
-    EXPECT_TRUE(said->what.starts_with(fmt::format("{} of {} emissive triangles", info.emissive_triangles - 31 * 32768 - 2, info.emissive_triangles)))
+    EXPECT_TRUE(said->what.starts_with(
+        fmt::format("{} of {} emissive triangles", info.emissive_triangles - 31 * 32768 - 2, info.emissive_triangles)))
         << said->what;
     const auto left_out = std::ranges::find(info.features, "mesh lights beyond the limit", &FeatureUse::name);
     ASSERT_NE(left_out, info.features.end());

@@ -1,9 +1,9 @@
 // All kernels agree with the scalar reference: every instruction set and every superset of features is bit-identical.
-#include "tests/render/picture.h"
-#include "render/kernels/kernel.h"
 #include "render/compile/expand_area_lights.h"
 #include "render/compile/render_scene.h"
 #include "render/integrator/kernel_settings.h"
+#include "render/kernels/kernel.h"
+#include "tests/render/picture.h"
 #include "tests/render/scenes.h"
 
 #include <cstring>

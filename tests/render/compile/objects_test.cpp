@@ -1,7 +1,7 @@
 // Equivalent descriptions of a scene give the same image: mirrored or not, instanced or flat, with a neutral normal map.
 #include "core/math.h"
-#include "tests/render/picture.h"
 #include "scene/affine.h"
+#include "tests/render/picture.h"
 #include "tests/render/scenes.h"
 
 namespace blush::test {

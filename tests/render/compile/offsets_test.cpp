@@ -1,8 +1,8 @@
 // Rays that leave a surface neither hit it again nor leak through it, at any scale and far from the origin. With a parallel sun
 // there is no noise: every lit pixel must be exact.
 #include "core/math.h"
-#include "tests/render/picture.h"
 #include "scene/affine.h"
+#include "tests/render/picture.h"
 #include "tests/render/scenes.h"
 
 #include <numbers>

@@ -2,8 +2,8 @@
 #include "render/compile/scene_origin.h"
 
 #include "core/math.h"
-#include "tests/render/picture.h"
 #include "scene/affine.h"
+#include "tests/render/picture.h"
 #include "tests/render/scenes.h"
 
 #include <algorithm>

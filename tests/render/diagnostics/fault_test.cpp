@@ -1,6 +1,6 @@
 // Invalid samples are traced to their cause: by hand-made vertices for every place, and end to end.
-#include "tests/render/picture.h"
 #include "render/diagnostics/fault_finder.h"
+#include "tests/render/picture.h"
 #include "tests/render/scenes.h"
 
 namespace blush::test {

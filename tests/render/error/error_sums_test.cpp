@@ -68,7 +68,8 @@ TEST(NeighborhoodFilter, AreMeansOfTheNeighbouringBlocks) {
                 double mean = 0;
                 for (const double m : means) mean += m / double(means.size());
                 EXPECT_NEAR(around.mean[x], mean, 1e-5 * mean) << x << ", " << y << " of " << w << " x " << h;
-                EXPECT_NEAR(around.darkest[x], *std::ranges::min_element(means), 1e-5 * mean) << x << ", " << y << " of " << w << " x " << h;
+                EXPECT_NEAR(around.darkest[x], *std::ranges::min_element(means), 1e-5 * mean)
+                    << x << ", " << y << " of " << w << " x " << h;
             }
         };
         for (int y = 0; y < h; ++y) {
@@ -155,7 +156,8 @@ TEST(ErrorEstimate, CorrelatedPixelErrorsWidenTheInterval) {
     EXPECT_NEAR(width(shared.high, shared.low) / width(one.high, one.low), 4, 0.01);
     EXPECT_NEAR(width(shared.rmse_high, shared.rmse_low) / width(one.rmse_high, one.rmse_low), 4, 0.01);
     sums.relative_high = 2;
-    EXPECT_LT(width(estimate_error(sums, 16).high, estimate_error(sums, 16).low), 4 * width(estimate_error(sums).high, estimate_error(sums).low));
+    EXPECT_LT(width(estimate_error(sums, 16).high, estimate_error(sums, 16).low),
+              4 * width(estimate_error(sums).high, estimate_error(sums).low));
 }
 
 } // namespace

@@ -1,10 +1,10 @@
 // Adaptive sampling: unbiased for any correlation of noise and value, its estimated error is the true error, and the image
 // depends only on scene, settings and number of samples.
 #include "core/math.h"
-#include "tests/render/picture.h"
 #include "render/film/film.h"
 #include "render/film/pilot_variance.h"
 #include "render/film/sample_allocation.h"
+#include "tests/render/picture.h"
 #include "tests/render/scenes.h"
 
 #include <algorithm>

@@ -75,8 +75,10 @@ TEST(BouncePlanes, OfAClosedRoomAreTheGeometricSeries) {
         const double expected = glow * std::pow(rho, k) / (k + 1 < planes ? 1 : 1 - rho);
         statistics::Moments pixels;
         for (const Vec3& v : frame.bounces[size_t(k)]) pixels.add(double(v.y));
-        if (k == 0) EXPECT_EQ(pixels.mean, expected);
-        else EXPECT_TRUE(statistics::z_test(pixels, expected, sidak(significance, planes - 1))) << k;
+        if (k == 0)
+            EXPECT_EQ(pixels.mean, expected);
+        else
+            EXPECT_TRUE(statistics::z_test(pixels, expected, sidak(significance, planes - 1))) << k;
     }
 }
 

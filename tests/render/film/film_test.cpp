@@ -70,7 +70,9 @@ TEST(Film, DropsCountsAndRecordsInvalidSamples) {
 
 TEST(Film, KeepsDiagnosesAndAMapOfDroppedSamples) {
     Fixture f(3, 2);
-    f.diagnose = [](int x, int y, int64_t sample) { return Fault{Fault::Kind::zero_pdf, Fault::Place::bsdf_eval, x + 10 * y + 100 * int(sample)}; };
+    f.diagnose = [](int x, int y, int64_t sample) {
+        return Fault{Fault::Kind::zero_pdf, Fault::Place::bsdf_eval, x + 10 * y + 100 * int(sample)};
+    };
     f.add(0, 2, [](int x, int y, int64_t s) { return x == 2 && y == 1 && s == 1 ? NAN : 1.f; });
     const Health health = f.resolve().health;
     ASSERT_EQ(health.first.size(), 1u);

@@ -21,7 +21,8 @@ double mean_samples(const SampleAllocation& plan, int width, int height, int hal
     int64_t sum = 0;
     for (int t = 0; t < plan.tiles(); ++t) {
         const int x = t % plan.across() * SampleAllocation::tile_size, y = t / plan.across() * SampleAllocation::tile_size;
-        sum += plan.samples(t, half, mean) * std::min(SampleAllocation::tile_size, width - x) * std::min(SampleAllocation::tile_size, height - y);
+        sum += plan.samples(t, half, mean) * std::min(SampleAllocation::tile_size, width - x) *
+               std::min(SampleAllocation::tile_size, height - y);
     }
     return double(sum) / (double(width) * height);
 }
@@ -65,7 +66,8 @@ TEST(SampleAllocation, SpendsTheGivenSamplesAndNeverDecreases) {
     plan.decide(noise);
     for (int half = 0; half < 2; ++half)
         for (const int64_t mean : {pilot, pilot + 1, pilot + 20, int64_t(64), int64_t(1000), int64_t(1) << 30})
-            EXPECT_NEAR(mean_samples(plan, width, height, half, mean), double(mean) / 2, 0.25 * double(SampleAllocation::granularity)) << mean;
+            EXPECT_NEAR(mean_samples(plan, width, height, half, mean), double(mean) / 2, 0.25 * double(SampleAllocation::granularity))
+                << mean;
     for (int t = 0; t < plan.tiles(); ++t)
         for (int64_t mean = 0; mean < 200; ++mean) ASSERT_LE(plan.samples(t, 0, mean), plan.samples(t, 0, mean + 1));
 }

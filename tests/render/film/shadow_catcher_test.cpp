@@ -1,8 +1,8 @@
 // Shadow catchers: the opacity of shadows against closed forms and an independent quadrature; everything else is unchanged.
-#include "tests/render/picture.h"
-#include "render/film/film_state.h"
 #include "render/compile/render_scene.h"
+#include "render/film/film_state.h"
 #include "scene/affine.h"
+#include "tests/render/picture.h"
 #include "tests/render/scenes.h"
 
 #include <algorithm>
@@ -139,7 +139,8 @@ TEST(ShadowCatcher, HasTheSoftShadowOfADisk) {
         constexpr int points = 2 * block; // along each side
         for (int j = 0; j < points; ++j)
             for (int i = 0; i < points; ++i)
-                expected += hidden_share(stage.on_floor(left + (i + 0.5) / 2, top + (j + 0.5) / 2, size, size), double(light.radius)) / (points * points);
+                expected += hidden_share(stage.on_floor(left + (i + 0.5) / 2, top + (j + 0.5) / 2, size, size), double(light.radius)) /
+                            (points * points);
         for (const double v : values[b]) mean += v / seeds;
         for (const double v : values[b]) square += (v - mean) * (v - mean) / (seeds - 1);
         // Besides noise: the quadratures' own errors, and the bias of a ratio of 256 samples.
@@ -230,7 +231,8 @@ TEST(ShadowCatcher, DoesNotCatchTheShadowsOfCatchers) {
     Node cove;
     cove.name = "Cove";
     const Id<Node> group = scene.nodes.add(cove);
-    for (const Id<Node> id : {place(scene, floor_quad(5), lambert({0.8f, 0.8f, 0.8f})), place(scene, floor_quad(plate_half), lambert({0.5f, 0.5f, 0.5f}), at({0, 1, 0}))}) {
+    for (const Id<Node> id : {place(scene, floor_quad(5), lambert({0.8f, 0.8f, 0.8f})),
+                              place(scene, floor_quad(plate_half), lambert({0.5f, 0.5f, 0.5f}), at({0, 1, 0}))}) {
         Node node = *scene.nodes.find(id);
         node.parent = group;
         scene.nodes.set(id, node);

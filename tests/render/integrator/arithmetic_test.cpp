@@ -1,9 +1,9 @@
 // The estimator's arithmetic with exactly known values: light of 12, reflected by surfaces of 0.9 and 0.7, is 7.56.
-#include "tests/render/picture.h"
-#include "render/integrator/estimator.h"
 #include "render/compile/expand_area_lights.h"
 #include "render/compile/render_scene.h"
+#include "render/integrator/estimator.h"
 #include "render/integrator/kernel_settings.h"
+#include "tests/render/picture.h"
 #include "tests/render/scenes.h"
 
 namespace blush::test {

@@ -1,7 +1,7 @@
 // Projections, lenses and pixel filters, tested with objects of known size and position.
 #include "core/math.h"
-#include "tests/render/picture.h"
 #include "scene/affine.h"
+#include "tests/render/picture.h"
 #include "tests/render/scenes.h"
 
 namespace blush::test {

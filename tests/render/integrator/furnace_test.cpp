@@ -1,7 +1,7 @@
 // White furnace tests: in uniform light, a lossless object is invisible.
+#include "shading/energy.h"
 #include "tests/render/picture.h"
 #include "tests/render/scenes.h"
-#include "shading/energy.h"
 
 #include <numbers>
 

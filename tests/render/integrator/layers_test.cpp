@@ -1,6 +1,6 @@
 // Rendered tests of clear coats, sheen, thin films, anisotropic and translucent surfaces, and dispersive glass.
-#include "tests/render/picture.h"
 #include "render/integrator/dispersion.h"
+#include "tests/render/picture.h"
 #include "tests/render/scenes.h"
 
 #include <numbers>
@@ -158,7 +158,8 @@ TEST(Layers, ClearCoatsHaveTheirOwnNormals) {
     const auto brightness = [](bool coat_map, bool base_map) {
         Scene scene;
         Material m = coated(lambert(0), 0.2f);
-        const Id<Texture> leaning = add_texture(scene, float_picture(1, 1, std::vector<Vec3>{{0.75f, 0.5f, 0.93301f}})); // by 30 degrees to +X
+        const Id<Texture> leaning =
+            add_texture(scene, float_picture(1, 1, std::vector<Vec3>{{0.75f, 0.5f, 0.93301f}})); // by 30 degrees to +X
         if (coat_map) m.clearcoat_normal_texture.texture = leaning;
         if (base_map) m.normal_texture.texture = leaning;
         place(scene, brushed_quad(4), m);

@@ -1,8 +1,8 @@
 // Light meters against closed forms, and the coverage of their intervals.
 #include "core/math.h"
-#include "tests/render/irradiance.h"
 #include "measure/metrics/light_meter.h"
 #include "scene/affine.h"
+#include "tests/render/irradiance.h"
 
 #include <numbers>
 

@@ -125,8 +125,10 @@ Scene glazed_room(Light::Kind kind) {
     light.angle_radians = 0.6f;
     light.width = light.height = 0.8f;
     light.visible_to_camera = false; // its edge, sampled rarely, would dominate the variance
-    if (kind == Light::Kind::sun) shine(scene, light, aimed({0, 2.5f, 0}, {0.8f, -0.5f, 0.1f}));
-    else shine(scene, light, aimed({0, 2.5f, 0}, {0.2f, -1, 0.1f}));
+    if (kind == Light::Kind::sun)
+        shine(scene, light, aimed({0, 2.5f, 0}, {0.8f, -0.5f, 0.1f}));
+    else
+        shine(scene, light, aimed({0, 2.5f, 0}, {0.2f, -1, 0.1f}));
     scene.view = looking({0, 2.2f, 4}, {0, 0.8f, 0}, 0.8f);
     return scene;
 }

@@ -1,6 +1,6 @@
 // Path reuse keeps the mean of every part of an image, and changes only noise, whatever blocks the connections.
-#include "tests/render/picture.h"
 #include "render/error/error_estimate.h"
+#include "tests/render/picture.h"
 #include "tests/render/scenes.h"
 
 #include <algorithm>
@@ -135,7 +135,8 @@ TEST(PathReuse, KeepsTheLightOfAClosedSphere) {
     scene.view = looking({0.1f, -0.2f, 0.3f}, {0.9f, 0.35f, -0.8f}, 1.2f);
     RenderSettings settings = settings_for(size, size, 4);
     settings.reuse = 16;
-    for (const Moments& m : over_seeds(scene, settings, 1, 24)) EXPECT_TRUE(statistics::z_test(m, 2 / 0.2, sidak(significance, int64_t(std::tuple_size_v<BlockMoments>))));
+    for (const Moments& m : over_seeds(scene, settings, 1, 24))
+        EXPECT_TRUE(statistics::z_test(m, 2 / 0.2, sidak(significance, int64_t(std::tuple_size_v<BlockMoments>))));
 }
 
 double mean_square(const Scene& scene, RenderSettings settings) {

@@ -2,9 +2,9 @@
 #include "render/light_mix/light_mix.h"
 
 #include "core/parallel.h"
-#include "render/light_mix/bake_mix.h"
 #include "render/compile/expand_area_lights.h"
 #include "render/compile/render_scene.h"
+#include "render/light_mix/bake_mix.h"
 #include "tests/render/studio.h"
 
 #include <cmath>

@@ -1,9 +1,9 @@
 // Emitters with alpha (of factor, texture and vertices; blended and masked): NEE gives as much light as BSDF sampling finds.
 #include "core/distribution.h"
-#include "tests/render/irradiance.h"
-#include "tests/render/picture.h"
 #include "render/compile/render_scene.h"
 #include "render/compile/update_plan.h"
+#include "tests/render/irradiance.h"
+#include "tests/render/picture.h"
 #include "tests/render/scenes.h"
 
 #include <array>
@@ -102,8 +102,10 @@ TEST(AlphaOfEmitters, DimsInProportion) {
         Scene scene;
         Material glow = emitter(4);
         glow.alpha = Material::Alpha::blend;
-        if (textured) glow.base_color_texture.texture = add_texture(scene, alpha_picture(1, 1, {102})); // 0.4
-        else glow.opacity = 0.4f;
+        if (textured)
+            glow.base_color_texture.texture = add_texture(scene, alpha_picture(1, 1, {102})); // 0.4
+        else
+            glow.opacity = 0.4f;
         place(scene, ceiling_quad(1, 2), glow);
         EXPECT_TRUE(shows_on_floor(scene, [&](const Vec3d& point) { return 0.4 * 4 * polygon_irradiance(point, {0, 1, 0}, where); }));
     }
@@ -116,8 +118,10 @@ TEST(AlphaOfEmitters, ScalesSelectionProbabilities) {
         place(scene, ceiling_quad(1, 2), emitter(1));
         Material glow = emitter(1);
         glow.alpha = Material::Alpha::blend;
-        if (textured) glow.base_color_texture.texture = add_texture(scene, alpha_picture(2, 1, {102, 0})); // 0.4 and 0
-        else glow.opacity = 0.2f;
+        if (textured)
+            glow.base_color_texture.texture = add_texture(scene, alpha_picture(2, 1, {102, 0})); // 0.4 and 0
+        else
+            glow.opacity = 0.2f;
         place(scene, ceiling_quad(1, 2), glow, at({5, 0, 0}));
         const Workers workers(1);
         RenderScene compiled;

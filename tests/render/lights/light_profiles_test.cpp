@@ -1,9 +1,9 @@
 // Lights with directional emission or hidden from the camera: against quadrature, and equal for all strategies.
 #include "core/math.h"
-#include "tests/render/irradiance.h"
 #include "render/lights/light_profiles.h"
 #include "scene/affine.h"
 #include "scene/lights/ies_profile.h"
+#include "tests/render/irradiance.h"
 
 #include <map>
 #include <memory>
@@ -80,7 +80,8 @@ TEST(Spread, NarrowsRectanglesAndDisks) {
         panel.height = 0.3f;
         panel.spread_radians = spread;
         const auto on_panel = [&](double s, double t) { return transform_point(world, Vec3d{0.8 * (s - 0.5), 0.3 * (t - 0.5), 0}); };
-        EXPECT_TRUE(shows_on_floor(lit_by(panel, pose), coarse([&](const Vec3d& x) { return from_area(x, 0.24, normal, on_panel, radiance); }),
+        EXPECT_TRUE(shows_on_floor(lit_by(panel, pose),
+                                   coarse([&](const Vec3d& x) { return from_area(x, 0.24, normal, on_panel, radiance); }),
                                    sidak(significance, 4)));
         Light disk = light_of(Light::Kind::disk, 3);
         disk.radius = 0.4f;
@@ -89,7 +90,8 @@ TEST(Spread, NarrowsRectanglesAndDisks) {
             const double r = 0.4 * std::sqrt(s);
             return transform_point(world, Vec3d{r * std::cos(2 * pi * t), r * std::sin(2 * pi * t), 0});
         };
-        EXPECT_TRUE(shows_on_floor(lit_by(disk, pose), coarse([&](const Vec3d& x) { return from_area(x, pi * 0.16, normal, on_disk, radiance); }),
+        EXPECT_TRUE(shows_on_floor(lit_by(disk, pose),
+                                   coarse([&](const Vec3d& x) { return from_area(x, pi * 0.16, normal, on_disk, radiance); }),
                                    sidak(significance, 4)));
     }
 }
@@ -151,7 +153,8 @@ TEST(IesLight, HasTheCandelaOfEachDirection) {
                 return radius > 0 ? from_sphere(x, center, double(radius), candela)
                                   : candela(normalize(to) * -1.0) * to.y / std::pow(length(to), 3);
             };
-            EXPECT_TRUE(shows_on_floor(lit_by(light, pose), radius > 0 ? coarse(expected) : FloorIrradiance(expected), sidak(significance, 4)))
+            EXPECT_TRUE(
+                shows_on_floor(lit_by(light, pose), radius > 0 ? coarse(expected) : FloorIrradiance(expected), sidak(significance, 4)))
                 << "type " << int(type) << ", radius " << radius;
         }
 }
@@ -254,7 +257,8 @@ TEST(HiddenLights, ASunIsNotSeenInTheSky) {
         Scene scene = lit_by(sun, aimed({0, 0, 0}, {0, -0.2f, 1}));
         scene.view = looking({0, 1, 4}, {0, 1.8f, 0}, 0.7f);
         EXPECT_EQ(render(scene, settings_for(16, 16, 4)).whole().mean.x > 0, seen);
-        EXPECT_TRUE(shows_on_floor(lit_by(sun, aimed({0, 0, 0}, {0, -1, 0})), [](const Vec3d&) { return 2; }, sidak(significance, 2)));
+        EXPECT_TRUE(shows_on_floor(
+            lit_by(sun, aimed({0, 0, 0}, {0, -1, 0})), [](const Vec3d&) { return 2; }, sidak(significance, 2)));
     }
 }
 

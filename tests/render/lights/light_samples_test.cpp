@@ -1,11 +1,11 @@
 // Chi-squared tests of sampling each kind of light with a size, as in the estimator: points are distributed by their stated pdf.
 // Points, spots, and suns of zero size need no sampling; their IES profiles and cones scale the emission.
 #include "core/math.h"
-#include "tests/render/picture.h"
-#include "render/integrator/light_sampling.h"
 #include "render/compile/expand_area_lights.h"
 #include "render/compile/render_scene.h"
+#include "render/integrator/light_sampling.h"
 #include "scene/affine.h"
+#include "tests/render/picture.h"
 #include "tests/render/scenes.h"
 
 #include <array>
@@ -21,9 +21,9 @@ constexpr double pi = std::numbers::pi;
 
 struct Drawn {
     LightPoint<float> point;
-    Vec3 direction;      // from the receiver, unit
-    Vec3d position;      // world space; unused for lights at infinity
-    double pdf = 0;      // per solid angle
+    Vec3 direction; // from the receiver, unit
+    Vec3d position; // world space; unused for lights at infinity
+    double pdf = 0; // per solid angle
 };
 
 // A scene with one light, and a receiver at the world origin that faces all directions.
@@ -65,7 +65,9 @@ template <class Map, class Pdf> void expect_even(const char* kind, Desk& desk, c
         const double expected = pdf(d);
         ASSERT_NEAR(d.pdf, expected, 1e-4 * expected) << kind;
     }
-    EXPECT_TRUE(chi_squared_test(counts, std::vector<double>(counts.size(), double(samples) / double(counts.size())), sidak(significance, kinds))) << kind;
+    EXPECT_TRUE(
+        chi_squared_test(counts, std::vector<double>(counts.size(), double(samples) / double(counts.size())), sidak(significance, kinds)))
+        << kind;
 }
 
 Light light_of(Light::Kind kind) {
@@ -89,7 +91,10 @@ TEST(LightSamples, OfRectanglesAreUniformInArea) {
     light.height = 0.5f;
     desk.shine(light, at({0.5f, -0.25f, 3}));
     expect_even(
-        "rectangle", desk, [](const Drawn& d) { return std::array{(d.position.x - 0.5) / 2 + 0.5, (d.position.y + 0.25) / 0.5 + 0.5}; },
+        "rectangle", desk,
+        [](const Drawn& d) {
+            return std::array{(d.position.x - 0.5) / 2 + 0.5, (d.position.y + 0.25) / 0.5 + 0.5};
+        },
         [](const Drawn& d) { return over_area(d, 1); });
 }
 
@@ -144,7 +149,10 @@ TEST(LightSamples, OfSpheresAreUniformInSolidAngle) {
     desk.shine(light, at({1, 2, 2}));
     const double sin2 = 0.25 / 9, height = sin2 / (1 + std::sqrt(1 - sin2));
     expect_even(
-        "sphere", desk, [&](const Drawn& d) { return in_cone(d.direction, unit({1, 2, 2}), height); },
+        "sphere", desk,
+        [&](const Drawn& d) {
+            return in_cone(d.direction, unit({1, 2, 2}), height);
+        },
         [&](const Drawn&) { return 1 / (2 * pi * height); });
 }
 
@@ -156,14 +164,17 @@ TEST(LightSamples, OfSunsAreUniformInSolidAngle) {
     desk.shine(light, aimed({0, 0, 0}, {-towards.x, -towards.y, -towards.z}));
     const double height = 1 - std::cos(0.15);
     expect_even(
-        "sun", desk, [&](const Drawn& d) { return in_cone(d.direction, towards, height); }, [&](const Drawn&) { return 1 / (2 * pi * height); });
+        "sun", desk, [&](const Drawn& d) { return in_cone(d.direction, towards, height); },
+        [&](const Drawn&) { return 1 / (2 * pi * height); });
 }
 
 // Environments, compared with the pdf that is used to weight hits.
 void expect_follows(Desk& desk, const char* kind) {
     const DirectionTest test{.rows = 24, .columns = 24, .points = 12, .samples = samples, .alpha = sidak(significance, kinds)};
     const auto pdf = [&](const Vec3& w) { return environment_pdf<float>(desk.compiled.tables().environment, w); };
-    EXPECT_TRUE(directions_follow(test, [&] { return std::optional(desk.draw().direction); }, pdf)) << kind;
+    EXPECT_TRUE(directions_follow(
+        test, [&] { return std::optional(desk.draw().direction); }, pdf))
+        << kind;
 }
 
 TEST(LightSamples, OfAnImageFollowItsRadiance) {

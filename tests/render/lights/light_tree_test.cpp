@@ -1,11 +1,11 @@
 // Light tree: selects each light with its stated probability, omits none that contributes, and is close to optimal selection.
 #include "core/math.h"
-#include "tests/render/irradiance.h"
-#include "tests/render/picture.h"
 #include "render/compile/expand_area_lights.h"
 #include "render/compile/render_scene.h"
-#include "tests/render/scenes.h"
 #include "shading/light.h"
+#include "tests/render/irradiance.h"
+#include "tests/render/picture.h"
+#include "tests/render/scenes.h"
 #include "tests/support/many_lights.h"
 
 #include <cmath>
@@ -50,7 +50,8 @@ Scene mixed_scene(int count) {
     Random random;
     Scene scene;
     place(scene, floor_quad(5), lambert(0.5f));
-    for (int i = 0; i < count; ++i) shine(scene, random_light(random, i), aimed({random(-4, 4), random(0.5f, 3), random(-4, 4)}, random.direction()));
+    for (int i = 0; i < count; ++i)
+        shine(scene, random_light(random, i), aimed({random(-4, 4), random(0.5f, 3), random(-4, 4)}, random.direction()));
     constant_world(scene, 0.2f);
     return scene;
 }
@@ -112,7 +113,8 @@ TEST(LightTree, SamplesLightsWithTheStatedProbability) {
             ++counts[pick.probability > 0 ? size_t(pick.index) : n];
             if (!(pick.probability > 0)) continue;
             rest.add(double(pick.remainder));
-            ASSERT_NEAR(pick.probability, (light_probability<all_features, float>(t, to, pick.index, true)), 1e-6 + 1e-4 * pick.probability);
+            ASSERT_NEAR(pick.probability, (light_probability<all_features, float>(t, to, pick.index, true)),
+                        1e-6 + 1e-4 * pick.probability);
         }
         EXPECT_TRUE(chi_squared_test(counts, expected, sidak(significance, 2 * receivers))) << r;
         EXPECT_TRUE(z_test(rest, 0.5, sidak(significance, 2 * receivers))) << "the remainder is uniform";
@@ -130,8 +132,10 @@ TEST(LightTree, GivesEveryContributingLightAProbability) {
         for (int32_t i = 0; i < record_count(tables.lights); ++i) {
             const LightRecord& light = tables.lights.lights[i];
             Vec3 at = light.position;
-            if (light.kind == int32_t(LightKind::triangle)) at = at + (light.edge1 + light.edge2) * (1.f / 3);
-            else if (light.kind != int32_t(LightKind::point)) continue;
+            if (light.kind == int32_t(LightKind::triangle))
+                at = at + (light.edge1 + light.edge2) * (1.f / 3);
+            else if (light.kind != int32_t(LightKind::point))
+                continue;
             const Vec3 way = at - to.position, wi = way / length(way);
             float strength = dot(wi, to.normal);
             if (light.profile >= 0) strength = std::min(strength, profile_factor<float>(tables.lights.profiles, light.profile, -wi, true));

@@ -1,8 +1,8 @@
 // Each kind of light on a diffuse floor, against its closed form, from several positions and angles.
 #include "core/math.h"
-#include "tests/render/irradiance.h"
 #include "render/compile/expand_area_lights.h"
 #include "scene/affine.h"
+#include "tests/render/irradiance.h"
 
 #include <algorithm>
 #include <map>
@@ -99,8 +99,8 @@ TEST(RectangleLight, EmitsForwardsOnlyUnlessTwoSided) {
 // Points of the floor that see the whole sphere get the irradiance
 // of a point at its centre, at any distance: E = pi L (r / d)^2 cos.
 TEST(SphereLight, IrradianceIsThatOfAPointAtItsCentre) {
-    for (const auto& [pose, radius] : {std::pair{poses[0], 0.5f}, {poses[2], 0.2f}, {poses[3], 5.f}, {Pose{{0.3f, 0.7f, 0}, {0, -1, 0}}, 0.55f},
-                                       {poses[1], 1e-4f}}) {
+    for (const auto& [pose, radius] :
+         {std::pair{poses[0], 0.5f}, {poses[2], 0.2f}, {poses[3], 5.f}, {Pose{{0.3f, 0.7f, 0}, {0, -1, 0}}, 0.55f}, {poses[1], 1e-4f}}) {
         const Vec3d p = to_double(pose.position);
         Light light = light_of(Light::Kind::sphere, 3);
         light.radius = radius;
@@ -123,10 +123,13 @@ TEST(SphereLight, IsScaledByItsNode) {
         Scene scene;
         shine(scene, light, at({0, 2, 0}, 4));
         const double candela = kind == Light::Kind::sphere ? 3 * pi * 0.16 : 3;
-        EXPECT_TRUE(shows_on_floor(scene, [&](const Vec3d& x) {
-            const Vec3d to = Vec3d{0, 2, 0} - x;
-            return candela * to.y / std::pow(length(to), 3);
-        }, sidak(significance, 2)));
+        EXPECT_TRUE(shows_on_floor(
+            scene,
+            [&](const Vec3d& x) {
+                const Vec3d to = Vec3d{0, 2, 0} - x;
+                return candela * to.y / std::pow(length(to), 3);
+            },
+            sidak(significance, 2)));
     }
 }
 
@@ -148,9 +151,9 @@ TEST(DiskLight, IsItsConfigurationFactor) {
         Light light = light_of(Light::Kind::disk, 3);
         light.radius = radius;
         const Vec3 center{0.2f, height, -0.1f};
-        EXPECT_TRUE(shows_on_floor(lit_by(light, {center, {0, -1, 0}}),
-                                   [&](const Vec3d& x) { return 3 * parallel_disk_irradiance(x, to_double(center), double(radius)); },
-                                   sidak(significance, 3)))
+        EXPECT_TRUE(shows_on_floor(
+            lit_by(light, {center, {0, -1, 0}}),
+            [&](const Vec3d& x) { return 3 * parallel_disk_irradiance(x, to_double(center), double(radius)); }, sidak(significance, 3)))
             << "height " << height << ", radius " << radius;
     }
 }

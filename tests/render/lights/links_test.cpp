@@ -107,11 +107,12 @@ TEST(ShadowLinks, LetLightThrough) {
         Material both_sides = lambert(0.f);
         both_sides.double_sided = true;
         shaded.scene.materials.set(shaded.scene.meshes.find(shaded.scene.nodes.find(board)->mesh)->parts[0].material, both_sides);
-        EXPECT_FALSE(same_mean(shot(open.scene, Strategy::mis, 64, 1).whole(), shot(shaded.scene, Strategy::mis, 64, 1).whole())) << int(kind);
+        EXPECT_FALSE(same_mean(shot(open.scene, Strategy::mis, 64, 1).whole(), shot(shaded.scene, Strategy::mis, 64, 1).whole()))
+            << int(kind);
         shaded.link([&](Light& l) { l.shadow_casters = all_but({board}); });
         for (const Strategy strategy : strategies)
-            EXPECT_TRUE(same_means(shot(open.scene, Strategy::mis, 64, 1).blocks(16, 16), shot(shaded.scene, strategy, 64, 1).blocks(16, 16),
-                                   sidak(significance, 15)))
+            EXPECT_TRUE(same_means(shot(open.scene, Strategy::mis, 64, 1).blocks(16, 16),
+                                   shot(shaded.scene, strategy, 64, 1).blocks(16, 16), sidak(significance, 15)))
                 << int(kind) << " " << int(strategy);
         // Only the board casts shadows: the box's shadow disappears.
         shaded.link([&](Light& l) { l.shadow_casters = only({}); });

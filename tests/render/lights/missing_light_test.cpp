@@ -1,7 +1,7 @@
 // Light that no strategy can find is reported, and the agreement of two halves that both miss it does not make the error known.
-#include "tests/render/picture.h"
 #include "render/lights/missing_light.h"
 #include "render/renderer.h"
+#include "tests/render/picture.h"
 #include "tests/render/scenes.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // Leaves of a tree: many instances of one mesh with stochastic alpha share their memory, and their opacities are independent.
-#include "tests/support/pictures.h"
 #include "tests/render/session/rich_project.h"
+#include "tests/support/pictures.h"
 #include "tests/support/sample_project.h"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // Denoised images of a session, with a fake for the networks. Tests rely on the order of announcements.
 #include "render/session/render_session.h"
 
-#include "tests/support/pictures.h"
 #include "tests/render/session/recording_session.h"
+#include "tests/support/pictures.h"
 #include "tests/support/sample_project.h"
 
 #include <gtest/gtest.h>
@@ -22,8 +22,8 @@ using State = SessionStatus::State;
 using test::checksum;
 using test::Event;
 using test::fresh_picture;
-using test::same_picture;
 using test::RecordingSession;
+using test::same_picture;
 
 // Returns each image unchanged, and records its calls.
 class StandIn {
@@ -306,8 +306,7 @@ TEST(DenoisedSession, TheExposureScaleIsConstantWhileAnImageRefines) {
     const auto calls = networks.calls();
     EXPECT_FALSE(calls[0].scale);
     for (size_t i = 1; i < calls.size(); ++i) EXPECT_TRUE(calls[i].scale);
-    EXPECT_EQ(std::count_if(calls.begin(), calls.end(), [](const auto& c) { return std::isfinite(c.tolerance); }), 3)
-        << "one per image";
+    EXPECT_EQ(std::count_if(calls.begin(), calls.end(), [](const auto& c) { return std::isfinite(c.tolerance); }), 3) << "one per image";
 }
 
 // Weights and working memory are freed after the toggle stays off; the existing denoised image stays.

@@ -2,8 +2,8 @@
 #include "render/film/film_state.h"
 #include "render/session/render_session.h"
 
-#include "tests/support/pictures.h"
 #include "tests/render/session/recording_session.h"
+#include "tests/support/pictures.h"
 #include "tests/support/sample_project.h"
 
 #include <cmath>

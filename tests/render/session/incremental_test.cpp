@@ -4,8 +4,8 @@
 #include "scene/document/document.h"
 #include "scene/document/scene_selection.h"
 #include "scene/geometry/tangents.h"
-#include "tests/support/pictures.h"
 #include "tests/render/session/rich_project.h"
+#include "tests/support/pictures.h"
 #include "tests/support/random_edits.h"
 
 #include <gtest/gtest.h>
@@ -192,9 +192,9 @@ TEST(Renderer, MakesTangentsWhenAMaterialNeedsThem) {
         if (!g.normals.empty() && g.has_uv_set(0)) add_tangents(g, 0);
     });
     updated.follow(project);
-    EXPECT_TRUE(same_picture(updated.picture(), fresh_picture(project.scene, project.render, samples)))
-        << "tangents of the first UV set";
-    project.scene = with_geometries(project.scene, [](const MeshPart& part, Geometry& g) { g = *without_generated_tangents(part.geometry); });
+    EXPECT_TRUE(same_picture(updated.picture(), fresh_picture(project.scene, project.render, samples))) << "tangents of the first UV set";
+    project.scene =
+        with_geometries(project.scene, [](const MeshPart& part, Geometry& g) { g = *without_generated_tangents(part.geometry); });
     restyle([](Material&) {});
     updated.follow(project);
     EXPECT_TRUE(same_picture(updated.picture(), plain));

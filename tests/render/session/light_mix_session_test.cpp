@@ -1,8 +1,8 @@
 // The light mix in a running session: an edit of lights applies to the existing samples, denoised or not, without a restart.
 #include "render/light_mix/light_mix.h"
 #include "render/session/render_session.h"
-#include "tests/support/pictures.h"
 #include "tests/render/session/recording_session.h"
+#include "tests/support/pictures.h"
 #include "tests/support/sample_project.h"
 
 #include <gtest/gtest.h>

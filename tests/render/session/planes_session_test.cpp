@@ -1,8 +1,8 @@
 // Temporarily requested film planes: requesting them restarts the image, releasing them does not.
 #include "render/session/render_session.h"
 
-#include "tests/support/pictures.h"
 #include "tests/render/session/recording_session.h"
+#include "tests/support/pictures.h"
 #include "tests/support/sample_project.h"
 
 #include <gtest/gtest.h>

@@ -24,7 +24,7 @@ class RecordingSession {
 public:
     // `on_event` runs for each announcement after it was recorded, one at a time.
     explicit RecordingSession(unsigned threads = 2, std::function<void(RenderSession&, const Event&)> on_event = {},
-                            DenoiseFunction denoise = {});
+                              DenoiseFunction denoise = {});
     explicit RecordingSession(const SessionOptions& options, std::function<void(RenderSession&, const Event&)> on_event = {});
 
     RenderSession* operator->() { return session_.get(); }

@@ -1,9 +1,9 @@
 // The session as the window uses it. Tests rely on the order of announcements, never on durations.
 #include "render/session/render_session.h"
 
-#include "tests/support/pictures.h"
-#include "tests/render/session/rich_project.h"
 #include "tests/render/session/recording_session.h"
+#include "tests/render/session/rich_project.h"
+#include "tests/support/pictures.h"
 #include "tests/support/sample_project.h"
 
 #include <gtest/gtest.h>
@@ -20,8 +20,8 @@ using State = SessionStatus::State;
 using test::checksum;
 using test::Event;
 using test::fresh_picture;
-using test::same_picture;
 using test::RecordingSession;
+using test::same_picture;
 
 Project small_project(int width = 32, int height = 24, int64_t spp = 8) {
     Project project = test::sample_project().project;
@@ -233,7 +233,8 @@ TEST(RenderSession, PausedItShowsTheFirstPictureAndWaits) {
 
 TEST(RenderSession, PausingKeepsTheSamples) {
     const Project project = small_project(32, 24, 64);
-    RecordingSession session(2, once([](const Event& e) { return e.frame && e.frame->samples >= 4; }, [](RenderSession& s) { s.pause(true); }));
+    RecordingSession session(
+        2, once([](const Event& e) { return e.frame && e.frame->samples >= 4; }, [](RenderSession& s) { s.pause(true); }));
     submit(session, 1, project);
     const Event paused = session.wait_for(1, State::paused);
     ASSERT_TRUE(paused.frame);
@@ -284,7 +285,7 @@ TEST(RenderSession, MoreSamplesContinueTheImage) {
 TEST(RenderSession, StopRulesMayChangeInTheMiddle) {
     const Project project = small_project(32, 24, 0);
     RecordingSession session(2, once([](const Event& e) { return e.frame && e.frame->samples >= 4; },
-                                   [&](RenderSession& s) { submit(s, 2, with_spp(project, 50)); }));
+                                     [&](RenderSession& s) { submit(s, 2, with_spp(project, 50)); }));
     submit(session, 1, project);
     const Event done = session.wait_for(2, State::complete);
     ASSERT_TRUE(done.frame);
@@ -392,8 +393,10 @@ TEST(RenderSession, PublishedFramesNeverChange) {
             if (frame && !held.contains(frame) && (hold = !hold)) held.emplace(frame, checksum(*frame));
             const SessionStatus status = watched->status();
             if (status.state != State::complete) return;
-            if (status.revision < last) submit(*watched, status.revision + 1, lit_by(project, float(status.revision)));
-            else done = true, done.notify_all();
+            if (status.revision < last)
+                submit(*watched, status.revision + 1, lit_by(project, float(status.revision)));
+            else
+                done = true, done.notify_all();
         });
         watched = &session;
         submit(session, 1, project);

@@ -141,7 +141,8 @@ void add_lights(Builder& b) {
     b.light("Parallel sun", {0, 0, 0}, {}, [](Light& l) { l.kind = Light::Kind::sun, l.intensity = 0.5f; });
     b.light("Panel", {-1, 1.5f, 2}, down, [](Light& l) { l.kind = Light::Kind::rectangle, l.intensity = 4, l.use_temperature = true; });
     b.light("Disk", {1, 1.2f, 2.5f}, down, [](Light& l) { l.kind = Light::Kind::disk, l.radius = 0.3f, l.spread_radians = 1.5f; });
-    b.light("Hidden ball", {-0.2f, 0.6f, 1.8f}, {}, [](Light& l) { l.kind = Light::Kind::sphere, l.radius = 0.15f, l.visible_to_camera = false; });
+    b.light("Hidden ball", {-0.2f, 0.6f, 1.8f}, {},
+            [](Light& l) { l.kind = Light::Kind::sphere, l.radius = 0.15f, l.visible_to_camera = false; });
 }
 
 // A flag skinned to two joints, with a morph target for its tip: the clip rotates the upper joint and raises the weight. And a
@@ -184,7 +185,8 @@ void add_motion(Builder& b) {
     const auto keys = [](std::vector<float> values) {
         return std::make_shared<const Keyframes>(Keyframes{Keyframes::Interpolation::linear, {0, 1, 2}, std::move(values)});
     };
-    scene.clips.add({"Wave", 2,
+    scene.clips.add({"Wave",
+                     2,
                      {{tip, Channel::Property::rotation, keys({0, 0, 0, 1, 0, 0.6f, 0, 0.8f, 0, -0.6f, 0, 0.8f})},
                       {flag, Channel::Property::morph_weights, keys({0, 1, 0.5f})}}});
 

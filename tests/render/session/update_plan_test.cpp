@@ -199,7 +199,9 @@ TEST_F(EditCost, SetAreaLight) {
     EXPECT_EQ(cost_of_node(sample.lamp_node, [](Node& n) { n.local.translation.x += 1; }), moved());
 }
 
-TEST_F(EditCost, SetCamera) { EXPECT_EQ(cost_of(SetCamera{sample.camera, {"Camera", {.yfov_radians = 1}}}), nothing()) << "the view is a copy"; }
+TEST_F(EditCost, SetCamera) {
+    EXPECT_EQ(cost_of(SetCamera{sample.camera, {"Camera", {.yfov_radians = 1}}}), nothing()) << "the view is a copy";
+}
 
 TEST_F(EditCost, SetTexture) {
     Texture texture = *sample.project.scene.textures.find(sample.checker);

@@ -65,7 +65,8 @@ protected:
         return rgb;
     }
 
-    static std::vector<float> computed(const std::vector<float>& rgba, const DisplayTransform& transform, const DisplayParameters& numbers) {
+    static std::vector<float> computed(const std::vector<float>& rgba, const DisplayTransform& transform,
+                                       const DisplayParameters& numbers) {
         std::vector<float> rgb, coverage;
         for (size_t i = 0; i < rgba.size(); ++i) (i % 4 != 3 ? rgb : coverage).push_back(rgba[i]);
         EXPECT_TRUE(color->apply_display(transform, numbers, rgb.data(), rgb.size() / 3, coverage.data()));

@@ -1,10 +1,10 @@
 // Light camera: view and light move together, whichever of them is moved.
 #include "core/math.h"
 #include "scene/affine.h"
-#include "ui/lights/light_tools.h"
 #include "ui/lights/light_camera.h"
-#include "ui/viewport/orbit_camera.h"
+#include "ui/lights/light_tools.h"
 #include "ui/transform/rotation.h"
+#include "ui/viewport/orbit_camera.h"
 
 #include <gtest/gtest.h>
 

@@ -14,7 +14,6 @@
 namespace blush {
 namespace {
 
-
 View view_from(const Vec3d& eye) {
     View view;
     view.position = to_float(eye);

@@ -2,8 +2,8 @@
 #include "scene/lights/light_units.h"
 #include "ui/lights/light_tools.h"
 #include "ui/lights/new_light.h"
-#include "ui/viewport/orbit_camera.h"
 #include "ui/transform/rotation.h"
+#include "ui/viewport/orbit_camera.h"
 
 #include <gtest/gtest.h>
 #include <numbers>
@@ -11,8 +11,8 @@
 namespace blush {
 namespace {
 
-constexpr Light::Kind kinds[] = {Light::Kind::point, Light::Kind::spot, Light::Kind::sun, Light::Kind::rectangle, Light::Kind::disk,
-                                 Light::Kind::sphere};
+constexpr Light::Kind kinds[] = {Light::Kind::point,     Light::Kind::spot, Light::Kind::sun,
+                                 Light::Kind::rectangle, Light::Kind::disk, Light::Kind::sphere};
 
 // Illuminance in lux on a surface facing the light, far enough away to treat the light as a point.
 double illuminance(const Light& light, double distance) {
@@ -123,13 +123,14 @@ TEST(NewLight, StaysInARoomThatIsSeenFromOutside) {
     quad(scene, {-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}); // back
     quad(scene, {-1, -1, 1}, {-1, -1, -1}, {-1, 1, -1}, {-1, 1, 1}); // left
     quad(scene, {1, -1, -1}, {1, -1, 1}, {1, 1, 1}, {1, 1, -1});     // right
-    for (const float z : {-0.1f, 0.1f}) // a plate about the pivot, facing outwards
+    for (const float z : {-0.1f, 0.1f})                              // a plate about the pivot, facing outwards
         z > 0 ? quad(scene, {-0.1f, -0.1f, z}, {0.1f, -0.1f, z}, {0.1f, 0.1f, z}, {-0.1f, 0.1f, z})
               : quad(scene, {-0.1f, 0.1f, z}, {0.1f, 0.1f, z}, {0.1f, -0.1f, z}, {-0.1f, -0.1f, z});
     scene.view = view_of_subject();
     for (int i = 0; i < 9; ++i) {
         const LightSpot spot = spot_round_subject(scene, scene.view, world_bounds(scene));
-        EXPECT_LT(std::max({std::abs(spot.position.x), std::abs(spot.position.y), -spot.position.z}), 1) << "light " << i << " is behind a wall";
+        EXPECT_LT(std::max({std::abs(spot.position.x), std::abs(spot.position.y), -spot.position.z}), 1)
+            << "light " << i << " is behind a wall";
         const auto next = blush::apply(project, Edit{new_light(Light::Kind::point, scene.view, spot, 0)});
         ASSERT_TRUE(next);
         project = *next;
@@ -163,7 +164,8 @@ TEST(Heading, RoundTrips) {
 
 // The roll is measured by the tilt of the light's X axis.
 TEST(Heading, TurnsAboutTheVerticalWithoutRoll) {
-    for (const Vec3d& euler : {Vec3d{0, 0, 0}, Vec3d{-40, 25, 0}, Vec3d{10, 40, 25}, Vec3d{-90, 0, 0}, Vec3d{-90, 0, 70}, Vec3d{89.5, 10, 0}}) {
+    for (const Vec3d& euler :
+         {Vec3d{0, 0, 0}, Vec3d{-40, 25, 0}, Vec3d{10, 40, 25}, Vec3d{-90, 0, 0}, Vec3d{-90, 0, 70}, Vec3d{89.5, 10, 0}}) {
         const Quat start = from_euler_degrees(euler);
         Quat rotation = start;
         const Heading first = heading_of_rotation(start);
@@ -184,7 +186,8 @@ TEST(Heading, TiltGoesThroughStraightDownAndBack) {
     const Quat down = with_heading(start, {120, -90});
     EXPECT_NEAR(heading_of_rotation(down).heading, 120, 1e-2);
     const Quat back = with_heading(down, {heading_of_rotation(down).heading, -30});
-    for (const Vec3d& axis : {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}}) EXPECT_NEAR(dot(rotate(back, axis), rotate(start, axis)), 1, 1e-5);
+    for (const Vec3d& axis : {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}})
+        EXPECT_NEAR(dot(rotate(back, axis), rotate(start, axis)), 1, 1e-5);
 }
 
 TEST(TurnedTo, PointsThereAndKeepsTheRoll) {

@@ -1,10 +1,10 @@
 // Placing lights by highlight and by shadow.
 #include "core/math.h"
 #include "scene/affine.h"
-#include "ui/viewport/environment_dial.h"
-#include "ui/lights/place_by_effect.h"
 #include "ui/lights/light_tools.h"
+#include "ui/lights/place_by_effect.h"
 #include "ui/transform/rotation.h"
+#include "ui/viewport/environment_dial.h"
 
 #include <gtest/gtest.h>
 

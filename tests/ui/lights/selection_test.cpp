@@ -1,7 +1,7 @@
 // Multi-selection, and multi-edit of lights.
-#include "ui/lights/multi_edit.h"
 #include "ui/lights/light_groups.h"
 #include "ui/lights/light_tools.h"
+#include "ui/lights/multi_edit.h"
 #include "ui/window/ui_state.h"
 
 #include <gtest/gtest.h>

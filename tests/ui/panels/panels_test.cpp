@@ -1,9 +1,9 @@
 // Every panel with every type of selection: drawing must not edit the document, for any values.
-#include "tests/ui/imgui_test.h"
 #include "io/gltf/read/import.h"
-#include "tests/ui/shipped_ocio_config.h"
 #include "render/lights/light_links.h"
 #include "tests/support/sample_project.h"
+#include "tests/ui/imgui_test.h"
+#include "tests/ui/shipped_ocio_config.h"
 #include "ui/panels/instruments.h"
 #include "ui/panels/panels.h"
 
@@ -71,7 +71,8 @@ TEST_F(Panels, CardsAreStacked) {
             PanelContext c{document, ui, color, frame, SessionStatus(), 640, 480};
             EXPECT_FALSE(draw_cards(c, viewport, &job));
         });
-    const ImGuiWindow* cards[] = {ImGui::FindWindowByName("##toast0"), ImGui::FindWindowByName("##toast1"), ImGui::FindWindowByName("##job")};
+    const ImGuiWindow* cards[] = {ImGui::FindWindowByName("##toast0"), ImGui::FindWindowByName("##toast1"),
+                                  ImGui::FindWindowByName("##job")};
     for (const ImGuiWindow* card : cards) {
         ASSERT_TRUE(card);
         EXPECT_GT(card->Size.y, 10);

@@ -32,8 +32,8 @@ using Names = std::vector<std::string>;
 
 TEST(PictureLayers, GroupChannelsByName) {
     const std::vector<PictureLayer> layers =
-        layers_of({image_of({"Z", "diffuse.B", "diffuse.G", "diffuse.R", "A", "B", "G", "R", "N.X", "N.Y", "N.Z", "crypto00.r", "crypto00.g", "crypto00.b",
-                             "crypto00.a", "beauty.R", "mask.Y"})});
+        layers_of({image_of({"Z", "diffuse.B", "diffuse.G", "diffuse.R", "A", "B", "G", "R", "N.X", "N.Y", "N.Z", "crypto00.r",
+                             "crypto00.g", "crypto00.b", "crypto00.a", "beauty.R", "mask.Y"})});
     EXPECT_EQ(names_of(layers), (Names{"Beauty", "Z", "diffuse", "N", "crypto00", "beauty.R", "mask.Y"}));
     EXPECT_EQ(layers[0].channel, (std::array<int, 4>{7, 6, 5, 4})) << "red first, alpha last";
     EXPECT_EQ(layers[0].channels, "R, G, B, A");

@@ -1,11 +1,11 @@
 // Snapshots in the window: list, comparison, thumbnails, differences and panels.
 #include "ui/snapshots/snapshots_view.h"
 
+#include "tests/support/sample_project.h"
 #include "tests/ui/imgui_test.h"
 #include "tests/ui/shipped_ocio_config.h"
-#include "tests/support/sample_project.h"
-#include "ui/snapshots/difference.h"
 #include "ui/panels/panels.h"
+#include "ui/snapshots/difference.h"
 #include "ui/snapshots/snapshot_memory.h"
 #include "ui/snapshots/snapshot_strip.h"
 

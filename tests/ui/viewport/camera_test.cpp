@@ -1,7 +1,7 @@
 // Projection and camera navigation, against analytic results and against each other.
+#include "ui/transform/rotation.h"
 #include "ui/viewport/orbit_camera.h"
 #include "ui/viewport/projection.h"
-#include "ui/transform/rotation.h"
 
 #include <gtest/gtest.h>
 

@@ -17,7 +17,9 @@ namespace {
 // A temporary folder, deleted with its files.
 class Folder {
 public:
-    Folder() : path_(std::filesystem::temp_directory_path() / ("blush-maps-" + std::to_string(getpid()))) { std::filesystem::create_directories(path_); }
+    Folder() : path_(std::filesystem::temp_directory_path() / ("blush-maps-" + std::to_string(getpid()))) {
+        std::filesystem::create_directories(path_);
+    }
     ~Folder() { std::filesystem::remove_all(path_); }
     std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
 
@@ -46,7 +48,8 @@ TEST(Maps, SettingATextureIsOneUndoStep) {
     Document d = opened();
     const Id<Material> id = d.project().scene.materials.begin()->id;
     const size_t textures = d.project().scene.textures.size();
-    ASSERT_TRUE(set_map(d, id, &Material::metallic_roughness_texture, "Metal-rough map", {.name = "checks", .source = "embedded", .image = checks(4, 2)}, 1));
+    ASSERT_TRUE(set_map(d, id, &Material::metallic_roughness_texture, "Metal-rough map",
+                        {.name = "checks", .source = "embedded", .image = checks(4, 2)}, 1));
     EXPECT_EQ(d.undo_labels(), std::vector<std::string>{"Load Metal-rough map"});
     const Texture* texture = d.project().scene.textures.find(first_material(d).metallic_roughness_texture.texture);
     ASSERT_TRUE(texture);
@@ -62,12 +65,15 @@ TEST(Maps, ReplacingKeepsTheUvTransform) {
     Material m = first_material(d);
     m.base_color_texture.scale = {3, 4};
     ASSERT_TRUE(d.apply(SetMaterial{id, m}));
-    ASSERT_TRUE(set_map(d, id, &Material::base_color_texture, "Base colour map", {.name = "a", .source = "embedded", .image = checks(2, 2)}, 1));
-    ASSERT_TRUE(set_map(d, id, &Material::base_color_texture, "Base colour map", {.name = "b", .source = "embedded", .image = checks(8, 8)}, 2));
+    ASSERT_TRUE(
+        set_map(d, id, &Material::base_color_texture, "Base colour map", {.name = "a", .source = "embedded", .image = checks(2, 2)}, 1));
+    ASSERT_TRUE(
+        set_map(d, id, &Material::base_color_texture, "Base colour map", {.name = "b", .source = "embedded", .image = checks(8, 8)}, 2));
     const TextureRef& ref = first_material(d).base_color_texture;
     EXPECT_EQ(ref.scale, (Vec2{3, 4}));
     EXPECT_EQ(d.project().scene.textures.find(ref.texture)->name, "b");
-    EXPECT_FALSE(set_map(d, Id<Material>{9999}, &Material::base_color_texture, "Base colour map", {.name = "c", .source = "embedded", .image = checks(2, 2)}, 3));
+    EXPECT_FALSE(set_map(d, Id<Material>{9999}, &Material::base_color_texture, "Base colour map",
+                         {.name = "c", .source = "embedded", .image = checks(2, 2)}, 3));
 }
 
 TEST(Maps, SurviveSaveAndLoad) {

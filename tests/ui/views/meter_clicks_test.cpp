@@ -7,8 +7,8 @@
 #include "scene/geometry/ray_queries.h"
 #include "scene/world_transforms.h"
 #include "tests/support/statistics.h"
-#include "ui/views/meters_view.h"
 #include "ui/viewport/picking.h"
+#include "ui/views/meters_view.h"
 
 #include <gtest/gtest.h>
 #include <numbers>
@@ -35,7 +35,8 @@ public:
             const Affined& world = placements(id).world_from_node;
             if (const Light* light = node.light ? scene.lights.find(node.light) : nullptr) {
                 EXPECT_EQ(light->kind, Light::Kind::sun);
-                suns_.push_back({normalize(world.z), double(light->angle_radians) / 2, double(light->intensity) * double(luminance(light->color))});
+                suns_.push_back(
+                    {normalize(world.z), double(light->angle_radians) / 2, double(light->intensity) * double(luminance(light->color))});
             }
             if (!node.mesh) continue;
             for (const MeshPart& part : scene.meshes.find(node.mesh)->parts) {
@@ -62,7 +63,8 @@ public:
         };
         if (power_ > 0)
             add([&](double pick, double u, double v) {
-                const EmissiveTriangle& t = *std::ranges::lower_bound(triangles_, pick * power_, {}, [&](const EmissiveTriangle& e) { return until_[size_t(&e - triangles_.data())]; });
+                const EmissiveTriangle& t = *std::ranges::lower_bound(
+                    triangles_, pick * power_, {}, [&](const EmissiveTriangle& e) { return until_[size_t(&e - triangles_.data())]; });
                 const double r = std::sqrt(u);
                 const Vec3d y = t.a * (1 - r) + t.b * (r * (1 - v)) + t.c * (r * v), to = y - x;
                 const double d2 = dot(to, to), cos_x = dot(n, to), cos_y = -dot(t.normal, to);
@@ -104,7 +106,9 @@ private:
             until_.push_back(power_);
         }
     }
-    double sees(const Vec3d& x, const Vec3d& wi) const { return cast_ray(scene_, x, wi, [](Id<Node>) { return true; }) ? 0 : 1; }
+    double sees(const Vec3d& x, const Vec3d& wi) const {
+        return cast_ray(scene_, x, wi, [](Id<Node>) { return true; }) ? 0 : 1;
+    }
 
     const Scene& scene_;
     std::vector<EmissiveTriangle> triangles_;
@@ -144,7 +148,8 @@ TEST_P(MeterClicks, MeasureTheClickedPoint) {
         }
         ASSERT_TRUE(meter);
         const std::vector<MeterPlace> places = places_of(scene, {*meter});
-        const auto [lux, truth_error] = truth.at(places[0].position + places[0].normal * places[0].clearance, places[0].normal, 400, random);
+        const auto [lux, truth_error] =
+            truth.at(places[0].position + places[0].normal * places[0].clearance, places[0].normal, 400, random);
 
         LightMeters meters({.threads = 1});
         meters.begin(scene, settings, places);
@@ -162,8 +167,10 @@ TEST_P(MeterClicks, MeasureTheClickedPoint) {
             << GetParam() << " at " << u << ", " << v;
     }
     // The visible part of the corridor only has indirect light.
-    if (GetParam() != "corridor") EXPECT_GT(lit, clicks / 2) << "most of a shipped scene is lit";
-    else EXPECT_EQ(lit, 0);
+    if (GetParam() != "corridor")
+        EXPECT_GT(lit, clicks / 2) << "most of a shipped scene is lit";
+    else
+        EXPECT_EQ(lit, 0);
 }
 INSTANTIATE_TEST_SUITE_P(Shipped, MeterClicks, testing::Values("card-and-mug", "cornell", "corridor", "furnace", "veach-mis"));
 

@@ -1,12 +1,12 @@
 // Statistics of the displayed picture: region statistics and scopes against manual sums.
 #include "core/text.h"
 #include "io/image/display_image.h"
-#include "tests/ui/shipped_ocio_config.h"
 #include "render/film/coverage.h"
-#include "ui/views/meters_view.h"
+#include "tests/ui/shipped_ocio_config.h"
 #include "ui/snapshots/region_statistics.h"
-#include "ui/views/scopes_view.h"
 #include "ui/viewport/view_tools.h"
+#include "ui/views/meters_view.h"
+#include "ui/views/scopes_view.h"
 #include "ui/widgets/waveform_sheet.h"
 
 #include <gtest/gtest.h>

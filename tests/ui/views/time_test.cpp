@@ -1,7 +1,7 @@
 // The timeline.
+#include "tests/support/sample_project.h"
 #include "tests/ui/imgui_test.h"
 #include "tests/ui/shipped_ocio_config.h"
-#include "tests/support/sample_project.h"
 #include "ui/panels/panels.h"
 
 namespace blush {

@@ -1,7 +1,7 @@
 // Charts in the window and in files: same layout, drawn by ImGui and rasterized without OpenGL; texts of the Convergence panel.
 #include "tests/ui/imgui_test.h"
-#include "ui/views/convergence_picture.h"
 #include "ui/gl/draw_list_image.h"
+#include "ui/views/convergence_picture.h"
 #include "ui/widgets/plot_drawing.h"
 #include "ui/window/time_text.h"
 

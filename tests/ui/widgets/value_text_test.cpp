@@ -27,8 +27,10 @@ TEST(ValueText, AcceptsUnitsBlanksAndCommas) {
 
 TEST(ValueText, AcceptsTriplesInBrackets) {
     const Vec3 wanted{1, -2.5f, 0.25f};
-    for (const char* text : {"1, -2.5, 0.25", "[1.0, -2.5, .25]", "(1 -2.5 0.25)", "1;-2.5;0.25", "{1,\t-2.5,\n0.25}"}) EXPECT_EQ(pasted_triple(text), wanted) << text;
-    for (const char* text : {"1, 2", "1, 2, 3,", ",1, 2, 3", "1,, 2, 3", "1 2 3 4", "[1, 2, 3", "a, b, c", "1e300, 0, 0"}) EXPECT_FALSE(pasted_triple(text)) << text;
+    for (const char* text : {"1, -2.5, 0.25", "[1.0, -2.5, .25]", "(1 -2.5 0.25)", "1;-2.5;0.25", "{1,\t-2.5,\n0.25}"})
+        EXPECT_EQ(pasted_triple(text), wanted) << text;
+    for (const char* text : {"1, 2", "1, 2, 3,", ",1, 2, 3", "1,, 2, 3", "1 2 3 4", "[1, 2, 3", "a, b, c", "1e300, 0, 0"})
+        EXPECT_FALSE(pasted_triple(text)) << text;
 }
 
 TEST(ValueText, ColoursRoundTripInEachFormat) {

@@ -129,7 +129,8 @@ TEST_F(ColorField, AcceptsEachColourFormat) {
 
 TEST_F(ColorField, RejectsInvalidColours) {
     const Vec3 before = value;
-    for (const char* text : {"", "#12345", "#gggggg", "red", "1, 2", "1, 2, 3, 4", "-1, 0, 0", "nan, 0, 0", "1e30, 0, 0", "srgb(", "(((1,1,1)))"}) {
+    for (const char* text :
+         {"", "#12345", "#gggggg", "red", "1, 2", "1, 2, 3, 4", "-1, 0, 0", "nan, 0, 0", "1e30, 0, 0", "srgb(", "(((1,1,1)))"}) {
         const auto said = ui.toasts.added();
         paste(text);
         EXPECT_EQ(value, before) << text;

@@ -1,7 +1,7 @@
 // Docks of the instruments: sides, order, and saved state.
+#include "tests/support/sample_project.h"
 #include "tests/ui/imgui_test.h"
 #include "tests/ui/shipped_ocio_config.h"
-#include "tests/support/sample_project.h"
 #include "ui/window/docks.h"
 #include "ui/window/ui_persistence.h"
 

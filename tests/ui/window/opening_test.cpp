@@ -1,15 +1,15 @@
 // Opening a file: auto exposure for the subject, home camera, and camera frame.
-#include "tests/ui/shipped_ocio_config.h"
+#include "render/film/crop.h"
 #include "scene/document/document.h"
 #include "scene/geometry/ground_plane.h"
 #include "tests/support/sample_project.h"
-#include "render/film/crop.h"
+#include "tests/ui/shipped_ocio_config.h"
+#include "ui/lights/light_presence.h"
 #include "ui/viewport/camera_frame.h"
 #include "ui/viewport/region_backdrop.h"
-#include "ui/window/file_places.h"
 #include "ui/views/home_view.h"
-#include "ui/lights/light_presence.h"
 #include "ui/views/subject_exposure.h"
+#include "ui/window/file_places.h"
 
 #include "io/image/display_image.h"
 
@@ -40,7 +40,9 @@ class SubjectExposure : public testing::Test {
 protected:
     ColorManagement color = test::our_colors();
     Scene scene;
-    std::optional<float> metered(const Frame& f, std::vector<Id<Node>> selected = {}) { return subject_exposure(f, scene, selected, {}, color); }
+    std::optional<float> metered(const Frame& f, std::vector<Id<Node>> selected = {}) {
+        return subject_exposure(f, scene, selected, {}, color);
+    }
     // Mean of the display-encoded picture.
     double shown_mean(const Frame& f, float exposure_ev) {
         std::vector<float> rgb;
@@ -246,7 +248,8 @@ TEST(FilePlaces, ListsExistingFoldersOnce) {
     const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("blush-places-" + std::to_string(getpid()));
     std::filesystem::create_directories(folder / "scenes");
     WindowSettings settings;
-    settings.recent = {(folder / "scenes" / "a.gltf").string(), (folder / "scenes" / "b.gltf").string(), (folder / "gone" / "c.gltf").string()};
+    settings.recent = {(folder / "scenes" / "a.gltf").string(), (folder / "scenes" / "b.gltf").string(),
+                       (folder / "gone" / "c.gltf").string()};
     settings.bookmarks = {folder.string()};
     size_t scenes = 0, gone = 0, bookmarks = 0;
     for (const FilePlace& place : file_places(settings, folder / "scenes")) {

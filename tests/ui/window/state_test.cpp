@@ -1,6 +1,6 @@
 // Shortcuts, gestures, toasts, statistics and background jobs.
-#include "ui/window/automation.h"
 #include "ui/jobs/background_job.h"
+#include "ui/window/automation.h"
 #include "ui/window/frame_budget.h"
 #include "ui/window/frame_stats.h"
 #include "ui/window/gestures.h"

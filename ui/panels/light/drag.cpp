@@ -1,7 +1,7 @@
 #include "ui/panels/light/drag.h"
 
-#include "ui/lights/multi_edit.h"
 #include "ui/lights/light_rows.h"
+#include "ui/lights/multi_edit.h"
 
 #include <imgui.h>
 

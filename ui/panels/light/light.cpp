@@ -1,13 +1,13 @@
 // Light section: type and direction. Intensity, size and distribution are in the files light_*.cpp.
-#include "ui/transform/gizmo.h"
 #include "ui/lights/light_tools.h"
-#include "ui/viewport/orbit_camera.h"
+#include "ui/lights/multi_edit_apply.h"
 #include "ui/panels/light/fields.h"
 #include "ui/panels/panels.h"
+#include "ui/transform/gizmo.h"
 #include "ui/transform/rotation.h"
-#include "ui/lights/multi_edit_apply.h"
-#include "ui/window/theme.h"
+#include "ui/viewport/orbit_camera.h"
 #include "ui/widgets/widgets.h"
+#include "ui/window/theme.h"
 
 #include "core/math.h"
 #include "scene/lights/light_units.h"

@@ -1,9 +1,9 @@
 // Light linking: which objects a light illuminates, and which cast its shadows.
 #include "render/lights/light_links.h"
-#include "ui/panels/panels.h"
 #include "ui/lights/multi_edit_apply.h"
-#include "ui/window/theme.h"
+#include "ui/panels/panels.h"
 #include "ui/widgets/widgets.h"
+#include "ui/window/theme.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -1,10 +1,10 @@
 // Light mix panel: a gain per light group, applied to the existing samples.
-#include "render/light_mix/light_mix.h"
 #include "render/light_mix/bake_mix.h"
-#include "ui/widgets/elided_text.h"
+#include "render/light_mix/light_mix.h"
 #include "ui/panels/panels.h"
-#include "ui/window/theme.h"
+#include "ui/widgets/elided_text.h"
 #include "ui/widgets/widgets.h"
+#include "ui/window/theme.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,8 +28,10 @@ MixChannel channel_of(const LightMix& mix, const std::string& group) {
 
 void set_channel(LightMix& mix, const MixChannel& channel) {
     const auto it = std::ranges::find(mix.channels, channel.group, &MixChannel::group);
-    if (it == mix.channels.end()) mix.channels.push_back(channel);
-    else *it = channel;
+    if (it == mix.channels.end())
+        mix.channels.push_back(channel);
+    else
+        *it = channel;
 }
 
 // Solos this group; if it is already solo, all groups are enabled again.
@@ -95,12 +97,19 @@ void draw_heading(PanelContext& c, const GroupReport& report, LightMix& mix, boo
 
 void draw_colour(Fields& f, MixChannel& channel) {
     float stops = channel.intensity > 0 ? std::log2(channel.intensity) : -20;
-    if (f.number("Stops", stops, {.min = -20, .max = 20, .reset = 0, .unit = "EV", .step = 0.02f, .tip = "The same gain in stops.", .format = "%+.2f"}))
+    if (f.number("Stops", stops,
+                 {.min = -20, .max = 20, .reset = 0, .unit = "EV", .step = 0.02f, .tip = "The same gain in stops.", .format = "%+.2f"}))
         channel.intensity = std::exp2(stops);
     f.checkbox("Temperature", channel.use_temperature, "Multiply by the colour of a black body. The luminance does not change.");
     if (channel.use_temperature)
         f.number("Kelvin", channel.kelvin,
-                 {.min = 1000, .max = 15000, .reset = 6500, .unit = "K", .bar = true, .tip = "Temperature of the black body.", .format = "%.0f"});
+                 {.min = 1000,
+                  .max = 15000,
+                  .reset = 6500,
+                  .unit = "K",
+                  .bar = true,
+                  .tip = "Temperature of the black body.",
+                  .format = "%.0f"});
     f.color("Colour", channel.color, {1, 1, 1}, "Linear RGB factor of the group's light, like a colour gel in front of all its lamps.");
 }
 
@@ -128,7 +137,8 @@ void draw_group(PanelContext& c, const GroupReport& report) {
 std::string noise_text(const Frame& frame, const Gains& gains) {
     const ErrorEstimate& e = frame.error;
     if (!e.rmse_known) return "Noise of the mix: not known yet.";
-    if (frame.gains == gains) return fmt::format("Noise of the mix: RMSE {:.3g}, 95 % interval {:.3g} to {:.3g}.", e.rmse, e.rmse_low, e.rmse_high);
+    if (frame.gains == gains)
+        return fmt::format("Noise of the mix: RMSE {:.3g}, 95 % interval {:.3g} to {:.3g}.", e.rmse, e.rmse_low, e.rmse_high);
     return fmt::format("Noise of the mix: RMSE {:.3g} predicted.", predicted_rmse(frame, gains));
 }
 
@@ -170,7 +180,8 @@ void draw_light_mix_panel(PanelContext& c) {
     ImGui::Dummy({0, ImGui::GetFontSize() * 0.4f});
     // Bake stays visible, however long the list of groups is.
     if (ImGui::BeginChild("groups", {0, -ImGui::GetFrameHeightWithSpacing()})) {
-        if (c.mixing) draw_groups(c);
+        if (c.mixing)
+            draw_groups(c);
         else
             quiet_text("Waiting for a render with these groups.");
     }

@@ -1,8 +1,8 @@
 // Banner for scenes without lights: says that the scene is shown in a studio, and offers other lighting. Also shown if the last
 // light is removed.
 #include "ui/panels/panels.h"
-#include "ui/window/theme.h"
 #include "ui/widgets/widgets.h"
+#include "ui/window/theme.h"
 
 #include <initializer_list>
 
@@ -61,7 +61,8 @@ void draw_no_light_banner(PanelContext& c, const Region& viewport) {
         if (ImGui::IsWindowAppearing()) c.ui.seconds_to_next_frame = 0; // becomes visible in the frame after the one that measures its size
         ImGui::AlignTextToFramePadding();
         dark ? draw_choices(c) : draw_choices_in_studio(c);
-        c.ui.probe.record("No light", {ImGui::GetWindowPos().x, ImGui::GetWindowPos().y, ImGui::GetWindowWidth(), ImGui::GetWindowHeight()});
+        c.ui.probe.record("No light",
+                          {ImGui::GetWindowPos().x, ImGui::GetWindowPos().y, ImGui::GetWindowWidth(), ImGui::GetWindowHeight()});
     }
     ImGui::End();
     ImGui::PopStyleVar(2);

@@ -14,7 +14,8 @@
 namespace blush {
 namespace {
 
-constexpr Light::Unit units[] = {Light::Unit::watt, Light::Unit::lumen, Light::Unit::candela, Light::Unit::lux, Light::Unit::nits, Light::Unit::ev};
+constexpr Light::Unit units[] = {Light::Unit::watt, Light::Unit::lumen, Light::Unit::candela,
+                                 Light::Unit::lux,  Light::Unit::nits,  Light::Unit::ev};
 
 // By unit; `own` is never shown.
 struct UnitText {
@@ -33,9 +34,11 @@ UnitText text_of(Light::Unit unit, Light::Kind kind) {
                 "Luminous intensity straight ahead: equals the lux on a surface one metre away. Lux fall with the square of the distance."};
     case Light::Unit::lux:
         return is_sun ? UnitText{"Lux", "lx",
-                                 "Illuminance of a surface that faces the light. The sun at noon gives about 100 000 lx, an overcast sky 10 000, an "
+                                 "Illuminance of a surface that faces the light. The sun at noon gives about 100 000 lx, an overcast sky "
+                                 "10 000, an "
                                  "office 500."}
-                      : UnitText{"Lux at 1 m", "lx", "Illuminance of a surface that faces the light one metre away, as if the light were small."};
+                      : UnitText{"Lux at 1 m", "lx",
+                                 "Illuminance of a surface that faces the light one metre away, as if the light were small."};
     case Light::Unit::nits:
         return is_sun ? UnitText{"Nits", "nits", "Luminance of the sun's disk. The sun at noon has 1.6e9 nits."}
                       : UnitText{
@@ -75,7 +78,8 @@ void draw_intensity(Fields& f, Light& light, double area_scale) {
     NumberStyle style{.min = 0, .max = 1e12f, .reset = 1, .unit = text.suffix, .tip = text.tip};
     if (is_ev) style = {.min = min_ev, .max = 40, .reset = 0, .unit = text.suffix, .step = 0.02f, .tip = text.tip, .format = "%.2f"};
     if (f.number("Intensity", value, style)) light.intensity = intensity_of(light, unit, double(value), area_scale);
-    if (light.kind != Light::Kind::sun && unit != Light::Unit::lumen) f.info("", fmt::format("{:.4g} lm in all", luminous_flux(light, area_scale)));
+    if (light.kind != Light::Kind::sun && unit != Light::Unit::lumen)
+        f.info("", fmt::format("{:.4g} lm in all", luminous_flux(light, area_scale)));
 }
 
 // A coloured stripe below the last field.
@@ -84,7 +88,8 @@ void draw_stripe(const Vec3& color) {
     const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
     const float stripe = std::max(2.f, ImGui::GetFontSize() / 6);
     const auto encoded = [&](float x) { return int(255 * std::pow(x / brightest, 1 / 2.2f)); };
-    ImGui::GetWindowDrawList()->AddRectFilled({low.x, high.y - stripe}, high, IM_COL32(encoded(color.x), encoded(color.y), encoded(color.z), 255),
+    ImGui::GetWindowDrawList()->AddRectFilled({low.x, high.y - stripe}, high,
+                                              IM_COL32(encoded(color.x), encoded(color.y), encoded(color.z), 255),
                                               ImGui::GetStyle().FrameRounding, ImDrawFlags_RoundCornersBottom);
 }
 
@@ -101,14 +106,16 @@ void draw_color(Fields& f, Light& light) {
                   .tip = "Temperature of the black body: candle 1900 K, bulb 2700 K, noon sun 5500 K, blue sky 10 000 K.",
                   .format = "%.0f"});
         draw_stripe(black_body_color(light.kelvin, light.green_tint));
-        f.number("Green tint", light.green_tint,
-                 {.min = -0.05f,
-                  .max = 0.05f,
-                  .reset = 0,
-                  .step = 0.0002f,
-                  .tip = "Distance from the colours of black bodies in CIE 1960 uv (Duv): above 0 greenish, as some fluorescent tubes are, below 0 "
-                         "magenta. White lamps are within 0.006.",
-                  .format = "%+.4f"});
+        f.number(
+            "Green tint", light.green_tint,
+            {.min = -0.05f,
+             .max = 0.05f,
+             .reset = 0,
+             .step = 0.0002f,
+             .tip =
+                 "Distance from the colours of black bodies in CIE 1960 uv (Duv): above 0 greenish, as some fluorescent tubes are, below 0 "
+                 "magenta. White lamps are within 0.006.",
+             .format = "%+.4f"});
     }
     f.color(light.use_temperature ? "Tint" : "Colour", light.color, {1, 1, 1},
             "Linear RGB (Rec.709) factor of the intensity, like a colour gel in front of the lamp.");

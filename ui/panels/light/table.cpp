@@ -1,17 +1,17 @@
 // Light table: all lights and emissive materials by group, with their share of the picture's light and noise. Rows can be dragged
 // between groups.
-#include "ui/lights/multi_edit.h"
-#include "ui/widgets/elided_text.h"
 #include "ui/gl/icons.h"
 #include "ui/lights/light_groups.h"
 #include "ui/lights/light_rows.h"
 #include "ui/lights/light_tools.h"
+#include "ui/lights/multi_edit.h"
+#include "ui/lights/multi_edit_apply.h"
 #include "ui/panels/light/drag.h"
 #include "ui/panels/panels.h"
+#include "ui/widgets/elided_text.h"
 #include "ui/widgets/row_clicks.h"
-#include "ui/lights/multi_edit_apply.h"
-#include "ui/window/theme.h"
 #include "ui/widgets/widgets.h"
+#include "ui/window/theme.h"
 
 #include <fmt/format.h>
 #include <imgui_stdlib.h>
@@ -56,8 +56,10 @@ bool letter_button(PanelContext& c, const char* letter, bool on, ImU32 lit, cons
 // Selected lights are switched together.
 void set_switches(PanelContext& c, const LightRow& row, bool on, bool solo) {
     const Edit edit = with_switches(c.scene(), row, on, solo);
-    if (const auto* light = std::get_if<SetLight>(&edit)) set_light(c, light->id, light->light, no_gesture);
-    else c.apply(edit);
+    if (const auto* light = std::get_if<SetLight>(&edit))
+        set_light(c, light->id, light->light, no_gesture);
+    else
+        c.apply(edit);
 }
 
 void draw_switches(PanelContext& c, const LightRow& row, const std::string& scope) {

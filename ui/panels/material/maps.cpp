@@ -1,8 +1,8 @@
 #include "ui/panels/material/maps.h"
 
-#include "ui/widgets/elided_text.h"
 #include "ui/jobs/map_thumbnails.h"
 #include "ui/panels/material/layers.h"
+#include "ui/widgets/elided_text.h"
 #include "ui/window/theme.h"
 
 #include <algorithm>
@@ -103,11 +103,13 @@ bool choose_image(PanelContext& c, const Slot& slot, TextureRef& ref) {
 }
 
 void draw_image_row(Fields& f, PanelContext& c, Id<Material> id, const Slot& slot, TextureRef& ref, const Texture& texture) {
-    const float gap = ImGui::GetStyle().ItemInnerSpacing.x, line = ImGui::GetFrameHeight(), side = 2 * line + ImGui::GetStyle().ItemSpacing.y;
+    const float gap = ImGui::GetStyle().ItemInnerSpacing.x, line = ImGui::GetFrameHeight(),
+                side = 2 * line + ImGui::GetStyle().ItemSpacing.y;
     // The image size, below the label.
     const ImVec2 row = ImGui::GetCursorScreenPos();
     const float left = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMin().x;
-    ImGui::GetWindowDrawList()->AddText({left, row.y + side - line + ImGui::GetStyle().FramePadding.y}, tone::dim_text, size_of(texture).c_str());
+    ImGui::GetWindowDrawList()->AddText({left, row.y + side - line + ImGui::GetStyle().FramePadding.y}, tone::dim_text,
+                                        size_of(texture).c_str());
     draw_thumbnail(c, texture, slot.label, name_of(texture, ref.texture), side);
     ImGui::SameLine(0, gap);
     ImGui::BeginGroup();
@@ -134,8 +136,7 @@ void draw_placement(Fields& f, TextureRef& ref) {
     f.number("Scale V", ref.scale.y, {.reset = 1, .step = 0.005f, .tip = "How many times the image repeats over one unit of V."});
     f.angle("Rotation", ref.rotation_radians,
             {.min = -360, .max = 360, .reset = 0, .step = 0.25f, .tip = "Rotates the image counter-clockwise about its corner."});
-    if (f.integer("UV set", uv_set, 0, max_uv_set, 0, "Set of texture coordinates of the mesh (TEXCOORD_n)."))
-        ref.uv_set = uint8_t(uv_set);
+    if (f.integer("UV set", uv_set, 0, max_uv_set, 0, "Set of texture coordinates of the mesh (TEXCOORD_n).")) ref.uv_set = uint8_t(uv_set);
 }
 
 void draw_map(Fields& f, PanelContext& c, Id<Material> id, const Slot& slot, Material& m) {

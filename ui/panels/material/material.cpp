@@ -2,8 +2,8 @@
 #include "ui/panels/material/layers.h"
 #include "ui/panels/material/maps.h"
 #include "ui/panels/panels.h"
-#include "ui/window/theme.h"
 #include "ui/widgets/widgets.h"
+#include "ui/window/theme.h"
 
 #include <fmt/format.h>
 

@@ -12,10 +12,10 @@
 namespace blush {
 namespace {
 
-constexpr double max_plausible_lumens = 100'000;  // lumens: some sixty bulbs of 100 W
-constexpr double max_plausible_sun_lux = 200'000;   // lux: the sun in space gives 130,000
-constexpr double min_plausible_sun_lux = 50;          // lux of daylight; many web viewers use 1 to 10
-constexpr double max_plausible_nits = 1e7;   // nits: a bulb's filament
+constexpr double max_plausible_lumens = 100'000;                   // lumens: some sixty bulbs of 100 W
+constexpr double max_plausible_sun_lux = 200'000;                  // lux: the sun in space gives 130,000
+constexpr double min_plausible_sun_lux = 50;                       // lux of daylight; many web viewers use 1 to 10
+constexpr double max_plausible_nits = 1e7;                         // nits: a bulb's filament
 constexpr double max_scene_value = 50'000, smallest_scene = 0.001; // metres across
 
 // Above the rounding error of 8-bit normals.
@@ -33,14 +33,16 @@ void report_light(const GltfContext& context, const Light& light, const std::str
         return;
     }
     if (is_per_area(light.kind)) {
-        if (light.intensity > max_plausible_nits) context.warn(fmt::format("{:.4g} nits is brighter than a bulb's filament", light.intensity), where);
+        if (light.intensity > max_plausible_nits)
+            context.warn(fmt::format("{:.4g} nits is brighter than a bulb's filament", light.intensity), where);
         return;
     }
     const double lumens = luminous_flux(light);
     if (lumens > max_plausible_lumens)
-        context.warn(fmt::format("{:.6g} candela are {:.6g} lumens, as of {:.0f} bulbs of 100 W; glTF's unit is the candela: were they watts?",
-                                 light.intensity, lumens, lumens / 1600),
-                     where);
+        context.warn(
+            fmt::format("{:.6g} candela are {:.6g} lumens, as of {:.0f} bulbs of 100 W; glTF's unit is the candela: were they watts?",
+                        light.intensity, lumens, lumens / 1600),
+            where);
 }
 
 // The scale of a camera has no effect, but an axis of length 0 has no direction.
@@ -52,7 +54,8 @@ void report_cameras(const GltfContext& context, const Scene& scene) {
         if (!is_finite(m))
             context.warn("the camera's world transform is not finite: it sees nothing", "camera node \"" + node.name + "\"");
         else if (!(std::abs(determinant(m)) > 1e-12 * size) || !(size > 0))
-            context.warn("the transform of a camera flattens an axis: its direction follows from the others", "camera node \"" + node.name + "\"");
+            context.warn("the transform of a camera flattens an axis: its direction follows from the others",
+                         "camera node \"" + node.name + "\"");
     }
 }
 
@@ -66,13 +69,16 @@ void report_units(const GltfContext& context, const Scene& scene, const GltfIndi
         const Material* m = scene.materials.find(id);
         if (!m) continue;
         const double nits = double(std::max({m->emissive.x, m->emissive.y, m->emissive.z})) * double(m->emissive_strength);
-        if (nits > max_plausible_nits) context.warn(fmt::format("{:.4g} nits is brighter than a bulb's filament", nits), fmt::format("materials[{}]", index));
+        if (nits > max_plausible_nits)
+            context.warn(fmt::format("{:.4g} nits is brighter than a bulb's filament", nits), fmt::format("materials[{}]", index));
     }
     report_cameras(context, scene);
     const Bounds bounds = world_bounds(scene);
     const double across = 2 * bounds.radius();
     if (!bounds.empty && across > max_scene_value)
-        context.warn(fmt::format("the scene is {:.4g} km across; glTF's unit is the metre: were they millimetres or centimetres?", across / 1000), "scene");
+        context.warn(
+            fmt::format("the scene is {:.4g} km across; glTF's unit is the metre: were they millimetres or centimetres?", across / 1000),
+            "scene");
     if (!bounds.empty && across > 0 && across < smallest_scene)
         context.warn(fmt::format("the scene is {:.4g} mm across; glTF's unit is the metre", across * 1000), "scene");
 }
@@ -86,12 +92,10 @@ void report_geometry(const GltfContext& context, const Geometry& g, const std::s
     }
     if (flat > 0) context.warn(fmt::format("{} of {} triangles have no area and cannot be seen", flat, g.triangle_count()), where);
     const auto odd = std::ranges::count_if(g.normals, [](const Vec3& n) { return !is_unit(to_double(n)); });
-    if (odd > 0)
-        context.warn(fmt::format("{} of {} normals are not of unit length; they are normalised", odd, g.normals.size()), where);
+    if (odd > 0) context.warn(fmt::format("{} of {} normals are not of unit length; they are normalised", odd, g.normals.size()), where);
     const auto stretched = std::ranges::count_if(g.tangents, [](const Vec4& t) { return !is_unit({t.x, t.y, t.z}); });
     if (stretched > 0)
-        context.warn(fmt::format("{} of {} tangents are not of unit length; they are normalised", stretched, g.tangents.size()),
-                     where);
+        context.warn(fmt::format("{} of {} tangents are not of unit length; they are normalised", stretched, g.tangents.size()), where);
 }
 
 } // namespace blush

@@ -1,7 +1,7 @@
 #include "io/gltf/check/report.h"
 
-#include "io/gltf/read/extensions.h"
 #include "io/gltf/check/schema_check.h"
+#include "io/gltf/read/extensions.h"
 
 #include <fmt/format.h>
 #include <set>

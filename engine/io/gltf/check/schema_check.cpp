@@ -80,7 +80,8 @@ const json& array_of(const json& object, const char* key) {
     return it != object.end() && it->is_array() ? *it : none;
 }
 
-void report_member(const GltfContext& context, const json& object, const Member& member, const json::json_pointer& path, const std::string& where) {
+void report_member(const GltfContext& context, const json& object, const Member& member, const json::json_pointer& path,
+                   const std::string& where) {
     if (!object.is_object() || !object.contains(path)) return;
     if (!is_of(member.kind, object.at(path)))
         context.warn(fmt::format("'{}' is not {}; its default is used", path.back(), name_of(member.kind)), where);
@@ -115,7 +116,8 @@ void check_schema(const GltfContext& context) {
     }
     const json& nodes = array_of(root, "nodes");
     for (size_t n = 0; n < nodes.size(); ++n)
-        if (nodes[n].contains("matrix") && (nodes[n].contains("translation") || nodes[n].contains("rotation") || nodes[n].contains("scale")))
+        if (nodes[n].contains("matrix") &&
+            (nodes[n].contains("translation") || nodes[n].contains("rotation") || nodes[n].contains("scale")))
             context.warn("has a matrix and also translation, rotation or scale: the matrix is used", fmt::format("nodes[{}]", n));
     const json& meshes = array_of(root, "meshes");
     for (size_t m = 0; m < meshes.size(); ++m) {
@@ -123,7 +125,8 @@ void check_schema(const GltfContext& context) {
         if (primitives.empty()) context.warn("the mesh has no primitives", fmt::format("meshes[{}]", m));
         for (size_t p = 0; p < primitives.size(); ++p)
             for (const Member& member : members_of_primitives)
-                report_member(context, primitives[p], member, json::json_pointer(member.path), fmt::format("meshes[{}].primitives[{}]", m, p));
+                report_member(context, primitives[p], member, json::json_pointer(member.path),
+                              fmt::format("meshes[{}].primitives[{}]", m, p));
     }
     report_undeclared(context);
 }

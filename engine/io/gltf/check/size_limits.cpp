@@ -41,13 +41,14 @@ Result<void> check_size_limits(const GltfContext& context, const std::vector<int
         for (const tinygltf::Primitive& primitive : model.meshes[size_t(mesh)].primitives) asked += decoded_bytes(context, primitive);
     }
     for (const tinygltf::Animation& animation : model.animations)
-        for (const tinygltf::AnimationSampler& sampler : animation.samplers) asked += bytes_of(context, sampler.input) + bytes_of(context, sampler.output);
+        for (const tinygltf::AnimationSampler& sampler : animation.samplers)
+            asked += bytes_of(context, sampler.input) + bytes_of(context, sampler.output);
     for (const tinygltf::Skin& skin : model.skins) asked += bytes_of(context, skin.inverseBindMatrices);
     for (const tinygltf::Buffer& buffer : model.buffers) there += double(buffer.data.size());
     if (asked <= free_bytes + max_decoded_ratio * there) return {};
-    return context.error(fmt::format("its meshes and animations need {:.0f} MB when decoded, but its buffers have only {:.3g} MB",
-                                     asked / 1e6, there / 1e6),
-                         "accessors");
+    return context.error(
+        fmt::format("its meshes and animations need {:.0f} MB when decoded, but its buffers have only {:.3g} MB", asked / 1e6, there / 1e6),
+        "accessors");
 }
 
 } // namespace blush

@@ -1,6 +1,6 @@
 #include "core/math.h"
-#include "io/gltf/read/images/images.h"
 #include "io/gltf/check/lint.h"
+#include "io/gltf/read/images/images.h"
 #include "scene/texture_slots.h"
 
 #include <algorithm>
@@ -83,7 +83,8 @@ void report_textures(const GltfContext& context, const Scene& scene, const GltfI
         if (image < 0 || size_t(image) >= context.model().images.size()) continue;
         const std::string where = fmt::format("images[{}]", image);
         if (!uses.as_color.empty() && !uses.as_data.empty())
-            context.warn(fmt::format("read as colour for a {} and as data for a {}: one of them is wrong", *uses.as_color.begin(), *uses.as_data.begin()),
+            context.warn(fmt::format("read as colour for a {} and as data for a {}: one of them is wrong", *uses.as_color.begin(),
+                                     *uses.as_data.begin()),
                          where);
         const Image* pixels = uses.as_normals ? image_of(context, scene, indices, image) : nullptr;
         if (pixels && !looks_like_normals(*pixels)) context.warn("used as a normal map, but does not look like one", where);

@@ -1,8 +1,8 @@
 #include "io/gltf/compression/decompress.h"
 
 #include "io/gltf/compression/draco.h"
-#include "io/gltf/read/extras.h"
 #include "io/gltf/compression/meshopt.h"
+#include "io/gltf/read/extras.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -15,7 +15,6 @@ namespace {
 const ParsedGltf& extension(const ParsedGltf& object, std::string_view name) {
     return gltf_member(gltf_member(object, "extensions"), name);
 }
-
 
 // Calls visit(object) for each object of a list that is one.
 template <class Root, class Visit> void each(Root& object, const char* list, const Visit& visit) {
@@ -120,9 +119,9 @@ Result<void> DecompressionLimit::take(const GltfContext& context, double bytes, 
     constexpr double free_bytes = 512e6, max_decompression_ratio = 128; // scans reach a ratio of 40, flat grids far more
     taken_ += bytes;
     if (taken_ <= free_bytes + max_decompression_ratio * packed_) return {};
-    return context.error(fmt::format("its compressed data would decompress to {:.0f} MB, but its buffers have only {:.3g} MB",
-                                     taken_ / 1e6, packed_ / 1e6),
-                         where);
+    return context.error(
+        fmt::format("its compressed data would decompress to {:.0f} MB, but its buffers have only {:.3g} MB", taken_ / 1e6, packed_ / 1e6),
+        where);
 }
 
 int add_decompressed_buffer(GltfSource& source, std::vector<uint8_t> bytes) {

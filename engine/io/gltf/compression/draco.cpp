@@ -1,9 +1,9 @@
 #include "io/gltf/compression/draco.h"
 
-#include "io/gltf/read/geometry/accessors.h"
 #include "io/gltf/read/extras.h"
-#include "io/gltf/read/object.h"
+#include "io/gltf/read/geometry/accessors.h"
 #include "io/gltf/read/geometry/parallel_read.h"
+#include "io/gltf/read/object.h"
 
 #include <draco/compression/decode.h>
 
@@ -218,7 +218,7 @@ Result<void> decompress_draco(GltfSource& source, const GltfContext& context, De
             if (const auto ok = packed.add(source.model.meshes[m].primitives[p], fmt::format("meshes[{}].primitives[{}]", m, p)); !ok)
                 return ok;
     const auto read = read_in_parallel(context, {packed.sizes, large, "unpacking", 0.1, 0.3, context.options.threads},
-                                        [&](const GltfContext& own, size_t i) { return unpack(own, packed.found[i]); });
+                                       [&](const GltfContext& own, size_t i) { return unpack(own, packed.found[i]); });
     if (!read) return read;
     for (Packed& each : packed.found) take_unpacked(source, each);
     return {};

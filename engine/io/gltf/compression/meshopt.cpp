@@ -1,7 +1,7 @@
 #include "io/gltf/compression/meshopt.h"
 
-#include "io/gltf/read/object.h"
 #include "io/gltf/read/geometry/parallel_read.h"
+#include "io/gltf/read/object.h"
 
 #include <meshoptimizer.h>
 
@@ -11,7 +11,6 @@
 
 namespace blush {
 namespace {
-
 
 // Highest compression ratio: equal vertices take two bits per sixteen bytes. Higher ratios are rejected before allocation.
 constexpr uint64_t most_bytes_per_byte = 64;
@@ -69,8 +68,8 @@ Result<Stream> read_stream(const GltfContext& context, const GltfObject& extensi
     Stream stream{bytes.subspan(size_t(offset), size_t(length)), uint64_t(count), uint64_t(stride), extension.text("mode"),
                   extension.text("filter")};
     if (count < 0 || stride < 0 || !is_valid(stream))
-        return context.error(fmt::format("{} elements of {} bytes, mode '{}', filter '{}' are not valid for the extension", count,
-                                         stride, stream.mode.substr(0, 40), stream.filter.substr(0, 40)),
+        return context.error(fmt::format("{} elements of {} bytes, mode '{}', filter '{}' are not valid for the extension", count, stride,
+                                         stream.mode.substr(0, 40), stream.filter.substr(0, 40)),
                              extension.where());
     if (stream.unpacked_bytes() > most_bytes_per_byte * stream.bytes.size())
         return context.error(fmt::format("{} bytes cannot describe {} elements of {} bytes", length, count, stride), extension.where());

@@ -1,7 +1,7 @@
 #include "io/gltf/read/animations.h"
 
-#include "io/gltf/read/geometry/accessors.h"
 #include "io/gltf/read/extras.h"
+#include "io/gltf/read/geometry/accessors.h"
 #include "io/gltf/read/ids.h"
 
 #include <algorithm>

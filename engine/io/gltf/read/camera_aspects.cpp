@@ -30,7 +30,9 @@ std::map<Id<Camera>, float> camera_aspects(const GltfOrigin& origin) {
     };
     const ParsedGltf root = ParsedGltf::parse(*origin.json, keep, /*allow_exceptions=*/false);
     for (const auto& [id, index] : origin.indices.cameras)
-        if (const double aspect = aspect_of(gltf_item(root, "cameras", size_t(index))); aspect >= min_decades && aspect <= max_interval_ratio) aspects[id] = float(aspect);
+        if (const double aspect = aspect_of(gltf_item(root, "cameras", size_t(index)));
+            aspect >= min_decades && aspect <= max_interval_ratio)
+            aspects[id] = float(aspect);
     return aspects;
 }
 

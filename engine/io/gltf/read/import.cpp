@@ -1,23 +1,23 @@
 #include "io/gltf/read/import.h"
 
+#include "io/gltf/check/lint.h"
+#include "io/gltf/check/report.h"
+#include "io/gltf/check/size_limits.h"
+#include "io/gltf/compression/decompress.h"
 #include "io/gltf/read/animations.h"
-#include "io/gltf/read/geometry/deform.h"
 #include "io/gltf/read/cameras.h"
 #include "io/gltf/read/convert.h"
-#include "io/gltf/check/size_limits.h"
 #include "io/gltf/read/extras.h"
+#include "io/gltf/read/geometry/deform.h"
+#include "io/gltf/read/geometry/meshes.h"
+#include "io/gltf/read/geometry/skins.h"
+#include "io/gltf/read/images/textures.h"
 #include "io/gltf/read/lights/image_based_light.h"
 #include "io/gltf/read/lights/lights.h"
 #include "io/gltf/read/materials.h"
-#include "io/gltf/read/geometry/meshes.h"
 #include "io/gltf/read/nodes.h"
-#include "io/gltf/check/report.h"
-#include "io/gltf/read/geometry/skins.h"
-#include "io/gltf/read/source.h"
 #include "io/gltf/read/scene_selection.h"
-#include "io/gltf/check/lint.h"
-#include "io/gltf/read/images/textures.h"
-#include "io/gltf/compression/decompress.h"
+#include "io/gltf/read/source.h"
 #include "io/gltf/read/variants.h"
 #include "io/project/settings_json.h"
 #include "scene/document/preview_scene.h"
@@ -146,7 +146,7 @@ Result<void> convert_gltf(const GltfContext& context, ImportedScene& imported) {
         context.options.on_preview_scene(shown);
     }
     if (const auto ok = textures->finish(context); !ok) return ok;
-    if (!textures->all_decoded_textures()) { // meshes were converted for textures that cannot be decoded
+    if (!textures->all_decoded_textures()) {    // meshes were converted for textures that cannot be decoded
         ImportOptions silent = context.options; // progress was reported already
         silent.on_progress = {};
         scene = {};

@@ -58,14 +58,12 @@ Result<void> check_version(const json& root) {
     const json& version = member(member(root, "asset"), "version");
     if (!version.is_string()) return Error{"", "not a glTF file: it has no asset version", "asset.version"};
     if (!version.get_ref<const std::string&>().starts_with("2."))
-        return Error{
-            "", fmt::format("glTF version {} is not supported, only 2.x", version.get_ref<const std::string&>().substr(0, 20)),
-            "asset.version"};
+        return Error{"", fmt::format("glTF version {} is not supported, only 2.x", version.get_ref<const std::string&>().substr(0, 20)),
+                     "asset.version"};
     const json& least = member(member(root, "asset"), "minVersion");
     if (least.is_string() && least != "2.0")
-        return Error{
-            "", fmt::format("requires glTF version {}, only 2.0 is supported", least.get_ref<const std::string&>().substr(0, 20)),
-            "asset.minVersion"};
+        return Error{"", fmt::format("requires glTF version {}, only 2.0 is supported", least.get_ref<const std::string&>().substr(0, 20)),
+                     "asset.minVersion"};
     return {};
 }
 
@@ -108,8 +106,7 @@ Result<std::string_view> glb_json_text(std::span<const uint8_t> bytes) {
     constexpr size_t header = 12, chunk_header = 8;
     if (bytes.size() < header + chunk_header)
         return Error{"", "truncated: shorter than a GLB header", fmt::format("byte {}", bytes.size())};
-    if (word_at(bytes, 4) != 2)
-        return Error{"", fmt::format("GLB version {} is not supported, only 2", word_at(bytes, 4)), "byte 4"};
+    if (word_at(bytes, 4) != 2) return Error{"", fmt::format("GLB version {} is not supported, only 2", word_at(bytes, 4)), "byte 4"};
     const uint64_t total = word_at(bytes, 8);
     if (total > bytes.size()) return Error{"", fmt::format("truncated: {} bytes announced, {} there", total, bytes.size()), "byte 8"};
     if (total < header + chunk_header) return Error{"", fmt::format("{} bytes announced, fewer than a GLB header has", total), "byte 8"};

@@ -56,8 +56,7 @@ private:
         const GltfObject transform = extensions.object("KHR_texture_transform");
         uv_set = transform.integer("texCoord").value_or(uv_set);
         if (uv_set < 0 || uv_set > max_uv_set) {
-            context_.warn(fmt::format("ignored: a texture on TEXCOORD_{}; UV sets range from 0 to {}", uv_set, max_uv_set),
-                          where);
+            context_.warn(fmt::format("ignored: a texture on TEXCOORD_{}; UV sets range from 0 to {}", uv_set, max_uv_set), where);
             return ref;
         }
         ref.texture = textures_[size_t(index)];
@@ -242,7 +241,8 @@ void report_back_faces(const GltfContext& context) {
 } // namespace
 
 bool depend_on_pixels(const GltfContext& context) {
-    return std::ranges::any_of(context.model().materials, [](const tinygltf::Material& m) { return m.extensions.contains(glossiness_extension); });
+    return std::ranges::any_of(context.model().materials,
+                               [](const tinygltf::Material& m) { return m.extensions.contains(glossiness_extension); });
 }
 
 Result<std::vector<Id<Material>>> import_materials(const GltfContext& context, const std::vector<Id<Texture>>& textures, Scene& scene) {

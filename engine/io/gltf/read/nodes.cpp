@@ -211,7 +211,8 @@ Result<std::vector<int>> reachable_nodes(const GltfContext& context) {
         roots = *listed;
         std::vector<int> below;
         for (const int root : roots) walk(context, root, false, below);
-        if (below.size() < all.size()) context.note(fmt::format("ignored: {} nodes that belong to no scene", all.size() - below.size()), "nodes");
+        if (below.size() < all.size())
+            context.note(fmt::format("ignored: {} nodes that belong to no scene", all.size() - below.size()), "nodes");
     }
     std::vector<int> shown;
     for (const int root : roots) walk(context, root, true, shown);
@@ -230,8 +231,7 @@ Result<std::vector<Id<Node>>> import_nodes(const GltfContext& context, const std
         if (!node) return node.error();
         instances += count_instances(scene, *node);
         if (instances > max_instances)
-            return context.error(fmt::format("more than {} instances of primitives", max_instances),
-                                 node_where(index));
+            return context.error(fmt::format("more than {} instances of primitives", max_instances), node_where(index));
         read.push_back(*std::move(node));
         wanted.push_back(requested_id(gltf_item(context.json(), "nodes", size_t(index))));
     }
@@ -245,8 +245,7 @@ Result<std::vector<Id<Node>>> import_nodes(const GltfContext& context, const std
         node.parent = parent_of[index];
         const Affined world_from_node = world_from_parent[index] * to_affine(node.local);
         if (!is_finite(world_from_node))
-            return context.error(fmt::format("node '{}': its world transform is not finite", node.name),
-                                 node_where(nodes[i]));
+            return context.error(fmt::format("node '{}': its world transform is not finite", node.name), node_where(nodes[i]));
         for (const int child : context.model().nodes[index].children) {
             parent_of[size_t(child)] = Id<Node>{ids[i]};
             world_from_parent[size_t(child)] = world_from_node;

@@ -1,8 +1,8 @@
 #include "io/gltf/read/source.h"
 
 #include "core/files.h"
-#include "io/gltf/read/json.h"
 #include "io/gltf/compression/decompress.h"
+#include "io/gltf/read/json.h"
 #include "io/gltf/read/uri.h"
 
 #include <nlohmann/json.hpp>
@@ -130,7 +130,8 @@ Result<GltfSource> load_gltf(const std::filesystem::path& file) {
     const auto parsed = parse(source, [&](tinygltf::TinyGLTF& parser, std::string* error, std::string* warning) {
         parser.SetFsCallbacks({file_exists, same_name, read_whole_file, refuse_to_write, &source.folder});
         return binary ? parser.LoadBinaryFromMemory(&source.model, error, warning, parser_compatible.data(), size)
-                      : parser.LoadASCIIFromString(&source.model, error, warning, reinterpret_cast<const char*>(parser_compatible.data()), size, "");
+                      : parser.LoadASCIIFromString(&source.model, error, warning, reinterpret_cast<const char*>(parser_compatible.data()),
+                                                   size, "");
     });
     if (!parsed) return parsed.error();
     return source;

@@ -1,8 +1,8 @@
 // Internal to gltf_*.cpp: reads and writes KHR_materials_variants.
 #pragma once
 
-#include "io/gltf/write/document.h"
 #include "io/gltf/read/source.h"
+#include "io/gltf/write/document.h"
 
 #include <string>
 #include <vector>

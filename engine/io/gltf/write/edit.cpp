@@ -1,8 +1,8 @@
 #include "io/gltf/write/edit.h"
 
-#include "io/gltf/write/edit_lights.h"
-#include "io/gltf/read/lights/image_based_light.h"
 #include "io/gltf/read/geometry/instancing.h"
+#include "io/gltf/read/lights/image_based_light.h"
+#include "io/gltf/write/edit_lights.h"
 #include "io/gltf/write/prune.h"
 #include "io/gltf/write/write.h"
 #include "io/gltf/write/write_animations.h"
@@ -166,9 +166,9 @@ Scene as_saved(Scene scene, const GltfIndices& indices, const Scene& read) {
 template <class T> void report_differences(const char* what, const Table<T>& read, const Table<T>& wanted, std::vector<Diagnostic>& found) {
     for (const Id<T> id : Table<T>::changed(read, wanted)) {
         const T* record = wanted.find(id);
-        found.push_back(
-            {Diagnostic::Severity::warning,
-             fmt::format("{} \"{}\" will be read back differently", what, record ? record->name : std::to_string(id.value)), ""});
+        found.push_back({Diagnostic::Severity::warning,
+                         fmt::format("{} \"{}\" will be read back differently", what, record ? record->name : std::to_string(id.value)),
+                         ""});
     }
 }
 

@@ -70,9 +70,8 @@ GltfLight place(GltfDocument& document, const Scene& scene, Id<Light> id, const 
         }
     }
     if (light.ies && light.ies_file.empty())
-        lost.push_back(
-            {Diagnostic::Severity::warning,
-             fmt::format("the IES profile of light \"{}\" is not saved: it was embedded in another document", light.name), ""});
+        lost.push_back({Diagnostic::Severity::warning,
+                        fmt::format("the IES profile of light \"{}\" is not saved: it was embedded in another document", light.name), ""});
     const List list = list_for(light.kind);
     if (there(list)) return now->second;
     return document.indices.lights[id] = {list, document.append(list_name(list), Json{{"name", light.name}})};

@@ -26,8 +26,9 @@ std::vector<std::pair<std::string_view, int>> all_of(GltfDocument& document, std
 }
 
 bool all_references_known(const Json& root) {
-    return std::ranges::all_of(child_or_null(root, "extensionsUsed"),
-                               [](const Json& name) { return name.is_string() && finds_all_references(name.get_ref<const std::string&>()); });
+    return std::ranges::all_of(child_or_null(root, "extensionsUsed"), [](const Json& name) {
+        return name.is_string() && finds_all_references(name.get_ref<const std::string&>());
+    });
 }
 
 // New index of each object of a list; -1: removed.

@@ -49,10 +49,9 @@ constexpr Reference references[] = {
 
 // In addition to all KHR_materials_*, whose textures are found by name.
 constexpr std::array known_extensions = {
-    "KHR_lights_punctual",        "KHR_node_visibility",     "KHR_texture_transform", "KHR_texture_basisu",
-    "KHR_draco_mesh_compression", "KHR_xmp_json_ld",         "KHR_mesh_quantization", "EXT_lights_area",
-    "EXT_mesh_gpu_instancing",    "EXT_meshopt_compression", "EXT_texture_webp",      "EXT_lights_ies",
-    "EXT_lights_image_based",
+    "KHR_lights_punctual", "KHR_node_visibility",   "KHR_texture_transform",  "KHR_texture_basisu",      "KHR_draco_mesh_compression",
+    "KHR_xmp_json_ld",     "KHR_mesh_quantization", "EXT_lights_area",        "EXT_mesh_gpu_instancing", "EXT_meshopt_compression",
+    "EXT_texture_webp",    "EXT_lights_ies",        "EXT_lights_image_based",
 };
 
 using Visit = std::function<void(Json&)>;

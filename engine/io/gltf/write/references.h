@@ -9,10 +9,23 @@
 namespace blush {
 
 // Lists whose objects are referenced by index; lists of lights are named by their extensions.
-inline constexpr std::string_view gltf_lists[] = {"scenes",  "nodes",    "meshes",     "materials",           "textures",
-                                                  "images",  "samplers", "cameras",    "accessors",           "bufferViews",
-                                                  "buffers", "skins",    "animations", "KHR_lights_punctual", "EXT_lights_area",
-                                                  "EXT_lights_ies", "EXT_lights_image_based"};
+inline constexpr std::string_view gltf_lists[] = {"scenes",
+                                                  "nodes",
+                                                  "meshes",
+                                                  "materials",
+                                                  "textures",
+                                                  "images",
+                                                  "samplers",
+                                                  "cameras",
+                                                  "accessors",
+                                                  "bufferViews",
+                                                  "buffers",
+                                                  "skins",
+                                                  "animations",
+                                                  "KHR_lights_punctual",
+                                                  "EXT_lights_area",
+                                                  "EXT_lights_ies",
+                                                  "EXT_lights_image_based"};
 
 // Calls visit(list, index) for each reference in an object of `list_name`. Finds only references of known extensions: see
 // finds_all_references.

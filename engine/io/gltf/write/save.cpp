@@ -1,8 +1,8 @@
 #include "io/gltf/write/save.h"
 
 #include "core/files.h"
-#include "io/gltf/write/edit.h"
 #include "io/gltf/read/json.h"
+#include "io/gltf/write/edit.h"
 #include "io/gltf/write/save_files.h"
 
 #include <exception>
@@ -29,8 +29,7 @@ void add_profiles(SaveTransaction& files, Table<Light>& lights, std::vector<Diag
         if (!light.ies || light.ies_file.empty()) continue;
         if (const auto added = files.add_file(light.ies_file); !added)
             lost.push_back({Diagnostic::Severity::warning,
-                            fmt::format("the IES profile of light \"{}\" is not saved: {}", light.name, added.error().text()),
-                            ""});
+                            fmt::format("the IES profile of light \"{}\" is not saved: {}", light.name, added.error().text()), ""});
         lights.set(id, std::move(light));
     }
 }
@@ -51,8 +50,12 @@ Result<SavedGltf> save(const GltfOrigin& origin, const Project& project, const s
     edited->diagnostics.insert(edited->diagnostics.end(), lost.begin(), lost.end());
     const Result<std::string> text = files.write(edited->document, *origin.json);
     if (!text) return text.error();
-    GltfOrigin written{file, std::make_shared<const std::string>(*text), edited->document.indices, edited->scene.meshes,
-                       edited->scene.textures, edited->scene.nodes};
+    GltfOrigin written{file,
+                       std::make_shared<const std::string>(*text),
+                       edited->document.indices,
+                       edited->scene.meshes,
+                       edited->scene.textures,
+                       edited->scene.nodes};
     return SavedGltf{std::move(written), std::move(edited->scene), std::move(edited->diagnostics)};
 }
 

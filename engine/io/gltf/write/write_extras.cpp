@@ -3,8 +3,8 @@
 #include "io/gltf/read/cameras.h"
 #include "io/gltf/read/convert.h"
 #include "io/gltf/read/extras.h"
-#include "io/gltf/read/source.h"
 #include "io/gltf/read/scene_selection.h"
+#include "io/gltf/read/source.h"
 #include "io/project/settings_json.h"
 
 #include <set>

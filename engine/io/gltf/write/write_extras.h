@@ -3,8 +3,8 @@
 #pragma once
 
 #include "core/result.h"
-#include "io/gltf/write/document.h"
 #include "io/gltf/read/import.h"
+#include "io/gltf/write/document.h"
 #include "scene/document/edit.h"
 
 namespace blush {

@@ -143,7 +143,9 @@ void provide_uv_sets(GltfDocument& document, Json& primitive, int sets) {
 }
 
 // Index 0 is the default material.
-std::vector<Id<Material>> materials_of(const MeshPart& part) { return part.by_variant.empty() ? std::vector{part.material} : part.by_variant; }
+std::vector<Id<Material>> materials_of(const MeshPart& part) {
+    return part.by_variant.empty() ? std::vector{part.material} : part.by_variant;
+}
 
 } // namespace
 
@@ -172,8 +174,7 @@ Result<void> write_payloads(GltfDocument& document, const GltfOrigin& has, const
     Primitives primitives;
     for (const Id<Mesh> id : used.meshes) {
         const Mesh& mesh = *scene.meshes.find(id);
-        if (mesh.parts.empty() && !document.indices.meshes.contains(id))
-            continue; // glTF does not allow meshes without primitives
+        if (mesh.parts.empty() && !document.indices.meshes.contains(id)) continue; // glTF does not allow meshes without primitives
         if (!has_triangles(document, has, id, mesh)) append_mesh(document, id, mesh, primitives);
         Json& object = document.object("meshes", document.indices.meshes.at(id));
         for (size_t part = 0; part < mesh.parts.size(); ++part) {

@@ -37,8 +37,7 @@ Result<std::vector<Vec3>> read_offsets(const GltfContext& context, const std::ma
     if (accessor == target.end()) return offsets;
     Result<FloatArray> array = read_per_vertex(context, accessor->second, 3, vertices, where);
     if (!array) return array.error();
-    if (const size_t bad = zero_non_finite(array->values))
-        context.warn(fmt::format("{} non-finite offsets are replaced by 0", bad), where);
+    if (const size_t bad = zero_non_finite(array->values)) context.warn(fmt::format("{} non-finite offsets are replaced by 0", bad), where);
     for (size_t i = 0; i < vertices; ++i) offsets.push_back({array->values[3 * i], array->values[3 * i + 1], array->values[3 * i + 2]});
     return offsets;
 }
@@ -55,9 +54,9 @@ Result<void> read_targets(const GltfContext& context, const tinygltf::Primitive&
         }
         for (const auto& [name, accessor] : primitive.targets[t])
             if (name != "POSITION" && name != "NORMAL" && name != "TANGENT")
-                context.note(fmt::format("ignored: {} of a morph target; only positions, normals and tangents are morphed",
-                                         name.substr(0, 100)),
-                             target_where);
+                context.note(
+                    fmt::format("ignored: {} of a morph target; only positions, normals and tangents are morphed", name.substr(0, 100)),
+                    target_where);
         g.targets.push_back(std::move(target));
     }
     return {};
@@ -91,7 +90,8 @@ Result<void> read_influences(const GltfContext& context, const tinygltf::Primiti
         joints.push_back(*std::move(joint));
         weights.push_back(*std::move(weight));
     }
-    const size_t lone = size_t(std::ranges::count_if(primitive.attributes, [](const auto& a) { return is_influence(a.first); })) - 2 * joints.size();
+    const size_t lone =
+        size_t(std::ranges::count_if(primitive.attributes, [](const auto& a) { return is_influence(a.first); })) - 2 * joints.size();
     if (lone > 0) context.warn(fmt::format("ignored: {} sets of JOINTS_n or WEIGHTS_n without their counterpart", lone), where);
     const size_t per_vertex = 4 * joints.size();
     if (per_vertex == 0) return {};
@@ -106,8 +106,7 @@ Result<void> read_influences(const GltfContext& context, const tinygltf::Primiti
         unequal += !normalize(g.influences.data() + i * per_vertex, per_vertex);
     }
     if (bad) context.warn(fmt::format("ignored: {} invalid joints or weights", bad), where);
-    if (unequal)
-        context.warn(fmt::format("the skinning weights of {} vertices do not sum to 1 and are normalised", unequal), where);
+    if (unequal) context.warn(fmt::format("the skinning weights of {} vertices do not sum to 1 and are normalised", unequal), where);
     return {};
 }
 

@@ -12,7 +12,8 @@ bool is_influence(const std::string& attribute);
 
 // Sets targets and influences of a geometry that already has positions. Weights are normalised to sum 1 and non-finite numbers
 // set to 0, with a warning. Errors: an accessor out of range or of another size than the positions.
-Result<void> read_deformation(const GltfContext& context, const tinygltf::Primitive& primitive, Geometry& geometry, const std::string& where);
+Result<void> read_deformation(const GltfContext& context, const tinygltf::Primitive& primitive, Geometry& geometry,
+                              const std::string& where);
 
 // Limit of deformed vertices, summed over nodes, since a small file may use a large mesh on many nodes. Nodes beyond it keep the
 // rest pose, with a warning.

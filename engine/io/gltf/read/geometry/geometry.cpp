@@ -1,11 +1,11 @@
 #include "io/gltf/read/geometry/geometry.h"
 
 #include "core/math.h"
+#include "io/gltf/check/lint.h"
+#include "io/gltf/read/extras.h"
 #include "io/gltf/read/geometry/accessors.h"
 #include "io/gltf/read/geometry/deform.h"
-#include "io/gltf/read/extras.h"
 #include "io/gltf/read/geometry/points_lines.h"
-#include "io/gltf/check/lint.h"
 #include "scene/affine.h"
 #include "scene/geometry/arena_geometry.h"
 #include "scene/geometry/tangents.h"
@@ -33,9 +33,9 @@ Vec4 element(const FloatArray& a, size_t i, Vec4*) {
 }
 
 // Reads an attribute as vectors; empty if the primitive does not have it.
-template <class V>
-Result<ArenaVector<V>> read_attribute(const GltfContext& context, const tinygltf::Primitive& primitive, const std::string& name, int min_components,
-                                       int max_components, const std::string& where) {
+template <class V> Result<ArenaVector<V>> read_attribute(const GltfContext& context, const tinygltf::Primitive& primitive,
+                                                         const std::string& name, int min_components, int max_components,
+                                                         const std::string& where) {
     const auto it = primitive.attributes.find(name);
     if (it == primitive.attributes.end() || is_fallback(gltf_item(context.json(), "accessors", size_t(it->second))))
         return ArenaVector<V>();
@@ -48,8 +48,8 @@ Result<ArenaVector<V>> read_attribute(const GltfContext& context, const tinygltf
     return vectors;
 }
 
-template <class V>
-void replace_non_finite(const GltfContext& context, ArenaVector<V>& values, V otherwise, const std::string& name, const std::string& where) {
+template <class V> void replace_non_finite(const GltfContext& context, ArenaVector<V>& values, V otherwise, const std::string& name,
+                                           const std::string& where) {
     size_t bad = 0;
     for (V& v : values) {
         if (finite(v)) continue;
@@ -200,16 +200,15 @@ void provide_tangents(const GltfContext& context, Geometry& g, int uv_set, const
     add_tangents(g, uv_set);
     context.note("tangents are missing: computed from texture coordinates as MikkTSpace does", where);
     if (!g.targets.empty() || !g.influences.empty())
-        context.note("approximated: generated tangents are deformed with the mesh instead of being recomputed for each pose",
-                     where);
+        context.note("approximated: generated tangents are deformed with the mesh instead of being recomputed for each pose", where);
 }
 
-GeometryPtr solids(const GltfContext& context, const Geometry& vertices, const std::vector<uint32_t>& order, int mode, const std::string& where) {
+GeometryPtr solids(const GltfContext& context, const Geometry& vertices, const std::vector<uint32_t>& order, int mode,
+                   const std::string& where) {
     Solids made = solids_of(vertices, order, mode);
     const char* what = mode == TINYGLTF_MODE_POINTS ? "points" : "lines";
     if (made.left_out > 0)
-        context.warn(fmt::format("ignored: {} {} that are not finite, of zero length or beyond the limit", made.left_out, what),
-                     where);
+        context.warn(fmt::format("ignored: {} {} that are not finite, of zero length or beyond the limit", made.left_out, what), where);
     if (made.shown == 0) return {};
     context.note(fmt::format("approximated: {} {} shown as {} of radius {:.3g}, since they have no surface", made.shown, what,
                              mode == TINYGLTF_MODE_POINTS ? "balls" : "tubes", made.radius),
@@ -218,14 +217,16 @@ GeometryPtr solids(const GltfContext& context, const Geometry& vertices, const s
     return std::make_shared<const Geometry>(std::move(made.geometry));
 }
 
-void report_ignored(const GltfContext& context, const tinygltf::Primitive& primitive, const std::vector<int>& uv_sets, const std::string& where) {
+void report_ignored(const GltfContext& context, const tinygltf::Primitive& primitive, const std::vector<int>& uv_sets,
+                    const std::string& where) {
     constexpr std::array read = {"POSITION", "NORMAL", "TANGENT", "COLOR_0"};
     const auto is_read = [&](const std::string& name) {
         return std::ranges::find(read, name) != read.end() || std::ranges::find(uv_sets, name, uv_attribute) != uv_sets.end();
     };
     for (const auto& [name, accessor] : primitive.attributes) {
         if (is_read(name) || is_influence(name)) continue;
-        const std::string what = "ignored: attribute " + name.substr(0, 100) + (name.starts_with("TEXCOORD_") ? ", which no texture uses" : "");
+        const std::string what =
+            "ignored: attribute " + name.substr(0, 100) + (name.starts_with("TEXCOORD_") ? ", which no texture uses" : "");
         if (name.starts_with("_") || name.starts_with("TEXCOORD_") || name.starts_with("COLOR_"))
             context.note(what, where);
         else

@@ -29,8 +29,8 @@ struct GltfIndices {
     std::map<Id<Skin>, int> skins;
     std::map<Id<Clip>, int> clips;
     std::map<Id<Light>, GltfLight> lights;
-    std::map<int, float> profile_peaks; // by index in EXT_lights_ies: peak candela of each profile that was read
-    ImagePtr image_light; // environment of EXT_lights_image_based; null if none is used
+    std::map<int, float> profile_peaks;              // by index in EXT_lights_ies: peak candela of each profile that was read
+    ImagePtr image_light;                            // environment of EXT_lights_image_based; null if none is used
     std::map<Id<Mesh>, std::vector<int>> primitives; // of each part of a mesh; primitives without triangles have no part
 };
 

@@ -3,8 +3,8 @@
 #include "io/gltf/check/size_limits.h"
 #include "io/gltf/read/extras.h"
 #include "io/gltf/read/geometry/geometry.h"
-#include "io/gltf/read/ids.h"
 #include "io/gltf/read/geometry/parallel_read.h"
+#include "io/gltf/read/ids.h"
 #include "io/gltf/read/variants.h"
 #include "scene/geometry/tangents.h"
 #include "scene/texture_slots.h"
@@ -20,7 +20,7 @@ struct MeshReader {
     const GltfContext& context;
     const std::vector<Id<Material>>& materials;
     const Scene& scene;
-    std::vector<int> uv_sets; // to keep
+    std::vector<int> uv_sets;    // to keep
     std::vector<Id<Mesh>> known; // by index, for a document that is read without its triangles
 
     // Returns none if there is nothing to render. Thread-safe.
@@ -51,7 +51,8 @@ private:
     // Conventional place of the target names.
     std::vector<std::string> target_names(size_t index) const {
         std::vector<std::string> names;
-        const size_t targets = context.model().meshes[index].primitives.empty() ? 0 : context.model().meshes[index].primitives.front().targets.size();
+        const size_t targets =
+            context.model().meshes[index].primitives.empty() ? 0 : context.model().meshes[index].primitives.front().targets.size();
         for (const ParsedGltf& name : gltf_member(gltf_member(gltf_item(context.json(), "meshes", index), "extras"), "targetNames"))
             if (names.size() < targets) names.push_back(name.is_string() ? name.get<std::string>() : std::string());
         return names;
@@ -71,8 +72,7 @@ private:
         if (!geometry || !*geometry || !found) return geometry;
         for (const int set : uv_sets_read(*found))
             if (!(*geometry)->has_uv_set(set))
-                own.warn(fmt::format("textures use TEXCOORD_{}, which is missing: one texel covers the whole surface", set),
-                         where);
+                own.warn(fmt::format("textures use TEXCOORD_{}, which is missing: one texel covers the whole surface", set), where);
         return geometry;
     }
 };

@@ -9,7 +9,7 @@
 namespace blush {
 
 Result<void> read_in_parallel(const GltfContext& context, const GltfPieces& pieces,
-                               const std::function<Result<void>(const GltfContext& own, size_t i)>& read) {
+                              const std::function<Result<void>(const GltfContext& own, size_t i)>& read) {
     struct Outcome {
         ImportReport report;
         std::optional<Result<void>> read;

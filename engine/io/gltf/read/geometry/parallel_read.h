@@ -20,6 +20,6 @@ struct GltfPieces {
 // Calls read(own, i) for each piece, where `own` is a context with its own report, and appends the reports to that of `context`
 // in order. After an error later pieces may be skipped. Errors: the first in file order, cancelled.
 Result<void> read_in_parallel(const GltfContext& context, const GltfPieces& pieces,
-                               const std::function<Result<void>(const GltfContext& own, size_t i)>& read);
+                              const std::function<Result<void>(const GltfContext& own, size_t i)>& read);
 
 } // namespace blush

@@ -12,9 +12,9 @@ namespace blush {
 constexpr size_t max_points_and_segments = size_t(1) << 18;
 
 struct Solids {
-    Geometry geometry;  // with smooth normals and the other attributes of the source vertices
-    float radius = 0;   // of spheres and tubes, in mesh space
-    size_t shown = 0;   // points or segments converted
+    Geometry geometry;   // with smooth normals and the other attributes of the source vertices
+    float radius = 0;    // of spheres and tubes, in mesh space
+    size_t shown = 0;    // points or segments converted
     size_t left_out = 0; // skipped: beyond the limit, not finite, or of zero length
 };
 

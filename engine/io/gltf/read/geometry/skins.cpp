@@ -1,7 +1,7 @@
 #include "io/gltf/read/geometry/skins.h"
 
-#include "io/gltf/read/geometry/accessors.h"
 #include "io/gltf/read/extras.h"
+#include "io/gltf/read/geometry/accessors.h"
 #include "io/gltf/read/ids.h"
 #include "scene/affine.h"
 
@@ -16,9 +16,8 @@ Result<std::vector<Affine>> read_inverse_binds(const GltfContext& context, const
     const Result<FloatArray> array = read_floats(context, source.inverseBindMatrices, 16, 16, where + ".inverseBindMatrices");
     if (!array) return array.error();
     if (array->count() < matrices.size())
-        context.warn(
-            fmt::format("{} inverse bind matrices for {} joints: the others are the identity", array->count(), matrices.size()),
-            where);
+        context.warn(fmt::format("{} inverse bind matrices for {} joints: the others are the identity", array->count(), matrices.size()),
+                     where);
     size_t bad = 0, skewed = 0;
     for (size_t j = 0; j < std::min(matrices.size(), array->count()); ++j) {
         const float* elements = array->values.data() + 16 * j;
@@ -54,9 +53,9 @@ void report_stray_vertices(const GltfContext& context, const Scene& scene) {
             context.warn(fmt::format("uses skin '{}', but none of its vertices has joint weights", skin->name),
                          fmt::format("node '{}'", node.name));
         if (skin && joints != named.end() && joints->second > skin->joints.size())
-            context.warn(fmt::format("vertices use joints beyond the {} of skin '{}': they follow the node", skin->joints.size(),
-                                     skin->name),
-                         fmt::format("node '{}'", node.name));
+            context.warn(
+                fmt::format("vertices use joints beyond the {} of skin '{}': they follow the node", skin->joints.size(), skin->name),
+                fmt::format("node '{}'", node.name));
     }
 }
 

@@ -34,8 +34,9 @@ struct Encoded {
     std::optional<Result<ImagePtr>> decoded;
 };
 
-constexpr std::array color_slots = {"baseColorTexture", "emissiveTexture", "specularColorTexture", "sheenColorTexture",
-                                    "diffuseTransmissionColorTexture", "diffuseTexture", "specularGlossinessTexture"};
+constexpr std::array color_slots = {
+    "baseColorTexture", "emissiveTexture",          "specularColorTexture", "sheenColorTexture", "diffuseTransmissionColorTexture",
+    "diffuseTexture",   "specularGlossinessTexture"};
 
 // Adds the textures that a material object reads as sRGB colour.
 void add_color_textures(const nlohmann::json& object, std::set<int>& textures) {
@@ -60,7 +61,6 @@ std::set<int> color_images(const GltfContext& context) {
         if (i >= 0 && size_t(i) < context.model().textures.size()) images.insert(texture_image(context, size_t(i)));
     return images;
 }
-
 
 // Collects the images that exist, each once.
 Result<std::vector<Encoded>> encoded_images(const GltfContext& context, std::span<const int> wanted) {
@@ -119,8 +119,8 @@ void fit_into_memory(const GltfContext& context, std::vector<Encoded>& files) {
     }
     for (const Encoded& file : files)
         if (file.halvings > 0)
-            context.warn(fmt::format("reduced {} times, from {} x {} to {} x {} pixels, so that all textures fit into {} MiB: {}", file.halvings,
-                                     file.info.width, file.info.height, halved(file.info.width, file.halvings),
+            context.warn(fmt::format("reduced {} times, from {} x {} to {} x {} pixels, so that all textures fit into {} MiB: {}",
+                                     file.halvings, file.info.width, file.info.height, halved(file.info.width, file.halvings),
                                      halved(file.info.height, file.halvings), context.options.texture_bytes >> 20,
                                      image_name(context, file.images[0])),
                          image_path(file.images[0]));
@@ -130,7 +130,8 @@ void decode(const GltfContext& context, Encoded& file) {
     const std::string name = image_name(context, file.images[0]);
     // Images of more than 8 bits are sRGB in a PNG and linear in other formats.
     const bool is_srgb = file.is_color && (!file.info.is_float || file.info.format == "png");
-    Result<ImagePtr> image = file.halvings == 0 ? read_image(file.bytes, name) : read_smaller_image(file.bytes, name, file.halvings, is_srgb);
+    Result<ImagePtr> image =
+        file.halvings == 0 ? read_image(file.bytes, name) : read_smaller_image(file.bytes, name, file.halvings, is_srgb);
     if (image) image = with_color_channels(*image);
     file.decoded = std::move(image);
 }
@@ -139,8 +140,10 @@ void decode(const GltfContext& context, Encoded& file) {
 void read_infos(const GltfContext& context, std::vector<Encoded>& files) {
     for (Encoded& file : files) {
         const Result<ImageInfo> info = read_image_info(file.bytes, image_name(context, file.images[0]));
-        if (info) file.info = *info;
-        else file.decoded = info.error();
+        if (info)
+            file.info = *info;
+        else
+            file.decoded = info.error();
         if (file.info.channels < 3) file.info.channels += 2; // with_color_channels
     }
 }
@@ -195,7 +198,9 @@ Result<ImageDecoding> ImageDecoding::begin(const GltfContext& context, std::span
     return ImageDecoding(std::move(state));
 }
 
-bool ImageDecoding::is_expected(int image) const { return image >= 0 && size_t(image) < state_->expected.size() && state_->expected[size_t(image)]; }
+bool ImageDecoding::is_expected(int image) const {
+    return image >= 0 && size_t(image) < state_->expected.size() && state_->expected[size_t(image)];
+}
 
 ImagePtr ImageDecoding::image(int index) const { return is_expected(index) ? state_->images[size_t(index)] : nullptr; }
 
@@ -215,8 +220,10 @@ Result<void> ImageDecoding::finish() {
     if (s.context.cancelled()) return s.context.cancel_error();
     for (Encoded& file : s.files)
         for (const size_t i : file.images) {
-            if (*file.decoded) s.images[i] = **file.decoded;
-            else s.context.warn(file.decoded->error().what + ": " + image_name(s.context, i), image_path(i));
+            if (*file.decoded)
+                s.images[i] = **file.decoded;
+            else
+                s.context.warn(file.decoded->error().what + ": " + image_name(s.context, i), image_path(i));
         }
     return {};
 }

@@ -11,7 +11,9 @@ int texture_image(const GltfContext& context, size_t texture) {
     const tinygltf::Texture& source = context.model().textures[texture];
     const auto webp = source.extensions.find("EXT_texture_webp");
     if (webp == source.extensions.end()) return source.source;
-    return GltfObject(context, webp->second, fmt::format("textures[{}].extensions.EXT_texture_webp", texture)).integer("source").value_or(source.source);
+    return GltfObject(context, webp->second, fmt::format("textures[{}].extensions.EXT_texture_webp", texture))
+        .integer("source")
+        .value_or(source.source);
 }
 
 std::string image_path(size_t index) { return fmt::format("images[{}]", index); }

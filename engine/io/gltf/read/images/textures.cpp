@@ -1,8 +1,8 @@
 #include "io/gltf/read/images/textures.h"
 
 #include "io/gltf/read/extras.h"
-#include "io/gltf/read/images/images.h"
 #include "io/gltf/read/ids.h"
+#include "io/gltf/read/images/images.h"
 #include "io/gltf/read/object.h"
 #include "io/gltf/read/uri.h"
 
@@ -47,10 +47,10 @@ void report_filters(const GltfContext& context, const std::set<int>& samplers) {
             context.warn(fmt::format("unknown minification filter {}; LINEAR_MIPMAP_LINEAR is used", sampler.minFilter), where);
         else if (!name.empty() && sampler.minFilter != TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR)
             context.note(
-                fmt::format("approximated: minification filter {}: LINEAR_MIPMAP_LINEAR is used, over the footprint of the path",
-                            name),
+                fmt::format("approximated: minification filter {}: LINEAR_MIPMAP_LINEAR is used, over the footprint of the path", name),
                 where);
-        if (sampler.magFilter >= 0 && sampler.magFilter != TINYGLTF_TEXTURE_FILTER_NEAREST && sampler.magFilter != TINYGLTF_TEXTURE_FILTER_LINEAR)
+        if (sampler.magFilter >= 0 && sampler.magFilter != TINYGLTF_TEXTURE_FILTER_NEAREST &&
+            sampler.magFilter != TINYGLTF_TEXTURE_FILTER_LINEAR)
             context.warn(fmt::format("unknown magnification filter {}; LINEAR is used", sampler.magFilter), where);
     }
 }

@@ -30,12 +30,12 @@ private:
     static Result<TextureImport> read(const GltfContext& context, std::vector<int> images, std::optional<ImageDecoding> decoding);
     bool is_there(size_t index) const;
 
-    std::vector<int> images_; // by texture, -1 for none
+    std::vector<int> images_;                      // by texture, -1 for none
     std::vector<std::optional<Texture>> textures_; // without their images; none if not supported
-    std::vector<uint32_t> wanted_; // ids
-    std::vector<Id<Texture>> known_; // for a document that is read without its pixels
-    std::optional<ImageDecoding> decoding_; // none for such a document
-    ImportReport report_; // diagnostics to append after those of the images
+    std::vector<uint32_t> wanted_;                 // ids
+    std::vector<Id<Texture>> known_;               // for a document that is read without its pixels
+    std::optional<ImageDecoding> decoding_;        // none for such a document
+    ImportReport report_;                          // diagnostics to append after those of the images
     bool finished_ = false;
 };
 

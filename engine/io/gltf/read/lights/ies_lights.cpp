@@ -1,7 +1,7 @@
 #include "io/gltf/read/lights/ies_lights.h"
 
-#include "io/gltf/read/geometry/accessors.h"
 #include "io/gltf/read/extras.h"
+#include "io/gltf/read/geometry/accessors.h"
 #include "io/gltf/read/object.h"
 #include "io/gltf/read/uri.h"
 #include "io/image/ies.h"
@@ -89,10 +89,12 @@ std::string name_of(const ParsedGltf& profile, int index) {
     const ParsedGltf& name = gltf_member(profile, "name");
     if (name.is_string() && !name.empty() && !name.get_ref<const std::string&>().empty()) return name.get<std::string>();
     const std::string uri = uri_of(profile);
-    return uri.empty() || is_data_uri(uri) ? fmt::format("Luminaire {}", index) : std::filesystem::path(percent_decoded(uri)).stem().string();
+    return uri.empty() || is_data_uri(uri) ? fmt::format("Luminaire {}", index)
+                                           : std::filesystem::path(percent_decoded(uri)).stem().string();
 }
 
-Light light_of(const GltfContext& context, const ParsedGltf& json, const Profile& profile, const Instance& instance, const std::string& where) {
+Light light_of(const GltfContext& context, const ParsedGltf& json, const Profile& profile, const Instance& instance,
+               const std::string& where) {
     Light light;
     light.name = name_of(json, instance.profile);
     light.color = instance.color;

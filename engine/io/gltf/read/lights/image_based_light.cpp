@@ -1,10 +1,10 @@
 #include "io/gltf/read/lights/image_based_light.h"
 
+#include "io/gltf/read/extras.h"
+#include "io/gltf/read/images/images.h"
+#include "io/gltf/read/object.h"
 #include "io/image/cube_map.h"
 #include "io/image/environment_image.h"
-#include "io/gltf/read/extras.h"
-#include "io/gltf/read/object.h"
-#include "io/gltf/read/images/images.h"
 
 #include <cmath>
 #include <numbers>
@@ -36,10 +36,12 @@ bool is_about_y(const Quat& q) { return q.x == 0 && q.z == 0; }
 // 8-bit values are sRGB. Four channels are RGBD: RGB divided by D, which may exceed 1.
 Result<ImagePtr> read_face(const GltfContext& context, const ParsedGltf& index) {
     const size_t images = context.model().images.size();
-    if (!index.is_number_unsigned() || index.get<size_t>() >= images) return Error{"", fmt::format("an image that does not exist; there are {}", images), ""};
+    if (!index.is_number_unsigned() || index.get<size_t>() >= images)
+        return Error{"", fmt::format("an image that does not exist; there are {}", images), ""};
     const Result<std::span<const uint8_t>> bytes = encoded_image(context, index.get<size_t>());
     if (!bytes) return bytes.error();
-    const Result<ImagePtr> face = read_environment_image(*bytes, fmt::format("images[{}]", index.get<size_t>()), {largest_face, int64_t(largest_face) * largest_face});
+    const Result<ImagePtr> face = read_environment_image(*bytes, fmt::format("images[{}]", index.get<size_t>()),
+                                                         {largest_face, int64_t(largest_face) * largest_face});
     if (!face || (*face)->channels < 4) return face;
     auto image = std::make_shared<Image>(**face);
     for (size_t i = 0; i < image->floats.size(); i += 4) {

@@ -1,8 +1,8 @@
 // Internal to gltf_*.cpp: EXT_lights_image_based, an environment as a cube map that is prefiltered for rasterizers.
 #pragma once
 
-#include "io/gltf/write/document.h"
 #include "io/gltf/read/source.h"
+#include "io/gltf/write/document.h"
 
 namespace blush {
 

@@ -1,10 +1,10 @@
 #include "io/gltf/read/lights/lights.h"
 
-#include "io/image/environment_image.h"
 #include "io/gltf/read/extras.h"
 #include "io/gltf/read/ids.h"
 #include "io/gltf/read/object.h"
 #include "io/gltf/read/uri.h"
+#include "io/image/environment_image.h"
 #include "io/image/ies.h"
 
 #include <fmt/format.h>
