@@ -91,7 +91,7 @@ TEST(Snapshot, ForeignAndBrokenMetadataAreErrors) {
     EXPECT_FALSE(read_snapshot_metadata(image.metadata));
     image.metadata = {{"blush:version", "0.1.0"}};
     EXPECT_TRUE(read_snapshot_metadata(image.metadata));
-    for (const auto& [key, value] : std::map<std::string, std::string>{{"blush:spp", "many"},
+    for (const auto& [key, value] : std::vector<std::pair<std::string, std::string>>{{"blush:spp", "many"},
                                                                        {"blush:samples", "0"},
                                                                        {"blush:samples", "a:b"},
                                                                        {"blush:seed", "-1"},

@@ -86,7 +86,7 @@ template <size_t N> bool is_among(const Exception (&exceptions)[N], const std::s
 }
 
 TEST(GltfVerdicts, ErrorsOfTheValidatorAreRefusedOrReported) {
-    if (const std::string why = why_no_validator(); !why.empty()) GTEST_SKIP() << why;
+    REQUIRE_VALIDATOR();
     const TempFolder folder;
     size_t wrong = 0;
     for (const auto& [name, verdict] : verdicts_of(broken_files(), folder)) {
@@ -98,7 +98,7 @@ TEST(GltfVerdicts, ErrorsOfTheValidatorAreRefusedOrReported) {
 }
 
 TEST(GltfVerdicts, ValidFilesAreReadWithoutWarnings) {
-    if (const std::string why = why_no_validator(); !why.empty()) GTEST_SKIP() << why;
+    REQUIRE_VALIDATOR();
     const TempFolder folder;
     const GltfFiles sound = sound_files();
     GltfFiles all = sound;

@@ -12,7 +12,7 @@ namespace blush::test {
 namespace {
 
 TEST(GltfValidator, SavingAddsNoMessages) {
-    if (const std::string why = why_no_validator(); !why.empty()) GTEST_SKIP() << why;
+    REQUIRE_VALIDATOR();
     const TempFolder folder;
     std::vector<std::string> command{node_program(), BLUSH_VALIDATE_SCRIPT, BLUSH_VALIDATOR};
     Rng rng(3);
