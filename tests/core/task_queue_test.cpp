@@ -3,8 +3,12 @@
 #include "core/task_queue.h"
 
 #include <atomic>
+#include <chrono>
+#include <condition_variable>
 #include <gtest/gtest.h>
 #include <limits>
+#include <mutex>
+#include <set>
 #include <stdexcept>
 #include <sys/resource.h>
 #include <sys/syscall.h>
@@ -57,19 +61,40 @@ TEST(TaskQueue, RethrowExceptionsAndContinue) {
     left_alone.begin({1, 1}, 1, [](size_t) { throw std::runtime_error("nobody asks"); });
 }
 
+// The threads that take tasks. Each waits for a second one, so that a test of what other threads inherit cannot pass without any.
+class TwoThreads {
+public:
+    void wait() {
+        std::unique_lock lock(mutex_);
+        threads_.insert(std::this_thread::get_id());
+        changed_.notify_all();
+        changed_.wait_for(lock, std::chrono::seconds(30), [&] { return threads_.size() > 1; });
+    }
+    size_t count() const { return threads_.size(); }
+
+private:
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::set<std::thread::id> threads_;
+};
+
 // A nice value cannot be lowered again: uses separate threads that end with the test.
 TEST(TaskQueue, InheritThePriority) {
-    std::atomic<int> lowest = std::numeric_limits<int>::max(), own = 0;
+    std::mutex mutex;
+    int lowest = std::numeric_limits<int>::max(), own = 0;
+    TwoThreads threads;
     std::thread([&] {
         lower_priority_of_this_thread();
         own = getpriority(PRIO_PROCESS, id_t(syscall(SYS_gettid)));
         TaskQueue helpers(4);
         helpers.begin(std::vector<int64_t>(200, 1), 1, [&](size_t) {
-            lowest = std::min(lowest.load(), getpriority(PRIO_PROCESS, id_t(syscall(SYS_gettid))));
-            pause_a_little();
+            threads.wait();
+            const std::scoped_lock lock(mutex);
+            lowest = std::min(lowest, getpriority(PRIO_PROCESS, id_t(syscall(SYS_gettid))));
         });
         helpers.finish();
     }).join();
+    EXPECT_GE(threads.count(), 2u);
     EXPECT_GT(own, 0);
     EXPECT_GE(lowest, own);
 }
@@ -78,15 +103,17 @@ TEST(TaskQueue, InheritTheFloatingPointMode) {
     // Uses a separate thread that flushes denormals to zero.
     std::thread([] { Workers(4, false).for_each(100, {}, [](int64_t, unsigned) { pause_a_little(); }); }).join();
     std::atomic<int> flushed = 0;
+    TwoThreads threads;
     std::thread([&] {
         TaskQueue helpers(4);
         volatile float smallest = std::numeric_limits<float>::min();
         helpers.begin(std::vector<int64_t>(200, 1), 1, [&](size_t) {
+            threads.wait();
             flushed += smallest / 2 == 0;
-            pause_a_little();
         });
         helpers.finish();
     }).join();
+    EXPECT_GE(threads.count(), 2u);
     EXPECT_EQ(flushed, 0);
 }
 
