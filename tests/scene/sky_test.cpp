@@ -13,6 +13,8 @@
 namespace blush {
 namespace {
 
+constexpr double degree = std::numbers::pi / 180;
+
 Sky sky_of(float turbidity, float elevation, float azimuth = 0) {
     Sky sky;
     sky.turbidity = turbidity;

@@ -36,7 +36,7 @@ int find_channel(const LayeredImage& part, const std::string& layer, const char*
 
 // The three or four channels of a layer, by their letters.
 std::optional<PictureLayer> layer_of(const LayeredImage& part, const std::string& name, const char* const (&letters)[3], Kind kind) {
-    PictureLayer layer{.name = name.empty() ? "Beauty" : name, .kind = kind};
+    PictureLayer layer{.name = name.empty() ? "Beauty" : name, .channels = {}, .kind = kind};
     for (size_t c = 0; c < 3; ++c) layer.channel[c] = find_channel(part, name, letters[c]);
     if (std::ranges::count(layer.channel, -1) > 1) return {};
     if (kind == Kind::color) layer.channel[3] = find_channel(part, name, "A");

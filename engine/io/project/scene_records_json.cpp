@@ -96,7 +96,7 @@ void take_payloads(Scene& scene, const Scene& file) {
     e.image = file.environment.image;
     // Placeholder pixels: validation requires an environment map to have some. They are never shown, since edits do not change
     // them.
-    if (!e.image) e.image = std::make_shared<const Image>(Image{.width = 1, .height = 1, .channels = 3, .floats = {0, 0, 0}});
+    if (!e.image) e.image = std::make_shared<const Image>(Image{.width = 1, .height = 1, .channels = 3, .bytes = {}, .floats = {0, 0, 0}});
 }
 
 } // namespace
