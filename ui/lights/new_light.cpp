@@ -88,6 +88,8 @@ double wall_of_room(const Scene& scene, const Vec3d& from, const Vec3d& directio
 struct Direction {
     double around, above, strength;
 };
+// Of the wanted distance to the subject: with less room, another direction is better.
+constexpr double min_free_share = 0.4;
 constexpr Direction key{40, 40, 1}, fill{-55, 15, 0.25}, rim{160, 45, 1};
 constexpr Direction in_turn[] = {key, fill, rim, {0, 80, 1}, {-120, 35, 1}, {95, 20, 1}, {-20, 55, 1}, {70, 60, 1}, {-160, 15, 1}};
 
@@ -119,7 +121,7 @@ LightSpot spot_round_subject(const Scene& scene, const View& view, const Bounds&
         directions.push_back({std::sin(around) * std::cos(above), std::sin(above), std::cos(around) * std::cos(above)});
         farthest.push_back(room_fraction * wall_of_room(scene, target, directions.back()));
     }
-    std::vector<LightSpot> spots;
+    std::vector<LightSpot> spots, cramped;
     for (const double farther : {1.0, 1.4, 2.0})
         for (size_t i = 0; i < directions.size(); ++i) {
             const Vec3d& direction = directions[i];
@@ -127,8 +129,11 @@ LightSpot spot_round_subject(const Scene& scene, const View& view, const Bounds&
             // A floor that extends beyond the picture is not a subject: the light need not be outside of it.
             if (const double out = in_room ? 0 : 1.1 * way_out(subject, target, direction); out < max_reach_factor * reach)
                 distance = std::max(distance, out);
-            spots.push_back({target + direction * std::min(distance * farther, farthest[i]), target, in_turn[i].strength});
+            // Beside an object that stands close to the subject a light would light a spot of it: other directions come first.
+            const double free = std::min(distance * farther, farthest[i]);
+            (free < min_free_share * distance ? cramped : spots).push_back({target + direction * free, target, in_turn[i].strength});
         }
+    spots.insert(spots.end(), cramped.begin(), cramped.end());
     return first_free(scene, spots, size_of_reach * reach);
 }
 

@@ -106,6 +106,25 @@ TEST(NewLight, KeyFillAndRimAreAroundTheSubjectWithoutOverlap) {
     EXPECT_LT(spots[2].position.z, -0.3) << "the rim from behind";
 }
 
+// A small screen stands beside the pivot, on the way to the key light: lights go where there is room, not into the gap.
+TEST(NewLight, AvoidsTheGapBeforeAnObjectThatStandsClose) {
+    Project project;
+    Scene& scene = project.scene;
+    scene.view = view_of_subject();
+    const LightSpot open = spot_round_subject(scene, scene.view, {});
+    const Vec3d towards = normalize(open.position - open.target);
+    const Vec3d right = normalize(cross(Vec3d{0, 1, 0}, towards)), up = cross(towards, right);
+    Geometry screen;
+    for (const auto& [x, y] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, 1}})
+        screen.positions.push_back(to_float(open.target + towards * 0.02 + (right * x + up * y) * 0.02));
+    screen.indices = {0, 2, 1, 0, 3, 2}; // faces the pivot
+    Node node;
+    node.mesh = scene.meshes.add({"Screen", {{std::make_shared<const Geometry>(screen), {}}}});
+    scene.nodes.add(node);
+    const LightSpot spot = spot_round_subject(scene, scene.view, world_bounds(scene));
+    EXPECT_GT(length(spot.position - spot.target), 0.4 * length(open.position - open.target));
+}
+
 // A box open towards the viewer with walls facing inwards, and a shell around the pivot.
 TEST(NewLight, StaysInARoomThatIsSeenFromOutside) {
     const auto quad = [](Scene& scene, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
