@@ -123,7 +123,7 @@ struct Rig {
 TEST(EditTogether, FindsLightsOfSubtreesOnce) {
     const Rig r;
     EXPECT_EQ(lights_of(r.scene, Ids{r.stand, r.key, r.fill, {99}}), (std::vector<Id<Light>>{{1}, {2}}));
-    EXPECT_EQ(topmost(r.scene, Ids{r.key, r.stand, r.fill}), (Ids{r.stand, r.fill}));
+    EXPECT_EQ(subtree_roots(r.scene, Ids{r.key, r.stand, r.fill}), (Ids{r.stand, r.fill}));
 }
 
 TEST(EditTogether, IsOneStepWithOneEditPerChangedLight) {

@@ -63,7 +63,7 @@ protected:
         ImGui::NewFrame();
         PanelContext c = context();
         const float em = ImGui::GetFontSize();
-        const Beside beside = dock_insets(c, lay_out(1720, 960, 22, 27, em, {}).room);
+        const ViewportInsets beside = dock_insets(c, lay_out(1720, 960, 22, 27, em, {}).room);
         layout = lay_out(1720, 960, 22, 27, em, {}, beside);
         draw_docks(c, layout);
         ImGui::EndFrame();

@@ -134,7 +134,7 @@ TEST(CameraFrame, PictureAndFrameHaveTheAspect) {
     frame.fit = true;
     EXPECT_EQ(picture_size(frame, 900, 600).width, 600);
     EXPECT_EQ(picture_size(frame, 900, 600).height, 600);
-    frame = {.aspect = 2};
+    frame = {.aspect = 2, .from_file = {}};
     EXPECT_EQ(picture_size(frame, 900, 600).height, 450) << "wider than the window: fully visible";
     EXPECT_EQ(frame_in_picture(frame, {0, 0, 900, 450}).width, 900);
 }
