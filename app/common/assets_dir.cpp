@@ -20,5 +20,6 @@ std::filesystem::path find_dir(const char* variable, const char* name, const cha
 
 std::filesystem::path assets_dir() { return find_dir("BLUSH_ASSETS", "assets", BLUSH_SOURCE_ASSETS); }
 std::filesystem::path weights_dir() { return find_dir("BLUSH_WEIGHTS", "weights", BLUSH_BUILT_WEIGHTS); }
+std::filesystem::path guide_dir() { return find_dir("BLUSH_GUIDE", "guide", BLUSH_BUILT_GUIDE); }
 
 } // namespace blush

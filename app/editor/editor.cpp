@@ -1,12 +1,14 @@
 #include "app/editor/editor.h"
 
 #include "app/commands/common.h"
+#include "app/common/assets_dir.h"
 #include "app/common/output_folder.h"
 #include "app/editor/editor_commands.h"
 #include "app/editor/editor_convergence.h"
 #include "app/editor/editor_display.h"
 #include "app/editor/editor_panels.h"
 #include "app/editor/editor_snapshots.h"
+#include "app/editor/guide.h"
 #include "app/editor/last_submission.h"
 #include "app/editor/live_mix.h"
 #include "app/editor/one_shot_metering.h"
@@ -175,6 +177,7 @@ void Editor::run() {
 
 // Handles input and results of background jobs.
 void Editor::poll() {
+    open_requested_page(ui_, guide_dir());
     const EditorFiles::Finished finished = files_.poll(document_, ui_);
     saving_.poll(finished);
     if (finished.opened || finished.saved) {

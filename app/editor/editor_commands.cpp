@@ -258,6 +258,7 @@ bool run_command(Command command, PanelContext& c) {
     case Command::compare_wipe: compare(c, Comparison::Mode::wipe); return true;
     case Command::compare_flicker: compare(c, Comparison::Mode::flicker); return true;
     case Command::compare_difference: compare(c, Comparison::Mode::difference); return true;
+    case Command::guide: c.ui.guide_page = "README.html"; return true;
     case Command::shortcuts: c.ui.show_shortcuts = !c.ui.show_shortcuts; return true;
     case Command::history: toggle_instrument(c, "history"); return true;
     case Command::light_mix: toggle_light_mix(c); return true;

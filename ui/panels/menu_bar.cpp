@@ -184,6 +184,7 @@ void draw_menu_bar(PanelContext& c) {
         ImGui::EndMenu();
     }
     if (begin_menu(c, "Help")) {
+        item(c, Command::guide);
         item(c, Command::shortcuts);
         ImGui::EndMenu();
     }

@@ -88,6 +88,7 @@ enum class Command {
     toggle_denoise,
     pause,
     clear_selection,
+    guide,
     shortcuts,
     history,
     light_mix,
