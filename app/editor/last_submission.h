@@ -1,7 +1,7 @@
 // The last submission to the render session, for comparison with the project.
 #pragma once
 
-#include "render/film/film_planes.h"
+#include "render/film/film_size.h"
 #include "scene/render_settings.h"
 #include "scene/scene.h"
 

@@ -2,6 +2,7 @@
 
 #include "core/parallel.h"
 #include "render/compile/expand_area_lights.h"
+#include "render/compile/expanded_lights.h"
 #include "render/compile/render_scene.h"
 #include "render/diagnostics/fault_finder.h"
 #include "render/film/film.h"

@@ -3,7 +3,9 @@
 #pragma once
 
 #include "core/result.h"
+#include "render/compile/compiled_info.h"
 #include "render/error/reuse_covariance.h"
+#include "render/film/film_size.h"
 #include "render/frame.h"
 #include "scene/render_settings.h"
 #include "scene/scene.h"
@@ -15,24 +17,6 @@
 #include <vector>
 
 namespace blush {
-
-// Bounce planes: 24 bytes per pixel each.
-constexpr int max_bounce_planes = 32, default_bounce_planes = 8;
-
-// Film planes in addition to the beauty. Planes that are not used are not allocated.
-struct PlaneSet {
-    bool albedo = false, normal = false, depth = false, ids = false;
-    int bounces =
-        0; // radiance by the number of scatterings: 0, 1, ..., bounces - 1 and all further ones; 0: none, else 2 .. max_bounce_planes
-    bool roulette = false; // path length and survival probability of each pixel, paths by bounce
-    bool error = false;    // standard error of each pixel's mean: computed from the two halves, needs no plane of its own
-    bool operator==(const PlaneSet&) const = default;
-    // True if it includes all planes of `other`.
-    bool covers(const PlaneSet& other) const {
-        return albedo >= other.albedo && normal >= other.normal && depth >= other.depth && ids >= other.ids && roulette >= other.roulette &&
-               (bounces == other.bounces || other.bounces == 0);
-    }
-};
 
 struct RendererOptions {
     unsigned threads = 0; // 0: one per core
@@ -46,18 +30,6 @@ struct MeterPlace {
     Vec3d position{0, 0, 0}, normal{0, 1, 0};
     double clearance = 0; // offset in metres from the surface, against self-shadowing
     bool operator==(const MeterPlace&) const = default;
-};
-
-struct CompiledInfo {
-    int64_t meshes = 0, instances = 0, materials = 0, textures = 0;
-    int64_t triangles = 0; // as traced: instances are counted each time
-    int64_t emissive_triangles = 0, point_lights = 0, suns = 0;
-    bool environment = false;
-    std::string kernel;               // "v4/plain"
-    FeatureReport features;           // feature report: of the kernel and of everything built only if needed
-    double memory_mb = 0;             // tables, textures and Embree's BVH
-    double seconds_setup = 0;         // the last update: from scene to first ray
-    std::vector<Diagnostic> warnings; // triangles without area dropped, non-finite transforms, ...
 };
 
 struct FilmState; // film_state.h

@@ -1,6 +1,6 @@
 #include "ui/lights/light_glyphs.h"
 
-#include "render/compile/expand_area_lights.h"
+#include "scene/lights/light_units.h"
 #include "scene/lights/light_visibility.h"
 #include "scene/world_transforms.h"
 #include "ui/gl/icons.h"

@@ -1,7 +1,8 @@
 // Which pass (AOV) the viewport shows, and the list of passes to choose from.
 #pragma once
 
-#include "render/renderer.h"
+#include "render/film/film_size.h"
+#include "render/frame.h"
 #include "ui/snapshots/picture_view.h"
 
 #include <string>

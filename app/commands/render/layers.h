@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/result.h"
-#include "render/renderer.h"
+#include "render/film/film_size.h"
 
 #include <string_view>
 

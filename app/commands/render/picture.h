@@ -5,6 +5,7 @@
 #include "color/color_management.h"
 #include "io/image/display_image.h"
 #include "io/image/snapshot.h"
+#include "render/frame.h"
 #include "scene/view_settings.h"
 
 #include <filesystem>

@@ -1,9 +1,9 @@
 #include "render/compile/expand_area_lights.h"
 
-#include "core/math.h"
-#include "render/lights/light_table.h"
+#include "render/compile/expanded_lights.h"
+#include "render/lights/light_limits.h"
 #include "scene/animation/pose.h"
-#include "scene/lights/color_temperature.h"
+#include "scene/lights/light_units.h"
 #include "scene/lights/light_visibility.h"
 
 #include <algorithm>
@@ -38,15 +38,13 @@ GeometryPtr make_unit_disk(uint32_t corners) {
     return g;
 }
 
-constexpr std::array disk_shapes{max_disk_corners, 48, 24, 12, 6};
-
 GeometryPtr unit_disk(int corners) {
     static const auto shared = [] {
-        std::array<GeometryPtr, disk_shapes.size()> disks;
-        std::ranges::transform(disk_shapes, disks.begin(), make_unit_disk);
+        std::array<GeometryPtr, disk_corner_choices.size()> disks;
+        std::ranges::transform(disk_corner_choices, disks.begin(), make_unit_disk);
         return disks;
     }();
-    return shared[size_t(std::ranges::find(disk_shapes, corners) - disk_shapes.begin())];
+    return shared[size_t(std::ranges::find(disk_corner_choices, corners) - disk_corner_choices.begin())];
 }
 
 Material emitter(const Light& light, const Vec3& nits) {
@@ -71,27 +69,6 @@ AreaShape shape_of(const Light& light, int corners) {
 }
 
 } // namespace
-
-bool is_area_light(const Light& light) { return light.kind == Light::Kind::rectangle || light.kind == Light::Kind::disk; }
-
-int disk_corners(const Scene& scene) {
-    const auto disks = std::ranges::count_if(scene.nodes, [&](const auto& node) {
-        const Light* light = node.value.light ? scene.lights.find(node.value.light) : nullptr;
-        return light && light->kind == Light::Kind::disk;
-    });
-    const auto fits = std::ranges::find_if(disk_shapes, [&](int corners) { return disks * corners <= max_mesh_lights; });
-    return fits == disk_shapes.end() ? disk_shapes.back() : *fits;
-}
-
-const Light* light_of_expanded_mesh(const Scene& expanded, Id<Node> id) {
-    const Node* node = id.value & expanded_id_bit ? expanded.nodes.find(Id<Node>{id.value & ~expanded_id_bit}) : nullptr;
-    return node ? expanded.lights.find(node->light) : nullptr;
-}
-
-Vec3 light_emission(const Light& light) {
-    const Vec3 tint = light.use_temperature ? light.color * black_body_color(light.kelvin, light.green_tint) : light.color;
-    return tint * light.intensity;
-}
 
 Scene expand_area_lights(const Scene& whole, ExpandedMeshes* known) {
     Scene scene = with_solo_applied(with_pose_applied(whole));

@@ -1,7 +1,7 @@
 #include "render/compile/render_scene.h"
 
 #include "core/math.h"
-#include "render/compile/expand_area_lights.h"
+#include "render/compile/expanded_lights.h"
 #include "render/film/shadow_catcher.h"
 #include "render/lights/missing_light.h"
 #include "render/materials/material_factors.h"

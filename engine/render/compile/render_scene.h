@@ -4,11 +4,13 @@
 #include "core/parallel.h"
 #include "render/bvh/accel.h"
 #include "render/compile/baked_transforms.h"
+#include "render/compile/compiled_info.h"
+#include "render/compile/feature_report.h"
 #include "render/compile/geometry_pool.h"
 #include "render/compile/object_list.h"
 #include "render/compile/scene_origin.h"
 #include "render/compile/update_plan.h"
-#include "render/film/film.h"
+#include "render/film/film_size.h"
 #include "render/kernels/kernel.h"
 #include "render/light_mix/light_groups.h"
 #include "render/lights/caustic_caster_table.h"
@@ -16,7 +18,6 @@
 #include "render/lights/light_links.h"
 #include "render/lights/light_table.h"
 #include "render/materials/material_table.h"
-#include "render/renderer.h"
 
 #include <vector>
 

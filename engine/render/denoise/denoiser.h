@@ -3,6 +3,7 @@
 
 #include "core/result.h"
 #include "render/compile/feature_report.h"
+#include "render/denoise/pixel_view.h"
 
 #include <array>
 #include <cstdint>
@@ -11,7 +12,6 @@
 #include <limits>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -27,12 +27,6 @@ enum class DenoisePrecision : uint8_t {
     automatic, // bfloat16 if the processor supports it, else float32
     float32,
     bfloat16, // error if the processor does not support it
-};
-
-// Three interleaved components of each pixel, `stride` floats apart, top row first. Empty: absent.
-struct PixelView {
-    std::span<const float> values = {};
-    int stride = 3;
 };
 
 struct DenoiseInput {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/parallel.h"
-#include "render/denoise/denoiser.h"
+#include "render/denoise/pixel_view.h"
 
 #include <cstdint>
 

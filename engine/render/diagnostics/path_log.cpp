@@ -1,6 +1,7 @@
 // Text log of one sample, vertex by vertex, using the kernels' own stages with one lane.
 #include "core/parallel.h"
 #include "render/compile/expand_area_lights.h"
+#include "render/compile/expanded_lights.h"
 #include "render/compile/render_scene.h"
 #include "render/diagnostics/fault_finder.h"
 #include "render/integrator/estimator_settings.h"

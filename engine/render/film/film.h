@@ -6,11 +6,11 @@
 #include "render/error/error_estimate.h"
 #include "render/film/bounce_planes.h"
 #include "render/film/clamp_stats.h"
+#include "render/film/film_size.h"
 #include "render/film/group_planes.h"
 #include "render/film/shadow_catcher.h"
 #include "render/frame.h"
 #include "render/kernels/kernel.h"
-#include "render/renderer.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -19,16 +19,6 @@
 #include <vector>
 
 namespace blush {
-
-// Configuration of a film.
-struct FilmSize {
-    int width = 1, height = 1;
-    PlaneSet planes = {};
-    bool transparent = false; // alpha is coverage
-    bool adaptive = false;
-    int groups = 0;       // light groups, one plane each
-    bool catches = false; // records shadows (shadow_catcher.h)
-};
 
 // A pixel as two half-sample means. Unknown until both halves hold samples.
 struct PixelHalfBuffers {

@@ -1,6 +1,7 @@
 #include "render/film/film_state.h"
 
-#include "render/compile/expand_area_lights.h"
+#include "render/compile/expanded_lights.h"
+#include "render/error/reuse_covariance.h"
 #include "render/film/film_planes.h"
 #include "render/light_mix/light_groups.h"
 

@@ -1,10 +1,11 @@
 #include "render/light_mix/light_groups.h"
 
-#include "render/compile/expand_area_lights.h"
+#include "render/compile/expanded_lights.h"
 #include "render/lights/environment_table.h"
 #include "render/materials/material_table.h"
 #include "scene/changes.h"
 #include "scene/lights/color_temperature.h"
+#include "scene/lights/light_units.h"
 #include "scene/lights/light_visibility.h"
 #include "scene/world_transforms.h"
 

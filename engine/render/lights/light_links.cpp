@@ -1,6 +1,6 @@
 #include "render/lights/light_links.h"
 
-#include "render/compile/expand_area_lights.h"
+#include "render/compile/expanded_lights.h"
 #include "render/compile/geometry_pool.h"
 
 #include <algorithm>

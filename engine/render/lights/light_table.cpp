@@ -2,9 +2,11 @@
 
 #include "core/distribution.h"
 #include "core/math.h"
-#include "render/compile/expand_area_lights.h"
+#include "render/compile/expanded_lights.h"
 #include "render/integrator/light_sampling.h"
+#include "render/lights/light_limits.h"
 #include "scene/affine.h"
+#include "scene/lights/light_units.h"
 #include "scene/lights/sky_model.h"
 #include "scene/world_transforms.h"
 

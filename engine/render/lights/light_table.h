@@ -30,14 +30,10 @@ struct LightTable {
     std::vector<int32_t> slot_lights; // with a tree: light of each slot
     int64_t emissive_triangles = 0, point_lights = 0, sphere_lights = 0, sun_lights = 0;
     int fewer_disk_corners = 0;      // corners of disk polygons, if reduced because of many disks; else 0
-    int64_t unsampled_triangles = 0; // emissive triangles beyond max_mesh_lights, which are not sampled
+    int64_t unsampled_triangles = 0; // emissive triangles beyond max_mesh_lights (light_limits.h), which are not sampled
 
     void fill(LightTables& tables) const;
 };
-
-// Limit of sampled emissive triangles, because instances of an emissive mesh multiply a small file. The remaining ones (of
-// objects with the most triangles) are found by BSDF sampling only, with full weight: unbiased, but with more noise.
-constexpr int64_t max_mesh_lights = int64_t(1) << 20;
 
 // Records: emissive triangles part by part (part records get their first_light), then spheres in order, then other lights in node
 // order, then the sun of a sky, then the environment. Powers are luminous fluxes: pi A L for a triangle, 4 pi^2 r^2 L for a

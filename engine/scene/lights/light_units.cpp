@@ -1,5 +1,7 @@
 #include "scene/lights/light_units.h"
 
+#include "core/math.h"
+#include "scene/lights/color_temperature.h"
 #include "scene/lights/ies_profile.h"
 
 #include <algorithm>
@@ -116,6 +118,11 @@ bool has_unit(const Light& light, Light::Unit unit) {
 
 Light::Unit own_unit(Light::Kind kind) {
     return kind == Light::Kind::sun ? Light::Unit::lux : is_per_area(kind) ? Light::Unit::nits : Light::Unit::candela;
+}
+
+Vec3 light_emission(const Light& light) {
+    const Vec3 tint = light.use_temperature ? light.color * black_body_color(light.kelvin, light.green_tint) : light.color;
+    return tint * light.intensity;
 }
 
 double in_unit(const Light& light, Light::Unit unit, double area_scale) {

@@ -28,6 +28,9 @@ bool has_unit(const Light& light, Light::Unit unit);
 // The unit of Light::intensity for this kind.
 Light::Unit own_unit(Light::Kind kind);
 
+// Linear RGB times intensity: colour, temperature and intensity of a light in its own unit.
+Vec3 light_emission(const Light& light);
+
 // The strength of `light` in a unit that it has (has_unit); Light::Unit::own is that of Light::intensity. `area_scale`: factor by
 // which the node's transform scales areas. The EV of intensity 0 is -infinity.
 double in_unit(const Light& light, Light::Unit unit, double area_scale = 1);

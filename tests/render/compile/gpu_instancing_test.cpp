@@ -1,5 +1,6 @@
 // Instances of one node's mesh (EXT_mesh_gpu_instancing) render, emit and are picked like separate nodes, but as one object.
 #include "render/compile/render_scene.h"
+#include "render/lights/light_limits.h"
 #include "scene/affine.h"
 #include "scene/geometry/ray_queries.h"
 #include "tests/render/picture.h"

@@ -1,6 +1,7 @@
 // Each kind of light on a diffuse floor, against its closed form, from several positions and angles.
 #include "core/math.h"
 #include "render/compile/expand_area_lights.h"
+#include "render/lights/light_limits.h"
 #include "scene/affine.h"
 #include "tests/render/irradiance.h"
 

@@ -2,6 +2,7 @@
 #include "render/compile/update_plan.h"
 
 #include "render/compile/expand_area_lights.h"
+#include "render/compile/expanded_lights.h"
 #include "tests/support/sample_project.h"
 
 #include <gtest/gtest.h>

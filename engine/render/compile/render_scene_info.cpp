@@ -1,6 +1,6 @@
 // Statistics of a compiled scene, for `blush info`.
-#include "render/compile/expand_area_lights.h"
 #include "render/compile/render_scene.h"
+#include "render/lights/light_limits.h"
 
 #include <fmt/format.h>
 
