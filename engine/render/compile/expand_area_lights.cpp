@@ -2,7 +2,7 @@
 
 #include "render/compile/expanded_lights.h"
 #include "render/lights/light_limits.h"
-#include "scene/animation/pose.h"
+#include "scene/animation/posed_scene.h"
 #include "scene/lights/light_units.h"
 #include "scene/lights/light_visibility.h"
 

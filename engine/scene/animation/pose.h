@@ -26,8 +26,4 @@ bool is_root_of_other_scene(const Scene& scene, const Node& node);
 // True if neither the node nor an ancestor is such a root.
 bool is_in_chosen_scene(const Scene& scene, Id<Node> node);
 
-// The scene with the animated pose and the chosen scene baked into its nodes and the selection reset: it looks the same. Nodes
-// whose animated transform is not finite are hidden.
-Scene with_pose_applied(const Scene& scene);
-
 } // namespace blush
