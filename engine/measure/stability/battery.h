@@ -2,7 +2,7 @@
 // Cases are data. To add a case, add a line to the file of its group; to add a group, add a file and a line in battery.cpp.
 #pragma once
 
-#include "measure/stability/verdict.h"
+#include "measure/stability/stability_case.h"
 #include "measure/stability/weak_points.h"
 
 #include <functional>
@@ -10,17 +10,6 @@
 #include <vector>
 
 namespace blush::stability {
-
-struct StabilityCase {
-    std::string name;              // unique within its group
-    int weak_point = 0;            // tested weak point: a number of weak_points()
-    std::function<Findings()> run; // may throw std::exception: the case then fails with its message
-    std::string limit = {};        // not empty: known limit and its reason. Measured and listed, but not counted.
-};
-struct StabilityGroup {
-    std::string name;
-    std::vector<StabilityCase> cases;
-};
 
 // All groups, slow ones first.
 const std::vector<StabilityGroup>& battery();

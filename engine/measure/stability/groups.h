@@ -1,7 +1,7 @@
 // The groups of cases; each group is in the file of its name.
 #pragma once
 
-#include "measure/stability/battery.h"
+#include "measure/stability/stability_case.h"
 
 #include <string_view>
 #include <vector>
