@@ -1,7 +1,7 @@
 // Internal to gltf_*.cpp: lint. Reports legal but probably unintended content.
 #pragma once
 
-#include "io/gltf/read/source.h"
+#include "io/gltf/read/context.h"
 
 namespace blush {
 

@@ -1,7 +1,7 @@
 // Internal to gltf_*.cpp: reports which extensions of the file are supported.
 #pragma once
 
-#include "io/gltf/read/source.h"
+#include "io/gltf/read/context.h"
 
 namespace blush {
 

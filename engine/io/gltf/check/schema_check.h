@@ -1,7 +1,7 @@
 // Internal to gltf_*.cpp: schema check. Reports JSON that violates the glTF schema.
 #pragma once
 
-#include "io/gltf/read/source.h"
+#include "io/gltf/read/context.h"
 
 namespace blush {
 

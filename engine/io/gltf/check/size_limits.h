@@ -1,7 +1,7 @@
 // Internal to gltf_*.cpp: size limits. Rejects files whose decoded size is out of proportion to their bytes.
 #pragma once
 
-#include "io/gltf/read/source.h"
+#include "io/gltf/read/context.h"
 
 #include <vector>
 

@@ -1,5 +1,7 @@
 #include "io/gltf/compression/draco.h"
 
+#include "io/gltf/compression/decompressed_data.h"
+#include "io/gltf/compression/extension_names.h"
 #include "io/gltf/read/extras.h"
 #include "io/gltf/read/geometry/accessors.h"
 #include "io/gltf/read/geometry/parallel_read.h"
@@ -16,8 +18,6 @@
 
 namespace blush {
 namespace {
-
-constexpr const char* draco_extension = "KHR_draco_mesh_compression";
 
 // The library allocates what the header announces. Even a flat regular grid, the best case, needs more bytes per triangle than
 // this.

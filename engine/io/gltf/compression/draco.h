@@ -1,7 +1,7 @@
 // Internal to gltf_*.cpp: KHR_draco_mesh_compression. The only file that uses the Draco library.
 #pragma once
 
-#include "io/gltf/compression/decompress.h"
+#include "io/gltf/compression/decompression_limit.h"
 
 namespace blush {
 

@@ -1,5 +1,7 @@
 #include "io/gltf/compression/meshopt.h"
 
+#include "io/gltf/compression/decompressed_data.h"
+#include "io/gltf/compression/extension_names.h"
 #include "io/gltf/read/geometry/parallel_read.h"
 #include "io/gltf/read/object.h"
 

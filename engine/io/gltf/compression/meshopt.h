@@ -1,11 +1,9 @@
 // Internal to gltf_*.cpp: EXT_meshopt_compression. The only file that uses the meshoptimizer library.
 #pragma once
 
-#include "io/gltf/compression/decompress.h"
+#include "io/gltf/compression/decompression_limit.h"
 
 namespace blush {
-
-constexpr const char* meshopt_extension = "EXT_meshopt_compression";
 
 // Decompresses all compressed buffer views in parallel, into buffers added to `source`. `context` must belong to `source`.
 // Reports progress up to 0.1. Errors: a buffer, range or stride that violates the extension, bytes that cannot be decoded, a size

@@ -1,7 +1,7 @@
 // Internal to gltf_*.cpp: imports cameras and the initial view.
 #pragma once
 
-#include "io/gltf/read/source.h"
+#include "io/gltf/read/context.h"
 
 #include <vector>
 

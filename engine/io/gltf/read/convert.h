@@ -1,7 +1,7 @@
 // Internal to gltf_*.cpp: converts a parsed document to a scene.
 #pragma once
 
-#include "io/gltf/read/source.h"
+#include "io/gltf/read/context.h"
 
 namespace blush {
 

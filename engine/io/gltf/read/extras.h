@@ -5,27 +5,14 @@
 //   "fallback": true                                     marks a node, material or accessor that is only for other programs
 #pragma once
 
-#include "io/gltf/read/source.h"
+#include "io/gltf/read/context.h"
+#include "io/gltf/read/json_members.h"
 #include "io/project/scene_json.h"
 #include "scene/validate.h"
-
-#include <nlohmann/json.hpp>
 
 #include <fmt/format.h>
 
 namespace blush {
-
-using ParsedGltf = nlohmann::json; // a hash or tree map: lookups stay fast for hostile files
-
-// Member or element; JSON null if missing or of the wrong type.
-const ParsedGltf& gltf_member(const ParsedGltf& object, std::string_view key);
-const ParsedGltf& gltf_element(const ParsedGltf& list, size_t index);
-// root[list][index]
-inline const ParsedGltf& gltf_item(const ParsedGltf& root, std::string_view list, size_t index) {
-    return gltf_element(gltf_member(root, list), index);
-}
-// root.extensions[extension].lights[index]
-const ParsedGltf& gltf_light(const ParsedGltf& root, std::string_view extension, size_t index);
 
 const ParsedGltf& blush_extras(const ParsedGltf& object);
 // The id that extras.blush.id asks for; 0: none.

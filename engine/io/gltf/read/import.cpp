@@ -6,6 +6,7 @@
 #include "io/gltf/compression/decompress.h"
 #include "io/gltf/read/animations.h"
 #include "io/gltf/read/cameras.h"
+#include "io/gltf/read/context.h"
 #include "io/gltf/read/convert.h"
 #include "io/gltf/read/extras.h"
 #include "io/gltf/read/geometry/deform.h"

@@ -3,25 +3,16 @@
 
 #include "core/result.h"
 #include "io/gltf/read/geometry/indices.h"
+#include "io/gltf/read/import_options.h"
+#include "io/gltf/read/import_report.h"
 #include "scene/render_settings.h"
 #include "scene/scene.h"
 #include "scene/view_settings.h"
 
-#include <atomic>
 #include <filesystem>
-#include <functional>
 #include <optional>
-#include <string>
-#include <vector>
 
 namespace blush {
-
-struct ImportReport {
-    std::vector<std::string> extensions_used, extensions_honoured, extensions_approximated, extensions_ignored;
-    // Everything in the file that the image will not show, and everything suspicious.
-    std::vector<Diagnostic> diagnostics;
-    double seconds = 0;
-};
 
 struct ImportedScene {
     Scene scene;
@@ -31,17 +22,6 @@ struct ImportedScene {
     bool has_view = false; // scene.view is the saved one
     std::optional<RenderSettings> render = {};
     std::optional<ViewSettings> view = {};
-};
-
-struct ImportOptions {
-    unsigned threads = 0; // for meshes and textures, including the calling one; 0: one per core. Does not affect the result
-
-    std::function<void(double fraction, const std::string& what)> on_progress; // called on the importing thread
-    const std::atomic<bool>* cancel = nullptr;                                 // true ends the import with the error "cancelled"
-    int64_t texture_bytes = int64_t(4) << 30; // limit of all decoded textures; the largest are halved until they fit
-    // Called once on the importing thread if textures take longer than the rest, with the preview scene (untextured.h). Textures
-    // may still turn out to be unreadable, and the import may still be cancelled.
-    std::function<void(const ImportedScene&)> on_preview_scene = {};
 };
 
 // Imports the file's default scene, the saved view or that of the first camera (or one framed around the geometry), lights of

@@ -1,7 +1,7 @@
 // Internal to gltf_*.cpp: imports materials and their extensions.
 #pragma once
 
-#include "io/gltf/read/source.h"
+#include "io/gltf/read/context.h"
 
 #include <vector>
 

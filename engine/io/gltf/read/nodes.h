@@ -1,8 +1,8 @@
 // Internal to gltf_*.cpp: imports the node hierarchy. Uses no recursion, since a hostile file may have very deep hierarchies.
 #pragma once
 
+#include "io/gltf/read/context.h"
 #include "io/gltf/read/lights/lights.h"
-#include "io/gltf/read/source.h"
 
 #include <optional>
 #include <vector>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/vec.h"
-#include "io/gltf/read/source.h"
+#include "io/gltf/read/context.h"
 
 #include <limits>
 #include <optional>

@@ -3,7 +3,7 @@
 //   {"animation": 0, "seconds": 1.5, "scene": 1, "variant": 2}     indices; absent: not chosen
 #pragma once
 
-#include "io/gltf/read/source.h"
+#include "io/gltf/read/context.h"
 #include "io/project/json_fields.h"
 
 namespace blush {

@@ -1,7 +1,7 @@
 #include "io/gltf/read/source.h"
 
 #include "core/files.h"
-#include "io/gltf/compression/decompress.h"
+#include "io/gltf/compression/parser_compatible.h"
 #include "io/gltf/read/json.h"
 #include "io/gltf/read/uri.h"
 
@@ -16,7 +16,6 @@ namespace {
 
 // The length fields of GLB and of the parser have 32 bits.
 constexpr uint64_t max_file_bytes = std::numeric_limits<uint32_t>::max();
-constexpr size_t max_findings = 500;
 
 // The parser's only access to the file system. Its base folder is empty, so that it passes URIs as they are in the file.
 Result<std::filesystem::path> resolve(const std::string& uri, void* folder) {
@@ -104,13 +103,6 @@ template <class Load> Result<void> parse(GltfSource& source, const Load& load) {
 }
 
 } // namespace
-
-void GltfContext::add(Diagnostic::Severity severity, std::string what, std::string where) const {
-    if (report.diagnostics.size() < max_findings)
-        report.diagnostics.push_back({severity, std::move(what), std::move(where)});
-    else if (report.diagnostics.size() == max_findings)
-        report.diagnostics.push_back({severity, "more findings than can be listed", ""});
-}
 
 Result<GltfSource> load_gltf(const std::filesystem::path& file) {
     const auto failed = [&](const Error& error) { return Error{file.string(), error.what, error.where}; };

@@ -1,7 +1,7 @@
 // Internal to gltf_*.cpp: reads and writes KHR_materials_variants.
 #pragma once
 
-#include "io/gltf/read/source.h"
+#include "io/gltf/read/context.h"
 #include "io/gltf/write/document.h"
 
 #include <string>

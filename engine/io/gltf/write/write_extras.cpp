@@ -1,6 +1,7 @@
 #include "io/gltf/write/write_extras.h"
 
 #include "io/gltf/read/cameras.h"
+#include "io/gltf/read/context.h"
 #include "io/gltf/read/convert.h"
 #include "io/gltf/read/extras.h"
 #include "io/gltf/read/scene_selection.h"

@@ -1,7 +1,7 @@
 // Internal to gltf_*.cpp: reads accessors into typed arrays. Every offset, count and stride is checked in 64 bits before use.
 #pragma once
 
-#include "io/gltf/read/source.h"
+#include "io/gltf/read/context.h"
 
 #include <cstdint>
 #include <span>

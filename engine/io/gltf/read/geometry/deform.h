@@ -1,7 +1,7 @@
 // Internal to gltf_*.cpp: imports morph targets and skinning weights of primitives.
 #pragma once
 
-#include "io/gltf/read/source.h"
+#include "io/gltf/read/context.h"
 
 #include <string>
 

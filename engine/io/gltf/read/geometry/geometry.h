@@ -1,7 +1,7 @@
 // Internal to gltf_*.cpp: converts primitives to triangle meshes.
 #pragma once
 
-#include "io/gltf/read/source.h"
+#include "io/gltf/read/context.h"
 
 #include <string>
 #include <vector>

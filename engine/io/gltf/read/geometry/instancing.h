@@ -1,7 +1,7 @@
 // Internal to gltf_*.cpp: EXT_mesh_gpu_instancing, instances of a node's mesh from arrays of translations, rotations and scales.
 #pragma once
 
-#include "io/gltf/read/source.h"
+#include "io/gltf/read/context.h"
 #include "io/gltf/write/document.h"
 
 namespace blush {

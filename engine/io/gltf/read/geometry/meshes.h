@@ -1,7 +1,7 @@
 // Internal to gltf_*.cpp: imports meshes. Nodes that share a glTF mesh share the Mesh.
 #pragma once
 
-#include "io/gltf/read/source.h"
+#include "io/gltf/read/context.h"
 
 #include <vector>
 

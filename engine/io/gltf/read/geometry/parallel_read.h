@@ -1,7 +1,7 @@
 // Internal to gltf_*.cpp: reads independent pieces of a file in parallel, with diagnostics in file order.
 #pragma once
 
-#include "io/gltf/read/source.h"
+#include "io/gltf/read/context.h"
 
 #include <cstdint>
 #include <functional>

@@ -1,7 +1,7 @@
 // Internal to gltf_*.cpp: decodes the images of a file in the background, within a memory limit.
 #pragma once
 
-#include "io/gltf/read/source.h"
+#include "io/gltf/read/context.h"
 
 #include <memory>
 #include <span>

@@ -1,7 +1,7 @@
 // Internal to gltf_*.cpp: finds the image of a texture and its encoded bytes.
 #pragma once
 
-#include "io/gltf/read/source.h"
+#include "io/gltf/read/context.h"
 
 #include <span>
 #include <string>

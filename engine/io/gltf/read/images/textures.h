@@ -1,8 +1,8 @@
 // Internal to gltf_*.cpp: imports textures and their samplers.
 #pragma once
 
+#include "io/gltf/read/context.h"
 #include "io/gltf/read/images/image_decoding.h"
-#include "io/gltf/read/source.h"
 
 #include <optional>
 #include <vector>

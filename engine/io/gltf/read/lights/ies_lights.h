@@ -2,7 +2,7 @@
 // colour.
 #pragma once
 
-#include "io/gltf/read/source.h"
+#include "io/gltf/read/context.h"
 
 #include <map>
 #include <optional>

@@ -1,7 +1,7 @@
 // Internal to gltf_*.cpp: EXT_lights_image_based, an environment as a cube map that is prefiltered for rasterizers.
 #pragma once
 
-#include "io/gltf/read/source.h"
+#include "io/gltf/read/context.h"
 #include "io/gltf/write/document.h"
 
 namespace blush {
