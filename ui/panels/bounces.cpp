@@ -1,6 +1,7 @@
 // Bounces panel: the picture split by the number of scattering events. Changing the view does not restart the render.
 #include "measure/statistics/bounce_energy.h"
 #include "ui/panels/panels.h"
+#include "ui/snapshots/picture_pixels.h"
 #include "ui/widgets/bars.h"
 #include "ui/widgets/widgets.h"
 

@@ -3,7 +3,7 @@
 #include "core/text.h"
 #include "scene/lights/color_temperature.h"
 #include "ui/panels/panels.h"
-#include "ui/snapshots/picture_view.h"
+#include "ui/snapshots/picture_pixels.h"
 #include "ui/widgets/widgets.h"
 
 #include <algorithm>

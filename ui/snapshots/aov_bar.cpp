@@ -1,6 +1,7 @@
 #include "ui/snapshots/aov_bar.h"
 
 #include "ui/snapshots/aov_pixels.h"
+#include "ui/snapshots/picture_pixels.h"
 #include "ui/widgets/widgets.h"
 #include "ui/window/theme.h"
 

@@ -2,6 +2,7 @@
 
 #include "core/math.h"
 #include "core/srgb.h"
+#include "ui/snapshots/heat_map.h"
 
 #include <algorithm>
 #include <cmath>

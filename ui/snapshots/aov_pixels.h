@@ -1,6 +1,7 @@
 // Converts passes (AOVs) to colours: albedo, normal, depth, ids, error, samples.
 #pragma once
 
+#include "render/frame.h"
 #include "ui/snapshots/picture_view.h"
 
 #include <optional>

@@ -1,7 +1,7 @@
 #include "ui/snapshots/difference.h"
 
 #include "measure/metrics/flip.h"
-#include "ui/snapshots/picture_view.h"
+#include "ui/snapshots/heat_map.h"
 
 #include <cmath>
 #include <exception>

@@ -1,6 +1,7 @@
 #include "ui/viewport/region_backdrop.h"
 
 #include "ui/gl/texture_id.h"
+#include "ui/snapshots/picture_pixels.h"
 
 namespace blush {
 namespace {

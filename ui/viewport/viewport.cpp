@@ -9,6 +9,7 @@
 #include "ui/lights/look_through_light.h"
 #include "ui/lights/multi_edit_apply.h"
 #include "ui/snapshots/aov_bar.h"
+#include "ui/snapshots/picture_pixels.h"
 #include "ui/viewport/camera_frame_overlay.h"
 #include "ui/viewport/environment_dial.h"
 #include "ui/viewport/false_color_legend.h"

@@ -2,6 +2,8 @@
 #include "core/srgb.h"
 #include "ui/snapshots/aov_pixels.h"
 #include "ui/snapshots/aov_view.h"
+#include "ui/snapshots/heat_map.h"
+#include "ui/snapshots/picture_pixels.h"
 #include "ui/views/bounces_view.h"
 
 #include <algorithm>

@@ -1,0 +1,18 @@
+#include "ui/snapshots/heat_map.h"
+
+#include "core/math.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace blush {
+
+Vec3 heat(float t) {
+    constexpr Vec3 stops[] = {{0, 0, 0}, {0.02f, 0.03f, 0.35f}, {0.6f, 0.05f, 0.08f}, {0.95f, 0.6f, 0.05f}, {1, 1, 1}};
+    constexpr int last = int(std::size(stops)) - 1;
+    const float at = clamp01(t) * last;
+    const int i = std::min(int(at), last - 1);
+    return lerp<float>(stops[i], stops[i + 1], at - float(i));
+}
+
+} // namespace blush
