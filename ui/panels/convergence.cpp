@@ -3,6 +3,7 @@
 #include "ui/panels/panels.h"
 #include "ui/widgets/elided_text.h"
 #include "ui/widgets/plot_drawing.h"
+#include "ui/widgets/tooltip.h"
 #include "ui/widgets/widgets.h"
 #include "ui/window/theme.h"
 

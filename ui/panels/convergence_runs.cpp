@@ -2,7 +2,7 @@
 
 #include "ui/widgets/elided_text.h"
 #include "ui/widgets/plot_drawing.h"
-#include "ui/widgets/widgets.h"
+#include "ui/widgets/tooltip.h"
 #include "ui/window/theme.h"
 #include "ui/window/time_text.h"
 

@@ -2,7 +2,7 @@
 #include "ui/gl/icons.h"
 #include "ui/panels/panels.h"
 #include "ui/snapshots/snapshots_view.h"
-#include "ui/widgets/widgets.h"
+#include "ui/widgets/tooltip.h"
 #include "ui/window/file_listing.h"
 #include "ui/window/file_places.h"
 #include "ui/window/theme.h"

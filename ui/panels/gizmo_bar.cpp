@@ -1,7 +1,7 @@
 // Toolbar at the left of the picture that selects the gizmo and its axes; visible while something is selected.
 #include "ui/gl/icons.h"
 #include "ui/panels/panels.h"
-#include "ui/widgets/widgets.h"
+#include "ui/widgets/tooltip.h"
 #include "ui/window/theme.h"
 
 #include <fmt/format.h>

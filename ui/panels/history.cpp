@@ -1,7 +1,7 @@
 // History panel: the undo and redo steps. A click goes to a step.
 #include "ui/panels/panels.h"
 #include "ui/widgets/elided_text.h"
-#include "ui/widgets/widgets.h"
+#include "ui/widgets/tooltip.h"
 #include "ui/window/theme.h"
 
 #include <fmt/format.h>

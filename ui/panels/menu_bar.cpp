@@ -1,6 +1,7 @@
 // The menu bar: all commands that are in a menu, with their shortcuts.
 #include "ui/panels/panels.h"
-#include "ui/widgets/widgets.h"
+
+#include "ui/widgets/tooltip.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -2,6 +2,7 @@
 // that affects light.
 #include "ui/panels/panels.h"
 #include "ui/widgets/elided_text.h"
+#include "ui/widgets/tooltip.h"
 #include "ui/widgets/widgets.h"
 #include "ui/window/theme.h"
 

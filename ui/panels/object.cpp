@@ -2,6 +2,7 @@
 #include "scene/animation/pose.h"
 #include "ui/panels/panels.h"
 #include "ui/transform/rotation.h"
+#include "ui/widgets/tooltip.h"
 #include "ui/widgets/widgets.h"
 #include "ui/window/theme.h"
 

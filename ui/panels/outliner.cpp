@@ -5,6 +5,7 @@
 #include "ui/panels/panels.h"
 #include "ui/widgets/elided_text.h"
 #include "ui/widgets/row_clicks.h"
+#include "ui/widgets/tooltip.h"
 #include "ui/widgets/widgets.h"
 #include "ui/window/theme.h"
 

@@ -1,6 +1,7 @@
 // Render tab: size, stop rules and path tracing settings. The same settings as `blush render` has.
 #include "ui/panels/panels.h"
 #include "ui/panels/roulette_fields.h"
+#include "ui/widgets/tooltip.h"
 #include "ui/widgets/widgets.h"
 #include "ui/window/presets.h"
 

@@ -4,6 +4,7 @@
 #include "ui/panels/panels.h"
 #include "ui/panels/roulette_fields.h"
 #include "ui/widgets/bars.h"
+#include "ui/widgets/tooltip.h"
 #include "ui/widgets/widgets.h"
 #include "ui/window/theme.h"
 

@@ -1,5 +1,6 @@
 // Scopes: histogram and waveform of scene-linear values, in stops from middle grey, and of displayed values.
 #include "ui/panels/panels.h"
+#include "ui/widgets/tooltip.h"
 #include "ui/widgets/widgets.h"
 #include "ui/window/theme.h"
 

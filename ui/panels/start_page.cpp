@@ -1,6 +1,7 @@
 // Start page in a dock below the picture: demos and recent files. It closes with Esc, or when a file is opened.
 #include "ui/panels/panels.h"
 #include "ui/widgets/elided_text.h"
+#include "ui/widgets/tooltip.h"
 #include "ui/widgets/widgets.h"
 #include "ui/window/theme.h"
 

@@ -2,7 +2,7 @@
 #include "core/text.h"
 #include "ui/panels/panels.h"
 #include "ui/widgets/elided_text.h"
-#include "ui/widgets/widgets.h"
+#include "ui/widgets/tooltip.h"
 #include "ui/window/theme.h"
 #include "ui/window/time_text.h"
 

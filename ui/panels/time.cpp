@@ -1,6 +1,7 @@
 // Timeline: the animation clip and the time. A row below the picture, for scenes with animations.
 #include "ui/gl/icons.h"
 #include "ui/panels/panels.h"
+#include "ui/widgets/tooltip.h"
 #include "ui/widgets/widgets.h"
 #include "ui/window/theme.h"
 

@@ -2,7 +2,7 @@
 
 #include "ui/snapshots/aov_pixels.h"
 #include "ui/snapshots/picture_pixels.h"
-#include "ui/widgets/widgets.h"
+#include "ui/widgets/tooltip.h"
 #include "ui/window/theme.h"
 
 #include <algorithm>

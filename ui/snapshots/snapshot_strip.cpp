@@ -2,7 +2,7 @@
 
 #include "ui/gl/texture_id.h"
 #include "ui/widgets/elided_text.h"
-#include "ui/widgets/widgets.h"
+#include "ui/widgets/tooltip.h"
 #include "ui/window/theme.h"
 
 #include <algorithm>

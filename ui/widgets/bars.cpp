@@ -1,6 +1,6 @@
 #include "ui/widgets/bars.h"
 
-#include "ui/widgets/widgets.h"
+#include "ui/widgets/tooltip.h"
 #include "ui/window/theme.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "ui/widgets/elided_text.h"
 
-#include "ui/widgets/widgets.h"
+#include "ui/widgets/tooltip.h"
 
 #include <algorithm>
 #include <imgui_internal.h> // which field is being edited

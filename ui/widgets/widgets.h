@@ -76,12 +76,6 @@ private:
 
 // A collapsible heading; draw its rows if it returns true.
 bool section(UiState& ui, const char* name, bool open_at_first = true);
-// A tooltip for the last item, after the tooltip delay.
-void tip_for_last_item(UiState& ui, const char* tip);
-// True if the mouse has been over the last item for the tooltip delay; requests the frame in which that becomes true.
-bool tip_is_due(UiState& ui);
-// Places a tooltip of this size beside the window of the last item, never over the row below.
-void place_next_tip(const ImVec2& size);
 // A wrapped paragraph in the dim text colour.
 void quiet_text(const std::string& text);
 

@@ -1,7 +1,7 @@
 #include "ui/window/docks.h"
 
 #include "ui/viewport/regions.h"
-#include "ui/widgets/widgets.h"
+#include "ui/widgets/tooltip.h"
 #include "ui/window/theme.h"
 
 #include <algorithm>

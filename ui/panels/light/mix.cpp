@@ -3,6 +3,7 @@
 #include "render/light_mix/light_mix.h"
 #include "ui/panels/panels.h"
 #include "ui/widgets/elided_text.h"
+#include "ui/widgets/tooltip.h"
 #include "ui/widgets/widgets.h"
 #include "ui/window/theme.h"
 

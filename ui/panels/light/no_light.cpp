@@ -1,7 +1,7 @@
 // Banner for scenes without lights: says that the scene is shown in a studio, and offers other lighting. Also shown if the last
 // light is removed.
 #include "ui/panels/panels.h"
-#include "ui/widgets/widgets.h"
+#include "ui/widgets/tooltip.h"
 #include "ui/window/theme.h"
 
 #include <initializer_list>

@@ -3,6 +3,7 @@
 #include "ui/jobs/map_thumbnails.h"
 #include "ui/panels/material/layers.h"
 #include "ui/widgets/elided_text.h"
+#include "ui/widgets/tooltip.h"
 #include "ui/window/theme.h"
 
 #include <algorithm>
