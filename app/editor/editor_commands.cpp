@@ -5,6 +5,7 @@
 #include "scene/geometry/ground_plane.h"
 #include "ui/lights/multi_edit.h"
 #include "ui/lights/new_light.h"
+#include "ui/panels/instruments.h"
 #include "ui/snapshots/aov_bar.h"
 #include "ui/viewport/view_tools.h"
 #include "ui/widgets/value_menu.h"

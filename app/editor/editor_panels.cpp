@@ -1,5 +1,6 @@
 #include "app/editor/editor_panels.h"
 
+#include "ui/panels/instruments.h"
 #include "ui/panels/panels.h"
 #include "ui/snapshots/snapshot_strip.h"
 #include "ui/viewport/regions.h"
@@ -14,7 +15,7 @@ Layout window_layout(PanelContext& c, float width, float height) {
     if (c.ui.panels_hidden) return lay_out(width, height, row, status, em, no_side_panels);
     const Splitters& splitters = c.ui.settings.splitters;
     const float time = c.scene().clips.empty() ? 0 : std::round(row * 1.5f);
-    ViewportInsets beside = dock_insets(c, lay_out(width, height, row, status, em, splitters).room);
+    ViewportInsets beside = dock_insets(c, instruments(), lay_out(width, height, row, status, em, splitters).room);
     beside.strip = snapshot_strip_height(c.ui.snapshots);
     beside.time = time;
     return lay_out(width, height, row, status, em, splitters, beside);
@@ -33,7 +34,7 @@ void draw_side_panels(PanelContext& c, const Layout& l) {
     begin_region("Inspector", l.inspector, {.padded = false});
     draw_inspector(c);
     end_region();
-    draw_docks(c, l);
+    draw_docks(c, instruments(), l);
 }
 
 } // namespace blush

@@ -3,7 +3,6 @@
 #include "ui/panels/panels.h"
 
 #include <algorithm>
-#include <iterator>
 
 namespace blush {
 namespace {
@@ -70,31 +69,19 @@ const Instrument table[] = {
 
 std::span<const Instrument> instruments() { return table; }
 
-const Instrument* find_instrument(const std::string& id) {
-    const auto found = std::ranges::find_if(table, [&](const Instrument& i) { return i.id == id; });
-    return found == std::end(table) ? nullptr : found;
-}
-
 void toggle_instrument(PanelContext& c, const std::string& id) {
-    const Instrument* i = find_instrument(id);
+    const Instrument* i = find_instrument(table, id);
     if (!i) return;
     if (!i->is_open(c)) return i->set_open(c, true);
     if (c.ui.docks.in_sight.contains(id) || c.ui.panels_hidden) return i->set_open(c, false);
     c.ui.docks.to_front.insert(id);
 }
 
-std::vector<std::string> open_instruments(const PanelContext& c) {
-    std::vector<std::string> open;
-    for (const Instrument& i : table)
-        if (i.is_open(c)) open.emplace_back(i.id);
-    return open;
-}
-
 void recall_instruments(PanelContext c, const std::string& file) {
     const auto found = std::ranges::find(c.ui.settings.scenes, file, &SceneMemory::file);
     if (found == c.ui.settings.scenes.end()) return;
     for (const std::string& id : found->instruments)
-        if (const Instrument* i = find_instrument(id); i && i->remembered) {
+        if (const Instrument* i = find_instrument(table, id); i && i->remembered) {
             i->set_open(c, true);
             c.ui.docks.open.push_back(id); // saved instruments do not come to the front of their dock
         }

@@ -83,14 +83,14 @@ std::optional<float> draw_tab(PanelContext& c, const Instrument& i, DockSide sid
     return high.x > low.x ? std::optional(low.x) : std::nullopt;
 }
 
-void draw_dock(PanelContext& c, DockSide side, const Region& region, const Ids& ids) {
+void draw_dock(PanelContext& c, std::span<const Instrument> instruments, DockSide side, const Region& region, const Ids& ids) {
     if (region.width <= 0 || region.height <= 0 || ids.empty()) return;
     begin_region(side == DockSide::right ? "Right dock" : "Bottom dock", region, {.padded = false});
     constexpr ImGuiTabBarFlags flags = ImGuiTabBarFlags_Reorderable | ImGuiTabBarFlags_FittingPolicyScroll | ImGuiTabBarFlags_NoTooltip;
     if (ImGui::BeginTabBar("tabs", flags)) {
         std::vector<std::pair<float, std::string>> places;
         for (const std::string& id : ids)
-            if (const auto x = draw_tab(c, *find_instrument(id), side, region)) places.emplace_back(*x, id);
+            if (const auto x = draw_tab(c, *find_instrument(instruments, id), side, region)) places.emplace_back(*x, id);
         ImGui::EndTabBar();
         std::ranges::sort(places);
         Ids shown;
@@ -162,12 +162,12 @@ void draw_floating(PanelContext& c, const Instrument& i, const Layout& l) {
 
 } // namespace
 
-ViewportInsets dock_insets(PanelContext& c, const Region& room) {
+ViewportInsets dock_insets(PanelContext& c, std::span<const Instrument> instruments, const Region& room) {
     DockView& view = c.ui.docks;
     const Dock& dock = c.ui.settings.dock;
-    const Ids open = open_instruments(c);
+    const Ids open = open_instruments(instruments, c);
     for (const std::string& id : open) {
-        place_of(c, *find_instrument(id));
+        place_of(c, *find_instrument(instruments, id));
         if (std::ranges::count(view.open, id) == 0) view.to_front.insert(id);
     }
     view.open = open;
@@ -178,13 +178,13 @@ ViewportInsets dock_insets(PanelContext& c, const Region& room) {
     return {.right = right, .bottom = bottom, .docks = dock.sizes};
 }
 
-void draw_docks(PanelContext& c, const Layout& layout) {
+void draw_docks(PanelContext& c, std::span<const Instrument> instruments, const Layout& layout) {
     const bool right_dock = has_right_dock(layout.room, ImGui::GetFontSize());
     const Ids right = docked(c, DockSide::right, right_dock), bottom = docked(c, DockSide::bottom, right_dock);
     const Ids torn_off = floating(c.ui.settings.dock, c.ui.docks.open); // panels torn off below become floating in the next frame
-    draw_dock(c, DockSide::right, layout.right_dock, right);
-    draw_dock(c, DockSide::bottom, layout.bottom_dock, bottom);
-    for (const std::string& id : torn_off) draw_floating(c, *find_instrument(id), layout);
+    draw_dock(c, instruments, DockSide::right, layout.right_dock, right);
+    draw_dock(c, instruments, DockSide::bottom, layout.bottom_dock, bottom);
+    for (const std::string& id : torn_off) draw_floating(c, *find_instrument(instruments, id), layout);
 }
 
 void dock_all(Dock& dock) {

@@ -372,7 +372,7 @@ TEST_F(Panels, TheRouletteLabMeasuresWhileItIsOpen) {
     draw();
     EXPECT_FALSE(document.can_undo()) << "drawing edits nothing";
     PanelContext c{document, ui, color, frame, {}, 64, 48};
-    find_instrument("roulette")->set_open(c, false);
+    find_instrument(instruments(), "roulette")->set_open(c, false);
     EXPECT_FALSE(ui.roulette.runner);
 }
 

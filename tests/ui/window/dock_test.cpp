@@ -2,6 +2,7 @@
 #include "tests/support/sample_project.h"
 #include "tests/ui/imgui_test.h"
 #include "tests/ui/shipped_ocio_config.h"
+#include "ui/panels/instruments.h"
 #include "ui/window/docks.h"
 #include "ui/window/ui_persistence.h"
 
@@ -52,7 +53,7 @@ TEST(Instruments, HaveUniqueNames) {
             EXPECT_STRNE(a.id, b.id);
             EXPECT_STRNE(a.title, b.title);
         }
-    EXPECT_EQ(find_instrument("unknown"), nullptr);
+    EXPECT_EQ(find_instrument(instruments(), "unknown"), nullptr);
 }
 
 // The docks in a window of 1720 x 960 pixels.
@@ -63,9 +64,9 @@ protected:
         ImGui::NewFrame();
         PanelContext c = context();
         const float em = ImGui::GetFontSize();
-        const ViewportInsets beside = dock_insets(c, lay_out(1720, 960, 22, 27, em, {}).room);
+        const ViewportInsets beside = dock_insets(c, instruments(), lay_out(1720, 960, 22, 27, em, {}).room);
         layout = lay_out(1720, 960, 22, 27, em, {}, beside);
-        draw_docks(c, layout);
+        draw_docks(c, instruments(), layout);
         ImGui::EndFrame();
     }
     void frames(int count = 4) {
