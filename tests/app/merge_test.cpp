@@ -97,7 +97,7 @@ TEST(Continue, ErrorsNameTheReason) {
     fails(go_on("furnace", "film.exr"), 1, "another scene");
     fails(go_on("cornell", "nowhere.exr"), 1, "nowhere.exr");
     fails(with(go_on("cornell", "film.exr"), {"--seed", "4"}), 2, "only --spp, --time and --error");
-    fails(with(go_on("cornell", "film.exr"), {"--layers", "albedo"}), 1, "without the plane \"albedo.R\"");
+    fails(with(go_on("cornell", "film.exr"), {"--layers", "albedo"}), 1, "lack the plane \"albedo.R\"");
 }
 
 TEST(Merge, OfFilmStatesIsTheWholeRender) {

@@ -186,7 +186,7 @@ TEST(Apply, ImportRefusesABrokenScene) {
     node.name = "loop";
     node.parent = a;
     other.nodes.set(a, node);
-    EXPECT_TRUE(refused(sample_project().project, Import{other, ""}, "below itself, node \"loop\""));
+    EXPECT_TRUE(refused(sample_project().project, Import{other, ""}, "its own ancestor, node \"loop\""));
 }
 
 TEST(Subtree, ListsParentsBeforeChildren) {

@@ -27,8 +27,10 @@ void draw_table(const RegionStatistics& s) {
     if (!ImGui::BeginTable("statistics", 5, ImGuiTableFlags_SizingStretchSame)) return;
     ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, ImGui::CalcTextSize("Luminance, nits").x);
     const bool narrow = ImGui::GetContentRegionAvail().x < 22 * ImGui::GetFontSize();
-    for (const char* column : {"Mean", "Min", "Max", "Std. dev."})
-        ImGui::TableSetupColumn(column, narrow && column[0] != 'M' ? ImGuiTableColumnFlags_Disabled : ImGuiTableColumnFlags_None);
+    // A narrow panel has room for two columns.
+    constexpr std::pair<const char*, bool> columns[] = {{"Mean", true}, {"Min", false}, {"Max", true}, {"Std. dev.", false}};
+    for (const auto& [name, always_shown] : columns)
+        ImGui::TableSetupColumn(name, narrow && !always_shown ? ImGuiTableColumnFlags_Disabled : ImGuiTableColumnFlags_None);
     ImGui::TableHeadersRow();
     constexpr const char* linear[] = {"Linear R", "Linear G", "Linear B"};
     constexpr const char* displayed[] = {"Displayed R", "Displayed G", "Displayed B"};

@@ -111,7 +111,7 @@ TEST(GltfAnimations, BrokenChannelsAreSkipped) {
     refused(with({0, nan}, {0, 0, 0, 1, 1, 1}), "not finite");
     refused(with({0, 1}, {0, 0, 0, 1, nan, 1}), "not finite");
     refused(with({1, 0}, {0, 0, 0, 1, 1, 1}), "not in order");
-    refused(with({-1, 0}, {0, 0, 0, 1, 1, 1}), "below 0");
+    refused(with({-1, 0}, {0, 0, 0, 1, 1, 1}), "negative");
     refused(with({0, 1, 2}, {0, 0, 0, 1, 1, 1}), "6 numbers for 3 keyframes");
     const auto changed = [&](const char* path, Json value) {
         Animated a = with({0, 1}, {0, 0, 0, 1, 1, 1});
