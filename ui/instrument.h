@@ -13,6 +13,7 @@ namespace blush {
 struct Instrument {
     const char* id;      // key in window.json
     const char* title;   // of the tab or window
+    const char* guide;   // its page of the guide, with anchor
     DockSide side;       // where it opens the first time
     float width, height; // of its window when it is torn off the first time, in font sizes
     bool remembered;     // reopened with the scene

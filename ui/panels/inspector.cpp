@@ -10,9 +10,10 @@ namespace {
 
 constexpr const char* tab_names[] = {"Selection", "Camera", "World", "Render", "Display"};
 
-// A row of tabs. Each is as wide as its name plus an equal share of the remaining width.
+// A row of tabs and a "?". Each is as wide as its name plus an equal share of the remaining width.
 void draw_tabs(PanelContext& c) {
-    float rest = ImGui::GetContentRegionAvail().x;
+    const float mark = ImGui::GetFrameHeight();
+    float rest = ImGui::GetContentRegionAvail().x - mark;
     for (const char* name : tab_names) rest -= ImGui::CalcTextSize(name).x;
     const float gap = rest / float(std::size(tab_names)), height = ImGui::GetFrameHeight() * 1.15f;
     ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -32,6 +33,12 @@ void draw_tabs(PanelContext& c) {
         else
             draw.AddRectFilled({low.x, high.y - 1}, high, tone::field);
     }
+    ImGui::SameLine(0, 0);
+    const ImVec2 low = ImGui::GetCursorScreenPos(), size = ImGui::CalcTextSize("?");
+    if (ImGui::InvisibleButton("?", {mark, height})) c.ui.guide_page = inspector_guide_page(c);
+    c.ui.probe.record_last_item("Tab/?");
+    draw.AddText({low.x + (mark - size.x) / 2, low.y + (height - size.y) / 2}, ImGui::IsItemHovered() ? tone::text : tone::dim_text, "?");
+    tip_for_last_item(c.ui, "Opens the page of the guide about this tab in the browser.");
 }
 
 void draw_selection(PanelContext& c) {
@@ -52,6 +59,20 @@ void draw_selection(PanelContext& c) {
 }
 
 } // namespace
+
+const char* inspector_guide_page(const PanelContext& c) {
+    switch (c.ui.tab) {
+    case InspectorTab::selection: {
+        const Node* node = c.scene().nodes.find(c.ui.selected);
+        return node && node->light ? "guide/lighting.html#units-and-colour" : "guide/materials.html";
+    }
+    case InspectorTab::camera: return "guide/display.html#exposure-and-white-balance";
+    case InspectorTab::environment: return "guide/lighting.html#kinds-of-lights";
+    case InspectorTab::render: return "guide/convergence.html";
+    case InspectorTab::display: return "guide/display.html";
+    }
+    return "README.html";
+}
 
 void draw_inspector(PanelContext& c) {
     draw_tabs(c);

@@ -15,6 +15,8 @@ class Fields;
 // Regions of the layout, drawn into the current ImGui window.
 void draw_menu_bar(PanelContext& c);
 void draw_outliner(PanelContext& c);
+// Page of the guide about what the inspector's tab shows.
+const char* inspector_guide_page(const PanelContext& c);
 void draw_inspector(PanelContext& c); // tabs, each made of the sections below
 void draw_status_bar(PanelContext& c);
 void draw_time(PanelContext& c); // for scenes with animations

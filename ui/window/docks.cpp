@@ -43,6 +43,7 @@ void draw_menu(PanelContext& c, const Instrument& i) {
     if ((tab.floats || tab.side == DockSide::right) && menu_item(c, "Dock at the bottom")) put(c, i, DockSide::bottom);
     if (!tab.floats && menu_item(c, "Tear off")) tear_off(c, i, false);
     ImGui::Separator();
+    if (menu_item(c, "Guide")) c.ui.guide_page = i.guide;
     if (menu_item(c, "Close")) i.set_open(c, false);
     ImGui::EndPopup();
 }
@@ -91,6 +92,12 @@ void draw_dock(PanelContext& c, std::span<const Instrument> instruments, DockSid
         std::vector<std::pair<float, std::string>> places;
         for (const std::string& id : ids)
             if (const auto x = draw_tab(c, *find_instrument(instruments, id), side, region)) places.emplace_back(*x, id);
+        const Instrument* const front = find_instrument(instruments, c.ui.settings.dock.front[size_t(side)]);
+        if (front && ImGui::TabItemButton("?", ImGuiTabItemFlags_Trailing | ImGuiTabItemFlags_NoTooltip)) c.ui.guide_page = front->guide;
+        if (front) {
+            c.ui.probe.record_last_item(std::string("Dock guide/") + front->title);
+            tip_for_last_item(c.ui, "Opens the page of the guide about this panel in the browser.");
+        }
         ImGui::EndTabBar();
         std::ranges::sort(places);
         Ids shown;
@@ -127,6 +134,23 @@ void follow_mouse(PanelContext& c, const Instrument& i, const Layout& l) {
     }
 }
 
+// "?" in the title bar, to the left of the button that closes the window.
+void draw_guide_button(PanelContext& c, const Instrument& i) {
+    ImGuiWindow& window = *ImGui::GetCurrentWindow();
+    const ImRect bar = window.TitleBarRect();
+    const float side = bar.GetHeight();
+    const ImRect box({bar.Max.x - 2 * side, bar.Min.y}, {bar.Max.x - side, bar.Max.y});
+    const ImGuiID id = window.GetID("?");
+    ImGui::PushClipRect(bar.Min, bar.Max, false);
+    bool hovered = false, held = false;
+    if (ImGui::ItemAdd(box, id) && ImGui::ButtonBehavior(box, id, &hovered, &held)) c.ui.guide_page = i.guide;
+    const ImVec2 text = ImGui::CalcTextSize("?");
+    ImGui::GetWindowDrawList()->AddText({box.GetCenter().x - text.x / 2, box.GetCenter().y - text.y / 2},
+                                        hovered ? tone::text : tone::dim_text, "?");
+    ImGui::PopClipRect();
+    c.ui.probe.record(std::string("Window guide/") + i.title, {box.Min.x, box.Min.y, side, side});
+}
+
 void draw_floating(PanelContext& c, const Instrument& i, const Layout& l) {
     DockView& view = c.ui.docks;
     const float em = ImGui::GetFontSize();
@@ -153,6 +177,7 @@ void draw_floating(PanelContext& c, const Instrument& i, const Layout& l) {
     if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) put(c, i, place_of(c, i).side);
     tip_for_last_item(c.ui, "Double-click to dock, or drop it on a dock or at an edge of the picture.");
     draw_menu(c, i);
+    draw_guide_button(c, i);
     follow_mouse(c, i, l);
     view.in_sight.insert(i.id);
     if (drawn) i.draw(c);

@@ -7,6 +7,8 @@
 #include "ui/panels/instruments.h"
 #include "ui/panels/panels.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -374,6 +376,34 @@ TEST_F(Panels, TheRouletteLabMeasuresWhileItIsOpen) {
     PanelContext c{document, ui, color, frame, {}, 64, 48};
     find_instrument(instruments(), "roulette")->set_open(c, false);
     EXPECT_FALSE(ui.roulette.runner);
+}
+
+// Anchors of a page of the guide: its headings, lower case, with hyphens for spaces.
+bool guide_has(const std::string& page) {
+    const size_t hash = page.find('#'), end = page.find(".html");
+    std::ifstream in(std::filesystem::path(BLUSH_DOCS) / (page.substr(0, end) + ".md"));
+    if (hash == std::string::npos) return in.good();
+    for (std::string line; std::getline(in, line);) {
+        if (line.empty() || line[0] != '#') continue;
+        std::string anchor = line.substr(line.find_first_not_of("# "));
+        std::ranges::transform(anchor, anchor.begin(), [](unsigned char c) { return c == ' ' ? '-' : char(std::tolower(c)); });
+        if (anchor == page.substr(hash + 1)) return true;
+    }
+    return false;
+}
+
+TEST_F(Panels, EachHasAPageInTheGuide) {
+    EXPECT_FALSE(guide_has("guide/lighting.html#none"));
+    EXPECT_FALSE(guide_has("guide/none.html"));
+    for (const Instrument& i : instruments()) EXPECT_TRUE(guide_has(i.guide)) << i.id << ": " << i.guide;
+    Document document(test::sample_project().project);
+    PanelContext c{document, ui, color, frame, {}, 64, 48};
+    for (const auto& [id, node] : document.scene().nodes)
+        for (int tab = 0; tab <= int(InspectorTab::display); ++tab) {
+            ui.selected = id;
+            ui.tab = InspectorTab(tab);
+            EXPECT_TRUE(guide_has(inspector_guide_page(c))) << inspector_guide_page(c);
+        }
 }
 
 } // namespace
