@@ -2,6 +2,7 @@
 #pragma once
 
 #include "measure/stability/verdict.h"
+#include "measure/stability/weak_points.h"
 
 #include <functional>
 #include <string>
