@@ -1,5 +1,6 @@
 // The inspector: tabs, each with the sections that belong together.
 #include "ui/panels/panels.h"
+#include "ui/widgets/tooltip.h"
 #include "ui/widgets/widgets.h"
 #include "ui/window/theme.h"
 

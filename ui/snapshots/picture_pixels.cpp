@@ -1,6 +1,7 @@
 #include "ui/snapshots/picture_pixels.h"
 
 #include "color/illuminance.h"
+#include "core/math.h"
 #include "render/film/coverage.h"
 #include "ui/snapshots/aov_pixels.h"
 #include "ui/snapshots/heat_map.h"

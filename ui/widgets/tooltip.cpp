@@ -5,6 +5,8 @@
 namespace blush {
 namespace {
 
+constexpr double tip_delay = 0.5; // seconds
+
 // The tooltip is beside the widget's window if that is near, else above or beside the widget: never over the row below.
 ImVec2 place_tip(const ImVec2& low, const ImVec2& high, const ImVec2& size) {
     const ImVec2 screen = ImGui::GetIO().DisplaySize, at = ImGui::GetWindowPos();

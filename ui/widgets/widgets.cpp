@@ -15,7 +15,6 @@ namespace blush {
 namespace {
 
 constexpr float label_share = 0.4f; // of a row's width
-constexpr double tip_delay = 0.5;   // seconds
 
 float label_width() { return std::floor(ImGui::GetWindowContentRegionMax().x * label_share); }
 
