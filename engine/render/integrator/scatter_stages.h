@@ -1,0 +1,190 @@
+// Stages of scatter() (estimator.h) behind the BSDF: next-event estimation, sampling of the next direction, Russian roulette.
+#pragma once
+
+#include "render/integrator/hit_stages.h"
+#include "shading/caustic_guiding.h"
+
+namespace blush::inline BLUSH_ISA {
+
+// MIS weight of NEE; delta lights cannot be hit, so their weight is always 1.
+template <class F> F nee_mis_weight(Strategy strategy, const F& light_pdf, const F& bsdf_pdf, const Mask<F>& delta) {
+    if (strategy == Strategy::bsdf) return select(delta, F(1.f), F(0.f));
+    if (strategy == Strategy::light) return F(1.f);
+    return select(delta, F(1.f), power_heuristic(light_pdf, bsdf_pdf));
+}
+
+// True if not black; NaN counts as light, so that it reaches the film and is reported.
+template <class F> Mask<F> has_light(const Vec<F>& v) { return !(v.x <= F(0.f) && v.y <= F(0.f) && v.z <= F(0.f)); }
+
+// Survival probability of a path with throughput beta (render_settings.h has the rules); biased_cut gives 0 or 1.
+template <class F> F survival_probability(const Roulette& r, const Vec<F>& beta) {
+    F q = F(1.f);
+    switch (r.rule) {
+    case Roulette::Rule::off: return F(1.f);
+    case Roulette::Rule::max: q = max_component(beta); break;
+    case Roulette::Rule::luminance: q = luminance(beta); break;
+    case Roulette::Rule::sqrt: q = sqrt(max_component(beta)); break;
+    case Roulette::Rule::constant: q = F(r.probability); break;
+    case Roulette::Rule::biased_cut: return select(max_component(beta) < F(r.threshold), F(0.f), F(1.f));
+    }
+    return min(F(min(r.cap, 1.f)), max(F(r.floor), q)); // this order propagates NaN
+}
+
+// What sample_direct and sample_indirect share.
+template <class F> struct ScatterSetup {
+    Mask<F> pane;          // thin glass: its straight lobe is handled in thin_transmission.h
+    F scatter_share;       // of the paths that do not pass the pane straight through; 1 elsewhere
+    bool guides;           // the scene has casters of caustics
+    CausticGuide<F> guide; // only if it has
+    Receiver<F> receiver;
+};
+template <Features S, class F> [[gnu::always_inline]] inline ScatterSetup<F>
+scatter_setup(const SceneTables& scene, const MaterialPoint<F>& material, const ShadingPoint<F>& p) {
+    ScatterSetup<F> setup{material.pane, F(1.f), false, {}, {p.surface.position, p.shading.ns}};
+    if constexpr (S.has(Feature::transmission))
+        if (scene.panes)
+            setup.scatter_share = select(material.pane, 1.f - straight_transmission<S, F>(p.bsdf, p.shading.wo).probability, F(1.f));
+    // Kernels without specular lobes contain no code for caustic guiding.
+    if constexpr (S.has(Feature::specular) || S.has(Feature::transmission)) {
+        setup.guides = scene.focus.count > 0;
+        if (setup.guides) setup.guide = caustic_guide_at<F>(scene.focus, p.surface.position, p.shading.ns, p.matte);
+    }
+    // Light from both sides.
+    if constexpr (S.has(Feature::transmission))
+        setup.receiver.normal = select<F>(material.bsdf.transmission > F(0.f), splat<F>(0.f), setup.receiver.normal);
+    if constexpr (S.has(Feature::diffuse_transmission))
+        setup.receiver.normal = select<F>(material.bsdf.layers.diffuse_transmission > F(0.f), splat<F>(0.f), setup.receiver.normal);
+    return setup;
+}
+
+// Next-event estimation with a point of one light: beta f |cos| L_e w_light / p_light, and the shadow ray that has to arrive
+// (Veach 1997, 9.2). Not where all lobes are delta lobes. `random`: pair of light_dimension.
+template <Features S, class F> [[gnu::always_inline]] inline void sample_direct(const SceneTables& scene, Strategy strategy,
+                                                                                const ShadingPoint<F>& p, const ScatterSetup<F>& setup,
+                                                                                const Pair<F>& random, Step<F>& out) {
+    const Mask<F> wants_light = p.scatters && !is_delta_only<F>(p.bsdf);
+    if (!any(wants_light)) return;
+    const LightPoint<F> light = sample_light_point<S, F>(scene, random, setup.receiver, wants_light);
+    const Vec<F> rough_to = select<F>(light.infinite, light.position, light.position - p.surface.position);
+    const Vec<F> from = offset_origin(p.surface.position, p.surface.error, p.shading.ng, dot(rough_to, p.shading.ng) > F(0.f));
+    // Ends on this side of the light's plane, so that the light does not shadow itself.
+    const Vec<F> end = offset_origin(light.position, light.error, light.normal, dot(rough_to, light.normal) < F(0.f));
+    const Vec<F> to = select<F>(light.infinite, light.position, end - from);
+    const F distance_squared = dot(to, to), distance = sqrt(distance_squared);
+    const Vec<F> wi_world = to / distance;
+    const Vec<F> wi = p.shading.frame.to_local(wi_world);
+    const IncidentLight<F> in = incident_light<S, F>(scene, light, wi_world, distance_squared);
+    const BsdfValue<F> f = eval<S, F>(p.bsdf, p.shading.wo, wi);
+    Mask<F> only_sampled = light.delta, lit = Mask<F>(true);
+    if constexpr (S.has(Feature::links)) {
+        if (scene.links.lit_sets) {
+            const Int<F> record = select(light.valid, light.light, Int<F>(0));
+            lit = is_lit<F>(scene.links, record, p.surface.part, wants_light);
+            only_sampled = only_sampled || has_own_shadows<F>(scene.links, record, wants_light);
+            out.shadow_mask = shadow_mask<F>(scene.links, record);
+        }
+    }
+    const F bsdf_pdf = setup.guides ? guided_pdf<F>(scene.focus, setup.guide, wi_world, f.pdf) : f.pdf;
+    const F weight = nee_mis_weight(strategy, in.pdf, bsdf_pdf, only_sampled);
+    out.direct = p.beta * f.f_cos * in.radiance * (weight / in.pdf);
+    if constexpr (S.has(Feature::transmission))
+        if (scene.panes) out.direct = out.direct * (1.f / max(setup.scatter_share, F(0x1p-24f)));
+    out.light = light.light;
+    out.weights.light = weight;
+    out.weights.light_pdf = in.pdf;
+    out.weights.light_bsdf_pdf = bsdf_pdf;
+    // Light leaks: reject directions where the shading and the geometric normal disagree.
+    const Mask<F> same_side = (wi.z > F(0.f)) == (dot(wi_world, p.shading.ng) > F(0.f));
+    out.connects = light.valid && lit && same_side && has_light(out.direct);
+    out.shadow = {from, wi_world};
+    out.shadow_distance = select(light.infinite, F(infinity), distance * (1.f - 4e-7f));
+}
+
+// A sampled direction of the path.
+template <class F> struct IndirectSample {
+    BsdfSample<F> bsdf; // wi in the shading frame
+    Vec<F> wi;          // world
+    F pdf_ratio;        // cosine pdf / pdf of the mixture with caustic guiding; 1 without
+    Mask<F> outward;    // wi leaves to the side of ng
+};
+
+// Caustic guiding: replaces the direction by one towards a caster with the guide's share, and the pdf by that of the mixture
+// (one-sample model, Veach 1997, 9.2.4; caustic_guiding.h). `choice` has selected the lobe before.
+template <class F> [[gnu::always_inline]] inline void guide_indirect(const SceneTables& scene, const ShadingPoint<F>& p,
+                                                                     const CausticGuide<F>& guide, const F& choice,
+                                                                     const Pair<F>& direction, IndirectSample<F>& s) {
+    const Mask<F> mixes = guide.share > F(0.f), guided = mixes && choice < guide.share;
+    if (any(guided)) {
+        const F which = min(F(choice / select(guided, guide.share, F(1.f))), F(one_minus_epsilon));
+        s.wi = select<F>(guided, sample_caster_direction<F>(scene.focus, guide, which, direction.x(), direction.y()), s.wi);
+        s.bsdf.wi = select<F>(guided, p.shading.frame.to_local(s.wi), s.bsdf.wi);
+    }
+    const F cosine = cosine_hemisphere_pdf(s.bsdf.wi.z);
+    s.bsdf.valid = select(mixes, cosine > F(0.f), s.bsdf.valid);
+    s.bsdf.pdf = select(mixes, guided_pdf<F>(scene.focus, guide, s.wi, cosine), s.bsdf.pdf);
+    s.pdf_ratio = select(mixes && s.bsdf.valid, cosine / s.bsdf.pdf, F(1.f));
+    s.bsdf.weight = select<F>(mixes, p.bsdf.diffuse * s.pdf_ratio, s.bsdf.weight);
+}
+
+// Samples wi with the BSDF or, on diffuse surfaces, towards a caustic caster; its weight is f |cos| / pdf. `choice` selects the
+// lobe, `direction` (pair of bsdf_dimension) its direction.
+template <Features S, class F>
+[[gnu::always_inline]] inline IndirectSample<F> sample_indirect(const SceneTables& scene, const ShadingPoint<F>& p,
+                                                                const ScatterSetup<F>& setup, const F& choice, const Pair<F>& direction) {
+    F lobe = choice;
+    if constexpr (S.has(Feature::transmission))
+        if (scene.panes) lobe = lobe * setup.scatter_share; // lobes other than the straight one keep their frequency
+    IndirectSample<F> s{sample<S, F>(p.bsdf, p.shading.wo, direction.x(), direction.y(), lobe), {}, F(1.f), {}};
+    if constexpr (S.has(Feature::transmission))
+        // rounding selected the straight lobe
+        if (scene.panes)
+            s.bsdf.valid = s.bsdf.valid && !(setup.pane && s.bsdf.delta && (s.bsdf.wi.z > F(0.f)) != (p.shading.wo.z > F(0.f)));
+    s.wi = p.shading.frame.to_world(s.bsdf.wi);
+    if (setup.guides && any(setup.guide.share > F(0.f))) guide_indirect<F>(scene, p, setup.guide, choice, direction, s);
+    s.outward = dot(s.wi, p.shading.ng) > F(0.f);
+    return s;
+}
+
+// Russian roulette (Arvo and Kirk 1990): the path survives with probability q, its throughput `beta` is divided by q. `u`: random
+// number in [0, 1).
+template <Features S, class F> [[gnu::always_inline]] inline void roulette(const EstimatorSettings& settings, const ShadingPoint<F>& p,
+                                                                           const IndirectSample<F>& s, int bounce, const F& u, Vec<F>& beta,
+                                                                           Step<F>& out) {
+    if (bounce + 1 < settings.roulette.start || settings.roulette.rule == Roulette::Rule::off) return;
+    // Undo the caustic guiding pdf: oversampled paths towards casters must not be ended for their low weight.
+    Vec<F> rr_beta = beta * (1.f / s.pdf_ratio);
+    if constexpr (S.has(Feature::transmission)) {
+        // Refraction into a solid scales beta by 1 / ior^2, which is undone on exit: undo it here too.
+        const F eta_squared = p.shading.params.ior * p.shading.params.ior;
+        rr_beta = select<F>(p.solid && !s.outward && p.shading.params.ior > F(0.f), rr_beta * eta_squared, rr_beta);
+    }
+    // Do not apply Russian roulette at delta lobes before bounce 17: such paths are likely caustic paths. A cap is needed for
+    // scenes with delta lobes only.
+    const Mask<F> asked = !s.bsdf.delta || Mask<F>(bounce + 1 >= first_rr_bounce_at_delta);
+    const F q = select(asked, survival_probability(settings.roulette, rr_beta), F(1.f));
+    out.weights.survival = q;
+    out.weights.asked = out.continues && asked;
+    out.continues = out.continues && !(u >= q);
+    beta = beta / max(q, F(1e-30f));
+}
+
+// The path behind this vertex, with throughput `beta`. `cone`: texture footprint at the vertex (ray_cone.h).
+template <Features S, class F> [[gnu::always_inline]] inline void next_path(const Path<F>& path, const ShadingPoint<F>& p,
+                                                                            const ScatterSetup<F>& setup, const IndirectSample<F>& s,
+                                                                            const Vec<F>& beta, const F& cone, Path<F>& next) {
+    next.ray = {offset_origin(p.surface.position, p.surface.error, p.shading.ng, s.outward), normalize(s.wi)};
+    next.beta = beta;
+    next.pdf = select(s.bsdf.delta, F(infinity), s.bsdf.pdf);
+    next.normal = setup.receiver.normal;
+    next.key = path.key;
+    next.index = path.index;
+    next.slot = path.slot;
+    if constexpr (S.has(Feature::links)) next.part = p.surface.part;
+    if constexpr (S.has(Feature::dispersion)) next.dispersed = select(p.dispersed, Int<F>(1), Int<F>(0));
+    if constexpr (S.has(Feature::textures)) {
+        const Mask<F> flat = p.shading.ns.x == p.shading.ng.x && p.shading.ns.y == p.shading.ng.y && p.shading.ns.z == p.shading.ng.z;
+        next.cone = scattered_cone<F>(cone, s.bsdf.delta, flat);
+    }
+}
+
+} // namespace blush::inline BLUSH_ISA
