@@ -71,12 +71,91 @@ Vec<F> varying_emission(const SceneTables& scene, const Int<F>& light, const Vec
            opacity_at<S, F>(scene.materials, surface.material, surface.at, surface.vertex_alpha, active);
 }
 
+// The stages of sample_light_point fill `p` where its light is of their kind; p.position and p.emission are those of the light's
+// record. (u, v): random numbers in [0, 1).
+template <class F> Mask<F> has_kind(const LightPoint<F>& p, LightKind kind) { return p.valid && as_mask(p.kind == int32_t(kind)); }
+
+// Uniform over the area of an emissive triangle.
+template <Features S, class F> [[gnu::always_inline]] inline void sample_triangle_light(const SceneTables& scene, const Int<F>& flags,
+                                                                                        const F& u, const F& v, LightPoint<F>& p) {
+    if constexpr (S.has(Feature::emissive_triangles)) {
+        const LightRecord* lights = scene.lights.lights;
+        const Mask<F> triangle = has_kind(p, LightKind::triangle);
+        if (!any(triangle)) return;
+        const Vec<F> e1 = gather_field3<F>(lights, &LightRecord::edge1, p.light);
+        const Vec<F> e2 = gather_field3<F>(lights, &LightRecord::edge2, p.light);
+        const Vec2T<F> b = sample_triangle(u, v);
+        const Vec<F> on = p.position + e1 * b.x + e2 * b.y;
+        const Vec<F> error = splat<F>(1.f) * (max_component(abs(p.position) + abs(e1) + abs(e2)) * gamma_bound(8));
+        p.error = select<F>(triangle, error, p.error);
+        p.normal = select<F>(triangle, normalize(cross(e1, e2)), p.normal);
+        p.density = select(triangle, gather_field(lights, &LightRecord::inverse_area, p.light), p.density);
+        if constexpr (S.has(Feature::textures) || S.has(Feature::vertex_colors)) {
+            const Mask<F> varying = triangle && as_mask((flags & int32_t(light_varying)) != 0);
+            if (any(varying)) p.emission = select<F>(varying, varying_emission<S, F>(scene, p.light, b, varying), p.emission);
+        }
+        if constexpr (S.has(Feature::clearcoat)) {
+            const LightSurface<F> surface = light_surface<S, F>(scene, p.light, b, triangle);
+            p.clearcoat = select(triangle, clearcoat_at<S, F>(scene.materials, surface.material, surface.at, triangle), p.clearcoat);
+        }
+        p.position = select<F>(triangle, on, p.position);
+    }
+}
+
+// Uniform over the solid angle of a sphere light as seen from `from` (sphere_light.h).
+template <Features S, class F> [[gnu::always_inline]] inline void sample_sphere_light(const SceneTables& scene, const Vec<F>& from,
+                                                                                      const F& u, const F& v, LightPoint<F>& p) {
+    if constexpr (S.has(Feature::sphere_lights)) {
+        const Mask<F> sphere = has_kind(p, LightKind::sphere);
+        if (!any(sphere)) return;
+        const F radius = gather_field(scene.lights.lights, &LightRecord::radius, p.light);
+        const SpherePoint<F> s = sample_sphere(p.position, radius, from, u, v);
+        // Embree's error bound of a ray's hit point on the sphere.
+        const F error = (max_component(abs(p.position)) + max_component(abs(from)) + s.distance) * gamma_bound(16);
+        p.error = select<F>(sphere, splat<F>(1.f) * error, p.error);
+        p.normal = select<F>(sphere, s.normal, p.normal);
+        p.density = select(sphere, cone_pdf(s.height), p.density);
+        p.position = select<F>(sphere, s.position, p.position);
+        p.valid = p.valid && !(sphere && s.height <= F(0.f));
+    }
+}
+
+// Uniform over the disk of a sun; a sun without a disk is a delta light.
+template <Features S, class F>
+[[gnu::always_inline]] inline void sample_sun(const SceneTables& scene, const F& u, const F& v, LightPoint<F>& p) {
+    if constexpr (S.has(Feature::suns)) {
+        const Mask<F> sun = has_kind(p, LightKind::sun);
+        if (!any(sun)) return;
+        const F height = gather_field(scene.lights.lights, &LightRecord::cone_height, p.light);
+        const Mask<F> disk = sun && height > F(0.f);
+        const Basis<F> around = basis_around(p.position);
+        const Vec<F> towards = around.to_world(sample_cone(height, u, v));
+        p.position = select<F>(disk, normalize(towards), p.position);
+        p.density = select(disk, cone_pdf(height), p.density);
+        p.infinite = p.infinite || sun;
+        p.delta = p.delta || (sun && !disk);
+    }
+}
+
+// A direction of the environment map; `v`: random bits.
+template <Features S, class F>
+[[gnu::always_inline]] inline void sample_environment_light(const SceneTables& scene, const F& u, const UInt<F>& v, LightPoint<F>& p) {
+    if constexpr (S.has(Feature::environment)) {
+        const Mask<F> environment = has_kind(p, LightKind::environment);
+        if (!any(environment)) return;
+        const EnvironmentSample<F> e = sample_environment<F>(scene.environment, u, v);
+        p.position = select<F>(environment, e.direction, p.position);
+        p.emission = select<F>(environment, e.radiance, p.emission);
+        p.density = select(environment, e.pdf, p.density);
+        p.infinite = p.infinite || environment;
+    }
+}
+
 // Samples a light for a receiver, and a point on it.
 template <Features S, class F>
 LightPoint<F> sample_light_point(const SceneTables& scene, const Pair<F>& random, const Receiver<F>& to, const Mask<F>& active) {
-    const LightTables& table = scene.lights;
-    const LightRecord* lights = table.lights;
-    const DiscreteSample<F> pick = pick_light<S, F>(table, to, random, active);
+    const LightRecord* lights = scene.lights.lights;
+    const DiscreteSample<F> pick = pick_light<S, F>(scene.lights, to, random, active);
     const F u = pick.remainder, v = random.y();
 
     LightPoint<F> p;
@@ -94,67 +173,12 @@ LightPoint<F> sample_light_point(const SceneTables& scene, const Pair<F>& random
     p.infinite = Mask<F>(false);
     p.delta = Mask<F>(false);
     p.clearcoat = F(0.f);
-    const auto is = [&](LightKind kind) { return p.valid && as_mask(p.kind == int32_t(kind)); };
 
-    if constexpr (S.has(Feature::emissive_triangles)) {
-        const Mask<F> triangle = is(LightKind::triangle);
-        if (any(triangle)) {
-            const Vec<F> e1 = gather_field3<F>(lights, &LightRecord::edge1, pick.index);
-            const Vec<F> e2 = gather_field3<F>(lights, &LightRecord::edge2, pick.index);
-            const Vec2T<F> b = sample_triangle(u, v);
-            const Vec<F> on = p.position + e1 * b.x + e2 * b.y;
-            const Vec<F> error = splat<F>(1.f) * (max_component(abs(p.position) + abs(e1) + abs(e2)) * gamma_bound(8));
-            p.error = select<F>(triangle, error, p.error);
-            p.normal = select<F>(triangle, normalize(cross(e1, e2)), p.normal);
-            p.density = select(triangle, gather_field(lights, &LightRecord::inverse_area, pick.index), p.density);
-            if constexpr (S.has(Feature::textures) || S.has(Feature::vertex_colors)) {
-                const Mask<F> varying = triangle && as_mask((flags & int32_t(light_varying)) != 0);
-                if (any(varying)) p.emission = select<F>(varying, varying_emission<S, F>(scene, pick.index, b, varying), p.emission);
-            }
-            if constexpr (S.has(Feature::clearcoat)) {
-                const LightSurface<F> surface = light_surface<S, F>(scene, pick.index, b, triangle);
-                p.clearcoat = select(triangle, clearcoat_at<S, F>(scene.materials, surface.material, surface.at, triangle), p.clearcoat);
-            }
-            p.position = select<F>(triangle, on, p.position);
-        }
-    }
-    if constexpr (S.has(Feature::point_lights)) p.delta = p.delta || is(LightKind::point);
-    if constexpr (S.has(Feature::sphere_lights)) {
-        const Mask<F> sphere = is(LightKind::sphere);
-        if (any(sphere)) {
-            const SpherePoint<F> s = sample_sphere(p.position, gather_field(lights, &LightRecord::radius, pick.index), to.position, u, v);
-            // Embree's error bound of a ray's hit point on the sphere.
-            const F error = (max_component(abs(p.position)) + max_component(abs(to.position)) + s.distance) * gamma_bound(16);
-            p.error = select<F>(sphere, splat<F>(1.f) * error, p.error);
-            p.normal = select<F>(sphere, s.normal, p.normal);
-            p.density = select(sphere, cone_pdf(s.height), p.density);
-            p.position = select<F>(sphere, s.position, p.position);
-            p.valid = p.valid && !(sphere && s.height <= F(0.f));
-        }
-    }
-    if constexpr (S.has(Feature::suns)) {
-        const Mask<F> sun = is(LightKind::sun);
-        if (any(sun)) {
-            const F height = gather_field(lights, &LightRecord::cone_height, pick.index);
-            const Mask<F> disk = sun && height > F(0.f);
-            const Basis<F> around = basis_around(p.position);
-            const Vec<F> towards = around.to_world(sample_cone(height, u, v));
-            p.position = select<F>(disk, normalize(towards), p.position);
-            p.density = select(disk, cone_pdf(height), p.density);
-            p.infinite = p.infinite || sun;
-            p.delta = p.delta || (sun && !disk);
-        }
-    }
-    if constexpr (S.has(Feature::environment)) {
-        const Mask<F> environment = is(LightKind::environment);
-        if (any(environment)) {
-            const EnvironmentSample<F> e = sample_environment<F>(scene.environment, u, random.bits_y);
-            p.position = select<F>(environment, e.direction, p.position);
-            p.emission = select<F>(environment, e.radiance, p.emission);
-            p.density = select(environment, e.pdf, p.density);
-            p.infinite = p.infinite || environment;
-        }
-    }
+    sample_triangle_light<S, F>(scene, flags, u, v, p);
+    if constexpr (S.has(Feature::point_lights)) p.delta = p.delta || has_kind(p, LightKind::point);
+    sample_sphere_light<S, F>(scene, to.position, u, v, p);
+    sample_sun<S, F>(scene, u, v, p);
+    sample_environment_light<S, F>(scene, u, random.bits_y, p);
     return p;
 }
 
