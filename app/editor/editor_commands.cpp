@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <iterator>
 #include <utility>
 
 namespace blush {
@@ -202,98 +203,111 @@ void escape(PanelContext& c) {
     c.ui.select({});
 }
 
+void toggle_meters(PanelContext& c) {
+    toggle_instrument(c, "meters");
+    if (c.ui.meters.open && c.project().view.meters.empty()) c.ui.tool = ViewTool::meter;
+}
+
+struct CommandAction {
+    Command command;
+    void (*run)(PanelContext&);
+};
+constexpr CommandAction command_actions[] = {
+    {Command::undo, [](PanelContext& c) { c.document.undo(); }},
+    {Command::redo, [](PanelContext& c) { c.document.redo(); }},
+    {Command::copy_value, [](PanelContext& c) { request_value_action(c.ui, ValueAction::copy); }},
+    {Command::paste_value, [](PanelContext& c) { request_value_action(c.ui, ValueAction::paste); }},
+    {Command::reset_value, [](PanelContext& c) { request_value_action(c.ui, ValueAction::reset); }},
+    {Command::duplicate, duplicate},
+    {Command::remove, remove},
+    {Command::add_ground, [](PanelContext& c) { add_ground(c, false); }},
+    {Command::add_catcher, [](PanelContext& c) { add_ground(c, true); }},
+    {Command::rename, begin_rename},
+    {Command::clear_selection, escape},
+    {Command::add_point, [](PanelContext& c) { add_light(c, Light::Kind::point); }},
+    {Command::add_spot, [](PanelContext& c) { add_light(c, Light::Kind::spot); }},
+    {Command::add_sun, [](PanelContext& c) { add_light(c, Light::Kind::sun); }},
+    {Command::add_rectangle, [](PanelContext& c) { add_light(c, Light::Kind::rectangle); }},
+    {Command::add_disk, [](PanelContext& c) { add_light(c, Light::Kind::disk); }},
+    {Command::add_sphere, [](PanelContext& c) { add_light(c, Light::Kind::sphere); }},
+    {Command::light_by_studio, [](PanelContext& c) { add_light_rig(c, LightRig::studio); }},
+    {Command::light_by_sky, [](PanelContext& c) { add_light_rig(c, LightRig::sky); }},
+    {Command::mute, toggle_mute},
+    {Command::solo, toggle_solo},
+    {Command::group_lights, group_lights},
+    {Command::place_highlight, [](PanelContext& c) { toggle_placing(c, PlacingBy::highlight); }},
+    {Command::place_shadow, [](PanelContext& c) { toggle_placing(c, PlacingBy::shadow); }},
+    {Command::look_through_light, toggle_look_through},
+    {Command::light_table, [](PanelContext& c) { toggle_instrument(c, "light_table"); }},
+    {Command::grab, [](PanelContext& c) { c.ui.transform.begin(Command::grab); }},
+    {Command::rotate, [](PanelContext& c) { c.ui.transform.begin(Command::rotate); }},
+    {Command::scale, [](PanelContext& c) { c.ui.transform.begin(Command::scale); }},
+    {Command::next_gizmo, [](PanelContext& c) { c.ui.transform.gizmo = TransformMode((int(c.ui.transform.gizmo) + 1) % 3); }},
+    {Command::local_axes, [](PanelContext& c) { c.ui.transform.local = !c.ui.transform.local; }},
+    {Command::frame_selection, [](PanelContext& c) { frame(c, bounds_of_selection(c)); }},
+    {Command::frame_all, [](PanelContext& c) { frame(c, world_bounds(c.scene())); }},
+    {Command::camera_view, go_home},
+    {Command::toggle_projection, toggle_projection},
+    {Command::toggle_overlays, [](PanelContext& c) { c.ui.settings.overlays = !c.ui.settings.overlays; }},
+    {Command::toggle_panels, [](PanelContext& c) { c.ui.panels_hidden = !c.ui.panels_hidden; }},
+    {Command::toggle_zoom, [](PanelContext& c) { c.ui.zoom = toggled(c.ui.zoom); }},
+    {Command::exposure_up, [](PanelContext& c) { change_exposure(c, c.project().view.exposure_ev + 0.5f); }},
+    {Command::exposure_down, [](PanelContext& c) { change_exposure(c, c.project().view.exposure_ev - 0.5f); }},
+    {Command::exposure_reset, [](PanelContext& c) { change_exposure(c, 0); }},
+    {Command::exposure_meter, meter_once},
+    {Command::exposure_auto, toggle_auto_exposure},
+    {Command::reset_white, reset_white},
+    {Command::pick_white, [](PanelContext& c) { c.ui.tool = ViewTool::pick_white; }},
+    {Command::toggle_denoise, toggle_denoise},
+    {Command::pause, [](PanelContext& c) { c.ui.paused = !c.ui.paused; }},
+    {Command::snapshot_strip, [](PanelContext& c) { c.ui.snapshots.open = !c.ui.snapshots.open; }},
+    {Command::dock_all, [](PanelContext& c) { dock_all(c.ui.settings.dock); }},
+    {Command::undelete_snapshot, [](PanelContext& c) { c.ui.snapshots.put_back(); }},
+    {Command::compare_wipe, [](PanelContext& c) { compare(c, Comparison::Mode::wipe); }},
+    {Command::compare_flicker, [](PanelContext& c) { compare(c, Comparison::Mode::flicker); }},
+    {Command::compare_difference, [](PanelContext& c) { compare(c, Comparison::Mode::difference); }},
+    {Command::guide, [](PanelContext& c) { c.ui.guide_page = "README.html"; }},
+    {Command::shortcuts, [](PanelContext& c) { c.ui.show_shortcuts = !c.ui.show_shortcuts; }},
+    {Command::history, [](PanelContext& c) { toggle_instrument(c, "history"); }},
+    {Command::light_mix, toggle_light_mix},
+    {Command::bounces, [](PanelContext& c) { toggle_instrument(c, "bounces"); }},
+    {Command::import_report, [](PanelContext& c) { toggle_instrument(c, "import_report"); }},
+    {Command::health, [](PanelContext& c) { toggle_instrument(c, "health"); }},
+    {Command::next_pass, [](PanelContext& c) { show_aov(c, stepped(c.ui.aov, c.frame.get(), 1)); }},
+    {Command::previous_pass, [](PanelContext& c) { show_aov(c, stepped(c.ui.aov, c.frame.get(), -1)); }},
+    {Command::render_region, [](PanelContext& c) { c.ui.tool = ViewTool::region; }},
+    {Command::render_all, [](PanelContext& c) { render_region(c, {}); }},
+    {Command::measure, [](PanelContext& c) { c.ui.tool = ViewTool::measure; }},
+    {Command::meters, toggle_meters},
+    {Command::scopes, [](PanelContext& c) { toggle_instrument(c, "scopes"); }},
+    {Command::roulette, [](PanelContext& c) { toggle_instrument(c, "roulette"); }},
+    {Command::convergence, [](PanelContext& c) { toggle_instrument(c, "convergence"); }},
+};
+
+// Those that the editor executes, because they need files or the window.
+constexpr Command commands_of_editor[] = {
+    Command::open,         Command::import_scene, Command::environment,     Command::ies,
+    Command::map,          Command::reload,       Command::save_scene,      Command::save_scene_as,
+    Command::snapshot_exr, Command::snapshot_png, Command::snapshot_folder, Command::load_convergence,
+    Command::full_screen,  Command::quit,
+};
+
+constexpr bool is_each_command_executed_once() {
+    for (int i = 0; i <= int(last_command); ++i) {
+        const auto executed = std::ranges::count(command_actions, Command(i), &CommandAction::command);
+        if (executed + std::ranges::count(commands_of_editor, Command(i)) != 1) return false;
+    }
+    return true;
+}
+static_assert(is_each_command_executed_once(), "a command is in neither or in both of the tables above");
+
 } // namespace
 
 bool run_command(Command command, PanelContext& c) {
-    switch (command) {
-    case Command::undo: c.document.undo(); return true;
-    case Command::redo: c.document.redo(); return true;
-    case Command::copy_value: request_value_action(c.ui, ValueAction::copy); return true;
-    case Command::paste_value: request_value_action(c.ui, ValueAction::paste); return true;
-    case Command::reset_value: request_value_action(c.ui, ValueAction::reset); return true;
-    case Command::duplicate: duplicate(c); return true;
-    case Command::remove: remove(c); return true;
-    case Command::add_ground: add_ground(c, false); return true;
-    case Command::add_catcher: add_ground(c, true); return true;
-    case Command::rename: begin_rename(c); return true;
-    case Command::clear_selection: escape(c); return true;
-    case Command::add_point: add_light(c, Light::Kind::point); return true;
-    case Command::add_spot: add_light(c, Light::Kind::spot); return true;
-    case Command::add_sun: add_light(c, Light::Kind::sun); return true;
-    case Command::add_rectangle: add_light(c, Light::Kind::rectangle); return true;
-    case Command::add_disk: add_light(c, Light::Kind::disk); return true;
-    case Command::add_sphere: add_light(c, Light::Kind::sphere); return true;
-    case Command::light_by_studio: add_light_rig(c, LightRig::studio); return true;
-    case Command::light_by_sky: add_light_rig(c, LightRig::sky); return true;
-    case Command::mute: toggle_mute(c); return true;
-    case Command::solo: toggle_solo(c); return true;
-    case Command::group_lights: group_lights(c); return true;
-    case Command::place_highlight: toggle_placing(c, PlacingBy::highlight); return true;
-    case Command::place_shadow: toggle_placing(c, PlacingBy::shadow); return true;
-    case Command::look_through_light: toggle_look_through(c); return true;
-    case Command::light_table: toggle_instrument(c, "light_table"); return true;
-    case Command::grab:
-    case Command::rotate:
-    case Command::scale: return c.ui.transform.begin(command);
-    case Command::next_gizmo: c.ui.transform.gizmo = TransformMode((int(c.ui.transform.gizmo) + 1) % 3); return true;
-    case Command::local_axes: c.ui.transform.local = !c.ui.transform.local; return true;
-    case Command::frame_selection: frame(c, bounds_of_selection(c)); return true;
-    case Command::frame_all: frame(c, world_bounds(c.scene())); return true;
-    case Command::camera_view: go_home(c); return true;
-    case Command::toggle_projection: toggle_projection(c); return true;
-    case Command::toggle_overlays: c.ui.settings.overlays = !c.ui.settings.overlays; return true;
-    case Command::toggle_panels: c.ui.panels_hidden = !c.ui.panels_hidden; return true;
-    case Command::toggle_zoom: c.ui.zoom = toggled(c.ui.zoom); return true;
-    case Command::exposure_up: change_exposure(c, c.project().view.exposure_ev + 0.5f); return true;
-    case Command::exposure_down: change_exposure(c, c.project().view.exposure_ev - 0.5f); return true;
-    case Command::exposure_reset: change_exposure(c, 0); return true;
-    case Command::exposure_meter: meter_once(c); return true;
-    case Command::exposure_auto: toggle_auto_exposure(c); return true;
-    case Command::reset_white: reset_white(c); return true;
-    case Command::pick_white: c.ui.tool = ViewTool::pick_white; return true;
-    case Command::toggle_denoise: toggle_denoise(c); return true;
-    case Command::pause: c.ui.paused = !c.ui.paused; return true;
-    case Command::snapshot_strip: c.ui.snapshots.open = !c.ui.snapshots.open; return true;
-    case Command::dock_all: dock_all(c.ui.settings.dock); return true;
-    case Command::undelete_snapshot: c.ui.snapshots.put_back(); return true;
-    case Command::compare_wipe: compare(c, Comparison::Mode::wipe); return true;
-    case Command::compare_flicker: compare(c, Comparison::Mode::flicker); return true;
-    case Command::compare_difference: compare(c, Comparison::Mode::difference); return true;
-    case Command::guide: c.ui.guide_page = "README.html"; return true;
-    case Command::shortcuts: c.ui.show_shortcuts = !c.ui.show_shortcuts; return true;
-    case Command::history: toggle_instrument(c, "history"); return true;
-    case Command::light_mix: toggle_light_mix(c); return true;
-    case Command::bounces: toggle_instrument(c, "bounces"); return true;
-    case Command::import_report: toggle_instrument(c, "import_report"); return true;
-    case Command::health: toggle_instrument(c, "health"); return true;
-    case Command::next_pass: show_aov(c, stepped(c.ui.aov, c.frame.get(), 1)); return true;
-    case Command::previous_pass: show_aov(c, stepped(c.ui.aov, c.frame.get(), -1)); return true;
-    case Command::render_region: c.ui.tool = ViewTool::region; return true;
-    case Command::render_all: render_region(c, {}); return true;
-    case Command::measure: c.ui.tool = ViewTool::measure; return true;
-    case Command::meters:
-        toggle_instrument(c, "meters");
-        if (c.ui.meters.open && c.project().view.meters.empty()) c.ui.tool = ViewTool::meter;
-        return true;
-    case Command::scopes: toggle_instrument(c, "scopes"); return true;
-    case Command::roulette: toggle_instrument(c, "roulette"); return true;
-    case Command::convergence: toggle_instrument(c, "convergence"); return true;
-    case Command::open:
-    case Command::import_scene:
-    case Command::environment:
-    case Command::ies:
-    case Command::map:
-    case Command::reload:
-    case Command::save_scene:
-    case Command::save_scene_as:
-    case Command::snapshot_exr:
-    case Command::snapshot_png:
-    case Command::snapshot_folder:
-    case Command::load_convergence:
-    case Command::full_screen:
-    case Command::quit: return false;
-    }
-    return false;
+    const auto* action = std::ranges::find(command_actions, command, &CommandAction::command);
+    if (action == std::end(command_actions)) return false;
+    action->run(c);
+    return true;
 }
 
 } // namespace blush

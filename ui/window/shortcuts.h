@@ -105,6 +105,7 @@ enum class Command {
     convergence,
     load_convergence,
 };
+constexpr Command last_command = Command::load_convergence; // of the enumeration
 
 struct Shortcut {
     Command command;
