@@ -1,4 +1,4 @@
-// Reads and writes images. The only file that uses OpenImageIO. Treats any input as hostile.
+// Reads (image_reading.cpp) and writes (image_writing.cpp) images, with OpenImageIO. Treats any input as hostile.
 #pragma once
 
 #include "core/result.h"
