@@ -26,8 +26,6 @@ namespace {
 // Milliseconds for a UI frame while a picture is being drawn: normally; while the user waits for changed view settings; and while
 // a light mix is edited, which must be visible in the same frame.
 constexpr double default_frame = 16, view_change_frame = 20, mix_edit_frame = 12;
-// Time without a change after which an edit of the mix has paused: during a drag, not every UI frame has mouse input.
-constexpr std::chrono::milliseconds mix_pause_after{120};
 
 Region window_region() {
     const ImVec2 at = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
@@ -117,7 +115,7 @@ void inspect(PanelContext& c, double u, double v) {
 }
 
 // True if the frame, and its denoised picture if it is shown, have group planes for these gains.
-bool can_be_mixed(const PanelContext& c, const Gains& gains, bool denoised) {
+bool has_planes_for(const PanelContext& c, const Gains& gains, bool denoised) {
     if (!c.frame || gains.empty() || c.frame->groups.size() != gains.size()) return false;
     return !denoised || (c.denoised && c.denoised->groups && c.denoised->groups->planes.size() == gains.size());
 }
@@ -163,75 +161,92 @@ void Viewport::upload_thinned(const MixPreviewSource& moved, const Gains& gains,
     display_.upload_denoised(denoised.width, denoised.height, denoised.values);
 }
 
-void Viewport::take_frame(PanelContext& c, const FrameBudget& pace) {
+// What the user wants to see.
+struct Viewport::WantedPicture {
+    PictureView view;
+    DisplayLook look;
+    Gains gains;             // of the light groups; empty without a mix
+    MixPreviewSource source; // the pictures, for a preview of the mix
+    bool special = false;    // not the beauty
+
+    // True if the gains can be applied to the group planes of all pictures that are shown.
+    bool can_be_mixed(const PanelContext& c) const {
+        return has_planes_for(c, gains, source.shows_denoised) && !special && !look.numbers.background_as_it_is;
+    }
+};
+
+Viewport::WantedPicture Viewport::wanted_picture(PanelContext& c) {
     const ViewSettings v = c.shown_view();
-    PictureView view = c.ui.picture_view(c.frame ? int(c.frame->bounces.size()) : 0);
-    if (view.show == PictureView::Show::beauty && v.false_color.of == FalseColor::Of::lux) view.show = PictureView::Show::illuminance;
-    const bool special = c.frame && is_special(*c.frame, view);
-    DisplayParameters numbers = display_parameters_of(v);
-    if (special && is_map(view)) numbers.false_color = {};            // it has colours of its own
-    if (special && is_data(view)) numbers.background_as_it_is = true; // all its pixels count as background
-    const DisplayLook current_pictures{numbers, special ? PictureMix{} : mix_of(c.ui.denoise, c.denoised != nullptr),
-                                       !special && c.frame && c.frame->transparent};
-    const Gains gains = c.mixing ? c.mixing->gains : Gains();
-    const bool new_gains = gains != uploaded_gains_, shows_denoised = current_pictures.mix.denoised_weight != 0;
-    // While a mix is edited it is shown at once, at a lower resolution if time is short; full resolution follows when the edit
-    // pauses.
-    const bool moved = new_gains && can_be_mixed(c, gains, shows_denoised) && !special && !numbers.background_as_it_is;
+    WantedPicture w;
+    w.view = c.ui.picture_view(c.frame ? int(c.frame->bounces.size()) : 0);
+    if (w.view.show == PictureView::Show::beauty && v.false_color.of == FalseColor::Of::lux) w.view.show = PictureView::Show::illuminance;
+    w.special = c.frame && is_special(*c.frame, w.view);
+    w.look.numbers = display_parameters_of(v);
+    if (w.special && is_map(w.view)) w.look.numbers.false_color = {};            // it has colours of its own
+    if (w.special && is_data(w.view)) w.look.numbers.background_as_it_is = true; // all its pixels count as background
+    w.look.mix = w.special ? PictureMix{} : mix_of(c.ui.denoise, c.denoised != nullptr);
+    w.look.over_checker = !w.special && c.frame && c.frame->transparent;
+    if (c.mixing) w.gains = c.mixing->gains;
+    w.source = {c.frame, c.denoised, w.look.mix.raw_weight != 0, w.look.mix.denoised_weight != 0};
+    return w;
+}
+
+PictureInputs Viewport::picture_inputs(const PanelContext& c, const WantedPicture& w, const FrameBudget& pace) {
     const auto now = FrameBudget::Clock::now();
-    if (moved) mix_edited_at_ = now;
-    const MixPreviewSource moving{c.frame, c.denoised, current_pictures.mix.raw_weight != 0, shows_denoised};
-    const auto drawing = [&](double pixels) { return display_.expected_milliseconds(pixels, shows_denoised ? 2 : 1); };
-    const int step = moved ? preview_.step_in_time(moving, pace.left(mix_edit_frame, now), drawing) : 1;
-    const bool subsampled = preview_step_ > 1 && !moved, rests = subsampled && now >= mix_edited_at_ + mix_pause_after;
-    const bool waits = subsampled && !rests; // for the next edit of the mix
-    if (waits)
-        c.ui.seconds_to_next_frame =
-            std::min(c.ui.seconds_to_next_frame, std::chrono::duration<double>(mix_edited_at_ + mix_pause_after - now).count());
-    const bool new_frame = c.frame && c.frame->width > 0 && !waits &&
-                           (c.frame != uploaded_frame_ || view != uploaded_view_ || new_gains || rests ||
-                            numbers.background_as_it_is != look_.numbers.background_as_it_is);
-    const bool new_denoised = shows_denoised && !waits && (c.denoised != uploaded_denoised_ || new_gains || rests);
-    // A switch between raw and denoised cancels the picture in progress. The blend slider does not, because each step would
-    // restart it.
-    const bool toggled = uploaded_frame_ && current_pictures.mix != look_.mix &&
-                         (current_pictures.mix.raw_weight == 0 || current_pictures.mix.denoised_weight == 0) && !new_denoised;
-    if (display_.busy() && toggled) {
-        display_.begin(current_pictures);
-        look_ = current_pictures;
-        shows_requested_view_ = true;
+    PictureInputs in;
+    in.has_frame = c.frame && c.frame->width > 0;
+    in.has_picture = uploaded_frame_ != nullptr;
+    in.new_frame =
+        c.frame != uploaded_frame_ || w.view != uploaded_view_ || w.look.numbers.background_as_it_is != look_.numbers.background_as_it_is;
+    in.shows_denoised = w.source.shows_denoised;
+    in.new_denoised = c.denoised != uploaded_denoised_;
+    in.new_gains = w.gains != uploaded_gains_;
+    in.edits_mix = in.new_gains && w.can_be_mixed(c);
+    if (in.edits_mix) {
+        mix_edited_at_ = now;
+        const auto drawing = [&](double pixels) { return display_.expected_milliseconds(pixels, in.shows_denoised ? 2 : 1); };
+        in.preview_step = preview_.step_in_time(w.source, pace.left(mix_edit_frame, now), drawing);
     }
-    const bool free = !display_.busy() || (step > 1 && preview_step_ == 1);
-    if (free && (new_frame || (uploaded_frame_ && (new_denoised || shader_changed_ || look_ != current_pictures)))) {
-        if (step > 1)
-            upload_thinned(moving, gains, step);
-        else if (new_frame)
-            upload_frame(c.frame, view, gains, numbers.background_as_it_is);
-        if (new_denoised && step == 1) upload_denoised(c.denoised, gains);
-        if (new_frame) uploaded_frame_ = c.frame, uploaded_view_ = view, preview_step_ = step;
-        if (step == 1) preview_.forget();
-        if (new_denoised) uploaded_denoised_ = c.denoised;
-        uploaded_gains_ = gains;
-        display_.begin(current_pictures);
-        begun_ = true;
-        shows_requested_view_ = look_ != current_pictures;
-        look_ = current_pictures;
-        shader_changed_ = false;
-    }
+    in.new_look = w.look != look_;
+    in.switched_to_one = w.look.mix != look_.mix && (w.look.mix.raw_weight == 0 || w.look.mix.denoised_weight == 0);
+    in.new_shader = shader_changed_;
+    in.since_mix_edit = now - mix_edited_at_;
+    return in;
+}
+
+void Viewport::upload(const PanelContext& c, const WantedPicture& w, const PictureStep& step) {
+    if (step.preview_step > 1)
+        upload_thinned(w.source, w.gains, step.preview_step);
+    else if (step.takes_frame)
+        upload_frame(c.frame, w.view, w.gains, w.look.numbers.background_as_it_is);
+    if (step.takes_denoised && step.preview_step == 1) upload_denoised(c.denoised, w.gains);
+    if (step.takes_frame) uploaded_frame_ = c.frame, uploaded_view_ = w.view;
+    if (step.takes_denoised) uploaded_denoised_ = c.denoised;
+    if (step.preview_step == 1) preview_.forget();
+    uploaded_gains_ = w.gains;
+    shader_changed_ = false;
+}
+
+// Carries out the step that next() decides.
+void Viewport::take_frame(PanelContext& c, const FrameBudget& pace) {
+    using Seconds = std::chrono::duration<double>;
+    const WantedPicture wanted = wanted_picture(c);
+    const PictureStep step = next(state_, picture_inputs(c, wanted, pace));
+    if (step.pause_in) c.ui.seconds_to_next_frame = std::min(c.ui.seconds_to_next_frame, Seconds(*step.pause_in).count());
+    if (step.begins) upload(c, wanted, step);
+    if (step.begins || step.restarts) display_.begin(look_ = wanted.look);
+    state_ = step.state;
     drew_display_ = display_.busy();
-    // After a change of view settings or mix, the user waits for the current picture and for the new one.
-    const bool awaited = look_ != current_pictures || shows_requested_view_ || preview_step_ > 1;
-    display_.advance(pace.left(awaited ? view_change_frame : default_frame, FrameBudget::Clock::now()));
+    display_.advance(pace.left(step.awaited ? view_change_frame : default_frame, FrameBudget::Clock::now()));
     if (display_.busy()) {
         c.ui.seconds_to_next_frame = 0;
-    } else if (begun_) {
-        begun_ = shows_requested_view_ = false;
+    } else if (is_drawing(state_)) {
+        state_ = drawn(state_);
         shown_frame_ = uploaded_frame_;
         shown_gains_ = uploaded_gains_;
-        shown_preview_step_ = preview_step_;
+        shows_preview_ = is_preview(state_);
         // the next one may be ready
-        c.ui.seconds_to_next_frame =
-            preview_step_ == 1 ? 0 : std::min(c.ui.seconds_to_next_frame, std::chrono::duration<double>(mix_pause_after).count());
+        c.ui.seconds_to_next_frame = shows_preview_ ? std::min(c.ui.seconds_to_next_frame, Seconds(mix_pause_after).count()) : 0;
     }
 }
 
@@ -268,7 +283,7 @@ void Viewport::draw_outline(const PanelContext& c, const ImageRect& image) {
 void Viewport::draw_picture(PanelContext& c, const ImageRect& image, bool outlined) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const GLuint picture = display_.texture();
-    set_filter(picture, c.ui.zoom.scale >= 1 && shown_frame_->divider == 1 && shown_preview_step_ == 1 ? GL_NEAREST : GL_LINEAR);
+    set_filter(picture, c.ui.zoom.scale >= 1 && shown_frame_->divider == 1 && !shows_preview_ ? GL_NEAREST : GL_LINEAR);
     // opaque: blending would only cost time
     draw.AddCallback([](const ImDrawList*, const ImDrawCmd*) { glDisable(GL_BLEND); }, nullptr);
     // clipped to the window: coordinates far outside lose precision

@@ -11,6 +11,7 @@
 #include "ui/transform/handles.h"
 #include "ui/transform/transformer.h"
 #include "ui/viewport/navigation.h"
+#include "ui/viewport/picture_state.h"
 #include "ui/viewport/region_backdrop.h"
 #include "ui/views/mix_preview.h"
 #include "ui/window/frame_budget.h"
@@ -33,11 +34,15 @@ public:
     // The gains of its light groups as displayed; empty without groups.
     const Gains& shown_gains() const { return shown_gains_; }
     // True if the pictures are displayed with these gains.
-    bool shows(const PictureMix& mix) const { return shown_frame_ && !begun_ && look_.mix == mix; }
+    bool shows(const PictureMix& mix) const { return shown_frame_ && !is_drawing(state_) && look_.mix == mix; }
     // True if it temporarily shows a lower resolution, while a light mix is edited.
-    bool is_thinned() const { return preview_step_ > 1 || shown_preview_step_ > 1; }
+    bool is_thinned() const { return is_preview(state_) || shows_preview_; }
 
 private:
+    struct WantedPicture;
+    static WantedPicture wanted_picture(PanelContext& c);
+    PictureInputs picture_inputs(const PanelContext& c, const WantedPicture& w, const FrameBudget& pace);
+    void upload(const PanelContext& c, const WantedPicture& w, const PictureStep& step);
     void take_frame(PanelContext& c, const FrameBudget& pace);
     void upload_frame(const FramePtr& shown, const PictureView& view, const Gains& gains, bool background_as_it_is);
     void upload_denoised(const DenoisedPtr& denoised, const Gains& gains);
@@ -65,16 +70,16 @@ private:
     FramePtr uploaded_frame_, shown_frame_;
     PictureView uploaded_view_;
     DenoisedPtr uploaded_denoised_;
-    Gains uploaded_gains_, shown_gains_;            // of raw and denoised picture
-    int preview_step_ = 1, shown_preview_step_ = 1; // only every n-th pixel of a row, and every n-th row, of both
-    FrameBudget::TimePoint mix_edited_at_{};        // last edit of the mix
+    Gains uploaded_gains_, shown_gains_; // of raw and denoised picture
+    PictureState state_ = PictureState::current;
+    bool shows_preview_ = false;             // the displayed picture is a preview of the mix
+    FrameBudget::TimePoint mix_edited_at_{}; // last edit of the mix
     MixPreview preview_;
     std::shared_ptr<std::vector<float>> mixed_, mixed_denoised_; // mixed pictures, kept to reuse their memory
     Workers workers_{0};                                         // for mixing planes
     DisplayLook look_;
-    bool shader_changed_ = false, begun_ = false;
-    bool shows_requested_view_ = false; // the picture in progress has the last requested view settings
-    bool drew_display_ = false;         // in this UI frame
+    bool shader_changed_ = false;
+    bool drew_display_ = false; // in this UI frame
     struct Outlined {
         FramePtr frame;
         Id<Node> selected;

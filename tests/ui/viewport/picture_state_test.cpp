@@ -1,0 +1,153 @@
+// The state machine that decides what the viewport uploads and draws.
+#include "ui/viewport/picture_state.h"
+
+#include <gtest/gtest.h>
+
+namespace blush {
+namespace {
+
+using enum PictureState;
+using namespace std::chrono_literals;
+
+constexpr PictureState all_states[] = {current, drawing, drawing_new_look, preview, drawing_preview};
+
+// A picture is displayed, and nothing has changed.
+PictureInputs unchanged() { return {.has_frame = true, .has_picture = true, .since_mix_edit = 10s}; }
+
+// The gains of the mix have changed, and every n-th pixel per axis can be shown in this UI frame.
+PictureInputs mix_edit(int step) {
+    PictureInputs in = unchanged();
+    in.new_gains = in.edits_mix = true;
+    in.preview_step = step;
+    in.since_mix_edit = 0s;
+    return in;
+}
+
+bool draws(const PictureStep& step) { return step.begins || step.restarts; }
+
+TEST(PictureState, DrawsNothingWithoutAChange) {
+    for (const PictureState state : {current, drawing, drawing_new_look}) {
+        const PictureStep step = next(state, unchanged());
+        EXPECT_EQ(step.state, state);
+        EXPECT_FALSE(draws(step));
+        EXPECT_FALSE(step.pause_in);
+        EXPECT_EQ(step.awaited, state == drawing_new_look);
+    }
+}
+
+TEST(PictureState, DrawsNothingBeforeTheFirstFrame) {
+    PictureInputs in{.new_frame = true, .new_look = true, .new_shader = true};
+    EXPECT_FALSE(draws(next(current, in)));
+    in.has_frame = true;
+    EXPECT_TRUE(next(current, in).begins);
+}
+
+TEST(PictureState, FinishesAPictureBeforeTheNextFrame) {
+    PictureInputs in = unchanged();
+    in.new_frame = true;
+    EXPECT_FALSE(draws(next(drawing, in)));
+    const PictureStep step = next(drawn(drawing), in);
+    EXPECT_TRUE(step.begins && step.takes_frame);
+    EXPECT_FALSE(step.takes_denoised || step.awaited);
+    EXPECT_EQ(step.preview_step, 1);
+    EXPECT_EQ(step.state, drawing);
+}
+
+TEST(PictureState, TakesADenoisedPictureOnlyIfItIsShown) {
+    PictureInputs in = unchanged();
+    in.new_denoised = true;
+    EXPECT_FALSE(draws(next(current, in)));
+    in.shows_denoised = true;
+    const PictureStep step = next(current, in);
+    EXPECT_TRUE(step.begins && step.takes_denoised);
+    EXPECT_FALSE(step.takes_frame);
+}
+
+TEST(PictureState, AChangedLookIsAwaitedUntilItIsDrawn) {
+    PictureInputs in = unchanged();
+    in.new_look = true;
+    const PictureStep busy = next(drawing, in); // the picture in progress is finished sooner
+    EXPECT_FALSE(draws(busy));
+    EXPECT_TRUE(busy.awaited);
+    const PictureStep step = next(current, in);
+    EXPECT_TRUE(step.begins && step.awaited);
+    EXPECT_FALSE(step.takes_frame || step.takes_denoised); // the pixels are uploaded
+    EXPECT_EQ(step.state, drawing_new_look);
+    EXPECT_TRUE(next(step.state, unchanged()).awaited);
+    EXPECT_EQ(drawn(step.state), current);
+    EXPECT_FALSE(next(drawn(step.state), unchanged()).awaited);
+}
+
+TEST(PictureState, ASwitchBetweenRawAndDenoisedRestartsThePicture) {
+    PictureInputs in = unchanged();
+    in.new_look = in.switched_to_one = true;
+    const PictureStep step = next(drawing, in);
+    EXPECT_TRUE(step.restarts && step.awaited);
+    EXPECT_FALSE(step.begins || step.takes_frame || step.takes_denoised);
+    EXPECT_EQ(step.state, drawing_new_look);
+    EXPECT_EQ(next(drawing_preview, in).state, drawing_preview);
+
+    in.switched_to_one = false; // the blend slider
+    EXPECT_FALSE(next(drawing, in).restarts);
+    in.switched_to_one = in.shows_denoised = in.new_denoised = true; // its pixels must be uploaded first
+    EXPECT_FALSE(next(drawing, in).restarts);
+}
+
+TEST(PictureState, AnEditOfTheMixInterruptsAFullPictureButNotAPreview) {
+    for (const PictureState state : {current, drawing, drawing_new_look, preview}) {
+        const PictureStep step = next(state, mix_edit(4));
+        EXPECT_TRUE(step.begins && step.takes_frame && step.awaited);
+        EXPECT_EQ(step.preview_step, 4);
+        EXPECT_EQ(step.state, drawing_preview);
+    }
+    EXPECT_FALSE(draws(next(drawing_preview, mix_edit(4))));
+    EXPECT_EQ(drawn(drawing_preview), preview);
+    // In full resolution it waits like every other picture.
+    EXPECT_FALSE(draws(next(drawing, mix_edit(1))));
+    EXPECT_EQ(next(current, mix_edit(1)).state, drawing);
+    EXPECT_EQ(next(preview, mix_edit(1)).state, drawing);
+}
+
+TEST(PictureState, FullResolutionFollowsWhenTheEditPauses) {
+    PictureInputs in = unchanged();
+    in.shows_denoised = in.new_frame = in.new_denoised = true; // new frames wait, too
+    in.since_mix_edit = mix_pause_after - 1ms;
+    const PictureStep early = next(preview, in);
+    EXPECT_FALSE(draws(early));
+    EXPECT_EQ(early.state, preview);
+    ASSERT_TRUE(early.pause_in);
+    EXPECT_EQ(*early.pause_in, 1ms);
+
+    in = unchanged();
+    in.shows_denoised = true;
+    in.since_mix_edit = mix_pause_after;
+    const PictureStep paused = next(preview, in);
+    EXPECT_TRUE(paused.begins && paused.takes_frame && paused.takes_denoised);
+    EXPECT_EQ(paused.preview_step, 1);
+    EXPECT_EQ(paused.state, drawing);
+    EXPECT_FALSE(paused.pause_in);
+}
+
+TEST(PictureState, ANewLookOfAPreviewKeepsItsPixels) {
+    PictureInputs in = unchanged();
+    in.new_look = true;
+    in.since_mix_edit = 1ms;
+    const PictureStep step = next(preview, in);
+    EXPECT_TRUE(step.begins);
+    EXPECT_FALSE(step.takes_frame || step.takes_denoised);
+    EXPECT_EQ(step.state, drawing_preview);
+}
+
+TEST(PictureState, AskedAgainEveryPictureEndsInFullResolution) {
+    for (const PictureState from : all_states) {
+        PictureState state = from;
+        for (int i = 0; i < 3; ++i) {
+            const PictureStep step = next(state, unchanged());
+            state = drawn(step.state);
+        }
+        EXPECT_EQ(state, current);
+    }
+}
+
+} // namespace
+} // namespace blush
