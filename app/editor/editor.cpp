@@ -300,7 +300,8 @@ void Editor::draw_on_top(PanelContext& c) {
 // Executes requests of panels, menus and keys.
 void Editor::handle_requests(PanelContext& c) {
     for (const Command command : std::exchange(ui_.commands, {})) {
-        const bool needs_document = command != Command::open && command != Command::quit && command != Command::shortcuts;
+        const bool needs_document =
+            command != Command::open && command != Command::quit && command != Command::shortcuts && command != Command::guide;
         if (needs_document && files_.preview())
             ui_.toasts.note("Not available until the textures are loaded");
         else if (!run_command(command, c))

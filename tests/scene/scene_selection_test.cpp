@@ -1,4 +1,5 @@
 // Selection of clips, scenes and variants as undoable edits.
+#include "scene/animation/pose.h"
 #include "scene/animation/posed_scene.h"
 #include "scene/document/document.h"
 #include "scene/document/scene_selection.h"

@@ -87,8 +87,10 @@ std::function<void(GltfBuilder&)> extension(const char* name, Json value) {
     };
 }
 
-const std::map<std::string, std::function<void(GltfBuilder&)>>& faults() {
-    static const std::map<std::string, std::function<void(GltfBuilder&)>> all{
+using Faults = std::map<std::string, std::function<void(GltfBuilder&)>>;
+
+Faults faults_of_buffers() {
+    return {
         // Numbers in buffers.
         {"corner beyond the vertices", number<uint16_t>(corners, 1, 7)},
         {"corner that restarts primitives", number<uint16_t>(corners, 1, 65535)},
@@ -144,6 +146,11 @@ const std::map<std::string, std::function<void(GltfBuilder&)>>& faults() {
                  {"count", 1}, {"indices", {{"bufferView", indices}, {"componentType", 5121}}}, {"values", {{"bufferView", values}}}};
          }},
         {"view beyond its buffer", set("/bufferViews/0/byteLength", 100000)},
+    };
+}
+
+Faults faults_of_structure() {
+    return {
         {"view of no buffer", set("/bufferViews/0/buffer", 4)},
         {"accessor of no view", set("/accessors/0/bufferView", 44)},
         {"stride of three", set("/bufferViews/0/byteStride", 3)},
@@ -199,6 +206,11 @@ const std::map<std::string, std::function<void(GltfBuilder&)>>& faults() {
         {"no positions", [](GltfBuilder& b) { attributes(b).erase("POSITION"); }},
         {"no attributes", [](GltfBuilder& b) { attributes(b) = Json::object(); }},
         {"no primitives", set("/meshes/0/primitives", Json::array())},
+    };
+}
+
+Faults faults_of_meshes_and_nodes() {
+    return {
         {"joints without weights", [](GltfBuilder& b) { attributes(b).erase("WEIGHTS_0"); }},
         {"tangents without normals", [](GltfBuilder& b) { attributes(b).erase("NORMAL"); }},
         {"second texture coordinates without the first",
@@ -254,6 +266,11 @@ const std::map<std::string, std::function<void(GltfBuilder&)>>& faults() {
         {"anisotropy above 1", extension("KHR_materials_anisotropy", {{"anisotropyStrength", 3}})},
         {"film whose index is a half", extension("KHR_materials_iridescence", {{"iridescenceIor", 0.5}})},
         {"dispersion below zero", extension("KHR_materials_dispersion", {{"dispersion", -1}})},
+    };
+}
+
+Faults faults_of_extensions() {
+    return {
         {"emissive strength below zero", extension("KHR_materials_emissive_strength", {{"emissiveStrength", -1}})},
         {"specular above 1", extension("KHR_materials_specular", {{"specularFactor", 3}})},
         {"field of view of zero", set("/cameras/0/perspective/yfov", 0)},
@@ -265,7 +282,9 @@ const std::map<std::string, std::function<void(GltfBuilder&)>>& faults() {
         {"light of range zero", set("/extensions/KHR_lights_punctual/lights/0/range", 0)},
         {"spot without a cone", without("/extensions/KHR_lights_punctual/lights/0", "spot")},
         {"image that is none",
-         [](GltfBuilder& b) { b.json["images"][0] = {{"bufferView", b.buffer_view("no picture, but words")}, {"mimeType", "image/png"}}; }},
+         [](GltfBuilder& b) {
+             b.json["images"][0] = {{"bufferView", b.buffer_view("no picture, but words")}, {"mimeType", "image/png"}};
+         }},
         {"image of another kind", set("/images/0/mimeType", "image/jpeg")},
         {"image without a kind", without("/images/0", "mimeType")},
         {"image that is nowhere", set("/images/0", Json::object())},
@@ -276,6 +295,15 @@ const std::map<std::string, std::function<void(GltfBuilder&)>>& faults() {
         {"property that nobody knows", set("/nodes/0/colour", "red")},
         {"skin that nobody wears", without("/nodes/0", "skin")},
     };
+}
+
+const Faults& faults() {
+    static const Faults all = [] {
+        Faults merged;
+        for (const auto& part : {faults_of_buffers(), faults_of_structure(), faults_of_meshes_and_nodes(), faults_of_extensions()})
+            merged.insert(part.begin(), part.end());
+        return merged;
+    }();
     return all;
 }
 
