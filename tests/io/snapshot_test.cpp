@@ -92,11 +92,11 @@ TEST(Snapshot, ForeignAndBrokenMetadataAreErrors) {
     image.metadata = {{"blush:version", "0.1.0"}};
     EXPECT_TRUE(read_snapshot_metadata(image.metadata));
     for (const auto& [key, value] : std::vector<std::pair<std::string, std::string>>{{"blush:spp", "many"},
-                                                                       {"blush:samples", "0"},
-                                                                       {"blush:samples", "a:b"},
-                                                                       {"blush:seed", "-1"},
-                                                                       {"blush:settings", "{"},
-                                                                       {"blush:seconds", "1s"}}) {
+                                                                                     {"blush:samples", "0"},
+                                                                                     {"blush:samples", "a:b"},
+                                                                                     {"blush:seed", "-1"},
+                                                                                     {"blush:settings", "{"},
+                                                                                     {"blush:seconds", "1s"}}) {
         LayeredImage broken = image;
         broken.metadata[key] = value;
         EXPECT_FALSE(read_snapshot_metadata(broken.metadata)) << key;

@@ -145,13 +145,13 @@ struct UiState {
     LightTableView light_table;
     bool show_shortcuts = false;
     std::optional<std::string> guide_page; // page of the guide to open in a browser, for example "guide/lighting.html#kinds-of-lights"
-    bool studio_banner = false;     // the file has no light and was opened with studio lighting; the banner is still shown
-    bool opening_page = false;      // shown after a start without a scene
-    std::vector<std::string> demos; // scene files shipped with the program
-    bool panels_hidden = false;     // hides everything except menu, picture and status bar
-    HomeView home;                  // target of the command Camera view
-    CameraFrame frame;              // of that camera
-    TransformView transform;        // of the selection, by gizmo or keys
+    bool studio_banner = false;            // the file has no light and was opened with studio lighting; the banner is still shown
+    bool opening_page = false;             // shown after a start without a scene
+    std::vector<std::string> demos;        // scene files shipped with the program
+    bool panels_hidden = false;            // hides everything except menu, picture and status bar
+    HomeView home;                         // target of the command Camera view
+    CameraFrame frame;                     // of that camera
+    TransformView transform;               // of the selection, by gizmo or keys
     bool show_history = false;
     LightMixView light_mix;
     BouncesView bounces;

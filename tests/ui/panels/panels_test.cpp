@@ -398,7 +398,7 @@ TEST_F(Panels, EachHasAPageInTheGuide) {
     for (const Instrument& i : instruments()) EXPECT_TRUE(guide_has(i.guide)) << i.id << ": " << i.guide;
     Document document(test::sample_project().project);
     PanelContext c{document, ui, color, frame, {}, 64, 48};
-    for (const auto& [id, node] : document.scene().nodes)
+    for (const auto& [id, node] : document.project().scene.nodes)
         for (int tab = 0; tab <= int(InspectorTab::display); ++tab) {
             ui.selected = id;
             ui.tab = InspectorTab(tab);

@@ -138,7 +138,7 @@ TEST_F(PictureFile, InvalidFileIsOneError) {
         std::vector<uint8_t> changed = *bytes;
         changed[i] ^= 0xff;
         ASSERT_TRUE(write_file(file_, changed));
-        if (const auto opened = open_picture_layers(file_); opened) EXPECT_FALSE((*opened)->layers.empty());
+        if (const auto opened = open_picture_layers(file_); opened) { EXPECT_FALSE((*opened)->layers.empty()); }
     }
 }
 
