@@ -1,4 +1,4 @@
-// Tangent frames for normal maps: MikkTSpace (M. S. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008), with the
+// The tangent space of normal maps, MikkTSpace (M. S. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008), with the
 // default angular threshold of 180 degrees: all triangles are averaged except those with opposite directions.
 #pragma once
 
