@@ -1,31 +1,16 @@
 #include "app/editor/guide.h"
 
+#include "io/gltf/read/uri.h"
+
 #include <array>
-#include <cctype>
 #include <cerrno>
 #include <cstring>
-#include <fmt/format.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <utility>
 
 namespace blush {
-namespace {
-
-std::string percent_encoded(std::string_view path) {
-    std::string encoded;
-    for (const char c : path) {
-        if (std::isalnum(static_cast<unsigned char>(c)) || std::string_view("-._~/").find(c) != std::string_view::npos)
-            encoded += c;
-        else
-            encoded += fmt::format("%{:02X}", static_cast<unsigned char>(c));
-    }
-    return encoded;
-}
-
-} // namespace
-
 std::string guide_address(const std::filesystem::path& folder, std::string_view page) {
     const size_t hash = page.find('#');
     const std::string_view file = page.substr(0, hash), anchor = hash == std::string_view::npos ? std::string_view() : page.substr(hash);

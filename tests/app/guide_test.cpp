@@ -17,7 +17,7 @@ using test::TemporaryFolder;
 TEST(Guide, AddressesAreEncodedAndKeepTheirAnchor) {
     EXPECT_EQ(guide_address("/usr/share/blush/guide", "guide/lighting.html#kinds-of-lights"),
               "file:///usr/share/blush/guide/guide/lighting.html#kinds-of-lights");
-    EXPECT_EQ(guide_address("/home/a b/100%/\xc3\xa4;`#", "README.html"), "file:///home/a%20b/100%25/%C3%A4%3B%60%23/README.html");
+    EXPECT_EQ(guide_address("/home/a b/100%/\xc3\xa4;`#", "README.html"), "file:///home/a%20b/100%25/%C3%A4;%60%23/README.html");
 }
 
 // A program of the given lines in PATH, in place of the desktop's.
