@@ -58,7 +58,7 @@ TEST(TaskQueue, RethrowExceptionsAndContinue) {
         EXPECT_EQ(done, 100);
     }
     TaskQueue left_alone(4);
-    left_alone.begin({1, 1}, 1, [](size_t) { throw std::runtime_error("nobody asks"); });
+    left_alone.begin({1, 1}, 1, [](size_t) { throw std::runtime_error("not collected"); });
 }
 
 // The threads that take tasks. Each waits for a second one, so that a test of what other threads inherit cannot pass without any.

@@ -159,7 +159,7 @@ TEST(Sampling, EvalIsFiniteAndNotNegative) {
         }
 }
 
-// Parameters and viewers nobody would choose, but that textures and interpolated normals produce.
+// Unusual parameters and view directions, which textures and interpolated normals produce.
 TEST(Sampling, ExtremeParametersNeverMakeNaN) {
     Random random(4);
     const EnergyTable energy = make_energy_table();

@@ -1,5 +1,5 @@
 // Statistics for tests: every bound follows from a significance and from variance that was measured or is known, never from a
-// tolerance somebody liked. A failing test prints the numbers it was decided by.
+// hand-tuned tolerance. A failing test prints its numbers.
 #pragma once
 
 #include "core/vec.h"

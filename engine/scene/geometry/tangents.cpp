@@ -41,19 +41,19 @@ bool any_needs_tangents(const Scene& scene) {
 void add_tangents(Geometry& g, int uv_set) {
     const std::vector<Vec4> corners = mikktspace_tangents(g, g.uv[size_t(uv_set)]);
     const auto count = uint32_t(g.positions.size());
-    constexpr uint32_t nobody = UINT32_MAX;
-    g.tangents.assign(count, Vec4{0, 0, 0, 0}); // zero: not assigned yet
-    std::vector<uint32_t> next(count, nobody);  // linked list of copies of a vertex that differ in their tangent
+    constexpr uint32_t end_of_list = UINT32_MAX;
+    g.tangents.assign(count, Vec4{0, 0, 0, 0});     // zero: not assigned yet
+    std::vector<uint32_t> next(count, end_of_list); // linked list of copies of a vertex that differ in their tangent
     std::vector<uint32_t> copied;
     for (size_t i = 0; i < corners.size(); ++i) {
         const bool is_free = g.tangents[g.indices[i]] == Vec4{0, 0, 0, 0};
         uint32_t vertex = g.indices[i];
         if (is_free) g.tangents[vertex] = corners[i];
-        while (g.tangents[vertex] != corners[i] && next[vertex] != nobody) vertex = next[vertex];
+        while (g.tangents[vertex] != corners[i] && next[vertex] != end_of_list) vertex = next[vertex];
         if (g.tangents[vertex] != corners[i]) {
             next[vertex] = count + uint32_t(copied.size());
             vertex = next[vertex];
-            next.push_back(nobody);
+            next.push_back(end_of_list);
             copied.push_back(g.indices[i]);
             g.tangents.push_back(corners[i]);
         }

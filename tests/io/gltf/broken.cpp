@@ -232,7 +232,7 @@ Faults faults_of_meshes_and_nodes() {
         {"version of the future", set("/asset/version", "3.0")},
         {"no version", without("/asset", "version")},
         {"least version of the future", set("/asset/minVersion", "2.9")},
-        {"extension that nobody knows is required",
+        {"unknown extension is required",
          [](GltfBuilder& b) {
              b.json["extensionsUsed"].push_back("ACME_rocket");
              b.json["extensionsRequired"] = {"ACME_rocket"};
@@ -292,8 +292,8 @@ Faults faults_of_extensions() {
         {"image that is not there", set("/images/0", {{"uri", "nowhere.png"}})},
         {"name that is a number", set("/nodes/0/name", 7)},
         {"children that are none", set("/nodes/0/children", Json::array())},
-        {"property that nobody knows", set("/nodes/0/colour", "red")},
-        {"skin that nobody wears", without("/nodes/0", "skin")},
+        {"unknown property", set("/nodes/0/colour", "red")},
+        {"skin of no node", without("/nodes/0", "skin")},
     };
 }
 

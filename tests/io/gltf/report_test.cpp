@@ -33,7 +33,7 @@ constexpr Exception harmless[] = {
 
 // Files without errors and warnings of the validator, for which the importer warns.
 constexpr Exception suspicious[] = {
-    {"extension that nobody knows is required.gltf", "it says that it cannot be read without"},
+    {"unknown extension is required.gltf", "it says that it cannot be read without"},
     {"triangle without area.gltf", "it cannot be seen"},
 };
 

@@ -65,7 +65,7 @@ template <class Hidden, class Tamper> std::array<Vec3d, size> received(const Hid
     return result;
 }
 
-bool nobody(int, int) { return false; }
+bool no_pixel(int, int) { return false; }
 bool some(int member, int vertex) { return (member == 0 && vertex == 2) || (member == 3 && vertex == 1); }
 float sound(float d, int, int) { return d; }
 
@@ -98,14 +98,14 @@ template <class Hidden> double worst_deviation(const std::array<Vec3d, size>& go
 constexpr double rounding = 2e-5;
 
 TEST(ReuseWeights, AreTheBalanceHeuristics) {
-    EXPECT_LT(worst_deviation(received(nobody, sound), nobody), rounding);
+    EXPECT_LT(worst_deviation(received(no_pixel, sound), no_pixel), rounding);
     EXPECT_LT(worst_deviation(received(some, sound), some), rounding);
 }
 
 // The radiance of the vertices is distributed completely, and no more.
 TEST(ReuseWeights, OfAVertexSumToOne) {
     for (const bool hides : {false, true}) {
-        const auto got = hides ? received(some, sound) : received(nobody, sound);
+        const auto got = hides ? received(some, sound) : received(no_pixel, sound);
         Vec3d sum{0, 0, 0}, all{0, 0, 0};
         for (size_t i = 0; i < size; ++i) {
             const auto over = [](double value, double rho) { return rho > 0 ? value / rho : 0; };
@@ -123,10 +123,10 @@ TEST(ReuseWeights, WrongOnesAreCaught) {
     for (int vertex = 0; vertex < size; ++vertex)
         for (int member = 0; member < size; ++member) {
             const auto tamper = [&](float d, int m, int v) { return m == member && v == vertex ? d * 1.05f : d; };
-            EXPECT_GT(worst_deviation(received(nobody, tamper), nobody), 10 * rounding) << member << ", " << vertex;
+            EXPECT_GT(worst_deviation(received(no_pixel, tamper), no_pixel), 10 * rounding) << member << ", " << vertex;
         }
     const auto alike = [](float, int, int) { return 1.f; };
-    EXPECT_GT(worst_deviation(received(nobody, alike), nobody), 10 * rounding) << "wrong shares that sum to one";
+    EXPECT_GT(worst_deviation(received(no_pixel, alike), no_pixel), 10 * rounding) << "wrong shares that sum to one";
 }
 
 } // namespace

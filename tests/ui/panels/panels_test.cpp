@@ -264,7 +264,7 @@ TEST_F(Panels, EachUnusedFeatureHasALine) {
         }
         return height;
     };
-    const FeatureUse depth{"film", "depth", false, "nobody reads it", 4096}, ids{"film", "ids", false, "nobody reads them", 8192};
+    const FeatureUse depth{"film", "depth", false, "not read", 4096}, ids{"film", "ids", false, "not read", 8192};
     const FeatureUse beauty{"film", "beauty", true, "always", 65536};
     const float none = height_of({}), one = height_of({depth}), two = height_of({depth, ids}), in_use = height_of({depth, ids, beauty});
     EXPECT_GT(one, none);
