@@ -9,7 +9,6 @@
 #include "app/editor/editor_panels.h"
 #include "app/editor/editor_snapshots.h"
 #include "app/editor/guide.h"
-#include "app/editor/last_submission.h"
 #include "app/editor/live_mix.h"
 #include "app/editor/one_shot_metering.h"
 #include "app/files/desktop_file_dialog.h"
@@ -74,6 +73,8 @@ private:
     Document& document_shown();
     RenderSettings render_settings();
     void keep_size(const RenderSettings& kept);
+    // The revision that the window expects; 0: none yet.
+    uint64_t submitted_revision() const { return submitted_ ? submitted_->revision : 0; }
     bool worth_restoring(const FilmState& film, const RenderSettings& r) const;
     void submit_preview(const Scene& scene);
     bool shows_preview() const { return pictures_.frame && pictures_.frame->revision <= last_preview_; }
@@ -106,7 +107,8 @@ private:
     std::string weights_problem_; // why the denoiser's weights cannot be used; empty: they can
     RenderSession session_;
 
-    LastSubmission submitted_;
+    SubmissionPtr submitted_; // null: the open scene is not submitted yet
+    uint64_t last_revision_ = 0;
     uint64_t last_preview_ = 0; // revision of the last scene shown without textures; 0: none
     bool session_paused_ = false, session_denoises_ = false, session_aside_ = false;
 
@@ -183,7 +185,7 @@ void Editor::poll() {
     if (finished.opened || finished.saved) {
         window_->set_title(files_.scene_file().filename().string() + " - Blush");
         if (finished.opened) {
-            submitted_.forget(); // a new scene is always submitted
+            submitted_ = nullptr; // a new scene is always submitted
             metering_.opened(finished.stored_exposure || std::exchange(options_.exposure_given, false), document_.project());
             snapshots_.load_strip(ui_, files_.scene_file());
             if (!std::exchange(instruments_recalled_, true)) recall_instruments(context(), files_.scene_file().string());
@@ -342,10 +344,10 @@ void Editor::run_own_command(Command command) {
 void Editor::save_due_snapshot() {
     const FramePtr& frame = pictures_.frame;
     if (shows_preview()) return;
-    if (snapshot_due_ == SnapshotDue::none || !frame || frame->revision != submitted_.revision() || frame->divider != 1) return;
+    if (snapshot_due_ == SnapshotDue::none || !frame || frame->revision != submitted_revision() || frame->divider != 1) return;
     EditorSnapshots::Shown shown{
-        submitted_.revision(), pictures_,         ui_.denoise,         document_.project(),
-        submitted_.settings(), files_.imported(), files_.scene_file(), camera_frame_of(ui_, document_.project().scene, *frame)};
+        submitted_revision(), pictures_,         ui_.denoise,         document_.project(),
+        submitted_->settings, files_.imported(), files_.scene_file(), camera_frame_of(ui_, document_.project().scene, *frame)};
     if (snapshot_due_ == SnapshotDue::keep)
         snapshots_.keep(std::move(shown), session_);
     else
@@ -374,8 +376,8 @@ void Editor::keep_size(const RenderSettings& kept) {
 
 // Not if the displayed picture is the same image with more samples.
 bool Editor::worth_restoring(const FilmState& film, const RenderSettings& r) const {
-    const bool same = submitted_.is_same_image(document_.project().scene, r);
-    return !same || !pictures_.frame || pictures_.frame->revision != submitted_.revision() || pictures_.frame->samples < film.samples;
+    const bool same = submitted_ && !changes_since(submitted_.get(), {document_.project().scene, r}).affects_image();
+    return !same || !pictures_.frame || pictures_.frame->revision != submitted_revision() || pictures_.frame->samples < film.samples;
 }
 
 // Submits the project if something that affects the image has changed.
@@ -388,28 +390,32 @@ void Editor::submit() {
     const Scene& scene = document_.project().scene;
     const PlaneSet planes = ui_.wanted_planes();
     const FilmStatePtr film = restored && restored->film && worth_restoring(*restored->film, r) ? restored->film : nullptr;
-    if (!film && !submitted_.is_new(scene, r, planes)) return;
-    const std::string opened = submitted_.revision() == 0 ? files_.scene_file().filename().string() : "";
-    const bool goes_back = opened.empty() && submitted_.revision() == last_preview_; // no other scene has replaced the document
-    const uint64_t revision = submitted_.note(scene, r, planes);
-    const bool goes_on = session_.submit(revision, scene, r, planes, film);
-    convergence_.submit(ui_.convergence, {document_, r, planes, revision, goes_on}, opened);
-    if (goes_back) convergence_.begin(ui_.convergence, "Textures loaded", revision, scene, r);
+    const uint64_t revision = last_revision_ + 1;
+    const SubmissionPtr next =
+        film || !submitted_ ? session_.submit(revision, scene, r, planes, film) : session_.submit_changes(revision, scene, r, planes);
+    if (!next) return;
+    last_revision_ = revision;
+    const std::string opened = submitted_ ? "" : files_.scene_file().filename().string();
+    const bool goes_back = submitted_ && submitted_->revision == last_preview_; // no other scene has replaced the document
+    submitted_ = next;
+    goes_back ? convergence_.begin(ui_.convergence, "Textures loaded", next)
+              : convergence_.submit(ui_.convergence, document_, next, opened);
     stats_.submitted(revision, frame_begin_);
 }
 
 void Editor::submit_preview(const Scene& scene) {
-    const RenderSettings r = render_settings();
-    if (!submitted_.is_new(scene, r, {})) return;
-    last_preview_ = submitted_.note(scene, r, {});
-    session_.submit(last_preview_, scene, r);
+    const uint64_t revision = last_revision_ + 1;
+    const SubmissionPtr next = session_.submit_changes(revision, scene, render_settings());
+    if (!next) return;
+    submitted_ = next;
+    last_preview_ = last_revision_ = revision;
 }
 
 void Editor::latest() {
     pictures_ = session_.pictures();
     if (shows_preview() && !files_.preview() && files_.scene_file().empty()) pictures_ = {}; // there is no document to return to
     if (!shows_preview()) convergence_.current_pictures(ui_.convergence, pictures_);
-    if (pictures_.frame && pictures_.frame->revision == submitted_.revision() && !files_.preview()) {
+    if (pictures_.frame && pictures_.frame->revision == submitted_revision() && !files_.preview()) {
         metering_.current_pictures(document_, pictures_.frame, ui_, color_);
         opening_page_.keep_thumbnail(files_.scene_file(), pictures_.frame, document_.project().view, color_);
     }
@@ -426,7 +432,7 @@ void Editor::draw() {
     const Toasts& toasts = ui_.toasts;
     ProbeState state;
     state.image = {image_.x, image_.y, image_.width, image_.height};
-    state.revision = submitted_.revision();
+    state.revision = submitted_revision();
     if (!toasts.all().empty()) state.toast = toasts.all().back().text;
     const FramePtr& shown = viewport_.shown();
     if (shown) {
@@ -434,7 +440,7 @@ void Editor::draw() {
         state.height = shown->height;
         state.samples = shown->samples;
         state.complete = shown->complete;
-        state.up_to_date = shown->revision == submitted_.revision() && !viewport_.is_thinned();
+        state.up_to_date = shown->revision == submitted_revision() && !viewport_.is_thinned();
         state.current_pictures =
             shown->revision <= last_preview_ ? "without textures" : shown_text(ui_.denoise, *shown, pictures_.denoised.get());
     }
@@ -445,7 +451,7 @@ void Editor::draw() {
     if (shown) stats_.add_frame(took, now);
     mix_.follow(pictures_.frame, document_shown());
     const bool mixed = shown && mix_.is_shown_by(*shown, viewport_.shown_gains());
-    if (shown) stats_.shown(mixed ? submitted_.revision() : shown->revision, now);
+    if (shown) stats_.shown(mixed ? submitted_revision() : shown->revision, now);
     if (viewport_.shows(wanted_mix_)) stats_.view_change_shown(now);
     stats_.end_frame();
     ui_.probe.end_frame(state);

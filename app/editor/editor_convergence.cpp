@@ -29,34 +29,29 @@ std::vector<ConvergenceRecord> shown_records(const ConvergenceRuns& runs) {
 
 } // namespace
 
-void EditorConvergence::submit(ConvergenceView& view, const Submission& s, const std::string& opened) {
-    const size_t steps_to_redo = s.document.redo_labels().size();
+void EditorConvergence::submit(ConvergenceView& view, const Document& document, const SubmissionPtr& next, const std::string& opened) {
+    const size_t steps_to_redo = document.redo_labels().size();
     const bool undone = steps_to_redo > std::exchange(steps_to_redo_, steps_to_redo);
-    const Scene& scene = s.document.project().scene;
-    if (!opened.empty()) {
+    const SubmissionPtr last = std::exchange(submitted_, next);
+    if (!opened.empty() || !last) {
         view.runs.clear();
-        begin(view, opened, s.revision, scene, s.settings);
-    } else {
-        const Changes changes = diff(scene_, settings_, scene, s.settings);
-        const std::string name = changes.affects_image() ? run_name({scene_, settings_}, {scene, s.settings}, s.document, undone) : "";
-        if (changes.affects_image() && s.goes_on)
-            remix(name, s.revision, scene);
-        else if (changes.affects_image())
-            begin(view, name, s.revision, scene, s.settings);
-        else if (!planes_.covers(s.planes))
-            begin(view, "Other layers", s.revision, scene, s.settings);
-        else if (changes.stop_rules)
-            view.runs.mark("Stop rules");
+        return begin(view, opened, next);
     }
-    scene_ = scene;
-    settings_ = s.settings;
-    planes_ = s.planes;
+    const Changes& changes = next->changes;
+    if (changes.affects_image()) {
+        const std::string name = run_name({last->scene, last->settings}, {next->scene, next->settings}, changes, document, undone);
+        next->continues_image ? remix(name, *next) : begin(view, name, next);
+    } else if (!last->planes.covers(next->planes)) {
+        begin(view, "Other layers", next);
+    } else if (changes.stop_rules) {
+        view.runs.mark("Stop rules");
+    }
 }
 
-void EditorConvergence::begin(ConvergenceView& view, const std::string& name, uint64_t revision, const Scene& scene,
-                              const RenderSettings& settings) {
-    first_revision_ = revision;
-    subject_ = {scene, settings};
+void EditorConvergence::begin(ConvergenceView& view, const std::string& name, const SubmissionPtr& next) {
+    submitted_ = next;
+    first_revision_ = next->revision;
+    subject_ = {next->scene, next->settings};
     remixed_by_.clear();
     recording_seconds_ = 0;
     view.cost = {};
@@ -65,9 +60,9 @@ void EditorConvergence::begin(ConvergenceView& view, const std::string& name, ui
 }
 
 // The same samples with other weights: earlier errors, and the reference, belong to another picture.
-void EditorConvergence::remix(const std::string& name, uint64_t revision, const Scene& scene) {
-    first_revision_ = revision;
-    subject_.scene = scene;
+void EditorConvergence::remix(const std::string& name, const Submission& next) {
+    first_revision_ = next.revision;
+    subject_.scene = next.scene;
     remixed_by_ = name;
     measuring_.forget_pictures();
     reference_provider_.forget();

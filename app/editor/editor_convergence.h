@@ -3,6 +3,7 @@
 
 #include "app/editor/error_measurement.h"
 #include "app/editor/reference_provider.h"
+#include "render/session/submission.h"
 #include "scene/document/document.h"
 #include "ui/window/ui_state.h"
 
@@ -18,21 +19,13 @@ public:
     EditorConvergence(std::function<void()> wake, unsigned threads)
         : measuring_(wake), reference_provider_(wake, threads), wake_(std::move(wake)) {}
 
-    // The next submission to the session.
-    struct Submission {
-        const Document& document;
-        const RenderSettings& settings;
-        const PlaneSet& planes;
-        uint64_t revision = 0;
-        bool goes_on = false; // keeps the samples, if only the gains of the light mix differ
-    };
-    // Starts a new run if another image will be rendered. Its name is the last edit, or `opened` (the file just opened) if that
-    // is not empty. Edits that keep the image only add a mark.
-    void submit(ConvergenceView& view, const Submission& submission, const std::string& opened);
-    // From this revision on, another image is rendered, of the scene at that time.
-    void begin(ConvergenceView& view, const std::string& name, uint64_t revision, const Scene& scene, const RenderSettings& settings);
-    // From this revision on, the samples have another light mix.
-    void remix(const std::string& name, uint64_t revision, const Scene& scene);
+    // Call with each submission of the session, in order. Starts a new run if another image begins. Its name is the last edit, or
+    // `opened` (the file just opened) if that is not empty. Edits that keep the image only add a mark.
+    void submit(ConvergenceView& view, const Document& document, const SubmissionPtr& next, const std::string& opened);
+    // From this submission on, another image is rendered.
+    void begin(ConvergenceView& view, const std::string& name, const SubmissionPtr& next);
+    // From this submission on, the samples have another light mix.
+    void remix(const std::string& name, const Submission& next);
     // Call once per UI frame with the newest pictures.
     void current_pictures(ConvergenceView& view, const Pictures& pictures);
     // Executes requests of the panel. Files are written to `folder`, named after `scene_file`.
@@ -54,10 +47,7 @@ private:
     uint64_t first_revision_ = 0; // of the live run
     ReferenceProvider::Subject subject_;
 
-    // Of the last submission.
-    Scene scene_;
-    RenderSettings settings_;
-    PlaneSet planes_;
+    SubmissionPtr submitted_; // the last one; null: none yet
     size_t steps_to_redo_ = 0;
 
     std::string remixed_by_; // the last edit of the mix, until its picture is seen; empty: none

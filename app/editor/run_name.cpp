@@ -34,8 +34,7 @@ std::string settings_difference(const RenderSettings& before, const RenderSettin
     return text;
 }
 
-std::string run_name(const RunState& before, const RunState& after, const Document& document, bool undone) {
-    const Changes changes = diff(before.scene, before.settings, after.scene, after.settings);
+std::string run_name(const RunState& before, const RunState& after, const Changes& changes, const Document& document, bool undone) {
     if (changes.integrator) {
         if (std::string text = settings_difference(before.settings, after.settings); !text.empty()) return text;
     }

@@ -17,8 +17,8 @@ struct RunState {
     const Scene& scene;
     const RenderSettings& settings;
 };
-// Name of the run after a change of the rendered image. An edit of the scene has the name of the document's last undo step, or of
+// Name of the run after `changes` of the rendered image. An edit of the scene has the name of the document's last undo step, or of
 // the step that was undone; navigation has no undo step.
-std::string run_name(const RunState& before, const RunState& after, const Document& document, bool undone);
+std::string run_name(const RunState& before, const RunState& after, const Changes& changes, const Document& document, bool undone);
 
 } // namespace blush

@@ -63,8 +63,8 @@ struct Renderer::State {
     std::optional<Scene> expanded;
     ExpandedMeshes meshes;
     RenderSettings settings;
-    std::shared_ptr<const LightGroups> groups; // null: no light mix
-    Mixing mixing;                             // of the groups
+    LightGroupsPtr groups; // null: no light mix
+    Mixing mixing;         // of the groups
     Film film;
     SampleAllocation sample_allocation; // only for adaptive sampling, like the next
     PilotVariance pilot_variance;
@@ -96,18 +96,18 @@ struct Renderer::State {
         if (!groups || !same_image(settings, now)) return false;
         std::optional<Mixing> mix = mixing_of(*groups, whole);
         if (!mix) return false;
-        mixing = *std::move(mix);
+        set_mix(*std::move(mix));
         settings = now;
-        film.set_gains(mixing.gains);
         return true;
     }
-    void make_groups(const Scene& whole) {
-        groups.reset();
-        mixing = {};
-        if (whole.mix.grouping == LightMix::Grouping::none) return;
-        groups = std::make_shared<const LightGroups>(make_light_groups(whole));
-        mixing = mixing_of(*groups, whole).value();
+    void set_mix(Mixing mix) {
+        mixing = std::move(mix);
+        film.set_gains(mixing.gains);
     }
+    // Updates the compiled scene; true if the film is outdated.
+    bool compile(const Scene& whole, const RenderSettings& now, LightGroupsPtr groups_of_scene);
+    // Discards the samples; their setup began at `begun`.
+    void begin_film(Clock::time_point begun);
 
     bool catches() const { return !scene.catchers().empty(); }
     // A caught shadow needs a background: without an environment the image is for compositing.
@@ -185,28 +185,45 @@ struct Renderer::State {
 Renderer::Renderer(const RendererOptions& options) : state_(std::make_unique<State>(options)) {}
 Renderer::~Renderer() = default;
 
+bool Renderer::State::compile(const Scene& whole, const RenderSettings& now, LightGroupsPtr groups_of_scene) {
+    Scene now_expanded = expand_area_lights(whole, &meshes);
+    const UpdatePlan todo = expanded ? plan(diff(*expanded, settings, now_expanded, now)) : full_plan();
+    groups = std::move(groups_of_scene);
+    mixing = groups ? mixing_of(*groups, whole).value() : Mixing{};
+    Film::require_memory({now.width, now.height, options.planes, false, now.adaptive, int(mixing.gains.size())});
+    scene.update(now_expanded, now, todo, workers, groups.get());
+    if (groups) scene.aim(mixing.gains);
+    expanded = std::move(now_expanded);
+    settings = now;
+    if (todo.features) kernel = &choose_kernel(scene.features());
+    return todo.clear_film;
+}
+
+void Renderer::State::begin_film(Clock::time_point begun) {
+    clear();
+    info.reset();
+    kernel_name = std::string(kernel->isa) + "/" + std::string(kernel->name);
+    seconds_setup = seconds_since(begun);
+}
+
 bool Renderer::update(const Scene& scene, const RenderSettings& asked) {
     State& s = *state_;
     const RenderSettings settings = effective_settings(asked);
-    const auto begin = Clock::now();
+    const auto begun = Clock::now();
     if (s.apply_mix(scene, settings)) return false;
-    Scene expanded = expand_area_lights(scene, &s.meshes);
-    const UpdatePlan todo = s.expanded ? plan(diff(*s.expanded, s.settings, expanded, settings)) : full_plan();
-    s.make_groups(scene);
-    Film::require_memory({settings.width, settings.height, s.options.planes, false, settings.adaptive, int(s.mixing.gains.size())});
-    s.scene.update(expanded, settings, todo, s.workers, s.groups.get());
-    if (s.groups) s.scene.aim(s.mixing.gains);
-    s.expanded = std::move(expanded);
-    s.settings = settings;
-    if (todo.features) s.kernel = &choose_kernel(s.scene.features());
-    if (todo.clear_film) {
-        clear();
-        s.info.reset();
-        s.kernel_name = std::string(s.kernel->isa) + "/" + std::string(s.kernel->name);
-        s.seconds_setup = seconds_since(begin);
-    }
-    return todo.clear_film;
+    const bool mixed = scene.mix.grouping != LightMix::Grouping::none;
+    const bool outdated = s.compile(scene, settings, mixed ? std::make_shared<const LightGroups>(make_light_groups(scene)) : nullptr);
+    if (outdated) s.begin_film(begun);
+    return outdated;
 }
+
+void Renderer::begin_image(const Scene& scene, const RenderSettings& settings, LightGroupsPtr groups) {
+    const auto begun = Clock::now();
+    state_->compile(scene, effective_settings(settings), std::move(groups));
+    state_->begin_film(begun);
+}
+
+void Renderer::set_mix(const Mixing& mixing) { state_->set_mix(mixing); }
 
 void Renderer::select_lights_by_mix() {
     if (state_->groups) state_->scene.aim(state_->mixing.gains);
@@ -234,7 +251,7 @@ void Renderer::set_divider(int divider) {
 int Renderer::divider() const { return state_->divider; }
 void Renderer::clear() { state_->clear(); }
 
-const CompiledInfo& Renderer::info() const {
+const CompiledInfo& Renderer::info() {
     State& s = *state_;
     if (!s.info) {
         s.info = s.scene.info();
@@ -245,7 +262,7 @@ const CompiledInfo& Renderer::info() const {
     return *s.info;
 }
 
-std::shared_ptr<const FeatureReport> Renderer::feature_report() const {
+std::shared_ptr<const FeatureReport> Renderer::feature_report() {
     State& s = *state_;
     if (!s.feature_report) {
         FeatureReport feature_report = s.scene.feature_report(s.expanded ? *s.expanded : Scene{}, s.full_film());
@@ -257,12 +274,12 @@ std::shared_ptr<const FeatureReport> Renderer::feature_report() const {
     return s.feature_report;
 }
 
-std::vector<Vec3> Renderer::resolve_error() const {
+std::vector<Vec3> Renderer::resolve_error() {
     state_->clear_stale_film();
     return state_->film.standard_error();
 }
 
-ReuseCovariance Renderer::reuse_covariance() const {
+ReuseCovariance Renderer::reuse_covariance() {
     state_->clear_stale_film();
     return state_->settings.reuse > 1 ? measure_reuse_covariance(state_->film, reuse_groups(state_->settings.reuse)) : ReuseCovariance{};
 }
@@ -297,7 +314,7 @@ const CatcherColumns* Renderer::State::shadows_of(const KernelContext& context, 
 
 bool Renderer::has_light() const { return state_->scene.has_light(); }
 
-Vec3d Renderer::irradiance(const MeterPlace& place, uint32_t replicate, int samples) const {
+Vec3d Renderer::irradiance(const MeterPlace& place, uint32_t replicate, int samples) {
     State& s = *state_;
     const KernelContext context{&s.scene.tables(), &s.scene.accel(), kernel_settings(s.settings, 1, 1), s.settings.seed};
     const Vec3d position = place.position + place.normal * place.clearance - s.scene.origin();
@@ -391,7 +408,7 @@ bool Renderer::render(int64_t first, int64_t count, const std::function<bool()>&
     return true;
 }
 
-void Renderer::resolve(Frame& frame) const {
+void Renderer::resolve(Frame& frame) {
     State& s = *state_;
     s.clear_stale_film();
     s.film.resolve(frame, s.workers);
@@ -413,7 +430,7 @@ void Renderer::resolve(Frame& frame) const {
     frame.missing_light = s.scene.missing_light();
 }
 
-Frame Renderer::resolve() const {
+Frame Renderer::resolve() {
     Frame frame;
     resolve(frame);
     frame.error = estimate_error();
@@ -421,7 +438,7 @@ Frame Renderer::resolve() const {
     return frame;
 }
 
-ErrorEstimate Renderer::estimate_error() const {
+ErrorEstimate Renderer::estimate_error() {
     State& s = *state_;
     s.clear_stale_film();
     ErrorEstimate error = blush::estimate_error(s.film, s.settings.reuse, s.workers);

@@ -7,10 +7,12 @@
 #include "render/error/reuse_covariance.h"
 #include "render/film/film_size.h"
 #include "render/frame.h"
+#include "render/light_mix/light_groups.h"
 #include "scene/render_settings.h"
 #include "scene/scene.h"
 
 #include <cstdint>
+#include <experimental/propagate_const>
 #include <functional>
 #include <memory>
 #include <string>
@@ -45,6 +47,11 @@ public:
     // whether it did. The result is bit-identical to a fresh Renderer given the same scene. With a light mix, changes of emission
     // alone keep the film, whose planes hold the emission at the last clear; all results are remixed.
     bool update(const Scene& scene, const RenderSettings& settings);
+    // The same for callers that know that a new image begins (session/submission.h): clears the film in any case. `groups`: light
+    // groups of the scene; null: no light mix.
+    void begin_image(const Scene& scene, const RenderSettings& settings, LightGroupsPtr groups);
+    // Shows the samples with another mix, made for the groups that begin_image() was given.
+    void set_mix(const Mixing& mixing);
     // Weights light selection by the current mix, from the next sample on.
     void select_lights_by_mix();
 
@@ -64,14 +71,14 @@ public:
 
     // The film so far, divided by its sample counts. The second overload reuses the memory of an old frame and does not estimate
     // the error, which costs as much as some hundredths of a sample.
-    Frame resolve() const;
-    void resolve(Frame& frame) const;
+    Frame resolve();
+    void resolve(Frame& frame);
     // Estimates the error of the film from its two halves.
-    ErrorEstimate estimate_error() const;
+    ErrorEstimate estimate_error();
     // Standard error of the mean of each pixel from the two half buffers, RGB; empty before both hold samples.
-    std::vector<Vec3> resolve_error() const;
+    std::vector<Vec3> resolve_error();
     // Error correlation between pixels by path reuse; 1 without.
-    ReuseCovariance reuse_covariance() const;
+    ReuseCovariance reuse_covariance();
 
     // Saves the film exactly: another renderer of the same scene and settings continues as if it
     // had rendered it. `first` is the index of its first sample. Errors: nothing is rendered,
@@ -83,18 +90,18 @@ public:
 
     // Irradiance at a light meter in the last applied scene: one of many
     // independent estimates (irradiance.h), RGB in lux. Does not touch the film.
-    Vec3d irradiance(const MeterPlace& place, uint32_t replicate, int samples) const;
+    Vec3d irradiance(const MeterPlace& place, uint32_t replicate, int samples);
     // True if anything in the last applied scene emits light.
     bool has_light() const;
 
     // Of the last applied scene. Not for use during edits: the first call reads every triangle.
-    const CompiledInfo& info() const;
+    const CompiledInfo& info();
     // Feature report at full resolution. Cheap; never null.
-    std::shared_ptr<const FeatureReport> feature_report() const;
+    std::shared_ptr<const FeatureReport> feature_report();
 
 private:
     struct State;
-    std::unique_ptr<State> state_;
+    std::experimental::propagate_const<std::unique_ptr<State>> state_; // const functions change nothing
 };
 
 // Prints every vertex of one sample: throughput, pdfs, MIS weights, roulette, contribution (`blush render --pixel`).

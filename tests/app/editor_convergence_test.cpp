@@ -57,7 +57,18 @@ protected:
         ImGuiTest::TearDown();
     }
 
-    void begin(const char* name, uint64_t revision) { editor.begin(view, name, revision, project.scene, project.render); }
+    void begin(const char* name, uint64_t revision) {
+        const SubmissionContent content{project.scene, project.render};
+        editor.begin(view, name, next_submission(nullptr, revision, content, {}, false));
+    }
+    // Submits as the editor does; returns the revision.
+    uint64_t submit(const Document& document, const RenderSettings& settings, const PlaneSet& planes, const std::string& opened) {
+        const SubmissionContent content{document.project().scene, settings, planes};
+        const Submission* last = submitted.get();
+        submitted = next_submission(last, last ? last->revision + 1 : 1, content, changes_since(last, content), false);
+        editor.submit(view, document, submitted, opened);
+        return submitted->revision;
+    }
     // A run whose error falls like 1/sqrt(N).
     void converge(uint64_t revision, int64_t up_to) {
         for (int64_t n = 1; n <= up_to; n *= 2) editor.current_pictures(view, {frame_of(revision, n, 0.5 / std::sqrt(double(n))), nullptr});
@@ -86,6 +97,7 @@ protected:
     UiState ui;
     ConvergenceView& view = ui.convergence;
     EditorConvergence editor{[] {}, 1};
+    SubmissionPtr submitted;
 };
 
 TEST_F(Convergence, RecordsOnlyFullResolutionPicturesOfTheRun) {
@@ -115,11 +127,7 @@ TEST_F(Convergence, NewImageStartsARunAndNewStopRulesAddAMark) {
     Document document(project);
     RenderSettings settings = project.render;
     PlaneSet planes;
-    uint64_t revision = 0;
-    const auto submit = [&](const std::string& opened = "") {
-        editor.submit(view, {document, settings, planes, ++revision}, opened);
-        converge(revision, 64);
-    };
+    const auto submit = [&](const std::string& opened = "") { converge(Convergence::submit(document, settings, planes, opened), 64); };
     submit("cornell.gltf");
     settings.spp = 7;
     submit();
@@ -146,15 +154,13 @@ TEST_F(Convergence, NewMixOfTheSameSamplesAddsAMark) {
     project.scene.mix.grouping = LightMix::Grouping::by_light;
     Document document(project);
     uint64_t revision = 0;
-    const auto submit = [&](bool goes_on, const std::string& opened = "") {
-        editor.submit(view, {document, project.render, {}, ++revision, goes_on}, opened);
-    };
-    submit(false, "cornell.gltf");
+    const auto submit = [&](const std::string& opened = "") { revision = Convergence::submit(document, project.render, {}, opened); };
+    submit("cornell.gltf");
     converge(revision, 64);
     const size_t points = view.runs.live()->record.points().size();
     for (const float intensity : {2.f, 3.f}) { // a drag
         ASSERT_TRUE(document.apply(SetMix{{LightMix::Grouping::by_light, {{.group = "Lamp", .intensity = intensity}}}}));
-        submit(true);
+        submit();
         editor.current_pictures(view, {frame_of(revision - 1, 64, 0.1), nullptr}); // not mixed yet
         editor.current_pictures(view, {frame_of(revision, 64, 0.1 * double(intensity)), nullptr});
     }
@@ -167,7 +173,7 @@ TEST_F(Convergence, NewMixOfTheSameSamplesAddsAMark) {
     EXPECT_EQ(record.marks()[0].spp, 64);
     EXPECT_FALSE(fit(record, Kind::estimated, ErrorMetric::rmse, ProgressAxis::spp).slope.known) << "no slope across it";
     ASSERT_TRUE(document.apply(SetMix{}));
-    submit(false);
+    submit();
     EXPECT_EQ(view.runs.all().size(), 2u) << "other groups are another image";
 }
 
@@ -245,7 +251,7 @@ TEST(RunName, NamesTheEdit) {
     Document document(sample.project);
     const RenderSettings before = sample.project.render;
     const auto name = [&](const Scene& scene, const RenderSettings& after, bool undone = false) {
-        return run_name({sample.project.scene, before}, {scene, after}, document, undone);
+        return run_name({sample.project.scene, before}, {scene, after}, diff(sample.project.scene, before, scene, after), document, undone);
     };
     RenderSettings after = before;
     after.reuse = 8;

@@ -10,7 +10,7 @@ constexpr int64_t batch = 8; // samples between checks of time and cancellation;
 
 } // namespace
 
-MeasuredImage measured_image(const Renderer& renderer) {
+MeasuredImage measured_image(Renderer& renderer) {
     const Frame frame = renderer.resolve();
     MeasuredImage m;
     m.image = {frame.width, frame.height, {}};

@@ -25,7 +25,7 @@ RenderSettings reference_settings(const RenderSettings& settings);
 uint32_t reference_seed(std::span<const uint32_t> compared);
 
 // The renderer's current image with its standard errors.
-MeasuredImage measured_image(const Renderer& renderer);
+MeasuredImage measured_image(Renderer& renderer);
 
 // Budget of a reference; the first limit that is reached ends it. 0 means no limit.
 struct ReferenceBudget {

@@ -49,7 +49,7 @@ Picture render_anything(const Scene& scene, const RenderSettings& settings, cons
     return picture_of(renderer);
 }
 
-Picture picture_of(const Renderer& renderer) {
+Picture picture_of(Renderer& renderer) {
     Picture p;
     p.frame = renderer.resolve();
     p.width = p.frame.width;

@@ -32,6 +32,6 @@ Picture render_anything(const Scene& scene, const RenderSettings& settings, cons
 // The same; throws std::runtime_error if samples were dropped or paths truncated, which invalidates the measurement.
 Picture render(const Scene& scene, const RenderSettings& settings, const PlaneSet& planes = {});
 // The current image of a renderer.
-Picture picture_of(const Renderer& renderer);
+Picture picture_of(Renderer& renderer);
 
 } // namespace blush::stability

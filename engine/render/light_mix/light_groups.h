@@ -4,6 +4,7 @@
 #include "scene/scene.h"
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,6 +40,8 @@ struct LightGroups {
     std::map<Id<Material>, int> surface_materials; // unless groups are made by object
     int environment = 0;
 };
+
+using LightGroupsPtr = std::shared_ptr<const LightGroups>;
 
 // Groups of all possible emitters of the scene, switched off or on: lights and emissive surfaces of visible
 // nodes, and the environment. By light: each light, each emissive object; by object: each node; by material:

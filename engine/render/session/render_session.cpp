@@ -5,7 +5,6 @@
 #include "render/session/frame_pool.h"
 #include "render/session/pause_gate.h"
 #include "render/session/scheduler.h"
-#include "scene/changes.h"
 
 #include <algorithm>
 #include <atomic>
@@ -28,38 +27,12 @@ constexpr double idle_seconds = 1; // without a submission, until light selectio
 
 double seconds_between(Clock::time_point a, Clock::time_point b) { return std::chrono::duration<double>(b - a).count(); }
 
-struct Submission {
-    uint64_t revision = 0;
-    uint64_t image = 0; // counts submissions that change the image, not only stop rules
-    Scene scene;
-    RenderSettings settings;
-    PlaneSet planes;
-    FilmStatePtr film; // to continue from
+// A submission that the render thread has not applied yet.
+struct PendingSubmission {
+    SubmissionPtr content;
+    FilmStatePtr film; // to continue from; null: none
     Clock::time_point when;
-    std::shared_ptr<const LightGroups> groups; // of the scene that began the image; null: no light mix
-
-    // The scene that the image is rendered from: later ones differ in the mix only.
-    const Scene& base() const { return groups ? groups->base : scene; }
 };
-
-// True if rendering continues the same image: equal except for the light mix, and with all planes.
-bool continues(const Submission& last, const Submission& next) {
-    if (!last.planes.covers(next.planes)) return false;
-    if (!diff(last.scene, last.settings, next.scene, next.settings).affects_image()) return true;
-    return last.groups && same_image(last.settings, next.settings) && mixing_of(*last.groups, next.scene);
-}
-
-// Sets the submission's image number: that of the last submission
-// (returns true) or a new one. Loaded samples always start a new image.
-bool name_image(Submission& next, const std::optional<Submission>& last, bool has_samples) {
-    const bool same = last && !has_samples && continues(*last, next);
-    next.image = (last ? last->image : 0) + !same;
-    if (same)
-        next.groups = last->groups;
-    else if (next.scene.mix.grouping != LightMix::Grouping::none)
-        next.groups = std::make_shared<const LightGroups>(make_light_groups(next.scene));
-    return same;
-}
 
 // Multiplies the size by the resolution scale.
 RenderSettings at_film_size(RenderSettings settings) {
@@ -82,12 +55,12 @@ struct RenderSession::State {
     std::function<void()> on_frame;
 
     std::mutex submitting; // serialises submissions; guards last_submitted
-    std::optional<Submission> last_submitted;
+    SubmissionPtr last_submitted;
 
     // Guards the pending submission and the published state.
     mutable std::mutex mutex;
     std::condition_variable wake;
-    std::optional<Submission> pending;
+    std::optional<PendingSubmission> pending;
     bool paused = false;
     std::optional<uint64_t> film_asked; // revision of the requested film
     std::optional<RequestedFilm> kept_film;
@@ -103,7 +76,8 @@ struct RenderSession::State {
     // Used only by the render thread.
     std::optional<Renderer> renderer;
     FramePool frames;
-    Submission current;
+    SubmissionPtr current = std::make_shared<const Submission>();
+    Clock::time_point submitted_at; // current
     Scheduler scheduler;
     std::string failure, restart_reason; // empty: none
     bool has_scene = false, has_first_image = false;
@@ -127,11 +101,13 @@ struct RenderSession::State {
     SessionStatus::State due_state() const;
     bool must_show() const { return has_scene && !has_first_image; }
     bool has_work() const { return due_state() == SessionStatus::State::rendering; }
-    bool yields_to_ui() const { return gate.is_closed() && has_first_image && !(pending && pending->image != current.image); }
+    bool yields_to_ui() const { return gate.is_closed() && has_first_image && !(pending && pending->content->image != current->image); }
 
+    SubmissionPtr submit(uint64_t revision, const SubmissionContent& content, Changes changes, FilmStatePtr film);
     void run();
     void announce(std::optional<SessionStatus::State> passing = {});
-    void apply_submission(Submission next);
+    void apply_submission(PendingSubmission next);
+    void begin_image(const RenderSettings& film_settings, const FilmState* film);
     void render_batch();
     void fail(std::string why, std::optional<uint64_t> asked);
     void go_on_from(const FilmState& film);
@@ -159,7 +135,7 @@ void RenderSession::State::announce(std::optional<SessionStatus::State> passing)
     {
         const std::lock_guard lock(mutex);
         status.state = passing.value_or(due_state());
-        status.revision = current.revision;
+        status.revision = current->revision;
         status.progress = scheduler.progress();
         status.message = failure;
         status.restart_reason = restart_reason;
@@ -187,7 +163,7 @@ void RenderSession::State::estimate_error(Frame& frame, bool wanted) {
 std::shared_ptr<Frame> RenderSession::State::resolved(bool wants_error) {
     std::shared_ptr<Frame> frame = frames.take();
     renderer->resolve(*frame);
-    frame->revision = current.revision;
+    frame->revision = current->revision;
     frame->seconds = scheduler.seconds();
     estimate_error(*frame, wants_error);
     frame->complete = scheduler.finished();
@@ -209,15 +185,15 @@ void RenderSession::State::mix_denoised(const Frame& frame) {
 void RenderSession::State::publish() {
     const std::shared_ptr<Frame> frame = resolved();
     mix_denoised(*frame);
-    if (!has_first_image) first_image_seconds = seconds_between(current.when, Clock::now());
+    if (!has_first_image) first_image_seconds = seconds_between(submitted_at, Clock::now());
     has_first_image = true;
     frame->first_image_seconds = first_image_seconds;
     const Pictures previous = current_pictures(); // freed after unlocking
     const std::lock_guard lock(mutex);
-    if (denoiser->offer(current.image, frame))
-        showcase.withhold(current.image, frame);
+    if (denoiser->offer(current->image, frame))
+        showcase.withhold(current->image, frame);
     else
-        showcase.show(current.image, frame);
+        showcase.show(current->image, frame);
 }
 
 // Called on the denoiser's thread.
@@ -250,28 +226,33 @@ Pictures RenderSession::State::current_pictures() const {
     return showcase.pictures();
 }
 
-void RenderSession::State::apply_submission(Submission next) {
-    const bool new_image = next.image != current.image || !has_scene;
-    current = std::move(next);
+void RenderSession::State::begin_image(const RenderSettings& film_settings, const FilmState* film) {
+    has_scene = has_first_image = false;
+    error_cadence.restart();
+    estimated = {};
+    scheduler.restart(film_settings, true);
+    announce(SessionStatus::State::updating);
+    if (!renderer) renderer.emplace(RendererOptions{options.threads, options.low_priority, {}});
+    renderer->set_planes(with_first_hits(current->planes, options));
+    renderer->begin_image(current->base(), film_settings, current->groups);
+    if (current->groups) renderer->set_mix(current->mixing);
+    has_scene = true;
+    restart_reason.clear();
+    if (film) go_on_from(*film);
+}
+
+void RenderSession::State::apply_submission(PendingSubmission next) {
+    const bool new_image = next.content->image != current->image || !has_scene;
+    current = std::move(next.content);
+    submitted_at = next.when;
     failure.clear();
-    const RenderSettings settings = at_film_size(current.settings);
+    const RenderSettings settings = at_film_size(current->settings);
     if (new_image) {
-        has_scene = has_first_image = false;
-        error_cadence.restart();
-        estimated = {};
-        scheduler.restart(settings, true);
-        announce(SessionStatus::State::updating);
-        if (!renderer) renderer.emplace(RendererOptions{options.threads, options.low_priority, {}});
-        renderer->set_planes(with_first_hits(current.planes, options));
-        renderer->update(current.base(), settings);
-        if (current.groups) renderer->update(current.scene, settings);
-        has_scene = true;
-        restart_reason.clear();
-        if (const FilmStatePtr film = std::exchange(current.film, nullptr)) go_on_from(*film);
+        begin_image(settings, next.film.get());
     } else {
         scheduler.change_stop_rules(settings);
-        renderer->set_planes(with_first_hits(current.planes, options));
-        if (current.groups) renderer->update(current.scene, settings);
+        renderer->set_planes(with_first_hits(current->planes, options));
+        if (current->groups) renderer->set_mix(current->mixing);
         if (has_first_image) publish(); // the unchanged image answers the new revision
     }
     selects_lights_by_mix = false;
@@ -290,7 +271,7 @@ void RenderSession::State::go_on_from(const FilmState& film) {
 void RenderSession::State::request_film(uint64_t revision) {
     RequestedFilm kept{.revision = revision};
     Result<FilmState> film = Error{"", "the image changed before its film was saved", ""};
-    if (renderer && has_first_image && revision == current.revision) film = renderer->save_film(current.settings.first_sample);
+    if (renderer && has_first_image && revision == current->revision) film = renderer->save_film(current->settings.first_sample);
     if (film) {
         film->seconds = scheduler.seconds();
         kept.frame = resolved(true);
@@ -310,10 +291,10 @@ void RenderSession::State::answer(RequestedFilm kept) {
 
 void RenderSession::State::render_batch() {
     const Work work = scheduler.next();
-    const uint64_t mine = current.image;
+    const uint64_t mine = current->image;
     const auto begin = Clock::now();
     const double shut_before = gate.closed_seconds();
-    if (current.groups && !selects_lights_by_mix && seconds_between(current.when, begin) > idle_seconds) {
+    if (current->groups && !selects_lights_by_mix && seconds_between(submitted_at, begin) > idle_seconds) {
         renderer->select_lights_by_mix();
         selects_lights_by_mix = true;
     }
@@ -349,7 +330,7 @@ void RenderSession::State::fail(std::string why, std::optional<uint64_t> asked) 
 
 void RenderSession::State::run() {
     for (;;) {
-        std::optional<Submission> taken;
+        std::optional<PendingSubmission> taken;
         std::optional<uint64_t> asked;
         bool work = false;
         {
@@ -380,6 +361,23 @@ void RenderSession::State::run() {
     }
 }
 
+// Requires `submitting`.
+SubmissionPtr RenderSession::State::submit(uint64_t revision, const SubmissionContent& content, Changes changes, FilmStatePtr film) {
+    const SubmissionPtr next = next_submission(last_submitted.get(), revision, content, std::move(changes), film != nullptr);
+    last_submitted = next;
+    std::optional<PendingSubmission> replaced; // freed after unlocking
+    {
+        const std::lock_guard lock(mutex);
+        wanted_image = next->image;
+        // Samples of a pending submission belong to this image too.
+        if (!film && pending && pending->content->image == next->image) film = pending->film;
+        replaced = std::exchange(pending, PendingSubmission{next, std::move(film), Clock::now()});
+    }
+    gate.notify();
+    wake.notify_one();
+    return next;
+}
+
 RenderSession::RenderSession(const SessionOptions& options, std::function<void()> on_frame) : state_(std::make_unique<State>()) {
     state_->options = options;
     state_->on_frame = on_frame ? std::move(on_frame) : [] {};
@@ -402,24 +400,20 @@ RenderSession::~RenderSession() {
     state_->thread.join();
 }
 
-bool RenderSession::submit(uint64_t revision, const Scene& scene, const RenderSettings& settings, const PlaneSet& planes,
-                           FilmStatePtr film) {
-    State& s = *state_;
-    const std::lock_guard submitting(s.submitting);
-    std::optional<Submission> next = Submission{revision, 0, scene, settings, planes, {}, Clock::now(), nullptr};
-    const bool goes_on = name_image(*next, s.last_submitted, film != nullptr);
-    s.last_submitted = next;
-    {
-        const std::lock_guard lock(s.mutex);
-        s.wanted_image = next->image;
-        // Samples of a pending submission belong to this image too.
-        if (!film && s.pending && s.pending->image == next->image) film = s.pending->film;
-        next->film = std::move(film);
-        s.pending.swap(next);
-    }
-    s.gate.notify();
-    s.wake.notify_one();
-    return goes_on;
+SubmissionPtr RenderSession::submit(uint64_t revision, const Scene& scene, const RenderSettings& settings, const PlaneSet& planes,
+                                    FilmStatePtr film) {
+    const std::lock_guard submitting(state_->submitting);
+    const SubmissionContent content{scene, settings, planes};
+    return state_->submit(revision, content, changes_since(state_->last_submitted.get(), content), std::move(film));
+}
+
+SubmissionPtr RenderSession::submit_changes(uint64_t revision, const Scene& scene, const RenderSettings& settings, const PlaneSet& planes) {
+    const std::lock_guard submitting(state_->submitting);
+    const SubmissionContent content{scene, settings, planes};
+    const Submission* last = state_->last_submitted.get();
+    Changes changes = changes_since(last, content);
+    if (last && !changes.any() && planes == last->planes) return nullptr;
+    return state_->submit(revision, content, std::move(changes), nullptr);
 }
 
 void RenderSession::request_film(uint64_t revision) {

@@ -6,6 +6,7 @@
 #include "render/renderer.h"
 #include "render/session/background_denoiser.h"
 #include "render/session/published_frames.h"
+#include "render/session/submission.h"
 #include "scene/render_settings.h"
 #include "scene/scene.h"
 
@@ -62,8 +63,12 @@ public:
     // `planes`: film planes in addition to the first-hit planes. Requesting more restarts the image, requesting fewer does not.
     // `film`: film of the image of this scene and these settings; rendering continues from its samples, or restarts if they do
     // not fit, with the reason in the status.
-    // True if the image continues with its samples.
-    bool submit(uint64_t revision, const Scene& scene, const RenderSettings& settings, const PlaneSet& planes = {}, FilmStatePtr film = {});
+    // Returns the submission with its image's identity; never null.
+    SubmissionPtr submit(uint64_t revision, const Scene& scene, const RenderSettings& settings, const PlaneSet& planes = {},
+                         FilmStatePtr film = {});
+    // The same without a film, if the scene, the settings or the planes differ from the last submission; else returns null and
+    // submits nothing. Cheap enough for every UI frame: tables with shared storage are not compared.
+    SubmissionPtr submit_changes(uint64_t revision, const Scene& scene, const RenderSettings& settings, const PlaneSet& planes = {});
     // Requests the film of this revision's image, which must have been shown in full resolution; the current batch is finished
     // first. Never blocks; the result is announced like a frame and can be taken once.
     void request_film(uint64_t revision);

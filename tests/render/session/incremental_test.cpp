@@ -43,7 +43,7 @@ public:
     const Project& base() const { return base_; }
     // Number of updates that kept the film.
     int kept() const { return kept_; }
-    const CompiledInfo& info() const { return renderer_.info(); }
+    const CompiledInfo& info() { return renderer_.info(); }
 
 private:
     Renderer renderer_{all_planes()};

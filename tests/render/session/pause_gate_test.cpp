@@ -91,7 +91,7 @@ TEST(StandingAside, ContinuesFromTheSameSamples) {
     EXPECT_LT(yielding.frame->samples, 64);
     // More samples of the same image wait as well.
     project.render.spp = 80;
-    EXPECT_TRUE(session->submit(2, project.scene, project.render));
+    EXPECT_TRUE(session->submit(2, project.scene, project.render)->continues_image);
     const size_t before = session.events().size();
     EXPECT_EQ(session->status().state, State::yielding);
     session->yield_to_ui(false);
