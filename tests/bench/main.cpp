@@ -1,36 +1,53 @@
 // blush_bench: measures speed and prints JSON. Ratios are portable; absolute figures hold only for this machine when it is idle.
 #include "tests/bench/bench.h"
 #include "tests/bench/machine.h"
+#include "tests/bench/markdown.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <thread>
 
 namespace blush::bench {
 
 namespace {
 
-struct Case {
-    const char* name;
+struct Case : ReportedCase {
     Json (*run)(const Options&);
 };
-constexpr Case cases[]{{"setup", run_setup},
-                       {"startup", run_startup},
-                       {"rate", run_rate},
-                       {"kernels", run_kernels},
-                       {"latency", run_latency},
-                       {"denoise", run_denoise},
-                       {"estimate", run_estimate},
-                       {"coverage", run_error_coverage},
-                       {"recorder", run_recorder},
-                       {"lights", run_many_lights},
-                       {"mix", run_mix},
-                       {"big", run_big_scenes},
-                       {"textures", run_textures},
-                       {"time", run_time_slider},
-                       {"pictures", run_shown_pictures}};
+constexpr Case cases[]{
+    {{"setup", "Import, compile, memory"}, run_setup},
+    {{"startup", "Time to the first image, without and with textures, sky and view"}, run_startup},
+    {{"rate", "Paths and rays per second compared with Embree alone"}, run_rate},
+    {{"kernels", "Every feature set and instruction set"}, run_kernels},
+    {{"latency", "Time from an edit to the first image"}, run_latency},
+    {{"denoise", "Speed compared with the convolutions alone, remaining error"}, run_denoise},
+    {{"estimate", "Cost of the error estimate"}, run_estimate},
+    {{"coverage", "How often the intervals of the estimated error contain the true one"}, run_error_coverage},
+    {{"recorder", "Cost of tracking the error while rendering"}, run_recorder},
+    {{"lights", "Variance and cost of light selection with many lights"}, run_many_lights},
+    {{"mix", "Light groups: time, cost, memory"}, run_mix},
+    {{"big", "Time to the first image, and memory, of a million and ten million triangles and a million instances"}, run_big_scenes},
+    {{"textures", "Loading 64 textures; cost and benefit of filtering"}, run_textures},
+    {{"time", "Time from a step of the time slider to the first image"}, run_time_slider},
+    {{"pictures", "FLIP and relMSE of raw and denoised pictures, with and without path reuse and adaptive sampling"}, run_shown_pictures},
+};
+
+std::vector<ReportedCase> reported_cases() { return {std::begin(cases), std::end(cases)}; }
+
+std::vector<std::string> case_names() {
+    std::vector<std::string> names;
+    for (const Case& c : cases) names.emplace_back(c.name);
+    return names;
+}
+
+std::string help() {
+    std::string text = "Measures speed and prints JSON.";
+    for (const Case& c : cases) text += fmt::format("\n  {}: {}", c.name, c.description);
+    return text;
+}
 
 int fail(const Error& error) {
     fmt::print(stderr, "blush_bench: error: {}\n", error.text());
@@ -43,20 +60,10 @@ int run(int argc, char** argv) {
     std::vector<std::string> names;
     std::string peers, only;
     bool quick = false;
-    CLI::App app{"Measures speed and prints JSON: setup (import, compile, memory), startup (to the first image, without and with "
-                 "textures, sky and view), rate (paths and rays per second compared with Embree alone), kernels "
-                 "(every feature set and instruction set), latency (from an edit to the first image), denoise (speed "
-                 "compared with the convolutions alone, remaining error), estimate (cost of the error estimate), coverage (how often the "
-                 "estimated error's intervals contain the true one), "
-                 "recorder (cost of tracking the error while rendering), lights (variance and cost of selecting from many), "
-                 "mix (of light groups: time, cost, memory), "
-                 "big (to the first image of a million and ten million triangles and a million instances: time, memory), "
-                 "textures (loading 64 of them; cost and benefit of filtering), "
-                 "time (from a step of the time slider to the first image), "
-                 "pictures (FLIP and relMSE of raw and denoised pictures, with and without path reuse and adaptive sampling)"};
-    app.add_option("cases", names, "What to measure; default: everything")
-        ->check(CLI::IsMember({"setup", "startup", "rate", "kernels", "latency", "denoise", "estimate", "coverage", "recorder", "lights",
-                               "mix", "big", "textures", "time", "pictures"}));
+    bool markdown = false;
+    CLI::App app{help()};
+    app.add_option("cases", names, "What to measure; default: everything")->check(CLI::IsMember(case_names()));
+    app.add_flag("--markdown", markdown, "Print tables instead of JSON");
     app.add_option("--scenes", peers, "Folder with the scenes of the peer comparison: cornell.glb, cornell_spheres.glb, dense_cornell.glb");
     app.add_option("--only", only, "Scenes whose file name contains this");
     app.add_option("--threads", options.threads, "Largest number of threads")->check(CLI::Range(1, 1024))->capture_default_str();
@@ -91,7 +98,7 @@ int run(int argc, char** argv) {
         fmt::print(stderr, "{} ...\n", c.name);
         report[c.name] = c.run(options);
     }
-    fmt::print("{}\n", report.dump(2));
+    fmt::print("{}\n", markdown ? to_markdown(report, reported_cases()) : report.dump(2));
     return 0;
 }
 
