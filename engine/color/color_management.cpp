@@ -2,6 +2,7 @@
 
 #include "core/files.h"
 #include "core/math.h"
+#include "core/srgb.h"
 
 #include <OpenColorIO/OpenColorIO.h>
 #include <fmt/format.h>
@@ -164,10 +165,8 @@ Vec3 sanitized(const Vec3& v, float limit = max_half) { return {sanitized(v.x, l
 // Limit of scene values: brighter than any light, and safe from overflow in white balance.
 constexpr float max_scene_value = 1e30f;
 
-float srgb_encoded(float x) { return x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1 / 2.4f) - 0.055f; }
-
 Vec3 as_it_is(const Vec3& scene) {
-    return {srgb_encoded(clamp01(scene.x)), srgb_encoded(clamp01(scene.y)), srgb_encoded(clamp01(scene.z))};
+    return {srgb_from_linear(clamp01(scene.x)), srgb_from_linear(clamp01(scene.y)), srgb_from_linear(clamp01(scene.z))};
 }
 
 // The steps of apply_display() as GLSL, in the same order, around OCIO's function `ocio_display`.
@@ -185,12 +184,12 @@ const vec3 false_colors[{false_colors}] = vec3[]({false_color_list});
 
 float sanitized(float x, float limit) {{ return isnan(x) ? 0.0 : clamp(x, -limit, limit); }}
 vec3 sanitized(vec3 v, float limit) {{ return vec3(sanitized(v.r, limit), sanitized(v.g, limit), sanitized(v.b, limit)); }}
-vec3 srgb_encoded(vec3 v) {{
+vec3 srgb_from_linear(vec3 v) {{
     return mix(12.92 * v, 1.055 * pow(v, vec3(1.0 / 2.4)) - 0.055, vec3(greaterThan(v, vec3(0.0031308))));
 }}
 
 vec3 false_color(vec3 color) {{
-    float y = dot(color, vec3(0.212671, 0.715160, 0.072169));
+    float y = dot(color, vec3({luminance_weights}));
     float t = (log2(max(y, 1e-37)) - false_color_low) / (false_color_high - false_color_low);
     return false_colors[y > 0.0 ? int(clamp(floor(t * {bands}.0) + 1.0, 0.0, {bands}.0 + 1.0)) : 0];
 }}
@@ -205,7 +204,7 @@ vec3 displayed(vec3 scene) {{
 vec4 display_color(vec4 scene_linear) {{
     vec3 scene = sanitized(scene_linear.rgb, {largest_scene});
     vec3 shown = displayed(scene);
-    if (background_as_it_is) shown = mix(srgb_encoded(clamp(scene, 0.0, 1.0)), shown, scene_linear.a);
+    if (background_as_it_is) shown = mix(srgb_from_linear(clamp(scene, 0.0, 1.0)), shown, scene_linear.a);
     return vec4(shown, scene_linear.a);
 }}
 )";
@@ -303,6 +302,8 @@ Result<DisplayShader> ColorManagement::display_shader(const DisplayTransform& tr
         (*processor)->getOptimizedGPUProcessor(exact_arithmetic)->extractGpuShaderInfo(description);
         return DisplayShader{fmt::format(shader_frame, fmt::arg("ocio", description->getShaderText()),
                                          fmt::arg("limit", fmt::format("{:.1f}", max_half)), fmt::arg("largest_scene", max_scene_value),
+                                         fmt::arg("luminance_weights", fmt::format("{:.6f}, {:.6f}, {:.6f}", luminance_weights.x,
+                                                                                   luminance_weights.y, luminance_weights.z)),
                                          fmt::arg("smallest_gamma", min_gamma), fmt::arg("bands", false_color_bands),
                                          fmt::arg("false_colors", false_colors.size()), fmt::arg("false_color_list", false_color_list())),
                              luts_of(*description)};

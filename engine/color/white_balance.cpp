@@ -1,15 +1,14 @@
 #include "color/white_balance.h"
 
 #include "core/math.h"
+#include "core/rec709.h"
 
 #include <cmath>
 
 namespace blush {
 namespace {
 
-// Columns. IEC 61966-2-1, from the chromaticities of Rec.709 and D65.
-constexpr Affined xyz_from_rgb{
-    {0.4124564, 0.2126729, 0.0193339}, {0.3575761, 0.7151522, 0.1191920}, {0.1804375, 0.0721750, 0.9503041}, {0, 0, 0}};
+// Columns. Bradford.
 constexpr Affined cones_from_xyz{{0.8951, -0.7502, 0.0389}, {0.2664, 1.7135, -0.0685}, {-0.1614, 0.0367, 1.0296}, {0, 0, 0}};
 
 bool is_color(const Vec3& c) {
@@ -21,9 +20,9 @@ bool is_color(const Vec3& c) {
 
 Affine white_balance(const Vec3& neutral) {
     if (!is_color(neutral) || (neutral.x == neutral.y && neutral.y == neutral.z)) return {};
-    const Affined cones_from_rgb = cones_from_xyz * xyz_from_rgb;
+    const Affined cones_from_rgb = cones_from_xyz * xyz_from_rec709;
     const Vec3d rgb{neutral.x, neutral.y, neutral.z};
-    const double y = transform_vector(xyz_from_rgb, rgb).y;
+    const double y = transform_vector(xyz_from_rec709, rgb).y;
     const Vec3d from = transform_vector(cones_from_rgb, rgb / y), to = transform_vector(cones_from_rgb, Vec3d{1, 1, 1});
     const Affined gains{{to.x / from.x, 0, 0}, {0, to.y / from.y, 0}, {0, 0, to.z / from.z}, {0, 0, 0}};
     const Affined m = inverse(cones_from_rgb) * gains * cones_from_rgb;

@@ -1,13 +1,12 @@
 // Geometry arena: reserves one virtual address range per vertex attribute and one for triangle indices, for the whole process.
 // Kernels address all meshes by one base pointer per attribute and a 32-bit element offset. Large arrays of the document are
-// allocated in the arena, so that they are rendered without a copy. Physical memory is used only for pages that are written.
+// placed in the arena (geometry_array.h), so that they are rendered without a copy. Physical memory is used only for pages that are
+// written.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <new>
-#include <vector>
 
 namespace blush {
 
@@ -50,31 +49,5 @@ void* index_base();
 // readable. Null if the addresses cannot be reserved.
 template <class T> T* attribute_base(Attribute attribute) { return static_cast<T*>(detail::attribute_base(attribute, sizeof(T))); }
 inline uint32_t* index_base() { return static_cast<uint32_t*>(detail::index_base()); }
-
-// Vector allocator: uses its arena address if exactly the expected number of elements is requested, else the heap. Copied vectors
-// go to the heap, moved ones stay in the arena.
-template <class T> class ArenaAllocator {
-public:
-    using value_type = T;
-    using propagate_on_container_move_assignment = std::true_type;
-    using propagate_on_container_swap = std::true_type;
-    using is_always_equal = std::false_type;
-
-    ArenaAllocator() = default;
-    ArenaAllocator(T* place, size_t count) : place_(place), count_(count) {}
-    template <class U> ArenaAllocator(const ArenaAllocator<U>&) {}
-    ArenaAllocator select_on_container_copy_construction() const { return {}; }
-
-    T* allocate(size_t n) { return place_ && n == count_ ? place_ : std::allocator<T>().allocate(n); }
-    void deallocate(T* p, size_t n) {
-        if (p != place_) std::allocator<T>().deallocate(p, n);
-    }
-    bool operator==(const ArenaAllocator& other) const { return place_ == other.place_; }
-
-private:
-    T* place_ = nullptr;
-    size_t count_ = 0;
-};
-template <class T> using ArenaVector = std::vector<T, ArenaAllocator<T>>;
 
 } // namespace blush

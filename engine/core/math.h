@@ -44,8 +44,11 @@ template <class F> Vec<F> lerp(const Vec<F>& a, const Vec<F>& b, const std::type
 template <class F> F lerp(F a, F b, F t) { return a + (b - a) * t; }
 template <class F> F clamp01(const F& x) { return min(max(x, F(0.f)), F(1.f)); }
 template <class F> Vec<F> clamp01(const Vec<F>& v) { return {clamp01(v.x), clamp01(v.y), clamp01(v.z)}; }
-// Y of linear Rec.709.
-template <class F> F luminance(const Vec<F>& c) { return 0.212671f * c.x + 0.715160f * c.y + 0.072169f * c.z; }
+// Luminance: Y of linear Rec.709 (D65), the row of xyz_from_rec709 (rec709.h) as pbrt rounds it.
+constexpr Vec3d luminance_weights{0.212671, 0.715160, 0.072169};
+template <class F> F luminance(const Vec<F>& c) {
+    return float(luminance_weights.x) * c.x + float(luminance_weights.y) * c.y + float(luminance_weights.z) * c.z;
+}
 template <class F> Mask<F> is_finite(const Vec<F>& a) { return is_finite(a.x) && is_finite(a.y) && is_finite(a.z); }
 // Three consecutive floats at p[3 * i].
 template <class F> Vec<F> gather3(const float* p, const Int<F>& i) {

@@ -6,7 +6,7 @@
 // creation; two payloads are the same data if and only if their serials are equal.
 #pragma once
 
-#include "core/geometry_arena.h"
+#include "core/geometry_array.h"
 #include "core/vec.h"
 #include "scene/animation/animation.h"
 #include "scene/cow.h"
@@ -31,14 +31,14 @@ struct GeneratedTangents {
 // Triangles of one material. Immutable once shared. Optional arrays are empty or have positions.size() entries.
 struct Geometry {
     uint64_t serial = next_payload_serial();
-    ArenaRangePtr vertex_range, index_range; // arena ranges of a large mesh (placed_geometry.h); must outlive the arrays
-    ArenaVector<Vec3> positions;
-    ArenaVector<Vec3> normals;
-    ArenaVector<Vec4> tangents;                          // xyz and the handedness w = +-1, as in glTF
+    std::shared_ptr<const void> storage; // keeps memory alive that arrays lie in; null: all are on the heap
+    GeometryArray<Vec3> positions;
+    GeometryArray<Vec3> normals;
+    GeometryArray<Vec4> tangents;                        // xyz and the handedness w = +-1, as in glTF
     std::optional<GeneratedTangents> generated_tangents; // if the tangents were generated
-    std::vector<ArenaVector<Vec2>> uv;                   // uv[i] is TEXCOORD_i; (0, 0) is the top left corner of the image, as in glTF
-    ArenaVector<Vec4> colors;                            // linear RGBA, multiplies the base colour
-    ArenaVector<uint32_t> indices;                       // 3 per triangle, all < positions.size()
+    std::vector<GeometryArray<Vec2>> uv;                 // uv[i] is TEXCOORD_i; (0, 0) is the top left corner of the image, as in glTF
+    GeometryArray<Vec4> colors;                          // linear RGBA, multiplies the base colour
+    GeometryArray<uint32_t> indices;                     // 3 per triangle, all < positions.size()
     bool flat = false;                                   // face normals: recomputed when the mesh is deformed
     std::vector<MorphTargetPtr> targets;
     std::vector<Influence> influences; // empty, or the same number for each vertex, weights sum to 1

@@ -166,13 +166,13 @@ template <Features S, class F> void make_through(Bsdf<F>& b, const BsdfParams<F>
 // Returns the approximate total albedo of both parts.
 template <Features S, class F> F choose_probabilities(Bsdf<F>& b, const BsdfParams<F>& m) {
     const FacetAlbedo<F> a = facet_albedo<S>(b, F(b.cos + (1.f - b.cos) * (0.5f * b.alpha)));
-    F matte = max_component(b.diffuse);
-    if constexpr (S.has(Feature::diffuse_transmission)) matte = matte + max_component(b.through);
-    const F diffuse = matte * (1.f - a.layer);
+    F diffuse_albedo = max_component(b.diffuse);
+    if constexpr (S.has(Feature::diffuse_transmission)) diffuse_albedo = diffuse_albedo + max_component(b.through);
+    const F diffuse = diffuse_albedo * (1.f - a.layer);
     const F facets = max(max_component(a.reflected), max_component(a.transmitted));
     const F p = min(max(diffuse / max(diffuse + facets, F(1e-20f)), F(0.1f)), F(0.9f));
     // Uses the parameters: a microfacet that reflects nothing at one angle may reflect at another.
-    const Mask<F> no_diffuse = !(matte > F(0.f));
+    const Mask<F> no_diffuse = !(diffuse_albedo > F(0.f));
     const Mask<F> no_facets = !(m.metallic > F(0.f) || m.specular > F(0.f) || m.transmission > F(0.f));
     b.p_diffuse = select(no_facets, F(1.f), select(no_diffuse, F(0.f), p));
     b.delta_only = no_diffuse && (no_facets || b.smooth);
@@ -323,9 +323,9 @@ BsdfSample<F> draw_base(const Bsdf<F>& b, const Vec<F>& wo_surface, const F& u, 
 template <Features S, class F> Vec<F> albedo_of_base(const Bsdf<F>& b) {
     if constexpr (has_facets(S)) {
         const FacetAlbedo<F> a = facet_albedo<S>(b, b.cos);
-        Vec<F> matte = b.diffuse;
-        if constexpr (S.has(Feature::diffuse_transmission)) matte = matte + b.through;
-        return matte * (1.f - a.layer) + a.reflected + a.transmitted;
+        Vec<F> diffuse = b.diffuse;
+        if constexpr (S.has(Feature::diffuse_transmission)) diffuse = diffuse + b.through;
+        return diffuse * (1.f - a.layer) + a.reflected + a.transmitted;
     } else {
         return b.diffuse;
     }

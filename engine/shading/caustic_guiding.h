@@ -58,12 +58,12 @@ template <class F> CasterCone<F> caster_cone(const CasterSphere& ball, const Vec
     return c;
 }
 
-// `matte`: lanes whose surface is Lambertian; others are not guided.
+// `lambertian`: lanes whose surface is Lambertian; others are not guided.
 template <class F>
-CausticGuide<F> caustic_guide_at(const CausticCasterTables& table, const Vec<F>& from, const Vec<F>& normal, const Mask<F>& matte) {
+CausticGuide<F> caustic_guide_at(const CausticCasterTables& table, const Vec<F>& from, const Vec<F>& normal, const Mask<F>& lambertian) {
     CausticGuide<F> f{from, normal, F(0.f), F(0.f)};
     for (int i = 0; i < table.count; ++i) f.total = f.total + caster_cone<F>(table.balls[i], from, normal).weight;
-    f.share = select(matte, min(f.total / (1.f + f.total), F(max_guided_share)), F(0.f));
+    f.share = select(lambertian, min(f.total / (1.f + f.total), F(max_guided_share)), F(0.f));
     return f;
 }
 

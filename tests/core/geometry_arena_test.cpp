@@ -1,5 +1,6 @@
 // Geometry arena: ranges are exclusive, memory is committed when written and returned with the range.
 #include "core/geometry_arena.h"
+#include "core/geometry_array.h"
 
 #include "core/vec.h"
 
@@ -14,7 +15,7 @@
 namespace blush {
 namespace {
 
-using Floats = ArenaVector<float>;
+using Floats = GeometryArray<float>;
 constexpr auto attribute = Attribute(200); // whose elements here are single floats
 
 TEST(NumberedArrays, RangesDoNotOverlapAndAreReused) {
@@ -70,7 +71,7 @@ TEST(NumberedArrays, TheLastElementHasAnAddress) {
 TEST(NumberedArrays, VectorsUseTheArenaOnlyForTheReservedSize) {
     const ArenaRangePtr numbers = reserve_arena_range(ArenaKind::vertices, 100);
     float* place = attribute_base<float>(attribute) + numbers->first();
-    Floats placed{ArenaAllocator<float>(place, 100)};
+    Floats placed{PlacedAllocator<float>(place, 100)};
     placed.reserve(100);
     placed.resize(100);
     std::iota(placed.begin(), placed.end(), 1.f);

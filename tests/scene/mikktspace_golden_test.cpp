@@ -20,10 +20,10 @@ struct Golden {
     std::vector<Vec4> tangents; // by corner, w as in glTF
 };
 
-template <class V> ArenaVector<V> vectors(const nlohmann::json& numbers) {
+template <class V> GeometryArray<V> vectors(const nlohmann::json& numbers) {
     static_assert(sizeof(V) % sizeof(float) == 0);
     const auto flat = numbers.get<std::vector<float>>();
-    ArenaVector<V> values(flat.size() * sizeof(float) / sizeof(V));
+    GeometryArray<V> values(flat.size() * sizeof(float) / sizeof(V));
     std::memcpy(values.data(), flat.data(), values.size() * sizeof(V));
     return values;
 }
@@ -37,7 +37,7 @@ Golden golden(const std::string& name) {
     made.geometry.uv = {vectors<Vec2>(json["uvs"])};
     const auto indices = json["indices"].get<std::vector<uint32_t>>();
     made.geometry.indices.assign(indices.begin(), indices.end());
-    const ArenaVector<Vec4> tangents = vectors<Vec4>(json["tangents"]);
+    const GeometryArray<Vec4> tangents = vectors<Vec4>(json["tangents"]);
     made.tangents.assign(tangents.begin(), tangents.end());
     for (Vec4& t : made.tangents) t.w = -t.w; // there v points down
     return made;

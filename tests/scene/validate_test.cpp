@@ -101,7 +101,7 @@ TEST(Validate, GeometryMustBeConsistent) {
     EXPECT_TRUE(with([](Geometry&) {}));
     EXPECT_FALSE(with([](Geometry& g) { g.indices[3] = 4; }));
     EXPECT_FALSE(with([](Geometry& g) { g.indices.pop_back(); }));
-    EXPECT_FALSE(with([](Geometry& g) { g.uv.push_back(ArenaVector<Vec2>(3)); }));
+    EXPECT_FALSE(with([](Geometry& g) { g.uv.push_back(GeometryArray<Vec2>(3)); }));
     Mesh empty;
     empty.parts.push_back({});
     EXPECT_FALSE(validate(empty));

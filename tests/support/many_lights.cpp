@@ -79,11 +79,11 @@ Scene house(int rooms) {
         add_quad(*building, {float(k) * side, 0, 0}, {0, 0, end}, {0, wall, 0});
         add_quad(*building, {0, 0, float(k) * side}, {end, 0, 0}, {0, wall, 0});
     }
-    Material matte;
-    matte.base_color = {albedo, albedo, albedo};
-    matte.metallic = matte.specular = 0;
+    Material diffuse;
+    diffuse.base_color = {albedo, albedo, albedo};
+    diffuse.metallic = diffuse.specular = 0;
     Node walls;
-    walls.mesh = scene.meshes.add({"", {{building, scene.materials.add(matte)}}});
+    walls.mesh = scene.meshes.add({"", {{building, scene.materials.add(diffuse)}}});
     scene.nodes.add(walls);
     Random random;
     for (int room = 0; room < rooms * rooms; ++room)

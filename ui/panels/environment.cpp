@@ -1,4 +1,5 @@
 // Environment panel: the light from all directions around the scene (constant, image or sky).
+#include "core/math.h"
 #include "scene/lights/sky_model.h"
 #include "scene/lights/sun_position.h"
 #include "ui/panels/panels.h"
@@ -82,10 +83,9 @@ void draw_sky(Fields& f, Sky& sky) {
               .format = "%.2f"});
     f.checkbox("Sun", sky.sun_disk, "Add the sun disk, with its light attenuated by the atmosphere.");
     const SkyModel model(sky);
-    const auto lux = [](const Vec3d& c) { return 0.2126729 * c.x + 0.7151522 * c.y + 0.0721750 * c.z; };
-    f.info("Skylight", fmt::format("{:.3g} klx", lux(model.sky_illuminance()) / 1000),
+    f.info("Skylight", fmt::format("{:.3g} klx", luminance(model.sky_illuminance()) / 1000),
            "Illuminance of the sky without the sun, on a horizontal surface.");
-    f.info("Sunlight", fmt::format("{:.3g} klx", lux(model.sun_illuminance()) / 1000),
+    f.info("Sunlight", fmt::format("{:.3g} klx", luminance(model.sun_illuminance()) / 1000),
            "Illuminance of the sun without the sky, on a surface that faces it.");
 }
 

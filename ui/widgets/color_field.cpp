@@ -1,4 +1,5 @@
 // The colour row of Fields: a swatch with a picker, the three numbers, and the eyedropper.
+#include "core/srgb.h"
 #include "ui/widgets/tooltip.h"
 #include "ui/widgets/value_menu.h"
 #include "ui/widgets/value_text.h"

@@ -1,5 +1,6 @@
 #include "ui/widgets/value_text.h"
 
+#include "core/srgb.h"
 #include "core/text.h"
 
 #include <algorithm>
@@ -62,9 +63,6 @@ std::optional<std::string_view> after(std::string_view text, std::string_view na
 uint8_t byte_of(float linear) { return uint8_t(std::lround(std::clamp(srgb_from_linear(std::clamp(linear, 0.f, 1.f)), 0.f, 1.f) * 255)); }
 
 } // namespace
-
-float srgb_from_linear(float x) { return x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1 / 2.4f) - 0.055f; }
-float linear_from_srgb(float x) { return x <= 0.04045f ? x / 12.92f : std::pow((x + 0.055f) / 1.055f, 2.4f); }
 
 std::string number_text(double value) { return fmt::format("{}", float(value) + 0.f); }
 

@@ -10,8 +10,6 @@
 namespace blush {
 
 // The sRGB transfer functions.
-float srgb_from_linear(float x);
-float linear_from_srgb(float x);
 
 // The shortest text that parses to the same number: "0.25".
 std::string number_text(double value);

@@ -1,5 +1,7 @@
 #include "ui/window/theme.h"
 
+#include "core/srgb.h"
+
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
@@ -112,7 +114,7 @@ void apply_theme(float scale) {
 
 ImU32 hue_of(const Vec3& linear, int alpha) {
     const float brightest = std::max({linear.x, linear.y, linear.z, 1e-6f});
-    const auto encoded = [&](float c) { return int(255 * std::pow(std::clamp(c / brightest, 0.f, 1.f), 1 / 2.2f)); };
+    const auto encoded = [&](float c) { return int(255 * srgb_from_linear(std::clamp(c / brightest, 0.f, 1.f))); };
     return IM_COL32(encoded(linear.x), encoded(linear.y), encoded(linear.z), alpha);
 }
 

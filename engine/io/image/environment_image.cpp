@@ -1,14 +1,10 @@
 #include "io/image/environment_image.h"
 
+#include "core/srgb.h"
 #include "io/image/image_channels.h"
-
-#include <cmath>
 
 namespace blush {
 namespace {
-
-// IEC 61966-2-1.
-float linear_from_srgb(float v) { return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f); }
 
 std::vector<float> linear_floats(const Image& image) {
     if (image.bytes.empty()) return image.floats;

@@ -90,7 +90,7 @@ void hash_mesh(Hasher& hash, const Mesh& mesh) {
         hash.array(g.normals);
         hash.array(g.tangents);
         hash.word(g.uv.size());
-        for (const ArenaVector<Vec2>& uv : g.uv) hash.array(uv);
+        for (const GeometryArray<Vec2>& uv : g.uv) hash.array(uv);
         hash.array(g.colors);
         hash.array(g.indices);
         for (const MorphTargetPtr& target : g.targets) {

@@ -102,7 +102,7 @@ Findings degenerate_floor() {
 Findings duplicates(int copies) {
     Scene scene;
     const GeometryPtr floor = changed(floor_quad(1), [copies](Geometry& g) {
-        const ArenaVector<uint32_t> once = g.indices;
+        const GeometryArray<uint32_t> once = g.indices;
         for (int i = 1; i < copies; ++i) g.indices.insert(g.indices.end(), once.begin(), once.end());
     });
     place(scene, floor, lambert(albedo));

@@ -51,7 +51,7 @@ Findings lacquer(double degrees) {
     return every_pixel(render(scene, settings_for(8, 8, 2)), 0.04 + 0.96 * std::pow(1 - cos, 5));
 }
 
-Findings matte(double degrees) {
+Findings diffuse_floor(double degrees) {
     Scene scene;
     place(scene, floor_quad(100), lambert(0.8f));
     constant_world(scene, 1);
@@ -67,7 +67,7 @@ std::vector<StabilityCase> grazing_cases() {
         cases.push_back({fmt::format("sun at {} degrees", degrees), grazing_angles, [degrees] { return sunlit(degrees); }});
         cases.push_back({fmt::format("lacquer seen at {} degrees", degrees), grazing_angles, [degrees] { return lacquer(degrees); }});
     }
-    cases.push_back({"diffuse floor seen at 89.9999 degrees", grazing_angles, [] { return matte(89.9999); }});
+    cases.push_back({"diffuse floor seen at 89.9999 degrees", grazing_angles, [] { return diffuse_floor(89.9999); }});
     return cases;
 }
 

@@ -1,7 +1,9 @@
 #include "measure/statistics/bias_test.h"
 
+#include "core/math.h"
 #include "measure/statistics/intervals.h"
 #include "measure/statistics/significance.h"
+#include "scene/affine.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +13,6 @@ namespace blush {
 namespace {
 
 constexpr int min_region = 16, max_regions = 8; // pixels, along each side
-
-double luminance(const Vec3& c) { return 0.2126 * double(c.x) + 0.7152 * double(c.y) + 0.0722 * double(c.z); }
 
 struct Rectangle {
     int left, top, right, bottom;
@@ -36,7 +36,7 @@ public:
         RegionBias bias{r.left, r.top, r.right - r.left, r.bottom - r.top};
         double off = 0;
         for_each_pixel(r, [&](size_t i) {
-            bias.reference += weights_[i] * luminance(reference_.image.pixels[i]);
+            bias.reference += weights_[i] * luminance(to_double(reference_.image.pixels[i]));
             off += weights_[i] * difference(i);
         });
         const double n = r.pixels();
@@ -54,14 +54,17 @@ private:
         for (int y = r.top; y < r.bottom; ++y)
             for (int x = r.left; x < r.right; ++x) visit(size_t(y) * size_t(image_.image.width) + size_t(x));
     }
-    double difference(size_t i) const { return luminance(image_.image.pixels[i]) - luminance(reference_.image.pixels[i]); }
+    double difference(size_t i) const {
+        return luminance(to_double(image_.image.pixels[i])) - luminance(to_double(reference_.image.pixels[i]));
+    }
 
     // The maximum of the three estimates.
     Variances variances(const Rectangle& r, double mean_difference) const {
         const double fewer = double(reference_.samples) / double(std::max<int64_t>(1, image_.samples));
         Variances own, as_reference, seen;
         for_each_pixel(r, [&](size_t i) {
-            const double a = luminance(image_.error[i]), b = luminance(reference_.error[i]), off = difference(i) - mean_difference;
+            const double a = luminance(to_double(image_.error[i])), b = luminance(to_double(reference_.error[i])),
+                         off = difference(i) - mean_difference;
             const double w = weights_[i] * weights_[i];
             own.add(w * (a * a + b * b));
             as_reference.add(w * b * b * (fewer + 1));
@@ -82,7 +85,7 @@ private:
         double brightest = 0, own = 0, seen = 0;
         for_each_pixel(around, [&](size_t i) {
             const double weight = weights_[i], off = weight * difference(i);
-            const double a = weight * luminance(image_.error[i]), b = weight * luminance(reference_.error[i]);
+            const double a = weight * luminance(to_double(image_.error[i])), b = weight * luminance(to_double(reference_.error[i]));
             brightest = std::max(brightest, off);
             own += a * a + b * b;
             seen += off * off;
@@ -110,7 +113,7 @@ std::vector<double> inverse_variances(const MeasuredImage& reference, const std:
     double mean = 0;
     for (const Rectangle& r : regions) {
         double sum = 0;
-        each_pixel(r, [&](size_t i) { sum += luminance(reference.error[i]) * luminance(reference.error[i]); });
+        each_pixel(r, [&](size_t i) { sum += luminance(to_double(reference.error[i])) * luminance(to_double(reference.error[i])); });
         mean += sum / double(weights.size());
         variances.push_back(sum / r.pixels());
     }

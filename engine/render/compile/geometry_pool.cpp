@@ -25,7 +25,7 @@ InstanceRecord make_instance(const Affined& m) {
     return {to_float(m), to_float(n.x), to_float(n.y), to_float(n.z)};
 }
 
-template <class T> void append_or_fill(ArenaVector<T>& pool, bool wanted, const ArenaVector<T>& values, size_t count, const T& filler) {
+template <class T> void append_or_fill(GeometryArray<T>& pool, bool wanted, const GeometryArray<T>& values, size_t count, const T& filler) {
     if (!wanted) return;
     if (values.size() == count)
         pool.insert(pool.end(), values.begin(), values.end());
@@ -34,8 +34,8 @@ template <class T> void append_or_fill(ArenaVector<T>& pool, bool wanted, const 
 }
 
 // Empty if the mesh lacks that set.
-const ArenaVector<Vec2>& uv_set(const Geometry& g, int number) {
-    static const ArenaVector<Vec2> none;
+const GeometryArray<Vec2>& uv_set(const Geometry& g, int number) {
+    static const GeometryArray<Vec2> none;
     return number >= 0 && g.has_uv_set(number) ? g.uv[size_t(number)] : none;
 }
 
@@ -91,14 +91,14 @@ size_t placed_parts(const SceneObject& object) { return object.copies() * object
 bool is_padded(const Geometry& geometry) { return arena_offsets(geometry) || geometry.positions.capacity() > geometry.positions.size(); }
 
 // Address of element 0 of an array: without an arena, its own start.
-template <class T> const T* base_of(const ArenaVector<T>& own, bool numbered, Attribute attribute) {
+template <class T> const T* base_of(const GeometryArray<T>& own, bool numbered, Attribute attribute) {
     return numbered ? attribute_base<T>(attribute) : own.data();
 }
 
 // An empty array with capacity for `count`, at its arena range if there is one.
-template <class T> ArenaVector<T> with_room(size_t count, const ArenaRangePtr& numbers, T* base) {
+template <class T> GeometryArray<T> with_room(size_t count, const ArenaRangePtr& numbers, T* base) {
     if (numbers && !base) throw std::runtime_error("cannot reserve address space for the scene's vertices");
-    ArenaVector<T> room(numbers ? ArenaAllocator<T>(base + numbers->first(), count) : ArenaAllocator<T>());
+    GeometryArray<T> room(numbers ? PlacedAllocator<T>(base + numbers->first(), count) : PlacedAllocator<T>());
     room.reserve(count);
     return room;
 }
@@ -354,7 +354,7 @@ size_t GeometryPool::memory_bytes() const {
     const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
     size_t sum = bytes(parts_) + bytes(part_materials_) + bytes(part_triangles_) + bytes(part_vertices_) + bytes(instances_) +
                  bytes(instance_first_part_) + bytes(indices_) + bytes(positions_) + bytes(normals_) + bytes(tangents_) + bytes(colors_);
-    for (const ArenaVector<Vec2>& uv : uv_) sum += bytes(uv);
+    for (const GeometryArray<Vec2>& uv : uv_) sum += bytes(uv);
     return sum;
 }
 

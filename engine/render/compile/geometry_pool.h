@@ -1,7 +1,8 @@
 // All vertices and triangles that rays can hit, in parallel arrays; unused attributes are not allocated. Large instanced meshes
-// are read in place from the document (scene/placed_geometry.h).
+// are read in place from the document (scene/geometry/arena_geometry.h).
 #pragma once
 
+#include "core/geometry_arena.h"
 #include "render/bvh/accel.h"
 #include "render/compile/object_list.h"
 #include "render/compile/scene_tables.h"
@@ -82,10 +83,10 @@ private:
     // From arena element 0: own data and data read in place.
     const Vec3* all_positions_ = nullptr;
     const uint32_t* all_indices_ = nullptr;
-    ArenaVector<uint32_t> indices_;
-    ArenaVector<Vec3> positions_, normals_;
-    ArenaVector<Vec4> tangents_, colors_;
-    std::array<ArenaVector<Vec2>, max_uv_sets> uv_;
+    GeometryArray<uint32_t> indices_;
+    GeometryArray<Vec3> positions_, normals_;
+    GeometryArray<Vec4> tangents_, colors_;
+    std::array<GeometryArray<Vec2>, max_uv_sets> uv_;
     AttributeNeeds needs_;
     Vec3d origin_{0, 0, 0};
 };

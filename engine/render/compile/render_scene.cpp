@@ -174,8 +174,8 @@ void RenderScene::aim(std::span<const Vec3> gains) {
 void RenderScene::update_caustic_casters(const Scene& scene, const RenderSettings& settings) {
     const bool found = lights_.emissive_triangles + lights_.sphere_lights > 0 || !lights_.suns.empty();
     const bool narrow_sky = lights_.environment >= 0 && scene.environment.kind != Environment::Kind::constant;
-    focus_.build(scene, objects_, extent_.origin, settings.strategy != Strategy::bsdf && (found || narrow_sky));
-    tables_.focus = focus_.tables();
+    caustic_casters_.build(scene, objects_, extent_.origin, settings.strategy != Strategy::bsdf && (found || narrow_sky));
+    tables_.caustic_casters = caustic_casters_.tables();
 }
 
 void RenderScene::update_lights(const Scene& scene, const RenderSettings& settings, const UpdatePlan& plan, const LightGroups* groups) {

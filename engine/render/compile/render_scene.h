@@ -79,7 +79,7 @@ private:
     LightTable lights_;
     std::vector<int32_t> group_of_light_, group_of_part_; // empty: no light mix
     EnvironmentTable environment_;
-    CausticCasterTable focus_;
+    CausticCasterTable caustic_casters_;
     Accel accel_;
     SceneTables tables_;
     Features features_;

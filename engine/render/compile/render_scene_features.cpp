@@ -175,7 +175,7 @@ void add_lights(FeatureReport& feature_report, const LightTable& lights, const E
 FeatureReport RenderScene::feature_report(const Scene& expanded, const FilmSize& film) const {
     FeatureReport feature_report;
     add_kernel(feature_report, features_);
-    const size_t balls = focus_.balls().size();
+    const size_t balls = caustic_casters_.balls().size();
     feature_report.push_back({"kernel", "caustic guiding", balls > 0,
                               balls > 0 ? fmt::format("mirrors or glass in {} place{}", balls, balls == 1 ? "" : "s")
                                         : "no mirror or glass has light to focus"});

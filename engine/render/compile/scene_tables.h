@@ -73,8 +73,8 @@ struct SceneTables {
     MaterialTables materials;
     LightTables lights;
     EnvironmentTables environment;
-    CausticCasterTables focus; // empty: no caustic guiding
-    GroupTables groups;        // null: no light mix
+    CausticCasterTables caustic_casters; // empty: no caustic guiding
+    GroupTables groups;                  // null: no light mix
     LinkTables links;
     bool panes = false; // some part is a wall that may transmit straight through (thin_transmission.h)
     CameraRecord camera{};

@@ -14,8 +14,8 @@ constexpr float own_share = 0.2f / 24.2f;
 constexpr double max_value = 0x1p28, min_value = 0x1p-16;
 constexpr double usual_value = 0x1p16;
 
-double total(const Four& v) { return double(v[0] + v[1]) + double(v[2] + v[3]); }
-double largest_of(const Four& v) { return double(std::max(std::max(v[0], v[1]), std::max(v[2], v[3]))); }
+double total(const Wide& v) { return double(v[0] + v[1]) + double(v[2] + v[3]); }
+double largest_of(const Wide& v) { return double(std::max(std::max(v[0], v[1]), std::max(v[2], v[3]))); }
 
 // The divisor of relmse for scaled values, scaled so that neither of its two parts overflows.
 struct Divisor {
@@ -29,7 +29,7 @@ struct Divisor {
         constant = std::max(float(floor / most), 1e-36f);
         factor = 1 / most;
     }
-    Four weight(const Four& value) const { return 1 / (squared(value) * of_square + constant); }
+    Wide weight(const Wide& value) const { return 1 / (squared(value) * of_square + constant); }
 };
 
 // Half differences of a row: absolute, and divided by the divisor of relmse.
@@ -51,15 +51,15 @@ struct PixelSums {
 // Sums of a row in single precision.
 struct RowSums {
     struct Weighted {
-        Four squares{}, fourths{}, own_products{}, neighbour_products{};
-        void add(const Four& square, const Four& product) {
+        Wide squares{}, fourths{}, own_products{}, neighbour_products{};
+        void add(const Wide& square, const Wide& product) {
             squares += square;
             fourths += squared(square);
             own_products += min(squared(product), normal_product(square));
         }
     };
     Weighted absolute, relative;
-    Four relative_high{}, unequal{}, brightest{}, largest{}, pixels{}, pairs{};
+    Wide relative_high{}, unequal{}, brightest{}, largest{}, pixels{}, pairs{};
 };
 
 class BandSummer {
@@ -74,7 +74,7 @@ public:
         const int lead_in = std::max(0, first - 1); // its differences are the upper neighbours of the first row
         loaded_ = std::max(0, lead_in - 2);
         for (int y = lead_in; y < last; ++y) {
-            for (; loaded_ < std::min(picture_.height, y + 3); ++loaded_) load(loaded_);
+            for (; loaded_ < std::min(picture_.height, y + 3); ++loaded_) load_row(loaded_);
             RowSums row;
             add_pixels(y, row);
             if (y >= first) {
@@ -91,7 +91,7 @@ private:
 
     HalfBufferRow& row_at(int y) { return rows_[size_t(y % kept)]; }
 
-    void load(int y) {
+    void load_row(int y) {
         picture_.load(y, float(scale_), row_at(y));
         surroundings_.add_row(row_at(y).own, y);
     }
@@ -104,8 +104,8 @@ private:
         const float* const from_weight_a = row.weight_a.pixels();
         float* const to_root = root_.pixels();
         for (int x = 0; x < picture_.width; x += PixelRow::step) {
-            const Four wa = load_four(from_weight_a + x);
-            store_four(to_root + x, sqrt(wa * (1 - wa)));
+            const Wide wa = load<Wide>(from_weight_a + x);
+            store(to_root + x, sqrt(wa * (1 - wa)));
         }
         for (size_t c = 0; c < 3; ++c) {
             surroundings_.current_pictures(c, y, row.own[c], around_);
@@ -116,13 +116,13 @@ private:
         const float *const high = pixels_.high.pixels(), *const dark = pixels_.dark.pixels();
         const float *const one_sample = row.one_sample.pixels(), *const known = row.known.pixels();
         for (int x = 0; x < picture_.width; x += PixelRow::step) {
-            const Four square = load_four(squares + x);
-            sums.absolute.add(square, load_four(products + x));
-            sums.relative.add(load_four(relative + x), load_four(relative_products + x));
-            sums.relative_high += load_four(high + x);
-            sums.unequal += abs(2 * load_four(from_weight_a + x) - 1) * square;
-            sums.brightest = max(sums.brightest, load_four(dark + x) * squared(load_four(one_sample + x)));
-            sums.pixels += load_four(known + x);
+            const Wide square = load<Wide>(squares + x);
+            sums.absolute.add(square, load<Wide>(products + x));
+            sums.relative.add(load<Wide>(relative + x), load<Wide>(relative_products + x));
+            sums.relative_high += load<Wide>(high + x);
+            sums.unequal += abs(2 * load<Wide>(from_weight_a + x) - 1) * square;
+            sums.brightest = max(sums.brightest, load<Wide>(dark + x) * squared(load<Wide>(one_sample + x)));
+            sums.pixels += load<Wide>(known + x);
         }
     }
 
@@ -133,19 +133,19 @@ private:
         float *const squares = pixels_.squares.pixels(), *const relative = pixels_.relative.pixels();
         float *const products = pixels_.products.pixels(), *const relative_products = pixels_.relative_products.pixels();
         float *const high = pixels_.high.pixels(), *const dark = pixels_.dark.pixels();
-        const auto add = [](float* to, const Four& v) { store_four(to, load_four(to) + v); };
+        const auto add = [](float* to, const Wide& v) { store(to, load<Wide>(to) + v); };
         const Divisor divisor = divisor_;
-        Four largest = sums.largest;
+        Wide largest = sums.largest;
         for (int x = 0; x < picture_.width; x += PixelRow::step) {
-            const Four a = load_four(from_a + x), b = load_four(from_b + x), own = load_four(from_own + x), mean = load_four(means + x);
-            const Four root = load_four(roots + x), difference = (a - b) * root, square = squared(difference);
+            const Wide a = load<Wide>(from_a + x), b = load<Wide>(from_b + x), own = load<Wide>(from_own + x), mean = load<Wide>(means + x);
+            const Wide root = load<Wide>(roots + x), difference = (a - b) * root, square = squared(difference);
             // `usual`: divisor of relmse by James-Stein shrinkage (1961); `least`: its lower bound.
-            const Four near = mean + (own - mean) * own_share, off = squared(own - near);
-            const Four usual = near + (own - near) * max(splat(0), 1 - 2 * square / max(off, splat(1e-36f)));
-            const Four least = min(usual, max(min(own, load_four(darkest + x)), min(a, b)));
-            const Four weight = divisor.weight(usual), ab = 4 * squared(root) * (a - mean) * (b - mean);
-            store_four(to_absolute + x, difference);
-            store_four(to_relative + x, difference * sqrt(weight));
+            const Wide near = mean + (own - mean) * own_share, off = squared(own - near);
+            const Wide usual = near + (own - near) * max(Wide(0.f), 1 - 2 * square / max(off, Wide(1e-36f)));
+            const Wide least = min(usual, max(min(own, load<Wide>(darkest + x)), min(a, b)));
+            const Wide weight = divisor.weight(usual), ab = 4 * squared(root) * (a - mean) * (b - mean);
+            store(to_absolute + x, difference);
+            store(to_relative + x, difference * sqrt(weight));
             add(squares + x, square);
             add(relative + x, square * weight);
             add(products + x, ab);
@@ -167,16 +167,16 @@ private:
         const auto products = [&](const ChannelRows& u, const ChannelRows& v) {
             const float *const r = u[0].pixels() - left, *const g = u[1].pixels() - left, *const b = u[2].pixels() - left;
             const float *const to_r = v[0].pixels(), *const to_g = v[1].pixels(), *const to_b = v[2].pixels();
-            Four sum{};
+            Wide sum{};
             for (int x = 0; x < picture_.width; x += PixelRow::step)
-                sum += squared(load_four(r + x) * load_four(to_r + x) + load_four(g + x) * load_four(to_g + x) +
-                               load_four(b + x) * load_four(to_b + x));
+                sum += squared(load<Wide>(r + x) * load<Wide>(to_r + x) + load<Wide>(g + x) * load<Wide>(to_g + x) +
+                               load<Wide>(b + x) * load<Wide>(to_b + x));
             return sum;
         };
         sums.absolute.neighbour_products += products(other.absolute, now_.absolute);
         sums.relative.neighbour_products += products(other.relative, now_.relative);
         const float *const known = other.known.pixels() - left, *const known_here = now_.known.pixels();
-        for (int x = 0; x < picture_.width; x += PixelRow::step) sums.pairs += load_four(known + x) * load_four(known_here + x);
+        for (int x = 0; x < picture_.width; x += PixelRow::step) sums.pairs += load<Wide>(known + x) * load<Wide>(known_here + x);
     }
 
     // In double precision, in original units.

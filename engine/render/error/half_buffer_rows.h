@@ -1,37 +1,25 @@
 // The two half buffers of an image as input of the error estimate: row by row, channel by channel, in whole registers.
 #pragma once
 
+#include "core/lanes.h"
+
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
-#include <cstring>
 #include <functional>
 #include <vector>
 
 namespace blush {
 
-// Four adjacent pixels, on every machine, so that sums do not depend on the register width. Arithmetic is the compiler's.
-using Four = float __attribute__((vector_size(16)));
-
-inline Four splat(float v) { return Four{v, v, v, v}; }
-inline Four min(const Four& a, const Four& b) { return a < b ? a : b; }
-inline Four max(const Four& a, const Four& b) { return a > b ? a : b; }
-inline Four abs(const Four& v) { return max(v, -v); }
-inline Four sqrt(const Four& v) { return Four{std::sqrt(v[0]), std::sqrt(v[1]), std::sqrt(v[2]), std::sqrt(v[3])}; }
-inline Four squared(const Four& v) { return v * v; }
-
-inline Four load_four(const float* from) {
-    Four v;
-    std::memcpy(&v, from, sizeof v);
-    return v;
-}
-inline void store_four(float* to, const Four& v) { std::memcpy(to, &v, sizeof v); }
+// The error estimate is compiled for the baseline only: four adjacent pixels a register on every machine, so that sums do not
+// depend on its width.
+static_assert(width<Wide> == 4);
+inline Wide squared(const Wide& v) { return v * v; }
 
 // A value per pixel of a row, with a margin on both ends that is initially 0.
 class PixelRow {
 public:
-    static constexpr int step = 4, margin = step;
+    static constexpr int step = width<Wide>, margin = step;
 
     PixelRow() = default;
     explicit PixelRow(int width) : values_(size_t(width + 3 * margin)) {}

@@ -30,7 +30,7 @@ void NeighborhoodFilter::add_row(const ChannelRows& own, int y) {
         const float* const from = own[c].pixels();
         float* const to = across[c].pixels();
         for (int x = 0; x < width_; x += PixelRow::step)
-            store_four(to + x, load_four(from + x - 1) + load_four(from + x) + load_four(from + x + 1));
+            store(to + x, load<Wide>(from + x - 1) + load<Wide>(from + x) + load<Wide>(from + x + 1));
     }
     if (y > 0) sum_block_row(y - 1);
     if (y == height_ - 1) sum_block_row(y);
@@ -43,8 +43,7 @@ void NeighborhoodFilter::sum_block_row(int y) {
         const float* const below = y + 1 < height_ ? across_[size_t((y + 1) % kept)][c].pixels() : nothing_.pixels();
         PixelRow& block = blocks_[size_t(y % kept)][c];
         float* const to = block.pixels();
-        for (int x = 0; x < width_; x += PixelRow::step)
-            store_four(to + x, load_four(row + x) + load_four(above + x) + load_four(below + x));
+        for (int x = 0; x < width_; x += PixelRow::step) store(to + x, load<Wide>(row + x) + load<Wide>(above + x) + load<Wide>(below + x));
         mirror(block);
     }
 }
@@ -60,15 +59,15 @@ void NeighborhoodFilter::current_pictures(size_t channel, int y, const PixelRow&
     const float* const values = own.pixels();
     float *const to_mean = around.mean.pixels(), *const to_darkest = around.darkest.pixels();
     for (int x = 0; x < width_; x += PixelRow::step) {
-        const Four value = load_four(values + x);
+        const Wide value = load<Wide>(values + x);
         // Sums of floats: next to a bright pixel, the remainder of dark ones may be rounding error.
         const auto mean = [&](const float* block, const float* inverse, int at) {
-            return max(splat(0), (load_four(block + at) - value) * load_four(inverse + at));
+            return max(Wide(0.f), (load<Wide>(block + at) - value) * load<Wide>(inverse + at));
         };
-        const Four a = mean(block_above, inverse_above, x - 1), b = mean(block_above, inverse_above, x + 1);
-        const Four c = mean(block_below, inverse_below, x - 1), d = mean(block_below, inverse_below, x + 1);
-        store_four(to_mean + x, (a + b + c + d) * 0.25f);
-        store_four(to_darkest + x, min(min(a, b), min(c, d)));
+        const Wide a = mean(block_above, inverse_above, x - 1), b = mean(block_above, inverse_above, x + 1);
+        const Wide c = mean(block_below, inverse_below, x - 1), d = mean(block_below, inverse_below, x + 1);
+        store(to_mean + x, (a + b + c + d) * 0.25f);
+        store(to_darkest + x, min(min(a, b), min(c, d)));
     }
 }
 

@@ -146,9 +146,9 @@ template <class F> struct ShadingPoint {
     const Bsdf<F>& bsdf;
     Vec<F> beta; // throughput of the path up to here
     Mask<F> scatters;
-    Mask<F> matte;     // and the BSDF is Lambertian
-    Mask<F> solid;     // the surface bounds a solid
-    Mask<F> dispersed; // the path carries a single wavelength
+    Mask<F> lambertian; // and the BSDF is Lambertian
+    Mask<F> solid;      // the surface bounds a solid
+    Mask<F> dispersed;  // the path carries a single wavelength
 };
 
 // First-hit planes. The albedo of what does not scatter is its emission, so that the denoiser sees its edges.
@@ -165,7 +165,7 @@ template <Features S, class F> [[gnu::always_inline]] inline void first_hit_plan
 
 // The vertex as path reuse connects to it (path_reuse.h).
 template <class F> [[gnu::always_inline]] inline void set_reuse_vertex(const ShadingPoint<F>& p, ReuseVertex<F>& v) {
-    v.lambertian = p.matte && !p.shading.behind;
+    v.lambertian = p.lambertian && !p.shading.behind;
     v.position = p.surface.position;
     v.clearance = clearance(p.shading.ng, p.surface.error);
     v.ng = p.shading.ng;

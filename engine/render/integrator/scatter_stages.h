@@ -46,8 +46,8 @@ scatter_setup(const SceneTables& scene, const MaterialPoint<F>& material, const 
             setup.scatter_share = select(material.pane, 1.f - straight_transmission<S, F>(p.bsdf, p.shading.wo).probability, F(1.f));
     // Kernels without specular lobes contain no code for caustic guiding.
     if constexpr (S.has(Feature::specular) || S.has(Feature::transmission)) {
-        setup.guides = scene.focus.count > 0;
-        if (setup.guides) setup.guide = caustic_guide_at<F>(scene.focus, p.surface.position, p.shading.ns, p.matte);
+        setup.guides = scene.caustic_casters.count > 0;
+        if (setup.guides) setup.guide = caustic_guide_at<F>(scene.caustic_casters, p.surface.position, p.shading.ns, p.lambertian);
     }
     // Light from both sides.
     if constexpr (S.has(Feature::transmission))
@@ -84,7 +84,7 @@ template <Features S, class F> [[gnu::always_inline]] inline void sample_direct(
             out.shadow_mask = shadow_mask<F>(scene.links, record);
         }
     }
-    const F bsdf_pdf = setup.guides ? guided_pdf<F>(scene.focus, setup.guide, wi_world, f.pdf) : f.pdf;
+    const F bsdf_pdf = setup.guides ? guided_pdf<F>(scene.caustic_casters, setup.guide, wi_world, f.pdf) : f.pdf;
     const F weight = nee_mis_weight(strategy, in.pdf, bsdf_pdf, only_sampled);
     out.direct = p.beta * f.f_cos * in.radiance * (weight / in.pdf);
     if constexpr (S.has(Feature::transmission))
@@ -116,12 +116,12 @@ template <class F> [[gnu::always_inline]] inline void guide_indirect(const Scene
     const Mask<F> mixes = guide.share > F(0.f), guided = mixes && choice < guide.share;
     if (any(guided)) {
         const F which = min(F(choice / select(guided, guide.share, F(1.f))), F(one_minus_epsilon));
-        s.wi = select<F>(guided, sample_caster_direction<F>(scene.focus, guide, which, direction.x(), direction.y()), s.wi);
+        s.wi = select<F>(guided, sample_caster_direction<F>(scene.caustic_casters, guide, which, direction.x(), direction.y()), s.wi);
         s.bsdf.wi = select<F>(guided, p.shading.frame.to_local(s.wi), s.bsdf.wi);
     }
     const F cosine = cosine_hemisphere_pdf(s.bsdf.wi.z);
     s.bsdf.valid = select(mixes, cosine > F(0.f), s.bsdf.valid);
-    s.bsdf.pdf = select(mixes, guided_pdf<F>(scene.focus, guide, s.wi, cosine), s.bsdf.pdf);
+    s.bsdf.pdf = select(mixes, guided_pdf<F>(scene.caustic_casters, guide, s.wi, cosine), s.bsdf.pdf);
     s.pdf_ratio = select(mixes && s.bsdf.valid, cosine / s.bsdf.pdf, F(1.f));
     s.bsdf.weight = select<F>(mixes, p.bsdf.diffuse * s.pdf_ratio, s.bsdf.weight);
 }

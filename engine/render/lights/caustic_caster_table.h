@@ -1,5 +1,5 @@
 // Table of caustic casters: bounding spheres of specular objects,
-// towards which diffuse surfaces sample directions (shading/focus.h).
+// towards which diffuse surfaces sample directions (shading/caustic_guiding.h).
 #pragma once
 
 #include "render/compile/object_list.h"

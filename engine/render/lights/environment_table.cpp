@@ -105,7 +105,7 @@ void build_importance(EnvironmentTable& table) {
             const float *a = upper + 3 * i, *b = lower + 3 * i;
             const Vec3d c{upper_share * a[0] + lower_share * b[0], upper_share * a[1] + lower_share * b[1],
                           upper_share * a[2] + lower_share * b[2]};
-            border_weights[i] = 0.212671 * c.x + 0.715160 * c.y + 0.072169 * c.z; // luminance: 0 only if all components are
+            border_weights[i] = dot(luminance_weights, c); // luminance: 0 only if all components are
             sum = sum + c;
         }
         for (size_t i = 0; i < width; ++i) cell_weights[i] = border_weights[i == 0 ? width - 1 : i - 1] + border_weights[i];

@@ -22,7 +22,7 @@ void morph(std::vector<Vec3d>& vectors, const Geometry& g, const std::vector<flo
     }
 }
 
-std::vector<Vec3d> in_double(const ArenaVector<Vec3>& vectors) {
+std::vector<Vec3d> in_double(const GeometryArray<Vec3>& vectors) {
     std::vector<Vec3d> result;
     result.reserve(vectors.size());
     for (const Vec3& v : vectors) result.push_back(to_double(v));

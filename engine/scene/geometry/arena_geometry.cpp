@@ -1,7 +1,14 @@
 #include "scene/geometry/arena_geometry.h"
 
+#include "core/geometry_arena.h"
+
 namespace blush {
 namespace {
+
+// Geometry::storage of meshes in the arena.
+struct ArenaStorage {
+    ArenaRangePtr vertices, indices;
+};
 
 // Calls visit(array, attribute) for each attribute that the mesh has; stops and returns false at the first false.
 template <class G, class Visit> bool all_attributes(G& g, const Visit& visit) {
@@ -12,14 +19,14 @@ template <class G, class Visit> bool all_attributes(G& g, const Visit& visit) {
     return good;
 }
 
-template <class T> void move_to(ArenaVector<T>& array, T* base, int64_t first) {
-    ArenaVector<T> placed(ArenaAllocator<T>(base + first, array.size()));
+template <class T> void move_to(GeometryArray<T>& array, T* base, int64_t first) {
+    GeometryArray<T> placed(PlacedAllocator<T>(base + first, array.size()));
     placed.reserve(array.size());
     placed.assign(array.begin(), array.end());
     array = std::move(placed);
 }
 
-template <class T> T* base_of(const ArenaVector<T>&, Attribute attribute) { return attribute_base<T>(attribute); }
+template <class T> T* base_of(const GeometryArray<T>&, Attribute attribute) { return attribute_base<T>(attribute); }
 
 } // namespace
 
@@ -34,13 +41,13 @@ void move_to_arena(Geometry& g) {
         return true;
     });
     move_to(g.indices, index_base(), indices->first());
-    g.vertex_range = std::move(vertices);
-    g.index_range = std::move(indices);
+    g.storage = std::make_shared<const ArenaStorage>(ArenaStorage{std::move(vertices), std::move(indices)});
 }
 
 std::optional<ArenaOffsets> arena_offsets(const Geometry& g) {
-    if (!g.vertex_range || !g.index_range) return {};
-    const ArenaOffsets at{int32_t(g.vertex_range->first()), int32_t(g.index_range->first())};
+    if (!g.storage) return {};
+    const auto& ranges = *static_cast<const ArenaStorage*>(g.storage.get());
+    const ArenaOffsets at{int32_t(ranges.vertices->first()), int32_t(ranges.indices->first())};
     const bool placed = g.indices.data() == index_base() + at.first_index && all_attributes(g, [&](const auto& array, Attribute attribute) {
                             return array.data() == base_of(array, attribute) + at.first_vertex;
                         });

@@ -1,4 +1,4 @@
-// Stores large meshes in the geometry arena (core/numbered_arrays.h), where kernels read them without a copy.
+// Stores large meshes in the geometry arena (core/geometry_arena.h), where kernels read them without a copy.
 #pragma once
 
 #include "scene/scene.h"

@@ -48,7 +48,7 @@ struct Group {
 
 class TangentSpace {
 public:
-    TangentSpace(const Geometry& g, const ArenaVector<Vec2>& uv) : g_(g), uv_(uv), triangles_(g.triangle_count()) {
+    TangentSpace(const Geometry& g, const GeometryArray<Vec2>& uv) : g_(g), uv_(uv), triangles_(g.triangle_count()) {
         weld();
         for (size_t t = 0; t < triangles_.size(); ++t) describe(t);
         connect();
@@ -228,14 +228,14 @@ private:
     }
 
     const Geometry& g_;
-    const ArenaVector<Vec2>& uv_;
+    const GeometryArray<Vec2>& uv_;
     std::vector<Triangle> triangles_;
     std::vector<Group> groups_;
 };
 
 } // namespace
 
-std::vector<Vec4> mikktspace_tangents(const Geometry& geometry, const ArenaVector<Vec2>& uv) {
+std::vector<Vec4> mikktspace_tangents(const Geometry& geometry, const GeometryArray<Vec2>& uv) {
     return TangentSpace(geometry, uv).corners();
 }
 

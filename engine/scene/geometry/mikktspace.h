@@ -12,6 +12,6 @@ namespace blush {
 // and have the same UV orientation share a tangent: the mean direction of increasing u, weighted by the triangles' angles at the
 // vertex. Corners with degenerate UVs get an arbitrary perpendicular of the normal.
 // `geometry` has unit normals and valid indices, `uv` one element per position.
-std::vector<Vec4> mikktspace_tangents(const Geometry& geometry, const ArenaVector<Vec2>& uv);
+std::vector<Vec4> mikktspace_tangents(const Geometry& geometry, const GeometryArray<Vec2>& uv);
 
 } // namespace blush

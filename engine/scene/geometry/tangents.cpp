@@ -73,7 +73,7 @@ void add_tangents(Geometry& g, int uv_set) {
     append_copies(g.positions, copied);
     append_copies(g.normals, copied);
     append_copies(g.colors, copied);
-    for (ArenaVector<Vec2>& uv : g.uv) append_copies(uv, copied);
+    for (GeometryArray<Vec2>& uv : g.uv) append_copies(uv, copied);
 }
 
 GeometryPtr without_generated_tangents(const GeometryPtr& geometry) {
@@ -98,7 +98,7 @@ GeometryPtr without_generated_tangents(const GeometryPtr& geometry) {
     drop_copies(g.positions, copies.size());
     drop_copies(g.normals, copies.size());
     drop_copies(g.colors, copies.size());
-    for (ArenaVector<Vec2>& uv : g.uv) drop_copies(uv, copies.size());
+    for (GeometryArray<Vec2>& uv : g.uv) drop_copies(uv, copies.size());
     return bare;
 }
 

@@ -1,6 +1,8 @@
 #include "scene/lights/color_temperature.h"
 
 #include "core/math.h"
+#include "core/rec709.h"
+#include "scene/affine.h"
 #include "scene/lights/cie_observer.h"
 
 #include <algorithm>
@@ -42,12 +44,6 @@ Vec3d off_locus(const Vec3d& xyz, double kelvin, double distance) {
     return to_xyz({here.u + dv * step, here.v - du * step}, xyz.y);
 }
 
-// IEC 61966-2-1.
-Vec3d xyz_of(const Vec3& c) {
-    return {0.4124564 * c.x + 0.3575761 * c.y + 0.1804375 * c.z, 0.2126729 * c.x + 0.7151522 * c.y + 0.0721750 * c.z,
-            0.0193339 * c.x + 0.1191920 * c.y + 0.9503041 * c.z};
-}
-
 double distance_to_locus(const Chromaticity& c, double kelvin) {
     const Chromaticity locus = chromaticity_of(black_body_xyz(kelvin));
     return std::hypot(c.u - locus.u, c.v - locus.v);
@@ -56,7 +52,7 @@ double distance_to_locus(const Chromaticity& c, double kelvin) {
 } // namespace
 
 ColorTemperature temperature_of(const Vec3& rgb) {
-    const Vec3d xyz = xyz_of(rgb);
+    const Vec3d xyz = transform_vector(xyz_from_rec709, to_double(rgb));
     if (!(xyz.y > 0) || !std::isfinite(xyz.x + xyz.y + xyz.z)) return {};
     const Chromaticity c = chromaticity_of(xyz);
     // Golden section over the reciprocal temperature, on which the distance has one minimum.
@@ -80,7 +76,7 @@ Vec3 black_body_color(float kelvin, float green_tint) {
     Vec3d c = black_body_xyz(temperature);
     if (green_tint != 0) c = off_locus(c, temperature, double(green_tint));
     const Vec3d rgb = rec709_from_xyz(c);
-    const double luminance = 0.2126729 * rgb.x + 0.7151522 * rgb.y + 0.0721750 * rgb.z;
+    const double luminance = transform_vector(xyz_from_rec709, rgb).y;
     return {float(rgb.x / luminance), float(rgb.y / luminance), float(rgb.z / luminance)};
 }
 

@@ -29,8 +29,8 @@ TEST(GltfGeometry, NonIndexedTriangleGetsFlatNormals) {
     const auto imported = import_built(b);
     ASSERT_TRUE(imported) << error_text(imported);
     const Geometry& g = only_geometry(imported->scene);
-    EXPECT_EQ(g.indices, (ArenaVector<uint32_t>{0, 1, 2}));
-    EXPECT_EQ(g.normals, ArenaVector<Vec3>(3, Vec3{0, 0, 1}));
+    EXPECT_EQ(g.indices, (GeometryArray<uint32_t>{0, 1, 2}));
+    EXPECT_EQ(g.normals, GeometryArray<Vec3>(3, Vec3{0, 0, 1}));
     EXPECT_TRUE(imported->report.diagnostics.empty());
 }
 
@@ -55,7 +55,7 @@ TYPED_TEST(GltfIndexWidth, IsRead) {
     b.show({{"attributes", attributes}, {"indices", b.accessor<TypeParam>({0, 1, 2, 2, 1, 3}, "SCALAR")}});
     const auto imported = import_built(b);
     ASSERT_TRUE(imported) << error_text(imported);
-    EXPECT_EQ(only_geometry(imported->scene).indices, (ArenaVector<uint32_t>{0, 1, 2, 2, 1, 3}));
+    EXPECT_EQ(only_geometry(imported->scene).indices, (GeometryArray<uint32_t>{0, 1, 2, 2, 1, 3}));
 }
 
 TEST(GltfGeometry, StripsAndFansKeepTheirWinding) {
@@ -85,9 +85,9 @@ TEST(GltfGeometry, IntegerTextureCoordinatesAndColorsAreNormalised) {
     ASSERT_TRUE(imported) << error_text(imported);
     const Geometry& g = only_geometry(imported->scene);
     ASSERT_EQ(g.uv.size(), 2u);
-    EXPECT_EQ(g.uv[0], (ArenaVector<Vec2>{{0, 1}, {1, 0}, {0.2f, 0.4f}}));
-    EXPECT_EQ(g.uv[1], (ArenaVector<Vec2>{{0, 1}, {1, 0}, {0.2f, 0}}));
-    EXPECT_EQ(g.colors, (ArenaVector<Vec4>{{1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 1, 1}}));
+    EXPECT_EQ(g.uv[0], (GeometryArray<Vec2>{{0, 1}, {1, 0}, {0.2f, 0.4f}}));
+    EXPECT_EQ(g.uv[1], (GeometryArray<Vec2>{{0, 1}, {1, 0}, {0.2f, 0}}));
+    EXPECT_EQ(g.colors, (GeometryArray<Vec4>{{1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 1, 1}}));
 }
 
 TEST(GltfGeometry, QuantisedPositionsAreRead) {
@@ -96,7 +96,7 @@ TEST(GltfGeometry, QuantisedPositionsAreRead) {
     b.show({{"attributes", {{"POSITION", b.accessor<int16_t>({0, 0, 0, 7, 0, 0, 0, -3, 0}, "VEC3")}}}});
     const auto imported = import_built(b);
     ASSERT_TRUE(imported) << error_text(imported);
-    EXPECT_EQ(only_geometry(imported->scene).positions, (ArenaVector<Vec3>{{0, 0, 0}, {7, 0, 0}, {0, -3, 0}}));
+    EXPECT_EQ(only_geometry(imported->scene).positions, (GeometryArray<Vec3>{{0, 0, 0}, {7, 0, 0}, {0, -3, 0}}));
 }
 
 TEST(GltfGeometry, SparseValuesReplaceDenseOnes) {
@@ -111,7 +111,7 @@ TEST(GltfGeometry, SparseValuesReplaceDenseOnes) {
     b.show({{"attributes", {{"POSITION", positions}}}});
     const auto imported = import_built(b);
     ASSERT_TRUE(imported) << error_text(imported);
-    EXPECT_EQ(only_geometry(imported->scene).positions, (ArenaVector<Vec3>{{0, 0, 0}, {1, 0, 0}, {5, 6, 7}}));
+    EXPECT_EQ(only_geometry(imported->scene).positions, (GeometryArray<Vec3>{{0, 0, 0}, {1, 0, 0}, {5, 6, 7}}));
 }
 
 TEST(GltfGeometry, InterleavedAttributesAreReadByStride) {

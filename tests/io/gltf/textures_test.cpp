@@ -134,7 +134,7 @@ TEST(GltfTextures, UseAnyUvSet) {
     EXPECT_FALSE(scene.materials.entries()[2].value.emissive_texture.texture);
     const Geometry& g = *scene.meshes.begin()->value.parts[0].geometry;
     ASSERT_EQ(g.uv.size(), 4u);
-    EXPECT_EQ(g.uv[3], (ArenaVector<Vec2>{{0, 0}, {3, 0}, {0, 1}}));
+    EXPECT_EQ(g.uv[3], (GeometryArray<Vec2>{{0, 0}, {3, 0}, {0, 1}}));
     EXPECT_TRUE(g.has_uv_set(0) && !g.has_uv_set(1) && !g.has_uv_set(2)) << "the first two sets and those used by textures are kept";
     EXPECT_TRUE(reports(imported->report, "TEXCOORD_2, which no texture uses"));
     EXPECT_TRUE(reports(imported->report, "TEXCOORD_70, which is missing"));
@@ -242,8 +242,8 @@ TEST(GltfTangents, AreComputedForNormalMaps) {
     const auto straight = import_normal_mapped({0, 1, 1, 1, 0, 0}), mirrored = import_normal_mapped({1, 0, 1, 1, 0, 0});
     ASSERT_TRUE(straight) << error_text(straight);
     ASSERT_TRUE(mirrored) << error_text(mirrored);
-    EXPECT_EQ(straight->scene.meshes.begin()->value.parts[0].geometry->tangents, ArenaVector<Vec4>(3, Vec4{1, 0, 0, 1}));
-    EXPECT_EQ(mirrored->scene.meshes.begin()->value.parts[0].geometry->tangents, ArenaVector<Vec4>(3, Vec4{0, -1, 0, -1}));
+    EXPECT_EQ(straight->scene.meshes.begin()->value.parts[0].geometry->tangents, GeometryArray<Vec4>(3, Vec4{1, 0, 0, 1}));
+    EXPECT_EQ(mirrored->scene.meshes.begin()->value.parts[0].geometry->tangents, GeometryArray<Vec4>(3, Vec4{0, -1, 0, -1}));
     EXPECT_TRUE(reports(straight->report, "tangents are missing: computed"));
 }
 

@@ -108,10 +108,10 @@ TEST(FeatureReport, CausticGuidingIsUsedIfMirrorsOrGlassFocusLight) {
     place(scene, ceiling_quad(1, 3), emitter(1));
     const Compiled lit(scene);
     EXPECT_TRUE(line(lit.feature_report(), "kernel", name).used);
-    const CausticCasterTables focus = lit.scene.tables().focus;
-    ASSERT_EQ(focus.count, 1);
-    EXPECT_NEAR(focus.balls[0].radius, 0.5f, 1e-4f);
-    EXPECT_NEAR(focus.balls[0].center.y, 1, 1e-6f);
+    const CausticCasterTables casters = lit.scene.tables().caustic_casters;
+    ASSERT_EQ(casters.count, 1);
+    EXPECT_NEAR(casters.balls[0].radius, 0.5f, 1e-4f);
+    EXPECT_NEAR(casters.balls[0].center.y, 1, 1e-6f);
 }
 
 TEST(FeatureReport, UnusedTexturesAreNotStored) {

@@ -1,6 +1,7 @@
 // Rows of the Light section for intensity and colour.
 #include "ui/panels/light/fields.h"
 
+#include "core/srgb.h"
 #include "scene/lights/color_temperature.h"
 #include "scene/lights/light_units.h"
 #include "ui/window/theme.h"
@@ -87,7 +88,7 @@ void draw_stripe(const Vec3& color) {
     const float brightest = std::max({color.x, color.y, color.z, 1e-6f});
     const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
     const float stripe = std::max(2.f, ImGui::GetFontSize() / 6);
-    const auto encoded = [&](float x) { return int(255 * std::pow(x / brightest, 1 / 2.2f)); };
+    const auto encoded = [&](float x) { return int(255 * srgb_from_linear(x / brightest)); };
     ImGui::GetWindowDrawList()->AddRectFilled({low.x, high.y - stripe}, high,
                                               IM_COL32(encoded(color.x), encoded(color.y), encoded(color.z), 255),
                                               ImGui::GetStyle().FrameRounding, ImDrawFlags_RoundCornersBottom);

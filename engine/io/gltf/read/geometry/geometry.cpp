@@ -33,22 +33,22 @@ Vec4 element(const FloatArray& a, size_t i, Vec4*) {
 }
 
 // Reads an attribute as vectors; empty if the primitive does not have it.
-template <class V> Result<ArenaVector<V>> read_attribute(const GltfContext& context, const tinygltf::Primitive& primitive,
-                                                         const std::string& name, int min_components, int max_components,
-                                                         const std::string& where) {
+template <class V> Result<GeometryArray<V>> read_attribute(const GltfContext& context, const tinygltf::Primitive& primitive,
+                                                           const std::string& name, int min_components, int max_components,
+                                                           const std::string& where) {
     const auto it = primitive.attributes.find(name);
     if (it == primitive.attributes.end() || is_fallback(gltf_item(context.json(), "accessors", size_t(it->second))))
-        return ArenaVector<V>();
+        return GeometryArray<V>();
     const Result<FloatArray> array = read_floats(context, it->second, min_components, max_components, where + "." + name);
     if (!array) return array.error();
-    ArenaVector<V> vectors;
+    GeometryArray<V> vectors;
     vectors.reserve(array->count() + 1); // Embree needs padding behind shared positions (AccelTriangles)
     vectors.resize(array->count());
     for (size_t i = 0; i < vectors.size(); ++i) vectors[i] = element(*array, i, static_cast<V*>(nullptr));
     return vectors;
 }
 
-template <class V> void replace_non_finite(const GltfContext& context, ArenaVector<V>& values, V otherwise, const std::string& name,
+template <class V> void replace_non_finite(const GltfContext& context, GeometryArray<V>& values, V otherwise, const std::string& name,
                                            const std::string& where) {
     size_t bad = 0;
     for (V& v : values) {
@@ -65,7 +65,7 @@ Result<void> read_attributes(const GltfContext& context, const tinygltf::Primiti
                              const std::string& where) {
     const auto take = [&](auto& target, const std::string& name, int min_components, int max_components) -> Result<void> {
         using V = typename std::remove_reference_t<decltype(target)>::value_type;
-        Result<ArenaVector<V>> values = read_attribute<V>(context, primitive, name, min_components, max_components, where);
+        Result<GeometryArray<V>> values = read_attribute<V>(context, primitive, name, min_components, max_components, where);
         if (!values) return values.error();
         target = *std::move(values);
         if (!target.empty() && target.size() != g.positions.size())
@@ -77,7 +77,7 @@ Result<void> read_attributes(const GltfContext& context, const tinygltf::Primiti
     if (auto ok = take(g.tangents, "TANGENT", 4, 4); !ok) return ok;
     if (auto ok = take(g.colors, "COLOR_0", 3, 4); !ok) return ok;
     for (const int set : uv_sets) {
-        ArenaVector<Vec2> uv;
+        GeometryArray<Vec2> uv;
         if (auto ok = take(uv, uv_attribute(set), 2, 2); !ok) return ok;
         if (uv.empty()) continue;
         replace_non_finite(context, uv, Vec2{0, 0}, uv_attribute(set), where);
@@ -89,9 +89,9 @@ Result<void> read_attributes(const GltfContext& context, const tinygltf::Primiti
 }
 
 // Three indices per triangle from the vertex order of a list, strip or fan (glTF 2.0, 3.7.2.1), front faces counter-clockwise.
-ArenaVector<uint32_t> triangulate(const std::vector<uint32_t>& order, int mode) {
+GeometryArray<uint32_t> triangulate(const std::vector<uint32_t>& order, int mode) {
     if (mode == TINYGLTF_MODE_TRIANGLES) return {order.begin(), order.end() - std::ptrdiff_t(order.size() % 3)};
-    ArenaVector<uint32_t> triangles;
+    GeometryArray<uint32_t> triangles;
     for (size_t i = 0; i + 2 < order.size(); ++i) {
         if (mode == TINYGLTF_MODE_TRIANGLE_FAN)
             triangles.insert(triangles.end(), {order[i + 1], order[i + 2], order[0]});
@@ -153,7 +153,7 @@ void make_flat(Geometry& g) {
     };
     unweld_deformation(g);
     unweld(g.positions);
-    for (ArenaVector<Vec2>& uv : g.uv) unweld(uv);
+    for (GeometryArray<Vec2>& uv : g.uv) unweld(uv);
     unweld(g.colors);
     g.tangents.clear(); // the specification requires tangents without normals to be ignored
     std::iota(g.indices.begin(), g.indices.end(), 0u);

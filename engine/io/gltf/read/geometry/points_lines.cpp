@@ -71,7 +71,7 @@ std::vector<std::pair<uint32_t, uint32_t>> segments_of(const std::vector<uint32_
     return segments;
 }
 
-template <class V> void take(ArenaVector<V>& target, const ArenaVector<V>& source, const std::vector<uint32_t>& origins) {
+template <class V> void take(GeometryArray<V>& target, const GeometryArray<V>& source, const std::vector<uint32_t>& origins) {
     if (source.empty()) return;
     target.reserve(origins.size());
     for (const uint32_t origin : origins) target.push_back(source[origin]);
@@ -79,7 +79,7 @@ template <class V> void take(ArenaVector<V>& target, const ArenaVector<V>& sourc
 
 } // namespace
 
-float mark_radius(const ArenaVector<Vec3>& positions) {
+float mark_radius(const GeometryArray<Vec3>& positions) {
     Bounds box;
     for (const Vec3& p : positions) box.include(to_double(p));
     const double diagonal = box.empty ? 0 : length(box.high - box.low);

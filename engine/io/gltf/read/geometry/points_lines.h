@@ -19,7 +19,7 @@ struct Solids {
 };
 
 // Radius relative to the size of the primitive: 1/500 of the diagonal of its bounding box; 5 mm for a single position.
-float mark_radius(const ArenaVector<Vec3>& positions);
+float mark_radius(const GeometryArray<Vec3>& positions);
 
 // Spheres of twenty triangles around the vertices in `order`, or tubes with six sides along its segments; `mode` is glTF's: 0
 // points, 1 lines, 2 a loop, 3 a strip. Indices are below the number of positions.
